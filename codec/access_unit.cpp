@@ -1,0 +1,131 @@
+#include "codec/access_unit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "codec/bits.h"
+#include "codec/decoder.h"
+#include "codec/plane.h"
+
+namespace animeme::fba {
+
+namespace {
+
+// Profiles (section 13): a face alone, within 16 kbit/s or not; anything with a body.
+constexpr std::uint8_t kSimpleFaceLevel1 = 0x61;
+constexpr std::uint8_t kSimpleFaceLevel2 = 0x62;
+constexpr std::uint8_t kSimpleFbaLevel1 = 0x63;
+constexpr std::uint32_t kLevel1Rate = 16000;
+constexpr std::uint32_t kMinimumTimescale = 10000;  // muxers replace coarser ones
+constexpr std::uint32_t kFallbackTimescale = 90000;
+
+struct TimeBase {
+  std::uint32_t timescale = kFallbackTimescale;
+  std::int64_t frame = 0;  // ticks a frame; 0: rates change, round absolute times
+};
+
+// Exact for every rate that the stream can express. Source: containers, section 1.3.
+TimeBase time_base(const std::vector<Plane>& planes) {
+  const fap::Rate rate = planes.front().rate;
+  for (const Plane& plane : planes) {
+    if (plane.rate != rate) return {};
+  }
+  const std::optional<CodedRate> coded = code_rate(rate);
+  if (!coded) return {};
+  TimeBase base{(16U * coded->frame_rate + coded->sixteenths) * 1000U,
+                16 * (coded->frequency_offset ? 1001 : 1000)};
+  if (coded->sixteenths % 2 == 0) {
+    base.timescale /= 16;
+    base.frame /= 16;
+  }
+  const std::uint32_t factor = (kMinimumTimescale + base.timescale - 1) / base.timescale;
+  base.timescale *= factor;
+  base.frame *= factor;
+  return base;
+}
+
+std::uint8_t profile(const std::vector<Plane>& planes) {
+  double bits = 0;
+  for (const Plane& plane : planes) {
+    if (has_body(plane.object_mask)) return kSimpleFbaLevel1;
+    bits += double(plane.bit_end - plane.bit_begin);
+  }
+  const Plane& last = planes.back();
+  const double seconds = last.rate.seconds(double(last.number - planes.front().number + 1));
+  return bits > kLevel1Rate * seconds ? kSimpleFaceLevel2 : kSimpleFaceLevel1;
+}
+
+std::vector<std::uint8_t> configuration(std::uint8_t profile) {
+  BitWriter out;
+  out.start_code(kSequenceStart);
+  out.bits(profile, 8);
+  out.start_code(kVisualObject);
+  out.bit(1);                                        // is_visual_object_identifier
+  out.bits(profile >= kSimpleFbaLevel1 ? 2 : 1, 4);  // visual_object_verid
+  out.bits(1, 3);                                    // visual_object_priority
+  out.bits(4, 4);                                    // visual_object_type: FBA
+  out.stuff();
+  return out.take();
+}
+
+// A bit shift to behind a plane start code; `offset` is the bit of stream[0] in the whole.
+std::vector<std::uint8_t> repack(std::span<const std::uint8_t> stream, const Plane& plane,
+                                 bool first) {
+  BitWriter out;
+  if (first) {
+    out.start_code(kObjectStart);
+    out.stuff();
+  }
+  out.start_code(kPlaneStart);
+  BitReader in(stream, std::size_t(plane.bit_begin));
+  std::int64_t left = plane.bit_end - plane.bit_begin;
+  for (; left >= 32; left -= 32) out.bits(in.bits(32), 32);
+  out.bits(in.bits(int(left)), int(left));
+  out.stuff();
+  return out.take();
+}
+
+}  // namespace
+
+Result<AccessUnits> split_access_units(std::span<const std::uint8_t> stream) {
+  Result<DecodedStream> decoded = decode(stream);
+  if (!decoded) return decoded.error();
+  const std::vector<Plane>& planes = decoded->planes;
+  const TimeBase base = time_base(planes);
+
+  AccessUnits out;
+  out.config = configuration(profile(planes));
+  out.timescale = base.timescale;
+  const double start = planes.front().seconds;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    AccessUnit unit;
+    unit.bytes = repack(stream, planes[i], i == 0);
+    unit.intra = planes[i].intra;
+    if (base.frame > 0) {
+      unit.time = (planes[i].number - planes.front().number) * base.frame;
+    } else {
+      unit.time = std::llround((planes[i].seconds - start) * base.timescale);
+    }
+    unit.duration =
+        base.frame > 0 ? base.frame : std::llround(planes[i].rate.seconds(base.timescale));
+    if (i > 0)
+      out.units.back().duration = std::max<std::int64_t>(1, unit.time - out.units.back().time);
+    out.units.push_back(std::move(unit));
+  }
+  return out;
+}
+
+std::vector<std::uint8_t> join_access_units(const AccessUnits& units, bool with_headers) {
+  std::vector<std::uint8_t> out;
+  if (with_headers) out = units.config;
+  for (const AccessUnit& unit : units.units) {
+    out.insert(out.end(), unit.bytes.begin(), unit.bytes.end());
+  }
+  constexpr std::array<std::uint8_t, 4> kEnd = {0x00, 0x00, 0x01, 0xB1};
+  out.insert(out.end(), kEnd.begin(), kEnd.end());
+  return out;
+}
+
+}  // namespace animeme::fba

@@ -1,0 +1,44 @@
+// Access units: an FBA stream cut into planes that each start byte aligned behind a plane start
+// code, as containers and packets carry them. Source: containers, section 1.3.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "fap/result.h"
+
+namespace animeme::fba {
+
+/// One plane with its start code, ready to be a container sample or a packet.
+struct AccessUnit {
+  std::vector<std::uint8_t> bytes;
+  bool intra = false;
+  std::int64_t time = 0;      ///< presentation (= decoding) time, in units of 1/timescale s
+  std::int64_t duration = 0;  ///< > 0, same units
+
+  friend bool operator==(const AccessUnit&, const AccessUnit&) = default;
+};
+
+/// A whole stream in the form that every container is written from and read back to.
+struct AccessUnits {
+  /// Decoder configuration: visual object sequence and visual object header, 11 bytes as a rule.
+  std::vector<std::uint8_t> config;
+  std::uint32_t timescale = 25000;  ///< ticks a second, exact for the stream's plane rate
+  std::vector<AccessUnit> units;
+
+  friend bool operator==(const AccessUnits&, const AccessUnits&) = default;
+};
+
+/// Re-packs a raw stream (as in a .fba file, with or without plane start codes and headers) into
+/// access units: parses plane by plane, never scans for start codes. The first unit begins with
+/// the object start code. Errors: those of the Decoder; a stream without a single plane is
+/// Code::truncated.
+Result<AccessUnits> split_access_units(std::span<const std::uint8_t> stream);
+
+/// Back to a raw stream: the units one after the other and the end code 000001B1. The stream
+/// begins with the object start code, as old decoders want it; `with_headers` puts `config` in
+/// front instead.
+std::vector<std::uint8_t> join_access_units(const AccessUnits& units, bool with_headers = false);
+
+}  // namespace animeme::fba

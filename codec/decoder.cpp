@@ -1,0 +1,411 @@
+#include "codec/decoder.h"
+
+#include <algorithm>
+#include <deque>
+
+#include "codec/plane_reader_internal.h"
+
+namespace animeme::fba {
+
+namespace {
+
+constexpr std::size_t kTrimBytes = std::size_t(1) << 16;
+constexpr std::size_t kMaxWarnings = 100;
+
+bool is_plane_start(std::uint32_t code) { return code == kPlaneStart || code == kOldPlaneStart; }
+bool is_object_start(std::uint32_t code) { return code == kObjectStart || code == kOldObjectStart; }
+bool is_header(std::uint32_t code) {
+  return code == kSequenceStart || code == kUserData || code == kVisualObject ||
+         is_object_start(code);
+}
+
+void add_warning(DecodedStream& out, const Event& event, const std::string& text) {
+  if (out.warnings.size() >= kMaxWarnings) return;
+  out.warnings.push_back("bit " + std::to_string(event.bit) + ": " + text);
+}
+
+const char* object_type_name(std::uint32_t type) {
+  switch (type) {
+    case 1:
+      return "video";
+    case 2:
+      return "still texture";
+    case 3:
+      return "mesh";
+    case 5:
+      return "3D mesh";
+    default:
+      return "reserved";
+  }
+}
+
+}  // namespace
+
+struct Decoder::Impl {
+  enum class Phase : std::uint8_t {
+    headers,    // at a byte border, a start code is due
+    user_data,  // skipping to the next start code
+    planes,     // at a plane border, anywhere in a byte
+    lost,       // after an error: looking for the next intra plane
+    ended,
+  };
+
+  std::vector<std::uint8_t> buffer;
+  std::int64_t dropped_bits = 0;  // bits before buffer[0]
+  std::size_t position = 0;       // bit in buffer
+  bool finished = false;
+  bool after_start_code = false;  // the plane to come has its start code consumed
+  Phase phase = Phase::headers;
+
+  internal::StreamState state;
+  internal::ParsedPlane parsed;
+  std::shared_ptr<const FaceSettings> face_settings;
+  std::shared_ptr<const BodySettings> body_settings;
+  std::deque<Event> warnings;
+
+  std::int64_t number = 0;
+  fap::Rate rate{30, 1};
+  double clock = 0;  // seconds at clock_number
+  std::int64_t clock_number = 0;
+
+  std::size_t size_bits() const { return buffer.size() * 8; }
+  std::int64_t stream_bit(std::size_t bit) const { return dropped_bits + std::int64_t(bit); }
+  bool available(std::size_t bit_end) const { return bit_end <= size_bits(); }
+  std::uint32_t code_at(std::size_t bit) const { return BitReader(buffer).peek32(bit); }
+
+  void warn(std::string text, std::size_t bit) {
+    Event event;
+    event.kind = Event::Kind::warning;
+    event.text = std::move(text);
+    event.bit = stream_bit(bit);
+    warnings.push_back(std::move(event));
+  }
+
+  static Error need_data() { return make_error(Code::need_data, "more bytes are needed"); }
+
+  Error at(Code code, std::string message, std::size_t bit) {
+    phase = Phase::lost;
+    return error_at_bit(code, std::move(message), stream_bit(bit));
+  }
+
+  void trim() {
+    const std::size_t bytes = position / 8;
+    // Half of the buffer at least, so that trimming a long stream stays linear.
+    if (bytes < kTrimBytes || bytes < buffer.size() / 2) return;
+    buffer.erase(buffer.begin(), buffer.begin() + std::ptrdiff_t(bytes));
+    position -= bytes * 8;
+    dropped_bits += std::int64_t(bytes) * 8;
+  }
+
+  // Runs until there is an event, or a reason why not.
+  Result<Event> next() {
+    for (;;) {
+      if (!warnings.empty()) {
+        Event event = std::move(warnings.front());
+        warnings.pop_front();
+        return event;
+      }
+      trim();
+      Result<bool> progress = step();
+      if (!progress) return progress.error();
+      if (*progress) return plane_event();
+    }
+  }
+
+  // One step; true: a plane was parsed and waits in `parsed`.
+  Result<bool> step() {
+    switch (phase) {
+      case Phase::headers:
+        return read_header();
+      case Phase::user_data:
+        return skip_to(false);
+      case Phase::planes:
+        return read_plane();
+      case Phase::lost:
+        return skip_to(true);
+      case Phase::ended:
+        break;
+    }
+    return make_error(Code::end_of_stream, "the stream is over");
+  }
+
+  Result<bool> read_header() {
+    if (!available(position + 32)) {
+      if (!finished) return need_data();
+      const bool empty = stream_bit(position) == 0 && buffer.empty();
+      return at(Code::truncated, empty ? "the stream is empty" : "the stream ends in its headers",
+                size_bits());
+    }
+    const std::uint32_t code = code_at(position);
+    if (is_object_start(code)) {
+      position += 32;
+      phase = Phase::planes;
+    } else if (is_plane_start(code)) {
+      phase = Phase::planes;  // a unit taken out of a stream; read_plane() finds the code
+    } else if (code == kSequenceStart) {
+      if (!available(position + 40)) return need_more("headers");
+      position += 40;
+      phase = Phase::user_data;
+    } else if (code == kUserData) {
+      position += 32;
+      phase = Phase::user_data;
+    } else if (code == kVisualObject) {
+      return read_visual_object();
+    } else if (code == kSequenceEnd) {
+      end_code(position + 32);
+    } else {
+      return at(Code::syntax,
+                "this is not an FBA stream: it does not begin with a start code of one "
+                "(000001BA, or 000001B0 and 000001B5 headers)",
+                position);
+    }
+    return false;
+  }
+
+  Result<bool> need_more(const char* where) {
+    if (!finished) return need_data();
+    return at(Code::truncated, std::string("the stream ends in its ") + where, size_bits());
+  }
+
+  Result<bool> read_visual_object() {
+    if (!available(position + 48)) return need_more("headers");
+    BitReader in(buffer, position + 32);
+    if (in.bit() != 0) in.bits(7);  // verid, priority
+    const std::uint32_t type = in.bits(4);
+    if (type != 4) {
+      return at(Code::unsupported,
+                std::string("the visual object is of type ") + object_type_name(type) +
+                    ", not face and body animation",
+                position + 32);
+    }
+    position += 40;
+    phase = Phase::user_data;  // stuffing, then the next start code
+    return false;
+  }
+
+  // Byte-wise search for a start code: any header (skipping user data), or, when lost, an intra
+  // plane behind a plane start code or a new object.
+  Result<bool> skip_to(bool lost) {
+    std::size_t byte = (position + 7) / 8;
+    for (; byte + 5 <= buffer.size(); ++byte) {
+      if (buffer[byte] != 0 || buffer[byte + 1] != 0 || buffer[byte + 2] != 1) continue;
+      const std::uint32_t code = code_at(byte * 8);
+      const bool intra_plane = is_plane_start(code) && (buffer[byte + 4] & 0x80) != 0;
+      const bool found = lost ? intra_plane || is_object_start(code)
+                              : is_header(code) || is_plane_start(code) || code == kSequenceEnd;
+      if (!found) continue;
+      position = byte * 8;
+      phase = Phase::headers;
+      return false;
+    }
+    position = byte * 8;
+    if (!finished) return need_data();
+    if (!lost && byte + 4 == buffer.size() && code_at(byte * 8) == kSequenceEnd) {
+      end_code((byte + 4) * 8);
+      return false;
+    }
+    phase = Phase::ended;
+    return false;
+  }
+
+  void end_code(std::size_t behind) {
+    position = behind;
+    phase = Phase::ended;
+    if (behind < size_bits()) {
+      warn(std::to_string((size_bits() - behind) / 8) + " bytes after the end code are ignored",
+           behind);
+    }
+  }
+
+  // 0 and then 1s from `bit` to `border`.
+  bool is_stuffing(std::size_t bit, std::size_t border) const {
+    BitReader in(buffer, bit);
+    if (in.bit() != 0) return false;
+    while (in.position() < border) {
+      if (in.bit() == 0) return false;
+    }
+    return true;
+  }
+
+  Result<bool> read_plane() {
+    if (!after_start_code) {
+      Result<bool> moved = plane_border();
+      if (!moved || *moved) return moved ? Result<bool>(false) : moved;
+    }
+    BitReader in(buffer, position);
+    const Result<void> done = internal::parse_plane(in, state, finished, parsed);
+    if (!done) {
+      Error error = done.error();
+      if (error.code == Code::need_data) return error;
+      const bool started = after_start_code;
+      after_start_code = false;
+      // The next start code lies behind the header of this plane at the earliest.
+      const std::size_t bit = error.where.bit >= 0 ? std::size_t(error.where.bit) : position;
+      if (started) position += 8;
+      return at(error.code, std::move(error.message), bit);
+    }
+    plane_begin = position;
+    plane_end = in.position();
+    had_start_code = after_start_code;
+    after_start_code = false;
+    position = plane_end;
+    return true;
+  }
+
+  // Section 1: is it a start code that follows, behind 1 to 8 stuffing bits? True: something other
+  // than a plane was found and the phase has changed.
+  Result<bool> plane_border() {
+    const std::size_t border = (position / 8 + 1) * 8;
+    if (!available(border + 32)) {
+      if (!finished) return need_data();
+      const bool stuffed = border == size_bits() && is_stuffing(position, border);
+      if (stuffed && had_start_code) {
+        // Access units one after the other: each is complete in itself.
+        warn("the stream has no end code", size_bits());
+        phase = Phase::ended;
+        return true;
+      }
+      if (stuffed || position >= size_bits()) {
+        return at(Code::truncated, "the stream ends without an end code, it may have been cut off",
+                  size_bits());
+      }
+      // Fewer bits than a start code are left: an end code without stuffing, or a last plane.
+    }
+    if (position % 8 == 0 && available(position + 32)) {
+      // Writers that leave out the stuffing byte at a byte border.
+      const std::uint32_t code = code_at(position);
+      if (is_plane_start(code)) {
+        consume_start_code(position);
+        return false;
+      }
+      if (code == kSequenceEnd) {
+        end_code(position + 32);
+        return true;
+      }
+    }
+    if (!available(border + 32)) return false;
+    const std::uint32_t code = code_at(border);
+    if (is_plane_start(code)) {
+      if (!is_stuffing(position, border)) {
+        warn("the stuffing before a plane start code is not 0 and 1s", position);
+      }
+      consume_start_code(border);
+    } else if (code == kSequenceEnd) {
+      end_code(border + 32);
+      return true;
+    } else if (is_header(code) && is_stuffing(position, border)) {
+      position = border;
+      phase = Phase::headers;
+      return true;
+    }
+    return false;
+  }
+
+  void consume_start_code(std::size_t bit) {
+    position = bit + 32;
+    after_start_code = true;
+  }
+
+  Result<Event> plane_event() {
+    Event event;
+    event.bit = stream_bit(plane_begin);
+    Plane& plane = event.plane;
+    plane.intra = parsed.intra;
+    plane.object_mask = parsed.object_mask;
+    plane.temporal = parsed.temporal;
+    plane.start_code = had_start_code;
+    plane.bit_begin = event.bit;
+    plane.bit_end = stream_bit(plane_end);
+    tell_time(plane);
+
+    BodyFrame body;
+    const Result<void> applied = internal::apply_plane(parsed, state, plane.face, body);
+    if (!applied) return at(applied.error().code, applied.error().message, plane_begin);
+    if (has_face(plane.object_mask)) {
+      if (plane.intra) face_settings = std::make_shared<FaceSettings>(state.face_settings);
+      plane.face_settings = face_settings;
+    }
+    if (has_body(plane.object_mask)) {
+      if (plane.intra) body_settings = std::make_shared<BodySettings>(state.body_settings);
+      plane.body_settings = body_settings;
+      plane.body = std::make_shared<BodyFrame>(body);
+    }
+    return event;
+  }
+
+  void tell_time(Plane& plane) {
+    const double now = clock + rate.seconds(double(number - clock_number));
+    const TemporalHeader& temporal = parsed.temporal;
+    if (temporal.rate || temporal.time_code) {
+      clock = now;
+      clock_number = number;
+    }
+    if (temporal.rate) rate = temporal.rate->rate();
+    if (temporal.time_code) {
+      const TimeCode& code = *temporal.time_code;
+      clock = code.hours * 3600.0 + code.minutes * 60.0 + code.seconds;
+    }
+    plane.number = number;
+    plane.face.number = number;
+    plane.rate = rate;
+    plane.seconds = clock + rate.seconds(double(number - clock_number));
+    number += 1 + std::int64_t(temporal.skip.value_or(0));
+  }
+
+  std::size_t plane_begin = 0;
+  std::size_t plane_end = 0;
+  bool had_start_code = false;
+};
+
+Decoder::Decoder() : impl_(std::make_unique<Impl>()) {}
+Decoder::Decoder(Decoder&&) noexcept = default;
+Decoder& Decoder::operator=(Decoder&&) noexcept = default;
+Decoder::~Decoder() = default;
+
+void Decoder::push(std::span<const std::uint8_t> bytes) {
+  if (impl_->finished) return;
+  impl_->buffer.insert(impl_->buffer.end(), bytes.begin(), bytes.end());
+}
+
+void Decoder::finish() { impl_->finished = true; }
+
+Result<Event> Decoder::next() { return impl_->next(); }
+
+Result<DecodedStream> decode(std::span<const std::uint8_t> stream) {
+  Decoder decoder;
+  decoder.push(stream);
+  decoder.finish();
+  DecodedStream out;
+  for (;;) {
+    Result<Event> event = decoder.next();
+    if (!event) {
+      if (event.error().code == Code::end_of_stream) break;
+      return std::move(event).error();
+    }
+    if (event->kind == Event::Kind::warning) {
+      add_warning(out, *event, event->text);
+      continue;
+    }
+    if (out.planes.empty()) out.rate = event->plane.rate;
+    if (event->plane.rate != out.rate && event->plane.temporal.rate) {
+      add_warning(out, *event, "the frame rate changes; the first one is kept for all planes");
+    }
+    out.planes.push_back(std::move(event->plane));
+  }
+  if (out.planes.empty()) {
+    return error_at_bit(Code::truncated, "the stream holds no plane",
+                        std::int64_t(stream.size()) * 8);
+  }
+  return out;
+}
+
+fap::Sequence face_sequence(const DecodedStream& stream) {
+  fap::Sequence sequence;
+  sequence.rate = stream.rate;
+  for (const Plane& plane : stream.planes) {
+    if (has_face(plane.object_mask)) sequence.frames.push_back(plane.face);
+  }
+  return sequence;
+}
+
+}  // namespace animeme::fba

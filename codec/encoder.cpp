@@ -1,0 +1,404 @@
+#include "codec/encoder.h"
+
+#include <cstdlib>
+
+#include "codec/bits.h"
+#include "codec/plane_reader_internal.h"
+#include "codec/quantise_internal.h"
+
+namespace animeme::fba {
+
+using internal::HighLevelState;
+using internal::SlotCoding;
+using internal::SlotState;
+
+namespace {
+
+// Levels of one family's coded slots, and what they reconstruct to.
+struct SlotLevels {
+  std::vector<std::int32_t> level;
+  std::vector<std::int32_t> rec;
+};
+
+Error value_error(const char* what, int number, std::int64_t value, std::int64_t level,
+                  std::int64_t low, std::int64_t high) {
+  return make_error(Code::out_of_range, std::string(what) + " " + std::to_string(number) + " = " +
+                                            std::to_string(value) + " needs level " +
+                                            std::to_string(level) + ", outside the range " +
+                                            std::to_string(low) + ".." + std::to_string(high) +
+                                            " in force; widen the range or code an intra plane");
+}
+
+template <class Values>
+Result<SlotLevels> quantise_slots(const SlotState& state, const SlotCoding& coding, bool intra,
+                                  const Values& values, const char* what) {
+  SlotLevels out;
+  for (const std::uint16_t slot : coding.coded) {
+    const int number = coding.table->number[slot];
+    const std::int64_t value = values[std::size_t(number)];
+    const std::int64_t base = intra ? 0 : state.value[slot];
+    const std::int64_t step = coding.step_of(slot);
+    const std::int64_t level = internal::quantise(value - base, step);
+    const std::int64_t low = coding.lowest_level(intra, slot);
+    const std::int64_t high = coding.highest_level(intra, slot);
+    if (level < low || level > high) return value_error(what, number, value, level, low, high);
+    out.level.push_back(std::int32_t(level));
+    out.rec.push_back(std::int32_t(base + level * step));
+  }
+  return out;
+}
+
+void write_skip(BitWriter& out, const std::optional<std::uint32_t>& skip) {
+  out.bit(skip.has_value());
+  if (!skip) return;
+  std::uint32_t rest = *skip;
+  for (; rest >= 15; rest -= 15) out.bits(15, 4);
+  out.bits(rest, 4);
+}
+
+void write_temporal(BitWriter& out, bool intra, const TemporalHeader& temporal) {
+  if (intra) {
+    out.bit(temporal.rate.has_value());
+    if (temporal.rate) {
+      out.bits(temporal.rate->frame_rate, 8);
+      out.bits(temporal.rate->sixteenths, 4);
+      out.bit(temporal.rate->frequency_offset);
+    }
+    out.bit(temporal.time_code.has_value());
+    if (temporal.time_code) {
+      out.bits(temporal.time_code->hours, 5);
+      out.bits(temporal.time_code->minutes, 6);
+      out.bit(1);
+      out.bits(temporal.time_code->seconds, 6);
+    }
+  }
+  write_skip(out, temporal.skip);
+}
+
+template <class Settings>
+void write_ranges(BitWriter& out, const internal::SlotTable& table, const Settings& settings) {
+  for (const bool send : settings.send_range) out.bit(send);
+  for (std::size_t kind = 0; kind < 4; ++kind) {
+    if (!settings.send_range[kind]) continue;
+    std::size_t slot = 0;
+    for (const std::uint8_t size : table.group_sizes) {
+      for (int i = 0; i < size; ++i, ++slot) {
+        if (i % 4 == 0) out.bit(1);
+        const std::size_t number = table.number[slot];
+        if (settings.mask[number]) out.bits(settings.range[kind][number], 5);
+      }
+    }
+  }
+}
+
+void write_face_settings(BitWriter& out, const FaceSettings& settings) {
+  out.bits(std::uint32_t(settings.fap_quant), 5);
+  for (std::size_t group = 0; group < fap::kGroupCount; ++group) {
+    out.bit(1);
+    const MaskType type = settings.mask_type[group];
+    out.bits(std::uint32_t(type), 2);
+    if (type != MaskType::hold && type != MaskType::interpolate) continue;
+    for (int i = 0; i < fap::kGroups[group].size; ++i) {
+      out.bit(settings.mask[std::size_t(fap::kGroups[group].first + i)]);
+    }
+  }
+  out.bit(settings.male);
+  out.bit(0);  // fba_object_coding_type: arithmetic
+  write_ranges(out, internal::face_slots(), settings);
+}
+
+void write_body_settings(BitWriter& out, const BodySettings& settings) {
+  out.bits(std::uint32_t(settings.bap_quant), 5);
+  std::size_t slot = 0;
+  for (std::size_t group = 0; group < kBodyGroupCount; ++group) {
+    out.bit(1);
+    const MaskType type = settings.mask_type[group];
+    out.bits(std::uint32_t(type), 2);
+    for (int i = 0; i < kBodyGroupSizes[group]; ++i, ++slot) {
+      if (type == MaskType::hold) out.bit(settings.mask[kBapOrder[slot]]);
+    }
+  }
+  out.bit(settings.male);
+  out.bit(0);
+  write_ranges(out, internal::body_slots(), settings);
+}
+
+// What the settings of an intra plane make of the coding parameters.
+template <class Settings>
+SlotCoding apply_settings(const SlotCoding& before, const Settings& settings, int quant,
+                          int scale) {
+  SlotCoding coding = before;
+  coding.valid = true;
+  coding.scale = scale;
+  coding.quantised = quant != 0;
+  coding.coded.clear();
+  coding.set_default_ranges();
+  for (std::uint16_t slot = 0; slot < coding.table->number.size(); ++slot) {
+    const std::size_t number = coding.table->number[slot];
+    if (!settings.mask[number]) continue;
+    coding.coded.push_back(slot);
+    for (std::size_t kind = 0; kind < 4; ++kind) {
+      if (!settings.send_range[kind]) continue;
+      coding.range[kind][slot] = internal::level_range(settings.range[kind][number], scale);
+    }
+  }
+  return coding;
+}
+
+template <class Settings>
+bool ranges_legal(const Settings& settings) {
+  for (const auto& set : settings.range) {
+    for (const std::uint8_t m : set) {
+      if (m > 31) return false;
+    }
+  }
+  return true;
+}
+
+void write_slots(BitWriter& out, SlotState& state, bool intra, const SlotLevels& levels) {
+  SegmentEncoder segment(out);
+  const SlotCoding& coding = state.coding;
+  for (std::size_t i = 0; i < coding.coded.size(); ++i) {
+    const std::size_t slot = coding.coded[i];
+    const std::uint32_t symbol = std::uint32_t(levels.level[i] - coding.lowest_level(intra, slot));
+    if (intra) {
+      segment.encode(flat_interval(symbol, coding.alphabet(true, slot)));
+    } else {
+      segment.encode(state.model[slot].interval(symbol));
+      state.model[slot].update(symbol);
+    }
+    state.value[slot] = levels.rec[i];
+  }
+  segment.flush();
+}
+
+}  // namespace
+
+struct Encoder::Impl {
+  StreamOptions options;
+  BitWriter out;
+  std::int64_t taken_bits = 0;
+  internal::StreamState state;
+  fap::Frame reconstruction;
+  bool started = false;
+
+  Result<void> check(const PlaneInput& plane) const {
+    const auto invalid = [](std::string message) {
+      return make_error(Code::invalid_argument, std::move(message));
+    };
+    const bool face = has_face(plane.object_mask);
+    const bool body = has_body(plane.object_mask);
+    if ((face && plane.face == nullptr) || (body && plane.body == nullptr)) {
+      return invalid("a plane needs the values of what its object mask names");
+    }
+    if (plane.temporal.skip.value_or(0) > internal::kMaxSkip) {
+      return invalid("more than a million frames in a row cannot be skipped");
+    }
+    if (!plane.intra) {
+      if (plane.temporal.rate || plane.temporal.time_code) {
+        return invalid("frame rate and time code belong into intra planes");
+      }
+      if ((face && !state.face.coding.valid) || (body && !state.body.coding.valid)) {
+        return invalid("a predictive plane needs an intra plane of its kind before it");
+      }
+      return {};
+    }
+    if (plane.temporal.rate && !plane.temporal.rate->rate().valid()) {
+      return invalid("the frame rate is 0");
+    }
+    if (face) {
+      const FaceSettings* settings = plane.face_settings;
+      if (settings == nullptr) return invalid("an intra plane needs face settings");
+      if (settings->fap_quant < 0 || settings->fap_quant > 31) {
+        return invalid("fap_quant must be 0..31");
+      }
+      if (!internal::mask_agrees(*settings)) return invalid("FAP mask and mask types disagree");
+      if (!ranges_legal(*settings)) return invalid("face ranges must be 0..31");
+    }
+    if (body) {
+      const BodySettings* settings = plane.body_settings;
+      if (settings == nullptr) return invalid("an intra plane needs body settings");
+      if (settings->bap_quant < 0 || settings->bap_quant > 31) {
+        return invalid("bap_quant must be 0..31");
+      }
+      if (!internal::mask_agrees(*settings)) return invalid("BAP mask and mask types disagree");
+      if (!ranges_legal(*settings)) return invalid("body ranges must be 0..31");
+    }
+    return {};
+  }
+
+  // Levels of FAP 1 or 2; the state is not changed.
+  Result<void> quantise_high(const HighLevelState& high, bool intra, int first, int last,
+                             std::span<const std::int32_t> values,
+                             std::array<std::int32_t, internal::kHighLevelCount>& levels) const {
+    for (int which = first; which <= last; ++which) {
+      const std::size_t index = std::size_t(which);
+      const std::int64_t base = intra ? 0 : state.high.value[index];
+      const std::int64_t level =
+          internal::quantise(std::int64_t(values[index]) - base, high.step_of(which));
+      const std::int64_t max = high.max_level(which);
+      if (level > max || level < (intra ? 0 : -max)) {
+        return value_error("high-level FAP", which <= internal::kVisemeBlend ? 1 : 2, values[index],
+                           level, intra ? 0 : -max, max);
+      }
+      levels[index] = std::int32_t(level);
+    }
+    return {};
+  }
+
+  void write_high(bool intra, int first, int last,
+                  const std::array<std::int32_t, internal::kHighLevelCount>& levels) {
+    HighLevelState& high = state.high;
+    SegmentEncoder segment(out);
+    for (int which = first; which <= last; ++which) {
+      const std::size_t index = std::size_t(which);
+      const std::int32_t max = high.max_level(which);
+      const std::int32_t base = intra ? 0 : high.value[index];
+      if (intra) {
+        segment.encode(flat_interval(std::uint32_t(levels[index]), std::uint32_t(max + 1)));
+      } else {
+        const std::uint32_t symbol = std::uint32_t(levels[index] + max);
+        segment.encode(high.model[index].interval(symbol));
+        high.model[index].update(symbol);
+      }
+      high.value[index] = base + levels[index] * high.step_of(which);
+    }
+    segment.flush();
+  }
+
+  Result<void> write(const PlaneInput& plane) {
+    if (auto ok = check(plane); !ok) return ok;
+    const bool face = has_face(plane.object_mask);
+    const bool body = has_body(plane.object_mask);
+
+    // First everything that can fail, then the bits.
+    SlotCoding face_coding = state.face.coding;
+    SlotCoding body_coding = state.body.coding;
+    HighLevelState ranges;
+    const FaceSettings& settings = plane.intra && face ? *plane.face_settings : state.face_settings;
+    ranges.fap_quant = settings.fap_quant;
+    std::array<std::int32_t, internal::kHighLevelCount> high{};
+    SlotLevels face_levels;
+    SlotLevels body_levels;
+    if (face) {
+      if (plane.intra) {
+        face_coding = apply_settings(face_coding, settings, settings.fap_quant,
+                                     fap_scale(settings.fap_quant));
+      }
+      const auto values = internal::high_level_values(*plane.face);
+      if (settings.mask[1]) {
+        auto ok = quantise_high(ranges, plane.intra, internal::kVisemeSelect1,
+                                internal::kVisemeBlend, values, high);
+        if (!ok) return ok;
+      }
+      if (settings.mask[2]) {
+        auto ok = quantise_high(ranges, plane.intra, internal::kExpressionSelect1,
+                                internal::kExpressionIntensity2, values, high);
+        if (!ok) return ok;
+      }
+      auto levels = quantise_slots(state.face, face_coding, plane.intra, plane.face->value, "FAP");
+      if (!levels) return levels.error();
+      face_levels = std::move(*levels);
+    }
+    if (body) {
+      if (plane.intra) {
+        body_coding =
+            apply_settings(body_coding, *plane.body_settings, plane.body_settings->bap_quant,
+                           bap_scale(plane.body_settings->bap_quant));
+      }
+      auto levels = quantise_slots(state.body, body_coding, plane.intra, plane.body->value, "BAP");
+      if (!levels) return levels.error();
+      body_levels = std::move(*levels);
+    }
+
+    begin_plane(plane);
+    if (face) {
+      if (plane.intra) {
+        state.face_settings = *plane.face_settings;
+        state.face.coding = std::move(face_coding);
+        state.face.reset_models();
+        state.high.fap_quant = settings.fap_quant;
+        state.high.reset_models();
+        write_face_settings(out, state.face_settings);
+      }
+      write_face(plane, high, face_levels);
+    }
+    if (body) {
+      if (plane.intra) {
+        state.body_settings = *plane.body_settings;
+        state.body.coding = std::move(body_coding);
+        state.body.reset_models();
+        write_body_settings(out, state.body_settings);
+      }
+      write_slots(out, state.body, plane.intra, body_levels);
+    }
+    return {};
+  }
+
+  void begin_plane(const PlaneInput& plane) {
+    if (!started) out.start_code(kObjectStart);
+    started = true;
+    const PlaneStartCodes where = options.plane_start_codes;
+    if (where == PlaneStartCodes::all || (where == PlaneStartCodes::intra && plane.intra)) {
+      out.stuff();
+      out.start_code(options.old_codes ? kOldPlaneStart : kPlaneStart);
+    }
+    out.bit(plane.intra);
+    out.bits(std::uint32_t(plane.object_mask), 2);
+    if (plane.object_mask != ObjectMask::nothing) write_temporal(out, plane.intra, plane.temporal);
+  }
+
+  void write_face(const PlaneInput& plane,
+                  const std::array<std::int32_t, internal::kHighLevelCount>& high,
+                  const SlotLevels& levels) {
+    const fap::Mask& mask = state.face_settings.mask;
+    reconstruction = {};
+    reconstruction.number = plane.face->number;
+    reconstruction.mask = mask;
+    if (mask[1]) {
+      write_high(plane.intra, internal::kVisemeSelect1, internal::kVisemeBlend, high);
+      out.bit(plane.face->viseme.def);
+      reconstruction.viseme.def = plane.face->viseme.def;
+    }
+    if (mask[2]) {
+      write_high(plane.intra, internal::kExpressionSelect1, internal::kExpressionIntensity2, high);
+      out.bit(plane.face->expression.init_face);
+      out.bit(plane.face->expression.def);
+      reconstruction.expression.init_face = plane.face->expression.init_face;
+      reconstruction.expression.def = plane.face->expression.def;
+    }
+    internal::set_high_level_values(state.high.value, reconstruction);
+    write_slots(out, state.face, plane.intra, levels);
+    for (const std::uint16_t slot : state.face.coding.coded) {
+      reconstruction.value[state.face.coding.table->number[slot]] = state.face.value[slot];
+    }
+  }
+};
+
+Encoder::Encoder(const StreamOptions& options) : impl_(std::make_unique<Impl>()) {
+  impl_->options = options;
+}
+Encoder::Encoder(Encoder&&) noexcept = default;
+Encoder& Encoder::operator=(Encoder&&) noexcept = default;
+Encoder::~Encoder() = default;
+
+Result<void> Encoder::write(const PlaneInput& plane) { return impl_->write(plane); }
+fap::Frame Encoder::reconstruction() const { return impl_->reconstruction; }
+std::int64_t Encoder::bits() const {
+  return impl_->taken_bits + std::int64_t(impl_->out.position());
+}
+
+std::vector<std::uint8_t> Encoder::take() {
+  std::vector<std::uint8_t> bytes = impl_->out.take();
+  impl_->taken_bits += std::int64_t(bytes.size()) * 8;
+  return bytes;
+}
+
+std::vector<std::uint8_t> Encoder::finish() {
+  if (!impl_->started) impl_->out.start_code(kObjectStart);
+  impl_->out.stuff();
+  impl_->out.start_code(kSequenceEnd);
+  return take();
+}
+
+}  // namespace animeme::fba

@@ -1,0 +1,96 @@
+// Walks over a text token by token and line by line, and knows where it is. Internal.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace animeme::fap::detail {
+
+/// Tokens are separated by blanks and tabs, lines end with LF, CR LF or CR. A token that starts
+/// with '#' begins a comment that runs to the end of its line. All steps are linear in the text
+/// passed over; nothing is allocated.
+class TextScanner {
+ public:
+  explicit TextScanner(std::string_view text)
+      : at_(text.data()), end_(text.data() + text.size()), line_begin_(at_) {}
+
+  /// Goes to the next token, over blanks, comments and line ends. False: the text is over.
+  bool to_content() {
+    for (;;) {
+      skip_blanks();
+      if (at_ == end_) return false;
+      if (*at_ == '#') {
+        skip_line();
+      } else if (is_line_end(*at_)) {
+        pass_line_end();
+      } else {
+        return true;
+      }
+    }
+  }
+
+  /// Reads the next token of this line. Empty: the line (or the text) has no more.
+  std::string_view token() {
+    skip_blanks();
+    if (at_ == end_ || is_line_end(*at_) || *at_ == '#') return {};
+    const char* begin = at_;
+    while (at_ != end_ && !is_blank(*at_) && !is_line_end(*at_)) ++at_;
+    token_begin_ = begin;
+    return {begin, std::size_t(at_ - begin)};
+  }
+
+  /// Number of tokens that token() would still give on this line, at most `limit`.
+  int count_rest(int limit) const {
+    TextScanner ahead = *this;
+    int count = 0;
+    while (count < limit && !ahead.token().empty()) ++count;
+    return count;
+  }
+
+  /// The text from here to the end of the line, comment included; goes to the line end.
+  std::string_view rest_of_line() {
+    const char* begin = at_;
+    skip_line();
+    return {begin, std::size_t(at_ - begin)};
+  }
+
+  std::int64_t line() const { return line_; }
+  /// Column of the token read last, from 1.
+  std::int64_t token_column() const { return token_begin_ - line_begin_ + 1; }
+  /// Column of the next byte, from 1.
+  std::int64_t column() const { return at_ - line_begin_ + 1; }
+
+ private:
+  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+  static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+
+  void skip_blanks() {
+    while (at_ != end_ && is_blank(*at_)) ++at_;
+  }
+  void skip_line() {
+    while (at_ != end_ && !is_line_end(*at_)) ++at_;
+  }
+  void pass_line_end() {
+    const bool carriage_return = *at_++ == '\r';
+    if (carriage_return && at_ != end_ && *at_ == '\n') ++at_;
+    line_begin_ = at_;
+    ++line_;
+  }
+
+  const char* at_;
+  const char* end_;
+  const char* line_begin_;
+  const char* token_begin_ = line_begin_;
+  std::int64_t line_ = 1;
+};
+
+/// `token` in quotes for a message: unprintable bytes become '?', long ones are cut.
+inline std::string quoted(std::string_view token) {
+  constexpr std::size_t longest = 32;
+  std::string text = "'";
+  for (const char c : token.substr(0, longest)) text += c < ' ' || c > '~' ? '?' : c;
+  return text + (token.size() > longest ? "...'" : "'");
+}
+
+}  // namespace animeme::fap::detail

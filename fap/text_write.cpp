@@ -1,0 +1,85 @@
+#include <algorithm>
+#include <charconv>
+
+#include "fap/rate_text.h"
+#include "fap/text.h"
+
+namespace animeme::fap {
+namespace {
+
+std::string one_word(const std::string& name) {
+  if (name.empty()) return "clip";
+  std::string word = name;
+  std::replace_if(
+      word.begin(), word.end(), [](char c) { return (c >= 0 && c <= ' ') || c == '\x7f'; }, '_');
+  if (word.front() == '#') word.front() = '_';
+  return word;
+}
+
+Rate written_rate(Rate rate, bool integer) {
+  if (!integer || !rate.valid()) return rate;
+  const std::uint64_t rounded = (std::uint64_t(rate.num) * 2 + rate.den) / (2ull * rate.den);
+  return {std::uint32_t(std::max<std::uint64_t>(rounded, 1)), 1};
+}
+
+class FrameWriter {
+ public:
+  explicit FrameWriter(std::string& text) : text_(text) {}
+
+  void write(const Frame& frame, std::int64_t number) {
+    for (std::size_t fap = 1; fap <= kFapCount; ++fap) {
+      text_ += frame.mask[fap] ? '1' : '0';
+      text_ += fap < kFapCount ? ' ' : '\n';
+    }
+    append(number);
+    if (frame.mask[1]) write(frame.viseme);
+    if (frame.mask[2]) write(frame.expression);
+    for (std::size_t fap = kFirstLowLevel; fap <= kFapCount; ++fap) {
+      if (frame.mask[fap]) value(frame.value[fap]);
+    }
+    text_ += '\n';
+  }
+
+ private:
+  void write(const Viseme& v) {
+    value(v.select1);
+    value(v.select2);
+    value(v.blend);
+    value(v.def);
+  }
+  void write(const Expression& e) {
+    value(e.select1);
+    value(e.intensity1);
+    value(e.select2);
+    value(e.intensity2);
+    value(e.init_face);
+    value(e.def);
+  }
+  void value(std::int32_t v) {
+    text_ += ' ';
+    append(v);
+  }
+  void append(std::int64_t v) {
+    char digits[24];
+    const auto end = std::to_chars(digits, digits + sizeof digits, v).ptr;
+    text_.append(digits, end);
+  }
+
+  std::string& text_;
+};
+
+}  // namespace
+
+std::string write_text(const Sequence& sequence, const WriteTextOptions& options) {
+  const Rate rate = written_rate(sequence.rate, options.integer_rate);
+  std::string text = "2.1 " + one_word(sequence.name) + " " + format_rate(rate) + " " +
+                     std::to_string(sequence.frames.size()) + "\n";
+  FrameWriter writer(text);
+  std::int64_t running = 0;
+  for (const Frame& frame : sequence.frames) {
+    writer.write(frame, options.renumber ? running++ : frame.number);
+  }
+  return text;
+}
+
+}  // namespace animeme::fap

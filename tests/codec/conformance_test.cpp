@@ -1,0 +1,141 @@
+// Every reference stream: decodes to the expected text, and is written again byte for byte from
+// its encoder parameter file.
+#include <gtest/gtest.h>
+
+#include "codec/access_unit.h"
+#include "codec/decoder.h"
+#include "codec/epf.h"
+#include "fap/text.h"
+#include "tests/codec/reference_streams.h"
+
+namespace animeme {
+namespace {
+
+using test::read_bytes;
+using test::read_file;
+using test::with;
+
+class ReferenceStream : public testing::TestWithParam<std::filesystem::path> {
+ protected:
+  std::filesystem::path path() const { return GetParam(); }
+  bool has(const char* extension) const { return std::filesystem::exists(with(path(), extension)); }
+};
+
+TEST_P(ReferenceStream, DecodesToTheExpectedFrames) {
+  auto decoded = fba::decode(read_bytes(with(path(), ".fba")));
+  ASSERT_TRUE(decoded) << decoded.error().describe();
+  ASSERT_TRUE(has(".dec.fap") || has(".dec.bap"));
+  if (has(".dec.fap")) {
+    auto expected = fap::read_text(read_file(with(path(), ".dec.fap")));
+    ASSERT_TRUE(expected) << expected.error().describe();
+    const fap::Sequence got = fba::face_sequence(*decoded);
+    ASSERT_EQ(got.frames.size(), expected->frames.size());
+    for (std::size_t i = 0; i < got.frames.size(); ++i) {
+      ASSERT_EQ(got.frames[i], expected->frames[i]) << "frame " << i;
+    }
+  }
+  if (has(".dec.bap")) {
+    const auto expected = test::read_bap(read_file(with(path(), ".dec.bap")));
+    ASSERT_FALSE(expected.empty());
+    std::size_t i = 0;
+    for (const fba::Plane& plane : decoded->planes) {
+      if (!plane.body) continue;
+      ASSERT_LT(i, expected.size());
+      ASSERT_EQ(*plane.body, expected[i]) << "body frame " << i;
+      ++i;
+    }
+    EXPECT_EQ(i, expected.size());
+  }
+}
+
+TEST_P(ReferenceStream, IsWrittenByteForByteFromItsEpf) {
+  if (!has(".epf")) GTEST_SKIP() << "this stream comes without encoder parameters";
+  const std::vector<std::uint8_t> stream = read_bytes(with(path(), ".fba"));
+  auto planes = fba::read_epf(read_file(with(path(), ".epf")));
+  ASSERT_TRUE(planes) << planes.error().describe();
+  fap::Sequence clip;
+  if (has(".src.fap")) {
+    auto read = fap::read_text(read_file(with(path(), ".src.fap")));
+    ASSERT_TRUE(read) << read.error().describe();
+    clip = *read;
+  }
+  std::vector<fba::BodyFrame> bodies;
+  if (has(".src.bap")) bodies = test::read_bap(read_file(with(path(), ".src.bap")));
+
+  fba::StreamOptions options;
+  const std::string name = path().filename().string();
+  if (name.starts_with("startcodes_intra")) {
+    options.plane_start_codes = fba::PlaneStartCodes::intra;
+  } else if (name.starts_with("startcodes_all")) {
+    options.plane_start_codes = fba::PlaneStartCodes::all;
+  } else if (name.starts_with("startcodes_old")) {
+    options.plane_start_codes = fba::PlaneStartCodes::intra;
+    options.old_codes = true;
+  }
+  auto written = fba::encode_epf(clip, bodies, *planes, options);
+  ASSERT_TRUE(written) << written.error().describe();
+  const auto [a, b] = std::mismatch(written->begin(), written->end(), stream.begin(), stream.end());
+  EXPECT_TRUE(*written == stream) << "first difference at byte " << a - written->begin() << " of "
+                                  << stream.size() << " (written " << written->size() << ")";
+}
+
+TEST_P(ReferenceStream, SurvivesAccessUnits) {
+  const std::vector<std::uint8_t> stream = read_bytes(with(path(), ".fba"));
+  auto decoded = fba::decode(stream);
+  ASSERT_TRUE(decoded) << decoded.error().describe();
+  auto units = fba::split_access_units(stream);
+  ASSERT_TRUE(units) << units.error().describe();
+  ASSERT_EQ(units->units.size(), decoded->planes.size());
+  for (const bool headers : {false, true}) {
+    auto again = fba::decode(fba::join_access_units(*units, headers));
+    ASSERT_TRUE(again) << again.error().describe();
+    ASSERT_EQ(again->planes.size(), decoded->planes.size());
+    for (std::size_t i = 0; i < again->planes.size(); ++i) {
+      EXPECT_EQ(again->planes[i].face, decoded->planes[i].face);
+      EXPECT_EQ(again->planes[i].intra, units->units[i].intra);
+    }
+    EXPECT_TRUE(again->warnings.empty()) << again->warnings.front();
+  }
+}
+
+TEST_P(ReferenceStream, DecodesTheSameInAnySplit) {
+  const std::vector<std::uint8_t> stream = read_bytes(with(path(), ".fba"));
+  auto whole = fba::decode(stream);
+  ASSERT_TRUE(whole) << whole.error().describe();
+  // An incomplete plane is parsed again with every piece, so long streams get longer pieces.
+  const std::size_t unit = 1 + stream.size() / 4000;
+  for (const std::size_t step : {unit, 7 * unit}) {
+    fba::Decoder decoder;
+    std::size_t planes = 0;
+    std::size_t at = 0;
+    for (;;) {
+      auto event = decoder.next();
+      if (event) {
+        if (event->kind != fba::Event::Kind::plane) continue;
+        ASSERT_LT(planes, whole->planes.size());
+        EXPECT_EQ(event->plane.face, whole->planes[planes].face);
+        EXPECT_EQ(event->plane.bit_begin, whole->planes[planes].bit_begin);
+        ++planes;
+        continue;
+      }
+      if (event.error().code == Code::end_of_stream) break;
+      ASSERT_EQ(event.error().code, Code::need_data) << event.error().describe();
+      if (at >= stream.size()) {
+        decoder.finish();
+        continue;
+      }
+      const std::size_t count = std::min(step, stream.size() - at);
+      decoder.push(std::span(stream).subspan(at, count));
+      at += count;
+    }
+    EXPECT_EQ(planes, whole->planes.size());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Streams, ReferenceStream, testing::ValuesIn(test::reference_streams()),
+                         [](const auto& param_info) {
+                           return param_info.param.filename().string();
+                         });
+
+}  // namespace
+}  // namespace animeme

@@ -1,0 +1,82 @@
+// The reference streams that the codec tests run on: those of conformance/reference_streams.tar.xz,
+// unpacked by the build, and any further ones of the reference data.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "codec/plane.h"
+#include "tests/support/shared.h"
+
+namespace animeme::test {
+
+inline std::string read_file(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+inline std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
+  const std::string text = read_file(path);
+  return {text.begin(), text.end()};
+}
+
+/// Base paths (without extension) of all streams at hand, by name.
+inline std::vector<std::filesystem::path> reference_streams() {
+  std::vector<std::filesystem::path> out;
+  std::set<std::string> names;
+  std::vector<std::filesystem::path> folders = {std::filesystem::path(ANIMEME_BINARY_DIR) /
+                                                "conformance" / "streams"};
+  if (!shared_dir().empty()) folders.push_back(shared_dir() / "conformance" / "streams");
+  for (const auto& folder : folders) {
+    if (!std::filesystem::is_directory(folder)) continue;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      if (entry.path().extension() != ".fba") continue;
+      if (!names.insert(entry.path().stem().string()).second) continue;
+      out.push_back(entry.path().parent_path() / entry.path().stem());
+    }
+  }
+  std::sort(out.begin(), out.end(),
+            [](const auto& a, const auto& b) { return a.filename() < b.filename(); });
+  return out;
+}
+
+/// `path` with `extension` appended ("x" and ".dec.fap" give "x.dec.fap").
+inline std::filesystem::path with(const std::filesystem::path& path, const char* extension) {
+  return std::filesystem::path(path.string() + extension);
+}
+
+/// The body frames of a .bap text (version 3.1 or 3.2), plainly: every token in its place.
+inline std::vector<fba::BodyFrame> read_bap(const std::string& text) {
+  std::istringstream lines(text);
+  std::string clean;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.empty() && line[0] != '#') clean += line + "\n";
+  }
+  std::istringstream in(clean);
+  std::string version, name, rate;
+  int count = 0;
+  in >> version >> name >> rate >> count;
+  const int masks = version == "3.1" ? 186 : 296;
+  std::vector<fba::BodyFrame> frames(static_cast<std::size_t>(count));
+  for (fba::BodyFrame& frame : frames) {
+    for (int bap = 1; bap <= masks; ++bap) {
+      int flag = 0;
+      in >> flag;
+      frame.mask[std::size_t(bap)] = flag != 0;
+    }
+    long number = 0;
+    in >> number;
+    for (int bap = 1; bap <= masks; ++bap) {
+      if (frame.mask[std::size_t(bap)]) in >> frame.value[std::size_t(bap)];
+    }
+  }
+  return in ? frames : std::vector<fba::BodyFrame>();
+}
+
+}  // namespace animeme::test

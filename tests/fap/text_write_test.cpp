@@ -1,0 +1,57 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "fap/text.h"
+#include "tests/fap/make.h"
+
+namespace animeme::fap {
+namespace {
+
+using test::make_frame;
+using test::mask_line;
+
+TEST(WriteText, SafeForm) {
+  Sequence clip{{25, 1}, {make_frame(0, {{3, 100}, {68, -7}}), make_frame(2, {})}, "a clip"};
+  clip.frames[1].mask.set(1);
+  clip.frames[1].mask.set(2);
+  clip.frames[1].viseme = {5, 6, 33, true};
+  clip.frames[1].expression = {1, 40, 6, 63, false, true};
+  EXPECT_EQ(write_text(clip), "2.1 a_clip 25 2\n" + mask_line({3, 68}) + "\n0 100 -7\n" +
+                                  mask_line({1, 2}) + "\n2 5 6 33 1 1 40 6 63 0 1\n");
+}
+
+TEST(WriteText, Options) {
+  const Sequence clip{{30000, 1001}, {make_frame(4, {{3, 1}}), make_frame(9, {{3, 2}})}, "x"};
+  const std::string mask = mask_line({3}) + "\n";
+  EXPECT_EQ(write_text(clip), "2.1 x 29.97 2\n" + mask + "4 1\n" + mask + "9 2\n");
+  EXPECT_EQ(write_text(clip, {.renumber = true, .integer_rate = true}),
+            "2.1 x 30 2\n" + mask + "0 1\n" + mask + "1 2\n");
+  EXPECT_EQ(write_text({{1, 3}, {}, "x"}, {.integer_rate = true}), "2.1 x 1 0\n");
+  EXPECT_EQ(write_text({{25, 2}, {}, "x"}, {.integer_rate = true}), "2.1 x 13 0\n");
+  EXPECT_EQ(write_text({{0, 1}, {}, "x"}, {.integer_rate = true}), "2.1 x 0 0\n");
+}
+
+TEST(WriteText, NamesAreOneWord) {
+  const auto header = [](const char* name) { return write_text({{25, 1}, {}, name}); };
+  EXPECT_EQ(header(""), "2.1 clip 25 0\n");
+  EXPECT_EQ(header("a\tb\nc d"), "2.1 a_b_c_d 25 0\n");
+  EXPECT_EQ(header("#1"), "2.1 _1 25 0\n");
+  EXPECT_EQ(header("caf\xc3\xa9"), "2.1 caf\xc3\xa9 25 0\n");
+}
+
+TEST(WriteText, ReadsBackEqual) {
+  test::Random random(20260101);
+  for (int round = 0; round < 200; ++round) {
+    const Sequence clip = test::random_sequence(random, int(random.in(0, 40)));
+    const std::string text = write_text(clip);
+    std::vector<std::string> warnings;
+    const Result<Sequence> again = read_text(text, {}, &warnings);
+    ASSERT_TRUE(again) << again.error().describe() << "\n" << text;
+    ASSERT_EQ(*again, clip) << text;
+    ASSERT_TRUE(warnings.empty()) << warnings.front() << "\n" << text;
+    ASSERT_EQ(write_text(*again), text);
+  }
+}
+
+}  // namespace
+}  // namespace animeme::fap

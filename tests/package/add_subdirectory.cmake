@@ -1,0 +1,16 @@
+# Builds and runs a foreign project that has animeme as a subdirectory, with Eigen hidden.
+include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
+step("configure" ${configure} -S ${TESTS}/subdirectory -B ${WORK}/build
+  -DANIMEME_DIR=${ANIMEME_DIR} -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON)
+step("build" ${CMAKE_COMMAND} --build ${WORK}/build --parallel 2)
+file(GLOB_RECURSE programs ${WORK}/build/consumer ${WORK}/build/*/consumer)
+list(FILTER programs EXCLUDE REGEX "CMakeFiles")
+list(LENGTH programs count)
+if(NOT count EQUAL 1)
+  message(FATAL_ERROR "expected one program, found: ${programs}")
+endif()
+step("run" ${programs})
+if(NOT output MATCHES "fba consumer ok")
+  message(FATAL_ERROR "the consumer said: ${output}")
+endif()
+message(STATUS "ok")

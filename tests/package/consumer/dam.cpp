@@ -1,0 +1,13 @@
+// Compiles against the headers of dam and links its library, both without Eigen.
+#include <cstdio>
+
+#include "dam/script.h"
+#include "dam/signal.h"
+#include "fap/text.h"
+
+int main() {
+  const animeme::dam::Script script{{{0, 1, "AA", "a"}}};
+  const auto clip = animeme::fap::read_text("2.1 empty 25 0\n");
+  if (!clip || animeme::dam::write_textgrid(script).empty()) return 1;
+  std::puts("dam consumer ok");
+}

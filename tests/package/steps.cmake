@@ -1,0 +1,37 @@
+# Helpers of the package tests. Every step that fails ends the test with its output.
+# Given by -D: CXX (compiler), LAUNCHER (compiler launcher or empty), GENERATOR, WORK (a folder of
+# this test alone), ANIMEME_DIR (the source tree), TESTS (this folder).
+foreach(variable CXX GENERATOR WORK ANIMEME_DIR TESTS)
+  if(NOT DEFINED ${variable})
+    message(FATAL_ERROR "${variable} is not set")
+  endif()
+endforeach()
+
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+
+function(step title)
+  message(STATUS "${title}")
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output
+    ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${title} failed (${status}):\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+function(step_that_fails title)
+  message(STATUS "${title}")
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output
+    ERROR_VARIABLE output)
+  if(status EQUAL 0)
+    message(FATAL_ERROR "${title} has to fail and did not:\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+set(configure ${CMAKE_COMMAND} -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${CXX}
+  -DCMAKE_BUILD_TYPE=Release)
+if(LAUNCHER)
+  list(APPEND configure -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
+endif()

@@ -1,0 +1,165 @@
+// The architecture as a test: reads all files of the tree and applies the rules of rules.h.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+
+#include "tests/structure/rules.h"
+
+namespace animeme::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+using Check = std::vector<std::string>(std::string_view, std::string_view);
+
+struct SourceFile {
+  std::string path;  // relative to the root
+  std::string text;
+};
+
+bool has_extension(const fs::path& path, std::initializer_list<std::string_view> extensions) {
+  return std::find(extensions.begin(), extensions.end(), path.extension().string()) !=
+         extensions.end();
+}
+
+bool is_text(const fs::path& path) {
+  return path.filename() == "run" || path.filename() == "LICENSE" ||
+         has_extension(path, {".h", ".hpp", ".cpp", ".txt", ".cmake", ".in", ".md", ".json", ".js",
+                              ".html", ".py", ".sh", ".yml", ".1"});
+}
+
+SourceFile load(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  EXPECT_TRUE(file) << path;
+  return {path.lexically_relative(ANIMEME_SOURCE_DIR).generic_string(),
+          {std::istreambuf_iterator<char>(file), {}}};
+}
+
+// All files of ours: the folders by name, so that build folders inside the tree do not count.
+const std::vector<SourceFile>& tree() {
+  static const std::vector<SourceFile> files = [] {
+    std::vector<fs::path> paths;
+    const fs::path root = ANIMEME_SOURCE_DIR;
+    for (const auto& entry : fs::directory_iterator(root)) {
+      if (entry.is_regular_file() && is_text(entry.path())) paths.push_back(entry.path());
+    }
+    for (const char* folder : {"fap", "codec", "dam", "tools", "conformance", "tests", ".ci"}) {
+      if (!fs::is_directory(root / folder)) continue;
+      for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+        if (entry.is_regular_file() && is_text(entry.path())) paths.push_back(entry.path());
+      }
+    }
+    std::sort(paths.begin(), paths.end());
+    std::vector<SourceFile> loaded;
+    for (const fs::path& path : paths) loaded.push_back(load(path));
+    return loaded;
+  }();
+  return files;
+}
+
+bool is_code(std::string_view path) {
+  return path.ends_with(".h") || path.ends_with(".hpp") || path.ends_with(".cpp");
+}
+
+std::vector<std::string> violations(Check check, const std::function<bool(std::string_view)>& of) {
+  std::vector<std::string> all;
+  for (const SourceFile& file : tree()) {
+    if (!of(file.path)) continue;
+    const std::vector<std::string> found = check(file.path, file.text);
+    all.insert(all.end(), found.begin(), found.end());
+  }
+  return all;
+}
+
+TEST(Structure, TheTreeIsThere) {
+  std::vector<std::string> paths;
+  for (const SourceFile& file : tree()) paths.push_back(file.path);
+  for (const char* known : {"CMakeLists.txt", "fap/frame.h", "fap/tables.cpp",
+                            "codec/access_unit.h", "tests/structure/rules.cpp"}) {
+    EXPECT_THAT(paths, ::testing::Contains(known));
+  }
+}
+
+TEST(Structure, IncludesKeepTheLayers) {
+  EXPECT_THAT(violations(include_violations, is_code), IsEmpty());
+}
+
+TEST(Structure, HeadersHaveACommentAndAGuard) {
+  EXPECT_THAT(violations(header_violations, is_code), IsEmpty());
+}
+
+TEST(Structure, NoFileNamesPathsOfOneMachine) {
+  EXPECT_THAT(violations(path_violations, [](std::string_view) { return true; }), IsEmpty());
+}
+
+// The rules themselves: each one has to fire, or the tests above prove nothing.
+TEST(StructureRules, FindsIncludes) {
+  const auto found =
+      includes_of("#include <vector>\n  #  include \"fap/text.h\" // x\n// #include\n");
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].name, "vector");
+  EXPECT_FALSE(found[0].quoted);
+  EXPECT_EQ(found[1].name, "fap/text.h");
+  EXPECT_EQ(found[1].line, 2);
+  EXPECT_TRUE(found[1].quoted);
+}
+
+TEST(StructureRules, LayersFire) {
+  const auto broken = [](const char* path, const std::string& include) {
+    return !include_violations(path, "// x\n#include " + include + "\n").empty();
+  };
+  EXPECT_FALSE(broken("fap/text.cpp", "<vector>"));
+  EXPECT_FALSE(broken("fap/text.cpp", "\"fap/frame.h\""));
+  EXPECT_TRUE(broken("fap/text.cpp", "\"frame.h\""));
+  EXPECT_TRUE(broken("fap/text.cpp", "\"codec/bits.h\""));
+  EXPECT_TRUE(broken("fap/text.cpp", "<zlib.h>"));
+  EXPECT_TRUE(broken("fap/text.cpp", "<libxml/parser.h>"));
+  EXPECT_FALSE(broken("fap/fdp_xml.cpp", "<libxml/parser.h>"));
+  EXPECT_FALSE(broken("codec/bits.cpp", "\"fap/frame.h\""));
+  EXPECT_TRUE(broken("codec/bits.cpp", "\"dam/signal.h\""));
+  EXPECT_TRUE(broken("codec/bits.cpp", "<Eigen/Dense>"));
+  EXPECT_FALSE(broken("dam/train.cpp", "<Eigen/Dense>"));
+  EXPECT_FALSE(broken("dam/solve_internal.h", "<Eigen/Dense>"));
+  EXPECT_FALSE(broken("dam/detail/solve.h", "<Eigen/Dense>"));
+  EXPECT_TRUE(broken("dam/train.h", "<Eigen/Dense>"));
+  EXPECT_TRUE(broken("dam/train.cpp", "\"codec/bits.h\""));
+  EXPECT_TRUE(broken("dam/train.cpp", "\"tools/media/pcm.h\""));
+  EXPECT_FALSE(broken("tools/media/mux.cpp", "<libavformat/avformat.h>"));
+  EXPECT_TRUE(broken("tools/main.cpp", "<libavformat/avformat.h>"));
+  EXPECT_TRUE(broken("tools/main.cpp", "<libswscale/swscale.h>"));
+  EXPECT_FALSE(broken("tools/voice/speak.cpp", "<espeak-ng/speak_lib.h>"));
+  EXPECT_TRUE(broken("tools/media/speak.cpp", "<espeak-ng/speak_lib.h>"));
+  EXPECT_TRUE(broken("tools/main.cpp", "<pocketsphinx.h>"));
+  EXPECT_TRUE(broken("tools/main.cpp", "<Eigen/Core>"));
+  EXPECT_TRUE(broken("tools/main.cpp", "\"tests/support/shared.h\""));
+  EXPECT_FALSE(broken("conformance/run.cpp", "\"codec/decoder.h\""));
+  EXPECT_TRUE(broken("conformance/run.cpp", "\"dam/train.h\""));
+  EXPECT_FALSE(broken("tests/codec/x_test.cpp", "\"dam/train.h\""));
+}
+
+TEST(StructureRules, HeadersFire) {
+  EXPECT_THAT(header_violations("fap/x.h", "// Text.\n#pragma once\n"), IsEmpty());
+  EXPECT_THAT(header_violations("fap/x.h", "#pragma once\n"), ::testing::SizeIs(2));
+  EXPECT_THAT(header_violations("fap/x.h", "// Text.\n#ifndef X\n"),
+              ElementsAre(HasSubstr("#pragma once")));
+  EXPECT_THAT(header_violations("fap/x.cpp", ""), IsEmpty());
+}
+
+TEST(StructureRules, PathsFire) {
+  EXPECT_THAT(path_violations("fap/x.h", "// a\n// see /work/x\n"),
+              ElementsAre(HasSubstr("fap/x.h:2: ")));
+  EXPECT_THAT(path_violations("fap/x.cpp", "open(\"../shared/a\")"), ::testing::SizeIs(1));
+  EXPECT_THAT(path_violations("fap/x.cpp", "artwork/work/x a../shared"), IsEmpty());
+  EXPECT_THAT(path_violations("tests/support/shared.h", "../shared"), IsEmpty());
+}
+
+}  // namespace
+}  // namespace animeme::test

@@ -1,0 +1,26 @@
+// The rules of the source tree that a program can check: who may include whom, what every header
+// has, which paths no file may name.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace animeme::test {
+
+/// The header named in an include line: `fap/text.h` of `#include "fap/text.h"`.
+struct Include {
+  int line = 0;
+  bool quoted = false;
+  std::string name;
+};
+
+std::vector<Include> includes_of(std::string_view text);
+
+/// What breaks the rules in a file. `path` is relative to the root of the tree, with '/'. Each
+/// entry is "path:line: sentence".
+std::vector<std::string> include_violations(std::string_view path, std::string_view text);
+std::vector<std::string> header_violations(std::string_view path, std::string_view text);
+std::vector<std::string> path_violations(std::string_view path, std::string_view text);
+
+}  // namespace animeme::test

@@ -1,0 +1,25 @@
+// Where the tests find the full reference data, if it is there at all.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+namespace animeme::test {
+
+/// The folder with the full reference data: $ANIMEME_SHARED, else ../shared beside the source
+/// tree. Empty if there is none; a test then has to GTEST_SKIP() and say so.
+inline std::filesystem::path shared_dir() {
+  const char* set = std::getenv("ANIMEME_SHARED");
+  std::filesystem::path dir =
+      set != nullptr ? std::filesystem::path(set)
+                     : std::filesystem::path(ANIMEME_SOURCE_DIR).parent_path() / "shared";
+  return std::filesystem::is_directory(dir) ? dir : std::filesystem::path();
+}
+
+/// A file or folder that ships with the tests.
+inline std::filesystem::path data_dir() {
+  return std::filesystem::path(ANIMEME_SOURCE_DIR) / "tests" / "data";
+}
+
+}  // namespace animeme::test
