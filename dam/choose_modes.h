@@ -1,0 +1,21 @@
+// Which mode every phone of a script takes: the costs of Eq. 10 on the animeme graph.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "dam/model.h"
+#include "dam/timeline.h"
+
+namespace animeme::dam {
+
+/// Modes of the occurrences, in order. Every label must be a phone of the model.
+///   E   = context_weight * E_c + smoothness_weight * E_s
+///   E_c = -log P(mode | neighbours), see contexts.h
+///   E_s = sum over controls of the squared jumps of value, first and second derivative (per frame
+///   of
+///         the training rate, in standard deviations) where two polynomials meet; 0 across a rest
+std::vector<std::size_t> choose_modes(const Model& model, const std::vector<Occurrence>& timeline,
+                                      double context_weight, double smoothness_weight);
+
+}  // namespace animeme::dam

@@ -1,0 +1,123 @@
+// The numbers of training: Eq. 2 as a least squares problem. Not for users of the library, see
+// train.h. Source: the paper, sections V-B to V-D; lipsync, sections 5.3 and 5.4.
+//
+// Everything is in units of the training standard deviation, measured from rest. Polynomials are
+// kept in Legendre polynomials of 2u - 1 here, which spans the same functions as the powers of
+// Eq. 3 and lets one ridge fit all degrees; power_coefficients() changes them into a^0 .. a^M.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace animeme::dam {
+
+struct FitOccurrence {
+  double start = 0;  ///< seconds from the start of its sentence
+  double duration = 0;
+  std::int32_t phone = 0;
+  std::int32_t left = 0;  ///< phones beside it, kRestContext: the resting mouth
+  std::int32_t right = 0;
+  std::uint32_t mode = 0;  ///< numbered over all phones
+};
+
+struct FitSentence {
+  std::size_t first_frame = 0, frames = 0;
+  std::size_t first_occurrence = 0, occurrences = 0;
+};
+
+/// What is fitted.
+struct FitData {
+  std::size_t controls = 0;
+  int order = 4;
+  double rate = 25;  ///< frames per second
+  double time_margin = 0.5;
+  bool normalised = false;        ///< blend by D / sum of D, see TrainOptions
+  std::vector<double> target;     ///< frames x controls
+  std::vector<std::uint8_t> use;  ///< per frame: 0 is left out
+  std::vector<FitSentence> sentences;
+  std::vector<FitOccurrence> occurrences;
+
+  std::size_t terms() const { return std::size_t(order) + 1; }
+};
+
+struct FitWeights {
+  double ridge = 10;        ///< on the coefficients, in frames
+  double width_prior = 10;  ///< on log(sigma), per control
+  int threads = 0;
+};
+
+/// What is found.
+struct FitState {
+  std::vector<double> sigma;         ///< per mode
+  std::vector<double> coefficients;  ///< modes x terms x controls
+  double objective = 0;              ///< squared error + ridge + width prior
+};
+
+/// One phone's part in one frame.
+struct Part {
+  std::uint32_t occurrence = 0;
+  std::uint32_t mode = 0;
+  double dominance = 0;  ///< D, divided by the sum of all D of the frame if normalised
+  double slope = 0;      ///< dD / d log(sigma), divided likewise
+  double basis[9] = {};  ///< Legendre polynomials at the local time
+};
+
+/// parts[begin[i]] .. parts[begin[i + 1] - 1] belong to frame i of the sentence, by occurrence.
+struct Design {
+  std::vector<std::size_t> begin;
+  std::vector<Part> parts;
+
+  std::span<const Part> frame(std::size_t i) const {
+    return {parts.data() + begin[i], begin[i + 1] - begin[i]};
+  }
+};
+
+inline constexpr int kMaxOrder = 8;
+
+/// Legendre polynomials 0 .. order of 2u - 1, u clamped by `margin`.
+void legendre(double u, double margin, int order, double* out);
+
+/// Occurrences that have a part in the frames of a sentence.
+Design make_design(const FitData& data, const FitSentence& sentence, std::span<const double> sigma);
+
+/// The same before normalisation, whatever the blend.
+Design make_raw_design(const FitData& data, const FitSentence& sentence,
+                       std::span<const double> sigma);
+
+/// Fitted signal of a sentence: frames x controls.
+std::vector<double> predict(const FitData& data, const FitState& state, const FitSentence& sentence,
+                            const Design& design);
+
+/// E-step: the best coefficients for fixed widths (Eq. 5 with the ties of Eq. 7) and the objective.
+/// `modes` is sigma.size() of `state`.
+void solve_coefficients(const FitData& data, const FitWeights& weights, FitState& state);
+
+/// The normal equations of the M-step for log(sigma): Eq. 9 with the coefficients kept fixed
+/// (`project` false) or re-fitted to first order (variable projection, Kaufman's form).
+struct WidthStep {
+  std::vector<double> gradient;  ///< modes; points downhill
+  std::vector<double> hessian;   ///< modes x modes
+};
+WidthStep width_step(const FitData& data, const FitWeights& weights, const FitState& state,
+                     bool project);
+
+/// Repeats both steps until the objective falls by less than `tolerance` of itself; every step is
+/// accepted only if the objective falls. `accepted` is called after each and returns false to
+/// stop. Returns true if it converged.
+bool expectation_maximisation(const FitData& data, const FitWeights& weights, int max_iterations,
+                              double tolerance, FitState& state,
+                              const std::function<bool(const FitState&)>& accepted);
+
+/// Seconds by which the signal comes after its labels (negative: before), from how well the phones
+/// fit when all are moved by -120 to 120 ms, widths as they are. Rough:
+/// widths and neighbours take up a part of a true lag.
+double estimate_lag(FitData data, const FitWeights& weights, const FitState& state);
+
+/// Coefficients a^0 .. a^M by powers of u from those by Legendre polynomials.
+std::vector<double> power_coefficients(std::span<const double> legendre_coefficients);
+
+}  // namespace animeme::dam

@@ -1,0 +1,113 @@
+// A trained model: everything that synthesis and evaluation need, as plain data.
+//
+// C*(t) = rest + sd * sum_j D_j(u_j) A_j(u_j)        (Eq. 2; u_j = (t - s_j) / d_j)
+//
+// `rest` and `sd` are per control: polynomials live in units of the training standard deviation,
+// measured from the pose of silence.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fap/rate.h"
+#include "fap/result.h"
+
+namespace animeme::dam {
+
+/// How a model was made and has to be evaluated. Numbers are part of the file format.
+enum class Method : std::uint8_t {
+  dam_paper = 1,      ///< dominated animeme models as in the paper
+  dam = 2,            ///< reserved: refined dominated animeme models
+  cohen_massaro = 3,  ///< reserved: M = 0
+  mmm = 4,            ///< reserved: multidimensional morphable model
+};
+
+/// "dam-paper", "dam", "cohen-massaro", "mmm".
+std::string_view method_name(Method method);
+
+/// One animation control, in its own units (FAP units for FAPs).
+struct Control {
+  std::string name;
+  double rest = 0;  ///< value of the resting mouth, from the silences
+  double mean = 0;  ///< over speech +-0.2 s of the training rows
+  double sd = 0;    ///< standard deviation over the same frames, 0: constant control
+
+  friend bool operator==(const Control&, const Control&) = default;
+};
+
+/// One way of saying a phone (section V-A of the paper).
+struct Mode {
+  double sigma = 1;                  ///< width of the dominance in local time, > 0
+  std::vector<double> coefficients;  ///< a^m of control c is at [m * controls + c]
+
+  friend bool operator==(const Mode&, const Mode&) = default;
+};
+
+/// How often a mode was seen between two phones; left and right index Model::phones,
+/// kRestContext stands for the resting mouth and for the end of the clip.
+struct ContextCount {
+  std::int32_t left = 0;
+  std::int32_t right = 0;
+  std::uint32_t mode = 0;
+  std::uint32_t count = 0;
+
+  friend bool operator==(const ContextCount&, const ContextCount&) = default;
+};
+inline constexpr std::int32_t kRestContext = -1;
+
+/// A phone that the model has learned.
+struct PhoneModel {
+  std::string label;                   ///< upper-case ARPAbet or "SIL"
+  std::uint32_t examples = 0;          ///< occurrences in the training rows
+  std::uint32_t context_class = 0;     ///< phones of one class stand in for each other as context
+  std::vector<Mode> modes;             ///< at least one
+  std::vector<ContextCount> contexts;  ///< sorted by left, right, mode
+
+  friend bool operator==(const PhoneModel&, const PhoneModel&) = default;
+};
+
+struct Model {
+  Method method = Method::dam_paper;
+  std::uint32_t order = 4;   ///< M, degree of the polynomials
+  bool normalised = true;    ///< blend by D / sum of D; false: plain sum
+  double time_margin = 0.5;  ///< see clamp_local_time(); infinity: free extrapolation
+  double pause_edge = 0.3;   ///< seconds: the part of a pause that belongs to the speech beside it
+  double closure_gap = 25;   ///< FAP units: inner lip gap to which P, B, M close
+  fap::Rate rate;            ///< of the training signal
+  std::vector<Control> controls;
+  std::vector<PhoneModel> phones;  ///< sorted by label
+  std::string attribution;         ///< who has to be named when the model is passed on
+  std::string provenance;          ///< how the model was made, free text
+
+  /// Index of a phone by label, -1 if the model does not know it.
+  std::int32_t find_phone(std::string_view label) const;
+  /// Index of a control by name, -1 if there is none.
+  std::int32_t find_control(std::string_view name) const;
+
+  friend bool operator==(const Model&, const Model&) = default;
+};
+
+/// Checks every statement above (sizes, ranges, finite numbers, indices). Code::invalid_argument
+/// with a sentence that names the first fault. read_model() returns only models that pass.
+Result<void> validate(const Model& model);
+
+/// The model file: magic "ANIMEDAM", version 1.0, little endian, CRC-32 of everything.
+/// dam/README.md has the layout. The same model gives the same bytes.
+std::vector<std::uint8_t> write_model(const Model& model);
+
+/// Safe on any input: sizes are checked against the bytes that are there before anything is
+/// allocated. Errors: syntax (not a model file, damaged), truncated, unsupported (made by a newer
+/// major version, or a method this build does not know).
+Result<Model> read_model(std::span<const std::uint8_t> bytes);
+
+/// The same from and to a path. Errors also: not_found, io. Saving goes to a temporary file in
+/// the same folder that is renamed when complete.
+Result<Model> load_model(const std::filesystem::path& path);
+Result<void> save_model(const Model& model, const std::filesystem::path& path);
+
+}  // namespace animeme::dam

@@ -1,0 +1,277 @@
+// The model file. Layout: dam/README.md.
+#include <array>
+#include <bit>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "dam/model.h"
+
+namespace animeme::dam {
+namespace {
+
+constexpr std::string_view kMagic = "ANIMEDAM";
+constexpr std::uint16_t kMajor = 1, kMinor = 0;
+constexpr std::size_t kHeader = 8 + 2 + 2 + 8, kChecksum = 4;
+
+constexpr std::array<std::uint32_t, 256> make_crc_table() {
+  std::array<std::uint32_t, 256> table{};
+  for (std::uint32_t i = 0; i < 256; ++i) {
+    std::uint32_t c = i;
+    for (int bit = 0; bit < 8; ++bit) c = (c >> 1) ^ ((c & 1) != 0 ? 0xEDB88320u : 0u);
+    table[i] = c;
+  }
+  return table;
+}
+constexpr auto kCrcTable = make_crc_table();
+
+/// CRC-32 as in zip and PNG.
+std::uint32_t crc32(std::span<const std::uint8_t> bytes) {
+  std::uint32_t c = 0xFFFFFFFFu;
+  for (const std::uint8_t b : bytes) c = kCrcTable[(c ^ b) & 0xFF] ^ (c >> 8);
+  return ~c;
+}
+
+class Writer {
+ public:
+  template <class Unsigned>
+  void number(Unsigned value) {
+    for (std::size_t i = 0; i < sizeof(Unsigned); ++i)
+      bytes.push_back(std::uint8_t((std::uint64_t(value) >> (8 * i)) & 0xFF));
+  }
+  void real(double value) { number(std::bit_cast<std::uint64_t>(value)); }
+  void text(std::string_view value) {
+    number(std::uint32_t(value.size()));
+    bytes.insert(bytes.end(), value.begin(), value.end());
+  }
+  std::vector<std::uint8_t> bytes;
+};
+
+/// Reads numbers until the bytes run out; then `failed` stays set and everything is 0.
+class Reader {
+ public:
+  explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+  template <class Unsigned>
+  Unsigned number() {
+    if (!has(sizeof(Unsigned))) return 0;
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < sizeof(Unsigned); ++i)
+      value |= std::uint64_t(bytes_[at_ + i]) << (8 * i);
+    at_ += sizeof(Unsigned);
+    return Unsigned(value);
+  }
+  double real() { return std::bit_cast<double>(number<std::uint64_t>()); }
+  std::string text() {
+    const std::size_t size = number<std::uint32_t>();
+    if (!has(size)) return {};
+    std::string value(size, '\0');
+    if (size > 0) std::memcpy(value.data(), bytes_.data() + at_, size);
+    at_ += size;
+    return value;
+  }
+  /// A count of things of `smallest` bytes at least; fails if they cannot all be there, so that
+  /// nothing is allocated that the input does not pay for.
+  std::size_t count(std::size_t smallest) {
+    const std::size_t n = number<std::uint32_t>();
+    if (n > (bytes_.size() - at_) / smallest) failed_ = true;
+    return failed_ ? 0 : n;
+  }
+  bool failed() const { return failed_; }
+  bool at_end() const { return at_ == bytes_.size(); }
+
+ private:
+  bool has(std::size_t size) {
+    if (size > bytes_.size() - at_) failed_ = true;
+    return !failed_;
+  }
+  std::span<const std::uint8_t> bytes_;
+  std::size_t at_ = 0;
+  bool failed_ = false;
+};
+
+// In the file the coefficients of one control stand together: a^0 .. a^M of control 0, of control 1
+// ...
+
+void write_phone(Writer& out, const PhoneModel& phone, std::size_t controls) {
+  out.text(phone.label);
+  out.number(phone.examples);
+  out.number(phone.context_class);
+  out.number(std::uint32_t(phone.modes.size()));
+  for (const Mode& mode : phone.modes) {
+    out.real(mode.sigma);
+    for (std::size_t c = 0; c < controls; ++c)
+      for (std::size_t i = c; i < mode.coefficients.size(); i += controls)
+        out.real(mode.coefficients[i]);
+  }
+  out.number(std::uint32_t(phone.contexts.size()));
+  for (const ContextCount& c : phone.contexts) {
+    out.number(std::uint32_t(c.left));
+    out.number(std::uint32_t(c.right));
+    out.number(c.mode);
+    out.number(c.count);
+  }
+}
+
+PhoneModel read_phone(Reader& in, std::size_t controls, std::size_t coefficients) {
+  PhoneModel phone;
+  phone.label = in.text();
+  phone.examples = in.number<std::uint32_t>();
+  phone.context_class = in.number<std::uint32_t>();
+  phone.modes.resize(in.count(8 + 8 * coefficients));
+  for (Mode& mode : phone.modes) {
+    mode.sigma = in.real();
+    mode.coefficients.resize(coefficients);
+    for (std::size_t c = 0; c < controls; ++c)
+      for (std::size_t i = c; i < coefficients; i += controls) mode.coefficients[i] = in.real();
+  }
+  phone.contexts.resize(in.count(16));
+  for (ContextCount& c : phone.contexts) {
+    c.left = std::int32_t(in.number<std::uint32_t>());
+    c.right = std::int32_t(in.number<std::uint32_t>());
+    c.mode = in.number<std::uint32_t>();
+    c.count = in.number<std::uint32_t>();
+  }
+  return phone;
+}
+
+Error damaged(const char* how) {
+  return make_error(Code::syntax, std::string("the model file is damaged (") + how +
+                                      "); get it again or train the model anew");
+}
+
+Result<Model> read_payload(Reader& in, bool newer_minor) {
+  Model model;
+  model.method = Method(in.number<std::uint8_t>());
+  if (method_name(model.method).empty())
+    return make_error(
+        Code::unsupported,
+        "the model was made by a method that this version does not know; use a newer one");
+  model.order = in.number<std::uint32_t>();
+  const auto blend = in.number<std::uint8_t>();
+  if (blend > 1) return damaged("unknown blend");
+  model.normalised = blend == 1;
+  model.time_margin = in.real();
+  model.pause_edge = in.real();
+  model.closure_gap = in.real();
+  model.rate.num = in.number<std::uint32_t>();
+  model.rate.den = in.number<std::uint32_t>();
+  model.attribution = in.text();
+  model.provenance = in.text();
+  model.controls.resize(in.count(4 + 3 * 8));
+  for (Control& c : model.controls) {
+    c.name = in.text();
+    c.rest = in.real();
+    c.mean = in.real();
+    c.sd = in.real();
+  }
+  if (model.order > 8) return damaged("degree out of range");
+  const std::size_t coefficients = (model.order + 1) * model.controls.size();
+  const std::size_t phones = in.count(4 + 4 + 4 + 4 + 4);
+  for (std::size_t p = 0; p < phones && !in.failed(); ++p)
+    model.phones.push_back(read_phone(in, model.controls.size(), coefficients));
+  if (in.failed()) return damaged("its parts are larger than the file");
+  if (!in.at_end() && !newer_minor) return damaged("something follows the model");
+  if (auto ok = validate(model); !ok) return make_error(Code::syntax, ok.error().message);
+  return model;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> write_model(const Model& model) {
+  Writer body;
+  body.number(std::uint8_t(model.method));
+  body.number(model.order);
+  body.number(std::uint8_t(model.normalised ? 1 : 0));
+  body.real(model.time_margin);
+  body.real(model.pause_edge);
+  body.real(model.closure_gap);
+  body.number(model.rate.num);
+  body.number(model.rate.den);
+  body.text(model.attribution);
+  body.text(model.provenance);
+  body.number(std::uint32_t(model.controls.size()));
+  for (const Control& c : model.controls) {
+    body.text(c.name);
+    body.real(c.rest);
+    body.real(c.mean);
+    body.real(c.sd);
+  }
+  body.number(std::uint32_t(model.phones.size()));
+  for (const PhoneModel& phone : model.phones) write_phone(body, phone, model.controls.size());
+  Writer file;
+  file.bytes.assign(kMagic.begin(), kMagic.end());
+  file.number(kMajor);
+  file.number(kMinor);
+  file.number(std::uint64_t(body.bytes.size()));
+  file.bytes.insert(file.bytes.end(), body.bytes.begin(), body.bytes.end());
+  file.number(crc32(file.bytes));
+  return std::move(file.bytes);
+}
+
+Result<Model> read_model(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() < kMagic.size() || std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0)
+    return make_error(Code::syntax, "this is not a model file of Animeme");
+  if (bytes.size() < kHeader + kChecksum)
+    return make_error(Code::truncated, "the model file ends within its header");
+  Reader header(bytes.subspan(kMagic.size()));
+  const auto major = header.number<std::uint16_t>(), minor = header.number<std::uint16_t>();
+  const auto size = header.number<std::uint64_t>();
+  if (major != kMajor)
+    return make_error(Code::unsupported, "the model file has version " + std::to_string(major) +
+                                             "." + std::to_string(minor) + ", this program reads " +
+                                             std::to_string(kMajor) + ".x; use a " +
+                                             (major > kMajor ? "newer" : "matching") +
+                                             " version of Animeme or train the model anew");
+  const std::size_t there = bytes.size() - kHeader - kChecksum;
+  if (size > there) return make_error(Code::truncated, "the model file is cut off");
+  if (size < there) return damaged("bytes behind its end");
+  Reader checksum(bytes.last(kChecksum));
+  if (crc32(bytes.first(bytes.size() - kChecksum)) != checksum.number<std::uint32_t>())
+    return damaged("its checksum does not match");
+  Reader body(bytes.subspan(kHeader, there));
+  return read_payload(body, minor > kMinor);
+}
+
+Result<Model> load_model(const std::filesystem::path& path) {
+  const auto at = [&](Code code, const char* what) {
+    return Error{code, what, {path.string(), 0, 0, -1}};
+  };
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return at(Code::not_found, "cannot open the model file");
+  const std::vector<char> text{std::istreambuf_iterator<char>(in),
+                               std::istreambuf_iterator<char>()};
+  if (in.bad()) return at(Code::io, "cannot read the model file");
+  auto model = read_model({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  if (!model) return std::move(model).error().in_file(path.string());
+  return model;
+}
+
+Result<void> save_model(const Model& model, const std::filesystem::path& path) {
+  if (auto ok = validate(model); !ok) return ok;
+  const auto fail = [&] {
+    return Error{Code::io,
+                 "cannot write the model file; check the folder and the free space",
+                 {path.string(), 0, 0, -1}};
+  };
+  const std::vector<std::uint8_t> bytes = write_model(model);
+  std::filesystem::path temporary = path;
+  temporary += ".part";
+  std::error_code error;
+  {
+    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+    out.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    out.close();
+    if (!out) {
+      std::filesystem::remove(temporary, error);
+      return fail();
+    }
+  }
+  std::filesystem::rename(temporary, path, error);
+  if (!error) return {};
+  std::error_code ignored;
+  std::filesystem::remove(temporary, ignored);
+  return fail();
+}
+
+}  // namespace animeme::dam

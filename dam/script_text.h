@@ -1,0 +1,45 @@
+// Bytes of a text file to UTF-8 and to lines. Inside of the script readers.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace animeme::dam {
+
+/// UTF-8 without byte order mark. Input: UTF-8 with or without mark, or UTF-16 of either byte
+/// order with mark. What is not valid becomes U+FFFD.
+std::string to_utf8(std::string_view bytes);
+
+/// Appends one code point as UTF-8.
+void append_utf8(std::string& out, char32_t code);
+
+/// Takes one code point off the front of `text`; U+FFFD for an invalid byte. `text` must not be
+/// empty.
+char32_t take_code_point(std::string_view& text);
+
+struct Line {
+  std::string_view text;    ///< without the line end
+  std::int64_t number = 0;  ///< from 1
+};
+
+/// Takes lines off a text one by one; LF, CR LF and CR all end a line.
+class LineReader {
+ public:
+  explicit LineReader(std::string_view text) : rest_(text) {}
+  /// False at the end.
+  bool next(Line& line);
+
+ private:
+  std::string_view rest_;
+  std::int64_t number_ = 0;
+};
+
+/// Without blanks and tabs at both ends.
+std::string_view trim(std::string_view text);
+
+/// ASCII letters in lower case, the rest as it is.
+std::string lower_case(std::string_view text);
+
+}  // namespace animeme::dam

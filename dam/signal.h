@@ -1,0 +1,31 @@
+// A control signal: named channels sampled at a constant rate. FAPs, ARKit coefficients or a
+// rig's own channels; the model does not care.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "fap/rate.h"
+
+namespace animeme::dam {
+
+/// frames x names.size() values, row by row: all channels of frame 0, then of frame 1 ...
+/// Frame i is the sample at i / rate seconds.
+struct Signal {
+  fap::Rate rate;
+  std::vector<std::string> names;  ///< FAP channels are called "fapN_name", e.g. "fap3_open_jaw"
+  std::vector<double> values;
+  std::vector<bool>
+      measured;  ///< per frame; false: interpolated, not to be scored. Empty: all true
+
+  std::size_t frames() const { return names.empty() ? 0 : values.size() / names.size(); }
+  double& at(std::size_t frame, std::size_t channel) {
+    return values[frame * names.size() + channel];
+  }
+  double at(std::size_t frame, std::size_t channel) const {
+    return values[frame * names.size() + channel];
+  }
+};
+
+}  // namespace animeme::dam

@@ -1,0 +1,111 @@
+#include "dam/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "dam/closure.h"
+#include "dam/timeline.h"
+
+namespace animeme::dam {
+namespace {
+
+constexpr double kConstant = 1e-9;  // a smaller standard deviation is no motion
+constexpr double kOpenestClosure = 25;
+constexpr std::size_t kFewClosures = 5;
+
+/// Mean and deviation of one set of frames.
+struct Moments {
+  double count = 0;
+  std::vector<double> sum, squares;
+
+  explicit Moments(std::size_t k) : sum(k, 0.0), squares(k, 0.0) {}
+  double mean(std::size_t c) const { return count > 0 ? sum[c] / count : 0.0; }
+};
+
+/// Some silences are breaths and smiles; the mean of all would rest with the lips a little apart.
+void close_rest(std::vector<Control>& controls) {
+  std::vector<std::string> names;
+  std::vector<double> pose;
+  for (const Control& c : controls) {
+    names.push_back(c.name);
+    pose.push_back(c.rest);
+  }
+  close_pose(names, pose);
+  for (std::size_t c = 0; c < controls.size(); ++c)
+    if (controls[c].sd > 0) controls[c].rest = pose[c];
+}
+
+}  // namespace
+
+std::vector<Control> control_statistics(std::span<const Utterance* const> sentences,
+                                        double pause_edge) {
+  std::vector<Control> controls;
+  for (const std::string& name : sentences[0]->signal.names) controls.push_back({name, 0, 0, 0});
+  const std::size_t k = controls.size();
+  Moments speech(k), rest(k);
+  const auto each_frame = [&](const auto& visit) {
+    for (const Utterance* u : sentences) {
+      const auto stretches = speech_stretches(u->script);
+      for (std::size_t i = 0; i < u->signal.frames(); ++i) {
+        if (!is_measured(u->signal, i)) continue;
+        visit(&u->signal.values[i * k],
+              distance_to_speech(stretches, u->signal.rate.seconds(double(i))));
+      }
+    }
+  };
+  each_frame([&](const double* row, double distance) {
+    Moments* m = distance <= kSpeechMargin ? &speech : (distance > pause_edge ? &rest : nullptr);
+    if (m == nullptr) return;
+    m->count += 1;
+    for (std::size_t c = 0; c < k; ++c) m->sum[c] += row[c];
+  });
+  each_frame([&](const double* row, double distance) {
+    if (distance > kSpeechMargin) return;
+    for (std::size_t c = 0; c < k; ++c) {
+      const double d = row[c] - speech.mean(c);
+      speech.squares[c] += d * d;
+    }
+  });
+  for (std::size_t c = 0; c < k; ++c) {
+    controls[c].mean = speech.mean(c);
+    controls[c].sd = std::sqrt(speech.squares[c] / std::max(1.0, speech.count));
+    if (controls[c].sd < kConstant * (1 + std::abs(controls[c].mean))) controls[c].sd = 0;
+    controls[c].rest = rest.count > 0 ? rest.mean(c) : speech.mean(c);
+  }
+  close_rest(controls);
+  return controls;
+}
+
+std::vector<bool> speech_frames(const Utterance& utterance) {
+  const auto stretches = speech_stretches(utterance.script);
+  std::vector<bool> speech(utterance.signal.frames());
+  for (std::size_t i = 0; i < speech.size(); ++i)
+    speech[i] =
+        is_measured(utterance.signal, i) &&
+        distance_to_speech(stretches, utterance.signal.rate.seconds(double(i))) <= kSpeechMargin;
+  return speech;
+}
+
+double measured_closure_gap(std::span<const Utterance* const> sentences) {
+  std::vector<double> gaps;
+  for (const Utterance* u : sentences) {
+    const auto lips = inner_lip_channels(u->signal.names);
+    if (!lips) return kOpenestClosure;
+    for (const Phone& phone : u->script.phones) {
+      if (!is_bilabial(phone.label)) continue;
+      double least = std::numeric_limits<double>::infinity();
+      const FrameSpan span = frames_near(u->signal, phone, kClosureSearch);
+      for (std::size_t i = span.first; i < span.last; ++i)
+        if (is_measured(u->signal, i)) least = std::min(least, inner_gap(u->signal, i, *lips));
+      if (std::isfinite(least)) gaps.push_back(least);
+    }
+  }
+  if (gaps.size() < kFewClosures) return kOpenestClosure;
+  const auto middle = gaps.begin() + std::ptrdiff_t(gaps.size() / 2);
+  std::nth_element(gaps.begin(), middle, gaps.end());
+  return std::clamp(*middle, 0.0, kOpenestClosure);
+}
+
+}  // namespace animeme::dam

@@ -1,0 +1,46 @@
+// Praat TextGrid files: tiers of labelled intervals and points, text form only.
+//
+// Praat writes a long form with names ("xmin = 0.5") and a short one without ("0.5"). Both
+// follow one rule, which is the reader's too: only free-standing numbers, "strings" and <flags>
+// count, all other words and everything behind an exclamation mark are for people.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fap/result.h"
+
+namespace animeme::dam {
+
+/// One interval; a point has end == start.
+struct TextGridItem {
+  double start = 0;       ///< seconds
+  double end = 0;         ///< seconds
+  std::string text;       ///< UTF-8, doubled quotes undone
+  std::int64_t line = 0;  ///< of the text in the file, from 1; 0: not from a file
+};
+
+struct TextGridTier {
+  std::string name;
+  bool points = false;  ///< a TextTier (points in time) instead of an IntervalTier
+  std::vector<TextGridItem> items;
+};
+
+struct TextGrid {
+  double start = 0;  ///< seconds
+  double end = 0;    ///< seconds
+  std::vector<TextGridTier> tiers;
+};
+
+/// Reads the text form from UTF-8 (see to_utf8() for other encodings). Times are taken as they
+/// stand: order and overlaps are the caller's business.
+/// Errors with line: syntax, out_of_range (a number that is not finite), truncated (the text
+/// ends early), unsupported (a binary file).
+Result<TextGrid> parse_textgrid(std::string_view utf8);
+
+/// The long form, in UTF-8.
+std::string format_textgrid(const TextGrid& grid);
+
+}  // namespace animeme::dam

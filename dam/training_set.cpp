@@ -1,0 +1,123 @@
+#include "dam/training_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "dam/phones.h"
+#include "dam/statistics.h"
+#include "dam/timeline.h"
+
+namespace animeme::dam {
+namespace {
+
+constexpr std::size_t kFewExamples = 12;
+
+Error in_sentence(const Utterance& u, const std::string& what) {
+  return make_error(Code::invalid_argument, "sentence '" + u.id + "': " + what);
+}
+
+Result<void> check(const Utterance& u, const Signal& first) {
+  const Signal& s = u.signal;
+  if (s.names.empty() || s.names != first.names)
+    return in_sentence(u, "its controls are not those of the first sentence");
+  if (!s.rate.valid() || !(s.rate == first.rate))
+    return in_sentence(u, "its frame rate is not that of the first sentence; resample it");
+  if (s.values.size() != s.frames() * s.names.size() || s.frames() == 0)
+    return in_sentence(u, "its signal is empty or has an incomplete frame");
+  for (std::size_t i = 0; i < s.values.size(); ++i)
+    if (!std::isfinite(s.values[i]))
+      return in_sentence(u, "frame " + std::to_string(i / s.names.size()) + " of " +
+                                s.names[i % s.names.size()] + " is not a finite number");
+  if (auto ok = check_script(u.script); !ok) return in_sentence(u, ok.error().message);
+  return {};
+}
+
+using Timelines = std::vector<std::vector<Occurrence>>;
+
+std::vector<PhoneModel> phone_table(const Timelines& timelines) {
+  std::map<std::string, std::uint32_t> examples;
+  for (const auto& timeline : timelines)
+    for (const Occurrence& o : timeline) ++examples[o.label];
+  std::vector<PhoneModel> phones;
+  for (const auto& [label, count] : examples) {
+    const PhoneInfo* info = find_phone(label);
+    const std::uint32_t group =
+        info != nullptr ? std::uint32_t(info->phone_class) : std::uint32_t(kPhoneClassCount);
+    phones.push_back({label, count, group, {}, {}});
+  }
+  return phones;
+}
+
+std::int32_t index_of(const std::vector<PhoneModel>& phones, const std::string& label) {
+  if (label.empty()) return kRestContext;
+  const auto at =
+      std::lower_bound(phones.begin(), phones.end(), label,
+                       [](const PhoneModel& p, const std::string& l) { return p.label < l; });
+  return std::int32_t(at - phones.begin());
+}
+
+void add_sentence(const Utterance& u, const std::vector<Occurrence>& timeline, double pause_edge,
+                  TrainingSet& set) {
+  FitData& data = set.data;
+  const std::size_t k = set.controls.size();
+  data.sentences.push_back(
+      {data.use.size(), u.signal.frames(), data.occurrences.size(), timeline.size()});
+  const auto stretches = speech_stretches(u.script);
+  for (std::size_t i = 0; i < u.signal.frames(); ++i) {
+    const double distance = distance_to_speech(stretches, u.signal.rate.seconds(double(i)));
+    data.use.push_back(is_measured(u.signal, i) && distance <= pause_edge ? 1 : 0);
+    for (std::size_t c = 0; c < k; ++c) {
+      const Control& control = set.controls[c];
+      data.target.push_back(
+          control.sd > 0 ? (u.signal.values[i * k + c] - control.rest) / control.sd : 0.0);
+    }
+  }
+  for (const Occurrence& o : timeline)
+    data.occurrences.push_back({o.start, o.duration, index_of(set.phones, o.label),
+                                index_of(set.phones, o.left), index_of(set.phones, o.right), 0});
+}
+
+void add_warnings(TrainingSet& set) {
+  for (const Control& control : set.controls)
+    if (control.sd == 0)
+      set.warnings.push_back("control '" + control.name +
+                             "' never moves and is kept as a constant");
+  for (const PhoneModel& phone : set.phones)
+    if (phone.examples < kFewExamples)
+      set.warnings.push_back("phone " + phone.label + " has only " +
+                             std::to_string(phone.examples) + " examples");
+}
+
+}  // namespace
+
+Result<TrainingSet> make_training_set(std::span<const Utterance* const> sentences,
+                                      const TrainOptions& options) {
+  if (sentences.empty())
+    return make_error(Code::invalid_argument, "there is no sentence to train on");
+  TrainingSet set;
+  Timelines timelines;
+  bool speech = false;
+  for (const Utterance* u : sentences) {
+    if (auto ok = check(*u, sentences[0]->signal); !ok) return ok.error();
+    timelines.push_back(make_timeline(u->script, options.pause_edge));
+    speech = speech || !timelines.back().empty();
+  }
+  if (!speech)
+    return make_error(Code::invalid_argument, "no sentence has a phone other than silence");
+  set.controls = control_statistics(sentences, options.pause_edge);
+  set.closure_gap = measured_closure_gap(sentences);
+  set.phones = phone_table(timelines);
+  set.rate = sentences[0]->signal.rate;
+  set.data.controls = set.controls.size();
+  set.data.order = options.order;
+  set.data.rate = set.rate.frames_per_second();
+  set.data.time_margin = options.time_margin;
+  set.data.normalised = options.normalised;
+  for (std::size_t i = 0; i < sentences.size(); ++i)
+    add_sentence(*sentences[i], timelines[i], options.pause_edge, set);
+  add_warnings(set);
+  return set;
+}
+
+}  // namespace animeme::dam

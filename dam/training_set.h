@@ -1,0 +1,30 @@
+// From sentences to the numbers that are fitted. Internal to training.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dam/corpus.h"
+#include "dam/fit.h"
+#include "dam/model.h"
+#include "dam/train.h"
+
+namespace animeme::dam {
+
+struct TrainingSet {
+  FitData data;
+  std::vector<Control> controls;
+  std::vector<PhoneModel> phones;  ///< labels, examples and classes; no modes yet
+  fap::Rate rate;
+  double closure_gap = 0;  ///< see Model
+  std::vector<std::string> warnings;
+};
+
+/// Checks the sentences, takes statistics, standardises, cuts scripts into occurrences.
+/// Frames that are not measured or lie in a long pause are marked as not used.
+Result<TrainingSet> make_training_set(std::span<const Utterance* const> sentences,
+                                      const TrainOptions& options);
+
+}  // namespace animeme::dam
