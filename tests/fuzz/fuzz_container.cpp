@@ -1,0 +1,25 @@
+// libFuzzer entry: whatever the bytes are, the readers must return within bounded memory and time.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+
+#include "tools/media/audio.h"
+#include "tools/media/container.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace animeme::media;
+  const std::span<const std::uint8_t> file(data, size);
+  const auto talk = read_container(file, {.max_bytes = 1 << 22, .max_units = 100000});
+  if (talk) {
+    for (std::size_t i = 0; i < talk->face.units.size(); ++i) {
+      const auto& unit = talk->face.units[i];
+      if (unit.bytes.empty() || unit.duration <= 0) std::abort();
+      if (i > 0 && unit.time <= talk->face.units[i - 1].time) std::abort();
+    }
+  }
+  (void)probe(file);
+  // Sound decoders are FFmpeg's; a short limit keeps the fuzzer on the containers.
+  (void)read_audio(file, {.sample_rate = 8000, .max_seconds = 5});
+  return 0;
+}

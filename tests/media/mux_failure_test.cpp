@@ -1,0 +1,156 @@
+// Nothing half-written is left behind, and every refusal says why.
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <functional>
+
+#include "tests/media/media_support.h"
+#include "tools/media/audio.h"
+#include "tools/media/container.h"
+#include "tools/media/mux.h"
+
+namespace animeme::media {
+namespace {
+
+class MuxFailure : public testing::Test {
+ protected:
+  void expect_refused(Code code, const std::string& words) {
+    const Result<void> written = write_container(dir_.file("talk.mp4"), input_);
+    ASSERT_FALSE(written) << words;
+    EXPECT_EQ(written.error().code, code);
+    EXPECT_THAT(written.error().message, testing::HasSubstr(words));
+    EXPECT_EQ(dir_.count(), 0u);
+  }
+
+  test::TempDir dir_;
+  fba::AccessUnits face_ = test::make_face(10);
+  Pcm sound_ = test::make_clicks(16000, 16000, {8000});
+  MuxInput input_{.face = &face_, .audio = &sound_};
+};
+
+TEST_F(MuxFailure, NothingToWrite) {
+  input_ = {};
+  expect_refused(Code::invalid_argument, "nothing to write");
+}
+
+TEST_F(MuxFailure, NoUnits) {
+  face_.units.clear();
+  expect_refused(Code::invalid_argument, "no access units");
+}
+
+TEST_F(MuxFailure, EmptyUnit) {
+  face_.units[4].bytes.clear();
+  expect_refused(Code::invalid_argument, "access unit 4 is empty");
+}
+
+TEST_F(MuxFailure, TimesDoNotAscend) {
+  face_.units[5].time = face_.units[4].time;
+  expect_refused(Code::invalid_argument, "access unit 5 has the time 4000");
+}
+
+TEST_F(MuxFailure, NegativeTime) {
+  face_.units[0].time = -1;
+  expect_refused(Code::invalid_argument, "access unit 0");
+}
+
+TEST_F(MuxFailure, NoDuration) {
+  face_.units[9].duration = 0;
+  expect_refused(Code::invalid_argument, "positive duration");
+}
+
+TEST_F(MuxFailure, ConfigurationOfVideo) {
+  face_.config[10] = 0x13;  // visual_object_type 1
+  expect_refused(Code::invalid_argument, "not that of a face");
+  face_.config.clear();
+  expect_refused(Code::invalid_argument, "missing");
+}
+
+TEST_F(MuxFailure, ZeroTimescale) {
+  face_.timescale = 0;
+  expect_refused(Code::invalid_argument, "time scale");
+}
+
+TEST_F(MuxFailure, EmptySound) {
+  sound_.samples.clear();
+  expect_refused(Code::invalid_argument, "sound is empty");
+}
+
+TEST_F(MuxFailure, UnknownExtension) {
+  for (const char* name : {"talk.avi", "talk", "talk.mp3"}) {
+    const Result<void> written = write_container(dir_.file(name), input_);
+    ASSERT_FALSE(written) << name;
+    EXPECT_EQ(written.error().code, Code::unsupported);
+    EXPECT_THAT(written.error().message, testing::HasSubstr("use .mp4, .mkv or .ts"));
+  }
+  const Result<void> face_in_m4a = write_container(dir_.file("talk.m4a"), input_);
+  ASSERT_FALSE(face_in_m4a);
+  EXPECT_EQ(face_in_m4a.error().code, Code::unsupported);
+  EXPECT_EQ(dir_.count(), 0u);
+}
+
+TEST_F(MuxFailure, FolderMissing) {
+  const Result<void> written = write_container(dir_.file("no/such/talk.mp4"), input_);
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().code, Code::io);
+  EXPECT_EQ(written.error().where.file, dir_.file("no/such/talk.mp4"));
+}
+
+TEST_F(MuxFailure, AFolderIsNotOverwritten) {
+  std::filesystem::create_directory(dir_.file("talk.mp4"));
+  const Result<void> written = write_container(dir_.file("talk.mp4"), input_);
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().code, Code::io);
+  EXPECT_EQ(dir_.count(), 1u);
+}
+
+// Runs `body` with files limited to `bytes`, the nearest thing to a full disk.
+void with_small_disk(rlim_t bytes, const std::function<void()>& body) {
+  rlimit old{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old), 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{bytes, old.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  body();
+  setrlimit(RLIMIT_FSIZE, &old);
+  std::signal(SIGXFSZ, handler);
+}
+
+TEST_F(MuxFailure, FullDiskLeavesNothingAndKeepsTheOldFile) {
+  Pcm noise{48000, std::vector<float>(48000 * 10)};
+  std::uint32_t state = 1;
+  for (float& sample : noise.samples) {
+    state = state * 1664525u + 1013904223u;
+    sample = float(state >> 8) / float(1 << 24) - 0.5f;
+  }
+  input_.audio = &noise;
+  const auto files = {"a.mp4", "a.mkv", "a.ts"};
+  for (const char* name : files) test::write_bytes(dir_.file(name), {1, 2, 3});
+  test::write_bytes(dir_.file("a.wav"), {1, 2, 3});
+  with_small_disk(20000, [&] {
+    for (const char* name : files) {
+      const Result<void> written = write_container(dir_.file(name), input_);
+      ASSERT_FALSE(written) << name;
+      EXPECT_EQ(written.error().code, Code::io) << name << written.error().describe();
+      EXPECT_THAT(written.error().message, testing::HasSubstr("File too large")) << name;
+    }
+    const Result<void> wav = write_wav(dir_.file("a.wav"), noise);
+    ASSERT_FALSE(wav);
+    EXPECT_EQ(wav.error().code, Code::io);
+  });
+  EXPECT_EQ(dir_.count(), 4u);
+  for (const char* name : {"a.mp4", "a.mkv", "a.ts", "a.wav"}) {
+    EXPECT_EQ(test::read_bytes(dir_.file(name)), (test::Bytes{1, 2, 3})) << name;
+  }
+}
+
+TEST_F(MuxFailure, NonsenseSamplesDoNotStopTheEncoder) {
+  sound_.samples[100] = NAN;
+  sound_.samples[101] = INFINITY;
+  sound_.samples[102] = -1e30f;
+  const Result<void> written = write_container(dir_.file("talk.mp4"), input_);
+  EXPECT_TRUE(written) << written.error().describe();
+}
+
+}  // namespace
+}  // namespace animeme::media

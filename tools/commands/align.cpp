@@ -1,0 +1,50 @@
+#include <memory>
+
+#include "dam/script.h"
+#include "tools/commands/spoken.h"
+
+namespace animeme::tools {
+
+namespace {
+
+struct Options {
+  std::string audio;
+  std::string transcript;
+  std::string language = "en";
+  std::string output;
+};
+
+Result<int> run(const Options& options) {
+  const std::string extension = extension_of(options.output);
+  if (extension != ".textgrid" && extension != ".tsv" && options.output != "-") {
+    return usage_error("--output must end in .TextGrid or .tsv, not " + options.output);
+  }
+  Result<dam::Script> script = align_file(options.audio, options.transcript, options.language);
+  if (!script) return script.error();
+  const std::string text =
+      extension == ".tsv" ? dam::write_script_tsv(*script) : dam::write_textgrid(*script);
+  if (auto written = write_file(options.output, text); !written) return written.error();
+  say(name_of_output(options.output) + ": " + std::to_string(script->phones.size()) + " phones");
+  return kOk;
+}
+
+Action add(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  app.add_option("--audio", options->audio, "Recorded voice in any format that FFmpeg reads")
+      ->required();
+  app.add_option("--transcript", options->transcript, "What is said in it")->required();
+  app.add_option("--lang", options->language, "Language of the transcript")->capture_default_str();
+  app.add_option("-o,--output", options->output, "Script to write: .TextGrid (Praat) or .tsv")
+      ->required();
+  return [options] { return run(*options); };
+}
+
+}  // namespace
+
+const Command kAlign{"align", "Find the timed phones of a recording from its text",
+                     "  animeme align --audio voice.wav --transcript \"what she said\" "
+                     "-o voice.TextGrid\n"
+                     "  animeme align --audio voice.mp3 --transcript \"what she said\" -o - -q",
+                     add};
+
+}  // namespace animeme::tools

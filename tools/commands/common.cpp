@@ -1,0 +1,220 @@
+#include "tools/commands/common.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+#include "codec/access_unit.h"
+#include "codec/decoder.h"
+#include "dam/corpus.h"
+#include "dam/fap_signal.h"
+#include "fap/text.h"
+#include "tools/media/container.h"
+
+namespace animeme::tools {
+
+namespace {
+
+bool quiet_setting = false;
+
+Error file_error(const std::string& path, const std::string& what) {
+  const int reason = errno;
+  Error error = make_error(reason == ENOENT ? Code::not_found : Code::io,
+                           what + (reason != 0 ? std::string(": ") + std::strerror(reason) : ""));
+  return std::move(error).in_file(path);
+}
+
+Result<void> write_stdout(std::span<const std::uint8_t> bytes) {
+  const std::size_t written = std::fwrite(bytes.data(), 1, bytes.size(), stdout);
+  if (written == bytes.size() && std::fflush(stdout) == 0) return {};
+  return file_error("standard output", "cannot write");
+}
+
+bool starts_with(std::span<const std::uint8_t> bytes, std::string_view text) {
+  return bytes.size() >= text.size() && std::memcmp(bytes.data(), text.data(), text.size()) == 0;
+}
+
+}  // namespace
+
+Result<std::vector<std::uint8_t>> read_file(const std::string& path) {
+  errno = 0;
+  if (path == "-") {
+    return std::vector<std::uint8_t>{std::istreambuf_iterator<char>(std::cin), {}};
+  }
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    return make_error(Code::io, "this is a folder, a file is needed").in_file(path);
+  }
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return file_error(path, "cannot open");
+  std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(in), {}};
+  if (in.bad()) return file_error(path, "cannot read");
+  return bytes;
+}
+
+Result<std::string> read_text_file(const std::string& path) {
+  Result<std::vector<std::uint8_t>> bytes = read_file(path);
+  if (!bytes) return bytes.error();
+  return std::string(bytes->begin(), bytes->end());
+}
+
+Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes) {
+  if (path == "-") return write_stdout(bytes);
+  // Devices and pipes (/dev/null, /dev/stdout) cannot be renamed onto.
+  std::error_code status_error;
+  const auto status = std::filesystem::status(path, status_error);
+  const bool special = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+  const std::string target = special ? path : path + ".part" + std::to_string(::getpid());
+  errno = 0;
+  {
+    std::ofstream out(target, std::ios::binary | std::ios::trunc);
+    out.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    out.flush();
+    if (!out) {
+      Error error = file_error(path, "cannot write");
+      if (!special) std::remove(target.c_str());
+      return error;
+    }
+  }
+  if (special || std::rename(target.c_str(), path.c_str()) == 0) return {};
+  Error error = file_error(path, "cannot write");
+  std::remove(target.c_str());
+  return error;
+}
+
+Result<void> write_file(const std::string& path, std::string_view text) {
+  return write_file(path,
+                    std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+}
+
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return char(c >= 'A' && c <= 'Z' ? c + 32 : c); });
+  return extension;
+}
+
+std::string name_of_output(const std::string& path) {
+  return path == "-" ? "standard output" : path;
+}
+
+void set_quiet(bool quiet) { quiet_setting = quiet; }
+
+void warn(const std::string& text) {
+  if (!quiet_setting) std::cerr << "animeme: warning: " << text << "\n";
+}
+
+void say(const std::string& text) {
+  if (!quiet_setting) std::cerr << text << "\n";
+}
+
+int usage_error(const std::string& text) {
+  std::cerr << "animeme: " << text << "\nRun with --help for more information.\n";
+  return kUsage;
+}
+
+ProgressLine::ProgressLine(std::string what) : what_(std::move(what)) {}
+
+ProgressLine::~ProgressLine() {
+  if (shown_) std::cerr << "\r\x1b[K" << std::flush;
+}
+
+void ProgressLine::update(double done, const std::string& detail) {
+  if (quiet_setting || ::isatty(STDERR_FILENO) == 0) return;
+  const int percent = int(100 * std::clamp(done, 0.0, 1.0));
+  if (percent == last_percent_ && detail.empty()) return;
+  last_percent_ = percent;
+  shown_ = true;
+  const int filled = percent / 4;
+  std::cerr << "\r\x1b[K" << what_ << " [" << std::string(std::size_t(filled), '#')
+            << std::string(std::size_t(25 - filled), '.') << "] " << percent << " % " << detail
+            << std::flush;
+}
+
+FileKind kind_of(std::span<const std::uint8_t> bytes) {
+  if (starts_with(bytes, "ANIMEDAM")) return FileKind::model;
+  if (bytes.size() >= 4 && bytes[0] == 0 && bytes[1] == 0 && bytes[2] == 1) {
+    const std::uint32_t code = bytes[3];
+    const bool fba = code == 0xB0 || code == 0xB2 || code == 0xB5 || code == 0xBA || code == 0xBB ||
+                     code == 0x01 || code == 0x03;
+    if (fba) return FileKind::fba_stream;
+  }
+  // Text has no control bytes but blanks; UTF-16 scripts have a byte order mark.
+  if (starts_with(bytes, "\xFF\xFE") || starts_with(bytes, "\xFE\xFF")) return FileKind::script;
+  const auto head = bytes.first(std::min<std::size_t>(bytes.size(), 4096));
+  const bool text = std::none_of(head.begin(), head.end(), [](std::uint8_t c) {
+    return c < 0x20 && c != '\t' && c != '\n' && c != '\r' && c != '\f';
+  });
+  if (!text) return FileKind::media;
+  std::string_view view(reinterpret_cast<const char*>(head.data()), head.size());
+  if (view.starts_with("\xEF\xBB\xBF")) view.remove_prefix(3);
+  if (view.find("ooTextFile") != std::string_view::npos) return FileKind::script;
+  // A table with a header line of words is a script; FAP text is numbers from its first word on.
+  while (!view.empty()) {
+    const std::size_t end = view.find('\n');
+    const std::string_view line = view.substr(0, end);
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first != std::string_view::npos && line[first] != '#') {
+      if (line.substr(first).starts_with("time_s")) return FileKind::curves;
+      const char c = line[first];
+      const bool number = (c >= '0' && c <= '9') || c == '-' || c == '.';
+      return number ? FileKind::fap_text : FileKind::script;
+    }
+    if (end == std::string_view::npos) break;
+    view.remove_prefix(end + 1);
+  }
+  return FileKind::unknown;
+}
+
+Result<FaceInput> read_face(const std::string& path) {
+  Result<std::vector<std::uint8_t>> bytes = read_file(path);
+  if (!bytes) return bytes.error();
+  FaceInput input;
+  const FileKind kind = kind_of(*bytes);
+  if (kind == FileKind::fap_text) {
+    std::vector<std::string> warnings;
+    auto clip = fap::read_text({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, {},
+                               &warnings);
+    if (!clip) return clip.error().in_file(path);
+    for (const std::string& text : warnings) warn(path + ": " + text);
+    input.clip = std::move(*clip);
+    return input;
+  }
+  if (bytes->empty()) return make_error(Code::truncated, "the file is empty").in_file(path);
+  if (kind == FileKind::curves) {
+    Result<dam::Signal> signal =
+        dam::read_curves({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+    if (!signal) return signal.error().in_file(path);
+    Result<fap::Sequence> clip = dam::to_sequence(*signal);
+    if (!clip) return clip.error().in_file(path);
+    input.clip = std::move(*clip);
+    return input;
+  }
+  if (kind == FileKind::media) {
+    Result<media::Container> container = media::read_container(std::span(*bytes));
+    if (!container) return container.error().in_file(path);
+    for (const std::string& text : container->warnings) warn(path + ": " + text);
+    input.stream = fba::join_access_units(container->face);
+  } else if (kind == FileKind::fba_stream) {
+    input.stream = std::move(*bytes);
+  } else {
+    return make_error(Code::syntax,
+                      "this holds no face: .fap text, a raw .fba stream or an mp4, mkv or ts file "
+                      "with an FBA track is needed")
+        .in_file(path);
+  }
+  Result<fba::DecodedStream> decoded = fba::decode(input.stream);
+  if (!decoded) return decoded.error().in_file(path);
+  for (const std::string& text : decoded->warnings) warn(path + ": " + text);
+  input.clip = fba::face_sequence(*decoded);
+  if (path != "-") input.clip.name = std::filesystem::path(path).stem().string();
+  return input;
+}
+
+}  // namespace animeme::tools

@@ -1,0 +1,63 @@
+#include "tools/commands/face_stream.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "codec/encoder.h"
+#include "tools/media/mux.h"
+
+namespace animeme::tools {
+
+void add_stream_options(CLI::App& app, StreamSettings& settings) {
+  app.add_option("--quant", settings.quant,
+                 "Quantiser fap_quant; 1 is not visible, 0 lossless up to +-1860")
+      ->check(CLI::Range(0, 31))
+      ->capture_default_str();
+  app.add_option("--intra-seconds", settings.intra_seconds,
+                 "Seconds between points where playing can begin, in containers; 0: one point")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+}
+
+std::string seconds_text(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f s", seconds);
+  return text;
+}
+
+Result<fba::AccessUnits> access_units(const FaceInput& face, const StreamSettings& settings) {
+  if (!face.stream.empty()) return fba::split_access_units(face.stream);
+  fba::EncodeOptions options;
+  options.fap_quant = settings.quant;
+  const double planes = settings.intra_seconds * face.clip.rate.frames_per_second();
+  options.intra_period = int(std::lround(std::min(planes, 1e9)));
+  Result<std::vector<std::uint8_t>> stream = fba::encode(face.clip, options);
+  if (!stream) return stream.error();
+  return fba::split_access_units(*stream);
+}
+
+Result<int> write_media(const std::string& path, const fba::AccessUnits& units,
+                        const media::Pcm* audio, int audio_bit_rate) {
+  media::MuxInput input;
+  input.face = &units;
+  input.audio = audio;
+  media::MuxOptions options;
+  options.audio_bit_rate = audio_bit_rate;
+  ProgressLine progress("writing " + path);
+  options.progress = [&progress](double done) { progress.update(done); };
+  if (auto written = media::write_container(path, input, options); !written) {
+    return written.error().in_file(path);
+  }
+  std::size_t bytes = 0;
+  for (const fba::AccessUnit& unit : units.units) bytes += unit.bytes.size();
+  const fba::AccessUnit& last = units.units.back();
+  const double seconds = double(last.time + last.duration) / units.timescale;
+  char text[160];
+  std::snprintf(text, sizeof text, ": face %zu planes, %.2f s, %.2f kbit/s%s", units.units.size(),
+                seconds, double(bytes) * 8e-3 / seconds,
+                audio != nullptr ? (", sound " + seconds_text(audio->duration())).c_str() : "");
+  say(path + text);
+  return kOk;
+}
+
+}  // namespace animeme::tools

@@ -1,0 +1,31 @@
+// From a clip or stream to access units and media files, for speak and mux.
+#pragma once
+
+#include <string>
+
+#include "codec/access_unit.h"
+#include "tools/commands/common.h"
+#include "tools/media/pcm.h"
+
+namespace animeme::tools {
+
+/// How a face is coded for a container.
+struct StreamSettings {
+  int quant = 1;
+  double intra_seconds = 2;  ///< random access points of containers; raw streams have one
+};
+
+/// Adds --quant and --intra-seconds.
+void add_stream_options(CLI::App& app, StreamSettings& settings);
+
+/// "1.25 s".
+std::string seconds_text(double seconds);
+
+/// The access units of a face: a stream keeps its own coding, a clip is coded with `settings`.
+Result<fba::AccessUnits> access_units(const FaceInput& face, const StreamSettings& settings);
+
+/// Writes a container with progress and says what was written. `audio` may be null.
+Result<int> write_media(const std::string& path, const fba::AccessUnits& units,
+                        const media::Pcm* audio, int audio_bit_rate);
+
+}  // namespace animeme::tools

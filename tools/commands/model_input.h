@@ -1,0 +1,33 @@
+// Models and corpora for the commands that need them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dam/corpus.h"
+#include "dam/model.h"
+#include "tools/commands/common.h"
+
+namespace animeme::tools {
+
+/// A model file, or the built-in model for "" and "builtin".
+Result<dam::Model> read_model_or_builtin(const std::string& path);
+
+/// Where the rows of a corpus come from.
+struct CorpusSettings {
+  std::string folder;
+  std::string split;
+  std::string split_column = "split";
+  std::string controls_folder = "fap";
+  std::vector<std::string> controls;
+};
+
+/// Adds --split, --split-column and --controls-folder.
+void add_corpus_options(CLI::App& app, CorpusSettings& settings);
+
+/// "3-13", "51" and names such as "jawOpen" to channel names ("fap3_open_jaw" ...).
+Result<std::vector<std::string>> control_names(const std::vector<std::string>& items);
+
+Result<dam::Corpus> read_corpus(const CorpusSettings& settings);
+
+}  // namespace animeme::tools

@@ -1,0 +1,149 @@
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "codec/encoder.h"
+#include "dam/fap_signal.h"
+#include "dam/script.h"
+#include "dam/synthesise.h"
+#include "fap/rate_text.h"
+#include "fap/text.h"
+#include "tools/commands/face_stream.h"
+#include "tools/commands/model_input.h"
+#include "tools/commands/spoken.h"
+
+namespace animeme::tools {
+
+namespace {
+
+struct Options {
+  SpokenOptions spoken;
+  std::string output;
+  std::string model;
+  std::string rate = "25";
+  std::string save_script;
+  StreamSettings stream;
+  int bit_rate = 64000;
+  bool no_closure = false;
+  bool json = false;
+};
+
+bool is_container(const std::string& extension) {
+  return extension == ".mp4" || extension == ".mkv" || extension == ".ts";
+}
+
+bool is_output(const std::string& path) {
+  const std::string extension = extension_of(path);
+  return is_container(extension) || extension == ".fap" || extension == ".fba";
+}
+
+Result<int> write_result(const Options& options, const fap::Sequence& clip, const Spoken& spoken) {
+  const std::string extension = extension_of(options.output);
+  if (extension == ".fap") {
+    if (auto done = write_file(options.output, fap::write_text(clip)); !done) return done.error();
+    say(options.output + ": " + std::to_string(clip.frames.size()) + " frames, " +
+        seconds_text(clip.duration()));
+    return kOk;
+  }
+  if (extension == ".fba") {
+    fba::EncodeOptions encode;
+    encode.fap_quant = options.stream.quant;
+    Result<std::vector<std::uint8_t>> stream = fba::encode(clip, encode);
+    if (!stream) return stream.error();
+    if (auto done = write_file(options.output, *stream); !done) return done.error();
+    say(options.output + ": " + std::to_string(clip.frames.size()) + " planes, " +
+        std::to_string(stream->size()) + " bytes, " + seconds_text(clip.duration()));
+    return kOk;
+  }
+  Result<fba::AccessUnits> units = access_units({clip, {}}, options.stream);
+  if (!units) return units.error();
+  const media::Pcm* audio = spoken.audio ? &*spoken.audio : nullptr;
+  if (audio == nullptr) warn("there is no recorded voice (--audio), the file will be silent");
+  return write_media(options.output, *units, audio, options.bit_rate);
+}
+
+void report(const Options& options, const Spoken& spoken, const fap::Sequence& clip,
+            const dam::SynthesisReport& synthesis) {
+  for (const auto& [label, by] : synthesis.replaced) {
+    if (!options.json) say("the model has no " + label + ", spoken as " + by);
+  }
+  if (!options.json) return;
+  nlohmann::ordered_json replaced = nlohmann::ordered_json::object();
+  for (const auto& [label, by] : synthesis.replaced) replaced[label] = by;
+  const nlohmann::ordered_json json = {
+      {"output", options.output},   {"voice", spoken.voice},
+      {"seconds", clip.duration()}, {"frames", clip.frames.size()},
+      {"phones", synthesis.phones}, {"replaced_phones", synthesis.replaced_phones},
+      {"replaced", replaced},       {"closures_forced", synthesis.closures}};
+  std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+}
+
+Result<int> run(const Options& options) {
+  if (!is_output(options.output)) {
+    return usage_error("--output must end in .mp4, .mkv, .ts, .fba or .fap, not " + options.output);
+  }
+  if (const std::string missing = missing_options(options.spoken); !missing.empty()) {
+    return usage_error(missing);
+  }
+  Result<fap::Rate> rate = fap::parse_rate(options.rate);
+  if (!rate) return usage_error("--rate " + options.rate + ": " + rate.error().message);
+  Result<dam::Model> model = read_model_or_builtin(options.model);
+  if (!model) return model.error();
+  Result<Spoken> spoken = get_spoken(options.spoken);
+  if (!spoken) return spoken.error();
+
+  dam::SynthesisOptions settings;
+  settings.rate = *rate;
+  settings.closure = !options.no_closure;
+  if (spoken->audio) {
+    settings.tail = std::max(0.0, spoken->audio->duration() - spoken->script.duration());
+  }
+  dam::SynthesisReport synthesis;
+  Result<dam::Signal> signal = dam::synthesise(*model, spoken->script, settings, &synthesis);
+  if (!signal) return signal.error().in_file(options.spoken.script);
+  Result<fap::Sequence> clip = dam::to_sequence(*signal);
+  if (!clip) return clip.error();
+  clip->name = std::filesystem::path(options.output).stem().string();
+
+  if (!options.save_script.empty()) {
+    const bool table = extension_of(options.save_script) == ".tsv";
+    const std::string text =
+        table ? dam::write_script_tsv(spoken->script) : dam::write_textgrid(spoken->script);
+    if (auto done = write_file(options.save_script, text); !done) return done.error();
+  }
+  Result<int> written = write_result(options, *clip, *spoken);
+  if (written) report(options, *spoken, *clip, synthesis);
+  return written;
+}
+
+Action add(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  add_spoken_options(app, options->spoken);
+  app.add_option("-o,--output", options->output,
+                 "What to write: .mp4 .mkv .ts (face and voice), .fba (stream), .fap (text)")
+      ->required();
+  app.add_option("--model", options->model, "Model file of a character; default: the built-in one");
+  app.add_option("--rate", options->rate, "Frames a second: 25, 29.97, 60 ...")
+      ->capture_default_str();
+  app.add_option("--save-script", options->save_script,
+                 "Also write the timed phones: .TextGrid (Praat) or .tsv");
+  app.add_flag("--no-closure", options->no_closure, "Do not force the lips shut on p, b and m");
+  add_stream_options(app, options->stream);
+  app.add_option("--audio-bitrate", options->bit_rate, "Bits a second of the AAC track")
+      ->check(CLI::Range(8000, 320000))
+      ->capture_default_str();
+  app.add_flag("--json", options->json, "Machine-readable summary on standard output");
+  return [options] { return run(*options); };
+}
+
+}  // namespace
+
+const Command kSpeak{
+    "speak", "Make a face talk: from text, or from a recorded voice and its phonemes or text",
+    "  animeme speak --text \"Hello world\" -o hello.mp4\n"
+    "  animeme speak --text \"Guten Tag\" --lang de --rate 30 -o tag.mp4\n"
+    "  animeme speak --audio voice.wav --transcript \"what she said\" -o talk.mp4\n"
+    "  animeme speak --script voice.TextGrid --audio voice.wav --model me.dam -o talk.fba",
+    add};
+
+}  // namespace animeme::tools

@@ -1,0 +1,16 @@
+#!/bin/sh
+# From a fresh checkout to a talking face: installs what is missing, builds, speaks.
+#   tools/hello.sh                          writes hello.mp4
+#   tools/hello.sh "Any text" out.mp4 [options of animeme speak]
+set -eu
+here=$(cd "$(dirname "$0")/.." && pwd)
+text=${1:-"Hello world! My mouth moves with sixty-eight parameters, about one kilobit a second."}
+output=${2:-hello.mp4}
+[ $# -gt 2 ] && shift 2 || shift $#
+
+"$here/tools/setup.sh"
+cmake -S "$here" -B "$here/build/release" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+  >"$here/build-setup.log" 2>&1 || { cat "$here/build-setup.log" >&2; exit 1; }
+rm -f "$here/build-setup.log"
+cmake --build "$here/build/release" --target animeme
+exec "$here/build/release/bin/animeme" speak --text "$text" -o "$output" "$@"

@@ -1,0 +1,66 @@
+// The program `animeme`: one command for each task, see commands/.
+#include <exception>
+#include <iostream>
+#include <string>
+
+#include "tools/commands/common.h"
+
+namespace {
+
+using animeme::Code;
+using animeme::Error;
+using animeme::Result;
+using animeme::tools::Action;
+using animeme::tools::Command;
+
+// Errors of the user's input and errors of ours have different exit codes.
+int report(const Error& error) {
+  std::cerr << "animeme: error: " << error.describe() << "\n";
+  return error.code == Code::internal ? animeme::tools::kInternal : animeme::tools::kBadInput;
+}
+
+int run(int argc, char** argv) {
+  using namespace animeme::tools;  // NOLINT: the command list reads better without prefixes
+  CLI::App app{
+      "Animeme: speech to MPEG-4 facial animation.\n"
+      "Makes faces talk (FAPs), codes them (FBA, about 1 kbit/s) and muxes them with the voice."};
+  app.name("animeme");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "animeme " ANIMEME_VERSION);
+  app.footer(
+      "'animeme COMMAND --help' explains a command.\n"
+      "Exit codes: 0 ok, 1 a check failed, 2 usage, 3 bad input, 4 internal error.");
+  bool quiet = false;
+  app.add_flag("-q,--quiet", quiet, "No talk on standard error but errors");
+  app.fallthrough();
+
+  const Command* commands[] = {&kSpeak, &kAlign, &kTrain, &kEvaluate, &kEncode, &kDecode,
+                               &kMux,   &kDemux, &kInfo,  &kCompare,  &kPlot};
+  Action chosen;
+  for (const Command* command : commands) {
+    CLI::App* sub = app.add_subcommand(command->name, command->summary);
+    sub->footer(std::string("Examples:\n") + command->examples);
+    Action action = command->add(*sub);
+    sub->callback([&chosen, action] { chosen = action; });
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kOk : kUsage;
+  }
+  set_quiet(quiet);
+  const Result<int> result = chosen();
+  return result ? *result : report(result.error());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::ios::sync_with_stdio(false);
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "animeme: internal error: " << error.what() << "\n";
+    return animeme::tools::kInternal;
+  }
+}

@@ -1,0 +1,51 @@
+#include "tools/media/detail/audio_decoder.h"
+
+#include <algorithm>
+#include <string>
+
+namespace animeme::media {
+
+Result<av::Codec> open_audio_decoder(const AVStream& stream) {
+  const AVCodecParameters& parameters = *stream.codecpar;
+  const AVCodec* decoder = avcodec_find_decoder(parameters.codec_id);
+  if (decoder == nullptr) {
+    return make_error(Code::unsupported, std::string("no decoder for the audio codec ") +
+                                             avcodec_get_name(parameters.codec_id));
+  }
+  av::Codec codec(avcodec_alloc_context3(decoder));
+  if (!codec) return make_error(Code::out_of_range, "not enough memory");
+  int status = avcodec_parameters_to_context(codec.get(), &parameters);
+  codec->pkt_timebase = stream.time_base;
+  codec->thread_count = 1;  // the same result and the same log everywhere
+  if (status >= 0) status = avcodec_open2(codec.get(), decoder, nullptr);
+  if (status < 0) {
+    return av::make_av_error(status, std::string("the audio track (") +
+                                         avcodec_get_name(parameters.codec_id) +
+                                         ") cannot be decoded");
+  }
+  return codec;
+}
+
+Result<bool> decode_packet(AVCodecContext& codec, const AVPacket* packet, AVFrame& frame,
+                           const std::function<Result<void>(AVFrame&)>& take) {
+  bool sound = avcodec_send_packet(&codec, packet) >= 0;
+  for (;;) {
+    const int status = avcodec_receive_frame(&codec, &frame);
+    if (status == AVERROR(EAGAIN) || status == AVERROR_EOF) return sound;
+    if (status < 0) return false;
+    Result<void> taken = take(frame);
+    av_frame_unref(&frame);
+    if (!taken) return taken.error();
+  }
+}
+
+std::int64_t first_played(const Input& input, std::int64_t first_decoded) {
+  return input.is_mp4_family() ? std::max<std::int64_t>(first_decoded, 0) : first_decoded;
+}
+
+std::optional<int> find_audio(const Input& input) {
+  const int index = av_find_best_stream(input.context(), AVMEDIA_TYPE_AUDIO, -1, -1, nullptr, 0);
+  return index < 0 ? std::nullopt : std::optional<int>(index);
+}
+
+}  // namespace animeme::media

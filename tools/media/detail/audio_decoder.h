@@ -1,0 +1,27 @@
+// One audio stream of an open Input, decoded.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "tools/media/detail/input.h"
+
+namespace animeme::media {
+
+/// Opens the decoder of a stream. Errors: unsupported, syntax.
+Result<av::Codec> open_audio_decoder(const AVStream& stream);
+
+/// Feeds one packet (nullptr: flush) and hands every decoded frame to `take`, which may stop
+/// everything with an error. Returns false if the packet was damaged.
+Result<bool> decode_packet(AVCodecContext& codec, const AVPacket* packet, AVFrame& frame,
+                           const std::function<Result<void>(AVFrame&)>& take);
+
+/// The time stamp from which a stream is played, in its time base: an edit list hides what lies
+/// before time 0 in mp4 and its relatives.
+std::int64_t first_played(const Input& input, std::int64_t first_decoded);
+
+/// Number of the best audio stream, nullopt: there is none.
+std::optional<int> find_audio(const Input& input);
+
+}  // namespace animeme::media

@@ -1,0 +1,50 @@
+// Finding the FBA stream of an open file and keeping libavcodec's hands off it.
+// Source: containers, section 2.3.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tools/media/container.h"
+#include "tools/media/detail/input.h"
+
+namespace animeme::media {
+
+/// What is known of one stream.
+struct FaceTrack {
+  enum class State : std::uint8_t {
+    no,
+    maybe,  ///< no configuration in the header; the first packet tells
+    yes,
+  };
+  State state = State::no;
+  bool video = false;                ///< libavformat thought of it as MPEG-4 video
+  std::vector<std::uint8_t> config;  ///< as in the header; may be empty
+  std::uint8_t profile = 0;
+};
+
+/// States of all streams, by stream index. Must be called before avformat_find_stream_info() and
+/// again whenever streams may have been added: it turns faces, certain or possible, into data
+/// streams, so that neither decoder nor parser touches them.
+class FaceTracks {
+ public:
+  void update(AVFormatContext& file);
+  FaceTrack& operator[](int stream) { return tracks_[std::size_t(stream)]; }
+  std::size_t size() const { return tracks_.size(); }
+  /// Settles a `maybe` by a packet of it.
+  void decide(const AVPacket& packet);
+  /// First stream that is, or (if none is) may be a face; -1: none.
+  int first() const;
+
+ private:
+  std::vector<FaceTrack> tracks_;
+};
+
+/// Facts of an audio stream.
+AudioInfo describe_audio(const Input& input, const AVStream& stream);
+
+/// Length of a stream in seconds, of the whole file if the stream does not state it; 0: unknown.
+double stream_duration(const Input& input, const AVStream& stream);
+
+}  // namespace animeme::media

@@ -1,0 +1,94 @@
+// Ownership, error text and log of FFmpeg's C types. Internal: public headers never include this.
+#pragma once
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/channel_layout.h>
+#include <libswresample/swresample.h>
+}
+
+#include <exception>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fap/result.h"
+
+namespace animeme::media::av {
+
+struct Deleter {
+  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
+  void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
+  void operator()(SwrContext* swr) const { swr_free(&swr); }
+};
+
+using Packet = std::unique_ptr<AVPacket, Deleter>;
+using Frame = std::unique_ptr<AVFrame, Deleter>;
+using Codec = std::unique_ptr<AVCodecContext, Deleter>;
+using Swr = std::unique_ptr<SwrContext, Deleter>;
+
+/// AVDictionary with an owner.
+class Options {
+ public:
+  Options() = default;
+  Options(const Options&) = delete;
+  Options& operator=(const Options&) = delete;
+  ~Options() { av_dict_free(&entries_); }
+
+  void set(const char* key, const std::string& value) {
+    av_dict_set(&entries_, key, value.c_str(), 0);
+  }
+  void set(const char* key, std::int64_t value) { av_dict_set_int(&entries_, key, value, 0); }
+  AVDictionary** get() { return &entries_; }
+  /// First entry that nobody used, or nullptr: a misspelt option must not pass silently.
+  const char* unused() const {
+    const AVDictionaryEntry* entry = av_dict_get(entries_, "", nullptr, AV_DICT_IGNORE_SUFFIX);
+    return entry == nullptr ? nullptr : entry->key;
+  }
+
+ private:
+  AVDictionary* entries_ = nullptr;
+};
+
+/// FFmpeg's own words for a negative return value.
+std::string error_text(int status);
+
+/// The nearest Code: not_found, io, syntax, truncated, unsupported or internal.
+Code error_code(int status);
+
+/// Error "what: <FFmpeg's words>".
+Error make_av_error(int status, const std::string& what);
+
+/// Keeps FFmpeg silent in this thread while it lives and collects what was said at error level
+/// or worse: at most 16 different lines. Threads without one log as before.
+class LogCapture {
+ public:
+  LogCapture();
+  ~LogCapture();
+  LogCapture(const LogCapture&) = delete;
+  LogCapture& operator=(const LogCapture&) = delete;
+
+  void add(std::string line);
+  const std::vector<std::string>& lines() const { return lines_; }
+
+ private:
+  LogCapture* outer_;
+  std::vector<std::string> lines_;
+};
+
+/// Runs `body`, which returns a Result, and turns an exception (memory, in practice) into an
+/// Error: none may cross the public border.
+template <class Body>
+auto guarded(Body&& body) -> decltype(body()) {
+  try {
+    return body();
+  } catch (const std::bad_alloc&) {
+    return make_error(Code::out_of_range, "not enough memory");
+  } catch (const std::exception& problem) {
+    return make_error(Code::internal, problem.what());
+  }
+}
+
+}  // namespace animeme::media::av

@@ -1,0 +1,196 @@
+#include "tools/media/detail/muxer.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace animeme::media {
+namespace {
+
+// Below this libavformat's mp4 writer doubles the time scale until it is reached.
+constexpr std::uint32_t kLowestTimescale = 10000;
+
+const char* name_of(MuxFormat format) {
+  switch (format) {
+    case MuxFormat::mp4:
+      return "mp4";
+    case MuxFormat::matroska:
+      return "matroska";
+    case MuxFormat::mpegts:
+      return "mpegts";
+  }
+  return "mp4";
+}
+
+std::uint32_t container_timescale(std::uint32_t timescale) {
+  if (timescale >= kLowestTimescale) return timescale;
+  return timescale * ((kLowestTimescale + timescale - 1) / timescale);
+}
+
+std::int64_t largest_unit(const fba::AccessUnits& face) {
+  std::size_t largest = 0;
+  for (const fba::AccessUnit& unit : face.units) largest = std::max(largest, unit.bytes.size());
+  return std::int64_t(largest);
+}
+
+// The most bits in any second that begins with a unit.
+std::int64_t peak_bit_rate(const fba::AccessUnits& face) {
+  std::int64_t peak = 0;
+  std::int64_t bits = 0;
+  std::size_t end = 0;
+  for (const fba::AccessUnit& first : face.units) {
+    while (end < face.units.size() &&
+           face.units[end].time - first.time < std::int64_t(face.timescale)) {
+      bits += 8 * std::int64_t(face.units[end++].bytes.size());
+    }
+    peak = std::max(peak, bits);
+    bits -= 8 * std::int64_t(first.bytes.size());
+  }
+  return peak;
+}
+
+bool set_extradata(AVCodecParameters& parameters, const std::vector<std::uint8_t>& bytes) {
+  auto* data = static_cast<std::uint8_t*>(av_mallocz(bytes.size() + AV_INPUT_BUFFER_PADDING_SIZE));
+  if (data == nullptr) return false;
+  if (!bytes.empty()) std::memcpy(data, bytes.data(), bytes.size());
+  parameters.extradata = data;
+  parameters.extradata_size = int(bytes.size());
+  return true;
+}
+
+bool set_buffer_facts(AVStream& stream, const fba::AccessUnits& face) {
+  std::size_t size = 0;
+  AVCPBProperties* facts = av_cpb_properties_alloc(&size);
+  if (facts == nullptr) return false;
+  facts->buffer_size = 8 * largest_unit(face);
+  facts->max_bitrate = peak_bit_rate(face);
+  auto* data = reinterpret_cast<std::uint8_t*>(facts);
+  if (av_stream_add_side_data(&stream, AV_PKT_DATA_CPB_PROPERTIES, data, size) >= 0) return true;
+  av_free(facts);
+  return false;
+}
+
+Error no_memory() { return make_error(Code::out_of_range, "not enough memory"); }
+
+}  // namespace
+
+Result<std::unique_ptr<Muxer>> Muxer::open(const std::string& path, MuxFormat format) {
+  Result<std::unique_ptr<Muxer>> muxer = open(path, name_of(format));
+  if (muxer) (*muxer)->in_band_config_ = format == MuxFormat::mpegts;
+  return muxer;
+}
+
+Result<std::unique_ptr<Muxer>> Muxer::open(const std::string& path, const char* format) {
+  std::unique_ptr<Muxer> muxer(new Muxer);
+  muxer->packet_.reset(av_packet_alloc());
+  if (!muxer->packet_) return no_memory();
+  const std::string url = "file:" + path;  // a colon in the name must not mean a protocol
+  int status = avformat_alloc_output_context2(&muxer->context_, nullptr, format, url.c_str());
+  if (status == AVERROR(EINVAL)) {
+    return make_error(Code::unsupported,
+                      std::string("this FFmpeg was built without the format ") + format);
+  }
+  if (status >= 0) status = avio_open(&muxer->context_->pb, url.c_str(), AVIO_FLAG_WRITE);
+  if (status < 0) return av::make_av_error(status, "cannot be written");
+  muxer->context_->flags |= AVFMT_FLAG_BITEXACT;
+  return muxer;
+}
+
+Muxer::~Muxer() {
+  if (context_ == nullptr) return;
+  if (context_->pb != nullptr) avio_closep(&context_->pb);
+  avformat_free_context(context_);
+}
+
+Result<void> Muxer::add_face(const fba::AccessUnits& units) {
+  AVStream* stream = avformat_new_stream(context_, nullptr);
+  if (stream == nullptr) return no_memory();
+  AVCodecParameters& parameters = *stream->codecpar;
+  parameters.codec_type = AVMEDIA_TYPE_VIDEO;
+  parameters.codec_id = AV_CODEC_ID_MPEG4;
+  parameters.width = 320;  // as the reference library writes it; 0 is refused
+  parameters.height = 240;
+  if (!set_extradata(parameters, units.config) || !set_buffer_facts(*stream, units)) {
+    return no_memory();
+  }
+  stream->time_base = {1, int(container_timescale(units.timescale))};
+  const std::int64_t first_duration = units.units.front().duration;
+  av_reduce(&stream->avg_frame_rate.num, &stream->avg_frame_rate.den, units.timescale,
+            first_duration, INT32_MAX);
+  av_dict_set(&stream->metadata, "handler_name", "FBA", 0);
+  face_ = &units;
+  face_stream_ = stream;
+  face_base_ = {1, int(units.timescale)};
+  return {};
+}
+
+Result<void> Muxer::add_stream(const AVCodecParameters& parameters, AVRational time_base) {
+  AVStream* stream = avformat_new_stream(context_, nullptr);
+  if (stream == nullptr) return no_memory();
+  const int status = avcodec_parameters_copy(stream->codecpar, &parameters);
+  if (status < 0) return av::make_av_error(status, "cannot be written");
+  stream->codecpar->codec_tag = 0;
+  stream->time_base = time_base;
+  other_stream_ = stream;
+  other_base_ = time_base;
+  return {};
+}
+
+Result<void> Muxer::add_encoded(const AVCodecContext& encoder) {
+  AVCodecParameters* parameters = avcodec_parameters_alloc();
+  if (parameters == nullptr) return no_memory();
+  const int status = avcodec_parameters_from_context(parameters, &encoder);
+  Result<void> added = status < 0 ? av::make_av_error(status, "cannot be written")
+                                  : add_stream(*parameters, encoder.time_base);
+  avcodec_parameters_free(&parameters);
+  return added;
+}
+
+Result<void> Muxer::check(int status) {
+  if (status >= 0 && context_->pb != nullptr && context_->pb->error < 0) {
+    status = context_->pb->error;
+  }
+  if (status >= 0) return {};
+  return av::make_av_error(status, "cannot be written");
+}
+
+Result<void> Muxer::write_header(av::Options& options) {
+  Result<void> written = check(avformat_write_header(context_, options.get()));
+  if (!written) return written;
+  if (const char* name = options.unused()) {
+    return make_error(Code::internal, std::string("this FFmpeg does not know the option ") + name);
+  }
+  return {};
+}
+
+Result<void> Muxer::write(AVPacket& packet, const AVStream& stream, AVRational from) {
+  packet.stream_index = stream.index;
+  av_packet_rescale_ts(&packet, from, stream.time_base);
+  packet.pos = -1;
+  return check(av_interleaved_write_frame(context_, &packet));
+}
+
+Result<void> Muxer::write_unit(const fba::AccessUnit& unit) {
+  const std::size_t prefix = in_band_config_ && unit.intra ? face_->config.size() : 0;
+  const int status = av_new_packet(packet_.get(), int(prefix + unit.bytes.size()));
+  if (status < 0) return no_memory();
+  if (prefix > 0) std::memcpy(packet_->data, face_->config.data(), prefix);
+  std::memcpy(packet_->data + prefix, unit.bytes.data(), unit.bytes.size());
+  packet_->pts = packet_->dts = unit.time;
+  packet_->duration = unit.duration;
+  if (unit.intra) packet_->flags |= AV_PKT_FLAG_KEY;
+  return write(*packet_, *face_stream_, face_base_);
+}
+
+Result<void> Muxer::write_packet(AVPacket& packet) {
+  return write(packet, *other_stream_, other_base_);
+}
+
+Result<void> Muxer::finish() {
+  Result<void> ended = check(av_write_trailer(context_));
+  if (!ended) return ended;
+  const int closed = avio_closep(&context_->pb);
+  if (closed < 0) return av::make_av_error(closed, "cannot be written");
+  return {};
+}
+
+}  // namespace animeme::media

@@ -1,0 +1,148 @@
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "tools/media/audio.h"
+#include "tools/media/container.h"
+#include "tools/media/detail/audio_decoder.h"
+#include "tools/media/detail/face_track.h"
+#include "tools/media/detail/muxer.h"
+#include "tools/media/detail/output_file.h"
+
+namespace animeme::media {
+namespace {
+
+// What each extension can take as it is. No codecs: any that the muxer accepts.
+struct CopyTarget {
+  std::string_view extension;
+  const char* muxer;
+  std::array<AVCodecID, 4> codecs;
+};
+
+constexpr CopyTarget kTargets[] = {
+    {".m4a", "ipod", {AV_CODEC_ID_AAC, AV_CODEC_ID_ALAC}},
+    {".mp4", "mp4", {AV_CODEC_ID_AAC, AV_CODEC_ID_MP3, AV_CODEC_ID_OPUS}},
+    {".aac", "adts", {AV_CODEC_ID_AAC}},
+    {".opus", "opus", {AV_CODEC_ID_OPUS}},
+    {".ogg", "ogg", {AV_CODEC_ID_VORBIS, AV_CODEC_ID_OPUS, AV_CODEC_ID_FLAC}},
+    {".mp3", "mp3", {AV_CODEC_ID_MP3}},
+    {".flac", "flac", {AV_CODEC_ID_FLAC}},
+    {".mka", "matroska", {}},
+};
+
+bool takes(const CopyTarget& target, AVCodecID codec) {
+  const auto& codecs = target.codecs;
+  if (codecs[0] == AV_CODEC_ID_NONE) return true;
+  return codec != AV_CODEC_ID_NONE &&
+         std::find(codecs.begin(), codecs.end(), codec) != codecs.end();
+}
+
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+  }
+  return extension;
+}
+
+Error does_not_fit(std::string_view extension, AVCodecID codec) {
+  std::string fitting;
+  for (const CopyTarget& target : kTargets) {
+    if (takes(target, codec)) fitting += std::string(target.extension) + ", ";
+  }
+  return make_error(Code::unsupported,
+                    std::string("the audio track is ") + avcodec_get_name(codec) + ", which a " +
+                        std::string(extension) + " file cannot take; use " + fitting + "or .wav");
+}
+
+Result<void> copy_packets(Input& input, int index, Muxer& muxer) {
+  AVFormatContext& file = *input.context();
+  const av::Packet packet(av_packet_alloc());
+  if (!packet) return make_error(Code::out_of_range, "not enough memory");
+  std::optional<std::int64_t> begin;  // subtracted; priming before 0 stays where it is
+  while (av_read_frame(&file, packet.get()) >= 0) {
+    if (packet->stream_index != index) {
+      av_packet_unref(packet.get());
+      continue;
+    }
+    const std::int64_t time = packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts;
+    if (!begin && time != AV_NOPTS_VALUE) begin = std::max<std::int64_t>(time, 0);
+    if (packet->pts != AV_NOPTS_VALUE) packet->pts -= begin.value_or(0);
+    if (packet->dts != AV_NOPTS_VALUE) packet->dts -= begin.value_or(0);
+    Result<void> written = muxer.write_packet(*packet);
+    if (!written) return written;
+  }
+  if (input.exhausted()) return make_error(Code::syntax, "the file's index is damaged");
+  if (!begin) return make_error(Code::syntax, "the audio track of " + input.format() + " is empty");
+  return {};
+}
+
+Result<void> copy_track(Input& input, const CopyTarget& target, const std::string& out) {
+  AVFormatContext& file = *input.context();
+  FaceTracks faces;
+  faces.update(file);
+  const int status = avformat_find_stream_info(&file, nullptr);
+  if (status < 0) return av::make_av_error(status, "the file is damaged");
+  const std::optional<int> index = find_audio(input);
+  if (!index) return make_error(Code::not_found, "the file has no audio track");
+  const AVStream& stream = *file.streams[*index];
+  if (!takes(target, stream.codecpar->codec_id)) {
+    return does_not_fit(target.extension, stream.codecpar->codec_id);
+  }
+  for (unsigned i = 0; i < file.nb_streams; ++i) {
+    if (int(i) != *index) file.streams[i]->discard = AVDISCARD_ALL;
+  }
+  Result<OutputFile> output = OutputFile::create(out);
+  if (!output) return output.error();
+  Result<std::unique_ptr<Muxer>> muxer = Muxer::open(output->temporary(), target.muxer);
+  if (!muxer) return std::move(muxer.error()).in_file(out);
+  av::Options header;
+  if (target.extension == ".m4a" || target.extension == ".mp4") {
+    header.set("movflags", std::string("+faststart"));
+    header.set("movie_timescale", std::max(1, stream.codecpar->sample_rate));
+  }
+  Result<void> done = (*muxer)->add_stream(*stream.codecpar, stream.time_base);
+  if (done) done = (*muxer)->write_header(header);
+  if (done) done = copy_packets(input, *index, **muxer);
+  if (done) done = (*muxer)->finish();
+  if (!done) return std::move(done.error()).in_file(out);
+  return output->commit();
+}
+
+Result<void> decode_to_wav(const std::string& in, const std::string& out) {
+  Result<Pcm> pcm = read_audio(in);
+  if (!pcm) return pcm.error();
+  return write_wav(out, *pcm);
+}
+
+Result<void> extract(const std::string& in, const std::string& out) {
+  const std::string extension = extension_of(out);
+  if (extension == ".wav") return decode_to_wav(in, out);
+  const auto* target =
+      std::find_if(std::begin(kTargets), std::end(kTargets),
+                   [&](const CopyTarget& candidate) { return candidate.extension == extension; });
+  if (target == std::end(kTargets)) {
+    return make_error(Code::unsupported,
+                      "cannot write sound as \"" + extension +
+                          "\"; use .wav, .m4a, .mp4, .aac, .opus, .ogg, .mka, .mp3 or .flac")
+        .in_file(out);
+  }
+  const av::LogCapture log;
+  Result<std::unique_ptr<Input>> input = Input::open(in, nullptr);
+  if (!input) return input.error();
+  Result<void> copied = copy_track(**input, *target, out);
+  if (!copied) return std::move(copied.error()).in_file(in);
+  return copied;
+}
+
+}  // namespace
+
+Result<void> extract_audio(const std::string& in, const std::string& out) {
+  return av::guarded([&] { return extract(in, out); });
+}
+
+}  // namespace animeme::media

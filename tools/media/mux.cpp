@@ -1,0 +1,248 @@
+#include "tools/media/mux.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "tools/media/audio.h"
+#include "tools/media/detail/aac_encoder.h"
+#include "tools/media/detail/face_header.h"
+#include "tools/media/detail/mp4_fix.h"
+#include "tools/media/detail/muxer.h"
+#include "tools/media/detail/output_file.h"
+
+namespace animeme::media {
+namespace {
+
+constexpr std::int64_t kLongestTime = std::int64_t(1) << 47;  // room for rescaling
+constexpr std::size_t kLargestUnit = std::size_t(1) << 24;
+constexpr int kAacLevel2 = 0x29;  // up to 48 kHz, two channels
+constexpr int kAudioUnspecified = 0xFE;
+constexpr int kNoneRequired = 0xFF;
+
+Error invalid(std::string message) {
+  return make_error(Code::invalid_argument, std::move(message));
+}
+
+Result<void> check_unit(const fba::AccessUnits& face, std::size_t index) {
+  const fba::AccessUnit& unit = face.units[index];
+  const std::string name = "access unit " + std::to_string(index);
+  if (unit.bytes.empty()) return invalid(name + " is empty");
+  if (unit.bytes.size() > kLargestUnit) return invalid(name + " is larger than 16 MB");
+  if (unit.duration <= 0 || unit.duration > kLongestTime) {
+    return invalid(name + " needs a positive duration");
+  }
+  const std::int64_t earliest = index == 0 ? 0 : face.units[index - 1].time + 1;
+  if (unit.time < earliest || unit.time > kLongestTime) {
+    return invalid(name + " has the time " + std::to_string(unit.time) +
+                   "; times begin at 0 and ascend");
+  }
+  return {};
+}
+
+Result<void> check(const MuxInput& input, const MuxOptions& options) {
+  if (input.face == nullptr && input.audio == nullptr) {
+    return invalid("nothing to write: neither a face nor sound was given");
+  }
+  if (input.face != nullptr) {
+    const fba::AccessUnits& face = *input.face;
+    if (face.units.empty()) return invalid("the face has no access units");
+    if (face.timescale == 0 || face.timescale > INT32_MAX) {
+      return invalid("the face's time scale must be 1 to 2147483647 ticks a second");
+    }
+    if (read_visual_headers(face.config).kind != VisualKind::face) {
+      return invalid("the face's decoder configuration is missing or not that of a face");
+    }
+    for (std::size_t i = 0; i < face.units.size(); ++i) {
+      Result<void> legal = check_unit(face, i);
+      if (!legal) return legal;
+    }
+  }
+  if (input.audio != nullptr) {
+    if (input.audio->samples.empty()) return invalid("the sound is empty");
+    if (options.audio_bit_rate < 8000 || options.audio_bit_rate > 320000) {
+      return invalid("the audio bit rate must be 8000 to 320000 bits a second");
+    }
+  }
+  return {};
+}
+
+int visual_profile(const MuxInput& input) {
+  if (input.visual_profile != 0) return input.visual_profile;
+  if (input.face == nullptr) return kNoneRequired;
+  const std::uint8_t profile = read_visual_headers(input.face->config).profile;
+  return profile != 0 ? profile : 0x61;
+}
+
+void set_mp4_options(const MuxInput& input, int sample_rate, const MuxOptions& options,
+                     av::Options& header) {
+  const int level = sample_rate <= 48000 ? kAacLevel2 : kAudioUnspecified;
+  header.set("brand", std::string("mp42"));
+  header.set("skip_iods", 0);
+  header.set("iods_video_profile", visual_profile(input));
+  header.set("iods_audio_profile", input.audio != nullptr ? level : kNoneRequired);
+  if (options.faststart) header.set("movflags", std::string("+faststart"));
+  // The unit of track durations; the default of 1 ms would round them.
+  header.set("movie_timescale",
+             input.audio != nullptr ? sample_rate : std::int64_t(input.face->timescale));
+}
+
+// Hands units and packets to the muxer in time order.
+class Interleaver {
+ public:
+  /// `aac` may be nullptr: no sound; `audio_length` in samples.
+  Interleaver(Muxer& muxer, const fba::AccessUnits* face, AacEncoder* aac, std::size_t audio_length,
+              const MuxOptions& options)
+      : muxer_(muxer), face_(face), aac_(aac), audio_length_(audio_length), options_(options) {}
+
+  Result<void> run() {
+    packet_.reset(av_packet_alloc());
+    if (!packet_) return make_error(Code::out_of_range, "not enough memory");
+    Result<void> step = fetch_audio();
+    while (step && (has_face() || has_audio_)) {
+      const bool face_first = has_face() && (!has_audio_ || face_is_earlier());
+      step = face_first ? muxer_.write_unit(face_->units[next_unit_++]) : write_audio();
+      report();
+    }
+    return step;
+  }
+
+ private:
+  bool has_face() const { return face_ != nullptr && next_unit_ < face_->units.size(); }
+
+  bool face_is_earlier() const {
+    return av_compare_ts(face_->units[next_unit_].time, {1, int(face_->timescale)}, packet_->pts,
+                         aac_->codec().time_base) <= 0;
+  }
+
+  Result<void> fetch_audio() {
+    has_audio_ = false;
+    if (aac_ == nullptr) return {};
+    Result<bool> got = aac_->next(*packet_);
+    if (!got) return got.error();
+    has_audio_ = *got;
+    return {};
+  }
+
+  Result<void> write_audio() {
+    audio_end_ = packet_->pts + packet_->duration;
+    Result<void> written = muxer_.write_packet(*packet_);
+    return written ? fetch_audio() : written;
+  }
+
+  void report() {
+    if (!options_.progress || ++steps_ % 64 != 0) return;
+    double done = 1;
+    if (face_ != nullptr) done = double(next_unit_) / double(face_->units.size());
+    if (aac_ != nullptr) {
+      done = std::min(done, double(audio_end_) / double(std::max<std::size_t>(1, audio_length_)));
+    }
+    options_.progress(std::clamp(done, 0.0, 0.999));
+  }
+
+  Muxer& muxer_;
+  const fba::AccessUnits* face_;
+  AacEncoder* aac_;
+  std::size_t audio_length_;
+  const MuxOptions& options_;
+  av::Packet packet_;
+  std::size_t next_unit_ = 0;
+  bool has_audio_ = false;
+  std::int64_t audio_end_ = 0;
+  std::int64_t steps_ = 0;
+};
+
+Result<void> write_streams(const std::string& path, MuxFormat format, const MuxInput& input,
+                           const Pcm* sound, const MuxOptions& options) {
+  std::optional<AacEncoder> aac;
+  if (sound != nullptr) {
+    Result<AacEncoder> opened = AacEncoder::open(*sound, options.audio_bit_rate);
+    if (!opened) return opened.error();
+    aac.emplace(std::move(*opened));
+  }
+  Result<std::unique_ptr<Muxer>> opened = Muxer::open(path, format);
+  if (!opened) return opened.error();
+  Muxer& muxer = **opened;
+  if (input.face != nullptr) {
+    Result<void> added = muxer.add_face(*input.face);
+    if (!added) return added;
+  }
+  if (aac) {
+    Result<void> added = muxer.add_encoded(aac->codec());
+    if (!added) return added;
+  }
+  av::Options header;
+  if (format == MuxFormat::mp4) {
+    set_mp4_options(input, sound != nullptr ? sound->sample_rate : 0, options, header);
+  }
+  Result<void> started = muxer.write_header(header);
+  if (!started) return started;
+  Interleaver interleaver(muxer, input.face, aac ? &*aac : nullptr,
+                          sound != nullptr ? sound->samples.size() : 0, options);
+  Result<void> done = interleaver.run();
+  return done ? muxer.finish() : done;
+}
+
+Result<void> write_file(const std::string& path, MuxFormat format, const MuxInput& input,
+                        const MuxOptions& options) {
+  Result<void> legal = check(input, options);
+  if (!legal) return legal;
+  const av::LogCapture log;
+  const Pcm* sound = input.audio;
+  Pcm converted;
+  if (sound != nullptr && aac_sample_rate(sound->sample_rate) != sound->sample_rate) {
+    Result<Pcm> made = resample(*sound, aac_sample_rate(sound->sample_rate));
+    if (!made) return made.error();
+    converted = std::move(*made);
+    sound = &converted;
+  }
+  Result<OutputFile> out = OutputFile::create(path);
+  if (!out) return out.error();
+  Result<void> written = write_streams(out->temporary(), format, input, sound, options);
+  if (written && format == MuxFormat::mp4) written = clear_es_ids(out->temporary());
+  if (written) written = out->commit();
+  if (written && options.progress) options.progress(1.0);
+  return written;
+}
+
+Result<void> guarded_write(const std::string& path, MuxFormat format, const MuxInput& input,
+                           const MuxOptions& options) {
+  return av::guarded([&]() -> Result<void> {
+    Result<void> written = write_file(path, format, input, options);
+    if (!written) return std::move(written.error()).in_file(path);
+    return written;
+  });
+}
+
+}  // namespace
+
+Result<void> write_mp4(const std::string& path, const MuxInput& input, const MuxOptions& options) {
+  return guarded_write(path, MuxFormat::mp4, input, options);
+}
+
+Result<void> write_container(const std::string& path, const MuxInput& input,
+                             const MuxOptions& options) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+  }
+  const bool sound_only = extension == ".m4a" || extension == ".mka";
+  if (sound_only && input.face != nullptr) {
+    return make_error(Code::unsupported, "a " + extension +
+                                             " file holds sound only; use .mp4, .mkv or .ts for a "
+                                             "face")
+        .in_file(path);
+  }
+  if (extension == ".mp4" || extension == ".m4a") {
+    return guarded_write(path, MuxFormat::mp4, input, options);
+  }
+  if (extension == ".mkv" || extension == ".mka") {
+    return guarded_write(path, MuxFormat::matroska, input, options);
+  }
+  if (extension == ".ts") return guarded_write(path, MuxFormat::mpegts, input, options);
+  return make_error(Code::unsupported,
+                    "cannot write a \"" + extension + "\" file; use .mp4, .mkv or .ts")
+      .in_file(path);
+}
+
+}  // namespace animeme::media

@@ -1,0 +1,17 @@
+// Sound in memory. No dependency, so that voices and aligners need not know FFmpeg.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace animeme::media {
+
+/// One channel of sound. Sample k is at k / sample_rate seconds; full scale is +-1.
+struct Pcm {
+  int sample_rate = 48000;  ///< Hz, > 0
+  std::vector<float> samples;
+
+  double duration() const { return double(samples.size()) / double(sample_rate); }
+};
+
+}  // namespace animeme::media

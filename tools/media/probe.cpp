@@ -1,0 +1,144 @@
+#include <utility>
+
+#include "tools/media/container.h"
+#include "tools/media/detail/face_header.h"
+#include "tools/media/detail/face_track.h"
+
+namespace animeme::media {
+namespace {
+
+// Packets to read for the first one of a track that may be a face.
+constexpr int kPacketsToTry = 2000;
+
+double seconds(std::int64_t ticks, AVRational base) {
+  return ticks == AV_NOPTS_VALUE || base.den <= 0 ? 0 : double(ticks) * av_q2d(base);
+}
+
+std::string tag_text(std::uint32_t tag) {
+  std::string text;
+  for (; tag != 0; tag >>= 8) {
+    const char c = char(tag & 255);
+    if (c < 0x20 || c > 0x7e) return {};
+    text += c;
+  }
+  return text;
+}
+
+TrackKind kind_of(const AVCodecParameters& parameters, const FaceTrack& face) {
+  if (face.state == FaceTrack::State::yes) return TrackKind::face;
+  if (face.video || parameters.codec_type == AVMEDIA_TYPE_VIDEO) return TrackKind::video;
+  return parameters.codec_type == AVMEDIA_TYPE_AUDIO ? TrackKind::audio : TrackKind::other;
+}
+
+TrackInfo describe(const AVStream& stream, const FaceTrack& face) {
+  const AVCodecParameters& parameters = *stream.codecpar;
+  TrackInfo track;
+  track.kind = kind_of(parameters, face);
+  track.codec = track.kind == TrackKind::face ? "fba"
+                : face.video                  ? "mpeg4"
+                                              : avcodec_get_name(parameters.codec_id);
+  track.tag = tag_text(parameters.codec_tag);
+  const AVRational base = stream.time_base;
+  track.timescale = base.num == 1 && base.den > 0 ? std::uint32_t(base.den) : 0;
+  track.start = seconds(stream.start_time, base);
+  track.duration = seconds(stream.duration, base);
+  track.bit_rate = parameters.bit_rate;
+  track.samples = stream.nb_frames;
+  if (track.kind == TrackKind::audio) {
+    track.sample_rate = parameters.sample_rate;
+    track.channels = parameters.ch_layout.nb_channels;
+  }
+  if (track.kind == TrackKind::video) {
+    track.width = parameters.width;
+    track.height = parameters.height;
+  }
+  if (track.kind == TrackKind::face) {
+    track.face_config = face.config;
+    track.visual_profile = face.profile;
+  }
+  if (stream.avg_frame_rate.num > 0 && stream.avg_frame_rate.den > 0) {
+    track.frame_rate = av_q2d(stream.avg_frame_rate);
+  } else if (track.kind == TrackKind::face && track.samples > 0 && track.duration > 0) {
+    track.frame_rate = double(track.samples) / track.duration;
+  }
+  return track;
+}
+
+// Reads on until every track that may be a face has shown a packet.
+void settle(AVFormatContext& file, FaceTracks& tracks) {
+  const av::Packet packet(av_packet_alloc());
+  if (!packet) return;
+  for (int i = 0; i < kPacketsToTry; ++i) {
+    bool open = false;
+    for (std::size_t t = 0; t < tracks.size(); ++t) {
+      open = open || tracks[int(t)].state == FaceTrack::State::maybe;
+    }
+    if (!open || av_read_frame(&file, packet.get()) < 0) return;
+    tracks.update(file);
+    tracks.decide(*packet);
+    FaceTrack& track = tracks[packet->stream_index];
+    if (track.state == FaceTrack::State::yes && track.profile == 0 && packet->size > 0) {
+      track.profile = read_visual_headers({packet->data, std::size_t(packet->size)}).profile;
+    }
+    av_packet_unref(packet.get());
+  }
+}
+
+ContainerInfo look_at(Input& input) {
+  AVFormatContext& file = *input.context();
+  ContainerInfo info;
+  info.format = input.format();
+  FaceTracks tracks;
+  tracks.update(file);
+  if (avformat_find_stream_info(&file, nullptr) < 0) {
+    info.warnings.emplace_back("the stream headers are incomplete");
+  }
+  tracks.update(file);
+  settle(file, tracks);
+  for (unsigned i = 0; i < file.nb_streams; ++i) {
+    info.tracks.push_back(describe(*file.streams[i], tracks[int(i)]));
+  }
+  info.duration = seconds(file.duration, {1, AV_TIME_BASE});
+  info.bytes = input.size();
+  return info;
+}
+
+template <class Source>
+Result<ContainerInfo> probe_from(const Source& source) {
+  const av::LogCapture log;
+  Result<std::unique_ptr<Input>> input = Input::open(source, nullptr);
+  if (!input) return input.error();
+  ContainerInfo info = look_at(**input);
+  for (const std::string& line : log.lines()) info.warnings.push_back("FFmpeg: " + line);
+  return info;
+}
+
+}  // namespace
+
+const char* name_of(TrackKind kind) {
+  switch (kind) {
+    case TrackKind::face:
+      return "face";
+    case TrackKind::audio:
+      return "audio";
+    case TrackKind::video:
+      return "video";
+    case TrackKind::other:
+      return "other";
+  }
+  return "other";
+}
+
+Result<ContainerInfo> probe(const std::string& path) {
+  return av::guarded([&]() -> Result<ContainerInfo> {
+    Result<ContainerInfo> info = probe_from(path);
+    if (!info) return std::move(info.error()).in_file(path);
+    return info;
+  });
+}
+
+Result<ContainerInfo> probe(std::span<const std::uint8_t> file) {
+  return av::guarded([&] { return probe_from(file); });
+}
+
+}  // namespace animeme::media

@@ -1,0 +1,214 @@
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "tools/media/container.h"
+#include "tools/media/detail/audio_decoder.h"
+#include "tools/media/detail/face_track.h"
+#include "tools/media/detail/unit_collector.h"
+
+namespace animeme::media {
+namespace {
+
+constexpr const char* kFaceFormats = "mov,matroska,mpegts,nut";
+// Audio packets to try until one decodes: sound that begins later begins where its header says.
+constexpr int kPacketsToTry = 64;
+
+// The time at which read_audio()'s sample 0 lies.
+class SoundStart {
+ public:
+  SoundStart(const Input& input, AVStream* stream) : input_(input), stream_(stream) {
+    if (stream_ == nullptr) return;
+    Result<av::Codec> opened = open_audio_decoder(*stream_);
+    if (opened) codec_ = std::move(*opened);
+    frame_.reset(av_frame_alloc());
+    if (!codec_ || !frame_) give_up();
+  }
+
+  bool searching() const { return codec_ != nullptr; }
+  int stream() const { return stream_ == nullptr ? -1 : stream_->index; }
+  /// Stream time base; nullopt: not found.
+  std::optional<std::int64_t> time() const { return time_; }
+
+  void try_packet(const AVPacket& packet) {
+    const auto take = [&](AVFrame& frame) -> Result<void> {
+      const bool played = !input_.is_mp4_family() || frame.pts >= 0 || covers_zero(frame);
+      if (!time_ && frame.pts != AV_NOPTS_VALUE && frame.nb_samples > 0 && played) {
+        time_ = first_played(input_, frame.pts);
+      }
+      return {};
+    };
+    (void)decode_packet(*codec_, &packet, *frame_, take);
+    if (time_ || ++tried_ >= kPacketsToTry) give_up();
+  }
+
+ private:
+  bool covers_zero(const AVFrame& frame) const {
+    return frame.pts != AV_NOPTS_VALUE && frame.sample_rate > 0 &&
+           frame.pts + av_rescale_q(frame.nb_samples, {1, frame.sample_rate}, stream_->time_base) >
+               0;
+  }
+
+  void give_up() {
+    codec_.reset();
+    stream_->discard = AVDISCARD_ALL;  // the rest of the sound is not needed
+  }
+
+  const Input& input_;
+  AVStream* stream_;
+  av::Codec codec_;
+  av::Frame frame_;
+  std::optional<std::int64_t> time_;
+  int tried_ = 0;
+};
+
+class Reader {
+ public:
+  Reader(Input& input, const ReadOptions& options)
+      : input_(input), file_(*input.context()), options_(options) {}
+
+  Result<Container> read(const av::LogCapture& log);
+
+ private:
+  Result<void> read_packets(SoundStart& sound);
+  Result<void> take(const AVPacket& packet);
+  std::int64_t shift(const SoundStart& sound) const;
+  Error no_face() const;
+  void add_warnings(const av::LogCapture& log);
+
+  Input& input_;
+  AVFormatContext& file_;
+  const ReadOptions& options_;
+  Container result_;
+  FaceTracks tracks_;
+  int face_ = -1;  // stream index, once it is certain
+  std::optional<UnitCollector> units_;
+  int status_ = 0;
+};
+
+// What to call a stream that is no face.
+std::string describe(const AVCodecParameters& parameters) {
+  // Entry of BIFS scenes, object descriptors and BIFS-Anim, which this reader leaves alone.
+  if (parameters.codec_tag == MKTAG('m', 'p', '4', 's')) return "MPEG-4 Systems stream";
+  const char* type = av_get_media_type_string(parameters.codec_type);
+  return std::string(type != nullptr ? type : "unknown") + " " +
+         avcodec_get_name(parameters.codec_id);
+}
+
+Error Reader::no_face() const {
+  std::string found;
+  for (unsigned i = 0; i < file_.nb_streams && i < 8; ++i) {
+    found += (i == 0 ? "" : ", ") + describe(*file_.streams[i]->codecpar);
+  }
+  return make_error(Code::not_found, "the file has no face animation track" +
+                                         (found.empty() ? "" : " (it holds: " + found + ")"));
+}
+
+Result<void> Reader::take(const AVPacket& packet) {
+  const int index = packet.stream_index;
+  tracks_.decide(packet);
+  if (face_ < 0 && tracks_[index].state == FaceTrack::State::yes) {
+    face_ = index;
+    units_.emplace(options_, tracks_[index].config);
+  }
+  if (index != face_) return {};
+  return units_->add(packet, file_.streams[index]->time_base);
+}
+
+Result<void> Reader::read_packets(SoundStart& sound) {
+  const av::Packet packet(av_packet_alloc());
+  if (!packet) return make_error(Code::out_of_range, "not enough memory");
+  while ((status_ = av_read_frame(&file_, packet.get())) >= 0) {
+    tracks_.update(file_);
+    Result<void> taken;
+    if (packet->stream_index == sound.stream()) {
+      if (sound.searching()) sound.try_packet(*packet);
+    } else {
+      taken = take(*packet);
+    }
+    av_packet_unref(packet.get());
+    if (!taken) return taken;
+  }
+  return {};
+}
+
+// Ticks to subtract from the face's times.
+std::int64_t Reader::shift(const SoundStart& sound) const {
+  const AVRational base = units_->time_base();
+  if (sound.time()) {
+    const AVRational from = file_.streams[sound.stream()]->time_base;
+    const std::int64_t start = *sound.time();
+    // Within one tick of a coarse clock the start is not known better than 0.
+    if (start >= -1 && start <= 1) return 0;
+    const std::int64_t ticks = av_rescale_q(start, from, base);
+    return std::clamp<std::int64_t>(ticks, -(std::int64_t(1) << 47), std::int64_t(1) << 47);
+  }
+  const bool arbitrary = (file_.iformat->flags & AVFMT_TS_DISCONT) != 0;
+  return arbitrary && !units_->empty() ? units_->first_time() : 0;
+}
+
+void Reader::add_warnings(const av::LogCapture& log) {
+  if (input_.exhausted()) {
+    result_.warnings.push_back("the file's index sends the reader in circles; reading was stopped");
+  } else if (status_ != AVERROR_EOF) {
+    result_.warnings.push_back("reading stopped early: " + av::error_text(status_));
+  }
+  const std::int64_t stated = face_ < 0 ? 0 : file_.streams[face_]->nb_frames;
+  if (stated > 0 && std::int64_t(units_->count()) < stated) {
+    result_.warnings.push_back("the file ends early: " + std::to_string(units_->count()) + " of " +
+                               std::to_string(stated) + " planes were found");
+  }
+  for (const std::string& line : log.lines()) result_.warnings.push_back("FFmpeg: " + line);
+}
+
+Result<Container> Reader::read(const av::LogCapture& log) {
+  result_.format = input_.format();
+  tracks_.update(file_);
+  if (avformat_find_stream_info(&file_, nullptr) < 0) {
+    result_.warnings.push_back("the stream headers are incomplete");
+  }
+  tracks_.update(file_);
+  const std::optional<int> audio = find_audio(input_);
+  for (unsigned i = 0; i < file_.nb_streams; ++i) {
+    const bool wanted =
+        int(i) == audio.value_or(-1) || tracks_[int(i)].state != FaceTrack::State::no;
+    if (!wanted) file_.streams[i]->discard = AVDISCARD_ALL;
+  }
+  if (audio) result_.audio = describe_audio(input_, *file_.streams[*audio]);
+  SoundStart sound(input_, audio ? file_.streams[*audio] : nullptr);
+  Result<void> packets = read_packets(sound);
+  if (!packets) return packets.error();
+  if (!units_) {
+    if (tracks_.first() < 0) return no_face();
+    return make_error(Code::truncated, "the face track is empty; the file is probably cut off");
+  }
+  const std::int64_t ticks = shift(sound);
+  add_warnings(log);
+  Result<void> finished = units_->finish(ticks, result_);
+  if (!finished) return finished.error();
+  return std::move(result_);
+}
+
+template <class Source>
+Result<Container> read_from(const Source& source, const ReadOptions& options) {
+  const av::LogCapture log;
+  Result<std::unique_ptr<Input>> input = Input::open(source, kFaceFormats);
+  if (!input) return input.error();
+  return Reader(**input, options).read(log);
+}
+
+}  // namespace
+
+Result<Container> read_container(const std::string& path, const ReadOptions& options) {
+  return av::guarded([&]() -> Result<Container> {
+    Result<Container> container = read_from(path, options);
+    if (!container) return std::move(container.error()).in_file(path);
+    return container;
+  });
+}
+
+Result<Container> read_container(std::span<const std::uint8_t> file, const ReadOptions& options) {
+  return av::guarded([&] { return read_from(file, options); });
+}
+
+}  // namespace animeme::media

@@ -1,0 +1,160 @@
+#include "tools/voice/align.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "dam/phones.h"
+#include "tools/voice/pronunciation.h"
+#include "tools/voice/recogniser.h"
+#include "tools/voice/transcript.h"
+
+namespace animeme::voice {
+namespace {
+
+constexpr double kMinSeconds = 0.1;
+constexpr double kMinPhoneSeconds = 0.01;  // one frame: less cannot be
+
+Result<void> check_audio(const media::Pcm& audio) {
+  if (audio.sample_rate != kAlignRate) {
+    return make_error(Code::invalid_argument, "the aligner needs audio of 16000 Hz, this has " +
+                                                  std::to_string(audio.sample_rate) +
+                                                  " Hz; resample it first");
+  }
+  if (audio.duration() < kMinSeconds) {
+    return make_error(Code::truncated, "less than 0.1 s of audio to align; is the file complete?");
+  }
+  if (audio.duration() > kMaxAlignSeconds) {
+    return make_error(Code::out_of_range,
+                      "more than 300 s of audio to align; cut it into sentences");
+  }
+  return {};
+}
+
+std::vector<std::int16_t> to_int16(const std::vector<float>& samples) {
+  std::vector<std::int16_t> out;
+  out.reserve(samples.size());
+  for (const float sample : samples) {
+    const float scaled = std::isfinite(sample) ? sample * 32768.0f : 0.0f;
+    out.push_back(std::int16_t(std::lround(std::clamp(scaled, -32768.0f, 32767.0f))));
+  }
+  return out;
+}
+
+// Usual relative durations, for the case that there is nothing better.
+double usual_duration(std::string_view label) {
+  const dam::PhoneInfo* phone = dam::find_phone(label);
+  if (phone == nullptr || !phone->vowel) return 1.0;
+  return phone->viseme_start != phone->viseme_end ? 1.8 : 1.4;
+}
+
+struct Stretch {
+  double start = 0, end = 0;
+};
+
+// From the first to the last 20 ms that are louder than a twentieth of the loudest.
+Stretch loud_part(const std::vector<std::int16_t>& samples) {
+  constexpr std::size_t kBlock = kAlignRate / 50;
+  std::vector<double> levels;
+  for (std::size_t at = 0; at + kBlock <= samples.size(); at += kBlock) {
+    double sum = 0;
+    for (std::size_t i = at; i < at + kBlock; ++i) sum += double(samples[i]) * samples[i];
+    levels.push_back(std::sqrt(sum));
+  }
+  const double threshold = 0.05 * *std::max_element(levels.begin(), levels.end());
+  const auto loud = [&](double level) { return level >= threshold; };
+  const auto first = std::find_if(levels.begin(), levels.end(), loud);
+  const auto last = std::find_if(levels.rbegin(), levels.rend(), loud);
+  const double seconds = double(kBlock) / kAlignRate;
+  return {double(first - levels.begin()) * seconds, double(levels.rend() - last) * seconds};
+}
+
+std::vector<Segment> spread_evenly(const std::vector<std::int16_t>& samples,
+                                   const std::vector<SpokenWord>& words) {
+  double total = 0;
+  for (const SpokenWord& word : words) {
+    for (const std::string& label : word.variants[0]) total += usual_duration(label);
+  }
+  const Stretch loud = loud_part(samples);
+  std::vector<Segment> segments;
+  if (loud.start > 0) segments.push_back({0, std::string(dam::kSilence), kNoWord});
+  double done = 0;
+  for (std::size_t w = 0; w < words.size(); ++w) {
+    for (const std::string& label : words[w].variants[0]) {
+      segments.push_back({loud.start + (loud.end - loud.start) * done / total, label, w});
+      done += usual_duration(label);
+    }
+  }
+  segments.push_back({loud.end, std::string(dam::kSilence), kNoWord});
+  return segments;
+}
+
+dam::Script to_script(const std::vector<Segment>& segments, const std::vector<SpokenWord>& words,
+                      double duration) {
+  dam::Script script;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const Segment& segment = segments[i];
+    const double start = i == 0 ? 0.0 : script.phones.empty() ? 0.0 : script.phones.back().end;
+    const double next = i + 1 == segments.size() ? duration : segments[i + 1].start;
+    const double end = std::min(next, duration);
+    if (end <= start) continue;
+    const bool silent = segment.label == dam::kSilence;
+    if (silent && !script.phones.empty() && script.phones.back().label == dam::kSilence) {
+      script.phones.back().end = end;
+    } else {
+      script.phones.push_back(
+          {start, end, segment.label, silent ? std::string() : words[segment.word].text});
+    }
+  }
+  if (!script.phones.empty()) script.phones.back().end = duration;
+  return script;
+}
+
+std::size_t least_phones(const std::vector<SpokenWord>& words) {
+  std::size_t count = 0;
+  for (const SpokenWord& word : words) {
+    std::size_t least = word.variants[0].size();
+    for (const Labels& variant : word.variants) least = std::min(least, variant.size());
+    count += least;
+  }
+  return count;
+}
+
+}  // namespace
+
+Result<Alignment> align(const media::Pcm& audio, std::string_view transcript,
+                        const AlignOptions& options) {
+  if (auto good = check_audio(audio); !good) return good.error();
+  const auto texts = split_words(transcript.substr(0, 100000));
+  Alignment result;
+  if (texts.empty()) {
+    return make_error(Code::invalid_argument, "the transcript has no words; give what is said");
+  }
+  if (auto good = check_recogniser(options); !good) return good.error();
+  const auto words = find_pronunciations(texts, options, result.warnings);
+  if (!words) return words.error();
+  if (words->empty()) {
+    return make_error(Code::invalid_argument,
+                      "no word of the transcript can be pronounced; is "
+                      "the language right?");
+  }
+  if (double(least_phones(*words)) * kMinPhoneSeconds > audio.duration()) {
+    return make_error(Code::out_of_range, "the audio is too short for its transcript of " +
+                                              std::to_string(least_phones(*words)) +
+                                              " phones; does the text belong to this recording?");
+  }
+  const auto samples = to_int16(audio.samples);
+  auto segments = recognise(samples, *words, options);
+  if (!segments) return segments.error();
+  if (segments->empty()) {
+    result.approximate = true;
+    result.warnings.push_back(
+        "the recogniser cannot fit the transcript to the recording, so the phones are spread over "
+        "its loud part; check that the text is what is said");
+    segments = spread_evenly(samples, *words);
+  }
+  result.script = to_script(*segments, *words, audio.duration());
+  return result;
+}
+
+}  // namespace animeme::voice

@@ -1,0 +1,52 @@
+// espeak-ng in a child process. Internal: voice.h is the interface.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fap/result.h"
+#include "tools/voice/voice.h"
+
+namespace animeme::voice {
+
+enum class EventKind : std::uint8_t { word, phoneme };
+
+/// What happens at one sample of the sound.
+struct VoiceEvent {
+  EventKind kind = EventKind::phoneme;
+  std::int64_t sample = 0;
+  std::int32_t text_position = 0;  ///< word: first character of it in the text, from 1
+  std::int32_t text_length = 0;    ///< word: in characters
+  std::string ipa;                 ///< phoneme: at most 8 bytes, may end in half a character
+};
+
+struct RawSpeech {
+  std::vector<std::int16_t> samples;
+  std::vector<VoiceEvent> events;
+};
+
+struct EspeakJob {
+  std::string voice;                ///< identifier, with variant
+  std::vector<std::string> texts;   ///< UTF-8 without NUL, spoken one after the other
+  VoiceOptions options;             ///< rate, pitch, range, gap, data path
+  std::int64_t max_seconds = 3600;  ///< of sound, all texts together
+};
+
+struct EspeakResult {
+  int sample_rate = 0;
+  std::vector<RawSpeech> speech;  ///< one for each text
+};
+
+/// Errors: unsupported, io, out_of_range (more than max_seconds).
+Result<EspeakResult> run_espeak(const EspeakJob& job);
+
+struct VoiceLists {
+  std::vector<VoiceInfo> voices;
+  std::vector<std::string> variants;  ///< "f3", "croak" ...
+};
+
+/// Errors: unsupported, io.
+Result<VoiceLists> read_espeak_voices(const std::string& data_path);
+
+}  // namespace animeme::voice

@@ -1,0 +1,32 @@
+// The search of the recogniser. Internal.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fap/result.h"
+#include "tools/voice/pronunciation.h"
+
+namespace animeme::voice {
+
+/// A phone that the search has placed. Segments follow each other without gaps.
+struct Segment {
+  double start = 0;  ///< seconds; the bias of the analysis window is already taken off
+  std::string label;
+  std::size_t word = 0;  ///< index into the words; kNoWord for silence
+};
+
+inline constexpr std::size_t kNoWord = ~std::size_t(0);
+
+/// Is there a recogniser and the model it needs? Errors: unsupported, not_found.
+Result<void> check_recogniser(const AlignOptions& options);
+
+/// Places the words in 16 kHz samples. Empty if no path was found with any beam.
+/// Errors as check_recogniser().
+Result<std::vector<Segment>> recognise(const std::vector<std::int16_t>& samples,
+                                       const std::vector<SpokenWord>& words,
+                                       const AlignOptions& options);
+
+}  // namespace animeme::voice

@@ -1,0 +1,172 @@
+#include "tools/voice/voice_events.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "dam/ipa.h"
+#include "dam/script_text.h"
+#include "tools/voice/transcript.h"
+
+namespace animeme::voice {
+namespace {
+
+using dam::IpaPhone;
+
+constexpr int kSilentLevel = 8;            // of 32768: what espeak-ng leaves between sounds
+constexpr double kMaxClosure = 0.2;        // seconds of silence before a burst that are closure
+constexpr double kMaxFirstClosure = 0.08;  // the same after a pause: the rest is rest
+constexpr double kMinPhone = 0.01;         // seconds that the phone before keeps
+
+// A stretch of sound with its labels. No labels: silence.
+struct Segment {
+  std::int64_t start = 0, end = 0;
+  std::vector<IpaPhone> labels;
+  std::string word;
+};
+
+bool is_silent(std::int16_t sample) { return std::abs(int(sample)) <= kSilentLevel; }
+
+// A pause comes as an empty name, just like a mark without a sound of its own; the ear decides.
+bool is_mostly_silent(const std::vector<std::int16_t>& samples, std::int64_t start,
+                      std::int64_t end) {
+  const auto first = samples.begin() + start, last = samples.begin() + end;
+  return 2 * std::count_if(first, last, is_silent) >= last - first;
+}
+
+// espeak-ng cuts names at 8 bytes, maybe inside a character.
+std::string_view whole_characters(std::string_view ipa) {
+  std::string_view rest = ipa, whole = ipa;
+  while (!rest.empty()) {
+    const std::string_view before = rest;
+    if (dam::take_code_point(rest) == 0xFFFD) {
+      whole = ipa.substr(0, ipa.size() - before.size());
+      break;
+    }
+  }
+  return whole;
+}
+
+std::vector<IpaPhone> labels_of(std::string_view ipa) {
+  auto parsed = dam::parse_ipa(whole_characters(ipa));
+  if (!parsed) return {{"AX", 1.0}};
+  return *std::move(parsed);
+}
+
+// Word positions count characters of the text, from 1.
+class WordFinder {
+ public:
+  explicit WordFinder(std::string_view text) {
+    std::string_view rest = text;
+    while (!rest.empty()) {
+      starts_.push_back(text.size() - rest.size());
+      dam::take_code_point(rest);
+    }
+    starts_.push_back(text.size());
+    text_ = text;
+  }
+
+  std::string word(std::int32_t position, std::int32_t length) const {
+    const auto count = std::int64_t(starts_.size()) - 1;
+    const std::int64_t first = std::clamp<std::int64_t>(position - 1, 0, count);
+    const std::int64_t last = std::clamp<std::int64_t>(first + length, first, count);
+    const std::size_t begin = starts_[std::size_t(first)];
+    return std::string(strip_punctuation(text_.substr(begin, starts_[std::size_t(last)] - begin)));
+  }
+
+ private:
+  std::string_view text_;
+  std::vector<std::size_t> starts_;
+};
+
+void add_segment(std::vector<Segment>& segments, const RawSpeech& raw, Segment segment,
+                 std::string_view ipa) {
+  if (segment.end <= segment.start) return;
+  const bool pause = ipa.starts_with('_');
+  const bool language_switch = ipa.starts_with('(');
+  if (!pause && !language_switch) segment.labels = labels_of(ipa);
+  const bool silent = pause || (segment.labels.empty() &&
+                                is_mostly_silent(raw.samples, segment.start, segment.end));
+  if (silent) segment.word.clear();
+  if (segment.labels.empty() && !silent && !segments.empty()) {
+    segments.back().end = segment.end;  // a mark: the sound before it goes on
+  } else {
+    segments.push_back(std::move(segment));
+  }
+}
+
+std::vector<Segment> cut(const RawSpeech& raw, std::string_view text) {
+  const WordFinder words(text);
+  const auto size = std::int64_t(raw.samples.size());
+  std::vector<Segment> segments;
+  Segment current{0, 0, {}, {}};
+  std::string ipa = "_", word;
+  for (const VoiceEvent& event : raw.events) {
+    if (event.kind == EventKind::word) {
+      word = words.word(event.text_position, event.text_length);
+      continue;
+    }
+    current.end = std::clamp(event.sample, current.start, size);
+    const std::int64_t next = current.end;
+    add_segment(segments, raw, std::move(current), ipa);
+    current = {next, next, {}, word};
+    ipa = event.ipa;
+  }
+  current.end = size;
+  add_segment(segments, raw, std::move(current), ipa);
+  return segments;
+}
+
+bool begins_with_closure(const Segment& segment) {
+  constexpr std::string_view kStops[] = {"P", "B", "T", "D", "K", "G", "CH", "JH"};
+  return !segment.labels.empty() && std::find(std::begin(kStops), std::end(kStops),
+                                              segment.labels[0].label) != std::end(kStops);
+}
+
+// The event of a stop is at its burst; the silence before it is the closure and belongs to it.
+void move_stops_to_closure(std::vector<Segment>& segments, const RawSpeech& raw, int rate) {
+  for (std::size_t i = 1; i < segments.size(); ++i) {
+    if (!begins_with_closure(segments[i])) continue;
+    Segment& before = segments[i - 1];
+    const double reach = before.labels.empty() ? kMaxFirstClosure : kMaxClosure;
+    const std::int64_t floor = std::max(segments[i].start - std::int64_t(reach * rate),
+                                        before.start + std::int64_t(kMinPhone * rate));
+    std::int64_t start = segments[i].start;
+    while (start > floor && is_silent(raw.samples[std::size_t(start - 1)])) --start;
+    segments[i].start = before.end = start;
+  }
+}
+
+void append(std::vector<dam::Phone>& phones, dam::Phone phone) {
+  if (phone.label == dam::kSilence && !phones.empty() && phones.back().label == dam::kSilence) {
+    phones.back().end = phone.end;
+  } else {
+    phones.push_back(std::move(phone));
+  }
+}
+
+}  // namespace
+
+dam::Script make_voice_script(const RawSpeech& raw, int sample_rate, std::string_view text) {
+  std::vector<Segment> segments = cut(raw, text);
+  move_stops_to_closure(segments, raw, sample_rate);
+  dam::Script script;
+  const auto seconds = [&](double sample) { return sample / double(sample_rate); };
+  for (const Segment& segment : segments) {
+    const double start = seconds(double(segment.start)), end = seconds(double(segment.end));
+    if (segment.labels.empty()) {
+      append(script.phones, {start, end, std::string(dam::kSilence), {}});
+    }
+    double share = 0, from = start;
+    for (std::size_t i = 0; i < segment.labels.size(); ++i) {
+      share += segment.labels[i].share;
+      const double to = i + 1 == segment.labels.size() ? end : start + share * (end - start);
+      append(script.phones, {from, to, std::string(segment.labels[i].label), segment.word});
+      from = to;
+    }
+  }
+  return script;
+}
+
+}  // namespace animeme::voice
