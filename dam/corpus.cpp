@@ -23,7 +23,7 @@ Error error_in(const fs::path& file, Code code, std::string message, std::size_t
 
 Result<std::string> read_file(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
-  if (!in) return error_in(path, Code::not_found, "cannot open this file; the corpus needs it");
+  if (!in) return error_in(path, Code::not_found, "cannot open this file, which its row in utterances.tsv asks for");
   std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   if (in.bad()) return error_in(path, Code::io, "cannot read this file");
   return text;

@@ -4,7 +4,7 @@
 #   tools/hello.sh "Any text" out.mp4 [options of animeme speak]
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
-text=${1:-"Hello world! My mouth moves with sixty-eight parameters, about one kilobit a second."}
+text=${1:-"Hello world! My mouth moves by numbers, and a few thousand bits a second are enough."}
 output=${2:-hello.mp4}
 [ $# -gt 2 ] && shift 2 || shift $#
 

@@ -23,7 +23,7 @@ int run(int argc, char** argv) {
   using namespace animeme::tools;  // NOLINT: the command list reads better without prefixes
   CLI::App app{
       "Animeme: speech to MPEG-4 facial animation.\n"
-      "Makes faces talk (FAPs), codes them (FBA, about 1 kbit/s) and muxes them with the voice."};
+      "Makes faces talk (FAPs), codes them (FBA, a few kbit/s) and muxes them with the voice."};
   app.name("animeme");
   app.require_subcommand(1);
   app.set_version_flag("--version", "animeme " ANIMEME_VERSION);

@@ -153,6 +153,40 @@ TEST(Speak, FfprobeSeesAacAndSimpleFaceAnimation) {
   EXPECT_TRUE(face) << probe.out;
 }
 
+TEST(Speak, EveryContainerCarriesTheSameFace) {
+  const TempDir dir;
+  for (const char* name : {"a.mp4", "a.mkv", "a.ts"}) {
+    ASSERT_EQ(animeme({"speak", "--text", "Bob and Pam", "-o", dir / name}).exit_code, 0) << name;
+  }
+  for (const char* name : {"a.mkv", "a.ts"}) {
+    EXPECT_EQ(animeme({"compare", dir / "a.mp4", dir / name, "--max-rms", "0"}).exit_code, 0)
+        << name;
+  }
+}
+
+TEST(Speak, CurvesForAnyRig) {
+  const TempDir dir;
+  const auto sample = test::data_dir() / "grid_s1_sample";
+  // A corpus of a rig of its own: the sample's curves under other names.
+  std::filesystem::copy(sample, dir.path() / "rig", std::filesystem::copy_options::recursive);
+  for (const auto& entry : std::filesystem::directory_iterator(dir.path() / "rig" / "fap")) {
+    std::string text = test::slurp(entry.path());
+    for (std::size_t at = 0; (at = text.find(",fap", at)) != std::string::npos;) {
+      text.replace(at, 4, ",rig");
+    }
+    test::spill(entry.path(), text);
+  }
+  ASSERT_EQ(animeme({"train", dir / "rig", "-o", dir / "rig.dam"}).exit_code, 0);
+  const auto made =
+      animeme({"speak", "--text", "Hello", "--model", dir / "rig.dam", "-o", dir / "a.csv"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_TRUE(test::slurp(dir / "a.csv").starts_with("time_s,rig3_open_jaw,"));
+  const auto refused =
+      animeme({"speak", "--text", "Hello", "--model", dir / "rig.dam", "-o", dir / "a.fap"});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_THAT(refused.err, HasSubstr(".csv"));
+}
+
 TEST(Speak, SameInputGivesTheSameBytes) {
   const TempDir dir;
   for (const char* name : {"a.mp4", "b.mp4"}) {

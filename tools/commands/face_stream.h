@@ -12,7 +12,7 @@ namespace animeme::tools {
 /// How a face is coded for a container.
 struct StreamSettings {
   int quant = 1;
-  double intra_seconds = 2;  ///< random access points of containers; raw streams have one
+  double intra_seconds = 5;  ///< random access points of containers; raw streams have one
 };
 
 /// Adds --quant and --intra-seconds.

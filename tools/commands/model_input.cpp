@@ -32,6 +32,8 @@ void add_corpus_options(CLI::App& app, CorpusSettings& settings) {
   app.add_option("--controls-folder", settings.controls_folder,
                  "Folder of the corpus with the curves, ID.csv or ID.fap")
       ->capture_default_str();
+  app.add_flag("--skip-missing", settings.skip_missing,
+               "Leave out rows that have no curves instead of stopping");
 }
 
 Result<std::vector<std::string>> control_names(const std::vector<std::string>& items) {
@@ -60,7 +62,12 @@ Result<dam::Corpus> read_corpus(const CorpusSettings& settings) {
   options.split_value = settings.split;
   options.controls_folder = settings.controls_folder;
   options.controls = std::move(*names);
-  return dam::read_corpus(settings.folder, options);
+  options.skip_missing = settings.skip_missing;
+  Result<dam::Corpus> corpus = dam::read_corpus(settings.folder, options);
+  if (corpus && corpus->skipped > 0) {
+    say(std::to_string(corpus->skipped) + " rows without curves are left out");
+  }
+  return corpus;
 }
 
 }  // namespace animeme::tools

@@ -20,9 +20,10 @@ struct CorpusSettings {
   std::string split_column = "split";
   std::string controls_folder = "fap";
   std::vector<std::string> controls;
+  bool skip_missing = false;
 };
 
-/// Adds --split, --split-column and --controls-folder.
+/// Adds --split-column, --controls-folder and --skip-missing.
 void add_corpus_options(CLI::App& app, CorpusSettings& settings);
 
 /// "3-13", "51" and names such as "jawOpen" to channel names ("fap3_open_jaw" ...).

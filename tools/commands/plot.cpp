@@ -25,6 +25,7 @@ constexpr double kRight = 20;
 constexpr double kRow = 110;
 constexpr double kBand = 26;
 constexpr double kPixelsPerSecond = 260;
+constexpr const char* kColours[] = {"#1f5fbf", "#d1495b"};
 
 std::string escape(std::string_view text) {
   std::string out;
@@ -55,7 +56,7 @@ class Plot {
         top_(band ? kBand + 8 : 8),
         height_(top_ + double(rows) * kRow + 30) {
     svg_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(width_) + "\" height=\"" +
-           number(height_) + "\" font-family=\"sans-serif\" font-size=\"12\">\n" +
+           number(height_ + 20) + "\" font-family=\"sans-serif\" font-size=\"12\">\n" +
            "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
     for (int tenth = 0; tenth <= int(seconds * 10); ++tenth) {
       if (tenth % 5 != 0) continue;
@@ -73,11 +74,12 @@ class Plot {
       if (phone.label == dam::kSilence) continue;
       const bool closure = phone.label == "P" || phone.label == "B" || phone.label == "M";
       const double width = phone.duration() * kPixelsPerSecond;
-      svg_ += "<rect x=\"" + number(x(phone.start)) + "\" y=\"4\" width=\"" + number(width) +
-              "\" height=\"" + number(height_ - 30) + "\" fill=\"" +
-              (closure ? "#ffd9b3" : "#eef3fa") + "\" stroke=\"#ffffff\"/>\n<text x=\"" +
-              number(x(phone.start) + width / 2) + "\" y=\"20\" text-anchor=\"middle\">" +
-              escape(phone.label) + "</text>\n";
+      svg_ +=
+          "<rect x=\"" + number(x(phone.start)) + "\" y=\"4\" width=\"" + number(width) +
+          "\" height=\"" + number(height_ - 30) + "\" fill=\"" + (closure ? "#ffd9b3" : "#eef3fa") +
+          "\" stroke=\"#ffffff\"/>\n<text x=\"" + number(x(phone.start) + width / 2) +
+          "\" y=\"20\" text-anchor=\"middle\" font-size=\"" +
+          number(std::clamp(width * 0.6, 7.0, 12.0)) + "\">" + escape(phone.label) + "</text>\n";
     }
   }
 
@@ -106,7 +108,6 @@ class Plot {
               "\" text-anchor=\"end\" fill=\"#555555\" font-size=\"11\">" +
               std::to_string(std::lround(edge)) + "</text>\n";
     }
-    constexpr const char* kColours[] = {"#1f5fbf", "#d1495b"};
     for (std::size_t i = 0; i < clips.size(); ++i) {
       svg_ += std::string("<polyline fill=\"none\" stroke-width=\"2\" stroke=\"") + kColours[i] +
               "\" points=\"";
@@ -115,6 +116,16 @@ class Plot {
                 number(y(frame.value[n])) + " ";
       }
       svg_ += "\"/>\n";
+    }
+  }
+
+  // Which colour is which file.
+  void legend(const std::vector<std::string>& names) {
+    double at = 8;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      svg_ += "<text x=\"" + number(at) + "\" y=\"" + number(height_ + 8) + "\" fill=\"" +
+              kColours[i] + "\">" + escape(names[i]) + "</text>\n";
+      at += 30 + 7.0 * double(names[i].size());
     }
   }
 
@@ -131,6 +142,7 @@ class Plot {
 
 Result<int> run(const Options& options) {
   std::vector<fap::Sequence> clips;
+  std::vector<std::string> names;
   for (const std::string& path : {options.a, options.b}) {
     if (path.empty()) continue;
     Result<FaceInput> input = read_face(path);
@@ -138,6 +150,7 @@ Result<int> run(const Options& options) {
     Result<fap::Sequence> filled = fap::fill(input->clip);
     if (!filled) return filled.error().in_file(path);
     clips.push_back(std::move(*filled));
+    names.push_back(std::filesystem::path(path).filename().string());
   }
   double seconds = 0;
   std::vector<const fap::Sequence*> pointers;
@@ -158,6 +171,7 @@ Result<int> run(const Options& options) {
     plot.phones(*script);
   }
   for (std::size_t i = 0; i < options.faps.size(); ++i) plot.row(i, options.faps[i], pointers);
+  plot.legend(names);
   if (auto written = write_file(options.output, std::move(plot).finish()); !written) {
     return written.error();
   }

@@ -34,7 +34,38 @@ bool is_container(const std::string& extension) {
 
 bool is_output(const std::string& path) {
   const std::string extension = extension_of(path);
-  return is_container(extension) || extension == ".fap" || extension == ".fba";
+  return is_container(extension) || extension == ".fap" || extension == ".fba" ||
+         extension == ".csv";
+}
+
+// The signal as it is, one column a control: for models of other rigs than FAPs.
+Result<int> write_curves(const std::string& path, const dam::Signal& signal) {
+  std::string text = "time_s";
+  for (const std::string& name : signal.names) text += "," + name;
+  text += "\n";
+  char number[40];
+  for (std::size_t frame = 0; frame < signal.frames(); ++frame) {
+    std::snprintf(number, sizeof number, "%.6f", signal.rate.seconds(double(frame)));
+    text += number;
+    for (std::size_t control = 0; control < signal.names.size(); ++control) {
+      std::snprintf(number, sizeof number, ",%.6g", signal.at(frame, control));
+      text += number;
+    }
+    text += "\n";
+  }
+  if (auto done = write_file(path, text); !done) return done.error();
+  say(path + ": " + std::to_string(signal.frames()) + " frames of " +
+      std::to_string(signal.names.size()) + " controls");
+  return kOk;
+}
+
+// A model without FAPs can only be written as curves.
+Result<fap::Sequence> to_clip(const dam::Signal& signal) {
+  Result<fap::Sequence> clip = dam::to_sequence(signal);
+  if (clip || clip.error().code != Code::not_found) return clip;
+  return make_error(
+      Code::not_found,
+      "the controls of this model are no FAPs; write them as curves with -o NAME.csv");
 }
 
 Result<int> write_result(const Options& options, const fap::Sequence& clip, const Spoken& spoken) {
@@ -62,7 +93,7 @@ Result<int> write_result(const Options& options, const fap::Sequence& clip, cons
   return write_media(options.output, *units, audio, options.bit_rate);
 }
 
-void report(const Options& options, const Spoken& spoken, const fap::Sequence& clip,
+void report(const Options& options, const Spoken& spoken, const dam::Signal& signal,
             const dam::SynthesisReport& synthesis) {
   for (const auto& [label, by] : synthesis.replaced) {
     if (!options.json) say("the model has no " + label + ", spoken as " + by);
@@ -70,17 +101,21 @@ void report(const Options& options, const Spoken& spoken, const fap::Sequence& c
   if (!options.json) return;
   nlohmann::ordered_json replaced = nlohmann::ordered_json::object();
   for (const auto& [label, by] : synthesis.replaced) replaced[label] = by;
-  const nlohmann::ordered_json json = {
-      {"output", options.output},   {"voice", spoken.voice},
-      {"seconds", clip.duration()}, {"frames", clip.frames.size()},
-      {"phones", synthesis.phones}, {"replaced_phones", synthesis.replaced_phones},
-      {"replaced", replaced},       {"closures_forced", synthesis.closures}};
+  const nlohmann::ordered_json json = {{"output", options.output},
+                                       {"voice", spoken.voice},
+                                       {"seconds", signal.rate.seconds(double(signal.frames()))},
+                                       {"frames", signal.frames()},
+                                       {"phones", synthesis.phones},
+                                       {"replaced_phones", synthesis.replaced_phones},
+                                       {"replaced", replaced},
+                                       {"closures_forced", synthesis.closures}};
   std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
 }
 
 Result<int> run(const Options& options) {
   if (!is_output(options.output)) {
-    return usage_error("--output must end in .mp4, .mkv, .ts, .fba or .fap, not " + options.output);
+    return usage_error("--output must end in .mp4, .mkv, .ts, .fba, .fap or .csv, not " +
+                       options.output);
   }
   if (const std::string missing = missing_options(options.spoken); !missing.empty()) {
     return usage_error(missing);
@@ -101,26 +136,31 @@ Result<int> run(const Options& options) {
   dam::SynthesisReport synthesis;
   Result<dam::Signal> signal = dam::synthesise(*model, spoken->script, settings, &synthesis);
   if (!signal) return signal.error().in_file(options.spoken.script);
-  Result<fap::Sequence> clip = dam::to_sequence(*signal);
-  if (!clip) return clip.error();
-  clip->name = std::filesystem::path(options.output).stem().string();
-
   if (!options.save_script.empty()) {
     const bool table = extension_of(options.save_script) == ".tsv";
     const std::string text =
         table ? dam::write_script_tsv(spoken->script) : dam::write_textgrid(spoken->script);
     if (auto done = write_file(options.save_script, text); !done) return done.error();
   }
-  Result<int> written = write_result(options, *clip, *spoken);
-  if (written) report(options, *spoken, *clip, synthesis);
+  Result<int> written = kOk;
+  if (extension_of(options.output) == ".csv") {
+    written = write_curves(options.output, *signal);
+  } else {
+    Result<fap::Sequence> clip = to_clip(*signal);
+    if (!clip) return clip.error();
+    clip->name = std::filesystem::path(options.output).stem().string();
+    written = write_result(options, *clip, *spoken);
+  }
+  if (written) report(options, *spoken, *signal, synthesis);
   return written;
 }
 
 Action add(CLI::App& app) {
   auto options = std::make_shared<Options>();
   add_spoken_options(app, options->spoken);
-  app.add_option("-o,--output", options->output,
-                 "What to write: .mp4 .mkv .ts (face and voice), .fba (stream), .fap (text)")
+  app.add_option(
+         "-o,--output", options->output,
+         "What to write: .mp4 .mkv .ts (face and voice), .fba (stream), .fap (text), .csv (curves)")
       ->required();
   app.add_option("--model", options->model, "Model file of a character; default: the built-in one");
   app.add_option("--rate", options->rate, "Frames a second: 25, 29.97, 60 ...")
