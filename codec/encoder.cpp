@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "codec/bits.h"
+#include "codec/header_writer_internal.h"
 #include "codec/plane_reader_internal.h"
 #include "codec/quantise_internal.h"
 
@@ -46,81 +47,6 @@ Result<SlotLevels> quantise_slots(const SlotState& state, const SlotCoding& codi
     out.rec.push_back(std::int32_t(base + level * step));
   }
   return out;
-}
-
-void write_skip(BitWriter& out, const std::optional<std::uint32_t>& skip) {
-  out.bit(skip.has_value());
-  if (!skip) return;
-  std::uint32_t rest = *skip;
-  for (; rest >= 15; rest -= 15) out.bits(15, 4);
-  out.bits(rest, 4);
-}
-
-void write_temporal(BitWriter& out, bool intra, const TemporalHeader& temporal) {
-  if (intra) {
-    out.bit(temporal.rate.has_value());
-    if (temporal.rate) {
-      out.bits(temporal.rate->frame_rate, 8);
-      out.bits(temporal.rate->sixteenths, 4);
-      out.bit(temporal.rate->frequency_offset);
-    }
-    out.bit(temporal.time_code.has_value());
-    if (temporal.time_code) {
-      out.bits(temporal.time_code->hours, 5);
-      out.bits(temporal.time_code->minutes, 6);
-      out.bit(1);
-      out.bits(temporal.time_code->seconds, 6);
-    }
-  }
-  write_skip(out, temporal.skip);
-}
-
-template <class Settings>
-void write_ranges(BitWriter& out, const internal::SlotTable& table, const Settings& settings) {
-  for (const bool send : settings.send_range) out.bit(send);
-  for (std::size_t kind = 0; kind < 4; ++kind) {
-    if (!settings.send_range[kind]) continue;
-    std::size_t slot = 0;
-    for (const std::uint8_t size : table.group_sizes) {
-      for (int i = 0; i < size; ++i, ++slot) {
-        if (i % 4 == 0) out.bit(1);
-        const std::size_t number = table.number[slot];
-        if (settings.mask[number]) out.bits(settings.range[kind][number], 5);
-      }
-    }
-  }
-}
-
-void write_face_settings(BitWriter& out, const FaceSettings& settings) {
-  out.bits(std::uint32_t(settings.fap_quant), 5);
-  for (std::size_t group = 0; group < fap::kGroupCount; ++group) {
-    out.bit(1);
-    const MaskType type = settings.mask_type[group];
-    out.bits(std::uint32_t(type), 2);
-    if (type != MaskType::hold && type != MaskType::interpolate) continue;
-    for (int i = 0; i < fap::kGroups[group].size; ++i) {
-      out.bit(settings.mask[std::size_t(fap::kGroups[group].first + i)]);
-    }
-  }
-  out.bit(settings.male);
-  out.bit(0);  // fba_object_coding_type: arithmetic
-  write_ranges(out, internal::face_slots(), settings);
-}
-
-void write_body_settings(BitWriter& out, const BodySettings& settings) {
-  out.bits(std::uint32_t(settings.bap_quant), 5);
-  std::size_t slot = 0;
-  for (std::size_t group = 0; group < kBodyGroupCount; ++group) {
-    out.bit(1);
-    const MaskType type = settings.mask_type[group];
-    out.bits(std::uint32_t(type), 2);
-    for (int i = 0; i < kBodyGroupSizes[group]; ++i, ++slot) {
-      if (type == MaskType::hold) out.bit(settings.mask[kBapOrder[slot]]);
-    }
-  }
-  out.bit(settings.male);
-  out.bit(0);
-  write_ranges(out, internal::body_slots(), settings);
 }
 
 // What the settings of an intra plane make of the coding parameters.
@@ -319,7 +245,7 @@ struct Encoder::Impl {
         state.face.reset_models();
         state.high.fap_quant = settings.fap_quant;
         state.high.reset_models();
-        write_face_settings(out, state.face_settings);
+        internal::write_face_settings(out, state.face_settings);
       }
       write_face(plane, high, face_levels);
     }
@@ -328,7 +254,7 @@ struct Encoder::Impl {
         state.body_settings = *plane.body_settings;
         state.body.coding = std::move(body_coding);
         state.body.reset_models();
-        write_body_settings(out, state.body_settings);
+        internal::write_body_settings(out, state.body_settings);
       }
       write_slots(out, state.body, plane.intra, body_levels);
     }
@@ -345,7 +271,8 @@ struct Encoder::Impl {
     }
     out.bit(plane.intra);
     out.bits(std::uint32_t(plane.object_mask), 2);
-    if (plane.object_mask != ObjectMask::nothing) write_temporal(out, plane.intra, plane.temporal);
+    if (plane.object_mask != ObjectMask::nothing)
+      internal::write_temporal(out, plane.intra, plane.temporal);
   }
 
   void write_face(const PlaneInput& plane,

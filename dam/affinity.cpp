@@ -1,4 +1,4 @@
-#include "dam/affinity.h"
+#include "dam/detail/affinity.h"
 
 #include <algorithm>
 #include <cmath>

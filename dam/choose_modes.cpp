@@ -1,8 +1,8 @@
-#include "dam/choose_modes.h"
+#include "dam/detail/choose_modes.h"
 
 #include "dam/animeme.h"
-#include "dam/contexts.h"
-#include "dam/mode_graph.h"
+#include "dam/detail/contexts.h"
+#include "dam/detail/mode_graph.h"
 
 namespace animeme::dam {
 namespace {

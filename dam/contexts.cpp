@@ -1,4 +1,4 @@
-#include "dam/contexts.h"
+#include "dam/detail/contexts.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 #include <iterator>
 #include <set>
 
+#include "dam/detail/table_text.h"
 #include "dam/fap_signal.h"
-#include "dam/table_text.h"
 #include "fap/text.h"
 
 namespace animeme::dam {
@@ -23,7 +23,9 @@ Error error_in(const fs::path& file, Code code, std::string message, std::size_t
 
 Result<std::string> read_file(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
-  if (!in) return error_in(path, Code::not_found, "cannot open this file, which its row in utterances.tsv asks for");
+  if (!in)
+    return error_in(path, Code::not_found,
+                    "cannot open this file, which its row in utterances.tsv asks for");
   std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   if (in.bad()) return error_in(path, Code::io, "cannot read this file");
   return text;

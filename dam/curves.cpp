@@ -4,7 +4,7 @@
 #include <string>
 
 #include "dam/corpus.h"
-#include "dam/table_text.h"
+#include "dam/detail/table_text.h"
 
 namespace animeme::dam {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "dam/closure.h"
+#include "dam/detail/statistics.h"
 #include "dam/fap_signal.h"
-#include "dam/statistics.h"
 
 namespace animeme::dam {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dam/fit.h"
-#include "dam/fit_normal.hpp"
-#include "dam/parallel.h"
+#include "dam/detail/fit.h"
+#include "dam/detail/fit_normal.h"
+#include "dam/detail/parallel.h"
 
 namespace animeme::dam {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "dam/animeme.h"
-#include "dam/fit.h"
+#include "dam/detail/fit.h"
 
 namespace animeme::dam {
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "dam/fit.h"
+#include "dam/detail/fit.h"
 
 namespace animeme::dam {
 

@@ -4,9 +4,9 @@
 #include <iterator>
 #include <string>
 
-#include "dam/ipa_table.h"
+#include "dam/detail/ipa_table.h"
+#include "dam/detail/script_text.h"
 #include "dam/phones.h"
-#include "dam/script_text.h"
 
 namespace animeme::dam {
 namespace {

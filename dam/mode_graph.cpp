@@ -1,4 +1,4 @@
-#include "dam/mode_graph.h"
+#include "dam/detail/mode_graph.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,13 +1,13 @@
-#include "dam/modes.h"
+#include "dam/detail/modes.h"
 
 #include <algorithm>
 #include <limits>
 #include <map>
 #include <tuple>
 
-#include "dam/affinity.h"
-#include "dam/parallel.h"
-#include "dam/spline.h"
+#include "dam/detail/affinity.h"
+#include "dam/detail/parallel.h"
+#include "dam/detail/spline.h"
 
 namespace animeme::dam {
 namespace {

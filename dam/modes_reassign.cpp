@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "dam/animeme.h"
-#include "dam/contexts.h"
-#include "dam/modes.h"
+#include "dam/detail/contexts.h"
+#include "dam/detail/modes.h"
 
 namespace animeme::dam {
 namespace {

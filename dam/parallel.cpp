@@ -1,4 +1,4 @@
-#include "dam/parallel.h"
+#include "dam/detail/parallel.h"
 
 #include <algorithm>
 #include <atomic>

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "dam/detail/script_text.h"
+#include "dam/detail/script_timeline.h"
 #include "dam/phones.h"
-#include "dam/script_text.h"
-#include "dam/script_timeline.h"
 
 namespace animeme::dam {
 namespace {

@@ -1,4 +1,4 @@
-#include "dam/script_text.h"
+#include "dam/detail/script_text.h"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // Which tiers of a TextGrid are the phones and the words, and the way back.
 #include <algorithm>
 
-#include "dam/script_text.h"
-#include "dam/script_timeline.h"
+#include "dam/detail/script_text.h"
+#include "dam/detail/script_timeline.h"
 #include "dam/textgrid.h"
 
 namespace animeme::dam {

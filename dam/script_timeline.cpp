@@ -1,13 +1,13 @@
-#include "dam/script_timeline.h"
+#include "dam/detail/script_timeline.h"
 
 #include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
 
+#include "dam/detail/script_text.h"
 #include "dam/ipa.h"
 #include "dam/phones.h"
-#include "dam/script_text.h"
 
 namespace animeme::dam {
 namespace {

@@ -1,8 +1,8 @@
 // The corpus format: tab separated, columns named by a header line.
 #include <optional>
 
-#include "dam/script_text.h"
-#include "dam/script_timeline.h"
+#include "dam/detail/script_text.h"
+#include "dam/detail/script_timeline.h"
 
 namespace animeme::dam {
 namespace {

@@ -1,4 +1,4 @@
-#include "dam/spline.h"
+#include "dam/detail/spline.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "dam/statistics.h"
+#include "dam/detail/statistics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <string>
 
 #include "dam/closure.h"
-#include "dam/timeline.h"
+#include "dam/detail/timeline.h"
 
 namespace animeme::dam {
 namespace {

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "dam/animeme.h"
-#include "dam/choose_modes.h"
 #include "dam/closure.h"
-#include "dam/timeline.h"
+#include "dam/detail/choose_modes.h"
+#include "dam/detail/timeline.h"
 
 namespace animeme::dam {
 namespace {

@@ -1,4 +1,4 @@
-#include "dam/table_text.h"
+#include "dam/detail/table_text.h"
 
 #include <algorithm>
 #include <charconv>

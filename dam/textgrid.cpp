@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "dam/script_timeline.h"
+#include "dam/detail/script_timeline.h"
 
 namespace animeme::dam {
 namespace {

@@ -1,4 +1,4 @@
-#include "dam/timeline.h"
+#include "dam/detail/timeline.h"
 
 #include <algorithm>
 #include <limits>

@@ -4,9 +4,9 @@
 #include <chrono>
 #include <cmath>
 
-#include "dam/fit.h"
-#include "dam/modes.h"
-#include "dam/training_set.h"
+#include "dam/detail/fit.h"
+#include "dam/detail/modes.h"
+#include "dam/detail/training_set.h"
 
 namespace animeme::dam {
 namespace {

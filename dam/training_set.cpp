@@ -1,12 +1,12 @@
-#include "dam/training_set.h"
+#include "dam/detail/training_set.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "dam/detail/statistics.h"
+#include "dam/detail/timeline.h"
 #include "dam/phones.h"
-#include "dam/statistics.h"
-#include "dam/timeline.h"
 
 namespace animeme::dam {
 namespace {

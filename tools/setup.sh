@@ -11,7 +11,7 @@ packages="
   libpocketsphinx-dev libsphinxbase-dev pocketsphinx-en-us
 "
 # Only the tests need these.
-[ "${1:-}" = "tests" ] && packages="$packages libgtest-dev libgmock-dev libbenchmark-dev ffmpeg"
+[ "${1:-}" = "tests" ] && packages="$packages libgtest-dev libgmock-dev libbenchmark-dev ffmpeg clang-format-14"
 
 missing=""
 for package in $packages; do

@@ -1,11 +1,11 @@
-#include "dam/affinity.h"
+#include "dam/detail/affinity.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "dam/spline.h"
+#include "dam/detail/spline.h"
 
 namespace animeme::dam {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "dam/animeme.h"
 #include "dam/corpus.h"
-#include "dam/timeline.h"
+#include "dam/detail/timeline.h"
 
 namespace animeme::test {
 

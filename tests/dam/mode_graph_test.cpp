@@ -1,9 +1,9 @@
-#include "dam/mode_graph.h"
+#include "dam/detail/mode_graph.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "dam/contexts.h"
+#include "dam/detail/contexts.h"
 #include "dam_support.h"
 
 namespace animeme::dam {

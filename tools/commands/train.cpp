@@ -42,21 +42,21 @@ void print(const Options& options, const dam::Corpus& corpus, const dam::Model& 
     std::printf("%s\n", json.dump(2).c_str());
     return;
   }
-  std::fprintf(stderr,
-               "%zu utterances, %.1f s, %zu phones (%zu occurrences), %zu modes, %zu controls\n",
-               summary.utterances, corpus.duration(), model.phones.size(), summary.occurrences,
-               summary.modes, model.controls.size());
-  std::fprintf(stderr, "%d iterations%s, objective", summary.iterations,
-               summary.converged ? "" : " (stopped before convergence)");
-  const std::size_t count = summary.objective.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    if (count > 6 && i == 3) {
-      std::fprintf(stderr, " ...");
-      i = count - 2;
-    }
-    std::fprintf(stderr, " %.1f", summary.objective[i]);
+  char line[200];
+  std::snprintf(line, sizeof line,
+                "%zu utterances, %.1f s, %zu phones (%zu occurrences), %zu modes, %zu controls",
+                summary.utterances, corpus.duration(), model.phones.size(), summary.occurrences,
+                summary.modes, model.controls.size());
+  say(line);
+  std::string fit = std::to_string(summary.iterations) + " iterations" +
+                    (summary.converged ? "" : " (stopped before convergence)") + ", objective";
+  for (const double objective : summary.objective) {
+    std::snprintf(line, sizeof line, " %.1f", objective);
+    fit += line;
   }
-  std::fprintf(stderr, "\n%s: trained in %.1f s\n", options.output.c_str(), summary.seconds);
+  say(fit);
+  std::snprintf(line, sizeof line, ": trained in %.1f s", summary.seconds);
+  say(options.output + line);
 }
 
 Result<int> run(const Options& options) {

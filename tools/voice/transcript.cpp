@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "dam/script_text.h"
+#include "dam/detail/script_text.h"
 
 namespace animeme::voice {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "dam/script_text.h"
+#include "dam/detail/script_text.h"
 
 namespace animeme::voice {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dam/corpus.h"
-#include "dam/fit.h"
+#include "dam/detail/fit.h"
 #include "dam/model.h"
 #include "dam/train.h"
 

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <span>
 
-#include "dam/fit.h"
+#include "dam/detail/fit.h"
 
 namespace animeme::dam {
 

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "dam/detail/timeline.h"
 #include "dam/model.h"
-#include "dam/timeline.h"
 
 namespace animeme::dam {
 

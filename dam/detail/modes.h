@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "dam/fit.h"
+#include "dam/detail/fit.h"
 #include "dam/model.h"
 #include "dam/train.h"
 
