@@ -12,6 +12,7 @@ class PlaneParser {
   Result<void> run() {
     plane_.intra = in_.bit() != 0;
     plane_.object_mask = ObjectMask(in_.bits(2));
+    plane_.temporal = {};
     const bool face = has_face(plane_.object_mask);
     const bool body = has_body(plane_.object_mask);
     if (face || body) {
@@ -50,7 +51,6 @@ class PlaneParser {
 
   Result<void> temporal_header() {
     TemporalHeader& temporal = plane_.temporal;
-    temporal = {};
     if (plane_.intra) {
       if (in_.bit() != 0) {
         CodedRate rate;

@@ -141,6 +141,28 @@ TEST(Headers, DctModeIsToldApart) {
   EXPECT_EQ(decoded.error().where.bit, 32 + 6 + 5 + 30 + 1);
 }
 
+TEST(Headers, PlanesThatCodeNothingSkipNothing) {
+  // A face plane that skips 17 frames, a plane whose object mask is 0, a face plane again.
+  fba::BitWriter out;
+  out.start_code(fba::kObjectStart);
+  out.bits(0b101001, 6);  // intra, face, no rate, no time code, skip
+  out.bits(15, 4);
+  out.bits(2, 4);
+  out.bits(1, 5);
+  for (int group = 0; group < 10; ++group) out.bits(0b100, 3);
+  out.bits(0b000000, 6);  // gender, coding type, no ranges
+  out.bits(0b01, 2);      // empty segment
+  out.bits(0b000, 3);
+  out.bits(0b001001, 6);
+  out.stuff();
+  out.start_code(fba::kSequenceEnd);
+  auto decoded = fba::decode(out.bytes());
+  ASSERT_TRUE(decoded) << decoded.error().describe();
+  ASSERT_EQ(decoded->planes.size(), 3u);
+  EXPECT_EQ(decoded->planes[1].number, 18);
+  EXPECT_EQ(decoded->planes[2].number, 19);
+}
+
 TEST(Rates, AreCodedExactlyOrNotAtAll) {
   EXPECT_EQ(fba::code_rate({25, 1}), (fba::CodedRate{25, 0, false}));
   EXPECT_EQ(fba::code_rate({25, 2}), (fba::CodedRate{12, 8, false}));
