@@ -285,6 +285,7 @@ struct Decoder::Impl {
     }
     if (!available(border + 32)) return false;
     const std::uint32_t code = code_at(border);
+    if ((is_plane_start(code) || code == kSequenceEnd) && short_plane_before(border)) return false;
     if (is_plane_start(code)) {
       if (!is_stuffing(position, border)) {
         warn("the stuffing before a plane start code is not 0 and 1s", position);
@@ -299,6 +300,15 @@ struct Decoder::Impl {
       return true;
     }
     return false;
+  }
+
+  // A plane of a few bits may lie between here and the border where a start code stands; the bits
+  // are then not those of stuffing, but a plane and stuffing.
+  bool short_plane_before(std::size_t border) {
+    if (is_stuffing(position, border)) return false;
+    BitReader in(std::span<const std::uint8_t>(buffer).first(border / 8), position);
+    if (!internal::parse_plane(in, state, true, parsed)) return false;
+    return in.position() < border && is_stuffing(in.position(), border);
   }
 
   void consume_start_code(std::size_t bit) {

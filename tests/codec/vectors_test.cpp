@@ -163,6 +163,29 @@ TEST(Headers, PlanesThatCodeNothingSkipNothing) {
   EXPECT_EQ(decoded->planes[2].number, 19);
 }
 
+TEST(Headers, ShortPlanesBeforeAStartCodeAreNotStuffing) {
+  // Predictive planes of 6 bits, so many that the last one lies within the byte before the end
+  // code, whatever the alignment.
+  fba::FaceSettings settings;
+  for (int planes = 2; planes < 12; ++planes) {
+    for (const auto codes : {fba::PlaneStartCodes::none, fba::PlaneStartCodes::intra}) {
+      fba::Encoder encoder({codes, false});
+      fap::Frame frame;
+      for (int i = 0; i < planes; ++i) {
+        fba::PlaneInput plane;
+        plane.intra = i == 0 || i == planes / 2;
+        plane.face = &frame;
+        plane.face_settings = &settings;
+        ASSERT_TRUE(encoder.write(plane));
+      }
+      auto decoded = fba::decode(encoder.finish());
+      ASSERT_TRUE(decoded) << decoded.error().describe();
+      EXPECT_EQ(decoded->planes.size(), std::size_t(planes));
+      EXPECT_TRUE(decoded->warnings.empty());
+    }
+  }
+}
+
 TEST(Rates, AreCodedExactlyOrNotAtAll) {
   EXPECT_EQ(fba::code_rate({25, 1}), (fba::CodedRate{25, 0, false}));
   EXPECT_EQ(fba::code_rate({25, 2}), (fba::CodedRate{12, 8, false}));
