@@ -90,7 +90,10 @@ Result<Signal> recorded(const Model& model, const Utterance& u) {
 class Scorer {
  public:
   Scorer(const Model& model, const EvaluateOptions& options)
-      : model_(model), options_(options), controls_(model.controls.size()) {
+      : model_(model),
+        options_(options),
+        controls_(model.controls.size()),
+        still_error_(model.controls.size(), 0.0) {
     bool any = false;
     for (const Control& c : model.controls) {
       scored_.push_back(is_scored_lip_fap(c.name) && c.sd > 0);
@@ -126,9 +129,11 @@ class Scorer {
       if (!scored_[c]) continue;
       n += 1;
       result_.nrmse += nrmse;
+      result_.still_nrmse += std::sqrt(still_error_[c] / double(result_.frames)) / sd;
       result_.correlation += controls_[c].correlation();
     }
     result_.nrmse /= std::max(1.0, n);
+    result_.still_nrmse /= std::max(1.0, n);
     result_.correlation /= std::max(1.0, n);
     result_.l2 /= double(result_.frames);
     for (const Measure& m : measures_)
@@ -153,6 +158,7 @@ class Scorer {
       for (std::size_t c = 0; c < controls_.size(); ++c) {
         const double a = made.at(i, c), b = reference.at(i, c);
         controls_[c].add(a, b);
+        still_error_[c] += std::pow(b - model_.controls[c].mean, 2);
         own[c].add(a, b);
         if (scored_[c]) norm += std::pow((a - b) / model_.controls[c].sd, 2);
       }
@@ -215,6 +221,7 @@ class Scorer {
   const Model& model_;
   const EvaluateOptions& options_;
   std::vector<Comparison> controls_;
+  std::vector<double> still_error_;  // squared, of the mean pose
   std::vector<bool> scored_;
   std::vector<Measure> measures_;
   double seconds_ = 0;

@@ -57,8 +57,9 @@ struct ClosureScore {
 struct Evaluation {
   std::size_t utterances = 0;
   std::size_t frames = 0;
-  double nrmse = 0;  ///< mean over scored controls
-  double l2 = 0;     ///< mean over frames of the Euclidean norm of the error in standard deviations
+  double nrmse = 0;        ///< mean over scored controls
+  double still_nrmse = 0;  ///< the same for a face that keeps the mean pose of the training speech
+  double l2 = 0;  ///< mean over frames of the Euclidean norm of the error in standard deviations
   double correlation = 0;  ///< mean over scored controls
   std::vector<ControlScore> controls;
   std::vector<MeasureScore> measures;  ///< those whose FAPs are there

@@ -40,6 +40,7 @@ nlohmann::ordered_json to_json(const dam::Evaluation& result) {
   return {{"utterances", result.utterances},
           {"frames", result.frames},
           {"mean_nrmse", result.nrmse},
+          {"still_face_nrmse", result.still_nrmse},
           {"mean_l2", result.l2},
           {"mean_correlation", result.correlation},
           {"closure",
@@ -57,6 +58,7 @@ void print(const dam::Evaluation& result) {
   std::printf("%zu utterances, %zu frames of speech +-0.2 s\n\n", result.utterances, result.frames);
   std::printf("mean NRMSE        %.4f   (RMSE / training standard deviation, scored controls)\n",
               result.nrmse);
+  std::printf("  of a still face %.4f   (mean pose of the training speech)\n", result.still_nrmse);
   std::printf("mean L2           %.3f\n", result.l2);
   std::printf("mean correlation  %.3f\n", result.correlation);
   for (const dam::MeasureScore& measure : result.measures) {
