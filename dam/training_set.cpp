@@ -83,10 +83,12 @@ void add_warnings(TrainingSet& set) {
     if (control.sd == 0)
       set.warnings.push_back("control '" + control.name +
                              "' never moves and is kept as a constant");
+  std::string few;
   for (const PhoneModel& phone : set.phones)
     if (phone.examples < kFewExamples)
-      set.warnings.push_back("phone " + phone.label + " has only " +
-                             std::to_string(phone.examples) + " examples");
+      few += (few.empty() ? "" : ", ") + phone.label + " " + std::to_string(phone.examples);
+  if (!few.empty())
+    set.warnings.push_back("phones with few examples, whose shapes are uncertain: " + few);
 }
 
 }  // namespace

@@ -39,7 +39,8 @@ TEST(Train, TheSampleGivesAValidModel) {
   EXPECT_EQ(summary.utterances, 24u);
   EXPECT_EQ(summary.objective.size(), std::size_t(summary.iterations) + 1);
   EXPECT_TRUE(std::is_sorted(summary.objective.rbegin(), summary.objective.rend()));
-  EXPECT_THAT(summary.warnings, testing::Contains(HasSubstr("phone AA has only")));
+  EXPECT_THAT(summary.warnings,
+              testing::Contains(testing::AllOf(HasSubstr("few examples"), HasSubstr("AA "))));
 }
 
 TEST(Train, ThreadsAndOrderOfSentencesDoNotMatter) {
