@@ -35,7 +35,7 @@ TimeBase time_base(const std::vector<Plane>& planes) {
   const std::optional<CodedRate> coded = code_rate(rate);
   if (!coded) return {};
   TimeBase base{(16U * coded->frame_rate + coded->sixteenths) * 1000U,
-                16 * (coded->frequency_offset ? 1001 : 1000)};
+                std::int64_t(16) * (coded->frequency_offset ? 1001 : 1000)};
   if (coded->sixteenths % 2 == 0) {
     base.timescale /= 16;
     base.frame /= 16;

@@ -59,10 +59,10 @@ SlotCoding apply_settings(const SlotCoding& before, const Settings& settings, in
   coding.quantised = quant != 0;
   coding.coded.clear();
   coding.set_default_ranges();
-  for (std::uint16_t slot = 0; slot < coding.table->number.size(); ++slot) {
+  for (std::size_t slot = 0; slot < coding.table->number.size(); ++slot) {
     const std::size_t number = coding.table->number[slot];
     if (!settings.mask[number]) continue;
-    coding.coded.push_back(slot);
+    coding.coded.push_back(std::uint16_t(slot));
     for (std::size_t kind = 0; kind < 4; ++kind) {
       if (!settings.send_range[kind]) continue;
       coding.range[kind][slot] = internal::level_range(settings.range[kind][number], scale);
