@@ -221,6 +221,14 @@ Result<Json> describe(const Options& options) {
   }
 }
 
+std::string text_of(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_number_float()) return value.dump();
+  char text[40];
+  std::snprintf(text, sizeof text, "%.3f", value.get<double>());
+  return text;
+}
+
 // The tree as indented "name: value" lines; lists of objects as one line each.
 void print(const Json& json, int indent) {
   for (const auto& [key, value] : json.items()) {
@@ -233,25 +241,16 @@ void print(const Json& json, int indent) {
       for (const Json& item : value) {
         std::string line;
         for (const auto& [name, field] : item.items()) {
-          line += (line.empty() ? "" : "  ") + name + " " +
-                  (field.is_string() ? field.get<std::string>() : field.dump());
+          line += (line.empty() ? "" : "  ") + name + " " + text_of(field);
         }
         std::printf("%s  %s\n", pad.c_str(), line.c_str());
       }
     } else if (value.is_array()) {
       std::string line;
-      for (const Json& item : value) {
-        line +=
-            (line.empty() ? "" : ", ") + (item.is_string() ? item.get<std::string>() : item.dump());
-      }
+      for (const Json& item : value) line += (line.empty() ? "" : ", ") + text_of(item);
       if (!line.empty()) std::printf("%s%s: %s\n", pad.c_str(), key.c_str(), line.c_str());
-    } else if (value.is_string()) {
-      const std::string text = value.get<std::string>();
-      if (!text.empty()) std::printf("%s%s: %s\n", pad.c_str(), key.c_str(), text.c_str());
-    } else if (value.is_number_float()) {
-      std::printf("%s%s: %.3f\n", pad.c_str(), key.c_str(), value.get<double>());
-    } else {
-      std::printf("%s%s: %s\n", pad.c_str(), key.c_str(), value.dump().c_str());
+    } else if (const std::string text = text_of(value); !text.empty()) {
+      std::printf("%s%s: %s\n", pad.c_str(), key.c_str(), text.c_str());
     }
   }
 }
