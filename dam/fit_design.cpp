@@ -33,12 +33,6 @@ std::vector<double> power_coefficients(std::span<const double> c) {
   return sum;
 }
 
-namespace {
-
-struct FrameRange {
-  std::size_t begin = 0, end = 0;
-};
-
 FrameRange reach_of(const FitData& data, const FitSentence& sentence, const FitOccurrence& o,
                     double sigma) {
   const double reach = dominance_reach(sigma) * o.duration;
@@ -47,8 +41,6 @@ FrameRange reach_of(const FitData& data, const FitSentence& sentence, const FitO
   const double to = std::floor((o.start + o.duration + reach) * data.rate) + 1;
   return {std::size_t(std::clamp(from, 0.0, last)), std::size_t(std::clamp(to, 0.0, last))};
 }
-
-}  // namespace
 
 Design make_design(const FitData& data, const FitSentence& sentence,
                    std::span<const double> sigma) {

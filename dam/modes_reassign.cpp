@@ -8,11 +8,6 @@
 namespace animeme::dam {
 namespace {
 
-/// Frames of a sentence within reach of an occurrence under any of its phone's modes.
-struct Window {
-  std::size_t begin = 0, end = 0;
-};
-
 class Reassigner {
  public:
   Reassigner(FitData& data, const ModeTable& table, const FitState& state, double context_weight,
@@ -45,7 +40,7 @@ class Reassigner {
   bool improve(const FitSentence& sentence, FitOccurrence& o) {
     const std::size_t first = table_.first[std::size_t(o.phone)], count = table_.of(o.phone);
     if (count < 2 || members_[o.mode] <= kSmallestMode) return false;
-    const Window window = window_of(sentence, o);
+    const FrameRange window = window_of(sentence, o);
     const auto context = mode_costs(phones_[std::size_t(o.phone)], classes_, o.left, o.right,
                                     std::int32_t(o.mode - first));
     add_to_blend(window, o, o.mode, -1);
@@ -68,14 +63,12 @@ class Reassigner {
     return true;
   }
 
-  Window window_of(const FitSentence& sentence, const FitOccurrence& o) const {
+  /// Frames within reach of an occurrence under any of its phone's modes.
+  FrameRange window_of(const FitSentence& sentence, const FitOccurrence& o) const {
     double sigma = 0;
     for (std::size_t g = 0; g < table_.of(o.phone); ++g)
       sigma = std::max(sigma, state_.sigma[table_.first[std::size_t(o.phone)] + g]);
-    const double reach = dominance_reach(sigma) * o.duration, last = double(sentence.frames);
-    const double from = std::ceil((o.start - reach) * data_.rate);
-    const double to = std::floor((o.start + o.duration + reach) * data_.rate) + 1;
-    return {std::size_t(std::clamp(from, 0.0, last)), std::size_t(std::clamp(to, 0.0, last))};
+    return reach_of(data_, sentence, o, sigma);
   }
 
   /// D A of one mode at one frame, into value_; D into weight_of_value_ (0 in a plain sum).
@@ -93,7 +86,8 @@ class Reassigner {
   }
 
   /// Takes an occurrence into the sums of Eq. 2 (sign 1) or out of them (-1).
-  void add_to_blend(const Window& window, const FitOccurrence& o, std::uint32_t mode, double sign) {
+  void add_to_blend(const FrameRange& window, const FitOccurrence& o, std::uint32_t mode,
+                    double sign) {
     for (std::size_t i = window.begin; i < window.end; ++i) {
       evaluate(o, mode, i);
       sum_[i] += sign * weight_of_value_;
@@ -102,7 +96,7 @@ class Reassigner {
     }
   }
 
-  double cost(const FitSentence& sentence, const Window& window, const FitOccurrence& o,
+  double cost(const FitSentence& sentence, const FrameRange& window, const FitOccurrence& o,
               std::uint32_t mode) {
     double sum = 0;
     for (std::size_t i = window.begin; i < window.end; ++i) {

@@ -78,6 +78,15 @@ struct Design {
 
 inline constexpr int kMaxOrder = 8;
 
+/// Frames [begin, end) of a sentence.
+struct FrameRange {
+  std::size_t begin = 0, end = 0;
+};
+
+/// Frames that an occurrence reaches with a width of `sigma`.
+FrameRange reach_of(const FitData& data, const FitSentence& sentence, const FitOccurrence& o,
+                    double sigma);
+
 /// Legendre polynomials 0 .. order of 2u - 1, u clamped by `margin`.
 void legendre(double u, double margin, int order, double* out);
 

@@ -152,6 +152,12 @@ TEST(BadInput, OutputThatCannotBeWritten) {
   fails(dir, {"speak", "--text", "hi", "-o", dir / "no/such/folder/a.fap"});
 }
 
+TEST(BadInput, LeavesNoScriptBehindEither) {
+  const TempDir dir;
+  fails(dir, {"speak", "--text", "hi", "-o", dir / "no/such/folder/a.fap", "--save-script",
+              dir / "a.TextGrid"});
+}
+
 TEST(BadInput, KeepsTheOldFileWhenItFails) {
   const TempDir dir;
   spill(dir / "a.mp4", "precious");
@@ -159,6 +165,13 @@ TEST(BadInput, KeepsTheOldFileWhenItFails) {
       animeme({"speak", "--text", "hi", "--model", dir / "none", "-o", dir / "a.mp4"});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_EQ(test::slurp(dir / "a.mp4"), "precious");
+}
+
+TEST(Info, ReadsStandardInputOnce) {
+  const auto text = test::slurp(test::data_dir() / "fap" / "plain.fap");
+  const auto result = animeme({"info", "-"}, text);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("kind: fap"));
 }
 
 TEST(Usage, IsExitCode2) {

@@ -175,21 +175,25 @@ FileKind kind_of(std::span<const std::uint8_t> bytes) {
 Result<FaceInput> read_face(const std::string& path) {
   Result<std::vector<std::uint8_t>> bytes = read_file(path);
   if (!bytes) return bytes.error();
+  return parse_face(std::move(*bytes), path);
+}
+
+Result<FaceInput> parse_face(std::vector<std::uint8_t> bytes, const std::string& path) {
   FaceInput input;
-  const FileKind kind = kind_of(*bytes);
+  const FileKind kind = kind_of(bytes);
   if (kind == FileKind::fap_text) {
     std::vector<std::string> warnings;
-    auto clip = fap::read_text({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, {},
-                               &warnings);
+    auto clip =
+        fap::read_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, {}, &warnings);
     if (!clip) return clip.error().in_file(path);
     for (const std::string& text : warnings) warn(path + ": " + text);
     input.clip = std::move(*clip);
     return input;
   }
-  if (bytes->empty()) return make_error(Code::truncated, "the file is empty").in_file(path);
+  if (bytes.empty()) return make_error(Code::truncated, "the file is empty").in_file(path);
   if (kind == FileKind::curves) {
     Result<dam::Signal> signal =
-        dam::read_curves({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+        dam::read_curves({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     if (!signal) return signal.error().in_file(path);
     Result<fap::Sequence> clip = dam::to_sequence(*signal);
     if (!clip) return clip.error().in_file(path);
@@ -197,12 +201,13 @@ Result<FaceInput> read_face(const std::string& path) {
     return input;
   }
   if (kind == FileKind::media) {
-    Result<media::Container> container = media::read_container(std::span(*bytes));
+    Result<media::Container> container =
+        media::read_container(std::span<const std::uint8_t>(bytes));
     if (!container) return container.error().in_file(path);
     for (const std::string& text : container->warnings) warn(path + ": " + text);
     input.stream = fba::join_access_units(container->face);
   } else if (kind == FileKind::fba_stream) {
-    input.stream = std::move(*bytes);
+    input.stream = std::move(bytes);
   } else {
     return make_error(Code::syntax,
                       "this holds no face: .fap text, a raw .fba stream or an mp4, mkv or ts file "

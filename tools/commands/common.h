@@ -89,5 +89,7 @@ struct FaceInput {
   std::vector<std::uint8_t> stream;  ///< the raw FBA stream; empty for text
 };
 Result<FaceInput> read_face(const std::string& path);
+/// The same from bytes that were read already; `path` is for names and messages.
+Result<FaceInput> parse_face(std::vector<std::uint8_t> bytes, const std::string& path);
 
 }  // namespace animeme::tools

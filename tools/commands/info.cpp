@@ -212,7 +212,7 @@ Result<Json> describe(const Options& options) {
           {"kind", "script"}, {"phones", script->phones.size()}, {"seconds", script->duration()}};
     }
     default: {
-      Result<FaceInput> face = read_face(options.input);
+      Result<FaceInput> face = parse_face(std::move(*bytes), options.input);
       if (!face) return face.error();
       Json out = {{"kind", "fap"}};
       out.update(describe_clip(face->clip));

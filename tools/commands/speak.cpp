@@ -136,12 +136,6 @@ Result<int> run(const Options& options) {
   dam::SynthesisReport synthesis;
   Result<dam::Signal> signal = dam::synthesise(*model, spoken->script, settings, &synthesis);
   if (!signal) return signal.error().in_file(options.spoken.script);
-  if (!options.save_script.empty()) {
-    const bool table = extension_of(options.save_script) == ".tsv";
-    const std::string text =
-        table ? dam::write_script_tsv(spoken->script) : dam::write_textgrid(spoken->script);
-    if (auto done = write_file(options.save_script, text); !done) return done.error();
-  }
   Result<int> written = kOk;
   if (extension_of(options.output) == ".csv") {
     written = write_curves(options.output, *signal);
@@ -151,8 +145,16 @@ Result<int> run(const Options& options) {
     clip->name = std::filesystem::path(options.output).stem().string();
     written = write_result(options, *clip, *spoken);
   }
-  if (written) report(options, *spoken, *signal, synthesis);
-  return written;
+  if (!written) return written;
+  // Last, so that a failure leaves no file behind.
+  if (!options.save_script.empty()) {
+    const bool table = extension_of(options.save_script) == ".tsv";
+    const std::string text =
+        table ? dam::write_script_tsv(spoken->script) : dam::write_textgrid(spoken->script);
+    if (auto done = write_file(options.save_script, text); !done) return done.error();
+  }
+  report(options, *spoken, *signal, synthesis);
+  return kOk;
 }
 
 Action add(CLI::App& app) {
