@@ -21,7 +21,8 @@ struct TrainOptions {
 
   /// Eq. 2 is called a "summation of normalised values" but written as a plain sum. True: the blend
   /// is divided by the sum of the dominances, so every pose lies between those of the phones around
-  /// it. False: the plain sum, which fits as well but goes astray on sound sequences never heard.
+  /// it. False: the plain sum, which fits almost as well but may overshoot in sequences never
+  /// heard.
   bool normalised = true;
   bool modes = true;        ///< several modes a phone (section V-A); false: one
   int resample_points = 7;  ///< samples of the spline over a phone: 2..32
