@@ -329,6 +329,7 @@ struct Decoder::Impl {
     tell_time(plane);
 
     BodyFrame body;
+    body.number = plane.number;
     const Result<void> applied = internal::apply_plane(parsed, state, plane.face, body);
     if (!applied) return at(applied.error().code, applied.error().message, plane_begin);
     if (has_face(plane.object_mask)) {

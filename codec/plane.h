@@ -98,6 +98,7 @@ struct BodySettings {
 
 /// Decoded body parameters: 1e-5 rad, millimetres for BAP 181..183.
 struct BodyFrame {
+  std::int64_t number = 0;  ///< running number at the stream's rate; gaps are skipped frames
   std::bitset<kBapCount + 1> mask;
   std::array<std::int32_t, kBapCount + 1> value{};
   friend bool operator==(const BodyFrame&, const BodyFrame&) = default;

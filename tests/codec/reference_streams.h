@@ -72,6 +72,7 @@ inline std::vector<fba::BodyFrame> read_bap(const std::string& text) {
     }
     long number = 0;
     in >> number;
+    frame.number = number;
     for (int bap = 1; bap <= masks; ++bap) {
       if (frame.mask[std::size_t(bap)]) in >> frame.value[std::size_t(bap)];
     }
