@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "codec/decoder.h"
-#include "codec/encoder.h"
+#include "codec/encode.h"
 #include "fap/text.h"
 
 namespace animeme {

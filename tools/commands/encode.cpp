@@ -1,4 +1,4 @@
-#include "codec/encoder.h"
+#include "codec/encode.h"
 
 #include <map>
 #include <memory>
