@@ -15,6 +15,7 @@
 #include "dam/corpus.h"
 #include "dam/fap_signal.h"
 #include "fap/text.h"
+#include "tools/commands/arkit_csv.h"
 #include "tools/media/container.h"
 
 namespace animeme::tools {
@@ -161,7 +162,7 @@ FileKind kind_of(std::span<const std::uint8_t> bytes) {
     const std::string_view line = view.substr(0, end);
     const std::size_t first = line.find_first_not_of(" \t\r");
     if (first != std::string_view::npos && line[first] != '#') {
-      if (line.substr(first).starts_with("time_s")) return FileKind::curves;
+      if (line.substr(first).starts_with("time_s") || is_arkit_csv(line)) return FileKind::curves;
       const char c = line[first];
       const bool number = (c >= '0' && c <= '9') || c == '-' || c == '.';
       return number ? FileKind::fap_text : FileKind::script;
@@ -178,6 +179,18 @@ Result<FaceInput> read_face(const std::string& path) {
   return parse_face(std::move(*bytes), path);
 }
 
+namespace {
+
+Result<FaceInput> parse_arkit(std::string_view text, const std::string& path) {
+  std::vector<std::string> warnings;
+  Result<fap::Sequence> clip = read_arkit_csv(text, {}, warnings);
+  if (!clip) return clip.error().in_file(path);
+  for (const std::string& warning : warnings) warn(path + ": " + warning);
+  return FaceInput{std::move(*clip), {}};
+}
+
+}  // namespace
+
 Result<FaceInput> parse_face(std::vector<std::uint8_t> bytes, const std::string& path) {
   FaceInput input;
   const FileKind kind = kind_of(bytes);
@@ -191,6 +204,8 @@ Result<FaceInput> parse_face(std::vector<std::uint8_t> bytes, const std::string&
     return input;
   }
   if (bytes.empty()) return make_error(Code::truncated, "the file is empty").in_file(path);
+  const std::string_view table(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (kind == FileKind::curves && is_arkit_csv(table)) return parse_arkit(table, path);
   if (kind == FileKind::curves) {
     Result<dam::Signal> signal =
         dam::read_curves({reinterpret_cast<const char*>(bytes.data()), bytes.size()});

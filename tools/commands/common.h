@@ -36,8 +36,8 @@ struct Command {
   Action (*add)(CLI::App& app);
 };
 
-extern const Command kAlign, kCompare, kDecode, kDemux, kEncode, kEvaluate, kInfo, kMux, kPlot,
-    kSpeak, kTrain;
+extern const Command kAlign, kCompare, kDecode, kDemux, kEncode, kEvaluate, kImport, kInfo, kMux,
+    kPlot, kSpeak, kTrain;
 
 /// Prints a usage error on standard error; returns kUsage for the command to return.
 int usage_error(const std::string& text);
@@ -83,7 +83,8 @@ enum class FileKind : std::uint8_t { fap_text, fba_stream, model, script, curves
 FileKind kind_of(std::span<const std::uint8_t> bytes);
 
 /// Any input with a face as a clip: .fap text, raw .fba, a container, or a table of curves
-/// (time_s, fap3_open_jaw ... as in a corpus). For text, warnings about quirks are printed.
+/// (time_s, fap3_open_jaw ... as in a corpus; ARKit shapes, see arkit_csv.h). For text, warnings
+/// about quirks are printed.
 struct FaceInput {
   fap::Sequence clip;
   std::vector<std::uint8_t> stream;  ///< the raw FBA stream; empty for text
