@@ -268,7 +268,7 @@ Result<std::vector<std::uint8_t>> encode(const fap::Sequence& face, const Encode
   for (int i = 0; i < 4 && written && target > 0; ++i) {
     const double excess = double(written->stream.size()) * 8 - target;
     if (excess <= 0 || budget <= excess) break;
-    budget -= excess;
+    budget -= excess + 0.002 * target;
     written = attempt(*clip, options, budget, chosen);
   }
   if (!written) return written.error();

@@ -183,25 +183,21 @@ double RateDistortion::limit_error(double max_rms, Decision& decision) const {
 }
 
 // At fine quantisation lambda is near 0.14 squared steps, with a step of 2 * quant units for most
-// parameters; the quantisers around that are tried.
-RateDistortion::Solution RateDistortion::solve_any_quant(const std::vector<Unit>& units,
-                                                         double lambda, int& quant) const {
-  const int middle = int(std::lround(std::sqrt(lambda / 0.14) / 2));
-  const int low = std::clamp(middle / 2, 1, kMaxQuant);
-  const int high = std::clamp(middle * 2, 1, kMaxQuant);
-  Solution best;
-  double best_cost = std::numeric_limits<double>::infinity();
-  for (int next = low; next <= high; next += std::max(1, (high - low) / 4)) {
-    Solution solution = solve(units, next, lambda);
+// parameters. The quantisers around that are tried.
+int RateDistortion::best_quant(const std::vector<Unit>& units, double lambda) const {
+  const double middle = std::sqrt(lambda / 0.14) / 2;
+  int best = 0;
+  double best_cost = 0;
+  int last = 0;
+  for (const double factor : {0.6, 0.8, 1.0, 1.3, 1.7}) {
+    const int quant = std::clamp(int(std::lround(factor * middle)), 1, kMaxQuant);
+    if (quant == last) continue;
+    last = quant;
+    const Solution solution = solve(units, quant, lambda);
     const double cost = solution.error + lambda * solution.bits;
-    if (!solution.fits || cost >= best_cost) continue;
+    if (best != 0 && (!solution.fits || cost >= best_cost)) continue;
     best_cost = cost;
-    quant = next;
-    best = std::move(solution);
-  }
-  if (best.units.empty()) {
-    quant = high;
-    best = solve(units, quant, lambda);
+    best = quant;
   }
   return best;
 }
@@ -211,22 +207,30 @@ double RateDistortion::fill_lambda(double lambda, Decision& decision) const {
   for (const bool body : {false, true}) {
     if (!(body ? clip_.has_body : clip_.has_face)) continue;
     const std::vector<Unit> units = units_of(body, Kind::all);
-    int quant = 1;
-    const Solution solution = solve_any_quant(units, lambda, quant);
+    const int quant = body ? decision.bap_quant : decision.fap_quant;
+    const Solution solution = solve(units, quant, lambda);
     bits += solution.bits;
     store(units, solution, quant, decision);
   }
   return bits;
 }
 
+double RateDistortion::fill_lambda_at_best_quant(double lambda, Decision& decision) const {
+  if (clip_.has_face) decision.fap_quant = best_quant(units_of(false, Kind::all), lambda);
+  if (clip_.has_body) decision.bap_quant = best_quant(units_of(true, Kind::all), lambda);
+  return fill_lambda(lambda, decision);
+}
+
 void RateDistortion::limit_bits(double bits, Decision& decision) const {
-  double low = 0.01;
-  double high = 0.5;
-  while (high < 1e6 && fill_lambda(high, decision) > bits) {
+  constexpr double kLargest = 1e6;
+  double low = 0.02;
+  double high = 0.02;
+  while (high < kLargest && fill_lambda_at_best_quant(high, decision) > bits) {
     low = high;
-    high *= 4;
+    high *= 3;
   }
-  for (int i = 0; i < 6; ++i) {
+  if (low == high) return;
+  for (int i = 0; i < 7; ++i) {
     const double middle = std::sqrt(low * high);
     (fill_lambda(middle, decision) > bits ? low : high) = middle;
   }

@@ -43,8 +43,9 @@ class RateDistortion {
   UnitResult solve_unit(const Unit& unit, int quant, double lambda) const;
   Solution solve(const std::vector<Unit>& units, int quant, double lambda) const;
   Solution solve_error(const std::vector<Unit>& units, int quant, double max_error) const;
-  Solution solve_any_quant(const std::vector<Unit>& units, double lambda, int& quant) const;
+  int best_quant(const std::vector<Unit>& units, double lambda) const;
   double fill_lambda(double lambda, Decision& decision) const;
+  double fill_lambda_at_best_quant(double lambda, Decision& decision) const;
   enum class Kind : std::uint8_t { distances, others, all };
   std::vector<Unit> units_of(bool body, Kind kind) const;
   double moving_values(const std::vector<Unit>& units) const;
