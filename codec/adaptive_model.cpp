@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
+#include <cstring>
 
 namespace animeme::fba {
 
@@ -14,13 +16,40 @@ constexpr std::int16_t kNever = 16384;                 // > any target, also aft
 constexpr std::uint64_t kLanes = 0x0001000100010001U;  // 1 in each of four 16-bit lanes
 constexpr std::uint64_t kTopBits = 0x8000800080008000U;
 
-// Four bytes, first to the lowest lane, whatever the byte order of the machine.
-std::uint64_t load4(const std::uint8_t* bytes) {
-  std::uint64_t x = std::uint32_t(bytes[0]) | std::uint32_t(bytes[1]) << 8 |
-                    std::uint32_t(bytes[2]) << 16 | std::uint32_t(bytes[3]) << 24;
-  x = (x | (x << 16)) & 0x0000FFFF0000FFFFU;
-  return (x | (x << 8)) & 0x00FF00FF00FF00FFU;
+constexpr std::uint64_t kLowBytes = 0x00FF00FF00FF00FFU;
+
+// Eight bytes, the first one lowest.
+std::uint64_t load8(const std::uint8_t* bytes) {
+  std::uint64_t value = 0;
+  if constexpr (std::endian::native == std::endian::little) {
+    std::memcpy(&value, bytes, sizeof value);
+  } else {
+    for (int i = 7; i >= 0; --i) value = (value << 8) | bytes[i];
+  }
+  return value;
 }
+
+// Lane 0..3 of four.
+std::uint32_t lane_of(std::uint64_t lanes, std::uint32_t lane) {
+  return std::uint32_t(lanes >> (16 * lane)) & 0xFFFFU;
+}
+
+// Eight frequencies as two by four lanes: those at even and at odd places, less 1.
+struct Eight {
+  std::uint64_t even;
+  std::uint64_t odd;
+
+  explicit Eight(const std::uint8_t* bytes) {
+    const std::uint64_t all = load8(bytes);
+    even = all & kLowBytes;
+    odd = (all >> 8) & kLowBytes;
+  }
+  void add(std::uint32_t place, std::uint64_t excess) {
+    (place % 2 == 0 ? even : odd) += excess << (16 * (place / 2));
+  }
+  // Lane i: the frequencies of the first i + 1 pairs.
+  std::uint64_t running_sums() const { return (even + odd + 2 * kLanes) * kLanes; }
+};
 
 // Index of the last of 16 ascending sums that is not above the target; sums[0] is 0.
 std::uint32_t last_not_above(const std::int16_t* sums, std::uint32_t target) {
@@ -48,15 +77,14 @@ SymbolInterval AdaptiveModel::interval(std::uint32_t k) const {
   std::uint32_t low =
       std::uint32_t(below_[mirrored / kFan2]) + std::uint32_t(below_[kFan + group]) + place;
   const std::uint8_t* symbols = &excess_[group * kFan];
-  // The lanes below `place` of the sixteen.
-  std::uint64_t sum = 0;
-  for (std::uint32_t word = 0; word < 4; ++word) {
-    const std::uint32_t lanes = std::min(std::max(place, 4 * word) - 4 * word, 4U);
-    const std::uint64_t mask =
-        lanes == 4 ? ~std::uint64_t(0) : (std::uint64_t(1) << 16 * lanes) - 1;
-    sum += load4(symbols + std::size_t(4) * word) & mask;
-  }
-  low += std::uint32_t((sum * kLanes) >> 48);
+  // The bytes before `place` of the sixteen.
+  const std::uint64_t first =
+      load8(symbols) & (place < 8 ? (std::uint64_t(1) << 8 * place) - 1 : ~0ULL);
+  const std::uint64_t second =
+      load8(symbols + 8) & (place < 8 ? 0 : (std::uint64_t(1) << 8 * (place - 8)) - 1);
+  const std::uint64_t pairs = (first & kLowBytes) + ((first >> 8) & kLowBytes) +
+                              (second & kLowBytes) + ((second >> 8) & kLowBytes);
+  low += std::uint32_t((pairs * kLanes) >> 48);
   std::uint32_t count = symbols[place] + 1U;
   if (may_overflow(group)) {
     for (const Overflow& entry : overflow_) {
@@ -73,40 +101,46 @@ std::uint32_t AdaptiveModel::find(std::uint32_t target, SymbolInterval& interval
     interval = {target, target + 1, n_};
     return n_ - 1 - target;
   }
-  const std::uint32_t top = n_ > kFan2 ? last_not_above(below_.data(), target) : 0;
+  // Most symbols lie near the one before. Nearly always right, so the processor need not wait.
+  std::uint32_t top = last_top_;
+  if (target < std::uint32_t(below_[top]) || target >= std::uint32_t(below_[top + 1])) {
+    top = last_not_above(below_.data(), target);
+  }
   std::uint32_t base = std::uint32_t(below_[top]);
   const std::int16_t* sums = &below_[kFan + top * kFan];
   const std::uint32_t middle = last_not_above(sums, target - base);
   base += std::uint32_t(sums[middle]);
   const std::uint32_t group = top * kFan + middle;
 
-  // Four words of four frequencies each; multiplying by kLanes gives the running sums.
-  std::array<std::uint64_t, 4> word;
-  for (std::size_t i = 0; i < 4; ++i) word[i] = load4(&excess_[group * kFan + 4 * i]) + kLanes;
+  Eight eight(&excess_[group * kFan]);
+  Eight upper(&excess_[group * kFan + 8]);
   if (may_overflow(group)) {
     for (const Overflow& entry : overflow_) {
       if (entry.symbol / kFan != group) continue;
-      word[entry.symbol % kFan / 4] += std::uint64_t(entry.excess) << 16 * (entry.symbol % 4);
+      (entry.symbol % kFan < 8 ? eight : upper).add(entry.symbol % 8, entry.excess);
     }
   }
-  std::array<std::uint32_t, 4> before;
-  std::uint32_t sum = base;
-  for (std::size_t i = 0; i < 4; ++i) {
-    word[i] *= kLanes;
-    before[i] = sum;
-    sum += std::uint32_t(word[i] >> 48);
-  }
-  const std::uint32_t w = std::uint32_t(target >= before[1]) + std::uint32_t(target >= before[2]) +
-                          std::uint32_t(target >= before[3]);
-  const std::uint64_t sums4 = word[w];
-  const std::uint64_t rest = target - before[w];
-  // A lane keeps its top bit where the running sum is not above the rest. The last lane of the
-  // word always is, the others count.
-  const std::uint64_t not_above = (((rest * kLanes) | kTopBits) - sums4) & kTopBits;
-  const std::uint32_t lane = std::uint32_t(((not_above >> 15) * kLanes) >> 48);
-  interval = {before[w] + (std::uint32_t((sums4 << 16) >> 16 * lane) & 0xFFFFU),
-              before[w] + (std::uint32_t(sums4 >> 16 * lane) & 0xFFFFU), total_};
-  return n_ - 1 - (group * kFan + 4 * w + lane);
+  // Which half of the group, which pair of the half, which of the pair? No branches: no
+  // processor could foretell them.
+  const std::uint64_t lower_sums = eight.running_sums();
+  const std::uint32_t lower_sum = lane_of(lower_sums, 3);
+  const std::uint32_t in_upper = target - base >= lower_sum ? 1 : 0;
+  const std::uint64_t choice = std::uint64_t(0) - in_upper;
+  base += lower_sum & std::uint32_t(choice);
+  eight.even ^= (eight.even ^ upper.even) & choice;
+  eight.odd ^= (eight.odd ^ upper.odd) & choice;
+  const std::uint64_t sums8 = lower_sums ^ ((lower_sums ^ upper.running_sums()) & choice);
+  const std::uint64_t rest = target - base;
+  // A lane keeps its top bit where the running sum is not above the rest.
+  const std::uint64_t not_above = (((rest * kLanes) | kTopBits) - sums8) & kTopBits;
+  const std::uint32_t pair = std::uint32_t(((not_above >> 15) * kLanes) >> 48);
+  base += lane_of(sums8 << 16, pair);
+  const std::uint32_t even = lane_of(eight.even, pair) + 1;
+  const std::uint32_t odd = lane_of(eight.odd, pair) + 1;
+  const bool is_odd = target - base >= even;
+  const std::uint32_t low = is_odd ? base + even : base;
+  interval = {low, low + (is_odd ? odd : even), total_};
+  return n_ - 1 - (group * kFan + 8 * in_upper + 2 * pair + (is_odd ? 1 : 0));
 }
 
 void AdaptiveModel::update(std::uint32_t k) {
@@ -114,6 +148,7 @@ void AdaptiveModel::update(std::uint32_t k) {
   if (total_ >= kMaxTotal) halve();
   const std::uint32_t mirrored = n_ - 1 - k;
   const std::uint32_t top = mirrored / kFan2;
+  last_top_ = top;
   if (n_ > kFan2) add_above(below_.data(), top);
   add_above(&below_[kFan + top * kFan], mirrored / kFan % kFan);
   if (++excess_[mirrored] == 0) carry(mirrored);
@@ -137,6 +172,7 @@ void AdaptiveModel::build() {
   below_.resize(std::size_t(kFan) * (1 + tops));
   overflow_.clear();
   overflowing_ = 0;
+  last_top_ = 0;
   fresh_ = false;
   sum_up();
 }
