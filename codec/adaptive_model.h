@@ -64,7 +64,7 @@ class AdaptiveModel {
 
   std::uint32_t n_ = 1;
   std::uint32_t total_ = 1;
-  bool fresh_ = true;  // flat, table not built
+  bool fresh_ = true;           // flat, table not built
   std::uint32_t last_top_ = 0;  // where the latest symbol lies in the top level
   // 16 sums over the 256s, then 16 for each of them over its 16s: the frequencies below each
   // within its parent. Those past the alphabet are larger than any target.
