@@ -1,7 +1,6 @@
 #include "codec/decoder.h"
 
 #include <algorithm>
-#include <deque>
 
 #include "codec/plane_reader_internal.h"
 
@@ -9,7 +8,7 @@ namespace animeme::fba {
 
 namespace {
 
-constexpr std::size_t kTrimBytes = std::size_t(1) << 16;
+constexpr std::size_t kPieceBytes = std::size_t(1) << 14;  // what decode() pushes at a time
 constexpr std::size_t kMaxWarnings = 100;
 
 bool is_plane_start(std::uint32_t code) { return code == kPlaneStart || code == kOldPlaneStart; }
@@ -19,9 +18,9 @@ bool is_header(std::uint32_t code) {
          is_object_start(code);
 }
 
-void add_warning(DecodedStream& out, const Event& event, const std::string& text) {
+void add_warning(DecodedStream& out, std::int64_t bit, const std::string& text) {
   if (out.warnings.size() >= kMaxWarnings) return;
-  out.warnings.push_back("bit " + std::to_string(event.bit) + ": " + text);
+  out.warnings.push_back("bit " + std::to_string(bit) + ": " + text);
 }
 
 const char* object_type_name(std::uint32_t type) {
@@ -55,13 +54,14 @@ struct Decoder::Impl {
   std::size_t position = 0;       // bit in buffer
   bool finished = false;
   bool after_start_code = false;  // the plane to come has its start code consumed
+  std::int64_t end_bit = -1;      // where the stream ended
   Phase phase = Phase::headers;
 
   internal::StreamState state;
   internal::ParsedPlane parsed;
   std::shared_ptr<const FaceSettings> face_settings;
   std::shared_ptr<const BodySettings> body_settings;
-  std::deque<Event> warnings;
+  std::vector<Event> warnings;
 
   std::int64_t number = 0;
   fap::Rate rate{30, 1};
@@ -83,16 +83,21 @@ struct Decoder::Impl {
 
   static Error need_data() { return make_error(Code::need_data, "more bytes are needed"); }
 
+  // An error, after which only an intra plane can be understood.
   Error at(Code code, std::string message, std::size_t bit) {
     phase = Phase::lost;
+    state.face.coding.valid = false;
+    state.body.coding.valid = false;
     return error_at_bit(code, std::move(message), stream_bit(bit));
   }
 
+  // Forgets bytes that have been read. Half of the buffer at least, so that a long stream takes
+  // linear time.
   void trim() {
     const std::size_t bytes = position / 8;
-    // Half of the buffer at least, so that trimming a long stream stays linear.
-    if (bytes < kTrimBytes || bytes < buffer.size() / 2) return;
+    if (bytes < kPieceBytes || bytes < buffer.size() / 2 || parsed.begun()) return;
     buffer.erase(buffer.begin(), buffer.begin() + std::ptrdiff_t(bytes));
+    if (buffer.capacity() > 8 * kPieceBytes && buffer.size() < kPieceBytes) buffer.shrink_to_fit();
     position -= bytes * 8;
     dropped_bits += std::int64_t(bytes) * 8;
   }
@@ -102,7 +107,7 @@ struct Decoder::Impl {
     for (;;) {
       if (!warnings.empty()) {
         Event event = std::move(warnings.front());
-        warnings.pop_front();
+        warnings.erase(warnings.begin());
         return event;
       }
       trim();
@@ -126,7 +131,7 @@ struct Decoder::Impl {
       case Phase::ended:
         break;
     }
-    return make_error(Code::end_of_stream, "the stream is over");
+    return error_at_bit(Code::end_of_stream, "the stream is over", end_bit);
   }
 
   Result<bool> read_header() {
@@ -152,7 +157,7 @@ struct Decoder::Impl {
     } else if (code == kVisualObject) {
       return read_visual_object();
     } else if (code == kSequenceEnd) {
-      end_code(position + 32);
+      end(position + 32);
     } else {
       return at(Code::syntax,
                 "this is not an FBA stream: it does not begin with a start code of one "
@@ -200,21 +205,18 @@ struct Decoder::Impl {
     }
     position = byte * 8;
     if (!finished) return need_data();
-    if (!lost && byte + 4 == buffer.size() && code_at(byte * 8) == kSequenceEnd) {
-      end_code((byte + 4) * 8);
-      return false;
+    if (byte + 4 == buffer.size() && code_at(byte * 8) == kSequenceEnd) {
+      end((byte + 4) * 8);
+    } else {
+      end(size_bits());
     }
-    phase = Phase::ended;
     return false;
   }
 
-  void end_code(std::size_t behind) {
-    position = behind;
+  void end(std::size_t bit) {
+    position = bit;
     phase = Phase::ended;
-    if (behind < size_bits()) {
-      warn(std::to_string((size_bits() - behind) / 8) + " bytes after the end code are ignored",
-           behind);
-    }
+    end_bit = stream_bit(bit);
   }
 
   // 0 and then 1s from `bit` to `border`.
@@ -228,7 +230,7 @@ struct Decoder::Impl {
   }
 
   Result<bool> read_plane() {
-    if (!after_start_code) {
+    if (!after_start_code && !parsed.begun()) {
       Result<bool> moved = plane_border();
       if (!moved || *moved) return moved ? Result<bool>(false) : moved;
     }
@@ -262,7 +264,7 @@ struct Decoder::Impl {
       if (stuffed && had_start_code) {
         // Access units one after the other: each is complete in itself.
         warn("the stream has no end code", size_bits());
-        phase = Phase::ended;
+        end(size_bits());
         return true;
       }
       if (stuffed || position >= size_bits()) {
@@ -279,7 +281,7 @@ struct Decoder::Impl {
         return false;
       }
       if (code == kSequenceEnd) {
-        end_code(position + 32);
+        end(position + 32);
         return true;
       }
     }
@@ -292,7 +294,7 @@ struct Decoder::Impl {
       }
       consume_start_code(border);
     } else if (code == kSequenceEnd) {
-      end_code(border + 32);
+      end(border + 32);
       return true;
     } else if (is_header(code) && is_stuffing(position, border)) {
       position = border;
@@ -317,7 +319,8 @@ struct Decoder::Impl {
   }
 
   Result<Event> plane_event() {
-    Event event;
+    Result<Event> result{Event{}};
+    Event& event = *result;
     event.bit = stream_bit(plane_begin);
     Plane& plane = event.plane;
     plane.intra = parsed.intra;
@@ -328,20 +331,23 @@ struct Decoder::Impl {
     plane.bit_end = stream_bit(plane_end);
     tell_time(plane);
 
-    BodyFrame body;
-    body.number = plane.number;
-    const Result<void> applied = internal::apply_plane(parsed, state, plane.face, body);
+    std::shared_ptr<BodyFrame> body;
+    if (has_body(plane.object_mask)) {
+      body = std::make_shared<BodyFrame>();
+      body->number = plane.number;
+    }
+    const Result<void> applied = internal::apply_plane(parsed, state, plane.face, body.get());
     if (!applied) return at(applied.error().code, applied.error().message, plane_begin);
     if (has_face(plane.object_mask)) {
       if (plane.intra) face_settings = std::make_shared<FaceSettings>(state.face_settings);
       plane.face_settings = face_settings;
     }
-    if (has_body(plane.object_mask)) {
+    if (body) {
       if (plane.intra) body_settings = std::make_shared<BodySettings>(state.body_settings);
       plane.body_settings = body_settings;
-      plane.body = std::make_shared<BodyFrame>(body);
+      plane.body = std::move(body);
     }
-    return event;
+    return result;
   }
 
   void tell_time(Plane& plane) {
@@ -369,6 +375,11 @@ struct Decoder::Impl {
 };
 
 Decoder::Decoder() : impl_(std::make_unique<Impl>()) {}
+Decoder::Decoder(const Decoder& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
+Decoder& Decoder::operator=(const Decoder& other) {
+  *impl_ = *other.impl_;
+  return *this;
+}
 Decoder::Decoder(Decoder&&) noexcept = default;
 Decoder& Decoder::operator=(Decoder&&) noexcept = default;
 Decoder::~Decoder() = default;
@@ -384,22 +395,34 @@ Result<Event> Decoder::next() { return impl_->next(); }
 
 Result<DecodedStream> decode(std::span<const std::uint8_t> stream) {
   Decoder decoder;
-  decoder.push(stream);
-  decoder.finish();
   DecodedStream out;
+  std::size_t pushed = 0;
   for (;;) {
     Result<Event> event = decoder.next();
     if (!event) {
-      if (event.error().code == Code::end_of_stream) break;
-      return std::move(event).error();
+      const Error& error = event.error();
+      if (error.code == Code::need_data) {
+        const std::size_t count = std::min(kPieceBytes, stream.size() - pushed);
+        decoder.push(stream.subspan(pushed, count));
+        pushed += count;
+        if (pushed == stream.size()) decoder.finish();
+        continue;
+      }
+      if (error.code != Code::end_of_stream) return std::move(event).error();
+      const std::int64_t ignored = std::int64_t(stream.size()) - error.where.bit / 8;
+      if (ignored > 0) {
+        add_warning(out, error.where.bit,
+                    std::to_string(ignored) + " bytes after the end code are ignored");
+      }
+      break;
     }
     if (event->kind == Event::Kind::warning) {
-      add_warning(out, *event, event->text);
+      add_warning(out, event->bit, event->text);
       continue;
     }
     if (out.planes.empty()) out.rate = event->plane.rate;
     if (event->plane.rate != out.rate && event->plane.temporal.rate) {
-      add_warning(out, *event, "the frame rate changes; the first one is kept for all planes");
+      add_warning(out, event->bit, "the frame rate changes; the first one is kept for all planes");
     }
     out.planes.push_back(std::move(event->plane));
   }

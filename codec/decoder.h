@@ -64,6 +64,8 @@ struct Event {
 class Decoder {
  public:
   Decoder();
+  Decoder(const Decoder& other);
+  Decoder& operator=(const Decoder& other);
   Decoder(Decoder&&) noexcept;
   Decoder& operator=(Decoder&&) noexcept;
   ~Decoder();
