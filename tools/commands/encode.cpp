@@ -129,7 +129,7 @@ Result<int> run(const Options& options) {
 Action add(CLI::App& app) {
   auto options = std::make_shared<Options>();
   app.add_option("input", options->input, "FAP text (also .fba or a container, to code it anew)");
-  app.add_option("--bap", options->bap, "BAP text with the body; needs --epf");
+  app.add_option("--bap", options->bap, "BAP text (or a stream) with the body; needs --epf");
   app.add_option("-o,--output", options->output, "FBA stream to write, - for standard output")
       ->required();
   app.add_option("--epf", options->epf,
