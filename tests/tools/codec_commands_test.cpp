@@ -196,6 +196,24 @@ TEST(BodyCommands, AStreamThatLostItsBodyIsNotEqual) {
   EXPECT_EQ(json["body"]["frames_b"], 0);
 }
 
+TEST(BodyCommands, AreCodedWithoutAnEpfToo) {
+  const TempDir dir;
+  const std::string fap = reference("face_and_body", ".src.fap");
+  const std::string bap = reference("face_and_body", ".src.bap");
+  succeeds({"encode", fap, "--bap", bap, "-o", dir / "both.fba"});
+  succeeds({"encode", "--bap", bap, "--intra-period", "10", "-o", dir / "body.fba"});
+  for (const std::string& text : {fap, bap}) {
+    EXPECT_EQ(animeme({"compare", text, dir / "both.fba", "--max-rms", "0.5"}).exit_code, 0);
+  }
+  EXPECT_EQ(animeme({"compare", bap, dir / "body.fba", "--max-rms", "0.5"}).exit_code, 0);
+  EXPECT_EQ(json_of({"info", dir / "body.fba"})["intra_planes"], 3);
+  EXPECT_EQ(json_of({"info", dir / "body.fba"})["clip"]["frames"], 0);
+  // A stream is coded anew with both halves, and its values survive.
+  succeeds({"encode", dir / "both.fba", "-o", dir / "again.fba"});
+  EXPECT_EQ(animeme({"compare", dir / "both.fba", dir / "again.fba"}).exit_code, 0);
+  EXPECT_EQ(json_of({"info", dir / "again.fba"})["body_planes"], 30);
+}
+
 TEST(BodyCommands, InfoOfText) {
   const Json json = json_of({"info", reference("face_and_body", ".src.bap")});
   EXPECT_EQ(json["kind"], "bap");
@@ -300,15 +318,14 @@ TEST(NoFace, IsSaidClearly) {
               HasSubstr("codes a body but no face: leave out -o"));
   spill(dir / "face.fap", test::slurp(test::data_dir() / "fap" / "plain.fap"));
   for (const std::vector<std::string>& arguments :
-       std::vector<std::vector<std::string>>{{"encode", stream, "-o", dir / "a.fba"},
-                                             {"plot", stream, "-o", dir / "a.svg"},
+       std::vector<std::vector<std::string>>{{"plot", stream, "-o", dir / "a.svg"},
                                              {"mux", stream, "none.wav", "-o", dir / "a.mp4"},
                                              {"compare", dir / "face.fap", stream},
                                              {"compare", stream, dir / "face.fap"}}) {
     EXPECT_THAT(fails(dir, arguments), HasSubstr("codes a body but no face")) << arguments[0];
   }
   EXPECT_THAT(fails(dir, {"encode", reference("body_only_all", ".src.bap"), "-o", dir / "a.fba"}),
-              HasSubstr("this is BAP text: it has a body but no face"));
+              HasSubstr("this is BAP text and holds no face: give it after --bap"));
   EXPECT_THAT(animeme({"stats", stream}).out, HasSubstr("20 of a body, no face"));
   EXPECT_EQ(json_of({"info", stream})["clip"]["frames"], 0);
 }
@@ -382,7 +399,6 @@ TEST(CodecErrors, UsageIsExitCode2) {
   for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
            {"encode", "-o", dir / "a.fba"},
            {"encode", "--epf", "a.epf", "-o", dir / "a.fba"},
-           {"encode", "a.fap", "--bap", "a.bap", "-o", dir / "a.fba"},
            {"decode", "a.fba"},
            {"decode", "a.fba", "-o", dir / "a", "--bap", dir / "a"},
            {"decode", "a.fba", "--bap", dir / "a", "--fill"},

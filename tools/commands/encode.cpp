@@ -1,3 +1,4 @@
+#include "codec/body_encode.h"
 #include "codec/encoder.h"
 
 #include <cstdio>
@@ -26,24 +27,8 @@ struct Options {
 
 using Bytes = std::vector<std::uint8_t>;
 
-Result<Bytes> encode_face(const Options& options) {
-  Result<MotionInput> input = read_motion(options.input);
-  if (!input) return input.error();
-  if (!input->body.frames.empty() && !input->face.frames.empty()) {
-    warn(options.input + ": the body is left out, coding it needs --epf");
-  }
-  Result<FaceInput> face = face_of(std::move(*input), options.input);
-  if (!face) return face.error();
-  fba::EncodeOptions settings;
-  settings.fap_quant = options.quant;
-  settings.intra_period = options.intra_period;
-  settings.stream = options.stream();
-  Result<Bytes> bytes = fba::encode(face->clip, settings);
-  if (!bytes) return bytes.error().in_file(options.input);
-  return bytes;
-}
-
-// What an EPF picks its frames from. They keep their numbers, which FFR and BFR name.
+// What there is to code. Frames keep their numbers: an EPF names them in FFR and BFR, and those of
+// face and body belong together.
 struct Material {
   fap::Sequence face;
   fba::BodySequence body;
@@ -57,6 +42,9 @@ Result<Material> read_material(const Options& options) {
     if (input->kind == FileKind::bap_text) {
       return make_error(Code::not_found, "this is BAP text and holds no face: give it after --bap")
           .in_file(options.input);
+    }
+    if (input->body.frames.empty() && options.bap.empty()) {
+      if (auto ok = require_face(*input, options.input); !ok) return ok.error();
     }
     material.face = std::move(input->face);
     material.body = std::move(input->body);
@@ -101,6 +89,20 @@ Result<Bytes> encode_by_epf(const Options& options) {
   return bytes;
 }
 
+Result<Bytes> encode_freely(const Options& options) {
+  Result<Material> material = read_material(options);
+  if (!material) return material.error();
+  fba::EncodeOptions settings;
+  settings.fap_quant = options.quant;
+  settings.intra_period = options.intra_period;
+  settings.stream = options.stream();
+  Result<Bytes> bytes = material->body.frames.empty()
+                            ? fba::encode(material->face, settings)
+                            : fba::encode_with_body(material->face, material->body, settings);
+  if (!bytes) return bytes.error().in_file(options.input.empty() ? options.bap : options.input);
+  return bytes;
+}
+
 // Counts what was written as a receiver does.
 void say_result(const std::string& output, const Bytes& bytes) {
   const Result<fba::DecodedStream> decoded = fba::decode(bytes);
@@ -113,13 +115,10 @@ void say_result(const std::string& output, const Bytes& bytes) {
 }
 
 Result<int> run(const Options& options) {
-  if (options.epf.empty() && !options.bap.empty()) {
-    return usage_error("--bap needs --epf: how a body is coded comes from such a file alone");
-  }
   if (options.input.empty() && options.bap.empty()) {
-    return usage_error("nothing to code: name a FAP text, or a BAP text with --bap and --epf");
+    return usage_error("nothing to code: name a FAP text, or a BAP text with --bap");
   }
-  Result<Bytes> bytes = options.epf.empty() ? encode_face(options) : encode_by_epf(options);
+  Result<Bytes> bytes = options.epf.empty() ? encode_freely(options) : encode_by_epf(options);
   if (!bytes) return bytes.error();
   if (auto written = write_file(options.output, *bytes); !written) return written.error();
   say_result(options.output, *bytes);
@@ -129,13 +128,13 @@ Result<int> run(const Options& options) {
 Action add(CLI::App& app) {
   auto options = std::make_shared<Options>();
   app.add_option("input", options->input, "FAP text (also .fba or a container, to code it anew)");
-  app.add_option("--bap", options->bap, "BAP text (or a stream) with the body; needs --epf");
+  app.add_option("--bap", options->bap, "BAP text (or a stream) with the body");
   app.add_option("-o,--output", options->output, "FBA stream to write, - for standard output")
       ->required();
   app.add_option("--epf", options->epf,
                  "Encoder parameter file: every decision comes from it, the bytes are determined");
   app.add_option("--quant", options->quant,
-                 "Quantiser fap_quant; 1 is not visible, 0 lossless up to +-1860")
+                 "Quantiser of face and body; 1 is not visible, 0 lossless up to +-1860")
       ->check(CLI::Range(0, 31))
       ->capture_default_str()
       ->excludes("--epf");
@@ -161,7 +160,7 @@ const Command kEncode{
     "  animeme encode talk.fap -o talk.fba\n"
     "  animeme encode talk.fap --quant 4 --intra-period 50 --plane-start-codes intra -o talk.fba\n"
     "  animeme encode talk.fap --epf talk.epf -o talk.fba\n"
-    "  animeme encode talk.fap --bap talk.bap --epf talk.epf -o talk.fba",
+    "  animeme encode face.fap --bap body.bap -o both.fba",
     add};
 
 }  // namespace animeme::tools
