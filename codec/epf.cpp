@@ -1,7 +1,10 @@
 #include "codec/epf.h"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdlib>
+#include <iterator>
 #include <optional>
 #include <string>
 
@@ -35,6 +38,7 @@ class Numbers {
     skip_blanks();
     return at_ == text_.size();
   }
+  std::int64_t line() const { return line_; }
   Error fail(Code code, std::string message) const {
     return error_at_line(code, std::move(message), line_, std::int64_t(at_) + 1);
   }
@@ -89,6 +93,7 @@ class EpfReader {
       plane_.face.send_range = {};
       plane_.body.send_range = {};
       line_ = line;
+      intra_tag_ = {};
     } else if (!open_) {
       return in.fail(Code::syntax, "a plane begins with FBM, this line with " + std::string(tag));
     } else if (auto done = read_tag(tag, in); !done) {
@@ -99,6 +104,10 @@ class EpfReader {
   }
 
   Result<void> read_tag(std::string_view tag, Numbers& in) {
+    if (belongs_into_intra_planes(tag)) {
+      intra_tag_ = tag;
+      intra_tag_line_ = in.line();
+    }
     if (tag == "FFR") return number(in, plane_.face_frame, std::int64_t(1) << 40);
     if (tag == "BFR") return number(in, plane_.body_frame, std::int64_t(1) << 40);
     if (tag == "ISI") return number(in, plane_.intra, 1);
@@ -112,8 +121,8 @@ class EpfReader {
     }
     if (tag == "FMT") return face_masks(in);
     if (tag == "BMT") return body_masks(in);
-    if (tag == "FQU") return number(in, plane_.face.fap_quant, 31);
-    if (tag == "BQU") return number(in, plane_.body.bap_quant, 31);
+    if (tag == "FQU") return quantiser(in, tag, plane_.face.fap_quant, plane_.face.send_range);
+    if (tag == "BQU") return quantiser(in, tag, plane_.body.bap_quant, plane_.body.send_range);
     if (tag == "GDR") {
       auto done = number(in, plane_.face.male, 1);
       plane_.body.male = plane_.face.male;
@@ -123,7 +132,9 @@ class EpfReader {
       Result<std::int64_t> mode = in.next(0, 1);
       if (!mode) return mode.error();
       if (*mode == 0) return {};
-      return in.fail(Code::unsupported, "CDM 1 asks for DCT mode, which is not supported");
+      return in.fail(Code::unsupported,
+                     "CDM 1 asks for DCT mode, which is not supported; only CDM 0 (arithmetic "
+                     "coding) can be written");
     }
     constexpr std::string_view kSuffix[4] = {"IX", "IN", "PX", "PN"};
     for (std::size_t kind = 0; kind < 4; ++kind) {
@@ -136,6 +147,22 @@ class EpfReader {
       }
     }
     return in.fail(Code::syntax, "unknown tag " + std::string(tag));
+  }
+
+  static bool belongs_into_intra_planes(std::string_view tag) {
+    constexpr std::string_view kTags[] = {"FRR", "BRR", "TC",  "BTC", "FMT", "BMT", "FQU", "BQU",
+                                          "FIX", "FIN", "FPX", "FPN", "BIX", "BIN", "BPX", "BPN"};
+    return std::find(std::begin(kTags), std::end(kTags), tag) != std::end(kTags);
+  }
+
+  // The reference encoder scales the ranges as it reads them, so a quantiser behind them would be
+  // the wrong one there.
+  static Result<void> quantiser(Numbers& in, std::string_view tag, int& quant,
+                                const std::array<bool, 4>& ranges_seen) {
+    for (const bool seen : ranges_seen) {
+      if (seen) return in.fail(Code::syntax, std::string(tag) + " has to stand before the ranges");
+    }
+    return number(in, quant, 31);
   }
 
   template <class T>
@@ -240,9 +267,9 @@ class EpfReader {
       if (has_body(plane_.object_mask)) last_body_ = plane_.body;
     } else if (planes_.empty()) {
       return error_at_line(Code::syntax, "the first plane must be intra (ISI 1)", line_);
-    } else if (plane_.temporal.rate || plane_.temporal.time_code) {
-      return error_at_line(Code::syntax, "frame rate and time code belong into planes with ISI 1",
-                           line_);
+    } else if (!intra_tag_.empty()) {
+      return error_at_line(Code::syntax, intra_tag_ + " belongs into a plane with ISI 1",
+                           intra_tag_line_);
     }
     planes_.push_back(plane_);
     open_ = false;
@@ -254,6 +281,8 @@ class EpfReader {
   FaceSettings last_face_;
   BodySettings last_body_;
   std::int64_t line_ = 0;
+  std::string intra_tag_;  // last tag of this plane that only an intra plane may have
+  std::int64_t intra_tag_line_ = 0;
   bool open_ = false;
 };
 

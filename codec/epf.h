@@ -26,13 +26,14 @@ struct EpfPlane {
 /// 66 (FIX FIN FPX FPN) or 296 (BIX BIN BPX BPN) limits in quantiser steps of fap_quant 1, maxima
 /// 0..1860 and minima -1860..0; they are rounded up to the next multiple of 60. As in the
 /// reference encoder, predictive limits of 0 and 0 for FAP 4 turn all four sets into +-1020.
-/// Errors: syntax (unknown tag, missing or extra numbers), out_of_range, unsupported (CDM 1), with
-/// line and column.
+/// Errors: syntax (unknown tag, missing or extra numbers, a quantiser behind the ranges, settings
+/// in a predictive plane), out_of_range, unsupported (CDM 1), with line and column.
 Result<std::vector<EpfPlane>> read_epf(std::string_view text);
 
-/// Codes a clip exactly as the EPF says; the masks of the EPF win over those of the clip. FAPs
-/// that the EPF codes and the clip leaves out keep their last value (0 at first). `bodies` are the
-/// body frames by number, may be empty for streams without a body. Errors: those of
+/// Codes a clip exactly as the EPF says; the masks of the EPF win over those of the clip. FFR and
+/// BFR name frames by their numbers. FAPs and BAPs that the EPF codes and a frame leaves out keep
+/// their last value (0 at first). `bodies` is BAP data in any order, empty for streams without a
+/// body; of two frames with the same number the later one counts. Errors: those of
 /// Encoder::write(), and not_found if a frame that the EPF names does not exist.
 Result<std::vector<std::uint8_t>> encode_epf(const fap::Sequence& clip,
                                              const std::vector<BodyFrame>& bodies,

@@ -1,19 +1,62 @@
 #include <map>
 #include <string>
+#include <type_traits>
 
 #include "codec/epf.h"
 
 namespace animeme::fba {
 
+namespace {
+
+// The frames of a file by number, and what a receiver holds after those taken so far.
+template <class Frame>
+class HeldFrames {
+ public:
+  explicit HeldFrames(const std::vector<Frame>& frames) {
+    for (const Frame& frame : frames) by_number_[frame.number] = &frame;
+  }
+
+  // Frame `number` with the last values of what it leaves out; null if there is none.
+  const Frame* take(std::int64_t number) {
+    const auto found = by_number_.find(number);
+    if (found == by_number_.end()) return nullptr;
+    const Frame& given = *found->second;
+    held_.number = number;
+    take_high_level(given);
+    for (std::size_t i = 0; i < given.value.size(); ++i) {
+      if (given.mask[i]) held_.value[i] = given.value[i];
+    }
+    return &held_;
+  }
+
+ private:
+  void take_high_level(const Frame& given) {
+    if constexpr (std::is_same_v<Frame, fap::Frame>) {
+      if (given.mask[1]) held_.viseme = given.viseme;
+      if (given.mask[2]) held_.expression = given.expression;
+    }
+  }
+
+  std::map<std::int64_t, const Frame*> by_number_;
+  Frame held_;
+};
+
+Error no_such_frame(const char* kind, std::int64_t number, const char* file, bool empty) {
+  const std::string remedy = empty ? std::string(", but there is no ") + file + " file"
+                                   : std::string(", which the ") + file + " file does not have";
+  return make_error(Code::not_found, std::string("the EPF asks for ") + kind + " frame " +
+                                         std::to_string(number) + remedy);
+}
+
+}  // namespace
+
 Result<std::vector<std::uint8_t>> encode_epf(const fap::Sequence& clip,
                                              const std::vector<BodyFrame>& bodies,
                                              const std::vector<EpfPlane>& planes,
                                              const StreamOptions& options) {
-  std::map<std::int64_t, const fap::Frame*> face_by_number;
-  for (const fap::Frame& frame : clip.frames) face_by_number[frame.number] = &frame;
-
+  HeldFrames<fap::Frame> faces(clip.frames);
+  HeldFrames<BodyFrame> body_frames(bodies);
   Encoder encoder(options);
-  fap::Frame face;
   for (const EpfPlane& plane : planes) {
     PlaneInput input;
     input.intra = plane.intra;
@@ -22,32 +65,21 @@ Result<std::vector<std::uint8_t>> encode_epf(const fap::Sequence& clip,
     input.face_settings = &plane.face;
     input.body_settings = &plane.body;
     if (has_face(plane.object_mask)) {
-      const auto found = face_by_number.find(plane.face_frame);
-      if (found == face_by_number.end()) {
-        return make_error(Code::not_found, "the EPF asks for face frame " +
-                                               std::to_string(plane.face_frame) +
-                                               ", which the FAP file does not have");
+      input.face = faces.take(plane.face_frame);
+      if (input.face == nullptr) {
+        return no_such_frame("face", plane.face_frame, "FAP", clip.frames.empty());
       }
-      const fap::Frame& given = *found->second;
-      face.number = given.number;
-      if (given.mask[1]) face.viseme = given.viseme;
-      if (given.mask[2]) face.expression = given.expression;
-      for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
-        if (given.mask[fap]) face.value[fap] = given.value[fap];
-      }
-      input.face = &face;
     }
     if (has_body(plane.object_mask)) {
-      if (plane.body_frame < 0 || std::size_t(plane.body_frame) >= bodies.size()) {
-        return make_error(Code::not_found, "the EPF asks for body frame " +
-                                               std::to_string(plane.body_frame) +
-                                               ", which the BAP file does not have");
+      input.body = body_frames.take(plane.body_frame);
+      if (input.body == nullptr) {
+        return no_such_frame("body", plane.body_frame, "BAP", bodies.empty());
       }
-      input.body = &bodies[std::size_t(plane.body_frame)];
     }
     if (auto ok = encoder.write(input); !ok) {
+      const std::int64_t frame = has_face(plane.object_mask) ? plane.face_frame : plane.body_frame;
       Error error = ok.error();
-      error.message = "frame " + std::to_string(plane.face_frame) + ": " + error.message;
+      error.message = "frame " + std::to_string(frame) + ": " + error.message;
       return error;
     }
   }

@@ -62,26 +62,27 @@ Words header_words(std::string_view line) {
 }
 
 // What else people hand to a FAP reader by mistake.
-std::optional<Error> foreign(std::string_view text, std::string_view first_token,
-                             std::int64_t line) {
-  const auto refuse = [line](std::string_view what) {
-    return error_at_line(Code::unsupported, std::string(what), line);
+std::optional<Error> foreign(std::string_view text, std::string_view first_token, std::int64_t line,
+                             const TextDialect& dialect) {
+  const auto refuse = [line](std::string what) {
+    return error_at_line(Code::unsupported, std::move(what), line);
   };
+  const std::string format(dialect.format);
   if (text.substr(0, 3) == std::string_view("\0\0\1", 3)) {
-    return refuse("this is a binary FBA stream and not FAP text: decode it first");
+    return refuse("this is a binary FBA stream and not " + format + ": decode it first");
   }
   if (text.substr(0, 2) == "\xff\xfe" || text.substr(0, 2) == "\xfe\xff") {
     return refuse("this text is UTF-16: save it as UTF-8 or plain ASCII");
   }
   if (first_token == "FBM") {
-    return refuse("this is an encoder parameter file (EPF) and not FAP text");
+    return refuse("this is an encoder parameter file (EPF) and not " + format);
   }
   if (first_token.front() == '<') {
-    return refuse("this is XML and not FAP text: take the text out of its element");
+    return refuse("this is XML and not " + format + ": take the text out of its element");
   }
-  if (first_token == "3.1" || first_token == "3.2") {
-    return refuse("version " + std::string(first_token) +
-                  " is body animation text (BAP) and not FAP text");
+  if (TextDialect::has(dialect.other, first_token)) {
+    return refuse("version " + std::string(first_token) + " is " +
+                  std::string(dialect.other_format) + " and not " + format);
   }
   return std::nullopt;
 }
@@ -89,24 +90,26 @@ std::optional<Error> foreign(std::string_view text, std::string_view first_token
 bool is_flag(std::string_view token) { return token == "0" || token == "1"; }
 
 // Goes over a lone start number, so that the scanner stands at the first mask.
-bool skip_start_number(TextScanner& scanner) {
+bool skip_start_number(TextScanner& scanner, int flags) {
   TextScanner ahead = scanner;
   if (ahead.count_rest(2) != 1) return false;
   // "2.1" would be the rest of a header.
   if (ahead.token().find_first_not_of("0123456789") != std::string_view::npos) return false;
-  if (!ahead.to_content() || ahead.count_rest(kFapCount) < kFapCount) return false;
+  if (!ahead.to_content() || ahead.count_rest(flags) < flags) return false;
   scanner = ahead;
   return true;
 }
 
-bool starts_with_mask(const TextScanner& scanner, std::string_view first_token) {
-  return is_flag(first_token) && scanner.count_rest(kFapCount) >= kFapCount;
+bool starts_with_mask(const TextScanner& scanner, std::string_view first_token, int flags) {
+  return is_flag(first_token) && scanner.count_rest(flags) >= flags;
 }
 
-void check_version(std::string_view version, std::int64_t line, TextNotes& notes) {
-  if (version == "2.0" || version == "2.1" || version == "2.2") return;
+void check_version(std::string_view version, std::int64_t line, const TextDialect& dialect,
+                   TextNotes& notes) {
+  if (TextDialect::has(dialect.known, version)) return;
   notes.add(Quirk::version, line, [&] {
-    return "version " + quoted(version) + " is not known, the file is read like 2.1";
+    return "version " + quoted(version) + " is not known, the file is read like " +
+           std::string(dialect.known_as);
   });
 }
 
@@ -147,8 +150,8 @@ struct Place {
   std::int64_t column;  // of the first word
 };
 
-Result<TextHeader> parse_header(const Words& w, Place place, const ReadTextOptions& options,
-                                TextNotes& notes) {
+Result<TextHeader> parse_header(const Words& w, Place place, const TextDialect& dialect,
+                                const ReadTextOptions& options, TextNotes& notes) {
   const auto refuse = [&](std::string message, std::string_view word) {
     return error_at_line(Code::syntax, std::move(message), place.line,
                          place.column + std::int64_t(w.offset(word)));
@@ -169,7 +172,8 @@ Result<TextHeader> parse_header(const Words& w, Place place, const ReadTextOptio
   } else {
     return refuse(std::string(kForm) + ", but the frame rate is missing", w.words.back());
   }
-  check_version(w.words.front(), place.line, notes);
+  header.version = w.words.front();
+  check_version(w.words.front(), place.line, dialect, notes);
   take_name(w, rate_at, header, notes);
   Result<Rate> rate = take_rate(w.words[rate_at], options, header, notes);
   if (!rate) {
@@ -184,7 +188,8 @@ Result<TextHeader> parse_header(const Words& w, Place place, const ReadTextOptio
 }  // namespace
 
 Result<TextHeader> read_header(std::string_view text, TextScanner& scanner,
-                               const ReadTextOptions& options, TextNotes& notes) {
+                               const TextDialect& dialect, const ReadTextOptions& options,
+                               TextNotes& notes) {
   if (!scanner.to_content()) {
     return error_at_line(Code::truncated, "the text is empty: " + std::string(kForm),
                          scanner.line());
@@ -192,18 +197,34 @@ Result<TextHeader> read_header(std::string_view text, TextScanner& scanner,
   const std::int64_t line = scanner.line();
   TextScanner ahead = scanner;
   const std::string_view first = ahead.token();
-  if (auto error = foreign(text, first, line)) return *error;
-  if (skip_start_number(scanner) || starts_with_mask(scanner, first) || options.headerless) {
+  if (auto error = foreign(text, first, line, dialect)) return *error;
+  if (skip_start_number(scanner, dialect.flags) ||
+      starts_with_mask(scanner, first, dialect.flags) || options.headerless) {
     if (!options.headerless) {
       notes.add(Quirk::no_header, line, [&] {
         return "there is no header, " + format_rate(options.default_rate) +
                " frames a second are assumed";
       });
     }
-    return TextHeader{"", options.default_rate, std::nullopt, line};
+    return TextHeader{"", options.default_rate, std::nullopt, line, ""};
   }
   const Place place{line, scanner.column()};
-  return parse_header(header_words(scanner.rest_of_line()), place, options, notes);
+  return parse_header(header_words(scanner.rest_of_line()), place, dialect, options, notes);
+}
+
+void check_count(const TextHeader& header, std::size_t frames, TextNotes& notes) {
+  if (!header.count || *header.count == std::int64_t(frames)) return;
+  notes.add(Quirk::wrong_count, header.line, [&] {
+    const std::string said =
+        *header.count < 0 ? "no valid frame count" : std::to_string(*header.count) + " frames";
+    return "the header says " + said + ", the text has " + std::to_string(frames);
+  });
+}
+
+void remove_byte_order_mark(std::string_view& text, TextNotes& notes) {
+  if (text.substr(0, 3) != "\xef\xbb\xbf") return;
+  text.remove_prefix(3);
+  notes.add(Quirk::byte_order_mark, 1, [] { return "the text has a byte order mark"; });
 }
 
 }  // namespace animeme::fap::detail

@@ -1,20 +1,11 @@
 #include <algorithm>
-#include <charconv>
 
+#include "fap/detail/text_writing.h"
 #include "fap/rate_text.h"
 #include "fap/text.h"
 
 namespace animeme::fap {
 namespace {
-
-std::string one_word(const std::string& name) {
-  if (name.empty()) return "clip";
-  std::string word = name;
-  std::replace_if(
-      word.begin(), word.end(), [](char c) { return (c >= 0 && c <= ' ') || c == '\x7f'; }, '_');
-  if (word.front() == '#') word.front() = '_';
-  return word;
-}
 
 Rate written_rate(Rate rate, bool integer) {
   if (!integer || !rate.valid()) return rate;
@@ -31,7 +22,7 @@ class FrameWriter {
       text_ += frame.mask[fap] ? '1' : '0';
       text_ += fap < kFapCount ? ' ' : '\n';
     }
-    append(number);
+    detail::append_number(text_, number);
     if (frame.mask[1]) write(frame.viseme);
     if (frame.mask[2]) write(frame.expression);
     for (std::size_t fap = kFirstLowLevel; fap <= kFapCount; ++fap) {
@@ -57,14 +48,8 @@ class FrameWriter {
   }
   void value(std::int32_t v) {
     text_ += ' ';
-    append(v);
+    detail::append_number(text_, v);
   }
-  void append(std::int64_t v) {
-    char digits[24];
-    const auto end = std::to_chars(digits, digits + sizeof digits, v).ptr;
-    text_.append(digits, end);
-  }
-
   std::string& text_;
 };
 
@@ -72,7 +57,7 @@ class FrameWriter {
 
 std::string write_text(const Sequence& sequence, const WriteTextOptions& options) {
   const Rate rate = written_rate(sequence.rate, options.integer_rate);
-  std::string text = "2.1 " + one_word(sequence.name) + " " + format_rate(rate) + " " +
+  std::string text = "2.1 " + detail::one_word(sequence.name) + " " + format_rate(rate) + " " +
                      std::to_string(sequence.frames.size()) + "\n";
   FrameWriter writer(text);
   std::int64_t running = 0;

@@ -10,9 +10,6 @@
 
 namespace animeme::fap::detail {
 
-/// Frame numbers lie within +-this, so that sums of them stay exact and far inside 64 bits.
-inline constexpr std::int64_t kLargestNumber = 1'000'000'000'000'000;
-
 /// Reads the frame whose mask the scanner stands at, with the number as it is in the text.
 /// Returns the line of the number. Errors: those of read_text().
 Result<std::int64_t> read_frame(TextScanner& scanner, TextNotes& notes, Frame& frame);

@@ -21,6 +21,7 @@ enum class Quirk : std::uint8_t {
   no_count,
   wrong_count,
   extra_flag,
+  mask_length,
   one_line,
   wrapped_mask,
   wrapped_values,

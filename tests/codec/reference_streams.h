@@ -51,7 +51,8 @@ inline std::filesystem::path with(const std::filesystem::path& path, const char*
   return std::filesystem::path(path.string() + extension);
 }
 
-/// The body frames of a .bap text (version 3.1 or 3.2), plainly: every token in its place.
+/// The body frames of a .bap text (version 3.1 or 3.2), plainly: every token in its place. Shares
+/// nothing with read_bap_text(), which is tested against it.
 inline std::vector<fba::BodyFrame> read_bap(const std::string& text) {
   std::istringstream lines(text);
   std::string clean;

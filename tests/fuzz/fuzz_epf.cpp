@@ -14,6 +14,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (int fap = 3; fap <= animeme::fap::kFapCount; ++fap) frame.set(fap, i * 7 - fap);
     clip.frames.push_back(frame);
   }
-  (void)animeme::fba::encode_epf(clip, std::vector<animeme::fba::BodyFrame>(4), *planes);
+  std::vector<animeme::fba::BodyFrame> bodies(4);
+  for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].number = std::int64_t(i);
+  (void)animeme::fba::encode_epf(clip, bodies, *planes);
   return 0;
 }
