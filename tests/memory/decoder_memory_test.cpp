@@ -7,7 +7,7 @@
 
 #include "codec/bits.h"
 #include "codec/decoder.h"
-#include "codec/encoder.h"
+#include "codec/encode.h"
 #include "tests/support/random_clip.h"
 
 namespace {
