@@ -12,6 +12,7 @@
 
 #include "codec/decoder.h"
 #include "codec/encode.h"
+#include "codec/live.h"
 #include "fap/text.h"
 #include "tests/bench/bench_material.h"
 
@@ -74,11 +75,32 @@ void compare(const std::string& name, const Material& material) {
   });
 }
 
-// The decisions of encode() included.
-void encode_clip(benchmark::State& state) {
+// A whole clip: decisions, coding, and the check of the result by decoding it again.
+void encode_whole(benchmark::State& state, const fba::EncodeOptions& options, int frames) {
+  const fap::Sequence clip = moving_face(frames);
+  std::size_t bytes = 0;
+  for (auto _ : state) bytes = fba::encode(clip, options)->size();
+  state.counters["planes/s"] =
+      benchmark::Counter(double(frames) * double(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["bits/plane"] = double(bytes) * 8 / frames;
+}
+
+void encode_preset_plain(benchmark::State& state) { encode_whole(state, {}, 2000); }
+void encode_preset_file(benchmark::State& state) { encode_whole(state, fba::file_options(), 2000); }
+void encode_preset_file_rms2(benchmark::State& state) {
+  fba::EncodeOptions options = fba::file_options();
+  options.max_rms = 2;
+  encode_whole(state, options, 200);
+}
+
+void encode_preset_live(benchmark::State& state) {
   const fap::Sequence clip = moving_face(2000);
   std::size_t bytes = 0;
-  for (auto _ : state) bytes = fba::encode(clip)->size();
+  for (auto _ : state) {
+    fba::LiveEncoder encoder;
+    bytes = 0;
+    for (const fap::Frame& frame : clip.frames) bytes += encoder.write(frame)->size();
+  }
   state.counters["planes/s"] =
       benchmark::Counter(2000.0 * double(state.iterations()), benchmark::Counter::kIsRate);
   state.counters["bits/plane"] = double(bytes) * 8 / 2000;
@@ -104,8 +126,14 @@ int main(int argc, char** argv) {
     }
     compare(material.name, material);
   }
-  benchmark::RegisterBenchmark("encode_clip", encode_clip)->Unit(benchmark::kMillisecond);
-  benchmark::RegisterBenchmark("read_fap_text", read_fap_text)->Unit(benchmark::kMillisecond);
+  const auto add = [](const char* name, void (*function)(benchmark::State&)) {
+    benchmark::RegisterBenchmark(name, function)->Unit(benchmark::kMillisecond);
+  };
+  add("encode_preset_plain", encode_preset_plain);
+  add("encode_preset_file", encode_preset_file);
+  add("encode_preset_file_rms2", encode_preset_file_rms2);
+  add("encode_preset_live", encode_preset_live);
+  add("read_fap_text", read_fap_text);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return EXIT_FAILURE;
   benchmark::RunSpecifiedBenchmarks();
