@@ -23,6 +23,16 @@ void add_warning(DecodedStream& out, std::int64_t bit, const std::string& text) 
   out.warnings.push_back("bit " + std::to_string(bit) + ": " + text);
 }
 
+// The rate of the stream is that of its first plane.
+void note_rate(DecodedStream& out) {
+  const Plane& plane = out.planes.back();
+  if (out.planes.size() == 1) out.rate = plane.rate;
+  if (plane.rate != out.rate && plane.temporal.rate) {
+    add_warning(out, plane.bit_begin,
+                "the frame rate changes; the first one is kept for all planes");
+  }
+}
+
 const char* object_type_name(std::uint32_t type) {
   switch (type) {
     case 1:
@@ -102,19 +112,24 @@ struct Decoder::Impl {
     dropped_bits += std::int64_t(bytes) * 8;
   }
 
-  // Runs until there is an event, or a reason why not.
-  Result<Event> next() {
+  // Runs until there is an event, or a reason why not. True: `plane`, which has to be a new one,
+  // has been filled; false: a warning waits.
+  Result<bool> advance(Plane& plane) {
     for (;;) {
-      if (!warnings.empty()) {
-        Event event = std::move(warnings.front());
-        warnings.erase(warnings.begin());
-        return event;
-      }
+      if (!warnings.empty()) return false;
       trim();
-      Result<bool> progress = step();
+      const Result<bool> progress = step();
       if (!progress) return progress.error();
-      if (*progress) return plane_event();
+      if (!*progress) continue;
+      if (const Result<void> filled = fill(plane); !filled) return filled.error();
+      return true;
     }
+  }
+
+  Event take_warning() {
+    Event event = std::move(warnings.front());
+    warnings.erase(warnings.begin());
+    return event;
   }
 
   // One step; true: a plane was parsed and waits in `parsed`.
@@ -318,16 +333,13 @@ struct Decoder::Impl {
     after_start_code = true;
   }
 
-  Result<Event> plane_event() {
-    Result<Event> result{Event{}};
-    Event& event = *result;
-    event.bit = stream_bit(plane_begin);
-    Plane& plane = event.plane;
+  // The plane that was parsed, applied to the state.
+  Result<void> fill(Plane& plane) {
     plane.intra = parsed.intra;
     plane.object_mask = parsed.object_mask;
     plane.temporal = parsed.temporal;
     plane.start_code = had_start_code;
-    plane.bit_begin = event.bit;
+    plane.bit_begin = stream_bit(plane_begin);
     plane.bit_end = stream_bit(plane_end);
     tell_time(plane);
 
@@ -347,7 +359,7 @@ struct Decoder::Impl {
       plane.body_settings = body_settings;
       plane.body = std::move(body);
     }
-    return result;
+    return {};
   }
 
   void tell_time(Plane& plane) {
@@ -391,40 +403,47 @@ void Decoder::push(std::span<const std::uint8_t> bytes) {
 
 void Decoder::finish() { impl_->finished = true; }
 
-Result<Event> Decoder::next() { return impl_->next(); }
+Result<Event> Decoder::next() {
+  Result<Event> event{Event{}};
+  const Result<bool> plane = impl_->advance(event->plane);
+  if (!plane) return plane.error();
+  if (!*plane) return impl_->take_warning();
+  event->bit = event->plane.bit_begin;
+  return event;
+}
 
 Result<DecodedStream> decode(std::span<const std::uint8_t> stream) {
   Decoder decoder;
   DecodedStream out;
   std::size_t pushed = 0;
   for (;;) {
-    Result<Event> event = decoder.next();
-    if (!event) {
-      const Error& error = event.error();
-      if (error.code == Code::need_data) {
-        const std::size_t count = std::min(kPieceBytes, stream.size() - pushed);
-        decoder.push(stream.subspan(pushed, count));
-        pushed += count;
-        if (pushed == stream.size()) decoder.finish();
-        continue;
-      }
-      if (error.code != Code::end_of_stream) return std::move(event).error();
-      const std::int64_t ignored = std::int64_t(stream.size()) - error.where.bit / 8;
-      if (ignored > 0) {
-        add_warning(out, error.where.bit,
-                    std::to_string(ignored) + " bytes after the end code are ignored");
-      }
-      break;
-    }
-    if (event->kind == Event::Kind::warning) {
-      add_warning(out, event->bit, event->text);
+    out.planes.emplace_back();  // filled in place
+    const Result<bool> filled = decoder.impl_->advance(out.planes.back());
+    if (filled && *filled) {
+      note_rate(out);
       continue;
     }
-    if (out.planes.empty()) out.rate = event->plane.rate;
-    if (event->plane.rate != out.rate && event->plane.temporal.rate) {
-      add_warning(out, event->bit, "the frame rate changes; the first one is kept for all planes");
+    out.planes.pop_back();
+    if (filled) {
+      const Event warning = decoder.impl_->take_warning();
+      add_warning(out, warning.bit, warning.text);
+      continue;
     }
-    out.planes.push_back(std::move(event->plane));
+    const Error& error = filled.error();
+    if (error.code == Code::need_data) {
+      const std::size_t count = std::min(kPieceBytes, stream.size() - pushed);
+      decoder.push(stream.subspan(pushed, count));
+      pushed += count;
+      if (pushed == stream.size()) decoder.finish();
+      continue;
+    }
+    if (error.code != Code::end_of_stream) return error;
+    const std::int64_t ignored = std::int64_t(stream.size()) - error.where.bit / 8;
+    if (ignored > 0) {
+      add_warning(out, error.where.bit,
+                  std::to_string(ignored) + " bytes after the end code are ignored");
+    }
+    break;
   }
   if (out.planes.empty()) {
     return error_at_bit(Code::truncated, "the stream holds no plane",
