@@ -93,11 +93,15 @@ struct Decoder::Impl {
 
   static Error need_data() { return make_error(Code::need_data, "more bytes are needed"); }
 
-  // An error, after which only an intra plane can be understood.
-  Error at(Code code, std::string message, std::size_t bit) {
+  // From here on only an intra plane can be understood.
+  void lose() {
     phase = Phase::lost;
     state.face.coding.valid = false;
     state.body.coding.valid = false;
+  }
+
+  Error at(Code code, std::string message, std::size_t bit) {
+    lose();
     return error_at_bit(code, std::move(message), stream_bit(bit));
   }
 
@@ -315,8 +319,20 @@ struct Decoder::Impl {
       position = border;
       phase = Phase::headers;
       return true;
+    } else if ((code >> 8) == 1 && is_stuffing(position, border)) {
+      foreign_code(code, border);
+      return true;
     }
     return false;
+  }
+
+  // A start code of something else ends the object. Another one may follow.
+  void foreign_code(std::uint32_t code, std::size_t bit) {
+    constexpr const char* kDigits = "0123456789ABCDEF";
+    const std::string digits{kDigits[code >> 4 & 15], kDigits[code & 15]};
+    warn("the start code 000001" + digits + " does not belong to a face or body and ends it", bit);
+    position = bit + 32;
+    lose();
   }
 
   // A plane of a few bits may lie between here and the border where a start code stands; the bits
