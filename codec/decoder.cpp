@@ -65,6 +65,7 @@ struct Decoder::Impl {
   bool finished = false;
   bool after_start_code = false;  // the plane to come has its start code consumed
   std::int64_t end_bit = -1;      // where the stream ended
+  bool spoken = false;            // there has been a plane or an error
   Phase phase = Phase::headers;
 
   internal::StreamState state;
@@ -100,7 +101,12 @@ struct Decoder::Impl {
     state.body.coding.valid = false;
   }
 
+  Error at_end(Code code, std::string message) {
+    spoken = true;
+    return error_at_bit(code, std::move(message), end_bit);
+  }
   Error at(Code code, std::string message, std::size_t bit) {
+    spoken = true;
     lose();
     return error_at_bit(code, std::move(message), stream_bit(bit));
   }
@@ -150,6 +156,7 @@ struct Decoder::Impl {
       case Phase::ended:
         break;
     }
+    if (!spoken) return at_end(Code::truncated, "the stream holds no plane");
     return error_at_bit(Code::end_of_stream, "the stream is over", end_bit);
   }
 
@@ -226,10 +233,11 @@ struct Decoder::Impl {
     if (!finished) return need_data();
     if (byte + 4 == buffer.size() && code_at(byte * 8) == kSequenceEnd) {
       end((byte + 4) * 8);
-    } else {
-      end(size_bits());
+      return false;
     }
-    return false;
+    end(size_bits());
+    if (lost) return false;
+    return at_end(Code::truncated, "the stream ends in its headers");
   }
 
   void end(std::size_t bit) {
@@ -250,8 +258,10 @@ struct Decoder::Impl {
 
   Result<bool> read_plane() {
     if (!after_start_code && !parsed.begun()) {
-      Result<bool> moved = plane_border();
-      if (!moved || *moved) return moved ? Result<bool>(false) : moved;
+      const Result<bool> moved = plane_border();
+      if (!moved) return moved;
+      // A warning is told before the plane that it stands in front of.
+      if (*moved || !warnings.empty()) return false;
     }
     BitReader in(buffer, position);
     const Result<void> done = internal::parse_plane(in, state, finished, parsed);
@@ -335,13 +345,16 @@ struct Decoder::Impl {
     lose();
   }
 
-  // A plane of a few bits may lie between here and the border where a start code stands; the bits
-  // are then not those of stuffing, but a plane and stuffing.
+  // Planes of a few bits may lie between here and the border where a start code stands; the bits
+  // are then not those of stuffing, but planes and stuffing. Planes so short change no state.
   bool short_plane_before(std::size_t border) {
     if (is_stuffing(position, border)) return false;
     BitReader in(std::span<const std::uint8_t>(buffer).first(border / 8), position);
-    if (!internal::parse_plane(in, state, true, parsed)) return false;
-    return in.position() < border && is_stuffing(in.position(), border);
+    do {
+      if (!internal::parse_plane(in, state, true, parsed)) return false;
+      if (in.position() >= border) return false;
+    } while (!is_stuffing(in.position(), border));
+    return true;
   }
 
   void consume_start_code(std::size_t bit) {
@@ -358,6 +371,7 @@ struct Decoder::Impl {
     plane.bit_begin = stream_bit(plane_begin);
     plane.bit_end = stream_bit(plane_end);
     tell_time(plane);
+    spoken = true;
 
     std::shared_ptr<BodyFrame> body;
     if (has_body(plane.object_mask)) {
@@ -459,13 +473,8 @@ Result<DecodedStream> decode(std::span<const std::uint8_t> stream) {
       add_warning(out, error.where.bit,
                   std::to_string(ignored) + " bytes after the end code are ignored");
     }
-    break;
+    return out;
   }
-  if (out.planes.empty()) {
-    return error_at_bit(Code::truncated, "the stream holds no plane",
-                        std::int64_t(stream.size()) * 8);
-  }
-  return out;
 }
 
 fap::Sequence face_sequence(const DecodedStream& stream) {

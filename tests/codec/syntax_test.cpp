@@ -266,6 +266,38 @@ TEST(Syntax, AForeignStartCodeEndsTheObject) {
   }
 }
 
+TEST(Syntax, SeveralShortPlanesMayComeBeforeAStartCode) {
+  // Planes of three bits, so many that two of them lie before the end code.
+  for (std::size_t count = 1; count < 20; ++count) {
+    fba::BitWriter out;
+    out.start_code(fba::kObjectStart);
+    for (std::size_t i = 0; i < count; ++i) out.bits(0b100, 3);
+    end(out);
+    const Trace got = trace(out.bytes());
+    EXPECT_TRUE(got.errors.empty()) << got.errors[0].describe();
+    EXPECT_EQ(got.planes.size(), count);
+  }
+}
+
+TEST(Syntax, AStreamWithoutAPlaneIsAnError) {
+  // Nothing, headers alone, an empty object, an object start code that has become user data.
+  const std::vector<std::vector<std::uint8_t>> streams = {
+      {},
+      {0, 0, 1, 0xB0, 0x61},
+      {0, 0, 1, 0xB0, 0x61, 0, 0, 1, 0xB1},
+      {0, 0, 1, 0xBA, 0x7F, 0, 0, 1, 0xB1},
+      {0, 0, 1, 0xB2, 0x12, 0x34, 0, 0, 1, 0xB1},
+      {0, 0, 1, 0xB2, 0x12, 0x34},
+  };
+  for (const auto& stream : streams) {
+    const Trace got = trace(stream);
+    ASSERT_EQ(got.errors.size(), 1U);
+    EXPECT_EQ(got.errors[0].code, Code::truncated) << got.errors[0].describe();
+    EXPECT_EQ(got.errors[0].where.bit, std::int64_t(stream.size()) * 8);
+    EXPECT_EQ(fba::decode(stream).error().message, got.errors[0].message);
+  }
+}
+
 TEST(Syntax, BytesAfterTheEndCodeAreCounted) {
   fba::BitWriter out;
   out.start_code(fba::kObjectStart);
