@@ -23,6 +23,16 @@ void add_warning(DecodedStream& out, std::int64_t bit, const std::string& text) 
   out.warnings.push_back("bit " + std::to_string(bit) + ": " + text);
 }
 
+// The rate of the stream is that of its first plane.
+void note_rate(DecodedStream& out) {
+  const Plane& plane = out.planes.back();
+  if (out.planes.size() == 1) out.rate = plane.rate;
+  if (plane.rate != out.rate && plane.temporal.rate) {
+    add_warning(out, plane.bit_begin,
+                "the frame rate changes; the first one is kept for all planes");
+  }
+}
+
 const char* object_type_name(std::uint32_t type) {
   switch (type) {
     case 1:
@@ -55,6 +65,7 @@ struct Decoder::Impl {
   bool finished = false;
   bool after_start_code = false;  // the plane to come has its start code consumed
   std::int64_t end_bit = -1;      // where the stream ended
+  bool spoken = false;            // there has been a plane or an error
   Phase phase = Phase::headers;
 
   internal::StreamState state;
@@ -83,11 +94,20 @@ struct Decoder::Impl {
 
   static Error need_data() { return make_error(Code::need_data, "more bytes are needed"); }
 
-  // An error, after which only an intra plane can be understood.
-  Error at(Code code, std::string message, std::size_t bit) {
+  // From here on only an intra plane can be understood.
+  void lose() {
     phase = Phase::lost;
     state.face.coding.valid = false;
     state.body.coding.valid = false;
+  }
+
+  Error at_end(Code code, std::string message) {
+    spoken = true;
+    return error_at_bit(code, std::move(message), end_bit);
+  }
+  Error at(Code code, std::string message, std::size_t bit) {
+    spoken = true;
+    lose();
     return error_at_bit(code, std::move(message), stream_bit(bit));
   }
 
@@ -102,19 +122,24 @@ struct Decoder::Impl {
     dropped_bits += std::int64_t(bytes) * 8;
   }
 
-  // Runs until there is an event, or a reason why not.
-  Result<Event> next() {
+  // Runs until there is an event, or a reason why not. True: `plane`, which has to be a new one,
+  // has been filled; false: a warning waits.
+  Result<bool> advance(Plane& plane) {
     for (;;) {
-      if (!warnings.empty()) {
-        Event event = std::move(warnings.front());
-        warnings.erase(warnings.begin());
-        return event;
-      }
+      if (!warnings.empty()) return false;
       trim();
-      Result<bool> progress = step();
+      const Result<bool> progress = step();
       if (!progress) return progress.error();
-      if (*progress) return plane_event();
+      if (!*progress) continue;
+      if (const Result<void> filled = fill(plane); !filled) return filled.error();
+      return true;
     }
+  }
+
+  Event take_warning() {
+    Event event = std::move(warnings.front());
+    warnings.erase(warnings.begin());
+    return event;
   }
 
   // One step; true: a plane was parsed and waits in `parsed`.
@@ -131,6 +156,7 @@ struct Decoder::Impl {
       case Phase::ended:
         break;
     }
+    if (!spoken) return at_end(Code::truncated, "the stream holds no plane");
     return error_at_bit(Code::end_of_stream, "the stream is over", end_bit);
   }
 
@@ -207,10 +233,11 @@ struct Decoder::Impl {
     if (!finished) return need_data();
     if (byte + 4 == buffer.size() && code_at(byte * 8) == kSequenceEnd) {
       end((byte + 4) * 8);
-    } else {
-      end(size_bits());
+      return false;
     }
-    return false;
+    end(size_bits());
+    if (lost) return false;
+    return at_end(Code::truncated, "the stream ends in its headers");
   }
 
   void end(std::size_t bit) {
@@ -231,8 +258,10 @@ struct Decoder::Impl {
 
   Result<bool> read_plane() {
     if (!after_start_code && !parsed.begun()) {
-      Result<bool> moved = plane_border();
-      if (!moved || *moved) return moved ? Result<bool>(false) : moved;
+      const Result<bool> moved = plane_border();
+      if (!moved) return moved;
+      // A warning is told before the plane that it stands in front of.
+      if (*moved || !warnings.empty()) return false;
     }
     BitReader in(buffer, position);
     const Result<void> done = internal::parse_plane(in, state, finished, parsed);
@@ -300,17 +329,32 @@ struct Decoder::Impl {
       position = border;
       phase = Phase::headers;
       return true;
+    } else if ((code >> 8) == 1 && is_stuffing(position, border)) {
+      foreign_code(code, border);
+      return true;
     }
     return false;
   }
 
-  // A plane of a few bits may lie between here and the border where a start code stands; the bits
-  // are then not those of stuffing, but a plane and stuffing.
+  // A start code of something else ends the object. Another one may follow.
+  void foreign_code(std::uint32_t code, std::size_t bit) {
+    constexpr const char* kDigits = "0123456789ABCDEF";
+    const std::string digits{kDigits[code >> 4 & 15], kDigits[code & 15]};
+    warn("the start code 000001" + digits + " does not belong to a face or body and ends it", bit);
+    position = bit + 32;
+    lose();
+  }
+
+  // Planes of a few bits may lie between here and the border where a start code stands; the bits
+  // are then not those of stuffing, but planes and stuffing. Planes so short change no state.
   bool short_plane_before(std::size_t border) {
     if (is_stuffing(position, border)) return false;
     BitReader in(std::span<const std::uint8_t>(buffer).first(border / 8), position);
-    if (!internal::parse_plane(in, state, true, parsed)) return false;
-    return in.position() < border && is_stuffing(in.position(), border);
+    do {
+      if (!internal::parse_plane(in, state, true, parsed)) return false;
+      if (in.position() >= border) return false;
+    } while (!is_stuffing(in.position(), border));
+    return true;
   }
 
   void consume_start_code(std::size_t bit) {
@@ -318,18 +362,16 @@ struct Decoder::Impl {
     after_start_code = true;
   }
 
-  Result<Event> plane_event() {
-    Result<Event> result{Event{}};
-    Event& event = *result;
-    event.bit = stream_bit(plane_begin);
-    Plane& plane = event.plane;
+  // The plane that was parsed, applied to the state.
+  Result<void> fill(Plane& plane) {
     plane.intra = parsed.intra;
     plane.object_mask = parsed.object_mask;
     plane.temporal = parsed.temporal;
     plane.start_code = had_start_code;
-    plane.bit_begin = event.bit;
+    plane.bit_begin = stream_bit(plane_begin);
     plane.bit_end = stream_bit(plane_end);
     tell_time(plane);
+    spoken = true;
 
     std::shared_ptr<BodyFrame> body;
     if (has_body(plane.object_mask)) {
@@ -347,7 +389,7 @@ struct Decoder::Impl {
       plane.body_settings = body_settings;
       plane.body = std::move(body);
     }
-    return result;
+    return {};
   }
 
   void tell_time(Plane& plane) {
@@ -391,46 +433,48 @@ void Decoder::push(std::span<const std::uint8_t> bytes) {
 
 void Decoder::finish() { impl_->finished = true; }
 
-Result<Event> Decoder::next() { return impl_->next(); }
+Result<Event> Decoder::next() {
+  Result<Event> event{Event{}};
+  const Result<bool> plane = impl_->advance(event->plane);
+  if (!plane) return plane.error();
+  if (!*plane) return impl_->take_warning();
+  event->bit = event->plane.bit_begin;
+  return event;
+}
 
 Result<DecodedStream> decode(std::span<const std::uint8_t> stream) {
   Decoder decoder;
   DecodedStream out;
   std::size_t pushed = 0;
   for (;;) {
-    Result<Event> event = decoder.next();
-    if (!event) {
-      const Error& error = event.error();
-      if (error.code == Code::need_data) {
-        const std::size_t count = std::min(kPieceBytes, stream.size() - pushed);
-        decoder.push(stream.subspan(pushed, count));
-        pushed += count;
-        if (pushed == stream.size()) decoder.finish();
-        continue;
-      }
-      if (error.code != Code::end_of_stream) return std::move(event).error();
-      const std::int64_t ignored = std::int64_t(stream.size()) - error.where.bit / 8;
-      if (ignored > 0) {
-        add_warning(out, error.where.bit,
-                    std::to_string(ignored) + " bytes after the end code are ignored");
-      }
-      break;
-    }
-    if (event->kind == Event::Kind::warning) {
-      add_warning(out, event->bit, event->text);
+    out.planes.emplace_back();  // filled in place
+    const Result<bool> filled = decoder.impl_->advance(out.planes.back());
+    if (filled && *filled) {
+      note_rate(out);
       continue;
     }
-    if (out.planes.empty()) out.rate = event->plane.rate;
-    if (event->plane.rate != out.rate && event->plane.temporal.rate) {
-      add_warning(out, event->bit, "the frame rate changes; the first one is kept for all planes");
+    out.planes.pop_back();
+    if (filled) {
+      const Event warning = decoder.impl_->take_warning();
+      add_warning(out, warning.bit, warning.text);
+      continue;
     }
-    out.planes.push_back(std::move(event->plane));
+    const Error& error = filled.error();
+    if (error.code == Code::need_data) {
+      const std::size_t count = std::min(kPieceBytes, stream.size() - pushed);
+      decoder.push(stream.subspan(pushed, count));
+      pushed += count;
+      if (pushed == stream.size()) decoder.finish();
+      continue;
+    }
+    if (error.code != Code::end_of_stream) return error;
+    const std::int64_t ignored = std::int64_t(stream.size()) - error.where.bit / 8;
+    if (ignored > 0) {
+      add_warning(out, error.where.bit,
+                  std::to_string(ignored) + " bytes after the end code are ignored");
+    }
+    return out;
   }
-  if (out.planes.empty()) {
-    return error_at_bit(Code::truncated, "the stream holds no plane",
-                        std::int64_t(stream.size()) * 8);
-  }
-  return out;
 }
 
 fap::Sequence face_sequence(const DecodedStream& stream) {

@@ -296,12 +296,11 @@ class PlaneParser {
 
   // At most seven symbols: read again from the start if they are not all there.
   Result<void> high_segment(int first, int last) {
-    HighLevelState high;  // ranges only
-    high.fap_quant = settings_in_force().fap_quant;
+    const int fap_quant = settings_in_force().fap_quant;
     SegmentDecoder segment(in_, last_);
     for (int which = first; which <= last; ++which) {
       const std::size_t index = std::size_t(which);
-      const std::uint32_t max = std::uint32_t(high.max_level(which));
+      const std::uint32_t max = std::uint32_t(high_level_max(which, fap_quant));
       const bool done = plane_.intra ? flat_symbol(segment, max + 1, plane_.high_symbols[index])
                                      : model_symbol(segment, state_.high.model[index],
                                                     plane_.high_symbols[index]);
