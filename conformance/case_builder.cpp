@@ -7,6 +7,7 @@
 #include "conformance/epf_writer.h"
 #include "conformance/features.h"
 #include "conformance/sha256.h"
+#include "fap/rate_text.h"
 #include "fap/tables.h"
 #include "fap/text.h"
 
@@ -177,6 +178,7 @@ void CaseBuilder::add_text(MadeCase& made, const char* face_role, const char* bo
     if (fba::has_face(one.object_mask)) clip.frames.push_back(one.face);
     if (fba::has_body(one.object_mask)) bodies.frames.push_back(one.body);
   }
+  if (!which.empty()) made.info.rate = fap::format_rate(clip.rate);
   if (!clip.frames.empty()) made.content[face_role] = fap::write_text(clip);
   if (!bodies.frames.empty() && body_role != nullptr) {
     made.content[body_role] = fba::write_bap_text(bodies);

@@ -62,6 +62,7 @@ Case parse(const Json& json) {
   json.at("certainty").get_to(out.certainty);
   strings(json, "features", out.features);
   strings(json, "sections", out.sections);
+  if (json.contains("rate")) json["rate"].get_to(out.rate);
   const Json& limits = json.at("limits");
   limits.at("planes").get_to(out.planes);
   limits.at("intra_planes").get_to(out.intra_planes);
@@ -128,6 +129,7 @@ std::string write_case(const Case& one) {
   member("certainty", text(one.certainty));
   member("sections", word_list(one.sections, "  "));
   member("features", word_list(one.features, "  "));
+  if (!one.rate.empty()) member("rate", text(one.rate));
   member("limits", "{\"planes\": " + std::to_string(one.planes) +
                        ", \"intra_planes\": " + std::to_string(one.intra_planes) +
                        ", \"largest_alphabet\": " + std::to_string(one.largest_alphabet) +

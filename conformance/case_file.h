@@ -31,6 +31,7 @@ struct Case {
   std::vector<std::string> errors;  ///< kinds of error that are right, if damaged
   std::string certainty;            ///< mark of the description: C, S, M, T or ?
   std::vector<std::string> features, sections;
+  std::string rate;  ///< frames a second as in fap/rate_text.h; empty: no plane
   int planes = 0, intra_planes = 0;
   int largest_alphabet = 0;
   std::int64_t largest_plane_bits = 0;

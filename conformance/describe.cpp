@@ -6,6 +6,7 @@
 #include "conformance/features.h"
 #include "conformance/sha256.h"
 #include "conformance/trial.h"
+#include "fap/rate_text.h"
 #include "fap/text.h"
 
 namespace animeme::conformance {
@@ -95,17 +96,6 @@ void describe_stream(const std::string& stream, const fba::DecodedStream& decode
                                                                : "face";
 }
 
-// How an encoder has to be switched to write this stream.
-void describe_switches(Case& info) {
-  const auto has = [&](const char* feature) {
-    return std::find(info.features.begin(), info.features.end(), feature) != info.features.end();
-  };
-  info.plane_start_codes = has("plane_code.all")     ? "all"
-                           : has("plane_code.intra") ? "intra"
-                                                     : "none";
-  info.old_codes = has("start_old.plane");
-}
-
 }  // namespace
 
 Result<void> describe(MadeCase& made) {
@@ -116,6 +106,13 @@ Result<void> describe(MadeCase& made) {
   if (auto ok = check_errors(info, trial.errors); !ok) return ok;
   if (auto ok = check_face(made, trial.stream); !ok) return ok;
   if (auto ok = check_body(made, trial.stream); !ok) return ok;
+  if (!trial.stream.planes.empty()) {
+    const std::string rate = fap::format_rate(trial.stream.rate);
+    if (!info.rate.empty() && info.rate != rate) {
+      return wrong("the decoder says " + rate + " frames a second, expected are " + info.rate);
+    }
+    info.rate = rate;
+  }
   if (!info.damaged) {
     if (trial.stream.planes.empty()) return wrong("the stream has no plane");
     StreamFacts facts;
@@ -124,7 +121,7 @@ Result<void> describe(MadeCase& made) {
       return wrong("the second encoder differs at bit " +
                    std::to_string(facts.first_difference_bit));
     }
-    describe_switches(info);
+    set_switches(bytes_of(found->second), trial.stream, info);
     if (auto ok = check_encoder(made); !ok) return ok;
   }
   sort_features(info.features);

@@ -39,6 +39,21 @@ std::string kind_of_error(Code code) {
   }
 }
 
+void set_switches(std::span<const std::uint8_t> bytes, const fba::DecodedStream& decoded,
+                  Case& info) {
+  std::size_t with_code = 0, intra_without = 0;
+  info.old_codes = false;
+  for (const fba::Plane& plane : decoded.planes) {
+    with_code += plane.start_code;
+    intra_without += plane.intra && !plane.start_code;
+    if (!plane.start_code) continue;
+    info.old_codes = bytes[std::size_t(plane.bit_begin / 8) - 1] == (fba::kOldPlaneStart & 0xFF);
+  }
+  info.plane_start_codes = with_code == decoded.planes.size()    ? "all"
+                           : with_code > 0 && intra_without == 0 ? "intra"
+                                                                 : "none";
+}
+
 Result<std::vector<std::uint8_t>> encode_again(const Case& info, std::string_view parameters,
                                                std::string_view source_face,
                                                std::string_view source_body) {

@@ -35,7 +35,7 @@ int run(int argc, char** argv) {
   app.fallthrough();
 
   const Command* commands[] = {&kSpeak, &kAlign, &kTrain, &kEvaluate, &kEncode, &kDecode,
-                               &kMux,   &kDemux, &kInfo,  &kCompare,  &kPlot};
+                               &kMux,   &kDemux, &kInfo,  &kCompare,  &kCheck,  &kPlot};
   Action chosen;
   for (const Command* command : commands) {
     CLI::App* sub = app.add_subcommand(command->name, command->summary);
