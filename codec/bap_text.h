@@ -34,7 +34,7 @@ struct BodySequence {
 };
 
 /// Reads a BAP text of any origin. Safe for untrusted input: time and memory are linear in the
-/// text (below ten times its size), whatever numbers it contains.
+/// text (below twelve times its size), whatever numbers it contains.
 ///
 /// What is taken silently, what with a warning and what is an error is the same as for
 /// fap::read_text() and its default options, except that

@@ -6,16 +6,11 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
-
-#include "codec/access_unit.h"
-#include "codec/decoder.h"
-#include "dam/corpus.h"
-#include "dam/fap_signal.h"
-#include "fap/text.h"
-#include "tools/media/container.h"
+#include <utility>
 
 namespace animeme::tools {
 
@@ -35,6 +30,53 @@ Result<void> write_stdout(std::span<const std::uint8_t> bytes) {
   if (written == bytes.size() && std::fflush(stdout) == 0) return {};
   return file_error("standard output", "cannot write");
 }
+
+std::span<const std::uint8_t> bytes_of(std::string_view text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+// A file that lies complete beside its place until it is published; removed if it never is.
+class StagedFile {
+ public:
+  explicit StagedFile(std::string path) : path_(std::move(path)) {
+    // Devices and pipes (/dev/null, /dev/stdout) cannot be renamed onto.
+    std::error_code ignored;
+    const auto status = std::filesystem::status(path_, ignored);
+    special_ = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+    target_ = special_ ? path_ : path_ + ".part" + std::to_string(::getpid());
+  }
+  StagedFile(StagedFile&& other) noexcept
+      : path_(std::move(other.path_)),
+        target_(std::move(other.target_)),
+        special_(other.special_),
+        waiting_(std::exchange(other.waiting_, false)) {}
+  StagedFile(const StagedFile&) = delete;
+  ~StagedFile() {
+    if (waiting_) std::remove(target_.c_str());
+  }
+
+  Result<void> stage(std::span<const std::uint8_t> bytes) {
+    errno = 0;
+    std::ofstream out(target_, std::ios::binary | std::ios::trunc);
+    waiting_ = out.is_open() && !special_;
+    out.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    out.flush();
+    if (!out) return file_error(path_, "cannot write");
+    return {};
+  }
+  Result<void> publish() {
+    if (!waiting_) return {};
+    if (std::rename(target_.c_str(), path_.c_str()) != 0) return file_error(path_, "cannot write");
+    waiting_ = false;
+    return {};
+  }
+
+ private:
+  std::string path_;
+  std::string target_;
+  bool special_ = false;
+  bool waiting_ = false;
+};
 
 bool starts_with(std::span<const std::uint8_t> bytes, std::string_view text) {
   return bytes.size() >= text.size() && std::memcmp(bytes.data(), text.data(), text.size()) == 0;
@@ -66,31 +108,30 @@ Result<std::string> read_text_file(const std::string& path) {
 
 Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes) {
   if (path == "-") return write_stdout(bytes);
-  // Devices and pipes (/dev/null, /dev/stdout) cannot be renamed onto.
-  std::error_code status_error;
-  const auto status = std::filesystem::status(path, status_error);
-  const bool special = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
-  const std::string target = special ? path : path + ".part" + std::to_string(::getpid());
-  errno = 0;
-  {
-    std::ofstream out(target, std::ios::binary | std::ios::trunc);
-    out.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-    out.flush();
-    if (!out) {
-      Error error = file_error(path, "cannot write");
-      if (!special) std::remove(target.c_str());
-      return error;
-    }
-  }
-  if (special || std::rename(target.c_str(), path.c_str()) == 0) return {};
-  Error error = file_error(path, "cannot write");
-  std::remove(target.c_str());
-  return error;
+  StagedFile file(path);
+  if (auto done = file.stage(bytes); !done) return done;
+  return file.publish();
 }
 
 Result<void> write_file(const std::string& path, std::string_view text) {
-  return write_file(path,
-                    std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+  return write_file(path, bytes_of(text));
+}
+
+Result<void> write_files(std::span<const OutputText> files) {
+  std::vector<StagedFile> staged;
+  for (const OutputText& file : files) {
+    if (file.path == "-") continue;
+    staged.emplace_back(file.path);
+    if (auto done = staged.back().stage(bytes_of(file.text)); !done) return done;
+  }
+  for (const OutputText& file : files) {
+    if (file.path != "-") continue;
+    if (auto done = write_stdout(bytes_of(file.text)); !done) return done;
+  }
+  for (StagedFile& file : staged) {
+    if (auto done = file.publish(); !done) return done;
+  }
+  return {};
 }
 
 std::string extension_of(const std::string& path) {
@@ -167,62 +208,15 @@ FileKind kind_of(std::span<const std::uint8_t> bytes) {
       if (line.substr(first).starts_with("time_s")) return FileKind::curves;
       const char c = line[first];
       const bool number = (c >= '0' && c <= '9') || c == '-' || c == '.';
-      return number ? FileKind::fap_text : FileKind::script;
+      if (!number) return FileKind::script;
+      const std::string_view version =
+          line.substr(first, line.find_first_of(" \t\r", first) - first);
+      return version == "3.1" || version == "3.2" ? FileKind::bap_text : FileKind::fap_text;
     }
     if (end == std::string_view::npos) break;
     view.remove_prefix(end + 1);
   }
   return FileKind::unknown;
-}
-
-Result<FaceInput> read_face(const std::string& path) {
-  Result<std::vector<std::uint8_t>> bytes = read_file(path);
-  if (!bytes) return bytes.error();
-  return parse_face(std::move(*bytes), path);
-}
-
-Result<FaceInput> parse_face(std::vector<std::uint8_t> bytes, const std::string& path) {
-  FaceInput input;
-  const FileKind kind = kind_of(bytes);
-  if (kind == FileKind::fap_text) {
-    std::vector<std::string> warnings;
-    auto clip =
-        fap::read_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, {}, &warnings);
-    if (!clip) return clip.error().in_file(path);
-    for (const std::string& text : warnings) warn(path + ": " + text);
-    input.clip = std::move(*clip);
-    return input;
-  }
-  if (bytes.empty()) return make_error(Code::truncated, "the file is empty").in_file(path);
-  if (kind == FileKind::curves) {
-    Result<dam::Signal> signal =
-        dam::read_curves({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    if (!signal) return signal.error().in_file(path);
-    Result<fap::Sequence> clip = dam::to_sequence(*signal);
-    if (!clip) return clip.error().in_file(path);
-    input.clip = std::move(*clip);
-    return input;
-  }
-  if (kind == FileKind::media) {
-    Result<media::Container> container =
-        media::read_container(std::span<const std::uint8_t>(bytes));
-    if (!container) return container.error().in_file(path);
-    for (const std::string& text : container->warnings) warn(path + ": " + text);
-    input.stream = fba::join_access_units(container->face);
-  } else if (kind == FileKind::fba_stream) {
-    input.stream = std::move(bytes);
-  } else {
-    return make_error(Code::syntax,
-                      "this holds no face: .fap text, a raw .fba stream or an mp4, mkv or ts file "
-                      "with an FBA track is needed")
-        .in_file(path);
-  }
-  Result<fba::DecodedStream> decoded = fba::decode(input.stream);
-  if (!decoded) return decoded.error().in_file(path);
-  for (const std::string& text : decoded->warnings) warn(path + ": " + text);
-  input.clip = fba::face_sequence(*decoded);
-  if (path != "-") input.clip.name = std::filesystem::path(path).stem().string();
-  return input;
 }
 
 }  // namespace animeme::tools

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "codec/bap_text.h"
+#include "codec/decoder.h"
 #include "fap/frame.h"
 #include "fap/result.h"
 
@@ -37,7 +39,7 @@ struct Command {
 };
 
 extern const Command kAlign, kCheck, kCompare, kDecode, kDemux, kEncode, kEvaluate, kInfo, kMux,
-    kPlot, kSpeak, kTrain;
+    kPlot, kSpeak, kStats, kTrain;
 
 /// Prints a usage error on standard error; returns kUsage for the command to return.
 int usage_error(const std::string& text);
@@ -50,6 +52,14 @@ Result<std::string> read_text_file(const std::string& path);
 /// output. Errors: io.
 Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes);
 Result<void> write_file(const std::string& path, std::string_view text);
+
+/// A file to be written; the text is borrowed.
+struct OutputText {
+  std::string path;
+  std::string_view text;
+};
+/// Writes several files: all of them whole, or none. Errors: io.
+Result<void> write_files(std::span<const OutputText> files);
 
 /// Extension in lower case with its dot, ".mp4"; "-" gives "".
 std::string extension_of(const std::string& path);
@@ -81,17 +91,45 @@ class ProgressLine {
 };
 
 /// What a file holds, told by its content.
-enum class FileKind : std::uint8_t { fap_text, fba_stream, model, script, curves, media, unknown };
+enum class FileKind : std::uint8_t {
+  fap_text,
+  bap_text,
+  fba_stream,
+  model,
+  script,
+  curves,
+  media,
+  unknown
+};
 FileKind kind_of(std::span<const std::uint8_t> bytes);
 
-/// Any input with a face as a clip: .fap text, raw .fba, a container, or a table of curves
+/// Any input with motion: .fap or .bap text, raw .fba, a container, or a table of curves
 /// (time_s, fap3_open_jaw ... as in a corpus). For text, warnings about quirks are printed.
+struct MotionInput {
+  FileKind kind = FileKind::unknown;
+  fap::Sequence face;                ///< no frames: there is no face
+  fba::BodySequence body;            ///< no frames: there is no body
+  std::vector<std::uint8_t> stream;  ///< the raw FBA stream; empty for text
+  fba::DecodedStream decoded;        ///< of the stream; no planes for text
+};
+/// Frame numbers of FAP text start at 0 unless they are to be kept.
+enum class FrameNumbers : std::uint8_t { from_zero, keep };
+Result<MotionInput> read_motion(const std::string& path,
+                                FrameNumbers numbers = FrameNumbers::from_zero);
+/// The same from bytes that were read already; `path` is for names and messages.
+Result<MotionInput> parse_motion(std::vector<std::uint8_t> bytes, const std::string& path,
+                                 FrameNumbers numbers = FrameNumbers::from_zero);
+
+/// Any input with a face as a clip.
 struct FaceInput {
   fap::Sequence clip;
   std::vector<std::uint8_t> stream;  ///< the raw FBA stream; empty for text
 };
+/// As read_motion(). A stream or text with a body but no face is not_found.
 Result<FaceInput> read_face(const std::string& path);
-/// The same from bytes that were read already; `path` is for names and messages.
 Result<FaceInput> parse_face(std::vector<std::uint8_t> bytes, const std::string& path);
+/// The face of an input that was read already, and the check for there being one.
+Result<FaceInput> face_of(MotionInput input, const std::string& path);
+Result<void> require_face(const MotionInput& input, const std::string& path);
 
 }  // namespace animeme::tools

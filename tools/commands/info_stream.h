@@ -1,0 +1,29 @@
+// What info says about motion: clips, bodies, streams and their planes.
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+
+#include "codec/bap_text.h"
+#include "codec/decoder.h"
+#include "fap/frame.h"
+
+namespace animeme::tools {
+
+using Json = nlohmann::ordered_json;
+
+/// Frames, rate, and the range of values of each parameter.
+Json describe_clip(const fap::Sequence& clip);
+Json describe_body(const fba::BodySequence& body);
+
+/// A whole stream of `bytes` bytes, without its planes.
+Json describe_stream(const fba::DecodedStream& stream, std::size_t bytes);
+
+/// All that the planes say but their values; an array. Ranges are in levels at quantiser 1, in
+/// the order of the parameters named.
+Json describe_planes(const fba::DecodedStream& stream);
+
+/// The same as a table, one line a plane. Ranges are the widest of all parameters.
+void print_planes(const fba::DecodedStream& stream);
+
+}  // namespace animeme::tools
