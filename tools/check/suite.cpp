@@ -59,21 +59,6 @@ fs::path find_file(const fs::path& beside, const std::vector<fs::path>& unpacked
   return {};
 }
 
-void check_file(const CaseFile& file, const fs::path& path, SuiteCase& one) {
-  if (!one.problem.empty()) return;
-  if (path.empty()) {
-    one.problem = file.name + " is missing";
-    return;
-  }
-  if (file.sha256.empty()) return;
-  const auto bytes = read_file(path.string());
-  if (!bytes) {
-    one.problem = bytes.error().describe();
-  } else if (conformance::sha256(*bytes) != file.sha256) {
-    one.problem = file.name + " is not the file of case.json (its SHA-256 differs)";
-  }
-}
-
 Result<SuiteCase> load_case(const fs::path& json, const std::vector<fs::path>& unpacked) {
   Result<std::string> text = read_text_file(json.string());
   if (!text) return text.error();
@@ -82,9 +67,7 @@ Result<SuiteCase> load_case(const fs::path& json, const std::vector<fs::path>& u
   SuiteCase one;
   one.info = std::move(*info);
   for (const CaseFile& file : one.info.files) {
-    const fs::path path = find_file(json.parent_path(), unpacked, one.info.name, file.name);
-    check_file(file, path, one);
-    one.path[file.role] = path;
+    one.path[file.role] = find_file(json.parent_path(), unpacked, one.info.name, file.name);
   }
   return one;
 }
@@ -192,6 +175,20 @@ Result<Suite> load_suite(const std::string& place) {
     }
   }
   return suite;
+}
+
+void verify(SuiteCase& one) {
+  for (const CaseFile& file : one.info.files) {
+    const fs::path& path = one.path.at(file.role);
+    if (path.empty()) {
+      one.problem = file.name + " is missing";
+    } else if (const auto bytes = read_file(path.string()); !bytes) {
+      one.problem = bytes.error().describe();
+    } else if (!file.sha256.empty() && conformance::sha256(*bytes) != file.sha256) {
+      one.problem = file.name + " is not the file of case.json (its SHA-256 differs)";
+    }
+    if (!one.problem.empty()) return;
+  }
 }
 
 }  // namespace animeme::tools

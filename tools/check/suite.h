@@ -1,4 +1,4 @@
-// A folder of conformance cases, found and checked before anything runs.
+// A folder of conformance cases.
 #pragma once
 
 #include <filesystem>
@@ -47,9 +47,12 @@ struct Suite {
 ///   - such an archive by itself;
 ///   - a bare folder: every X.fba somewhere in it with X.dec.fap or X.dec.bap (to be decoded) or
 ///     X.intact.fap or .bap (damaged) beside it, and perhaps X.epf with X.src.fap and X.src.bap.
-/// Names of two cases must not be equal. Every file is held against its SHA-256, if it has one.
+/// Names of two cases must not be equal.
 /// Errors: not_found (no such place, no cases), io (an archive cannot be unpacked), syntax (a
 /// case.json cannot be read, two cases of one name).
 Result<Suite> load_suite(const std::string& place);
+
+/// Holds every file of a case against its SHA-256, if it has one; sets `problem`.
+void verify(SuiteCase& one);
 
 }  // namespace animeme::tools

@@ -56,8 +56,10 @@ Result<int> run(const Options& options) {
   Result<Suite> suite = load_suite(options.place);
   if (!suite) return suite.error();
   std::vector<const SuiteCase*> chosen;
-  for (const SuiteCase& one : suite->cases) {
-    if (is_chosen(one, options.filters)) chosen.push_back(&one);
+  for (SuiteCase& one : suite->cases) {
+    if (!is_chosen(one, options.filters)) continue;
+    if (!options.coverage) verify(one);
+    chosen.push_back(&one);
   }
   if (chosen.empty()) return usage_error("no case has a name or feature like that of --filter");
   if (options.coverage) {
