@@ -15,7 +15,7 @@
 namespace animeme::tools {
 namespace {
 
-constexpr rlim_t kMostBytes = rlim_t(1) << 30;
+constexpr rlim_t kMostBytes = rlim_t(256) << 20;
 
 Error cannot(const std::string& what) {
   return make_error(Code::io, what + ": " + std::strerror(errno));

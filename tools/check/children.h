@@ -38,8 +38,8 @@ class Children {
   /// Ends what still runs.
   ~Children();
 
-  /// Starts one. Its standard input is empty; it may write 1 GB and leaves no core file. `id` comes
-  /// back from wait(). Errors, io: it cannot be started.
+  /// Starts one. Its standard input is empty, its files may have 256 MB each, and it leaves no core
+  /// file. `id` comes back from wait(). Errors, io: it cannot be started.
   Result<void> start(std::size_t id, const ChildJob& job);
   std::size_t running() const { return running_.size(); }
 
