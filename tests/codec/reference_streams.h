@@ -1,5 +1,5 @@
-// The reference streams that the codec tests run on: those of conformance/reference_streams.tar.xz,
-// unpacked by the build, and any further ones of the reference data.
+// The streams that the codec tests run on: the cases of conformance/ that can be decoded, unpacked
+// by the build, and any further streams of the reference data.
 #pragma once
 
 #include <algorithm>
@@ -26,19 +26,23 @@ inline std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
   return {text.begin(), text.end()};
 }
 
-/// Base paths (without extension) of all streams at hand, by name.
+/// Base paths (without extension) of all streams at hand, by name. A stream without expected
+/// values is none: it belongs to a case of what must not be decoded.
 inline std::vector<std::filesystem::path> reference_streams() {
-  std::vector<std::filesystem::path> out;
+  namespace fs = std::filesystem;
+  std::vector<fs::path> out;
   std::set<std::string> names;
-  std::vector<std::filesystem::path> folders = {std::filesystem::path(ANIMEME_BINARY_DIR) /
-                                                "conformance" / "streams"};
+  std::vector<fs::path> folders = {fs::path(ANIMEME_BINARY_DIR) / "conformance" / "cases"};
   if (!shared_dir().empty()) folders.push_back(shared_dir() / "conformance" / "streams");
   for (const auto& folder : folders) {
-    if (!std::filesystem::is_directory(folder)) continue;
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (!fs::is_directory(folder)) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
       if (entry.path().extension() != ".fba") continue;
-      if (!names.insert(entry.path().stem().string()).second) continue;
-      out.push_back(entry.path().parent_path() / entry.path().stem());
+      const fs::path base = entry.path().parent_path() / entry.path().stem();
+      if (!fs::exists(base.string() + ".dec.fap") && !fs::exists(base.string() + ".dec.bap")) {
+        continue;
+      }
+      if (names.insert(base.filename().string()).second) out.push_back(base);
     }
   }
   std::sort(out.begin(), out.end(),

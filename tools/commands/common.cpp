@@ -164,8 +164,11 @@ int usage_error(const std::string& text) {
 
 ProgressLine::ProgressLine(std::string what) : what_(std::move(what)) {}
 
-ProgressLine::~ProgressLine() {
+ProgressLine::~ProgressLine() { clear(); }
+
+void ProgressLine::clear() {
   if (shown_) std::cerr << "\r\x1b[K" << std::flush;
+  shown_ = false;
 }
 
 void ProgressLine::update(double done, const std::string& detail) {

@@ -38,8 +38,8 @@ struct Command {
   Action (*add)(CLI::App& app);
 };
 
-extern const Command kAlign, kCompare, kDecode, kDemux, kEncode, kEvaluate, kImport, kInfo, kMux,
-    kPlot, kSpeak, kStats, kTrain;
+extern const Command kAlign, kCheck, kCompare, kDecode, kDemux, kEncode, kEvaluate, kImport, kInfo,
+    kMux, kPlot, kSpeak, kStats, kTrain;
 
 /// Prints a usage error on standard error; returns kUsage for the command to return.
 int usage_error(const std::string& text);
@@ -81,6 +81,8 @@ class ProgressLine {
   ~ProgressLine();
   /// `done` 0..1; `detail` is shown behind the bar.
   void update(double done, const std::string& detail = {});
+  /// Takes the line away, so that something else can be printed.
+  void clear();
 
  private:
   std::string what_;

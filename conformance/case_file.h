@@ -1,0 +1,64 @@
+// case.json: what one conformance case is about, as data.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fap/result.h"
+
+namespace animeme::conformance {
+
+/// A file of a case.
+struct CaseFile {
+  std::string role;    ///< stream, face, body, face_ignored, source_face, source_body, parameters
+  std::string name;    ///< beside case.json
+  std::string sha256;  ///< 64 hexadecimal digits; empty: not checked
+  std::int64_t bytes = 0;
+};
+
+/// One case. The README of this folder describes the file.
+struct Case {
+  std::string name;
+  std::string title;
+  std::string note;
+  std::string origin;
+  std::string object;               ///< face, body or both
+  bool damaged = false;             ///< expected: "error"; else "decode"
+  std::vector<std::string> errors;  ///< kinds of error that are right, if damaged
+  std::string certainty;            ///< mark of the description: C, S, M, T or ?
+  std::vector<std::string> features, sections;
+  std::string rate;  ///< frames a second as in fap/rate_text.h; empty: no plane
+  int planes = 0, intra_planes = 0;
+  int largest_alphabet = 0;
+  std::int64_t largest_plane_bits = 0;
+  /// Switches for writing the stream again from `parameters`: none, intra or all.
+  std::string plane_start_codes = "none";
+  bool old_codes = false;
+  std::vector<CaseFile> files;
+
+  const CaseFile* file(std::string_view role) const {
+    for (const CaseFile& one : files) {
+      if (one.role == role) return &one;
+    }
+    return nullptr;
+  }
+};
+
+/// Extension of the file with a role in a case named X: X.fba, X.dec.fap ... Of damaged cases
+/// the face and body are X.intact.fap and X.intact.bap: the planes that can be had.
+std::string extension_of_role(std::string_view role, bool damaged);
+/// All roles, in the order of case.json.
+const std::vector<std::string>& file_roles();
+
+/// Reads a case.json. Errors: syntax (no JSON, a member missing or of another type); the message
+/// names the member.
+Result<Case> read_case(std::string_view json);
+
+/// The text of case.json, always the same for the same case.
+std::string write_case(const Case& one);
+
+}  // namespace animeme::conformance

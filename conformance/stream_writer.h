@@ -1,0 +1,136 @@
+// FBA streams written a second time, straight from the description: levels in, bits and the
+// values that a decoder must give out. It can also write what is not allowed.
+// Source: fba_bitstream, sections 1 to 7.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "codec/plane.h"
+#include "conformance/segment_writer.h"
+#include "fap/frame.h"
+
+namespace animeme::conformance {
+
+/// The seven values of FAP 1 and 2 in coding order.
+enum High : std::uint8_t {
+  kSelect1,
+  kSelect2,
+  kBlend,
+  kExpression1,
+  kIntensity1,
+  kExpression2,
+  kIntensity2,
+  kHighCount
+};
+
+enum class StartCode : std::uint8_t { none, plane, old_plane };
+
+/// What is wrong with a plane.
+enum class Damage : std::uint8_t {
+  none,
+  dct_face,     ///< fba_object_coding_type 1
+  dct_body,     ///< the same for the body
+  marker,       ///< marker number `damage_at` of the plane is 0
+  rate_zero,    ///< a frame rate of 0 is sent
+  body_type2,   ///< body group `damage_at` (from 0) has mask type 2
+  stuffed_bit,  ///< the first stuffed bit is 0
+};
+
+/// A plane as it is coded: levels, not values.
+struct PlaneSpec {
+  bool intra = false;
+  fba::ObjectMask object_mask = fba::ObjectMask::face;
+  StartCode start_code = StartCode::none;
+  fba::TemporalHeader temporal;
+  fba::FaceSettings face;  ///< intra planes with a face
+  fba::BodySettings body;  ///< intra planes with a body
+  /// Levels: the value in steps in an intra plane, else the difference in steps. Selections have
+  /// step 1.
+  std::array<std::int32_t, kHighCount> high{};
+  std::array<std::int32_t, fap::kFapCount + 1> fap{};
+  std::array<std::int32_t, fba::kBapCount + 1> bap{};
+  bool viseme_def = false, init_face = false, expression_def = false;
+  Damage damage = Damage::none;
+  int damage_at = 0;
+};
+
+/// What a decoder has after a plane: coded values only.
+struct Expected {
+  bool intra = false;
+  fba::ObjectMask object_mask = fba::ObjectMask::nothing;
+  fap::Frame face;
+  fba::BodyFrame body;
+  std::size_t bit_begin = 0, bit_end = 0;  ///< the plane from its header on
+};
+
+/// Writes planes behind an object start code.
+class StreamWriter {
+ public:
+  explicit StreamWriter(std::uint32_t object_code = fba::kObjectStart);
+
+  /// Levels have to lie in the ranges in force (fba_bitstream, 3.2); see levels().
+  Expected write(const PlaneSpec& plane);
+  /// Range of the level of a FAP or BAP in force for a plane: as after write() of `plane`'s
+  /// settings. First lowest, second highest.
+  struct Range {
+    int low, high;
+  };
+  Range fap_range(const PlaneSpec& plane, std::size_t fap) const;
+  Range bap_range(const PlaneSpec& plane, std::size_t bap) const;
+  /// Largest level of a high-level value in an intra plane.
+  int high_range(const PlaneSpec& plane, int which) const;
+  /// Last values.
+  std::int32_t high_value(int which) const { return high_.value[std::size_t(which)]; }
+  std::int32_t fap_value(std::size_t fap) const { return face_.value[fap]; }
+  const fba::FaceSettings& face_settings() const { return face_settings_; }
+  const fba::BodySettings& body_settings() const { return body_settings_; }
+
+  Bits& bits() { return bits_; }
+  const CoderTrace& trace() const { return trace_; }
+  /// Stuffing and the end code are put behind the planes.
+  std::vector<std::uint8_t> finish();
+
+ private:
+  // Ranges, models and values of the FAPs or BAPs, by number.
+  struct Family {
+    std::array<std::vector<int>, 4> range;  // levels, all >= 0
+    std::vector<Frequencies> model;         // P planes
+    std::vector<std::int32_t> value;
+    bool known = false;
+  };
+  struct HighFamily {
+    std::array<Frequencies, kHighCount> model;
+    std::array<std::int32_t, kHighCount> value{};
+  };
+
+  void marker(const PlaneSpec& plane);
+  void temporal(const PlaneSpec& plane);
+  void write_face(const PlaneSpec& plane, Expected& expected);
+  void write_body(const PlaneSpec& plane, Expected& expected);
+  void face_header(const PlaneSpec& plane);
+  void body_header(const PlaneSpec& plane);
+  template <class Settings>
+  void write_ranges(const PlaneSpec& plane, const Settings& settings,
+                    const std::vector<std::vector<int>>& groups);
+  template <class Settings>
+  void install(Family& family, const Settings& settings,
+               const std::vector<std::vector<int>>& groups, int divisor);
+  void write_high(const PlaneSpec& plane, int first, int last);
+  template <class Levels>
+  void write_values(const PlaneSpec& plane, Family& family,
+                    const std::vector<std::vector<int>>& groups, const Levels& levels);
+
+  Bits bits_;
+  CoderTrace trace_;
+  bool bad_stuffing_ = false;
+  int markers_ = 0;
+  std::int64_t number_ = 0;
+  fba::FaceSettings face_settings_;
+  fba::BodySettings body_settings_;
+  Family face_, body_;
+  HighFamily high_;
+};
+
+}  // namespace animeme::conformance

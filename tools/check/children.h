@@ -1,0 +1,69 @@
+// Child processes that run side by side, each with its own time limit: programs, or functions of
+// ours in a forked copy, so that nothing a child does can end the parent.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fap/result.h"
+
+namespace animeme::tools {
+
+/// What a child is to do: run `arguments`, or call `work` if there are none.
+struct ChildJob {
+  std::vector<std::string> arguments;
+  std::function<int()> work;  ///< its value is the exit code
+  std::string out, err;       ///< files for standard output and standard error
+};
+
+/// How a child ended.
+struct ChildEnd {
+  enum class How : std::uint8_t { exited, crashed, timed_out };
+  How how = How::exited;
+  int code = 0;  ///< exit code, or the number of the signal
+  double seconds = 0;
+};
+
+/// Some children at once. Not thread safe, and no other thread may run: it forks.
+class Children {
+ public:
+  explicit Children(double timeout_seconds) : timeout_(timeout_seconds) {}
+  Children(const Children&) = delete;
+  Children& operator=(const Children&) = delete;
+  /// Ends what still runs.
+  ~Children();
+
+  /// Starts one. Its standard input is empty, its files may have 256 MB each, and it leaves no core
+  /// file. `id` comes back from wait(). Errors, io: it cannot be started.
+  Result<void> start(std::size_t id, const ChildJob& job);
+  std::size_t running() const { return running_.size(); }
+
+  struct Finished {
+    std::size_t id = 0;
+    ChildEnd end;
+  };
+  /// Waits until one has ended or was stopped at its time limit, with all the children that it had
+  /// itself. running() must not be 0.
+  Finished wait();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Child {
+    std::size_t id;
+    pid_t pid;
+    Clock::time_point start;
+  };
+
+  double timeout_;
+  std::vector<Child> running_;
+};
+
+/// "signal 11 (Segmentation fault)"
+std::string signal_text(int signal);
+
+}  // namespace animeme::tools

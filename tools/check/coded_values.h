@@ -1,0 +1,55 @@
+// The coded values of a clip, face or body alike, and how two clips of them compare.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "codec/bap_text.h"
+#include "fap/frame.h"
+
+namespace animeme::tools {
+
+/// One frame: values by key, ascending. The key of FAP or BAP n is 8n, plus the component for FAP 1
+/// and 2, see key_name().
+struct CodedFrame {
+  std::int64_t number = 0;
+  std::vector<std::pair<int, std::int64_t>> values;
+};
+
+struct CodedClip {
+  bool body = false;
+  fap::Rate rate;
+  std::vector<CodedFrame> frames;
+};
+CodedClip coded_values(const fap::Sequence& clip);
+CodedClip coded_values(const fba::BodySequence& clip);
+
+/// "FAP 5 raise_b_midlip", "FAP 1 viseme_blend", "BAP 17".
+std::string key_name(bool body, int key);
+
+/// The first place where a coded value is not right.
+struct FirstDifference {
+  std::int64_t frame = -1;  ///< frame number in the expected clip
+  std::string parameter;    ///< key_name()
+  std::int64_t expected = 0;
+  bool missing = false;  ///< nothing was there instead of the wrong value
+  std::int64_t got = 0;
+};
+
+struct Comparison {
+  bool right = false;  ///< every coded value is there and right
+  bool exact = false;  ///< and nothing else: masks, numbers and the rate too
+  std::string text;    ///< why not right, or why not exact; one sentence without a full stop
+  FirstDifference difference;  ///< parameter is empty if whole frames are missing
+};
+
+/// Frames are paired in their order if there are as many as expected, else by number. Further
+/// frames are right if they fill gaps of the numbers, or repeat the last frame.
+Comparison compare(const CodedClip& expected, const CodedClip& got);
+
+/// True if `got` is a beginning of `expected`, with right values; it may be empty.
+bool is_beginning(const CodedClip& expected, const CodedClip& got);
+
+}  // namespace animeme::tools

@@ -1,0 +1,106 @@
+#include "tools/check/command_template.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace animeme::tools {
+namespace {
+
+Error bad(std::string message) { return make_error(Code::invalid_argument, std::move(message)); }
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+Result<std::vector<std::string>> split(std::string_view line) {
+  std::vector<std::string> out;
+  bool open = false;  // an argument has begun, empty or not
+  char quote = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (quote == 0 && is_blank(c)) {
+      open = false;
+      continue;
+    }
+    if (!open) out.emplace_back();
+    open = true;
+    const bool escapes = c == '\\' && quote != '\'' && i + 1 < line.size() &&
+                         (quote == 0 || line[i + 1] == '"' || line[i + 1] == '\\');
+    if (escapes) {
+      out.back() += line[++i];
+    } else if (quote == 0 && (c == '\'' || c == '"')) {
+      quote = c;
+    } else if (quote != 0 && c == quote) {
+      quote = 0;
+    } else {
+      out.back() += c;
+    }
+  }
+  if (quote != 0) return bad(std::string("the command has a ") + quote + " that is not closed");
+  return out;
+}
+
+bool can_run(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored) && ::access(path.c_str(), X_OK) == 0;
+}
+
+bool is_found(const std::string& program) {
+  if (program.find('/') != std::string::npos) return can_run(program);
+  const char* set = std::getenv("PATH");
+  std::string_view path = set != nullptr ? set : "/usr/bin:/bin";
+  while (true) {
+    const std::size_t end = std::min(path.find(':'), path.size());
+    const std::string folder(path.substr(0, end));
+    if (can_run(std::filesystem::path(folder.empty() ? "." : folder) / program)) return true;
+    if (end == path.size()) return false;
+    path.remove_prefix(end + 1);
+  }
+}
+
+bool has(const std::vector<std::string>& arguments, const char* place) {
+  for (const std::string& one : arguments) {
+    if (one.find(place) != std::string::npos) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Result<CommandTemplate> parse_command(std::string_view line) {
+  Result<std::vector<std::string>> arguments = split(line);
+  if (!arguments) return arguments.error();
+  if (arguments->empty() || arguments->front().empty()) return bad("the command names no program");
+  CommandTemplate command;
+  command.arguments = std::move(*arguments);
+  if (!has(command.arguments, "{in}")) {
+    return bad("the command needs {in} where the stream's file goes, as in 'player {in} {out}'");
+  }
+  const std::string& program = command.arguments.front();
+  if (!is_found(program)) return bad("there is no program " + program + " that can be run");
+  command.names_out = has(command.arguments, "{out}");
+  command.names_bap = has(command.arguments, "{bap}");
+  return command;
+}
+
+std::vector<std::string> fill_in(const CommandTemplate& command, const std::string& in,
+                                 const std::string& out, const std::string& bap) {
+  std::vector<std::string> result;
+  for (const std::string& argument : command.arguments) {
+    std::string filled;
+    for (std::size_t i = 0; i < argument.size();) {
+      const auto place = [&](std::string_view name, const std::string& file) {
+        if (argument.compare(i, name.size(), name) != 0) return false;
+        filled += file;
+        i += name.size();
+        return true;
+      };
+      if (place("{in}", in) || place("{out}", out) || place("{bap}", bap)) continue;
+      filled += argument[i++];
+    }
+    result.push_back(std::move(filled));
+  }
+  return result;
+}
+
+}  // namespace animeme::tools
