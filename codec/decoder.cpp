@@ -419,7 +419,7 @@ struct Decoder::Impl {
 Decoder::Decoder() : impl_(std::make_unique<Impl>()) {}
 Decoder::Decoder(const Decoder& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
 Decoder& Decoder::operator=(const Decoder& other) {
-  *impl_ = *other.impl_;
+  impl_ = std::make_unique<Impl>(*other.impl_);
   return *this;
 }
 Decoder::Decoder(Decoder&&) noexcept = default;
