@@ -76,7 +76,7 @@ SymbolInterval AdaptiveModel::interval(std::uint32_t k) const {
   const std::uint32_t place = mirrored % kFan;
   std::uint32_t low =
       std::uint32_t(below_[mirrored / kFan2]) + std::uint32_t(below_[kFan + group]) + place;
-  const std::uint8_t* symbols = &excess_[group * kFan];
+  const std::uint8_t* symbols = &excess_[std::size_t(group) * kFan];
   // The bytes before `place` of the sixteen.
   const std::uint64_t first =
       load8(symbols) & (place < 8 ? (std::uint64_t(1) << 8 * place) - 1 : ~0ULL);
@@ -112,8 +112,9 @@ std::uint32_t AdaptiveModel::find(std::uint32_t target, SymbolInterval& interval
   base += std::uint32_t(sums[middle]);
   const std::uint32_t group = top * kFan + middle;
 
-  Eight eight(&excess_[group * kFan]);
-  Eight upper(&excess_[group * kFan + 8]);
+  const std::uint8_t* symbols = &excess_[std::size_t(group) * kFan];
+  Eight eight(symbols);
+  Eight upper(symbols + 8);
   if (may_overflow(group)) {
     for (const Overflow& entry : overflow_) {
       if (entry.symbol / kFan != group) continue;

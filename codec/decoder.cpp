@@ -258,7 +258,7 @@ struct Decoder::Impl {
 
   Result<bool> read_plane() {
     if (!after_start_code && !parsed.begun()) {
-      const Result<bool> moved = plane_border();
+      Result<bool> moved = plane_border();
       if (!moved) return moved;
       // A warning is told before the plane that it stands in front of.
       if (*moved || !warnings.empty()) return false;
