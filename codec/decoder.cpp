@@ -72,7 +72,9 @@ struct Decoder::Impl {
   internal::ParsedPlane parsed;
   std::shared_ptr<const FaceSettings> face_settings;
   std::shared_ptr<const BodySettings> body_settings;
-  std::vector<Event> warnings;
+  std::vector<Event> waiting;  // told before anything else
+  StreamInfo info;             // of the headers read so far
+  bool info_told = false;
 
   std::int64_t number = 0;
   fap::Rate rate{30, 1};
@@ -89,7 +91,18 @@ struct Decoder::Impl {
     event.kind = Event::Kind::warning;
     event.text = std::move(text);
     event.bit = stream_bit(bit);
-    warnings.push_back(std::move(event));
+    waiting.push_back(std::move(event));
+  }
+
+  // The headers are over: an object begins, or a plane that was taken out of one.
+  void tell_info() {
+    Event event;
+    event.kind = Event::Kind::info;
+    event.info = info;
+    event.bit = stream_bit(position);
+    waiting.push_back(std::move(event));
+    info = {};
+    info_told = true;
   }
 
   static Error need_data() { return make_error(Code::need_data, "more bytes are needed"); }
@@ -123,10 +136,10 @@ struct Decoder::Impl {
   }
 
   // Runs until there is an event, or a reason why not. True: `plane`, which has to be a new one,
-  // has been filled; false: a warning waits.
+  // has been filled; false: an event waits.
   Result<bool> advance(Plane& plane) {
     for (;;) {
-      if (!warnings.empty()) return false;
+      if (!waiting.empty()) return false;
       trim();
       const Result<bool> progress = step();
       if (!progress) return progress.error();
@@ -136,9 +149,9 @@ struct Decoder::Impl {
     }
   }
 
-  Event take_warning() {
-    Event event = std::move(warnings.front());
-    warnings.erase(warnings.begin());
+  Event take_waiting() {
+    Event event = std::move(waiting.front());
+    waiting.erase(waiting.begin());
     return event;
   }
 
@@ -169,15 +182,20 @@ struct Decoder::Impl {
     }
     const std::uint32_t code = code_at(position);
     if (is_object_start(code)) {
+      info.old_start_code = code == kOldObjectStart;
+      tell_info();
       position += 32;
       phase = Phase::planes;
     } else if (is_plane_start(code)) {
+      if (!info_told) tell_info();
       phase = Phase::planes;  // a unit taken out of a stream; read_plane() finds the code
     } else if (code == kSequenceStart) {
       if (!available(position + 40)) return need_more("headers");
+      info.profile_and_level = std::uint8_t(BitReader(buffer, position + 32).bits(8));
       position += 40;
       phase = Phase::user_data;
     } else if (code == kUserData) {
+      info.user_data = true;
       position += 32;
       phase = Phase::user_data;
     } else if (code == kVisualObject) {
@@ -201,7 +219,10 @@ struct Decoder::Impl {
   Result<bool> read_visual_object() {
     if (!available(position + 48)) return need_more("headers");
     BitReader in(buffer, position + 32);
-    if (in.bit() != 0) in.bits(7);  // verid, priority
+    if (in.bit() != 0) {
+      info.verid = std::uint8_t(in.bits(4));
+      info.priority = std::uint8_t(in.bits(3));
+    }
     const std::uint32_t type = in.bits(4);
     if (type != 4) {
       return at(Code::unsupported,
@@ -261,7 +282,7 @@ struct Decoder::Impl {
       Result<bool> moved = plane_border();
       if (!moved) return moved;
       // A warning is told before the plane that it stands in front of.
-      if (*moved || !warnings.empty()) return false;
+      if (*moved || !waiting.empty()) return false;
     }
     BitReader in(buffer, position);
     const Result<void> done = internal::parse_plane(in, state, finished, parsed);
@@ -446,7 +467,7 @@ Result<Event> Decoder::next() {
   Result<Event> event{Event{}};
   const Result<bool> plane = impl_->advance(event->plane);
   if (!plane) return plane.error();
-  if (!*plane) return impl_->take_warning();
+  if (!*plane) return impl_->take_waiting();
   event->bit = event->plane.bit_begin;
   return event;
 }
@@ -464,8 +485,12 @@ Result<DecodedStream> decode(std::span<const std::uint8_t> stream) {
     }
     out.planes.pop_back();
     if (filled) {
-      const Event warning = decoder.impl_->take_warning();
-      add_warning(out, warning.bit, warning.text);
+      const Event event = decoder.impl_->take_waiting();
+      if (event.kind == Event::Kind::warning) {
+        add_warning(out, event.bit, event.text);
+      } else if (out.planes.empty()) {
+        out.info = event.info;
+      }
       continue;
     }
     const Error& error = filled.error();

@@ -12,6 +12,7 @@
 //         continue;
 //       }
 //       if (event->kind == animeme::fba::Event::Kind::plane) show(event->plane.face);
+//       // others: info, once before the planes of an object, and warning
 //     }
 //
 // Safe on any input: every read is bounded. A decoder takes less than 2 MB whatever comes in (all
@@ -23,6 +24,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -55,9 +57,20 @@ struct Plane {
   std::int64_t bit_end = 0;    ///< first bit behind the plane
 };
 
+/// What stands in front of an object. Raw .fba files have the object start code alone.
+struct StreamInfo {
+  std::optional<std::uint8_t> profile_and_level;  ///< 0x61..0x64, see section 13
+  std::optional<std::uint8_t> verid;              ///< visual_object_verid
+  std::optional<std::uint8_t> priority;           ///< visual_object_priority, 1 is the highest
+  bool user_data = false;                         ///< there is user data; it is skipped
+  bool old_start_code = false;                    ///< 00000101 in place of 000001BA
+  friend bool operator==(const StreamInfo&, const StreamInfo&) = default;
+};
+
 struct Event {
-  enum class Kind : std::uint8_t { plane, warning };
+  enum class Kind : std::uint8_t { info, plane, warning };
   Kind kind = Kind::plane;
+  StreamInfo info;       ///< kind info: once for each object, before its first plane
   Plane plane;           ///< kind plane
   std::string text;      ///< kind warning: one sentence
   std::int64_t bit = 0;  ///< where the event arose
@@ -102,6 +115,7 @@ class Decoder {
 
 /// A whole stream at once.
 struct DecodedStream {
+  StreamInfo info;  ///< of the first object
   std::vector<Plane> planes;
   fap::Rate rate;                     ///< of the first plane
   std::vector<std::string> warnings;  ///< "bit N: sentence"

@@ -62,6 +62,7 @@ void plane_start(fba::BitWriter& out, std::uint32_t code = fba::kPlaneStart) {
 
 // All events of a stream.
 struct Trace {
+  std::vector<fba::StreamInfo> infos;
   std::vector<fba::Plane> planes;
   std::vector<Error> errors;
   std::vector<std::string> warnings;
@@ -78,6 +79,8 @@ Trace trace(const std::vector<std::uint8_t>& bytes) {
       out.errors.push_back(event.error());
     } else if (event->kind == fba::Event::Kind::plane) {
       out.planes.push_back(event->plane);
+    } else if (event->kind == fba::Event::Kind::info) {
+      out.infos.push_back(event->info);
     } else {
       out.warnings.push_back(event->text);
     }
@@ -135,6 +138,38 @@ TEST(Syntax, HeadersMayComeBeforeTheObjectAndBetweenObjects) {
   const Trace got = trace(out.bytes());
   EXPECT_TRUE(got.errors.empty()) << got.errors[0].describe();
   EXPECT_EQ(got.planes.size(), 2U);
+  ASSERT_EQ(got.infos.size(), 2U);
+  for (const fba::StreamInfo& info : got.infos) {
+    EXPECT_EQ(info.profile_and_level, 0x61);
+    EXPECT_EQ(info.verid, 1);
+    EXPECT_EQ(info.priority, 1);
+    EXPECT_TRUE(info.user_data);
+    EXPECT_FALSE(info.old_start_code);
+  }
+}
+
+TEST(Syntax, TheInfoOfABareObjectComesFirstAndOnce) {
+  for (const std::uint32_t code : {fba::kObjectStart, fba::kOldObjectStart, fba::kPlaneStart}) {
+    fba::BitWriter out;
+    out.start_code(code);
+    header(out, true, fba::ObjectMask::face);
+    empty_face(out);
+    plane_start(out, fba::kPlaneStart);
+    header(out, true, fba::ObjectMask::face);
+    empty_face(out);
+    end(out);
+    fba::Decoder decoder;
+    decoder.push(out.bytes());
+    decoder.finish();
+    const auto first = decoder.next();
+    ASSERT_TRUE(first);
+    ASSERT_EQ(first->kind, fba::Event::Kind::info);
+    EXPECT_EQ(first->bit, 0);
+    EXPECT_EQ(first->info.old_start_code, code == fba::kOldObjectStart);
+    EXPECT_FALSE(first->info.profile_and_level);
+    EXPECT_EQ(trace(out.bytes()).infos.size(), 1U);
+    EXPECT_EQ(fba::decode(out.bytes())->info, first->info);
+  }
 }
 
 TEST(Syntax, ABodyAloneHasATemporalHeaderOfItsOwn) {
@@ -316,7 +351,8 @@ TEST(Syntax, BytesAfterTheEndCodeAreCounted) {
   // The push decoder says where the stream ended.
   fba::Decoder decoder;
   decoder.push(bytes);
-  EXPECT_TRUE(decoder.next());
+  EXPECT_EQ(decoder.next()->kind, fba::Event::Kind::info);
+  EXPECT_EQ(decoder.next()->kind, fba::Event::Kind::plane);
   EXPECT_EQ(decoder.next().error().code, Code::end_of_stream);
   EXPECT_EQ(decoder.next().error().where.bit, std::int64_t(size) * 8);
 }
@@ -331,6 +367,7 @@ TEST(Syntax, ACopyOfADecoderGoesItsOwnWay) {
   fba::Decoder first;
   const std::size_t half = bytes.size() - 7;  // in the middle of the plane
   first.push(std::span(bytes).first(half));
+  EXPECT_EQ(first.next()->kind, fba::Event::Kind::info);
   EXPECT_EQ(first.next().error().code, Code::need_data);
   fba::Decoder second = first;
   first.finish();

@@ -232,6 +232,9 @@ Json describe_stream(const fba::DecodedStream& stream, std::size_t bytes) {
                {"seconds", seconds},
                {"kbit_per_s", double(bits) * 1e-3 / seconds},
                {"clip", describe_clip(fba::face_sequence(stream))}};
+  if (stream.info.profile_and_level) {
+    json["profile_and_level"] = *stream.info.profile_and_level;
+  }
   if (body != nullptr) json["body"] = describe_body(bodies);
   json["warnings"] = stream.warnings;
   if (face != nullptr) json["fap_quant"] = face->fap_quant;
