@@ -1,68 +1,22 @@
 // The arithmetic coder of the FBA stream: 16-bit registers, binary renormalisation, a stuffed 1
 // after 22 zeros. Source: fba_bitstream, section 4.
+//
+// The description renormalises bit by bit. Here all shifts of a symbol are done at once: the
+// leading bits that the registers share (n of them) leave, then the m bits behind the first in
+// which low is 01.. and high is 10... The bits written and read are the same.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <span>
 
+#include "codec/adaptive_model.h"
 #include "codec/bits.h"
 
 namespace animeme::fba {
 
-inline constexpr std::uint32_t kMaxTotal = 16383;  ///< a model is halved when it reaches this
-inline constexpr int kStuffingRun = 22;            ///< zeros after which a 1 is stuffed
-
-/// The part of the unit interval that a symbol owns: `low` to `high` of `total`, as cumulative
-/// counts from the low end.
-struct SymbolInterval {
-  std::uint32_t low = 0;
-  std::uint32_t high = 1;
-  std::uint32_t total = 1;
-};
-
-/// Where symbol k of a flat model of n symbols lies. Higher symbols lie at the low end.
-inline SymbolInterval flat_interval(std::uint32_t k, std::uint32_t n) {
-  return {n - 1 - k, n - k, n};
-}
-
-/// Adaptive frequencies of an alphabet 0..n-1, all 1 at first.
-///
-/// Counts are kept in a binary indexed tree over the mirrored alphabet (higher symbols first, as
-/// the interval wants them), so look-up, search and update take log2(n) steps. n is at most
-/// 3721 (ranges of +-1860), a total never exceeds 16383, so 16 bits hold every node.
-class AdaptiveModel {
- public:
-  AdaptiveModel() = default;
-
-  /// Forgets everything; `n` >= 1. The table itself is made when it is first needed, so that
-  /// intra planes in quick succession cost nothing.
-  void reset(std::uint32_t n) {
-    n_ = n;
-    total_ = n;
-    fresh_ = true;
-  }
-  std::uint32_t size() const { return n_; }
-  std::uint32_t total() const { return total_; }
-
-  /// Interval of symbol k (0..n-1).
-  SymbolInterval interval(std::uint32_t k) const;
-  /// The symbol whose interval holds `target` (0..total-1), and that interval.
-  std::uint32_t find(std::uint32_t target, SymbolInterval& interval) const;
-  /// Counts one more occurrence of k; halves all counts first if the total is kMaxTotal.
-  void update(std::uint32_t k);
-
- private:
-  std::uint32_t prefix(std::uint32_t mirrored) const;  // counts of mirrored symbols below
-  void build();
-  void halve();
-
-  std::uint32_t n_ = 1;
-  std::uint32_t total_ = 1;
-  bool fresh_ = true;                // flat, tree not built
-  std::vector<std::uint16_t> tree_;  // 1-based binary indexed tree
-};
+inline constexpr int kStuffingRun = 22;  ///< zeros after which a 1 is stuffed
 
 /// Writes one segment: encode() every symbol, then flush().
 class SegmentEncoder {
@@ -73,8 +27,8 @@ class SegmentEncoder {
   void flush();
 
  private:
-  void emit(std::uint32_t bit);
-  void put(std::uint32_t bit);
+  void emit(std::uint32_t bits, int count);
+  void put(std::uint32_t bits, int count);
 
   BitWriter& out_;
   std::uint32_t low_ = 0;
@@ -85,39 +39,65 @@ class SegmentEncoder {
 
 /// Reads one segment. The 16-bit window looks 14 bits past the end of the segment; those bits
 /// belong to other fields, so neither their zero runs nor their absence may count as an error.
-/// Therefore the stream position of each window bit is kept, and a missing stuffed bit is held
-/// against the segment only if it lies inside it.
+/// Therefore the places of the latest stuffed bits are kept, and a missing one is held against
+/// the segment only if it lies inside it.
+///
+/// Bytes may come in pieces: while more may follow, no bit is made up, and consume() says when
+/// the bits do not suffice. Nothing has changed then; go on with resume() when there are more.
 class SegmentDecoder {
  public:
-  /// Starts at the position of `in`; `in` is moved by finish() only.
-  explicit SegmentDecoder(const BitReader& in);
+  /// Starts at the position of `in`, which is not moved. `last`: nothing follows the bytes of
+  /// `in`, bits past the end are zeros.
+  explicit SegmentDecoder(const BitReader& in, bool last = true)
+      : in_(in), begin_(in.position()), last_(last) {
+    fill();
+    open_window();
+  }
+  /// The same bytes from the same bit on, with more behind them.
+  void resume(std::span<const std::uint8_t> bytes, bool last) {
+    in_ = BitReader(bytes, in_.position());
+    last_ = last;
+    fill();
+    if (!ready()) open_window();
+  }
 
+  /// False: the bits do not suffice for a first symbol.
+  bool ready() const { return taken_ != 0; }
   /// Position in 0..total-1 for a model of that total.
   std::uint32_t target(std::uint32_t total) const {
     return ((value_ - low_ + 1) * total - 1) / (high_ - low_ + 1);
   }
-  /// Removes a symbol whose interval was found with target().
-  void consume(const SymbolInterval& symbol);
+  /// Removes a symbol whose interval was found with target(); false if the bits do not suffice.
+  [[nodiscard]] bool consume(const SymbolInterval& symbol);
 
   /// Bit position just behind the segment, if it ended now.
-  std::size_t end() const { return positions_[(next_ + 2 - 1) & 15]; }
-  /// Bit position just behind the last bit looked at, inside the segment or not.
-  std::size_t window_end() const { return in_.position(); }
-  /// True if a stuffed bit inside the segment is not 1: the data are damaged.
-  bool bad_stuffing() const { return bad_stuffing_ < end(); }
-  std::size_t bad_stuffing_position() const { return bad_stuffing_; }
+  std::size_t end() const { return position_behind(taken_ - 14); }
+  /// Bit position of the first missing stuffed bit inside the segment: the data are damaged;
+  /// SIZE_MAX if there is none.
+  std::size_t bad_stuffing() const { return bad_stuffing_ < end() ? bad_stuffing_ : SIZE_MAX; }
 
  private:
-  std::uint32_t next_bit();
+  void fill();
+  bool fill_bit_by_bit();
+  void open_window();
+  std::uint32_t take(int count);
+  std::size_t position_behind(std::size_t bits) const;
 
   BitReader in_;
+  std::size_t begin_;
+  bool last_;
   std::uint32_t low_ = 0;
   std::uint32_t high_ = 0xFFFF;
-  std::uint32_t value_ = 0;
-  int zeros_ = 0;
+  std::uint32_t value_ = 0;  // the window
+  std::size_t taken_ = 0;    // code bits that have entered the window
+  std::uint64_t ahead_ = 0;  // code bits to come, left-aligned
+  int ahead_bits_ = 0;       // their number
+  int zeros_ = 0;            // run of zeros before the next bit of in_
+  std::size_t stuffed_ = 0;  // stuffed bits dropped so far
   std::size_t bad_stuffing_ = SIZE_MAX;
-  std::array<std::size_t, 16> positions_{};  // ring: position behind each window bit
-  std::size_t next_ = 0;                     // index of the oldest window bit
+  // Number of code bits before each of the latest stuffed ones. At most 64 + 14 bits have been
+  // read past the end of the segment, so no more than 4 lie there.
+  std::array<std::size_t, 4> stuffed_at_{};
 };
 
 }  // namespace animeme::fba

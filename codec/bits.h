@@ -3,8 +3,10 @@
 // header can be read and checked once.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -18,6 +20,7 @@ class BitReader {
 
   std::size_t position() const { return bit_; }
   std::size_t size() const { return bytes_.size() * 8; }
+  std::span<const std::uint8_t> bytes() const { return bytes_; }
   /// True once a read went past the end; stays true.
   bool overrun() const { return bit_ > size(); }
   void seek(std::size_t bit) { bit_ = bit; }
@@ -33,15 +36,25 @@ class BitReader {
 
   /// `count` (0..32) bits as an unsigned number.
   std::uint32_t bits(int count) {
-    std::uint32_t value = 0;
-    for (int i = 0; i < count; ++i) value = (value << 1) | bit();
-    return value;
+    const std::uint64_t value = std::uint64_t(peek32()) >> (32 - count);
+    bit_ += std::size_t(count);
+    return std::uint32_t(value);
   }
 
-  /// 32 bits at an absolute position, without moving; zeros past the end.
+  /// The next 32 bits without moving; zeros past the end.
+  std::uint32_t peek32() const { return peek32(bit_); }
+  /// 32 bits at an absolute position; zeros past the end.
   std::uint32_t peek32(std::size_t bit) const {
-    BitReader copy(bytes_, bit);
-    return copy.bits(32);
+    const std::size_t byte = bit >> 3;
+    std::array<std::uint8_t, 5> window{};
+    if (byte + 5 <= bytes_.size()) {
+      std::memcpy(window.data(), &bytes_[byte], 5);
+    } else if (byte < bytes_.size()) {
+      std::memcpy(window.data(), &bytes_[byte], bytes_.size() - byte);
+    }
+    const std::uint32_t head = std::uint32_t(window[0]) << 24 | std::uint32_t(window[1]) << 16 |
+                               std::uint32_t(window[2]) << 8 | window[3];
+    return std::uint32_t((std::uint64_t(head) << 8 | window[4]) >> (8 - (bit & 7)));
   }
 
  private:
@@ -52,42 +65,52 @@ class BitReader {
 /// Appends bits to a byte vector.
 class BitWriter {
  public:
-  void bit(std::uint32_t value) {
-    accumulator_ = (accumulator_ << 1) | (value & 1U);
-    if (++pending_ == 8) {
-      bytes_.push_back(std::uint8_t(accumulator_));
-      accumulator_ = 0;
-      pending_ = 0;
-    }
-  }
+  void bit(std::uint32_t value) { bits(value & 1U, 1); }
   /// The low `count` (0..32) bits of `value`.
   void bits(std::uint32_t value, int count) {
-    for (int i = count - 1; i >= 0; --i) bit(value >> i);
+    const std::uint64_t mask = (std::uint64_t(1) << count) - 1;
+    accumulator_ = (accumulator_ << count) | (value & mask);
+    pending_ += count;
+    if (pending_ >= 32) write_bytes();
   }
   /// next_start_code() of the standard: a 0 and then 1s up to the byte border, a whole byte 7F if
   /// already aligned.
   void stuff() {
-    bit(0);
-    while (pending_ != 0) bit(1);
+    const int count = 8 - pending_ % 8;
+    bits((1U << (count - 1)) - 1, count);
   }
   /// A 32-bit start code; call at a byte border.
   void start_code(std::uint32_t code) { bits(code, 32); }
 
-  bool aligned() const { return pending_ == 0; }
+  bool aligned() const { return pending_ % 8 == 0; }
   std::size_t position() const { return bytes_.size() * 8 + std::size_t(pending_); }
   /// The complete bytes so far.
-  const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+  const std::vector<std::uint8_t>& bytes() {
+    write_bytes();
+    return bytes_;
+  }
   /// Hands the complete bytes over and keeps the bits of the unfinished one.
   std::vector<std::uint8_t> take() {
+    write_bytes();
     std::vector<std::uint8_t> out;
     out.swap(bytes_);
     return out;
   }
 
  private:
+  // Moves the complete bytes out of the accumulator.
+  void write_bytes() {
+    std::array<std::uint8_t, 8> out{};
+    std::size_t count = 0;
+    for (; pending_ >= 8; pending_ -= 8) {
+      out[count++] = std::uint8_t(accumulator_ >> (pending_ - 8));
+    }
+    bytes_.insert(bytes_.end(), out.begin(), out.begin() + std::ptrdiff_t(count));
+  }
+
   std::vector<std::uint8_t> bytes_;
-  std::uint32_t accumulator_ = 0;
-  int pending_ = 0;
+  std::uint64_t accumulator_ = 0;  // the low pending_ bits are still to be written
+  int pending_ = 0;                // 0..31 between calls
 };
 
 }  // namespace animeme::fba

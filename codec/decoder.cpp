@@ -1,7 +1,6 @@
 #include "codec/decoder.h"
 
 #include <algorithm>
-#include <deque>
 
 #include "codec/plane_reader_internal.h"
 
@@ -9,7 +8,7 @@ namespace animeme::fba {
 
 namespace {
 
-constexpr std::size_t kTrimBytes = std::size_t(1) << 16;
+constexpr std::size_t kPieceBytes = std::size_t(1) << 14;  // what decode() pushes at a time
 constexpr std::size_t kMaxWarnings = 100;
 
 bool is_plane_start(std::uint32_t code) { return code == kPlaneStart || code == kOldPlaneStart; }
@@ -19,9 +18,19 @@ bool is_header(std::uint32_t code) {
          is_object_start(code);
 }
 
-void add_warning(DecodedStream& out, const Event& event, const std::string& text) {
+void add_warning(DecodedStream& out, std::int64_t bit, const std::string& text) {
   if (out.warnings.size() >= kMaxWarnings) return;
-  out.warnings.push_back("bit " + std::to_string(event.bit) + ": " + text);
+  out.warnings.push_back("bit " + std::to_string(bit) + ": " + text);
+}
+
+// The rate of the stream is that of its first plane.
+void note_rate(DecodedStream& out) {
+  const Plane& plane = out.planes.back();
+  if (out.planes.size() == 1) out.rate = plane.rate;
+  if (plane.rate != out.rate && plane.temporal.rate) {
+    add_warning(out, plane.bit_begin,
+                "the frame rate changes; the first one is kept for all planes");
+  }
 }
 
 const char* object_type_name(std::uint32_t type) {
@@ -55,13 +64,15 @@ struct Decoder::Impl {
   std::size_t position = 0;       // bit in buffer
   bool finished = false;
   bool after_start_code = false;  // the plane to come has its start code consumed
+  std::int64_t end_bit = -1;      // where the stream ended
+  bool spoken = false;            // there has been a plane or an error
   Phase phase = Phase::headers;
 
   internal::StreamState state;
   internal::ParsedPlane parsed;
   std::shared_ptr<const FaceSettings> face_settings;
   std::shared_ptr<const BodySettings> body_settings;
-  std::deque<Event> warnings;
+  std::vector<Event> warnings;
 
   std::int64_t number = 0;
   fap::Rate rate{30, 1};
@@ -83,33 +94,52 @@ struct Decoder::Impl {
 
   static Error need_data() { return make_error(Code::need_data, "more bytes are needed"); }
 
-  Error at(Code code, std::string message, std::size_t bit) {
+  // From here on only an intra plane can be understood.
+  void lose() {
     phase = Phase::lost;
+    state.face.coding.valid = false;
+    state.body.coding.valid = false;
+  }
+
+  Error at_end(Code code, std::string message) {
+    spoken = true;
+    return error_at_bit(code, std::move(message), end_bit);
+  }
+  Error at(Code code, std::string message, std::size_t bit) {
+    spoken = true;
+    lose();
     return error_at_bit(code, std::move(message), stream_bit(bit));
   }
 
+  // Forgets bytes that have been read. Half of the buffer at least, so that a long stream takes
+  // linear time.
   void trim() {
     const std::size_t bytes = position / 8;
-    // Half of the buffer at least, so that trimming a long stream stays linear.
-    if (bytes < kTrimBytes || bytes < buffer.size() / 2) return;
+    if (bytes < kPieceBytes || bytes < buffer.size() / 2 || parsed.begun()) return;
     buffer.erase(buffer.begin(), buffer.begin() + std::ptrdiff_t(bytes));
+    if (buffer.capacity() > 8 * kPieceBytes && buffer.size() < kPieceBytes) buffer.shrink_to_fit();
     position -= bytes * 8;
     dropped_bits += std::int64_t(bytes) * 8;
   }
 
-  // Runs until there is an event, or a reason why not.
-  Result<Event> next() {
+  // Runs until there is an event, or a reason why not. True: `plane`, which has to be a new one,
+  // has been filled; false: a warning waits.
+  Result<bool> advance(Plane& plane) {
     for (;;) {
-      if (!warnings.empty()) {
-        Event event = std::move(warnings.front());
-        warnings.pop_front();
-        return event;
-      }
+      if (!warnings.empty()) return false;
       trim();
-      Result<bool> progress = step();
+      const Result<bool> progress = step();
       if (!progress) return progress.error();
-      if (*progress) return plane_event();
+      if (!*progress) continue;
+      if (const Result<void> filled = fill(plane); !filled) return filled.error();
+      return true;
     }
+  }
+
+  Event take_warning() {
+    Event event = std::move(warnings.front());
+    warnings.erase(warnings.begin());
+    return event;
   }
 
   // One step; true: a plane was parsed and waits in `parsed`.
@@ -126,7 +156,8 @@ struct Decoder::Impl {
       case Phase::ended:
         break;
     }
-    return make_error(Code::end_of_stream, "the stream is over");
+    if (!spoken) return at_end(Code::truncated, "the stream holds no plane");
+    return error_at_bit(Code::end_of_stream, "the stream is over", end_bit);
   }
 
   Result<bool> read_header() {
@@ -152,7 +183,7 @@ struct Decoder::Impl {
     } else if (code == kVisualObject) {
       return read_visual_object();
     } else if (code == kSequenceEnd) {
-      end_code(position + 32);
+      end(position + 32);
     } else {
       return at(Code::syntax,
                 "this is not an FBA stream: it does not begin with a start code of one "
@@ -200,21 +231,19 @@ struct Decoder::Impl {
     }
     position = byte * 8;
     if (!finished) return need_data();
-    if (!lost && byte + 4 == buffer.size() && code_at(byte * 8) == kSequenceEnd) {
-      end_code((byte + 4) * 8);
+    if (byte + 4 == buffer.size() && code_at(byte * 8) == kSequenceEnd) {
+      end((byte + 4) * 8);
       return false;
     }
-    phase = Phase::ended;
-    return false;
+    end(size_bits());
+    if (lost) return false;
+    return at_end(Code::truncated, "the stream ends in its headers");
   }
 
-  void end_code(std::size_t behind) {
-    position = behind;
+  void end(std::size_t bit) {
+    position = bit;
     phase = Phase::ended;
-    if (behind < size_bits()) {
-      warn(std::to_string((size_bits() - behind) / 8) + " bytes after the end code are ignored",
-           behind);
-    }
+    end_bit = stream_bit(bit);
   }
 
   // 0 and then 1s from `bit` to `border`.
@@ -228,9 +257,11 @@ struct Decoder::Impl {
   }
 
   Result<bool> read_plane() {
-    if (!after_start_code) {
-      Result<bool> moved = plane_border();
-      if (!moved || *moved) return moved ? Result<bool>(false) : moved;
+    if (!after_start_code && !parsed.begun()) {
+      const Result<bool> moved = plane_border();
+      if (!moved) return moved;
+      // A warning is told before the plane that it stands in front of.
+      if (*moved || !warnings.empty()) return false;
     }
     BitReader in(buffer, position);
     const Result<void> done = internal::parse_plane(in, state, finished, parsed);
@@ -262,7 +293,7 @@ struct Decoder::Impl {
       if (stuffed && had_start_code) {
         // Access units one after the other: each is complete in itself.
         warn("the stream has no end code", size_bits());
-        phase = Phase::ended;
+        end(size_bits());
         return true;
       }
       if (stuffed || position >= size_bits()) {
@@ -279,7 +310,7 @@ struct Decoder::Impl {
         return false;
       }
       if (code == kSequenceEnd) {
-        end_code(position + 32);
+        end(position + 32);
         return true;
       }
     }
@@ -292,23 +323,38 @@ struct Decoder::Impl {
       }
       consume_start_code(border);
     } else if (code == kSequenceEnd) {
-      end_code(border + 32);
+      end(border + 32);
       return true;
     } else if (is_header(code) && is_stuffing(position, border)) {
       position = border;
       phase = Phase::headers;
       return true;
+    } else if ((code >> 8) == 1 && is_stuffing(position, border)) {
+      foreign_code(code, border);
+      return true;
     }
     return false;
   }
 
-  // A plane of a few bits may lie between here and the border where a start code stands; the bits
-  // are then not those of stuffing, but a plane and stuffing.
+  // A start code of something else ends the object. Another one may follow.
+  void foreign_code(std::uint32_t code, std::size_t bit) {
+    constexpr const char* kDigits = "0123456789ABCDEF";
+    const std::string digits{kDigits[code >> 4 & 15], kDigits[code & 15]};
+    warn("the start code 000001" + digits + " does not belong to a face or body and ends it", bit);
+    position = bit + 32;
+    lose();
+  }
+
+  // Planes of a few bits may lie between here and the border where a start code stands; the bits
+  // are then not those of stuffing, but planes and stuffing. Planes so short change no state.
   bool short_plane_before(std::size_t border) {
     if (is_stuffing(position, border)) return false;
     BitReader in(std::span<const std::uint8_t>(buffer).first(border / 8), position);
-    if (!internal::parse_plane(in, state, true, parsed)) return false;
-    return in.position() < border && is_stuffing(in.position(), border);
+    do {
+      if (!internal::parse_plane(in, state, true, parsed)) return false;
+      if (in.position() >= border) return false;
+    } while (!is_stuffing(in.position(), border));
+    return true;
   }
 
   void consume_start_code(std::size_t bit) {
@@ -316,32 +362,34 @@ struct Decoder::Impl {
     after_start_code = true;
   }
 
-  Result<Event> plane_event() {
-    Event event;
-    event.bit = stream_bit(plane_begin);
-    Plane& plane = event.plane;
+  // The plane that was parsed, applied to the state.
+  Result<void> fill(Plane& plane) {
     plane.intra = parsed.intra;
     plane.object_mask = parsed.object_mask;
     plane.temporal = parsed.temporal;
     plane.start_code = had_start_code;
-    plane.bit_begin = event.bit;
+    plane.bit_begin = stream_bit(plane_begin);
     plane.bit_end = stream_bit(plane_end);
     tell_time(plane);
+    spoken = true;
 
-    BodyFrame body;
-    body.number = plane.number;
-    const Result<void> applied = internal::apply_plane(parsed, state, plane.face, body);
+    std::shared_ptr<BodyFrame> body;
+    if (has_body(plane.object_mask)) {
+      body = std::make_shared<BodyFrame>();
+      body->number = plane.number;
+    }
+    const Result<void> applied = internal::apply_plane(parsed, state, plane.face, body.get());
     if (!applied) return at(applied.error().code, applied.error().message, plane_begin);
     if (has_face(plane.object_mask)) {
       if (plane.intra) face_settings = std::make_shared<FaceSettings>(state.face_settings);
       plane.face_settings = face_settings;
     }
-    if (has_body(plane.object_mask)) {
+    if (body) {
       if (plane.intra) body_settings = std::make_shared<BodySettings>(state.body_settings);
       plane.body_settings = body_settings;
-      plane.body = std::make_shared<BodyFrame>(body);
+      plane.body = std::move(body);
     }
-    return event;
+    return {};
   }
 
   void tell_time(Plane& plane) {
@@ -369,6 +417,11 @@ struct Decoder::Impl {
 };
 
 Decoder::Decoder() : impl_(std::make_unique<Impl>()) {}
+Decoder::Decoder(const Decoder& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
+Decoder& Decoder::operator=(const Decoder& other) {
+  *impl_ = *other.impl_;
+  return *this;
+}
 Decoder::Decoder(Decoder&&) noexcept = default;
 Decoder& Decoder::operator=(Decoder&&) noexcept = default;
 Decoder::~Decoder() = default;
@@ -380,34 +433,48 @@ void Decoder::push(std::span<const std::uint8_t> bytes) {
 
 void Decoder::finish() { impl_->finished = true; }
 
-Result<Event> Decoder::next() { return impl_->next(); }
+Result<Event> Decoder::next() {
+  Result<Event> event{Event{}};
+  const Result<bool> plane = impl_->advance(event->plane);
+  if (!plane) return plane.error();
+  if (!*plane) return impl_->take_warning();
+  event->bit = event->plane.bit_begin;
+  return event;
+}
 
 Result<DecodedStream> decode(std::span<const std::uint8_t> stream) {
   Decoder decoder;
-  decoder.push(stream);
-  decoder.finish();
   DecodedStream out;
+  std::size_t pushed = 0;
   for (;;) {
-    Result<Event> event = decoder.next();
-    if (!event) {
-      if (event.error().code == Code::end_of_stream) break;
-      return std::move(event).error();
-    }
-    if (event->kind == Event::Kind::warning) {
-      add_warning(out, *event, event->text);
+    out.planes.emplace_back();  // filled in place
+    const Result<bool> filled = decoder.impl_->advance(out.planes.back());
+    if (filled && *filled) {
+      note_rate(out);
       continue;
     }
-    if (out.planes.empty()) out.rate = event->plane.rate;
-    if (event->plane.rate != out.rate && event->plane.temporal.rate) {
-      add_warning(out, *event, "the frame rate changes; the first one is kept for all planes");
+    out.planes.pop_back();
+    if (filled) {
+      const Event warning = decoder.impl_->take_warning();
+      add_warning(out, warning.bit, warning.text);
+      continue;
     }
-    out.planes.push_back(std::move(event->plane));
+    const Error& error = filled.error();
+    if (error.code == Code::need_data) {
+      const std::size_t count = std::min(kPieceBytes, stream.size() - pushed);
+      decoder.push(stream.subspan(pushed, count));
+      pushed += count;
+      if (pushed == stream.size()) decoder.finish();
+      continue;
+    }
+    if (error.code != Code::end_of_stream) return error;
+    const std::int64_t ignored = std::int64_t(stream.size()) - error.where.bit / 8;
+    if (ignored > 0) {
+      add_warning(out, error.where.bit,
+                  std::to_string(ignored) + " bytes after the end code are ignored");
+    }
+    return out;
   }
-  if (out.planes.empty()) {
-    return error_at_bit(Code::truncated, "the stream holds no plane",
-                        std::int64_t(stream.size()) * 8);
-  }
-  return out;
 }
 
 fap::Sequence face_sequence(const DecodedStream& stream) {

@@ -32,6 +32,8 @@
 
 namespace animeme::fba {
 
+struct DecodedStream;
+
 /// One decoded plane.
 struct Plane {
   bool intra = false;
@@ -64,6 +66,8 @@ struct Event {
 class Decoder {
  public:
   Decoder();
+  Decoder(const Decoder& other);
+  Decoder& operator=(const Decoder& other);
   Decoder(Decoder&&) noexcept;
   Decoder& operator=(Decoder&&) noexcept;
   ~Decoder();
@@ -86,6 +90,7 @@ class Decoder {
   Result<Event> next();
 
  private:
+  friend Result<DecodedStream> decode(std::span<const std::uint8_t> stream);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -1,11 +1,11 @@
-// The FBA encoder.
-//
-// Two levels: Encoder writes plane after plane exactly as it is told; encode() takes a clip and
-// makes the decisions (masks, ranges, intra planes) itself.
+// The FBA encoder that writes plane after plane exactly as it is told. What makes the decisions
+// (masks, ranges, intra planes) is in encode.h for clips and in live.h for streams.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "codec/plane.h"
@@ -50,35 +50,36 @@ class Encoder {
   Result<void> write(const PlaneInput& plane);
 
   /// The values that a decoder has after the last plane (quantised), mask = what was coded.
-  fap::Frame reconstruction() const;
+  const fap::Frame& reconstruction() const;
+  /// The same of the body.
+  BodyFrame body_reconstruction() const;
 
   /// Bits written so far, start codes included.
   std::int64_t bits() const;
   /// Whole bytes written since the last take(); the bits of an unfinished byte stay.
   std::vector<std::uint8_t> take();
-  /// Stuffing and the end code; returns what is left. The encoder is then used up.
+  /// Stuffing and the end code; the encoder is then used up.
+  void end();
+  /// end() and take().
   std::vector<std::uint8_t> finish();
+
+  /// Fills the last byte, so that take() gives whole planes, as packets want them. The next plane
+  /// has to have a start code (StreamOptions), else write() says invalid_argument.
+  void end_unit();
+
+  /// What in the bytes not taken yet can lead other decoders astray although it is legal, as a
+  /// sentence; nothing if all is well. Two things: 23 zeros and a 1 inside a plane, which is a
+  /// start code for those who scan; and 22 zeros from a segment into the 14 bits behind it, on
+  /// which the reference decoder loses its place. Call it behind end_unit() or end(). Source:
+  /// fba_bitstream, section 17.
+  std::optional<std::string> trap() const;
+  /// Forgets the bytes not taken yet (which have to begin where a unit ended, or the stream). The
+  /// next plane has to be intra and to send all four range sets.
+  void drop();
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// Decisions left to encode().
-struct EncodeOptions {
-  int fap_quant = 1;     ///< 0..31; 1: the standard's steps, 0: lossless for values up to +-1860
-  int intra_period = 0;  ///< intra plane at least every so many planes; 0: only where needed
-  StreamOptions stream;
-};
-
-/// Codes a face clip: the FAPs that occur in it, in ranges as tight as the format allows, with an
-/// intra plane at the start, every `intra_period` planes, and wherever a change is too large for
-/// a predictive plane. A FAP that a frame leaves out keeps its last value (0 at first). Gaps in
-/// the frame numbers become skipped frames. Deterministic.
-/// Errors: invalid_argument (no frames, numbers that do not ascend, options out of bounds),
-/// unsupported (a rate that the format cannot express: use k/16 frames per second up to
-/// 255 15/16, or those times 1000/1001), out_of_range (a value beyond 1860 quantiser steps, or a
-/// viseme or expression out of its bounds; the message names FAP and frame).
-Result<std::vector<std::uint8_t>> encode(const fap::Sequence& clip, const EncodeOptions& = {});
 
 }  // namespace animeme::fba

@@ -93,10 +93,10 @@ bool apply_body(const ParsedPlane& plane, StreamState& state, BodyFrame& body) {
 }  // namespace
 
 Result<void> apply_plane(const ParsedPlane& plane, StreamState& state, fap::Frame& face,
-                         BodyFrame& body) {
+                         BodyFrame* body) {
   bool in_bounds = true;
   if (has_face(plane.object_mask)) in_bounds &= apply_face(plane, state, face);
-  if (has_body(plane.object_mask)) in_bounds &= apply_body(plane, state, body);
+  if (has_body(plane.object_mask)) in_bounds &= apply_body(plane, state, *body);
   if (!in_bounds) return make_error(Code::out_of_range, "a decoded value leaves 32 bits");
   return {};
 }

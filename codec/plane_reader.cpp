@@ -4,27 +4,29 @@ namespace animeme::fba::internal {
 
 namespace {
 
+using Stage = PlaneProgress::Stage;
+
 class PlaneParser {
  public:
   PlaneParser(BitReader& in, const StreamState& state, bool last, ParsedPlane& plane)
       : in_(in), state_(state), last_(last), plane_(plane) {}
 
   Result<void> run() {
-    plane_.intra = in_.bit() != 0;
-    plane_.object_mask = ObjectMask(in_.bits(2));
-    plane_.temporal = {};
-    const bool face = has_face(plane_.object_mask);
-    const bool body = has_body(plane_.object_mask);
-    if (face || body) {
-      if (auto done = temporal_header(); !done) return done;
+    if (plane_.begun()) {
+      in_.seek(progress_.bit);
+    } else {
+      progress_.bit = in_.position();
     }
-    if (face) {
-      if (auto done = face_part(); !done) return done;
+    while (progress_.stage != Stage::done) {
+      const Result<void> done = read_stage();
+      if (!done) {
+        if (done.error().code != Code::need_data) restart();
+        return done;
+      }
+      progress_.bit = in_.position();
     }
-    if (body) {
-      if (auto done = body_part(); !done) return done;
-    }
-    return check_end();
+    restart();
+    return {};
   }
 
  private:
@@ -49,7 +51,53 @@ class PlaneParser {
                 in_.position() - 1);
   }
 
-  Result<void> temporal_header() {
+  void restart() {
+    progress_.stage = Stage::header;
+    progress_.segment.reset();
+  }
+
+  // Reads what a stage is about and says which one is next. A stage that runs out of bits is
+  // read again from its start, or from where it has set progress_.bit.
+  Result<void> read_stage() {
+    switch (progress_.stage) {
+      case Stage::header:
+        return header();
+      case Stage::skip:
+        return skipped_frames();
+      case Stage::face_masks:
+        return face_settings();
+      case Stage::face_ranges:
+        return ranges(plane_.face.coding, plane_.face_settings, Stage::viseme);
+      case Stage::viseme:
+        return viseme();
+      case Stage::expression:
+        return expression();
+      case Stage::face_slots:
+        return slot_segment(state_.face, plane_.face, begin_body());
+      case Stage::body_masks:
+        return body_settings();
+      case Stage::body_ranges:
+        return ranges(plane_.body.coding, plane_.body_settings, Stage::body_slots);
+      case Stage::body_slots:
+        return slot_segment(state_.body, plane_.body, Stage::done);
+      case Stage::done:
+        break;
+    }
+    return {};
+  }
+
+  // Ends a stage whose bits were all there.
+  Result<void> proceed(Stage next) {
+    if (in_.overrun()) return out_of_bits();
+    progress_.stage = next;
+    return {};
+  }
+
+  Result<void> header() {
+    plane_.intra = in_.bit() != 0;
+    plane_.object_mask = ObjectMask(in_.bits(2));
+    plane_.temporal = {};
+    if (plane_.object_mask == ObjectMask::nothing) return proceed(Stage::done);
     TemporalHeader& temporal = plane_.temporal;
     if (plane_.intra) {
       if (in_.bit() != 0) {
@@ -70,43 +118,45 @@ class PlaneParser {
         temporal.time_code = code;
       }
     }
-    if (in_.bit() != 0) {
-      std::uint32_t skip = 0;
-      std::uint32_t part = 0;
-      do {
-        part = in_.bits(4);
-        skip += part;
-        if (skip > kMaxSkip) {
-          return fail(Code::syntax, "more than a million frames are skipped", in_.position());
-        }
-      } while (part == 15);
-      temporal.skip = skip;
-    }
-    return check_end();
+    if (in_.bit() == 0) return begin_parts();
+    if (!in_.overrun()) temporal.skip = 0;
+    return proceed(Stage::skip);
   }
 
-  Result<void> face_part() {
-    HighLevelState high;  // ranges only
-    if (plane_.intra) {
-      plane_.face.coding = state_.face.coding;
-      if (auto done = face_settings(); !done) return done;
-    } else if (!state_.face.coding.valid) {
-      return fail(Code::syntax, "a predictive face plane comes before the first intra plane",
-                  in_.position());
+  // Fields of four bits, as long as they are 15. There may be so many that each is final.
+  Result<void> skipped_frames() {
+    std::uint32_t part = 0;
+    do {
+      progress_.bit = in_.position();
+      part = in_.bits(4);
+      if (in_.overrun()) return out_of_bits();
+      *plane_.temporal.skip += part;
+      if (*plane_.temporal.skip > kMaxSkip) {
+        return fail(Code::syntax, "more than a million frames are skipped", in_.position());
+      }
+    } while (part == 15);
+    return begin_parts();
+  }
+
+  Result<void> begin_parts() {
+    if (auto ok = check_end(); !ok) return ok;
+    const bool face = has_face(plane_.object_mask);
+    if (!plane_.intra) {
+      const bool face_known = !face || state_.face.coding.valid;
+      const bool body_known = !has_body(plane_.object_mask) || state_.body.coding.valid;
+      if (!face_known || !body_known) {
+        return fail(Code::syntax,
+                    std::string("a predictive ") + (face_known ? "body" : "face") +
+                        " plane comes before the first intra plane",
+                    in_.position());
+      }
     }
-    const FaceSettings& settings = plane_.intra ? plane_.face_settings : state_.face_settings;
-    high.fap_quant = settings.fap_quant;
-    if (settings.mask[1]) {
-      if (auto done = high_segment(high, kVisemeSelect1, kVisemeBlend); !done) return done;
-      plane_.viseme_def = in_.bit() != 0;
-    }
-    if (settings.mask[2]) {
-      auto done = high_segment(high, kExpressionSelect1, kExpressionIntensity2);
-      if (!done) return done;
-      plane_.init_face = in_.bit() != 0;
-      plane_.expression_def = in_.bit() != 0;
-    }
-    return slot_segment(state_.face, plane_.face);
+    if (!face) return proceed(begin_body());
+    return proceed(plane_.intra ? Stage::face_masks : Stage::viseme);
+  }
+  Stage begin_body() const {
+    if (!has_body(plane_.object_mask)) return Stage::done;
+    return plane_.intra ? Stage::body_masks : Stage::body_slots;
   }
 
   Result<void> face_settings() {
@@ -128,6 +178,7 @@ class PlaneParser {
     if (in_.bit() != 0) return dct("face");
 
     SlotCoding& coding = plane_.face.coding;
+    coding = state_.face.coding;
     coding.valid = true;
     coding.scale = fap_scale(settings.fap_quant);
     coding.quantised = settings.fap_quant != 0;
@@ -135,18 +186,29 @@ class PlaneParser {
     for (std::uint16_t slot = 0; slot < fap::kLowLevelCount; ++slot) {
       if (settings.mask[std::size_t(slot + fap::kFirstLowLevel)]) coding.coded.push_back(slot);
     }
-    return ranges(coding, settings.mask, settings.send_range, settings.range);
+    return range_flags(coding, settings, Stage::face_ranges);
   }
 
-  Result<void> body_part() {
-    if (plane_.intra) {
-      plane_.body.coding = state_.body.coding;
-      if (auto done = body_settings(); !done) return done;
-    } else if (!state_.body.coding.valid) {
-      return fail(Code::syntax, "a predictive body plane comes before the first intra plane",
-                  in_.position());
+  const FaceSettings& settings_in_force() const {
+    return plane_.intra ? plane_.face_settings : state_.face_settings;
+  }
+
+  Result<void> viseme() {
+    if (settings_in_force().mask[1]) {
+      if (auto done = high_segment(kVisemeSelect1, kVisemeBlend); !done) return done;
+      plane_.viseme_def = in_.bit() != 0;
     }
-    return slot_segment(state_.body, plane_.body);
+    return proceed(Stage::expression);
+  }
+
+  Result<void> expression() {
+    if (settings_in_force().mask[2]) {
+      auto done = high_segment(kExpressionSelect1, kExpressionIntensity2);
+      if (!done) return done;
+      plane_.init_face = in_.bit() != 0;
+      plane_.expression_def = in_.bit() != 0;
+    }
+    return proceed(Stage::face_slots);
   }
 
   Result<void> body_settings() {
@@ -154,6 +216,7 @@ class PlaneParser {
     settings = {};
     settings.bap_quant = int(in_.bits(5));
     SlotCoding& coding = plane_.body.coding;
+    coding = state_.body.coding;
     coding.valid = true;
     coding.scale = bap_scale(settings.bap_quant);
     coding.quantised = settings.bap_quant != 0;
@@ -175,7 +238,7 @@ class PlaneParser {
     }
     settings.male = in_.bit() != 0;
     if (in_.bit() != 0) return dct("body");
-    return ranges(coding, settings.mask, settings.send_range, settings.range);
+    return range_flags(coding, settings, Stage::body_ranges);
   }
 
   Error dct(const char* part) const {
@@ -187,77 +250,114 @@ class PlaneParser {
   }
 
   // Section 3.2: up to four sets, a marker at every fourth member of each group.
-  template <class Mask, class RangeArray>
-  Result<void> ranges(SlotCoding& coding, const Mask& mask, std::array<bool, 4>& send,
-                      RangeArray& sent) {
-    for (bool& flag : send) flag = in_.bit() != 0;
+  template <class Settings>
+  Result<void> range_flags(SlotCoding& coding, Settings& settings, Stage next) {
+    for (bool& flag : settings.send_range) flag = in_.bit() != 0;
     coding.set_default_ranges();
-    for (std::size_t kind = 0; kind < 4; ++kind) {
-      if (!send[kind]) continue;
-      std::size_t slot = 0;
-      for (const std::uint8_t size : coding.table->group_sizes) {
-        for (int i = 0; i < size; ++i, ++slot) {
-          if (i % 4 == 0) {
-            if (auto ok = marker("ranges"); !ok) return ok;
-          }
-          const std::size_t number = coding.table->number[slot];
-          if (!mask[number]) continue;
-          const int m = int(in_.bits(5));
-          sent[kind][number] = std::uint8_t(m);
-          coding.range[kind][slot] = level_range(m, coding.scale);
+    progress_.kind = 0;
+    return proceed(next);
+  }
+
+  template <class Settings>
+  Result<void> ranges(SlotCoding& coding, Settings& settings, Stage next) {
+    for (; progress_.kind < 4; ++progress_.kind) {
+      progress_.bit = in_.position();
+      if (!settings.send_range[progress_.kind]) continue;
+      // The size of a set is known, so that a set which is still arriving is not read in vain.
+      if (!last_ && in_.position() + range_bits(coding) > in_.size()) return out_of_bits();
+      if (auto done = range_set(coding, settings, progress_.kind); !done) return done;
+    }
+    return proceed(next);
+  }
+
+  static std::size_t range_bits(const SlotCoding& coding) {
+    std::size_t bits = coding.coded.size() * 5;
+    for (const std::uint8_t size : coding.table->group_sizes) bits += (size + 3U) / 4U;
+    return bits;
+  }
+
+  template <class Settings>
+  Result<void> range_set(SlotCoding& coding, Settings& settings, std::size_t kind) {
+    std::size_t slot = 0;
+    for (const std::uint8_t size : coding.table->group_sizes) {
+      for (int i = 0; i < size; ++i, ++slot) {
+        if (i % 4 == 0) {
+          if (auto ok = marker("ranges"); !ok) return ok;
         }
+        const std::size_t number = coding.table->number[slot];
+        if (!settings.mask[number]) continue;
+        const int m = int(in_.bits(5));
+        settings.range[kind][number] = std::uint8_t(m);
+        coding.range[kind][slot] = level_range(m, coding.scale);
       }
     }
     return check_end();
   }
 
-  Result<void> high_segment(const HighLevelState& high, int first, int last) {
-    if (auto ok = check_end(); !ok) return ok;
-    SegmentDecoder segment(in_);
+  // At most seven symbols: read again from the start if they are not all there.
+  Result<void> high_segment(int first, int last) {
+    const int fap_quant = settings_in_force().fap_quant;
+    SegmentDecoder segment(in_, last_);
     for (int which = first; which <= last; ++which) {
       const std::size_t index = std::size_t(which);
-      const std::uint32_t max = std::uint32_t(high.max_level(which));
-      plane_.high_symbols[index] = plane_.intra ? flat_symbol(segment, max + 1)
-                                                : model_symbol(segment, state_.high.model[index]);
+      const std::uint32_t max = std::uint32_t(high_level_max(which, fap_quant));
+      const bool done = plane_.intra ? flat_symbol(segment, max + 1, plane_.high_symbols[index])
+                                     : model_symbol(segment, state_.high.model[index],
+                                                    plane_.high_symbols[index]);
+      if (!done) return out_of_bits();
     }
     return end_segment(segment);
   }
 
-  Result<void> slot_segment(const SlotState& state, ParsedSlots& parsed) {
-    if (auto ok = check_end(); !ok) return ok;
+  Result<void> slot_segment(const SlotState& state, ParsedSlots& parsed, Stage next) {
     const SlotCoding& coding = plane_.intra ? parsed.coding : state.coding;
-    parsed.symbols.resize(coding.coded.size());
-    SegmentDecoder segment(in_);
-    for (std::size_t i = 0; i < coding.coded.size(); ++i) {
-      const std::size_t slot = coding.coded[i];
-      parsed.symbols[i] = plane_.intra ? flat_symbol(segment, coding.alphabet(true, slot))
-                                       : model_symbol(segment, state.model[slot]);
+    const std::size_t count = coding.coded.size();
+    parsed.symbols.resize(count);
+    std::size_t i = progress_.segment ? progress_.symbols : 0;
+    SegmentDecoder segment = progress_.segment ? *progress_.segment : SegmentDecoder(in_, last_);
+    if (progress_.segment) segment.resume(in_.bytes(), last_);
+    bool more = segment.ready();
+    if (plane_.intra) {
+      for (; more && i < count; i += more ? 1 : 0) {
+        more = flat_symbol(segment, coding.alphabet(true, coding.coded[i]), parsed.symbols[i]);
+      }
+    } else {
+      for (; more && i < count; i += more ? 1 : 0) {
+        more = model_symbol(segment, state.model[coding.coded[i]], parsed.symbols[i]);
+      }
     }
-    return end_segment(segment);
+    if (!more) {
+      progress_.segment = segment;
+      progress_.symbols = i;
+      return out_of_bits();
+    }
+    progress_.segment.reset();
+    if (auto done = end_segment(segment); !done) return done;
+    return proceed(next);
   }
 
-  static std::uint32_t flat_symbol(SegmentDecoder& segment, std::uint32_t n) {
-    const std::uint32_t symbol = n - 1 - segment.target(n);
-    segment.consume(flat_interval(symbol, n));
-    return symbol;
+  // Both: false if the bits do not suffice.
+  static bool flat_symbol(SegmentDecoder& segment, std::uint32_t n, std::uint16_t& symbol) {
+    if (!segment.ready()) return false;
+    symbol = std::uint16_t(n - 1 - segment.target(n));
+    return segment.consume(flat_interval(symbol, n));
   }
-  static std::uint32_t model_symbol(SegmentDecoder& segment, const AdaptiveModel& model) {
+  static bool model_symbol(SegmentDecoder& segment, const AdaptiveModel& model,
+                           std::uint16_t& symbol) {
+    if (!segment.ready()) return false;
     SymbolInterval interval;
-    const std::uint32_t symbol = model.find(segment.target(model.total()), interval);
-    segment.consume(interval);
-    return symbol;
+    symbol = std::uint16_t(model.find(segment.target(model.total()), interval));
+    return segment.consume(interval);
   }
 
   Result<void> end_segment(const SegmentDecoder& segment) {
-    // As long as more may come, even the look-ahead has to be there: decoding on zeros that
-    // stand for missing bits could end at a wrong place that happens to look complete.
-    const std::size_t needed = last_ ? segment.end() : segment.window_end();
-    if (needed > in_.size()) return out_of_bits();
-    if (segment.bad_stuffing()) {
+    const std::size_t end = segment.end();
+    if (end > in_.size()) return out_of_bits();
+    if (segment.bad_stuffing() != SIZE_MAX) {
       return fail(Code::syntax, "the bit after 22 zeros is not the stuffed 1",
-                  segment.bad_stuffing_position());
+                  segment.bad_stuffing());
     }
-    in_.seek(segment.end());
+    in_.seek(end);
     return {};
   }
 
@@ -265,6 +365,7 @@ class PlaneParser {
   const StreamState& state_;
   const bool last_;
   ParsedPlane& plane_;
+  PlaneProgress& progress_ = plane_.progress;
 };
 
 }  // namespace

@@ -1,12 +1,14 @@
-// Parses one plane without changing any state, so that it can be tried again when more bytes
-// have come, and applies it once it is complete. Not installed API.
+// Parses one plane without changing any state, in as many steps as its bytes need to arrive, and
+// applies it once it is complete. Not installed API.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "codec/arith.h"
 #include "codec/bits.h"
 #include "codec/state_internal.h"
 #include "fap/result.h"
@@ -24,8 +26,31 @@ struct StreamState {
 
 /// One family's part of a parsed plane: symbols of the coded slots in order.
 struct ParsedSlots {
-  SlotCoding coding;
-  std::vector<std::uint32_t> symbols;
+  SlotCoding coding;  // intra planes
+  std::vector<std::uint16_t> symbols;
+};
+
+/// How far the parsing of a plane has come while its bytes are still arriving. What lies before
+/// `bit` is final and is not read again.
+struct PlaneProgress {
+  enum class Stage : std::uint8_t {
+    header,
+    skip,
+    face_masks,
+    face_ranges,
+    viseme,
+    expression,
+    face_slots,
+    body_masks,
+    body_ranges,
+    body_slots,
+    done,
+  };
+  Stage stage = Stage::header;
+  std::size_t bit = 0;      // where the stage goes on
+  std::size_t kind = 0;     // the next set of ranges, by RangeKind
+  std::size_t symbols = 0;  // decoded symbols of the segment
+  std::optional<SegmentDecoder> segment;
 };
 
 /// A plane as read, before it is applied to the state.
@@ -35,24 +60,29 @@ struct ParsedPlane {
   TemporalHeader temporal;
   FaceSettings face_settings;
   BodySettings body_settings;
-  std::array<std::uint32_t, kHighLevelCount> high_symbols{};
+  std::array<std::uint16_t, kHighLevelCount> high_symbols{};
   bool viseme_def = false;
   bool init_face = false;
   bool expression_def = false;
   ParsedSlots face{SlotCoding(face_slots()), {}};
   ParsedSlots body{SlotCoding(body_slots()), {}};
+  PlaneProgress progress;
+
+  /// A part of the plane has been read, and parse_plane() will go on behind it.
+  bool begun() const { return progress.stage != PlaneProgress::Stage::header; }
 };
 
 /// Reads a plane at `in`, which is left behind it. Errors: syntax, unsupported, and
 ///   need_data  the plane, or the look-ahead of its last segment, passes the end of `in`
-///              (`last` = false)
+///              (`last` = false). Call again with a reader of the same bytes and more: the work
+///              goes on where it stopped.
 ///   truncated  the plane passes the end of `in` (`last` = true: nothing follows)
 Result<void> parse_plane(BitReader& in, const StreamState& state, bool last, ParsedPlane& plane);
 
 /// Applies a parsed plane: settings, models, reconstruction into `face` (mask and values) and
-/// `body`. Error out_of_range if a value leaves 32 bits; the state is then not to be used until
-/// the next intra plane.
+/// `body` (not null if the plane has a body). Error out_of_range if a value leaves 32 bits; the
+/// state is then not to be used until the next intra plane.
 Result<void> apply_plane(const ParsedPlane& plane, StreamState& state, fap::Frame& face,
-                         BodyFrame& body);
+                         BodyFrame* body);
 
 }  // namespace animeme::fba::internal

@@ -82,27 +82,27 @@ enum HighLevel : std::uint8_t {
   kHighLevelCount
 };
 
+/// Largest level of a high-level value; symbols are 0..max in I planes, -max..max in P planes.
+inline std::int32_t high_level_max(int which, int fap_quant) {
+  switch (which) {
+    case kVisemeSelect1:
+    case kVisemeSelect2:
+      return 14;
+    case kExpressionSelect1:
+    case kExpressionSelect2:
+      return 6;
+    default:
+      return blend_range(fap_quant);
+  }
+}
+
 /// Memory of FAP 1 and 2.
 struct HighLevelState {
   std::array<std::int32_t, kHighLevelCount> value{};
   std::array<AdaptiveModel, kHighLevelCount> model;
   int fap_quant = 1;
-  bool viseme_coded = false;
-  bool expression_coded = false;
 
-  // Largest level; symbols are 0..max in I planes, -max..max in P planes.
-  std::int32_t max_level(int which) const {
-    switch (which) {
-      case kVisemeSelect1:
-      case kVisemeSelect2:
-        return 14;
-      case kExpressionSelect1:
-      case kExpressionSelect2:
-        return 6;
-      default:
-        return blend_range(fap_quant);
-    }
-  }
+  std::int32_t max_level(int which) const { return high_level_max(which, fap_quant); }
   std::int32_t step_of(int which) const {
     const bool select = which == kVisemeSelect1 || which == kVisemeSelect2 ||
                         which == kExpressionSelect1 || which == kExpressionSelect2;

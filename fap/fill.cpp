@@ -4,12 +4,16 @@
 #include <optional>
 #include <string>
 
-#include "fap/tables.h"
-
 namespace animeme::fap {
 namespace {
 
-std::optional<Error> check(const Sequence& sequence, const FillOptions& options) {
+std::optional<Error> check(const Sequence& sequence, std::size_t rules,
+                           const FillOptions& options) {
+  if (rules != 0 && rules != sequence.frames.size()) {
+    return make_error(Code::invalid_argument, "there are " + std::to_string(rules) + " rules for " +
+                                                  std::to_string(sequence.frames.size()) +
+                                                  " frames: give one for each, or none");
+  }
   std::int64_t previous = -1;
   for (const Frame& frame : sequence.frames) {
     if (frame.number <= previous) {
@@ -29,21 +33,51 @@ std::optional<Error> check(const Sequence& sequence, const FillOptions& options)
   return std::nullopt;
 }
 
+GroupRules same_rules(GroupRule rule) {
+  GroupRules rules;
+  rules.fill(rule);
+  return rules;
+}
+
+// The FAPs whose groups have a rule.
+Mask faps_with(const GroupRules& rules, GroupRule rule) {
+  Mask mask;
+  for (const FapInfo& fap : kFaps) {
+    if (rules[std::size_t(fap.group - 1)] == rule) mask.set(std::size_t(fap.number));
+  }
+  return mask;
+}
+
+// The public decoder is this receiver with one rule and without lips.
+FillOptions effective(FillOptions options) {
+  if (options.like_public_decoder) {
+    options.mirror = true;
+    options.lips = false;
+  }
+  return options;
+}
+
 // What the receiver shows, frame after frame.
 class Receiver {
  public:
-  explicit Receiver(const FillOptions& options) : options_(options) {}
+  explicit Receiver(const FillOptions& options) : options_(effective(options)) {}
 
-  void receive(const Frame& frame) {
+  void receive(const Frame& frame, const GroupRules& said) {
+    const GroupRules rules =
+        options_.like_public_decoder ? same_rules(GroupRule::interpolate) : said;
     hold_events();
     if (frame.mask[1]) shown_.viseme = frame.viseme;
     if (frame.mask[2]) shown_.expression = frame.expression;
     for (std::size_t fap = kFirstLowLevel; fap <= kFapCount; ++fap) {
       if (frame.mask[fap]) shown_.value[fap] = frame.value[fap];
     }
-    sent_ |= frame.mask;
-    const Mask known = options_.prefer_partner ? derive(frame.mask) | sent_ : sent_;
-    shown_.mask = derive(known);
+    has_value_ |= frame.mask;
+    follow(frame, faps_with(rules, GroupRule::interpolate));
+    // Text: nobody said what absent FAPs do.
+    const Mask unruled = faps_with(rules, GroupRule::unknown);
+    Mask known = has_value_;
+    if (options_.prefer_partner) known |= derive(frame.mask, unruled);
+    shown_.mask |= derive(known, unruled);
   }
 
   // A frame in which nothing arrives.
@@ -56,29 +90,53 @@ class Receiver {
   const Frame& shown() const { return shown_; }
 
  private:
-  // Gives values to the FAPs that follow from those in `known`.
-  Mask derive(Mask known) {
-    if (options_.mirror) known = copy(known, &FapInfo::mirror);
-    if (options_.lips) known = copy(known, &FapInfo::partner);
-    if (options_.mirror && options_.lips) known = copy(known, &FapInfo::mirror);
+  // Mask type 2: absent FAPs among `faps` take values of this very frame.
+  void follow(const Frame& frame, const Mask& faps) {
+    const Mask absent = faps & ~frame.mask;
+    for (const FapInfo& fap : kFaps) {
+      if (!absent[std::size_t(fap.number)]) continue;
+      const std::size_t source = source_of(fap, frame.mask);
+      if (source == 0) continue;
+      shown_.value[std::size_t(fap.number)] = frame.value[source];
+      has_value_.set(std::size_t(fap.number));
+    }
+  }
+
+  // The FAP in `coded` that `fap` follows; 0 is none, and bit 0 of a mask is never set.
+  std::size_t source_of(const FapInfo& fap, const Mask& coded) const {
+    const std::size_t side = options_.mirror ? std::size_t(fap.mirror) : 0;
+    const std::size_t contour = options_.lips ? std::size_t(fap.partner) : 0;
+    const std::size_t across =
+        contour != 0 && options_.mirror ? std::size_t(info(fap.partner).mirror) : 0;
+    for (const std::size_t source : {side, contour, across}) {
+      if (coded[source]) return source;
+    }
+    return 0;
+  }
+
+  // Gives values to those of `targets` that follow from the FAPs in `known`.
+  Mask derive(Mask known, const Mask& targets) {
+    if (options_.mirror) known = copy(known, targets, &FapInfo::mirror);
+    if (options_.lips) known = copy(known, targets, &FapInfo::partner);
+    if (options_.mirror && options_.lips) known = copy(known, targets, &FapInfo::mirror);
     return known;
   }
 
-  Mask copy(const Mask& known, int FapInfo::*other) {
+  Mask copy(const Mask& known, const Mask& targets, int FapInfo::*other) {
     Mask result = known;
     for (const FapInfo& fap : kFaps) {
       const std::size_t to = std::size_t(fap.number);
       const std::size_t from = std::size_t(fap.*other);
-      if (from == 0 || known[to] || !known[from]) continue;
+      if (from == 0 || !targets[to] || known[to] || !known[from]) continue;
       shown_.value[to] = shown_.value[from];
       result.set(to);
     }
     return result;
   }
 
-  const FillOptions& options_;
-  Mask sent_;
-  Frame shown_;
+  const FillOptions options_;
+  Mask has_value_;  // sent, or derived under rule interpolate
+  Frame shown_;     // its mask grows: all FAPs that ever had a value
 };
 
 Mask final_mask(Mask mask, bool keep_high_level) {
@@ -111,7 +169,12 @@ void interpolate(std::vector<Frame>& frames, std::size_t from, std::size_t to) {
 }  // namespace
 
 Result<Sequence> fill(const Sequence& sequence, const FillOptions& options) {
-  if (auto error = check(sequence, options)) return std::move(*error);
+  return fill(sequence, {}, options);
+}
+
+Result<Sequence> fill(const Sequence& sequence, std::span<const GroupRules> rules,
+                      const FillOptions& options) {
+  if (auto error = check(sequence, rules.size(), options)) return std::move(*error);
   Sequence filled{sequence.rate, {}, sequence.name};
   if (sequence.frames.empty()) return filled;
   filled.frames.reserve(std::size_t(sequence.frames.back().number + 1));
@@ -120,12 +183,12 @@ Result<Sequence> fill(const Sequence& sequence, const FillOptions& options) {
     filled.frames.push_back(receiver.shown());
     filled.frames.back().number = std::int64_t(filled.frames.size()) - 1;
   };
-  for (const Frame& frame : sequence.frames) {
-    while (std::int64_t(filled.frames.size()) < frame.number) {
+  for (std::size_t i = 0; i < sequence.frames.size(); ++i) {
+    while (std::int64_t(filled.frames.size()) < sequence.frames[i].number) {
       receiver.hold_events();
       show();
     }
-    receiver.receive(frame);
+    receiver.receive(sequence.frames[i], rules.empty() ? GroupRules{} : rules[i]);
     show();
   }
   if (options.interpolate) {

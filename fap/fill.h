@@ -1,12 +1,26 @@
 // From coded frames, whose masks have gaps, to complete ones that any player can show.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 
 #include "fap/frame.h"
 #include "fap/result.h"
+#include "fap/tables.h"
 
 namespace animeme::fap {
+
+/// What becomes of the FAPs of a group that a frame does not carry. A coded stream says so, group
+/// by group (mask types, fba_bitstream, section 3.1); a text file does not.
+enum class GroupRule : std::uint8_t {
+  unknown,      ///< not said: held, or derived as FillOptions say
+  hold,         ///< types 0, 1 and 3: they keep the value they show; never had one: neutral, 0
+  interpolate,  ///< type 2: they follow the FAPs of this frame, or hold if none of those fits
+};
+
+/// The rules of one frame; index = group number - 1. All unknown by default.
+using GroupRules = std::array<GroupRule, kGroupCount>;
 
 struct FillOptions {
   /// A side that was never sent takes the value of the other side (23 left/right pairs). Positive
@@ -16,8 +30,14 @@ struct FillOptions {
   bool lips = true;
   /// A FAP that is absent from a frame takes the value of its partner in the same frame even
   /// if it has an older value of its own. That is what mask type 2 of the bitstream means; false
-  /// holds the older value as types 0 and 1 mean. Text files do not say which.
+  /// holds the older value as types 0 and 1 mean. Text files do not say which. No effect on
+  /// groups whose rule is known.
   bool prefer_partner = false;
+  /// Shows what the known public decoder shows, to compare with its output: a FAP that is absent
+  /// from a frame takes the value of the other side if that is in the frame, whatever the rule of
+  /// its group; else it holds. Lips never follow. `mirror`, `lips`, `prefer_partner` and all rules
+  /// are ignored. Source: fba_bitstream, section 9.
+  bool like_public_decoder = false;
   /// Frames that were skipped: values between their neighbours, rounded (true), or those of the
   /// frame before (false, what a receiver shows).
   bool interpolate = false;
@@ -40,5 +60,26 @@ struct FillOptions {
 /// Errors: Code::invalid_argument if the frame numbers are negative or do not ascend;
 /// Code::out_of_range if the result would have more than max_frames frames.
 Result<Sequence> fill(const Sequence& sequence, const FillOptions& options = {});
+
+/// The same where the rules are known: rules[i] are those of sequence.frames[i]. A FAP obeys the
+/// rule of its own group; the group of the FAP that it follows does not matter.
+///
+/// hold: the value shown before stays, be it sent or derived under an earlier rule, so nothing
+/// jumps when a stream changes the rule. The FAP follows nothing.
+///
+/// interpolate: the FAP takes the value of the first of these that is in the same frame: its
+/// other side (`mirror`); its other lip contour (`lips`); the other side of that (both). An older
+/// value of its own does not count, and neither does a held or derived value of a partner: only
+/// what this frame carries is a source. If there is none (any more), the value shown before stays.
+/// The result does not depend on the order in which FAPs are filled.
+///
+/// Values in the frame always win. Skipped frames hold, or lie between their neighbours if
+/// `interpolate` is set. Filling the result again under the same rules changes nothing, if
+/// these are the same in all frames.
+///
+/// Errors: as above, and Code::invalid_argument if `rules` has not one entry for each frame. An
+/// empty `rules` means that all are unknown.
+Result<Sequence> fill(const Sequence& sequence, std::span<const GroupRules> rules,
+                      const FillOptions& options);
 
 }  // namespace animeme::fap

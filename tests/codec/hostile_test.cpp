@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "codec/decoder.h"
-#include "codec/encoder.h"
+#include "codec/encode.h"
 #include "codec/epf.h"
 #include "tests/codec/reference_streams.h"
 #include "tests/support/random_clip.h"

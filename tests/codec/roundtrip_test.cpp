@@ -3,7 +3,7 @@
 
 #include "codec/access_unit.h"
 #include "codec/decoder.h"
-#include "codec/encoder.h"
+#include "codec/encode.h"
 #include "tests/support/random_clip.h"
 
 namespace animeme {

@@ -153,6 +153,170 @@ TEST(Fill, ResultIsCompleteAndStable) {
   }
 }
 
+GroupRules all(GroupRule rule) {
+  GroupRules rules;
+  rules.fill(rule);
+  return rules;
+}
+
+// All frames under the same rules.
+Sequence ruled(const Sequence& clip, const GroupRules& rules, const FillOptions& options = {}) {
+  Result<Sequence> result = fill(clip, std::vector<GroupRules>(clip.frames.size(), rules), options);
+  EXPECT_TRUE(result) << (result ? "" : result.error().describe());
+  return result ? *result : Sequence{};
+}
+
+TEST(FillByRule, InterpolatedFapsFollowWhateverTheyHadBefore) {
+  const Sequence clip = clip_of({make_frame(0, {{6, 1}, {7, 2}}), make_frame(1, {{6, 30}})});
+  EXPECT_EQ(ruled(clip, all(GroupRule::interpolate)).frames[1],
+            make_frame(1, {{6, 30}, {7, 30}, {53, 30}, {54, 30}}));
+  EXPECT_EQ(ruled(clip, all(GroupRule::hold)).frames[1], make_frame(1, {{6, 30}, {7, 2}}));
+}
+
+TEST(FillByRule, HoldDoesNotFollowEvenIfNeverSent) {
+  const Sequence clip = clip_of({make_frame(0, {{19, 900}})});
+  EXPECT_EQ(ruled(clip, all(GroupRule::hold)), clip);
+}
+
+TEST(FillByRule, TheGroupOfTheFollowerDecides) {
+  GroupRules rules = all(GroupRule::hold);
+  rules[1] = GroupRule::interpolate;  // jaw and inner lip follow, the outer lip does not
+  const Sequence inner = clip_of({make_frame(0, {{12, 5}})});
+  EXPECT_EQ(ruled(inner, rules).frames[0], make_frame(0, {{12, 5}, {13, 5}}));
+  const Sequence outer = clip_of({make_frame(0, {{59, 6}})});
+  EXPECT_EQ(ruled(outer, rules).frames[0], make_frame(0, {{12, 6}, {13, 6}, {59, 6}}));
+}
+
+TEST(FillByRule, SideThenContourThenAcross) {
+  const GroupRules rules = all(GroupRule::interpolate);
+  const auto eight = [&](std::initializer_list<std::pair<int, std::int32_t>> coded) {
+    return ruled(clip_of({make_frame(0, coded)}), rules).frames.at(0).value[8];
+  };
+  EXPECT_EQ(eight({{9, 1}, {55, 2}, {56, 3}}), 1);
+  EXPECT_EQ(eight({{55, 2}, {56, 3}}), 2);
+  EXPECT_EQ(eight({{56, 3}}), 3);
+  const Sequence across = clip_of({make_frame(0, {{56, 3}})});
+  EXPECT_EQ(ruled(across, rules, {.mirror = false}).frames[0], make_frame(0, {{9, 3}, {56, 3}}));
+  EXPECT_EQ(ruled(across, rules, {.lips = false}).frames[0], make_frame(0, {{55, 3}, {56, 3}}));
+}
+
+TEST(FillByRule, OnlyFapsOfTheFrameAreSources) {
+  // FAP 31 was sent once; when it is no longer coded, 32 stays where it was.
+  const Sequence clip = clip_of({make_frame(0, {{31, 10}, {32, 20}}), make_frame(1, {{31, 11}}),
+                                 make_frame(2, {{33, 1}}), make_frame(3, {{32, 7}})});
+  const Sequence f = ruled(clip, all(GroupRule::interpolate));
+  const std::int32_t left[] = {10, 11, 11, 7};
+  const std::int32_t right[] = {20, 11, 11, 7};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(f.frames[i].value[31], left[i]) << i;
+    EXPECT_EQ(f.frames[i].value[32], right[i]) << i;
+  }
+}
+
+TEST(FillByRule, ADerivedValueIsHeldWhenTheRuleChanges) {
+  const Sequence clip = clip_of({make_frame(0, {{39, 50}}), make_frame(1, {{39, 60}})});
+  const GroupRules rules[] = {all(GroupRule::interpolate), all(GroupRule::hold)};
+  const Result<Sequence> f = fill(clip, rules, {});
+  ASSERT_TRUE(f);
+  EXPECT_EQ(f->frames[0], make_frame(0, {{39, 50}, {40, 50}}));
+  EXPECT_EQ(f->frames[1], make_frame(1, {{39, 60}, {40, 50}}));
+}
+
+TEST(FillByRule, LikeThePublicDecoder) {
+  const Sequence clip = clip_of({make_frame(0, {{6, 1}, {7, 2}, {4, 9}}), make_frame(1, {{6, 3}})});
+  const FillOptions options{.like_public_decoder = true};
+  for (const GroupRule rule : {GroupRule::unknown, GroupRule::hold, GroupRule::interpolate}) {
+    EXPECT_EQ(ruled(clip, all(rule), options).frames[1],
+              make_frame(1, {{4, 9}, {6, 3}, {7, 3}}));  // the sides, no lips
+  }
+  EXPECT_EQ(filled(clip, options).frames[1], make_frame(1, {{4, 9}, {6, 3}, {7, 3}}));
+}
+
+// What the rules ask for, FAP by FAP, from the frame shown before.
+std::int32_t expected_value(const Frame& coded, const Frame& before, int fap, GroupRule rule) {
+  if (coded.mask[std::size_t(fap)]) return coded.value[std::size_t(fap)];
+  if (rule == GroupRule::interpolate) {
+    const int partner = info(fap).partner;
+    for (const int source : {info(fap).mirror, partner, partner ? info(partner).mirror : 0}) {
+      if (source != 0 && coded.mask[std::size_t(source)]) return coded.value[std::size_t(source)];
+    }
+  }
+  return before.value[std::size_t(fap)];
+}
+
+TEST(FillByRule, RandomMasksAndRules) {
+  test::Random random(12);
+  for (int round = 0; round < 60; ++round) {
+    const Sequence clip = test::random_sequence(random, 10);
+    std::vector<GroupRules> rules(clip.frames.size());
+    for (GroupRules& frame : rules) {
+      for (GroupRule& rule : frame) {
+        rule = random.chance(50) ? GroupRule::hold : GroupRule::interpolate;
+      }
+    }
+    const Result<Sequence> f = fill(clip, rules, {.keep_high_level = true});
+    ASSERT_TRUE(f);
+    Frame before;
+    std::size_t next = 0;
+    for (const Frame& shown : f->frames) {
+      const bool skipped = shown.number != clip.frames[next].number;
+      const Frame& coded = skipped ? before : clip.frames[next];
+      for (int fap = kFirstLowLevel; fap <= kFapCount; ++fap) {
+        const GroupRule rule =
+            skipped ? GroupRule::hold : rules[next][std::size_t(info(fap).group - 1)];
+        const std::int32_t want =
+            skipped ? before.value[std::size_t(fap)] : expected_value(coded, before, fap, rule);
+        ASSERT_EQ(shown.value[std::size_t(fap)], want)
+            << "frame " << shown.number << " FAP " << fap;
+        ASSERT_TRUE(shown.mask[std::size_t(fap)] || want == 0);
+      }
+      if (!skipped) ++next;
+      before = shown;
+    }
+    ASSERT_EQ(next, clip.frames.size());
+  }
+}
+
+TEST(FillByRule, FillingAgainChangesNothing) {
+  test::Random random(13);
+  for (int round = 0; round < 60; ++round) {
+    const Sequence clip = test::random_sequence(random, 10);
+    GroupRules rules;
+    for (GroupRule& rule : rules) {
+      rule = random.chance(50) ? GroupRule::hold : GroupRule::interpolate;
+    }
+    for (const bool smooth : {false, true}) {
+      const FillOptions options{.interpolate = smooth, .keep_high_level = random.chance(50)};
+      const Sequence f = ruled(clip, rules, options);
+      ASSERT_EQ(ruled(f, rules, options), f);
+    }
+  }
+}
+
+TEST(FillByRule, UnknownRulesAreThoseOfText) {
+  test::Random random(14);
+  for (int round = 0; round < 40; ++round) {
+    const Sequence clip = test::random_sequence(random, 10);
+    const FillOptions options{.mirror = random.chance(70),
+                              .lips = random.chance(70),
+                              .prefer_partner = random.chance(50)};
+    ASSERT_EQ(ruled(clip, all(GroupRule::unknown), options), filled(clip, options));
+    // Holding is what text without any derivation does.
+    ASSERT_EQ(ruled(clip, all(GroupRule::hold), options),
+              filled(clip, {.mirror = false, .lips = false}));
+  }
+}
+
+TEST(FillByRule, NeedsOneEntryForEachFrame) {
+  const Sequence clip = clip_of({make_frame(0, {{3, 1}}), make_frame(1, {{3, 2}})});
+  const Result<Sequence> f = fill(clip, std::vector<GroupRules>(3), {});
+  ASSERT_FALSE(f);
+  EXPECT_EQ(f.error().code, Code::invalid_argument);
+  const Result<Sequence> none = fill(clip, std::vector<GroupRules>(), {});
+  ASSERT_TRUE(none);
+  EXPECT_EQ(*none, clip);
+}
+
 TEST(Fill, EmptyClip) { EXPECT_TRUE(filled(clip_of({})).frames.empty()); }
 
 TEST(Fill, Errors) {

@@ -1,53 +1,41 @@
-// Any bytes: the decoder ends, and what it says does not depend on how the bytes were split.
+// Any bytes: the decoder ends, decode() agrees with it, and access units can be made.
 #include <cstdint>
 #include <cstdlib>
-#include <span>
-#include <vector>
 
 #include "codec/access_unit.h"
-#include "codec/decoder.h"
+#include "tests/fuzz/event_trace.h"
 
 namespace {
 
-using animeme::Code;
-using animeme::fba::Decoder;
-using animeme::fba::Event;
-
-struct Trace {
-  std::vector<animeme::fap::Frame> frames;
-  std::vector<std::int64_t> errors;  // bit positions
-  bool operator==(const Trace&) const = default;
-};
-
-Trace run(std::span<const std::uint8_t> bytes, std::size_t step) {
-  Decoder decoder;
-  Trace trace;
-  std::size_t at = 0;
-  for (;;) {
-    const auto event = decoder.next();
-    if (event) {
-      if (event->kind == Event::Kind::plane) trace.frames.push_back(event->plane.face);
-    } else if (event.error().code == Code::end_of_stream) {
-      return trace;
-    } else if (event.error().code != Code::need_data) {
-      trace.errors.push_back(event.error().where.bit);
-    } else if (at == bytes.size()) {
-      decoder.finish();
-    } else {
-      const std::size_t count = std::min(step, bytes.size() - at);
-      decoder.push(bytes.subspan(at, count));
-      at += count;
-    }
-  }
+void require(bool condition) {
+  if (!condition) std::abort();
 }
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace animeme;
   const std::span bytes(data, size);
-  const Trace whole = run(bytes, size + 1);
-  const Trace pieces = run(bytes, 1 + size % 13);
-  if (whole != pieces) std::abort();
-  (void)animeme::fba::split_access_units(bytes);
+  const auto events = test::trace(bytes, [size](std::size_t) { return size; });
+  const auto decoded = fba::decode(bytes);
+  std::size_t planes = 0;
+  const Error* first_error = nullptr;
+  for (const auto& [event, error, failed] : events) {
+    if (failed) {
+      require(!error.message.empty());
+      require(error.where.bit >= 0 && error.where.bit <= std::int64_t(size) * 8);
+      if (first_error == nullptr) first_error = &error;
+    } else if (event.kind == fba::Event::Kind::plane) {
+      if (decoded) require(decoded->planes.at(planes).face == event.plane.face);
+      ++planes;
+    }
+  }
+  if (decoded) {
+    require(first_error->code == Code::end_of_stream && decoded->planes.size() == planes);
+  } else if (planes > 0) {
+    require(decoded.error().message == first_error->message);
+  }
+  const auto units = fba::split_access_units(bytes);
+  require(units.has_value() == decoded.has_value());
   return 0;
 }

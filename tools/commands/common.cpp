@@ -12,6 +12,8 @@
 #include <iterator>
 #include <utility>
 
+#include "tools/commands/arkit_csv.h"
+
 namespace animeme::tools {
 
 namespace {
@@ -205,7 +207,7 @@ FileKind kind_of(std::span<const std::uint8_t> bytes) {
     const std::string_view line = view.substr(0, end);
     const std::size_t first = line.find_first_not_of(" \t\r");
     if (first != std::string_view::npos && line[first] != '#') {
-      if (line.substr(first).starts_with("time_s")) return FileKind::curves;
+      if (line.substr(first).starts_with("time_s") || is_arkit_csv(line)) return FileKind::curves;
       const char c = line[first];
       const bool number = (c >= '0' && c <= '9') || c == '-' || c == '.';
       if (!number) return FileKind::script;

@@ -38,8 +38,8 @@ struct Command {
   Action (*add)(CLI::App& app);
 };
 
-extern const Command kAlign, kCheck, kCompare, kDecode, kDemux, kEncode, kEvaluate, kInfo, kMux,
-    kPlot, kSpeak, kStats, kTrain;
+extern const Command kAlign, kCheck, kCompare, kDecode, kDemux, kEncode, kEvaluate, kImport, kInfo,
+    kMux, kPlot, kSpeak, kStats, kTrain;
 
 /// Prints a usage error on standard error; returns kUsage for the command to return.
 int usage_error(const std::string& text);
@@ -104,7 +104,8 @@ enum class FileKind : std::uint8_t {
 FileKind kind_of(std::span<const std::uint8_t> bytes);
 
 /// Any input with motion: .fap or .bap text, raw .fba, a container, or a table of curves
-/// (time_s, fap3_open_jaw ... as in a corpus). For text, warnings about quirks are printed.
+/// (time_s, fap3_open_jaw ... as in a corpus; ARKit shapes, see arkit_csv.h). For text, warnings
+/// about quirks are printed.
 struct MotionInput {
   FileKind kind = FileKind::unknown;
   fap::Sequence face;                ///< no frames: there is no face

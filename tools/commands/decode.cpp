@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "codec/fill.h"
 #include "fap/fill.h"
 #include "fap/text.h"
 #include "tools/commands/common.h"
@@ -25,8 +26,11 @@ Result<std::string> face_text(MotionInput& input, const Options& options) {
   }
   if (auto ok = require_face(input, options.input); !ok) return ok.error();
   if (options.fill) {
-    Result<fap::Sequence> filled = fap::fill(input.face);
+    // A stream says what becomes of FAPs that it does not code, a text does not.
+    Result<fap::Sequence> filled =
+        input.stream.empty() ? fap::fill(input.face) : fba::fill(input.decoded);
     if (!filled) return filled.error().in_file(options.input);
+    filled->name = input.face.name;
     input.face = std::move(*filled);
   }
   return fap::write_text(input.face);

@@ -1,28 +1,42 @@
-#include "codec/body_encode.h"
-#include "codec/encoder.h"
+#include "codec/encode.h"
 
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "codec/epf.h"
+#include "codec/live.h"
+#include "fap/rate_text.h"
 #include "tools/commands/common.h"
 
 namespace animeme::tools {
 
 namespace {
 
+enum class Preset : std::uint8_t { plain, file, live, exact };
+
+constexpr int kLiveIntraPeriod = 50;
+
 struct Options {
   std::string input;
   std::string bap;
   std::string output;
   std::string epf;
-  int quant = 1;
-  int intra_period = 0;
-  fba::PlaneStartCodes start_codes = fba::PlaneStartCodes::none;
+  std::optional<Preset> preset;
+  std::optional<int> quant;
+  std::optional<int> intra_period;
+  std::optional<fba::PlaneStartCodes> start_codes;
   bool old_codes = false;
+  double rms = 0;
+  double kbps = 0;
+  double still_below = 0;
+  bool skip_still = false;
+  bool json = false;
 
-  fba::StreamOptions stream() const { return {start_codes, old_codes}; }
+  fba::StreamOptions stream() const {
+    return {start_codes.value_or(fba::PlaneStartCodes::none), old_codes};
+  }
 };
 
 using Bytes = std::vector<std::uint8_t>;
@@ -89,39 +103,178 @@ Result<Bytes> encode_by_epf(const Options& options) {
   return bytes;
 }
 
-Result<Bytes> encode_freely(const Options& options) {
+// Face and body of one stream have one rate.
+Result<Material> read_clip(const Options& options) {
   Result<Material> material = read_material(options);
+  if (!material) return material;
+  if (material->face.frames.empty()) {
+    material->face.rate = material->body.rate;
+  } else if (!material->body.frames.empty() && material->body.rate != material->face.rate) {
+    return make_error(Code::invalid_argument,
+                      "the body has " + fap::format_rate(material->body.rate) +
+                          " frames a second and the face " + fap::format_rate(material->face.rate) +
+                          ": convert one of them")
+        .in_file(options.bap.empty() ? options.input : options.bap);
+  }
+  return material;
+}
+
+Result<Bytes> encode_clip(const Options& options, fba::EncodeReport& report) {
+  Result<Material> material = read_clip(options);
   if (!material) return material.error();
   fba::EncodeOptions settings;
-  settings.fap_quant = options.quant;
-  settings.intra_period = options.intra_period;
+  if (options.preset == Preset::file) settings = fba::file_options();
+  settings.fap_quant = settings.bap_quant = options.quant.value_or(1);
+  settings.intra_period = options.intra_period.value_or(0);
   settings.stream = options.stream();
-  Result<Bytes> bytes = material->body.frames.empty()
-                            ? fba::encode(material->face, settings)
-                            : fba::encode_with_body(material->face, material->body, settings);
-  if (!bytes) return bytes.error().in_file(options.input.empty() ? options.bap : options.input);
-  return bytes;
+  settings.max_rms = options.rms;
+  settings.max_bits_per_second = options.kbps * 1000;
+  settings.still_below = options.still_below;
+  settings.skip_still = options.skip_still;
+  return fba::encode(material->face, settings, material->body.frames, &report);
 }
 
-// Counts what was written as a receiver does.
-void say_result(const std::string& output, const Bytes& bytes) {
-  const Result<fba::DecodedStream> decoded = fba::decode(bytes);
-  if (!decoded) return;
-  const double seconds = decoded->rate.seconds(double(decoded->planes.back().number + 1));
-  char text[96];
-  std::snprintf(text, sizeof text, ": %zu planes, %zu bytes, %.2f kbit/s", decoded->planes.size(),
-                bytes.size(), double(bytes.size()) * 8e-3 / seconds);
-  say(name_of_output(output) + text);
-}
-
-Result<int> run(const Options& options) {
-  if (options.input.empty() && options.bap.empty()) {
-    return usage_error("nothing to code: name a FAP text, or a BAP text with --bap");
+// Frame by frame, as a sender would that does not know what is to come.
+Result<Bytes> encode_live(const Options& options) {
+  Result<Material> material = read_clip(options);
+  if (!material) return material.error();
+  fba::LiveOptions settings;
+  settings.rate = material->face.rate;
+  settings.fap_quant = settings.bap_quant = options.quant.value_or(1);
+  settings.intra_period = options.intra_period.value_or(kLiveIntraPeriod);
+  settings.old_codes = options.old_codes;
+  fba::LiveEncoder encoder(settings);
+  Bytes stream;
+  auto face = material->face.frames.begin();
+  auto body = material->body.frames.begin();
+  const auto next_number = [&] {
+    std::int64_t number = INT64_MAX;
+    if (face != material->face.frames.end()) number = face->number;
+    if (body != material->body.frames.end()) number = std::min(number, body->number);
+    return number;
+  };
+  for (std::int64_t number = next_number(); number != INT64_MAX;) {
+    fap::Frame frame;  // without a mask: the face is held
+    const fba::BodyFrame* body_now = nullptr;
+    if (face != material->face.frames.end() && face->number == number) frame = *face++;
+    if (body != material->body.frames.end() && body->number == number) body_now = &*body++;
+    const std::int64_t next = next_number();
+    const std::uint32_t skip = next == INT64_MAX ? 0 : std::uint32_t(next - number - 1);
+    Result<Bytes> unit = encoder.write(frame, skip, body_now);
+    if (!unit) {
+      Error error = unit.error();
+      error.message = "frame " + std::to_string(number) + ": " + error.message;
+      return error;
+    }
+    stream.insert(stream.end(), unit->begin(), unit->end());
+    number = next;
   }
-  Result<Bytes> bytes = options.epf.empty() ? encode_freely(options) : encode_by_epf(options);
-  if (!bytes) return bytes.error();
+  const Bytes end = encoder.finish();
+  stream.insert(stream.end(), end.begin(), end.end());
+  return stream;
+}
+
+// What was written, counted as a receiver does.
+struct Outcome {
+  std::size_t planes = 0;
+  std::size_t intra_planes = 0;
+  double kbps = 0;
+};
+
+Outcome count(const Bytes& bytes) {
+  Outcome outcome;
+  const Result<fba::DecodedStream> decoded = fba::decode(bytes);
+  if (!decoded) return outcome;
+  outcome.planes = decoded->planes.size();
+  for (const fba::Plane& plane : decoded->planes) outcome.intra_planes += plane.intra ? 1 : 0;
+  const double seconds = decoded->rate.seconds(double(decoded->planes.back().number + 1));
+  outcome.kbps = double(bytes.size()) * 8e-3 / seconds;
+  return outcome;
+}
+
+void tell(const Options& options, const Bytes& bytes, const fba::EncodeReport& report) {
+  const Outcome outcome = count(bytes);
+  char text[240];
+  std::snprintf(text, sizeof text, ": %zu planes, %zu bytes, %.2f kbit/s", outcome.planes,
+                bytes.size(), outcome.kbps);
+  std::string line = name_of_output(options.output) + text;
+  if (report.planes > 0) {
+    std::snprintf(text, sizeof text, "; fap_quant %d, error %.2f FAP units RMS, %zu coded",
+                  report.fap_quant, report.rms, report.coded);
+    line += text;
+    const auto add = [&line](std::size_t number, const char* what) {
+      if (number > 0) line += ", " + std::to_string(number) + what;
+    };
+    add(report.mirrored, " right sides left to the decoder");
+    add(report.left_out, " at rest left out");
+    add(report.stilled, " stilled");
+    add(report.skipped, " still frames skipped");
+  }
+  say(line);
+  if (options.kbps > 0 && outcome.kbps > options.kbps * 1.001) {
+    std::snprintf(text, sizeof text, "%.2f kbit/s is the least that this clip needs, %.2f asked",
+                  outcome.kbps, options.kbps);
+    warn(text);
+  }
+  if (!options.json) return;
+  nlohmann::ordered_json json = {{"planes", outcome.planes},
+                                 {"intra_planes", outcome.intra_planes},
+                                 {"bytes", bytes.size()},
+                                 {"kbit_per_s", outcome.kbps}};
+  if (report.planes > 0) {
+    json.update(nlohmann::ordered_json{{"fap_quant", report.fap_quant},
+                                       {"bap_quant", report.bap_quant},
+                                       {"rms", report.rms},
+                                       {"rms_other", report.rms_other},
+                                       {"coded", report.coded},
+                                       {"mirrored", report.mirrored},
+                                       {"left_out", report.left_out},
+                                       {"stilled", report.stilled},
+                                       {"skipped", report.skipped}});
+  }
+  std::printf("%s\n", json.dump(2).c_str());
+}
+
+// Options that the preset has no use for.
+const char* contradiction(const Options& options, Preset preset) {
+  if (options.input.empty() && options.bap.empty()) {
+    return "nothing to code: name a FAP text, or a BAP text with --bap";
+  }
+  if ((preset == Preset::exact) != !options.epf.empty()) {
+    return preset == Preset::exact ? "--preset exact wants an encoder parameter file, --epf"
+                                   : "--epf decides everything: only --preset exact goes with it";
+  }
+  const bool chooses = options.rms > 0 || options.kbps > 0;
+  const bool shapes = chooses || options.still_below > 0 || options.skip_still;
+  if (shapes && preset != Preset::file) {
+    return "--rms, --kbps, --still-below and --skip-still want --preset file";
+  }
+  if (options.quant && chooses) return "--quant is chosen by --rms and --kbps: leave it out";
+  if (preset == Preset::exact && (options.quant || options.intra_period)) {
+    return "--quant and --intra-period come from the encoder parameter file: leave them out";
+  }
+  if (preset == Preset::live && options.start_codes &&
+      *options.start_codes != fba::PlaneStartCodes::all) {
+    return "--preset live gives every plane a start code, so that each is a unit of its own";
+  }
+  if (options.json && options.output == "-") return "--json and -o - both want standard output";
+  return nullptr;
+}
+
+Result<int> run(const Options& given) {
+  Options options = given;
+  if (!options.preset) options.preset = options.epf.empty() ? Preset::plain : Preset::exact;
+  if (const char* text = contradiction(options, *options.preset)) return usage_error(text);
+  fba::EncodeReport report;
+  Result<Bytes> bytes = *options.preset == Preset::exact  ? encode_by_epf(options)
+                        : *options.preset == Preset::live ? encode_live(options)
+                                                          : encode_clip(options, report);
+  if (!bytes) {
+    if (!bytes.error().where.file.empty()) return bytes.error();
+    return bytes.error().in_file(options.input.empty() ? options.bap : options.input);
+  }
   if (auto written = write_file(options.output, *bytes); !written) return written.error();
-  say_result(options.output, *bytes);
+  tell(options, *bytes, report);
   return kOk;
 }
 
@@ -133,22 +286,42 @@ Action add(CLI::App& app) {
       ->required();
   app.add_option("--epf", options->epf,
                  "Encoder parameter file: every decision comes from it, the bytes are determined");
+  const std::map<std::string, Preset> presets = {{"plain", Preset::plain},
+                                                 {"file", Preset::file},
+                                                 {"live", Preset::live},
+                                                 {"exact", Preset::exact}};
+  app.add_option("--preset", options->preset,
+                 "plain: all that the clip has, in every plane (the default)\n"
+                 "file: the smallest stream; FAPs at rest are left out, right sides that equal "
+                 "their left ones are left to the decoder (decode --fill shows them)\n"
+                 "live: one plane in, one plane out, for senders\n"
+                 "exact: as --epf says (the default with --epf)")
+      ->transform(CLI::CheckedTransformer(presets).description(""));
+  app.add_option("--rms", options->rms,
+                 "file: fewest bits with at most this error, FAP units RMS over the FAPs that "
+                 "move (half quantiser steps for angles and bodies); 2 is not visible")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--kbps", options->kbps, "file: smallest error at this rate, kbit/s")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--still-below", options->still_below,
+                 "file: FAPs that move by less than this altogether are held still, FAP units")
+      ->check(CLI::NonNegativeNumber);
+  app.add_flag("--skip-still", options->skip_still,
+               "file: do not send planes in which nothing moves (receivers hold the one before)");
   app.add_option("--quant", options->quant,
-                 "Quantiser of face and body; 1 is not visible, 0 lossless up to +-1860")
-      ->check(CLI::Range(0, 31))
-      ->capture_default_str()
-      ->excludes("--epf");
+                 "Quantiser of face and body; 1 (the default) is not visible, 0 lossless up to "
+                 "+-1860")
+      ->check(CLI::Range(0, 31));
   app.add_option("--intra-period", options->intra_period,
-                 "Intra plane every N planes for random access; 0: only where needed")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str()
-      ->excludes("--epf");
+                 "Intra plane every N planes for random access; 0: only where needed (live: 50)")
+      ->check(CLI::NonNegativeNumber);
   const std::map<std::string, fba::PlaneStartCodes> names = {{"none", fba::PlaneStartCodes::none},
                                                              {"intra", fba::PlaneStartCodes::intra},
                                                              {"all", fba::PlaneStartCodes::all}};
   app.add_option("--plane-start-codes", options->start_codes,
                  "Planes that get a start code: none, intra or all")
       ->transform(CLI::CheckedTransformer(names).description(""));
+  app.add_flag("--json", options->json, "What was written and chosen, machine-readable");
   app.add_flag("--old-codes", options->old_codes, "Write plane start codes of the 1999 edition");
   return [options] { return run(*options); };
 }
@@ -158,6 +331,9 @@ Action add(CLI::App& app) {
 const Command kEncode{
     "encode", "Code FAP and BAP text as an FBA stream",
     "  animeme encode talk.fap -o talk.fba\n"
+    "  animeme encode talk.fap --preset file -o small.fba\n"
+    "  animeme encode talk.fap --preset file --rms 2 -o smaller.fba\n"
+    "  animeme encode talk.fap --preset file --kbps 1 -o one_kilobit.fba\n"
     "  animeme encode talk.fap --quant 4 --intra-period 50 --plane-start-codes intra -o talk.fba\n"
     "  animeme encode talk.fap --epf talk.epf -o talk.fba\n"
     "  animeme encode face.fap --bap body.bap -o both.fba",

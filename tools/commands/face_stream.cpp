@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "codec/encoder.h"
+#include "codec/encode.h"
 #include "tools/media/mux.h"
 
 namespace animeme::tools {

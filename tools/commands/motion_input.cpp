@@ -6,6 +6,7 @@
 #include "dam/corpus.h"
 #include "dam/fap_signal.h"
 #include "fap/text.h"
+#include "tools/commands/arkit_csv.h"
 #include "tools/commands/common.h"
 #include "tools/media/container.h"
 
@@ -40,7 +41,10 @@ Result<Sequence> tell_quirks(Result<Sequence> clip, const std::vector<std::strin
   return clip;
 }
 
-Result<fap::Sequence> read_table_of_curves(std::string_view text) {
+// Curves of FAPs, or of a phone's face capture.
+Result<fap::Sequence> read_table_of_curves(std::string_view text,
+                                           std::vector<std::string>& warnings) {
+  if (is_arkit_csv(text)) return read_arkit_csv(text, {}, warnings);
   Result<dam::Signal> signal = dam::read_curves(text);
   if (!signal) return signal.error();
   return dam::to_sequence(*signal);
@@ -78,8 +82,9 @@ Result<MotionInput> parse_motion(std::vector<std::uint8_t> bytes, const std::str
       return input;
     }
     case FileKind::curves: {
-      auto clip = read_table_of_curves(text_of(bytes));
-      if (!clip) return clip.error().in_file(path);
+      auto clip = read_table_of_curves(text_of(bytes), warnings);
+      clip = tell_quirks(std::move(clip), warnings, path);
+      if (!clip) return clip.error();
       input.face = std::move(*clip);
       return input;
     }

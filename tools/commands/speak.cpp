@@ -2,7 +2,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "codec/encoder.h"
+#include "codec/encode.h"
 #include "dam/fap_signal.h"
 #include "dam/script.h"
 #include "dam/synthesise.h"

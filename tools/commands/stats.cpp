@@ -8,6 +8,7 @@
 #include "tools/commands/common.h"
 #include "tools/commands/stats_activity.h"
 #include "tools/commands/stats_bits.h"
+#include "tools/commands/stats_sizes.h"
 
 namespace animeme::tools {
 
@@ -16,8 +17,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Options {
-  std::string input;
+  std::vector<std::string> inputs;
   bool json = false;
+  bool sizes = false;
+  double rms = 2;
 };
 
 // What was measured; each part has a describe() for --json and a print() for people.
@@ -28,8 +31,8 @@ struct Statistics {
   std::vector<Activity> baps;
 };
 
-Result<Statistics> measure(const Options& options) {
-  Result<MotionInput> input = read_motion(options.input);
+Result<Statistics> measure(const std::string& path) {
+  Result<MotionInput> input = read_motion(path);
   if (!input) return input.error();
   Statistics out;
   if (!input->stream.empty()) out.bits = measure_bits(input->decoded, input->stream.size());
@@ -203,7 +206,10 @@ void print(const Statistics& s) {
 }
 
 Result<int> run(const Options& options) {
-  Result<Statistics> statistics = measure(options);
+  if (options.sizes) return print_sizes(options.inputs, options.rms, options.json);
+  if (options.inputs.size() != 1)
+    return usage_error("several files can be given with --sizes only");
+  Result<Statistics> statistics = measure(options.inputs.front());
   if (!statistics) return statistics.error();
   if (options.json) {
     std::printf("%s\n", describe(*statistics).dump(2).c_str());
@@ -215,7 +221,15 @@ Result<int> run(const Options& options) {
 
 Action add(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  app.add_option("file", options->input, "FBA stream, container, FAP or BAP text")->required();
+  app.add_option("file", options->inputs, "FBA stream, container, FAP or BAP text, curves")
+      ->required();
+  CLI::Option* sizes = app.add_flag(
+      "--sizes", options->sizes,
+      "How small each clip gets with encode --preset file, beside the form common in the wild");
+  app.add_option("--rms", options->rms, "With --sizes: limit of the error of the last column")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str()
+      ->needs(sizes);
   app.add_flag("--json", options->json, "Machine-readable result");
   return [options] { return run(*options); };
 }
@@ -224,7 +238,8 @@ Action add(CLI::App& app) {
 
 const Command kStats{"stats", "Bit rate of a stream, activity of each FAP and BAP",
                      "  animeme stats talk.fba\n"
-                     "  animeme stats talk.fap --json",
+                     "  animeme stats talk.fap --json\n"
+                     "  animeme stats --sizes clips/*.fap",
                      add};
 
 }  // namespace animeme::tools

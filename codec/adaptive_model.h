@@ -1,0 +1,77 @@
+// Adaptive symbol frequencies of the arithmetic coder. Source: fba_bitstream, section 4.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace animeme::fba {
+
+inline constexpr std::uint32_t kMaxTotal = 16383;  ///< a model is halved when it reaches this
+
+/// The part of the unit interval that a symbol owns: `low` to `high` of `total`, as cumulative
+/// counts from the low end.
+struct SymbolInterval {
+  std::uint32_t low = 0;
+  std::uint32_t high = 1;
+  std::uint32_t total = 1;
+};
+
+/// Where symbol k of a flat model of n symbols lies. Higher symbols lie at the low end.
+inline SymbolInterval flat_interval(std::uint32_t k, std::uint32_t n) {
+  return {n - 1 - k, n - k, n};
+}
+
+/// Adaptive frequencies of an alphabet 0..n-1, all 1 at first.
+///
+/// The table holds the mirrored alphabet (higher symbols first, as the interval wants them) in
+/// three levels of sixteen: a byte for each symbol, and running sums over groups of 16 and of 256
+/// symbols. Look-up, search and update are a fixed number of steps without branches that depend
+/// on the data. Only the excess over 1 is counted, so that halving is a shift; what does not fit a
+/// byte overflows into a short list, since a total of 16383 leaves room for 63 such symbols at
+/// most. 3721 symbols (ranges of +-1860, the largest alphabet) take 4.2 kB, with a full list 4.5.
+class AdaptiveModel {
+ public:
+  /// Forgets everything; `n` is 1..3721. The table itself is made when it is first needed, so that
+  /// intra planes in quick succession cost nothing.
+  void reset(std::uint32_t n) {
+    n_ = n;
+    total_ = n;
+    fresh_ = true;
+  }
+  std::uint32_t size() const { return n_; }
+  std::uint32_t total() const { return total_; }
+
+  /// Interval of symbol k (0..n-1).
+  SymbolInterval interval(std::uint32_t k) const;
+  /// The symbol whose interval holds `target` (0..total-1), and that interval.
+  std::uint32_t find(std::uint32_t target, SymbolInterval& interval) const;
+  /// Counts one more occurrence of k; halves all counts first if the total is kMaxTotal.
+  void update(std::uint32_t k);
+
+ private:
+  // What the byte of a symbol cannot hold, a multiple of 256.
+  struct Overflow {
+    std::uint16_t symbol = 0;  // mirrored
+    std::uint16_t excess = 0;
+  };
+
+  void build();
+  void halve();
+  void sum_up();
+  void carry(std::uint32_t mirrored);
+  // False: no symbol of the group is in the overflow list. Errs on the side of true.
+  bool may_overflow(std::uint32_t group) const { return ((overflowing_ >> (group & 63)) & 1) != 0; }
+
+  std::uint32_t n_ = 1;
+  std::uint32_t total_ = 1;
+  bool fresh_ = true;           // flat, table not built
+  std::uint32_t last_top_ = 0;  // where the latest symbol lies in the top level
+  // 16 sums over the 256s, then 16 for each of them over its 16s: the frequencies below each
+  // within its parent. Those past the alphabet are larger than any target.
+  std::vector<std::int16_t> below_;
+  std::vector<std::uint8_t> excess_;  // frequency - 1, modulo 256; whole groups of 16
+  std::vector<Overflow> overflow_;
+  std::uint64_t overflowing_ = 0;  // bit g & 63 for each group g in the list
+};
+
+}  // namespace animeme::fba

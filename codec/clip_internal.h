@@ -1,0 +1,71 @@
+// A clip as an encoder sees it: one row of values for each parameter. Not installed API.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "codec/plane.h"
+#include "codec/quantise_internal.h"
+#include "fap/frame.h"
+#include "fap/result.h"
+
+namespace animeme::fba::internal {
+
+/// One low-level FAP or BAP over all planes.
+struct Channel {
+  bool body = false;
+  bool distance = true;      // a FAP that is no angle
+  int number = 0;            // FAP or BAP number
+  std::int32_t step = 1;     // quantiser step at quantiser 1
+  double unit = 1;           // size of an error that counts as 1
+  std::ptrdiff_t left = -1;  // index of the left side if this is the right side of a pair
+  std::vector<std::int32_t> value;
+};
+
+/// Planes in order; every parameter that occurs is present in each of them.
+struct ClipData {
+  CodedRate rate;
+  bool has_face = false;
+  bool has_body = false;
+  bool has_viseme = false;
+  bool has_expression = false;
+  std::vector<std::int64_t> number;  // of the planes, ascending
+  std::vector<fap::Viseme> viseme;   // a row each if present
+  std::vector<fap::Expression> expression;
+  std::vector<Channel> channels;  // FAPs ascending, then BAPs in coding order
+
+  std::size_t planes() const { return number.size(); }
+};
+
+/// Merges face and body by frame numbers and holds what a frame leaves out. Errors as encode().
+Result<ClipData> gather(const fap::Sequence& face, std::span<const BodyFrame> body);
+
+/// Quantiser step of a channel at fap_quant or the body quantiser index.
+inline std::int32_t step_at(const Channel& channel, int quant) {
+  if (quant == 0) return 1;
+  return channel.step * (channel.body ? bap_scale(quant) : fap_scale(quant));
+}
+/// Divisor of the ranges.
+inline int scale_at(bool body, int quant) { return body ? bap_scale(quant) : fap_scale(quant); }
+
+/// Largest 5-bit range number: 31 * 60 = 1860 levels at scale 1.
+inline constexpr int kMaxRange = 31;
+/// Smallest range number m with m*60/scale >= level >= 0; more than kMaxRange if there is none.
+inline int range_number(std::int64_t level, int scale) {
+  return int(std::min<std::int64_t>((level * scale + 59) / 60, kMaxRange + 1));
+}
+
+/// The reference decoder takes an intra range of 0..0 for FAP 4 as "no ranges yet" and installs the
+/// default ones (fba_bitstream, 15.4). Never send that.
+inline void guard_fap4(FaceSettings& settings) {
+  const bool zero = settings.range[kIntraMax][4] == 0 && settings.range[kIntraMin][4] == 0;
+  if (settings.mask[4] && zero) settings.range[kIntraMax][4] = 1;
+}
+
+/// What the plain quantiser makes of a row: levels of the reconstruction, that is values divided
+/// by `step`, each within half a step and nearest to the one before.
+void quantise_row(std::span<const std::int32_t> value, std::int32_t step,
+                  std::vector<std::int32_t>& levels);
+
+}  // namespace animeme::fba::internal

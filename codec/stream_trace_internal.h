@@ -1,0 +1,41 @@
+// Where an encoder wrote what, and the traps that its bits may hold for other decoders. Not
+// installed API. Source: fba_bitstream, sections 4 and 17.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace animeme::fba::internal {
+
+/// Bit positions of what was written, from the start of the bytes that go with it.
+struct StreamTrace {
+  struct Segment {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+  };
+  std::vector<Segment> segments;         // of the arithmetic coder
+  std::vector<std::size_t> start_codes;  // real ones
+
+  void clear() {
+    segments.clear();
+    start_codes.clear();
+  }
+};
+
+/// What can lead another decoder astray although the stream is legal.
+struct Trap {
+  enum class Kind : std::uint8_t {
+    start_code,  // 23 zeros and a 1 that are no start code
+    look_ahead,  // 22 zeros from the tail of a segment into the 14 bits behind it
+  };
+  Kind kind = Kind::start_code;
+  std::size_t bit = 0;
+};
+
+/// The first trap in `bytes`, nothing if there is none. Linear in their number.
+std::optional<Trap> find_trap(std::span<const std::uint8_t> bytes, const StreamTrace& trace);
+
+}  // namespace animeme::fba::internal

@@ -1,0 +1,202 @@
+#include "fap/arkit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "fap/arkit_internal.h"
+#include "fap/tables.h"
+
+namespace animeme::fap {
+
+const std::array<std::string_view, kArkitChannelCount> kArkitNames = {"eyeBlinkLeft",
+                                                                      "eyeLookDownLeft",
+                                                                      "eyeLookInLeft",
+                                                                      "eyeLookOutLeft",
+                                                                      "eyeLookUpLeft",
+                                                                      "eyeSquintLeft",
+                                                                      "eyeWideLeft",
+                                                                      "eyeBlinkRight",
+                                                                      "eyeLookDownRight",
+                                                                      "eyeLookInRight",
+                                                                      "eyeLookOutRight",
+                                                                      "eyeLookUpRight",
+                                                                      "eyeSquintRight",
+                                                                      "eyeWideRight",
+                                                                      "jawForward",
+                                                                      "jawRight",
+                                                                      "jawLeft",
+                                                                      "jawOpen",
+                                                                      "mouthClose",
+                                                                      "mouthFunnel",
+                                                                      "mouthPucker",
+                                                                      "mouthRight",
+                                                                      "mouthLeft",
+                                                                      "mouthSmileLeft",
+                                                                      "mouthSmileRight",
+                                                                      "mouthFrownLeft",
+                                                                      "mouthFrownRight",
+                                                                      "mouthDimpleLeft",
+                                                                      "mouthDimpleRight",
+                                                                      "mouthStretchLeft",
+                                                                      "mouthStretchRight",
+                                                                      "mouthRollLower",
+                                                                      "mouthRollUpper",
+                                                                      "mouthShrugLower",
+                                                                      "mouthShrugUpper",
+                                                                      "mouthPressLeft",
+                                                                      "mouthPressRight",
+                                                                      "mouthLowerDownLeft",
+                                                                      "mouthLowerDownRight",
+                                                                      "mouthUpperUpLeft",
+                                                                      "mouthUpperUpRight",
+                                                                      "browDownLeft",
+                                                                      "browDownRight",
+                                                                      "browInnerUp",
+                                                                      "browOuterUpLeft",
+                                                                      "browOuterUpRight",
+                                                                      "cheekPuff",
+                                                                      "cheekSquintLeft",
+                                                                      "cheekSquintRight",
+                                                                      "noseSneerLeft",
+                                                                      "noseSneerRight",
+                                                                      "tongueOut",
+                                                                      "headYaw",
+                                                                      "headPitch",
+                                                                      "headRoll",
+                                                                      "leftEyeYaw",
+                                                                      "leftEyePitch",
+                                                                      "leftEyeRoll",
+                                                                      "rightEyeYaw",
+                                                                      "rightEyePitch",
+                                                                      "rightEyeRoll"};
+
+namespace {
+
+using internal::ArkitWeight;
+
+constexpr int kLidsMeet = 1024;      // FAP 19 + 21: IRISD is the opening of the lids
+constexpr int kLongestLevel = 1860;  // 31 * 60, the widest range of a stream
+constexpr std::size_t kLongestName = 32;
+constexpr std::size_t kFirstEyeball = 23, kLastEyeball = 26;
+
+std::string lower_case(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+  return out;
+}
+
+std::array<std::string, kArkitChannelCount> lower_case_names() {
+  std::array<std::string, kArkitChannelCount> names;
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = lower_case(kArkitNames[i]);
+  return names;
+}
+
+std::string normal_name(std::string_view name) {
+  std::string out = lower_case(name);
+  if (out.ends_with("_l")) return out.replace(out.size() - 2, 2, "left");
+  if (out.ends_with("_r")) return out.replace(out.size() - 2, 2, "right");
+  return out;
+}
+
+// The channel of the other side, "" if the shape has no sides.
+std::string other_side(std::string_view name) {
+  if (!name.ends_with("Left")) return {};
+  return std::string(name.substr(0, name.size() - 4)) + "Right";
+}
+
+// A mirrored face has the value of a FAP on its partner. FAPs that point to one side of the
+// world and not of the face (yaw of both eyes is positive to the left) change their sign.
+ArkitWeight mirrored(const ArkitWeight& weight) {
+  const FapInfo& fap = info(weight.fap);
+  const int partner = fap.mirror != 0 ? fap.mirror : fap.number;
+  const bool sideways = fap.motion == Motion::left || fap.motion == Motion::right;
+  const bool flips = sideways && info(partner).motion == fap.motion;
+  return {partner, flips ? -weight.value : weight.value};
+}
+
+using Weights = std::array<std::vector<ArkitWeight>, kArkitChannelCount>;
+
+Weights all_weights() {
+  Weights weights;
+  for (const internal::ArkitShape& shape : internal::arkit_shapes()) {
+    auto& left = weights[std::size_t(find_arkit(shape.name).value_or(0))];
+    left.assign(shape.weights.begin(), shape.weights.end());
+    const std::optional<int> right = find_arkit(other_side(shape.name));
+    if (!right) continue;
+    for (const ArkitWeight& weight : left) {
+      weights[std::size_t(*right)].push_back(mirrored(weight));
+    }
+  }
+  return weights;
+}
+
+const Weights& weights() {
+  static const Weights all = all_weights();
+  return all;
+}
+
+// What shapes say of the eyeballs counts more than measured angles.
+Mask eyeballs_of_shapes(const ArkitChannels& channels) {
+  ArkitChannels shapes = channels;
+  for (std::size_t i = kArkitShapeCount; i < kArkitChannelCount; ++i) shapes.reset(i);
+  const Mask reached = arkit_faps(shapes);
+  Mask mask;
+  for (std::size_t fap = kFirstEyeball; fap <= kLastEyeball; ++fap) mask[fap] = reached[fap];
+  return mask;
+}
+
+std::int32_t clipped(double value, int fap) {
+  const double limit = double(kLongestLevel) * info(fap).quant_step;
+  return std::int32_t(std::lround(std::clamp(value, -limit, limit)));
+}
+
+void keep_lids_apart(Frame& frame, std::size_t upper, std::size_t lower) {
+  if (!frame.mask[upper]) return;
+  frame.value[upper] = std::min(frame.value[upper], kLidsMeet - frame.value[lower]);
+}
+
+}  // namespace
+
+std::optional<int> find_arkit(std::string_view name) {
+  static const std::array<std::string, kArkitChannelCount> known = lower_case_names();
+  if (name.size() > kLongestName) return std::nullopt;
+  const auto found = std::find(known.begin(), known.end(), normal_name(name));
+  if (found == known.end()) return std::nullopt;
+  return int(found - known.begin());
+}
+
+Mask arkit_faps(const ArkitChannels& channels) {
+  Mask mask;
+  for (std::size_t channel = 0; channel < kArkitChannelCount; ++channel) {
+    if (!channels[channel]) continue;
+    for (const ArkitWeight& weight : weights()[channel]) mask.set(std::size_t(weight.fap));
+  }
+  return mask;
+}
+
+Frame arkit_to_fap(const ArkitFrame& frame, const ArkitChannels& channels) {
+  const Mask eyeballs = eyeballs_of_shapes(channels);
+  std::array<double, kFapCount + 1> sum{};
+  for (std::size_t channel = 0; channel < kArkitChannelCount; ++channel) {
+    if (!channels[channel] || !std::isfinite(frame[channel])) continue;
+    const bool angle = channel >= kArkitShapeCount;
+    for (const ArkitWeight& weight : weights()[channel]) {
+      const std::size_t fap = std::size_t(weight.fap);
+      if (angle && eyeballs[fap]) continue;
+      sum[fap] += frame[channel] * weight.value;
+    }
+  }
+  Frame out;
+  out.mask = arkit_faps(channels);
+  for (int fap = kFirstLowLevel; fap <= kFapCount; ++fap) {
+    if (out.mask[std::size_t(fap)])
+      out.value[std::size_t(fap)] = clipped(sum[std::size_t(fap)], fap);
+  }
+  keep_lids_apart(out, 19, 21);
+  keep_lids_apart(out, 20, 22);
+  return out;
+}
+
+}  // namespace animeme::fap

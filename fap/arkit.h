@@ -1,0 +1,67 @@
+// From ARKit blend shapes, as phones capture faces, to FAPs.
+//
+//     animeme::fap::ArkitFrame weights{};               // all shapes at rest
+//     weights[*animeme::fap::find_arkit("jawOpen")] = 0.4;
+//     animeme::fap::Frame frame = animeme::fap::arkit_to_fap(weights, animeme::fap::kAllArkit);
+//
+// A weight moves a whole shape, a FAP one point of the face: jawOpen alone moves the chin, the
+// lower lip, its corners and more. The map is linear, weight times the FAPs of the full shape,
+// summed over the shapes. What the FAPs of each shape are was measured on the head model
+// ICT-FaceKit (University of Southern California, MIT licence), which has ARKit's shapes: how far
+// each feature point moves along the axis of its FAP, in units of that face (users_ask_for,
+// section 2). See arkit_table.cpp for the numbers and what is not from there.
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <optional>
+#include <string_view>
+
+#include "fap/frame.h"
+
+namespace animeme::fap {
+
+inline constexpr int kArkitShapeCount = 52;    ///< blend shapes, weights from 0 to 1
+inline constexpr int kArkitChannelCount = 61;  ///< and nine angles of head and eyes, in radians
+
+/// ARKit's spelling ("eyeBlinkLeft", "jawOpen"; left is the person's left), the columns of Live
+/// Link Face in their order: 52 shapes, then headYaw, headPitch, headRoll, leftEyeYaw,
+/// leftEyePitch, leftEyeRoll and those of the right eye.
+extern const std::array<std::string_view, kArkitChannelCount> kArkitNames;
+
+/// Channel (0..60) of a name. Upper and lower case are the same ("EyeBlinkLeft"), and so are the
+/// endings _L and Left, _R and Right ("eyeBlink_L"). Nothing if unknown.
+std::optional<int> find_arkit(std::string_view name);
+
+/// One instant, by channel: weights of shapes, 1 is the full shape (trackers go a little beyond,
+/// which is taken as it is), and angles in radians. Positive angles as Live Link Face has them:
+/// yaw to the person's right, pitch down, roll towards the person's left shoulder.
+using ArkitFrame = std::array<double, kArkitChannelCount>;
+
+/// Which channels a source has.
+using ArkitChannels = std::bitset<kArkitChannelCount>;
+inline constexpr ArkitChannels kAllArkit{(1ULL << kArkitChannelCount) - 1};
+
+/// The FAPs that the channels reach: the mask of their frames. All but viseme, expression, eyeball
+/// depth, pupils, most of the tongue and the ears can be reached.
+Mask arkit_faps(const ArkitChannels& channels);
+
+/// The FAPs of one instant, with arkit_faps(channels) as mask and number 0. Channels outside
+/// `channels` and values that are not finite count as 0. Values are rounded to the nearest unit.
+///
+/// - Eyelids (FAP 19 to 22): eyeBlink at 1 lets the lids meet, that is 1024 units for both
+///   together (IRISD is the opening). Where further shapes would push them past each other, the
+///   upper lid stops at the lower one. This is the only part that is not linear.
+/// - Eyeballs (FAP 23 to 26) turn by eyeLookIn, Out and Down (35 degrees at 1) and Up (23 degrees).
+///   The angles of the eyes are used only for an eye and axis of which `channels` has no such
+///   shape: in recordings with both, the angles of the two eyes diverge by 3.7 degrees where the
+///   shapes converge by as much, so they are not those of a gaze. Eye roll has no FAP.
+/// - Head (FAP 48 to 50): pitch is that of Live Link Face; yaw and roll change their sign, since
+///   FAPs turn to the left and tilt to the right.
+/// - tongueOut is FAP 45, 1024 at 1: one mouth width.
+/// - FAP 3 and 14 go below 0 (pressed lips raise the chin, an open jaw swings back), and FAP 18
+///   follows the jaw: all FAPs are where their feature point is.
+/// - Values that an FBA stream cannot carry at fap_quant 1 are clipped: +-1860 quantiser steps.
+Frame arkit_to_fap(const ArkitFrame& frame, const ArkitChannels& channels);
+
+}  // namespace animeme::fap

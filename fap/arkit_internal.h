@@ -1,0 +1,24 @@
+// The numbers behind arkit.h. Not installed.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace animeme::fap::internal {
+
+/// What a channel at 1 (shapes) or 1 rad (angles) does to one FAP, in FAP units.
+struct ArkitWeight {
+  int fap;
+  std::int32_t value;
+};
+
+struct ArkitShape {
+  std::string_view name;
+  std::span<const ArkitWeight> weights;
+};
+
+/// All channels that do anything, but shapes of the right side: they mirror the left ones.
+std::span<const ArkitShape> arkit_shapes();
+
+}  // namespace animeme::fap::internal

@@ -1,0 +1,208 @@
+// LiveEncoder: one frame in, one unit out.
+#include "codec/live.h"
+
+#include <gtest/gtest.h>
+
+#include "codec/decoder.h"
+#include "tests/support/random_clip.h"
+
+namespace animeme {
+namespace {
+
+struct Sent {
+  std::vector<std::vector<std::uint8_t>> units;
+  std::vector<bool> intra;
+  std::vector<fap::Frame> frames;
+};
+
+Sent send(const fap::Sequence& clip, const fba::LiveOptions& options) {
+  Sent sent;
+  fba::LiveEncoder encoder(options);
+  for (const fap::Frame& frame : clip.frames) {
+    auto unit = encoder.write(frame);
+    EXPECT_TRUE(unit) << unit.error().describe();
+    if (!unit) return sent;
+    sent.units.push_back(*unit);
+    sent.intra.push_back(encoder.intra());
+    sent.frames.push_back(encoder.reconstruction());
+  }
+  sent.units.push_back(encoder.finish());
+  return sent;
+}
+
+std::vector<std::uint8_t> join(const Sent& sent, std::size_t from) {
+  std::vector<std::uint8_t> stream;
+  for (std::size_t i = from; i < sent.units.size(); ++i) {
+    stream.insert(stream.end(), sent.units[i].begin(), sent.units[i].end());
+  }
+  return stream;
+}
+
+void expect_decodes(const Sent& sent, std::size_t from) {
+  auto decoded = fba::decode(join(sent, from));
+  ASSERT_TRUE(decoded) << decoded.error().describe();
+  ASSERT_EQ(decoded->planes.size(), sent.frames.size() - from);
+  for (std::size_t i = 0; i < decoded->planes.size(); ++i) {
+    ASSERT_EQ(decoded->planes[i].face.value, sent.frames[from + i].value) << "unit " << from + i;
+    ASSERT_EQ(decoded->planes[i].face.mask, sent.frames[from + i].mask);
+  }
+  EXPECT_EQ(decoded->rate, (fap::Rate{25, 1}));
+}
+
+fap::Sequence calm_clip(int frames) {
+  test::Random random(9);
+  fap::Sequence clip;
+  fap::Frame frame;
+  for (int i = 0; i < frames; ++i) {
+    frame.number = i;
+    for (const int fap : {3, 4, 5, 48}) {
+      frame.set(fap, frame.value[std::size_t(fap)] + random.range(-30, 30));
+    }
+    clip.frames.push_back(frame);
+  }
+  return clip;
+}
+
+class Live : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(Live, ReceiversCanJoinAtEveryIntraPlane) {
+  const fap::Sequence clip = test::random_clip(GetParam(), 60);
+  fba::LiveOptions options;
+  options.fap_quant = 1 + int(GetParam() % 4);
+  options.intra_period = 12;
+  const Sent sent = send(clip, options);
+  ASSERT_EQ(sent.frames.size(), clip.frames.size());
+  int joined = 0;
+  for (std::size_t i = 0; i < sent.intra.size(); ++i) {
+    if (!sent.intra[i]) continue;
+    expect_decodes(sent, i);
+    ++joined;
+  }
+  EXPECT_GE(joined, 5);
+}
+
+TEST_P(Live, ValuesAreWithinHalfAStep) {
+  const fap::Sequence clip = test::random_clip(GetParam(), 40);
+  const Sent sent = send(clip, {});
+  ASSERT_EQ(sent.frames.size(), clip.frames.size());
+  fap::Frame held;
+  for (std::size_t i = 0; i < sent.frames.size(); ++i) {
+    for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+      if (clip.frames[i].mask[fap]) held.value[fap] = clip.frames[i].value[fap];
+      if (!sent.frames[i].mask[fap]) continue;
+      EXPECT_LE(std::abs(held.value[fap] - sent.frames[i].value[fap]),
+                fap::info(int(fap)).quant_step / 2);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, Live, testing::Range<std::uint64_t>(1, 9));
+
+TEST(LiveEncoder, IntraPlanesComeInTime) {
+  const Sent sent = send(calm_clip(101), {.intra_period = 25});
+  for (std::size_t i = 0; i < sent.intra.size(); ++i) EXPECT_EQ(sent.intra[i], i % 25 == 0) << i;
+}
+
+TEST(LiveEncoder, RangesAdaptToTheMotion) {
+  const fap::Sequence clip = calm_clip(200);
+  const Sent sent = send(clip, {.intra_period = 50});
+  auto decoded = fba::decode(join(sent, 0));
+  ASSERT_TRUE(decoded);
+  const auto range = [&](std::size_t plane) {
+    return int(decoded->planes[plane].face_settings->range[fba::kPredictiveMax][4]);
+  };
+  EXPECT_GT(range(0), range(150));
+  EXPECT_EQ(range(150), 1);
+}
+
+TEST(LiveEncoder, ALargeChangeBringsAnIntraPlane) {
+  fap::Sequence clip = calm_clip(120);
+  clip.frames[110].value[5] = 3000;
+  const Sent sent = send(clip, {.intra_period = 0});
+  EXPECT_TRUE(sent.intra[110]);
+  EXPECT_FALSE(sent.intra[109]);
+  expect_decodes(sent, 0);
+  expect_decodes(sent, 110);
+}
+
+TEST(LiveEncoder, ANewFapBringsAnIntraPlane) {
+  fap::Sequence clip = calm_clip(30);
+  for (std::size_t i = 20; i < 30; ++i) clip.frames[i].set(31, 40);
+  const Sent sent = send(clip, {.intra_period = 0});
+  EXPECT_TRUE(sent.intra[20]);
+  EXPECT_EQ(sent.frames[25].value[31], 40);
+  expect_decodes(sent, 0);
+
+  const Sent fixed = send(clip, {.intra_period = 0, .faps = fap::Mask().set(3).set(4)});
+  EXPECT_FALSE(fixed.intra[20]);
+  EXPECT_EQ(fixed.frames[25].mask, fap::Mask().set(3).set(4));
+}
+
+TEST(LiveEncoder, GivenRangesAreUsed) {
+  fba::PredictiveRanges ranges{};
+  ranges.fill(3);
+  const Sent sent = send(calm_clip(60), {.intra_period = 20, .ranges = ranges});
+  auto decoded = fba::decode(join(sent, 0));
+  ASSERT_TRUE(decoded);
+  for (const fba::Plane& plane : decoded->planes) {
+    EXPECT_EQ(plane.face_settings->range[fba::kPredictiveMax][4], 3);
+    EXPECT_EQ(plane.face_settings->range[fba::kPredictiveMin][4], 3);
+  }
+}
+
+TEST(LiveEncoder, GoesOnAfterAnError) {
+  const fap::Sequence clip = calm_clip(10);
+  fba::LiveEncoder encoder;
+  Sent sent;
+  for (std::size_t i = 0; i < 10; ++i) {
+    fap::Frame frame = clip.frames[i];
+    if (i == 5) {
+      frame.value[5] = 100000;
+      auto refused = encoder.write(frame);
+      ASSERT_FALSE(refused);
+      EXPECT_EQ(refused.error().code, Code::out_of_range);
+    }
+    auto unit = encoder.write(clip.frames[i]);
+    ASSERT_TRUE(unit);
+    sent.units.push_back(*unit);
+    sent.frames.push_back(encoder.reconstruction());
+  }
+  sent.units.push_back(encoder.finish());
+  expect_decodes(sent, 0);
+}
+
+TEST(LiveEncoder, SkipsAndBodies) {
+  fba::LiveEncoder encoder({.intra_period = 10});
+  fba::BodyFrame body;
+  body.mask.set(1);
+  std::vector<std::uint8_t> stream;
+  const fap::Sequence clip = calm_clip(30);
+  for (int i = 0; i < 30; ++i) {
+    body.value[1] = 1000 * i;
+    auto unit =
+        encoder.write(clip.frames[std::size_t(i)], i == 4 ? 20 : 0, i >= 12 ? &body : nullptr);
+    ASSERT_TRUE(unit) << unit.error().describe();
+    stream.insert(stream.end(), unit->begin(), unit->end());
+  }
+  const auto end = encoder.finish();
+  stream.insert(stream.end(), end.begin(), end.end());
+  auto decoded = fba::decode(stream);
+  ASSERT_TRUE(decoded) << decoded.error().describe();
+  ASSERT_EQ(decoded->planes.size(), 30U);
+  EXPECT_EQ(decoded->planes[5].number, 25);
+  EXPECT_FALSE(decoded->planes[11].body);
+  EXPECT_TRUE(decoded->planes[12].intra);
+  ASSERT_TRUE(decoded->planes[29].body);
+  EXPECT_NEAR(decoded->planes[29].body->value[1], 29000, 128);
+}
+
+TEST(LiveEncoder, RefusesOptionsOutOfBounds) {
+  const fap::Frame frame;
+  EXPECT_EQ(fba::LiveEncoder({.fap_quant = 32}).write(frame).error().code, Code::invalid_argument);
+  EXPECT_EQ(fba::LiveEncoder({.intra_period = -1}).write(frame).error().code,
+            Code::invalid_argument);
+  EXPECT_EQ(fba::LiveEncoder({.rate = {10, 3}}).write(frame).error().code, Code::invalid_argument);
+}
+
+}  // namespace
+}  // namespace animeme

@@ -1,0 +1,33 @@
+// How small a clip gets: the form that is common in the wild beside the preset `file`.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fap/frame.h"
+#include "fap/result.h"
+
+namespace animeme::tools {
+
+/// Sizes of one clip, in bits with all headers.
+struct ClipSizes {
+  std::string name;
+  std::size_t planes = 0;
+  double all_bits = 0;       ///< all 66 FAPs coded in ranges of +-1860 at fap_quant 1
+  double file_bits = 0;      ///< preset file, the same values after filling in
+  bool same_values = false;  ///< that they are the same, decoded and filled in
+  double limited_bits = 0;   ///< preset file with a limit of the error
+  int limited_quant = 0;
+  double limited_rms = 0;  ///< FAP units, over the FAPs that move and are no angles
+  double file_ratio() const { return file_bits / all_bits; }
+  double limited_ratio() const { return limited_bits / all_bits; }
+};
+
+/// Codes a clip in the three forms; `max_rms` as in fba::EncodeOptions. Errors: those of encode().
+Result<ClipSizes> measure_sizes(const std::string& name, const fap::Sequence& clip, double max_rms);
+
+/// The command `stats --sizes`: a table, or JSON. Returns the exit code: kCheckFailed if values
+/// are not the same somewhere.
+Result<int> print_sizes(const std::vector<std::string>& files, double max_rms, bool json);
+
+}  // namespace animeme::tools
