@@ -76,7 +76,7 @@ SymbolInterval AdaptiveModel::interval(std::uint32_t k) const {
   const std::uint32_t place = mirrored % kFan;
   std::uint32_t low =
       std::uint32_t(below_[mirrored / kFan2]) + std::uint32_t(below_[kFan + group]) + place;
-  const std::uint8_t* symbols = &excess_[group * kFan];
+  const std::uint8_t* symbols = &excess_[std::size_t(group) * kFan];
   // The bytes before `place` of the sixteen.
   const std::uint64_t first =
       load8(symbols) & (place < 8 ? (std::uint64_t(1) << 8 * place) - 1 : ~0ULL);
@@ -101,19 +101,26 @@ std::uint32_t AdaptiveModel::find(std::uint32_t target, SymbolInterval& interval
     interval = {target, target + 1, n_};
     return n_ - 1 - target;
   }
-  // Most symbols lie near the one before. Nearly always right, so the processor need not wait.
-  std::uint32_t top = last_top_;
-  if (target < std::uint32_t(below_[top]) || target >= std::uint32_t(below_[top + 1])) {
-    top = last_not_above(below_.data(), target);
+  // Most symbols lie near the one before. So look there first: mostly right, so that the processor
+  // need not wait for a search.
+  std::uint32_t group = last_group_;
+  std::uint32_t top = group / kFan;
+  std::uint32_t base = std::uint32_t(below_[top] + below_[kFan + group]);
+  const std::uint32_t above = group % kFan == kFan - 1
+                                  ? std::uint32_t(below_[top + 1])
+                                  : std::uint32_t(below_[top] + below_[kFan + group + 1]);
+  if (target < base || target >= above) {
+    if (target < std::uint32_t(below_[top]) || target >= std::uint32_t(below_[top + 1])) {
+      top = last_not_above(below_.data(), target);
+    }
+    const std::int16_t* sums = &below_[kFan + top * kFan];
+    const std::uint32_t middle = last_not_above(sums, target - std::uint32_t(below_[top]));
+    base = std::uint32_t(below_[top] + sums[middle]);
+    group = top * kFan + middle;
   }
-  std::uint32_t base = std::uint32_t(below_[top]);
-  const std::int16_t* sums = &below_[kFan + top * kFan];
-  const std::uint32_t middle = last_not_above(sums, target - base);
-  base += std::uint32_t(sums[middle]);
-  const std::uint32_t group = top * kFan + middle;
-
-  Eight eight(&excess_[group * kFan]);
-  Eight upper(&excess_[group * kFan + 8]);
+  const std::uint8_t* symbols = &excess_[std::size_t(group) * kFan];
+  Eight eight(symbols);
+  Eight upper(symbols + 8);
   if (may_overflow(group)) {
     for (const Overflow& entry : overflow_) {
       if (entry.symbol / kFan != group) continue;
@@ -148,9 +155,10 @@ void AdaptiveModel::update(std::uint32_t k) {
   if (total_ >= kMaxTotal) halve();
   const std::uint32_t mirrored = n_ - 1 - k;
   const std::uint32_t top = mirrored / kFan2;
-  last_top_ = top;
   if (n_ > kFan2) add_above(below_.data(), top);
-  add_above(&below_[kFan + top * kFan], mirrored / kFan % kFan);
+  const std::uint32_t group = mirrored / kFan;
+  add_above(&below_[kFan + top * kFan], group % kFan);
+  last_group_ = group;
   if (++excess_[mirrored] == 0) carry(mirrored);
   ++total_;
 }
@@ -172,7 +180,7 @@ void AdaptiveModel::build() {
   below_.resize(std::size_t(kFan) * (1 + tops));
   overflow_.clear();
   overflowing_ = 0;
-  last_top_ = 0;
+  last_group_ = 0;
   fresh_ = false;
   sum_up();
 }

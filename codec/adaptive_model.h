@@ -25,10 +25,11 @@ inline SymbolInterval flat_interval(std::uint32_t k, std::uint32_t n) {
 ///
 /// The table holds the mirrored alphabet (higher symbols first, as the interval wants them) in
 /// three levels of sixteen: a byte for each symbol, and running sums over groups of 16 and of 256
-/// symbols. Look-up, search and update are a fixed number of steps without branches that depend
-/// on the data. Only the excess over 1 is counted, so that halving is a shift; what does not fit a
-/// byte overflows into a short list, since a total of 16383 leaves room for 63 such symbols at
-/// most. 3721 symbols (ranges of +-1860, the largest alphabet) take 4.2 kB, with a full list 4.5.
+/// symbols. Look-up and update are a fixed number of steps; a search tries the group of the latest
+/// symbol and takes two steps more if that is wrong. Only the excess over 1 is counted, so that
+/// halving is a shift; what does not fit a byte overflows into a short list, since a total of 16383
+/// leaves room for 63 such symbols at most. 3721 symbols (ranges of +-1860, the largest alphabet)
+/// take 4.2 kB, with a full list 4.5.
 class AdaptiveModel {
  public:
   /// Forgets everything; `n` is 1..3721. The table itself is made when it is first needed, so that
@@ -64,8 +65,8 @@ class AdaptiveModel {
 
   std::uint32_t n_ = 1;
   std::uint32_t total_ = 1;
-  bool fresh_ = true;           // flat, table not built
-  std::uint32_t last_top_ = 0;  // where the latest symbol lies in the top level
+  bool fresh_ = true;             // flat, table not built
+  std::uint32_t last_group_ = 0;  // where the latest symbol lies
   // 16 sums over the 256s, then 16 for each of them over its 16s: the frequencies below each
   // within its parent. Those past the alphabet are larger than any target.
   std::vector<std::int16_t> below_;

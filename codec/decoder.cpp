@@ -258,7 +258,7 @@ struct Decoder::Impl {
 
   Result<bool> read_plane() {
     if (!after_start_code && !parsed.begun()) {
-      const Result<bool> moved = plane_border();
+      Result<bool> moved = plane_border();
       if (!moved) return moved;
       // A warning is told before the plane that it stands in front of.
       if (*moved || !warnings.empty()) return false;
@@ -329,11 +329,19 @@ struct Decoder::Impl {
       position = border;
       phase = Phase::headers;
       return true;
-    } else if ((code >> 8) == 1 && is_stuffing(position, border)) {
+    } else if ((code >> 8) == 1 && is_stuffing(position, border) && !plane_like_the_last()) {
       foreign_code(code, border);
       return true;
     }
     return false;
+  }
+
+  // Stuffing (0, then 1s) can be the beginning of a predictive plane with a body, and zeros in such
+  // a plane the beginning of a start code. Where planes like it came before, it is one more: an
+  // encoder that does not look at its output may write that.
+  bool plane_like_the_last() const {
+    const ObjectMask mask = ObjectMask(BitReader(buffer, position).bits(3) & 3U);
+    return has_body(mask) && mask == last_mask;
   }
 
   // A start code of something else ends the object. Another one may follow.
@@ -365,7 +373,7 @@ struct Decoder::Impl {
   // The plane that was parsed, applied to the state.
   Result<void> fill(Plane& plane) {
     plane.intra = parsed.intra;
-    plane.object_mask = parsed.object_mask;
+    plane.object_mask = last_mask = parsed.object_mask;
     plane.temporal = parsed.temporal;
     plane.start_code = had_start_code;
     plane.bit_begin = stream_bit(plane_begin);
@@ -414,12 +422,13 @@ struct Decoder::Impl {
   std::size_t plane_begin = 0;
   std::size_t plane_end = 0;
   bool had_start_code = false;
+  ObjectMask last_mask = ObjectMask::nothing;  // of the plane before
 };
 
 Decoder::Decoder() : impl_(std::make_unique<Impl>()) {}
 Decoder::Decoder(const Decoder& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
 Decoder& Decoder::operator=(const Decoder& other) {
-  *impl_ = *other.impl_;
+  impl_ = std::make_unique<Impl>(*other.impl_);
   return *this;
 }
 Decoder::Decoder(Decoder&&) noexcept = default;

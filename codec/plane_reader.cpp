@@ -18,7 +18,7 @@ class PlaneParser {
       progress_.bit = in_.position();
     }
     while (progress_.stage != Stage::done) {
-      const Result<void> done = read_stage();
+      Result<void> done = read_stage();
       if (!done) {
         if (done.error().code != Code::need_data) restart();
         return done;

@@ -62,16 +62,14 @@ TEST_P(Damage, EveryCutIsNoticed) {
   // One decoder goes through the stream; a copy of it is told at each cut that this was all.
   fba::Decoder decoder;
   Outcome until_here;
-  const std::size_t step = step_of(stream_.size(), 150);
+  const std::size_t step = step_of(stream_.size(), 100);
   for (std::size_t size = 0; size < stream_.size(); ++size) {
     if (size > 0) decoder.push(std::span(stream_).subspan(size - 1, 1));
     pull(decoder, size, until_here);
     ASSERT_EQ(until_here.errors, 0U);
-    if (until_here.ended) {  // one case has bytes behind its end code
-      ASSERT_GE(size, 4U);
-      ASSERT_EQ(stream_[size - 1], fba::kSequenceEnd & 0xFF) << "ended at byte " << size;
-      ASSERT_EQ(stream_[size - 2], 1);
-      return;
+    if (until_here.ended) {
+      ASSERT_GT(until_here.planes, 0U);
+      break;  // the rest lies behind the end code
     }
     if (size % step != 0 && stream_.size() - size > 8) continue;
     fba::Decoder cut = decoder;
@@ -88,7 +86,7 @@ TEST_P(Damage, EveryCutIsNoticed) {
 
 TEST_P(Damage, EveryFlippedBitEndsInPlanesOrErrors) {
   const std::size_t bits = std::min(stream_.size(), kFlippedBytes) * 8;
-  const std::size_t step = step_of(bits, 40);
+  const std::size_t step = step_of(bits, 30);
   std::size_t noticed = 0;
   for (std::size_t bit = 0; bit < bits; bit += step) {
     const std::uint8_t mask = std::uint8_t(0x80 >> (bit % 8));

@@ -60,7 +60,7 @@ TEST(Hostile, EveryTruncationIsNoticed) {
 TEST(Hostile, EverySingleBitFlipEnds) {
   for (const auto codes : {fba::PlaneStartCodes::none, fba::PlaneStartCodes::all}) {
     auto stream = sample(6, codes);
-    const std::size_t bits = std::min<std::size_t>(stream.size(), 600) * 8;
+    const std::size_t bits = std::min<std::size_t>(stream.size(), 300) * 8;
     for (std::size_t bit = 0; bit < bits; ++bit) {
       stream[bit / 8] ^= std::uint8_t(0x80 >> (bit % 8));
       drain(stream);

@@ -9,14 +9,31 @@
 namespace animeme::tools {
 
 void add_stream_options(CLI::App& app, StreamSettings& settings) {
-  app.add_option("--quant", settings.quant,
-                 "Quantiser fap_quant; 1 is not visible, 0 lossless up to +-1860")
-      ->check(CLI::Range(0, 31))
-      ->capture_default_str();
+  CLI::Option* quant =
+      app.add_option("--quant", settings.quant,
+                     "Quantiser fap_quant; 1 is not visible, 0 lossless up to +-1860")
+          ->check(CLI::Range(0, 31))
+          ->capture_default_str();
+  app.add_option("--rms", settings.rms,
+                 "Fewest bits with at most this error, FAP units RMS; 2 is not visible")
+      ->check(CLI::PositiveNumber)
+      ->excludes(quant);
+  app.add_option("--kbps", settings.kbps, "Smallest error at this rate of the face, kbit/s")
+      ->check(CLI::PositiveNumber)
+      ->excludes(quant);
   app.add_option("--intra-seconds", settings.intra_seconds,
                  "Seconds between points where playing can begin, in containers; 0: one point")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+}
+
+fba::EncodeOptions encode_options(const StreamSettings& settings) {
+  fba::EncodeOptions options;
+  if (settings.rms > 0 || settings.kbps > 0) options = fba::file_options();
+  options.fap_quant = settings.quant;
+  options.max_rms = settings.rms;
+  options.max_bits_per_second = settings.kbps * 1000;
+  return options;
 }
 
 std::string seconds_text(double seconds) {
@@ -27,8 +44,12 @@ std::string seconds_text(double seconds) {
 
 Result<fba::AccessUnits> access_units(const FaceInput& face, const StreamSettings& settings) {
   if (!face.stream.empty()) return fba::split_access_units(face.stream);
-  fba::EncodeOptions options;
-  options.fap_quant = settings.quant;
+  fba::EncodeOptions options = encode_options(settings);
+  // A unit takes a start code and about four bits of stuffing besides its plane.
+  constexpr double kUnitBits = 36;
+  const double unit_rate = kUnitBits * face.clip.rate.frames_per_second();
+  options.max_bits_per_second =
+      std::max(options.max_bits_per_second - unit_rate, options.max_bits_per_second * 0.1);
   const double planes = settings.intra_seconds * face.clip.rate.frames_per_second();
   options.intra_period = int(std::lround(std::min(planes, 1e9)));
   Result<std::vector<std::uint8_t>> stream = fba::encode(face.clip, options);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "codec/access_unit.h"
+#include "codec/encode.h"
 #include "tools/commands/common.h"
 #include "tools/media/pcm.h"
 
@@ -12,11 +13,17 @@ namespace animeme::tools {
 /// How a face is coded for a container.
 struct StreamSettings {
   int quant = 1;
+  double rms = 0;            ///< > 0: fewest bits at this error, see fba::EncodeOptions::max_rms
+  double kbps = 0;           ///< > 0: smallest error at this rate
   double intra_seconds = 5;  ///< random access points of containers; raw streams have one
 };
 
-/// Adds --quant and --intra-seconds.
+/// Adds --quant, --rms, --kbps and --intra-seconds.
 void add_stream_options(CLI::App& app, StreamSettings& settings);
+
+/// The options for a raw stream: one intra plane. With a limit of error or rate, those of preset
+/// `file`; else every FAP of the clip is coded.
+fba::EncodeOptions encode_options(const StreamSettings& settings);
 
 /// "1.25 s".
 std::string seconds_text(double seconds);

@@ -77,13 +77,14 @@ Result<int> write_result(const Options& options, const fap::Sequence& clip, cons
     return kOk;
   }
   if (extension == ".fba") {
-    fba::EncodeOptions encode;
-    encode.fap_quant = options.stream.quant;
-    Result<std::vector<std::uint8_t>> stream = fba::encode(clip, encode);
+    Result<std::vector<std::uint8_t>> stream = fba::encode(clip, encode_options(options.stream));
     if (!stream) return stream.error();
     if (auto done = write_file(options.output, *stream); !done) return done.error();
+    char rate[40];
+    std::snprintf(rate, sizeof rate, "%.2f kbit/s",
+                  double(stream->size()) * 8e-3 / clip.duration());
     say(options.output + ": " + std::to_string(clip.frames.size()) + " planes, " +
-        std::to_string(stream->size()) + " bytes, " + seconds_text(clip.duration()));
+        std::to_string(stream->size()) + " bytes, " + seconds_text(clip.duration()) + ", " + rate);
     return kOk;
   }
   Result<fba::AccessUnits> units = access_units({clip, {}}, options.stream);
