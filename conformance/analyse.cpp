@@ -191,9 +191,16 @@ class Collector {
   // Writes the planes again and looks at what the coder went through.
   void rewrite() {
     StreamWriter writer(object_code_);
+    std::vector<std::size_t> begins;
     for (const PlaneSpec& spec : specs_) {
       alphabets(writer, spec);
-      writer.write(spec);
+      const Expected written = writer.write(spec);
+      if (spec.start_code == StartCode::none) begins.push_back(written.bit_begin);
+    }
+    for (const std::size_t begin : begins) {
+      if (facts_.ambiguous_bit < 0 && looks_like_the_end(writer.bits().bit, begin)) {
+        facts_.ambiguous_bit = object_bit_ + std::int64_t(begin);
+      }
     }
     const CoderTrace& trace = writer.trace();
     const std::vector<std::uint8_t>& bit = writer.bits().bit;

@@ -24,6 +24,8 @@ struct StreamFacts {
   /// The second writer gives the same bits for all planes; else where they differ first.
   bool same_when_rewritten = false;
   std::int64_t first_difference_bit = -1;
+  /// First plane that looks like the end of the object, see stream_writer.h; -1: none.
+  std::int64_t ambiguous_bit = -1;
 };
 StreamFacts analyse(std::span<const std::uint8_t> bytes, const fba::DecodedStream& decoded);
 

@@ -85,7 +85,7 @@ void CaseBuilder::set_expression(PlaneSpec& plane, int select1, int intensity1, 
   plane.expression_def = def;
 }
 
-void CaseBuilder::add(PlaneSpec plane, Levels levels) {
+void CaseBuilder::draw_levels(PlaneSpec& plane, Levels levels) {
   if (fba::has_face(plane.object_mask)) {
     const fap::Mask& mask = plane.intra ? plane.face.mask : writer_.face_settings().mask;
     const int blend = writer_.high_range(plane, kBlend);
@@ -107,7 +107,20 @@ void CaseBuilder::add(PlaneSpec plane, Levels levels) {
       if (mask[bap]) plane.bap[bap] = draw(random_, writer_.bap_range(plane, bap), levels, spread);
     }
   }
-  add_exact(plane);
+}
+
+void CaseBuilder::add(const PlaneSpec& plane, Levels levels) {
+  constexpr int kTries = 50;
+  PlaneSpec drawn;
+  for (int turn = 0; turn < kTries; ++turn) {
+    drawn = plane;
+    draw_levels(drawn, levels);
+    if (plane.start_code != StartCode::none) break;
+    StreamWriter probe = writer_;
+    const Expected written = probe.write(drawn);
+    if (!looks_like_the_end(probe.bits().bit, written.bit_begin)) break;
+  }
+  add_exact(drawn);
 }
 
 void CaseBuilder::add_exact(const PlaneSpec& plane) {

@@ -38,8 +38,9 @@ class CaseBuilder {
   /// Widest step of Levels::random.
   int spread = 40;
 
-  /// Draws the levels and writes the plane.
-  void add(PlaneSpec plane, Levels levels = Levels::random);
+  /// Draws the levels and writes the plane; draws again where it would look like the end of the
+  /// object.
+  void add(const PlaneSpec& plane, Levels levels = Levels::random);
   /// Writes a plane whose levels are set. For FAP 1 and 2 see set_viseme(), set_expression().
   void add_exact(const PlaneSpec& plane);
   /// An intra plane with a face and `predictive` planes behind it.
@@ -67,6 +68,7 @@ class CaseBuilder {
   const std::vector<Expected>& expected() const { return expected_; }
 
  private:
+  void draw_levels(PlaneSpec& plane, Levels levels);
   MadeCase start(std::vector<std::uint8_t> bytes) const;
   void add_text(MadeCase& made, const char* face_role, const char* body_role,
                 const std::vector<int>& which) const;

@@ -121,6 +121,10 @@ Result<void> describe(MadeCase& made) {
       return wrong("the second encoder differs at bit " +
                    std::to_string(facts.first_difference_bit));
     }
+    if (facts.ambiguous_bit >= 0) {
+      return wrong("the plane at bit " + std::to_string(facts.ambiguous_bit) +
+                   " can be taken for the end of the object");
+    }
     set_switches(bytes_of(found->second), trial.stream, info);
     if (auto ok = check_encoder(made); !ok) return ok;
   }

@@ -89,6 +89,14 @@ int high_limit(const fba::FaceSettings& settings, int which) {
 
 }  // namespace
 
+bool looks_like_the_end(const std::vector<std::uint8_t>& bit, std::size_t plane_begin) {
+  const std::size_t border = (plane_begin / 8 + 1) * 8;
+  for (std::size_t k = border; k < border + 23; ++k) {
+    if (k >= bit.size() || bit[k] != 0) return false;
+  }
+  return true;
+}
+
 StreamWriter::StreamWriter(std::uint32_t object_code) {
   bits_.put(object_code, 32);
   for (auto* family : {&face_, &body_}) {

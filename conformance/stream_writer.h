@@ -65,6 +65,11 @@ struct Expected {
   std::size_t bit_begin = 0, bit_end = 0;  ///< the plane from its header on
 };
 
+/// True if 23 zeros stand where the next start code would be if the object ended before this plane:
+/// a decoder then takes it for the end (fba_bitstream, section 1), and an encoder must not write
+/// it. Planes behind a plane start code cannot be mistaken. `bit` holds the stream.
+bool looks_like_the_end(const std::vector<std::uint8_t>& bit, std::size_t plane_begin);
+
 /// Writes planes behind an object start code.
 class StreamWriter {
  public:
