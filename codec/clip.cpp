@@ -2,6 +2,7 @@
 #include <string>
 
 #include "codec/clip_internal.h"
+#include "codec/state_internal.h"
 
 namespace animeme::fba::internal {
 
@@ -29,6 +30,20 @@ std::vector<std::int64_t> merge_numbers(const fap::Sequence& face,
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   return numbers;
+}
+
+// A plane says how many frames are skipped behind it. Numbers may be any, so differences are taken
+// without a sign.
+Result<void> check_gaps(const std::vector<std::int64_t>& numbers) {
+  for (std::size_t i = 1; i < numbers.size(); ++i) {
+    if (std::uint64_t(numbers[i]) - std::uint64_t(numbers[i - 1]) <= kMaxSkip + 1) continue;
+    return make_error(Code::invalid_argument,
+                      "frame " + std::to_string(numbers[i]) + " follows frame " +
+                          std::to_string(numbers[i - 1]) +
+                          ": more than a million frames in a row cannot be skipped; put frames "
+                          "in between");
+  }
+  return {};
 }
 
 // The row of one parameter: the values of the frames that have it, held in between.
@@ -65,6 +80,8 @@ void gather_high_level(const fap::Sequence& face, ClipData& clip) {
   fap::Expression expression;
   std::size_t next = 0;
   for (std::size_t plane = 0; plane < clip.planes(); ++plane) {
+    // What a frame defines or initialises is no state: it happens once.
+    viseme.def = expression.def = expression.init_face = false;
     if (next < face.frames.size() && face.frames[next].number == clip.number[plane]) {
       if (face.frames[next].mask[1]) viseme = face.frames[next].viseme;
       if (face.frames[next].mask[2]) expression = face.frames[next].expression;
@@ -133,6 +150,7 @@ Result<ClipData> gather(const fap::Sequence& face, std::span<const BodyFrame> bo
   clip.has_face = !face.frames.empty();
   clip.has_body = !body.empty();
   clip.number = merge_numbers(face, body);
+  if (auto ok = check_gaps(clip.number); !ok) return ok.error();
   gather_high_level(face, clip);
   gather_face(face, clip);
   gather_body(body, clip);

@@ -1,6 +1,8 @@
 // A clip as an encoder sees it: one row of values for each parameter. Not installed API.
 #pragma once
 
+#include <algorithm>
+#include <bitset>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -61,6 +63,16 @@ inline int range_number(std::int64_t level, int scale) {
 inline void guard_fap4(FaceSettings& settings) {
   const bool zero = settings.range[kIntraMax][4] == 0 && settings.range[kIntraMin][4] == 0;
   if (settings.mask[4] && zero) settings.range[kIntraMax][4] = 1;
+}
+
+/// If the last group of the body codes its first member alone, the 21 zeros of its mask, a gender
+/// and a coding type of 0, and the 1 behind them are a false start code. Its last member is then
+/// coded too, at 0.
+inline void guard_last_group(std::bitset<kBapCount + 1>& mask) {
+  const auto group = std::span(kBapOrder).last(kBodyGroupSizes.back());
+  const auto coded =
+      std::count_if(group.begin(), group.end(), [&](int bap) { return mask[std::size_t(bap)]; });
+  if (coded == 1 && mask[group.front()]) mask.set(group.back());
 }
 
 /// What the plain quantiser makes of a row: levels of the reconstruction, that is values divided

@@ -19,7 +19,7 @@ using internal::Role;
 using internal::Row;
 using internal::Run;
 
-constexpr std::size_t kMaxDetours = 40;  // plans tried to avoid a trap
+constexpr std::size_t kMaxRetries = 40;  // plans tried to avoid traps
 
 Result<void> check(const EncodeOptions& options) {
   const auto invalid = [](const char* message) {
@@ -58,7 +58,9 @@ class Writer {
     }
   }
 
+  // Notes where each plane ends.
   Result<void> write(const std::vector<Run>& runs, Encoder& encoder) {
+    ends_.clear();
     for (const Run& run : runs) {
       for (std::size_t plane = run.first; plane < run.first + run.count; ++plane) {
         if (auto ok = encoder.write(input(run, plane)); !ok) {
@@ -66,9 +68,16 @@ class Writer {
           error.message = "frame " + std::to_string(clip_.number[plane]) + ": " + error.message;
           return error;
         }
+        ends_.push_back(encoder.bits());
       }
     }
     return {};
+  }
+
+  // The plane that holds a bit.
+  std::size_t plane_at(std::int64_t bit) const {
+    const auto end = std::upper_bound(ends_.begin(), ends_.end(), bit);
+    return std::min(std::size_t(end - ends_.begin()), ends_.size() - 1);
   }
 
   // Reconstructed values of a plane.
@@ -108,6 +117,7 @@ class Writer {
   const ClipData& clip_;
   const Decision& decision_;
   std::vector<std::int32_t> steps_;
+  std::vector<std::int64_t> ends_;
   fap::Frame face_;
   BodyFrame body_;
 };
@@ -115,6 +125,25 @@ class Writer {
 Error verify_error(std::int64_t number, const std::string& what) {
   return make_error(Code::internal, "the stream does not decode to what was coded: frame " +
                                         std::to_string(number) + ", " + what);
+}
+
+// FAP 1 and 2 as given; what has a scale within half a quantiser step.
+bool high_level_agrees(const fap::Frame& got, const fap::Frame& want, const ClipData& clip,
+                       const Decision& decision) {
+  if (got.mask[1] != clip.has_viseme || got.mask[2] != clip.has_expression) return false;
+  const auto near = [&](std::int32_t& value, std::int32_t other) {
+    const bool is = std::abs(value - other) <= fap_scale(decision.fap_quant) / 2;
+    value = other;
+    return is;
+  };
+  fap::Viseme viseme = got.viseme;
+  fap::Expression expression = got.expression;
+  if (clip.has_viseme && (!near(viseme.blend, want.viseme.blend) || viseme != want.viseme)) {
+    return false;
+  }
+  return !clip.has_expression ||
+         (near(expression.intensity1, want.expression.intensity1) &&
+          near(expression.intensity2, want.expression.intensity2) && expression == want.expression);
 }
 
 // Decodes the stream and compares every coded value.
@@ -133,6 +162,9 @@ Result<void> verify(const std::vector<std::uint8_t>& stream, const ClipData& cli
     expected.load(plane);
     if (event->plane.number != number - clip.number.front()) {
       return verify_error(number, "its number");
+    }
+    if (!high_level_agrees(event->plane.face, expected.face(), clip, decision)) {
+      return verify_error(number, "FAP 1 or 2");
     }
     for (std::size_t i = 0; i < clip.channels.size(); ++i) {
       const Channel& channel = clip.channels[i];
@@ -158,27 +190,31 @@ struct Written {
   std::vector<std::uint8_t> stream;
   std::size_t intra_planes = 0;
   std::size_t retries = 0;
+  std::size_t traps = 0;
 };
 
-// Plans, writes and checks; plans anew if the bits happen to hold a trap.
+// Plans, writes and checks; plans anew if the bits happen to hold traps.
 Result<Written> write(const ClipData& clip, const Decision& decision,
                       const EncodeOptions& options) {
   Written out;
-  internal::PlanOptions plan{options.intra_period, options.extra_intra, 0};
+  internal::PlanOptions plan{options.intra_period, options.extra_intra, {}};
+  Writer writer(clip, decision);
   for (;;) {
     Result<std::vector<Run>> runs = plan_runs(clip, decision, plan);
     if (!runs) return runs.error();
     Encoder encoder(options.stream);
-    if (auto ok = Writer(clip, decision).write(*runs, encoder); !ok) return ok.error();
+    if (auto ok = writer.write(*runs, encoder); !ok) return ok.error();
     encoder.end();
     out.intra_planes = runs->size();
-    if (encoder.trap() && plan.detour < kMaxDetours) {
-      ++plan.detour;
-      ++out.retries;
-      continue;
+    const std::vector<std::int64_t> traps = encoder.trap_bits();
+    out.traps = traps.size();
+    if (traps.empty() || out.retries == kMaxRetries) {
+      out.stream = encoder.take();
+      break;
     }
-    out.stream = encoder.take();
-    break;
+    for (const std::int64_t bit : traps) plan.trapped.push_back(writer.plane_at(bit));
+    std::sort(plan.trapped.begin(), plan.trapped.end());
+    ++out.retries;
   }
   if (options.verify) {
     if (auto ok = verify(out.stream, clip, decision); !ok) return ok.error();
@@ -241,6 +277,7 @@ Result<Written> attempt(const ClipData& clip, const EncodeOptions& options, doub
   report.skipped = clip.planes() - report.planes;
   report.intra_planes = written->intra_planes;
   report.retries = written->retries;
+  report.traps = written->traps;
   return written;
 }
 
@@ -268,7 +305,7 @@ Result<std::vector<std::uint8_t>> encode(const fap::Sequence& face, const Encode
   double budget = target;
   for (int i = 0; i < 4 && written && target > 0; ++i) {
     const double excess = double(written->stream.size()) * 8 - target;
-    if (excess <= 0 || budget <= excess) break;
+    if (excess <= 0 || budget <= excess + 0.002 * target) break;
     budget -= excess + 0.002 * target;
     written = attempt(*clip, options, budget, chosen);
   }

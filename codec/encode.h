@@ -69,6 +69,8 @@ struct EncodeReport {
   double rms = 0;            ///< error of the moving FAPs that are no angles, FAP units
   double rms_other = 0;      ///< error of moving angles and BAPs, half quantiser steps
   std::size_t retries = 0;   ///< how often the ranges were changed to avoid a trap (Encoder::trap)
+  /// Traps that could not be avoided: 0 unless FAP 1 and 2 alone make them, which no range changes.
+  std::size_t traps = 0;
 };
 
 /// Codes a clip of a face, a body, or both. FAPs and BAPs that a frame leaves out keep their last
@@ -78,13 +80,14 @@ struct EncodeReport {
 /// The stream begins with an intra plane; there is another one every `intra_period` planes and
 /// wherever a change is too large for a predictive plane. Every intra plane sends all masks,
 /// ranges and the rate, so decoding can start there. The stream holds neither false start codes
-/// nor zero runs that mislead old decoders.
+/// nor zero runs that mislead old decoders, but see EncodeReport::traps.
 ///
 /// `face` may be empty if `body` is not; its rate is that of the stream. Errors: invalid_argument
-/// (no frames, numbers that do not ascend, options out of bounds), unsupported (a rate that the
-/// format cannot express: use k/16 frames per second up to 255 15/16, or those times 1000/1001),
-/// out_of_range (a value beyond 1860 quantiser steps, or a viseme or expression out of its bounds;
-/// the message names parameter and frame), internal (verify failed).
+/// (no frames, numbers that do not ascend or leave out more than a million frames, options out of
+/// bounds), unsupported (a rate that the format cannot express: use k/16 frames per second up to
+/// 255 15/16, or those times 1000/1001), out_of_range (a value beyond 1860 quantiser steps, or a
+/// viseme or expression out of its bounds; the message names parameter and frame), internal
+/// (verify failed).
 Result<std::vector<std::uint8_t>> encode(const fap::Sequence& face, const EncodeOptions& = {},
                                          std::span<const BodyFrame> body = {},
                                          EncodeReport* report = nullptr);

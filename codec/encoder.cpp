@@ -38,6 +38,13 @@ Error value_error(const char* what, int number, std::int64_t value, std::int64_t
                                             " in force; widen the range or code an intra plane");
 }
 
+Error too_large_error(const char* what, int number, std::int64_t value) {
+  return make_error(Code::out_of_range,
+                    std::string(what) + " " + std::to_string(number) + " = " +
+                        std::to_string(value) +
+                        " would be rounded to a number of more than 32 bits; use a smaller value");
+}
+
 template <class Values>
 Result<void> quantise_slots(const SlotState& state, const SlotCoding& coding, bool intra,
                             const Values& values, const char* what, SlotLevels& out) {
@@ -53,8 +60,10 @@ Result<void> quantise_slots(const SlotState& state, const SlotCoding& coding, bo
     const std::int64_t low = coding.lowest_level(intra, slot);
     const std::int64_t high = coding.highest_level(intra, slot);
     if (level < low || level > high) return value_error(what, number, value, level, low, high);
+    const std::int64_t rec = base + level * step;
+    if (rec != std::int32_t(rec)) return too_large_error(what, number, value);
     out.level[i] = std::int32_t(level);
-    out.rec[i] = std::int32_t(base + level * step);
+    out.rec[i] = std::int32_t(rec);
   }
   return {};
 }
@@ -362,12 +371,20 @@ void Encoder::end_unit() {
 }
 
 std::optional<std::string> Encoder::trap() const {
-  const auto trap = internal::find_trap(impl_->out.bytes(), impl_->trace);
-  if (!trap) return std::nullopt;
-  return (trap->kind == internal::Trap::Kind::start_code
+  const auto traps = internal::find_traps(impl_->out.bytes(), impl_->trace);
+  if (traps.empty()) return std::nullopt;
+  return (traps.front().kind == internal::Trap::Kind::start_code
               ? "the bits of a plane look like a start code at bit "
               : "22 zeros reach past a segment at bit ") +
-         std::to_string(impl_->taken_bits + std::int64_t(trap->bit));
+         std::to_string(impl_->taken_bits + std::int64_t(traps.front().bit));
+}
+
+std::vector<std::int64_t> Encoder::trap_bits() const {
+  std::vector<std::int64_t> bits;
+  for (const internal::Trap& trap : internal::find_traps(impl_->out.bytes(), impl_->trace)) {
+    bits.push_back(impl_->taken_bits + std::int64_t(trap.bit));
+  }
+  return bits;
 }
 
 void Encoder::drop() {

@@ -46,7 +46,8 @@ class Encoder {
   ///   invalid_argument  settings out of bounds (quantiser 0..31, ranges 0..31, masks that do not
   ///                     agree with their types, intra settings missing), or a predictive plane
   ///                     before the first intra plane of its kind
-  ///   out_of_range      a value's level does not fit the range in force; the message names it
+  ///   out_of_range      a value's level does not fit the range in force, or its reconstruction
+  ///                     32 bits; the message names it
   Result<void> write(const PlaneInput& plane);
 
   /// The values that a decoder has after the last plane (quantised), mask = what was coded.
@@ -73,6 +74,8 @@ class Encoder {
   /// which the reference decoder loses its place. Call it behind end_unit() or end(). Source:
   /// fba_bitstream, section 17.
   std::optional<std::string> trap() const;
+  /// Where all of them are, ascending, on the scale of bits().
+  std::vector<std::int64_t> trap_bits() const;
   /// Forgets the bytes not taken yet (which have to begin where a unit ended, or the stream). The
   /// next plane has to be intra and to send all four range sets.
   void drop();

@@ -41,15 +41,18 @@ class Activity {
   std::array<std::int64_t, kSize> before_{};
 };
 
+// The tightest range, and `wider` more on its upper side, or its lower one where that is full.
 template <class Settings>
-void set_intra_range(Settings& settings, std::size_t number, std::int64_t value, std::int64_t step,
-                     int scale) {
-  const std::int64_t level = internal::quantise(value, step);
+void set_intra_range(Settings& settings, std::size_t number, std::int64_t level, int scale,
+                     int wider) {
   const auto reach = [&](std::int64_t most) {
-    return std::uint8_t(std::min(range_number(std::max<std::int64_t>(most, 0), scale), kMaxRange));
+    return std::min(range_number(std::max<std::int64_t>(most, 0), scale), kMaxRange);
   };
-  settings.range[kIntraMax][number] = reach(level);
-  settings.range[kIntraMin][number] = reach(-level);
+  const int up = reach(level);
+  const int down = reach(-level);
+  const int more = std::min(wider, kMaxRange - up);
+  settings.range[kIntraMax][number] = std::uint8_t(up + more);
+  settings.range[kIntraMin][number] = std::uint8_t(std::min(down + wider - more, kMaxRange));
 }
 
 template <class Mask>
@@ -59,26 +62,36 @@ MaskType mask_type(const Mask& mask, std::span<const std::uint16_t> group) {
   return coded == 0 ? MaskType::none : coded == group.size() ? MaskType::all : MaskType::hold;
 }
 
+// What a frame changes, and what is put back if it cannot be coded.
+struct Memory {
+  fap::Frame held;  // what was given, held where frames leave FAPs out
+  BodyFrame held_body;
+  bool has_body = false;
+  Activity<fap::kFapCount + 1> face_activity;
+  Activity<kBapCount + 1> body_activity;
+  bool last_intra = false;
+};
+
+// One plane as receivers have it.
+struct Shown {
+  fap::Frame face;
+  BodyFrame body;
+};
+
 }  // namespace
 
-struct LiveEncoder::Impl {
+struct LiveEncoder::Impl : Memory {
   LiveOptions options;
   std::optional<CodedRate> rate;
   Encoder encoder;
   Decoder decoder;
-  std::deque<fap::Frame> expected;  // written, not yet seen from the decoder
+  std::deque<Shown> expected;  // written, not yet seen from the decoder
+  Shown last;
 
-  fap::Frame held;  // what was given, held where frames leave FAPs out
-  BodyFrame held_body;
-  BodyFrame last_body;  // as receivers have it
-  bool has_body = false;
   FaceSettings face;  // of the intra plane in force
   BodySettings body;
-  Activity<fap::kFapCount + 1> face_activity;
-  Activity<kBapCount + 1> body_activity;
-  int since_intra = -1;  // planes; -1: no intra plane yet
+  std::int64_t since_intra = -1;  // planes; -1: no intra plane yet
   std::int64_t planes = 0;
-  bool last_intra = false;
 
   explicit Impl(const LiveOptions& given)
       : options(given), encoder(StreamOptions{PlaneStartCodes::all, given.old_codes}) {
@@ -105,6 +118,7 @@ struct LiveEncoder::Impl {
     if (options.faps) mask &= *options.faps;
     held.mask |= mask;
     if (options.faps) held.mask = *options.faps;
+    held.mask.reset(0);  // no FAP
     if (mask[1]) held.viseme = frame.viseme;
     if (mask[2]) held.expression = frame.expression;
     if (!mask[1]) held.viseme.def = false;
@@ -115,6 +129,8 @@ struct LiveEncoder::Impl {
     if (given_body == nullptr) return;
     has_body = true;
     held_body.mask |= given_body->mask;
+    held_body.mask.reset(0);
+    internal::guard_last_group(held_body.mask);
     for (std::size_t bap = 1; bap <= std::size_t(kBapCount); ++bap) {
       if (given_body->mask[bap]) held_body.value[bap] = given_body->value[bap];
     }
@@ -132,7 +148,7 @@ struct LiveEncoder::Impl {
 
   // Changes of the held values since the last plane; before it is written.
   void observe() {
-    const fap::Frame& before = encoder.reconstruction();
+    const fap::Frame& before = last.face;
     for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
       if (!before.mask[fap]) continue;
       face_activity.see(fap, internal::quantise(std::int64_t(held.value[fap]) - before.value[fap],
@@ -142,7 +158,7 @@ struct LiveEncoder::Impl {
       const std::size_t bap = kBapOrder[slot];
       if (!body.mask[bap]) continue;
       body_activity.see(
-          bap, internal::quantise(std::int64_t(held_body.value[bap]) - last_body.value[bap],
+          bap, internal::quantise(std::int64_t(held_body.value[bap]) - last.body.value[bap],
                                   body_step(slot)));
     }
   }
@@ -156,8 +172,18 @@ struct LiveEncoder::Impl {
     return std::max(seen, std::uint8_t(std::clamp((levels + 59) / 60, 1, kMaxRange)));
   }
 
+  std::size_t low_level_count() const { return (held.mask >> fap::kFirstLowLevel).count(); }
+
+  // Detours widen intra ranges, of one parameter after the other: that gives other bits. `turn`
+  // counts from the last coded FAP backwards, then on over the BAPs.
+  int wider(std::size_t turn, int detour) const {
+    const std::size_t coded = low_level_count() + (has_body ? held_body.mask.count() : 0);
+    return int((std::size_t(detour) + coded - 1 - turn) / coded);
+  }
+
   void settle_face(int detour) {
     face = {};
+    std::size_t turn = low_level_count();
     face.fap_quant = options.fap_quant;
     face.send_range = {true, true, true, true};
     face.mask = held.mask;
@@ -170,16 +196,20 @@ struct LiveEncoder::Impl {
     }
     for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
       if (!face.mask[fap]) continue;
-      set_intra_range(face, fap, held.value[fap], face_step(fap), fap_scale(options.fap_quant));
-      int range = face_range(fap);
-      if (detour-- > 0) range = range == kMaxRange ? range - 1 : range + 1;
-      face.range[kPredictiveMax][fap] = face.range[kPredictiveMin][fap] = std::uint8_t(range);
+      --turn;
+      set_intra_range(face, fap, internal::quantise(held.value[fap], face_step(fap)),
+                      fap_scale(options.fap_quant), wider(turn, detour));
+      const std::uint8_t range = face_range(fap);
+      face.range[kPredictiveMax][fap] = face.range[kPredictiveMin][fap] = range;
+      // Zeros of the very last range may reach into the values behind it.
+      if (turn == 0 && detour > 0 && range == 0) face.range[kPredictiveMin][fap] = 1;
     }
     internal::guard_fap4(face);
   }
 
-  void settle_body() {
+  void settle_body(int detour) {
     body = {};
+    std::size_t turn = low_level_count();
     body.bap_quant = options.bap_quant;
     body.send_range = {true, true, true, true};
     body.mask = held_body.mask;
@@ -193,7 +223,8 @@ struct LiveEncoder::Impl {
       const std::size_t bap = kBapOrder[slot];
       if (!body.mask[bap]) continue;
       const int scale = bap_scale(options.bap_quant);
-      set_intra_range(body, bap, held_body.value[bap], body_step(slot), scale);
+      set_intra_range(body, bap, internal::quantise(held_body.value[bap], body_step(slot)), scale,
+                      wider(turn++, detour));
       const std::uint8_t range =
           planes >= kWarmUp ? body_activity.range(bap, scale) : std::uint8_t(kMaxRange);
       body.range[kPredictiveMax][bap] = body.range[kPredictiveMin][bap] = range;
@@ -230,7 +261,7 @@ struct LiveEncoder::Impl {
     last_intra = true;
     for (int detour = 0;; ++detour) {
       settle_face(detour);
-      if (has_body) settle_body();
+      if (has_body) settle_body(detour);
       if (auto ok = write_plane(true, skip); !ok) return ok;
       if (!encoder.trap() || detour == kMaxDetours) break;
       encoder.drop();
@@ -243,17 +274,17 @@ struct LiveEncoder::Impl {
   Result<std::vector<std::uint8_t>> write(const fap::Frame& frame, std::uint32_t skip,
                                           const BodyFrame* given_body) {
     if (auto ok = check(); !ok) return ok.error();
-    const auto before = std::make_tuple(held, held_body, has_body);
+    const Memory before = *this;
     take_in(frame, given_body);
     if (since_intra >= 0) observe();
     if (auto ok = write_best(skip); !ok) {
-      std::tie(held, held_body, has_body) = before;
+      static_cast<Memory&>(*this) = before;
       since_intra = -1;  // the plane to come has to be complete in itself
       return ok.error();
     }
     since_intra = last_intra ? 1 : since_intra + 1;
     ++planes;
-    last_body = encoder.body_reconstruction();
+    last = {encoder.reconstruction(), encoder.body_reconstruction()};
     std::vector<std::uint8_t> unit = encoder.take();
     if (options.verify) {
       if (auto ok = verify(unit); !ok) return ok.error();
@@ -261,18 +292,26 @@ struct LiveEncoder::Impl {
     return unit;
   }
 
+  bool agrees(const Plane& plane) const {
+    Shown want = expected.front();
+    want.face.number = plane.face.number;
+    if (plane.face != want.face) return false;
+    if (!plane.body) return want.body.mask.none();
+    want.body.number = plane.body->number;
+    return *plane.body == want.body;
+  }
+
   // The decoder may want to look past a unit before it gives the plane away.
   Result<void> verify(const std::vector<std::uint8_t>& unit) {
-    expected.push_back(encoder.reconstruction());
+    expected.push_back(last);
     decoder.push(unit);
     for (;;) {
       Result<Event> event = decoder.next();
       if (!event && event.error().code == Code::need_data) return {};
       if (event && event->kind == Event::Kind::info) continue;
-      const bool same = event && event->kind == Event::Kind::plane &&
-                        event->plane.face.mask == expected.front().mask &&
-                        event->plane.face.value == expected.front().value;
-      if (!same) return make_error(Code::internal, "a unit does not decode to what was coded");
+      if (!event || event->kind != Event::Kind::plane || !agrees(event->plane)) {
+        return make_error(Code::internal, "a unit does not decode to what was coded");
+      }
       expected.pop_front();
     }
   }
@@ -289,7 +328,7 @@ Result<std::vector<std::uint8_t>> LiveEncoder::write(const fap::Frame& frame, st
 }
 
 std::vector<std::uint8_t> LiveEncoder::finish() { return impl_->encoder.finish(); }
-const fap::Frame& LiveEncoder::reconstruction() const { return impl_->encoder.reconstruction(); }
+const fap::Frame& LiveEncoder::reconstruction() const { return impl_->last.face; }
 bool LiveEncoder::intra() const { return impl_->last_intra; }
 
 }  // namespace animeme::fba

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "codec/code_length_internal.h"
@@ -11,6 +12,8 @@ namespace {
 
 using Planes = std::vector<std::size_t>;  // indices, ascending
 
+constexpr int kTurnsBeforeIntra = 3;  // detours taken for one plane
+
 class Planner {
  public:
   Planner(const ClipData& clip, const Decision& decision, const PlanOptions& options)
@@ -21,6 +24,7 @@ class Planner {
   }
 
   Result<std::vector<Run>> plan() {
+    if (auto ok = check_reach(); !ok) return ok.error();
     Planes begins = due();
     begins = split_where_needed(begins);
     if (options_.extra_intra) begins = split_where_it_pays(begins);
@@ -42,17 +46,30 @@ class Planner {
     return std::span(decision_.rows[i].levels).subspan(first, count);
   }
 
+  // Where other ranges do not help against a trap (there may be no parameter that has any, or all
+  // are as wide as they can be), an intra plane will.
   Planes due() const {
     const std::size_t period =
         options_.intra_period > 0 ? std::size_t(options_.intra_period) : clip_.planes();
     Planes begins;
     for (std::size_t plane = 0; plane < clip_.planes(); plane += period) begins.push_back(plane);
-    // Without parameters that have ranges, the place of an intra plane is all that can be changed.
-    if (options_.detour > 0 && coded_.empty() && clip_.planes() > 1) {
-      begins.push_back(1 + (options_.detour * 7) % (clip_.planes() - 1));
-      tidy(begins);
+    const Planes& trapped = options_.trapped;
+    for (auto it = trapped.begin(); it != trapped.end();) {
+      const auto next = std::upper_bound(it, trapped.end(), *it);
+      if ((coded_.empty() || next - it > kTurnsBeforeIntra) && can_be_intra(*it)) {
+        begins.push_back(*it);
+      }
+      it = next;
     }
+    tidy(begins);
     return begins;
+  }
+
+  bool can_be_intra(std::size_t plane) const {
+    return std::all_of(coded_.begin(), coded_.end(), [&](std::size_t i) {
+      return std::abs(std::int64_t(decision_.rows[i].levels[plane])) <=
+             level_range(kMaxRange, scale(i));
+    });
   }
 
   static void tidy(Planes& planes) {
@@ -73,10 +90,15 @@ class Planner {
     return begins;
   }
 
-  // What a run costs without the symbols of FAP 1 and 2 and the headers of its planes.
-  Bits cost(std::size_t first, std::size_t count) const {
+  // What a run costs without the symbols of FAP 1 and 2 and the headers of its planes; nothing if
+  // its intra plane cannot be coded.
+  std::optional<Bits> cost(std::size_t first, std::size_t count) const {
     Bits bits = 80 * kOneBit;  // header and masks, within a few bits
-    for (const std::size_t i : coded_) bits += run_cost(levels(i, first, count), scale(i)).bits;
+    for (const std::size_t i : coded_) {
+      const RunCost run = run_cost(levels(i, first, count), scale(i));
+      if (!run.fits) return std::nullopt;
+      bits += run.bits;
+    }
     return bits;
   }
 
@@ -129,8 +151,10 @@ class Planner {
     out.push_back(first);
     const std::size_t jump = costly_jump(first, count);
     if (jump == 0) return;
-    const Bits two = cost(first, jump) + cost(first + jump, count - jump);
-    if (two >= cost(first, count)) return;
+    const std::optional<Bits> one = cost(first, count);
+    const std::optional<Bits> before = cost(first, jump);
+    const std::optional<Bits> behind = cost(first + jump, count - jump);
+    if (!one || !before || !behind || *before + *behind >= *one) return;
     split(first, jump, out);
     split(first + jump, count - jump, out);
   }
@@ -140,11 +164,14 @@ class Planner {
     run.first = first;
     run.count = count;
     set_up(run);
+    const std::size_t detours = trapped_in(first, count);
     for (std::size_t n = 0; n < coded_.size(); ++n) {
       const std::size_t i = coded_[n];
       RunCost ranges = run_ranges(levels(i, first, count), scale(i));
       if (!ranges.fits) return too_large(i, first);
-      if (n < options_.detour) take_detour(ranges);
+      for (std::size_t turn = turn_of(n); turn < detours; turn += coded_.size()) {
+        take_detour(ranges);
+      }
       for (std::size_t kind = 0; kind < 4; ++kind) {
         const std::size_t number = std::size_t(channel(i).number);
         (channel(i).body ? run.body.range[kind][number] : run.face.range[kind][number]) =
@@ -155,13 +182,29 @@ class Planner {
     return run;
   }
 
-  // A wider range than needed, of whatever kind can be.
+  std::size_t trapped_in(std::size_t first, std::size_t count) const {
+    const Planes& trapped = options_.trapped;
+    return std::size_t(std::lower_bound(trapped.begin(), trapped.end(), first + count) -
+                       std::lower_bound(trapped.begin(), trapped.end(), first));
+  }
+
+  // The order in which detours take the coded parameters: the last FAP and the last BAP come first,
+  // as zeros of their last range may reach into the values behind it.
+  std::size_t turn_of(std::size_t n) const {
+    const std::size_t faps = std::size_t(std::count_if(
+        coded_.begin(), coded_.end(), [this](std::size_t i) { return !channel(i).body; }));
+    if (n + 1 == faps) return 0;
+    return coded_.size() - 1 - n + (n >= faps && faps > 0 ? 1 : 0);
+  }
+
+  // Wider ranges than needed, for other bits in the intra plane as well as in those behind it.
   static void take_detour(RunCost& ranges) {
-    for (const RangeKind kind : {kPredictiveMax, kPredictiveMin, kIntraMax, kIntraMin}) {
-      if (ranges.range[kind] == kMaxRange) continue;
-      ++ranges.range[kind];
-      return;
-    }
+    const auto widen = [&ranges](RangeKind kind, RangeKind other) {
+      if (ranges.range[kind] == kMaxRange) kind = other;
+      if (ranges.range[kind] < kMaxRange) ++ranges.range[kind];
+    };
+    widen(kIntraMax, kIntraMin);
+    widen(kPredictiveMin, kPredictiveMax);
   }
 
   void set_up(Run& run) const {
@@ -190,6 +233,7 @@ class Planner {
       for (int n = 0; n < info.size; ++n) coded += run.face.mask[std::size_t(info.first + n)];
       run.face.mask_type[group] = mask_type(coded, info.size, interpolated[group + 1]);
     }
+    guard_last_group(run.body.mask);
     std::size_t slot = 0;
     for (std::size_t group = 0; group < kBodyGroupCount; ++group) {
       int coded = 0;
@@ -204,18 +248,36 @@ class Planner {
     return interpolated ? MaskType::interpolate : MaskType::hold;
   }
 
+  // Reconstructions are 32-bit numbers.
+  Result<void> check_reach() const {
+    for (const std::size_t i : coded_) {
+      const std::int64_t step = step_at(channel(i), quant(i));
+      const auto row = levels(i, 0, clip_.planes());
+      for (std::size_t plane = 0; plane < row.size(); ++plane) {
+        const std::int64_t value = row[plane] * step;
+        if (value == std::int32_t(value)) continue;
+        return make_error(Code::out_of_range, what(i, plane) +
+                                                  " cannot be coded: it would be rounded to a "
+                                                  "number of more than 32 bits");
+      }
+    }
+    return {};
+  }
+
   Error too_large(std::size_t i, std::size_t plane) const {
     const std::int32_t step = step_at(channel(i), quant(i));
-    const std::string name = channel(i).body
-                                 ? "BAP " + std::to_string(channel(i).number)
-                                 : "FAP " + std::to_string(channel(i).number) + " (" +
-                                       std::string(fap::info(channel(i).number).name) + ")";
     return make_error(Code::out_of_range,
-                      name + " = " + std::to_string(channel(i).value[plane]) + " in frame " +
-                          std::to_string(clip_.number[plane]) +
-                          " cannot be coded: the limit is +-" +
+                      what(i, plane) + " cannot be coded: the limit is +-" +
                           std::to_string(level_range(kMaxRange, scale(i)) * step) +
                           (quant(i) == 0 ? " without quantisation; use --quant 1" : ""));
+  }
+
+  std::string what(std::size_t i, std::size_t plane) const {
+    const int number = channel(i).number;
+    std::string name = (channel(i).body ? "BAP " : "FAP ") + std::to_string(number);
+    if (!channel(i).body) name += " (" + std::string(fap::info(number).name) + ")";
+    return name + " = " + std::to_string(channel(i).value[plane]) + " in frame " +
+           std::to_string(clip_.number[plane]);
   }
 
   const ClipData& clip_;
@@ -236,15 +298,17 @@ bool is_event(const ClipData& clip, std::size_t plane) {
 
 std::vector<std::size_t> moving_planes(const ClipData& clip, const Decision& decision) {
   std::vector<bool> moving(clip.planes(), false);
-  moving.front() = moving.back() = true;
+  moving.back() = true;
   for (const Row& row : decision.rows) {
     for (std::size_t plane = 1; plane < moving.size(); ++plane) {
       if (row.levels[plane] != row.levels[plane - 1]) moving[plane] = true;
     }
   }
-  std::vector<std::size_t> planes;
-  for (std::size_t plane = 0; plane < moving.size(); ++plane) {
-    if (moving[plane] || is_event(clip, plane)) planes.push_back(plane);
+  std::vector<std::size_t> planes = {0};
+  for (std::size_t plane = 1; plane < moving.size(); ++plane) {
+    const bool far = plane + 1 < moving.size() &&
+                     clip.number[plane + 1] - clip.number[planes.back()] > kMaxSkip + 1;
+    if (moving[plane] || is_event(clip, plane) || far) planes.push_back(plane);
   }
   return planes;
 }

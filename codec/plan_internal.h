@@ -18,13 +18,16 @@ struct Run {
 struct PlanOptions {
   int intra_period = 0;
   bool extra_intra = false;
-  std::size_t detour = 0;  // > 0: another plan with the same values, for other bits
+  // Planes whose bits held a trap, ascending, one entry for each time: the runs that they are in
+  // get other ranges for the same values, and so other bits.
+  std::vector<std::size_t> trapped;
 };
 
-/// Planes in which something changes, the first and the last (indices, ascending).
+/// Planes in which something changes, the first, the last, and so many in between that the rest can
+/// be skipped (indices, ascending).
 std::vector<std::size_t> moving_planes(const ClipData& clip, const Decision& decision);
 
-/// Error out_of_range if an intra plane cannot hold a value.
+/// Error out_of_range if an intra plane cannot hold a value, or 32 bits its reconstruction.
 Result<std::vector<Run>> plan_runs(const ClipData& clip, const Decision& decision,
                                    const PlanOptions& options);
 

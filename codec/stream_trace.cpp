@@ -34,36 +34,46 @@ std::size_t zeros_from(std::span<const std::uint8_t> bytes, std::size_t begin, s
   return count;
 }
 
-std::optional<Trap> false_start_code(std::span<const std::uint8_t> bytes,
-                                     const StreamTrace& trace) {
+void add_start_codes(std::span<const std::uint8_t> bytes, const StreamTrace& trace,
+                     std::vector<Trap>& traps) {
   // 23 zeros at any position hold two whole zero bytes.
   for (std::size_t byte = 0; byte + 1 < bytes.size(); ++byte) {
     if (bytes[byte] != 0 || bytes[byte + 1] != 0) continue;
     std::size_t behind = byte + 2;
     while (behind < bytes.size() && bytes[behind] == 0) ++behind;
-    if (behind == bytes.size()) return std::nullopt;
+    if (behind == bytes.size()) return;
     const std::size_t one = behind * 8 + zeros_from(bytes, behind * 8, 8);
     const std::size_t zeros = zeros_before(bytes, 0, one);
     const bool real =
         one >= kPrefixZeros &&
         std::binary_search(trace.start_codes.begin(), trace.start_codes.end(), one - kPrefixZeros);
-    if (zeros >= kPrefixZeros && !real) return Trap{Trap::Kind::start_code, one - kPrefixZeros};
+    if (zeros >= kPrefixZeros && !real) {
+      traps.push_back({Trap::Kind::start_code, one - kPrefixZeros});
+    }
     byte = behind;
   }
-  return std::nullopt;
 }
 
-}  // namespace
-
-std::optional<Trap> find_trap(std::span<const std::uint8_t> bytes, const StreamTrace& trace) {
+void add_look_aheads(std::span<const std::uint8_t> bytes, const StreamTrace& trace,
+                     std::vector<Trap>& traps) {
   for (const StreamTrace::Segment& segment : trace.segments) {
     const std::size_t tail = zeros_before(bytes, segment.begin, segment.end);
     if (tail + kLookAhead < std::size_t(kStuffingRun)) continue;
     if (tail + zeros_from(bytes, segment.end, kLookAhead) >= std::size_t(kStuffingRun)) {
-      return Trap{Trap::Kind::look_ahead, segment.end};
+      traps.push_back({Trap::Kind::look_ahead, segment.end - tail});
     }
   }
-  return false_start_code(bytes, trace);
+}
+
+}  // namespace
+
+std::vector<Trap> find_traps(std::span<const std::uint8_t> bytes, const StreamTrace& trace) {
+  std::vector<Trap> traps;
+  add_look_aheads(bytes, trace, traps);
+  add_start_codes(bytes, trace, traps);
+  std::stable_sort(traps.begin(), traps.end(),
+                   [](const Trap& a, const Trap& b) { return a.bit < b.bit; });
+  return traps;
 }
 
 }  // namespace animeme::fba::internal

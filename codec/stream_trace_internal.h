@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,10 +31,10 @@ struct Trap {
     look_ahead,  // 22 zeros from the tail of a segment into the 14 bits behind it
   };
   Kind kind = Kind::start_code;
-  std::size_t bit = 0;
+  std::size_t bit = 0;  // the first of the zeros
 };
 
-/// The first trap in `bytes`, nothing if there is none. Linear in their number.
-std::optional<Trap> find_trap(std::span<const std::uint8_t> bytes, const StreamTrace& trace);
+/// The traps in `bytes` by their positions; each place once. Linear in the number of bytes.
+std::vector<Trap> find_traps(std::span<const std::uint8_t> bytes, const StreamTrace& trace);
 
 }  // namespace animeme::fba::internal
