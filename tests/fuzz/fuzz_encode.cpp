@@ -340,8 +340,8 @@ fba::EncodeOptions make_options(Source& in) {
   options.leave_out = in.flag();
   options.extra_intra = in.flag();
   options.skip_still = in.flag();
-  if (in.one_in(4)) options.max_rms = in.limit();
-  if (in.one_in(4)) options.max_bits_per_second = in.limit();
+  if (in.one_in(16)) options.max_rms = in.limit();
+  if (in.one_in(16)) options.max_bits_per_second = in.limit();
   if (in.one_in(4)) options.still_below = in.limit();
   options.verify = in.flag();
   return options;
