@@ -28,10 +28,11 @@ struct TracedEvent {
     }
     const fba::Plane& a = event.plane;
     const fba::Plane& b = other.event.plane;
-    return event.kind == other.event.kind && event.info == other.event.info && event.text == other.event.text &&
-           event.bit == other.event.bit && a.intra == b.intra && a.object_mask == b.object_mask &&
-           a.temporal == b.temporal && a.number == b.number && a.seconds == b.seconds &&
-           a.rate == b.rate && a.face == b.face && same_body(a.body, b.body) &&
+    return event.kind == other.event.kind && event.info == other.event.info &&
+           event.text == other.event.text && event.bit == other.event.bit && a.intra == b.intra &&
+           a.object_mask == b.object_mask && a.temporal == b.temporal && a.number == b.number &&
+           a.seconds == b.seconds && a.rate == b.rate && a.face == b.face &&
+           same_body(a.body, b.body) &&
            (a.face_settings == nullptr) == (b.face_settings == nullptr) &&
            a.start_code == b.start_code && a.bit_begin == b.bit_begin && a.bit_end == b.bit_end;
   }
