@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -50,6 +51,9 @@ struct EncodeOptions {
 
   /// Decode the stream again and compare; a difference is Code::internal.
   bool verify = true;
+  /// Called now and then while levels are searched (max_rms, max_bits_per_second) with the share
+  /// that is done, 0..1, as well as it can be told. May be empty.
+  std::function<void(double)> progress;
 };
 
 /// The options for files: the smallest stream of the same values.

@@ -68,6 +68,7 @@ RateDistortion::UnitResult RateDistortion::solve_unit(const Unit& unit, int quan
 
 RateDistortion::Solution RateDistortion::solve(const std::vector<Unit>& units, int quant,
                                                double lambda) const {
+  tell_progress();
   Solution solution;
   for (const Unit& unit : units) {
     UnitResult result = solve_unit(unit, quant, lambda);
@@ -79,6 +80,13 @@ RateDistortion::Solution RateDistortion::solve(const std::vector<Unit>& units, i
     solution.units.push_back(std::move(result));
   }
   return solution;
+}
+
+// How many solutions there will be is not known: some sixty as a rule.
+void RateDistortion::tell_progress() const {
+  constexpr double kUsual = 60;
+  ++solved_;
+  if (options_.progress) options_.progress(1 - kUsual / (kUsual + 4 * solved_));
 }
 
 // The largest lambda whose error stays within `max_error`, by bisection.

@@ -53,8 +53,11 @@ class RateDistortion {
              Decision& decision) const;
   double limit_error_of(bool body, double max_rms, Decision& decision) const;
 
+  void tell_progress() const;
+
   const ClipData& clip_;
   const EncodeOptions& options_;
+  mutable int solved_ = 0;  // solutions so far, for progress
   std::vector<std::size_t> run_begin_;
 };
 

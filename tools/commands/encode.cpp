@@ -131,6 +131,8 @@ Result<Bytes> encode_clip(const Options& options, fba::EncodeReport& report) {
   settings.max_bits_per_second = options.kbps * 1000;
   settings.still_below = options.still_below;
   settings.skip_still = options.skip_still;
+  ProgressLine progress("searching for the smallest stream");
+  settings.progress = [&progress](double done) { progress.update(done); };
   return fba::encode(material->face, settings, material->body.frames, &report);
 }
 
