@@ -398,11 +398,9 @@ TEST(EncodeUsage, ContradictionsAreOneSentence) {
                               {"--epf", epf, "--rms", "1"},
                               {"--preset", "file", "--rms", "2", "--quant", "1"},
                               {"--preset", "file", "--kbps", "2", "--quant", "1"},
-                              {"--preset", "small"},
-                              {"--preset", "file", "--rms", "-1"},
                               {"--preset", "file", "--rms", "nan"},
-                              {"--quant", "32"},
-                              {"--intra-period", "-1"}}) {
+                              {"--rms", "nan"},
+                              {"--preset", "file", "--kbps", "inf"}}) {
     Arguments arguments = {"encode", text, "-o", dir / "out.fba"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const auto result = animeme(arguments);
@@ -413,6 +411,17 @@ TEST(EncodeUsage, ContradictionsAreOneSentence) {
     EXPECT_TRUE(result.err.ends_with("\nRun with --help for more information.\n")) << said;
     EXPECT_THAT(result.out, IsEmpty()) << said;
     EXPECT_EQ(dir.files().size(), before.size()) << said;
+  }
+  for (const Arguments& more : std::vector<Arguments>{{"--preset", "small"},
+                                                      {"--preset", "file", "--rms", "-1"},
+                                                      {"--quant", "32"},
+                                                      {"--intra-period", "-1"}}) {
+    Arguments arguments = {"encode", text, "-o", dir / "out.fba"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto result = animeme(arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(more[more.size() - 2])) << "the option's name";
+    EXPECT_EQ(dir.files().size(), before.size());
   }
   const auto piped = animeme({"encode", text, "-o", "-", "--json"});
   EXPECT_EQ(piped.exit_code, 2);
