@@ -19,6 +19,7 @@ using internal::Role;
 using internal::Row;
 using internal::Run;
 
+constexpr double kLeastBudget = 1;       // bits: as few as can be
 constexpr std::size_t kMaxRetries = 40;  // plans tried to avoid traps
 
 Result<void> check(const EncodeOptions& options) {
@@ -305,8 +306,8 @@ Result<std::vector<std::uint8_t>> encode(const fap::Sequence& face, const Encode
   double budget = target;
   for (int i = 0; i < 4 && written && target > 0; ++i) {
     const double excess = double(written->stream.size()) * 8 - target;
-    if (excess <= 0 || budget <= excess + 0.002 * target) break;
-    budget -= excess + 0.002 * target;
+    if (excess <= 0 || budget <= kLeastBudget) break;
+    budget = std::max(budget - excess - 0.002 * target, kLeastBudget);
     written = attempt(*clip, options, budget, chosen);
   }
   if (!written) return written.error();

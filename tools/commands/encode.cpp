@@ -1,5 +1,7 @@
 #include "codec/encode.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -161,7 +163,10 @@ Result<Bytes> encode_live(const Options& options) {
     if (face != material->face.frames.end() && face->number == number) frame = *face++;
     if (body != material->body.frames.end() && body->number == number) body_now = &*body++;
     const std::int64_t next = next_number();
-    const std::uint32_t skip = next == INT64_MAX ? 0 : std::uint32_t(next - number - 1);
+    // Numbers may be any; the encoder refuses what is too much.
+    const std::uint64_t gap = std::uint64_t(next) - std::uint64_t(number) - 1;
+    const std::uint32_t skip =
+        next == INT64_MAX ? 0 : std::uint32_t(std::min<std::uint64_t>(gap, UINT32_MAX));
     Result<Bytes> unit = encoder.write(frame, skip, body_now);
     if (!unit) {
       Error error = unit.error();
@@ -245,6 +250,9 @@ const char* contradiction(const Options& options, Preset preset) {
   if ((preset == Preset::exact) != !options.epf.empty()) {
     return preset == Preset::exact ? "--preset exact wants an encoder parameter file, --epf"
                                    : "--epf decides everything: only --preset exact goes with it";
+  }
+  for (const double limit : {options.rms, options.kbps, options.still_below}) {
+    if (!std::isfinite(limit)) return "--rms, --kbps and --still-below want a number";
   }
   const bool chooses = options.rms > 0 || options.kbps > 0;
   const bool shapes = chooses || options.still_below > 0 || options.skip_still;
