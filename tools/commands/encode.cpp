@@ -310,12 +310,12 @@ Action add(CLI::App& app) {
   app.add_option("--rms", options->rms,
                  "file: fewest bits with at most this error, FAP units RMS over the FAPs that "
                  "move (half quantiser steps for angles and bodies); 2 is not visible")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0.0, 1e6));
   app.add_option("--kbps", options->kbps, "file: smallest error at this rate, kbit/s")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0.0, 1e6));
   app.add_option("--still-below", options->still_below,
                  "file: FAPs that move by less than this altogether are held still, FAP units")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0.0, 1e6));
   app.add_flag("--skip-still", options->skip_still,
                "file: do not send planes in which nothing moves (receivers hold the one before)");
   app.add_option("--quant", options->quant,

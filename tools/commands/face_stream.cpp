@@ -16,10 +16,10 @@ void add_stream_options(CLI::App& app, StreamSettings& settings) {
           ->capture_default_str();
   app.add_option("--rms", settings.rms,
                  "Fewest bits with at most this error, FAP units RMS; 2 is not visible")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1e-3, 1e6))
       ->excludes(quant);
   app.add_option("--kbps", settings.kbps, "Smallest error at this rate of the face, kbit/s")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1e-3, 1e6))
       ->excludes(quant);
   app.add_option("--intra-seconds", settings.intra_seconds,
                  "Seconds between points where playing can begin, in containers; 0: one point")

@@ -227,7 +227,7 @@ Action add(CLI::App& app) {
       "--sizes", options->sizes,
       "How small each clip gets with encode --preset file, beside the form common in the wild");
   app.add_option("--rms", options->rms, "With --sizes: limit of the error of the last column")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1e-3, 1e6))
       ->capture_default_str()
       ->needs(sizes);
   app.add_flag("--json", options->json, "Machine-readable result");
