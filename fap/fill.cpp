@@ -139,11 +139,15 @@ class Receiver {
   Frame shown_;     // its mask grows: all FAPs that ever had a value
 };
 
-Mask final_mask(Mask mask, bool keep_high_level) {
+Mask final_mask(Mask mask, const FillOptions& options) {
   Mask low = mask;
   low.reset(1);
   low.reset(2);
-  return keep_high_level || low.none() ? mask : low;
+  const bool high_level_alone = low.none() && mask.any();
+  if (options.complete && !high_level_alone) {
+    for (std::size_t fap = kFirstLowLevel; fap <= kFapCount; ++fap) low.set(fap);
+  }
+  return options.keep_high_level || high_level_alone ? mask | low : low;
 }
 
 void apply_mask(Frame& frame, const Mask& mask) {
@@ -198,7 +202,7 @@ Result<Sequence> fill(const Sequence& sequence, std::span<const GroupRules> rule
       previous = std::size_t(frame.number);
     }
   }
-  const Mask mask = final_mask(receiver.shown().mask, options.keep_high_level);
+  const Mask mask = final_mask(receiver.shown().mask, options);
   for (Frame& frame : filled.frames) apply_mask(frame, mask);
   return filled;
 }

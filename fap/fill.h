@@ -44,6 +44,10 @@ struct FillOptions {
   /// Keep FAP 1 and 2 beside low-level FAPs. Known players disagree about such frames, so they
   /// are left out as long as there is anything else.
   bool keep_high_level = false;
+  /// Low-level FAPs that were never sent and follow from none are in the result, too, at 0
+  /// (neutral), unless FAP 1 and 2 are all there is. That is what a receiver of a coded
+  /// stream shows: an encoder leaves FAPs out that stay at 0.
+  bool complete = false;
   /// Most frames that the result may have: skipped frames cost memory, about 380 bytes each.
   std::int64_t max_frames = 1'000'000;
 };

@@ -19,6 +19,27 @@ Sequence filled(const Sequence& clip, const FillOptions& options = {}) {
 
 Sequence clip_of(std::vector<Frame> frames) { return {{25, 1}, std::move(frames), "clip"}; }
 
+TEST(Fill, CompleteGivesEveryLowLevelFapAValue) {
+  Sequence clip;
+  clip.frames.resize(1);
+  clip.frames[0].set(3, 40);
+  clip.frames[0].mask.set(1);
+  const auto partly = fill(clip);
+  const auto complete = fill(clip, {.complete = true});
+  ASSERT_TRUE(partly && complete);
+  EXPECT_EQ(partly->frames[0].mask, Mask().set(3));
+  EXPECT_EQ(complete->frames[0].mask.count(), 66U);
+  EXPECT_EQ(complete->frames[0].value, partly->frames[0].value);
+  EXPECT_FALSE(complete->frames[0].mask[1]);
+  EXPECT_TRUE(fill(clip, {.keep_high_level = true, .complete = true})->frames[0].mask[1]);
+  // A stream of visemes stays one.
+  clip.frames[0].mask = Mask().set(1);
+  EXPECT_EQ(fill(clip, {.complete = true})->frames[0].mask, Mask().set(1));
+  // One that codes nothing shows a face at rest.
+  clip.frames[0].mask.reset();
+  EXPECT_EQ(fill(clip, {.complete = true})->frames[0].mask.count(), 66U);
+}
+
 TEST(Fill, HoldsTheLastValue) {
   const Sequence clip = clip_of({make_frame(0, {{3, 10}, {14, 5}}), make_frame(1, {{14, 6}}),
                                  make_frame(2, {{3, 0}, {15, 7}})});

@@ -28,7 +28,7 @@ Result<std::string> face_text(MotionInput& input, const Options& options) {
   if (options.fill) {
     // A stream says what becomes of FAPs that it does not code, a text does not.
     Result<fap::Sequence> filled =
-        input.stream.empty() ? fap::fill(input.face) : fba::fill(input.decoded);
+        input.stream.empty() ? fap::fill(input.face) : fba::fill(input.decoded, {.complete = true});
     if (!filled) return filled.error().in_file(options.input);
     filled->name = input.face.name;
     input.face = std::move(*filled);
@@ -89,7 +89,8 @@ Action add(CLI::App& app) {
   app.add_option("-o,--output", options->output, "FAP text to write, - for standard output");
   app.add_option("--bap", options->bap, "BAP text with the body to write, - for standard output");
   app.add_flag("--fill", options->fill,
-               "Resolve held, mirrored and skipped values, for players that want every FAP");
+               "Resolve held, mirrored and skipped values, for players that want every FAP; those "
+               "that a stream never codes are at rest, 0");
   return [options] { return run(*options); };
 }
 
