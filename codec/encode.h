@@ -40,7 +40,8 @@ struct EncodeOptions {
 
   /// > 0: choose fap_quant and the levels for the fewest bits at this error, root mean square over
   /// all FAPs that move: FAP units (half a quantiser step for angles and for BAPs). The two kinds
-  /// keep to it separately. fap_quant and bap_quant are ignored. FAP 1 and 2 are never changed.
+  /// keep to it separately. fap_quant and bap_quant are ignored. Blend and intensities of FAP 1
+  /// and 2 are rounded to multiples of the fap_quant that is chosen; this error does not count.
   double max_rms = 0;
   /// > 0: choose fap_quant and the levels for the smallest error at this rate, bits per second.
   /// With max_rms: whichever asks for fewer bits. Not all rates can be reached, see EncodeReport.

@@ -4,11 +4,9 @@
 
 #include <limits>
 
-#include "codec/clip_internal.h"
 #include "codec/decoder.h"
 #include "codec/encode.h"
 #include "codec/live.h"
-#include "codec/plan_internal.h"
 
 namespace animeme {
 namespace {

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <string>
 
-#include "codec/clip_internal.h"
 #include "codec/decoder.h"
 #include "codec/encode.h"
 #include "codec/encoder.h"
