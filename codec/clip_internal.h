@@ -75,6 +75,20 @@ inline void guard_last_group(std::bitset<kBapCount + 1>& mask) {
   if (coded == 1 && mask[group.front()]) mask.set(group.back());
 }
 
+/// The multiple of the quantiser that is coded for a blend or an intensity: the nearest one that is
+/// not above 63, which is all that they may be. Values out of 0..63 stay, to be refused.
+inline void keep_legal(std::int32_t& value, int fap_quant) {
+  if (value < 0 || value > 63) return;
+  const std::int32_t step = fap_scale(fap_quant);
+  value = std::int32_t(quantise(value, step)) * step;
+  if (value > 63) value -= step;
+}
+inline void keep_legal(fap::Viseme& viseme, fap::Expression& expression, int fap_quant) {
+  keep_legal(viseme.blend, fap_quant);
+  keep_legal(expression.intensity1, fap_quant);
+  keep_legal(expression.intensity2, fap_quant);
+}
+
 /// What the plain quantiser makes of a row: levels of the reconstruction, that is values divided
 /// by `step`, each within half a step and nearest to the one before.
 void quantise_row(std::span<const std::int32_t> value, std::int32_t step,

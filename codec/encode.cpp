@@ -92,6 +92,7 @@ class Writer {
     if (!clip_.viseme.empty()) {
       face_.viseme = clip_.viseme[plane];
       face_.expression = clip_.expression[plane];
+      internal::keep_legal(face_.viseme, face_.expression, decision_.fap_quant);
     }
   }
   const fap::Frame& face() const { return face_; }

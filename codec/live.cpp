@@ -121,6 +121,7 @@ struct LiveEncoder::Impl : Memory {
     held.mask.reset(0);  // no FAP
     if (mask[1]) held.viseme = frame.viseme;
     if (mask[2]) held.expression = frame.expression;
+    internal::keep_legal(held.viseme, held.expression, options.fap_quant);
     if (!mask[1]) held.viseme.def = false;
     if (!mask[2]) held.expression.def = held.expression.init_face = false;
     for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {

@@ -7,6 +7,7 @@
 
 #include "codec/decoder.h"
 #include "codec/fill.h"
+#include "codec/live.h"
 #include "fap/compare.h"
 #include "tests/support/random_clip.h"
 
@@ -252,6 +253,32 @@ TEST(Encode, SmallMotionCanBeStilled) {
   EXPECT_EQ(report.stilled, 1U);
   const fap::Sequence shown = filled(*stream, false);
   for (const fap::Frame& frame : shown.frames) EXPECT_NEAR(frame.value[3], 101, 2);
+}
+
+TEST(Encode, BlendsAndIntensitiesStayWithin63) {
+  for (int quant = 1; quant <= 31; ++quant) {
+    fap::Sequence clip;
+    for (int i = 0; i < 64; ++i) {
+      fap::Frame frame;
+      frame.number = i;
+      frame.mask.set(1).set(2);
+      frame.viseme = {3, 4, i, false};
+      frame.expression = {1, 63 - i, 2, i, false, false};
+      clip.frames.push_back(frame);
+    }
+    fba::LiveEncoder live({.fap_quant = quant});
+    auto decoded = fba::decode(*fba::encode(clip, {.fap_quant = quant}));
+    ASSERT_TRUE(decoded);
+    for (std::size_t i = 0; i < 64; ++i) {
+      ASSERT_TRUE(live.write(clip.frames[i]));
+      for (const fap::Frame& frame : {decoded->planes[i].face, live.reconstruction()}) {
+        EXPECT_LE(frame.viseme.blend, 63) << "fap_quant " << quant;
+        EXPECT_LE(frame.expression.intensity2, 63);
+        EXPECT_LT(std::abs(frame.viseme.blend - int(i)), quant);
+        EXPECT_LT(std::abs(frame.expression.intensity1 - int(63 - i)), quant);
+      }
+    }
+  }
 }
 
 TEST(Encode, CodesBodies) {

@@ -207,7 +207,10 @@ bool near(std::int64_t a, std::int64_t b, std::int64_t step) { return std::abs(a
 
 void check_high_level(const fap::Frame& got, const Held& held, int quant) {
   const int step = fba::fap_scale(quant);
-  const auto same = [&](std::int32_t a, std::int32_t b) { return near(a, b, step); };
+  // The nearest multiple of the quantiser, or the one below if that is above 63.
+  const auto same = [&](std::int32_t a, std::int32_t b) {
+    return std::abs(std::int64_t(a) - b) < step && a <= std::max(b, 63);
+  };
   if (got.mask[1]) {
     const fap::Viseme& a = got.viseme;
     const fap::Viseme& b = held.face.viseme;

@@ -16,9 +16,11 @@ struct ClipSizes {
   double all_bits = 0;       ///< all 66 FAPs coded in ranges of +-1860 at fap_quant 1
   double file_bits = 0;      ///< preset file, the same values after filling in
   bool same_values = false;  ///< that they are the same, decoded and filled in
+  double floor_bits = 0;     ///< a bound for these values, see floor_of()
   double limited_bits = 0;   ///< preset file with a limit of the error
   int limited_quant = 0;
   double limited_rms = 0;  ///< FAP units, over the FAPs that move and are no angles
+  double floor_ratio() const { return floor_bits / all_bits; }
   double file_ratio() const { return file_bits / all_bits; }
   double limited_ratio() const { return limited_bits / all_bits; }
 };
