@@ -227,6 +227,7 @@ class Planner {
         }
       }
     }
+    guard_unsaid(interpolated, run.face.mask);
     for (std::size_t group = 0; group < fap::kGroupCount; ++group) {
       const fap::GroupInfo& info = fap::kGroups[group];
       int coded = 0;
@@ -239,6 +240,24 @@ class Planner {
       int coded = 0;
       for (int n = 0; n < kBodyGroupSizes[group]; ++n) coded += run.body.mask[kBapOrder[slot++]];
       run.body.mask_type[group] = mask_type(coded, kBodyGroupSizes[group], false);
+    }
+  }
+
+  // FAPs that the clip does not have rest at 0 in a group that holds. In a group that became one of
+  // type 2 for the sake of others they are coded as zeros, or a decoder would move them.
+  void guard_unsaid(const std::array<bool, fap::kGroupCount + 1>& interpolated,
+                    fap::Mask& mask) const {
+    fap::Mask in_clip;
+    for (const Channel& channel : clip_.channels) {
+      if (!channel.body) in_clip.set(std::size_t(channel.number));
+    }
+    const fap::Mask coded = mask;
+    const auto moves = [&coded](int fap) { return fap != 0 && coded[std::size_t(fap)]; };
+    for (int number = fap::kFirstLowLevel; number <= fap::kFapCount; ++number) {
+      const fap::FapInfo& fap = fap::info(number);
+      if (in_clip[std::size_t(number)] || !interpolated[std::size_t(fap.group)]) continue;
+      const int across = fap.partner == 0 ? 0 : fap::info(fap.partner).mirror;
+      if (moves(fap.mirror) || moves(fap.partner) || moves(across)) mask.set(std::size_t(number));
     }
   }
 

@@ -183,6 +183,29 @@ TEST(Encode, AZeroLipIsCodedWhereADecoderWouldInterpolateIt) {
   expect_same_values(filled(*fba::encode(clip), false), filled(*stream, false));
 }
 
+TEST(Encode, AFapThatTheClipDoesNotHaveStaysAtRest) {
+  fap::Sequence clip;
+  for (int i = 0; i < 20; ++i) {
+    fap::Frame frame;
+    frame.number = i;
+    frame.set(6, 10 * i);  // both corners alike: the group is of type 2
+    frame.set(7, 10 * i);
+    frame.set(8, -8 * i);   // its other side, FAP 9, is not in the clip
+    frame.set(51, 12 * i);  // nor is the inner lip, FAP 4
+    clip.frames.push_back(frame);
+  }
+  fba::EncodeReport report;
+  auto small = fba::decode(*fba::encode(clip, fba::file_options(), {}, &report));
+  EXPECT_EQ(report.mirrored, 1U);
+  auto plain = fba::decode(*fba::encode(clip));
+  const auto shown = [](const fba::DecodedStream& stream) {
+    return fba::fill(stream, {.complete = true})->frames;
+  };
+  EXPECT_TRUE(shown(*plain) == shown(*small));
+  EXPECT_EQ(shown(*small)[19].value[9], 0);
+  EXPECT_EQ(shown(*small)[19].value[4], 0);
+}
+
 TEST(Encode, NeverAnIntraRangeOfZeroForFap4) {
   // The reference decoder would install its default ranges.
   fap::Sequence clip;
