@@ -209,7 +209,7 @@ void check_high_level(const fap::Frame& got, const Held& held, int quant) {
   const int step = fba::fap_scale(quant);
   // The nearest multiple of the quantiser, or the one below if that is above 63.
   const auto same = [&](std::int32_t a, std::int32_t b) {
-    return std::abs(std::int64_t(a) - b) < step && a <= std::max(b, 63);
+    return b > 63 ? near(a, b, step) : std::abs(std::int64_t(a) - b) < step && a <= 63;
   };
   if (got.mask[1]) {
     const fap::Viseme& a = got.viseme;
