@@ -1,19 +1,26 @@
+#include "dam/detail/fit_lag.h"
+
 #include <algorithm>
 #include <vector>
 
-#include "dam/detail/fit.h"
+#include "dam/kinds/animeme/fit.h"
 
 namespace animeme::dam {
 
-double estimate_lag(FitData data, const FitWeights& weights, const FitState& state) {
+double estimate_lag(const SpeechData& speech, std::size_t phones, int threads) {
   constexpr int kSteps = 3;
   constexpr double kStep = 0.040;
+  FitData data{speech};  // one animeme a phone, with widths as wide as the phones are long
+  data.normalised = true;
+  for (FitOccurrence& o : data.occurrences) o.mode = std::uint32_t(o.phone);
+  FitWeights weights;
+  weights.threads = threads;
   std::vector<double> objective;
   for (int i = -kSteps; i <= kSteps; ++i) {
     const double shift = i == -kSteps ? -kSteps * kStep : kStep;  // from the last place
     for (FitOccurrence& o : data.occurrences) o.start += shift;
     FitState trial;
-    trial.sigma = state.sigma;
+    trial.sigma.assign(phones, 1.0);
     solve_coefficients(data, weights, trial);
     objective.push_back(trial.objective);
   }

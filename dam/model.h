@@ -1,17 +1,23 @@
 // A trained model: everything that synthesis and evaluation need, as plain data.
 //
-// C*(t) = rest + sd * sum_j D_j(u_j) A_j(u_j)        (Eq. 2; u_j = (t - s_j) / d_j)
+//     C*(t) = rest + sd * S(t)
 //
-// `rest` and `sd` are per control: polynomials live in units of the training standard deviation,
-// measured from the pose of silence.
+// `rest` and `sd` are per control; S(t), in units of the training standard deviation and measured
+// from the pose of silence, is what the kinds of models differ in:
+//
+//   method                 parameters         S(t)
+//   dam-paper              AnimemeParameters  sum_j D_j(u_j) A_j(u_j), u_j = (t - s_j) / d_j (Eq.
+//   2) cohen-massaro          AnimemeParameters  the same with constants for A: one target a phone
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "fap/rate.h"
@@ -22,13 +28,15 @@ namespace animeme::dam {
 /// How a model was made and has to be evaluated. Numbers are part of the file format.
 enum class Method : std::uint8_t {
   dam_paper = 1,      ///< dominated animeme models as in the paper
-  dam = 2,            ///< reserved: refined dominated animeme models
-  cohen_massaro = 3,  ///< reserved: M = 0
-  mmm = 4,            ///< reserved: multidimensional morphable model
+  cohen_massaro = 3,  ///< one target a phone, blended by dominance (M = 0)
 };
 
-/// "dam-paper", "dam", "cohen-massaro", "mmm".
+/// "dam-paper", "cohen-massaro". Empty for values outside the enumeration.
 std::string_view method_name(Method method);
+/// The method of that name.
+std::optional<Method> find_method(std::string_view name);
+/// All methods, in the order in which they are listed for people.
+std::span<const Method> methods();
 
 /// One animation control, in its own units (FAP units for FAPs).
 struct Control {
@@ -38,6 +46,15 @@ struct Control {
   double sd = 0;    ///< standard deviation over the same frames, 0: constant control
 
   friend bool operator==(const Control&, const Control&) = default;
+};
+
+/// A phone that the model has learned.
+struct PhoneModel {
+  std::string label;                ///< upper-case ARPAbet or "SIL"
+  std::uint32_t examples = 0;       ///< occurrences in the training rows
+  std::uint32_t context_class = 0;  ///< phones of one class stand in for each other as context
+
+  friend bool operator==(const PhoneModel&, const PhoneModel&) = default;
 };
 
 /// One way of saying a phone (section V-A of the paper).
@@ -60,27 +77,35 @@ struct ContextCount {
 };
 inline constexpr std::int32_t kRestContext = -1;
 
-/// A phone that the model has learned.
-struct PhoneModel {
-  std::string label;                   ///< upper-case ARPAbet or "SIL"
-  std::uint32_t examples = 0;          ///< occurrences in the training rows
-  std::uint32_t context_class = 0;     ///< phones of one class stand in for each other as context
+/// The modes of one phone.
+struct AnimemePhone {
   std::vector<Mode> modes;             ///< at least one
   std::vector<ContextCount> contexts;  ///< sorted by left, right, mode
 
-  friend bool operator==(const PhoneModel&, const PhoneModel&) = default;
+  friend bool operator==(const AnimemePhone&, const AnimemePhone&) = default;
 };
+
+/// Dominated animemes as the paper has them.
+struct AnimemeParameters {
+  std::uint32_t order = 4;           ///< M, degree of the polynomials
+  bool normalised = true;            ///< blend by D / sum of D; false: plain sum
+  double time_margin = 0.5;          ///< see clamp_local_time(); infinity: free extrapolation
+  std::vector<AnimemePhone> phones;  ///< one for each of Model::phones
+
+  friend bool operator==(const AnimemeParameters&, const AnimemeParameters&) = default;
+};
+
+/// One alternative for each family of methods.
+using Parameters = std::variant<AnimemeParameters>;
 
 struct Model {
   Method method = Method::dam_paper;
-  std::uint32_t order = 4;   ///< M, degree of the polynomials
-  bool normalised = true;    ///< blend by D / sum of D; false: plain sum
-  double time_margin = 0.5;  ///< see clamp_local_time(); infinity: free extrapolation
-  double pause_edge = 0.3;   ///< seconds: the part of a pause that belongs to the speech beside it
-  double closure_gap = 25;   ///< FAP units: inner lip gap to which P, B, M close
-  fap::Rate rate;            ///< of the training signal
+  double pause_edge = 0.3;  ///< seconds: the part of a pause that belongs to the speech beside it
+  double closure_gap = 25;  ///< FAP units: inner lip gap to which P, B, M close
+  fap::Rate rate;           ///< of the training signal
   std::vector<Control> controls;
   std::vector<PhoneModel> phones;  ///< sorted by label
+  Parameters parameters;           ///< the alternative that the method needs
   std::string attribution;         ///< who has to be named when the model is passed on
   std::string provenance;          ///< how the model was made, free text
 
@@ -96,7 +121,7 @@ struct Model {
 /// with a sentence that names the first fault. read_model() returns only models that pass.
 Result<void> validate(const Model& model);
 
-/// The model file: magic "ANIMEDAM", version 1.0, little endian, CRC-32 of everything.
+/// The model file: magic "ANIMEDAM", version 2.0, little endian, CRC-32 of everything.
 /// dam/README.md has the layout. The same model gives the same bytes.
 std::vector<std::uint8_t> write_model(const Model& model);
 

@@ -1,17 +1,18 @@
 // The model file. Layout: dam/README.md.
 #include <array>
-#include <bit>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 
+#include "dam/detail/bytes.h"
+#include "dam/kinds/kind.h"
 #include "dam/model.h"
 
 namespace animeme::dam {
 namespace {
 
 constexpr std::string_view kMagic = "ANIMEDAM";
-constexpr std::uint16_t kMajor = 1, kMinor = 0;
+constexpr std::uint16_t kMajor = 2, kMinor = 0;
 constexpr std::size_t kHeader = 8 + 2 + 2 + 8, kChecksum = 4;
 
 constexpr std::array<std::uint32_t, 256> make_crc_table() {
@@ -32,126 +33,18 @@ std::uint32_t crc32(std::span<const std::uint8_t> bytes) {
   return ~c;
 }
 
-class Writer {
- public:
-  template <class Unsigned>
-  void number(Unsigned value) {
-    for (std::size_t i = 0; i < sizeof(Unsigned); ++i)
-      bytes.push_back(std::uint8_t((std::uint64_t(value) >> (8 * i)) & 0xFF));
-  }
-  void real(double value) { number(std::bit_cast<std::uint64_t>(value)); }
-  void text(std::string_view value) {
-    number(std::uint32_t(value.size()));
-    bytes.insert(bytes.end(), value.begin(), value.end());
-  }
-  std::vector<std::uint8_t> bytes;
-};
-
-/// Reads numbers until the bytes run out; then `failed` stays set and everything is 0.
-class Reader {
- public:
-  explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
-
-  template <class Unsigned>
-  Unsigned number() {
-    if (!has(sizeof(Unsigned))) return 0;
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < sizeof(Unsigned); ++i)
-      value |= std::uint64_t(bytes_[at_ + i]) << (8 * i);
-    at_ += sizeof(Unsigned);
-    return Unsigned(value);
-  }
-  double real() { return std::bit_cast<double>(number<std::uint64_t>()); }
-  std::string text() {
-    const std::size_t size = number<std::uint32_t>();
-    if (!has(size)) return {};
-    std::string value(size, '\0');
-    if (size > 0) std::memcpy(value.data(), bytes_.data() + at_, size);
-    at_ += size;
-    return value;
-  }
-  /// A count of things of `smallest` bytes at least; fails if they cannot all be there, so that
-  /// nothing is allocated that the input does not pay for.
-  std::size_t count(std::size_t smallest) {
-    const std::size_t n = number<std::uint32_t>();
-    if (n > (bytes_.size() - at_) / smallest) failed_ = true;
-    return failed_ ? 0 : n;
-  }
-  bool failed() const { return failed_; }
-  bool at_end() const { return at_ == bytes_.size(); }
-
- private:
-  bool has(std::size_t size) {
-    if (size > bytes_.size() - at_) failed_ = true;
-    return !failed_;
-  }
-  std::span<const std::uint8_t> bytes_;
-  std::size_t at_ = 0;
-  bool failed_ = false;
-};
-
-// In the file the coefficients of one control stand together: a^0 .. a^M of control 0, of control 1
-// ...
-
-void write_phone(Writer& out, const PhoneModel& phone, std::size_t controls) {
-  out.text(phone.label);
-  out.number(phone.examples);
-  out.number(phone.context_class);
-  out.number(std::uint32_t(phone.modes.size()));
-  for (const Mode& mode : phone.modes) {
-    out.real(mode.sigma);
-    for (std::size_t c = 0; c < controls; ++c)
-      for (std::size_t i = c; i < mode.coefficients.size(); i += controls)
-        out.real(mode.coefficients[i]);
-  }
-  out.number(std::uint32_t(phone.contexts.size()));
-  for (const ContextCount& c : phone.contexts) {
-    out.number(std::uint32_t(c.left));
-    out.number(std::uint32_t(c.right));
-    out.number(c.mode);
-    out.number(c.count);
-  }
-}
-
-PhoneModel read_phone(Reader& in, std::size_t controls, std::size_t coefficients) {
-  PhoneModel phone;
-  phone.label = in.text();
-  phone.examples = in.number<std::uint32_t>();
-  phone.context_class = in.number<std::uint32_t>();
-  phone.modes.resize(in.count(8 + 8 * coefficients));
-  for (Mode& mode : phone.modes) {
-    mode.sigma = in.real();
-    mode.coefficients.resize(coefficients);
-    for (std::size_t c = 0; c < controls; ++c)
-      for (std::size_t i = c; i < coefficients; i += controls) mode.coefficients[i] = in.real();
-  }
-  phone.contexts.resize(in.count(16));
-  for (ContextCount& c : phone.contexts) {
-    c.left = std::int32_t(in.number<std::uint32_t>());
-    c.right = std::int32_t(in.number<std::uint32_t>());
-    c.mode = in.number<std::uint32_t>();
-    c.count = in.number<std::uint32_t>();
-  }
-  return phone;
-}
-
-Error damaged(const char* how) {
-  return make_error(Code::syntax, std::string("the model file is damaged (") + how +
+Error damaged(const std::string& how) {
+  return make_error(Code::syntax, "the model file is damaged (" + how +
                                       "); get it again or train the model anew");
 }
 
-Result<Model> read_payload(Reader& in, bool newer_minor) {
+Result<Model> read_payload(ByteReader& in, bool newer_minor) {
   Model model;
   model.method = Method(in.number<std::uint8_t>());
   if (method_name(model.method).empty())
     return make_error(
         Code::unsupported,
         "the model was made by a method that this version does not know; use a newer one");
-  model.order = in.number<std::uint32_t>();
-  const auto blend = in.number<std::uint8_t>();
-  if (blend > 1) return damaged("unknown blend");
-  model.normalised = blend == 1;
-  model.time_margin = in.real();
   model.pause_edge = in.real();
   model.closure_gap = in.real();
   model.rate.num = in.number<std::uint32_t>();
@@ -165,11 +58,13 @@ Result<Model> read_payload(Reader& in, bool newer_minor) {
     c.mean = in.real();
     c.sd = in.real();
   }
-  if (model.order > 8) return damaged("degree out of range");
-  const std::size_t coefficients = (model.order + 1) * model.controls.size();
-  const std::size_t phones = in.count(4 + 4 + 4 + 4 + 4);
-  for (std::size_t p = 0; p < phones && !in.failed(); ++p)
-    model.phones.push_back(read_phone(in, model.controls.size(), coefficients));
+  model.phones.resize(in.count(4 + 4 + 4));
+  for (PhoneModel& p : model.phones) {
+    p.label = in.text();
+    p.examples = in.number<std::uint32_t>();
+    p.context_class = in.number<std::uint32_t>();
+  }
+  if (auto ok = kind_of(model.method).read(in, model); !ok) return damaged(ok.error().message);
   if (in.failed()) return damaged("its parts are larger than the file");
   if (!in.at_end() && !newer_minor) return damaged("something follows the model");
   if (auto ok = validate(model); !ok) return make_error(Code::syntax, ok.error().message);
@@ -179,11 +74,8 @@ Result<Model> read_payload(Reader& in, bool newer_minor) {
 }  // namespace
 
 std::vector<std::uint8_t> write_model(const Model& model) {
-  Writer body;
+  ByteWriter body;
   body.number(std::uint8_t(model.method));
-  body.number(model.order);
-  body.number(std::uint8_t(model.normalised ? 1 : 0));
-  body.real(model.time_margin);
   body.real(model.pause_edge);
   body.real(model.closure_gap);
   body.number(model.rate.num);
@@ -198,8 +90,13 @@ std::vector<std::uint8_t> write_model(const Model& model) {
     body.real(c.sd);
   }
   body.number(std::uint32_t(model.phones.size()));
-  for (const PhoneModel& phone : model.phones) write_phone(body, phone, model.controls.size());
-  Writer file;
+  for (const PhoneModel& phone : model.phones) {
+    body.text(phone.label);
+    body.number(phone.examples);
+    body.number(phone.context_class);
+  }
+  kind_of(model.method).write(model, body);
+  ByteWriter file;
   file.bytes.assign(kMagic.begin(), kMagic.end());
   file.number(kMajor);
   file.number(kMinor);
@@ -214,7 +111,7 @@ Result<Model> read_model(std::span<const std::uint8_t> bytes) {
     return make_error(Code::syntax, "this is not a model file of Animeme");
   if (bytes.size() < kHeader + kChecksum)
     return make_error(Code::truncated, "the model file ends within its header");
-  Reader header(bytes.subspan(kMagic.size()));
+  ByteReader header(bytes.subspan(kMagic.size()));
   const auto major = header.number<std::uint16_t>(), minor = header.number<std::uint16_t>();
   const auto size = header.number<std::uint64_t>();
   if (major != kMajor)
@@ -226,10 +123,10 @@ Result<Model> read_model(std::span<const std::uint8_t> bytes) {
   const std::size_t there = bytes.size() - kHeader - kChecksum;
   if (size > there) return make_error(Code::truncated, "the model file is cut off");
   if (size < there) return damaged("bytes behind its end");
-  Reader checksum(bytes.last(kChecksum));
+  ByteReader checksum(bytes.last(kChecksum));
   if (crc32(bytes.first(bytes.size() - kChecksum)) != checksum.number<std::uint32_t>())
     return damaged("its checksum does not match");
-  Reader body(bytes.subspan(kHeader, there));
+  ByteReader body(bytes.subspan(kHeader, there));
   return read_payload(body, minor > kMinor);
 }
 

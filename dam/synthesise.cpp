@@ -4,10 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "dam/animeme.h"
 #include "dam/closure.h"
-#include "dam/detail/choose_modes.h"
 #include "dam/detail/timeline.h"
+#include "dam/kinds/kind.h"
 
 namespace animeme::dam {
 namespace {
@@ -41,34 +40,6 @@ Result<std::size_t> frame_count(const Script& script, const SynthesisOptions& op
     return make_error(Code::out_of_range,
                       "the clip has more than 10 million frames; cut the script");
   return std::size_t(std::max(0.0, frames));
-}
-
-/// Eq. 2: adds D A of one occurrence to the frames in its reach, and D to `sums`.
-void add_occurrence(const Model& model, const Mode& mode, const Occurrence& o, Signal& signal,
-                    std::vector<double>& sums) {
-  const std::size_t terms = model.order + 1, controls = model.controls.size();
-  const double rate = signal.rate.frames_per_second(), frames = double(signal.frames());
-  const double reach = dominance_reach(mode.sigma) * o.duration;
-  const auto first = std::size_t(std::clamp(std::ceil((o.start - reach) * rate), 0.0, frames));
-  const auto last = std::size_t(std::clamp(std::floor((o.end() + reach) * rate) + 1, 0.0, frames));
-  for (std::size_t i = first; i < last; ++i) {
-    const double u = (double(i) / rate - o.start) / o.duration;
-    const double v = clamp_local_time(u, model.time_margin);
-    double* out = &signal.values[i * controls];
-    double weight = dominance(u, mode.sigma);
-    sums[i] += weight;
-    for (std::size_t m = 0; m < terms; ++m, weight *= v) {
-      const double* a = &mode.coefficients[m * controls];
-      for (std::size_t c = 0; c < controls; ++c) out[c] += weight * a[c];
-    }
-  }
-}
-
-void normalise(const std::vector<double>& sums, Signal& signal) {
-  const std::size_t controls = signal.names.size();
-  for (std::size_t i = 0; i < sums.size(); ++i)
-    for (std::size_t c = 0; c < controls; ++c)
-      signal.values[i * controls + c] /= std::max(sums[i], kLeastDominanceSum);
 }
 
 /// How much of the deviation from rest is shown: fades in long pauses and at the ends of the clip.
@@ -131,8 +102,6 @@ ClosureOptions closure_options(const Model& model) {
 
 Result<Signal> synthesise(const Model& model, const Script& script, const SynthesisOptions& options,
                           SynthesisReport* report) {
-  if (model.method != Method::dam_paper)
-    return make_error(Code::unsupported, "this version speaks models of the method dam-paper only");
   if (auto ok = check_script(script); !ok) return ok.error();
   const auto frames = frame_count(script, options);
   if (!frames) return frames.error();
@@ -144,18 +113,15 @@ Result<Signal> synthesise(const Model& model, const Script& script, const Synthe
   auto timeline = make_timeline(*spoken, model.pause_edge);
   // A model may lack silence only if it was made by hand; the mouth then rests in pauses.
   std::erase_if(timeline, [&](const Occurrence& o) { return model.find_phone(o.label) < 0; });
-  out.modes = choose_modes(model, timeline, options.context_weight, options.smoothness_weight);
+  std::vector<std::int32_t> phone;
+  for (const Occurrence& o : timeline) phone.push_back(model.find_phone(o.label));
   out.phones = timeline.size();
   Signal signal;
   signal.rate = options.rate;
   for (const Control& control : model.controls) signal.names.push_back(control.name);
   signal.values.assign(*frames * model.controls.size(), 0.0);
-  std::vector<double> sums(*frames, 0.0);
-  for (std::size_t j = 0; j < timeline.size(); ++j) {
-    const PhoneModel& phone = model.phones[std::size_t(model.find_phone(timeline[j].label))];
-    add_occurrence(model, phone.modes[out.modes[j]], timeline[j], signal, sums);
-  }
-  if (model.normalised) normalise(sums, signal);
+  kind_of(model.method)
+      .speak({model, timeline, phone, options, options.rate, 0, *frames}, signal.values, out);
   const double last = options.rate.seconds(double(*frames) - 1);
   to_control_units(model, Gate(*spoken, model, options.rest_at_ends, last), signal);
   if (options.closure) {

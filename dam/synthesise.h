@@ -31,7 +31,7 @@ struct SynthesisReport {
   std::size_t replaced_phones = 0;  ///< how many phones of the script that were
   std::size_t phones = 0;           ///< occurrences spoken, pauses included
   std::size_t closures = 0;         ///< P, B, M that the constraint had to close
-  std::vector<std::size_t> modes;   ///< chosen mode of every occurrence, pauses included
+  std::vector<std::size_t> modes;   ///< dam-paper: chosen mode of every occurrence, pauses included
 };
 
 /// Makes the signal of all controls of the model for a script. The model must pass validate(), as
@@ -43,7 +43,7 @@ struct SynthesisReport {
 /// Phones that the model does not know are replaced by their relatives (dam/phones.h).
 /// Errors: invalid_argument (options, a script that check_script() refuses), out_of_range (more
 /// than 10 million frames), not_found (a phone that has no relative in the model; the sentence
-/// names it and its time), unsupported (a model of another method).
+/// names it and its time).
 Result<Signal> synthesise(const Model& model, const Script& script,
                           const SynthesisOptions& options = {}, SynthesisReport* report = nullptr);
 

@@ -13,11 +13,9 @@
 
 namespace animeme::dam {
 
-/// All settings of training. The defaults are those of the shipped model; how they were chosen
-/// stands in dam/README.md.
-struct TrainOptions {
-  Method method = Method::dam_paper;  ///< only dam_paper is implemented
-  int order = 4;                      ///< M, degree of the polynomials: 0..8
+/// Settings of the methods dam-paper and cohen-massaro (which is of degree 0 and has one mode).
+struct AnimemeOptions {
+  int order = 4;  ///< M, degree of the polynomials: 0..8
 
   /// Eq. 2 is called a "summation of normalised values" but written as a plain sum. True: the blend
   /// is divided by the sum of the dominances, so every pose lies between those of the phones around
@@ -39,8 +37,16 @@ struct TrainOptions {
   double ridge = 10;         ///< on polynomial coefficients, in frames: 0..1e6
   double width_prior = 10;   ///< on log(sigma), per control, in frames: 0..1e6
   double time_margin = 0.5;  ///< clamp of local time; infinity: free, as in the paper: 0..inf
-  int max_iterations = 30;   ///< accepted EM steps: 0..1000
-  double tolerance = 2e-4;   ///< stop when the objective falls by less than this part: 0..1
+};
+
+/// All settings of training. The defaults are those of the shipped model; how they were chosen
+/// stands in dam/README.md.
+struct TrainOptions {
+  Method method = Method::dam_paper;
+  AnimemeOptions animeme;  ///< for dam-paper and cohen-massaro
+
+  int max_iterations = 30;  ///< accepted steps: 0..1000
+  double tolerance = 2e-4;  ///< stop when the objective falls by less than this part: 0..1
 
   double pause_edge = 0.3;  ///< seconds of a long pause that belong to each side: 0.05..5
   int threads = 0;          ///< 0: as the machine has; the result does not depend on it
@@ -53,18 +59,18 @@ Result<void> validate(const TrainOptions& options);
 
 /// What happened during training.
 struct TrainSummary {
-  std::vector<double> objective;   ///< once the modes are settled: start, then after every
-                                   ///< accepted step; never rises
-  int iterations = 0;              ///< accepted steps
-  std::vector<std::size_t> moved;  ///< occurrences that changed their mode, per round before that
-  bool converged = false;          ///< false: stopped by max_iterations
-  double seconds = 0;              ///< wall clock
+  std::vector<double> objective;  ///< once the modes are settled: start, then after every
+                                  ///< accepted step; never rises
+  int iterations = 0;             ///< accepted steps
+  std::vector<std::size_t>
+      moved;  ///< dam-paper: occurrences that changed their mode, per round before that
+  bool converged = false;  ///< false: stopped by max_iterations
+  double seconds = 0;      ///< wall clock
   std::size_t utterances = 0;
   std::size_t frames = 0;       ///< frames fitted
   std::size_t occurrences = 0;  ///< phones fitted
-  std::size_t modes = 0;        ///< of all phones
-  std::vector<std::pair<std::string, std::size_t>> modes_per_phone;
-  double lag = 0;  ///< seconds by which the signal seems to come after the phonemes
+  std::size_t modes = 0;        ///< of all phones; 0: the method has none
+  double lag = 0;               ///< seconds by which the signal seems to come after the phonemes
   std::vector<std::string> warnings;  ///< constant controls, phones with few examples, time lag
 };
 
@@ -80,7 +86,7 @@ using ProgressFunction = std::function<bool(const Progress&)>;
 /// The result is the same bit by bit for any number of threads and any order of the sentences.
 /// Memory: about 30 MB + 8 bytes * (modes * (order + 1))^2 * 8.
 /// Errors: invalid_argument (options, no sentence, no speech, cancelled, NaN in a signal,
-/// different controls), unsupported (method).
+/// different controls).
 Result<Model> train(std::span<const Utterance> utterances, const TrainOptions& options = {},
                     TrainSummary* summary = nullptr, const ProgressFunction& progress = {});
 

@@ -44,7 +44,7 @@ std::vector<PhoneModel> phone_table(const Timelines& timelines) {
     const PhoneInfo* info = find_phone(label);
     const std::uint32_t group =
         info != nullptr ? std::uint32_t(info->phone_class) : std::uint32_t(kPhoneClassCount);
-    phones.push_back({label, count, group, {}, {}});
+    phones.push_back({label, count, group});
   }
   return phones;
 }
@@ -59,7 +59,7 @@ std::int32_t index_of(const std::vector<PhoneModel>& phones, const std::string& 
 
 void add_sentence(const Utterance& u, const std::vector<Occurrence>& timeline, double pause_edge,
                   TrainingSet& set) {
-  FitData& data = set.data;
+  SpeechData& data = set.data;
   const std::size_t k = set.controls.size();
   data.sentences.push_back(
       {data.use.size(), u.signal.frames(), data.occurrences.size(), timeline.size()});
@@ -112,10 +112,7 @@ Result<TrainingSet> make_training_set(std::span<const Utterance* const> sentence
   set.phones = phone_table(timelines);
   set.rate = sentences[0]->signal.rate;
   set.data.controls = set.controls.size();
-  set.data.order = options.order;
   set.data.rate = set.rate.frames_per_second();
-  set.data.time_margin = options.time_margin;
-  set.data.normalised = options.normalised;
   for (std::size_t i = 0; i < sentences.size(); ++i)
     add_sentence(*sentences[i], timelines[i], options.pause_edge, set);
   add_warnings(set);

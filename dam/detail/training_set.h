@@ -7,16 +7,16 @@
 #include <vector>
 
 #include "dam/corpus.h"
-#include "dam/detail/fit.h"
+#include "dam/detail/speech_data.h"
 #include "dam/model.h"
 #include "dam/train.h"
 
 namespace animeme::dam {
 
 struct TrainingSet {
-  FitData data;
+  SpeechData data;
   std::vector<Control> controls;
-  std::vector<PhoneModel> phones;  ///< labels, examples and classes; no modes yet
+  std::vector<PhoneModel> phones;  ///< by label
   fap::Rate rate;
   double closure_gap = 0;  ///< see Model
   std::vector<std::string> warnings;

@@ -1,4 +1,4 @@
-#include "dam/detail/affinity.h"
+#include "dam/kinds/animeme/affinity.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -34,7 +34,7 @@ TEST(Evaluate, TheSampleThatShips) {
   const Split split = read_split(test::data_dir() / "grid_s1_sample", "split");
   ASSERT_EQ(split.train.size(), 18u);
   TrainOptions options;
-  options.modes = false;  // 18 sentences are too few for several
+  options.animeme.modes = false;  // 18 sentences are too few for several
   const auto model = train(split.train, options);
   ASSERT_TRUE(model) << model.error().describe();
   const auto e = evaluate(*model, split.test);
@@ -55,7 +55,7 @@ TEST(Evaluate, NumbersAreWhatTheySay) {
   const Split split = read_split(test::data_dir() / "grid_s1_sample", "split");
   TrainOptions train_options;
   train_options.max_iterations = 0;
-  train_options.reassign_rounds = 0;
+  train_options.animeme.reassign_rounds = 0;
   auto model = train(split.train, train_options);
   ASSERT_TRUE(model);
   std::vector<Utterance> own = {split.test[0]};
@@ -84,7 +84,7 @@ TEST(Evaluate, Errors) {
   const Split split = read_split(test::data_dir() / "grid_s1_sample", "split");
   TrainOptions options;
   options.max_iterations = 0;
-  options.modes = false;
+  options.animeme.modes = false;
   const auto model = train(split.train, options);
   ASSERT_TRUE(model);
   EXPECT_FALSE(evaluate(*model, {}));

@@ -1,5 +1,5 @@
 // The two steps of the fit against signals whose truth is known.
-#include "dam/detail/fit.h"
+#include "dam/kinds/animeme/fit.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
-#include "dam/detail/mode_graph.h"
+#include "dam/kinds/animeme/mode_graph.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "dam/detail/contexts.h"
+#include "dam/kinds/animeme/contexts.h"
 #include "dam_support.h"
 
 namespace animeme::dam {
@@ -66,9 +66,8 @@ TEST(CheapestPath, WithoutEdgeCostsExpandsOneNodeALayer) {
   EXPECT_TRUE(cheapest_path({}).mode.empty());
 }
 
-PhoneModel two_modes() {
-  PhoneModel phone;
-  phone.label = "T";
+AnimemePhone two_modes() {
+  AnimemePhone phone;
   phone.modes.resize(2);
   // Between phones 0 and 1 (classes 5 and 6) always mode 0, after phone 2 (class 5) mode 0, too.
   phone.contexts = {{0, 1, 0, 20}, {2, 3, 0, 5}, {4, 3, 1, 30}};
@@ -91,7 +90,7 @@ TEST(ModeCosts, FollowContextAndBackOff) {
 
 TEST(ModeCosts, LeavingOneOutMakesItLessLikely) {
   const std::vector<std::uint32_t> classes = {5, 6, 5, 7, 8};
-  PhoneModel phone = two_modes();
+  AnimemePhone phone = two_modes();
   phone.contexts.push_back({1, 1, 1, 1});
   const auto with = mode_costs(phone, classes, 1, 1);
   const auto without = mode_costs(phone, classes, 1, 1, 1);

@@ -20,17 +20,21 @@ std::vector<Utterance> sample() {
   return corpus ? corpus->utterances : std::vector<Utterance>{};
 }
 
+const AnimemeParameters& animemes(const Model& model) {
+  return std::get<AnimemeParameters>(model.parameters);
+}
+
 TrainOptions quick() {
   TrainOptions options;
   options.max_iterations = 3;
-  options.reassign_rounds = 1;
+  options.animeme.reassign_rounds = 1;
   return options;
 }
 
 TEST(Train, TheSampleGivesAValidModel) {
   TrainSummary summary;
   TrainOptions options = quick();
-  options.preference = 1;  // so few sentences have one mode a phone otherwise
+  options.animeme.preference = 1;  // so few sentences have one mode a phone otherwise
   const auto model = train(sample(), options, &summary);
   ASSERT_TRUE(model) << model.error().describe();
   EXPECT_TRUE(validate(*model));
@@ -58,19 +62,19 @@ TEST(Train, ThreadsAndOrderOfSentencesDoNotMatter) {
 TEST(Train, EveryOrderOfThePolynomialWorks) {
   for (const int order : {0, 1, 8}) {
     TrainOptions options = quick();
-    options.order = order;
+    options.animeme.order = order;
     const auto model = train(sample(), options);
     ASSERT_TRUE(model) << order;
-    EXPECT_EQ(model->phones[0].modes[0].coefficients.size(), std::size_t(order + 1) * 26);
+    EXPECT_EQ(animemes(*model).phones[0].modes[0].coefficients.size(), std::size_t(order + 1) * 26);
   }
 }
 
 TEST(Train, FreeExtrapolationCanBeChosen) {
   TrainOptions options = quick();
-  options.time_margin = std::numeric_limits<double>::infinity();
+  options.animeme.time_margin = std::numeric_limits<double>::infinity();
   const auto model = train(sample(), options);
   ASSERT_TRUE(model);
-  EXPECT_TRUE(std::isinf(model->time_margin));
+  EXPECT_TRUE(std::isinf(animemes(*model).time_margin));
   EXPECT_TRUE(synthesise(*model, sample()[0].script));
 }
 
@@ -89,7 +93,7 @@ TEST(Train, NoticesWhenSoundAndFaceAreApart) {
   auto sentences = test::planted_sentences(random, truth, 30);
   TrainSummary summary;
   TrainOptions options;
-  options.modes = false;
+  options.animeme.modes = false;
   ASSERT_TRUE(train(sentences, options, &summary));
   EXPECT_LT(std::abs(summary.lag), 0.02);
   EXPECT_THAT(summary.warnings, testing::Not(testing::Contains(HasSubstr("ms after"))));
@@ -110,13 +114,13 @@ TEST(Train, OptionsAreChecked) {
     return !validate(options);
   };
   EXPECT_TRUE(validate(TrainOptions{}));
-  EXPECT_TRUE(refused([](TrainOptions& o) { o.order = 9; }));
-  EXPECT_TRUE(refused([](TrainOptions& o) { o.ridge = -1; }));
-  EXPECT_TRUE(refused([](TrainOptions& o) { o.ridge = std::nan(""); }));
-  EXPECT_TRUE(refused([](TrainOptions& o) { o.damping = 1; }));
-  EXPECT_TRUE(refused([](TrainOptions& o) { o.resample_points = 1; }));
+  EXPECT_TRUE(refused([](TrainOptions& o) { o.animeme.order = 9; }));
+  EXPECT_TRUE(refused([](TrainOptions& o) { o.animeme.ridge = -1; }));
+  EXPECT_TRUE(refused([](TrainOptions& o) { o.animeme.ridge = std::nan(""); }));
+  EXPECT_TRUE(refused([](TrainOptions& o) { o.animeme.damping = 1; }));
+  EXPECT_TRUE(refused([](TrainOptions& o) { o.animeme.resample_points = 1; }));
   EXPECT_TRUE(refused([](TrainOptions& o) { o.threads = -1; }));
-  EXPECT_TRUE(refused([](TrainOptions& o) { o.method = Method::mmm; }));
+  EXPECT_TRUE(refused([](TrainOptions& o) { o.method = Method(99); }));
 }
 
 // ---- hostile training data ----
@@ -205,8 +209,8 @@ TEST(TrainHostile, IdenticalSentencesAndNoRidge) {
     sentences.back().id += std::to_string(i);
   }
   TrainOptions options;
-  options.ridge = 0;
-  options.width_prior = 0;
+  options.animeme.ridge = 0;
+  options.animeme.width_prior = 0;
   const auto model = train(sentences, options);
   ASSERT_TRUE(model) << model.error().describe();
   EXPECT_TRUE(validate(*model));

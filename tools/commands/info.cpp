@@ -80,24 +80,32 @@ Result<Json> describe_model(std::span<const std::uint8_t> bytes) {
   Result<dam::Model> model = dam::read_model(bytes);
   if (!model) return model.error();
   Json phones = Json::array();
+  const auto* animemes = std::get_if<dam::AnimemeParameters>(&model->parameters);
   std::size_t modes = 0;
-  for (const dam::PhoneModel& phone : model->phones) {
-    modes += phone.modes.size();
-    phones.push_back(
-        {{"phone", phone.label}, {"examples", phone.examples}, {"modes", phone.modes.size()}});
+  for (std::size_t i = 0; i < model->phones.size(); ++i) {
+    const dam::PhoneModel& phone = model->phones[i];
+    Json json = {{"phone", phone.label}, {"examples", phone.examples}};
+    if (animemes != nullptr) {
+      json["modes"] = animemes->phones[i].modes.size();
+      modes += animemes->phones[i].modes.size();
+    }
+    phones.push_back(std::move(json));
   }
   Json controls = Json::array();
   for (const dam::Control& control : model->controls) controls.push_back(control.name);
-  return Json{{"kind", "model"},
-              {"method", dam::method_name(model->method)},
-              {"bytes", bytes.size()},
-              {"rate", fap::format_rate(model->rate)},
-              {"order", model->order},
-              {"modes", modes},
-              {"phones", phones},
-              {"controls", controls},
-              {"attribution", model->attribution},
-              {"provenance", model->provenance}};
+  Json json = {{"kind", "model"},
+               {"method", dam::method_name(model->method)},
+               {"bytes", bytes.size()},
+               {"rate", fap::format_rate(model->rate)}};
+  if (animemes != nullptr) {
+    json["order"] = animemes->order;
+    json["modes"] = modes;
+  }
+  json.update({{"phones", phones},
+               {"controls", controls},
+               {"attribution", model->attribution},
+               {"provenance", model->provenance}});
+  return json;
 }
 
 Result<Json> describe_script(std::span<const std::uint8_t> bytes) {

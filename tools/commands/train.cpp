@@ -44,10 +44,11 @@ void print(const Options& options, const dam::Corpus& corpus, const dam::Model& 
   }
   char line[200];
   std::snprintf(line, sizeof line,
-                "%zu utterances, %.1f s, %zu phones (%zu occurrences), %zu modes, %zu controls",
+                "%zu utterances, %.1f s, %zu phones (%zu occurrences), %zu controls",
                 summary.utterances, corpus.duration(), model.phones.size(), summary.occurrences,
-                summary.modes, model.controls.size());
-  say(line);
+                model.controls.size());
+  say(summary.modes == 0 ? std::string(line)
+                         : line + (", " + std::to_string(summary.modes)) + " modes");
   std::string fit = std::to_string(summary.iterations) + " iterations" +
                     (summary.converged ? "" : " (stopped before convergence)") + ", objective";
   for (const double objective : summary.objective) {
@@ -60,17 +61,14 @@ void print(const Options& options, const dam::Corpus& corpus, const dam::Model& 
 }
 
 Result<int> run(const Options& options) {
-  if (options.method != dam::method_name(dam::Method::dam_paper)) {
-    return make_error(Code::unsupported,
-                      "method " + options.method + " is not available yet; use dam-paper");
-  }
   Result<dam::Corpus> corpus = read_corpus(options.corpus);
   if (!corpus) return corpus.error();
   dam::TrainOptions train = options.train;
+  train.method = *dam::find_method(options.method);
   train.attribution = options.attribution;
-  train.modes = !options.single_mode;
-  train.normalised = !options.plain_sum;
-  if (options.free_time) train.time_margin = std::numeric_limits<double>::infinity();
+  train.animeme.modes = !options.single_mode;
+  train.animeme.normalised = !options.plain_sum;
+  if (options.free_time) train.animeme.time_margin = std::numeric_limits<double>::infinity();
   train.provenance = "animeme " ANIMEME_VERSION ", method " + options.method + ", " +
                      std::to_string(corpus->utterances.size()) + " utterances" +
                      (options.corpus.split.empty() ? ""
@@ -92,19 +90,27 @@ Result<int> run(const Options& options) {
   return kOk;
 }
 
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const dam::Method method : dam::methods()) names.emplace_back(dam::method_name(method));
+  return names;
+}
+
 Action add(CLI::App& app) {
   auto options = std::make_shared<Options>();
   app.add_option("corpus", options->corpus.folder,
                  "Folder with utterances.tsv, phonemes/ID.tsv and fap/ID.csv")
       ->required();
   app.add_option("-o,--output", options->output, "Model file to write")->required();
-  app.add_option("--method", options->method, "dam-paper")->capture_default_str();
+  app.add_option("--method", options->method, "Kind of model")
+      ->check(CLI::IsMember(method_names()))
+      ->capture_default_str();
   app.add_option("--split", options->corpus.split, "Train on these rows only, e.g. train");
   add_corpus_options(app, options->corpus);
   app.add_option("--controls", options->corpus.controls,
                  "Controls to learn: FAP numbers (3-13,51-60) or column names; default: all")
       ->delimiter(',');
-  app.add_option("--order", options->train.order, "Degree M of the polynomials")
+  app.add_option("--order", options->train.animeme.order, "Degree M of the polynomials")
       ->check(CLI::Range(0, 8))
       ->capture_default_str();
   app.add_flag("--single-mode", options->single_mode, "One mode a phone, no clustering");
@@ -112,7 +118,7 @@ Action add(CLI::App& app) {
                "Blend by the plain sum of Eq. 2 and do not divide by the sum of dominances");
   app.add_flag("--free-time", options->free_time,
                "Extrapolate the polynomials freely, as the paper's equations say");
-  app.add_option("--ridge", options->train.ridge, "Ridge on the coefficients, in frames")
+  app.add_option("--ridge", options->train.animeme.ridge, "Ridge on the coefficients, in frames")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_option("--max-iterations", options->train.max_iterations, "EM steps at most")

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dam/detail/fit.h"
-#include "dam/detail/fit_normal.h"
 #include "dam/detail/parallel.h"
+#include "dam/kinds/animeme/fit.h"
+#include "dam/kinds/animeme/fit_normal.h"
 
 namespace animeme::dam {
 namespace {

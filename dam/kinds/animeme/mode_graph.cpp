@@ -1,4 +1,4 @@
-#include "dam/detail/mode_graph.h"
+#include "dam/kinds/animeme/mode_graph.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "dam/detail/contexts.h"
+#include "dam/kinds/animeme/contexts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,7 +71,7 @@ void refine(std::vector<double>& p, const Level& level) {
 
 }  // namespace
 
-std::vector<double> mode_costs(const PhoneModel& phone, std::span<const std::uint32_t> class_of,
+std::vector<double> mode_costs(const AnimemePhone& phone, std::span<const std::uint32_t> class_of,
                                std::int32_t left, std::int32_t right, std::int32_t leave_out) {
   const std::size_t n = phone.modes.size();
   if (n == 1) return {0.0};

@@ -1,8 +1,8 @@
-#include "dam/detail/choose_modes.h"
+#include "dam/kinds/animeme/choose_modes.h"
 
 #include "dam/animeme.h"
-#include "dam/detail/contexts.h"
-#include "dam/detail/mode_graph.h"
+#include "dam/kinds/animeme/contexts.h"
+#include "dam/kinds/animeme/mode_graph.h"
 
 namespace animeme::dam {
 namespace {
@@ -12,9 +12,9 @@ struct EndState {
   std::vector<double> value, slope, curvature;
 };
 
-EndState end_state(const Model& model, const Mode& mode, double u) {
-  const std::size_t controls = model.controls.size();
-  std::vector<double> a(model.order + 1);
+EndState end_state(const Mode& mode, std::size_t terms, double u) {
+  const std::size_t controls = mode.coefficients.size() / terms;
+  std::vector<double> a(terms);
   EndState state;
   for (std::size_t c = 0; c < controls; ++c) {
     for (std::size_t m = 0; m < a.size(); ++m) a[m] = mode.coefficients[m * controls + c];
@@ -28,21 +28,21 @@ EndState end_state(const Model& model, const Mode& mode, double u) {
 /// The ends of all modes of a model, made when first asked for.
 class Ends {
  public:
-  explicit Ends(const Model& model) : model_(model), cache_(model.phones.size()) {}
+  explicit Ends(const AnimemeParameters& parameters)
+      : parameters_(parameters), cache_(parameters.phones.size()) {}
 
   const EndState& get(std::int32_t phone, std::size_t mode, bool at_end) {
     auto& list = cache_[std::size_t(phone)];
-    const PhoneModel& p = model_.phones[std::size_t(phone)];
     if (list.empty())
-      for (const Mode& m : p.modes) {
-        list.push_back(end_state(model_, m, 0));
-        list.push_back(end_state(model_, m, 1));
+      for (const Mode& m : parameters_.phones[std::size_t(phone)].modes) {
+        list.push_back(end_state(m, parameters_.order + 1, 0));
+        list.push_back(end_state(m, parameters_.order + 1, 1));
       }
     return list[2 * mode + (at_end ? 1 : 0)];
   }
 
  private:
-  const Model& model_;
+  const AnimemeParameters& parameters_;
   std::vector<std::vector<EndState>> cache_;
 };
 
@@ -61,22 +61,25 @@ double jump(const EndState& before, double frames_before, const EndState& after,
 
 }  // namespace
 
-std::vector<std::size_t> choose_modes(const Model& model, const std::vector<Occurrence>& timeline,
-                                      double context_weight, double smoothness_weight) {
+std::vector<std::size_t> choose_modes(const Speech& speech) {
+  const Model& model = speech.model;
+  const auto& parameters = std::get<AnimemeParameters>(model.parameters);
+  const std::span<const Occurrence> timeline = speech.timeline;
+  const std::span<const std::int32_t> phone = speech.phone;
+  const double context_weight = speech.options.context_weight;
+  const double smoothness_weight = speech.options.smoothness_weight;
   const auto classes = context_classes(model);
   const double rate = model.rate.frames_per_second();
-  std::vector<std::int32_t> phone;
-  for (const Occurrence& o : timeline) phone.push_back(model.find_phone(o.label));
   ModeGraph graph;
   for (std::size_t j = 0; j < timeline.size(); ++j) {
     const auto neighbour = [&](const std::string& label) {
       return label.empty() ? kRestContext : model.find_phone(label);
     };
-    graph.node.push_back(mode_costs(model.phones[std::size_t(phone[j])], classes,
+    graph.node.push_back(mode_costs(parameters.phones[std::size_t(phone[j])], classes,
                                     neighbour(timeline[j].left), neighbour(timeline[j].right)));
     for (double& cost : graph.node.back()) cost *= context_weight;
   }
-  Ends ends(model);
+  Ends ends(parameters);
   graph.edge = [&](std::size_t j, std::size_t from, std::size_t to) {
     // A single edge between two layers is no choice; a rest in between needs no smoothness.
     const bool choice = graph.node[j - 1].size() * graph.node[j].size() > 1;

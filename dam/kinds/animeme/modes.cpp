@@ -1,13 +1,13 @@
-#include "dam/detail/modes.h"
+#include "dam/kinds/animeme/modes.h"
 
 #include <algorithm>
 #include <limits>
 #include <map>
 #include <tuple>
 
-#include "dam/detail/affinity.h"
 #include "dam/detail/parallel.h"
 #include "dam/detail/spline.h"
+#include "dam/kinds/animeme/affinity.h"
 
 namespace animeme::dam {
 namespace {
@@ -58,7 +58,7 @@ void drop_small(const Clusters& clusters, std::vector<std::size_t>& exemplars) {
 /// Mode of each of `members` (indices of occurrences), numbered from 0.
 std::vector<std::size_t> cluster(const std::vector<double>& vectors, std::size_t width,
                                  const std::vector<std::size_t>& members,
-                                 const TrainOptions& options) {
+                                 const AnimemeOptions& options) {
   std::vector<std::size_t> label(members.size(), 0);
   if (!options.modes || members.size() < std::size_t(options.mode_examples)) return label;
   const std::size_t n = std::min(members.size(), std::size_t(options.affinity_limit));
@@ -93,14 +93,15 @@ std::vector<std::size_t> cluster(const std::vector<double>& vectors, std::size_t
 
 }  // namespace
 
-ModeTable find_modes(FitData& data, std::size_t phones, const TrainOptions& options) {
+ModeTable find_modes(FitData& data, std::size_t phones, const AnimemeOptions& options,
+                     int threads) {
   std::vector<std::vector<std::size_t>> members(phones), labels(phones);
   for (std::size_t j = 0; j < data.occurrences.size(); ++j)
     members[std::size_t(data.occurrences[j].phone)].push_back(j);
   const auto points = std::size_t(options.resample_points);
   const std::vector<double> vectors =
       options.modes ? resample(data, points) : std::vector<double>{};
-  parallel_for(phones, options.threads, [&](std::size_t p) {
+  parallel_for(phones, threads, [&](std::size_t p) {
     labels[p] = cluster(vectors, points * data.controls, members[p], options);
   });
   ModeTable table{{0}};
@@ -115,7 +116,8 @@ ModeTable find_modes(FitData& data, std::size_t phones, const TrainOptions& opti
   return table;
 }
 
-void count_contexts(const FitData& data, const ModeTable& table, std::vector<PhoneModel>& phones) {
+void count_contexts(const FitData& data, const ModeTable& table,
+                    std::vector<AnimemePhone>& phones) {
   using Key = std::tuple<std::int32_t, std::int32_t, std::uint32_t>;
   std::vector<std::map<Key, std::uint32_t>> counts(phones.size());
   for (const FitOccurrence& o : data.occurrences) {

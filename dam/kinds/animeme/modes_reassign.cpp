@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "dam/animeme.h"
-#include "dam/detail/contexts.h"
-#include "dam/detail/modes.h"
+#include "dam/kinds/animeme/contexts.h"
+#include "dam/kinds/animeme/modes.h"
 
 namespace animeme::dam {
 namespace {
@@ -11,15 +11,15 @@ namespace {
 class Reassigner {
  public:
   Reassigner(FitData& data, const ModeTable& table, const FitState& state, double context_weight,
-             std::vector<PhoneModel>& phones)
+             std::span<const std::uint32_t> classes, const std::vector<AnimemePhone>& phones)
       : data_(data),
         table_(table),
         state_(state),
         weight_(context_weight),
         phones_(phones),
-        members_(table.count(), 0) {
+        members_(table.count(), 0),
+        classes_(classes) {
     for (const FitOccurrence& o : data.occurrences) ++members_[o.mode];
-    for (const PhoneModel& phone : phones) classes_.push_back(phone.context_class);
   }
 
   std::size_t run() {
@@ -116,9 +116,9 @@ class Reassigner {
   const ModeTable& table_;
   const FitState& state_;
   double weight_;
-  std::vector<PhoneModel>& phones_;
+  const std::vector<AnimemePhone>& phones_;
   std::vector<std::size_t> members_;
-  std::vector<std::uint32_t> classes_;
+  std::span<const std::uint32_t> classes_;
   std::vector<double> numerator_, sum_;  // of Eq. 2, per frame of the sentence
   std::vector<double> value_;
   double weight_of_value_ = 0;
@@ -127,8 +127,9 @@ class Reassigner {
 }  // namespace
 
 std::size_t reassign_modes(FitData& data, const ModeTable& table, const FitState& state,
-                           double context_weight, std::vector<PhoneModel>& phones) {
-  const std::size_t moves = Reassigner(data, table, state, context_weight, phones).run();
+                           double context_weight, std::span<const std::uint32_t> classes,
+                           std::vector<AnimemePhone>& phones) {
+  const std::size_t moves = Reassigner(data, table, state, context_weight, classes, phones).run();
   count_contexts(data, table, phones);
   return moves;
 }

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "dam/detail/fit.h"
+#include "dam/kinds/animeme/fit.h"
 #include "dam/model.h"
 #include "dam/train.h"
 
@@ -26,15 +26,16 @@ inline constexpr std::size_t kSmallestMode = 5;
 
 /// Clusters the occurrences of every phone and sets FitOccurrence::mode. The vector of an
 /// occurrence is its signal, spline through all frames, at resample_points over the phone.
-ModeTable find_modes(FitData& data, std::size_t phones, const TrainOptions& options);
+ModeTable find_modes(FitData& data, std::size_t phones, const AnimemeOptions& options, int threads);
 
-/// Counts modes by context into PhoneModel::contexts. PhoneModel::modes is resized.
-void count_contexts(const FitData& data, const ModeTable& table, std::vector<PhoneModel>& phones);
+/// Counts modes by context into AnimemePhone::contexts. AnimemePhone::modes is resized.
+void count_contexts(const FitData& data, const ModeTable& table, std::vector<AnimemePhone>& phones);
 
 /// Moves occurrences one by one to the mode with the smallest squared error of the whole signal
 /// around them plus `context_weight` * -log P(mode | context), the rest being as it is.
 /// No mode becomes smaller than kSmallestMode. Returns the number of moves. Updates the counts.
 std::size_t reassign_modes(FitData& data, const ModeTable& table, const FitState& state,
-                           double context_weight, std::vector<PhoneModel>& phones);
+                           double context_weight, std::span<const std::uint32_t> classes,
+                           std::vector<AnimemePhone>& phones);
 
 }  // namespace animeme::dam

@@ -18,7 +18,7 @@ inline constexpr double kBackOff = 4;
 /// `class_of` holds Model::phones[i].context_class; left and right are indices or kRestContext.
 /// `leave_out` >= 0 takes one example of that mode in this very context away first, so that an
 /// occurrence of the training set does not vote for itself.
-std::vector<double> mode_costs(const PhoneModel& phone, std::span<const std::uint32_t> class_of,
+std::vector<double> mode_costs(const AnimemePhone& phone, std::span<const std::uint32_t> class_of,
                                std::int32_t left, std::int32_t right, std::int32_t leave_out = -1);
 
 /// context_class of all phones of a model, for mode_costs().

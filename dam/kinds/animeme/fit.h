@@ -13,33 +13,15 @@
 #include <span>
 #include <vector>
 
+#include "dam/detail/speech_data.h"
+
 namespace animeme::dam {
 
-struct FitOccurrence {
-  double start = 0;  ///< seconds from the start of its sentence
-  double duration = 0;
-  std::int32_t phone = 0;
-  std::int32_t left = 0;  ///< phones beside it, kRestContext: the resting mouth
-  std::int32_t right = 0;
-  std::uint32_t mode = 0;  ///< numbered over all phones
-};
-
-struct FitSentence {
-  std::size_t first_frame = 0, frames = 0;
-  std::size_t first_occurrence = 0, occurrences = 0;
-};
-
 /// What is fitted.
-struct FitData {
-  std::size_t controls = 0;
+struct FitData : SpeechData {
   int order = 4;
-  double rate = 25;  ///< frames per second
   double time_margin = 0.5;
-  bool normalised = false;        ///< blend by D / sum of D, see TrainOptions
-  std::vector<double> target;     ///< frames x controls
-  std::vector<std::uint8_t> use;  ///< per frame: 0 is left out
-  std::vector<FitSentence> sentences;
-  std::vector<FitOccurrence> occurrences;
+  bool normalised = false;  ///< blend by D / sum of D, see AnimemeOptions
 
   std::size_t terms() const { return std::size_t(order) + 1; }
 };
@@ -120,11 +102,6 @@ WidthStep width_step(const FitData& data, const FitWeights& weights, const FitSt
 bool expectation_maximisation(const FitData& data, const FitWeights& weights, int max_iterations,
                               double tolerance, FitState& state,
                               const std::function<bool(const FitState&)>& accepted);
-
-/// Seconds by which the signal comes after its labels (negative: before), from how well the phones
-/// fit when all are moved by -120 to 120 ms, widths as they are. Rough:
-/// widths and neighbours take up a part of a true lag.
-double estimate_lag(FitData data, const FitWeights& weights, const FitState& state);
 
 /// Coefficients a^0 .. a^M by powers of u from those by Legendre polynomials.
 std::vector<double> power_coefficients(std::span<const double> legendre_coefficients);

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "dam/animeme.h"
-#include "dam/detail/fit.h"
+#include "dam/kinds/animeme/fit.h"
 
 namespace animeme::dam {
 

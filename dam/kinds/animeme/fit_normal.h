@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <span>
 
-#include "dam/detail/fit.h"
+#include "dam/kinds/animeme/fit.h"
 
 namespace animeme::dam {
 

@@ -1,0 +1,76 @@
+// What tells one kind of model from another. synthesise(), train() and the model file do what all
+// kinds share and leave the rest to the entry of this table. A new kind is a folder here, an entry
+// in kind.cpp and an alternative of Parameters.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dam/detail/bytes.h"
+#include "dam/detail/timeline.h"
+#include "dam/detail/training_set.h"
+#include "dam/model.h"
+#include "dam/synthesise.h"
+#include "dam/train.h"
+#include "fap/result.h"
+
+namespace animeme::dam {
+
+/// A training run as a kind sees it: what it may report to.
+struct TrainRun {
+  TrainSummary& summary;
+  const ProgressFunction& progress;
+
+  /// False if the user wants to stop; then return cancelled().
+  bool report(const char* stage, double done, double objective = 0) const {
+    return !progress || progress(Progress{stage, done, objective});
+  }
+  static Error cancelled() { return make_error(Code::invalid_argument, "training was cancelled"); }
+};
+
+/// What a kind makes curves from.
+struct Speech {
+  const Model& model;
+  /// Every label is a phone of the model.
+  std::span<const Occurrence> timeline;
+  /// Model::phones index of each occurrence.
+  std::span<const std::int32_t> phone;
+  const SynthesisOptions& options;
+  /// Frames to make: [first_frame, first_frame + frames) at `rate`.
+  fap::Rate rate;
+  std::size_t first_frame = 0;
+  std::size_t frames = 0;
+
+  double time(std::size_t frame) const { return rate.seconds(double(first_frame + frame)); }
+};
+
+struct Kind {
+  Method method;
+  std::string_view name;  ///< for users and files
+
+  /// Checks Model::parameters; the rest of the model is valid already.
+  Result<void> (*validate)(const Model& model);
+  /// Model::parameters to and from the file. read() may trust nothing but the common part, and
+  /// must not allocate what the input does not pay for; validate() follows.
+  void (*write)(const Model& model, ByteWriter& out);
+  Result<void> (*read)(ByteReader& in, Model& model);
+  /// Fits. `model` has everything but its parameters.
+  Result<Parameters> (*fit)(const TrainingSet& set, const Model& model, const TrainOptions& options,
+                            TrainRun& run);
+  /// S(t) of model.h into `rows`: frames x controls zeros, row by row. A frame costs as much as
+  /// there are phones near it.
+  void (*speak)(const Speech& speech, std::span<double> rows, SynthesisReport& report);
+};
+
+/// The entry of a method; the method must be one of methods().
+const Kind& kind_of(Method method);
+/// All entries, in the order in which people see them.
+std::span<const Kind> kinds();
+
+/// "the model is not valid: ..."
+Error invalid_model(const std::string& what);
+
+}  // namespace animeme::dam
