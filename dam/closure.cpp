@@ -38,7 +38,7 @@ void close_pair(Signal& signal, const LipPair& pair, const FrameSpan& span, doub
     if (channel >= 0) signal.at(frame, std::size_t(channel)) += value;
   };
   for (std::size_t i = span.first; i < span.last; ++i) {
-    const double x = (signal.rate.seconds(double(i)) - centre) / half_width;
+    const double x = (signal.time(i) - centre) / half_width;
     if (std::abs(x) >= 1) continue;
     const double shift = amount * 0.5 * (1 + std::cos(std::numbers::pi * x));
     add(i, pair.upper, kUpperShare * shift);
@@ -57,7 +57,7 @@ bool close_phone(Signal& signal, const Phone& phone, const std::array<LipPair, 3
     if (inner_gap(signal, i, middle) < inner_gap(signal, least, middle)) least = i;
   if (search.first == search.last || !(inner_gap(signal, least, middle) > options.target))
     return false;
-  const double centre = signal.rate.seconds(double(least));
+  const double centre = signal.time(least);
   const double half_width = phone.duration() / 2 + kHalfWidth;
   const FrameSpan span = frames_near(signal, {centre, centre, {}, {}}, half_width);
   for (const LipPair& pair : pairs) {
@@ -65,6 +65,35 @@ bool close_phone(Signal& signal, const Phone& phone, const std::array<LipPair, 3
     const LipChannels lips{std::size_t(pair.upper), std::size_t(pair.lower)};
     const double amount = inner_gap(signal, least, lips) - options.target;
     if (amount > 0) close_pair(signal, pair, span, centre, half_width, amount, options);
+  }
+  return true;
+}
+
+bool raise_to_teeth(Signal& signal, const Phone& phone, const std::array<LipPair, 3>& pairs,
+                    double raise, const ClosureOptions& options) {
+  const auto lower = std::size_t(pairs[0].lower);
+  const FrameSpan search = frames_near(signal, phone, kClosureSearch);
+  std::size_t highest = search.first;
+  for (std::size_t i = search.first; i < search.last; ++i)
+    if (signal.at(i, lower) > signal.at(highest, lower)) highest = i;
+  if (search.first == search.last || !(signal.at(highest, lower) < raise)) return false;
+  const double missing = raise - signal.at(highest, lower);
+  const double centre = signal.time(highest);
+  const double half_width = phone.duration() / 2 + kHalfWidth;
+  const FrameSpan span = frames_near(signal, {centre, centre, {}, {}}, half_width);
+  for (std::size_t i = span.first; i < span.last; ++i) {
+    const double x = (signal.time(i) - centre) / half_width;
+    if (std::abs(x) >= 1) continue;
+    const double shift = missing * 0.5 * (1 + std::cos(std::numbers::pi * x));
+    for (const LipPair& pair : pairs) {
+      if (pair.upper < 0 || pair.lower < 0) continue;
+      const LipChannels lips{std::size_t(pair.upper), std::size_t(pair.lower)};
+      const double room = std::max(0.0, inner_gap(signal, i, lips) - kLeastOpen);
+      const double moved = std::min(shift, room);
+      signal.at(i, lips.lower) += moved;
+      if (pair.outer_lower >= 0)
+        signal.at(i, std::size_t(pair.outer_lower)) += options.lower_follow * moved;
+    }
   }
   return true;
 }
@@ -87,6 +116,11 @@ void close_pose(std::span<const std::string> names, std::span<double> pose,
   }
 }
 
+bool is_labiodental(std::string_view label) {
+  const PhoneInfo* info = find_phone(label);
+  return info != nullptr && info->labiodental;
+}
+
 bool is_bilabial(std::string_view label) {
   const PhoneInfo* info = find_phone(label);
   return info != nullptr && info->bilabial;
@@ -100,17 +134,30 @@ std::optional<LipChannels> inner_lip_channels(std::span<const std::string> names
 
 FrameSpan frames_near(const Signal& signal, const Phone& phone, double margin) {
   const double rate = signal.rate.frames_per_second(), frames = double(signal.frames());
-  if (!(phone.start * rate < frames)) return {};
-  const double from = std::ceil((phone.start - margin) * rate);
-  const double to = std::floor((phone.end + margin) * rate) + 1;
+  const double first = double(signal.first_frame);
+  if (!(phone.start * rate - first < frames)) return {};
+  const double from = std::ceil((phone.start - margin) * rate) - first;
+  const double to = std::floor((phone.end + margin) * rate) + 1 - first;
   FrameSpan span{std::size_t(std::clamp(from, 0.0, frames)),
                  std::size_t(std::clamp(to, 0.0, frames))};
+  if (to <= 0) return {};
   if (span.first >= span.last && frames > 0) {  // low frame rates: the phone falls between frames
-    const double nearest = std::round((phone.start + phone.end) / 2 * rate);
+    const double nearest = std::round((phone.start + phone.end) / 2 * rate) - first;
     span.first = std::size_t(std::clamp(nearest, 0.0, frames - 1));
     span.last = span.first + 1;
   }
   return span;
+}
+
+std::size_t apply_lip_tooth_contact(Signal& signal, const Script& script, double raise,
+                                    const ClosureOptions& options) {
+  if (!inner_lip_channels(signal.names)) return 0;
+  const auto pairs = lip_pairs(signal.names);
+  std::size_t repaired = 0;
+  for (const Phone& phone : script.phones)
+    if (is_labiodental(phone.label) && raise_to_teeth(signal, phone, pairs, raise, options))
+      ++repaired;
+  return repaired;
 }
 
 std::size_t apply_contact(Signal& signal, const ClosureOptions& options) {

@@ -1,5 +1,6 @@
-// P, B and M close the lips. Sums of smooth functions undershoot short closures, and viewers notice
-// nothing as readily, so synthesis repairs them. Source: lipsync, section 5.6.
+// P, B and M close the lips, F and V bring the lower lip to the upper teeth. Sums of smooth
+// functions undershoot short contacts, and viewers notice nothing as readily, so synthesis repairs
+// them. Source: lipsync, section 5.6.
 #pragma once
 
 #include <cstddef>
@@ -32,6 +33,13 @@ struct ClosureOptions {
 /// Returns the number of phones closed. Does nothing if FAP 4 or 5 is missing.
 std::size_t apply_closure(Signal& signal, const Script& script, const ClosureOptions& options = {});
 
+/// Lets every F and V raise the inner lower lip (FAP 5) to `raise` FAP units in one frame at least,
+/// the same way; its sides (10, 11) and the outer contour (52, 57, 58) follow. The lips stay apart:
+/// the inner gap never falls below kLeastOpen for this. Returns the number of phones repaired.
+inline constexpr double kLeastOpen = 50;
+std::size_t apply_lip_tooth_contact(Signal& signal, const Script& script, double raise,
+                                    const ClosureOptions& options = {});
+
 /// Lips that meet stop: inner gaps below `least` are opened to it, in the middle and at the sides,
 /// each lip by half; the outer contour follows. Returns the number of frames touched.
 std::size_t apply_contact(Signal& signal, const ClosureOptions& options = {});
@@ -62,5 +70,7 @@ FrameSpan frames_near(const Signal& signal, const Phone& phone, double margin);
 
 /// True for P, B, M.
 bool is_bilabial(std::string_view label);
+/// True for F, V.
+bool is_labiodental(std::string_view label);
 
 }  // namespace animeme::dam

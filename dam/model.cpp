@@ -26,6 +26,8 @@ Result<void> validate(const Model& model) {
   if (!(model.pause_edge > 0) || !(model.pause_edge <= 5))
     return invalid_model("its pause edge is out of range");
   if (!std::isfinite(model.closure_gap)) return invalid_model("its closure gap is not a number");
+  if (model.lip_tooth_raise && !std::isfinite(*model.lip_tooth_raise))
+    return invalid_model("its lip-tooth contact is not a number");
   if (!model.rate.valid()) return invalid_model("its frame rate is zero");
   if (model.controls.empty()) return invalid_model("it has no control");
   for (const Control& c : model.controls)
@@ -36,7 +38,11 @@ Result<void> validate(const Model& model) {
   for (std::size_t p = 0; p < model.phones.size(); ++p) {
     if (p > 0 && !(model.phones[p - 1].label < model.phones[p].label))
       return invalid_model("its phones are not sorted");
-    if (model.phones[p].label.empty()) return invalid_model("a phone has no label");
+    const PhoneModel& phone = model.phones[p];
+    if (phone.label.empty()) return invalid_model("a phone has no label");
+    if (!(phone.duration > 0) || !(phone.longest > 0) || !std::isfinite(phone.duration) ||
+        !std::isfinite(phone.longest))
+      return invalid_model("phone " + phone.label + " has no duration");
   }
   return kind_of(model.method).validate(model);
 }

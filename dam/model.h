@@ -53,6 +53,8 @@ struct PhoneModel {
   std::string label;                ///< upper-case ARPAbet or "SIL"
   std::uint32_t examples = 0;       ///< occurrences in the training rows
   std::uint32_t context_class = 0;  ///< phones of one class stand in for each other as context
+  double duration = 0.08;           ///< seconds, geometric mean of the training rows, > 0
+  double longest = 0.3;             ///< seconds: what lasts longer (singing) holds its middle
 
   friend bool operator==(const PhoneModel&, const PhoneModel&) = default;
 };
@@ -102,7 +104,9 @@ struct Model {
   Method method = Method::dam_paper;
   double pause_edge = 0.3;  ///< seconds: the part of a pause that belongs to the speech beside it
   double closure_gap = 25;  ///< FAP units: inner lip gap to which P, B, M close
-  fap::Rate rate;           ///< of the training signal
+  /// FAP units: how far F and V raise the inner lower lip (FAP 5) towards the teeth; none: unknown.
+  std::optional<double> lip_tooth_raise;
+  fap::Rate rate;  ///< of the training signal
   std::vector<Control> controls;
   std::vector<PhoneModel> phones;  ///< sorted by label
   Parameters parameters;           ///< the alternative that the method needs

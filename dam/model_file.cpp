@@ -47,6 +47,10 @@ Result<Model> read_payload(ByteReader& in, bool newer_minor) {
         "the model was made by a method that this version does not know; use a newer one");
   model.pause_edge = in.real();
   model.closure_gap = in.real();
+  const auto has_raise = in.number<std::uint8_t>();
+  const double raise = in.real();
+  if (has_raise > 1) return damaged("unknown flag");
+  if (has_raise == 1) model.lip_tooth_raise = raise;
   model.rate.num = in.number<std::uint32_t>();
   model.rate.den = in.number<std::uint32_t>();
   model.attribution = in.text();
@@ -58,11 +62,13 @@ Result<Model> read_payload(ByteReader& in, bool newer_minor) {
     c.mean = in.real();
     c.sd = in.real();
   }
-  model.phones.resize(in.count(4 + 4 + 4));
+  model.phones.resize(in.count(4 + 4 + 4 + 8 + 8));
   for (PhoneModel& p : model.phones) {
     p.label = in.text();
     p.examples = in.number<std::uint32_t>();
     p.context_class = in.number<std::uint32_t>();
+    p.duration = in.real();
+    p.longest = in.real();
   }
   if (auto ok = kind_of(model.method).read(in, model); !ok) return damaged(ok.error().message);
   if (in.failed()) return damaged("its parts are larger than the file");
@@ -78,6 +84,8 @@ std::vector<std::uint8_t> write_model(const Model& model) {
   body.number(std::uint8_t(model.method));
   body.real(model.pause_edge);
   body.real(model.closure_gap);
+  body.number(std::uint8_t(model.lip_tooth_raise ? 1 : 0));
+  body.real(model.lip_tooth_raise.value_or(0));
   body.number(model.rate.num);
   body.number(model.rate.den);
   body.text(model.attribution);
@@ -94,6 +102,8 @@ std::vector<std::uint8_t> write_model(const Model& model) {
     body.text(phone.label);
     body.number(phone.examples);
     body.number(phone.context_class);
+    body.real(phone.duration);
+    body.real(phone.longest);
   }
   kind_of(model.method).write(model, body);
   ByteWriter file;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kConstant = 1e-9;  // a smaller standard deviation is no motion
 constexpr double kOpenestClosure = 25;
-constexpr std::size_t kFewClosures = 5;
+constexpr std::size_t kFewContacts = 5;
 
 /// Mean and deviation of one set of frames.
 struct Moments {
@@ -37,6 +37,30 @@ void close_rest(std::vector<Control>& controls) {
     if (controls[c].sd > 0) controls[c].rest = pose[c];
 }
 
+/// Median over all phones of a sort of the least value of a lip measure near the phone. None with
+/// fewer than five phones or without lip FAPs.
+template <class Sort, class Measure>
+std::optional<double> median_extreme(std::span<const Utterance* const> sentences, Sort wanted,
+                                     Measure measure) {
+  std::vector<double> extremes;
+  for (const Utterance* u : sentences) {
+    const auto lips = inner_lip_channels(u->signal.names);
+    if (!lips) return std::nullopt;
+    for (const Phone& phone : u->script.phones) {
+      if (!wanted(phone.label)) continue;
+      double least = std::numeric_limits<double>::infinity();
+      const FrameSpan span = frames_near(u->signal, phone, kClosureSearch);
+      for (std::size_t i = span.first; i < span.last; ++i)
+        if (is_measured(u->signal, i)) least = std::min(least, measure(u->signal, i, *lips));
+      if (std::isfinite(least)) extremes.push_back(least);
+    }
+  }
+  if (extremes.size() < kFewContacts) return std::nullopt;
+  const auto middle = extremes.begin() + std::ptrdiff_t(extremes.size() / 2);
+  std::nth_element(extremes.begin(), middle, extremes.end());
+  return *middle;
+}
+
 }  // namespace
 
 std::vector<Control> control_statistics(std::span<const Utterance* const> sentences,
@@ -50,8 +74,7 @@ std::vector<Control> control_statistics(std::span<const Utterance* const> senten
       const auto stretches = speech_stretches(u->script);
       for (std::size_t i = 0; i < u->signal.frames(); ++i) {
         if (!is_measured(u->signal, i)) continue;
-        visit(&u->signal.values[i * k],
-              distance_to_speech(stretches, u->signal.rate.seconds(double(i))));
+        visit(&u->signal.values[i * k], distance_to_speech(stretches, u->signal.time(i)));
       }
     }
   };
@@ -82,30 +105,22 @@ std::vector<bool> speech_frames(const Utterance& utterance) {
   const auto stretches = speech_stretches(utterance.script);
   std::vector<bool> speech(utterance.signal.frames());
   for (std::size_t i = 0; i < speech.size(); ++i)
-    speech[i] =
-        is_measured(utterance.signal, i) &&
-        distance_to_speech(stretches, utterance.signal.rate.seconds(double(i))) <= kSpeechMargin;
+    speech[i] = is_measured(utterance.signal, i) &&
+                distance_to_speech(stretches, utterance.signal.time(i)) <= kSpeechMargin;
   return speech;
 }
 
 double measured_closure_gap(std::span<const Utterance* const> sentences) {
-  std::vector<double> gaps;
-  for (const Utterance* u : sentences) {
-    const auto lips = inner_lip_channels(u->signal.names);
-    if (!lips) return kOpenestClosure;
-    for (const Phone& phone : u->script.phones) {
-      if (!is_bilabial(phone.label)) continue;
-      double least = std::numeric_limits<double>::infinity();
-      const FrameSpan span = frames_near(u->signal, phone, kClosureSearch);
-      for (std::size_t i = span.first; i < span.last; ++i)
-        if (is_measured(u->signal, i)) least = std::min(least, inner_gap(u->signal, i, *lips));
-      if (std::isfinite(least)) gaps.push_back(least);
-    }
-  }
-  if (gaps.size() < kFewClosures) return kOpenestClosure;
-  const auto middle = gaps.begin() + std::ptrdiff_t(gaps.size() / 2);
-  std::nth_element(gaps.begin(), middle, gaps.end());
-  return std::clamp(*middle, 0.0, kOpenestClosure);
+  const auto gap = median_extreme(sentences, is_bilabial, inner_gap);
+  return gap ? std::clamp(*gap, 0.0, kOpenestClosure) : kOpenestClosure;
+}
+
+std::optional<double> measured_lip_tooth_raise(std::span<const Utterance* const> sentences) {
+  const auto low = median_extreme(sentences, is_labiodental,
+                                  [](const Signal& signal, std::size_t i, const LipChannels& lips) {
+                                    return -signal.at(i, lips.lower);
+                                  });
+  return low ? std::optional(-*low) : std::nullopt;
 }
 
 }  // namespace animeme::dam

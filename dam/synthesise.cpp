@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "dam/closure.h"
+#include "dam/detail/frames.h"
+#include "dam/detail/rest_gate.h"
 #include "dam/detail/timeline.h"
 #include "dam/kinds/kind.h"
 
@@ -12,68 +13,11 @@ namespace animeme::dam {
 namespace {
 
 constexpr double kMaxFrames = 1e7;
-constexpr double kEndRamp = 0.1;           // seconds in which a clip leaves and reaches rest
-constexpr double kShortestEndRamp = 0.08;  // also if the speech begins earlier
 
-/// 0 at x <= 0, 1 at x >= 1, a raised cosine between.
-double smooth_step(double x) {
-  if (x <= 0) return 0;
-  return x >= 1 ? 1.0 : 0.5 * (1 - std::cos(std::numbers::pi * x));
-}
-
-Result<std::size_t> frame_count(const Script& script, const SynthesisOptions& options) {
-  const auto range = [](const char* what) {
-    return make_error(Code::invalid_argument, std::string("synthesis option ") + what);
-  };
-  if (!options.rate.valid() || !(options.rate.frames_per_second() <= 1000))
-    return range("rate must be above 0 and at most 1000 frames a second");
-  if (!(options.tail >= 0 && options.tail <= 60)) return range("tail must lie between 0 and 60 s");
-  if (!(options.context_weight >= 0 && options.context_weight <= 1e12))
-    return range("context_weight must not be negative");
-  if (!(options.smoothness_weight >= 0 && options.smoothness_weight <= 1e12))
-    return range("smoothness_weight must not be negative");
-  const double seconds = script.duration() + options.tail;
-  const double frames = options.frames > 0
-                            ? double(options.frames)
-                            : std::ceil(seconds * options.rate.frames_per_second() - 1e-6);
-  if (!(frames <= kMaxFrames))
-    return make_error(Code::out_of_range,
-                      "the clip has more than 10 million frames; cut the script");
-  return std::size_t(std::max(0.0, frames));
-}
-
-/// How much of the deviation from rest is shown: fades in long pauses and at the ends of the clip.
-class Gate {
- public:
-  Gate(const Script& script, const Model& model, bool rest_at_ends, double last_frame_time)
-      : stretches_(speech_stretches(script)),
-        edge_(model.pause_edge),
-        ends_(rest_at_ends),
-        end_(last_frame_time) {
-    if (stretches_.empty()) return;
-    lead_in_ = std::clamp(stretches_.front().start, kShortestEndRamp, kEndRamp);
-    lead_out_ = std::clamp(end_ - stretches_.back().end, kShortestEndRamp, kEndRamp);
-  }
-
-  double operator()(double time) const {
-    const double distance = distance_to_speech(stretches_, time);
-    double gate = smooth_step((edge_ - distance) / (edge_ / 3));
-    if (ends_) gate *= smooth_step(time / lead_in_) * smooth_step((end_ - time) / lead_out_);
-    return gate;
-  }
-
- private:
-  std::vector<Stretch> stretches_;
-  double edge_;
-  bool ends_;
-  double end_;
-  double lead_in_ = kEndRamp, lead_out_ = kEndRamp;
-};
-
-void to_control_units(const Model& model, const Gate& gate, Signal& signal) {
+void to_control_units(const Model& model, const RestGate& gate, double style, Signal& signal) {
   const std::size_t controls = model.controls.size();
   for (std::size_t i = 0; i < signal.frames(); ++i) {
-    const double shown = gate(signal.rate.seconds(double(i)));
+    const double shown = style * gate(signal.time(i));
     for (std::size_t c = 0; c < controls; ++c) {
       double& value = signal.values[i * controls + c];
       value = model.controls[c].rest + model.controls[c].sd * shown * value;
@@ -98,38 +42,86 @@ ClosureOptions closure_options(const Model& model) {
   return options;
 }
 
+/// Phones that the model knows, in time order, with pauses cut and drawn-out sounds held.
+std::vector<Occurrence> timeline_of(const Model& model, const Script& spoken) {
+  auto timeline = make_timeline(spoken, model.pause_edge);
+  // A model may lack silence only if it was made by hand; the mouth then rests in pauses.
+  std::erase_if(timeline, [&](const Occurrence& o) { return model.find_phone(o.label) < 0; });
+  hold_drawn_out(timeline, [&](const std::string& label) {
+    return model.phones[std::size_t(model.find_phone(label))].longest;
+  });
+  return timeline;
+}
+
+void touch(const Model& model, const Script& script, const SynthesisOptions& options,
+           Signal& signal, SynthesisReport& report) {
+  if (!options.closure) return;
+  const ClosureOptions closure = closure_options(model);
+  if (model.lip_tooth_raise)
+    report.lip_tooth_contacts =
+        apply_lip_tooth_contact(signal, script, *model.lip_tooth_raise, closure);
+  report.closures = apply_closure(signal, script, closure);
+  apply_contact(signal, closure);
+}
+
 }  // namespace
+
+Result<void> validate(const SynthesisOptions& options) {
+  const auto range = [](const char* what) {
+    return make_error(Code::invalid_argument, std::string("synthesis option ") + what);
+  };
+  if (!options.rate.valid() || !(options.rate.frames_per_second() <= 1000))
+    return range("rate must be above 0 and at most 1000 frames a second");
+  if (!(options.tail >= 0 && options.tail <= 60)) return range("tail must lie between 0 and 60 s");
+  if (!(options.style >= 0 && options.style <= kMostStyle))
+    return range("style must lie between 0 and 1.5");
+  if (!(options.context_weight >= 0 && options.context_weight <= 1e12))
+    return range("context_weight must not be negative");
+  if (!(options.smoothness_weight >= 0 && options.smoothness_weight <= 1e12))
+    return range("smoothness_weight must not be negative");
+  return {};
+}
+
+Result<Signal> synthesise_frames(const Model& model, const Script& script,
+                                 const SynthesisOptions& options, const FramePlan& plan,
+                                 SynthesisReport& report) {
+  const auto spoken = replace_unknown_phones(model, script, &report);
+  if (!spoken) return spoken.error();
+  const auto timeline = timeline_of(model, *spoken);
+  std::vector<std::int32_t> phone;
+  for (const Occurrence& o : timeline) phone.push_back(model.find_phone(o.label));
+  report.phones = timeline.size();
+  Signal signal;
+  signal.rate = options.rate;
+  signal.first_frame = plan.first;
+  for (const Control& control : model.controls) signal.names.push_back(control.name);
+  signal.values.assign(plan.count * model.controls.size(), 0.0);
+  kind_of(model.method)
+      .speak({model, timeline, phone, options, options.rate, plan.first, plan.count}, signal.values,
+             report);
+  const RestGate gate(*spoken, model.pause_edge, options.rest_at_ends, plan.last_frame);
+  to_control_units(model, gate, options.style, signal);
+  touch(model, script, options, signal, report);
+  return signal;
+}
 
 Result<Signal> synthesise(const Model& model, const Script& script, const SynthesisOptions& options,
                           SynthesisReport* report) {
   if (auto ok = check_script(script); !ok) return ok.error();
-  const auto frames = frame_count(script, options);
-  if (!frames) return frames.error();
+  if (auto ok = validate(options); !ok) return ok.error();
+  const double seconds = script.duration() + options.tail;
+  const double frames = options.frames > 0
+                            ? double(options.frames)
+                            : std::ceil(seconds * options.rate.frames_per_second() - 1e-6);
+  if (!(frames <= kMaxFrames))
+    return make_error(Code::out_of_range,
+                      "the clip has more than 10 million frames; cut the script");
   SynthesisReport own;
   SynthesisReport& out = report != nullptr ? *report : own;
   out = {};
-  const auto spoken = replace_unknown_phones(model, script, &out);
-  if (!spoken) return spoken.error();
-  auto timeline = make_timeline(*spoken, model.pause_edge);
-  // A model may lack silence only if it was made by hand; the mouth then rests in pauses.
-  std::erase_if(timeline, [&](const Occurrence& o) { return model.find_phone(o.label) < 0; });
-  std::vector<std::int32_t> phone;
-  for (const Occurrence& o : timeline) phone.push_back(model.find_phone(o.label));
-  out.phones = timeline.size();
-  Signal signal;
-  signal.rate = options.rate;
-  for (const Control& control : model.controls) signal.names.push_back(control.name);
-  signal.values.assign(*frames * model.controls.size(), 0.0);
-  kind_of(model.method)
-      .speak({model, timeline, phone, options, options.rate, 0, *frames}, signal.values, out);
-  const double last = options.rate.seconds(double(*frames) - 1);
-  to_control_units(model, Gate(*spoken, model, options.rest_at_ends, last), signal);
-  if (options.closure) {
-    const ClosureOptions closure = closure_options(model);
-    out.closures = apply_closure(signal, script, closure);
-    apply_contact(signal, closure);
-  }
-  return signal;
+  const auto count = std::size_t(std::max(0.0, frames));
+  const double last = options.rate.seconds(double(count) - 1);
+  return synthesise_frames(model, script, options, {0, count, last}, out);
 }
 
 }  // namespace animeme::dam

@@ -7,7 +7,7 @@ namespace animeme::dam {
 namespace {
 
 Occurrence silence(double start, double duration) {
-  return {std::string(kSilence), start, std::max(duration, kShortestPhone), {}, {}};
+  return {std::string(kSilence), start, std::max(duration, kShortestPhone), {}, {}, 0};
 }
 
 void add_pause(std::vector<Occurrence>& out, double start, double end, double edge) {
@@ -51,12 +51,20 @@ std::vector<Occurrence> make_timeline(const Script& script, double pause_edge) {
       out.push_back(silence(phone.start - pause_edge, pause_edge));
     else
       add_pause(out, spoken_until, phone.start, pause_edge);
-    out.push_back({phone.label, phone.start, std::max(phone.duration(), kShortestPhone), {}, {}});
+    out.push_back(
+        {phone.label, phone.start, std::max(phone.duration(), kShortestPhone), {}, {}, 0});
     spoken_until = phone.end;
   }
   if (!out.empty()) out.push_back(silence(spoken_until, pause_edge));
   link(out);
   return out;
+}
+
+void hold_drawn_out(std::vector<Occurrence>& timeline,
+                    const std::function<double(const std::string&)>& longest_of) {
+  for (Occurrence& o : timeline) {
+    if (o.label != kSilence) o.hold = std::max(0.0, o.duration - longest_of(o.label));
+  }
 }
 
 double distance_to_speech(const std::vector<Stretch>& stretches, double time) {

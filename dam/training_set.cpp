@@ -12,6 +12,7 @@ namespace animeme::dam {
 namespace {
 
 constexpr std::size_t kFewExamples = 12;
+constexpr double kLongestAnyway = 0.3;  // seconds: nothing shorter is drawn out
 
 Error in_sentence(const Utterance& u, const std::string& what) {
   return make_error(Code::invalid_argument, "sentence '" + u.id + "': " + what);
@@ -36,15 +37,24 @@ Result<void> check(const Utterance& u, const Signal& first) {
 using Timelines = std::vector<std::vector<Occurrence>>;
 
 std::vector<PhoneModel> phone_table(const Timelines& timelines) {
-  std::map<std::string, std::uint32_t> examples;
+  struct Examples {
+    std::uint32_t count = 0;
+    double log_sum = 0, longest = kLongestAnyway;
+  };
+  std::map<std::string, Examples> examples;
   for (const auto& timeline : timelines)
-    for (const Occurrence& o : timeline) ++examples[o.label];
+    for (const Occurrence& o : timeline) {
+      Examples& e = examples[o.label];
+      ++e.count;
+      e.log_sum += std::log(o.duration);
+      e.longest = std::max(e.longest, o.duration);
+    }
   std::vector<PhoneModel> phones;
-  for (const auto& [label, count] : examples) {
+  for (const auto& [label, e] : examples) {
     const PhoneInfo* info = find_phone(label);
     const std::uint32_t group =
         info != nullptr ? std::uint32_t(info->phone_class) : std::uint32_t(kPhoneClassCount);
-    phones.push_back({label, count, group});
+    phones.push_back({label, e.count, group, std::exp(e.log_sum / e.count), e.longest});
   }
   return phones;
 }
@@ -65,7 +75,7 @@ void add_sentence(const Utterance& u, const std::vector<Occurrence>& timeline, d
       {data.use.size(), u.signal.frames(), data.occurrences.size(), timeline.size()});
   const auto stretches = speech_stretches(u.script);
   for (std::size_t i = 0; i < u.signal.frames(); ++i) {
-    const double distance = distance_to_speech(stretches, u.signal.rate.seconds(double(i)));
+    const double distance = distance_to_speech(stretches, u.signal.time(i));
     data.use.push_back(is_measured(u.signal, i) && distance <= pause_edge ? 1 : 0);
     for (std::size_t c = 0; c < k; ++c) {
       const Control& control = set.controls[c];
@@ -109,6 +119,7 @@ Result<TrainingSet> make_training_set(std::span<const Utterance* const> sentence
     return make_error(Code::invalid_argument, "no sentence has a phone other than silence");
   set.controls = control_statistics(sentences, options.pause_edge);
   set.closure_gap = measured_closure_gap(sentences);
+  set.lip_tooth_raise = measured_lip_tooth_raise(sentences);
   set.phones = phone_table(timelines);
   set.rate = sentences[0]->signal.rate;
   set.data.controls = set.controls.size();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,5 +33,9 @@ std::vector<Control> control_statistics(std::span<const Utterance* const> senten
 /// 0 and 25; 25 if there are no lip FAPs or fewer than five such phones. Source: lipsync,
 /// section 5.6.
 double measured_closure_gap(std::span<const Utterance* const> sentences);
+
+/// Median over all F and V of the highest measured place of the inner lower lip (FAP 5) near the
+/// phone; none with fewer than five such phones or without lip FAPs.
+std::optional<double> measured_lip_tooth_raise(std::span<const Utterance* const> sentences);
 
 }  // namespace animeme::dam

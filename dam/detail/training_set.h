@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct TrainingSet {
   std::vector<PhoneModel> phones;  ///< by label
   fap::Rate rate;
   double closure_gap = 0;  ///< see Model
+  std::optional<double> lip_tooth_raise;
   std::vector<std::string> warnings;
 };
 

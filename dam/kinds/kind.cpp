@@ -11,7 +11,7 @@ constexpr Kind kKinds[] = {
     {Method::dam_paper, "dam-paper", validate_animemes, write_animemes, read_animemes, fit_animemes,
      speak_animemes},
     {Method::cohen_massaro, "cohen-massaro", validate_animemes, write_animemes, read_animemes,
-     fit_animemes, speak_animemes},
+     fit_animemes, speak_animemes, reach_of_animemes},
 };
 constexpr auto kMethods = [] {
   std::array<Method, std::size(kKinds)> list{};

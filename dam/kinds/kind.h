@@ -63,6 +63,8 @@ struct Kind {
   /// S(t) of model.h into `rows`: frames x controls zeros, row by row. A frame costs as much as
   /// there are phones near it.
   void (*speak)(const Speech& speech, std::span<double> rows, SynthesisReport& report);
+  /// Seconds beside a phone beyond which it is not felt.
+  double (*reach)(const Model& model);
 };
 
 /// The entry of a method; the method must be one of methods().

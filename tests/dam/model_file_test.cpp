@@ -16,7 +16,8 @@ Model small_model() {
   model.attribution = "nobody";
   model.provenance = "made by hand";
   model.controls = {{"fap3_open_jaw", 1.5, 2.5, 3.5}, {"smile", 0, 0, 0}};
-  model.phones = {{"AA", 20, 8}, {"SIL", 9, 0}};
+  model.lip_tooth_raise = 120;
+  model.phones = {{"AA", 20, 8, 0.1, 0.4}, {"SIL", 9, 0, 0.3, 0.3}};
   AnimemeParameters parameters;
   parameters.order = 1;
   parameters.phones = {
@@ -88,8 +89,8 @@ TEST(ModelFile, SealedNonsenseIsRefusedWithoutHarm) {
 
 TEST(ModelFile, HugeCountsAllocateNothing) {
   auto bytes = write_model(small_model());
-  // The number of controls stands behind method, two reals, rate and two texts.
-  const std::size_t at = 20 + 1 + 16 + 8 + 4 + 6 + 4 + 12;
+  // The number of controls stands behind method, two reals, an optional one, rate and two texts.
+  const std::size_t at = 20 + 1 + 16 + 9 + 8 + 4 + 6 + 4 + 12;
   ASSERT_EQ(bytes[at], 2);
   for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = 0xFF;
   seal(bytes);

@@ -184,6 +184,69 @@ TEST_F(Synthesis, PhonesWithoutRelativesAreAnError) {
   EXPECT_THAT(signal.error().message, HasSubstr("AY at 0.5"));
 }
 
+TEST_F(Synthesis, StyleScalesTheDeviationFromRest) {
+  SynthesisOptions options;
+  options.closure = false;
+  const Script& script = (*sentences)[1].script;
+  const auto plain = synthesise(*model, script, options);
+  options.style = 0.4;
+  const auto faint = synthesise(*model, script, options);
+  options.style = 0;
+  const auto still = synthesise(*model, script, options);
+  ASSERT_TRUE(plain && faint && still);
+  for (std::size_t i = 0; i < plain->frames(); ++i)
+    for (std::size_t c = 0; c < plain->names.size(); ++c) {
+      const double rest = model->controls[c].rest;
+      EXPECT_NEAR(faint->at(i, c) - rest, 0.4 * (plain->at(i, c) - rest), 1e-9);
+      EXPECT_EQ(still->at(i, c), rest);
+    }
+}
+
+TEST_F(Synthesis, LipsCloseInEveryStyle) {
+  const Script script{{{0, 0.5, "SIL", ""},
+                       {0.5, 0.6, "AA", ""},
+                       {0.6, 0.64, "B", ""},
+                       {0.64, 0.8, "AA", ""},
+                       {0.8, 1.2, "SIL", ""}}};
+  SynthesisOptions options;
+  for (const double style : {0.3, 1.0, 1.5}) {
+    options.style = style;
+    const auto signal = synthesise(*model, script, options);
+    ASSERT_TRUE(signal);
+    const auto lips = inner_lip_channels(signal->names);
+    double least = 1e9;
+    for (std::size_t i = 13; i < 18; ++i) least = std::min(least, inner_gap(*signal, i, *lips));
+    EXPECT_LE(least, model->closure_gap + 1e-9) << style;
+  }
+}
+
+TEST_F(Synthesis, DrawnOutSoundsHoldTheirMiddle) {
+  const auto sung = [](double seconds) {
+    return Script{{{0, 0.5, "SIL", ""},
+                   {0.5, 0.6, "S", ""},
+                   {0.6, 0.6 + seconds, "AY", ""},
+                   {0.6 + seconds, 0.7 + seconds, "T", ""},
+                   {0.7 + seconds, 1.2 + seconds, "SIL", ""}}};
+  };
+  const double longest = model->phones[std::size_t(model->find_phone("AY"))].longest;
+  SynthesisOptions options;
+  options.rate = {100, 1};
+  const auto long_one = synthesise(*model, sung(longest + 3), options);
+  ASSERT_TRUE(long_one);
+  const std::size_t jaw = std::size_t(model->find_control("fap3_open_jaw"));
+  // Far from both ends the mouth stands still, as open as in the middle of the sound.
+  const auto at = [&](double time) {
+    return long_one->at(std::size_t(std::lround(time * 100)), jaw);
+  };
+  const double middle = 0.6 + (longest + 3) / 2;
+  EXPECT_NEAR(at(middle - 0.5), at(middle), 1e-6);
+  EXPECT_NEAR(at(middle + 0.5), at(middle), 1e-6);
+  // And the ends keep the pace of a sound of ordinary length.
+  const auto shorter = synthesise(*model, sung(longest + 2), options);
+  for (std::size_t i = 0; i < 100; ++i)
+    EXPECT_NEAR(shorter->at(i, jaw), long_one->at(i, jaw), 1e-6);
+}
+
 TEST_F(Synthesis, HostileScriptsAndOptions) {
   const Script good = (*sentences)[0].script;
   EXPECT_FALSE(synthesise(*model, {}));
@@ -201,6 +264,11 @@ TEST_F(Synthesis, HostileScriptsAndOptions) {
   options = {};
   options.context_weight = std::nan("");
   EXPECT_FALSE(synthesise(*model, good, options));
+  for (const double style : {-0.1, 1.6, std::nan("")}) {
+    options = {};
+    options.style = style;
+    EXPECT_FALSE(synthesise(*model, good, options));
+  }
   options = {};
   options.frames = 1;
   EXPECT_EQ(synthesise(*model, good, options)->frames(), 1u);
@@ -294,6 +362,26 @@ TEST(FapSignal, AbsentFapsAndSkippedFramesKeepTheirValue) {
   EXPECT_THAT(signal->measured, testing::ElementsAre(true, false, false, true));
   clip.frames[1].number = std::int64_t(1) << 60;
   EXPECT_EQ(to_signal(clip).error().code, Code::out_of_range);
+}
+
+TEST(LipTooth, RaisesTheLowerLipButKeepsTheLipsApart) {
+  Signal signal;
+  signal.rate = {100, 1};
+  signal.names = {"fap4_lower_t_midlip", "fap5_raise_b_midlip", "fap52_raise_b_midlip_o"};
+  for (int i = 0; i < 60; ++i) signal.values.insert(signal.values.end(), {-100, -200, -180});
+  const Script script{{{0, 0.2, "SIL", ""}, {0.2, 0.3, "F", ""}, {0.3, 0.6, "AA", ""}}};
+  Signal moved = signal;
+  EXPECT_EQ(apply_lip_tooth_contact(moved, script, -60), 1u);
+  double highest = -1e9;
+  for (std::size_t i = 0; i < 60; ++i) highest = std::max(highest, moved.at(i, 1));
+  EXPECT_NEAR(highest, -60, 1);
+  EXPECT_EQ(moved.at(50, 1), -200);                            // far from the phone nothing moves
+  EXPECT_GT(moved.at(25, 2), -180);                            // the outer contour follows
+  EXPECT_EQ(moved.at(25, 0), -100);                            // the upper lip does not
+  EXPECT_EQ(apply_lip_tooth_contact(moved, script, -70), 0u);  // is there already
+  Signal far = signal;
+  EXPECT_EQ(apply_lip_tooth_contact(far, script, 300), 1u);
+  for (std::size_t i = 0; i < 60; ++i) EXPECT_GE(-(far.at(i, 0) + far.at(i, 1)), kLeastOpen - 1e-9);
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ struct Options {
   std::string save_script;
   StreamSettings stream;
   int bit_rate = 64000;
+  double style = 1;
   bool no_closure = false;
   bool json = false;
 };
@@ -45,7 +46,7 @@ Result<int> write_curves(const std::string& path, const dam::Signal& signal) {
   text += "\n";
   char number[40];
   for (std::size_t frame = 0; frame < signal.frames(); ++frame) {
-    std::snprintf(number, sizeof number, "%.6f", signal.rate.seconds(double(frame)));
+    std::snprintf(number, sizeof number, "%.6f", signal.time(frame));
     text += number;
     for (std::size_t control = 0; control < signal.names.size(); ++control) {
       std::snprintf(number, sizeof number, ",%.6g", signal.at(frame, control));
@@ -109,7 +110,8 @@ void report(const Options& options, const Spoken& spoken, const dam::Signal& sig
                                        {"phones", synthesis.phones},
                                        {"replaced_phones", synthesis.replaced_phones},
                                        {"replaced", replaced},
-                                       {"closures_forced", synthesis.closures}};
+                                       {"closures_forced", synthesis.closures},
+                                       {"lip_tooth_forced", synthesis.lip_tooth_contacts}};
   std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
 }
 
@@ -131,6 +133,7 @@ Result<int> run(const Options& options) {
   dam::SynthesisOptions settings;
   settings.rate = *rate;
   settings.closure = !options.no_closure;
+  settings.style = options.style;
   if (spoken->audio) {
     settings.tail = std::max(0.0, spoken->audio->duration() - spoken->script.duration());
   }
@@ -170,7 +173,12 @@ Action add(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--save-script", options->save_script,
                  "Also write the timed phones: .TextGrid (Praat) or .tsv");
-  app.add_flag("--no-closure", options->no_closure, "Do not force the lips shut on p, b and m");
+  app.add_option("--style", options->style,
+                 "Intensity: 0 keeps the mouth at rest, 1 is as learned, 1.5 exaggerates")
+      ->check(CLI::Range(0.0, dam::kMostStyle))
+      ->capture_default_str();
+  app.add_flag("--no-closure", options->no_closure,
+               "Do not force the lips shut on p, b and m, nor to the teeth on f and v");
   add_stream_options(app, options->stream);
   app.add_option("--audio-bitrate", options->bit_rate, "Bits a second of the AAC track")
       ->check(CLI::Range(8000, 320000))

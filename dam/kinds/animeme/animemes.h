@@ -12,5 +12,6 @@ Result<void> read_animemes(ByteReader& in, Model& model);
 Result<Parameters> fit_animemes(const TrainingSet& set, const Model& model,
                                 const TrainOptions& options, TrainRun& run);
 void speak_animemes(const Speech& speech, std::span<double> rows, SynthesisReport& report);
+double reach_of_animemes(const Model& model);
 
 }  // namespace animeme::dam

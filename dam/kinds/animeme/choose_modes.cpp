@@ -85,8 +85,8 @@ std::vector<std::size_t> choose_modes(const Speech& speech) {
     const bool choice = graph.node[j - 1].size() * graph.node[j].size() > 1;
     if (!choice || smoothness_weight == 0 || timeline[j].left.empty()) return 0.0;
     return smoothness_weight * jump(ends.get(phone[j - 1], from, true),
-                                    timeline[j - 1].duration * rate, ends.get(phone[j], to, false),
-                                    timeline[j].duration * rate);
+                                    timeline[j - 1].paced() * rate, ends.get(phone[j], to, false),
+                                    timeline[j].paced() * rate);
   };
   return cheapest_path(graph).mode;
 }

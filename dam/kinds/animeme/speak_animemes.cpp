@@ -13,14 +13,14 @@ void add_occurrence(const Speech& speech, const AnimemeParameters& model, const 
                     const Occurrence& o, std::span<double> rows, std::vector<double>& sums) {
   const std::size_t terms = model.order + 1, controls = speech.model.controls.size();
   const double rate = speech.rate.frames_per_second();
-  const double reach = dominance_reach(mode.sigma) * o.duration;
+  const double reach = dominance_reach(mode.sigma) * o.paced();
   const auto frame_at = [&](double frame) {
     return std::size_t(std::clamp(frame - double(speech.first_frame), 0.0, double(speech.frames)));
   };
   const std::size_t first = frame_at(std::ceil((o.start - reach) * rate));
   const std::size_t last = frame_at(std::floor((o.end() + reach) * rate) + 1);
   for (std::size_t i = first; i < last; ++i) {
-    const double u = (double(speech.first_frame + i) / rate - o.start) / o.duration;
+    const double u = o.local(speech.time(i));
     const double v = clamp_local_time(u, model.time_margin);
     double* out = &rows[i * controls];
     double weight = dominance(u, mode.sigma);
@@ -39,6 +39,15 @@ void normalise(const std::vector<double>& sums, std::size_t controls, std::span<
 }
 
 }  // namespace
+
+double reach_of_animemes(const Model& model) {
+  const auto& parameters = std::get<AnimemeParameters>(model.parameters);
+  double reach = 0;
+  for (std::size_t p = 0; p < model.phones.size(); ++p)
+    for (const Mode& mode : parameters.phones[p].modes)
+      reach = std::max(reach, dominance_reach(mode.sigma) * model.phones[p].longest);
+  return reach;
+}
 
 void speak_animemes(const Speech& speech, std::span<double> rows, SynthesisReport& report) {
   const auto& parameters = std::get<AnimemeParameters>(speech.model.parameters);
