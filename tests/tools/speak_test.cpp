@@ -247,5 +247,31 @@ TEST(Speak, ScriptOfTheSampleCorpusWithoutAudio) {
   EXPECT_EQ(animeme({"compare", dir / "a.fap", dir / "b.fap"}).exit_code, 0);
 }
 
+TEST(Speak, StyleAndLife) {
+  const TempDir dir;
+  const auto clip_of = [&](std::vector<std::string> more) {
+    const std::string path = dir / "clip.fap";
+    std::vector<std::string> arguments = {"speak", "--text", "A lovely evening.", "-o", path};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto result = animeme(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return read_clip(path);
+  };
+  const auto largest_jaw = [](const fap::Sequence& clip) {
+    int most = 0;
+    for (const fap::Frame& frame : clip.frames) most = std::max(most, frame.value[3]);
+    return most;
+  };
+  const fap::Sequence plain = clip_of({});
+  EXPECT_GT(largest_jaw(clip_of({"--style", "1.4"})), largest_jaw(plain));
+  EXPECT_LT(largest_jaw(clip_of({"--style", "0.5"})), largest_jaw(plain));
+  EXPECT_FALSE(plain.frames[0].mask[19]);
+  const fap::Sequence alive = clip_of({"--life"});
+  EXPECT_TRUE(alive.frames[0].mask[19] && alive.frames[0].mask[48]);
+  EXPECT_EQ(largest_jaw(alive), largest_jaw(plain));
+  EXPECT_NE(clip_of({"--life", "--seed", "5"}).frames, alive.frames);
+  EXPECT_EQ(animeme({"speak", "--text", "A", "--style", "2", "-o", dir / "x.fap"}).exit_code, 2);
+}
+
 }  // namespace
 }  // namespace animeme

@@ -4,6 +4,7 @@
 
 #include "codec/encode.h"
 #include "dam/fap_signal.h"
+#include "dam/life.h"
 #include "dam/script.h"
 #include "dam/synthesise.h"
 #include "fap/rate_text.h"
@@ -26,6 +27,8 @@ struct Options {
   int bit_rate = 64000;
   double style = 1;
   bool no_closure = false;
+  bool life = false;
+  std::uint64_t seed = 1;
   bool json = false;
 };
 
@@ -140,6 +143,10 @@ Result<int> run(const Options& options) {
   dam::SynthesisReport synthesis;
   Result<dam::Signal> signal = dam::synthesise(*model, spoken->script, settings, &synthesis);
   if (!signal) return signal.error().in_file(options.spoken.script);
+  if (options.life) {
+    auto added = dam::add_life(*signal, spoken->script, {1, options.seed});
+    if (!added) return added.error();
+  }
   Result<int> written = kOk;
   if (extension_of(options.output) == ".csv") {
     written = write_curves(options.output, *signal);
@@ -179,6 +186,10 @@ Action add(CLI::App& app) {
       ->capture_default_str();
   app.add_flag("--no-closure", options->no_closure,
                "Do not force the lips shut on p, b and m, nor to the teeth on f and v");
+  app.add_flag("--life", options->life,
+               "Add blinks, and brows and head that move a little at stresses");
+  app.add_option("--seed", options->seed, "Other times of blinks and another sway of the head")
+      ->needs("--life");
   add_stream_options(app, options->stream);
   app.add_option("--audio-bitrate", options->bit_rate, "Bits a second of the AAC track")
       ->check(CLI::Range(8000, 320000))
