@@ -6,6 +6,7 @@
 // from the pose of silence, is what the kinds of models differ in:
 //
 //   method                 parameters         S(t)
+//   dam                    RefinedParameters  sum_j w_j(t) A_j(u_j), see there
 //   dam-paper              AnimemeParameters  sum_j D_j(u_j) A_j(u_j), u_j = (t - s_j) / d_j (Eq.
 //   2) cohen-massaro          AnimemeParameters  the same with constants for A: one target a phone
 #pragma once
@@ -28,10 +29,11 @@ namespace animeme::dam {
 /// How a model was made and has to be evaluated. Numbers are part of the file format.
 enum class Method : std::uint8_t {
   dam_paper = 1,      ///< dominated animeme models as in the paper
+  dam = 2,            ///< refined dominated animeme models
   cohen_massaro = 3,  ///< one target a phone, blended by dominance (M = 0)
 };
 
-/// "dam-paper", "cohen-massaro". Empty for values outside the enumeration.
+/// "dam", "dam-paper", "cohen-massaro". Empty for values outside the enumeration.
 std::string_view method_name(Method method);
 /// The method of that name.
 std::optional<Method> find_method(std::string_view name);
@@ -97,8 +99,58 @@ struct AnimemeParameters {
   friend bool operator==(const AnimemeParameters&, const AnimemeParameters&) = default;
 };
 
+// ---- method dam: lipsync, section 5.2; dam/README.md has what was added ----
+//
+// S(t) = sum_j w_j(t) A_j(u_j),  w_j = D_j / sum_i D_i,  u clamped to [-time_margin, 1 +
+// time_margin] D_j  = strength_p (d_j / usual_p)^duration_exponent exp(-(before / left_p)^2 -
+// (after / right_p)^2) A_j  = sum over terms of sum_m phi_m(2u - 1) a_m, phi_m the Legendre
+// polynomials
+
+/// Seconds in which the dominance of a phone falls off, and how strong it is beside others.
+struct PhoneDominance {
+  double left = 0.08;   ///< seconds, > 0
+  double right = 0.08;  ///< seconds, > 0
+  double strength = 1;  ///< > 0
+
+  friend bool operator==(const PhoneDominance&, const PhoneDominance&) = default;
+};
+
+/// What the curve of a phone is a sum of. The numbers are part of the file format.
+enum class RefinedTerm : std::uint8_t {
+  phone = 0,          ///< by phone
+  class_left = 1,     ///< by class and class of the phone before
+  class_right = 2,    ///< by class and class of the phone behind
+  phone_left = 3,     ///< by phone and class of the phone before
+  phone_right = 4,    ///< by phone and class of the phone behind
+  duration = 5,       ///< by phone, times ln(duration / usual duration), limited to +-1
+  class_left_2 = 6,   ///< by class and class of the phone but one before
+  class_right_2 = 7,  ///< by class and class of the phone but one behind
+  phone_class = 8,    ///< by class: what a rare phone leans on
+};
+/// Largest number of Legendre coefficients of a term.
+inline constexpr std::size_t kRefinedOrders = 5;
+
+/// All learned terms of one kind.
+struct TermTable {
+  RefinedTerm term = RefinedTerm::phone;
+  std::uint32_t orders = 0;         ///< 1..kRefinedOrders
+  std::vector<std::uint32_t> keys;  ///< ascending: phone, class, or own * 256 + class of neighbour
+  std::vector<float> values;  ///< a_m of control c of row r at [(r * orders + m) * controls + c]
+
+  friend bool operator==(const TermTable&, const TermTable&) = default;
+};
+
+struct RefinedParameters {
+  double time_margin = 0.3;               ///< >= 0
+  double duration_exponent = 0.3;         ///< 0..2
+  std::vector<PhoneDominance> dominance;  ///< one for each of Model::phones
+  std::vector<TermTable> tables;          ///< ascending by term
+
+  friend bool operator==(const RefinedParameters&, const RefinedParameters&) = default;
+};
+
 /// One alternative for each family of methods.
-using Parameters = std::variant<AnimemeParameters>;
+using Parameters = std::variant<AnimemeParameters, RefinedParameters>;
 
 struct Model {
   Method method = Method::dam_paper;

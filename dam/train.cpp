@@ -45,6 +45,7 @@ void summarise(TrainingSet& set, int threads, TrainSummary& summary) {
 
 Result<void> validate(const TrainOptions& o) {
   const AnimemeOptions& a = o.animeme;
+  const RefinedOptions& r = o.refined;
   const double infinity = std::numeric_limits<double>::infinity();
   const Range ranges[] = {
       {"order", double(a.order), 0, kMaxOrder},
@@ -59,16 +60,21 @@ Result<void> validate(const TrainOptions& o) {
       {"ridge", a.ridge, 0, 1e6},
       {"width_prior", a.width_prior, 0, 1e6},
       {"time_margin", a.time_margin, 0, infinity},
+      {"ridge", r.ridge, 0, 1000},
+      {"width_prior", r.width_prior, 0, 1e6},
+      {"offset_frames", r.offset_frames, 0.01, 1e9},
+      {"time_margin", r.time_margin, 0, 100},
+      {"duration_exponent", r.duration_exponent, 0, 2},
       {"max_iterations", double(o.max_iterations), 0, 1000},
       {"tolerance", o.tolerance, 0, 1},
       {"pause_edge", o.pause_edge, 0.05, 5},
       {"threads", double(o.threads), 0, 1024},
   };
-  for (const Range& r : ranges)
-    if (!(r.value >= r.low && r.value <= r.high))
-      return make_error(Code::invalid_argument, std::string("training option ") + r.name +
-                                                    " must lie between " + std::to_string(r.low) +
-                                                    " and " + std::to_string(r.high));
+  for (const Range& x : ranges)
+    if (!(x.value >= x.low && x.value <= x.high))
+      return make_error(Code::invalid_argument, std::string("training option ") + x.name +
+                                                    " must lie between " + std::to_string(x.low) +
+                                                    " and " + std::to_string(x.high));
   if (method_name(o.method).empty())
     return make_error(Code::invalid_argument, "training option method is unknown");
   return {};

@@ -39,10 +39,22 @@ struct AnimemeOptions {
   double time_margin = 0.5;  ///< clamp of local time; infinity: free, as in the paper: 0..inf
 };
 
+/// Settings of the method dam.
+struct RefinedOptions {
+  /// Factor of all ridges: 0 chooses among 0.5, 1 and 2 by sentences that are held out, else
+  /// 0.001..1000.
+  double ridge = 0;
+  double width_prior = 50;         ///< on log widths and log strength, per control, frames: 0..1e6
+  double offset_frames = 10;       ///< prior weight of a sentence's own offset: 0.01..1e9
+  double time_margin = 0.3;        ///< clamp of local time: 0..100
+  double duration_exponent = 0.3;  ///< strength of long phones: 0..2
+};
+
 /// All settings of training. The defaults are those of the shipped model; how they were chosen
 /// stands in dam/README.md.
 struct TrainOptions {
-  Method method = Method::dam_paper;
+  Method method = Method::dam;
+  RefinedOptions refined;  ///< for dam
   AnimemeOptions animeme;  ///< for dam-paper and cohen-massaro
 
   int max_iterations = 30;  ///< accepted steps: 0..1000
@@ -70,6 +82,7 @@ struct TrainSummary {
   std::size_t frames = 0;       ///< frames fitted
   std::size_t occurrences = 0;  ///< phones fitted
   std::size_t modes = 0;        ///< of all phones; 0: the method has none
+  double ridge = 0;             ///< dam: the factor that was chosen
   double lag = 0;               ///< seconds by which the signal seems to come after the phonemes
   std::vector<std::string> warnings;  ///< constant controls, phones with few examples, time lag
 };

@@ -3,11 +3,14 @@
 #include <array>
 
 #include "dam/kinds/animeme/animemes.h"
+#include "dam/kinds/refined/refined.h"
 
 namespace animeme::dam {
 namespace {
 
 constexpr Kind kKinds[] = {
+    {Method::dam, "dam", validate_refined, write_refined, read_refined, fit_refined, speak_refined,
+     reach_of_refined},
     {Method::dam_paper, "dam-paper", validate_animemes, write_animemes, read_animemes, fit_animemes,
      speak_animemes},
     {Method::cohen_massaro, "cohen-massaro", validate_animemes, write_animemes, read_animemes,

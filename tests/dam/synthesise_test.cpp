@@ -25,6 +25,7 @@ class Synthesis : public testing::Test {
     ASSERT_TRUE(corpus) << corpus.error().describe();
     sentences = new std::vector<Utterance>(corpus->utterances);
     TrainOptions options;
+    options.method = Method::dam_paper;
     options.max_iterations = 2;
     options.animeme.reassign_rounds = 1;
     auto trained = train(*sentences, options);

@@ -26,6 +26,7 @@ const AnimemeParameters& animemes(const Model& model) {
 
 TrainOptions quick() {
   TrainOptions options;
+  options.method = Method::dam_paper;
   options.max_iterations = 3;
   options.animeme.reassign_rounds = 1;
   return options;

@@ -13,7 +13,7 @@ namespace {
 struct Options {
   CorpusSettings corpus;
   std::string output;
-  std::string method = "dam-paper";
+  std::string method = "dam";
   dam::TrainOptions train;
   std::string attribution;
   bool free_time = false;

@@ -1,0 +1,267 @@
+#include "dam/kinds/refined/curves_fit.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <set>
+
+#include "dam/detail/cholesky.h"
+#include "dam/detail/parallel.h"
+
+namespace animeme::dam {
+namespace {
+
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+constexpr std::size_t kParts = 2;        // each needs a matrix of all unknowns
+constexpr Eigen::Index kSentences = 64;  // whose sums are taken off together
+
+/// A term of an occurrence with its place among the unknowns.
+struct PlacedTerm {
+  std::size_t first = 0;
+  std::size_t orders = 0;
+  double scale = 1;
+};
+using PlacedTerms = std::array<PlacedTerm, kTermCount>;
+
+PlacedTerms place(const RefinedData& data, const TermSpace& space, std::size_t occurrence) {
+  const auto uses = terms_of(data.phones, data.around[occurrence]);
+  PlacedTerms placed;
+  for (std::size_t t = 0; t < kTermCount; ++t)
+    placed[t] = {space.at(t, uses[t].key), kTermInfo[t].orders, uses[t].scale};
+  return placed;
+}
+
+class Summer {
+ public:
+  Summer(const RefinedData& data, const TermSpace& space, std::span<const PhoneDominance> dominance)
+      : data_(data),
+        space_(space),
+        dominance_(dominance),
+        n_(Eigen::Index(space.size)),
+        k_(Eigen::Index(data.controls)),
+        column_sums_(RowMatrix::Zero(kSentences, n_)),
+        target_sums_(RowMatrix::Zero(kSentences, k_)) {
+    sums.gram.assign(space.size * space.size, 0.0);
+    sums.right.assign(space.size * data.controls, 0.0);
+  }
+
+  void add(const FitSentence& sentence) {
+    const RefinedDesign design = make_refined_design(data_, sentence, dominance_);
+    collect(sentence, design);
+    expand(sentence);
+    const double share = 1 / (double(frames_) + data_.offset_frames);
+    sums.energy -= share * target_sums_.row(waiting_).squaredNorm();
+    sums.frames += frames_;
+    column_sums_.row(waiting_) *= std::sqrt(share);
+    target_sums_.row(waiting_) *= std::sqrt(share);
+    if (++waiting_ == kSentences) flush();
+  }
+
+  /// Takes off the products of sums of the sentences since the last time.
+  void flush() {
+    if (waiting_ == 0) return;
+    Eigen::Map<Eigen::MatrixXd> gram(sums.gram.data(), n_, n_);
+    Eigen::Map<RowMatrix> right(sums.right.data(), n_, k_);
+    const auto columns = column_sums_.topRows(waiting_);
+    gram.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose(), -1);
+    right.noalias() -= columns.transpose() * target_sums_.topRows(waiting_);
+    column_sums_.setZero();
+    target_sums_.setZero();
+    waiting_ = 0;
+  }
+
+  CurveSums sums;
+
+ private:
+  using Square = Eigen::Matrix<double, kRefinedOrders, kRefinedOrders>;
+
+  /// Products of the weighted polynomials of every two occurrences that meet, their sums, and their
+  /// products with the target: small numbers, from which all terms follow.
+  void collect(const FitSentence& sentence, const RefinedDesign& design) {
+    const std::size_t count = sentence.occurrences;
+    meet_.assign(count, {});
+    products_.clear();
+    pairs_.clear();
+    own_sum_.assign(count * kRefinedOrders, 0.0);
+    own_target_ = RowMatrix::Zero(Eigen::Index(count * kRefinedOrders), k_);
+    frames_ = 0;
+    for (std::size_t i = 0; i < sentence.frames; ++i) {
+      const std::size_t frame = sentence.first_frame + i;
+      if (data_.speech->use[frame] == 0) continue;
+      ++frames_;
+      const Eigen::Map<const Eigen::RowVectorXd> y(&data_.target[frame * data_.controls], k_);
+      sums.energy += y.squaredNorm();
+      target_sums_.row(waiting_) += y;
+      add_frame(sentence, design.frame(i), y);
+    }
+  }
+
+  void add_frame(const FitSentence& sentence, std::span<const RefinedPart> parts,
+                 const Eigen::Map<const Eigen::RowVectorXd>& y) {
+    for (const RefinedPart& a : parts) {
+      const std::size_t ja = a.occurrence - sentence.first_occurrence;
+      for (std::size_t m = 0; m < kRefinedOrders; ++m) {
+        const double x = a.weight * a.basis[m];
+        own_sum_[ja * kRefinedOrders + m] += x;
+        own_target_.row(Eigen::Index(ja * kRefinedOrders + m)) += x * y;
+      }
+      for (const RefinedPart& b : parts) {
+        const std::size_t jb = b.occurrence - sentence.first_occurrence;
+        if (jb > ja) continue;
+        const double w = a.weight * b.weight;
+        Square& square = products_[slot_of(ja, jb)];
+        for (std::size_t n = 0; n < kRefinedOrders; ++n)
+          for (std::size_t m = 0; m < kRefinedOrders; ++m)
+            square(Eigen::Index(m), Eigen::Index(n)) += w * a.basis[m] * b.basis[n];
+      }
+    }
+  }
+
+  /// Place in products_ of two occurrences that meet. A phone meets some ten others.
+  std::size_t slot_of(std::size_t a, std::size_t b) {
+    for (const auto& [other, slot] : meet_[a])
+      if (other == b) return slot;
+    meet_[a].emplace_back(b, products_.size());
+    products_.push_back(Square::Zero());
+    pairs_.emplace_back(a, b);
+    return products_.size() - 1;
+  }
+
+  void expand(const FitSentence& sentence) {
+    std::vector<PlacedTerms> terms;
+    for (std::size_t j = 0; j < sentence.occurrences; ++j)
+      terms.push_back(place(data_, space_, sentence.first_occurrence + j));
+    for (std::size_t j = 0; j < sentence.occurrences; ++j)
+      for (const PlacedTerm& t : terms[j])
+        for (std::size_t m = 0; m < t.orders; ++m) {
+          column_sums_(waiting_, Eigen::Index(t.first + m)) +=
+              t.scale * own_sum_[j * kRefinedOrders + m];
+          Eigen::Map<Eigen::RowVectorXd>(&sums.right[(t.first + m) * data_.controls], k_) +=
+              t.scale * own_target_.row(Eigen::Index(j * kRefinedOrders + m));
+        }
+    for (std::size_t p = 0; p < pairs_.size(); ++p) {
+      const auto [a, b] = pairs_[p];
+      for (const PlacedTerm& ta : terms[a])
+        for (const PlacedTerm& tb : terms[b]) {
+          add_block(ta, tb, products_[p], false);
+          if (a != b) add_block(tb, ta, products_[p], true);
+        }
+    }
+  }
+
+  /// Where the rows lie below the columns, or both are the same term.
+  void add_block(const PlacedTerm& row, const PlacedTerm& column, const Square& products,
+                 bool transposed) {
+    if (row.first < column.first) return;
+    const double scale = row.scale * column.scale;
+    for (std::size_t n = 0; n < column.orders; ++n) {
+      double* out = &sums.gram[(column.first + n) * space_.size + row.first];
+      for (std::size_t m = 0; m < row.orders; ++m)
+        out[m] += scale * (transposed ? products(Eigen::Index(n), Eigen::Index(m))
+                                      : products(Eigen::Index(m), Eigen::Index(n)));
+    }
+  }
+
+  const RefinedData& data_;
+  const TermSpace& space_;
+  std::span<const PhoneDominance> dominance_;
+  Eigen::Index n_, k_;
+  RowMatrix column_sums_, target_sums_;  // of the sentences that wait, scaled
+  Eigen::Index waiting_ = 0;
+  std::size_t frames_ = 0;
+  std::vector<std::vector<std::pair<std::size_t, std::size_t>>> meet_;
+  std::vector<Square> products_;
+  std::vector<std::pair<std::size_t, std::size_t>> pairs_;
+  std::vector<double> own_sum_;
+  RowMatrix own_target_;
+};
+
+}  // namespace
+
+std::size_t TermSpace::at(std::size_t term, std::uint32_t key) const {
+  const Table& table = tables[term];
+  const auto found = std::lower_bound(table.keys.begin(), table.keys.end(), key);
+  return table.first + std::size_t(found - table.keys.begin()) * kTermInfo[term].orders;
+}
+
+void TermSpace::number() {
+  size = 0;
+  for (std::size_t t = 0; t < kTermCount; ++t) {
+    tables[t].first = size;
+    size += tables[t].keys.size() * kTermInfo[t].orders;
+  }
+}
+
+TermSpace term_space(const RefinedData& data) {
+  std::array<std::set<std::uint32_t>, kTermCount> keys;
+  for (const Neighbourhood& here : data.around) {
+    const auto uses = terms_of(data.phones, here);
+    for (std::size_t t = 0; t < kTermCount; ++t) keys[t].insert(uses[t].key);
+  }
+  TermSpace space;
+  for (std::size_t t = 0; t < kTermCount; ++t)
+    space.tables[t].keys.assign(keys[t].begin(), keys[t].end());
+  space.number();
+  return space;
+}
+
+void CurveSums::add(const CurveSums& other) {
+  for (std::size_t i = 0; i < gram.size(); ++i) gram[i] += other.gram[i];
+  for (std::size_t i = 0; i < right.size(); ++i) right[i] += other.right[i];
+  energy += other.energy;
+  frames += other.frames;
+}
+
+CurveSums sum_curves(const RefinedData& data, const TermSpace& space,
+                     std::span<const PhoneDominance> dominance, const std::vector<bool>& wanted) {
+  const std::size_t count = data.speech->sentences.size();
+  std::vector<CurveSums> parts(std::min(kParts, count));
+  parallel_for(parts.size(), data.threads, [&](std::size_t p) {
+    Summer summer(data, space, dominance);
+    for (std::size_t s = p * count / parts.size(); s < (p + 1) * count / parts.size(); ++s)
+      if (wanted[s]) summer.add(data.speech->sentences[s]);
+    summer.flush();
+    parts[p] = std::move(summer.sums);
+  });
+  for (std::size_t p = 1; p < parts.size(); ++p) parts[0].add(parts[p]);
+  return std::move(parts[0]);
+}
+
+std::vector<double> ridge_of(const TermSpace& space, double factor) {
+  std::vector<double> ridge(space.size);
+  for (std::size_t t = 0; t < kTermCount; ++t)
+    for (std::size_t row = 0; row < space.tables[t].keys.size(); ++row)
+      for (std::size_t m = 0; m < kTermInfo[t].orders; ++m)
+        ridge[space.tables[t].first + row * kTermInfo[t].orders + m] =
+            factor * kTermInfo[t].ridge[m];
+  return ridge;
+}
+
+std::vector<double> solve_curves(const CurveSums& sums, const TermSpace& space,
+                                 std::size_t controls, double ridge_factor, int threads) {
+  const std::size_t n = space.size;
+  std::vector<double> ridge = ridge_of(space, ridge_factor);
+  double lift = 0;
+  for (int attempt = 0; attempt < 12; ++attempt) {
+    std::vector<double> factor = sums.gram;
+    for (std::size_t i = 0; i < n; ++i) factor[i * n + i] += ridge[i] + lift;
+    if (cholesky_in_place(factor, n, threads)) {
+      std::vector<double> curves = sums.right;
+      cholesky_solve(factor, n, curves, controls, threads);
+      return curves;
+    }
+    lift = lift == 0 ? 1e-6 : lift * 10;
+  }
+  return std::vector<double>(n * controls, 0.0);
+}
+
+double error_of(const CurveSums& sums, const std::vector<double>& curves, std::size_t controls) {
+  const auto n = Eigen::Index(sums.right.size() / controls);
+  const Eigen::Map<const Eigen::MatrixXd> gram(sums.gram.data(), n, n);
+  const Eigen::Map<const RowMatrix> a(curves.data(), n, Eigen::Index(controls));
+  const Eigen::Map<const RowMatrix> right(sums.right.data(), n, Eigen::Index(controls));
+  const RowMatrix product = gram.selfadjointView<Eigen::Lower>() * a;
+  return sums.energy - 2 * a.cwiseProduct(right).sum() + a.cwiseProduct(product).sum();
+}
+
+}  // namespace animeme::dam

@@ -1,0 +1,57 @@
+// All terms of all phones at once for a fixed dominance: one set of normal equations for all
+// controls. What is summed here is all that training needs of a corpus, so sums of parts of a
+// corpus can be added. Internal.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "dam/kinds/refined/fit.h"
+
+namespace animeme::dam {
+
+/// Which unknowns there are: every neighbourhood that occurs.
+struct TermSpace {
+  struct Table {
+    std::vector<std::uint32_t> keys;  ///< ascending
+    std::size_t first = 0;            ///< number of the first unknown
+  };
+  std::array<Table, kTermCount> tables;
+  std::size_t size = 0;  ///< unknowns
+
+  /// Number of the first unknown of a key; it must be there.
+  std::size_t at(std::size_t term, std::uint32_t key) const;
+  /// Numbers the unknowns of all tables.
+  void number();
+};
+
+TermSpace term_space(const RefinedData& data);
+
+/// Sums over sentences. `gram` holds n x n numbers, of which the lower triangle counts, column by
+/// column; `right` n x controls, row by row.
+struct CurveSums {
+  std::vector<double> gram;
+  std::vector<double> right;
+  double energy = 0;  ///< squared targets
+  std::size_t frames = 0;
+
+  void add(const CurveSums& other);
+};
+
+/// Sums over the sentences of which `wanted` says true.
+CurveSums sum_curves(const RefinedData& data, const TermSpace& space,
+                     std::span<const PhoneDominance> dominance, const std::vector<bool>& wanted);
+
+/// Ridge of every unknown, times `factor`.
+std::vector<double> ridge_of(const TermSpace& space, double factor);
+
+/// Solves; unknowns x controls, row by row. Degenerate sums are held more firmly until they solve.
+std::vector<double> solve_curves(const CurveSums& sums, const TermSpace& space,
+                                 std::size_t controls, double ridge_factor, int threads);
+
+/// Squared error of curves on the sentences that were summed.
+double error_of(const CurveSums& sums, const std::vector<double>& curves, std::size_t controls);
+
+}  // namespace animeme::dam

@@ -1,0 +1,172 @@
+// Training of the refined model: dominance, then all curves. Source: dam/README.md.
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "dam/detail/parallel.h"
+#include "dam/kinds/refined/curves_fit.h"
+#include "dam/kinds/refined/fit.h"
+#include "dam/kinds/refined/refined.h"
+
+namespace animeme::dam {
+namespace {
+
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+constexpr Eigen::Index kMostComponents = 16;
+constexpr double kVariance = 0.99;
+constexpr std::size_t kHeldOut = 8;  // every so many sentences one is held out
+constexpr double kRidgeFactors[] = {1, 0.5, 2};
+
+/// Distance of the training mean from rest, in standard deviations.
+std::vector<double> mean_of(const std::vector<Control>& controls) {
+  std::vector<double> mean;
+  for (const Control& c : controls) mean.push_back(c.sd > 0 ? (c.mean - c.rest) / c.sd : 0.0);
+  return mean;
+}
+
+/// Directions (controls x components) in which the controls move together, the strongest first.
+/// The dominance is sought for these: all controls share it, so nothing but noise is lost.
+Eigen::MatrixXd principal_components(const RefinedData& data) {
+  const auto k = Eigen::Index(data.controls);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(k, k);
+  for (std::size_t i = 0; i < data.speech->use.size(); ++i) {
+    if (data.speech->use[i] == 0) continue;
+    const Eigen::Map<const Eigen::VectorXd> y(&data.target[i * data.controls], k);
+    covariance.selfadjointView<Eigen::Lower>().rankUpdate(y);
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
+  const double total = std::max(solver.eigenvalues().sum(), 1e-300);
+  Eigen::Index count = 0;
+  double sum = 0;
+  while (count < std::min(k, kMostComponents) && (count == 0 || sum < kVariance * total))
+    sum += solver.eigenvalues()[k - 1 - count++];
+  return solver.eigenvectors().rightCols(count).rowwise().reverse();
+}
+
+std::vector<double> rotated(const std::vector<double>& rows, const Eigen::MatrixXd& directions) {
+  const Eigen::Index k = directions.rows(), count = Eigen::Index(rows.size()) / k;
+  const RowMatrix result =
+      Eigen::Map<const RowMatrix>(rows.data(), count, k).lazyProduct(directions);
+  return {result.data(), result.data() + result.size()};
+}
+
+class Trainer {
+ public:
+  Trainer(const TrainingSet& set, const Model& model, const TrainOptions& options, TrainRun& run)
+      : options_(options), own_(options.refined), run_(run), mean_(mean_of(model.controls)) {
+    data_.speech = &set.data;
+    data_.phones = model.phones;
+    data_.controls = data_.prior_controls = set.data.controls;
+    data_.target = set.data.target;
+    for (std::size_t i = 0; i < data_.target.size(); ++i)
+      data_.target[i] -= mean_[i % data_.controls];
+    data_.around = neighbourhoods(set.data);
+    data_.time_margin = own_.time_margin;
+    data_.duration_exponent = own_.duration_exponent;
+    data_.offset_frames = own_.offset_frames;
+    data_.threads = options.threads;
+    search_.prior = own_.width_prior;
+    search_.max_steps = options.max_iterations;
+    search_.tolerance = options.tolerance;
+  }
+
+  Result<Parameters> fit() {
+    if (!run_.report("dominance", 0)) return TrainRun::cancelled();
+    const Eigen::MatrixXd directions = principal_components(data_);
+    RefinedData main = data_;
+    main.controls = std::size_t(directions.cols());
+    main.target = rotated(data_.target, directions);
+    const TermSpace space = term_space(data_);
+    DominanceFit fit = start_dominance(main, search_);
+    run_.summary.objective.push_back(fit.objective);
+    if (!improve(main, fit)) return TrainRun::cancelled();
+    if (!run_.report("curves", 0, fit.objective)) return TrainRun::cancelled();
+    return finish(space, fit.dominance);
+  }
+
+ private:
+  bool improve(const RefinedData& main, DominanceFit& fit) {
+    bool go_on = true;
+    int taken = 0;
+    run_.summary.converged = fit_dominance(main, search_, fit, [&](const DominanceFit& now) {
+      run_.summary.objective.push_back(now.objective);
+      go_on = run_.report("dominance", double(++taken) / (search_.max_steps + 1), now.objective);
+      return go_on;
+    });
+    return go_on;
+  }
+
+  Result<Parameters> finish(const TermSpace& space, std::vector<PhoneDominance> dominance) {
+    const std::size_t count = data_.speech->sentences.size();
+    std::vector<bool> held(count, false);
+    const bool choose = own_.ridge == 0 && count >= 2 * kHeldOut;
+    for (std::size_t s = kHeldOut / 2; choose && s < count; s += kHeldOut) held[s] = true;
+    std::vector<bool> kept = held;
+    kept.flip();
+    CurveSums sums = sum_curves(data_, space, dominance, kept);
+    double factor = own_.ridge > 0 ? own_.ridge : 1.0;
+    if (choose) {
+      const CurveSums apart = sum_curves(data_, space, dominance, held);
+      factor = best_factor(space, sums, apart);
+      sums.add(apart);
+    }
+    if (!run_.report("curves", 0.7)) return TrainRun::cancelled();
+    run_.summary.ridge = factor;
+    const auto curves = solve_curves(sums, space, data_.controls, factor, options_.threads);
+    return Parameters(store(space, curves, std::move(dominance)));
+  }
+
+  double best_factor(const TermSpace& space, const CurveSums& sums, const CurveSums& apart) const {
+    double best = 0, least = std::numeric_limits<double>::infinity();
+    for (const double factor : kRidgeFactors) {
+      const auto curves = solve_curves(sums, space, data_.controls, factor, options_.threads);
+      const double error = error_of(apart, curves, data_.controls);
+      if (error < least) {
+        least = error;
+        best = factor;
+      }
+    }
+    return best;
+  }
+
+  RefinedParameters store(const TermSpace& space, const std::vector<double>& curves,
+                          std::vector<PhoneDominance> dominance) const {
+    RefinedParameters parameters;
+    parameters.time_margin = own_.time_margin;
+    parameters.duration_exponent = own_.duration_exponent;
+    parameters.dominance = std::move(dominance);
+    const std::size_t k = data_.controls;
+    for (std::size_t t = 0; t < kTermCount; ++t) {
+      TermTable table;
+      table.term = kTermInfo[t].term;
+      table.orders = kTermInfo[t].orders;
+      table.keys = space.tables[t].keys;
+      const std::size_t values = table.keys.size() * table.orders * k;
+      const double* from = curves.data() + space.tables[t].first * k;
+      for (std::size_t i = 0; i < values; ++i) {
+        const bool level = table.term == RefinedTerm::phone && i / k % table.orders == 0;
+        table.values.push_back(float(from[i] + (level ? mean_[i % k] : 0.0)));
+      }
+      parameters.tables.push_back(std::move(table));
+    }
+    return parameters;
+  }
+
+  const TrainOptions& options_;
+  const RefinedOptions& own_;
+  TrainRun& run_;
+  std::vector<double> mean_;
+  RefinedData data_;
+  DominanceOptions search_;
+};
+
+}  // namespace
+
+Result<Parameters> fit_refined(const TrainingSet& set, const Model& model,
+                               const TrainOptions& options, TrainRun& run) {
+  return Trainer(set, model, options, run).fit();
+}
+
+}  // namespace animeme::dam
