@@ -203,7 +203,9 @@ struct LiveEncoder::Impl : Memory {
       const std::uint8_t range = face_range(fap);
       face.range[kPredictiveMax][fap] = face.range[kPredictiveMin][fap] = range;
       // Zeros of the very last range may reach into the values behind it.
-      if (turn == 0 && detour > 0 && range == 0) face.range[kPredictiveMin][fap] = 1;
+      if (turn == 0 && detour > 0 && range == 0) {
+        face.range[kPredictiveMax][fap] = face.range[kPredictiveMin][fap] = 1;
+      }
     }
     internal::guard_fap4(face);
   }

@@ -19,7 +19,9 @@ class Planner {
   Planner(const ClipData& clip, const Decision& decision, const PlanOptions& options)
       : clip_(clip), decision_(decision), options_(options) {
     for (std::size_t i = 0; i < clip.channels.size(); ++i) {
-      if (decision.rows[i].role == Role::coded) coded_.push_back(i);
+      if (decision.rows[i].role != Role::coded) continue;
+      coded_.push_back(i);
+      if (!channel(i).body) ++faps_;
     }
   }
 
@@ -170,7 +172,7 @@ class Planner {
       RunCost ranges = run_ranges(levels(i, first, count), scale(i));
       if (!ranges.fits) return too_large(i, first);
       for (std::size_t turn = turn_of(n); turn < detours; turn += coded_.size()) {
-        take_detour(ranges);
+        take_detour(ranges, is_last(n));
       }
       for (std::size_t kind = 0; kind < 4; ++kind) {
         const std::size_t number = std::size_t(channel(i).number);
@@ -188,23 +190,27 @@ class Planner {
                        std::lower_bound(trapped.begin(), trapped.end(), first));
   }
 
-  // The order in which detours take the coded parameters: the last FAP and the last BAP come first,
-  // as zeros of their last range may reach into the values behind it.
+  // The order in which detours take the coded parameters: the last FAP and the last BAP come first.
   std::size_t turn_of(std::size_t n) const {
-    const std::size_t faps = std::size_t(std::count_if(
-        coded_.begin(), coded_.end(), [this](std::size_t i) { return !channel(i).body; }));
-    if (n + 1 == faps) return 0;
-    return coded_.size() - 1 - n + (n >= faps && faps > 0 ? 1 : 0);
+    if (n + 1 == faps_) return 0;
+    return coded_.size() - 1 - n + (n >= faps_ && faps_ > 0 ? 1 : 0);
   }
 
+  // The last FAP or BAP: its range of kPredictiveMin stands before the values of the intra plane.
+  bool is_last(std::size_t n) const { return n + 1 == faps_ || n + 1 == coded_.size(); }
+
   // Wider ranges than needed, for other bits in the intra plane as well as in those behind it.
-  static void take_detour(RunCost& ranges) {
+  // Zeros come from the highest symbols of a range, so its upper side moves: with room below alone,
+  // a parameter at rest would write zeros in every plane. Zeros of the last range of all may reach
+  // into the values behind it, so that one gets both sides.
+  static void take_detour(RunCost& ranges, bool last) {
     const auto widen = [&ranges](RangeKind kind, RangeKind other) {
       if (ranges.range[kind] == kMaxRange) kind = other;
       if (ranges.range[kind] < kMaxRange) ++ranges.range[kind];
     };
     widen(kIntraMax, kIntraMin);
-    widen(kPredictiveMin, kPredictiveMax);
+    widen(kPredictiveMax, kPredictiveMin);
+    if (last) widen(kPredictiveMin, kPredictiveMax);
   }
 
   void set_up(Run& run) const {
@@ -302,7 +308,8 @@ class Planner {
   const ClipData& clip_;
   const Decision& decision_;
   const PlanOptions& options_;
-  std::vector<std::size_t> coded_;
+  std::vector<std::size_t> coded_;  // channels, FAPs first
+  std::size_t faps_ = 0;            // of them
 };
 
 bool is_event(const ClipData& clip, std::size_t plane) {
