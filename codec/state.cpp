@@ -85,30 +85,4 @@ void set_high_level_values(std::span<const std::int32_t, kHighLevelCount> values
   }
 }
 
-bool mask_agrees(const FaceSettings& settings) {
-  for (std::size_t group = 0; group < fap::kGroupCount; ++group) {
-    const fap::GroupInfo& info = fap::kGroups[group];
-    for (int i = 0; i < info.size; ++i) {
-      const bool coded = settings.mask[std::size_t(info.first + i)];
-      if (settings.mask_type[group] == MaskType::none && coded) return false;
-      if (settings.mask_type[group] == MaskType::all && !coded) return false;
-    }
-  }
-  return true;
-}
-
-bool mask_agrees(const BodySettings& settings) {
-  std::size_t slot = 0;
-  for (std::size_t group = 0; group < kBodyGroupCount; ++group) {
-    const MaskType type = settings.mask_type[group];
-    if (type == MaskType::interpolate) return false;
-    for (int i = 0; i < kBodyGroupSizes[group]; ++i, ++slot) {
-      const bool coded = settings.mask[kBapOrder[slot]];
-      if (type == MaskType::none && coded) return false;
-      if (type == MaskType::all && !coded) return false;
-    }
-  }
-  return true;
-}
-
 }  // namespace animeme::fba::internal
