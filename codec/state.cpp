@@ -58,6 +58,12 @@ void SlotCoding::set_default_ranges() {
   }
 }
 
+std::size_t SlotCoding::range_bits() const {
+  std::size_t bits = coded.size() * 5;
+  for (const std::uint8_t size : table->group_sizes) bits += (size + 3U) / 4U;
+  return bits;
+}
+
 void HighLevelState::reset_models() {
   for (int which = 0; which < kHighLevelCount; ++which) {
     model[std::size_t(which)].reset(std::uint32_t(2 * max_level(which) + 1));

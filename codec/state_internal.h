@@ -39,6 +39,8 @@ struct SlotCoding {
 
   // At the first intra plane: the default ranges, scaled by that plane's quantiser.
   void set_default_ranges();
+  // Bits of one set of ranges in the stream.
+  std::size_t range_bits() const;
   std::uint32_t alphabet(bool intra, std::size_t slot) const {
     const std::size_t first = intra ? kIntraMax : kPredictiveMax;
     return std::uint32_t(range[first][slot] + range[first + 1][slot] + 1);
