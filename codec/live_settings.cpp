@@ -46,7 +46,7 @@ void set_intra_range(Settings& settings, std::size_t number, std::int64_t level,
 // By how much so many detours widen the parameter whose turn this is.
 int wider(const HeldFrame& held, std::size_t turn, int detour) {
   const std::size_t coded = held.low_level_count() + held.body_count();
-  return int((std::size_t(detour) + coded - 1 - turn) / coded);
+  return int((std::size_t(detour * detour) + coded - 1 - turn) / coded);
 }
 
 }  // namespace

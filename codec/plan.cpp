@@ -45,7 +45,7 @@ class Planner {
     run.first = first;
     run.count = count;
     set_up(run);
-    const std::size_t detours = trapped_in(first, count);
+    const std::size_t detours = detours_of(first, count);
     for (std::size_t n = 0; n < coded_.size(); ++n) {
       const std::size_t i = coded_[n];
       RunCost ranges = run_ranges(levels(i, first, count), scale(i));
@@ -63,10 +63,20 @@ class Planner {
     return run;
   }
 
-  std::size_t trapped_in(std::size_t first, std::size_t count) const {
+  // How many ranges a run is to have wider. A trap that outlives its detours asks for more each
+  // time: ranges behind it in its segment do not move it, and those before it may be many.
+  std::size_t detours_of(std::size_t first, std::size_t count) const {
     const std::vector<std::size_t>& trapped = options_.trapped;
-    return std::size_t(std::lower_bound(trapped.begin(), trapped.end(), first + count) -
-                       std::lower_bound(trapped.begin(), trapped.end(), first));
+    const auto begin = std::lower_bound(trapped.begin(), trapped.end(), first);
+    const auto end = std::lower_bound(begin, trapped.end(), first + count);
+    std::ptrdiff_t most = 0;  // times that one plane had a trap
+    for (auto it = begin; it != end;) {
+      const auto next = std::upper_bound(it, end, *it);
+      most = std::max(most, next - it);
+      it = next;
+    }
+    // Further detours than that find every range as wide as it can be.
+    return std::min(std::size_t((end - begin) * most), 2 * kMaxRange * coded_.size());
   }
 
   // The order in which detours take the coded parameters: the last FAP and the last BAP come first.
@@ -107,8 +117,8 @@ class Planner {
         run.body.mask[number] = role == Role::coded;
       } else {
         run.face.mask[number] = role == Role::coded;
-        if (role == Role::mirrored)
-          interpolated.set(std::size_t(fap::info(channel(i).number).group - 1));
+        const int group = fap::info(channel(i).number).group;
+        if (role == Role::mirrored) interpolated.set(std::size_t(group - 1));
       }
     }
     set_mask_types(run.face, interpolated);
