@@ -74,7 +74,8 @@ struct EncodeReport {
   double rms = 0;            ///< error of the moving FAPs that are no angles, FAP units
   double rms_other = 0;      ///< error of moving angles and BAPs, half quantiser steps
   std::size_t retries = 0;   ///< how often the ranges were changed to avoid a trap (Encoder::trap)
-  /// Traps that are left: 0 as a rule; FAP 1 and 2 alone can make one that no range changes.
+  /// Traps that are left when 40 plans have been tried: 0 as a rule; FAP 1 and 2 alone can make one
+  /// that no range changes.
   std::size_t traps = 0;
 };
 

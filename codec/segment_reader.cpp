@@ -36,11 +36,6 @@ Error PlaneBits::out_of_bits() const {
                       std::int64_t(in_.size()));
 }
 
-Result<void> PlaneBits::check_end() const {
-  if (!in_.overrun()) return {};
-  return out_of_bits();
-}
-
 Error PlaneBits::fail(Code code, std::string message, std::size_t bit) const {
   if (in_.overrun()) return out_of_bits();
   return error_at_bit(code, std::move(message), std::int64_t(bit));

@@ -22,7 +22,10 @@ class PlaneBits {
   /// What to say when the bits have run out: ask for more, or that there are none.
   Error out_of_bits() const;
   /// That, if a read went past the end.
-  Result<void> check_end() const;
+  Result<void> check_end() const {
+    if (!in_.overrun()) return {};
+    return out_of_bits();
+  }
   /// An error at a bit, unless the offending bits are not there at all.
   Error fail(Code code, std::string message, std::size_t bit) const;
   /// Reads a bit that has to be 1; `where` it stands.
