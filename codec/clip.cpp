@@ -2,6 +2,7 @@
 #include <string>
 
 #include "codec/clip_internal.h"
+#include "codec/settings_internal.h"
 #include "codec/state_internal.h"
 
 namespace animeme::fba::internal {
@@ -30,6 +31,16 @@ std::vector<std::int64_t> merge_numbers(const fap::Sequence& face,
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   return numbers;
+}
+
+Result<void> check_high_levels(const fap::Sequence& face) {
+  for (const fap::Frame& frame : face.frames) {
+    if (auto ok = check_high_level(frame); !ok) {
+      return make_error(ok.error().code,
+                        "frame " + std::to_string(frame.number) + ": " + ok.error().message);
+    }
+  }
+  return {};
 }
 
 // A plane says how many frames are skipped behind it. Numbers may be any, so differences are taken
@@ -92,14 +103,16 @@ void gather_high_level(const fap::Sequence& face, ClipData& clip) {
   }
 }
 
-void gather_face(const fap::Sequence& face, ClipData& clip) {
+void gather_face(const fap::Sequence& face, bool all_faps, ClipData& clip) {
   const fap::Mask used = used_mask(face.frames);
   std::array<std::ptrdiff_t, fap::kFapCount + 1> index_of;
   index_of.fill(-1);
   for (int number = fap::kFirstLowLevel; number <= fap::kFapCount; ++number) {
-    if (!used[std::size_t(number)]) continue;
+    const bool given = used[std::size_t(number)];
+    if (!given && !all_faps) continue;
     const fap::FapInfo& info = fap::info(number);
     Channel channel;
+    channel.given = given;
     channel.number = number;
     channel.step = info.quant_step;
     channel.distance = info.unit != fap::Unit::angle;
@@ -108,7 +121,7 @@ void gather_face(const fap::Sequence& face, ClipData& clip) {
       channel.left = index_of[std::size_t(info.mirror)];
     }
     fill_row(face.frames, std::size_t(number), clip.number, channel.value);
-    index_of[std::size_t(number)] = std::ptrdiff_t(clip.channels.size());
+    if (given) index_of[std::size_t(number)] = std::ptrdiff_t(clip.channels.size());
     clip.channels.push_back(std::move(channel));
   }
 }
@@ -131,12 +144,13 @@ void gather_body(std::span<const BodyFrame> body, ClipData& clip) {
 
 }  // namespace
 
-Result<ClipData> gather(const fap::Sequence& face, std::span<const BodyFrame> body) {
+Result<ClipData> gather(const fap::Sequence& face, std::span<const BodyFrame> body, bool all_faps) {
   if (face.frames.empty() && body.empty()) {
     return make_error(Code::invalid_argument, "the clip has no frames");
   }
   if (auto ok = check_numbers(face.frames); !ok) return ok.error();
   if (auto ok = check_numbers(body); !ok) return ok.error();
+  if (auto ok = check_high_levels(face); !ok) return ok.error();
   const std::optional<CodedRate> rate = code_rate(face.rate);
   if (!rate) {
     return make_error(Code::unsupported,
@@ -152,7 +166,7 @@ Result<ClipData> gather(const fap::Sequence& face, std::span<const BodyFrame> bo
   clip.number = merge_numbers(face, body);
   if (auto ok = check_gaps(clip.number); !ok) return ok.error();
   gather_high_level(face, clip);
-  gather_face(face, clip);
+  gather_face(face, all_faps && clip.has_face, clip);
   gather_body(body, clip);
   return clip;
 }

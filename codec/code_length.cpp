@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "codec/clip_internal.h"
 #include "codec/code_length_internal.h"
+#include "codec/settings_internal.h"
 #include "codec/state_internal.h"
 
 namespace animeme::fba::internal {

@@ -1,6 +1,7 @@
 #include "codec/decide_internal.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 
 #include "codec/rate_distortion_internal.h"
@@ -8,10 +9,6 @@
 namespace animeme::fba::internal {
 
 namespace {
-
-bool all_zero(const std::vector<std::int32_t>& levels) {
-  return std::all_of(levels.begin(), levels.end(), [](std::int32_t level) { return level == 0; });
-}
 
 // Parameters whose motion is too small to be seen stay at the middle of it.
 void still_small_motion(const ClipData& clip, const EncodeOptions& options, Decision& decision) {
@@ -28,7 +25,7 @@ void still_small_motion(const ClipData& clip, const EncodeOptions& options, Deci
   }
 }
 
-// Channel of a FAP, null if the clip does not have it.
+// The rows of the face by FAP numbers.
 class FaceRows {
  public:
   FaceRows(const ClipData& clip, Decision& decision) {
@@ -36,43 +33,47 @@ class FaceRows {
       if (!clip.channels[i].body) rows_[std::size_t(clip.channels[i].number)] = &decision.rows[i];
     }
   }
-  Row* operator[](int fap) const { return fap == 0 ? nullptr : rows_[std::size_t(fap)]; }
-  bool coded(int fap) const {
+  // Null if the clip does not have it.
+  Row* operator[](int fap) const { return rows_[std::size_t(fap)]; }
+  bool is(int fap, Role role) const {
     const Row* row = (*this)[fap];
-    return row != nullptr && row->role == Role::coded;
+    return row != nullptr && row->role == role;
   }
 
  private:
-  std::array<Row*, fap::kFapCount + 1> rows_{};
+  std::array<Row*, fap::kFapCount + 1> rows_{};  // 0: no FAP
 };
 
 // A parameter that is not coded because it stays at 0 must not be given another value by a decoder
-// that fills in: the known one copies sides whatever the mask type says, others interpolate lips
-// in groups of type 2. Where that could happen the zeros are coded after all, which costs nothing
-// but 20 bits of ranges an intra plane.
+// that fills in: the known one copies sides whatever the mask type says, others interpolate sides
+// and lips in groups of type 2. Where that could happen the zeros are coded after all, which costs
+// nothing but 20 bits of ranges an intra plane. A FAP that the clip does not have is not worth that
+// but in a group that became one of type 2 for the sake of others.
 void guard_zeros(const ClipData& clip, Decision& decision) {
   const FaceRows rows(clip, decision);
-  std::array<bool, fap::kGroupCount + 1> interpolated{};
+  std::bitset<fap::kGroupCount + 1> interpolated;
   for (const fap::FapInfo& fap : fap::kFaps) {
-    const Row* row = rows[fap.number];
-    if (row != nullptr && row->role == Role::mirrored) interpolated[std::size_t(fap.group)] = true;
+    if (rows.is(fap.number, Role::mirrored)) interpolated.set(std::size_t(fap.group));
   }
   std::vector<Row*> guarded;
-  for (const fap::FapInfo& fap : fap::kFaps) {
-    Row* row = rows[fap.number];
-    if (row == nullptr || row->role != Role::left_out) continue;
-    bool endangered = rows.coded(fap.mirror);
-    if (interpolated[std::size_t(fap.group)] && fap.partner != 0) {
-      endangered |= rows.coded(fap.partner) || rows.coded(fap::info(fap.partner).mirror);
+  for (std::size_t i = 0; i < clip.channels.size(); ++i) {
+    const Channel& channel = clip.channels[i];
+    if (channel.body || decision.rows[i].role != Role::left_out) continue;
+    const fap::FapInfo& fap = fap::info(channel.number);
+    const bool may_move = interpolated[std::size_t(fap.group)];
+    bool endangered = (channel.given || may_move) && rows.is(fap.mirror, Role::coded);
+    if (may_move && fap.partner != 0) {
+      endangered |=
+          rows.is(fap.partner, Role::coded) || rows.is(fap::info(fap.partner).mirror, Role::coded);
     }
-    if (endangered) guarded.push_back(row);
+    if (endangered) guarded.push_back(&decision.rows[i]);
   }
   for (Row* row : guarded) row->role = Role::coded;
 }
 
 void choose_roles(const ClipData& clip, Decision& decision) {
   for (std::size_t i = 0; i < clip.channels.size(); ++i) {
-    if (all_zero(decision.rows[i].levels)) decision.rows[i].role = Role::left_out;
+    if (is_zero(decision.rows[i].levels)) decision.rows[i].role = Role::left_out;
   }
   for (std::size_t i = 0; i < clip.channels.size(); ++i) {
     const std::ptrdiff_t left = clip.channels[i].left;
@@ -85,11 +86,9 @@ void choose_roles(const ClipData& clip, Decision& decision) {
 }
 
 void mark_stilled(const ClipData& clip, Decision& decision) {
-  const auto moves = [](const std::vector<std::int32_t>& row) {
-    return std::any_of(row.begin(), row.end(), [&](std::int32_t v) { return v != row.front(); });
-  };
   for (std::size_t i = 0; i < clip.channels.size(); ++i) {
-    decision.rows[i].stilled = moves(clip.channels[i].value) && !moves(decision.rows[i].levels);
+    decision.rows[i].stilled =
+        !is_still(clip.channels[i].value) && is_still(decision.rows[i].levels);
   }
 }
 
@@ -98,6 +97,9 @@ void mark_stilled(const ClipData& clip, Decision& decision) {
 Decision decide(const ClipData& clip, const EncodeOptions& options, double bit_budget) {
   Decision decision;
   decision.rows.resize(clip.channels.size());
+  for (std::size_t i = 0; i < clip.channels.size(); ++i) {
+    if (!clip.channels[i].given) decision.rows[i].levels.assign(clip.planes(), 0);
+  }
   decision.fap_quant = options.fap_quant;
   decision.bap_quant = options.bap_quant;
   if (options.max_rms > 0 || bit_budget > 0) {

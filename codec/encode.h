@@ -67,14 +67,15 @@ struct EncodeReport {
   std::size_t planes = 0;
   std::size_t intra_planes = 0;
   std::size_t skipped = 0;   ///< frames of the clip not sent because nothing moved
-  std::size_t coded = 0;     ///< parameters coded
+  std::size_t coded = 0;     ///< parameters coded, with zeros that a decoder would overwrite
   std::size_t mirrored = 0;  ///< right sides left to the decoder
   std::size_t left_out = 0;  ///< parameters that stay at 0, not coded
   std::size_t stilled = 0;   ///< parameters that moved in the clip and do not in the stream
   double rms = 0;            ///< error of the moving FAPs that are no angles, FAP units
   double rms_other = 0;      ///< error of moving angles and BAPs, half quantiser steps
   std::size_t retries = 0;   ///< how often the ranges were changed to avoid a trap (Encoder::trap)
-  /// Traps that are left: 0 as a rule; FAP 1 and 2 alone can make one that no range changes.
+  /// Traps that are left when 40 plans have been tried: 0 as a rule; FAP 1 and 2 alone can make one
+  /// that no range changes.
   std::size_t traps = 0;
 };
 
@@ -90,9 +91,9 @@ struct EncodeReport {
 /// `face` may be empty if `body` is not; its rate is that of the stream. Errors: invalid_argument
 /// (no frames, numbers that do not ascend or leave out more than a million frames, options out of
 /// bounds), unsupported (a rate that the format cannot express: use k/16 frames per second up to
-/// 255 15/16, or those times 1000/1001), out_of_range (a value beyond 1860 quantiser steps, or a
-/// viseme or expression out of its bounds; the message names parameter and frame), internal
-/// (verify failed).
+/// 255 15/16, or those times 1000/1001), out_of_range (a value that no intra plane can hold, or a
+/// viseme outside 0..14, an expression outside 0..6, a blend or an intensity outside 0..63; the
+/// message names parameter and frame), internal (verify failed).
 Result<std::vector<std::uint8_t>> encode(const fap::Sequence& face, const EncodeOptions& = {},
                                          std::span<const BodyFrame> body = {},
                                          EncodeReport* report = nullptr);

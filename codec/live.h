@@ -59,8 +59,9 @@ class LiveEncoder {
   ///
   /// Errors, after which the next frame can be written as if this one had not been:
   ///   invalid_argument  options out of bounds, a rate that the format cannot express
-  ///   out_of_range      a value beyond 1860 quantiser steps, or a viseme or expression out of its
-  ///                     bounds; the message names it
+  ///   out_of_range      a value beyond 1860 quantiser steps, a viseme outside 0..14, an
+  ///                     expression outside 0..6, a blend or an intensity outside 0..63, or values
+  ///                     that would be rounded to more than 32 bits; the message names it
   ///   internal          verify failed
   Result<std::vector<std::uint8_t>> write(const fap::Frame& frame, std::uint32_t skip = 0,
                                           const BodyFrame* body = nullptr);

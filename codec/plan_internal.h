@@ -26,8 +26,18 @@ struct PlanOptions {
 /// Planes in which something changes, the first, the last, and so many in between that the rest can
 /// be skipped (indices, ascending).
 std::vector<std::size_t> moving_planes(const ClipData& clip, const Decision& decision);
+/// Keeps these planes and drops the others.
+void keep_planes(const std::vector<std::size_t>& planes, ClipData& clip, Decision& decision);
 
-/// Error out_of_range if an intra plane cannot hold a value, or 32 bits its reconstruction.
+/// Indices of the channels that are coded, ascending: FAPs first.
+std::vector<std::size_t> coded_channels(const Decision& decision);
+
+/// The planes that are to be intra, ascending; the first is 0.
+std::vector<std::size_t> run_begins(const ClipData& clip, const Decision& decision,
+                                    const PlanOptions& options);
+
+/// run_begins() and what each of these planes settles. Error out_of_range if an intra plane cannot
+/// hold a value, or 32 bits its reconstruction.
 Result<std::vector<Run>> plan_runs(const ClipData& clip, const Decision& decision,
                                    const PlanOptions& options);
 

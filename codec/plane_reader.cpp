@@ -1,4 +1,5 @@
 #include "codec/plane_reader_internal.h"
+#include "codec/segment_reader_internal.h"
 
 namespace animeme::fba::internal {
 
@@ -9,7 +10,7 @@ using Stage = PlaneProgress::Stage;
 class PlaneParser {
  public:
   PlaneParser(BitReader& in, const StreamState& state, bool last, ParsedPlane& plane)
-      : in_(in), state_(state), last_(last), plane_(plane) {}
+      : in_(in), bits_(in, last), state_(state), plane_(plane) {}
 
   Result<void> run() {
     if (plane_.begun()) {
@@ -30,27 +31,6 @@ class PlaneParser {
   }
 
  private:
-  // What to say when the bits have run out: ask for more, or that there are none.
-  Result<void> check_end() const {
-    if (!in_.overrun()) return {};
-    return out_of_bits();
-  }
-  Error out_of_bits() const {
-    if (!last_) return make_error(Code::need_data, "the plane is not complete yet");
-    return error_at_bit(Code::truncated, "the stream ends in the middle of a plane",
-                        std::int64_t(in_.size()));
-  }
-  // An error, unless the offending bits are not there at all.
-  Error fail(Code code, std::string message, std::size_t bit) const {
-    if (in_.overrun()) return out_of_bits();
-    return error_at_bit(code, std::move(message), std::int64_t(bit));
-  }
-  Result<void> marker(const char* where) {
-    if (in_.bit() != 0) return {};
-    return fail(Code::syntax, std::string("marker bit in the ") + where + " is 0, must be 1",
-                in_.position() - 1);
-  }
-
   void restart() {
     progress_.stage = Stage::header;
     progress_.segment.reset();
@@ -73,13 +53,13 @@ class PlaneParser {
       case Stage::expression:
         return expression();
       case Stage::face_slots:
-        return slot_segment(state_.face, plane_.face, begin_body());
+        return slots(state_.face, plane_.face, begin_body());
       case Stage::body_masks:
         return body_settings();
       case Stage::body_ranges:
         return ranges(plane_.body.coding, plane_.body_settings, Stage::body_slots);
       case Stage::body_slots:
-        return slot_segment(state_.body, plane_.body, Stage::done);
+        return slots(state_.body, plane_.body, Stage::done);
       case Stage::done:
         break;
     }
@@ -88,7 +68,7 @@ class PlaneParser {
 
   // Ends a stage whose bits were all there.
   Result<void> proceed(Stage next) {
-    if (in_.overrun()) return out_of_bits();
+    if (in_.overrun()) return bits_.out_of_bits();
     progress_.stage = next;
     return {};
   }
@@ -106,14 +86,14 @@ class PlaneParser {
         rate.frame_rate = std::uint8_t(in_.bits(8));
         rate.sixteenths = std::uint8_t(in_.bits(4));
         rate.frequency_offset = in_.bit() != 0;
-        if (!rate.rate().valid()) return fail(Code::syntax, "the frame rate is 0", at);
+        if (!rate.rate().valid()) return bits_.fail(Code::syntax, "the frame rate is 0", at);
         temporal.rate = rate;
       }
       if (in_.bit() != 0) {
         TimeCode code;
         code.hours = std::uint8_t(in_.bits(5));
         code.minutes = std::uint8_t(in_.bits(6));
-        if (auto ok = marker("time code"); !ok) return ok;
+        if (auto ok = bits_.marker("time code"); !ok) return ok;
         code.seconds = std::uint8_t(in_.bits(6));
         temporal.time_code = code;
       }
@@ -129,26 +109,26 @@ class PlaneParser {
     do {
       progress_.bit = in_.position();
       part = in_.bits(4);
-      if (in_.overrun()) return out_of_bits();
+      if (in_.overrun()) return bits_.out_of_bits();
       *plane_.temporal.skip += part;
       if (*plane_.temporal.skip > kMaxSkip) {
-        return fail(Code::syntax, "more than a million frames are skipped", in_.position());
+        return bits_.fail(Code::syntax, "more than a million frames are skipped", in_.position());
       }
     } while (part == 15);
     return begin_parts();
   }
 
   Result<void> begin_parts() {
-    if (auto ok = check_end(); !ok) return ok;
+    if (auto ok = bits_.check_end(); !ok) return ok;
     const bool face = has_face(plane_.object_mask);
     if (!plane_.intra) {
       const bool face_known = !face || state_.face.coding.valid;
       const bool body_known = !has_body(plane_.object_mask) || state_.body.coding.valid;
       if (!face_known || !body_known) {
-        return fail(Code::syntax,
-                    std::string("a predictive ") + (face_known ? "body" : "face") +
-                        " plane comes before the first intra plane",
-                    in_.position());
+        return bits_.fail(Code::syntax,
+                          std::string("a predictive ") + (face_known ? "body" : "face") +
+                              " plane comes before the first intra plane",
+                          in_.position());
       }
     }
     if (!face) return proceed(begin_body());
@@ -164,7 +144,7 @@ class PlaneParser {
     settings = {};
     settings.fap_quant = int(in_.bits(5));
     for (std::size_t group = 0; group < fap::kGroupCount; ++group) {
-      if (auto ok = marker("face masks"); !ok) return ok;
+      if (auto ok = bits_.marker("face masks"); !ok) return ok;
       settings.mask_type[group] = MaskType(in_.bits(2));
       const fap::GroupInfo& info = fap::kGroups[group];
       const MaskType type = settings.mask_type[group];
@@ -211,6 +191,11 @@ class PlaneParser {
     return proceed(Stage::face_slots);
   }
 
+  Result<void> high_segment(int first, int last) {
+    return read_high_segment(bits_, state_.high, settings_in_force().fap_quant, first, last,
+                             plane_);
+  }
+
   Result<void> body_settings() {
     BodySettings& settings = plane_.body_settings;
     settings = {};
@@ -223,11 +208,11 @@ class PlaneParser {
     coding.coded.clear();
     std::uint16_t slot = 0;
     for (std::size_t group = 0; group < kBodyGroupCount; ++group) {
-      if (auto ok = marker("body masks"); !ok) return ok;
+      if (auto ok = bits_.marker("body masks"); !ok) return ok;
       const MaskType type = MaskType(in_.bits(2));
       settings.mask_type[group] = type;
       if (type == MaskType::interpolate) {
-        return fail(Code::syntax, "body mask type 2 is not allowed", in_.position() - 2);
+        return bits_.fail(Code::syntax, "body mask type 2 is not allowed", in_.position() - 2);
       }
       for (int i = 0; i < kBodyGroupSizes[group]; ++i, ++slot) {
         const bool coded = type == MaskType::hold ? in_.bit() != 0 : type == MaskType::all;
@@ -242,11 +227,16 @@ class PlaneParser {
   }
 
   Error dct(const char* part) const {
-    return fail(Code::unsupported,
-                std::string("the ") + part +
-                    " is coded in DCT mode (fba_object_coding_type 1), whose tables are not "
-                    "public; only the arithmetic mode can be decoded",
-                in_.position() - 1);
+    return bits_.fail(Code::unsupported,
+                      std::string("the ") + part +
+                          " is coded in DCT mode (fba_object_coding_type 1), whose tables are not "
+                          "public; only the arithmetic mode can be decoded",
+                      in_.position() - 1);
+  }
+
+  Result<void> slots(const SlotState& state, ParsedSlots& parsed, Stage next) {
+    auto done = read_slot_segment(bits_, state, plane_.intra, progress_, parsed);
+    return done ? proceed(next) : done;
   }
 
   // Section 3.2: up to four sets, a marker at every fourth member of each group.
@@ -264,16 +254,11 @@ class PlaneParser {
       progress_.bit = in_.position();
       if (!settings.send_range[progress_.kind]) continue;
       // The size of a set is known, so that a set which is still arriving is not read in vain.
-      if (!last_ && in_.position() + range_bits(coding) > in_.size()) return out_of_bits();
+      const bool arrived = in_.position() + coding.range_bits() <= in_.size();
+      if (!arrived && !bits_.last()) return bits_.out_of_bits();
       if (auto done = range_set(coding, settings, progress_.kind); !done) return done;
     }
     return proceed(next);
-  }
-
-  static std::size_t range_bits(const SlotCoding& coding) {
-    std::size_t bits = coding.coded.size() * 5;
-    for (const std::uint8_t size : coding.table->group_sizes) bits += (size + 3U) / 4U;
-    return bits;
   }
 
   template <class Settings>
@@ -282,7 +267,7 @@ class PlaneParser {
     for (const std::uint8_t size : coding.table->group_sizes) {
       for (int i = 0; i < size; ++i, ++slot) {
         if (i % 4 == 0) {
-          if (auto ok = marker("ranges"); !ok) return ok;
+          if (auto ok = bits_.marker("ranges"); !ok) return ok;
         }
         const std::size_t number = coding.table->number[slot];
         if (!settings.mask[number]) continue;
@@ -291,79 +276,12 @@ class PlaneParser {
         coding.range[kind][slot] = level_range(m, coding.scale);
       }
     }
-    return check_end();
-  }
-
-  // At most seven symbols: read again from the start if they are not all there.
-  Result<void> high_segment(int first, int last) {
-    const int fap_quant = settings_in_force().fap_quant;
-    SegmentDecoder segment(in_, last_);
-    for (int which = first; which <= last; ++which) {
-      const std::size_t index = std::size_t(which);
-      const std::uint32_t max = std::uint32_t(high_level_max(which, fap_quant));
-      const bool done = plane_.intra ? flat_symbol(segment, max + 1, plane_.high_symbols[index])
-                                     : model_symbol(segment, state_.high.model[index],
-                                                    plane_.high_symbols[index]);
-      if (!done) return out_of_bits();
-    }
-    return end_segment(segment);
-  }
-
-  Result<void> slot_segment(const SlotState& state, ParsedSlots& parsed, Stage next) {
-    const SlotCoding& coding = plane_.intra ? parsed.coding : state.coding;
-    const std::size_t count = coding.coded.size();
-    parsed.symbols.resize(count);
-    std::size_t i = progress_.segment ? progress_.symbols : 0;
-    SegmentDecoder segment = progress_.segment ? *progress_.segment : SegmentDecoder(in_, last_);
-    if (progress_.segment) segment.resume(in_.bytes(), last_);
-    bool more = segment.ready();
-    if (plane_.intra) {
-      for (; more && i < count; i += more ? 1 : 0) {
-        more = flat_symbol(segment, coding.alphabet(true, coding.coded[i]), parsed.symbols[i]);
-      }
-    } else {
-      for (; more && i < count; i += more ? 1 : 0) {
-        more = model_symbol(segment, state.model[coding.coded[i]], parsed.symbols[i]);
-      }
-    }
-    if (!more) {
-      progress_.segment = segment;
-      progress_.symbols = i;
-      return out_of_bits();
-    }
-    progress_.segment.reset();
-    if (auto done = end_segment(segment); !done) return done;
-    return proceed(next);
-  }
-
-  // Both: false if the bits do not suffice.
-  static bool flat_symbol(SegmentDecoder& segment, std::uint32_t n, std::uint16_t& symbol) {
-    if (!segment.ready()) return false;
-    symbol = std::uint16_t(n - 1 - segment.target(n));
-    return segment.consume(flat_interval(symbol, n));
-  }
-  static bool model_symbol(SegmentDecoder& segment, const AdaptiveModel& model,
-                           std::uint16_t& symbol) {
-    if (!segment.ready()) return false;
-    SymbolInterval interval;
-    symbol = std::uint16_t(model.find(segment.target(model.total()), interval));
-    return segment.consume(interval);
-  }
-
-  Result<void> end_segment(const SegmentDecoder& segment) {
-    const std::size_t end = segment.end();
-    if (end > in_.size()) return out_of_bits();
-    if (segment.bad_stuffing() != SIZE_MAX) {
-      return fail(Code::syntax, "the bit after 22 zeros is not the stuffed 1",
-                  segment.bad_stuffing());
-    }
-    in_.seek(end);
-    return {};
+    return bits_.check_end();
   }
 
   BitReader& in_;
+  const PlaneBits bits_;
   const StreamState& state_;
-  const bool last_;
   ParsedPlane& plane_;
   PlaneProgress& progress_ = plane_.progress;
 };

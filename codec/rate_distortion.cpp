@@ -10,15 +10,9 @@ namespace {
 
 constexpr int kMaxQuant = 31;
 
-bool moves(const Channel& channel) {
-  return std::any_of(channel.value.begin(), channel.value.end(),
-                     [&](std::int32_t value) { return value != channel.value.front(); });
-}
-
 // A row that stays at 0 need not be coded.
 void forget_if_zero(TrellisResult& row) {
-  const auto zero = [](std::int32_t level) { return level == 0; };
-  if (std::all_of(row.levels.begin(), row.levels.end(), zero)) row.bits = 0;
+  if (is_zero(row.levels)) row.bits = 0;
 }
 
 }  // namespace
@@ -125,7 +119,7 @@ std::vector<RateDistortion::Unit> RateDistortion::units_of(bool body, Kind kind)
   std::vector<std::size_t> unit_of(clip_.channels.size(), SIZE_MAX);
   for (std::size_t i = 0; i < clip_.channels.size(); ++i) {
     const Channel& channel = clip_.channels[i];
-    if (channel.body != body) continue;
+    if (channel.body != body || !channel.given) continue;
     if (kind != Kind::all && channel.distance != (kind == Kind::distances)) continue;
     if (channel.left >= 0) {
       units[unit_of[std::size_t(channel.left)]].right = i;
@@ -140,8 +134,9 @@ std::vector<RateDistortion::Unit> RateDistortion::units_of(bool body, Kind kind)
 double RateDistortion::moving_values(const std::vector<Unit>& units) const {
   std::size_t rows = 0;
   for (const Unit& unit : units) {
-    rows += moves(clip_.channels[unit.left]) ? 1 : 0;
-    if (unit.right != SIZE_MAX) rows += moves(clip_.channels[unit.right]) ? 1 : 0;
+    rows += is_still(clip_.channels[unit.left].value) ? 0 : 1;
+    if (unit.right == SIZE_MAX) continue;
+    rows += is_still(clip_.channels[unit.right].value) ? 0 : 1;
   }
   return double(rows) * double(clip_.planes());
 }

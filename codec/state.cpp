@@ -58,6 +58,12 @@ void SlotCoding::set_default_ranges() {
   }
 }
 
+std::size_t SlotCoding::range_bits() const {
+  std::size_t bits = coded.size() * 5;
+  for (const std::uint8_t size : table->group_sizes) bits += (size + 3U) / 4U;
+  return bits;
+}
+
 void HighLevelState::reset_models() {
   for (int which = 0; which < kHighLevelCount; ++which) {
     model[std::size_t(which)].reset(std::uint32_t(2 * max_level(which) + 1));
@@ -83,32 +89,6 @@ void set_high_level_values(std::span<const std::int32_t, kHighLevelCount> values
     frame.expression.select2 = values[kExpressionSelect2];
     frame.expression.intensity2 = values[kExpressionIntensity2];
   }
-}
-
-bool mask_agrees(const FaceSettings& settings) {
-  for (std::size_t group = 0; group < fap::kGroupCount; ++group) {
-    const fap::GroupInfo& info = fap::kGroups[group];
-    for (int i = 0; i < info.size; ++i) {
-      const bool coded = settings.mask[std::size_t(info.first + i)];
-      if (settings.mask_type[group] == MaskType::none && coded) return false;
-      if (settings.mask_type[group] == MaskType::all && !coded) return false;
-    }
-  }
-  return true;
-}
-
-bool mask_agrees(const BodySettings& settings) {
-  std::size_t slot = 0;
-  for (std::size_t group = 0; group < kBodyGroupCount; ++group) {
-    const MaskType type = settings.mask_type[group];
-    if (type == MaskType::interpolate) return false;
-    for (int i = 0; i < kBodyGroupSizes[group]; ++i, ++slot) {
-      const bool coded = settings.mask[kBapOrder[slot]];
-      if (type == MaskType::none && coded) return false;
-      if (type == MaskType::all && !coded) return false;
-    }
-  }
-  return true;
 }
 
 }  // namespace animeme::fba::internal

@@ -39,6 +39,8 @@ struct SlotCoding {
 
   // At the first intra plane: the default ranges, scaled by that plane's quantiser.
   void set_default_ranges();
+  // Bits of one set of ranges in the stream.
+  std::size_t range_bits() const;
   std::uint32_t alphabet(bool intra, std::size_t slot) const {
     const std::size_t first = intra ? kIntraMax : kPredictiveMax;
     return std::uint32_t(range[first][slot] + range[first + 1][slot] + 1);
@@ -96,6 +98,13 @@ inline std::int32_t high_level_max(int which, int fap_quant) {
   }
 }
 
+/// Quantiser step of a high-level value; selections are not quantised.
+inline std::int32_t high_level_step(int which, int fap_quant) {
+  const bool select = which == kVisemeSelect1 || which == kVisemeSelect2 ||
+                      which == kExpressionSelect1 || which == kExpressionSelect2;
+  return select ? 1 : fap_scale(fap_quant);
+}
+
 /// Memory of FAP 1 and 2.
 struct HighLevelState {
   std::array<std::int32_t, kHighLevelCount> value{};
@@ -103,11 +112,7 @@ struct HighLevelState {
   int fap_quant = 1;
 
   std::int32_t max_level(int which) const { return high_level_max(which, fap_quant); }
-  std::int32_t step_of(int which) const {
-    const bool select = which == kVisemeSelect1 || which == kVisemeSelect2 ||
-                        which == kExpressionSelect1 || which == kExpressionSelect2;
-    return select ? 1 : fap_scale(fap_quant);
-  }
+  std::int32_t step_of(int which) const { return high_level_step(which, fap_quant); }
   void reset_models();
 };
 
@@ -115,9 +120,5 @@ struct HighLevelState {
 std::array<std::int32_t, kHighLevelCount> high_level_values(const fap::Frame& frame);
 void set_high_level_values(std::span<const std::int32_t, kHighLevelCount> values,
                            fap::Frame& frame);
-
-/// FAPs coded by mask types and masks; true if they agree (section 3.1).
-bool mask_agrees(const FaceSettings& settings);
-bool mask_agrees(const BodySettings& settings);
 
 }  // namespace animeme::fba::internal

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "codec/clip_internal.h"
+#include "codec/settings_internal.h"
 #include "codec/state_internal.h"
 
 namespace animeme::fba::internal {

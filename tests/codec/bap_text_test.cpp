@@ -7,11 +7,13 @@
 
 #include "codec/decoder.h"
 #include "tests/codec/reference_streams.h"
+#include "tests/support/body_frame.h"
 #include "tests/support/random_clip.h"
 
 namespace animeme::fba {
 namespace {
 
+using test::body_frame;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -25,16 +27,6 @@ std::string mask(std::initializer_list<int> baps, int flags = kStandard) {
     line += (bap == 1 ? "" : " ") + std::string(set ? "1" : "0");
   }
   return line;
-}
-
-BodyFrame frame(std::int64_t number, std::initializer_list<std::pair<int, int>> values) {
-  BodyFrame out;
-  out.number = number;
-  for (const auto& [bap, value] : values) {
-    out.mask.set(std::size_t(bap));
-    out.value[std::size_t(bap)] = value;
-  }
-  return out;
 }
 
 struct Read {
@@ -60,15 +52,15 @@ TEST(BapText, PlainFile) {
       read("3.1 clip 25 2\n" + mask({1, 186}) + "\n0 100 -7\n" + mask({181}) + "\n1 2147483647\n");
   EXPECT_EQ(body.name, "clip");
   EXPECT_EQ(body.rate, (fap::Rate{25, 1}));
-  EXPECT_THAT(body.frames,
-              ElementsAre(frame(0, {{1, 100}, {186, -7}}), frame(1, {{181, 2147483647}})));
+  EXPECT_THAT(body.frames, ElementsAre(body_frame(0, {{1, 100}, {186, -7}}),
+                                       body_frame(1, {{181, 2147483647}})));
   EXPECT_THAT(warnings, IsEmpty());
 }
 
 TEST(BapText, WritesTheShorterMaskWhereItCan) {
-  const BodySequence standard{{25, 1}, {frame(3, {{186, -5}})}, "a b"};
+  const BodySequence standard{{25, 1}, {body_frame(3, {{186, -5}})}, "a b"};
   EXPECT_EQ(write_bap_text(standard), "3.1 a_b 25 1\n" + mask({186}) + "\n3 -5\n");
-  const BodySequence extended{{25, 2}, {frame(0, {{187, 5}}), frame(1, {})}, ""};
+  const BodySequence extended{{25, 2}, {body_frame(0, {{187, 5}}), body_frame(1, {})}, ""};
   EXPECT_EQ(write_bap_text(extended),
             "3.2 clip 12.5 2\n" + mask({187}, 296) + "\n0 5\n" + mask({}, 296) + "\n1\n");
 }
@@ -105,7 +97,7 @@ TEST(BapText, CommentsTabsLineEndsAndBlanksInTheName) {
                                      "\t\r\n#three\r\n\t0 \t 42 # four");
   EXPECT_EQ(body.name, "my body clip");
   EXPECT_EQ(body.rate, (fap::Rate{25, 2}));
-  EXPECT_THAT(body.frames, ElementsAre(frame(0, {{2, 42}})));
+  EXPECT_THAT(body.frames, ElementsAre(body_frame(0, {{2, 42}})));
   EXPECT_THAT(warnings, ElementsAre(HasSubstr("line 3: the name contains blanks")));
 }
 
@@ -114,7 +106,8 @@ TEST(BapText, QuirksAreToldWithTheirLine) {
   const std::string m = mask({1}) + "\n";
   const auto [body, warnings] =
       read("3.1 x 25 9\n" + m + "5 1.5\n" + m + "5 7\n" + m + "8 3\n" + m + "2 4\n");
-  EXPECT_THAT(body.frames, ElementsAre(frame(5, {{1, 7}}), frame(8, {{1, 3}}), frame(9, {{1, 4}})));
+  EXPECT_THAT(body.frames, ElementsAre(body_frame(5, {{1, 7}}), body_frame(8, {{1, 3}}),
+                                       body_frame(9, {{1, 4}})));
   EXPECT_THAT(warnings, ElementsAre(HasSubstr("line 1: the header says 9 frames, the text has 4"),
                                     HasSubstr("line 3: the value '1.5' is rounded"),
                                     HasSubstr("line 5: frame number 5 comes again"),
@@ -126,7 +119,7 @@ TEST(BapText, TheFirstMaskTellsTheLength) {
     const int flags = is_long ? kBapCount : kStandard;
     const std::string rows = mask({2}, flags) + "\n0 42\n" + mask({}, flags) + "\n1\n";
     const auto [body, warnings] = read((is_long ? "3.1 x 25 2\n" : "3.2 x 25 2\n") + rows);
-    EXPECT_THAT(body.frames, ElementsAre(frame(0, {{2, 42}}), frame(1, {})));
+    EXPECT_THAT(body.frames, ElementsAre(body_frame(0, {{2, 42}}), body_frame(1, {})));
     EXPECT_THAT(warnings, ElementsAre(HasSubstr("line 2: a mask has " + std::to_string(flags))));
     // Another version and no header at all.
     EXPECT_EQ(read("4.0 x 25 2\n" + rows).body.frames, body.frames);
@@ -135,7 +128,7 @@ TEST(BapText, TheFirstMaskTellsTheLength) {
 }
 
 TEST(BapText, MasksAndValuesWhereverTheLinesEnd) {
-  const auto want = ElementsAre(frame(0, {{1, 4}, {2, 5}}), frame(1, {{1, 6}, {2, 7}}));
+  const auto want = ElementsAre(body_frame(0, {{1, 4}, {2, 5}}), body_frame(1, {{1, 6}, {2, 7}}));
   const std::string m = mask({1, 2});
   // A flag too many, all in one line, wrapped masks and values.
   EXPECT_THAT(read("3.1 x 25 2\n" + m + " 0\n0 4 5\n" + m + " 0\n1 6 7\n").body.frames, want);
@@ -167,11 +160,10 @@ TEST(BapText, WhatIsNoBapText) {
 }
 
 TEST(BapText, SurvivesDamage) {
-  const std::string good =
-      "# c\n" +
-      write_bap_text({{25, 1},
-                      {frame(0, {{1, 5}, {186, -70000}}), frame(7, {{200, 9}}), frame(8, {})},
-                      "clip"});
+  const std::string good = "# c\n" + write_bap_text({{25, 1},
+                                                     {body_frame(0, {{1, 5}, {186, -70000}}),
+                                                      body_frame(7, {{200, 9}}), body_frame(8, {})},
+                                                     "clip"});
   const auto survive = [](const std::string& text) {
     auto body = read_bap_text(text);
     if (!body) {

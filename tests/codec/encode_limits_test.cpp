@@ -59,6 +59,72 @@ TEST(EncodeLimits, StillPlanesAreNotSkippedBeyondAMillion) {
   EXPECT_EQ(decoded->planes.back().number, 2100000);
 }
 
+// A frame with FAP 1 and 2 at their bounds.
+fap::Frame legal_frame() {
+  fap::Frame frame;
+  frame.mask.set(1).set(2);
+  frame.viseme = {14, 14, 63, false};
+  frame.expression = {6, 63, 6, 63, false, false};
+  return frame;
+}
+
+// The same with one value beyond its upper bound, or its lower one.
+std::vector<fap::Frame> illegal_frames() {
+  std::vector<fap::Frame> frames;
+  for (const bool above : {true, false}) {
+    const auto add = [&](auto part, auto member) {
+      frames.push_back(legal_frame());
+      std::int32_t& value = frames.back().*part.*member;
+      value = above ? value + 1 : -1;
+    };
+    add(&fap::Frame::viseme, &fap::Viseme::select1);
+    add(&fap::Frame::viseme, &fap::Viseme::select2);
+    add(&fap::Frame::viseme, &fap::Viseme::blend);
+    add(&fap::Frame::expression, &fap::Expression::select1);
+    add(&fap::Frame::expression, &fap::Expression::intensity1);
+    add(&fap::Frame::expression, &fap::Expression::select2);
+    add(&fap::Frame::expression, &fap::Expression::intensity2);
+  }
+  return frames;
+}
+
+TEST(EncodeLimits, VisemesAndExpressionsOutOfBoundsInAnyPlane) {
+  for (const fap::Frame& illegal : illegal_frames()) {
+    for (const std::size_t at : {0, 2}) {  // an intra plane and a predictive one
+      fap::Sequence clip;
+      clip.frames.assign(3, legal_frame());
+      clip.frames[at] = illegal;
+      for (std::size_t i = 0; i < 3; ++i) clip.frames[i].number = std::int64_t(i);
+      const auto stream = fba::encode(clip);
+      ASSERT_FALSE(stream);
+      EXPECT_EQ(stream.error().code, Code::out_of_range);
+      EXPECT_EQ(stream.error().message.find("frame " + std::to_string(at)), 0U);
+
+      fba::LiveEncoder live;
+      for (std::size_t i = 0; i < at; ++i) ASSERT_TRUE(live.write(clip.frames[i]));
+      const fap::Frame before = live.reconstruction();
+      const auto unit = live.write(illegal);
+      ASSERT_FALSE(unit);
+      EXPECT_EQ(unit.error().code, Code::out_of_range);
+      EXPECT_TRUE(live.reconstruction() == before);
+      ASSERT_TRUE(live.write(legal_frame()));
+      EXPECT_EQ(live.intra(), at == 0) << "an intra plane after an error that changed nothing";
+    }
+  }
+}
+
+TEST(EncodeLimits, WhatIsNotCodedMayBeAnything) {
+  fap::Frame frame = legal_frame();
+  frame.expression.intensity1 = 64;
+  frame.mask.reset(2);
+  fap::Sequence clip;
+  clip.frames = {frame};
+  EXPECT_TRUE(fba::encode(clip));
+  frame.mask.set(2);
+  EXPECT_FALSE(fba::LiveEncoder().write(frame));
+  EXPECT_TRUE(fba::LiveEncoder({.faps = fap::Mask().set(1)}).write(frame));
+}
+
 TEST(EncodeLimits, ReconstructionsStayWithin32Bits) {
   // By steps that predictive planes can code up to the largest number.
   constexpr int kMost = std::numeric_limits<std::int32_t>::max();

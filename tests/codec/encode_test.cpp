@@ -148,15 +148,20 @@ TEST_P(Presets, RateLimitIsKept) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Presets, testing::Range<std::uint64_t>(1, 9));
 
-TEST(Encode, AZeroSideIsCodedWhereADecoderWouldCopyTheOther) {
+// A clip in which each FAP that is named moves by so much a frame.
+fap::Sequence ramp_clip(std::initializer_list<std::pair<int, int>> speeds) {
   fap::Sequence clip;
   for (int i = 0; i < 20; ++i) {
     fap::Frame frame;
     frame.number = i;
-    frame.set(19, 30 * i);  // the left lid closes, the right one stays open
-    frame.set(20, 0);
+    for (const auto& [fap, speed] : speeds) frame.set(fap, speed * i);
     clip.frames.push_back(frame);
   }
+  return clip;
+}
+
+TEST(Encode, AZeroSideIsCodedWhereADecoderWouldCopyTheOther) {
+  const fap::Sequence clip = ramp_clip({{19, 30}, {20, 0}});  // the right lid stays open
   auto stream = fba::encode(clip, fba::file_options());
   ASSERT_TRUE(stream);
   for (const bool copies : {false, true}) {
@@ -165,16 +170,8 @@ TEST(Encode, AZeroSideIsCodedWhereADecoderWouldCopyTheOther) {
 }
 
 TEST(Encode, AZeroLipIsCodedWhereADecoderWouldInterpolateIt) {
-  fap::Sequence clip;
-  for (int i = 0; i < 20; ++i) {
-    fap::Frame frame;
-    frame.number = i;
-    frame.set(6, 10 * i);  // both corners alike: the group is of type 2
-    frame.set(7, 10 * i);
-    frame.set(4, 0);  // the inner lip rests, the outer one moves
-    frame.set(51, 12 * i);
-    clip.frames.push_back(frame);
-  }
+  // Both corners alike, so that the group is of type 2; the inner lip rests, the outer one moves.
+  const fap::Sequence clip = ramp_clip({{6, 10}, {7, 10}, {4, 0}, {51, 12}});
   fba::EncodeReport report;
   auto stream = fba::encode(clip, fba::file_options(), {}, &report);
   ASSERT_TRUE(stream);
@@ -184,19 +181,13 @@ TEST(Encode, AZeroLipIsCodedWhereADecoderWouldInterpolateIt) {
 }
 
 TEST(Encode, AFapThatTheClipDoesNotHaveStaysAtRest) {
-  fap::Sequence clip;
-  for (int i = 0; i < 20; ++i) {
-    fap::Frame frame;
-    frame.number = i;
-    frame.set(6, 10 * i);  // both corners alike: the group is of type 2
-    frame.set(7, 10 * i);
-    frame.set(8, -8 * i);   // its other side, FAP 9, is not in the clip
-    frame.set(51, 12 * i);  // nor is the inner lip, FAP 4
-    clip.frames.push_back(frame);
-  }
+  // The group is of type 2; the other side of FAP 8 is not in the clip, nor the inner lip, FAP 4.
+  const fap::Sequence clip = ramp_clip({{6, 10}, {7, 10}, {8, -8}, {51, 12}});
   fba::EncodeReport report;
   auto small = fba::decode(*fba::encode(clip, fba::file_options(), {}, &report));
   EXPECT_EQ(report.mirrored, 1U);
+  EXPECT_EQ(report.left_out, 0U);
+  EXPECT_EQ(report.coded, 5U);  // 6, 8, 51, and zeros of 4 and 9
   auto plain = fba::decode(*fba::encode(clip));
   const auto shown = [](const fba::DecodedStream& stream) {
     return fba::fill(stream, {.complete = true})->frames;
@@ -204,6 +195,25 @@ TEST(Encode, AFapThatTheClipDoesNotHaveStaysAtRest) {
   EXPECT_TRUE(shown(*plain) == shown(*small));
   EXPECT_EQ(shown(*small)[19].value[9], 0);
   EXPECT_EQ(shown(*small)[19].value[4], 0);
+}
+
+TEST(Encode, ParametersThatComeToRestDoNotKeepTraps) {
+  // Forty FAPs fall once and rest: their 0 is then the highest symbol, and the planes are all
+  // zeros. One climbs beyond what an intra plane can hold, so that there can be none.
+  fap::Sequence clip;
+  for (int i = 0; i < 40; ++i) {
+    fap::Frame frame;
+    frame.number = i;
+    for (int fap = 3; fap < 43; ++fap) frame.set(fap, i == 0 ? 0 : -500);
+    frame.set(68, 300 * i);
+    clip.frames.push_back(frame);
+  }
+  fba::EncodeReport report;
+  auto stream = fba::encode(clip, {.fap_quant = 0}, {}, &report);
+  ASSERT_TRUE(stream) << stream.error().describe();
+  EXPECT_GT(report.retries, 0U);
+  EXPECT_LT(report.retries, 10U) << "detours that make zeros instead of ending them";
+  EXPECT_EQ(report.traps, 0U);
 }
 
 TEST(Encode, NeverAnIntraRangeOfZeroForFap4) {

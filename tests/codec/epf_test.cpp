@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "codec/bap_text.h"
+#include "tests/support/body_frame.h"
 
 namespace animeme::fba {
 namespace {
 
+using test::body_frame;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -25,16 +27,6 @@ std::string body_plane(bool intra, int number) {
   return text + "BRR 25 0 0\nBTC 1 2 1 3\nBSK 4\nBMT" + numbers(kBodyGroupCount, "3") +
          "\nBQU 0\nBIX" + numbers(kBapCount, "1860") + "\nBIN" + numbers(kBapCount, "-1860") +
          "\nBPX" + numbers(kBapCount, "1860") + "\nBPN" + numbers(kBapCount, "-1860") + "\n";
-}
-
-BodyFrame body(std::int64_t number, std::initializer_list<std::pair<int, int>> values) {
-  BodyFrame out;
-  out.number = number;
-  for (const auto& [bap, value] : values) {
-    out.mask.set(std::size_t(bap));
-    out.value[std::size_t(bap)] = value;
-  }
-  return out;
 }
 
 TEST(Epf, BodyTagsAreRead) {
@@ -56,8 +48,8 @@ TEST(Epf, BodyTagsAreRead) {
 TEST(Epf, FramesAreFoundByNumberAndLeftOutBapsAreHeld) {
   auto planes = read_epf(body_plane(true, 10) + body_plane(false, 12) + body_plane(false, 11));
   ASSERT_TRUE(planes) << planes.error().describe();
-  const std::vector<BodyFrame> bodies = {body(12, {{2, 5}}), body(10, {{1, 9}, {2, 3}}),
-                                         body(11, {{1, -4}})};
+  const std::vector<BodyFrame> bodies = {body_frame(12, {{2, 5}}), body_frame(10, {{1, 9}, {2, 3}}),
+                                         body_frame(11, {{1, -4}})};
   auto bytes = encode_epf({}, bodies, *planes);
   ASSERT_TRUE(bytes) << bytes.error().describe();
   auto decoded = decode(*bytes);
@@ -76,7 +68,8 @@ TEST(Epf, FramesThatDoNotExist) {
   ASSERT_FALSE(bytes);
   EXPECT_EQ(bytes.error().code, Code::not_found);
   EXPECT_EQ(bytes.error().message, "the EPF asks for body frame 3, but there is no BAP file");
-  bytes = encode_epf({}, {body(0, {}), body(1, {}), body(2, {}), body(4, {})}, *planes);
+  bytes = encode_epf(
+      {}, {body_frame(0, {}), body_frame(1, {}), body_frame(2, {}), body_frame(4, {})}, *planes);
   ASSERT_FALSE(bytes);
   EXPECT_EQ(bytes.error().message,
             "the EPF asks for body frame 3, which the BAP file does not have");

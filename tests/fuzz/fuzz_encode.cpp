@@ -207,9 +207,10 @@ bool near(std::int64_t a, std::int64_t b, std::int64_t step) { return std::abs(a
 
 void check_high_level(const fap::Frame& got, const Held& held, int quant) {
   const int step = fba::fap_scale(quant);
-  // The nearest multiple of the quantiser, or the one below if that is above 63.
+  // The nearest multiple of the quantiser, or the one below if that is above 63; what lies out of
+  // 0..63 is refused.
   const auto same = [&](std::int32_t a, std::int32_t b) {
-    return b > 63 ? near(a, b, step) : std::abs(std::int64_t(a) - b) < step && a <= 63;
+    return b >= 0 && b <= 63 && a >= 0 && a <= 63 && std::abs(a - b) < step;
   };
   if (got.mask[1]) {
     const fap::Viseme& a = got.viseme;
