@@ -74,6 +74,16 @@ TEST(Measures, AScaledCopyHasItsFactorInTheDynamics) {
   EXPECT_EQ(e.series_dynamics[1].name, "jaw");
 }
 
+TEST(Measures, TheRangeHeedsNoOutliers) {
+  const auto ramp = [](int, int i) { return double(i); };
+  // Four of a hundred frames are far off, two on each side.
+  const auto made = [](int, int i) {
+    return i < 2 ? -1000.0 : i >= kFrames - 2 ? 1000.0 : 0.5 * i;
+  };
+  const Evaluation e = score_one(pair_of({3}, vowels(), ramp, made), {3});
+  EXPECT_NEAR(e.dynamics.range, 0.5, 1e-9);
+}
+
 TEST(Measures, AStillFaceHasNoDynamics) {
   const auto still = [](int, int) { return 7.0; };
   const Evaluation e = score_one(pair_of(
