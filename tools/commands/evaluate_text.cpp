@@ -121,12 +121,16 @@ void print_codec(const EvaluateReport& report) {
 void print_controls(const dam::Evaluation& e) {
   std::printf("\n%-28s %8s %8s %8s %8s %9s %6s %6s %6s\n", "control", "RMSE", "NRMSE", "max",
               "corr", "velocity", "accel", "jerk", "range");
-  for (std::size_t i = 0; i < e.controls.size(); ++i) {
-    const dam::SeriesScore& one = e.controls[i];
+  std::vector<dam::SeriesScore> series = e.controls;
+  series.insert(series.end(), e.measures.begin(), e.measures.end());
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    const dam::SeriesScore& one = series[i];
     const dam::DynamicsScore& motion = e.series_dynamics[i];
+    const char* note = one.scored ? "" : "  (not scored)";
+    if (i >= e.controls.size()) note = "  (measure)";
     std::printf("%-28s %8.2f %8.3f %8.1f %8.3f %9.3f %6.3f %6.3f %6.3f%s\n", one.name.c_str(),
                 one.rmse, one.nrmse, one.largest, one.correlation, motion.velocity,
-                motion.acceleration, motion.jerk, motion.range, one.scored ? "" : "  (not scored)");
+                motion.acceleration, motion.jerk, motion.range, note);
   }
 }
 
