@@ -1,75 +1,88 @@
 // How far synthesis is from recorded motion. Source: lipsync, section 8.
+//
+//     auto result = animeme::dam::evaluate(model, utterances);       // synthesise and score
+//     auto pairs = animeme::dam::synthesise_pairs(model, utterances);
+//     auto same = animeme::dam::score(*pairs, {.scale = model.controls});
+//
+// score() takes motion from anywhere: other people's systems, decoded streams.
 #pragma once
 
-#include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "dam/corpus.h"
 #include "dam/model.h"
+#include "dam/scores.h"
 #include "dam/synthesise.h"
 #include "fap/result.h"
 
 namespace animeme::dam {
 
+/// Phone contexts and words of some scripts, sorted, each once.
+struct SeenContexts {
+  std::vector<std::string> triphones;  ///< "left phone right"; the end of a script is SIL
+  std::vector<std::string> words;
+
+  bool known() const { return !triphones.empty(); }
+};
+SeenContexts seen_contexts(std::span<const Utterance> utterances);
+
+struct ScoreOptions {
+  double closed_gap = 45;     ///< FAP units: inner gap below which lips count as closed
+  double contact_slack = 45;  ///< FAP units: see ContactScore::level
+  /// The controls to compare, with the mean and deviation that errors are measured by (`rest` is
+  /// not used). Empty: those of the first recording, with the statistics of the recordings' speech.
+  std::vector<Control> scale;
+  SeenContexts seen;  ///< of the training rows; empty: not known
+  int threads = 0;    ///< 0: as the machine has; the result does not depend on it
+};
+
 struct EvaluateOptions {
   SynthesisOptions synthesis;  ///< rate and frames are those of each recording
-  double closed_gap = 45;      ///< FAP units: inner gap below which lips count as closed
+  ScoreOptions score;          ///< an empty scale is that of the model
 };
 
-/// Errors of one control over all scored frames, in its units (FAP units).
-struct ControlScore {
-  std::string name;
-  bool scored = false;  ///< part of the means; FAP 14, 16, 17 ... are reported only
-  double rmse = 0;
-  double nrmse = 0;        ///< rmse / training standard deviation; 0 for a constant control
-  double largest = 0;      ///< largest absolute error
-  double correlation = 0;  ///< Pearson; 0 if one of the two does not move
-};
-
-/// A derived measure of the mouth, in FAP units.
-struct MeasureScore {
-  std::string name;  ///< "inner_gap", "width", "jaw"
-  double rmse = 0;
-  double correlation = 0;
-};
-
-struct UtteranceScore {
-  std::string id;
-  std::size_t frames = 0;  ///< scored
-  double nrmse = 0;        ///< mean over scored controls
-  double l2 = 0;
-};
-
-/// P, B and M: is there a frame from 40 ms before to 40 ms after the phone with the lips closed?
-struct ClosureScore {
-  std::size_t phones = 0;
-  double measured = 0;  ///< share of them, 0..1
-  double predicted = 0;
-  std::size_t false_closures = 0;  ///< runs of frames in speech away from P, B, M (60 ms),
-                                   ///< predicted closed and nowhere measured so
-  double false_per_minute = 0;     ///< of scored time
+/// A recording and what was made for its script.
+struct SentencePair {
+  Utterance recorded;
+  Signal made;  ///< same rate and number of frames; channels are found by name
 };
 
 /// Scored are measured frames within 0.2 s of speech, of the FAPs 3 to 13 and 51 to 60; of all
-/// controls that move, if the model has none of these.
-struct Evaluation {
+/// controls that move, if the scale has none of these.
+struct Evaluation : RegionScore {  ///< the speech
   std::size_t utterances = 0;
-  std::size_t frames = 0;
-  double nrmse = 0;        ///< mean over scored controls
-  double still_nrmse = 0;  ///< the same for a face that keeps the mean pose of the training speech
-  double l2 = 0;  ///< mean over frames of the Euclidean norm of the error in standard deviations
-  double correlation = 0;  ///< mean over scored controls
-  std::vector<ControlScore> controls;
-  std::vector<MeasureScore> measures;  ///< those whose FAPs are there
-  ClosureScore closure;                ///< zeros without FAP 4 and 5
+  double seconds = 0;   ///< of scored frames
+  RegionScore silence;  ///< measured frames further from speech; may be empty
+  ClosureScore closure;
+  ContactScore contact;
+  RoundingScore rounding;
+  TimingScore timing;
+  DynamicsScore dynamics;                      ///< mean over scored controls that move
+  std::vector<DynamicsScore> series_dynamics;  ///< of `controls`, then of `measures`
+  Breakdown breakdown;
   std::vector<UtteranceScore> per_utterance;
 };
 
-/// Synthesises every sentence at the rate and length of its recording and compares.
-/// Errors: those of synthesise() with the sentence named; invalid_argument if there is no sentence
-/// or nothing to score; not_found if a recording lacks a control of the model.
+/// The controls of the first recording with the statistics of all recordings' speech: what an empty
+/// scale stands for. All must have the controls of the first; none if there is no recording.
+std::vector<Control> recording_scale(std::span<const Utterance* const> recordings);
+
+/// Compares. Deterministic, for any number of threads.
+/// Errors: invalid_argument (no pair; nothing to score; a pair of different rate or length, or of
+/// another rate than the first, with the sentence named), not_found (a control of the scale is
+/// missing, likewise).
+Result<Evaluation> score(std::span<const SentencePair> pairs, const ScoreOptions& options = {});
+
+/// Synthesises every sentence at the rate and length of its recording, on several threads.
+/// Errors: those of synthesise() with the sentence named.
+Result<std::vector<SentencePair>> synthesise_pairs(const Model& model,
+                                                   std::span<const Utterance> utterances,
+                                                   const EvaluateOptions& options = {});
+
+/// Both in one. Errors: those of the two.
 Result<Evaluation> evaluate(const Model& model, std::span<const Utterance> utterances,
                             const EvaluateOptions& options = {});
 

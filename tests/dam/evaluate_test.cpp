@@ -22,9 +22,9 @@ Split read_split(const std::filesystem::path& folder, const char* column) {
   return {select(*corpus, column, "train"), select(*corpus, column, "test")};
 }
 
-const ControlScore& score_of(const Evaluation& e, std::string_view name) {
-  static const ControlScore none{};
-  for (const ControlScore& c : e.controls)
+const SeriesScore& score_of(const Evaluation& e, std::string_view name) {
+  static const SeriesScore none{};
+  for (const SeriesScore& c : e.controls)
     if (c.name == name) return c;
   ADD_FAILURE() << name;
   return none;
@@ -45,7 +45,7 @@ TEST(Evaluate, TheSampleThatShips) {
   EXPECT_GT(e->correlation, 0.5);
   EXPECT_EQ(e->closure.predicted, 1.0);
   EXPECT_GT(e->closure.measured, 0.8);
-  EXPECT_EQ(e->measures.size(), 3u);
+  EXPECT_EQ(e->measures.size(), 4u);
   EXPECT_FALSE(score_of(*e, "fap14_thrust_jaw").scored);
   EXPECT_TRUE(score_of(*e, "fap3_open_jaw").scored);
 }

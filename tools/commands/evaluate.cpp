@@ -1,112 +1,237 @@
 #include "dam/evaluate.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
-#include "tools/commands/model_input.h"
+#include "tools/commands/evaluate_report.h"
 
 namespace animeme::tools {
 
 namespace {
 
 struct Options {
-  std::string model;
+  std::string system;  // with --tracks alone: the corpus
+  std::string tracks;
   CorpusSettings corpus;
+  std::string seen_split;
   dam::EvaluateOptions evaluate;
   bool no_closure = false;
+  std::string against;
+  int draws = 1000;
+  bool codec = false;
+  StreamSettings stream;
+  std::string picture;
   bool json = false;
+  bool full = false;
+  double max_nrmse = -1;
+  double min_closed = -1;
+  double max_false = -1;
 };
 
-nlohmann::ordered_json to_json(const dam::Evaluation& result) {
-  nlohmann::ordered_json controls = nlohmann::ordered_json::array();
-  for (const dam::ControlScore& control : result.controls) {
-    controls.push_back({{"name", control.name},
-                        {"scored", control.scored},
-                        {"rmse", control.rmse},
-                        {"nrmse", control.nrmse},
-                        {"max", control.largest},
-                        {"correlation", control.correlation}});
+// The recordings with the controls of the model; with all for tracks.
+Result<std::vector<dam::Utterance>> read_recordings(const CorpusSettings& corpus,
+                                                    const System& system) {
+  CorpusSettings settings = corpus;
+  settings.controls.clear();
+  if (system.model) {
+    for (const dam::Control& control : system.model->controls) {
+      settings.controls.push_back(control.name);
+    }
   }
-  nlohmann::ordered_json measures = nlohmann::ordered_json::object();
-  for (const dam::MeasureScore& measure : result.measures) {
-    measures[measure.name] = {{"rmse", measure.rmse}, {"correlation", measure.correlation}};
-  }
-  nlohmann::ordered_json utterances = nlohmann::ordered_json::array();
-  for (const dam::UtteranceScore& one : result.per_utterance) {
-    utterances.push_back(
-        {{"id", one.id}, {"frames", one.frames}, {"nrmse", one.nrmse}, {"l2", one.l2}});
-  }
-  return {{"utterances", result.utterances},
-          {"frames", result.frames},
-          {"mean_nrmse", result.nrmse},
-          {"still_face_nrmse", result.still_nrmse},
-          {"mean_l2", result.l2},
-          {"mean_correlation", result.correlation},
-          {"closure",
-           {{"phones", result.closure.phones},
-            {"measured", result.closure.measured},
-            {"predicted", result.closure.predicted},
-            {"false_closures", result.closure.false_closures},
-            {"false_per_minute", result.closure.false_per_minute}}},
-          {"measures", measures},
-          {"controls", controls},
-          {"per_utterance", utterances}};
+  Result<dam::Corpus> read = read_corpus(settings);
+  if (!read) return read.error();
+  return std::move(read->utterances);
 }
 
-void print(const dam::Evaluation& result) {
-  std::printf("%zu utterances, %zu frames of speech +-0.2 s\n\n", result.utterances, result.frames);
-  std::printf("mean NRMSE        %.4f   (RMSE / training standard deviation, scored controls)\n",
-              result.nrmse);
-  std::printf("  of a still face %.4f   (mean pose of the training speech)\n", result.still_nrmse);
-  std::printf("mean L2           %.3f\n", result.l2);
-  std::printf("mean correlation  %.3f\n", result.correlation);
-  for (const dam::MeasureScore& measure : result.measures) {
-    std::printf("%-17s RMSE %.1f, correlation %.3f\n", measure.name.c_str(), measure.rmse,
-                measure.correlation);
+Result<dam::SeenContexts> read_seen(const Options& options, const CorpusSettings& corpus) {
+  if (options.seen_split.empty()) return dam::SeenContexts();
+  CorpusSettings settings = corpus;
+  settings.split = options.seen_split;
+  settings.skip_missing = true;
+  Result<dam::Corpus> read = read_corpus(settings);
+  if (!read) return read.error();
+  return dam::seen_contexts(read->utterances);
+}
+
+// The controls of both, measured as those of the first system.
+std::vector<dam::Control> common_scale(const std::vector<dam::Control>& a,
+                                       const std::vector<dam::SentencePair>& b) {
+  std::vector<dam::Control> common;
+  for (const dam::Control& control : a) {
+    const auto& names = b[0].made.names;
+    if (std::find(names.begin(), names.end(), control.name) != names.end()) {
+      common.push_back(control);
+    }
   }
-  if (result.closure.phones > 0) {
-    std::printf(
-        "P B M closed      %.1f %% (measured %.1f %%) of %zu; false closures %.1f a minute\n",
-        100 * result.closure.predicted, 100 * result.closure.measured, result.closure.phones,
-        result.closure.false_per_minute);
+  return common;
+}
+
+Result<void> compare_systems(const Options& options, const CorpusSettings& corpus,
+                             const std::vector<dam::SentencePair>& pairs,
+                             const dam::EvaluateOptions& evaluate, EvaluateReport& report) {
+  Result<System> other = open_system(options.against, false);
+  if (!other) return other.error();
+  std::vector<dam::Utterance> recorded;
+  for (const dam::SentencePair& pair : pairs) recorded.push_back(pair.recorded);
+  Result<std::vector<dam::SentencePair>> others = pairs_of(*other, corpus, recorded, evaluate);
+  if (!others) return others.error();
+  dam::ScoreOptions scoring = evaluate.score;
+  scoring.scale = common_scale(evaluate.score.scale, *others);
+  if (scoring.scale.empty()) {
+    return make_error(Code::not_found, "it has no control that the first system has")
+        .in_file(options.against);
   }
-  std::printf("\n%-28s %8s %8s %8s %8s\n", "control", "RMSE", "NRMSE", "max", "corr");
-  for (const dam::ControlScore& control : result.controls) {
-    std::printf("%-28s %8.2f %8.3f %8.1f %8.3f%s\n", control.name.c_str(), control.rmse,
-                control.nrmse, control.largest, control.correlation,
-                control.scored ? "" : "  (not scored)");
+  Result<dam::Evaluation> a = dam::score(pairs, scoring);
+  if (!a) return a.error();
+  Result<dam::Evaluation> b = dam::score(*others, scoring);
+  if (!b) return b.error();
+  dam::BootstrapOptions bootstrap;
+  bootstrap.draws = options.draws;
+  Result<dam::PairedDifference> difference = dam::paired_difference(*a, *b, bootstrap);
+  if (!difference) return difference.error();
+  report.against = options.against;
+  report.difference = *difference;
+  report.compared_controls = a->per_utterance[0].sums.squared.size();
+  return {};
+}
+
+bool has_gap(const dam::Evaluation& result) {
+  return std::any_of(result.measures.begin(), result.measures.end(),
+                     [](const dam::SeriesScore& one) { return one.name == "inner_gap"; });
+}
+
+// What the thresholds have to say; each is off below 0. One that cannot be told has failed.
+std::vector<std::string> failed_checks(const Options& options, const dam::Evaluation& result) {
+  std::vector<std::string> failed;
+  const auto fail = [&](const char* format, double value, double limit) {
+    char text[160];
+    std::snprintf(text, sizeof text, format, value, limit);
+    failed.emplace_back(text);
+  };
+  if (options.max_nrmse >= 0 && !(result.nrmse <= options.max_nrmse)) {
+    fail("the mean NRMSE is %.4f, above %g", result.nrmse, options.max_nrmse);
   }
+  if (options.min_closed >= 0 && result.closure.phones == 0) {
+    failed.emplace_back("there is no P B M whose closure could be told, or no FAP 4 and 5");
+  } else if (100 * result.closure.predicted < options.min_closed) {
+    fail("%.2f %% of P B M are closed, below %g %%", 100 * result.closure.predicted,
+         options.min_closed);
+  }
+  if (options.max_false >= 0 && !has_gap(result)) {
+    failed.emplace_back("false closures cannot be told without FAP 4 and 5");
+  } else if (options.max_false >= 0 && result.closure.false_per_minute > options.max_false) {
+    fail("there are %.2f false closures a minute, above %g", result.closure.false_per_minute,
+         options.max_false);
+  }
+  return failed;
+}
+
+Result<EvaluateReport> evaluate_all(const Options& options, const CorpusSettings& corpus,
+                                    const std::string& path) {
+  Result<System> system = open_system(path, !options.tracks.empty());
+  if (!system) return system.error();
+  Result<std::vector<dam::Utterance>> recorded = read_recordings(corpus, *system);
+  if (!recorded) return recorded.error();
+  dam::EvaluateOptions evaluate = options.evaluate;
+  evaluate.synthesis.closure = !options.no_closure;
+  Result<dam::SeenContexts> seen = read_seen(options, corpus);
+  if (!seen) return seen.error();
+  evaluate.score.seen = std::move(*seen);
+  auto pairs = pairs_of(*system, corpus, *recorded, evaluate);
+  if (!pairs) return pairs.error().in_file(corpus.folder);
+  auto scale = scale_of(*system, *pairs);
+  if (!scale) return scale.error();
+  evaluate.score.scale = std::move(*scale);
+  Result<dam::Evaluation> result = dam::score(*pairs, evaluate.score);
+  if (!result) return result.error().in_file(corpus.folder);
+  EvaluateReport report;
+  report.system = path;
+  report.closed_gap = evaluate.score.closed_gap;
+  report.evaluation = std::move(*result);
+  if (!options.against.empty()) {
+    auto done = compare_systems(options, corpus, *pairs, evaluate, report);
+    if (!done) return done.error();
+  }
+  if (options.codec) {
+    auto codec = score_codec(*pairs, options.stream, evaluate.score);
+    if (!codec) return codec.error();
+    report.codec = std::move(*codec);
+  }
+  if (!options.picture.empty()) {
+    auto drawn = write_picture(options.picture, *pairs, report.evaluation);
+    if (!drawn) return drawn.error();
+  }
+  return report;
 }
 
 Result<int> run(const Options& options) {
-  Result<dam::Model> model = read_model_or_builtin(options.model);
-  if (!model) return model.error();
-  CorpusSettings settings = options.corpus;
-  settings.controls.clear();
-  for (const dam::Control& control : model->controls) settings.controls.push_back(control.name);
-  Result<dam::Corpus> corpus = read_corpus(settings);
-  if (!corpus) return corpus.error();
-  dam::EvaluateOptions evaluate = options.evaluate;
-  evaluate.synthesis.closure = !options.no_closure;
-  Result<dam::Evaluation> result = dam::evaluate(*model, corpus->utterances, evaluate);
-  if (!result) return result.error().in_file(options.corpus.folder);
-  if (options.json) {
-    std::printf("%s\n", to_json(*result).dump(2).c_str());
-  } else {
-    print(*result);
+  CorpusSettings corpus = options.corpus;
+  std::string path = options.system;
+  if (!options.tracks.empty() && corpus.folder.empty()) {
+    corpus.folder = options.system;
+    path = options.tracks;
+  } else if (!options.tracks.empty()) {
+    return usage_error("--tracks takes the place of the model: evaluate --tracks DIR CORPUS");
   }
-  return kOk;
+  if (corpus.folder.empty()) return usage_error("name a model and a corpus folder");
+  const std::string extension = extension_of(options.picture);
+  if (!options.picture.empty() && extension != ".svg" && extension != ".png") {
+    return usage_error("--picture must end in .svg or .png, not " + options.picture);
+  }
+  Result<EvaluateReport> report = evaluate_all(options, corpus, path);
+  if (!report) return report.error();
+  if (options.json) {
+    std::printf("%s\n", evaluate_json(*report).c_str());
+  } else {
+    print_evaluation(*report, options.full);
+  }
+  const std::vector<std::string> failed = failed_checks(options, report->evaluation);
+  for (const std::string& sentence : failed) {
+    std::fprintf(stderr, "animeme: check failed: %s\n", sentence.c_str());
+  }
+  return failed.empty() ? kOk : kCheckFailed;
+}
+
+void add_thresholds(CLI::App& app, Options& options) {
+  app.add_option("--max-nrmse", options.max_nrmse, "Exit code 1 if the mean NRMSE is above this")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--min-closed", options.min_closed,
+                 "Exit code 1 if less than this percentage of P B M is closed")
+      ->check(CLI::Range(0.0, 100.0));
+  app.add_option("--max-false-per-minute", options.max_false,
+                 "Exit code 1 if there are more false closures")
+      ->check(CLI::NonNegativeNumber);
 }
 
 Action add(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  app.add_option("model", options->model, "Model file, or 'builtin'")->required();
-  app.add_option("corpus", options->corpus.folder, "Corpus folder, see train")->required();
+  app.add_option("model", options->system, "Model file, or 'builtin'")->required();
+  app.add_option("corpus", options->corpus.folder, "Corpus folder, see train");
+  app.add_option("--tracks", options->tracks,
+                 "Folder with ID.csv or ID.fap of another system, in place of the model");
   app.add_option("--split", options->corpus.split, "Use these rows only, e.g. test");
   add_corpus_options(app, options->corpus);
+  app.add_option("--seen-split", options->seen_split,
+                 "Rows the model was trained on: tells seen from unseen contexts");
+  app.add_option("--closed-gap", options->evaluate.score.closed_gap,
+                 "Inner gap below which lips count as closed, FAP units")
+      ->capture_default_str();
   app.add_flag("--no-closure", options->no_closure, "Leave out the closure of P, B and M");
-  app.add_flag("--json", options->json, "Machine-readable result");
+  app.add_option("--against", options->against,
+                 "A second model or folder of tracks: difference with its interval");
+  app.add_option("--draws", options->draws, "Draws of the bootstrap over sentences")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  CLI::Option* codec =
+      app.add_flag("--codec", options->codec, "Error of the codec apart, and its bit rate");
+  add_coding_options(app, options->stream);
+  for (const char* name : {"--quant", "--rms", "--kbps"}) app.get_option(name)->needs(codec);
+  app.add_option("--picture", options->picture,
+                 "Curves of the best, median and worst sentence, .svg or .png");
+  add_thresholds(app, *options);
+  app.add_flag("--full", options->full, "Tables by control, phoneme, viseme, class and sentence");
+  app.add_flag("--json", options->json, "Machine-readable result, with everything");
   return [options] { return run(*options); };
 }
 
@@ -114,8 +239,10 @@ Action add(CLI::App& app) {
 
 const Command kEvaluate{
     "evaluate", "Error of synthesis against recorded motion",
-    "  animeme evaluate builtin grid_s1 --split test\n"
-    "  animeme evaluate words.dam grid_s1 --split-column heldout_word_split --split test --json",
+    "  animeme evaluate builtin grid_s1 --split test --seen-split train --picture curves.svg\n"
+    "  animeme evaluate a.dam grid_s1 --split test --against b.dam\n"
+    "  animeme evaluate --tracks theirs grid_s1 --split test --json\n"
+    "  animeme evaluate a.dam grid_s1 --split test --codec --kbps 2 --max-nrmse 0.6",
     add};
 
 }  // namespace animeme::tools

@@ -8,7 +8,7 @@
 
 namespace animeme::tools {
 
-void add_stream_options(CLI::App& app, StreamSettings& settings) {
+void add_coding_options(CLI::App& app, StreamSettings& settings) {
   CLI::Option* quant =
       app.add_option("--quant", settings.quant,
                      "Quantiser fap_quant; 1 is not visible, 0 lossless up to +-1860")
@@ -21,6 +21,10 @@ void add_stream_options(CLI::App& app, StreamSettings& settings) {
   app.add_option("--kbps", settings.kbps, "Smallest error at this rate of the face, kbit/s")
       ->check(CLI::Range(1e-3, 1e6))
       ->excludes(quant);
+}
+
+void add_stream_options(CLI::App& app, StreamSettings& settings) {
+  add_coding_options(app, settings);
   app.add_option("--intra-seconds", settings.intra_seconds,
                  "Seconds between points where playing can begin, in containers; 0: one point")
       ->check(CLI::NonNegativeNumber)

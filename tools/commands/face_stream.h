@@ -18,7 +18,10 @@ struct StreamSettings {
   double intra_seconds = 5;  ///< random access points of containers; raw streams have one
 };
 
-/// Adds --quant, --rms, --kbps and --intra-seconds.
+/// Adds --quant, --rms and --kbps.
+void add_coding_options(CLI::App& app, StreamSettings& settings);
+
+/// Adds the same and --intra-seconds.
 void add_stream_options(CLI::App& app, StreamSettings& settings);
 
 /// The options for a raw stream: one intra plane. With a limit of error or rate, those of preset

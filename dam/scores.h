@@ -1,0 +1,163 @@
+// What evaluate() measures, as plain data. Errors are "made minus recorded"; controls are in their
+// own units (FAP units for FAPs), times in ms, shares 0..1. Definitions: dam/README.md, "What
+// evaluate measures". Source: lipsync, section 8.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace animeme::dam {
+
+/// Errors of one control or derived measure over the frames of a region, in its units.
+struct SeriesScore {
+  std::string name;
+  bool scored = false;  ///< part of the means; FAP 14, 16, 17 ... are reported only
+  double rmse = 0;
+  double nrmse = 0;        ///< rmse / standard deviation: of the scale for a control, of the
+                           ///< recordings in this region for a measure; 0 if that is 0
+  double largest = 0;      ///< largest absolute error
+  double correlation = 0;  ///< Pearson; 0 if one of the two does not move
+};
+
+/// All frames of one kind: speech (within 0.2 s of it) or silence (the rest). Only measured frames.
+struct RegionScore {
+  std::size_t frames = 0;
+  double nrmse = 0;        ///< mean over scored controls
+  double still_nrmse = 0;  ///< the same for a face that keeps the mean pose of the scale
+  double l2 = 0;  ///< mean over frames of the Euclidean norm of the error in standard deviations
+  double correlation = 0;             ///< mean over scored controls
+  std::vector<SeriesScore> controls;  ///< in the order of the scale
+  /// "inner_gap" -(FAP 4 + 5), "width" FAP 6 + 7, "jaw" FAP 3, "corner_height" (FAP 12 + 13) / 2:
+  /// those whose FAPs are there.
+  std::vector<SeriesScore> measures;
+};
+
+/// Mean and standard deviation of times, ms; positive: made later than recorded.
+struct TimeSpread {
+  std::size_t count = 0;
+  double mean = 0;
+  double sd = 0;
+};
+
+/// P, B and M: is there a frame from 40 ms before to 40 ms after the phone with the lips closed?
+/// All zero without FAP 4 and 5.
+struct ClosureScore {
+  std::size_t phones = 0;
+  double measured = 0;  ///< share of them, 0..1
+  double predicted = 0;
+  std::size_t false_closures = 0;  ///< runs of frames in speech away from P, B, M and silence
+                                   ///< (60 ms), predicted closed and nowhere measured so
+  double false_per_minute = 0;     ///< of scored time, as all "per minute"
+  std::size_t stray_measured = 0;  ///< such runs that are measured closed, whatever is predicted
+  double stray_measured_per_minute = 0;
+  std::size_t stray_predicted = 0;  ///< predicted closed, whatever is measured
+  double stray_predicted_per_minute = 0;
+  /// The gap passes the threshold, by linear interpolation, at most 0.2 s before (onset) or after
+  /// (release) its least frame. Of phones that both close, where both have such an instant.
+  TimeSpread onset, release;
+};
+
+/// F and V: the lower lip has to reach the upper teeth. FAP 5 (inner lower lip, upwards) tells it.
+struct ContactScore {
+  std::size_t phones = 0;
+  double level = 0;     ///< FAP 5 that counts as contact: median over F and V of the highest
+                        ///< recorded value near the phone, less ScoreOptions::contact_slack
+  double measured = 0;  ///< share of phones that reach it, 0..1
+  double predicted = 0;
+  double difference = 0;  ///< mean difference of the highest values, FAP units
+};
+
+/// Rounded sounds (PhoneInfo::rounded): how much narrower than on average is the mouth?
+struct RoundingScore {
+  std::size_t phones = 0;
+  double measured = 0;  ///< mean of: recorded mean width in speech - least width, FAP units
+  double predicted = 0;
+  double rmse = 0;         ///< of the least width, FAP units
+  double correlation = 0;  ///< of the least widths, over phones
+};
+
+/// Lag of the made velocities behind the recorded ones, from their cross-correlation.
+struct LagScore {
+  std::string name;           ///< phoneme class, or "all"
+  std::size_t frames = 0;     ///< recorded frames that were used
+  std::optional<double> lag;  ///< ms; none without a peak within +-300 ms
+  double correlation = 0;     ///< at the peak, on the grid of frames
+};
+
+/// Detectability of a lag, ITU-R BT.1359: the sound may come 45 ms early or 125 ms late.
+enum class Sync : std::uint8_t {
+  unknown,     ///< no lag could be measured
+  in_sync,     ///< not detectable
+  face_late,   ///< beyond +45 ms: the sound comes early
+  face_early,  ///< beyond -125 ms: the sound comes late
+};
+
+struct TimingScore {
+  LagScore all;
+  Sync sync = Sync::unknown;
+  std::vector<LagScore> classes;  ///< in the order of PhoneClass; only classes with frames
+  std::size_t extremes = 0;       ///< extremes of recorded velocity, all scored controls
+  double misalignment = 0;        ///< ms: mean distance in time to where time warping puts them
+  double offset = 0;              ///< ms: the same with sign; positive: made later
+};
+
+/// Made over recorded; 1 is as lively as the recording. 0 where the recording does not move.
+struct DynamicsScore {
+  std::string name;
+  bool scored = false;
+  double velocity = 0;  ///< ratio of standard deviations
+  double acceleration = 0;
+  double jerk = 0;
+  double range = 0;                 ///< ratio of the distances from the 5th to the 95th percentile
+  double velocity_correlation = 0;  ///< Pearson
+};
+
+/// Sums over frames that means are made of; those of several sentences add up.
+struct ErrorSums {
+  std::size_t frames = 0;
+  std::vector<double> squared;  ///< one a scored control: squared errors in standard deviations
+  double l2 = 0;                ///< norms of the error in standard deviations
+  double gap_squared = 0;       ///< squared errors of the inner gap, FAP units
+
+  void add(const ErrorSums& other);
+  double nrmse() const;  ///< mean over scored controls; this and the next two are 0 if empty
+  double mean_l2() const;
+  double gap_rmse() const;
+};
+
+struct UtteranceScore {
+  std::string id;
+  std::size_t frames = 0;  ///< scored
+  double nrmse = 0;        ///< mean over scored controls
+  double l2 = 0;
+  double gap_rmse = 0;
+  ErrorSums sums;
+};
+
+/// Part of the scored frames.
+struct GroupScore {
+  std::string name;
+  std::size_t phones = 0;  ///< occurrences with a scored frame
+  std::size_t frames = 0;
+  double nrmse = 0;
+  double l2 = 0;
+  double gap_rmse = 0;
+};
+
+/// Where the errors are. A frame belongs to the phone that is spoken at its time.
+struct Breakdown {
+  std::vector<GroupScore> phones;   ///< by label, SIL first
+  std::vector<GroupScore> visemes;  ///< MPEG-4 viseme "0".."14"; a phone's halves may differ
+  /// "seen" and "unseen": phone with both neighbours, phone's word, in what training saw. Empty if
+  /// that is not known. Silence does not count.
+  std::vector<GroupScore> triphones;
+  std::vector<GroupScore> words;
+};
+
+/// "in sync", "face late (sound early)" ...
+const char* sync_text(Sync sync);
+
+}  // namespace animeme::dam

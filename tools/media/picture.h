@@ -1,0 +1,18 @@
+// Drawings as pixels.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "fap/result.h"
+
+namespace animeme::media {
+
+/// A PNG file (RGB, 8 bits) of an SVG drawing in its own size. What is transparent is undefined:
+/// give the drawing a background. Text looks as the fonts of the machine make it.
+/// Errors: unsupported (this FFmpeg was built without librsvg or PNG), syntax (no SVG),
+/// out_of_range (memory; more than 32767 pixels in width or height).
+Result<std::vector<std::uint8_t>> svg_to_png(std::string_view svg);
+
+}  // namespace animeme::media
