@@ -80,8 +80,8 @@ Result<void> validate(const TrainOptions& options);
 
 /// What happened during training.
 struct TrainSummary {
-  std::vector<double> objective;  ///< once the modes are settled: start, then after every
-                                  ///< accepted step; never rises
+  std::vector<double> objective;  ///< start (dam-paper: once the modes are settled), then after
+                                  ///< every accepted step; never rises. mean: empty
   int iterations = 0;             ///< accepted steps
   std::vector<std::size_t>
       moved;  ///< dam-paper: occurrences that changed their mode, per round before that
@@ -105,7 +105,8 @@ using ProgressFunction = std::function<bool(const Progress&)>;
 
 /// Trains on all given sentences. They must have the same controls and rate.
 /// The result is the same bit by bit for any number of threads and any order of the sentences.
-/// Memory: about 30 MB + 8 bytes * (modes * (order + 1))^2 * 8.
+/// Memory: about 30 MB + 8 bytes * (modes * (order + 1))^2 * 8; mmm and triphone: about 1 kB a
+/// second of speech and control.
 /// Errors: invalid_argument (options, no sentence, no speech, cancelled, NaN in a signal,
 /// different controls).
 Result<Model> train(std::span<const Utterance> utterances, const TrainOptions& options = {},
