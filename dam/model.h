@@ -5,10 +5,14 @@
 // `rest` and `sd` are per control; S(t), in units of the training standard deviation and measured
 // from the pose of silence, is what the kinds of models differ in:
 //
-//   method                 parameters         S(t)
-//   dam                    RefinedParameters  sum_j w_j(t) A_j(u_j), see there
-//   dam-paper              AnimemeParameters  sum_j D_j(u_j) A_j(u_j), u_j = (t - s_j) / d_j (Eq.
-//   2) cohen-massaro          AnimemeParameters  the same with constants for A: one target a phone
+//   method         parameters            S(t)
+//   dam            RefinedParameters     blend of curves with corrections by context
+//   dam-paper      AnimemeParameters     blend of D_j(u_j) A_j(u_j), u_j = (t - s_j) / d_j (Eq. 2)
+//   cohen-massaro  AnimemeParameters     the same with constants for A: one target a phone
+//   mmm            TrajectoryParameters  smooth curve near the means of the phones' states
+//   mean           MeanParameters        the mean pose of the training speech
+//   viseme         VisemeParameters      straight lines between the poses of the phones
+//   triphone       TriphoneParameters    mean curves of phones in context, overlapped and added
 #pragma once
 
 #include <cstdint>
@@ -31,9 +35,14 @@ enum class Method : std::uint8_t {
   dam_paper = 1,      ///< dominated animeme models as in the paper
   dam = 2,            ///< refined dominated animeme models
   cohen_massaro = 3,  ///< one target a phone, blended by dominance (M = 0)
+  mmm = 4,            ///< smooth trajectories through Gaussians, after Ezzat
+  mean = 5,           ///< the mean pose, whatever is said
+  viseme = 6,         ///< linear interpolation of one pose a phone
+  triphone = 7,       ///< mean curves of phones in their context
 };
 
-/// "dam", "dam-paper", "cohen-massaro". Empty for values outside the enumeration.
+/// "dam", "dam-paper", "cohen-massaro", "mmm", "triphone", "viseme", "mean". Empty for values
+/// outside the enumeration.
 std::string_view method_name(Method method);
 /// The method of that name.
 std::optional<Method> find_method(std::string_view name);
@@ -101,10 +110,11 @@ struct AnimemeParameters {
 
 // ---- method dam: lipsync, section 5.2; dam/README.md has what was added ----
 //
-// S(t) = sum_j w_j(t) A_j(u_j),  w_j = D_j / sum_i D_i,  u clamped to [-time_margin, 1 +
-// time_margin] D_j  = strength_p (d_j / usual_p)^duration_exponent exp(-(before / left_p)^2 -
-// (after / right_p)^2) A_j  = sum over terms of sum_m phi_m(2u - 1) a_m, phi_m the Legendre
-// polynomials
+//     S(t) = sum_j w_j(t) A_j(u_j),   w_j = D_j / sum_i D_i,
+//     D_j = strength_p (d_j / usual_p)^e exp(-(before / left_p)^2 - (after / right_p)^2),
+//     A_j(u) = sum over terms of sum_m a_m P_m(2 u - 1),   P_m the Legendre polynomials,
+//
+// u clamped to [-time_margin, 1 + time_margin], e the duration exponent.
 
 /// Seconds in which the dominance of a phone falls off, and how strong it is beside others.
 struct PhoneDominance {
@@ -149,8 +159,71 @@ struct RefinedParameters {
   friend bool operator==(const RefinedParameters&, const RefinedParameters&) = default;
 };
 
+/// Trajectories through Gaussians. A phone has `states` equal parts in time. S(t) of a control
+/// minimises the integral of (S - mean)^2 / variance, of the state at t, plus
+/// smoothness^(2 * order) times that of the squared derivative of that order.
+struct TrajectoryParameters {
+  std::uint32_t states = 3;        ///< a phone: 1..8
+  std::uint32_t order = 2;         ///< of the derivative: 1..4
+  std::vector<double> smoothness;  ///< seconds, per control: 0.001..0.5
+  std::vector<double> mean;        ///< [(phone * states + state) * controls + control]
+  std::vector<double> variance;    ///< likewise: 1e-4..1e4
+
+  friend bool operator==(const TrajectoryParameters&, const TrajectoryParameters&) = default;
+};
+
+/// Nothing: S(t) is the mean of Control, measured from rest.
+struct MeanParameters {
+  friend bool operator==(const MeanParameters&, const MeanParameters&) = default;
+};
+
+/// One pose a phone, held for a part of it, with straight lines between.
+struct VisemeParameters {
+  double place = 0.5;         ///< middle of the hold, in local time: 0..1
+  double plateau = 0;         ///< length of the hold, in local time, cut to the phone: 0..1
+  std::vector<double> poses;  ///< [phone * controls + control]
+
+  friend bool operator==(const VisemeParameters&, const VisemeParameters&) = default;
+};
+
+/// What a curve is the mean of, coarse to fine. Numbers are part of the file format.
+enum class CurveLevel : std::uint8_t {
+  phone = 0,        ///< all occurrences of a phone
+  left_class = 1,   ///< those after a phone of one class (PhoneModel::context_class)
+  right_class = 2,  ///< those before a phone of one class
+  left = 3,         ///< those after one phone
+  right = 4,        ///< those before one phone
+  classes = 5,      ///< those between two classes
+  triphone = 6,     ///< those between two phones
+};
+inline constexpr std::size_t kCurveLevels = 7;
+inline constexpr std::int32_t kAnyContext = -2;
+
+/// A mean curve, less those of the coarser levels that fit the same context.
+struct ContextCurve {
+  std::int32_t phone = 0;  ///< index of Model::phones
+  CurveLevel level = CurveLevel::phone;
+  std::int32_t left = kAnyContext;  ///< phone, class, kRestContext or kAnyContext, as of `level`
+  std::int32_t right = kAnyContext;
+  std::uint32_t count = 0;    ///< occurrences, at least 1
+  std::vector<float> values;  ///< [point * controls + control]
+
+  friend bool operator==(const ContextCurve&, const ContextCurve&) = default;
+};
+
+/// Mean curves of phones in context. The curve of an occurrence is the sum of those of all levels
+/// that the table has; S(t) is their overlap-add.
+struct TriphoneParameters {
+  std::uint32_t points = 9;          ///< of a curve, equally spaced: 2..64
+  double reach = 0.5;                ///< a curve is over local time -reach..1 + reach: 0.01..0.5
+  std::vector<ContextCurve> curves;  ///< sorted by phone, level, left, right
+
+  friend bool operator==(const TriphoneParameters&, const TriphoneParameters&) = default;
+};
+
 /// One alternative for each family of methods.
-using Parameters = std::variant<AnimemeParameters, RefinedParameters>;
+using Parameters = std::variant<AnimemeParameters, RefinedParameters, TrajectoryParameters,
+                                MeanParameters, VisemeParameters, TriphoneParameters>;
 
 struct Model {
   Method method = Method::dam_paper;

@@ -50,12 +50,33 @@ struct RefinedOptions {
   double duration_exponent = 0.3;  ///< strength of long phones: 0..2
 };
 
+/// Settings of the method mmm.
+struct TrajectoryOptions {
+  int states = 3;             ///< Gaussians a phone, one for each equal part of its time: 1..8
+  int order = 2;              ///< of the derivative whose square is kept small: 1..4
+  double mean_prior = 2;      ///< on the means around those of the recording, in frames: 0..1e6
+  double variance_prior = 1;  ///< on the logarithms of variances and smoothness: 0..1e6
+  double tolerance = 1e-3;    ///< in place of TrainOptions::tolerance: 0..1
+};
+
+/// Settings of the methods viseme and triphone.
+struct TableOptions {
+  /// viseme: on the poses around the mean of each phone, in frames: 0..1e9. Large: those means.
+  double pose_prior = 10;
+  int points = 13;     ///< triphone: samples of a curve: 2..64
+  double reach = 0.5;  ///< triphone: of a curve beyond its phone, in local time: 0.01..0.5
+  int minimum = 1;     ///< triphone: occurrences that a context needs: 1..1e6
+  double trust = 10;   ///< triphone: in the coarser context, in occurrences: 0..1e6
+};
+
 /// All settings of training. The defaults are those of the shipped model; how they were chosen
 /// stands in dam/README.md.
 struct TrainOptions {
   Method method = Method::dam;
-  RefinedOptions refined;  ///< for dam
-  AnimemeOptions animeme;  ///< for dam-paper and cohen-massaro
+  RefinedOptions refined;        ///< for dam
+  AnimemeOptions animeme;        ///< for dam-paper and cohen-massaro
+  TrajectoryOptions trajectory;  ///< for mmm
+  TableOptions table;            ///< for viseme and triphone
 
   int max_iterations = 30;  ///< accepted steps: 0..1000
   double tolerance = 2e-4;  ///< stop when the objective falls by less than this part: 0..1
@@ -71,8 +92,8 @@ Result<void> validate(const TrainOptions& options);
 
 /// What happened during training.
 struct TrainSummary {
-  std::vector<double> objective;  ///< once the modes are settled: start, then after every
-                                  ///< accepted step; never rises
+  std::vector<double> objective;  ///< start (dam-paper: once the modes are settled), then after
+                                  ///< every accepted step; never rises. mean: empty
   int iterations = 0;             ///< accepted steps
   std::vector<std::size_t>
       moved;  ///< dam-paper: occurrences that changed their mode, per round before that
@@ -97,7 +118,8 @@ using ProgressFunction = std::function<bool(const Progress&)>;
 
 /// Trains on all given sentences. They must have the same controls and rate.
 /// The result is the same bit by bit for any number of threads and any order of the sentences.
-/// Memory: about 30 MB + 8 bytes * (modes * (order + 1))^2 * 8.
+/// Memory: about 30 MB + 8 bytes * (modes * (order + 1))^2 * 8; mmm and triphone: about 1 kB a
+/// second of speech and control.
 /// Errors: invalid_argument (options, no sentence, no speech, cancelled, NaN in a signal,
 /// different controls).
 Result<Model> train(std::span<const Utterance> utterances, const TrainOptions& options = {},

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "dam/detail/bytes.h"
@@ -45,6 +46,8 @@ struct Speech {
   std::size_t frames = 0;
 
   double time(std::size_t frame) const { return rate.seconds(double(first_frame + frame)); }
+  /// Frames [first, second) to make that lie within [low, high] seconds.
+  std::pair<std::size_t, std::size_t> frames_between(double low, double high) const;
 };
 
 struct Kind {

@@ -187,6 +187,25 @@ TEST(Speak, CurvesForAnyRig) {
   EXPECT_THAT(refused.err, HasSubstr(".csv"));
 }
 
+TEST(Speak, WithAModelOfAnyMethod) {
+  const TempDir dir;
+  const std::string sample = (test::data_dir() / "grid_s1_sample").string();
+  for (const char* method : {"cohen-massaro", "mmm", "mean", "viseme", "triphone"}) {
+    const auto trained = animeme({"train", sample, "--method", method, "--states", "1",
+                                  "--max-iterations", "2", "-o", dir / "m.dam"});
+    ASSERT_EQ(trained.exit_code, 0) << trained.err;
+    const auto info = animeme({"info", dir / "m.dam", "--json"});
+    ASSERT_EQ(info.exit_code, 0) << info.err;
+    EXPECT_EQ(nlohmann::json::parse(info.out)["method"], method);
+    const auto made =
+        animeme({"speak", "--text", "Hello", "--model", dir / "m.dam", "-o", dir / "a.fap"});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+  }
+  EXPECT_EQ(
+      animeme({"train", sample, "--method", "mmm", "--states", "9", "-o", dir / "m.dam"}).exit_code,
+      2);
+}
+
 TEST(Speak, SameInputGivesTheSameBytes) {
   const TempDir dir;
   for (const char* name : {"a.mp4", "b.mp4"}) {

@@ -55,7 +55,7 @@ void print(const Options& options, const dam::Corpus& corpus, const dam::Model& 
     std::snprintf(line, sizeof line, " %.1f", objective);
     fit += line;
   }
-  say(fit);
+  if (!summary.objective.empty()) say(fit);
   std::snprintf(line, sizeof line, ": trained in %.1f s", summary.seconds);
   say(options.output + line);
 }
@@ -112,6 +112,10 @@ Action add(CLI::App& app) {
       ->delimiter(',');
   app.add_option("--order", options->train.animeme.order, "Degree M of the polynomials")
       ->check(CLI::Range(0, 8))
+      ->capture_default_str();
+  app.add_option("--states", options->train.trajectory.states,
+                 "mmm: Gaussians a phone, one for each part of its time")
+      ->check(CLI::Range(1, 8))
       ->capture_default_str();
   app.add_flag("--single-mode", options->single_mode, "One mode a phone, no clustering");
   app.add_flag("--plain-sum", options->plain_sum,

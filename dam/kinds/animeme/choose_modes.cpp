@@ -56,7 +56,9 @@ double jump(const EndState& before, double frames_before, const EndState& after,
     const double dd = after.curvature[c] * s1 * s1 - before.curvature[c] * s0 * s0;
     sum += v * v + d * d + dd * dd;
   }
-  return sum;
+  // A path needs finite costs, also if a model's coefficients are absurd.
+  constexpr double kLargest = 1e100;
+  return sum < kLargest ? sum : kLargest;
 }
 
 }  // namespace

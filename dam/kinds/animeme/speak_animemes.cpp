@@ -12,13 +12,8 @@ namespace {
 void add_occurrence(const Speech& speech, const AnimemeParameters& model, const Mode& mode,
                     const Occurrence& o, std::span<double> rows, std::vector<double>& sums) {
   const std::size_t terms = model.order + 1, controls = speech.model.controls.size();
-  const double rate = speech.rate.frames_per_second();
   const double reach = dominance_reach(mode.sigma) * o.paced();
-  const auto frame_at = [&](double frame) {
-    return std::size_t(std::clamp(frame - double(speech.first_frame), 0.0, double(speech.frames)));
-  };
-  const std::size_t first = frame_at(std::ceil((o.start - reach) * rate));
-  const std::size_t last = frame_at(std::floor((o.end() + reach) * rate) + 1);
+  const auto [first, last] = speech.frames_between(o.start - reach, o.end() + reach);
   for (std::size_t i = first; i < last; ++i) {
     const double u = o.local(speech.time(i));
     const double v = clamp_local_time(u, model.time_margin);

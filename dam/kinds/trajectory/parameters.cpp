@@ -1,0 +1,71 @@
+// Checks of the parameters, and their place in the model file.
+#include <cmath>
+
+#include "dam/kinds/trajectory/fit_control.h"
+#include "dam/kinds/trajectory/trajectory.h"
+
+namespace animeme::dam {
+namespace {
+
+constexpr std::uint32_t kMaxStates = 8;
+
+bool all_within(const std::vector<double>& values, double low, double high) {
+  for (const double v : values)
+    if (!(v >= low && v <= high)) return false;
+  return true;
+}
+
+}  // namespace
+
+Result<void> validate_trajectory(const Model& model) {
+  const auto* p = std::get_if<TrajectoryParameters>(&model.parameters);
+  if (p == nullptr) return invalid_model("its parameters are not those of its method");
+  if (p->states < 1 || p->states > kMaxStates)
+    return invalid_model("its states a phone are out of range");
+  if (p->order < 1 || p->order > kMaxDifference)
+    return invalid_model("the order of its smoothness is out of range");
+  const std::size_t controls = model.controls.size();
+  const std::size_t values = model.phones.size() * p->states * controls;
+  if (p->smoothness.size() != controls || p->mean.size() != values || p->variance.size() != values)
+    return invalid_model("its Gaussians are not as many as its phones and controls need");
+  if (!all_within(p->smoothness, kLeastSmoothness, kLargestSmoothness))
+    return invalid_model("a smoothness is out of range");
+  if (!all_within(p->mean, -1e6, 1e6)) return invalid_model("a mean is out of range");
+  if (!all_within(p->variance, kLeastVariance, kLargestVariance))
+    return invalid_model("a variance is out of range");
+  return {};
+}
+
+void write_trajectory(const Model& model, ByteWriter& out) {
+  const auto& p = std::get<TrajectoryParameters>(model.parameters);
+  out.number(p.states);
+  out.number(p.order);
+  for (const double v : p.smoothness) out.real(v);
+  for (std::size_t i = 0; i < p.mean.size(); ++i) {
+    out.real(p.mean[i]);
+    out.real(p.variance[i]);
+  }
+}
+
+Result<void> read_trajectory(ByteReader& in, Model& model) {
+  TrajectoryParameters p;
+  p.states = in.number<std::uint32_t>();
+  p.order = in.number<std::uint32_t>();
+  if (p.states < 1 || p.states > kMaxStates)
+    return make_error(Code::syntax, "number of states out of range");
+  const std::size_t controls = model.controls.size();
+  p.smoothness.resize(in.limited(controls, 8));
+  for (double& v : p.smoothness) v = in.real();
+  // The phones and controls are in memory already, but not their product.
+  const std::size_t values = in.limited(model.phones.size() * p.states * controls, 16);
+  p.mean.resize(values);
+  p.variance.resize(values);
+  for (std::size_t i = 0; i < values; ++i) {
+    p.mean[i] = in.real();
+    p.variance[i] = in.real();
+  }
+  model.parameters = std::move(p);
+  return {};
+}
+
+}  // namespace animeme::dam
