@@ -64,6 +64,9 @@ struct Evaluation : RegionScore {  ///< the speech
   std::vector<DynamicsScore> series_dynamics;  ///< of `controls`, then of `measures`
   Breakdown breakdown;
   std::vector<UtteranceScore> per_utterance;
+  /// Mean of UtteranceScore::gap_correlation: how alike the motion is, however large a speaker
+  /// makes it. The measure for speakers that the model does not know.
+  double gap_correlation = 0;
 };
 
 /// The controls of the first recording with the statistics of all recordings' speech: what an empty

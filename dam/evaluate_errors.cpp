@@ -113,11 +113,17 @@ void score_regions(const Layout& layout, const AllSeries& all, Evaluation& resul
   finish_region(layout, sum_region(layout, all, &PairSeries::silence), result.silence);
   for (const PairSeries& pair : all) {
     ErrorSums sums;
-    for (std::size_t i = 0; i < pair.frames(); ++i)
-      if (pair.speech[i]) add_frame(layout, pair, i, sums);
+    Comparison gap;
+    for (std::size_t i = 0; i < pair.frames(); ++i) {
+      if (!pair.speech[i]) continue;
+      add_frame(layout, pair, i, sums);
+      if (layout.gap >= 0)
+        gap.add(pair.made[std::size_t(layout.gap)][i], pair.recorded[std::size_t(layout.gap)][i]);
+    }
     result.seconds += pair.seconds(double(sums.frames));
-    result.per_utterance.push_back(
-        {pair.pair->recorded.id, sums.frames, sums.nrmse(), sums.mean_l2(), sums.gap_rmse(), sums});
+    result.gap_correlation += gap.correlation() / double(all.size());
+    result.per_utterance.push_back({pair.pair->recorded.id, sums.frames, sums.nrmse(),
+                                    sums.mean_l2(), sums.gap_rmse(), gap.correlation(), sums});
   }
 }
 

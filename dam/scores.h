@@ -134,6 +134,7 @@ struct UtteranceScore {
   double nrmse = 0;        ///< mean over scored controls
   double l2 = 0;
   double gap_rmse = 0;
+  double gap_correlation = 0;  ///< Pearson, of the inner gap in this sentence
   ErrorSums sums;
 };
 

@@ -116,7 +116,8 @@ Json utterances_json(const dam::Evaluation& result) {
                     {"frames", one.frames},
                     {"nrmse", one.nrmse},
                     {"l2", one.l2},
-                    {"gap_rmse", one.gap_rmse}});
+                    {"gap_rmse", one.gap_rmse},
+                    {"gap_correlation", one.gap_correlation}});
   }
   return json;
 }
@@ -129,6 +130,7 @@ Json evaluation_json(const dam::Evaluation& result) {
           {"still_face_nrmse", result.still_nrmse},
           {"mean_l2", result.l2},
           {"mean_correlation", result.correlation},
+          {"gap_correlation_within_sentences", result.gap_correlation},
           {"closure", closure_json(result.closure)},
           {"contact",
            {{"phones", result.contact.phones},

@@ -31,6 +31,8 @@ void print_mouth(const dam::Evaluation& e) {
     std::printf("%-17s %8.1f %8.3f %8.1f %8.3f\n", one.name.c_str(), one.rmse, one.nrmse,
                 one.largest, one.correlation);
   }
+  if (e.gap_correlation != 0)
+    std::printf("  inner_gap within sentences: correlation %.3f in the mean\n", e.gap_correlation);
 }
 
 void print_lips(const EvaluateReport& report) {
