@@ -126,6 +126,26 @@ TEST_P(EveryKind, AWindowOfFramesIsThatOfTheWhole) {
     EXPECT_NEAR(window[i], whole[40 * controls + i], 1e-9);
 }
 
+TEST_P(EveryKind, OtherUnitsGiveTheSameMotionInThoseUnits) {
+  auto sentences = planted(12);
+  const auto plain = train(sentences, quick());
+  for (Utterance& u : sentences)
+    for (std::size_t i = 0; i < u.signal.frames(); ++i) {
+      u.signal.at(i, 0) = 1000 * u.signal.at(i, 0) - 30;
+      u.signal.at(i, 1) = -0.001 * u.signal.at(i, 1);
+    }
+  const auto scaled = train(sentences, quick());
+  ASSERT_TRUE(plain && scaled);
+  const auto a = synthesise(*plain, sentences[0].script);
+  const auto b = synthesise(*scaled, sentences[0].script);
+  ASSERT_TRUE(a && b);
+  const double size = plain->controls[0].sd + plain->controls[1].sd;
+  for (std::size_t i = 0; i < a->frames(); ++i) {
+    EXPECT_NEAR((b->at(i, 0) + 30) / 1000, a->at(i, 0), 1e-3 * size);
+    EXPECT_NEAR(-1000 * b->at(i, 1), a->at(i, 1), 1e-3 * size);
+  }
+}
+
 TEST_P(EveryKind, CanBeCancelled) {
   int calls = 0;
   const auto model = train(sample(), quick(), nullptr, [&](const Progress&) {
