@@ -65,6 +65,7 @@ Result<void> validate(const TrainOptions& o) {
       {"offset_frames", r.offset_frames, 0.01, 1e9},
       {"time_margin", r.time_margin, 0, 100},
       {"duration_exponent", r.duration_exponent, 0, 2},
+      {"terms", double(r.terms), 1, 0x1ff},
       {"states", double(o.trajectory.states), 1, 8},
       {"derivative order", double(o.trajectory.order), 1, 4},
       {"mean_prior", o.trajectory.mean_prior, 0, 1e6},
@@ -85,6 +86,8 @@ Result<void> validate(const TrainOptions& o) {
       return make_error(Code::invalid_argument, std::string("training option ") + x.name +
                                                     " must lie between " + std::to_string(x.low) +
                                                     " and " + std::to_string(x.high));
+  if ((r.terms & 1) == 0)
+    return make_error(Code::invalid_argument, "training option terms must hold that of the phone");
   if (method_name(o.method).empty())
     return make_error(Code::invalid_argument, "training option method is unknown");
   return {};

@@ -48,6 +48,9 @@ struct RefinedOptions {
   double offset_frames = 10;       ///< prior weight of a sentence's own offset: 0.01..1e9
   double time_margin = 0.3;        ///< clamp of local time: 0..100
   double duration_exponent = 0.3;  ///< strength of long phones: 0..2
+  /// Terms that are learned: bit 1 << RefinedTerm. Without all of them the model is simpler, as for
+  /// comparisons; RefinedTerm::phone must be among them.
+  std::uint32_t terms = 0x1ff;
 };
 
 /// Settings of the method mmm.

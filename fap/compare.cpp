@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "fap/detail/walk.h"
 #include "fap/tables.h"
 
 namespace animeme::fap {
@@ -88,17 +89,9 @@ Difference compare(const Sequence& a, const Sequence& b) {
   d.frames_a = std::int64_t(a.frames.size());
   d.frames_b = std::int64_t(b.frames.size());
   d.same_rate = a.rate == b.rate;
-  auto left = a.frames.begin();
-  auto right = b.frames.begin();
-  while (left != a.frames.end() || right != b.frames.end()) {
-    if (right == b.frames.end() || (left != a.frames.end() && left->number < right->number)) {
-      comparer.frame_of_one_clip(*left++);
-    } else if (left == a.frames.end() || right->number < left->number) {
-      comparer.frame_of_one_clip(*right++);
-    } else {
-      comparer.frame_of_both(*left++, *right++);
-    }
-  }
+  walk_side_by_side(
+      a.frames, b.frames, [&](const Frame& one) { comparer.frame_of_one_clip(one); },
+      [&](const Frame& left, const Frame& right) { comparer.frame_of_both(left, right); });
   return comparer.finish();
 }
 

@@ -2,11 +2,20 @@
 // scores it on those called "test", and prints the table of dam/README.md.
 //
 //     build/release/bin/rank_methods grid_s1 [--others grid_others] [--controls-folder arkit]
+//
+// Cross validation inside the rows that are "train" in both columns, by sentence and by words held
+// out: how the method dam came about, step by step. The test rows are not read.
+//
+//     build/release/bin/rank_methods grid_s1 --steps
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -50,6 +59,60 @@ std::vector<Variant> variants() {
       [](dam::TrainOptions& o) { o.animeme.normalised = false; });
   add("`viseme`", dam::Method::viseme, plain);
   add("`mean`", dam::Method::mean, plain);
+  return list;
+}
+
+/// From dam+f of the lip-sync specification to dam, one change after the other, and changes of dam.
+std::vector<Variant> steps() {
+  using enum dam::RefinedTerm;
+  const auto bit = [](dam::RefinedTerm term) { return 1u << unsigned(term); };
+  const std::uint32_t neighbours =
+      bit(phone) | bit(class_left) | bit(class_right) | bit(phone_left) | bit(phone_right);
+  const std::uint32_t second = bit(class_left_2) | bit(class_right_2);
+  std::vector<Variant> list;
+  dam::TrainOptions now;
+  now.refined.terms = bit(phone);
+  now.refined.offset_frames = 1e9;
+  now.refined.width_prior = 5;
+  now.refined.time_margin = 0.5;
+  now.refined.duration_exponent = 0;
+  now.refined.ridge = 1;
+  const auto add = [&](const char* name) { list.push_back({name, now}); };
+  dam::TrainOptions paper;
+  paper.method = dam::Method::dam_paper;
+  list.push_back({"`dam-paper`", paper});
+  add("seconds, left and right, strength; no context");
+  now.refined.terms = neighbours;
+  add("+ neighbours");
+  now.refined.offset_frames = 10;
+  add("+ offset of the sentence");
+  now.refined.width_prior = 50;
+  add("+ firmer prior on the widths");
+  now.refined.terms |= bit(duration);
+  add("+ own duration");
+  now.refined.terms |= second;
+  add("+ second neighbours");
+  now.refined.time_margin = 0.3;
+  add("+ local time within [-0.3, 1.3]");
+  now.refined.duration_exponent = 0.3;
+  add("+ strength by duration");
+  now.refined.terms |= bit(phone_class);
+  add("+ curve of the class");
+  now.refined.ridge = 0;
+  add("+ factor of the ridges chosen: `dam`");
+  now = {};
+  now.refined.ridge = 0.5;
+  add("`dam`, ridges x 0.5");
+  now.refined.ridge = 2;
+  add("`dam`, ridges x 2");
+  now.refined.ridge = 4;
+  add("`dam`, ridges x 4");
+  now = {};
+  now.refined.offset_frames = 1e9;
+  add("`dam` without offsets");
+  now = {};
+  now.refined.width_prior = 5;
+  add("`dam`, loose prior on the widths");
   return list;
 }
 
@@ -123,6 +186,89 @@ int run(const std::string& folder, const std::string& others, const std::string&
   return 0;
 }
 
+// ---- cross validation ----
+
+using Sentences = std::vector<dam::Utterance>;
+
+struct Fold {
+  Sentences train, test;
+};
+
+std::set<std::string> words_of(const dam::Utterance& u) {
+  std::set<std::string> words;
+  for (const dam::Phone& phone : u.script.phones)
+    if (!phone.word.empty()) words.insert(phone.word);
+  return words;
+}
+
+template <class Held>
+Fold fold_of(const Sentences& rows, const Held& held) {
+  Fold fold;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    (held(i) ? fold.test : fold.train).push_back(rows[i]);
+  return fold;
+}
+
+constexpr std::size_t kFolds = 3;
+
+/// Every third sentence.
+std::vector<Fold> sentence_folds(const Sentences& rows) {
+  std::vector<Fold> folds;
+  for (std::size_t k = 0; k < kFolds; ++k)
+    folds.push_back(fold_of(rows, [&](std::size_t i) { return i % kFolds == k; }));
+  return folds;
+}
+
+/// Sentences with one of a fifth of the words, of those that an eighth of the sentences or fewer
+/// have.
+std::vector<Fold> word_folds(const Sentences& rows) {
+  std::map<std::string, std::size_t> count;
+  for (const dam::Utterance& u : rows)
+    for (const std::string& word : words_of(u)) ++count[word];
+  std::vector<std::string> words;
+  for (const auto& [word, n] : count)
+    if (n * 8 <= rows.size()) words.push_back(word);
+  std::vector<Fold> folds;
+  for (std::size_t k = 0; k < kFolds; ++k) {
+    std::set<std::string> out;
+    for (std::size_t i = k; i < words.size(); i += 5) out.insert(words[i]);
+    folds.push_back(fold_of(rows, [&](std::size_t i) {
+      const auto own = words_of(rows[i]);
+      return std::any_of(own.begin(), own.end(),
+                         [&](const std::string& word) { return out.contains(word); });
+    }));
+  }
+  return folds;
+}
+
+double mean_nrmse(const std::vector<Fold>& folds, const Variant& variant) {
+  double sum = 0;
+  for (const Fold& fold : folds) {
+    const dam::Model model = need(dam::train(fold.train, variant.options));
+    sum += need(dam::evaluate(model, fold.test)).nrmse / double(folds.size());
+  }
+  return sum;
+}
+
+int run_steps(const std::string& folder, const std::string& controls) {
+  dam::CorpusOptions read;
+  read.controls_folder = controls;
+  read.skip_missing = true;
+  dam::Corpus corpus = need(dam::read_corpus(folder, read));
+  corpus.utterances = dam::select(corpus, "split", "train");
+  const Sentences rows = dam::select(corpus, "heldout_word_split", "train");
+  const auto by_sentence = sentence_folds(rows), by_word = word_folds(rows);
+  std::printf("%zu sentences; held out by word: %zu, %zu, %zu of them\n\n", rows.size(),
+              by_word[0].test.size(), by_word[1].test.size(), by_word[2].test.size());
+  std::printf("| | NRMSE, by sentence | by word |\n|---|---|---|\n");
+  for (const Variant& variant : steps()) {
+    std::printf("| %s | %.4f | %.4f |\n", variant.name.c_str(), mean_nrmse(by_sentence, variant),
+                mean_nrmse(by_word, variant));
+    std::fflush(stdout);
+  }
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -132,6 +278,9 @@ int main(int argc, char** argv) {
       ->required();
   app.add_option("--others", others, "Corpus of other speakers, scored by the correlation of gaps");
   app.add_option("--controls-folder", controls, "fap or arkit")->capture_default_str();
+  bool only_steps = false;
+  app.add_flag("--steps", only_steps,
+               "Cross validation of the steps to dam inside the training rows");
   CLI11_PARSE(app, argc, argv);
-  return run(folder, others, controls);
+  return only_steps ? run_steps(folder, controls) : run(folder, others, controls);
 }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "fap/detail/walk.h"
+
 namespace animeme::tools {
 
 namespace {
@@ -55,17 +57,11 @@ BodyDifference compare_bodies(const fba::BodySequence& a, const fba::BodySequenc
   d.frames_a = std::int64_t(a.frames.size());
   d.frames_b = std::int64_t(b.frames.size());
   d.same_rate = a.rate == b.rate;
-  auto left = a.frames.begin();
-  auto right = b.frames.begin();
-  while (left != a.frames.end() || right != b.frames.end()) {
-    if (right == b.frames.end() || (left != a.frames.end() && left->number < right->number)) {
-      note(d, (left++)->number);
-    } else if (left == a.frames.end() || right->number < left->number) {
-      note(d, (right++)->number);
-    } else {
-      compare_frames(d, *left++, *right++);
-    }
-  }
+  fap::walk_side_by_side(
+      a.frames, b.frames, [&](const fba::BodyFrame& one) { note(d, one.number); },
+      [&](const fba::BodyFrame& left, const fba::BodyFrame& right) {
+        compare_frames(d, left, right);
+      });
   double squares = 0;
   std::int64_t count = 0;
   for (int number = 1; number <= fba::kBapCount; ++number) {

@@ -20,19 +20,23 @@ struct Options {
   double max_rms = -1;
 };
 
+// What faces and bodies have in common.
+template <class Difference>
+nlohmann::ordered_json summary_json(const Difference& difference) {
+  return {{"equal", difference.equal()},
+          {"frames_a", difference.frames_a},
+          {"frames_b", difference.frames_b},
+          {"frames_both", difference.frames_both},
+          {"same_rate", difference.same_rate},
+          {"mask_differences", difference.mask_differences},
+          {"value_differences", difference.value_differences},
+          {"first_difference", difference.first_difference},
+          {"rms_steps", difference.rms_steps},
+          {"max_steps", difference.max_steps}};
+}
+
 nlohmann::ordered_json to_json(const fap::Difference& difference) {
-  nlohmann::ordered_json json = {
-      {"equal", difference.equal()},
-      {"frames_a", difference.frames_a},
-      {"frames_b", difference.frames_b},
-      {"frames_both", difference.frames_both},
-      {"same_rate", difference.same_rate},
-      {"mask_differences", difference.mask_differences},
-      {"value_differences", difference.value_differences},
-      {"first_difference", difference.first_difference},
-      {"rms_steps", difference.rms_steps},
-      {"max_steps", difference.max_steps},
-  };
+  nlohmann::ordered_json json = summary_json(difference);
   nlohmann::ordered_json faps = nlohmann::ordered_json::array();
   for (int number = 1; number <= fap::kFapCount; ++number) {
     const fap::FapDifference& one = difference.fap[std::size_t(number)];
@@ -75,18 +79,7 @@ void print_rows(const fap::Difference& difference) {
 }
 
 nlohmann::ordered_json to_json(const BodyDifference& difference) {
-  nlohmann::ordered_json json = {
-      {"equal", difference.equal()},
-      {"frames_a", difference.frames_a},
-      {"frames_b", difference.frames_b},
-      {"frames_both", difference.frames_both},
-      {"same_rate", difference.same_rate},
-      {"mask_differences", difference.mask_differences},
-      {"value_differences", difference.value_differences},
-      {"first_difference", difference.first_difference},
-      {"rms_steps", difference.rms_steps},
-      {"max_steps", difference.max_steps},
-  };
+  nlohmann::ordered_json json = summary_json(difference);
   nlohmann::ordered_json baps = nlohmann::ordered_json::array();
   for (int number = 1; number <= fba::kBapCount; ++number) {
     const BapDifference& one = difference.bap[std::size_t(number)];

@@ -5,6 +5,7 @@
 #include "dam/detail/parallel.h"
 #include "dam/kinds/animeme/fit.h"
 #include "dam/kinds/animeme/fit_normal.h"
+#include "dam/kinds/projection.h"
 
 namespace animeme::dam {
 namespace {
@@ -97,19 +98,6 @@ class BlockWorker {
   std::vector<Block> slopes_;
 };
 
-/// H -= (X^T J)^T (X^T X + P)^-1 (X^T J), control by control.
-void project_out(const Normal& normal, std::size_t modes, BlockSums& sums) {
-  const auto unknowns = normal.gram.rows();
-  const auto columns = Eigen::Index(modes);
-  for (Eigen::Index c = 0; c < sums.cross.cols(); ++c) {
-    Eigen::MatrixXd b(unknowns, columns);
-    for (Eigen::Index u = 0; u < unknowns; ++u)
-      for (Eigen::Index g = 0; g < columns; ++g) b(u, g) = sums.cross(u * columns + g, c);
-    normal.factor.matrixL().solveInPlace(b);
-    sums.hessian.noalias() -= b.transpose() * b;
-  }
-}
-
 Eigen::VectorXd damped_step(const WidthStep& step, double damping) {
   const auto n = Eigen::Index(step.gradient.size());
   Eigen::MatrixXd h = Eigen::Map<const Eigen::MatrixXd>(step.hessian.data(), n, n);
@@ -141,7 +129,7 @@ WidthStep width_step(const FitData& data, const FitWeights& weights, const FitSt
     const std::size_t first = b * kBlock;
     BlockWorker worker(data, state, first, std::min(kBlock, data.controls - first), project);
     blocks[b] = worker.run();
-    if (project) project_out(normal, modes, blocks[b]);
+    if (project) project_out(normal.factor, blocks[b].cross, blocks[b].hessian);
     blocks[b].cross.resize(0, 0);
   });
   const double prior = weights.width_prior * double(data.controls);

@@ -27,7 +27,8 @@ PlacedTerms place(const RefinedData& data, const TermSpace& space, std::size_t o
   const auto uses = terms_of(data.phones, data.around[occurrence]);
   PlacedTerms placed;
   for (std::size_t t = 0; t < kTermCount; ++t)
-    placed[t] = {space.at(t, uses[t].key), kTermInfo[t].orders, uses[t].scale};
+    if (!space.tables[t].keys.empty())
+      placed[t] = {space.at(t, uses[t].key), kTermInfo[t].orders, uses[t].scale};
   return placed;
 }
 
@@ -196,7 +197,8 @@ TermSpace term_space(const RefinedData& data) {
   std::array<std::set<std::uint32_t>, kTermCount> keys;
   for (const Neighbourhood& here : data.around) {
     const auto uses = terms_of(data.phones, here);
-    for (std::size_t t = 0; t < kTermCount; ++t) keys[t].insert(uses[t].key);
+    for (std::size_t t = 0; t < kTermCount; ++t)
+      if ((data.terms >> t & 1) != 0) keys[t].insert(uses[t].key);
   }
   TermSpace space;
   for (std::size_t t = 0; t < kTermCount; ++t)

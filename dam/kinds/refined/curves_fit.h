@@ -12,7 +12,8 @@
 
 namespace animeme::dam {
 
-/// Which unknowns there are: every neighbourhood that occurs.
+/// Which unknowns there are: every neighbourhood that occurs. A table without keys is a term that
+/// is not learned.
 struct TermSpace {
   struct Table {
     std::vector<std::uint32_t> keys;  ///< ascending

@@ -30,6 +30,7 @@ struct RefinedData {
   double time_margin = 0.3;
   double duration_exponent = 0.3;
   double offset_frames = 10;
+  std::uint32_t terms = 0x1ff;  ///< see RefinedOptions
   int threads = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "dam/detail/parallel.h"
+#include "dam/kinds/projection.h"
 #include "dam/kinds/refined/dominance.h"
 #include "dam/kinds/refined/fit.h"
 
@@ -250,19 +251,6 @@ class StepWorker {
   std::vector<Row> slopes_;
 };
 
-/// H -= (X^T J)^T (X^T X + P)^-1 (X^T J), control by control.
-void project_out(const Base& base, StepSums& sums) {
-  const auto parameters = sums.gradient.size();
-  const auto unknowns = base.curves.rows();
-  for (Eigen::Index c = 0; c < sums.cross.cols(); ++c) {
-    Eigen::MatrixXd b(unknowns, parameters);
-    for (Eigen::Index u = 0; u < unknowns; ++u)
-      for (Eigen::Index g = 0; g < parameters; ++g) b(u, g) = sums.cross(u * parameters + g, c);
-    base.factor.matrixL().solveInPlace(b);
-    sums.hessian.noalias() -= b.transpose() * b;
-  }
-}
-
 std::vector<PhoneDominance> moved(std::span<const PhoneDominance> from, const DominanceStep& step,
                                   double damping) {
   const auto n = Eigen::Index(step.gradient.size());
@@ -310,7 +298,8 @@ DominanceStep dominance_step(const RefinedData& data, const DominanceOptions& op
   StepSums sums = sum_over(data, zero, [&](const FitSentence& sentence, StepSums& part) {
     StepWorker(data, fit, project).add(SentenceView(data, sentence, fit.dominance), part);
   });
-  if (project) project_out(solve_base(data, options, fit.dominance), sums);
+  if (project)
+    project_out(solve_base(data, options, fit.dominance).factor, sums.cross, sums.hessian);
   const double prior = options.prior * double(data.prior_controls);
   for (std::size_t p = 0; p < fit.dominance.size(); ++p) {
     const PhoneDominance& d = fit.dominance[p];

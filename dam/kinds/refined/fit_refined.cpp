@@ -66,6 +66,7 @@ class Trainer {
     data_.time_margin = own_.time_margin;
     data_.duration_exponent = own_.duration_exponent;
     data_.offset_frames = own_.offset_frames;
+    data_.terms = own_.terms;
     data_.threads = options.threads;
     search_.prior = own_.width_prior;
     search_.max_steps = options.max_iterations;
