@@ -7,14 +7,18 @@
 // out: how the method dam came about, step by step. The test rows are not read.
 //
 //     build/release/bin/rank_methods grid_s1 --steps
+//
+// Little data: five random draws of as many training rows as hold some seconds of speech.
+//
+//     build/release/bin/rank_methods grid_s1 --little 66
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
+#include <random>
 #include <set>
 #include <string>
 #include <vector>
@@ -23,98 +27,14 @@
 #include "dam/evaluate.h"
 #include "dam/evaluate_bootstrap.h"
 #include "dam/train.h"
+#include "tests/bench/rank_variants.h"
 
 namespace {
 
 using namespace animeme;  // NOLINT: a program
-
-struct Variant {
-  std::string name;
-  dam::TrainOptions options;
-};
-
-std::vector<Variant> variants() {
-  std::vector<Variant> list;
-  const auto add = [&](const char* name, dam::Method method, auto change) {
-    Variant variant{name, {}};
-    variant.options.method = method;
-    change(variant.options);
-    list.push_back(variant);
-  };
-  const auto plain = [](dam::TrainOptions&) {};
-  add("`dam`", dam::Method::dam, plain);
-  add("`dam-paper`", dam::Method::dam_paper, plain);
-  add("`dam-paper --plain-sum --free-time`: the printed equations", dam::Method::dam_paper,
-      [](dam::TrainOptions& o) {
-        o.animeme.normalised = false;
-        o.animeme.time_margin = std::numeric_limits<double>::infinity();
-      });
-  add("`dam-paper --single-mode`", dam::Method::dam_paper,
-      [](dam::TrainOptions& o) { o.animeme.modes = false; });
-  add("`triphone`", dam::Method::triphone, plain);
-  add("`mmm`, 3 states", dam::Method::mmm, plain);
-  add("`mmm --states 1`", dam::Method::mmm, [](dam::TrainOptions& o) { o.trajectory.states = 1; });
-  add("`cohen-massaro`", dam::Method::cohen_massaro, plain);
-  add("`cohen-massaro --plain-sum`", dam::Method::cohen_massaro,
-      [](dam::TrainOptions& o) { o.animeme.normalised = false; });
-  add("`viseme`", dam::Method::viseme, plain);
-  add("`mean`", dam::Method::mean, plain);
-  return list;
-}
-
-/// From dam+f of the lip-sync specification to dam, one change after the other, and changes of dam.
-std::vector<Variant> steps() {
-  using enum dam::RefinedTerm;
-  const auto bit = [](dam::RefinedTerm term) { return 1u << unsigned(term); };
-  const std::uint32_t neighbours =
-      bit(phone) | bit(class_left) | bit(class_right) | bit(phone_left) | bit(phone_right);
-  const std::uint32_t second = bit(class_left_2) | bit(class_right_2);
-  std::vector<Variant> list;
-  dam::TrainOptions now;
-  now.refined.terms = bit(phone);
-  now.refined.offset_frames = 1e9;
-  now.refined.width_prior = 5;
-  now.refined.time_margin = 0.5;
-  now.refined.duration_exponent = 0;
-  now.refined.ridge = 1;
-  const auto add = [&](const char* name) { list.push_back({name, now}); };
-  dam::TrainOptions paper;
-  paper.method = dam::Method::dam_paper;
-  list.push_back({"`dam-paper`", paper});
-  add("seconds, left and right, strength; no context");
-  now.refined.terms = neighbours;
-  add("+ neighbours");
-  now.refined.offset_frames = 10;
-  add("+ offset of the sentence");
-  now.refined.width_prior = 50;
-  add("+ firmer prior on the widths");
-  now.refined.terms |= bit(duration);
-  add("+ own duration");
-  now.refined.terms |= second;
-  add("+ second neighbours");
-  now.refined.time_margin = 0.3;
-  add("+ local time within [-0.3, 1.3]");
-  now.refined.duration_exponent = 0.3;
-  add("+ strength by duration");
-  now.refined.terms |= bit(phone_class);
-  add("+ curve of the class");
-  now.refined.ridge = 0;
-  add("+ factor of the ridges chosen: `dam`");
-  now = {};
-  now.refined.ridge = 0.5;
-  add("`dam`, ridges x 0.5");
-  now.refined.ridge = 2;
-  add("`dam`, ridges x 2");
-  now.refined.ridge = 4;
-  add("`dam`, ridges x 4");
-  now = {};
-  now.refined.offset_frames = 1e9;
-  add("`dam` without offsets");
-  now = {};
-  now.refined.width_prior = 5;
-  add("`dam`, loose prior on the widths");
-  return list;
-}
+using bench::steps;
+using bench::Variant;
+using bench::variants;
 
 [[noreturn]] void stop(const Error& error) {
   std::fprintf(stderr, "rank_methods: %s\n", error.describe().c_str());
@@ -125,6 +45,13 @@ template <class T>
 T need(Result<T> result) {
   if (!result) stop(result.error());
   return std::move(*result);
+}
+
+dam::Corpus read(const std::string& folder, const std::string& controls) {
+  dam::CorpusOptions options;
+  options.controls_folder = controls;
+  options.skip_missing = true;
+  return need(dam::read_corpus(folder, options));
 }
 
 void print_cells(const dam::Evaluation& e, const dam::Evaluation& best, bool first) {
@@ -144,12 +71,9 @@ void print_cells(const dam::Evaluation& e, const dam::Evaluation& best, bool fir
 }
 
 int run(const std::string& folder, const std::string& others, const std::string& controls) {
-  dam::CorpusOptions read;
-  read.controls_folder = controls;
-  read.skip_missing = true;
-  const dam::Corpus corpus = need(dam::read_corpus(folder, read));
+  const dam::Corpus corpus = read(folder, controls);
   dam::Corpus other;
-  if (!others.empty()) other = need(dam::read_corpus(others, read));
+  if (!others.empty()) other = read(others, controls);
   const char* const columns[] = {"split", "heldout_word_split"};
   std::printf("| method");
   for (const char* column : columns)
@@ -251,10 +175,7 @@ double mean_nrmse(const std::vector<Fold>& folds, const Variant& variant) {
 }
 
 int run_steps(const std::string& folder, const std::string& controls) {
-  dam::CorpusOptions read;
-  read.controls_folder = controls;
-  read.skip_missing = true;
-  dam::Corpus corpus = need(dam::read_corpus(folder, read));
+  dam::Corpus corpus = read(folder, controls);
   corpus.utterances = dam::select(corpus, "split", "train");
   const Sentences rows = dam::select(corpus, "heldout_word_split", "train");
   const auto by_sentence = sentence_folds(rows), by_word = word_folds(rows);
@@ -264,6 +185,49 @@ int run_steps(const std::string& folder, const std::string& controls) {
   for (const Variant& variant : steps()) {
     std::printf("| %s | %.4f | %.4f |\n", variant.name.c_str(), mean_nrmse(by_sentence, variant),
                 mean_nrmse(by_word, variant));
+    std::fflush(stdout);
+  }
+  return 0;
+}
+
+// ---- little data ----
+
+bool shorter(const Sentences& a, const Sentences& b) { return a.size() < b.size(); }
+
+/// Rows in random order until they hold `seconds` of phones other than silence.
+Sentences some_of(const Sentences& rows, double seconds, std::mt19937& random) {
+  std::vector<std::size_t> order(rows.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  for (std::size_t i = order.size(); i-- > 1;) std::swap(order[i], order[random() % (i + 1)]);
+  Sentences some;
+  for (std::size_t i = 0; i < order.size() && seconds > 0; ++i) {
+    some.push_back(rows[order[i]]);
+    for (const dam::Phone& phone : some.back().script.phones)
+      if (phone.label != dam::kSilence) seconds -= phone.duration();
+  }
+  return some;
+}
+
+int run_little(const std::string& folder, const std::string& controls, double seconds) {
+  constexpr int kDraws = 5;
+  const dam::Corpus corpus = read(folder, controls);
+  const Sentences rows = dam::select(corpus, "split", "train");
+  const Sentences test = dam::select(corpus, "split", "test");
+  std::mt19937 random(1);
+  std::vector<Sentences> draws;
+  for (int d = 0; d < kDraws; ++d) draws.push_back(some_of(rows, seconds, random));
+  std::printf(
+      "| trained on %.0f s of speech (%zu to %zu sentences, %d draws) | NRMSE: mean | "
+      "least | most |\n|---|---|---|---|\n",
+      seconds, std::min_element(draws.begin(), draws.end(), shorter)->size(),
+      std::max_element(draws.begin(), draws.end(), shorter)->size(), kDraws);
+  for (const Variant& variant : variants()) {
+    std::vector<double> nrmse;
+    for (const Sentences& draw : draws)
+      nrmse.push_back(need(dam::evaluate(need(dam::train(draw, variant.options)), test)).nrmse);
+    const auto [least, most] = std::minmax_element(nrmse.begin(), nrmse.end());
+    std::printf("| %s | %.3f | %.3f | %.3f |\n", variant.name.c_str(),
+                std::accumulate(nrmse.begin(), nrmse.end(), 0.0) / kDraws, *least, *most);
     std::fflush(stdout);
   }
   return 0;
@@ -281,6 +245,10 @@ int main(int argc, char** argv) {
   bool only_steps = false;
   app.add_flag("--steps", only_steps,
                "Cross validation of the steps to dam inside the training rows");
+  double little = 0;
+  app.add_option("--little", little, "Seconds of speech to train on: little data, five draws")
+      ->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
+  if (little > 0) return run_little(folder, controls, little);
   return only_steps ? run_steps(folder, controls) : run(folder, others, controls);
 }
