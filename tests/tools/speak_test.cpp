@@ -292,5 +292,24 @@ TEST(Speak, StyleAndLife) {
   EXPECT_EQ(animeme({"speak", "--text", "A", "--style", "2", "-o", dir / "x.fap"}).exit_code, 2);
 }
 
+TEST(Follow, GivesTheCurvesOfTheWholeScript) {
+  const TempDir dir;
+  const std::string phones =
+      "start_s\tend_s\tphone\n0\t0.3\tSIL\n0.3\t0.42\tB\n0.42\t0.6\tay\n0.6\t0.7\tT\n";
+  test::spill(dir / "script.tsv", phones);
+  ASSERT_EQ(animeme({"speak", "--script", dir / "script.tsv", "-o", dir / "whole.csv"}).exit_code,
+            0);
+  const auto streamed = animeme({"follow"}, phones);
+  EXPECT_EQ(streamed.exit_code, 0) << streamed.err;
+  EXPECT_EQ(streamed.out, test::slurp(dir / "whole.csv"));
+  const auto early = animeme({"follow", "--look-ahead", "0.1"}, phones);
+  EXPECT_EQ(std::count(early.out.begin(), early.out.end(), '\n'),
+            std::count(streamed.out.begin(), streamed.out.end(), '\n'));
+  const auto bad = animeme({"follow"}, "0 0.1 SIL\n0.1 0.2 QQ\n");
+  EXPECT_EQ(bad.exit_code, 3);
+  EXPECT_THAT(bad.err, HasSubstr("standard input:2"));
+  EXPECT_THAT(bad.err, HasSubstr("QQ"));
+}
+
 }  // namespace
 }  // namespace animeme

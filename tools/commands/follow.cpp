@@ -1,0 +1,116 @@
+// A face that follows a voice which is still being made.
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+#include "dam/phones.h"
+#include "dam/stream.h"
+#include "fap/rate_text.h"
+#include "tools/commands/model_input.h"
+
+namespace animeme::tools {
+
+namespace {
+
+struct Options {
+  std::string model;
+  std::string rate = "25";
+  double style = 1;
+  double look_ahead = -1;
+};
+
+Error in_line(std::int64_t line, const std::string& what) {
+  return Error{Code::syntax, what, {"standard input", line, 0, -1}};
+}
+
+/// "start_s end_s phone", in seconds, by blanks or tabs; more fields are ignored.
+Result<dam::Phone> parse_phone(const std::string& text, std::int64_t line) {
+  std::istringstream fields(text);
+  dam::Phone phone;
+  std::string label;
+  if (!(fields >> phone.start >> phone.end >> label)) {
+    return in_line(line, "a line must hold start_s, end_s and a phone, as in: 0.21 0.25 B");
+  }
+  phone.label = dam::arpabet_label(label);
+  if (phone.label.empty()) {
+    return in_line(line, "the phone " + label + " is not known; the nearest is " +
+                             std::string(dam::nearest_label(label)));
+  }
+  return phone;
+}
+
+bool is_to_be_skipped(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  return first == std::string::npos || text[first] == '#' || text.compare(first, 5, "start") == 0;
+}
+
+/// False if nobody reads any more.
+bool print_rows(const dam::Signal& signal) {
+  for (std::size_t frame = 0; frame < signal.frames(); ++frame) {
+    std::printf("%.6f", signal.time(frame));
+    for (std::size_t control = 0; control < signal.names.size(); ++control) {
+      std::printf(",%.6g", signal.at(frame, control));
+    }
+    std::printf("\n");
+  }
+  return std::fflush(stdout) == 0;
+}
+
+Error broken() {
+  return make_error(Code::io, "the curves cannot be written: nobody reads standard output");
+}
+
+Result<int> run(const Options& options) {
+  Result<fap::Rate> rate = fap::parse_rate(options.rate);
+  if (!rate) return usage_error("--rate " + options.rate + ": " + rate.error().message);
+  Result<dam::Model> model = read_model_or_builtin(options.model);
+  if (!model) return model.error();
+  dam::StreamOptions settings;
+  settings.synthesis.rate = *rate;
+  settings.synthesis.style = options.style;
+  if (options.look_ahead >= 0) settings.look_ahead = options.look_ahead;
+  dam::SpeechStream stream(*model, settings);
+  std::printf("time_s");
+  for (const dam::Control& control : model->controls) std::printf(",%s", control.name.c_str());
+  std::printf("\n");
+  std::string text;
+  for (std::int64_t line = 1; std::getline(std::cin, text); ++line) {
+    if (is_to_be_skipped(text)) continue;
+    Result<dam::Phone> phone = parse_phone(text, line);
+    if (!phone) return phone.error();
+    if (auto ok = stream.push(*phone); !ok) return in_line(line, ok.error().message);
+    Result<dam::Signal> signal = stream.pull();
+    if (!signal) return signal.error();
+    if (!print_rows(*signal)) return broken();
+  }
+  Result<dam::Signal> signal = stream.finish();
+  if (!signal) return signal.error();
+  if (!print_rows(*signal)) return broken();
+  return kOk;
+}
+
+Action add(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  app.add_option("--model", options->model, "Model file of a character; default: the built-in one");
+  app.add_option("--rate", options->rate, "Frames a second: 25, 29.97, 60 ...")
+      ->capture_default_str();
+  app.add_option("--style", options->style, "Intensity, 0 to 1.5")
+      ->check(CLI::Range(0.0, dam::kMostStyle))
+      ->capture_default_str();
+  app.add_option("--look-ahead", options->look_ahead,
+                 "Seconds of phones to wait for before a frame is given out; default: as many as "
+                 "make it final (about half a second)")
+      ->check(CLI::Range(0.0, 60.0));
+  return [options] { return run(*options); };
+}
+
+}  // namespace
+
+const Command kFollow{
+    "follow", "Speak while the phones are still coming: timed phones in, curves out, line by line",
+    "  my_tts --phones | animeme follow --model me.dam | my_player\n"
+    "  printf '0 0.3 SIL\\n0.3 0.42 HH\\n0.42 0.6 AY\\n' | animeme follow --look-ahead 0.1",
+    add};
+
+}  // namespace animeme::tools
