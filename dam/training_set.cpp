@@ -11,8 +11,6 @@
 namespace animeme::dam {
 namespace {
 
-constexpr std::size_t kFewExamples = 12;
-
 Error in_sentence(const Utterance& u, const std::string& what) {
   return make_error(Code::invalid_argument, "sentence '" + u.id + "': " + what);
 }
@@ -38,19 +36,6 @@ std::vector<PhoneModel> phone_table(const Timelines& timelines) {
         {label, e.count, context_class_of(label), std::exp(e.log_sum / e.count), e.longest});
   }
   return phones;
-}
-
-void add_warnings(TrainingSet& set) {
-  for (const Control& control : set.controls)
-    if (control.sd == 0)
-      set.warnings.push_back("control '" + control.name +
-                             "' never moves and is kept as a constant");
-  std::string few;
-  for (const PhoneModel& phone : set.phones)
-    if (phone.examples < kFewExamples)
-      few += (few.empty() ? "" : ", ") + phone.label + " " + std::to_string(phone.examples);
-  if (!few.empty())
-    set.warnings.push_back("phones with few examples, whose shapes are uncertain: " + few);
 }
 
 }  // namespace
@@ -130,7 +115,6 @@ Result<TrainingSet> make_training_set(std::span<const Utterance* const> sentence
   set.data.rate = set.rate.frames_per_second();
   for (std::size_t i = 0; i < sentences.size(); ++i)
     add_sentence(*sentences[i], timelines[i], options.pause_edge, set);
-  add_warnings(set);
   return set;
 }
 

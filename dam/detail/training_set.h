@@ -23,7 +23,6 @@ struct TrainingSet {
   fap::Rate rate;
   double closure_gap = 0;  ///< see Model
   std::optional<double> lip_tooth_raise;
-  std::vector<std::string> warnings;
 };
 
 /// Checks one sentence: the controls and the rate of `first`, complete frames of finite numbers, a

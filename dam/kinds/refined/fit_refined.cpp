@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "dam/detail/parallel.h"
+#include "dam/detail/train_notes.h"
 #include "dam/kinds/refined/curves_fit.h"
 #include "dam/kinds/refined/fit.h"
 #include "dam/kinds/refined/refined.h"
@@ -51,6 +52,7 @@ class Trainer {
       : options_(options),
         own_(options.refined),
         run_(run),
+        controls_(model.controls),
         mean_(means_from_rest(model.controls)) {
     data_.speech = &set.data;
     data_.phones = model.phones;
@@ -110,7 +112,7 @@ class Trainer {
     }
     if (!run_.report("curves", 0.7)) return TrainRun::cancelled();
     run_.summary.ridge = choice.factor;
-    run_.summary.explained = choice.explained;
+    if (choose) note_explained(controls_, choice.explained, true, run_.summary);
     const auto curves = solve_curves(sums, space, data_.controls, choice.factor, options_.threads);
     return Parameters(refined_parameters(space, curves, mean_, own_, std::move(dominance)));
   }
@@ -118,6 +120,7 @@ class Trainer {
   const TrainOptions& options_;
   const RefinedOptions& own_;
   TrainRun& run_;
+  std::span<const Control> controls_;
   std::vector<double> mean_;
   RefinedData data_;
   DominanceOptions search_;
