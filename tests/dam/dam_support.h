@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -104,6 +105,21 @@ inline std::vector<dam::Utterance> planted_sentences(Random& random, const Plant
     list[i].signal = planted_signal(planted, list[i].script, 0.3, time_margin, normalised);
   }
   return list;
+}
+
+/// The file's own checksum, to make files that are wrong in another way only.
+inline std::uint32_t crc32(std::span<const std::uint8_t> bytes) {
+  std::uint32_t c = 0xFFFFFFFFu;
+  for (const std::uint8_t b : bytes) {
+    c ^= b;
+    for (int i = 0; i < 8; ++i) c = (c >> 1) ^ ((c & 1) != 0 ? 0xEDB88320u : 0u);
+  }
+  return ~c;
+}
+
+inline void seal(std::vector<std::uint8_t>& bytes) {
+  const std::uint32_t c = crc32(std::span(bytes).first(bytes.size() - 4));
+  for (std::size_t i = 0; i < 4; ++i) bytes[bytes.size() - 4 + i] = std::uint8_t(c >> (8 * i));
 }
 
 }  // namespace animeme::test

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "dam/model.h"
+#include "dam_support.h"
 
 namespace animeme::dam {
 namespace {
@@ -55,21 +56,6 @@ TEST(ModelFile, EveryTruncationAndExtensionIsFound) {
   EXPECT_FALSE(read_model(bytes));
 }
 
-/// The file's own checksum, to make files that are wrong in another way only.
-std::uint32_t crc32(std::span<const std::uint8_t> bytes) {
-  std::uint32_t c = 0xFFFFFFFFu;
-  for (const std::uint8_t b : bytes) {
-    c ^= b;
-    for (int i = 0; i < 8; ++i) c = (c >> 1) ^ ((c & 1) != 0 ? 0xEDB88320u : 0u);
-  }
-  return ~c;
-}
-
-void seal(std::vector<std::uint8_t>& bytes) {
-  const std::uint32_t c = crc32(std::span(bytes).first(bytes.size() - 4));
-  for (std::size_t i = 0; i < 4; ++i) bytes[bytes.size() - 4 + i] = std::uint8_t(c >> (8 * i));
-}
-
 TEST(ModelFile, SealedNonsenseIsRefusedWithoutHarm) {
   const auto good = write_model(small_model());
   int refused = 0;
@@ -77,7 +63,7 @@ TEST(ModelFile, SealedNonsenseIsRefusedWithoutHarm) {
     for (const int value : {0x00, 0x7F, 0xFF}) {
       auto bytes = good;
       bytes[i] = std::uint8_t(value);
-      seal(bytes);
+      test::seal(bytes);
       const auto model = read_model(bytes);
       if (model) {
         EXPECT_TRUE(validate(*model)) << "byte " << i;
@@ -93,7 +79,7 @@ TEST(ModelFile, HugeCountsAllocateNothing) {
   const std::size_t at = 20 + 1 + 16 + 9 + 8 + 4 + 6 + 4 + 12;
   ASSERT_EQ(bytes[at], 2);
   for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = 0xFF;
-  seal(bytes);
+  test::seal(bytes);
   const auto model = read_model(bytes);
   ASSERT_FALSE(model);
   EXPECT_EQ(model.error().code, Code::syntax);
@@ -108,7 +94,7 @@ TEST(ModelFile, NewerVersions) {
   EXPECT_THAT(model.error().message, testing::HasSubstr("version 3.0"));
   bytes[8] = 2;
   bytes[10] = 7;  // a newer minor version may have more behind what we know
-  seal(bytes);
+  test::seal(bytes);
   EXPECT_TRUE(read_model(bytes));
 }
 
