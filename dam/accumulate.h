@@ -29,8 +29,9 @@
 //   - counts of the least lip gaps of P B M and of the lower lip's heights in F V in bins of 0.5
 //     units from -1024 to 1024 (medians of train() that are not sums; here within 0.25 units).
 //
-// Memory and file: 8 bytes * n * n * 2 and half of that, n the unknowns; all 41 phones in every
-// surrounding have 4800 (370 MB, file 185 MB), the sentences of one speaker some 2000.
+// Memory: 16 n^2 bytes, n the unknowns, and twice the file while it is saved; file: 8 n^2 bytes.
+// All 41 phones in every surrounding have n = 4800 (file 185 MB), the sentences of one speaker
+// 2000.
 #pragma once
 
 #include <cstddef>

@@ -191,6 +191,11 @@ Problem read_space(ByteReader& in, const std::vector<std::uint32_t>& number, Sum
       if (i > 0 && keys[i] <= keys[i - 1]) return "its terms are not ascending";
     }
   }
+  std::vector<std::uint32_t> heard;
+  for (std::size_t p = 0; p < state.phones.size(); ++p)
+    if (state.phones[p].examples > 0) heard.push_back(std::uint32_t(p));
+  if (heard != state.space.tables[std::size_t(RefinedTerm::phone)].keys)
+    return "its phones and their terms do not belong together";
   state.space.number();
   if (state.controls.empty() && state.space.size > 0) return "there are terms but no controls";
   return {};
