@@ -136,6 +136,61 @@ Result<Signal> keep_controls(Signal signal, const std::vector<std::string>& name
   return kept;
 }
 
+/// Reads the files of rows; the first sentence sets controls and rate.
+class CorpusReader {
+ public:
+  CorpusReader(const fs::path& folder, const CorpusOptions& options)
+      : folder_(folder), options_(options), names_(options.controls) {}
+
+  bool has_controls(const std::string& id) const {
+    return is_file(curves(id, ".csv")) || is_file(curves(id, ".fap"));
+  }
+
+  Result<void> read(Utterance& u) {
+    const fs::path csv = curves(u.id, ".csv"), fap_text = curves(u.id, ".fap");
+    const fs::path path = !is_file(csv) && is_file(fap_text) ? fap_text : csv;
+    auto script = read_phonemes(folder_, u.id);
+    if (!script) return script.error();
+    auto signal = read_controls(csv, fap_text);
+    if (!signal) return signal.error();
+    if (names_.empty()) names_ = signal->names;
+    signal = keep_controls(std::move(*signal), names_);
+    if (!signal) return std::move(signal).error().in_file(path.string());
+    u.script = std::move(*script);
+    u.signal = std::move(*signal);
+    return check(u, path);
+  }
+
+ private:
+  fs::path curves(const std::string& id, const char* extension) const {
+    return folder_ / options_.controls_folder / (id + extension);
+  }
+
+  Result<void> check(const Utterance& u, const fs::path& path) {
+    const double length = u.signal.rate.seconds(double(u.signal.frames()));
+    const double gap = u.script.duration() - length;
+    if (!options_.any_length && std::abs(gap) > kLongestMismatch)
+      return error_in(path, Code::out_of_range,
+                      "the signal lasts " + std::to_string(length) + " s but its phonemes " +
+                          std::to_string(u.script.duration()) +
+                          " s; correct the times or allow any length");
+    if (first_.empty()) {
+      first_ = u.id;
+      rate_ = u.signal.rate;
+    }
+    if (!(u.signal.rate == rate_))
+      return error_in(path, Code::out_of_range,
+                      "the frame rate differs from that of sentence '" + first_ + "'; resample it");
+    return {};
+  }
+
+  const fs::path& folder_;
+  const CorpusOptions& options_;
+  std::vector<std::string> names_;
+  std::string first_;
+  fap::Rate rate_;
+};
+
 }  // namespace
 
 std::size_t Corpus::frames() const {
@@ -149,43 +204,36 @@ double Corpus::duration() const {
 }
 
 Result<Corpus> read_corpus(const fs::path& folder, const CorpusOptions& options) {
-  const fs::path controls = folder / options.controls_folder;
+  Corpus corpus;
+  const auto skipped =
+      visit_corpus(folder, options, [&](Utterance u, std::size_t, std::size_t) -> Result<void> {
+        corpus.utterances.push_back(std::move(u));
+        return {};
+      });
+  if (!skipped) return skipped.error();
+  corpus.skipped = *skipped;
+  return corpus;
+}
+
+Result<std::size_t> visit_corpus(const fs::path& folder, const CorpusOptions& options,
+                                 const SentenceVisitor& visit) {
   auto rows = read_rows(folder / "utterances.tsv", options);
   if (!rows) return rows.error();
-  Corpus corpus;
-  std::vector<std::string> names = options.controls;
-  for (Utterance& u : *rows) {
-    const fs::path csv = controls / (u.id + ".csv"), fap_text = controls / (u.id + ".fap");
-    if (options.skip_missing && !is_file(csv) && !is_file(fap_text)) {
-      ++corpus.skipped;
+  CorpusReader reader(folder, options);
+  std::size_t skipped = 0;
+  for (std::size_t row = 0; row < rows->size(); ++row) {
+    Utterance& u = (*rows)[row];
+    if (options.skip_missing && !reader.has_controls(u.id)) {
+      ++skipped;
       continue;
     }
-    const fs::path path = !is_file(csv) && is_file(fap_text) ? fap_text : csv;
-    auto script = read_phonemes(folder, u.id);
-    if (!script) return script.error();
-    auto signal = read_controls(csv, fap_text);
-    if (!signal) return signal.error();
-    if (names.empty()) names = signal->names;
-    signal = keep_controls(std::move(*signal), names);
-    if (!signal) return std::move(signal).error().in_file(path.string());
-    const double length = signal->rate.seconds(double(signal->frames()));
-    const double gap = script->duration() - length;
-    if (!options.any_length && std::abs(gap) > kLongestMismatch)
-      return error_in(path, Code::out_of_range,
-                      "the signal lasts " + std::to_string(length) + " s but its phonemes " +
-                          std::to_string(script->duration()) +
-                          " s; correct the times or allow any length");
-    if (!corpus.utterances.empty() && !(signal->rate == corpus.utterances[0].signal.rate))
-      return error_in(path, Code::out_of_range,
-                      "the frame rate differs from that of sentence '" + corpus.utterances[0].id +
-                          "'; resample it");
-    u.script = std::move(*script);
-    u.signal = std::move(*signal);
-    corpus.utterances.push_back(std::move(u));
+    if (auto ok = reader.read(u); !ok) return ok.error();
+    if (auto ok = visit(std::move(u), row, rows->size()); !ok) return ok.error();
   }
-  if (corpus.utterances.empty())
-    return error_in(controls, Code::not_found, "no row has a control file in this folder");
-  return corpus;
+  if (skipped == rows->size())
+    return error_in(folder / options.controls_folder, Code::not_found,
+                    "no row has a control file in this folder");
+  return skipped;
 }
 
 std::vector<Utterance> select(const Corpus& corpus, std::string_view column,

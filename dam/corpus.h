@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -52,6 +53,14 @@ struct CorpusOptions {
 /// split), syntax (fields, numbers, NaN), out_of_range (irregular times, lengths that differ by
 /// more than 0.5 s, different rates), io.
 Result<Corpus> read_corpus(const std::filesystem::path& folder, const CorpusOptions& options = {});
+
+/// The same, one sentence at a time, for corpora larger than memory: `visit` gets each sentence
+/// with its number among the rows (from 0) and the count of rows; an error it returns ends the
+/// reading and is returned. Returns the number of rows left out (Corpus::skipped).
+using SentenceVisitor =
+    std::function<Result<void>(Utterance sentence, std::size_t row, std::size_t rows)>;
+Result<std::size_t> visit_corpus(const std::filesystem::path& folder, const CorpusOptions& options,
+                                 const SentenceVisitor& visit);
 
 /// One table of curves as in fap/ID.csv, from memory. Also used by importers.
 Result<Signal> read_curves(std::string_view text);

@@ -5,14 +5,13 @@
 #include <cmath>
 
 #include "dam/detail/fit_lag.h"
+#include "dam/detail/train_notes.h"
 #include "dam/detail/training_set.h"
 #include "dam/kinds/animeme/fit.h"
 #include "dam/kinds/kind.h"
 
 namespace animeme::dam {
 namespace {
-
-constexpr double kNotableLag = 0.050;  // seconds
 
 struct Range {
   const char* name;
@@ -28,17 +27,12 @@ std::vector<const Utterance*> sorted(std::span<const Utterance> utterances) {
   return list;
 }
 
-void summarise(TrainingSet& set, int threads, TrainSummary& summary) {
+void summarise(const TrainingSet& set, int threads, TrainSummary& summary) {
   summary.iterations = std::max(0, int(summary.objective.size()) - 1);
   summary.utterances = set.data.sentences.size();
   summary.frames = std::size_t(std::count(set.data.use.begin(), set.data.use.end(), 1));
   summary.occurrences = set.data.occurrences.size();
-  summary.warnings = std::move(set.warnings);
   summary.lag = estimate_lag(set.data, set.phones.size(), threads);
-  if (std::abs(summary.lag) > kNotableLag)
-    summary.warnings.push_back("the signal comes about " +
-                               std::to_string(std::lround(summary.lag * 1000)) +
-                               " ms after the phonemes; check the alignment of the corpus");
 }
 
 }  // namespace
@@ -97,7 +91,8 @@ Result<Model> train(std::span<const Utterance> utterances, const TrainOptions& o
                     TrainSummary* summary, const ProgressFunction& progress) {
   const auto begin = std::chrono::steady_clock::now();
   if (auto ok = validate(options); !ok) return ok.error();
-  auto set = make_training_set(sorted(utterances), options);
+  const auto sentences = sorted(utterances);
+  auto set = make_training_set(sentences, options);
   if (!set) return set.error();
   TrainSummary own;
   TrainSummary& out = summary != nullptr ? *summary : own;
@@ -117,6 +112,9 @@ Result<Model> train(std::span<const Utterance> utterances, const TrainOptions& o
   if (!parameters) return parameters.error();
   model.parameters = std::move(*parameters);
   summarise(*set, options.threads, out);
+  review_sentences(*set, model, sentences, options.threads, out);
+  note_phones(model, out);
+  add_warnings(out);
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return model;
 }

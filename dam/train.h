@@ -93,6 +93,38 @@ struct TrainOptions {
 /// Code::invalid_argument with the name and the range of the first bad option.
 Result<void> validate(const TrainOptions& options);
 
+/// A phone with so few examples that its shape is uncertain.
+struct RarePhone {
+  std::string label;
+  std::size_t examples = 0;
+  /// Method dam: the other learned phones of its class, whose common curve it leans on; nothing
+  /// there: it leans on the mean.
+  std::vector<std::string> leans_on;
+};
+
+/// A phone that was not in the data, and what synthesis will say instead ("AO IH": both, one after
+/// the other); empty: nothing, so scripts with it will be refused.
+struct UnknownPhone {
+  std::string label;
+  std::string spoken_as;
+};
+
+/// How much of a control the curves explain.
+struct ControlNote {
+  std::string name;
+  bool constant = false;
+  /// Which part of the variance within sentences the curves explain, at most 1; below 0: worse than
+  /// the mean. 0 for a constant control.
+  double explained = 0;
+};
+
+/// How a sentence stands out; either may be why.
+struct SentenceNote {
+  std::string id;
+  double offset = 0;  ///< what it is off as a whole, in usual offsets of sentences
+  double error = 0;   ///< the rest of its error, divided by the median of the sentences
+};
+
 /// What happened during training.
 struct TrainSummary {
   std::vector<double> objective;  ///< start (dam-paper: once the modes are settled), then after
@@ -106,10 +138,26 @@ struct TrainSummary {
   std::size_t frames = 0;       ///< frames fitted
   std::size_t occurrences = 0;  ///< phones fitted
   std::size_t modes = 0;        ///< of all phones; 0: the method has none
-  double ridge = 0;             ///< dam: the factor that was chosen
-  double lag = 0;               ///< seconds by which the signal seems to come after the phonemes
-  std::vector<std::string> warnings;  ///< constant controls, phones with few examples, time lag
+  double ridge = 0;             ///< dam: the factor of the ridges
+  /// One for each control of the model. `explained` is of sentences that were held out if the
+  /// method is dam and there are 16 or more, else of the training sentences.
+  std::vector<ControlNote> controls;
+  bool held_out = false;               ///< `explained` is of sentences that were held out
+  std::vector<RarePhone> rare;         ///< under 12 examples
+  std::vector<UnknownPhone> unknown;   ///< of the 41 of phones.h
+  std::vector<SentenceNote> standing;  ///< the worst three, the worst first; see kStandsOut
+  double lag = 0;  ///< seconds by which the signal seems to come after the phonemes
+  std::vector<std::string> warnings;  ///< all of the above that wants attention, in sentences
 };
+
+/// A sentence is named in TrainSummary::standing if its offset is above three usual ones or its
+/// error above twice the median: often it has the labels of another one, or the tracker slipped.
+/// The usual offset is 1.48 times the median over sentences, per control and at least a tenth of
+/// its deviation; of a sentence the root mean square over controls counts. With fewer than 8
+/// sentences nothing is usual.
+inline constexpr double kStandsOut = 3, kErrorStandsOut = 2;
+/// A control is said to move only by noise if less than this share is explained.
+inline constexpr double kNoise = 0.02;
 
 struct Progress {
   const char* stage = "";  ///< "modes", "fit"

@@ -11,27 +11,8 @@
 namespace animeme::dam {
 namespace {
 
-constexpr std::size_t kFewExamples = 12;
-constexpr double kLongestAnyway = 0.3;  // seconds: nothing shorter is drawn out
-
 Error in_sentence(const Utterance& u, const std::string& what) {
   return make_error(Code::invalid_argument, "sentence '" + u.id + "': " + what);
-}
-
-Result<void> check(const Utterance& u, const Signal& first) {
-  const Signal& s = u.signal;
-  if (s.names.empty() || s.names != first.names)
-    return in_sentence(u, "its controls are not those of the first sentence");
-  if (!s.rate.valid() || !(s.rate == first.rate))
-    return in_sentence(u, "its frame rate is not that of the first sentence; resample it");
-  if (s.values.size() != s.frames() * s.names.size() || s.frames() == 0)
-    return in_sentence(u, "its signal is empty or has an incomplete frame");
-  for (std::size_t i = 0; i < s.values.size(); ++i)
-    if (!std::isfinite(s.values[i]))
-      return in_sentence(u, "frame " + std::to_string(i / s.names.size()) + " of " +
-                                s.names[i % s.names.size()] + " is not a finite number");
-  if (auto ok = check_script(u.script); !ok) return in_sentence(u, ok.error().message);
-  return {};
 }
 
 using Timelines = std::vector<std::vector<Occurrence>>;
@@ -51,12 +32,34 @@ std::vector<PhoneModel> phone_table(const Timelines& timelines) {
     }
   std::vector<PhoneModel> phones;
   for (const auto& [label, e] : examples) {
-    const PhoneInfo* info = find_phone(label);
-    const std::uint32_t group =
-        info != nullptr ? std::uint32_t(info->phone_class) : std::uint32_t(kPhoneClassCount);
-    phones.push_back({label, e.count, group, std::exp(e.log_sum / e.count), e.longest});
+    phones.push_back(
+        {label, e.count, context_class_of(label), std::exp(e.log_sum / e.count), e.longest});
   }
   return phones;
+}
+
+}  // namespace
+
+std::uint32_t context_class_of(std::string_view label) {
+  const PhoneInfo* info = find_phone(label);
+  return info != nullptr ? std::uint32_t(info->phone_class) : std::uint32_t(kPhoneClassCount);
+}
+
+Result<void> check_sentence(const Utterance& u, const std::vector<std::string>& names,
+                            fap::Rate rate) {
+  const Signal& s = u.signal;
+  if (s.names.empty() || s.names != names)
+    return in_sentence(u, "its controls are not those of the first sentence");
+  if (!s.rate.valid() || !(s.rate == rate))
+    return in_sentence(u, "its frame rate is not that of the first sentence; resample it");
+  if (s.values.size() != s.frames() * s.names.size() || s.frames() == 0)
+    return in_sentence(u, "its signal is empty or has an incomplete frame");
+  for (std::size_t i = 0; i < s.values.size(); ++i)
+    if (!std::isfinite(s.values[i]))
+      return in_sentence(u, "frame " + std::to_string(i / s.names.size()) + " of " +
+                                s.names[i % s.names.size()] + " is not a finite number");
+  if (auto ok = check_script(u.script); !ok) return in_sentence(u, ok.error().message);
+  return {};
 }
 
 std::int32_t index_of(const std::vector<PhoneModel>& phones, const std::string& label) {
@@ -88,21 +91,6 @@ void add_sentence(const Utterance& u, const std::vector<Occurrence>& timeline, d
                                 index_of(set.phones, o.left), index_of(set.phones, o.right), 0});
 }
 
-void add_warnings(TrainingSet& set) {
-  for (const Control& control : set.controls)
-    if (control.sd == 0)
-      set.warnings.push_back("control '" + control.name +
-                             "' never moves and is kept as a constant");
-  std::string few;
-  for (const PhoneModel& phone : set.phones)
-    if (phone.examples < kFewExamples)
-      few += (few.empty() ? "" : ", ") + phone.label + " " + std::to_string(phone.examples);
-  if (!few.empty())
-    set.warnings.push_back("phones with few examples, whose shapes are uncertain: " + few);
-}
-
-}  // namespace
-
 Result<TrainingSet> make_training_set(std::span<const Utterance* const> sentences,
                                       const TrainOptions& options) {
   if (sentences.empty())
@@ -111,7 +99,8 @@ Result<TrainingSet> make_training_set(std::span<const Utterance* const> sentence
   Timelines timelines;
   bool speech = false;
   for (const Utterance* u : sentences) {
-    if (auto ok = check(*u, sentences[0]->signal); !ok) return ok.error();
+    const Signal& first = sentences[0]->signal;
+    if (auto ok = check_sentence(*u, first.names, first.rate); !ok) return ok.error();
     timelines.push_back(make_timeline(u->script, options.pause_edge));
     speech = speech || !timelines.back().empty();
   }
@@ -126,7 +115,6 @@ Result<TrainingSet> make_training_set(std::span<const Utterance* const> sentence
   set.data.rate = set.rate.frames_per_second();
   for (std::size_t i = 0; i < sentences.size(); ++i)
     add_sentence(*sentences[i], timelines[i], options.pause_edge, set);
-  add_warnings(set);
   return set;
 }
 

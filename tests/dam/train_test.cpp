@@ -96,6 +96,75 @@ TEST(Train, NoticesWhenSoundAndFaceAreApart) {
   EXPECT_THAT(summary.warnings, testing::Contains(HasSubstr("ms after")));
 }
 
+// ---- what it says about the data ----
+
+TEST(TrainNotes, PhonesLeanOnTheirClassAndOnRelatives) {
+  TrainSummary summary;
+  ASSERT_TRUE(train(sample(), {}, &summary));
+  const auto rare = std::find_if(summary.rare.begin(), summary.rare.end(),
+                                 [](const RarePhone& p) { return p.label == "M"; });
+  ASSERT_NE(rare, summary.rare.end());
+  EXPECT_EQ(rare->examples, 3u);
+  EXPECT_THAT(rare->leans_on, testing::ElementsAre("B", "P"));
+  EXPECT_THAT(summary.warnings, testing::Contains(HasSubstr("M 3 (leans on B P)")));
+  const auto spoken = [&](const std::string& label) {
+    for (const UnknownPhone& p : summary.unknown)
+      if (p.label == label) return p.spoken_as;
+    return std::string("known");
+  };
+  EXPECT_EQ(spoken("NG"), "G");
+  EXPECT_EQ(spoken("HH"), "the next vowel");
+  EXPECT_EQ(spoken("B"), "known");
+}
+
+/// Sentences that a model of method dam fits well.
+std::vector<Utterance> clean(std::size_t count) {
+  test::Random random(9);
+  const auto truth = test::plant(random, {"SIL", "AA", "B", "IY", "S"}, 3, 3);
+  return test::planted_sentences(random, truth, count);
+}
+
+TEST(TrainNotes, AControlOfNoiseIsNamed) {
+  auto sentences = clean(32);
+  test::Random random(4);
+  for (Utterance& u : sentences)
+    for (std::size_t i = 0; i < u.signal.frames(); ++i) u.signal.at(i, 1) = random(-1, 1);
+  TrainSummary summary;
+  ASSERT_TRUE(train(sentences, {}, &summary));
+  EXPECT_TRUE(summary.held_out);
+  ASSERT_EQ(summary.controls.size(), 3u);
+  EXPECT_GT(summary.controls[0].explained, 0.7);
+  EXPECT_LT(summary.controls[1].explained, kNoise);
+  EXPECT_LE(summary.controls[2].explained, 1);
+  EXPECT_THAT(summary.warnings, testing::Contains(testing::AllOf(HasSubstr("may be noise: c1"),
+                                                                 testing::Not(HasSubstr("c0")))));
+}
+
+TEST(TrainNotes, SentencesThatStandOutAreNamed) {
+  for (const Method method : methods()) {
+    TrainOptions options;
+    options.method = method;
+    auto sentences = clean(32);
+    TrainSummary summary;
+    ASSERT_TRUE(train(sentences, options, &summary));
+    const std::size_t before = summary.standing.size();
+    for (double& v : sentences[5].signal.values) v += 40;   // off as a whole
+    std::swap(sentences[11].script, sentences[20].script);  // the labels of another one
+    ASSERT_TRUE(train(sentences, options, &summary)) << method_name(method);
+    std::vector<std::string> named;
+    for (const SentenceNote& s : summary.standing) named.push_back(s.id);
+    EXPECT_LE(named.size(), 3u);
+    EXPECT_THAT(named, testing::Contains("s105")) << method_name(method);
+    if (method == Method::dam) {  // the others have more errors of their own
+      EXPECT_THAT(named, testing::UnorderedElementsAre("s105", "s111", "s120"));
+    }
+    EXPECT_LT(before, 3u);
+    EXPECT_GT(summary.standing[0].offset, kStandsOut);
+    EXPECT_EQ(summary.standing[0].id, "s105");
+    EXPECT_THAT(summary.warnings, testing::Contains(HasSubstr("stand out")));
+  }
+}
+
 TEST(Train, OptionsAreChecked) {
   const auto refused = [](auto change) {
     TrainOptions options;

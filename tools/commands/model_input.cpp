@@ -17,6 +17,22 @@ int fap_number(std::string_view text) {
   return whole && value >= fap::kFirstLowLevel && value <= fap::kFapCount ? value : 0;
 }
 
+Result<dam::CorpusOptions> corpus_options(const CorpusSettings& settings) {
+  Result<std::vector<std::string>> names = control_names(settings.controls);
+  if (!names) return names.error();
+  dam::CorpusOptions options;
+  options.split_column = settings.split_column;
+  options.split_value = settings.split;
+  options.controls_folder = settings.controls_folder;
+  options.controls = std::move(*names);
+  options.skip_missing = settings.skip_missing;
+  return options;
+}
+
+void say_skipped(std::size_t rows) {
+  if (rows > 0) say(std::to_string(rows) + " rows without curves are left out");
+}
+
 }  // namespace
 
 Result<dam::Model> read_model_or_builtin(const std::string& path) {
@@ -55,19 +71,20 @@ Result<std::vector<std::string>> control_names(const std::vector<std::string>& i
 }
 
 Result<dam::Corpus> read_corpus(const CorpusSettings& settings) {
-  Result<std::vector<std::string>> names = control_names(settings.controls);
-  if (!names) return names.error();
-  dam::CorpusOptions options;
-  options.split_column = settings.split_column;
-  options.split_value = settings.split;
-  options.controls_folder = settings.controls_folder;
-  options.controls = std::move(*names);
-  options.skip_missing = settings.skip_missing;
-  Result<dam::Corpus> corpus = dam::read_corpus(settings.folder, options);
-  if (corpus && corpus->skipped > 0) {
-    say(std::to_string(corpus->skipped) + " rows without curves are left out");
-  }
+  const Result<dam::CorpusOptions> options = corpus_options(settings);
+  if (!options) return options.error();
+  Result<dam::Corpus> corpus = dam::read_corpus(settings.folder, *options);
+  if (corpus) say_skipped(corpus->skipped);
   return corpus;
+}
+
+Result<std::size_t> visit_corpus(const CorpusSettings& settings,
+                                 const dam::SentenceVisitor& visit) {
+  const Result<dam::CorpusOptions> options = corpus_options(settings);
+  if (!options) return options.error();
+  Result<std::size_t> skipped = dam::visit_corpus(settings.folder, *options, visit);
+  if (skipped) say_skipped(*skipped);
+  return skipped;
 }
 
 }  // namespace animeme::tools

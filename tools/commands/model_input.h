@@ -30,5 +30,7 @@ void add_corpus_options(CLI::App& app, CorpusSettings& settings);
 Result<std::vector<std::string>> control_names(const std::vector<std::string>& items);
 
 Result<dam::Corpus> read_corpus(const CorpusSettings& settings);
+/// One sentence at a time; returns how many rows were left out.
+Result<std::size_t> visit_corpus(const CorpusSettings& settings, const dam::SentenceVisitor& visit);
 
 }  // namespace animeme::tools

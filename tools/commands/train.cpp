@@ -2,9 +2,9 @@
 
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
-#include "tools/commands/model_input.h"
+#include "tools/commands/train_parts.h"
+#include "tools/commands/train_report.h"
 
 namespace animeme::tools {
 
@@ -15,60 +15,26 @@ struct Options {
   std::string output;
   std::string method = "dam";
   dam::TrainOptions train;
-  std::string attribution;
+  PartSettings parts;
   bool free_time = false;
   bool single_mode = false;
   bool plain_sum = false;
   bool json = false;
 };
 
-void print(const Options& options, const dam::Corpus& corpus, const dam::Model& model,
-           const dam::TrainSummary& summary) {
-  if (options.json) {
-    nlohmann::ordered_json json = {{"model", options.output},
-                                   {"method", dam::method_name(model.method)},
-                                   {"utterances", summary.utterances},
-                                   {"corpus_seconds", corpus.duration()},
-                                   {"frames", summary.frames},
-                                   {"phone_occurrences", summary.occurrences},
-                                   {"phones", model.phones.size()},
-                                   {"modes", summary.modes},
-                                   {"controls", model.controls.size()},
-                                   {"iterations", summary.iterations},
-                                   {"converged", summary.converged},
-                                   {"objective", summary.objective},
-                                   {"training_seconds", summary.seconds},
-                                   {"warnings", summary.warnings}};
-    std::printf("%s\n", json.dump(2).c_str());
-    return;
-  }
-  char line[200];
-  std::snprintf(line, sizeof line,
-                "%zu utterances, %.1f s, %zu phones (%zu occurrences), %zu controls",
-                summary.utterances, corpus.duration(), model.phones.size(), summary.occurrences,
-                model.controls.size());
-  say(summary.modes == 0 ? std::string(line)
-                         : line + (", " + std::to_string(summary.modes)) + " modes");
-  std::string fit = std::to_string(summary.iterations) + " iterations" +
-                    (summary.converged ? "" : " (stopped before convergence)") + ", objective";
-  for (const double objective : summary.objective) {
-    std::snprintf(line, sizeof line, " %.1f", objective);
-    fit += line;
-  }
-  if (!summary.objective.empty()) say(fit);
-  std::snprintf(line, sizeof line, ": trained in %.1f s", summary.seconds);
-  say(options.output + line);
-}
-
-Result<int> run(const Options& options) {
-  Result<dam::Corpus> corpus = read_corpus(options.corpus);
-  if (!corpus) return corpus.error();
+dam::TrainOptions train_options(const Options& options) {
   dam::TrainOptions train = options.train;
   train.method = *dam::find_method(options.method);
-  train.attribution = options.attribution;
   train.animeme.modes = !options.single_mode;
   train.animeme.normalised = !options.plain_sum;
   if (options.free_time) train.animeme.time_margin = std::numeric_limits<double>::infinity();
+  return train;
+}
+
+Result<int> run_whole(const Options& options) {
+  Result<dam::Corpus> corpus = read_corpus(options.corpus);
+  if (!corpus) return corpus.error();
+  dam::TrainOptions train = train_options(options);
   train.provenance = "animeme " ANIMEME_VERSION ", method " + options.method + ", " +
                      std::to_string(corpus->utterances.size()) + " utterances" +
                      (options.corpus.split.empty() ? ""
@@ -82,12 +48,67 @@ Result<int> run(const Options& options) {
   };
   Result<dam::Model> model = dam::train(corpus->utterances, train, &summary, progress);
   if (!model) return model.error().in_file(options.corpus.folder);
+  line.clear();
   for (const std::string& text : summary.warnings) warn(text);
   if (auto written = write_file(options.output, dam::write_model(*model)); !written) {
     return written.error();
   }
-  print(options, *corpus, *model, summary);
+  if (options.json) {
+    auto json = train_json(options.output, *model, summary);
+    json["corpus_seconds"] = corpus->duration();
+    std::printf("%s\n", json.dump(2).c_str());
+  } else {
+    say_training(options.output, *model, summary, corpus->duration());
+  }
   return kOk;
+}
+
+// What does not go together, in a sentence; empty if all is well.
+std::string misuse(const Options& options) {
+  const bool accumulates = !options.parts.accumulate.empty(), merges = !options.parts.merge.empty();
+  if (accumulates && merges) return "--accumulate and --merge are two steps; give one of them";
+  if (merges && !options.corpus.folder.empty())
+    return "--merge takes files of sums and no corpus; leave " + options.corpus.folder + " out";
+  if (!merges && options.corpus.folder.empty())
+    return "a corpus folder is needed, or --merge with files of sums";
+  if (accumulates != options.output.empty())
+    return accumulates ? "--accumulate writes sums and no model; leave -o out and use --merge later"
+                       : "-o is needed: the model file to write";
+  if (!accumulates && !options.parts.dominance.empty())
+    return "--dominance belongs to --accumulate; sums that are merged bring their own";
+  if ((accumulates || merges) && options.method != "dam") return "sums exist for --method dam only";
+  return {};
+}
+
+// Options that mean nothing to most methods: said, rather than swallowed.
+std::string misplaced(const CLI::App& app, const std::string& method) {
+  const std::pair<const char*, const char*> owners[] = {
+      {"--order", "dam-paper"},
+      {"--single-mode", "dam-paper"},
+      {"--plain-sum", "dam-paper or cohen-massaro"},
+      {"--free-time", "dam-paper or cohen-massaro"},
+      {"--ridge", "dam-paper or cohen-massaro"},
+      {"--ridge-factor", "dam"},
+      {"--states", "mmm"},
+  };
+  for (const auto& [option, owner] : owners) {
+    const std::string names = std::string(" ") + owner + " ";
+    if (app.count(option) == 0 || names.find(" " + method + " ") != std::string::npos) continue;
+    return std::string(option) + " belongs to --method " + owner + ", not to " + method;
+  }
+  return {};
+}
+
+Result<int> run(const CLI::App& app, const Options& options) {
+  if (const std::string text = misuse(options); !text.empty()) return usage_error(text);
+  if (const std::string text = misplaced(app, options.method); !text.empty()) {
+    return usage_error(text);
+  }
+  if (!options.parts.merge.empty())
+    return merge(options.parts, options.output, train_options(options), options.json);
+  if (!options.parts.accumulate.empty())
+    return accumulate(options.parts, options.corpus, train_options(options), options.json);
+  return run_whole(options);
 }
 
 std::vector<std::string> method_names() {
@@ -96,12 +117,25 @@ std::vector<std::string> method_names() {
   return names;
 }
 
+void add_part_options(CLI::App& app, PartSettings& parts) {
+  app.add_option("--accumulate", parts.accumulate,
+                 "Add the sentences, one at a time, to this file of sums instead of training; a "
+                 "file that is there is continued and counts no sentence twice");
+  app.add_option("--dominance", parts.dominance,
+                 "With --accumulate: a model of the method dam (a file, or builtin) whose "
+                 "dominance the sums are taken for; the same for all parts; default: start values");
+  app.add_option("--save-every", parts.save_every,
+                 "With --accumulate: save after so many new sentences")
+      ->check(CLI::Range(std::size_t(1), std::size_t(1000000)))
+      ->capture_default_str();
+  app.add_option("--merge", parts.merge, "Train on the sums of these files instead of a corpus");
+}
+
 Action add(CLI::App& app) {
   auto options = std::make_shared<Options>();
   app.add_option("corpus", options->corpus.folder,
-                 "Folder with utterances.tsv, phonemes/ID.tsv and fap/ID.csv")
-      ->required();
-  app.add_option("-o,--output", options->output, "Model file to write")->required();
+                 "Folder with utterances.tsv, phonemes/ID.tsv and fap/ID.csv");
+  app.add_option("-o,--output", options->output, "Model file to write");
   app.add_option("--method", options->method, "Kind of model")
       ->check(CLI::IsMember(method_names()))
       ->capture_default_str();
@@ -110,30 +144,36 @@ Action add(CLI::App& app) {
   app.add_option("--controls", options->corpus.controls,
                  "Controls to learn: FAP numbers (3-13,51-60) or column names; default: all")
       ->delimiter(',');
-  app.add_option("--order", options->train.animeme.order, "Degree M of the polynomials")
+  app.add_option("--order", options->train.animeme.order, "dam-paper: degree M of the polynomials")
       ->check(CLI::Range(0, 8))
       ->capture_default_str();
   app.add_option("--states", options->train.trajectory.states,
                  "mmm: Gaussians a phone, one for each part of its time")
       ->check(CLI::Range(1, 8))
       ->capture_default_str();
-  app.add_flag("--single-mode", options->single_mode, "One mode a phone, no clustering");
+  app.add_flag("--single-mode", options->single_mode, "dam-paper: one mode a phone");
   app.add_flag("--plain-sum", options->plain_sum,
-               "Blend by the plain sum of Eq. 2 and do not divide by the sum of dominances");
+               "Methods of the paper: plain sum of Eq. 2, not divided by the sum of dominances");
   app.add_flag("--free-time", options->free_time,
-               "Extrapolate the polynomials freely, as the paper's equations say");
-  app.add_option("--ridge", options->train.animeme.ridge, "Ridge on the coefficients, in frames")
+               "Methods of the paper: extrapolate the polynomials freely");
+  app.add_option("--ridge-factor", options->train.refined.ridge,
+                 "dam: all ridges times this; 0 chooses by held-out sentences")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
+  app.add_option("--ridge", options->train.animeme.ridge,
+                 "Methods of the paper: ridge on the coefficients, in frames")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  app.add_option("--max-iterations", options->train.max_iterations, "EM steps at most")
+  app.add_option("--max-iterations", options->train.max_iterations, "Steps at most")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   app.add_option("--threads", options->train.threads, "0: as the machine has")
       ->check(CLI::Range(0, 1024));
-  app.add_option("--attribution", options->attribution,
+  app.add_option("--attribution", options->train.attribution,
                  "Whom to name when the model is passed on; kept in the model");
+  add_part_options(app, options->parts);
   app.add_flag("--json", options->json, "Machine-readable summary on standard output");
-  return [options] { return run(*options); };
+  return [&app, options] { return run(app, *options); };
 }
 
 }  // namespace
@@ -141,7 +181,10 @@ Action add(CLI::App& app) {
 const Command kTrain{
     "train", "Learn how a character talks from aligned recordings",
     "  animeme train my_corpus -o me.dam\n"
-    "  animeme train grid_s1 --split train --controls 3-13,16,17,51-60 -o grid_s1.dam",
+    "  animeme train grid_s1 --split train --controls 3-13,16,17,51-60 -o grid_s1.dam\n"
+    "  animeme train large/a --accumulate a.stats --dominance base.dam   (here)\n"
+    "  animeme train large/b --accumulate b.stats --dominance base.dam   (elsewhere)\n"
+    "  animeme train --merge a.stats b.stats -o large.dam",
     add};
 
 }  // namespace animeme::tools

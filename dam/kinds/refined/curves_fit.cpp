@@ -44,6 +44,7 @@ class Summer {
         target_sums_(RowMatrix::Zero(kSentences, k_)) {
     sums.gram.assign(space.size * space.size, 0.0);
     sums.right.assign(space.size * data.controls, 0.0);
+    sums.energy.assign(data.controls, 0.0);
   }
 
   void add(const FitSentence& sentence) {
@@ -51,7 +52,8 @@ class Summer {
     collect(sentence, design);
     expand(sentence);
     const double share = 1 / (double(frames_) + data_.offset_frames);
-    sums.energy -= share * target_sums_.row(waiting_).squaredNorm();
+    for (Eigen::Index c = 0; c < k_; ++c)
+      sums.energy[std::size_t(c)] -= share * target_sums_(waiting_, c) * target_sums_(waiting_, c);
     sums.frames += frames_;
     column_sums_.row(waiting_) *= std::sqrt(share);
     target_sums_.row(waiting_) *= std::sqrt(share);
@@ -91,7 +93,7 @@ class Summer {
       if (data_.speech->use[frame] == 0) continue;
       ++frames_;
       const Eigen::Map<const Eigen::RowVectorXd> y(&data_.target[frame * data_.controls], k_);
-      sums.energy += y.squaredNorm();
+      for (Eigen::Index c = 0; c < k_; ++c) sums.energy[std::size_t(c)] += y[c] * y[c];
       target_sums_.row(waiting_) += y;
       add_frame(sentence, design.frame(i), y);
     }
@@ -210,7 +212,7 @@ TermSpace term_space(const RefinedData& data) {
 void CurveSums::add(const CurveSums& other) {
   for (std::size_t i = 0; i < gram.size(); ++i) gram[i] += other.gram[i];
   for (std::size_t i = 0; i < right.size(); ++i) right[i] += other.right[i];
-  energy += other.energy;
+  for (std::size_t i = 0; i < energy.size(); ++i) energy[i] += other.energy[i];
   frames += other.frames;
 }
 
@@ -257,13 +259,18 @@ std::vector<double> solve_curves(const CurveSums& sums, const TermSpace& space,
   return std::vector<double>(n * controls, 0.0);
 }
 
-double error_of(const CurveSums& sums, const std::vector<double>& curves, std::size_t controls) {
+std::vector<double> errors_of(const CurveSums& sums, const std::vector<double>& curves,
+                              std::size_t controls) {
   const auto n = Eigen::Index(sums.right.size() / controls);
+  const auto k = Eigen::Index(controls);
   const Eigen::Map<const Eigen::MatrixXd> gram(sums.gram.data(), n, n);
-  const Eigen::Map<const RowMatrix> a(curves.data(), n, Eigen::Index(controls));
-  const Eigen::Map<const RowMatrix> right(sums.right.data(), n, Eigen::Index(controls));
+  const Eigen::Map<const RowMatrix> a(curves.data(), n, k);
+  const Eigen::Map<const RowMatrix> right(sums.right.data(), n, k);
   const RowMatrix product = gram.selfadjointView<Eigen::Lower>() * a;
-  return sums.energy - 2 * a.cwiseProduct(right).sum() + a.cwiseProduct(product).sum();
+  std::vector<double> errors = sums.energy;
+  for (Eigen::Index c = 0; c < k; ++c)
+    errors[std::size_t(c)] += a.col(c).dot(product.col(c)) - 2 * a.col(c).dot(right.col(c));
+  return errors;
 }
 
 }  // namespace animeme::dam

@@ -35,7 +35,7 @@ TermSpace term_space(const RefinedData& data);
 struct CurveSums {
   std::vector<double> gram;
   std::vector<double> right;
-  double energy = 0;  ///< squared targets
+  std::vector<double> energy;  ///< squared targets, per control
   std::size_t frames = 0;
 
   void add(const CurveSums& other);
@@ -52,7 +52,8 @@ std::vector<double> ridge_of(const TermSpace& space, double factor);
 std::vector<double> solve_curves(const CurveSums& sums, const TermSpace& space,
                                  std::size_t controls, double ridge_factor, int threads);
 
-/// Squared error of curves on the sentences that were summed.
-double error_of(const CurveSums& sums, const std::vector<double>& curves, std::size_t controls);
+/// Squared error of curves on the sentences that were summed, per control.
+std::vector<double> errors_of(const CurveSums& sums, const std::vector<double>& curves,
+                              std::size_t controls);
 
 }  // namespace animeme::dam

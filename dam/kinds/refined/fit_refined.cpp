@@ -5,9 +5,11 @@
 #include <cmath>
 
 #include "dam/detail/parallel.h"
+#include "dam/detail/train_notes.h"
 #include "dam/kinds/refined/curves_fit.h"
 #include "dam/kinds/refined/fit.h"
 #include "dam/kinds/refined/refined.h"
+#include "dam/kinds/refined/solve.h"
 
 namespace animeme::dam {
 namespace {
@@ -17,14 +19,6 @@ using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 constexpr Eigen::Index kMostComponents = 16;
 constexpr double kVariance = 0.99;
 constexpr std::size_t kHeldOut = 8;  // every so many sentences one is held out
-constexpr double kRidgeFactors[] = {1, 0.5, 2};
-
-/// Distance of the training mean from rest, in standard deviations.
-std::vector<double> mean_of(const std::vector<Control>& controls) {
-  std::vector<double> mean;
-  for (const Control& c : controls) mean.push_back(c.sd > 0 ? (c.mean - c.rest) / c.sd : 0.0);
-  return mean;
-}
 
 /// Directions (controls x components) in which the controls move together, the strongest first.
 /// The dominance is sought for these: all controls share it, so nothing but noise is lost.
@@ -55,7 +49,11 @@ std::vector<double> rotated(const std::vector<double>& rows, const Eigen::Matrix
 class Trainer {
  public:
   Trainer(const TrainingSet& set, const Model& model, const TrainOptions& options, TrainRun& run)
-      : options_(options), own_(options.refined), run_(run), mean_(mean_of(model.controls)) {
+      : options_(options),
+        own_(options.refined),
+        run_(run),
+        controls_(model.controls),
+        mean_(means_from_rest(model.controls)) {
     data_.speech = &set.data;
     data_.phones = model.phones;
     data_.controls = data_.prior_controls = set.data.controls;
@@ -102,62 +100,28 @@ class Trainer {
   Result<Parameters> finish(const TermSpace& space, std::vector<PhoneDominance> dominance) {
     const std::size_t count = data_.speech->sentences.size();
     std::vector<bool> held(count, false);
-    const bool choose = own_.ridge == 0 && count >= 2 * kHeldOut;
+    const bool choose = count >= 2 * kHeldOut;
     for (std::size_t s = kHeldOut / 2; choose && s < count; s += kHeldOut) held[s] = true;
     std::vector<bool> kept = held;
     kept.flip();
     CurveSums sums = sum_curves(data_, space, dominance, kept);
-    double factor = own_.ridge > 0 ? own_.ridge : 1.0;
+    RidgeChoice choice{own_.ridge > 0 ? own_.ridge : 1.0, {}};
     if (choose) {
       const CurveSums apart = sum_curves(data_, space, dominance, held);
-      factor = best_factor(space, sums, apart);
+      choice = choose_ridge(sums, apart, space, data_.controls, own_.ridge, options_.threads);
       sums.add(apart);
     }
     if (!run_.report("curves", 0.7)) return TrainRun::cancelled();
-    run_.summary.ridge = factor;
-    const auto curves = solve_curves(sums, space, data_.controls, factor, options_.threads);
-    return Parameters(store(space, curves, std::move(dominance)));
-  }
-
-  double best_factor(const TermSpace& space, const CurveSums& sums, const CurveSums& apart) const {
-    double best = 0, least = std::numeric_limits<double>::infinity();
-    for (const double factor : kRidgeFactors) {
-      const auto curves = solve_curves(sums, space, data_.controls, factor, options_.threads);
-      const double error = error_of(apart, curves, data_.controls);
-      if (error < least) {
-        least = error;
-        best = factor;
-      }
-    }
-    return best;
-  }
-
-  RefinedParameters store(const TermSpace& space, const std::vector<double>& curves,
-                          std::vector<PhoneDominance> dominance) const {
-    RefinedParameters parameters;
-    parameters.time_margin = own_.time_margin;
-    parameters.duration_exponent = own_.duration_exponent;
-    parameters.dominance = std::move(dominance);
-    const std::size_t k = data_.controls;
-    for (std::size_t t = 0; t < kTermCount; ++t) {
-      TermTable table;
-      table.term = kTermInfo[t].term;
-      table.orders = kTermInfo[t].orders;
-      table.keys = space.tables[t].keys;
-      const std::size_t values = table.keys.size() * table.orders * k;
-      const double* from = curves.data() + space.tables[t].first * k;
-      for (std::size_t i = 0; i < values; ++i) {
-        const bool level = table.term == RefinedTerm::phone && i / k % table.orders == 0;
-        table.values.push_back(float(from[i] + (level ? mean_[i % k] : 0.0)));
-      }
-      parameters.tables.push_back(std::move(table));
-    }
-    return parameters;
+    run_.summary.ridge = choice.factor;
+    if (choose) note_explained(controls_, choice.explained, true, run_.summary);
+    const auto curves = solve_curves(sums, space, data_.controls, choice.factor, options_.threads);
+    return Parameters(refined_parameters(space, curves, mean_, own_, std::move(dominance)));
   }
 
   const TrainOptions& options_;
   const RefinedOptions& own_;
   TrainRun& run_;
+  std::span<const Control> controls_;
   std::vector<double> mean_;
   RefinedData data_;
   DominanceOptions search_;

@@ -49,4 +49,22 @@ std::uint32_t largest_key(RefinedTerm term, std::size_t phones) {
   }
 }
 
+std::optional<std::uint32_t> phone_of_key(RefinedTerm term, std::uint32_t key) {
+  switch (term) {
+    case RefinedTerm::phone:
+    case RefinedTerm::duration:
+      return key;
+    case RefinedTerm::phone_left:
+    case RefinedTerm::phone_right:
+      return key / kClasses;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::uint32_t key_with_phone(RefinedTerm term, std::uint32_t key, std::uint32_t phone) {
+  const bool alone = term == RefinedTerm::phone || term == RefinedTerm::duration;
+  return alone ? phone : phone * kClasses + key % kClasses;
+}
+
 }  // namespace animeme::dam

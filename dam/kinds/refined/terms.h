@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "dam/model.h"
@@ -51,5 +52,10 @@ std::array<TermUse, kTermCount> terms_of(std::span<const PhoneModel> phones,
 
 /// Largest key a model of so many phones can have, for checks.
 std::uint32_t largest_key(RefinedTerm term, std::size_t phones);
+
+/// The phone that a key names; none for keys of classes.
+std::optional<std::uint32_t> phone_of_key(RefinedTerm term, std::uint32_t key);
+/// The same key, which must name a phone, for a phone that has another number.
+std::uint32_t key_with_phone(RefinedTerm term, std::uint32_t key, std::uint32_t phone);
 
 }  // namespace animeme::dam

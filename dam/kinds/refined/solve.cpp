@@ -1,0 +1,65 @@
+#include "dam/kinds/refined/solve.h"
+
+#include <limits>
+#include <numeric>
+
+namespace animeme::dam {
+namespace {
+
+constexpr double kRidgeFactors[] = {1, 0.5, 2};
+
+}  // namespace
+
+RidgeChoice choose_ridge(const CurveSums& kept, const CurveSums& held, const TermSpace& space,
+                         std::size_t controls, double wanted, int threads) {
+  RidgeChoice best;
+  double least = std::numeric_limits<double>::infinity();
+  const std::span<const double> factors =
+      wanted > 0 ? std::span<const double>(&wanted, 1) : std::span<const double>(kRidgeFactors);
+  best.factor = factors[0];
+  for (const double factor : factors) {
+    const auto curves = solve_curves(kept, space, controls, factor, threads);
+    const auto errors = errors_of(held, curves, controls);
+    const double error = std::accumulate(errors.begin(), errors.end(), 0.0);
+    if (!(error < least)) continue;
+    least = error;
+    best.factor = factor;
+    best.explained.assign(controls, 0.0);
+    for (std::size_t c = 0; c < controls; ++c)
+      if (held.energy[c] > 0) best.explained[c] = 1 - errors[c] / held.energy[c];
+  }
+  return best;
+}
+
+std::vector<double> means_from_rest(std::span<const Control> controls) {
+  std::vector<double> means;
+  for (const Control& c : controls) means.push_back(c.sd > 0 ? (c.mean - c.rest) / c.sd : 0.0);
+  return means;
+}
+
+RefinedParameters refined_parameters(const TermSpace& space, const std::vector<double>& curves,
+                                     const std::vector<double>& means,
+                                     const RefinedOptions& options,
+                                     std::vector<PhoneDominance> dominance) {
+  RefinedParameters parameters;
+  parameters.time_margin = options.time_margin;
+  parameters.duration_exponent = options.duration_exponent;
+  parameters.dominance = std::move(dominance);
+  const std::size_t k = means.size();
+  for (std::size_t t = 0; t < kTermCount; ++t) {
+    TermTable table;
+    table.term = kTermInfo[t].term;
+    table.orders = kTermInfo[t].orders;
+    table.keys = space.tables[t].keys;
+    const std::size_t values = table.keys.size() * table.orders * k;
+    const double* from = curves.data() + space.tables[t].first * k;
+    for (std::size_t i = 0; i < values; ++i) {
+      const bool level = table.term == RefinedTerm::phone && i / k % table.orders == 0;
+      table.values.push_back(float(from[i] + (level ? means[i % k] : 0.0)));
+    }
+    parameters.tables.push_back(std::move(table));
+  }
+  return parameters;
+}
+
+}  // namespace animeme::dam

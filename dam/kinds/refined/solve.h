@@ -1,0 +1,34 @@
+// From sums to the parameters of a model: what is the same whether the sums were taken in one go or
+// in parts. Internal.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "dam/kinds/refined/curves_fit.h"
+#include "dam/model.h"
+#include "dam/train.h"
+
+namespace animeme::dam {
+
+struct RidgeChoice {
+  double factor = 1;
+  /// Per control: 1 - error / energy on the sentences that were held out, 0 for a constant control.
+  std::vector<double> explained;
+};
+
+/// The factor among 1, 0.5 and 2 (a tie goes to the first) whose curves for `kept` have the least
+/// error on `held`; only `wanted`, if it is above 0.
+RidgeChoice choose_ridge(const CurveSums& kept, const CurveSums& held, const TermSpace& space,
+                         std::size_t controls, double wanted, int threads);
+
+/// Distance of the training means from rest, in standard deviations.
+std::vector<double> means_from_rest(std::span<const Control> controls);
+
+/// The model's tables. Curves were measured from the training mean, the model's are from rest.
+RefinedParameters refined_parameters(const TermSpace& space, const std::vector<double>& curves,
+                                     const std::vector<double>& means,
+                                     const RefinedOptions& options,
+                                     std::vector<PhoneDominance> dominance);
+
+}  // namespace animeme::dam

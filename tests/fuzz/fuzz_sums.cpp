@@ -1,0 +1,22 @@
+// Any bytes as a file of sums; what is accepted must read back the same and merge with its like,
+// and its model, if there is one, must be valid.
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+#include "dam/accumulate.h"
+#include "tests/support/sealed_model.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace animeme::dam;
+  std::vector<std::uint8_t> file(data, data + size);
+  if (size > 4) animeme::test::seal(file);  // or nothing would get past the checksum
+  auto sums = read_training_sums(file);
+  if (!sums) return 0;
+  auto again = read_training_sums(write_training_sums(*sums));
+  if (!again || again->digest() != sums->digest()) std::abort();
+  (void)sums->merge(*again);
+  const auto model = train_from_sums(std::move(*again));
+  if (model && !validate(*model)) std::abort();
+  return 0;
+}

@@ -1,0 +1,169 @@
+// `animeme train`, run as a user does: in one go and in parts.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "dam/model.h"
+#include "tests/support/program.h"
+#include "tests/support/shared.h"
+
+namespace animeme {
+namespace {
+
+using nlohmann::json;
+using test::animeme;
+using test::TempDir;
+using testing::AllOf;
+using testing::HasSubstr;
+
+const std::string& corpus() {
+  static const std::string path = (test::data_dir() / "grid_s1_sample").string();
+  return path;
+}
+
+test::ProgramResult train(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "train");
+  return animeme(arguments);
+}
+
+/// With --json; exit code 0 is asserted.
+json train_json(std::vector<std::string> arguments) {
+  arguments.push_back("--json");
+  const auto result = train(arguments);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  return json::parse(result.out, nullptr, false);
+}
+
+TEST(Train, ReportsStepsAndWhatItFound) {
+  const TempDir dir;
+  const json all = train_json({corpus(), "-o", dir / "m.dam"});
+  EXPECT_EQ(all["utterances"], 24);
+  EXPECT_EQ(all["converged"], true);
+  ASSERT_EQ(all["steps"].size(), all["iterations"].get<std::size_t>());
+  for (std::size_t i = 0; i < all["steps"].size(); ++i) {
+    const double before = all["objective"][i], after = all["objective"][i + 1];
+    EXPECT_DOUBLE_EQ(all["steps"][i]["objective"].get<double>(), after);
+    EXPECT_NEAR(all["steps"][i]["relative_fall"].get<double>(), (before - after) / before, 1e-12);
+  }
+  EXPECT_GT(all["ridge_factor"], 0);
+  EXPECT_EQ(all["explained"].size(), 26u);
+  EXPECT_EQ(all["explained_on"], "held_out");
+  EXPECT_EQ(all["unknown_phones"][0]["spoken_as"], "AH");
+  EXPECT_FALSE(all["rare_phones"].empty());
+  const auto text = train({corpus(), "-o", dir / "m.dam", "--max-iterations", "1"});
+  EXPECT_THAT(text.err, AllOf(HasSubstr("step 1: objective"), HasSubstr("% less"),
+                              HasSubstr("stopped after 1 steps"), HasSubstr("ridges times"),
+                              HasSubstr("leans on"), HasSubstr("spoken by relatives")));
+}
+
+/// A base, and parts for two halves of the sample.
+class TrainParts : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(train({corpus(), "-o", base()}).exit_code, 0);
+    ASSERT_EQ(part("train", dir_ / "a.stats").exit_code, 0);
+    ASSERT_EQ(part("test", dir_ / "b.stats").exit_code, 0);
+  }
+  std::string base() const { return dir_ / "base.dam"; }
+  test::ProgramResult part(const std::string& split, const std::string& file) const {
+    return train({corpus(), "--split", split, "--accumulate", file, "--dominance", base()});
+  }
+  TempDir dir_;
+};
+
+TEST_F(TrainParts, MergedTheyAreTheModelOfTheWholeInAnyOrder) {
+  const json ab =
+      train_json({"--merge", dir_ / "a.stats", dir_ / "b.stats", "-o", dir_ / "ab.dam"});
+  const json ba =
+      train_json({"--merge", dir_ / "b.stats", dir_ / "a.stats", "-o", dir_ / "ba.dam"});
+  EXPECT_EQ(test::slurp(dir_ / "ab.dam"), test::slurp(dir_ / "ba.dam"));
+  EXPECT_EQ(ab["utterances"], 24);
+  EXPECT_EQ(ab["explained"], ba["explained"]);
+  const auto model = dam::load_model(dir_ / "ab.dam"), whole = dam::load_model(base());
+  ASSERT_TRUE(model && whole);
+  EXPECT_EQ(model->phones, whole->phones);
+  EXPECT_THAT(model->provenance, HasSubstr("24 utterances, sums of 2 parts"));
+  EXPECT_EQ(animeme({"evaluate", dir_ / "ab.dam", corpus(), "--max-nrmse", "0.56"}).exit_code, 0);
+}
+
+TEST_F(TrainParts, TheSameCommandAgainAddsNothing) {
+  const std::string before = test::slurp(dir_ / "a.stats");
+  const json again = train_json(
+      {corpus(), "--split", "train", "--accumulate", dir_ / "a.stats", "--dominance", base()});
+  EXPECT_EQ(again["added"], 0);
+  EXPECT_EQ(again["already_there"], again["utterances"]);
+  EXPECT_EQ(test::slurp(dir_ / "a.stats"), before);
+}
+
+TEST_F(TrainParts, AnInterruptedRunGoesOn) {
+  // A corpus whose last sentence cannot be read: what came before is kept.
+  const auto copy = dir_.path() / "corpus";
+  std::filesystem::copy(corpus(), copy, std::filesystem::copy_options::recursive);
+  std::string last;
+  for (const auto& entry : std::filesystem::directory_iterator(copy / "phonemes"))
+    last = std::max(last, entry.path().filename().string());
+  const std::string good = test::slurp(copy / "phonemes" / last);
+  test::spill(copy / "phonemes" / last, "start_s\tend_s\tphone\n0\t1\tQQ\n");
+  const std::vector<std::string> command = {
+      copy.string(), "--accumulate", dir_ / "c.stats", "--dominance", base(), "--save-every", "5"};
+  const auto stopped = train(command);
+  EXPECT_EQ(stopped.exit_code, 3);
+  EXPECT_THAT(stopped.err, AllOf(HasSubstr(last), HasSubstr("QQ")));
+  test::spill(copy / "phonemes" / last, good);
+  const json resumed = train_json(command);
+  EXPECT_EQ(resumed["utterances"], 24);
+  EXPECT_GT(resumed["already_there"], 0);
+  EXPECT_EQ(resumed["added"].get<int>() + resumed["already_there"].get<int>(), 24);
+  ASSERT_EQ(train({corpus(), "--accumulate", dir_ / "d.stats", "--dominance", base()}).exit_code,
+            0);
+  EXPECT_EQ(test::slurp(dir_ / "c.stats"), test::slurp(dir_ / "d.stats"));
+  // A sentence that changed is refused by name.
+  test::spill(copy / "phonemes" / last, "start_s\tend_s\tphone\n0\t1\tSIL\n1\t2\tAA\n2\t3\tSIL\n");
+  const auto changed = train(command);
+  EXPECT_EQ(changed.exit_code, 3);
+  EXPECT_THAT(changed.err, AllOf(HasSubstr(last.substr(0, last.find('.'))), HasSubstr("changed")));
+}
+
+TEST_F(TrainParts, WhatDoesNotBelongTogetherIsRefusedWithTheFile) {
+  const auto fails = [&](std::vector<std::string> arguments, const std::string& file,
+                         const std::string& why) {
+    const auto result = train(std::move(arguments));
+    EXPECT_EQ(result.exit_code, 3) << result.err;
+    EXPECT_THAT(result.err, AllOf(HasSubstr(file), HasSubstr(why)));
+    EXPECT_FALSE(std::filesystem::exists(dir_ / "no.dam"));
+  };
+  ASSERT_EQ(train({corpus(), "--split", "test", "--accumulate", dir_ / "plain.stats"}).exit_code,
+            0);
+  fails({"--merge", dir_ / "a.stats", dir_ / "plain.stats", "-o", dir_ / "no.dam"}, ".stats",
+        "dominance");
+  fails({corpus(), "--accumulate", dir_ / "plain.stats", "--dominance", base()}, "plain.stats",
+        "dominance");
+  fails({corpus(), "--accumulate", dir_ / "a.stats", "--controls", "3-5"}, corpus(), "controls");
+  fails({"--merge", dir_ / "a.stats", dir_ / "a.stats", "-o", dir_ / "no.dam"}, "a.stats", "twice");
+  test::spill(dir_ / "cut.stats", test::slurp(dir_ / "a.stats").substr(0, 5000));
+  fails({"--merge", dir_ / "cut.stats", "-o", dir_ / "no.dam"}, "cut.stats", "cut off");
+  fails({corpus(), "--accumulate", dir_ / "cut.stats"}, "cut.stats", "cut off");
+  fails({"--merge", base(), "-o", dir_ / "no.dam"}, "base.dam", "not a file of sums");
+  fails({"--merge", dir_ / "none.stats", "-o", dir_ / "no.dam"}, "none.stats", "cannot open");
+}
+
+TEST_F(TrainParts, OptionsThatDoNotGoTogether) {
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {corpus()},
+           {"-o", dir_ / "no.dam"},
+           {corpus(), "--accumulate", dir_ / "x.stats", "-o", dir_ / "no.dam"},
+           {corpus(), "-o", dir_ / "no.dam", "--merge", dir_ / "a.stats"},
+           {corpus(), "--accumulate", dir_ / "x.stats", "--merge", dir_ / "a.stats"},
+           {corpus(), "-o", dir_ / "no.dam", "--dominance", base()},
+           {corpus(), "--accumulate", dir_ / "x.stats", "--method", "dam-paper"}}) {
+    const auto result = train(arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(dir_ / "no.dam"));
+    EXPECT_FALSE(std::filesystem::exists(dir_ / "x.stats"));
+  }
+}
+
+}  // namespace
+}  // namespace animeme

@@ -1,0 +1,127 @@
+#include "tools/commands/train_parts.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "dam/accumulate.h"
+#include "tools/commands/train_report.h"
+
+namespace animeme::tools {
+
+namespace {
+
+// New sums, or those that are there already.
+Result<dam::TrainingSums> open_sums(const PartSettings& parts, const dam::TrainOptions& train) {
+  dam::Model base;
+  if (!parts.dominance.empty()) {
+    Result<dam::Model> read = read_model_or_builtin(parts.dominance);
+    if (!read) return read.error();
+    base = std::move(*read);
+  }
+  Result<dam::TrainingSums> fresh =
+      dam::TrainingSums::start(train, parts.dominance.empty() ? nullptr : &base);
+  if (!fresh) return fresh.error().in_file(parts.dominance);
+  std::error_code ignored;
+  if (!std::filesystem::exists(parts.accumulate, ignored)) return fresh;
+  Result<dam::TrainingSums> there = dam::load_training_sums(parts.accumulate);
+  if (!there || parts.dominance.empty()) return there;  // which brings its own base
+  if (auto same = there->check_same_base(*fresh); !same) {
+    return same.error().in_file(parts.accumulate);
+  }
+  return there;
+}
+
+// Sums on their way to the disk.
+class Accumulator {
+ public:
+  Accumulator(dam::TrainingSums sums, const PartSettings& parts)
+      : sums_(std::move(sums)), parts_(parts) {}
+
+  Result<void> add(const dam::Utterance& sentence, std::size_t row, std::size_t rows) {
+    line_.update(double(row) / double(rows),
+                 "sentence " + std::to_string(row + 1) + " of " + std::to_string(rows));
+    Result<bool> added = sums_.add(sentence);
+    if (!added) return added.error();
+    ++(*added ? added_ : there_);
+    return added_ >= saved_ + parts_.save_every ? save() : Result<void>();
+  }
+
+  bool unsaved() const { return added_ > saved_; }
+
+  Result<void> save() {
+    auto done = dam::save_training_sums(sums_, parts_.accumulate);
+    if (done) saved_ = added_;
+    return done;
+  }
+
+  void report(std::size_t skipped, bool json) {
+    line_.clear();
+    if (json) {
+      const nlohmann::ordered_json out = {{"sums", parts_.accumulate},
+                                          {"added", added_},
+                                          {"already_there", there_},
+                                          {"skipped", skipped},
+                                          {"utterances", sums_.sentences()},
+                                          {"frames", sums_.frames()},
+                                          {"controls", sums_.controls().size()}};
+      std::printf("%s\n", out.dump(2).c_str());
+      return;
+    }
+    say(parts_.accumulate + ": " + std::to_string(added_) + " sentences added, " +
+        std::to_string(there_) + " were there already; " + std::to_string(sums_.sentences()) +
+        " sentences, " + std::to_string(sums_.frames()) + " frames");
+  }
+
+ private:
+  dam::TrainingSums sums_;
+  const PartSettings& parts_;
+  std::size_t added_ = 0, there_ = 0, saved_ = 0;
+  ProgressLine line_{"accumulating"};
+};
+
+}  // namespace
+
+Result<int> accumulate(const PartSettings& parts, const CorpusSettings& corpus,
+                       const dam::TrainOptions& train, bool json) {
+  Result<dam::TrainingSums> sums = open_sums(parts, train);
+  if (!sums) return sums.error();
+  Accumulator accumulator(std::move(*sums), parts);
+  const Result<std::size_t> skipped =
+      visit_corpus(corpus, [&](const dam::Utterance& sentence, std::size_t row, std::size_t rows) {
+        return accumulator.add(sentence, row, rows);
+      });
+  // What came before a bad sentence is kept: after the repair the same command goes on.
+  const Result<void> saved = accumulator.unsaved() ? accumulator.save() : Result<void>();
+  if (!skipped) return skipped.error().in_file(corpus.folder);
+  if (!saved) return saved.error();
+  accumulator.report(*skipped, json);
+  return kOk;
+}
+
+Result<int> merge(const PartSettings& parts, const std::string& output, dam::TrainOptions train,
+                  bool json) {
+  const std::vector<std::filesystem::path> paths(parts.merge.begin(), parts.merge.end());
+  Result<dam::TrainingSums> sums = dam::merge_training_sums(paths);
+  if (!sums) return sums.error();
+  train.provenance = "animeme " ANIMEME_VERSION ", method dam, " +
+                     std::to_string(sums->sentences()) + " utterances, sums of " +
+                     std::to_string(paths.size()) + (paths.size() == 1 ? " part" : " parts");
+  dam::TrainSummary summary;
+  Result<dam::Model> model = dam::train_from_sums(std::move(*sums), train, &summary);
+  if (!model) return model.error().in_file(parts.merge[0]);
+  for (const std::string& text : summary.warnings) warn(text);
+  if (auto written = write_file(output, dam::write_model(*model)); !written) {
+    return written.error();
+  }
+  if (json) {
+    auto out = train_json(output, *model, summary);
+    out["parts"] = parts.merge;
+    std::printf("%s\n", out.dump(2).c_str());
+  } else {
+    say_training(output, *model, summary, 0);
+  }
+  return kOk;
+}
+
+}  // namespace animeme::tools

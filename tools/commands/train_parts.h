@@ -1,0 +1,26 @@
+// `train --accumulate` and `train --merge`.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "dam/train.h"
+#include "tools/commands/model_input.h"
+
+namespace animeme::tools {
+
+struct PartSettings {
+  std::string accumulate;  ///< file of sums to begin or to continue
+  std::string dominance;   ///< model for the dominance; empty: start values
+  std::size_t save_every = 200;
+  std::vector<std::string> merge;  ///< files of sums
+};
+
+Result<int> accumulate(const PartSettings& parts, const CorpusSettings& corpus,
+                       const dam::TrainOptions& train, bool json);
+
+Result<int> merge(const PartSettings& parts, const std::string& output, dam::TrainOptions train,
+                  bool json);
+
+}  // namespace animeme::tools
