@@ -58,6 +58,27 @@ TEST(AffinityPropagation, MatchesTheBestOfAllChoicesOfExemplars) {
   EXPECT_NEAR(net_similarity(found), best, 1e-9);
 }
 
+TEST(AffinityPropagation, FiveParticipantsOfAPublishedExample) {
+  // The worked example of Thavikulwat, "Affinity propagation: a clustering algorithm for
+  // computer-assisted business simulations and experiential exercises", 2008: the answers of
+  // five people to five questions; the preference is the least similarity. The first three belong
+  // together, and so do the last two.
+  const double answers[5][5] = {
+      {3, 4, 3, 2, 1}, {4, 3, 5, 1, 1}, {3, 5, 3, 3, 3}, {2, 1, 3, 3, 2}, {1, 1, 3, 2, 3}};
+  std::vector<double> similarity;
+  for (const auto& a : answers)
+    for (const auto& b : answers) {
+      double s = 0;
+      for (int q = 0; q < 5; ++q) s -= (a[q] - b[q]) * (a[q] - b[q]);
+      similarity.push_back(s);
+    }
+  EXPECT_THAT(std::vector<double>(similarity.begin(), similarity.begin() + 5),
+              ElementsAre(0, -7, -6, -12, -17));
+  const double preference = *std::min_element(similarity.begin(), similarity.end());
+  EXPECT_EQ(preference, -22);
+  EXPECT_THAT(affinity_propagation(similarity, preference).label, ElementsAre(0u, 0u, 0u, 1u, 1u));
+}
+
 TEST(AffinityPropagation, OnePointAndEqualPoints) {
   EXPECT_THAT(affinity_propagation(std::vector<double>{0}, -1).exemplars, ElementsAre(0u));
   const auto equal = affinity_propagation(std::vector<double>(16, 0.0), -1);

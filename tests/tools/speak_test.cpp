@@ -191,8 +191,8 @@ TEST(Speak, WithAModelOfAnyMethod) {
   const TempDir dir;
   const std::string sample = (test::data_dir() / "grid_s1_sample").string();
   for (const char* method : {"cohen-massaro", "mmm", "mean", "viseme", "triphone"}) {
-    const auto trained = animeme({"train", sample, "--method", method, "--states", "1",
-                                  "--max-iterations", "2", "-o", dir / "m.dam"});
+    const auto trained = animeme(
+        {"train", sample, "--method", method, "--max-iterations", "1", "-o", dir / "m.dam"});
     ASSERT_EQ(trained.exit_code, 0) << trained.err;
     const auto info = animeme({"info", dir / "m.dam", "--json"});
     ASSERT_EQ(info.exit_code, 0) << info.err;
@@ -204,6 +204,10 @@ TEST(Speak, WithAModelOfAnyMethod) {
   EXPECT_EQ(
       animeme({"train", sample, "--method", "mmm", "--states", "9", "-o", dir / "m.dam"}).exit_code,
       2);
+  // An option of another method is said, not swallowed.
+  const auto misplaced = animeme({"train", sample, "--plain-sum", "-o", dir / "m.dam"});
+  EXPECT_EQ(misplaced.exit_code, 2);
+  EXPECT_THAT(misplaced.err, HasSubstr("--plain-sum belongs to --method dam-paper"));
 }
 
 TEST(Speak, SameInputGivesTheSameBytes) {

@@ -5,133 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dam/detail/parallel.h"
 #include "dam/kinds/projection.h"
+#include "dam/kinds/refined/base_curves.h"
 #include "dam/kinds/refined/dominance.h"
-#include "dam/kinds/refined/fit.h"
 
 namespace animeme::dam {
 namespace {
 
-using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using Row = Eigen::Array<double, 1, Eigen::Dynamic>;
-
-constexpr std::size_t kParts = 8;  // sums are split into so many, whatever the threads
 constexpr double kStartWidth = 0.08;
 constexpr double kLeastWidth = 0.004, kMostWidth = 0.6, kMostLogStrength = 3, kMostLogStep = 0.7;
 constexpr std::size_t kPerPhone = 3;  // log L, log R, log strength
-
-std::size_t unknowns_of(const RefinedData& data) { return data.phones.size() * kRefinedOrders; }
-
-double curve_ridge(double ridge, std::size_t order) {
-  return ridge * (order == 0 ? 0.05 : double(order));
-}
-
-/// Everything about one sentence that sums need.
-class SentenceView {
- public:
-  SentenceView(const RefinedData& data, const FitSentence& sentence,
-               std::span<const PhoneDominance> dominance)
-      : data_(data), sentence_(sentence), design_(make_refined_design(data, sentence, dominance)) {
-    for (std::size_t i = 0; i < sentence.frames; ++i)
-      if (data.speech->use[sentence.first_frame + i] != 0) used_.push_back(i);
-  }
-  std::span<const std::size_t> used() const { return used_; }
-  std::span<const RefinedPart> parts(std::size_t i) const { return design_.frame(i); }
-  /// Divisor of the products of sums.
-  double offset() const { return double(used_.size()) + data_.offset_frames; }
-
-  Eigen::Map<const Row> target(std::size_t i) const {
-    return {&data_.target[(sentence_.first_frame + i) * data_.controls],
-            Eigen::Index(data_.controls)};
-  }
-
- private:
-  const RefinedData& data_;
-  const FitSentence& sentence_;
-  RefinedDesign design_;
-  std::vector<std::size_t> used_;
-};
-
-/// Runs over all sentences in kParts pieces and adds the pieces up in their order.
-template <class Sums, class Add>
-Sums sum_over(const RefinedData& data, const Sums& zero, const Add& add) {
-  const std::size_t count = data.speech->sentences.size();
-  std::vector<Sums> parts(std::min(kParts, count), zero);
-  parallel_for(parts.size(), data.threads, [&](std::size_t p) {
-    for (std::size_t s = p * count / parts.size(); s < (p + 1) * count / parts.size(); ++s)
-      add(data.speech->sentences[s], parts[p]);
-  });
-  for (std::size_t p = 1; p < parts.size(); ++p) parts[0] += parts[p];
-  return std::move(parts[0]);
-}
-
-/// The normal equations of the base curves.
-struct BaseSums {
-  Eigen::MatrixXd gram;
-  RowMatrix right;
-  double energy = 0;
-
-  BaseSums& operator+=(const BaseSums& o) {
-    gram += o.gram;
-    right += o.right;
-    energy += o.energy;
-    return *this;
-  }
-};
-
-void add_base(const SentenceView& view, BaseSums& sums) {
-  Eigen::VectorXd column_sum = Eigen::VectorXd::Zero(sums.gram.rows());
-  Eigen::RowVectorXd target_sum = Eigen::RowVectorXd::Zero(sums.right.cols());
-  for (const std::size_t i : view.used()) {
-    const Row y = view.target(i);
-    sums.energy += y.square().sum();
-    target_sum += y.matrix();
-    for (const RefinedPart& a : view.parts(i)) {
-      const auto row = Eigen::Index(a.phone * kRefinedOrders);
-      for (std::size_t m = 0; m < kRefinedOrders; ++m) {
-        const double x = a.weight * a.basis[m];
-        sums.right.row(row + Eigen::Index(m)).array() += x * y;
-        column_sum[row + Eigen::Index(m)] += x;
-      }
-      for (const RefinedPart& b : view.parts(i)) {
-        const auto column = Eigen::Index(b.phone * kRefinedOrders);
-        for (std::size_t n = 0; n < kRefinedOrders; ++n) {
-          const double w = a.weight * b.weight * b.basis[n];
-          double* out = &sums.gram(row, column + Eigen::Index(n));
-          for (std::size_t m = 0; m < kRefinedOrders; ++m) out[m] += w * a.basis[m];
-        }
-      }
-    }
-  }
-  const double share = 1 / view.offset();
-  sums.gram.noalias() -= share * column_sum * column_sum.transpose();
-  sums.right.noalias() -= share * column_sum * target_sum;
-  sums.energy -= share * target_sum.squaredNorm();
-}
-
-struct Base {
-  Eigen::LLT<Eigen::MatrixXd> factor;
-  RowMatrix curves;
-  double objective = 0;  // without the prior of the dominance
-};
-
-Base solve_base(const RefinedData& data, const DominanceOptions& options,
-                std::span<const PhoneDominance> dominance) {
-  const auto n = Eigen::Index(unknowns_of(data));
-  const BaseSums zero{Eigen::MatrixXd::Zero(n, n), RowMatrix::Zero(n, Eigen::Index(data.controls)),
-                      0};
-  BaseSums sums = sum_over(data, zero, [&](const FitSentence& sentence, BaseSums& part) {
-    add_base(SentenceView(data, sentence, dominance), part);
-  });
-  for (Eigen::Index i = 0; i < n; ++i)
-    sums.gram(i, i) += std::max(1e-6, curve_ridge(options.ridge, std::size_t(i) % kRefinedOrders));
-  Base base;
-  base.factor.compute(sums.gram);
-  base.curves = base.factor.solve(sums.right);
-  base.objective = sums.energy - base.curves.cwiseProduct(sums.right).sum();
-  return base;
-}
 
 double prior_of(const RefinedData& data, const DominanceOptions& options,
                 std::span<const PhoneDominance> dominance) {
