@@ -62,12 +62,10 @@ Result<fba::AccessUnits> access_units(const FaceInput& face, const StreamSetting
 }
 
 Result<int> write_media(const std::string& path, const fba::AccessUnits& units,
-                        const media::Pcm* audio, int audio_bit_rate) {
+                        const media::Pcm* audio, media::MuxOptions options) {
   media::MuxInput input;
   input.face = &units;
   input.audio = audio;
-  media::MuxOptions options;
-  options.audio_bit_rate = audio_bit_rate;
   ProgressLine progress("writing " + path);
   options.progress = [&progress](double done) { progress.update(done); };
   if (auto written = media::write_container(path, input, options); !written) {

@@ -6,7 +6,7 @@
 #include "codec/access_unit.h"
 #include "codec/encode.h"
 #include "tools/commands/common.h"
-#include "tools/media/pcm.h"
+#include "tools/media/mux.h"
 
 namespace animeme::tools {
 
@@ -36,6 +36,6 @@ Result<fba::AccessUnits> access_units(const FaceInput& face, const StreamSetting
 
 /// Writes a container with progress and says what was written. `audio` may be null.
 Result<int> write_media(const std::string& path, const fba::AccessUnits& units,
-                        const media::Pcm* audio, int audio_bit_rate);
+                        const media::Pcm* audio, media::MuxOptions options);
 
 }  // namespace animeme::tools

@@ -16,7 +16,7 @@ struct Options {
   std::string audio;
   std::string output;
   StreamSettings stream;
-  int bit_rate = 64000;
+  media::MuxOptions mux;
 };
 
 Result<int> run(const Options& options) {
@@ -34,7 +34,7 @@ Result<int> run(const Options& options) {
     warn("the face lasts " + seconds_text(face->clip.duration()) + ", the sound " +
          seconds_text(audio->duration()));
   }
-  return write_media(options.output, *units, &*audio, options.bit_rate);
+  return write_media(options.output, *units, &*audio, options.mux);
 }
 
 Action add(CLI::App& app) {
@@ -43,9 +43,11 @@ Action add(CLI::App& app) {
   app.add_option("audio", options->audio, "Sound in any format that FFmpeg reads")->required();
   app.add_option("-o,--output", options->output, "File to write: .mp4, .mkv or .ts")->required();
   add_stream_options(app, options->stream);
-  app.add_option("--audio-bitrate", options->bit_rate, "Bits a second of the AAC track")
+  app.add_option("--audio-bitrate", options->mux.audio_bit_rate, "Bits a second of the AAC track")
       ->check(CLI::Range(8000, 320000))
       ->capture_default_str();
+  app.add_flag("--systems", options->mux.systems,
+               "mp4: add the scene and object streams of a complete MPEG-4 Systems presentation");
   return [options] { return run(*options); };
 }
 
@@ -53,7 +55,8 @@ Action add(CLI::App& app) {
 
 const Command kMux{"mux", "Put a face and a voice into one file",
                    "  animeme mux talk.fba voice.wav -o talk.mp4\n"
-                   "  animeme mux talk.fap voice.flac --quant 2 -o talk.mkv",
+                   "  animeme mux talk.fap voice.flac --quant 2 -o talk.mkv\n"
+                   "  animeme mux talk.fba voice.wav --systems -o scene.mp4",
                    add};
 
 }  // namespace animeme::tools

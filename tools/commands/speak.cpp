@@ -24,7 +24,7 @@ struct Options {
   std::string rate = "25";
   std::string save_script;
   StreamSettings stream;
-  int bit_rate = 64000;
+  media::MuxOptions mux;
   double style = 1;
   bool no_closure = false;
   bool life = false;
@@ -95,7 +95,7 @@ Result<int> write_result(const Options& options, const fap::Sequence& clip, cons
   if (!units) return units.error();
   const media::Pcm* audio = spoken.audio ? &*spoken.audio : nullptr;
   if (audio == nullptr) warn("there is no recorded voice (--audio), the file will be silent");
-  return write_media(options.output, *units, audio, options.bit_rate);
+  return write_media(options.output, *units, audio, options.mux);
 }
 
 void report(const Options& options, const Spoken& spoken, const dam::Signal& signal,
@@ -191,7 +191,7 @@ Action add(CLI::App& app) {
   app.add_option("--seed", options->seed, "Other times of blinks and another sway of the head")
       ->needs("--life");
   add_stream_options(app, options->stream);
-  app.add_option("--audio-bitrate", options->bit_rate, "Bits a second of the AAC track")
+  app.add_option("--audio-bitrate", options->mux.audio_bit_rate, "Bits a second of the AAC track")
       ->check(CLI::Range(8000, 320000))
       ->capture_default_str();
   app.add_flag("--json", options->json, "Machine-readable summary on standard output");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 
 #include "tools/media/audio.h"
@@ -10,6 +11,7 @@
 #include "tools/media/detail/mp4_fix.h"
 #include "tools/media/detail/muxer.h"
 #include "tools/media/detail/output_file.h"
+#include "tools/media/detail/systems_movie.h"
 
 namespace animeme::media {
 namespace {
@@ -57,6 +59,9 @@ Result<void> check(const MuxInput& input, const MuxOptions& options) {
       Result<void> legal = check_unit(face, i);
       if (!legal) return legal;
     }
+  }
+  if (options.systems && input.face == nullptr) {
+    return make_error(Code::unsupported, "a Systems presentation needs a face");
   }
   if (input.audio != nullptr) {
     if (input.audio->samples.empty()) return invalid("the sound is empty");
@@ -183,6 +188,19 @@ Result<void> write_streams(const std::string& path, MuxFormat format, const MuxI
   return done ? muxer.finish() : done;
 }
 
+Result<void> write_systems(const std::string& path, const MuxInput& input, const Pcm* sound,
+                           const MuxOptions& options) {
+  Result<Mp4Movie> movie = systems_movie(*input.face, sound, visual_profile(input), options);
+  if (!movie) return movie.error();
+  Result<std::vector<std::uint8_t>> bytes = write_movie(*movie);
+  if (!bytes) return bytes.error();
+  std::ofstream out(path, std::ios::binary | std::ios::trunc);
+  out.write(reinterpret_cast<const char*>(bytes->data()), std::streamsize(bytes->size()));
+  out.close();
+  if (!out) return make_error(Code::io, "cannot write the file; check the free space");
+  return {};
+}
+
 Result<void> write_file(const std::string& path, MuxFormat format, const MuxInput& input,
                         const MuxOptions& options) {
   Result<void> legal = check(input, options);
@@ -198,8 +216,12 @@ Result<void> write_file(const std::string& path, MuxFormat format, const MuxInpu
   }
   Result<OutputFile> out = OutputFile::create(path);
   if (!out) return out.error();
-  Result<void> written = write_streams(out->temporary(), format, input, sound, options);
-  if (written && format == MuxFormat::mp4) written = clear_es_ids(out->temporary());
+  Result<void> written = options.systems
+                             ? write_systems(out->temporary(), input, sound, options)
+                             : write_streams(out->temporary(), format, input, sound, options);
+  if (written && format == MuxFormat::mp4 && !options.systems) {
+    written = clear_es_ids(out->temporary());
+  }
   if (written) written = out->commit();
   if (written && options.progress) options.progress(1.0);
   return written;
@@ -225,6 +247,9 @@ Result<void> write_container(const std::string& path, const MuxInput& input,
   std::string extension = std::filesystem::path(path).extension().string();
   for (char& c : extension) {
     if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+  }
+  if (options.systems && extension != ".mp4") {
+    return make_error(Code::unsupported, "a Systems presentation is an .mp4 file").in_file(path);
   }
   const bool sound_only = extension == ".m4a" || extension == ".mka";
   if (sound_only && input.face != nullptr) {

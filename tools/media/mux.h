@@ -34,6 +34,10 @@ struct MuxOptions {
   int audio_bit_rate = 64000;
   /// mp4: contents before data, so that a player can begin while it loads.
   bool faststart = true;
+  /// mp4: a complete MPEG-4 Systems presentation with a scene of a face and a sound, an object
+  /// stream and the initial object descriptor; for players and tools of MPEG-4 Systems. It is made
+  /// in memory, with the contents first, and limited to 4 GB.
+  bool systems = false;
   /// Called with 0..1 from time to time, at last with 1; empty: not wanted.
   std::function<void(double)> progress = {};
 };
@@ -54,7 +58,8 @@ Result<void> write_mp4(const std::string& path, const MuxInput& input,
 /// mkv: times are rounded to 1 ms and everything is moved by the AAC priming (21.3 ms at 48 kHz),
 /// face against sound at most 0.5 ms off. ts: configuration in front of each intra plane,
 /// stream type 0x10, the same common shift, 90 kHz clock, 188 bytes or more for each plane.
-/// Further error: unsupported (another extension; a face in .m4a or .mka).
+/// Further error: unsupported (another extension; a face in .m4a or .mka; a Systems presentation
+/// that is no mp4 or has no face).
 Result<void> write_container(const std::string& path, const MuxInput& input,
                              const MuxOptions& options = {});
 

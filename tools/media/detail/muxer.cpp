@@ -1,7 +1,8 @@
 #include "tools/media/detail/muxer.h"
 
-#include <algorithm>
 #include <cstring>
+
+#include "tools/media/detail/unit_facts.h"
 
 namespace animeme::media {
 namespace {
@@ -26,28 +27,6 @@ std::uint32_t container_timescale(std::uint32_t timescale) {
   return timescale * ((kLowestTimescale + timescale - 1) / timescale);
 }
 
-std::int64_t largest_unit(const fba::AccessUnits& face) {
-  std::size_t largest = 0;
-  for (const fba::AccessUnit& unit : face.units) largest = std::max(largest, unit.bytes.size());
-  return std::int64_t(largest);
-}
-
-// The most bits in any second that begins with a unit.
-std::int64_t peak_bit_rate(const fba::AccessUnits& face) {
-  std::int64_t peak = 0;
-  std::int64_t bits = 0;
-  std::size_t end = 0;
-  for (const fba::AccessUnit& first : face.units) {
-    while (end < face.units.size() &&
-           face.units[end].time - first.time < std::int64_t(face.timescale)) {
-      bits += 8 * std::int64_t(face.units[end++].bytes.size());
-    }
-    peak = std::max(peak, bits);
-    bits -= 8 * std::int64_t(first.bytes.size());
-  }
-  return peak;
-}
-
 bool set_extradata(AVCodecParameters& parameters, const std::vector<std::uint8_t>& bytes) {
   auto* data = static_cast<std::uint8_t*>(av_mallocz(bytes.size() + AV_INPUT_BUFFER_PADDING_SIZE));
   if (data == nullptr) return false;
@@ -61,7 +40,7 @@ bool set_buffer_facts(AVStream& stream, const fba::AccessUnits& face) {
   std::size_t size = 0;
   AVCPBProperties* facts = av_cpb_properties_alloc(&size);
   if (facts == nullptr) return false;
-  facts->buffer_size = 8 * largest_unit(face);
+  facts->buffer_size = 8 * std::int64_t(largest_unit(face));
   facts->max_bitrate = peak_bit_rate(face);
   auto* data = reinterpret_cast<std::uint8_t*>(facts);
   if (av_stream_add_side_data(&stream, AV_PKT_DATA_CPB_PROPERTIES, data, size) >= 0) return true;

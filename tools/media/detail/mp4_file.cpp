@@ -1,0 +1,262 @@
+#include "tools/media/detail/mp4_file.h"
+
+#include <algorithm>
+
+#include "tools/media/detail/box_writer.h"
+
+namespace animeme::media {
+namespace {
+
+constexpr std::uint64_t kLargestFile = 0xFFFFFFFFu;
+
+/// `value` ticks of one scale in another, rounded.
+std::int64_t rescale(std::int64_t value, std::uint32_t from, std::uint32_t to) {
+  return std::int64_t((double(value) * to) / from + 0.5);
+}
+
+/// Where a sample lies in the file, and when it is due.
+struct Place {
+  std::size_t track = 0, sample = 0;
+  double time = 0;
+};
+
+std::vector<Place> in_order_of_time(const Mp4Movie& movie) {
+  std::vector<Place> places;
+  for (std::size_t t = 0; t < movie.tracks.size(); ++t) {
+    const Mp4Track& track = movie.tracks[t];
+    std::int64_t time = track.start;
+    for (std::size_t s = 0; s < track.samples.size(); ++s) {
+      // What describes the presentation comes before all of it.
+      places.push_back({t, s, track.presented ? double(time) / track.timescale : -1e9});
+      time += track.samples[s].duration;
+    }
+  }
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& a, const Place& b) { return a.time < b.time; });
+  return places;
+}
+
+void write_matrix(BoxWriter& out) {
+  for (const std::uint32_t value : {0x10000u, 0u, 0u, 0u, 0x10000u, 0u, 0u, 0u, 0x40000000u})
+    out.u32(value);
+}
+
+class Writer {
+ public:
+  Writer(const Mp4Movie& movie, const std::vector<std::vector<std::uint64_t>>& offsets)
+      : movie_(movie), offsets_(offsets) {}
+
+  std::vector<std::uint8_t> contents() {
+    out_.begin("ftyp");
+    out_.text("mp42");
+    out_.u32(0);
+    out_.text("mp42isom");
+    out_.end();
+    out_.begin("moov");
+    write_header();
+    out_.begin_full("iods", 0, 0);
+    out_.raw(movie_.initial_object_descriptor);
+    out_.end();
+    for (std::size_t t = 0; t < movie_.tracks.size(); ++t)
+      write_track(movie_.tracks[t], offsets_[t]);
+    out_.end();
+    return out_.bytes();
+  }
+
+ private:
+  /// What a track takes of the presentation, in the movie's scale.
+  std::int64_t shown(const Mp4Track& track) const {
+    return rescale(std::max<std::int64_t>(track.start, 0) + track.length, track.timescale,
+                   movie_.timescale);
+  }
+
+  void write_header() {
+    std::int64_t duration = 0;
+    unsigned next = 1;
+    for (const Mp4Track& track : movie_.tracks) {
+      duration = std::max(duration, shown(track));
+      next = std::max(next, track.id + 1);
+    }
+    out_.begin_full("mvhd", 0, 0);
+    out_.u32(0);
+    out_.u32(0);
+    out_.u32(movie_.timescale);
+    out_.u32(std::uint64_t(duration));
+    out_.u32(0x10000);
+    out_.u16(0x100);
+    out_.zeros(10);
+    write_matrix(out_);
+    out_.zeros(24);
+    out_.u32(next);
+    out_.end();
+  }
+
+  void write_track(const Mp4Track& track, const std::vector<std::uint64_t>& offsets) {
+    out_.begin("trak");
+    out_.begin_full("tkhd", 0, track.presented ? 3 : 1);
+    out_.u32(0);
+    out_.u32(0);
+    out_.u32(track.id);
+    out_.u32(0);
+    out_.u32(std::uint64_t(shown(track)));
+    out_.zeros(12);
+    out_.u16(track.handler == "soun" ? 0x100 : 0);
+    out_.u16(0);
+    write_matrix(out_);
+    out_.u32(std::uint64_t(track.width) << 16);
+    out_.u32(std::uint64_t(track.height) << 16);
+    out_.end();
+    write_edits(track);
+    if (!track.references.empty()) {
+      out_.begin("tref");
+      out_.begin("mpod");
+      for (const unsigned id : track.references) out_.u32(id);
+      out_.end();
+      out_.end();
+    }
+    write_media(track, offsets);
+    out_.end();
+  }
+
+  void write_edits(const Mp4Track& track) {
+    if (track.start == 0) return;
+    out_.begin("edts");
+    out_.begin_full("elst", 0, 0);
+    out_.u32(track.start > 0 ? 2 : 1);
+    if (track.start > 0) edit(rescale(track.start, track.timescale, movie_.timescale), -1);
+    edit(rescale(track.length, track.timescale, movie_.timescale),
+         std::max<std::int64_t>(0, -track.start));
+    out_.end();
+    out_.end();
+  }
+
+  void edit(std::int64_t duration, std::int64_t media_time) {
+    out_.u32(std::uint64_t(duration));
+    out_.u32(std::uint32_t(media_time));
+    out_.u32(0x10000);
+  }
+
+  void write_media(const Mp4Track& track, const std::vector<std::uint64_t>& offsets) {
+    std::int64_t duration = 0;
+    for (const Mp4Sample& sample : track.samples) duration += sample.duration;
+    out_.begin("mdia");
+    out_.begin_full("mdhd", 0, 0);
+    out_.u32(0);
+    out_.u32(0);
+    out_.u32(track.timescale);
+    out_.u32(std::uint64_t(duration));
+    out_.u16(0x55C4);  // no language
+    out_.u16(0);
+    out_.end();
+    out_.begin_full("hdlr", 0, 0);
+    out_.u32(0);
+    out_.text(track.handler);
+    out_.zeros(12);
+    out_.text(track.name);
+    out_.u8(0);
+    out_.end();
+    out_.begin("minf");
+    write_media_header(track.handler);
+    out_.begin("dinf");
+    out_.begin_full("dref", 0, 0);
+    out_.u32(1);
+    out_.begin_full("url ", 0, 1);  // in this file
+    out_.end();
+    out_.end();
+    out_.end();
+    write_sample_table(track, offsets);
+    out_.end();
+    out_.end();
+  }
+
+  void write_media_header(const std::string& handler) {
+    const bool video = handler == "vide", sound = handler == "soun";
+    out_.begin_full(video ? "vmhd" : sound ? "smhd" : "nmhd", 0, video ? 1 : 0);
+    out_.zeros(video ? 8 : sound ? 4 : 0);
+    out_.end();
+  }
+
+  void write_sample_table(const Mp4Track& track, const std::vector<std::uint64_t>& offsets) {
+    out_.begin("stbl");
+    out_.begin_full("stsd", 0, 0);
+    out_.u32(1);
+    out_.raw(track.entry);
+    out_.end();
+    write_times(track);
+    write_sync(track);
+    out_.begin_full("stsc", 0, 0);  // one sample a chunk
+    for (int i = 0; i < 4; ++i) out_.u32(1);
+    out_.end();
+    out_.begin_full("stsz", 0, 0);
+    out_.u32(0);
+    out_.u32(track.samples.size());
+    for (const Mp4Sample& sample : track.samples) out_.u32(sample.bytes.size());
+    out_.end();
+    out_.begin_full("stco", 0, 0);
+    out_.u32(offsets.size());
+    for (const std::uint64_t offset : offsets) out_.u32(offset);
+    out_.end();
+    out_.end();
+  }
+
+  void write_times(const Mp4Track& track) {
+    std::vector<std::pair<std::uint32_t, std::int64_t>> runs;  // count, duration
+    for (const Mp4Sample& sample : track.samples) {
+      if (runs.empty() || runs.back().second != sample.duration)
+        runs.emplace_back(0, sample.duration);
+      ++runs.back().first;
+    }
+    out_.begin_full("stts", 0, 0);
+    out_.u32(runs.size());
+    for (const auto& [count, duration] : runs) {
+      out_.u32(count);
+      out_.u32(std::uint64_t(duration));
+    }
+    out_.end();
+  }
+
+  void write_sync(const Mp4Track& track) {
+    std::vector<std::uint32_t> sync;
+    for (std::size_t s = 0; s < track.samples.size(); ++s)
+      if (track.samples[s].sync) sync.push_back(std::uint32_t(s + 1));
+    if (sync.size() == track.samples.size()) return;  // all are
+    out_.begin_full("stss", 0, 0);
+    out_.u32(sync.size());
+    for (const std::uint32_t number : sync) out_.u32(number);
+    out_.end();
+  }
+
+  const Mp4Movie& movie_;
+  const std::vector<std::vector<std::uint64_t>>& offsets_;
+  BoxWriter out_;
+};
+
+}  // namespace
+
+Result<std::vector<std::uint8_t>> write_movie(const Mp4Movie& movie) {
+  const std::vector<Place> places = in_order_of_time(movie);
+  std::vector<std::vector<std::uint64_t>> offsets;
+  for (const Mp4Track& track : movie.tracks) offsets.emplace_back(track.samples.size(), 0);
+  // The contents have the same size whatever the offsets are.
+  std::uint64_t at = Writer(movie, offsets).contents().size() + 8;
+  const std::uint64_t data_begin = at - 8;
+  for (const Place& place : places) {
+    offsets[place.track][place.sample] = at;
+    at += movie.tracks[place.track].samples[place.sample].bytes.size();
+  }
+  if (at > kLargestFile)
+    return make_error(Code::out_of_range, "the file would be larger than 4 GB; cut the clip");
+  std::vector<std::uint8_t> file = Writer(movie, offsets).contents();
+  BoxWriter data;
+  data.u32(at - data_begin);
+  data.text("mdat");
+  file.reserve(at);
+  for (const std::uint8_t byte : data.bytes()) file.push_back(byte);
+  for (const Place& place : places) {
+    const auto& bytes = movie.tracks[place.track].samples[place.sample].bytes;
+    file.insert(file.end(), bytes.begin(), bytes.end());
+  }
+  return file;
+}
+
+}  // namespace animeme::media

@@ -1,0 +1,178 @@
+#include "tools/media/detail/systems_movie.h"
+
+#include <algorithm>
+
+#include "tools/media/detail/aac_encoder.h"
+#include "tools/media/detail/box_writer.h"
+#include "tools/media/detail/systems_scene.h"
+#include "tools/media/detail/unit_facts.h"
+
+namespace animeme::media {
+namespace {
+
+constexpr unsigned kSceneStream = 3, kObjectStream = 1, kVisualStream = 4, kAudioStream = 5;
+constexpr unsigned kSystems = 0x01, kVisual = 0x20, kAac = 0x40;
+constexpr unsigned kAacLevel2 = 0x29, kUnspecified = 0xFE, kNoneRequired = 0xFF;
+constexpr unsigned kWidth = 320, kHeight = 240;  // a face has no size; readers want one
+constexpr std::uint32_t kSystemsTimescale = 1000;
+
+void put_esds(BoxWriter& out, const StreamDescription& stream) {
+  out.begin_full("esds", 0, 0);
+  out.raw(elementary_stream_descriptor(stream));
+  out.end();
+}
+
+/// Begins any sample entry.
+void begin_entry(BoxWriter& out, const char* type) {
+  out.begin(type);
+  out.zeros(6);
+  out.u16(1);  // data reference
+}
+
+std::vector<std::uint8_t> systems_entry(const StreamDescription& stream) {
+  BoxWriter out;
+  begin_entry(out, "mp4s");
+  put_esds(out, stream);
+  out.end();
+  return out.bytes();
+}
+
+std::vector<std::uint8_t> visual_entry(const StreamDescription& stream) {
+  BoxWriter out;
+  begin_entry(out, "mp4v");
+  out.zeros(16);
+  out.u16(kWidth);
+  out.u16(kHeight);
+  out.u32(72 << 16);  // dots an inch
+  out.u32(72 << 16);
+  out.u32(0);
+  out.u16(1);     // frame a sample
+  out.zeros(32);  // name of the compressor
+  out.u16(24);
+  out.u16(0xFFFF);
+  put_esds(out, stream);
+  out.end();
+  return out.bytes();
+}
+
+std::vector<std::uint8_t> sound_entry(const StreamDescription& stream, int sample_rate) {
+  BoxWriter out;
+  begin_entry(out, "mp4a");
+  out.zeros(8);
+  out.u16(2);  // always, by the template; the configuration tells the channels
+  out.u16(16);
+  out.u32(0);
+  out.u32(sample_rate < 65536 ? std::uint64_t(sample_rate) << 16 : 0);
+  put_esds(out, stream);
+  out.end();
+  return out.bytes();
+}
+
+/// A track that holds one unit for the whole presentation.
+Mp4Track constant_track(unsigned id, const char* handler, const char* name, unsigned stream_type,
+                        std::vector<std::uint8_t> unit, std::span<const std::uint8_t> config,
+                        std::int64_t length) {
+  Mp4Track track;
+  track.id = id;
+  track.handler = handler;
+  track.name = name;
+  track.timescale = kSystemsTimescale;
+  track.length = length;
+  track.presented = false;
+  track.entry = systems_entry({kSystems, stream_type, unit.size(), 0, 0, config});
+  track.samples = {{std::move(unit), length, true}};
+  return track;
+}
+
+Mp4Track face_track(const fba::AccessUnits& face) {
+  Mp4Track track;
+  track.id = kFaceTrack;
+  track.handler = "vide";
+  track.name = "FBA";
+  track.timescale = face.timescale;
+  track.width = kWidth;
+  track.height = kHeight;
+  track.start = face.units.front().time;
+  for (std::size_t i = 0; i < face.units.size(); ++i) {
+    const fba::AccessUnit& unit = face.units[i];
+    const bool last = i + 1 == face.units.size();
+    const std::int64_t duration = last ? unit.duration : face.units[i + 1].time - unit.time;
+    track.samples.push_back({unit.bytes, duration, unit.intra});
+    track.length += duration;
+  }
+  StreamDescription stream{kVisual, kVisualStream, largest_unit(face), 0, 0, face.config};
+  stream.max_bit_rate = std::uint32_t(peak_bit_rate(face));
+  stream.average_bit_rate = std::uint32_t(mean_bit_rate(face));
+  track.entry = visual_entry(stream);
+  return track;
+}
+
+Result<Mp4Track> sound_track(const Pcm& sound, int bit_rate) {
+  Result<AacEncoder> aac = AacEncoder::open(sound, bit_rate);
+  if (!aac) return aac.error();
+  const av::Packet packet(av_packet_alloc());
+  if (!packet) return make_error(Code::out_of_range, "not enough memory");
+  Mp4Track track;
+  track.id = kSoundTrack;
+  track.handler = "soun";
+  track.name = "audio";
+  track.timescale = std::uint32_t(sound.sample_rate);
+  track.length = std::int64_t(sound.samples.size());
+  std::size_t largest = 0;
+  for (;;) {
+    Result<bool> got = aac->next(*packet);
+    if (!got) return got.error();
+    if (!*got) break;
+    if (track.samples.empty()) track.start = packet->pts;
+    const auto size = std::size_t(packet->size);
+    track.samples.push_back({{packet->data, packet->data + size}, packet->duration, true});
+    largest = std::max(largest, size);
+    av_packet_unref(packet.get());
+  }
+  const AVCodecContext& codec = aac->codec();
+  StreamDescription stream{kAac, kAudioStream, largest, 0, 0, {}};
+  stream.max_bit_rate = stream.average_bit_rate = std::uint32_t(codec.bit_rate);
+  stream.config = {codec.extradata, std::size_t(codec.extradata_size)};
+  track.entry = sound_entry(stream, sound.sample_rate);
+  return track;
+}
+
+std::int64_t milliseconds(const Mp4Track& track) {
+  const double ticks = double(std::max<std::int64_t>(track.start, 0) + track.length);
+  return std::int64_t(ticks * kSystemsTimescale / track.timescale + 0.5);
+}
+
+}  // namespace
+
+Result<Mp4Movie> systems_movie(const fba::AccessUnits& face, const Pcm* sound, int visual_profile,
+                               const MuxOptions& options) {
+  Mp4Movie movie;
+  Mp4Track visual = face_track(face);
+  std::int64_t length = milliseconds(visual);
+  // The unit of track durations; 1 ms would round them.
+  movie.timescale = sound != nullptr ? std::uint32_t(sound->sample_rate) : face.timescale;
+  std::vector<Mp4Track> media;
+  media.push_back(std::move(visual));
+  if (sound != nullptr) {
+    Result<Mp4Track> track = sound_track(*sound, options.audio_bit_rate);
+    if (!track) return track.error();
+    length = std::max(length, milliseconds(*track));
+    media.push_back(std::move(*track));
+  }
+  const std::vector<std::uint8_t> config = scene_config();
+  movie.tracks.push_back(constant_track(kSceneTrack, "sdsm", "scene", kSceneStream,
+                                        scene_unit(sound != nullptr), config, length));
+  movie.tracks.push_back(constant_track(kObjectTrack, "odsm", "od", kObjectStream,
+                                        object_unit(sound != nullptr), {}, length));
+  movie.tracks.back().references = {kFaceTrack};
+  if (sound != nullptr) movie.tracks.back().references.push_back(kSoundTrack);
+  for (Mp4Track& track : media) movie.tracks.push_back(std::move(track));
+  const unsigned audio_profile = sound == nullptr              ? kNoneRequired
+                                 : sound->sample_rate <= 48000 ? kAacLevel2
+                                                               : kUnspecified;
+  movie.initial_object_descriptor =
+      initial_object_descriptor(audio_profile, unsigned(visual_profile));
+  return movie;
+}
+
+}  // namespace animeme::media
