@@ -8,11 +8,10 @@
 #include "dam/detail/statistics.h"
 #include "dam/detail/training_set.h"
 #include "dam/detail/training_sums.h"
+#include "dam/kinds/refined/solve.h"
 
 namespace animeme::dam {
 namespace {
-
-constexpr std::uint64_t kHeldOut = 8;  // one of so many sentences
 
 Error refused(const std::string& what) { return make_error(Code::invalid_argument, what); }
 

@@ -13,7 +13,6 @@
 namespace animeme::dam {
 namespace {
 
-constexpr std::size_t kChooseFrom = 16;  // sentences; fewer do not choose the ridge
 constexpr double kConstantRange = 1e-9;  // values closer together do not move
 constexpr double kOtherPace = 1.5;       // usual durations further off than this factor
 constexpr std::uint64_t kEnoughExamples = 30;
@@ -74,14 +73,6 @@ CurveSums standardised(FitSums fit, std::span<const Control> controls) {
     out.energy[c] = std::max(0.0, energy) / (sd * sd);
   }
   return out;
-}
-
-std::vector<double> explained_by(const CurveSums& sums, const std::vector<double>& curves,
-                                 std::size_t controls) {
-  std::vector<double> share = errors_of(sums, curves, controls);
-  for (std::size_t c = 0; c < controls; ++c)
-    share[c] = sums.energy[c] > 0 ? 1 - share[c] / sums.energy[c] : 0.0;
-  return share;
 }
 
 void warn_of_pace(const SumsState& state, TrainSummary& summary) {
@@ -150,7 +141,7 @@ Result<Model> train_from_sums(TrainingSums sums, const TrainOptions& options,
   if (model.phones.empty())
     return make_error(Code::invalid_argument, "no sentence has a phone other than silence");
   const std::size_t k = model.controls.size();
-  const bool choose = state->sentences.size() >= kChooseFrom && state->kept.sentences > 0 &&
+  const bool choose = state->sentences.size() >= kLeastToChoose && state->kept.sentences > 0 &&
                       state->held.sentences > 0;
   CurveSums all = standardised(std::move(state->kept), model.controls);
   const CurveSums held = standardised(std::move(state->held), model.controls);
@@ -158,7 +149,8 @@ Result<Model> train_from_sums(TrainingSums sums, const TrainOptions& options,
   if (choose) choice = choose_ridge(all, held, space, k, options.refined.ridge, options.threads);
   all.add(held);
   const auto curves = solve_curves(all, space, k, choice.factor, options.threads);
-  note_explained(model.controls, choose ? choice.explained : explained_by(all, curves, k), choose,
+  note_explained(model.controls,
+                 choose ? choice.explained : explained_by(all, errors_of(all, curves, k)), choose,
                  out);
   RefinedOptions refined;
   refined.time_margin = state->base.refined.time_margin;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "dam/detail/raised_cosine.h"
 #include "dam/fap_signal.h"
 #include "dam/phones.h"
 
@@ -40,7 +40,7 @@ void close_pair(Signal& signal, const LipPair& pair, const FrameSpan& span, doub
   for (std::size_t i = span.first; i < span.last; ++i) {
     const double x = (signal.time(i) - centre) / half_width;
     if (std::abs(x) >= 1) continue;
-    const double shift = amount * 0.5 * (1 + std::cos(std::numbers::pi * x));
+    const double shift = amount * raised_bell(x);
     add(i, pair.upper, kUpperShare * shift);
     add(i, pair.lower, (1 - kUpperShare) * shift);
     add(i, pair.outer_upper, options.upper_follow * kUpperShare * shift);
@@ -84,7 +84,7 @@ bool raise_to_teeth(Signal& signal, const Phone& phone, const std::array<LipPair
   for (std::size_t i = span.first; i < span.last; ++i) {
     const double x = (signal.time(i) - centre) / half_width;
     if (std::abs(x) >= 1) continue;
-    const double shift = missing * 0.5 * (1 + std::cos(std::numbers::pi * x));
+    const double shift = missing * raised_bell(x);
     for (const LipPair& pair : pairs) {
       if (pair.upper < 0 || pair.lower < 0) continue;
       const LipChannels lips{std::size_t(pair.upper), std::size_t(pair.lower)};

@@ -4,28 +4,10 @@
 #include <vector>
 
 #include "dam/detail/evaluate_sums.h"
+#include "dam/detail/random.h"
 
 namespace animeme::dam {
 namespace {
-
-/// SplitMix64: small, and the same with every standard library.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  /// 0 .. count - 1. `count` is far below 2^32, so the bias of the product is nothing.
-  std::size_t below(std::size_t count) {
-    return std::size_t(((next() >> 32) * std::uint64_t(count)) >> 32);
-  }
-
- private:
-  std::uint64_t next() {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
-  std::uint64_t state_;
-};
 
 /// The errors of one system over a set of sentences.
 struct Errors {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "dam/detail/raised_cosine.h"
+#include "dam/detail/random.h"
 #include "dam/detail/timeline.h"
 #include "dam/fap_signal.h"
 #include "dam/phones.h"
@@ -21,31 +23,10 @@ constexpr double kBrow = 60;                              // ENS units, about 3 
 constexpr double kDegree = std::numbers::pi / 180 * 1e5;  // in units of 1e-5 rad
 constexpr double kNod = 1.5;                              // degrees
 
-/// 0..1, the same on every machine (Steele, Lea and Flood's splitmix).
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  double operator()(double low, double high) {
-    state_ += 0x9E3779B97F4A7C15u;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return low + (high - low) * double((z ^ (z >> 31)) >> 11) / 9007199254740992.0;
-  }
-
- private:
-  std::uint64_t state_;
-};
-
-/// 0 at 0, 1 at 1 and beyond, a raised cosine between.
-double rise(double x) {
-  x = std::clamp(x, 0.0, 1.0);
-  return 0.5 * (1 - std::cos(std::numbers::pi * x));
-}
-
 /// Up from `begin` to `top`, down from `fall` to `end`.
 double bump(double time, double begin, double top, double fall, double end) {
-  return std::min(rise((time - begin) / (top - begin)), rise((end - time) / (end - fall)));
+  return std::min(raised_step((time - begin) / (top - begin)),
+                  raised_step((end - time) / (end - fall)));
 }
 
 std::vector<double> blink_times(const std::vector<Stretch>& speech, double duration,
@@ -59,7 +40,7 @@ std::vector<double> blink_times(const std::vector<Stretch>& speech, double durat
   double last = 0;
   std::size_t w = 0;
   for (;;) {
-    double next = last + random(kShortInterval, kLongInterval);
+    double next = last + random.between(kShortInterval, kLongInterval);
     while (w < wished.size() && wished[w] < last + kLeastInterval) ++w;
     if (w < wished.size() && wished[w] < next + kLeastInterval) next = wished[w];
     if (next + kClosing + kClosed + kOpening > duration) return times;
@@ -121,7 +102,7 @@ class Rules {
   Rules(const Script& script, double duration, const LifeOptions& options) : duration_(duration) {
     Random random(options.seed);
     const auto speech = speech_stretches(script);
-    for (double& phase : phase_) phase = random(0, 2 * std::numbers::pi);
+    for (double& phase : phase_) phase = random.between(0, 2 * std::numbers::pi);
     blinks_ = blink_times(speech, duration, random);
     accents_ = find_accents(script, speech);
   }

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "dam/detail/frames.h"
+#include "dam/detail/raised_cosine.h"
 #include "dam/kinds/kind.h"
 #include "dam/phones.h"
 
@@ -16,6 +16,11 @@ constexpr double kClosureReach = 0.35;  // seconds: half a phone, its search and
 constexpr double kBehind = 0.5;         // seconds made anew before a piece, for the closures in it
 constexpr std::size_t kNeighbours = 2;  // phones on each side that a phone's shape depends on
 constexpr double kForever = std::numeric_limits<double>::infinity();
+
+/// Seconds beside a phone beyond which neither it nor the rest of a pause is felt.
+double reach_of(const Model& model) {
+  return std::max(kind_of(model.method).reach(model), model.pause_edge);
+}
 
 Result<void> check(const StreamOptions& options) {
   if (auto ok = validate(options.synthesis); !ok) return ok;
@@ -42,14 +47,10 @@ Result<void> check_next(const Phone& phone, double known) {
 
 }  // namespace
 
-double exact_look_ahead(const Model& model) {
-  return std::max(kind_of(model.method).reach(model), model.pause_edge) + kClosureReach;
-}
+double exact_look_ahead(const Model& model) { return reach_of(model) + kClosureReach; }
 
 SpeechStream::SpeechStream(const Model& model, const StreamOptions& options)
-    : model_(&model),
-      options_(options),
-      reach_(std::max(kind_of(model.method).reach(model), model.pause_edge)) {}
+    : model_(&model), options_(options), reach_(reach_of(model)) {}
 
 Result<void> SpeechStream::push(const Phone& phone) {
   if (auto ok = check(options_); !ok) return ok;
@@ -131,7 +132,7 @@ void SpeechStream::lead_over(Signal& signal) const {
   for (std::size_t i = before + 1; i < signal.frames(); ++i) {
     const double x = double(i - before) / std::max(fade, 1e-9);
     if (x >= 1) break;
-    const double share = 0.5 * (1 + std::cos(std::numbers::pi * x));
+    const double share = raised_bell(x);
     for (std::size_t c = 0; c < controls; ++c) signal.at(i, c) += share * offset[c];
   }
 }

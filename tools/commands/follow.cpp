@@ -7,6 +7,7 @@
 #include "dam/phones.h"
 #include "dam/stream.h"
 #include "fap/rate_text.h"
+#include "tools/commands/curve_text.h"
 #include "tools/commands/model_input.h"
 
 namespace animeme::tools {
@@ -48,11 +49,7 @@ bool is_to_be_skipped(const std::string& text) {
 /// False if nobody reads any more.
 bool print_rows(const dam::Signal& signal) {
   for (std::size_t frame = 0; frame < signal.frames(); ++frame) {
-    std::printf("%.6f", signal.time(frame));
-    for (std::size_t control = 0; control < signal.names.size(); ++control) {
-      std::printf(",%.6g", signal.at(frame, control));
-    }
-    std::printf("\n");
+    std::fputs(curve_row(signal, frame).c_str(), stdout);
   }
   return std::fflush(stdout) == 0;
 }
@@ -71,9 +68,9 @@ Result<int> run(const Options& options) {
   settings.synthesis.style = options.style;
   if (options.look_ahead >= 0) settings.look_ahead = options.look_ahead;
   dam::SpeechStream stream(*model, settings);
-  std::printf("time_s");
-  for (const dam::Control& control : model->controls) std::printf(",%s", control.name.c_str());
-  std::printf("\n");
+  std::vector<std::string> names;
+  for (const dam::Control& control : model->controls) names.push_back(control.name);
+  std::fputs(curve_header(names).c_str(), stdout);
   std::string text;
   for (std::int64_t line = 1; std::getline(std::cin, text); ++line) {
     if (is_to_be_skipped(text)) continue;

@@ -9,6 +9,7 @@
 #include "dam/synthesise.h"
 #include "fap/rate_text.h"
 #include "fap/text.h"
+#include "tools/commands/curve_text.h"
 #include "tools/commands/face_stream.h"
 #include "tools/commands/model_input.h"
 #include "tools/commands/spoken.h"
@@ -44,19 +45,8 @@ bool is_output(const std::string& path) {
 
 // The signal as it is, one column a control: for models of other rigs than FAPs.
 Result<int> write_curves(const std::string& path, const dam::Signal& signal) {
-  std::string text = "time_s";
-  for (const std::string& name : signal.names) text += "," + name;
-  text += "\n";
-  char number[40];
-  for (std::size_t frame = 0; frame < signal.frames(); ++frame) {
-    std::snprintf(number, sizeof number, "%.6f", signal.time(frame));
-    text += number;
-    for (std::size_t control = 0; control < signal.names.size(); ++control) {
-      std::snprintf(number, sizeof number, ",%.6g", signal.at(frame, control));
-      text += number;
-    }
-    text += "\n";
-  }
+  std::string text = curve_header(signal.names);
+  for (std::size_t frame = 0; frame < signal.frames(); ++frame) text += curve_row(signal, frame);
   if (auto done = write_file(path, text); !done) return done.error();
   say(path + ": " + std::to_string(signal.frames()) + " frames of " +
       std::to_string(signal.names.size()) + " controls");

@@ -18,7 +18,6 @@ using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 
 constexpr Eigen::Index kMostComponents = 16;
 constexpr double kVariance = 0.99;
-constexpr std::size_t kHeldOut = 8;  // every so many sentences one is held out
 
 /// Directions (controls x components) in which the controls move together, the strongest first.
 /// The dominance is sought for these: all controls share it, so nothing but noise is lost.
@@ -100,7 +99,7 @@ class Trainer {
   Result<Parameters> finish(const TermSpace& space, std::vector<PhoneDominance> dominance) {
     const std::size_t count = data_.speech->sentences.size();
     std::vector<bool> held(count, false);
-    const bool choose = count >= 2 * kHeldOut;
+    const bool choose = count >= kLeastToChoose;
     for (std::size_t s = kHeldOut / 2; choose && s < count; s += kHeldOut) held[s] = true;
     std::vector<bool> kept = held;
     kept.flip();

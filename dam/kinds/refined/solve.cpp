@@ -10,6 +10,13 @@ constexpr double kRidgeFactors[] = {1, 0.5, 2};
 
 }  // namespace
 
+std::vector<double> explained_by(const CurveSums& sums, const std::vector<double>& errors) {
+  std::vector<double> share(errors.size(), 0.0);
+  for (std::size_t c = 0; c < share.size(); ++c)
+    if (sums.energy[c] > 0) share[c] = 1 - errors[c] / sums.energy[c];
+  return share;
+}
+
 RidgeChoice choose_ridge(const CurveSums& kept, const CurveSums& held, const TermSpace& space,
                          std::size_t controls, double wanted, int threads) {
   RidgeChoice best;
@@ -24,9 +31,7 @@ RidgeChoice choose_ridge(const CurveSums& kept, const CurveSums& held, const Ter
     if (!(error < least)) continue;
     least = error;
     best.factor = factor;
-    best.explained.assign(controls, 0.0);
-    for (std::size_t c = 0; c < controls; ++c)
-      if (held.energy[c] > 0) best.explained[c] = 1 - errors[c] / held.energy[c];
+    best.explained = explained_by(held, errors);
   }
   return best;
 }

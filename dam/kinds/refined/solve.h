@@ -13,9 +13,15 @@ namespace animeme::dam {
 
 struct RidgeChoice {
   double factor = 1;
-  /// Per control: 1 - error / energy on the sentences that were held out, 0 for a constant control.
-  std::vector<double> explained;
+  std::vector<double> explained;  ///< explained_by() on the sentences that were held out
 };
+
+/// One sentence of so many is held out to choose the ridge, if there are twice as many at least.
+inline constexpr std::size_t kHeldOut = 8;
+inline constexpr std::size_t kLeastToChoose = 2 * kHeldOut;
+
+/// Per control: 1 - error / energy of the sentences that were summed, 0 for a constant control.
+std::vector<double> explained_by(const CurveSums& sums, const std::vector<double>& errors);
 
 /// The factor among 1, 0.5 and 2 (a tie goes to the first) whose curves for `kept` have the least
 /// error on `held`; only `wanted`, if it is above 0.

@@ -40,13 +40,8 @@ class Voice {
   void add(std::size_t j) {
     const Occurrence& o = speech_.timeline[j];
     const PhoneDominance& d = parameters_.dominance[std::size_t(speech_.phone[j])];
-    const double rate = speech_.rate.frames_per_second();
-    const auto frame_at = [&](double frame) {
-      return std::size_t(
-          std::clamp(frame - double(speech_.first_frame), 0.0, double(speech_.frames)));
-    };
-    const std::size_t first = frame_at(std::ceil((o.start - reach_before(d)) * rate));
-    const std::size_t last = frame_at(std::floor((o.end() + reach_after(d)) * rate) + 1);
+    const auto [first, last] =
+        speech_.frames_between(o.start - reach_before(d), o.end() + reach_after(d));
     if (first >= last) return;
     const PhoneModel& phone = speech_.model.phones[std::size_t(speech_.phone[j])];
     const double strength =

@@ -1,8 +1,8 @@
 #include "dam/kinds/table/contexts.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
+
+#include "dam/detail/raised_cosine.h"
 
 namespace animeme::dam {
 
@@ -25,8 +25,7 @@ std::array<CurveKey, kCurveLevels> curve_keys(const Model& model, std::int32_t p
 
 double fade(double u, double reach) {
   const double outside = std::max(-u, u - 1);  // negative inside
-  const double x = std::clamp(0.5 * (1 - outside / reach), 0.0, 1.0);
-  return 0.5 * (1 - std::cos(std::numbers::pi * x));
+  return raised_step(0.5 * (1 - outside / reach));
 }
 
 }  // namespace animeme::dam
