@@ -21,11 +21,13 @@ Error error_in(const fs::path& file, Code code, std::string message, std::size_t
   return {code, std::move(message), {file.string(), std::int64_t(line), 0, -1}};
 }
 
-Result<std::string> read_file(const fs::path& path) {
+constexpr const char* kWantedByRow =
+    "cannot open this file, which its row in utterances.tsv asks for";
+
+/// `missing`: the sentence for a file that cannot be opened.
+Result<std::string> read_file(const fs::path& path, const char* missing = kWantedByRow) {
   std::ifstream in(path, std::ios::binary);
-  if (!in)
-    return error_in(path, Code::not_found,
-                    "cannot open this file, which its row in utterances.tsv asks for");
+  if (!in) return error_in(path, Code::not_found, missing);
   std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   if (in.bad()) return error_in(path, Code::io, "cannot read this file");
   return text;
@@ -43,7 +45,7 @@ bool safe_id(std::string_view id) {
 }
 
 Result<std::vector<Utterance>> read_rows(const fs::path& path, const CorpusOptions& options) {
-  const auto text = read_file(path);
+  const auto text = read_file(path, "cannot open this table; a corpus is a folder that holds it");
   if (!text) return text.error();
   const auto lines = table_lines(*text);
   if (lines.empty()) return error_in(path, Code::truncated, "the table is empty");
