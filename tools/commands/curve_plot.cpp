@@ -19,7 +19,9 @@ constexpr double kHeading = 30;
 constexpr double kAxis = 30;
 constexpr double kPixelsPerSecond = 260;
 constexpr double kLeastPixelsPerSecond = 19;
-constexpr double kWidest = 8000;
+// A width that fits a screen; phones need more room to be read.
+constexpr double kWide = 2400;
+constexpr double kWideWithPhones = 8000;
 constexpr const char* kColours[] = {"#1f5fbf", "#d1495b", "#2a8c55"};
 
 std::string escape(std::string_view text) {
@@ -56,12 +58,14 @@ struct Axis {
 
 Axis axis_of(const std::vector<PlotPanel>& panels) {
   Axis axis{panels.empty() ? 0 : panels.front().begin, 0, kPixelsPerSecond};
+  double wide = kWide;
   for (const PlotPanel& panel : panels) {
+    if (panel.script != nullptr) wide = kWideWithPhones;
     axis.begin = std::min(axis.begin, panel.begin);
     axis.end = std::max(axis.end, panel.seconds);
   }
   const double seconds = std::max(axis.end - axis.begin, 0.04);
-  axis.scale = std::clamp(kWidest / seconds, kLeastPixelsPerSecond, kPixelsPerSecond);
+  axis.scale = std::clamp(wide / seconds, kLeastPixelsPerSecond, kPixelsPerSecond);
   return axis;
 }
 
