@@ -16,27 +16,11 @@
 #include <vector>
 
 #include "fap/result.h"
+#include "tools/media/detail/net_address.h"
 
 struct AVIOContext;
 
 namespace animeme::media {
-
-/// udp://HOST:PORT?... or srt://HOST:PORT?...
-struct NetAddress {
-  std::string scheme;  ///< "udp" or "srt"
-  std::string host;    ///< may be empty: all addresses of this machine
-  int port = 0;
-  std::string query;      ///< with the question mark; may be empty
-  bool listener = false;  ///< srt: mode=listener
-
-  /// Without the query, which may hold a passphrase.
-  std::string text() const { return scheme + "://" + host + ":" + std::to_string(port); }
-  /// Value of an option in the query, empty: not there.
-  std::string option(const std::string& name) const;
-};
-
-/// Errors: invalid_argument (not such an address), unsupported (this FFmpeg lacks the protocol).
-Result<NetAddress> parse_net_address(const std::string& url, bool for_reading);
 
 /// What reader and writer share: the thread and its end.
 class NetThread {
@@ -76,8 +60,8 @@ class NetReader : NetThread {
 
   struct Datagram {
     std::vector<std::uint8_t> bytes;
-    bool end = false;          ///< the connection is over, and nothing is left
-    Error error;               ///< with `end`: message not empty if it never came about
+    bool end = false;  ///< the connection is over, and nothing is left
+    Error error;       ///< with `end`: message not empty if it never came about
   };
   /// nullopt: nothing came in time.
   std::optional<Datagram> next(std::chrono::steady_clock::time_point until);

@@ -125,13 +125,13 @@ int opus_samples(std::span<const std::uint8_t> packet) {
   return samples <= 5760 ? samples : 0;
 }
 
-std::vector<std::uint8_t> opus_head(int channels, int pre_skip) {
+std::vector<std::uint8_t> opus_head(int channels, int pre_skip, unsigned gain) {
   std::vector<std::uint8_t> head = {'O', 'p', 'u', 's', 'H', 'e', 'a', 'd', 1};
   head.push_back(std::uint8_t(channels));
   head.push_back(std::uint8_t(pre_skip & 0xFF));
   head.push_back(std::uint8_t(pre_skip >> 8 & 0xFF));
   head.insert(head.end(), {0x80, 0xBB, 0, 0});  // 48000, little endian
-  head.insert(head.end(), {0, 0, 0});           // gain, mapping family
+  head.insert(head.end(), {std::uint8_t(gain), std::uint8_t(gain >> 8), 0});  // mapping family 0
   return head;
 }
 

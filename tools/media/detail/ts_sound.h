@@ -45,6 +45,6 @@ class TsSound {
 int opus_samples(std::span<const std::uint8_t> packet);
 
 /// OpusHead (RFC 7845, section 5.1).
-std::vector<std::uint8_t> opus_head(int channels, int pre_skip);
+std::vector<std::uint8_t> opus_head(int channels, int pre_skip, unsigned gain = 0);
 
 }  // namespace animeme::media
