@@ -38,7 +38,7 @@ struct Command {
   Action (*add)(CLI::App& app);
 };
 
-extern const Command kAlign, kCheck, kCompare, kDecode, kDemux, kEncode, kEvaluate, kFollow,
+extern const Command kAlign, kCheck, kCompare, kDecode, kDemux, kEncode, kEvaluate, kExport, kFollow,
     kImport, kInfo, kMux, kPlot, kSpeak, kStats, kTrain;
 
 /// Prints a usage error on standard error; returns kUsage for the command to return.
