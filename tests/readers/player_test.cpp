@@ -6,13 +6,6 @@
 namespace animeme::test {
 namespace {
 
-media::Pcm read_floats(const std::string& path, int sample_rate) {
-  const Bytes bytes = read_bytes(path);
-  media::Pcm pcm{sample_rate, std::vector<float>(bytes.size() / sizeof(float))};
-  std::memcpy(pcm.samples.data(), bytes.data(), pcm.samples.size() * sizeof(float));
-  return pcm;
-}
-
 // Samples by which a layout begins late: Matroska and TS cannot say what priming is.
 std::int64_t priming_of(const std::string& layout) {
   return layout == "mkv" || layout == "ts" ? 1024 : 0;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -27,6 +28,14 @@ inline Json run_json(const std::string& command) {
   EXPECT_EQ(status, 0) << command;
   EXPECT_FALSE(json.is_discarded()) << command << "\nprinted\n" << output;
   return json.is_discarded() ? Json() : json;
+}
+
+/// A file of 32-bit floats of one channel.
+inline media::Pcm read_floats(const std::string& path, int sample_rate) {
+  const Bytes bytes = read_bytes(path);
+  media::Pcm pcm{sample_rate, std::vector<float>(bytes.size() / sizeof(float))};
+  std::memcpy(pcm.samples.data(), bytes.data(), pcm.samples.size() * sizeof(float));
+  return pcm;
 }
 
 /// "4A" or "4a" for each byte, anything else is left out.
