@@ -56,13 +56,4 @@ inline Bytes from_hex(std::string_view text) {
   return out;
 }
 
-inline std::string to_hex(const Bytes& bytes) {
-  std::string out;
-  for (const std::uint8_t byte : bytes) {
-    out += "0123456789abcdef"[byte >> 4];
-    out += "0123456789abcdef"[byte & 15];
-  }
-  return out;
-}
-
 }  // namespace animeme::test
