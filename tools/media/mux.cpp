@@ -6,11 +6,12 @@
 #include <optional>
 
 #include "tools/media/audio.h"
-#include "tools/media/detail/aac_encoder.h"
+#include "tools/media/detail/audio_parameters.h"
 #include "tools/media/detail/face_header.h"
 #include "tools/media/detail/mp4_fix.h"
 #include "tools/media/detail/muxer.h"
 #include "tools/media/detail/output_file.h"
+#include "tools/media/detail/sound_source.h"
 #include "tools/media/detail/systems_movie.h"
 
 namespace animeme::media {
@@ -92,20 +93,22 @@ void set_mp4_options(const MuxInput& input, int sample_rate, const MuxOptions& o
              input.audio != nullptr ? sample_rate : std::int64_t(input.face->timescale));
 }
 
+AudioSettings settings_of(const MuxOptions& options) {
+  return {AudioCodec::aac, options.audio_bit_rate};
+}
+
 // Hands units and packets to the muxer in time order.
 class Interleaver {
  public:
-  /// `aac` may be nullptr: no sound; `audio_length` in samples.
-  Interleaver(Muxer& muxer, const fba::AccessUnits* face, AacEncoder* aac, std::size_t audio_length,
+  /// `sound` may be nullptr: none; `seconds` of it.
+  Interleaver(Muxer& muxer, const fba::AccessUnits* face, SoundSource* sound, double seconds,
               const MuxOptions& options)
-      : muxer_(muxer), face_(face), aac_(aac), audio_length_(audio_length), options_(options) {}
+      : muxer_(muxer), face_(face), sound_(sound), seconds_(seconds), options_(options) {}
 
   Result<void> run() {
-    packet_.reset(av_packet_alloc());
-    if (!packet_) return make_error(Code::out_of_range, "not enough memory");
     Result<void> step = fetch_audio();
-    while (step && (has_face() || has_audio_)) {
-      const bool face_first = has_face() && (!has_audio_ || face_is_earlier());
+    while (step && (has_face() || packet_ != nullptr)) {
+      const bool face_first = has_face() && (packet_ == nullptr || face_is_earlier());
       step = face_first ? muxer_.write_unit(face_->units[next_unit_++]) : write_audio();
       report();
     }
@@ -116,22 +119,21 @@ class Interleaver {
   bool has_face() const { return face_ != nullptr && next_unit_ < face_->units.size(); }
 
   bool face_is_earlier() const {
-    return av_compare_ts(face_->units[next_unit_].time, {1, int(face_->timescale)}, packet_->pts,
-                         aac_->codec().time_base) <= 0;
+    return av_compare_ts(face_->units[next_unit_].time, {1, int(face_->timescale)}, packet_->time,
+                         {1, sound_->format().sample_rate}) <= 0;
   }
 
   Result<void> fetch_audio() {
-    has_audio_ = false;
-    if (aac_ == nullptr) return {};
-    Result<bool> got = aac_->next(*packet_);
-    if (!got) return got.error();
-    has_audio_ = *got;
+    if (sound_ == nullptr) return {};
+    Result<const AudioPacket*> packet = sound_->next();
+    if (!packet) return packet.error();
+    packet_ = *packet;
     return {};
   }
 
   Result<void> write_audio() {
-    audio_end_ = packet_->pts + packet_->duration;
-    Result<void> written = muxer_.write_packet(*packet_);
+    audio_end_ = packet_->time + packet_->duration;
+    Result<void> written = muxer_.write_sound(*packet_);
     return written ? fetch_audio() : written;
   }
 
@@ -139,31 +141,30 @@ class Interleaver {
     if (!options_.progress || ++steps_ % 64 != 0) return;
     double done = 1;
     if (face_ != nullptr) done = double(next_unit_) / double(face_->units.size());
-    if (aac_ != nullptr) {
-      done = std::min(done, double(audio_end_) / double(std::max<std::size_t>(1, audio_length_)));
+    if (sound_ != nullptr) {
+      done = std::min(done, double(audio_end_) / (seconds_ * sound_->format().sample_rate));
     }
     options_.progress(std::clamp(done, 0.0, 0.999));
   }
 
   Muxer& muxer_;
   const fba::AccessUnits* face_;
-  AacEncoder* aac_;
-  std::size_t audio_length_;
+  SoundSource* sound_;
+  double seconds_;
   const MuxOptions& options_;
-  av::Packet packet_;
+  const AudioPacket* packet_ = nullptr;  // next of the sound
   std::size_t next_unit_ = 0;
-  bool has_audio_ = false;
   std::int64_t audio_end_ = 0;
   std::int64_t steps_ = 0;
 };
 
 Result<void> write_streams(const std::string& path, MuxFormat format, const MuxInput& input,
-                           const Pcm* sound, const MuxOptions& options) {
-  std::optional<AacEncoder> aac;
-  if (sound != nullptr) {
-    Result<AacEncoder> opened = AacEncoder::open(*sound, options.audio_bit_rate);
+                           const MuxOptions& options) {
+  std::optional<SoundSource> sound;
+  if (input.audio != nullptr) {
+    Result<SoundSource> opened = SoundSource::coding(*input.audio, settings_of(options));
     if (!opened) return opened.error();
-    aac.emplace(std::move(*opened));
+    sound.emplace(std::move(*opened));
   }
   Result<std::unique_ptr<Muxer>> opened = Muxer::open(path, format);
   if (!opened) return opened.error();
@@ -172,27 +173,33 @@ Result<void> write_streams(const std::string& path, MuxFormat format, const MuxI
     Result<void> added = muxer.add_face(*input.face);
     if (!added) return added;
   }
-  if (aac) {
-    Result<void> added = muxer.add_encoded(aac->codec());
+  if (sound) {
+    Result<void> added = muxer.add_sound(sound->format(), sound->bit_rate());
     if (!added) return added;
   }
   av::Options header;
   if (format == MuxFormat::mp4) {
-    set_mp4_options(input, sound != nullptr ? sound->sample_rate : 0, options, header);
+    set_mp4_options(input, sound ? sound->format().sample_rate : 0, options, header);
   }
   Result<void> started = muxer.write_header(header);
   if (!started) return started;
-  Interleaver interleaver(muxer, input.face, aac ? &*aac : nullptr,
-                          sound != nullptr ? sound->samples.size() : 0, options);
+  Interleaver interleaver(muxer, input.face, sound ? &*sound : nullptr,
+                          sound ? input.audio->duration() : 0, options);
   Result<void> done = interleaver.run();
   return done ? muxer.finish() : done;
 }
 
-Result<void> write_systems(const std::string& path, const MuxInput& input, const Pcm* sound,
+Result<void> write_systems(const std::string& path, const MuxInput& input,
                            const MuxOptions& options) {
-  Result<Mp4Movie> movie = systems_movie(*input.face, sound, visual_profile(input), options);
-  if (!movie) return movie.error();
-  Result<std::vector<std::uint8_t>> bytes = write_movie(*movie);
+  std::optional<EncodedAudio> coded;
+  if (input.audio != nullptr) {
+    Result<EncodedAudio> made = encode_audio(*input.audio, settings_of(options));
+    if (!made) return made.error();
+    coded.emplace(std::move(*made));
+  }
+  const EncodedAudio* sound = coded ? &*coded : nullptr;
+  Result<std::vector<std::uint8_t>> bytes =
+      write_movie(systems_movie(*input.face, sound, visual_profile(input)));
   if (!bytes) return bytes.error();
   std::ofstream out(path, std::ios::binary | std::ios::trunc);
   out.write(reinterpret_cast<const char*>(bytes->data()), std::streamsize(bytes->size()));
@@ -206,19 +213,10 @@ Result<void> write_file(const std::string& path, MuxFormat format, const MuxInpu
   Result<void> legal = check(input, options);
   if (!legal) return legal;
   const av::LogCapture log;
-  const Pcm* sound = input.audio;
-  Pcm converted;
-  if (sound != nullptr && aac_sample_rate(sound->sample_rate) != sound->sample_rate) {
-    Result<Pcm> made = resample(*sound, aac_sample_rate(sound->sample_rate));
-    if (!made) return made.error();
-    converted = std::move(*made);
-    sound = &converted;
-  }
   Result<OutputFile> out = OutputFile::create(path);
   if (!out) return out.error();
-  Result<void> written = options.systems
-                             ? write_systems(out->temporary(), input, sound, options)
-                             : write_streams(out->temporary(), format, input, sound, options);
+  Result<void> written = options.systems ? write_systems(out->temporary(), input, options)
+                                         : write_streams(out->temporary(), format, input, options);
   if (written && format == MuxFormat::mp4 && !options.systems) {
     written = clear_es_ids(out->temporary());
   }

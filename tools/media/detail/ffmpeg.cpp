@@ -4,6 +4,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <mutex>
 
 extern "C" {
@@ -43,6 +44,15 @@ void set_up_once() {
 }
 
 }  // namespace
+
+bool set_extradata(AVCodecParameters& parameters, const std::vector<std::uint8_t>& bytes) {
+  auto* data = static_cast<std::uint8_t*>(av_mallocz(bytes.size() + AV_INPUT_BUFFER_PADDING_SIZE));
+  if (data == nullptr) return false;
+  if (!bytes.empty()) std::memcpy(data, bytes.data(), bytes.size());
+  parameters.extradata = data;
+  parameters.extradata_size = int(bytes.size());
+  return true;
+}
 
 std::string error_text(int status) {
   std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "tools/media/detail/audio_parameters.h"
 #include "tools/media/detail/unit_facts.h"
 
 namespace animeme::media {
@@ -25,15 +26,6 @@ const char* name_of(MuxFormat format) {
 std::uint32_t container_timescale(std::uint32_t timescale) {
   if (timescale >= kLowestTimescale) return timescale;
   return timescale * ((kLowestTimescale + timescale - 1) / timescale);
-}
-
-bool set_extradata(AVCodecParameters& parameters, const std::vector<std::uint8_t>& bytes) {
-  auto* data = static_cast<std::uint8_t*>(av_mallocz(bytes.size() + AV_INPUT_BUFFER_PADDING_SIZE));
-  if (data == nullptr) return false;
-  if (!bytes.empty()) std::memcpy(data, bytes.data(), bytes.size());
-  parameters.extradata = data;
-  parameters.extradata_size = int(bytes.size());
-  return true;
 }
 
 bool set_buffer_facts(AVStream& stream, const fba::AccessUnits& face) {
@@ -88,7 +80,7 @@ Result<void> Muxer::add_face(const fba::AccessUnits& units) {
   parameters.codec_id = AV_CODEC_ID_MPEG4;
   parameters.width = 320;  // as the reference library writes it; 0 is refused
   parameters.height = 240;
-  if (!set_extradata(parameters, units.config) || !set_buffer_facts(*stream, units)) {
+  if (!av::set_extradata(parameters, units.config) || !set_buffer_facts(*stream, units)) {
     return no_memory();
   }
   stream->time_base = {1, int(container_timescale(units.timescale))};
@@ -114,14 +106,11 @@ Result<void> Muxer::add_stream(const AVCodecParameters& parameters, AVRational t
   return {};
 }
 
-Result<void> Muxer::add_encoded(const AVCodecContext& encoder) {
-  AVCodecParameters* parameters = avcodec_parameters_alloc();
-  if (parameters == nullptr) return no_memory();
-  const int status = avcodec_parameters_from_context(parameters, &encoder);
-  Result<void> added = status < 0 ? av::make_av_error(status, "cannot be written")
-                                  : add_stream(*parameters, encoder.time_base);
-  avcodec_parameters_free(&parameters);
-  return added;
+Result<void> Muxer::add_sound(const AudioFormat& format, std::int64_t bit_rate) {
+  Result<av::Parameters> parameters = codec_parameters(format, bit_rate);
+  if (!parameters) return parameters.error();
+  sound_ = format;
+  return add_stream(**parameters, {1, format.sample_rate});
 }
 
 Result<void> Muxer::check(int status) {
@@ -158,6 +147,11 @@ Result<void> Muxer::write_unit(const fba::AccessUnit& unit) {
   packet_->duration = unit.duration;
   if (unit.intra) packet_->flags |= AV_PKT_FLAG_KEY;
   return write(*packet_, *face_stream_, face_base_);
+}
+
+Result<void> Muxer::write_sound(const AudioPacket& packet) {
+  Result<void> copied = copy_packet(packet, sound_, *packet_);
+  return copied ? write_packet(*packet_) : copied;
 }
 
 Result<void> Muxer::write_packet(AVPacket& packet) {

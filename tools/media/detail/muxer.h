@@ -8,6 +8,7 @@
 
 #include "codec/access_unit.h"
 #include "tools/media/detail/ffmpeg.h"
+#include "tools/media/encoded_audio.h"
 
 namespace animeme::media {
 
@@ -27,12 +28,13 @@ class Muxer {
   Result<void> add_face(const fba::AccessUnits& units);
   /// Adds a stream with these parameters and packet times in `time_base`.
   Result<void> add_stream(const AVCodecParameters& parameters, AVRational time_base);
-  /// Adds what an encoder delivers.
-  Result<void> add_encoded(const AVCodecContext& encoder);
+  /// Adds a stream of coded sound; `bit_rate` 0: not known.
+  Result<void> add_sound(const AudioFormat& format, std::int64_t bit_rate);
 
   /// Streams are complete. Options that the format does not know are an error (internal).
   Result<void> write_header(av::Options& options);
   Result<void> write_unit(const fba::AccessUnit& unit);
+  Result<void> write_sound(const AudioPacket& packet);
   /// Takes the packet's content. Times in the time_base given to add_stream().
   Result<void> write_packet(AVPacket& packet);
   /// Completes the file and closes it.
@@ -49,6 +51,7 @@ class Muxer {
   const fba::AccessUnits* face_ = nullptr;
   AVStream* face_stream_ = nullptr;
   AVStream* other_stream_ = nullptr;
+  AudioFormat sound_;
   AVRational face_base_{1, 1};  // of AccessUnit times
   AVRational other_base_{1, 1};
 };
