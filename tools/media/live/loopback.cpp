@@ -57,12 +57,12 @@ class LoopbackSource : public LiveSource {
 
   Result<LiveEvent> next(double) override {
     if (wire_->events.empty()) return LiveEvent(LiveIdle{});
-    LiveEvent event = std::move(wire_->events.front());
-    wire_->events.pop_front();
-    if (const auto* unit = std::get_if<LiveUnit>(&event)) {
+    if (const auto* unit = std::get_if<LiveUnit>(&wire_->events.front())) {
       ++wire_->received.packets;
       wire_->received.bytes += std::int64_t(unit->bytes.size());
     }
+    Result<LiveEvent> event(std::move(wire_->events.front()));
+    wire_->events.pop_front();
     return event;
   }
   ReceiveStats stats() const override { return wire_->received; }
