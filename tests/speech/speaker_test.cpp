@@ -127,7 +127,7 @@ TEST_F(Speaker, ALineIsSeenAndHeardAtTheSameInstant) {
     packets.clear();
     lines.over = false;
     SpeakerOptions options;
-    options.audio.codec = codec;
+    options.audio = media::AudioSettings{codec};
     open(options);
     run(2.01);
     lines.waiting.push_back(make_line());
@@ -149,6 +149,19 @@ TEST_F(Speaker, ALineIsSeenAndHeardAtTheSameInstant) {
     EXPECT_LT(gap(2.48), 45);
     EXPECT_NEAR(clip.duration(), 2.04 + 1.0, 0.05);
   }
+}
+
+TEST_F(Speaker, WithoutSoundTheFaceSpeaksAllTheSame) {
+  SpeakerOptions options;
+  options.audio.reset();
+  open(options);
+  EXPECT_FALSE(speaker->info().audio);
+  run(1);
+  lines.waiting.push_back(make_line());
+  lines.over = true;
+  run(100);
+  EXPECT_TRUE(packets.empty());
+  EXPECT_NEAR(face().duration(), 2, 0.05);
 }
 
 TEST_F(Speaker, LinesThatComeTogetherFollowEachOther) {

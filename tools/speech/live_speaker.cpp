@@ -56,7 +56,7 @@ struct LiveSpeaker::Impl {
   LineSource* lines;
   media::Clock* clock;
   TalkingFace face;
-  LiveSound sound;
+  std::optional<LiveSound> sound;
   fba::LiveEncoder encoder;
   media::LiveInfo info;
   std::int64_t frame_ticks = 1;
@@ -69,8 +69,12 @@ struct LiveSpeaker::Impl {
   std::vector<std::string> warnings;
 
   double frame_due() const { return double(face.number() * frame_ticks) / info.timescale; }
-  double sound_time() const { return double(sound.next_time()) / info.audio->sample_rate; }
-  double sound_due() const { return sound_time() - options.audio_ahead; }
+  double sound_due() const {
+    if (!sound) return std::numeric_limits<double>::infinity();
+    return double(sound->next_time()) / info.audio->sample_rate - options.audio_ahead;
+  }
+  // Instant before which sound has been made.
+  double sound_made() const { return sound ? double(sound->made()) / options.voice_rate : 0; }
 
   void collect();
   void begin_lines();
@@ -91,11 +95,9 @@ void LiveSpeaker::Impl::begin_lines() {
   while (!waiting.empty() && !face.speaking()) {
     SpokenLine& line = waiting.front().first;
     // Its first sound must not lie where the sound has been made already.
-    const int rate = options.voice_rate;
-    const std::vector<float>& samples = line.speech.audio.samples;
-    const std::int64_t silence = first_sample(samples, [](float x) { return x != 0; });
-    const double seconds = double(sound.made() - silence) / rate;
-    if (seconds > frame_due()) return;
+    const media::Pcm& audio = line.speech.audio;
+    const auto silence = first_sample(audio.samples, [](float x) { return x != 0; });
+    if (sound_made() - double(silence) / audio.sample_rate > frame_due()) return;
     LineTrace trace;
     trace.waited = waiting.front().second;
     trace.arrived = line.arrived;
@@ -120,13 +122,15 @@ Result<void> LiveSpeaker::Impl::begin(SpokenLine& line, LineTrace& trace) {
   }
   const Result<Line> shown = face.say(line.speech.script);
   if (!shown) return shown.error();
-  const double first = double(shown->first * frame_ticks) / info.timescale;
-  const std::int64_t start = std::llround(first * rate);
-  const std::int64_t audible =
-      first_sample(line.speech.audio.samples, [](float x) { return std::abs(x) >= kAudible; });
-  sound.add(start, std::move(line.speech.audio.samples));
   face_sign = shown->first_moved * frame_ticks;
-  sound_sign = std::llround(double(start + audible) / rate * info.audio->sample_rate);
+  if (sound) {
+    const double first = double(shown->first * frame_ticks) / info.timescale;
+    const std::int64_t start = std::llround(first * rate);
+    const auto audible =
+        first_sample(line.speech.audio.samples, [](float x) { return std::abs(x) >= kAudible; });
+    sound->add(start, std::move(line.speech.audio.samples));
+    sound_sign = std::llround(double(start + audible) / rate * info.audio->sample_rate);
+  }
   trace.synthesised = clock->now();
   return {};
 }
@@ -152,7 +156,7 @@ Result<LiveUnit> LiveSpeaker::Impl::make_plane() {
 
 Result<LiveUnit> LiveSpeaker::Impl::make_packet() {
   const double begun = clock->now();
-  Result<media::AudioPacket> packet = sound.next();
+  Result<media::AudioPacket> packet = sound->next();
   if (!packet) return packet.error();
   LiveUnit unit{LiveTrack::audio, std::move(packet->bytes), false, packet->time, packet->duration};
   if (!traces.empty() && unit.time + unit.duration > sound_sign && traces.back().sound_coded == 0) {
@@ -170,8 +174,12 @@ Result<std::unique_ptr<LiveSpeaker>> LiveSpeaker::open(const dam::Model& model, 
                                                        const SpeakerOptions& options) {
   Result<TalkingFace> face = TalkingFace::open(model, options.face);
   if (!face) return face.error();
-  Result<LiveSound> sound = LiveSound::open(options.voice_rate, options.audio);
-  if (!sound) return sound.error();
+  std::optional<LiveSound> sound;
+  if (options.audio) {
+    Result<LiveSound> opened = LiveSound::open(options.voice_rate, *options.audio);
+    if (!opened) return opened.error();
+    sound = std::move(*opened);
+  }
   const Result<fba::AccessUnits> shape = shape_of(options, *face);
   if (!shape) return shape.error();
   media::LiveInfo info;
@@ -179,11 +187,21 @@ Result<std::unique_ptr<LiveSpeaker>> LiveSpeaker::open(const dam::Model& model, 
   info.face_config[kProfileByte] = kSimpleFaceLevel2;
   info.visual_profile = kSimpleFaceLevel2;
   info.timescale = shape->timescale;
-  info.audio = sound->format();
+  if (sound) info.audio = sound->format();
   fba::LiveEncoder encoder(coding(options, face->mask()));
-  auto impl = std::make_unique<Impl>(Impl{options, &lines, &clock, std::move(*face),
-                                          std::move(*sound), std::move(encoder), std::move(info),
-                                          shape->units.front().duration});
+  auto impl = std::make_unique<Impl>(Impl{options,
+                                          &lines,
+                                          &clock,
+                                          std::move(*face),
+                                          std::move(sound),
+                                          std::move(encoder),
+                                          std::move(info),
+                                          shape->units.front().duration,
+                                          {},
+                                          {},
+                                          0,
+                                          0,
+                                          {}});
   return std::unique_ptr<LiveSpeaker>(new LiveSpeaker(std::move(impl)));
 }
 

@@ -26,9 +26,10 @@ struct SpeakerOptions {
   FaceOptions face;
   int fap_quant = 1;
   double intra_seconds = 1;
-  int voice_rate = 22050;      ///< Hz, of the lines' sound; other rates are converted
-  media::AudioSettings audio;  ///< how the sound is coded
-  double audio_ahead = 0.02;   ///< seconds that sound is sent before its time, 0..1
+  int voice_rate = 22050;  ///< Hz, of the lines' sound; other rates are converted
+  /// How the sound is coded; nothing: the face alone.
+  std::optional<media::AudioSettings> audio = media::AudioSettings{};
+  double audio_ahead = 0.02;  ///< seconds that sound is sent before its time, 0..1
   double duration = std::numeric_limits<double>::infinity();  ///< seconds, then it is over
 };
 
