@@ -23,6 +23,7 @@ enum ExitCode : int {
   kUsage = 2,
   kBadInput = 3,
   kInternal = 4,
+  kInterrupted = 130,  ///< Ctrl-C; what was written is complete as far as it goes
 };
 
 /// A command puts its options into `app` and returns what is to run when it was chosen: the exit

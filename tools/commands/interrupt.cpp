@@ -1,35 +1,43 @@
 #include "tools/commands/interrupt.h"
 
+#include <signal.h>
+
+#include <atomic>
 #include <csignal>
 
 namespace animeme::tools {
 
 namespace {
 
-volatile std::sig_atomic_t g_requested = 0;
+std::atomic<bool> noted = false;
+int living = 0;
+struct sigaction old_interrupt, old_terminate, old_pipe;
 
-struct sigaction g_before_int, g_before_term;
-
-void on_signal(int) { g_requested = 1; }
+void note(int) { noted = true; }
 
 }  // namespace
 
 Interrupt::Interrupt() {
-  g_requested = 0;
+  if (living++ > 0) return;
+  noted = false;
   struct sigaction action = {};
-  action.sa_handler = on_signal;
+  action.sa_handler = note;
+  action.sa_flags = int(SA_RESETHAND);  // the second one does what it always does
   sigemptyset(&action.sa_mask);
-  // Waiting calls return, and the second signal finds the default action.
-  action.sa_flags = int(SA_RESETHAND);
-  sigaction(SIGINT, &action, &g_before_int);
-  sigaction(SIGTERM, &action, &g_before_term);
+  sigaction(SIGINT, &action, &old_interrupt);
+  sigaction(SIGTERM, &action, &old_terminate);
+  action.sa_handler = SIG_IGN;
+  action.sa_flags = 0;
+  sigaction(SIGPIPE, &action, &old_pipe);
 }
 
 Interrupt::~Interrupt() {
-  sigaction(SIGINT, &g_before_int, nullptr);
-  sigaction(SIGTERM, &g_before_term, nullptr);
+  if (--living > 0) return;
+  sigaction(SIGINT, &old_interrupt, nullptr);
+  sigaction(SIGTERM, &old_terminate, nullptr);
+  sigaction(SIGPIPE, &old_pipe, nullptr);
 }
 
-bool Interrupt::requested() { return g_requested != 0; }
+bool Interrupt::requested() { return noted; }
 
 }  // namespace animeme::tools

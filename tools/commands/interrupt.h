@@ -1,11 +1,16 @@
-// Ctrl-C as a wish to end well: for commands that run until they are told to stop.
+// Ctrl-C while something is being written or sent.
+//
+//     Interrupt interrupt;
+//     while (!Interrupt::requested()) ...
+//     if (Interrupt::requested()) return kInterrupted;
 #pragma once
 
 namespace animeme::tools {
 
-/// While it lives, the first SIGINT or SIGTERM sets a flag in place of ending the program, so that
-/// a recording can be closed and goodbye be said; the second one ends the program at once. One at a
-/// time.
+/// While one lives, the first SIGINT or SIGTERM is only noted, so that the work can be brought to
+/// a clean end; the second one ends the program at once. SIGPIPE is ignored, so that a reader that
+/// goes away is an error of writing. What was set before comes back with the last of them.
+/// For the main thread.
 class Interrupt {
  public:
   Interrupt();
@@ -13,7 +18,7 @@ class Interrupt {
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
-  /// True once a signal came.
+  /// Has a signal come since the first of them was made? Safe in any thread.
   static bool requested();
 };
 
