@@ -131,13 +131,13 @@ TEST(Glb, TheNeckTurnsAndTheJawGoesDown) {
   const auto file = make_glb(actor().head, actor().rig, clip());
   ASSERT_TRUE(file);
   const Glb glb = parse(*file);
-  const std::vector<float> neck = glb.animated("neck", "rotation");
+  const std::vector<float> neck = glb.animated("neck_bone", "rotation");
   ASSERT_EQ(neck.size(), 12u);
   EXPECT_NEAR(neck[9], std::sin(0.15), 1e-4);  // about +Y, half the angle
   EXPECT_NEAR(neck[11], std::cos(0.15), 1e-4);
-  const std::vector<float> jaw = glb.animated("jaw", "rotation");
+  const std::vector<float> jaw = glb.animated("jaw_bone", "rotation");
   EXPECT_GT(jaw[8], 0.01);  // about +X: the chin goes down
-  const std::vector<float> eye = glb.animated("right_eye", "rotation");
+  const std::vector<float> eye = glb.animated("right_eye_bone", "rotation");
   EXPECT_LT(eye[9], -0.05);  // to the right, in the head
 }
 

@@ -11,8 +11,8 @@ namespace animeme::gltf {
 
 enum class Bone : std::uint8_t { neck, jaw, left_eye, right_eye };
 inline constexpr int kBoneCount = 4;
-inline constexpr std::array<std::string_view, kBoneCount> kBoneNames = {"neck", "jaw", "left_eye",
-                                                                        "right_eye"};
+inline constexpr std::array<std::string_view, kBoneCount> kBoneNames = {
+    "neck_bone", "jaw_bone", "left_eye_bone", "right_eye_bone"};
 
 /// Rotation as x, y, z, w and place, in the space of the parent: the neck's is the scene, that of
 /// the others the neck. Lengths in metres.
