@@ -116,10 +116,10 @@ ArkitWeight mirrored(const ArkitWeight& weight) {
   return {partner, flips ? -weight.value : weight.value};
 }
 
-using Weights = std::array<std::vector<ArkitWeight>, kArkitChannelCount>;
+using internal::ArkitWeights;
 
-Weights all_weights() {
-  Weights weights;
+ArkitWeights all_weights() {
+  ArkitWeights weights;
   for (const internal::ArkitShape& shape : internal::arkit_shapes()) {
     auto& left = weights[std::size_t(find_arkit(shape.name).value_or(0))];
     left.assign(shape.weights.begin(), shape.weights.end());
@@ -130,11 +130,6 @@ Weights all_weights() {
     }
   }
   return weights;
-}
-
-const Weights& weights() {
-  static const Weights all = all_weights();
-  return all;
 }
 
 // What shapes say of the eyeballs counts more than measured angles.
@@ -159,6 +154,11 @@ void keep_lids_apart(Frame& frame, std::size_t upper, std::size_t lower) {
 
 }  // namespace
 
+const ArkitWeights& internal::arkit_weights() {
+  static const ArkitWeights all = all_weights();
+  return all;
+}
+
 std::optional<int> find_arkit(std::string_view name) {
   static const std::array<std::string, kArkitChannelCount> known = lower_case_names();
   if (name.size() > kLongestName) return std::nullopt;
@@ -171,7 +171,8 @@ Mask arkit_faps(const ArkitChannels& channels) {
   Mask mask;
   for (std::size_t channel = 0; channel < kArkitChannelCount; ++channel) {
     if (!channels[channel]) continue;
-    for (const ArkitWeight& weight : weights()[channel]) mask.set(std::size_t(weight.fap));
+    for (const ArkitWeight& weight : internal::arkit_weights()[channel])
+      mask.set(std::size_t(weight.fap));
   }
   return mask;
 }
@@ -182,7 +183,7 @@ Frame arkit_to_fap(const ArkitFrame& frame, const ArkitChannels& channels) {
   for (std::size_t channel = 0; channel < kArkitChannelCount; ++channel) {
     if (!channels[channel] || !std::isfinite(frame[channel])) continue;
     const bool angle = channel >= kArkitShapeCount;
-    for (const ArkitWeight& weight : weights()[channel]) {
+    for (const ArkitWeight& weight : internal::arkit_weights()[channel]) {
       const std::size_t fap = std::size_t(weight.fap);
       if (angle && eyeballs[fap]) continue;
       sum[fap] += frame[channel] * weight.value;

@@ -1,9 +1,13 @@
 // The numbers behind arkit.h. Not installed.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
+
+#include "fap/arkit.h"
 
 namespace animeme::fap::internal {
 
@@ -20,5 +24,9 @@ struct ArkitShape {
 
 /// All channels that do anything, but shapes of the right side: they mirror the left ones.
 std::span<const ArkitShape> arkit_shapes();
+
+/// The same for all channels by number, both sides.
+using ArkitWeights = std::array<std::vector<ArkitWeight>, kArkitChannelCount>;
+const ArkitWeights& arkit_weights();
 
 }  // namespace animeme::fap::internal

@@ -46,7 +46,8 @@ struct AudioPacket {
 struct EncodedAudio {
   AudioFormat format;
   std::vector<AudioPacket> packets;
-  std::int64_t length = 0;  ///< samples from sample 0 on that are meant to be heard
+  /// Samples from sample 0 on that are meant to be heard; 0: up to the end of the last packet.
+  std::int64_t length = 0;
 
   friend bool operator==(const EncodedAudio&, const EncodedAudio&) = default;
 };
@@ -72,7 +73,7 @@ class AudioEncoder {
 
   const AudioFormat& format() const;
   /// Appends sound and gives out the packets that are complete. Values outside +-1 are clipped,
-  /// NaN is 0. Errors: io (the encoder fails).
+  /// NaN is 0. Errors: io (the encoder fails), invalid_argument (after finish()).
   Result<std::vector<AudioPacket>> push(std::span<const float> samples);
   /// The rest. Nothing can be pushed after it.
   Result<std::vector<AudioPacket>> finish();

@@ -6,7 +6,11 @@
 namespace animeme::media {
 
 Result<av::Codec> open_audio_decoder(const AVStream& stream) {
-  const AVCodecParameters& parameters = *stream.codecpar;
+  return open_audio_decoder(*stream.codecpar, stream.time_base);
+}
+
+Result<av::Codec> open_audio_decoder(const AVCodecParameters& parameters, AVRational time_base,
+                                     int flags2) {
   const AVCodec* decoder = avcodec_find_decoder(parameters.codec_id);
   if (decoder == nullptr) {
     return make_error(Code::unsupported, std::string("no decoder for the audio codec ") +
@@ -15,7 +19,8 @@ Result<av::Codec> open_audio_decoder(const AVStream& stream) {
   av::Codec codec(avcodec_alloc_context3(decoder));
   if (!codec) return make_error(Code::out_of_range, "not enough memory");
   int status = avcodec_parameters_to_context(codec.get(), &parameters);
-  codec->pkt_timebase = stream.time_base;
+  codec->pkt_timebase = time_base;
+  codec->flags2 |= flags2;
   codec->thread_count = 1;  // the same result and the same log everywhere
   if (status >= 0) status = avcodec_open2(codec.get(), decoder, nullptr);
   if (status < 0) {

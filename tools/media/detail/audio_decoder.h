@@ -12,6 +12,10 @@ namespace animeme::media {
 /// Opens the decoder of a stream. Errors: unsupported, syntax.
 Result<av::Codec> open_audio_decoder(const AVStream& stream);
 
+/// The same for any packets; `flags2` as in AVCodecContext.
+Result<av::Codec> open_audio_decoder(const AVCodecParameters& parameters, AVRational time_base,
+                                     int flags2 = 0);
+
 /// Feeds one packet (nullptr: flush) and hands every decoded frame to `take`, which may stop
 /// everything with an error. Returns false if the packet was damaged.
 Result<bool> decode_packet(AVCodecContext& codec, const AVPacket* packet, AVFrame& frame,

@@ -4,6 +4,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <mutex>
 
 extern "C" {
@@ -44,6 +45,15 @@ void set_up_once() {
 
 }  // namespace
 
+bool set_extradata(AVCodecParameters& parameters, const std::vector<std::uint8_t>& bytes) {
+  auto* data = static_cast<std::uint8_t*>(av_mallocz(bytes.size() + AV_INPUT_BUFFER_PADDING_SIZE));
+  if (data == nullptr) return false;
+  if (!bytes.empty()) std::memcpy(data, bytes.data(), bytes.size());
+  parameters.extradata = data;
+  parameters.extradata_size = int(bytes.size());
+  return true;
+}
+
 std::string error_text(int status) {
   std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
   if (av_strerror(status, text.data(), text.size()) < 0) return "error " + std::to_string(status);
@@ -60,6 +70,8 @@ Code error_code(int status) {
     case AVERROR(EISDIR):
     case AVERROR(ENOSPC):
     case AVERROR(EFBIG):
+    case AVERROR(EPIPE):
+    case AVERROR(ENOTDIR):
     case AVERROR(EROFS):
       return Code::io;
     case AVERROR(ENOMEM):

@@ -8,6 +8,7 @@ extern "C" {
 #include <libswresample/swresample.h>
 }
 
+#include <cstdint>
 #include <exception>
 #include <memory>
 #include <string>
@@ -22,12 +23,17 @@ struct Deleter {
   void operator()(AVFrame* frame) const { av_frame_free(&frame); }
   void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
   void operator()(SwrContext* swr) const { swr_free(&swr); }
+  void operator()(AVCodecParameters* parameters) const { avcodec_parameters_free(&parameters); }
 };
 
 using Packet = std::unique_ptr<AVPacket, Deleter>;
 using Frame = std::unique_ptr<AVFrame, Deleter>;
 using Codec = std::unique_ptr<AVCodecContext, Deleter>;
 using Swr = std::unique_ptr<SwrContext, Deleter>;
+using Parameters = std::unique_ptr<AVCodecParameters, Deleter>;
+
+/// Gives `parameters` a copy of the decoder configuration. False: no memory.
+bool set_extradata(AVCodecParameters& parameters, const std::vector<std::uint8_t>& bytes);
 
 /// AVDictionary with an owner.
 class Options {

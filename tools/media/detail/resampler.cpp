@@ -37,7 +37,6 @@ Result<Resampler> Resampler::open(const SoundFormat& from, int sample_rate,
   resampler.from_ = from;
   resampler.rate_ = sample_rate;
   resampler.out_ = &out;
-  resampler.begin_ = out.size();
   return resampler;
 }
 
@@ -53,6 +52,7 @@ Result<void> Resampler::convert(const std::uint8_t** planes, int count) {
   const int got = swr_convert(swr_.get(), &target, room, planes, count);
   out_->resize(old + std::size_t(std::max(got, 0)));
   if (got < 0) return av::make_av_error(got, "the sound cannot be resampled");
+  given_ += got;
   return {};
 }
 
@@ -82,10 +82,11 @@ Result<void> Resampler::finish() {
   Result<void> drained = convert(nullptr, 0);
   if (!drained) return drained;
   const std::int64_t exact = av_rescale_rnd(taken_, rate_, from_.sample_rate, AV_ROUND_NEAR_INF);
-  if (exact < 0 || std::uint64_t(exact) > kMostSamples) {
+  const std::int64_t size = std::int64_t(out_->size()) + (exact - given_);
+  if (exact < 0 || size > std::int64_t(kMostSamples)) {
     return make_error(Code::out_of_range, "the sound is too long");
   }
-  out_->resize(begin_ + std::size_t(exact), 0.0f);
+  out_->resize(std::size_t(std::max<std::int64_t>(size, 0)), 0.0f);
   return {};
 }
 

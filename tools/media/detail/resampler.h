@@ -24,13 +24,14 @@ struct SoundFormat {
 
 class Resampler {
  public:
-  /// Appends to `out`, which must outlive the resampler.
+  /// Appends to `out`, which must outlive the resampler. Samples may be taken from it meanwhile.
   static Result<Resampler> open(const SoundFormat& from, int sample_rate, std::vector<float>& out);
 
   /// `planes` as in AVFrame::extended_data. Error: out_of_range, syntax.
   Result<void> add(const std::uint8_t* const* planes, int count);
   Result<void> add_silence(std::int64_t count);
   /// Drains what is left and makes the length exact: input length x rate ratio, rounded.
+  /// Error: out_of_range.
   Result<void> finish();
 
   const SoundFormat& from() const { return from_; }
@@ -42,8 +43,8 @@ class Resampler {
   int rate_ = 0;
   av::Swr swr_;
   std::vector<float>* out_ = nullptr;
-  std::size_t begin_ = 0;
   std::int64_t taken_ = 0;
+  std::int64_t given_ = 0;
 };
 
 }  // namespace animeme::media

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tools/media/detail/aac_encoder.h"
+#include "tools/media/detail/audio_parameters.h"
 #include "tools/media/detail/box_writer.h"
 #include "tools/media/detail/systems_scene.h"
 #include "tools/media/detail/unit_facts.h"
@@ -107,33 +107,22 @@ Mp4Track face_track(const fba::AccessUnits& face) {
   return track;
 }
 
-Result<Mp4Track> sound_track(const Pcm& sound, int bit_rate) {
-  Result<AacEncoder> aac = AacEncoder::open(sound, bit_rate);
-  if (!aac) return aac.error();
-  const av::Packet packet(av_packet_alloc());
-  if (!packet) return make_error(Code::out_of_range, "not enough memory");
+Mp4Track sound_track(const EncodedAudio& sound) {
   Mp4Track track;
   track.id = kSoundTrack;
   track.handler = "soun";
   track.name = "audio";
-  track.timescale = std::uint32_t(sound.sample_rate);
-  track.length = std::int64_t(sound.samples.size());
+  track.timescale = std::uint32_t(sound.format.sample_rate);
+  track.start = sound.packets.front().time;
+  track.length = sound.length;
   std::size_t largest = 0;
-  for (;;) {
-    Result<bool> got = aac->next(*packet);
-    if (!got) return got.error();
-    if (!*got) break;
-    if (track.samples.empty()) track.start = packet->pts;
-    const auto size = std::size_t(packet->size);
-    track.samples.push_back({{packet->data, packet->data + size}, packet->duration, true});
-    largest = std::max(largest, size);
-    av_packet_unref(packet.get());
+  for (const AudioPacket& packet : sound.packets) {
+    track.samples.push_back({packet.bytes, packet.duration, true});
+    largest = std::max(largest, packet.bytes.size());
   }
-  const AVCodecContext& codec = aac->codec();
-  StreamDescription stream{kAac, kAudioStream, largest, 0, 0, {}};
-  stream.max_bit_rate = stream.average_bit_rate = std::uint32_t(codec.bit_rate);
-  stream.config = {codec.extradata, std::size_t(codec.extradata_size)};
-  track.entry = sound_entry(stream, sound.sample_rate);
+  StreamDescription stream{kAac, kAudioStream, largest, 0, 0, sound.format.config};
+  stream.max_bit_rate = stream.average_bit_rate = std::uint32_t(mean_bit_rate(sound));
+  track.entry = sound_entry(stream, sound.format.sample_rate);
   return track;
 }
 
@@ -144,20 +133,18 @@ std::int64_t milliseconds(const Mp4Track& track) {
 
 }  // namespace
 
-Result<Mp4Movie> systems_movie(const fba::AccessUnits& face, const Pcm* sound, int visual_profile,
-                               const MuxOptions& options) {
+Mp4Movie systems_movie(const fba::AccessUnits& face, const EncodedAudio* sound,
+                       int visual_profile) {
   Mp4Movie movie;
   Mp4Track visual = face_track(face);
   std::int64_t length = milliseconds(visual);
   // The unit of track durations; 1 ms would round them.
-  movie.timescale = sound != nullptr ? std::uint32_t(sound->sample_rate) : face.timescale;
+  movie.timescale = sound != nullptr ? std::uint32_t(sound->format.sample_rate) : face.timescale;
   std::vector<Mp4Track> media;
   media.push_back(std::move(visual));
   if (sound != nullptr) {
-    Result<Mp4Track> track = sound_track(*sound, options.audio_bit_rate);
-    if (!track) return track.error();
-    length = std::max(length, milliseconds(*track));
-    media.push_back(std::move(*track));
+    media.push_back(sound_track(*sound));
+    length = std::max(length, milliseconds(media.back()));
   }
   const std::vector<std::uint8_t> config = scene_config();
   movie.tracks.push_back(constant_track(kSceneTrack, "sdsm", "scene", kSceneStream,
@@ -167,9 +154,9 @@ Result<Mp4Movie> systems_movie(const fba::AccessUnits& face, const Pcm* sound, i
   movie.tracks.back().references = {kFaceTrack};
   if (sound != nullptr) movie.tracks.back().references.push_back(kSoundTrack);
   for (Mp4Track& track : media) movie.tracks.push_back(std::move(track));
-  const unsigned audio_profile = sound == nullptr              ? kNoneRequired
-                                 : sound->sample_rate <= 48000 ? kAacLevel2
-                                                               : kUnspecified;
+  const unsigned audio_profile = sound == nullptr                     ? kNoneRequired
+                                 : sound->format.sample_rate <= 48000 ? kAacLevel2
+                                                                      : kUnspecified;
   movie.initial_object_descriptor =
       initial_object_descriptor(audio_profile, unsigned(visual_profile));
   return movie;

@@ -2,14 +2,13 @@
 // section 1.5.
 #pragma once
 
+#include "codec/access_unit.h"
 #include "tools/media/detail/mp4_file.h"
-#include "tools/media/mux.h"
+#include "tools/media/encoded_audio.h"
 
 namespace animeme::media {
 
-/// Scene, object, face and sound tracks. `sound` may be nullptr; its rate must be one of AAC.
-/// Errors: those of the encoder.
-Result<Mp4Movie> systems_movie(const fba::AccessUnits& face, const Pcm* sound, int visual_profile,
-                               const MuxOptions& options);
+/// Scene, object, face and sound tracks. `sound` is AAC or nullptr: none.
+Mp4Movie systems_movie(const fba::AccessUnits& face, const EncodedAudio* sound, int visual_profile);
 
 }  // namespace animeme::media

@@ -1,0 +1,114 @@
+#include "tools/media/detail/audio_parameters.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string>
+
+extern "C" {
+#include <libavutil/intreadwrite.h>
+}
+
+namespace animeme::media {
+namespace {
+
+constexpr std::array<int, 13> kAacRates = {7350,  8000,  11025, 12000, 16000, 22050, 24000,
+                                           32000, 44100, 48000, 64000, 88200, 96000};
+constexpr int kOpusRate = 48000;
+constexpr std::int64_t kMostAacBitsPerSample = 6;             // 6144 bits a frame of 1024 samples
+constexpr std::int64_t kLongestTime = std::int64_t(1) << 47;  // room for rescaling
+constexpr std::size_t kLargestPacket = std::size_t(1) << 24;
+
+Error invalid(std::string message) {
+  return make_error(Code::invalid_argument, std::move(message));
+}
+
+}  // namespace
+
+int coded_sample_rate(AudioCodec codec, int sample_rate) {
+  if (codec == AudioCodec::opus) return kOpusRate;
+  const auto* rate = std::lower_bound(kAacRates.begin(), kAacRates.end(), sample_rate);
+  return rate == kAacRates.end() ? kAacRates.back() : *rate;
+}
+
+BitRates bit_rates(AudioCodec codec) {
+  return codec == AudioCodec::opus ? BitRates{6000, 256000, 40000} : BitRates{8000, 320000, 64000};
+}
+
+std::int64_t coded_bit_rate(const AudioSettings& settings, int sample_rate) {
+  std::int64_t bits = settings.bit_rate != 0 ? settings.bit_rate : bit_rates(settings.codec).usual;
+  if (settings.codec == AudioCodec::aac) {
+    const int rate = coded_sample_rate(settings.codec, sample_rate);
+    bits = std::min(bits, kMostAacBitsPerSample * rate);
+  }
+  return bits;
+}
+
+Result<av::Parameters> codec_parameters(const AudioFormat& format, std::int64_t bit_rate) {
+  if (format.sample_rate <= 0 || format.channels <= 0 || format.channels > 64) {
+    return invalid("the sound needs a sample rate and 1 to 64 channels");
+  }
+  av::Parameters parameters(avcodec_parameters_alloc());
+  if (!parameters || !av::set_extradata(*parameters, format.config)) {
+    return make_error(Code::out_of_range, "not enough memory");
+  }
+  parameters->codec_type = AVMEDIA_TYPE_AUDIO;
+  parameters->codec_id = format.codec == AudioCodec::opus ? AV_CODEC_ID_OPUS : AV_CODEC_ID_AAC;
+  if (format.codec == AudioCodec::aac) parameters->profile = FF_PROFILE_AAC_LOW;
+  parameters->format = AV_SAMPLE_FMT_FLTP;
+  parameters->sample_rate = format.sample_rate;
+  parameters->bit_rate = bit_rate;
+  parameters->frame_size = format.frame_samples;
+  parameters->initial_padding = format.priming;
+  av_channel_layout_default(&parameters->ch_layout, format.channels);
+  return parameters;
+}
+
+std::int64_t mean_bit_rate(const EncodedAudio& audio) {
+  double bytes = 0;
+  double samples = 0;
+  for (const AudioPacket& packet : audio.packets) {
+    bytes += double(packet.bytes.size());
+    samples += double(packet.duration);
+  }
+  return samples > 0 ? std::int64_t(bytes * 8 * audio.format.sample_rate / samples) : 0;
+}
+
+Result<void> check_audio(const EncodedAudio& audio) {
+  if (audio.packets.empty()) return invalid("the sound is empty");
+  if (audio.format.config.empty()) return invalid("the sound lacks its decoder configuration");
+  std::int64_t last = -kLongestTime;
+  for (std::size_t i = 0; i < audio.packets.size(); ++i) {
+    const AudioPacket& packet = audio.packets[i];
+    const std::string name = "sound packet " + std::to_string(i);
+    if (packet.bytes.empty()) return invalid(name + " is empty");
+    if (packet.bytes.size() > kLargestPacket) return invalid(name + " is larger than 16 MB");
+    if (packet.duration <= 0 || packet.duration > kLongestTime) {
+      return invalid(name + " needs a positive duration");
+    }
+    if (packet.time <= last || packet.time > kLongestTime) {
+      return invalid(name + " has the time " + std::to_string(packet.time) + "; times must ascend");
+    }
+    last = packet.time;
+  }
+  return {};
+}
+
+Result<void> copy_packet(const AudioPacket& source, const AudioFormat& format, AVPacket& target) {
+  const Error no_memory = make_error(Code::out_of_range, "not enough memory");
+  if (av_new_packet(&target, int(source.bytes.size())) < 0) return no_memory;
+  std::memcpy(target.data, source.bytes.data(), source.bytes.size());
+  target.pts = target.dts = source.time;
+  target.duration = source.duration;
+  target.flags |= AV_PKT_FLAG_KEY;
+  const std::int64_t surplus = format.frame_samples - source.duration;
+  if (format.codec != AudioCodec::opus || format.frame_samples == 0 || surplus <= 0) return {};
+  constexpr std::size_t kSize = 10;  // skip at begin, at end, two reasons
+  std::uint8_t* skip = av_packet_new_side_data(&target, AV_PKT_DATA_SKIP_SAMPLES, kSize);
+  if (skip == nullptr) return no_memory;
+  std::memset(skip, 0, kSize);
+  AV_WL32(skip + 4, std::uint32_t(surplus));
+  return {};
+}
+
+}  // namespace animeme::media

@@ -1,0 +1,90 @@
+// Pictures in, coded video out: the rendered preview of a face that any player shows.
+//
+//     Result<VideoEncoder> encoder = VideoEncoder::open({.width = 640, .height = 640});
+//     for (const Picture& picture : pictures) {
+//       if (auto ok = encoder->push(picture.rgba); !ok) return ok.error();
+//     }
+//     Result<EncodedVideo> video = encoder->finish();
+//
+// The coded video stays in memory (a talking head of 640 x 640 takes about 2 MB a minute).
+// Source: containers, section 6.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "fap/rate.h"
+#include "fap/result.h"
+
+namespace animeme::media {
+
+enum class VideoCodec : std::uint8_t {
+  h264,   ///< by libx264; for reach
+  vp9,    ///< by libvpx; free of patent questions
+  mpeg4,  ///< part 2, which every FFmpeg has; large
+};
+
+/// "h264", "vp9" or "mpeg4".
+const char* name_of(VideoCodec codec);
+
+/// The first of the codecs that suit a file with this extension (".mp4", ".webm", ".mkv") and that
+/// this FFmpeg can write. Errors: unsupported (another extension, or none of them is there).
+Result<VideoCodec> video_codec_for(std::string_view extension);
+
+struct VideoSettings {
+  VideoCodec codec = VideoCodec::h264;
+  int width = 640;  ///< pixels, even, 16..8192
+  int height = 640;
+  fap::Rate rate{25, 1};
+  /// 0 (best) to 51 (smallest); about 20 is hard to tell from the original.
+  int quality = 20;
+  /// Of the encoder. The bytes depend on it, so that it is not taken from the machine.
+  int threads = 4;
+};
+
+struct VideoPacket {
+  std::vector<std::uint8_t> bytes;
+  bool key = false;
+  std::int64_t time = 0;  ///< frame number; presentation = decoding order
+
+  friend bool operator==(const VideoPacket&, const VideoPacket&) = default;
+};
+
+/// A coded picture track: one packet a picture, in order.
+struct EncodedVideo {
+  VideoCodec codec = VideoCodec::h264;
+  int width = 0;
+  int height = 0;
+  fap::Rate rate;
+  std::vector<std::uint8_t> config;  ///< what a decoder has to know first ("extradata")
+  std::vector<VideoPacket> packets;
+};
+
+/// Movable, not copyable, not thread safe. Colours are BT.709, limited range; a key picture comes
+/// every second.
+class VideoEncoder {
+ public:
+  /// Errors: invalid_argument (settings out of bounds), unsupported (this FFmpeg lacks the
+  /// encoder), out_of_range (memory).
+  static Result<VideoEncoder> open(const VideoSettings& settings);
+  VideoEncoder(VideoEncoder&&) noexcept;
+  VideoEncoder& operator=(VideoEncoder&&) noexcept;
+  ~VideoEncoder();
+
+  /// Adds one picture: width x height x 4 bytes, rows from the top, R G B A; A is not used.
+  /// Errors: invalid_argument (another size), io (the encoder fails), out_of_range (memory).
+  Result<void> push(std::span<const std::uint8_t> rgba);
+  /// Ends the video and hands it out. Nothing can be pushed after it.
+  /// Errors: as push(); invalid_argument (no picture was pushed).
+  Result<EncodedVideo> finish();
+
+ private:
+  struct Impl;
+  explicit VideoEncoder(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace animeme::media
