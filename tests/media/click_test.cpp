@@ -30,7 +30,7 @@ TEST_P(Click, SoundAndFaceStayTogether) {
   std::vector<std::size_t> starts;
   for (std::size_t k = 1; k < 8; ++k) starts.push_back(k * std::size_t(rate) / 2 + 37);
   const Pcm sound = test::make_clicks(rate, 4 * std::size_t(rate), starts);
-  const Result<void> written = write_container(path, {.face = &face, .audio = &sound});
+  const Result<MuxResult> written = write_container(path, {.face = &face, .audio = &sound});
   ASSERT_TRUE(written) << written.error().describe();
 
   const Result<Container> back = read_container(path);

@@ -23,6 +23,7 @@ enum ExitCode : int {
   kUsage = 2,
   kBadInput = 3,
   kInternal = 4,
+  kInterrupted = 130,  ///< Ctrl-C; what was written is complete as far as it goes
 };
 
 /// A command puts its options into `app` and returns what is to run when it was chosen: the exit
@@ -38,8 +39,8 @@ struct Command {
   Action (*add)(CLI::App& app);
 };
 
-extern const Command kAlign, kCheck, kCompare, kDecode, kDemux, kEncode, kEvaluate, kExport, kFollow,
-    kImport, kInfo, kMux, kPlot, kSpeak, kStats, kTrain;
+extern const Command kAlign, kCheck, kCompare, kDecode, kDemux, kEncode, kEvaluate, kExport,
+    kFollow, kImport, kInfo, kMux, kPlot, kReceive, kSpeak, kStats, kStream, kTrain;
 
 /// Prints a usage error on standard error; returns kUsage for the command to return.
 int usage_error(const std::string& text);

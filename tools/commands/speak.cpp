@@ -25,7 +25,7 @@ struct Options {
   std::string rate = "25";
   std::string save_script;
   StreamSettings stream;
-  media::MuxOptions mux;
+  SoundSettings sound;
   double style = 1;
   bool no_closure = false;
   bool life = false;
@@ -85,7 +85,9 @@ Result<int> write_result(const Options& options, const fap::Sequence& clip, cons
   if (!units) return units.error();
   const media::Pcm* audio = spoken.audio ? &*spoken.audio : nullptr;
   if (audio == nullptr) warn("there is no recorded voice (--audio), the file will be silent");
-  return write_media(options.output, *units, audio, options.mux);
+  media::MuxOptions mux;
+  mux.audio = audio_settings(options.sound, options.output);
+  return write_media(options.output, {.face = &*units, .audio = audio}, mux);
 }
 
 void report(const Options& options, const Spoken& spoken, const dam::Signal& signal,
@@ -155,7 +157,7 @@ Result<int> run(const Options& options) {
     if (auto done = write_file(options.save_script, text); !done) return done.error();
   }
   report(options, *spoken, *signal, synthesis);
-  return kOk;
+  return written;
 }
 
 Action add(CLI::App& app) {
@@ -181,9 +183,7 @@ Action add(CLI::App& app) {
   app.add_option("--seed", options->seed, "Other times of blinks and another sway of the head")
       ->needs("--life");
   add_stream_options(app, options->stream);
-  app.add_option("--audio-bitrate", options->mux.audio_bit_rate, "Bits a second of the AAC track")
-      ->check(CLI::Range(8000, 320000))
-      ->capture_default_str();
+  add_sound_options(app, options->sound, false);
   app.add_flag("--json", options->json, "Machine-readable summary on standard output");
   return [options] { return run(*options); };
 }

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -9,6 +8,7 @@
 #include "tools/media/audio.h"
 #include "tools/media/container.h"
 #include "tools/media/detail/audio_decoder.h"
+#include "tools/media/detail/extension.h"
 #include "tools/media/detail/face_track.h"
 #include "tools/media/detail/muxer.h"
 #include "tools/media/detail/output_file.h"
@@ -39,14 +39,6 @@ bool takes(const CopyTarget& target, AVCodecID codec) {
   if (codecs[0] == AV_CODEC_ID_NONE) return true;
   return codec != AV_CODEC_ID_NONE &&
          std::find(codecs.begin(), codecs.end(), codec) != codecs.end();
-}
-
-std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-  }
-  return extension;
 }
 
 Error does_not_fit(std::string_view extension, AVCodecID codec) {

@@ -1,6 +1,8 @@
 #include "tools/web/detail/values.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "codec/fill.h"
@@ -58,11 +60,14 @@ std::string values_hello() {
 }
 
 std::optional<fap::Frame> Values::push(std::span<const std::uint8_t> unit) {
-  static constexpr std::uint8_t kObject[] = {0, 0, 1, 0xBA, 0x7F};
-  const bool object = unit.size() > 3 && (unit[3] == 0xBA || unit[3] == 0x01);
-  if (!begun_ && !object) decoder_.push(kObject);  // joined later than the begin
-  begun_ = true;
-  decoder_.push(unit);
+  // A decoder wants to see what stands behind a plane. All units begin with a start code, so these
+  // bytes can be told before the next unit is there, and nobody waits for it.
+  static constexpr std::uint8_t kPrefix[] = {0, 0, 1};
+  const bool code = unit.size() > 3 && std::equal(std::begin(kPrefix), std::end(kPrefix), unit.begin());
+  if (!code) return std::nullopt;
+  decoder_.push(ahead_ ? unit.subspan(std::size(kPrefix)) : unit);
+  decoder_.push(kPrefix);
+  ahead_ = true;
   bool face = false;
   for (;;) {
     Result<fba::Event> event = decoder_.next();

@@ -23,7 +23,7 @@ class Values {
 
  private:
   fba::Decoder decoder_;
-  bool begun_ = false;
+  bool ahead_ = false;  // the decoder has the first bytes of the next unit already
   fap::Frame shown_;
 };
 
