@@ -60,7 +60,7 @@ TEST(WebMessages, ValuesAreThoseOfTheDecoder) {
       if (!face) continue;
       const fap::Frame& want = filled->frames[std::size_t(decoded.face.number)];
       for (std::size_t fap = 3; fap < face->value.size(); ++fap) {
-        if (!face->mask[fap]) continue;
+        if (!want.mask[fap]) continue;
         ASSERT_EQ(face->value[fap], want.value[fap]) << "plane " << plane << " FAP " << fap;
         ++compared;
       }

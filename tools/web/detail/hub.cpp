@@ -74,8 +74,9 @@ void Hub::push(Client& client, const MessagePtr& message) {
     marked.bytes[kFlagsAt] |= kMissed;
     own = std::make_shared<const Message>(std::move(marked));
   }
+  // Of one that has just lost all that waited for it, nobody can say that it takes anything.
+  if (client.queue.empty() && !client.missed) client.taken = Clock::now();
   client.missed = false;
-  if (client.queue.empty()) client.taken = Clock::now();
   client.bytes += own->bytes.size();
   client.queue.push_back(std::move(own));
 }

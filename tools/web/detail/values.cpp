@@ -35,13 +35,17 @@ const char* name_of(fap::Unit unit) {
   return "";
 }
 
-/// What a receiver shows after `coded`, if it showed `before`.
+/// What a receiver shows after `coded`, if it showed `before`: all low-level FAPs, and of FAP 1 and
+/// 2 those that were ever sent.
 fap::Frame resolve(const fap::Frame& before, const fap::Frame& coded,
                    const fba::FaceSettings& settings) {
   fap::Sequence two{{25, 1}, {before, coded}, {}};
+  for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+    two.frames[0].mask.set(std::size_t(fap));  // neutral at first, and nothing is derived here
+  }
   two.frames[0].number = 0;
   two.frames[1].number = 1;
-  const fap::GroupRules rules[2] = {fba::group_rules(settings), fba::group_rules(settings)};
+  const fap::GroupRules rules[2] = {{}, fba::group_rules(settings)};
   Result<fap::Sequence> filled = fap::fill(two, rules, {.keep_high_level = true});
   return filled && filled->frames.size() == 2 ? filled->frames[1] : coded;
 }
@@ -63,8 +67,9 @@ std::optional<fap::Frame> Values::push(std::span<const std::uint8_t> unit) {
   // A decoder wants to see what stands behind a plane. All units begin with a start code, so these
   // bytes can be told before the next unit is there, and nobody waits for it.
   static constexpr std::uint8_t kPrefix[] = {0, 0, 1};
-  const bool code = unit.size() > 3 && std::equal(std::begin(kPrefix), std::end(kPrefix), unit.begin());
-  if (!code) return std::nullopt;
+  const bool begins =
+      unit.size() > 3 && std::equal(std::begin(kPrefix), std::end(kPrefix), unit.begin());
+  if (!begins) return std::nullopt;
   decoder_.push(ahead_ ? unit.subspan(std::size(kPrefix)) : unit);
   decoder_.push(kPrefix);
   ahead_ = true;
@@ -80,9 +85,17 @@ std::optional<fap::Frame> Values::push(std::span<const std::uint8_t> unit) {
     const fba::FaceSettings plain;
     const auto& settings = event->plane.face_settings ? *event->plane.face_settings : plain;
     shown_ = resolve(shown_, event->plane.face, settings);
+    sent_ |= event->plane.face.mask;
     face = true;
   }
-  return face ? std::optional(shown_) : std::nullopt;
+  if (!face) return std::nullopt;
+  // FAPs that nobody has ever sent and that follow from none are 0 and left out.
+  fap::Frame shown = shown_;
+  for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+    const auto at = std::size_t(fap);
+    shown.mask[at] = sent_[at] || shown.value[at] != 0;
+  }
+  return shown;
 }
 
 std::string write_values(const ValuesMessage& message, const fap::Frame& face) {

@@ -18,13 +18,15 @@ std::string values_hello();
 class Values {
  public:
   /// The face after this access unit, all of it: FAPs that the plane does not code have the value
-  /// that a receiver shows (codec/fill.h). nullopt: the unit has no face that can be decoded.
+  /// that a receiver shows (codec/fill.h); those that are not in the mask are 0. nullopt: the unit
+  /// has no face that can be decoded.
   std::optional<fap::Frame> push(std::span<const std::uint8_t> unit);
 
  private:
   fba::Decoder decoder_;
   bool ahead_ = false;  // the decoder has the first bytes of the next unit already
   fap::Frame shown_;
+  fap::Mask sent_;
 };
 
 struct ValuesMessage {
