@@ -9,7 +9,6 @@
 #include "tools/commands/face_stream.h"
 #include "tools/media/audio.h"
 #include "tools/media/container.h"
-#include "tools/media/read_sound.h"
 
 namespace animeme::tools {
 

@@ -14,6 +14,7 @@
 #include "tools/media/detail/mux_check.h"
 #include "tools/media/detail/output_file.h"
 #include "tools/media/detail/systems_movie.h"
+#include "tools/media/detail/ts_pmt.h"
 
 namespace animeme::media {
 namespace {
@@ -112,6 +113,12 @@ Result<std::optional<SoundSource>> open_sound(const MuxInput& input, const MuxOp
   return sound;
 }
 
+OutputStream::Filter filter_of(const FileType& type, const MuxInput& input) {
+  if (std::string_view(type.muxer) != "mpegts" || input.face == nullptr) return nullptr;
+  const auto filter = std::make_shared<ProgramMapFilter>(std::uint8_t(visual_profile(input)));
+  return [filter](std::span<const std::uint8_t> bytes) { return filter->push(bytes); };
+}
+
 double seconds_of_sound(const MuxInput& input) {
   if (input.audio != nullptr) return input.audio->duration();
   const EncodedAudio& audio = *input.encoded;
@@ -122,7 +129,7 @@ Result<MuxResult> write_streams(const std::string& path, const FileType& type,
                                 const MuxInput& input, const MuxOptions& options) {
   Result<std::optional<SoundSource>> sound = open_sound(input, options);
   if (!sound) return sound.error();
-  Result<std::unique_ptr<Muxer>> opened = Muxer::open(path, type.muxer);
+  Result<std::unique_ptr<Muxer>> opened = Muxer::open(path, type.muxer, filter_of(type, input));
   if (!opened) return opened.error();
   Muxer& muxer = **opened;
   std::vector<std::unique_ptr<TrackFeed>> feeds;
