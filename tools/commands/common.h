@@ -39,7 +39,7 @@ struct Command {
 };
 
 extern const Command kAlign, kCheck, kCompare, kDecode, kDemux, kEncode, kEvaluate, kFollow,
-    kImport, kInfo, kMux, kPlot, kSpeak, kStats, kTrain;
+    kImport, kInfo, kMux, kPlot, kRender, kSpeak, kStats, kTrain;
 
 /// Prints a usage error on standard error; returns kUsage for the command to return.
 int usage_error(const std::string& text);
