@@ -120,7 +120,7 @@ class Measurement {
       for (const std::size_t i : face_.fixed()) add_error(seen.still[i], neutral_.shape[i]);
       Rotation head = pose->rotation;
       if (const auto& told = track_.frames[frame].head; told && !face_.depth()) {
-        head = rotation_of(internal::HeadAngles{told->pitch, told->yaw, told->roll});
+        head = internal::rotation_of(*told);
         seen.has_turn = true;
       }
       seen.eyes = gaze.eyes(frame, head, seen.still);

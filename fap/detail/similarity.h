@@ -6,6 +6,7 @@
 #include <span>
 
 #include "fap/fapu.h"
+#include "fap/landmarks.h"
 
 namespace animeme::fap::internal {
 
@@ -23,13 +24,7 @@ Rotation mean_rotation(std::span<const Rotation> rotations);
 /// The smallest rotation that turns the direction of `from` to that of `to`.
 Rotation shortest_rotation(const Point& from, const Point& to);
 
-/// Angles of a head in rad, about +X, +Y and +Z, as FAP 48, 49 and 50 have them. Yaw is
-/// outermost, then pitch, then roll, as Greta turns heads (fap_semantics, section 1).
-struct HeadAngles {
-  double pitch = 0;
-  double yaw = 0;
-  double roll = 0;
-};
+using HeadAngles = HeadPose;
 Rotation rotation_of(const HeadAngles& angles);
 HeadAngles angles_of(const Rotation& rotation);
 
