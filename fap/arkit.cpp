@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fap/arkit_internal.h"
+#include "fap/detail/symmetry.h"
 #include "fap/tables.h"
 
 namespace animeme::fap {
@@ -76,8 +77,7 @@ namespace {
 
 using internal::ArkitWeight;
 
-constexpr int kLidsMeet = 1024;      // FAP 19 + 21: IRISD is the opening of the lids
-constexpr int kLongestLevel = 1860;  // 31 * 60, the widest range of a stream
+constexpr int kLidsMeet = 1024;  // FAP 19 + 21: IRISD is the opening of the lids
 constexpr std::size_t kLongestName = 32;
 constexpr std::size_t kFirstEyeball = 23, kLastEyeball = 26;
 
@@ -106,20 +106,15 @@ std::string other_side(std::string_view name) {
   return std::string(name.substr(0, name.size() - 4)) + "Right";
 }
 
-// A mirrored face has the value of a FAP on its partner. FAPs that point to one side of the
-// world and not of the face (yaw of both eyes is positive to the left) change their sign.
 ArkitWeight mirrored(const ArkitWeight& weight) {
-  const FapInfo& fap = info(weight.fap);
-  const int partner = fap.mirror != 0 ? fap.mirror : fap.number;
-  const bool sideways = fap.motion == Motion::left || fap.motion == Motion::right;
-  const bool flips = sideways && info(partner).motion == fap.motion;
-  return {partner, flips ? -weight.value : weight.value};
+  const internal::MirrorImage image = internal::mirror_image(weight.fap);
+  return {image.fap, image.sign * weight.value};
 }
 
-using Weights = std::array<std::vector<ArkitWeight>, kArkitChannelCount>;
+using internal::ArkitWeights;
 
-Weights all_weights() {
-  Weights weights;
+ArkitWeights all_weights() {
+  ArkitWeights weights;
   for (const internal::ArkitShape& shape : internal::arkit_shapes()) {
     auto& left = weights[std::size_t(find_arkit(shape.name).value_or(0))];
     left.assign(shape.weights.begin(), shape.weights.end());
@@ -132,11 +127,6 @@ Weights all_weights() {
   return weights;
 }
 
-const Weights& weights() {
-  static const Weights all = all_weights();
-  return all;
-}
-
 // What shapes say of the eyeballs counts more than measured angles.
 Mask eyeballs_of_shapes(const ArkitChannels& channels) {
   ArkitChannels shapes = channels;
@@ -147,17 +137,17 @@ Mask eyeballs_of_shapes(const ArkitChannels& channels) {
   return mask;
 }
 
-std::int32_t clipped(double value, int fap) {
-  const double limit = double(kLongestLevel) * info(fap).quant_step;
-  return std::int32_t(std::lround(std::clamp(value, -limit, limit)));
-}
-
 void keep_lids_apart(Frame& frame, std::size_t upper, std::size_t lower) {
   if (!frame.mask[upper]) return;
   frame.value[upper] = std::min(frame.value[upper], kLidsMeet - frame.value[lower]);
 }
 
 }  // namespace
+
+const ArkitWeights& internal::arkit_weights() {
+  static const ArkitWeights all = all_weights();
+  return all;
+}
 
 std::optional<int> find_arkit(std::string_view name) {
   static const std::array<std::string, kArkitChannelCount> known = lower_case_names();
@@ -171,7 +161,8 @@ Mask arkit_faps(const ArkitChannels& channels) {
   Mask mask;
   for (std::size_t channel = 0; channel < kArkitChannelCount; ++channel) {
     if (!channels[channel]) continue;
-    for (const ArkitWeight& weight : weights()[channel]) mask.set(std::size_t(weight.fap));
+    for (const ArkitWeight& weight : internal::arkit_weights()[channel])
+      mask.set(std::size_t(weight.fap));
   }
   return mask;
 }
@@ -182,7 +173,7 @@ Frame arkit_to_fap(const ArkitFrame& frame, const ArkitChannels& channels) {
   for (std::size_t channel = 0; channel < kArkitChannelCount; ++channel) {
     if (!channels[channel] || !std::isfinite(frame[channel])) continue;
     const bool angle = channel >= kArkitShapeCount;
-    for (const ArkitWeight& weight : weights()[channel]) {
+    for (const ArkitWeight& weight : internal::arkit_weights()[channel]) {
       const std::size_t fap = std::size_t(weight.fap);
       if (angle && eyeballs[fap]) continue;
       sum[fap] += frame[channel] * weight.value;
@@ -192,7 +183,7 @@ Frame arkit_to_fap(const ArkitFrame& frame, const ArkitChannels& channels) {
   out.mask = arkit_faps(channels);
   for (int fap = kFirstLowLevel; fap <= kFapCount; ++fap) {
     if (out.mask[std::size_t(fap)])
-      out.value[std::size_t(fap)] = clipped(sum[std::size_t(fap)], fap);
+      out.value[std::size_t(fap)] = internal::coded_value(sum[std::size_t(fap)], fap);
   }
   keep_lids_apart(out, 19, 21);
   keep_lids_apart(out, 20, 22);

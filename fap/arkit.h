@@ -1,4 +1,4 @@
-// From ARKit blend shapes, as phones capture faces, to FAPs.
+// From ARKit blend shapes, as phones capture faces, to FAPs and back.
 //
 //     animeme::fap::ArkitFrame weights{};               // all shapes at rest
 //     weights[*animeme::fap::find_arkit("jawOpen")] = 0.4;
@@ -10,10 +10,17 @@
 // ICT-FaceKit (University of Southern California, MIT licence), which has ARKit's shapes: how far
 // each feature point moves along the axis of its FAP, in units of that face (users_ask_for,
 // section 2). See arkit_table.cpp for the numbers and what is not from there.
+//
+// The way back is a fit, since 66 FAPs show faces that 52 shapes do not and several sets of shapes
+// give one face:
+//
+//     animeme::fap::ArkitFitter fitter;
+//     for (const Frame& frame : filled.frames) rows.push_back(fitter.fit(frame));
 #pragma once
 
 #include <array>
 #include <bitset>
+#include <memory>
 #include <optional>
 #include <string_view>
 
@@ -63,5 +70,40 @@ Mask arkit_faps(const ArkitChannels& channels);
 ///   follows the jaw: all FAPs are where their feature point is.
 /// - Values that an FBA stream cannot carry at fap_quant 1 are clipped: +-1860 quantiser steps.
 Frame arkit_to_fap(const ArkitFrame& frame, const ArkitChannels& channels);
+
+struct ArkitFitOptions {
+  /// What it costs to use a shape, as a share of what it does to the face; 0..1. It keeps shapes
+  /// from working against each other.
+  double ridge = 0.001;
+  /// What it costs to change a weight from one frame to the next, likewise; 0..1. It keeps shapes
+  /// that look nearly alike from taking turns. 0: every frame stands for itself.
+  double steadiness = 0.01;
+};
+
+/// FAPs to ARKit, frame by frame. Movable, not copyable. About 0.1 ms a frame.
+///
+/// - Gaze: eyeLookIn, Out, Up and Down from the angles of FAP 23 to 26, and the eyes' own angles
+///   the same way. The head's angles from FAP 48 to 50. tongueOut from FAP 45. These are exact
+///   (shapes end at 1) and the inverse of arkit_to_fap().
+/// - All other shapes: the weights from 0 to 1 whose FAPs come nearest, by least squares over the
+///   FAPs of the frame's mask, in lengths on the face (FAPU of the head the table was measured on).
+///   Lids of a blink count more, so that closed eyes are closed.
+/// - FAPs that no shape reaches (pupils, ears, ...) are lost; brows raised beyond the shapes stop
+///   at 1. The same frames give the same weights on every machine.
+class ArkitFitter {
+ public:
+  explicit ArkitFitter(const ArkitFitOptions& options = {});
+  ArkitFitter(ArkitFitter&&) noexcept;
+  ArkitFitter& operator=(ArkitFitter&&) noexcept;
+  ~ArkitFitter();
+
+  /// `frame` should be complete (fill.h): a FAP that is missing has no say. FAP 1 and 2 are not
+  /// looked at.
+  ArkitFrame fit(const Frame& frame);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 }  // namespace animeme::fap

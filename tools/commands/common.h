@@ -39,8 +39,8 @@ struct Command {
   Action (*add)(CLI::App& app);
 };
 
-extern const Command kAlign, kCheck, kCompare, kDecode, kDemux, kEncode, kEvaluate, kFollow,
-    kImport, kInfo, kMux, kPlot, kSpeak, kStats, kTrain;
+extern const Command kAlign, kCheck, kCompare, kDecode, kDemux, kEncode, kEvaluate, kExport,
+    kFollow, kImport, kInfo, kMux, kPlot, kReceive, kRender, kSpeak, kStats, kStream, kTrain;
 
 /// Prints a usage error on standard error; returns kUsage for the command to return.
 int usage_error(const std::string& text);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dam/script.h"
+#include "fap/result.h"
 
 namespace animeme::tools {
 
@@ -16,21 +17,29 @@ using PlotPoints = std::vector<std::pair<double, double>>;
 struct PlotRow {
   std::string title;
   std::string subtitle;
-  std::vector<PlotPoints> curves;  ///< at most two
+  std::vector<PlotPoints> curves;  ///< first_colour + their number: three at most
+  std::size_t first_colour = 0;    ///< place in the legend of the first curve
 };
 
 /// Rows over one time axis.
 struct PlotPanel {
-  std::string heading;  ///< empty: none
-  double seconds = 0;
+  std::string heading;                  ///< empty: none
+  double begin = 0;                     ///< seconds; what lies before is not shown
+  double seconds = 0;                   ///< where it ends
   const dam::Script* script = nullptr;  ///< phones behind the rows; nullptr: none
   bool names_below = false;             ///< the phones' names stand below the rows, not above
   std::vector<PlotRow> rows;
 };
 
-/// The panels one below the other, and whose colour is whose. Longer than this cannot be drawn.
+/// The panels one below the other, and whose colour is whose. A second is 260 pixels wide, less
+/// in long clips: they are 2400 pixels wide, with phones 8000, and never less than 19 a second.
+/// Longer than this should not be drawn.
 inline constexpr double kLongestPlot = 600;  // seconds
 std::string curves_svg(const std::vector<PlotPanel>& panels,
                        const std::vector<std::string>& legend);
+
+/// Writes a drawing as .png or, with any other name, as it is. Errors: io, and those of
+/// media::svg_to_png().
+Result<void> write_drawing(const std::string& path, const std::string& svg);
 
 }  // namespace animeme::tools

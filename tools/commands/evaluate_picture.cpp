@@ -5,7 +5,6 @@
 #include "dam/fap_signal.h"
 #include "tools/commands/curve_plot.h"
 #include "tools/commands/evaluate_report.h"
-#include "tools/media/picture.h"
 
 namespace animeme::tools {
 
@@ -102,11 +101,7 @@ Result<void> write_picture(const std::string& path, const std::vector<dam::Sente
                         "sentence '" + pairs[index].recorded.id + "' is too long to draw");
     }
   }
-  const std::string svg = curves_svg(panels, {"recorded", "made"});
-  if (extension_of(path) != ".png") return write_file(path, svg);
-  Result<std::vector<std::uint8_t>> png = media::svg_to_png(svg);
-  if (!png) return png.error().in_file(path);
-  return write_file(path, *png);
+  return write_drawing(path, curves_svg(panels, {"recorded", "made"}));
 }
 
 }  // namespace animeme::tools

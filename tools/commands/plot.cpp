@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdlib>
 #include <memory>
 
 #include "dam/script.h"
@@ -16,22 +17,63 @@ struct Options {
   std::string b;
   std::string output;
   std::string script;
-  std::vector<int> faps = {3, 4, 5, 6};
+  std::vector<std::string> faps = {"3", "4", "5", "6"};
+  bool difference = false;
+  double from = 0;
+  double to = -1;
 };
+
+PlotPoints points_of(int fap, const fap::Sequence& clip) {
+  PlotPoints points;
+  for (const fap::Frame& frame : clip.frames) {
+    points.emplace_back(clip.rate.seconds(double(frame.number)), frame.value[std::size_t(fap)]);
+  }
+  return points;
+}
 
 PlotRow row_of(int fap, const std::vector<fap::Sequence>& clips) {
   PlotRow row{"FAP " + std::to_string(fap), std::string(fap::info(fap).name), {}};
-  for (const fap::Sequence& clip : clips) {
-    PlotPoints points;
-    for (const fap::Frame& frame : clip.frames) {
-      points.emplace_back(clip.rate.seconds(double(frame.number)), frame.value[std::size_t(fap)]);
-    }
-    row.curves.push_back(std::move(points));
+  for (const fap::Sequence& clip : clips) row.curves.push_back(points_of(fap, clip));
+  return row;
+}
+
+// b less a at the times of a; what b shows at a time is its last frame so far.
+PlotRow difference_of(int fap, const fap::Sequence& a, const fap::Sequence& b) {
+  PlotRow row{"", "difference of " + std::to_string(fap), {{}}, 2};
+  const PlotPoints shown = points_of(fap, b);
+  std::size_t at = 0;
+  for (const auto& [time, value] : points_of(fap, a)) {
+    while (at + 1 < shown.size() && shown[at + 1].first <= time + 1e-6) ++at;
+    if (!shown.empty()) row.curves[0].emplace_back(time, shown[at].second - value);
   }
   return row;
 }
 
+// FAP numbers of what the user named; 0 at the end: the last one is not known.
+std::vector<int> numbers_of(const std::vector<std::string>& names) {
+  std::vector<int> numbers;
+  for (const std::string& name : names) {
+    int number = fap::find_fap(name).value_or(0);
+    if (number == 0 && name.size() <= 2 &&
+        name.find_first_not_of("0123456789") == std::string::npos) {
+      number = std::atoi(name.c_str());
+    }
+    if (number < fap::kFirstLowLevel || number > fap::kFapCount) number = 0;
+    numbers.push_back(number);
+    if (number == 0) break;
+  }
+  return numbers;
+}
+
 Result<int> run(const Options& options) {
+  const std::vector<int> faps = numbers_of(options.faps);
+  if (!faps.empty() && faps.back() == 0) {
+    return usage_error("--faps: " + options.faps[faps.size() - 1] +
+                       " is no FAP; give numbers 3 to 68 or names like open_jaw");
+  }
+  if (options.difference && options.b.empty()) {
+    return usage_error("--difference needs two clips");
+  }
   std::vector<fap::Sequence> clips;
   std::vector<std::string> names;
   for (const std::string& path : {options.a, options.b}) {
@@ -45,8 +87,15 @@ Result<int> run(const Options& options) {
   }
   PlotPanel panel;
   for (const fap::Sequence& clip : clips) panel.seconds = std::max(panel.seconds, clip.duration());
-  if (panel.seconds > kLongestPlot) {
-    return make_error(Code::out_of_range, "the clip is longer than ten minutes, too wide to plot")
+  if (options.from >= panel.seconds) {
+    return usage_error("--from lies behind the end of the clip");
+  }
+  panel.begin = options.from;
+  if (options.to > options.from) panel.seconds = std::min(panel.seconds, options.to);
+  if (panel.seconds - panel.begin > kLongestPlot) {
+    return make_error(
+               Code::out_of_range,
+               "more than ten minutes are too wide to plot; choose a part by --from and --to")
         .in_file(options.a);
   }
   dam::Script script;
@@ -58,8 +107,12 @@ Result<int> run(const Options& options) {
     script = std::move(*read);
     panel.script = &script;
   }
-  for (const int fap : options.faps) panel.rows.push_back(row_of(fap, clips));
-  if (auto written = write_file(options.output, curves_svg({panel}, names)); !written) {
+  for (const int fap : faps) {
+    panel.rows.push_back(row_of(fap, clips));
+    if (options.difference) panel.rows.push_back(difference_of(fap, clips[0], clips[1]));
+  }
+  if (options.difference) names.emplace_back("difference, second less first");
+  if (auto written = write_drawing(options.output, curves_svg({panel}, names)); !written) {
     return written.error();
   }
   return kOk;
@@ -69,22 +122,29 @@ Action add(CLI::App& app) {
   auto options = std::make_shared<Options>();
   app.add_option("a", options->a, "FAP text, FBA stream or container (blue)")->required();
   app.add_option("b", options->b, "A second one to compare with (red)");
-  app.add_option("-o,--output", options->output, "SVG file to write, - for standard output")
+  app.add_option("-o,--output", options->output,
+                 "Picture to write: .svg or .png; - is SVG on standard output")
       ->required();
   app.add_option("--script", options->script, "Phoneme script to show behind the curves");
-  app.add_option("--faps", options->faps, "FAP numbers, one curve each")
+  app.add_option("--faps", options->faps, "FAPs by number or name, one row each")
       ->delimiter(',')
-      ->check(CLI::Range(3, fap::kFapCount))
       ->capture_default_str();
+  app.add_flag("--difference", options->difference,
+               "A row with the second less the first for each");
+  app.add_option("--from", options->from, "Seconds at which the picture begins")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--to", options->to, "Seconds at which it ends")->check(CLI::PositiveNumber);
   return [options] { return run(*options); };
 }
 
 }  // namespace
 
-const Command kPlot{"plot", "Curves of one clip or two as SVG",
+const Command kPlot{"plot", "Curves of one clip or two as a picture",
                     "  animeme plot talk.fap -o curves.svg\n"
                     "  animeme plot measured.fap talk.fap --script talk.TextGrid --faps 3,4,5,51 "
-                    "-o curves.svg",
+                    "-o curves.svg\n"
+                    "  animeme plot talk.fap talk.fba --difference --faps open_jaw,raise_b_midlip "
+                    "-o loss.png",
                     add};
 
 }  // namespace animeme::tools

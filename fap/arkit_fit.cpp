@@ -1,0 +1,92 @@
+// FAPs to ARKit: a least squares fit with bounds, and what is found without one.
+#include <algorithm>
+#include <vector>
+
+#include "fap/arkit.h"
+#include "fap/arkit_internal.h"
+#include "fap/detail/bounded_fit.h"
+#include "fap/tables.h"
+
+namespace animeme::fap {
+namespace {
+
+using internal::arkit_weights;
+using internal::ArkitWeight;
+
+// Eyes, head and tongue: found one by one, not by the fit.
+struct Direct {
+  std::string_view channel;
+  int fap;
+};
+
+constexpr Direct kDirect[] = {
+    {"eyeLookOutLeft", 23},   {"eyeLookInLeft", 23},   {"eyeLookOutRight", 24},
+    {"eyeLookInRight", 24},   {"eyeLookDownLeft", 25}, {"eyeLookUpLeft", 25},
+    {"eyeLookDownRight", 26}, {"eyeLookUpRight", 26},  {"headYaw", 49},
+    {"headPitch", 48},        {"headRoll", 50},        {"leftEyeYaw", 23},
+    {"leftEyePitch", 25},     {"rightEyeYaw", 24},     {"rightEyePitch", 26},
+    {"tongueOut", 45}};
+
+double effect(std::size_t channel, int fap) {
+  for (const ArkitWeight& weight : arkit_weights()[channel]) {
+    if (weight.fap == fap) return weight.value;
+  }
+  return 0;
+}
+
+}  // namespace
+
+struct ArkitFitter::Impl {
+  std::vector<std::size_t> shapes;  // those that are fitted, by channel
+  internal::BoundedFit fit;
+};
+
+namespace {
+
+// Channels of shapes that are not found one by one.
+std::vector<std::size_t> fitted_shapes() {
+  std::vector<std::size_t> shapes;
+  for (std::size_t channel = 0; channel < kArkitShapeCount; ++channel) {
+    const auto same = [&](const Direct& direct) { return direct.channel == kArkitNames[channel]; };
+    if (std::none_of(std::begin(kDirect), std::end(kDirect), same)) shapes.push_back(channel);
+  }
+  return shapes;
+}
+
+std::vector<std::vector<ArkitWeight>> weights_of(const std::vector<std::size_t>& shapes) {
+  std::vector<std::vector<ArkitWeight>> weights;
+  for (const std::size_t channel : shapes) weights.push_back(arkit_weights()[channel]);
+  return weights;
+}
+
+}  // namespace
+
+ArkitFitter::ArkitFitter(const ArkitFitOptions& options)
+    : impl_(new Impl{fitted_shapes(),
+                     {weights_of(fitted_shapes()), options.ridge, options.steadiness}}) {}
+ArkitFitter::ArkitFitter(ArkitFitter&&) noexcept = default;
+ArkitFitter& ArkitFitter::operator=(ArkitFitter&&) noexcept = default;
+ArkitFitter::~ArkitFitter() = default;
+
+ArkitFrame ArkitFitter::fit(const Frame& frame) {
+  ArkitFrame out{};
+  internal::FapValues target = internal::target_of(frame);
+  for (const Direct& direct : kDirect) {
+    if (!frame.mask[std::size_t(direct.fap)]) continue;
+    const auto channel = std::size_t(find_arkit(direct.channel).value_or(0));
+    const double full = effect(channel, direct.fap);
+    const double value = frame.value[std::size_t(direct.fap)];
+    const bool angle = channel >= kArkitShapeCount;
+    out[channel] = angle ? value / full : std::clamp(value / full, 0.0, 1.0);
+    if (angle) continue;
+    // The shapes of the gaze take the lids along.
+    for (const ArkitWeight& weight : arkit_weights()[channel]) {
+      target[std::size_t(weight.fap)] -= out[channel] * weight.value;
+    }
+  }
+  const std::vector<double>& weights = impl_->fit.fit(frame.mask, target);
+  for (std::size_t i = 0; i < impl_->shapes.size(); ++i) out[impl_->shapes[i]] = weights[i];
+  return out;
+}
+
+}  // namespace animeme::fap

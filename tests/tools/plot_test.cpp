@@ -1,0 +1,97 @@
+// `animeme plot`: pictures of curves.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "fap/text.h"
+#include "tests/support/program.h"
+
+namespace animeme {
+namespace {
+
+using test::animeme;
+using test::slurp;
+using test::spill;
+using test::TempDir;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+void write_clip(const std::string& path, int frames, int height) {
+  fap::Sequence clip{{25, 1}, {}, "clip"};
+  for (int i = 0; i < frames; ++i) {
+    fap::Frame frame;
+    frame.number = i;
+    frame.set(3, i % 2 == 0 ? 0 : height);
+    clip.frames.push_back(frame);
+  }
+  spill(path, fap::write_text(clip));
+}
+
+std::int64_t count(const std::string& text, const std::string& part) {
+  std::int64_t n = 0;
+  for (std::size_t i = text.find(part); i != std::string::npos; i = text.find(part, i + 1)) ++n;
+  return n;
+}
+
+TEST(Plot, OneRowAFapByNumberOrName) {
+  const TempDir dir;
+  write_clip(dir / "a.fap", 50, 200);
+  const auto out = animeme({"plot", dir / "a.fap", "--faps", "open_jaw,5", "-o", "-"});
+  ASSERT_EQ(out.exit_code, 0) << out.err;
+  EXPECT_EQ(count(out.out, "<polyline"), 2);
+  EXPECT_THAT(out.out, HasSubstr("FAP 3"));
+  EXPECT_THAT(out.out, HasSubstr("FAP 5"));
+  EXPECT_THAT(out.out, HasSubstr(">200<"));  // the scale of the first row
+}
+
+TEST(Plot, TheDifferenceHasItsOwnRow) {
+  const TempDir dir;
+  write_clip(dir / "a.fap", 50, 200);
+  write_clip(dir / "b.fap", 50, 170);
+  const auto out =
+      animeme({"plot", dir / "a.fap", dir / "b.fap", "--faps", "3", "--difference", "-o", "-"});
+  ASSERT_EQ(out.exit_code, 0) << out.err;
+  EXPECT_EQ(count(out.out, "<polyline"), 3);
+  EXPECT_THAT(out.out, HasSubstr(">-30<"));
+  EXPECT_EQ(animeme({"plot", dir / "a.fap", "--difference", "-o", "-"}).exit_code, 2);
+}
+
+TEST(Plot, APartOfALongClip) {
+  const TempDir dir;
+  write_clip(dir / "a.fap", 25 * 700, 100);
+  const auto whole = animeme({"plot", dir / "a.fap", "-o", dir / "a.svg"});
+  EXPECT_EQ(whole.exit_code, 3);
+  EXPECT_THAT(whole.err, HasSubstr("--from"));
+  const auto part =
+      animeme({"plot", dir / "a.fap", "--faps", "3", "--from", "600", "--to", "602", "-o", "-"});
+  ASSERT_EQ(part.exit_code, 0) << part.err;
+  EXPECT_THAT(part.out, HasSubstr(">600.0 s<"));
+  EXPECT_THAT(part.out, HasSubstr(">602.0 s<"));
+  EXPECT_THAT(part.out, Not(HasSubstr(">599.5 s<")));
+}
+
+TEST(Plot, PngByItsName) {
+  const TempDir dir;
+  write_clip(dir / "a.fap", 50, 200);
+  const auto out = animeme({"plot", dir / "a.fap", "-o", dir / "a.png"});
+  if (out.exit_code != 0 && out.err.find("FFmpeg cannot") != std::string::npos) {
+    GTEST_SKIP() << out.err;
+  }
+  ASSERT_EQ(out.exit_code, 0) << out.err;
+  EXPECT_THAT(slurp(dir / "a.png"), StartsWith("\x89PNG"));
+}
+
+TEST(Plot, UnknownFapsAreNamed) {
+  const TempDir dir;
+  write_clip(dir / "a.fap", 5, 200);
+  for (const char* name : {"open_jaws", "2", "69", "-3", "3x"}) {
+    const auto out = animeme({"plot", dir / "a.fap", "--faps=" + std::string(name), "-o", "-"});
+    EXPECT_EQ(out.exit_code, 2) << name;
+    EXPECT_THAT(out.err, HasSubstr("is no FAP")) << name;
+  }
+}
+
+}  // namespace
+}  // namespace animeme
