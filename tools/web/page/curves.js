@@ -1,9 +1,14 @@
-// The most active FAPs of the last seconds as curves, each scaled to its own range.
+// FAPs that moved in the last seconds as curves, each scaled to its own range.
 const Curves = (() => {
   const kSeconds = 5, kMost = 6;
   const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
-  function choose(frames, chosen) {
+  // What tells most of a talking face first: jaw, lips, corners of the mouth, brows, lids, head.
+  const kFirst = ['3', '5', '4', '6', '12', '52', '51', '53', '59', '31', '19', '48', '49', '50'];
+  const rank = (number) => (kFirst.indexOf(number) + kFirst.length + 1) % (kFirst.length + 1);
+
+  // The FAPs that move, at most kMost of them, and between which values.
+  function choose(frames) {
     const low = new Map(), high = new Map();
     for (const frame of frames) {
       for (const [number, value] of Object.entries(frame.values)) {
@@ -12,13 +17,9 @@ const Curves = (() => {
         high.set(number, Math.max(high.get(number) ?? value, value));
       }
     }
-    const range = (number) => high.get(number) - low.get(number);
-    const active = [...low.keys()].filter((number) => range(number) > 0);
-    // Those that are shown stay as long as they move: colours must not jump about.
-    const kept = chosen.filter((number) => active.includes(number));
-    const others = active.filter((number) => !kept.includes(number));
-    others.sort((a, b) => range(b) - range(a) || a - b);
-    return {numbers: kept.concat(others).slice(0, kMost), low, high};
+    const numbers = [...low.keys()].filter((number) => high.get(number) > low.get(number));
+    numbers.sort((a, b) => rank(a) - rank(b) || a - b);
+    return {numbers: numbers.slice(0, kMost), low, high};
   }
 
   function draw(canvas, frames, now, state) {
@@ -37,7 +38,7 @@ const Curves = (() => {
       context.stroke();
     }
     const shown = frames.filter((frame) => frame.time > now - kSeconds - 0.2 && frame.time <= now);
-    const {numbers, low, high} = choose(shown, state.numbers);
+    const {numbers, low, high} = choose(shown);
     numbers.forEach((number, index) => {
       const span = Math.max(high.get(number) - low.get(number), 1);
       context.beginPath();
