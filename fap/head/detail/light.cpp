@@ -36,9 +36,10 @@ void shade_by(const Field& field, double reach, double strength, std::size_t cou
 }  // namespace
 
 void shade_parts(const Shape& shape, const Skin& skin, Head& head) {
-  const auto all = [&shape](Vec3d p) {
-    double d = std::min(shape.skin(p), hair_field(shape, p));
-    if (p.y < -9) d = std::min(d, body_field(shape, p));
+  const HairLines lines = hair_lines(shape);
+  const auto all = [&](Vec3d p) {
+    double d = std::min(shape.skin(p), hair_field(shape, lines, p));
+    if (p.y < -7) d = std::min(d, body_field(shape, p));
     if (std::abs(p.x) > 5 && p.z < 4) d = std::min(d, ear_field(shape, p));
     return d;
   };
