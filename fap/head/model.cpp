@@ -8,13 +8,17 @@ const std::array<std::string_view, kPartCount> kPartNames = {
     "skin",   "left_eye", "right_eye", "upper_teeth", "lower_teeth",
     "tongue", "hair",     "brows",     "lashes",      "body"};
 
-Vec3 Head::at(std::string_view id) const {
+FeaturePoint Head::point(std::string_view id) const {
   for (std::size_t i = 0; i < fap::kFeaturePoints.size(); ++i) {
-    if (fap::kFeaturePoints[i].id != id) continue;
-    const FeaturePoint& point = feature_points[i];
-    return point.vertex == kInside ? neck_pivot : part(point.part).positions[point.vertex];
+    if (fap::kFeaturePoints[i].id == id) return feature_points[i];
   }
   return {};
+}
+
+Vec3 Head::at(std::string_view id) const {
+  if (id == "7.1") return neck_pivot;
+  const FeaturePoint found = point(id);
+  return found.exists() ? part(found.part).positions[found.vertex] : Vec3{};
 }
 
 namespace {
@@ -118,6 +122,9 @@ Result<Head> make_head(const HeadParameters& parameters) {
   head.part(Part::lashes) = detail::make_lashes(shape, skin, head.lash_anchors);
   head.part(Part::body) = detail::make_body(shape);
   detail::shade_parts(shape, skin, head);
+  const std::size_t vertices = head.part(Part::skin).positions.size();
+  detail::weigh_lids(shape, skin, vertices);
+  skin.seams.jaw_weights.resize(vertices, 0);
   detail::find_feature_points(shape, skin, ears, head);
   head.seams = std::move(skin.seams);
   enlarge(head, float(parameters.scale));

@@ -61,12 +61,14 @@ struct Eye {
   float pupil_radius = 0;  ///< at rest
 };
 
-inline constexpr std::uint32_t kInside = ~0u;  ///< 7.1 lies inside, at Head::neck_pivot
+inline constexpr std::uint32_t kMissing = ~0u;  ///< this head does not have the point
 
-/// A feature point: a vertex of a part, or kInside.
+/// A feature point: a vertex of a part.
 struct FeaturePoint {
   Part part = Part::skin;
-  std::uint32_t vertex = 0;
+  std::uint32_t vertex = kMissing;
+
+  bool exists() const { return vertex != kMissing; }
 };
 
 /// Vertices of the skin that meet: the contact line of the lips, or the rims of two lids.
@@ -90,7 +92,8 @@ struct Head {
   std::string name;
   std::array<Mesh, kPartCount> parts;
   std::array<Eye, 2> eyes;  ///< left, right
-  /// All 84 points of the standard, in the order of fap::kFeaturePoints.
+  /// All 84 points of the standard, in the order of fap::kFeaturePoints. 7.1, the top of the spine,
+  /// is no vertex: it is neck_pivot.
   std::array<FeaturePoint, 84> feature_points;
   fap::Fapu fapu;   ///< measured on them
   Vec3 jaw_axis;    ///< the jaw turns about the X direction through this point
@@ -100,7 +103,9 @@ struct Head {
 
   Mesh& part(Part p) { return parts[std::size_t(p)]; }
   const Mesh& part(Part p) const { return parts[std::size_t(p)]; }
-  /// Place of a feature point by its id ("2.1"). The id has to exist.
+  /// A feature point by its id ("2.1"); missing for ids that do not exist.
+  FeaturePoint point(std::string_view id) const;
+  /// Its place; neck_pivot for 7.1, the origin if it is missing.
   Vec3 at(std::string_view id) const;
 };
 

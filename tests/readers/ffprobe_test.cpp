@@ -5,18 +5,6 @@
 namespace animeme::test {
 namespace {
 
-// The bytes of "00000000: 0000 01ba 7f00  ......" lines.
-Bytes from_dump(const std::string& dump) {
-  Bytes out;
-  std::istringstream lines(dump);
-  for (std::string line; std::getline(lines, line);) {
-    if (line.size() < 10) continue;
-    const Bytes part = from_hex(std::string_view(line).substr(10, 40));
-    out.insert(out.end(), part.begin(), part.end());
-  }
-  return out;
-}
-
 class Ffprobe : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override { NEEDS_PROGRAM("ffprobe", "ffmpeg"); }

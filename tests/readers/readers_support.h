@@ -5,6 +5,7 @@
 
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -52,6 +53,18 @@ inline Bytes from_hex(std::string_view text) {
       out.push_back(std::uint8_t(high << 4 | value));
       high = -1;
     }
+  }
+  return out;
+}
+
+/// The bytes of the dumps of ffprobe, "00000000: 0000 01ba 7f00  ......" lines.
+inline Bytes from_dump(const std::string& dump) {
+  Bytes out;
+  std::istringstream lines(dump);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.size() < 10) continue;
+    const Bytes part = from_hex(std::string_view(line).substr(10, 40));
+    out.insert(out.end(), part.begin(), part.end());
   }
   return out;
 }

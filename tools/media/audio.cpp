@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tools/media/detail/audio_decoder.h"
+#include "tools/media/detail/rendition.h"
 #include "tools/media/detail/resampler.h"
 
 namespace animeme::media {
@@ -213,7 +214,10 @@ Result<Pcm> read_from(const Source& source, const ReadAudioOptions& options) {
 
 Result<Pcm> read_audio(const std::string& path, const ReadAudioOptions& options) {
   return av::guarded([&]() -> Result<Pcm> {
-    Result<Pcm> pcm = read_from(path, options);
+    Result<Pcm> pcm =
+        is_playlist(path)
+            ? read_sound_of(path, [&](auto bytes) { return read_from(bytes, options); })
+            : read_from(path, options);
     if (!pcm) return std::move(pcm.error()).in_file(path);
     return pcm;
   });

@@ -12,6 +12,7 @@
 #include "tools/media/detail/face_track.h"
 #include "tools/media/detail/muxer.h"
 #include "tools/media/detail/output_file.h"
+#include "tools/media/detail/rendition.h"
 
 namespace animeme::media {
 namespace {
@@ -124,9 +125,12 @@ Result<void> extract(const std::string& in, const std::string& out) {
         .in_file(out);
   }
   const av::LogCapture log;
-  Result<std::unique_ptr<Input>> input = Input::open(in, nullptr);
-  if (!input) return input.error();
-  Result<void> copied = copy_track(**input, *target, out);
+  const auto copy = [&](const auto& source) -> Result<void> {
+    Result<std::unique_ptr<Input>> input = Input::open(source, nullptr);
+    if (!input) return input.error();
+    return copy_track(**input, *target, out);
+  };
+  Result<void> copied = is_playlist(in) ? read_sound_of(in, copy) : copy(in);
   if (!copied) return std::move(copied.error()).in_file(in);
   return copied;
 }

@@ -12,6 +12,7 @@ extern "C" {
 #include "tools/media/container.h"
 #include "tools/media/detail/audio_decoder.h"
 #include "tools/media/detail/face_track.h"
+#include "tools/media/detail/rendition.h"
 
 namespace animeme::media {
 namespace {
@@ -229,7 +230,9 @@ Result<EncodedAudio> read_from(const Source& source) {
 
 Result<EncodedAudio> read_encoded_audio(const std::string& path) {
   return av::guarded([&]() -> Result<EncodedAudio> {
-    Result<EncodedAudio> audio = read_from(path);
+    Result<EncodedAudio> audio =
+        is_playlist(path) ? read_sound_of(path, [](auto bytes) { return read_from(bytes); })
+                          : read_from(path);
     if (!audio) return std::move(audio.error()).in_file(path);
     return audio;
   });

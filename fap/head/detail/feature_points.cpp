@@ -81,7 +81,7 @@ void lips_and_chin(const Layout& l, Finder& find) {
   find.pair("2.8", "2.9", l.lower_contact, half);
   find.grid("8.1", l.upper_lip, 0);
   find.grid("8.2", l.lower_lip, 0);
-  find.pair("8.3", "8.4", l.upper_contact, corner + 2);
+  find.pair("8.3", "8.4", l.upper_contact, corner + 3);
   find.pair("8.5", "8.6", l.upper_lip, half);
   find.pair("8.7", "8.8", l.lower_lip, half);
   find.pair("8.10", "8.9", l.upper_lip, corner / 5);
@@ -179,7 +179,6 @@ void find_feature_points(const Shape& shape, const Skin& skin, const EarVertices
   nose(shape, skin.layout, find);
   teeth_and_tongue(find);
   ears_and_hair(shape, skin.layout, ears, find);
-  find.set("7.1", Part::skin, kInside);
 }
 
 }  // namespace animeme::head::detail

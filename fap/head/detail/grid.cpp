@@ -70,7 +70,7 @@ Keys make_keys(const Shape& shape, const Layout& l, const Columns& columns, int 
   const double at_mouth =
       p.mouth_width * (i <= l.mouth_corner ? double(i) / l.mouth_corner : 1 + beyond);
   const double line = shape.lip_line(at_mouth);
-  const double spread = 0.5 * std::min(beyond * beyond + 0.25 * beyond, 1.2);
+  const double spread = 1.0 * std::min(std::pow(beyond, 1.2), 1.1);
   const double side = columns.angle[std::size_t(i)] / kPi;  // 0 front, 1 back
   const double under = -1.12 + 0.75 * smooth_step(0.1, 0.6, side);
   return {{{0, 2.0, 0, kPi / 2},

@@ -53,16 +53,16 @@ std::optional<LiveUnit> FaceRecovery::accept_plane(LiveUnit unit) {
   }
   ++stats_.usable;
   ++interval_->usable;
-  shown_until_ = unit.time + unit.duration;
+  shown_until_ = double(unit.time) + double(unit.duration);
   return unit;
 }
 
 void FaceRecovery::begin_interval(const LiveUnit& unit) {
   end_interval();
   interval_ = IntraInterval{unit.time, 1, 0};
-  if (waiting_ && shown_until_ && unit.time > *shown_until_) {
+  if (waiting_ && shown_until_ && double(unit.time) > *shown_until_) {
     const double seconds =
-        double(unit.time - *shown_until_) / (info_ ? info_->timescale : LiveInfo().timescale);
+        (double(unit.time) - *shown_until_) / (info_ ? info_->timescale : LiveInfo().timescale);
     ++stats_.freezes;
     stats_.frozen_seconds += seconds;
     stats_.longest_seconds = std::max(stats_.longest_seconds, seconds);

@@ -65,7 +65,7 @@ class FaceRecovery {
 
   bool waiting_ = true;
   std::optional<LiveInfo> info_;
-  std::optional<std::int64_t> shown_until_;  // end of the last usable plane
+  std::optional<double> shown_until_;  // ticks: end of the last usable plane
   std::optional<IntraInterval> interval_;
   std::deque<IntraInterval> complete_;
   RecoveryStats stats_;

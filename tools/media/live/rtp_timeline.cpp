@@ -100,11 +100,13 @@ void RtpTimeline::set_zero(Track& track) {
 bool RtpTimeline::settle(double now) {
   if (sync_ != RtpSync::none) return true;
   const bool described = all([](const Track& track) { return track.offset.has_value(); });
-  const bool reported = all([](const Track& track) { return track.ntp || track.raw_report; });
+  // With all of them heard, so that time 0 is a plane.
+  const bool reported = all([](const Track& track) { return track.ntp.has_value(); });
   const bool single = tracks_[0].clock == 0 || tracks_[1].clock == 0;
   const std::optional<double> end = deadline();
   if (!end || (!described && !reported && !single && *end > now)) return false;
-  sync_ = described ? RtpSync::description : reported ? RtpSync::reports : RtpSync::arrival;
+  const bool tied = all([](const Track& track) { return track.ntp || track.raw_report; });
+  sync_ = described ? RtpSync::description : tied ? RtpSync::reports : RtpSync::arrival;
   for (Track& track : tracks_) {
     if (!described) track.offset.reset();
     if (track.clock != 0 && track.heard) set_zero(track);

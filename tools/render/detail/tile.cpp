@@ -49,6 +49,14 @@ I4 as_int(F4 v) {
   std::memcpy(&i, &v, sizeof i);
   return i;
 }
+// Bit k: lane k is set.
+int lanes(I4 v) {
+#ifdef __SSE__
+  return __builtin_ia32_movmskps(as_float(v));
+#else
+  return (v[0] & 1) | (v[1] & 2) | (v[2] & 4) | (v[3] & 8);
+#endif
+}
 F4 to_float(I4 v) { return __builtin_convertvector(v, F4); }
 
 // One side of a triangle: value(x, y) >= 0 inside. Exact in integers, so neighbours share no
@@ -68,26 +76,59 @@ Side make_side(const ScreenVertex& p, const ScreenVertex& q, std::int32_t x0, st
   return {step_x, step_y, std::int32_t(std::clamp(start, -kLarge, kLarge))};
 }
 
-// value = at + dx * x + dy * y, pixels from the first corner.
+// value = at + dx * x + dy * y, pixels from the first corner; four values at once.
 struct Plane {
-  float at, dx, dy;
-  float operator()(float x, float y) const { return at + dx * x + dy * y; }
+  F4 at, dx, dy;
+  F4 operator()(float x, float y) const { return at + dx * splat(x) + dy * splat(y); }
 };
+
+// Sides of a triangle on the screen, from its first corner, in pixels.
+struct Frame {
+  float bx, by, cx, cy, scale;
+
+  Plane plane(F4 a, F4 b, F4 c) const {
+    const F4 db = b - a;
+    const F4 dc = c - a;
+    return {a, (db * splat(cy) - dc * splat(by)) * splat(scale),
+            (dc * splat(bx) - db * splat(cx)) * splat(scale)};
+  }
+};
+
+F4 as_vector(Vec3 v) { return F4{v.x, v.y, v.z, 0}; }
 
 Vec3 unpack(std::uint32_t srgb) {
   return {float(srgb >> 16 & 255u), float(srgb >> 8 & 255u), float(srgb & 255u)};
 }
 
-std::int32_t pack(float r, float g, float b) {
-  const auto byte = [](float v) { return std::int32_t(std::clamp(v, 0.0f, 255.0f) + 0.5f); };
-  return byte(r) | byte(g) << 8 | byte(b) << 16;
+// 0xBBGGRR of red, green and blue.
+inline std::int32_t pack(F4 colour) {
+  const F4 high = splat(255.0f);
+  const I4 over = colour > high;
+  const I4 positive = colour > splat(0.0f);
+  colour = as_float(((over & as_int(high)) | (~over & as_int(colour))) & positive);
+  const I4 bytes = __builtin_convertvector(colour + splat(0.5f), I4);
+  return bytes[0] | bytes[1] << 8 | bytes[2] << 16;
 }
 
 }  // namespace
 
+// What a triangle shows; made when the first of its pixels is seen.
 struct Tile::Planes {
-  Plane red, green, blue;
-  Plane normal_x, normal_y, normal_z;
+  const Corners& corners;
+  const Frame& frame;
+  bool eye;
+  bool ready = false;
+  Plane colour{};
+  Plane normal{};
+
+  void make() {
+    const ScreenVertex& a = *corners.a;
+    const ScreenVertex& b = *corners.b;
+    const ScreenVertex& c = *corners.c;
+    colour = frame.plane(as_vector(a.colour), as_vector(b.colour), as_vector(c.colour));
+    if (eye) normal = frame.plane(as_vector(a.normal), as_vector(b.normal), as_vector(c.normal));
+    ready = true;
+  }
 };
 
 void Tile::start(int x, int y, const RenderOptions& options) {
@@ -100,7 +141,7 @@ void Tile::start(int x, int y, const RenderOptions& options) {
   const Vec3 bottom = unpack(options.background_bottom);
   for (int row = 0; row < kTile; ++row) {
     const Vec3 c = head::mix(top, bottom, (float(y + row) + 0.5f) / float(options.height));
-    std::fill_n(colour_.begin() + row * kTile, kTile, splat(pack(c.x, c.y, c.z)));
+    std::fill_n(colour_.begin() + row * kTile, kTile, splat(pack(as_vector(c))));
   }
 }
 
@@ -119,34 +160,17 @@ void Tile::draw(const Corners& corners, bool eye, const View& view) {
   // On the screen, with y down, corners that were counterclockwise have a negative area.
   const Side sides[] = {make_side(a, b, left, top), make_side(b, c, left, top),
                         make_side(c, a, left, top)};
-  const float bx = float(b.x - a.x) / kSubpixels;
-  const float by = float(b.y - a.y) / kSubpixels;
-  const float cx = float(c.x - a.x) / kSubpixels;
-  const float cy = float(c.y - a.y) / kSubpixels;
-  const float scale = 1 / (bx * cy - by * cx);
-  const auto plane = [&](float va, float vb, float vc) {
-    const float db = vb - va;
-    const float dc = vc - va;
-    return Plane{va, (db * cy - dc * by) * scale, (dc * bx - db * cx) * scale};
-  };
-  const Plane near = plane(a.nearness, b.nearness, c.nearness);
-  Planes planes{plane(a.colour.x, b.colour.x, c.colour.x),
-                plane(a.colour.y, b.colour.y, c.colour.y),
-                plane(a.colour.z, b.colour.z, c.colour.z),
-                {},
-                {},
-                {}};
-  if (eye) {
-    planes.normal_x = plane(a.normal.x, b.normal.x, c.normal.x);
-    planes.normal_y = plane(a.normal.y, b.normal.y, c.normal.y);
-    planes.normal_z = plane(a.normal.z, b.normal.z, c.normal.z);
-  }
+  Frame frame{float(b.x - a.x) / kSubpixels, float(b.y - a.y) / kSubpixels,
+              float(c.x - a.x) / kSubpixels, float(c.y - a.y) / kSubpixels, 0};
+  frame.scale = 1 / (frame.bx * frame.cy - frame.by * frame.cx);
+  const Plane near = frame.plane(splat(a.nearness), splat(b.nearness), splat(c.nearness));
+  Planes planes{corners, frame, eye};
   I4 row_edge[3];
   for (int s = 0; s < 3; ++s) {
     row_edge[s] = sides[s].start + sides[s].step_x * kSampleX + sides[s].step_y * kSampleY;
   }
-  const F4 sample_near = to_float(kSampleX) * splat(near.dx / kSubpixels) +
-                         to_float(kSampleY) * splat(near.dy / kSubpixels);
+  const F4 sample_near =
+      (to_float(kSampleX) * near.dx + to_float(kSampleY) * near.dy) * splat(1.0f / kSubpixels);
   const float ax = float(a.x) / kSubpixels;
   const float ay = float(a.y) / kSubpixels;
   for (int y = y0; y <= y1; ++y) {
@@ -156,9 +180,10 @@ void Tile::draw(const Corners& corners, bool eye, const View& view) {
     const float py = float(y_ + y) - ay;
     for (int x = x0; x <= x1; ++x) {
       const I4 inside = (e0 | e1 | e2) >= 0;
-      const float px = float(x_ + x) - ax;
-      draw_pixel(y * kTile + x, inside, splat(near(px, py)) + sample_near, planes, px, py, eye,
-                 view);
+      if (lanes(inside) != 0) {
+        const float px = float(x_ + x) - ax;
+        draw_pixel(y * kTile + x, inside, near(px, py) + sample_near, planes, px, py, view);
+      }
       e0 += sides[0].step_x * kSubpixels;
       e1 += sides[1].step_x * kSubpixels;
       e2 += sides[2].step_x * kSubpixels;
@@ -167,23 +192,21 @@ void Tile::draw(const Corners& corners, bool eye, const View& view) {
   }
 }
 
-inline void Tile::draw_pixel(int index, const I4& inside, const F4& nearness, const Planes& planes,
-                             float x, float y, bool eye, const View& view) {
+inline void Tile::draw_pixel(int index, const I4& inside, const F4& nearness, Planes& planes,
+                             float x, float y, const View& view) {
   F4& depth = nearness_[std::size_t(index)];
   const I4 seen = inside & (nearness > depth);
-  const int mask = (seen[0] & 1) | (seen[1] & 2) | (seen[2] & 4) | (seen[3] & 8);
+  const int mask = lanes(seen);
   if (mask == 0) return;
+  if (!planes.ready) planes.make();
   depth = as_float((seen & as_int(nearness)) | (~seen & as_int(depth)));
   const Middle& m = kMiddles[std::size_t(mask)];
-  const float mx = x + m.x;
-  const float my = y + m.y;
-  float light = 0;
-  if (eye) {
-    light = eye_highlight(
-        {planes.normal_x(mx, my), planes.normal_y(mx, my), planes.normal_z(mx, my)}, view);
+  F4 shown = planes.colour(x + m.x, y + m.y);
+  if (planes.eye) {
+    const F4 n = planes.normal(x + m.x, y + m.y);
+    shown += splat(eye_highlight({n[0], n[1], n[2]}, view));
   }
-  const I4 colour = splat(
-      pack(planes.red(mx, my) + light, planes.green(mx, my) + light, planes.blue(mx, my) + light));
+  const I4 colour = splat(pack(shown));
   I4& old = colour_[std::size_t(index)];
   old = (seen & colour) | (~seen & old);
 }

@@ -32,8 +32,8 @@ class Tile {
 
  private:
   struct Planes;
-  void draw_pixel(int index, const I4& inside, const F4& nearness, const Planes& planes, float x,
-                  float y, bool eye, const View& view);
+  void draw_pixel(int index, const I4& inside, const F4& nearness, Planes& planes, float x, float y,
+                  const View& view);
 
   int x_ = 0;
   int y_ = 0;
