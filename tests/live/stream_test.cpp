@@ -120,7 +120,7 @@ media::Container container(const std::string& path) {
   return read ? std::move(*read) : media::Container{};
 }
 
-TEST_F(Streams, WhatIsReceivedFromTheBeginIsTheSourceByteForByte) {
+TEST_F(Streams, WhatIsReceivedIsTheSourceByteForByte) {
   // Repeated, so that the receivers, who begin a little later, see all of the second round.
   Running send(sender({dir / "talk.mp4", "--loop", "--stats", "--json"}), dir / "s.out",
                dir / "s.err");
@@ -160,7 +160,7 @@ TEST_F(Streams, WhatIsReceivedFromTheBeginIsTheSourceByteForByte) {
                          [&](const media::AudioPacket& p) { return p.bytes == packet.bytes; });
   }
   EXPECT_EQ(known, heard->packets.size());
-  EXPECT_THAT(test::slurp(dir / "1.out"), HasSubstr("\"usable_share\": 1.0"));
+  EXPECT_THAT(test::slurp(dir / "1.out"), HasSubstr("\"interval_share_least\": 1.0"));
   EXPECT_THAT(test::slurp(dir / "s.out"), HasSubstr("\"late_99_ms\""));
 }
 

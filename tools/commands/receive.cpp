@@ -8,9 +8,9 @@
 #include "fap/text.h"
 #include "tools/commands/interrupt.h"
 #include "tools/commands/live_sinks.h"
-#include "tools/commands/receive_frames.h"
 #include "tools/commands/receive_report.h"
 #include "tools/commands/status_line.h"
+#include "tools/media/live/live_frames.h"
 #include "tools/media/live/pacer.h"
 #include "tools/media/live/recorder.h"
 #include "tools/media/mux.h"
@@ -41,9 +41,9 @@ bool is_container(const std::string& extension) {
 
 bool is_text(const std::string& output) { return output == "-" || extension_of(output) == ".fap"; }
 
-GapRule rule_of(const std::string& name) {
-  if (name == "neutral") return GapRule::neutral;
-  return name == "skip" ? GapRule::skip : GapRule::hold;
+media::GapRule rule_of(const std::string& name) {
+  if (name == "neutral") return media::GapRule::neutral;
+  return name == "skip" ? media::GapRule::skip : media::GapRule::hold;
 }
 
 std::string name_of(const std::string& output) {
@@ -80,16 +80,16 @@ class TextWriter {
   Result<void> print(const std::vector<fap::Frame>& frames) {
     if (frames.empty()) return {};
     std::string text;
-    if (!begun_) text = fap_header(clip_.rate, name_of(options_.output));
+    if (!begun_) text = media::fap_header(clip_.rate, name_of(options_.output));
     begun_ = true;
-    for (const fap::Frame& frame : frames) text += fap_lines(frame, clip_.rate);
+    for (const fap::Frame& frame : frames) text += media::fap_lines(frame, clip_.rate);
     const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
     if (written && std::fflush(stdout) == 0) return {};
     return make_error(Code::io, "the frames cannot be written: nobody reads standard output");
   }
 
   const Options& options_;
-  LiveFrames frames_;
+  media::LiveFrames frames_;
   fap::Sequence clip_;
   bool begun_ = false;
 };

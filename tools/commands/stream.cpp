@@ -195,10 +195,10 @@ Action add(CLI::App& app) {
   app.add_option("--to", options->to,
                  "Address: rtp://host:port, udp://host:port, srt://host:port; may be repeated")
       ->required()
-      ->take_all();
+      ->allow_extra_args(false);
   app.add_option("--sdp", options->sdp,
                  "Session description to write for an rtp address; receivers need it")
-      ->take_all();
+      ->allow_extra_args(false);
   app.add_option("--mtu", options->sink.rtp.mtu, "Largest datagram, bytes")
       ->check(CLI::Range(256, 65000))
       ->capture_default_str();
