@@ -52,7 +52,7 @@ void shade_parts(const Shape& shape, const Skin& skin, Head& head) {
   for (std::size_t i = outside; i < faces; ++i) {
     const double depth = lips - skin.places[i].z;
     const bool mouth = std::abs(skin.places[i].y + shape.p.mouth_drop) < 2.5;
-    face.occlusion[i] = mouth ? float(std::max(0.75 - 0.28 * depth, 0.03)) : 0.6f;
+    face.occlusion[i] = mouth ? float(std::max(0.6 - 0.30 * depth, 0.03)) : 0.6f;
   }
   Mesh ears;
   ears.positions.assign(face.positions.begin() + std::ptrdiff_t(faces), face.positions.end());
