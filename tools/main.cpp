@@ -36,7 +36,8 @@ int run(int argc, char** argv) {
 
   const Command* commands[] = {&kSpeak,  &kFollow, &kAlign,  &kTrain,  &kEvaluate, &kEncode,
                                &kDecode, &kMux,    &kDemux,  &kInfo,   &kCompare,  &kCheck,
-                               &kStats,  &kPlot,   &kImport, &kExport, &kStream};
+                               &kStats,  &kPlot,   &kRender, &kImport, &kExport,   &kStream,
+                               &kReceive};
   Action chosen;
   for (const Command* command : commands) {
     CLI::App* sub = app.add_subcommand(command->name, command->summary);

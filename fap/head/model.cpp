@@ -48,7 +48,7 @@ std::optional<Error> check(const HeadParameters& p) {
                {"iris", p.iris},
                {"nose_length", p.nose_length},
                {"nose_size", p.nose_size},
-               {"nose_bridge", p.nose_bridge},
+               {"nose_bridge", p.nose_bridge, true},
                {"mouth_drop", p.mouth_drop},
                {"mouth_width", p.mouth_width},
                {"lip_fullness", p.lip_fullness},

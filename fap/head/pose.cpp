@@ -116,8 +116,8 @@ void turn_lashes(const Rig& rig, const std::vector<Vec3>& skin, std::vector<Vec3
     const float c = (was.y * is.y + was.z * is.z) / size;
     const float s = (was.y * is.z - was.z * is.y) / size;
     const Vec3 offset = neutral[i] - neutral_skin[anchor];
-    lashes[i] = skin[anchor] +
-                Vec3{offset.x, c * offset.y - s * offset.z, s * offset.y + c * offset.z};
+    lashes[i] =
+        skin[anchor] + Vec3{offset.x, c * offset.y - s * offset.z, s * offset.y + c * offset.z};
   }
 }
 

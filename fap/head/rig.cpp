@@ -31,7 +31,7 @@ std::vector<float> neck_weights(const Rig& rig) {
   std::vector<float> weights;
   const float size = length(rig.chin - rig.neck_pivot);
   const float high = rig.chin.y + 0.03f * size;
-  const float low = high - 0.62f * size;
+  const float low = high - 0.52f * size;
   for (const Vec3& p : rig.parts[std::size_t(Part::skin)].positions) {
     const float before = std::max(p.z - rig.neck_pivot.z, 0.0f);
     weights.push_back(smooth_step(low, high, p.y + 0.25f * before));

@@ -7,6 +7,7 @@
 
 #include "fap/rate_text.h"
 #include "tools/commands/interrupt.h"
+#include "tools/commands/status_line.h"
 #include "tools/commands/stream_program.h"
 #include "tools/commands/stream_report.h"
 
@@ -122,7 +123,7 @@ Result<int> send(const StreamOptions& options, Program& program, LiveSinks& sink
   if (!sent) return sent.error();
   print_result(options, report, pacer.now() - begin, sinks, pacer, program);
   if (!finished) return finished.error();
-  return kOk;
+  return Interrupt::requested() ? kInterrupted : kOk;
 }
 
 Result<int> run(StreamOptions& options) {
@@ -194,10 +195,10 @@ Action add(CLI::App& app) {
   app.add_option("--to", options->to,
                  "Address: rtp://host:port, udp://host:port, srt://host:port; may be repeated")
       ->required()
-      ->take_all();
+      ->allow_extra_args(false);
   app.add_option("--sdp", options->sdp,
                  "Session description to write for an rtp address; receivers need it")
-      ->take_all();
+      ->allow_extra_args(false);
   app.add_option("--mtu", options->sink.rtp.mtu, "Largest datagram, bytes")
       ->check(CLI::Range(256, 65000))
       ->capture_default_str();
@@ -225,7 +226,7 @@ const Command kStream{
     "  animeme stream --text \"Hello\" --to srt://192.0.2.7:5005\n"
     "  my_chat_bot | animeme stream --say - --life --to rtp://192.0.2.7:5004 --sdp bot.sdp "
     "--stats\n"
-    "Ctrl-C ends it in good order: receivers are told, the summary is printed, exit code 0.",
+    "Ctrl-C ends it in good order: receivers are told, the summary is printed; exit code 130.",
     add};
 
 }  // namespace animeme::tools
