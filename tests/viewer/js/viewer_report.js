@@ -104,19 +104,20 @@ async function listen(tap) {
   animeme.seek(0);
   const node = new AudioWorkletNode(context, 'tap');
   const clicks = [];
-  const pictures = [];
+  const pictures = new Map();
   node.port.onmessage = (event) => clicks.push(event.data);
   animeme.output().connect(node);
   animeme.play();
   const end = performance.now() + 60000;
   while (animeme.state().position < 10.4 && performance.now() < end) {
-    await new Promise((next) => setTimeout(next, 15));
-    animeme.draw();
-    pictures.push({frame: animeme.state().frame,
-      heard: context.currentTime - (context.outputLatency || 0)});
+    await new Promise((next) => setTimeout(next, 5));
+    const {playing, frame, clock} = animeme.state();
+    if (playing) pictures.set(clock, {frame, clock});
   }
   animeme.pause();
-  return {clicks, pictures, latency: context.outputLatency, state: animeme.state()};
+  await new Promise((next) => setTimeout(next, 300));
+  return {clicks, pictures: [...pictures.values()], latency: context.outputLatency,
+    state: animeme.state()};
 }
 
 async function sound(page, file) {

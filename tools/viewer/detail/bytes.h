@@ -18,7 +18,9 @@ class Bytes {
   void varint(std::uint64_t value);
   /// A signed number as a varint: 0, -1, 1, -2 ... are 0, 1, 2, 3.
   void zigzag(std::int64_t value);
-  void text(const std::string& text) { data_.insert(data_.end(), text.begin(), text.end()); }
+  void text(const std::string& text) {
+    for (const char c : text) u8(std::uint8_t(c));
+  }
   void append(const Bytes& other);
 
   const std::vector<std::uint8_t>& data() const { return data_; }

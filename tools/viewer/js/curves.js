@@ -1,8 +1,9 @@
 // Curves of the chosen FAPs over time, phones and words above them, and a head that moves along.
 import {listenToDrags} from './axis.js';
 
-const ROW = 54;
-const RULER = 20;
+const ROW = 48;
+// Fingers need larger buttons, which stand in the ruler.
+const RULER = matchMedia('(max-width: 760px)').matches ? 32 : 20;
 const TRACK = 20;
 
 /** `facts`: faps (the table) and phones of the page; `app`: clips, player. */
@@ -122,7 +123,7 @@ export class Curves {
       pen.moveTo(x, 4);
       pen.lineTo(x, height);
       pen.stroke();
-      pen.fillText(`${(k * step).toFixed(digits)} s`, x + 4, 10);
+      pen.fillText(`${(k * step).toFixed(digits)} s`, x + 4, RULER / 2);
     }
   }
 
@@ -154,13 +155,16 @@ export class Curves {
       pen.lineTo(width, level);
       pen.stroke();
     }
-    this.app.clips.forEach((clip, i) => {
+    // The second clip lies below and is wider, so that both are seen where they agree.
+    for (let i = this.app.clips.length - 1; i >= 0; --i) {
       pen.strokeStyle = colour(`clip${i}`);
-      pen.lineWidth = 1.5;
+      pen.globalAlpha = i ? 0.55 : 1;
+      pen.lineWidth = i ? 4 : 1.5;
       pen.beginPath();
-      this.trace(clip, fap, y);
+      this.trace(this.app.clips[i], fap, y);
       pen.stroke();
-    });
+    }
+    pen.globalAlpha = 1;
   }
 
   // One point a frame, or where frames are denser than pixels the extremes of each pixel.

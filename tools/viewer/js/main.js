@@ -56,7 +56,7 @@ class App {
   draw() {
     this.needed = false;
     const time = this.player.tick();
-    this.drawn = {time, frame: this.clips[0].frameAt(time)};
+    this.drawn = {time, frame: this.clips[0].frameAt(time), clock: this.player.clock()};
     this.stage.show(time, this.options.between && this.player.playing);
     this.curves.show(time);
     this.controls.show(time, this.drawn.frame);
@@ -145,12 +145,12 @@ function obey(app) {
   if (asked.has('speed')) app.player.setRate(number('speed'));
   if (asked.has('left') || asked.has('up') || asked.has('zoom')) {
     const {view} = app.stage;
-    if (view) view.camera.reset(number('left') || 0, number('up') || 0, number('zoom') || 1);
+    if (view) view.camera.reset(number('left') || 0, number('up') || 0, number('zoom') || undefined);
   }
   const [from, to] = (asked.get('loop') || '').split('-').map(Number);
   if (to > from) app.mark([from, to]);
   const faps = (asked.get('faps') || '').split(',').map(Number).filter((f) => f >= 3 && f <= 68);
-  app.chooser.choose(faps.length ? faps : mostMoving(app.clips[0], 6));
+  app.chooser.choose(faps.length ? faps : mostMoving(app.clips[0], 5));
   if (asked.has('frame')) app.seek(app.clips[0].timeOf(number('frame')) + 1e-4);
   if (asked.has('t')) app.seek(number('t'));
 }

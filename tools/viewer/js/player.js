@@ -42,10 +42,16 @@ export class Player {
     return this.looping ? this.region || [0, this.duration] : null;
   }
 
-  /** Seconds on the clock of what is heard, without the steps in which the context counts. */
+  /** Seconds on the clock of the audio context at which that leaves it which is heard now; null
+      without sound. */
+  clock() {
+    return this.context ? this.context.currentTime - (this.context.outputLatency || 0) : null;
+  }
+
+  /** The same without the steps in which the context counts. */
   heard() {
     const now = performance.now() / 1000;
-    const raw = this.context.currentTime - (this.context.outputLatency || 0);
+    const raw = this.clock();
     const last = this.last;
     let value = raw;
     if (last && this.context.state === 'running') {

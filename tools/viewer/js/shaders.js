@@ -1,5 +1,6 @@
 // Light as in the software renderer (tools/render/detail/shade.cpp): a warm key light with a red
-// terminator, a cool fill, sky and ground, a rim, a filmic curve.
+// terminator, a cool fill, sky and ground, a rim, a filmic curve. At the edges of triangles values are
+// taken inside of them (centroid), else thin parts such as the rims of lips get dark specks.
 
 const VERSION = '#version 300 es\n';
 
@@ -14,11 +15,11 @@ uniform mat4 view;
 export const HEAD_VERTEX = `${VERSION}${PLACE}
 layout(location = 2) in vec4 paint;
 layout(location = 3) in float heat;
-out vec3 at;
-out vec3 facing;
-out vec3 albedo;
-out float sky;
-out float warmth;
+centroid out vec3 at;
+centroid out vec3 facing;
+centroid out vec3 albedo;
+centroid out float sky;
+centroid out float warmth;
 vec3 linear(vec3 c) {
   return mix(pow((c + 0.055) / 1.055, vec3(2.4)), c / 12.92, vec3(lessThanEqual(c, vec3(0.04045))));
 }
@@ -33,11 +34,11 @@ void main() {
 
 export const HEAD_FRAGMENT = `${VERSION}
 precision highp float;
-in vec3 at;
-in vec3 facing;
-in vec3 albedo;
-in float sky;
-in float warmth;
+centroid in vec3 at;
+centroid in vec3 facing;
+centroid in vec3 albedo;
+centroid in float sky;
+centroid in float warmth;
 uniform vec3 eye, back, key, fill, rim;
 uniform vec3 wrap;
 uniform float shine, rimShare;
@@ -78,7 +79,7 @@ vec3 lit(vec3 n, vec3 surface) {
   float open = 0.25 + 0.75 * sky;
   vec3 light = KEY * wrapped(cosine, wrap) * open;
   light += (FILL * wrapped(dot(n, fill), vec3(0.3)) + mix(GROUND, SKY, 0.5 + 0.5 * n.y)) *
-      vec3(sqrt(sky), sky, sky);
+      vec3(sqrt(max(sky, 0.0)), sky, sky);
   vec3 c = surface * light;
   float edge = 1.0 - max(dot(n, toEye), 0.0);
   c += RIM * (rimShare * edge * edge * edge * max(dot(n, rim) + 0.25, 0.0) * sky);
@@ -91,7 +92,7 @@ vec3 heatColour(float t) {
       mix(vec3(0.95, 0.75, 0.10), vec3(0.85, 0.03, 0.03), t * 2.0 - 1.0);
 }
 void main() {
-  vec3 n = normalize(facing);
+  vec3 n = facing / max(length(facing), 1e-6);
   vec3 surface = warmth >= 0.0 ? heatColour(min(warmth, 1.0)) : mix(albedo, tint.rgb, tint.a);
   vec3 shown = filmic(lit(n, surface));
   if (eyeball) shown += highlight(n);
