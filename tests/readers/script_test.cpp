@@ -137,10 +137,12 @@ TEST(ScriptMp4, InitialObjectDescriptor) {
   const std::string path = write_talk(dir, walking_talk(), layout_of("mp4"));
   // Containers, section 1.4.
   const std::string iods =
-      "00000018696f647300000000"
-      "1080808007"
+      "0000002a696f647300000000"
+      "1080808019"
       "004f"
-      "ffff2961ff";
+      "ffff2961ff"
+      "0e8080800400000001"  // the tracks
+      "0e8080800400000002";
   EXPECT_EQ(run_script("report.js", "mp4box '" + path + "'")["iods"], iods);
   EXPECT_EQ(run_script("report.js", "isoboxer '" + path + "'")["iods"], iods);
 }
