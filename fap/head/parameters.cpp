@@ -27,9 +27,9 @@ HeadParameters man() {
   p.nose_bridge = 0.35;
   p.mouth_drop = 5.75;
   p.mouth_width = 2.25;
-  p.lip_fullness = 0.78;
-  p.smile = 0.14;
-  p.brow_height = 2.0;
+  p.lip_fullness = 0.85;
+  p.smile = 0.2;
+  p.brow_height = 2.15;
   p.brow_thickness = 0.36;
   p.ear = 1.08;
   p.lashes = 0.14;

@@ -6,11 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "fap/text.h"
+#include "tools/commands/common.h"
 #include "tools/commands/interrupt.h"
-#include "tools/commands/live_sinks.h"
-#include "tools/commands/receive_frames.h"
+#include "tools/commands/live_address.h"
 #include "tools/commands/receive_report.h"
 #include "tools/commands/status_line.h"
+#include "tools/media/live/live_frames.h"
 #include "tools/media/live/pacer.h"
 #include "tools/media/live/recorder.h"
 #include "tools/media/mux.h"
@@ -25,7 +26,7 @@ constexpr std::size_t kMostIntervals = 100'000;
 struct Options {
   std::string source;
   std::string output;
-  media::SourceOptions receive;
+  LiveSourceOptions receive;
   std::string gap = "hold";
   double duration = 0;
   double wait = 60;
@@ -41,9 +42,9 @@ bool is_container(const std::string& extension) {
 
 bool is_text(const std::string& output) { return output == "-" || extension_of(output) == ".fap"; }
 
-GapRule rule_of(const std::string& name) {
-  if (name == "neutral") return GapRule::neutral;
-  return name == "skip" ? GapRule::skip : GapRule::hold;
+media::GapRule rule_of(const std::string& name) {
+  if (name == "neutral") return media::GapRule::neutral;
+  return name == "skip" ? media::GapRule::skip : media::GapRule::hold;
 }
 
 std::string name_of(const std::string& output) {
@@ -80,16 +81,16 @@ class TextWriter {
   Result<void> print(const std::vector<fap::Frame>& frames) {
     if (frames.empty()) return {};
     std::string text;
-    if (!begun_) text = fap_header(clip_.rate, name_of(options_.output));
+    if (!begun_) text = media::fap_header(clip_.rate, name_of(options_.output));
     begun_ = true;
-    for (const fap::Frame& frame : frames) text += fap_lines(frame, clip_.rate);
+    for (const fap::Frame& frame : frames) text += media::fap_lines(frame, clip_.rate);
     const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
     if (written && std::fflush(stdout) == 0) return {};
     return make_error(Code::io, "the frames cannot be written: nobody reads standard output");
   }
 
   const Options& options_;
-  LiveFrames frames_;
+  media::LiveFrames frames_;
   fap::Sequence clip_;
   bool begun_ = false;
 };
@@ -213,7 +214,7 @@ Result<int> run(const Options& options) {
   if (options.json && options.output == "-") {
     return usage_error("--json and the frames of -o - both go to standard output");
   }
-  auto source = media::open_source(options.source, options.receive);
+  auto source = open_live_source(options.source, options.receive);
   if (!source && source.error().code == Code::invalid_argument) {
     return usage_error(source.error().message);
   }
@@ -238,7 +239,7 @@ Action add(CLI::App& app) {
   auto options = std::make_shared<Options>();
   app.add_option("source", options->source,
                  "Session description (.sdp) or address: rtp://host:port, udp://host:port, "
-                 "srt://host:port")
+                 "srt://host:port, ws://host:port")
       ->required();
   app.add_option("-o,--output", options->output,
                  "What to write: .mp4 .mkv .ts (face and sound), .fba (stream), .fap (text), - for "
@@ -261,7 +262,7 @@ Action add(CLI::App& app) {
       ->capture_default_str();
   app.add_flag("--fill", options->fill,
                "FAP text with every FAP in every frame, as players want it");
-  app.add_option("--reorder-seconds", options->receive.rtp.reorder_seconds,
+  app.add_option("--reorder-seconds", options->receive.media.rtp.reorder_seconds,
                  "rtp: the longest time that a packet waits for an earlier one")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();

@@ -54,13 +54,12 @@ double body_field(const Shape& shape, Vec3d p) {
   const Vec3d q{x, p.y, p.z};
   double d = ellipsoid(q - Vec3d{0, -24, -3.4}, {n * 3.3, 8.2, 6.6});
   d = smooth_min(d, cone(q, {1.5, -15.6, -3.4}, {n * 2.9, -18.4, -3.6}, 2.9, 2.7), 2.6);
-  // The collar stands a little off the neck.
-  const Vec3d c = q - Vec3d{0, -13.9 - 0.16 * (p.z + 2.6), -2.6};
-  const double around = std::hypot(c.x, c.z) - (n * 1.06 + 0.45);
-  const double collar = std::hypot(around, c.y * 0.55) - 0.42;
-  d = smooth_min(d, collar, 1.1);
-  const double hole = std::max(std::hypot(c.x, c.z) - (n * 1.06 + 0.25), -c.y - 1.5);
-  return smooth_max(d, -hole, 0.3);
+  // A rolled collar that stands a little off the neck.
+  const Vec3d c = q - Vec3d{0, -13.7 - 0.16 * (p.z + 2.6), -2.6};
+  const double from_neck = std::hypot(c.x, c.z) - (n * 1.08 + 0.15);
+  const double collar = std::hypot(std::max(std::abs(c.y) - 0.5, 0.0), from_neck - 0.42) - 0.42;
+  d = smooth_min(d, smooth_max(from_neck - 0.5, c.y + 0.1, 0.2), 0.8);
+  return smooth_min(d, collar, 0.7);
 }
 
 Mesh make_body(const Shape& shape) {

@@ -61,12 +61,12 @@ struct Cap {
 };
 
 constexpr Cap kShortCut{{0, 0.45, 0.72, 0.90, 1.05, 1.30, 1.48, 1.85, 3.15},
-                        {6.4, 6.0, 4.9, 3.1, 0.6, -1.6, 1.3, -3.2, -5.4},
-                        0.42,
-                        1.25,
-                        0.85,
-                        0.85,
-                        0.07};
+                        {6.5, 6.2, 5.2, 3.3, 0.8, -1.4, 1.3, -3.2, -5.4},
+                        0.34,
+                        0.95,
+                        0.45,
+                        1.5,
+                        0.13};
 constexpr Cap kFringe{{0, 0.40, 0.70, 0.95, 1.12, 1.30, 1.48, 1.85, 3.15},
                       {4.5, 4.3, 3.5, 1.7, -0.6, -1.7, 1.2, -3.0, -4.6},
                       0.75,
@@ -84,7 +84,7 @@ double edge_height(const Cap& cap, double angle) {
 
 double cap_field(const Shape& shape, const Cap& cap, double jag, Vec3d p) {
   const double skin = shape.skin(p);
-  if (skin > 3) return skin - 2;  // far from any hair
+  if (skin > 4) return skin - 2;  // far from any hair
   const double angle = std::atan2(std::abs(p.x), p.z);
   const double front = smooth_step(1.3, 0.6, angle);
   const double tips = jag * std::abs(std::sin(p.x * 1.15 + 0.5)) * front;
@@ -94,7 +94,10 @@ double cap_field(const Shape& shape, const Cap& cap, double jag, Vec3d p) {
   const double full = cap.sides + (cap.top - cap.sides) * up + cap.front * quiff;
   const double grown =
       full * smooth_step(-0.15, cap.edge, inside) - 0.25 * smooth_step(0.0, -0.3, inside);
-  return (skin - grown + cap.strands * strand(p, 24, 1.6) * smooth_step(0.0, 1.0, inside)) * 0.8;
+  const double hair =
+      skin - grown + cap.strands * strand(p, 24, 1.6) * smooth_step(0.0, 1.0, inside);
+  // Nothing is left inside of the head below the edge.
+  return smooth_max(hair, -inside - 0.7, 0.2) * 0.8;
 }
 
 }  // namespace

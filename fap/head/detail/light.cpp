@@ -52,7 +52,7 @@ void shade_parts(const Shape& shape, const Skin& skin, Head& head) {
   for (std::size_t i = outside; i < faces; ++i) {
     const double depth = lips - skin.places[i].z;
     const bool mouth = std::abs(skin.places[i].y + shape.p.mouth_drop) < 2.5;
-    face.occlusion[i] = mouth ? float(std::max(0.75 - 0.28 * depth, 0.03)) : 0.6f;
+    face.occlusion[i] = mouth ? float(std::max(0.6 - 0.30 * depth, 0.03)) : 0.6f;
   }
   Mesh ears;
   ears.positions.assign(face.positions.begin() + std::ptrdiff_t(faces), face.positions.end());
@@ -67,6 +67,15 @@ void shade_parts(const Shape& shape, const Skin& skin, Head& head) {
   shade_by(all, 3.0, 0.7, hair.positions.size(), hair);
   Mesh& body = head.part(Part::body);
   shade_by(all, 5.0, 0.8, body.positions.size(), body);
+}
+
+std::vector<float> freedom_below_hair(const Shape& shape, const Mesh& skin) {
+  const HairLines lines = hair_lines(shape);
+  std::vector<float> freedom;
+  for (const Vec3& p : skin.positions) {
+    freedom.push_back(float(smooth_step(-0.05, 0.3, hair_field(shape, lines, Vec3d(p)))));
+  }
+  return freedom;
 }
 
 }  // namespace animeme::head::detail

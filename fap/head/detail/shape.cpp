@@ -92,8 +92,8 @@ double Shape::lip_body(double x) const {
 
 Vec3d Shape::brow(double t) const {
   const double x = 1.25 + t * 3.75;
-  const double arch = 0.42 * std::sin(3.14159265 * std::pow(t, 1.25)) - 0.18 * t * t;
-  return front(x, p.brow_height + arch - 0.12);
+  const double arch = 0.36 * std::sin(3.14159265 * std::pow(t, 1.25)) - 0.18 * t * t;
+  return front(x, p.brow_height + arch - 0.04);
 }
 
 Vec3d Shape::front(double x, double y) const { return outer_hit(skin, {x, y, 0}, {0, 0, 1}, 14); }

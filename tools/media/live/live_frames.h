@@ -1,4 +1,10 @@
-// FAP frames out of planes as they are received.
+// FAP frames out of planes as they are received, and as text.
+//
+//     LiveFrames frames(GapRule::hold, true);
+//     if (auto unit = recorder.accept(event); unit && unit->track == LiveTrack::face) {
+//       auto shown = frames.push(*unit, recorder.info()->timescale, recorder.after_gap());
+//       for (const fap::Frame& frame : *shown) text += fap_lines(frame, frames.rate());
+//     }
 #pragma once
 
 #include <cstdint>
@@ -10,7 +16,7 @@
 #include "fap/frame.h"
 #include "tools/media/live/live.h"
 
-namespace animeme::tools {
+namespace animeme::media {
 
 /// What is shown while planes are missing.
 enum class GapRule : std::uint8_t {
@@ -29,13 +35,13 @@ class LiveFrames {
   /// The frames that a plane adds: those of the gap before it, if planes are missing there, and its
   /// own; none if it has no face. Planes must begin with an intra plane and, behind a gap, go on
   /// with one. Errors: those of the decoder.
-  Result<std::vector<fap::Frame>> push(const media::LiveUnit& unit, std::uint32_t timescale,
+  Result<std::vector<fap::Frame>> push(const LiveUnit& unit, std::uint32_t timescale,
                                        bool after_gap);
   /// Rate of the last plane.
   fap::Rate rate() const { return rate_; }
 
  private:
-  Result<std::optional<fba::Plane>> decode(const media::LiveUnit& unit);
+  Result<std::optional<fba::Plane>> decode(const LiveUnit& unit);
   void add_gap(std::int64_t end, std::vector<fap::Frame>& frames) const;
   Result<fap::Frame> filled(const fba::Plane& plane, fap::Frame frame) const;
 
@@ -52,4 +58,4 @@ class LiveFrames {
 std::string fap_header(fap::Rate rate, const std::string& name);
 std::string fap_lines(const fap::Frame& frame, fap::Rate rate);
 
-}  // namespace animeme::tools
+}  // namespace animeme::media

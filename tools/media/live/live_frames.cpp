@@ -1,4 +1,4 @@
-#include "tools/commands/receive_frames.h"
+#include "tools/media/live/live_frames.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include "fap/fill.h"
 #include "fap/text.h"
 
-namespace animeme::tools {
+namespace animeme::media {
 
 namespace {
 
@@ -27,7 +27,7 @@ fap::Frame towards_neutral(fap::Frame frame, double share) {
 
 }  // namespace
 
-Result<std::optional<fba::Plane>> LiveFrames::decode(const media::LiveUnit& unit) {
+Result<std::optional<fba::Plane>> LiveFrames::decode(const LiveUnit& unit) {
   decoder_.push(unit.bytes);
   std::optional<fba::Plane> plane;
   for (;;) {
@@ -77,8 +77,8 @@ Result<fap::Frame> LiveFrames::filled(const fba::Plane& plane, fap::Frame frame)
   return frame;
 }
 
-Result<std::vector<fap::Frame>> LiveFrames::push(const media::LiveUnit& unit,
-                                                 std::uint32_t timescale, bool after_gap) {
+Result<std::vector<fap::Frame>> LiveFrames::push(const LiveUnit& unit, std::uint32_t timescale,
+                                                 bool after_gap) {
   Result<std::optional<fba::Plane>> plane = decode(unit);
   if (!plane) return plane.error();
   std::vector<fap::Frame> frames;
@@ -115,4 +115,4 @@ std::string fap_lines(const fap::Frame& frame, fap::Rate rate) {
   return text.substr(text.find('\n') + 1);
 }
 
-}  // namespace animeme::tools
+}  // namespace animeme::media
