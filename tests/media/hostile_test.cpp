@@ -70,9 +70,9 @@ std::vector<Bytes> make_samples() {
   return samples;
 }
 
-TEST(Hostile, TruncatedAtEvery97thByte) {
+TEST(Hostile, TruncatedAtEvery293rdByte) {
   for (const Bytes& file : make_samples()) {
-    for (std::size_t size = 1; size < file.size(); size += 97) {
+    for (std::size_t size = 1; size < file.size(); size += 293) {
       read_everything(Bytes(file.begin(), file.begin() + std::ptrdiff_t(size)));
     }
   }
@@ -102,7 +102,7 @@ TEST(Hostile, FlippedBits) {
   std::uint32_t state = 7;
   const auto next = [&] { return (state = state * 1664525u + 1013904223u) >> 8; };
   for (const Bytes& file : make_samples()) {
-    for (int round = 0; round < 150; ++round) {
+    for (int round = 0; round < 60; ++round) {
       Bytes damaged = file;
       // Half of the rounds hit the headers, where it hurts.
       const std::size_t reach =
@@ -117,7 +117,7 @@ TEST(Hostile, FlippedBits) {
 
 TEST(Hostile, HugeNumbersInHeaders) {
   for (const Bytes& file : make_samples()) {
-    for (std::size_t at = 0; at + 4 <= std::min<std::size_t>(file.size(), 3000); at += 11) {
+    for (std::size_t at = 0; at + 4 <= std::min<std::size_t>(file.size(), 3000); at += 41) {
       Bytes damaged = file;
       for (std::size_t i = 0; i < 4; ++i) damaged[at + i] = i == 0 ? 0x7F : 0xFF;
       read_everything(damaged);
@@ -132,8 +132,8 @@ TEST(Hostile, WrongNumbersInFragments) {
   for (const char* box : {"moof", "mfhd", "traf", "tfhd", "tfdt", "trun", "elst", "trex", "mdat"}) {
     std::size_t at = text.find(box);
     ASSERT_NE(at, std::string::npos) << box;
-    for (std::ptrdiff_t word = -1; word < 6; ++word) {
-      for (const std::uint32_t value : {0u, 1u, 7u, 0x7FFFFFFFu, 0x80000000u, 0xFFFFFFFFu}) {
+    for (std::ptrdiff_t word = -1; word < 4; ++word) {
+      for (const std::uint32_t value : {0u, 7u, 0x7FFFFFFFu, 0xFFFFFFFFu}) {
         Bytes damaged = file;
         const std::size_t place = at + std::size_t(4 * word + (word < 0 ? 0 : 4));
         for (std::size_t i = 0; i < 4 && place + i < damaged.size(); ++i) {
@@ -179,7 +179,7 @@ TEST_P(HostileSegments, DamagedPlaylists) {
     read_all();
   }
   constexpr std::string_view kOdd = "<>\"'=/$%&#:.\n\0\xFF";
-  for (int round = 0; round < 100; ++round) {
+  for (int round = 0; round < 60; ++round) {
     Bytes damaged = good;
     for (std::uint32_t i = 0; i <= next() % 4; ++i) {
       damaged[next() % damaged.size()] = std::uint8_t(kOdd[next() % kOdd.size()]);

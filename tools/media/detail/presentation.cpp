@@ -8,6 +8,7 @@
 #include <memory>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "tools/media/detail/extension.h"
 #include "tools/media/detail/playlist_text.h"
@@ -36,35 +37,51 @@ class Room {
     root_ = fs::canonical(folder.empty() ? fs::path(".") : folder, status);
   }
 
-  /// Appends a file, which is named relative to the room. Errors: those of read_presentation().
-  Result<void> read(const fs::path& name, std::uintmax_t limit, Bytes& out) {
+  struct File {
+    fs::path path;
+    std::size_t size = 0;
+  };
+
+  /// An ordinary file of the room. Its size counts for the limit. Errors: those of
+  /// read_presentation().
+  Result<File> find(const fs::path& name, std::uintmax_t limit) {
     std::error_code status;
-    const fs::path path = fs::canonical(root_ / name, status);
+    File file;
+    file.path = fs::canonical(root_ / name, status);
     if (status) return failed(name, status.value());
-    const auto [end, ignored] = std::mismatch(root_.begin(), root_.end(), path.begin(), path.end());
-    if (end != root_.end() || !fs::is_regular_file(path, status)) {
+    const auto [end, ignored] =
+        std::mismatch(root_.begin(), root_.end(), file.path.begin(), file.path.end());
+    if (end != root_.end() || !fs::is_regular_file(file.path, status)) {
       return make_error(Code::unsupported, "\"" + name.string() +
                                                "\" is no ordinary file in the folder of the "
                                                "playlist");
     }
-    const std::uintmax_t size = fs::file_size(path, status);
+    const std::uintmax_t size = fs::file_size(file.path, status);
     if (status) return failed(name, status.value());
     if (size > limit || (total_ += size) > kMostBytes) {
       return make_error(Code::out_of_range, "the presentation is too large to be read");
     }
-    const std::unique_ptr<std::FILE, Closer> file(std::fopen(path.c_str(), "rb"));
-    if (!file) return failed(name, errno);
+    file.size = std::size_t(size);
+    return file;
+  }
+
+  /// Appends what is in a file. Errors: not_found, io.
+  Result<void> read(const File& found, Bytes& out) const {
+    const std::unique_ptr<std::FILE, Closer> file(std::fopen(found.path.c_str(), "rb"));
+    if (!file) return failed(found.path.filename(), errno);
     const std::size_t begin = out.size();
-    out.resize(begin + std::size_t(size));
-    const std::size_t got = std::fread(out.data() + begin, 1, std::size_t(size), file.get());
+    out.resize(begin + found.size);
+    const std::size_t got = std::fread(out.data() + begin, 1, found.size, file.get());
     out.resize(begin + got);
-    if (std::ferror(file.get()) != 0) return failed(name, EIO);
+    if (std::ferror(file.get()) != 0) return failed(found.path.filename(), EIO);
     return {};
   }
 
   Result<std::string> read_text(const fs::path& name) {
     Bytes bytes;
-    if (auto read = this->read(name, kLongestPlaylist, bytes); !read) return read.error();
+    Result<File> file = find(name, kLongestPlaylist);
+    if (!file) return file.error();
+    if (auto done = read(*file, bytes); !done) return done.error();
     return std::string(bytes.begin(), bytes.end());
   }
 
@@ -91,10 +108,20 @@ Result<Bytes> join(Room& room, const fs::path& playlist, const Rendition& rendit
   std::vector<std::string> references;
   if (!rendition.init.empty()) references.push_back(rendition.init);
   references.insert(references.end(), rendition.segments.begin(), rendition.segments.end());
+  // Sizes first, so that what is too large is not read at all.
+  std::vector<Room::File> files;
+  std::size_t size = 0;
   for (const std::string& reference : references) {
     Result<fs::path> name = beside(playlist, reference);
     if (!name) return name.error();
-    if (auto read = room.read(*name, kMostBytes, bytes); !read) return read.error();
+    Result<Room::File> file = room.find(*name, kMostBytes);
+    if (!file) return file.error();
+    size += file->size;
+    files.push_back(std::move(*file));
+  }
+  bytes.reserve(size);
+  for (const Room::File& file : files) {
+    if (auto read = room.read(file, bytes); !read) return read.error();
   }
   return bytes;
 }
