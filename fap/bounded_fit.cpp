@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "fap/tables.h"
 
@@ -9,6 +11,7 @@ namespace animeme::fap::internal {
 namespace {
 
 constexpr int kMostSweeps = 5000;
+constexpr int kPriceSteps = 30;
 constexpr double kStill = 1e-6;   // a weight that changes less has arrived
 constexpr double kLidsCount = 3;  // the opening of the eye is short and everybody looks at it
 
@@ -56,10 +59,11 @@ FapValues target_of(const Frame& frame) {
 }
 
 BoundedFit::BoundedFit(std::vector<std::vector<ShapeWeight>> shapes, double ridge,
-                       double steadiness)
+                       double steadiness, double most)
     : shapes_(std::move(shapes)),
       ridge_(std::clamp(ridge, 0.0, 1.0)),
       steadiness_(std::clamp(steadiness, 0.0, 1.0)),
+      most_(most),
       weights_(shapes_.size(), 0.0) {}
 
 void BoundedFit::set_mask(const Mask& wanted) {
@@ -98,17 +102,15 @@ std::vector<double> BoundedFit::projections(const FapValues& target) const {
   return sums;
 }
 
-void BoundedFit::descend(const std::vector<double>& wanted) {
+// `wanted` has the pull of the frame before in it; `toll` is what any weight costs.
+void BoundedFit::descend(const std::vector<double>& wanted, double steadiness, double toll) {
   const std::size_t n = shapes_.size();
-  const std::vector<double> before = weights_;
-  const double steadiness = is_first_ ? 0 : steadiness_;
-  is_first_ = false;
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     double largest = 0;
     for (std::size_t i = 0; i < n; ++i) {
       const double own = gram_[i * n + i];
       if (own <= 0) continue;  // the frame has none of its FAPs: it stays as it is
-      double left = wanted[i] + steadiness * own * before[i];
+      double left = wanted[i] - toll;
       for (std::size_t j = 0; j < n; ++j) {
         if (j != i) left -= gram_[i * n + j] * weights_[j];
       }
@@ -120,9 +122,32 @@ void BoundedFit::descend(const std::vector<double>& wanted) {
   }
 }
 
+// The limit of the sum as a price on all weights: the lowest one that keeps it.
+void BoundedFit::keep_within_limit(const std::vector<double>& wanted, double steadiness) {
+  const auto sum = [this] { return std::accumulate(weights_.begin(), weights_.end(), 0.0); };
+  if (!(sum() > most_)) return;
+  double low = 0;
+  double high = *std::max_element(wanted.begin(), wanted.end());  // nothing is used at that
+  for (int step = 0; step < kPriceSteps; ++step) {
+    const double middle = (low + high) / 2;
+    descend(wanted, steadiness, middle);
+    (sum() > most_ ? low : high) = middle;
+  }
+  descend(wanted, steadiness, high);
+  const double over = sum() / most_;  // what the last digits of the price leave
+  for (double& weight : weights_) weight /= std::max(1.0, over);
+}
+
 const std::vector<double>& BoundedFit::fit(const Mask& mask, const FapValues& target) {
   set_mask(mask);
-  descend(projections(target));
+  std::vector<double> wanted = projections(target);
+  const double steadiness = is_first_ ? 0 : steadiness_;
+  is_first_ = false;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    wanted[i] += steadiness * gram_[i * wanted.size() + i] * weights_[i];
+  }
+  descend(wanted, steadiness, 0);
+  keep_within_limit(wanted, steadiness);
   return weights_;
 }
 

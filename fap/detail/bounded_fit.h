@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "fap/frame.h"
@@ -28,8 +29,10 @@ FapValues target_of(const Frame& frame);
 class BoundedFit {
  public:
   /// `ridge`: what it costs to use a shape, as a share of what it does to the face. `steadiness`:
-  /// what it costs to change a weight, likewise. Both are clamped to 0..1.
-  BoundedFit(std::vector<std::vector<ShapeWeight>> shapes, double ridge, double steadiness);
+  /// what it costs to change a weight, likewise. Both are clamped to 0..1. `most` > 0: what all
+  /// weights together may be; the nearest face within that limit is found then.
+  BoundedFit(std::vector<std::vector<ShapeWeight>> shapes, double ridge, double steadiness,
+             double most = std::numeric_limits<double>::infinity());
 
   /// By shape; good until the next call. Shapes without any FAP of `mask` keep their weight.
   const std::vector<double>& fit(const Mask& mask, const FapValues& target);
@@ -37,11 +40,13 @@ class BoundedFit {
  private:
   void set_mask(const Mask& wanted);
   std::vector<double> projections(const FapValues& target) const;
-  void descend(const std::vector<double>& wanted);
+  void descend(const std::vector<double>& wanted, double steadiness, double toll);
+  void keep_within_limit(const std::vector<double>& wanted, double steadiness);
 
   std::vector<std::vector<ShapeWeight>> shapes_;
   double ridge_;
   double steadiness_;
+  double most_;
   std::vector<double> gram_;  // shapes x shapes, for mask_
   Mask mask_;
   bool has_gram_ = false;

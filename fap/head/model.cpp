@@ -125,6 +125,7 @@ Result<Head> make_head(const HeadParameters& parameters) {
   const std::size_t vertices = head.part(Part::skin).positions.size();
   detail::weigh_lids(shape, skin, vertices);
   skin.seams.jaw_weights.resize(vertices, 0);
+  skin.seams.freedom = detail::freedom_below_hair(shape, head.part(Part::skin));
   detail::find_feature_points(shape, skin, ears, head);
   head.seams = std::move(skin.seams);
   enlarge(head, float(parameters.scale));

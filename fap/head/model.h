@@ -86,6 +86,8 @@ struct Seams {
   std::array<std::vector<float>, 4> lid_weights;
   /// For each skin vertex: how far it turns with the jaw, inside the mouth. Empty: nowhere.
   std::vector<float> jaw_weights;
+  /// For each skin vertex: 1 is free to move, 0 is held, as below hair. Empty: all are free.
+  std::vector<float> freedom;
 };
 
 struct Head {
@@ -158,8 +160,8 @@ std::optional<HeadParameters> head_parameters(std::string_view name);
 extern const std::array<std::string_view, 3> kHeadNames;
 
 /// Makes a head. Deterministic; about half a second.
-/// Errors: invalid_argument if a size is not finite and positive (smile, nose_bridge, brow_ridge and
-/// lashes may be 0), or the density is not in 0.5..2.
+/// Errors: invalid_argument if a size is not finite and positive (smile, nose_bridge, brow_ridge
+/// and lashes may be 0), or the density is not in 0.5..2.
 Result<Head> make_head(const HeadParameters& parameters = {});
 
 }  // namespace animeme::head

@@ -4,7 +4,7 @@
 
 #include "tests/media/media_support.h"
 #include "tools/media/container.h"
-#include "tools/media/detail/ts_pmt.h"
+#include "tools/media/detail/ts_sections.h"
 #include "tools/media/mux.h"
 
 namespace animeme::media {
@@ -176,7 +176,7 @@ class HandMadeTs {
 
  private:
   void section(unsigned pid, Bytes section) {
-    const std::uint32_t crc = mpeg_crc32(section);
+    const std::uint32_t crc = ts_crc(section);
     for (const unsigned shift : {24u, 16u, 8u, 0u}) section.push_back(std::uint8_t(crc >> shift));
     Bytes packet = {0x47, std::uint8_t(0x40 | pid >> 8), std::uint8_t(pid), 0x10, 0};
     append(packet, section);

@@ -93,13 +93,32 @@ TEST_F(Lines, ALongLineIsCutAtABlank) {
   EXPECT_TRUE(all[1].text.starts_with("word"));
 }
 
+TEST_F(Lines, ManyAtOnceWaitToBeTaken) {
+  std::string text;
+  for (int i = 0; i < 12; ++i) text += "Go.\n";
+  type(text);
+  close_input();
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  const std::size_t first = lines->take().size();
+  EXPECT_LE(first, 4u);
+  EXPECT_EQ(take(12 - first).size(), 12 - first);
+}
+
+TEST_F(Lines, CanBeLeftWhileLinesWait) {
+  std::string text;
+  for (int i = 0; i < 12; ++i) text += "Go.\n";
+  type(text);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  lines.reset();
+}
+
 TEST_F(Lines, CanBeLeftWhileTheInputStaysOpen) {
   type("Hello.\n");
   lines.reset();  // does not wait for more
 }
 
 TEST(VoiceLinesOpen, AVoiceThatIsMissingIsKnownAtOnce) {
-  const auto opened = VoiceLines::open(0, {.language = "klingon-on-mars"}, media::steady_clock());
+  const auto opened = VoiceLines::open(0, {.language = "no such voice"}, media::steady_clock());
   ASSERT_FALSE(opened);
   EXPECT_THAT(opened.error().code, testing::AnyOf(Code::not_found, Code::unsupported));
 }

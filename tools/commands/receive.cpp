@@ -6,8 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "fap/text.h"
+#include "tools/commands/common.h"
 #include "tools/commands/interrupt.h"
-#include "tools/commands/live_sinks.h"
+#include "tools/commands/live_address.h"
 #include "tools/commands/receive_report.h"
 #include "tools/commands/status_line.h"
 #include "tools/media/live/live_frames.h"
@@ -25,7 +26,7 @@ constexpr std::size_t kMostIntervals = 100'000;
 struct Options {
   std::string source;
   std::string output;
-  media::SourceOptions receive;
+  LiveSourceOptions receive;
   std::string gap = "hold";
   double duration = 0;
   double wait = 60;
@@ -213,7 +214,7 @@ Result<int> run(const Options& options) {
   if (options.json && options.output == "-") {
     return usage_error("--json and the frames of -o - both go to standard output");
   }
-  auto source = media::open_source(options.source, options.receive);
+  auto source = open_live_source(options.source, options.receive);
   if (!source && source.error().code == Code::invalid_argument) {
     return usage_error(source.error().message);
   }
@@ -238,7 +239,7 @@ Action add(CLI::App& app) {
   auto options = std::make_shared<Options>();
   app.add_option("source", options->source,
                  "Session description (.sdp) or address: rtp://host:port, udp://host:port, "
-                 "srt://host:port")
+                 "srt://host:port, ws://host:port")
       ->required();
   app.add_option("-o,--output", options->output,
                  "What to write: .mp4 .mkv .ts (face and sound), .fba (stream), .fap (text), - for "
@@ -261,7 +262,7 @@ Action add(CLI::App& app) {
       ->capture_default_str();
   app.add_flag("--fill", options->fill,
                "FAP text with every FAP in every frame, as players want it");
-  app.add_option("--reorder-seconds", options->receive.rtp.reorder_seconds,
+  app.add_option("--reorder-seconds", options->receive.media.rtp.reorder_seconds,
                  "rtp: the longest time that a packet waits for an earlier one")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();

@@ -69,4 +69,13 @@ void shade_parts(const Shape& shape, const Skin& skin, Head& head) {
   shade_by(all, 5.0, 0.8, body.positions.size(), body);
 }
 
+std::vector<float> freedom_below_hair(const Shape& shape, const Mesh& skin) {
+  const HairLines lines = hair_lines(shape);
+  std::vector<float> freedom;
+  for (const Vec3& p : skin.positions) {
+    freedom.push_back(float(smooth_step(-0.05, 0.3, hair_field(shape, lines, Vec3d(p)))));
+  }
+  return freedom;
+}
+
 }  // namespace animeme::head::detail

@@ -65,6 +65,7 @@ class Builder {
     hold_lids();
     make_exact();
     match_lips();
+    hold_hair();
     return std::move(weights_);
   }
 
@@ -146,6 +147,15 @@ class Builder {
     for (std::size_t v = 0; v < weights_.vertices(); ++v) {
       for (std::size_t c = 0; c < kControls.size(); ++c) {
         if (!kControls[c].id.starts_with("3.")) weights_.row(v)[c] *= held[v];
+      }
+    }
+  }
+
+  void hold_hair() {
+    const std::size_t known = std::min(head_.seams.freedom.size(), weights_.vertices());
+    for (std::size_t v = 0; v < known; ++v) {
+      for (std::size_t c = 0; c < kControls.size(); ++c) {
+        if (!kControls[c].id.starts_with("10.")) weights_.row(v)[c] *= head_.seams.freedom[v];
       }
     }
   }

@@ -94,7 +94,7 @@ const Face = (() => {
     context.clearRect(0, 0, 320, 360);
     const angle = 1e-5;
     context.translate(160, 300);
-    context.rotate(pick(values, 50) * angle);
+    context.rotate(-pick(values, 50) * angle);  // positive: to the right of the person
     context.translate(-160, -300);
     const turn = pick(values, 49) * angle * 60, nod = pick(values, 48) * angle * 60;
     const jaw = pick(values, 3) * unit.MNS;
