@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(
                         [](const std::string& port) { return "srt://127.0.0.1:" + port; }},
                     Way{"web", [](const std::string& port) { return "http://127.0.0.1:" + port; },
                         [](const std::string& port) { return "ws://127.0.0.1:" + port; }}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& way) { return way.param.name; });
 
 TEST(Stream, WhatIsWrongIsSaidInASentence) {
   const TempDir dir;
