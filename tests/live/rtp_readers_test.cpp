@@ -85,28 +85,33 @@ Bytes face_stream(const Talk& talk) {
   return stream;
 }
 
+// Of the face, copies included.
+std::int64_t count_packets(const Talk& talk, const RtpOptions& options) {
+  RtpSender sender(talk.info, options, "127.0.0.1", 5004, 1, 0);
+  RtpSender::Datagrams packets;
+  for (const LiveUnit& unit : talk.units) EXPECT_TRUE(sender.send(unit, 0, packets));
+  sender.finish(0, packets);
+  return std::count_if(packets.begin(), packets.end(),
+                       [](const RtpDatagram& each) { return !each.control; });
+}
+
 TEST(RtpReaders, GstreamerGetsTheElementaryStream) {
   if (!has_program("gst-launch-1.0")) GTEST_SKIP() << "gst-launch-1.0 is not there";
   const Talk talk = test::random_talk(60, 20);
   const test::TempDir dir;
   const int port = test::free_ports();
-  for (const int mtu : {1400, 256}) {
+  for (const RtpOptions& options :
+       {RtpOptions{.repeat = 1}, RtpOptions{.mtu = 256, .repeat = 1}, RtpOptions{.repeat = 2}}) {
     const std::string out = dir.file("face.es");
-    auto sink =
-        open_sink("rtp://127.0.0.1:" + std::to_string(port), {.rtp = {.mtu = mtu, .repeat = 1}});
+    auto sink = open_sink("rtp://127.0.0.1:" + std::to_string(port), {.rtp = options});
     ASSERT_TRUE(sink && (*sink)->start(talk.info));
-    RtpSender counter(talk.info, {.mtu = mtu, .repeat = 1}, "127.0.0.1", port, 1, 0);
-    RtpSender::Datagrams packets;
-    for (const LiveUnit& unit : talk.units) ASSERT_TRUE(counter.send(unit, 0, packets));
-    const auto media = std::count_if(packets.begin(), packets.end(),
-                                     [](const RtpDatagram& each) { return !each.control; });
     play_to("timeout 60 gst-launch-1.0 -q udpsrc address=127.0.0.1 port=" + std::to_string(port) +
-                " num-buffers=" + std::to_string(media) +
-                " caps='application/x-rtp,media=video,clock-rate=90000,encoding-name=MP4V-ES'"
-                " ! rtpmp4vdepay ! filesink location=" +
-                out + " 2>&1",
+                " num-buffers=" + std::to_string(count_packets(talk, options)) +
+                " caps='application/x-rtp,media=video,clock-rate=90000,encoding-name=MP4V-ES'" +
+                (options.repeat > 1 ? " ! rtpjitterbuffer" : "") +
+                " ! rtpmp4vdepay ! filesink location=" + out + " 2>&1",
             talk, **sink, port);
-    EXPECT_EQ(read_file(out), face_stream(talk));
+    EXPECT_EQ(read_file(out), face_stream(talk)) << options.mtu << " " << options.repeat;
   }
 }
 
@@ -114,27 +119,29 @@ TEST(RtpReaders, FfprobeGetsFaceAndSoundByTheDescription) {
   if (!has_program("ffprobe")) GTEST_SKIP() << "ffprobe is not there";
   Talk talk = test::random_talk(60, 20);
   test::add_sound(talk, test::aac_format());
-  const test::TempDir dir;
-  const std::string sdp = dir.file("talk.sdp");
-  const int port = test::free_ports();
-  auto sink =
-      open_sink("rtp://127.0.0.1:" + std::to_string(port), {.rtp = {.repeat = 1, .sdp_path = sdp}});
-  ASSERT_TRUE(sink && (*sink)->start(talk.info));
-  const std::string out = dir.file("packets.txt");
-  play_to(
-      "timeout 60 ffprobe -v quiet -protocol_whitelist file,udp,rtp -show_packets"
-      " -show_entries packet=codec_type,data_hash -show_data_hash crc32 " +
-          sdp + " > " + out,
-      talk, **sink, port + 3);
   // Its parser for films glues planes together; sound comes packet by packet.
   std::vector<std::string> expected = {"video " + crc32(face_stream(talk))};
   for (const LiveUnit& unit : test::only(talk.units, LiveTrack::audio)) {
     expected.push_back("audio " + crc32(unit.bytes));
   }
-  std::vector<std::string> packets = read_packets(out);
-  std::sort(packets.begin(), packets.end());
   std::sort(expected.begin(), expected.end());
-  EXPECT_EQ(packets, expected);
+  const test::TempDir dir;
+  const std::string sdp = dir.file("talk.sdp");
+  const std::string out = dir.file("packets.txt");
+  const int port = test::free_ports();
+  for (const int repeat : {1, 2}) {
+    auto sink = open_sink("rtp://127.0.0.1:" + std::to_string(port),
+                          {.rtp = {.repeat = repeat, .sdp_path = sdp}});
+    ASSERT_TRUE(sink && (*sink)->start(talk.info));
+    play_to(
+        "timeout 60 ffprobe -v quiet -protocol_whitelist file,udp,rtp -show_packets"
+        " -show_entries packet=codec_type,data_hash -show_data_hash crc32 " +
+            sdp + " > " + out,
+        talk, **sink, port + 3);
+    std::vector<std::string> packets = read_packets(out);
+    std::sort(packets.begin(), packets.end());
+    EXPECT_EQ(packets, expected) << repeat;
+  }
 }
 
 // The planes of the example files: size, intra flag, bytes.

@@ -178,6 +178,8 @@ TEST(WebLive, ErrorsNameTheRemedy) {
   ASSERT_FALSE(busy);
   EXPECT_EQ(busy.error().code, Code::io);
   EXPECT_THAT(busy.error().message, HasSubstr("in use"));
+  auto elsewhere = make_web_sink("http://192.0.2.1:0/");  // of no machine
+  EXPECT_EQ((*elsewhere)->start(show.info).error().code, Code::io);
   const std::string address = sink->address();
   ASSERT_TRUE(sink->finish());
   const auto alone = make_web_source(address);

@@ -40,7 +40,7 @@ struct Command {
 };
 
 extern const Command kAlign, kCheck, kCompare, kDecode, kDemux, kEncode, kEvaluate, kExport,
-    kFollow, kImport, kInfo, kMux, kPlot, kReceive, kSpeak, kStats, kStream, kTrain;
+    kFollow, kImport, kInfo, kMux, kPlot, kReceive, kRender, kSpeak, kStats, kStream, kTrain, kView;
 
 /// Prints a usage error on standard error; returns kUsage for the command to return.
 int usage_error(const std::string& text);

@@ -1,4 +1,5 @@
-// Motion for other programs: what they know are ARKit's shapes, not FAPs.
+// Motion for other programs: what they know are ARKit's shapes, visemes or mouth shapes, not FAPs.
+#include <algorithm>
 #include <memory>
 
 #include "fap/fill.h"
@@ -7,6 +8,7 @@
 #include "tools/commands/arkit_export.h"
 #include "tools/commands/common.h"
 #include "tools/commands/export_glb.h"
+#include "tools/commands/viseme_export.h"
 
 namespace animeme::tools {
 
@@ -16,8 +18,34 @@ struct Options {
   std::string input;
   std::string output;
   std::string audio;
+  std::string what;
+  std::string script;
+  std::string rate = "25";
+  double crossfade = 0.08;
   GlbExport glb;
 };
+
+// What a name like talk.visemes.json asks for.
+std::string what_of(const Options& options, bool from_script) {
+  if (!options.what.empty()) return options.what;
+  const std::string extension = extension_of(options.output);
+  const std::string inner = extension_of(std::filesystem::path(options.output).stem().string());
+  if (extension == ".glb") return "glb";
+  if (inner == ".rhubarb" || extension == ".tsv") return "rhubarb";
+  if (inner == ".visemes" || from_script) return "visemes";
+  return "arkit";
+}
+
+// Empty if `what` can be written with this extension.
+std::string wrong_extension(const std::string& what, const std::string& path) {
+  const std::string extension = extension_of(path);
+  if (what == "glb") return extension == ".glb" ? "" : "--output must end in .glb, not " + path;
+  if (extension == ".json" || extension == (what == "rhubarb" ? ".tsv" : ".csv")) return {};
+  const char* wanted = what == "rhubarb"   ? ".tsv or .json"
+                       : what == "visemes" ? ".csv or .json"
+                                           : ".csv (Live Link Face) or .json";
+  return "--output must end in " + std::string(wanted) + " for " + what + ", not " + path;
+}
 
 ArkitCurves to_arkit(const fap::Sequence& clip) {
   ArkitCurves curves{clip.rate, {}};
@@ -30,60 +58,182 @@ ArkitCurves to_arkit(const fap::Sequence& clip) {
   return curves;
 }
 
-Result<int> run(const Options& options) {
-  const std::string extension = extension_of(options.output);
-  if (extension != ".csv" && extension != ".json" && extension != ".glb") {
-    return usage_error("--output must end in .csv (Live Link Face), .json or .glb, not " +
-                       options.output);
-  }
-  Result<FaceInput> input = read_face(options.input);
+Result<fap::Sequence> read_filled(const Options& options, std::vector<std::uint8_t> bytes,
+                                  bool keep_high_level) {
+  Result<FaceInput> input = parse_face(std::move(bytes), options.input);
   if (!input) return input.error();
-  Result<fap::Sequence> filled = fap::fill(input->clip, {.interpolate = true, .complete = true});
+  fap::FillOptions filling;
+  filling.interpolate = filling.complete = true;
+  filling.keep_high_level = keep_high_level;
+  Result<fap::Sequence> filled = fap::fill(input->clip, filling);
   if (!filled) return filled.error().in_file(options.input);
+  return filled;
+}
+
+Result<int> write_arkit(const Options& options, std::vector<std::uint8_t> bytes) {
+  const Result<fap::Sequence> clip = read_filled(options, std::move(bytes), false);
+  if (!clip) return clip.error();
+  const ArkitCurves curves = to_arkit(*clip);
   const std::string sound = std::filesystem::path(options.audio).filename().string();
-  if (extension == ".glb") {
-    GlbExport settings = options.glb;
-    settings.audio = sound;
-    if (auto written = export_glb(options.output, *filled, settings); !written) {
-      return written.error();
-    }
-    return kOk;
-  }
-  const ArkitCurves curves = to_arkit(*filled);
-  const std::string text = extension == ".csv" ? live_link_csv(curves) : arkit_json(curves, sound);
+  const bool csv = extension_of(options.output) == ".csv";
+  const std::string text = csv ? live_link_csv(curves) : arkit_json(curves, sound);
   if (auto written = write_file(options.output, text); !written) return written.error();
   say(options.output + ": " + std::to_string(curves.frames.size()) + " frames of 52 shapes, " +
       fap::format_rate(curves.rate) + " frames a second");
   return kOk;
 }
 
-Action add(CLI::App& app) {
-  auto options = std::make_shared<Options>();
-  app.add_option("input", options->input, "FAP text, FBA stream or container")->required();
-  app.add_option("-o,--output", options->output,
-                 "File to write: .csv (Live Link Face: Unreal, Blender, Maya), .json (the same "
-                 "curves for scripts), .glb (a head with morph targets and animation)")
-      ->required();
-  app.add_option("--audio", options->audio, "Name of the sound to mention in .json and .glb");
-  app.add_option("--head", options->glb.head, "glb: woman, man or child")
+Result<int> write_glb(const Options& options, std::vector<std::uint8_t> bytes) {
+  const Result<fap::Sequence> clip = read_filled(options, std::move(bytes), false);
+  if (!clip) return clip.error();
+  GlbExport settings = options.glb;
+  settings.audio = std::filesystem::path(options.audio).filename().string();
+  if (auto written = export_glb(options.output, *clip, settings); !written) {
+    return written.error();
+  }
+  return kOk;
+}
+
+Result<std::vector<VisemeEvent>> events_of_script(const std::string& text,
+                                                  const std::string& path) {
+  const Result<dam::Script> script = dam::read_script(text);
+  if (!script) return script.error().in_file(path);
+  return script_events(*script);
+}
+
+Result<VisemeTrack> track_of(const Options& options, std::vector<std::uint8_t> bytes,
+                             bool from_script, const fap::Rate& rate) {
+  if (from_script) {
+    auto events = events_of_script({bytes.begin(), bytes.end()}, options.input);
+    if (!events) return std::move(events).error();
+    return track_of_events(std::move(*events), rate, options.crossfade);
+  }
+  const Result<fap::Sequence> clip = read_filled(options, std::move(bytes), true);
+  if (!clip) return clip.error();
+  VisemeTrack track = track_of_face(*clip);
+  if (options.script.empty()) return track;
+  const Result<std::string> text = read_text_file(options.script);
+  if (!text) return text.error();
+  auto events = events_of_script(*text, options.script);
+  if (!events) return std::move(events).error();
+  track.events = std::move(*events);
+  return track;
+}
+
+Result<int> write_visemes(const Options& options, const std::string& what, VisemeTrack track) {
+  const std::string sound = std::filesystem::path(options.audio).filename().string();
+  const bool json = extension_of(options.output) == ".json";
+  std::string text;
+  if (what == "rhubarb") {
+    text = json ? rhubarb_json(track, sound) : rhubarb_tsv(track);
+  } else {
+    text = json ? visemes_json(track, sound) : visemes_csv(track);
+  }
+  if (auto written = write_file(options.output, text); !written) return written.error();
+  if (what == "rhubarb") {
+    say(options.output + ": mouth shapes of " + std::to_string(track.events.size()) + " visemes");
+  } else {
+    say(options.output + ": " + std::to_string(track.events.size()) + " events, " +
+        std::to_string(track.frames.size()) + " frames of 15 visemes, " +
+        fap::format_rate(track.rate) + " frames a second");
+  }
+  return kOk;
+}
+
+Result<int> run(const Options& options) {
+  const Result<fap::Rate> rate = fap::parse_rate(options.rate);
+  if (!rate || !rate->valid()) {
+    return usage_error("--rate: '" + options.rate + "' is no frame rate; write 30 or 29.97");
+  }
+  // Before the input is read, so that a wrong name is told at once.
+  const std::string named = what_of(options, false);
+  if (const std::string wrong = wrong_extension(named, options.output); !wrong.empty()) {
+    return usage_error(wrong);
+  }
+  Result<std::vector<std::uint8_t>> bytes = read_file(options.input);
+  if (!bytes) return bytes.error();
+  const bool from_script = kind_of(*bytes) == FileKind::script;
+  const std::string what = what_of(options, from_script);
+  if (what == "arkit" || what == "glb") {
+    if (!options.script.empty()) {
+      return usage_error("--script is for visemes; add --what visemes");
+    }
+    if (from_script) {
+      return make_error(Code::not_found,
+                        "a script has no face; make one with animeme speak --script, or export "
+                        "its visemes")
+          .in_file(options.input);
+    }
+    return what == "glb" ? write_glb(options, std::move(*bytes))
+                         : write_arkit(options, std::move(*bytes));
+  }
+  Result<VisemeTrack> track = track_of(options, std::move(*bytes), from_script, *rate);
+  if (!track) return track.error();
+  return write_visemes(options, what, std::move(*track));
+}
+
+void add_glb_options(CLI::App& app, GlbExport& glb) {
+  app.add_option("--head", glb.head, "glb: woman, man or child")
       ->check(
           CLI::IsMember(std::vector<std::string>(head::kHeadNames.begin(), head::kHeadNames.end())))
       ->capture_default_str();
-  app.add_option("--morphs", options->glb.morphs,
+  app.add_option("--morphs", glb.morphs,
                  "glb: morph targets by the names of ARKit (jawOpen ...) or of FAPs (open_jaw ...)")
       ->check(CLI::IsMember({"arkit", "fap"}))
       ->capture_default_str();
-  app.add_flag("--normals", options->glb.normals,
+  app.add_flag("--normals", glb.normals,
                "glb: normals of the morph targets, for players that do not compute them");
+}
+
+Action add(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  app.add_option("input", options->input,
+                 "FAP text, FBA stream or container; for visemes also a phoneme script (TSV, "
+                 "TextGrid)")
+      ->required();
+  app.add_option("-o,--output", options->output,
+                 "File to write: .csv (Live Link Face: Unreal, Blender, Maya), .json (the same "
+                 "curves for scripts), .glb (a head with morph targets and animation), "
+                 ".visemes.json or .visemes.csv (15 weights a frame under "
+                 "the names of Oculus and Ready Player Me), .tsv or .rhubarb.json (mouth shapes of "
+                 "Rhubarb Lip Sync)")
+      ->required();
+  app.add_option("--what", options->what,
+                 "What to write, whatever the file is called: arkit (52 shapes and 9 angles), "
+                 "glb, visemes, rhubarb")
+      ->check(CLI::IsMember({"arkit", "glb", "visemes", "rhubarb"}));
+  app.add_option("--audio", options->audio, "Name of the sound to mention in .json and .glb");
+  add_glb_options(app, options->glb);
+  app.add_option("--script", options->script,
+                 "Phoneme script of the face: the events of visemes are its sounds; without it, "
+                 "what the face shows most");
+  app.add_option("--rate", options->rate, "Frames a second of visemes of a script")
+      ->capture_default_str();
+  app.add_option("--crossfade", options->crossfade,
+                 "Seconds that one viseme of a script takes to fade into the next, at most")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0));
   return [options] { return run(*options); };
 }
 
 }  // namespace
 
-const Command kExport{"export", "Turn a face into curves for Unreal, Blender, Unity or scripts",
-                      "  animeme export talk.mp4 -o talk.csv\n"
-                      "  animeme export talk.fap --audio voice.wav -o talk.json\n"
-                      "  animeme export talk.fba --head man -o talk.glb",
-                      add};
+const Command kExport{
+    "export", "Turn a face into curves for Unreal, Blender, Unity, web avatars or scripts",
+    "  animeme export talk.mp4 -o talk.csv\n"
+    "  animeme export talk.fap --audio voice.wav -o talk.json\n"
+    "  animeme export talk.fba --head man -o talk.glb\n"
+    "  animeme export talk.fap -o talk.visemes.json\n"
+    "  animeme export talk.fap --script words.tsv --audio voice.wav -o talk.visemes.json\n"
+    "  animeme export words.tsv --rate 60 -o words.visemes.csv\n"
+    "  animeme export words.tsv -o words.rhubarb.json\n"
+    "\n"
+    "Visemes are viseme_sil, PP, FF, TH, DD, kk, CH, SS, nn, RR, aa, E, I, O, U: the morph "
+    "targets\n"
+    "of Ready Player Me and Oculus avatars. In three.js, with the .visemes.json as `track`:\n"
+    "  const frame = track.frames[Math.min(Math.floor(t * track.fps), track.frames.length - 1)];\n"
+    "  track.names.forEach((name, i) =>\n"
+    "    mesh.morphTargetInfluences[mesh.morphTargetDictionary[name]] = frame[i]);",
+    add};
 
 }  // namespace animeme::tools

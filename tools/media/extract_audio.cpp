@@ -56,6 +56,7 @@ Result<void> copy_packets(Input& input, int index, Muxer& muxer) {
   AVFormatContext& file = *input.context();
   const av::Packet packet(av_packet_alloc());
   if (!packet) return make_error(Code::out_of_range, "not enough memory");
+  const std::optional<std::int64_t> end = end_of_sound(input, *file.streams[index]);
   std::optional<std::int64_t> begin;  // subtracted; priming before 0 stays where it is
   while (av_read_frame(&file, packet.get()) >= 0) {
     if (packet->stream_index != index) {
@@ -63,6 +64,10 @@ Result<void> copy_packets(Input& input, int index, Muxer& muxer) {
       continue;
     }
     const std::int64_t time = packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts;
+    // The last packet of a fragmented file is said to be whole.
+    if (end && time != AV_NOPTS_VALUE && time < *end && packet->duration > *end - time) {
+      packet->duration = *end - time;
+    }
     if (!begin && time != AV_NOPTS_VALUE) begin = std::max<std::int64_t>(time, 0);
     if (packet->pts != AV_NOPTS_VALUE) packet->pts -= begin.value_or(0);
     if (packet->dts != AV_NOPTS_VALUE) packet->dts -= begin.value_or(0);

@@ -185,6 +185,11 @@ Result<MuxResult> write_mp4(const std::string& path, const MuxInput& input,
 
 Result<MuxResult> write_container(const std::string& path, const MuxInput& input,
                                   const MuxOptions& options) {
+  if (path == "-") {
+    return unsupported(
+        "a container cannot go to standard output, because its writer goes back in it; write a "
+        "file");
+  }
   const FileType* type = type_of(path);
   if (type != nullptr) return guarded_write(path, *type, input, options);
   const bool face = input.face != nullptr;

@@ -1,6 +1,12 @@
 #include "tools/web/detail/address.h"
 
+#include <netdb.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <charconv>
+#include <cstring>
 
 namespace animeme::web {
 namespace {
@@ -49,6 +55,30 @@ Result<WebAddress> parse_web_address(const std::string& url) {
     return bad("the port is no number up to 65535");
   }
   return address;
+}
+
+// libwebsockets would say no more than that it failed, and lose some memory.
+Result<void> check_listening(const WebAddress& address) {
+  const auto failed = [&](const char* why) {
+    return make_error(Code::io, "cannot listen at " + address.text() + ": " + why);
+  };
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  hints.ai_flags = AI_PASSIVE;
+  addrinfo* found = nullptr;
+  const std::string port = std::to_string(address.port);
+  const int status = getaddrinfo(address.host.c_str(), port.c_str(), &hints, &found);
+  if (status != 0) return failed(gai_strerror(status));
+  const int handle = socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  const int yes = 1;
+  setsockopt(handle, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  const bool free =
+      handle >= 0 && bind(handle, found->ai_addr, found->ai_addrlen) == 0 && listen(handle, 1) == 0;
+  const int problem = errno;
+  freeaddrinfo(found);
+  if (handle >= 0) close(handle);
+  if (free) return {};
+  return failed(problem == EADDRINUSE ? "the port is in use" : std::strerror(problem));
 }
 
 }  // namespace animeme::web

@@ -22,4 +22,7 @@ struct WebAddress {
 /// address, a path), unsupported (https, wss).
 Result<WebAddress> parse_web_address(const std::string& url);
 
+/// Can a server listen there? Errors: io, in the words of the system.
+Result<void> check_listening(const WebAddress& address);
+
 }  // namespace animeme::web

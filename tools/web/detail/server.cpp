@@ -21,6 +21,7 @@ Result<std::unique_ptr<Server>> Server::listen(const WebAddress& address, const 
                                                SoundFacts sound) {
   static const lws_protocols protocols[] = {{"animeme", &Impl::callback, 0, 1024, 0, nullptr, 0},
                                             {nullptr, nullptr, 0, 0, 0, nullptr, 0}};
+  if (Result<void> possible = check_listening(address); !possible) return possible.error();
   auto impl = std::make_unique<Impl>(options, sound);
   lws_context_creation_info info{};
   info.port = address.port;

@@ -1,0 +1,179 @@
+// node viewer_report.js looks|sound|texts PAGE.html FOLDER: what Chromium makes of a page, as JSON.
+//
+// looks: vertices of the frames 0 .. 7 as 32-bit floats in FOLDER/<part>_<frame>.f32; how much the
+//   mouth and the forehead change between the frames 0 and 1.
+// sound: plays ten seconds; each picture against what is heard then, told by the clicks.
+// texts: what is shown where names are hostile; the ways to compare; what works without a head.
+// All have `messages`: what the console said.
+'use strict';
+
+const fs = require('fs');
+const path = require('path');
+const {pathToFileURL} = require('url');
+const {launch, sleep} = require('../../readers/js/browser');
+const {difference, readPng} = require('./png');
+
+const FLAGS = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'];
+const FRAMES = 8;
+const PARTS = ['skin', 'left_eye', 'right_eye', 'upper_teeth', 'lower_teeth', 'tongue', 'hair',
+  'brows', 'lashes', 'body'];
+
+async function open(page, file, query) {
+  await page.goto(pathToFileURL(file) + query);
+  await page.evaluate('window.animeme.ready.then(() => true)');
+}
+
+async function show(page, frame) {
+  await page.evaluate((number) => {
+    window.animeme.seek(number / 25 + 0.001);
+    window.animeme.draw();
+  }, frame);
+  const state = await page.evaluate('window.animeme.state()');
+  if (state.frame !== frame) throw new Error(`frame ${state.frame} is shown, not ${frame}`);
+}
+
+// Runs in the page.
+function packed(part) {
+  const bytes = new Uint8Array(window.animeme.vertices(part).buffer);
+  let text = '';
+  for (let i = 0; i < bytes.length; i += 4096) {
+    text += String.fromCharCode(...bytes.subarray(i, i + 4096));
+  }
+  return btoa(text);
+}
+
+function boxes(points) {
+  const at = (id) => points.find((point) => point.id === id);
+  const [left, right] = [at('8.4').x, at('8.3').x];
+  const brows = Math.min(at('4.3').y, at('4.4').y);
+  const hair = at('11.1').y;
+  const edge = 0.3 * (brows - hair);
+  return {
+    mouth: {left, right, top: at('8.1').y, bottom: at('8.2').y},
+    forehead: {left, right, top: hair + edge, bottom: brows - edge},
+  };
+}
+
+async function looks(page, file, folder) {
+  await page.resize(500, 700);
+  await open(page, file, '?frame=0&mode=first');
+  const report = {state: await page.evaluate('window.animeme.state()')};
+  const {mouth, forehead} = boxes(await page.evaluate('window.animeme.points()'));
+  const stage = await page.evaluate(`(() => {
+    const box = document.getElementById('picture').getBoundingClientRect();
+    return {x: box.left, y: box.top};
+  })()`);
+  const placed = (box) => ({left: box.left + stage.x, right: box.right + stage.x,
+    top: box.top + stage.y, bottom: box.bottom + stage.y});
+  const pictures = [];
+  for (const frame of [0, 1]) {
+    await show(page, frame);
+    pictures.push(readPng(await page.screenshot(path.join(folder, `frame_${frame}.png`))));
+  }
+  report.mouth = difference(...pictures, placed(mouth));
+  report.forehead = difference(...pictures, placed(forehead));
+  for (let frame = 0; frame < FRAMES; ++frame) {
+    await show(page, frame);
+    for (const part of PARTS) {
+      const bytes = Buffer.from(await page.evaluate(packed, part), 'base64');
+      fs.writeFileSync(path.join(folder, `${part}_${frame}.f32`), bytes);
+    }
+  }
+  return report;
+}
+
+const TAP = `registerProcessor('tap', class extends AudioWorkletProcessor {
+  process([[samples]]) {
+    for (let i = 0; samples && i < samples.length; ++i) {
+      const time = currentTime + i / sampleRate;
+      if (Math.abs(samples[i]) < 0.15 || time < (this.quiet || 0)) continue;
+      this.quiet = time + 0.5;
+      this.port.postMessage(time);
+    }
+    return true;
+  }
+})`;
+
+// Runs in the page: when clicks leave the player, and which frame is drawn at which time.
+async function listen(tap) {
+  const {animeme} = window;
+  animeme.play();
+  const context = animeme.context();
+  await context.audioWorklet.addModule('data:text/javascript,' + encodeURIComponent(tap));
+  animeme.pause();
+  animeme.seek(0);
+  const node = new AudioWorkletNode(context, 'tap');
+  const clicks = [];
+  const pictures = new Map();
+  node.port.onmessage = (event) => clicks.push(event.data);
+  animeme.output().connect(node);
+  animeme.play();
+  const end = performance.now() + 60000;
+  while (animeme.state().position < 10.4 && performance.now() < end) {
+    await new Promise((next) => setTimeout(next, 5));
+    const {playing, frame, clock} = animeme.state();
+    if (playing) pictures.set(clock, {frame, clock});
+  }
+  animeme.pause();
+  await new Promise((next) => setTimeout(next, 300));
+  return {clicks, pictures: [...pictures.values()], latency: context.outputLatency,
+    state: animeme.state()};
+}
+
+async function sound(page, file) {
+  await page.resize(240, 480);
+  await page.send('Page.setBypassCSP', {enabled: true});
+  await open(page, file, '?mode=first');
+  return page.evaluate(listen, TAP);
+}
+
+const LOOK_AT_TEXTS = `(() => ({
+  hacked: typeof window.hacked, title: document.title,
+  heading: document.getElementById('title').textContent,
+  name: document.getElementById('name1').textContent,
+  now: document.getElementById('now').textContent,
+  readout: document.getElementById('readout').textContent,
+  images: document.images.length, scripts: document.scripts.length,
+}))()`;
+
+async function texts(page, file, folder) {
+  await page.resize(700, 500);
+  await open(page, file, '?t=0.1');
+  const report = {texts: await page.evaluate(LOOK_AT_TEXTS), modes: {}};
+  for (const mode of ['first', 'second', 'side', 'ghost', 'heat']) {
+    await page.evaluate(`document.querySelector('[name=mode][value=${mode}]').click()`);
+    await page.evaluate('window.animeme.draw()');
+    await page.screenshot(path.join(folder, `${mode}.png`));
+    report.modes[mode] = (await page.evaluate('window.animeme.state()')).mode;
+  }
+  for (const key of [' ', 'k', 'ArrowRight', 'w', 'p', 'i', '[', ']', 'o', 'r', '?']) {
+    await page.send('Input.dispatchKeyEvent',
+        {type: 'keyDown', key, text: key.length === 1 ? key : undefined});
+    await page.send('Input.dispatchKeyEvent', {type: 'keyUp', key});
+  }
+  report.keys = await page.evaluate('window.animeme.state()');
+  report.help = await page.evaluate(`document.getElementById('keys').open`);
+  await open(page, file, '?nohead&frame=3&faps=3,51&speed=0.5&loop=0.2-0.4');
+  report.nohead = await page.evaluate('window.animeme.state()');
+  await page.evaluate('window.animeme.play()');
+  await sleep(300);
+  report.played = await page.evaluate('window.animeme.state()');
+  return report;
+}
+
+async function main([kind, file, folder]) {
+  const browser = await launch({flags: FLAGS});
+  try {
+    const page = await browser.open();
+    const report = await {looks, sound, texts}[kind](page, path.resolve(file), folder);
+    report.messages = page.messages;
+    process.stdout.write(JSON.stringify(report) + '\n');
+  } finally {
+    await browser.close();
+  }
+}
+
+main(process.argv.slice(2)).catch((error) => {
+  console.error(error);
+  process.exitCode = 1;
+});

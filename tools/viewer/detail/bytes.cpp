@@ -1,0 +1,54 @@
+#include "tools/viewer/detail/bytes.h"
+
+#include <algorithm>
+
+namespace animeme::viewer::detail {
+
+void Bytes::u16(std::uint32_t value) {
+  u8(value & 0xFF);
+  u8(value >> 8 & 0xFF);
+}
+
+void Bytes::u32(std::uint32_t value) {
+  u16(value & 0xFFFF);
+  u16(value >> 16);
+}
+
+void Bytes::varint(std::uint64_t value) {
+  for (; value >= 0x80; value >>= 7) u8(std::uint32_t(value & 0x7F) | 0x80);
+  u8(std::uint32_t(value));
+}
+
+void Bytes::zigzag(std::int64_t value) {
+  varint(value < 0 ? ~(std::uint64_t(value) << 1) : std::uint64_t(value) << 1);
+}
+
+void Bytes::append(const Bytes& other) {
+  data_.insert(data_.end(), other.data_.begin(), other.data_.end());
+}
+
+Bytes with_header(const std::string& json, const Bytes& rest) {
+  Bytes out;
+  out.u32(std::uint32_t(json.size()));
+  out.text(json);
+  out.append(rest);
+  return out;
+}
+
+std::string base64(const std::vector<std::uint8_t>& bytes) {
+  static constexpr char kDigits[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t bits = 0;
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    for (std::size_t k = 0; k < 3; ++k) bits = bits << 8 | (k < count ? bytes[i + k] : 0u);
+    for (std::size_t k = 0; k < 4; ++k) {
+      out += k <= count ? kDigits[bits >> (18 - 6 * k) & 63] : '=';
+    }
+  }
+  return out;
+}
+
+}  // namespace animeme::viewer::detail

@@ -1,0 +1,68 @@
+// A motion as pack_clip() of page.cpp writes it.
+import {ByteReader} from './bytes.js';
+
+/** Frames at a rate; times are seconds on the clock of the sound. */
+export class Clip {
+  constructor(bytes) {
+    const reader = new ByteReader(bytes);
+    const {name, rate, start, first, frames, faps} = reader.header;
+    this.name = name;
+    this.rate = rate[0] / rate[1];
+    this.frames = frames;
+    this.start = start + first / this.rate;
+    this.end = this.start + frames / this.rate;
+    /** Values by FAP number; FAPs that never move are missing. */
+    this.columns = {};
+    for (const fap of faps) {
+      const column = new Int32Array(frames);
+      let value = 0;
+      for (let i = 0; i < frames; ++i) column[i] = value += reader.zigzag();
+      this.columns[fap] = column;
+    }
+  }
+
+  /** The frame that is shown at a time: the last one that has begun. */
+  frameAt(time) {
+    const frame = Math.floor((time - this.start) * this.rate + 1e-6);
+    return Math.min(Math.max(frame, 0), this.frames - 1);
+  }
+
+  timeOf(frame) {
+    return this.start + frame / this.rate;
+  }
+
+  value(fap, frame) {
+    const column = this.columns[fap];
+    return column ? column[frame] : 0;
+  }
+
+  /** All values at a time, index = FAP number; `between`: a mixture of two frames. */
+  values(time, between) {
+    const out = new Float64Array(69);
+    const frame = this.frameAt(time);
+    const next = Math.min(frame + 1, this.frames - 1);
+    const share = between ? Math.min(Math.max((time - this.timeOf(frame)) * this.rate, 0), 1) : 0;
+    for (const fap of Object.keys(this.columns)) {
+      const column = this.columns[fap];
+      out[fap] = column[frame] + (column[next] - column[frame]) * share;
+    }
+    return out;
+  }
+
+  /** Least and largest value of a FAP, 0 among them. */
+  range(fap) {
+    let [low, high] = [0, 0];
+    for (const value of this.columns[fap] || []) {
+      low = Math.min(low, value);
+      high = Math.max(high, value);
+    }
+    return [low, high];
+  }
+}
+
+/** Root mean square of the differences of all FAPs in one frame each, FAP units. */
+export function valueDifference(a, b) {
+  let square = 0;
+  for (let f = 3; f <= 68; ++f) square += (a[f] - b[f]) ** 2;
+  return Math.sqrt(square / 66);
+}

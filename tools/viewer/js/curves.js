@@ -1,0 +1,228 @@
+// Curves of the chosen FAPs over time, phones and words above them, and a head that moves along.
+import {listenToDrags} from './axis.js';
+
+const ROW = 48;
+// Fingers need larger buttons, which stand in the ruler.
+const RULER = matchMedia('(max-width: 760px)').matches ? 32 : 20;
+const TRACK = 20;
+
+/** `facts`: faps (the table) and phones of the page; `app`: clips, player. */
+export class Curves {
+  constructor(elements, app, axis, facts) {
+    Object.assign(this, {...elements, app, axis});
+    this.phones = facts.phones;
+    this.words = wordsOf(facts.phones);
+    this.table = facts.faps;
+    this.faps = [];
+    this.ranges = {};
+    axis.onChange = () => this.draw();
+    new ResizeObserver(() => this.draw()).observe(this.area);
+    this.listen();
+  }
+
+  /** The FAPs to show, one row each. */
+  choose(faps) {
+    this.faps = faps;
+    for (const fap of faps) {
+      const ranges = this.app.clips.map((clip) => clip.range(fap));
+      this.ranges[fap] = [Math.min(...ranges.map((r) => r[0])), Math.max(...ranges.map((r) => r[1]))];
+    }
+    this.labels.replaceChildren(...faps.map((fap) => this.label(fap)));
+    this.canvas.setAttribute('aria-label', 'Curves of ' +
+        (faps.map((fap) => this.table[fap - 1].name).join(', ') || 'nothing') + ' over time');
+    this.draw();
+  }
+
+  label(fap) {
+    const label = document.createElement('div');
+    label.className = 'label';
+    const name = document.createElement('b');
+    name.textContent = `${fap} ${this.table[fap - 1].name}`;
+    label.append(name, ...this.app.clips.map((_, i) => {
+      const value = document.createElement('span');
+      value.className = `value clip${i}`;
+      return value;
+    }));
+    label.style.top = `${this.top() + this.faps.indexOf(fap) * ROW}px`;
+    return label;
+  }
+
+  // Where the first row begins.
+  top() {
+    return RULER + (this.phones.length ? TRACK * (this.words.length ? 2 : 1) : 0);
+  }
+
+  listen() {
+    const {area, axis, app} = this;
+    const timeAt = (share) => axis.time(share);
+    listenToDrags(this.canvas, {
+      begin: (start) => {
+        start.time = timeAt(start.share);
+        if (!start.shift) app.scrub(start.time);
+      },
+      move: (start, share) => {
+        const time = timeAt(share);
+        if (start.shift) app.mark([Math.min(start.time, time), Math.max(start.time, time)]);
+        else app.scrub(time);
+      },
+      end: (start) => { if (!start.shift) app.endScrub(); },
+    });
+    area.addEventListener('wheel', (event) => {
+      if (event.ctrlKey || event.metaKey) {
+        event.preventDefault();
+        const box = this.canvas.getBoundingClientRect();
+        axis.zoom(Math.exp(-event.deltaY * 0.004), timeAt((event.clientX - box.left) / box.width));
+      } else if (Math.abs(event.deltaX) > Math.abs(event.deltaY)) {
+        event.preventDefault();
+        axis.shift(event.deltaX / area.clientWidth * axis.length);
+      }
+    }, {passive: false});
+    this.canvas.addEventListener('dblclick', () => axis.show(0, axis.total));
+  }
+
+  /** Everything but the head; colours come from the style of the page. */
+  draw() {
+    const width = this.area.clientWidth;
+    const height = this.top() + this.faps.length * ROW;
+    const scale = Math.min(window.devicePixelRatio || 1, 2);
+    this.canvas.width = Math.max(1, Math.round(width * scale));
+    this.canvas.height = Math.max(1, Math.round(height * scale));
+    this.canvas.style.height = `${height}px`;
+    const style = getComputedStyle(this.area);
+    const pen = this.canvas.getContext('2d');
+    pen.scale(scale, scale);
+    pen.font = '11px system-ui, sans-serif';
+    pen.textBaseline = 'middle';
+    this.paper = {pen, width, height, colour: (name) => style.getPropertyValue(`--${name}`)};
+    this.drawRuler();
+    this.drawTrack(this.phones, RULER, 'phone', (label) => label === 'SIL');
+    this.drawTrack(this.words, RULER + TRACK, 'word', () => false);
+    this.faps.forEach((fap, row) => this.drawRow(fap, this.top() + row * ROW));
+    this.show(this.app.time(), true);
+  }
+
+  x(time) {
+    return this.axis.share(time) * this.paper.width;
+  }
+
+  drawRuler() {
+    const {pen, width, height, colour} = this.paper;
+    const loop = this.app.player.region;
+    if (loop) {
+      pen.fillStyle = colour('region');
+      pen.fillRect(this.x(loop[0]), 0, this.x(loop[1]) - this.x(loop[0]), height);
+    }
+    const step = this.axis.step(width / 70);
+    const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+    pen.fillStyle = colour('soft');
+    pen.strokeStyle = colour('line');
+    pen.lineWidth = 1;
+    for (let k = Math.ceil(this.axis.begin / step); k * step <= this.axis.end; ++k) {
+      const x = Math.round(this.x(k * step)) + 0.5;
+      pen.beginPath();
+      pen.moveTo(x, 4);
+      pen.lineTo(x, height);
+      pen.stroke();
+      pen.fillText(`${(k * step).toFixed(digits)} s`, x + 4, RULER / 2);
+    }
+  }
+
+  drawTrack(pieces, top, kind, quiet) {
+    const {pen, width, colour} = this.paper;
+    pen.textAlign = 'center';
+    pieces.forEach(([start, end, text], i) => {
+      const [from, to] = [this.x(start), this.x(end)];
+      if (to < 0 || from > width || quiet(text)) return;
+      pen.fillStyle = colour(i % 2 ? kind : `${kind}-other`);
+      pen.fillRect(from, top + 1, Math.max(to - from - 1, 0.5), TRACK - 2);
+      pen.fillStyle = colour('ink');
+      if (to - from > pen.measureText(text).width + 3) {
+        pen.fillText(text, (from + to) / 2, top + TRACK / 2);
+      }
+    });
+    pen.textAlign = 'left';
+  }
+
+  drawRow(fap, top) {
+    const {pen, width, colour} = this.paper;
+    const [low, high] = this.ranges[fap];
+    const y = (value) => top + 18 + (ROW - 24) * (high - value) / (high - low || 1);
+    pen.strokeStyle = colour('line');
+    pen.lineWidth = 1;
+    for (const level of [top + 0.5, Math.round(y(0)) + 0.5]) {
+      pen.beginPath();
+      pen.moveTo(0, level);
+      pen.lineTo(width, level);
+      pen.stroke();
+    }
+    // The second clip lies below and is wider, so that both are seen where they agree.
+    for (let i = this.app.clips.length - 1; i >= 0; --i) {
+      pen.strokeStyle = colour(`clip${i}`);
+      pen.globalAlpha = i ? 0.55 : 1;
+      pen.lineWidth = i ? 4 : 1.5;
+      pen.beginPath();
+      this.trace(this.app.clips[i], fap, y);
+      pen.stroke();
+    }
+    pen.globalAlpha = 1;
+  }
+
+  // One point a frame, or where frames are denser than pixels the extremes of each pixel.
+  trace(clip, fap, y) {
+    const {pen} = this.paper;
+    const first = Math.max(clip.frameAt(this.axis.begin) - 1, 0);
+    const last = Math.min(clip.frameAt(this.axis.end) + 1, clip.frames - 1);
+    const dense = (last - first) / this.paper.width > 2;
+    let column = -Infinity;
+    let [low, high] = [0, 0];
+    for (let frame = first; frame <= last; ++frame) {
+      const value = clip.value(fap, frame);
+      const x = this.x(clip.timeOf(frame));
+      if (!dense) {
+        pen.lineTo(x, y(value));
+      } else if (Math.floor(x) === column) {
+        [low, high] = [Math.min(low, value), Math.max(high, value)];
+      } else {
+        if (column > -Infinity) pen.lineTo(column, y(low)), pen.lineTo(column, y(high));
+        [column, low, high] = [Math.floor(x), value, value];
+      }
+    }
+    if (dense) pen.lineTo(column, y(low)), pen.lineTo(column, y(high));
+  }
+
+  /** The moving parts: head, values, current phone. */
+  show(time, still = false) {
+    if (!still) this.axis.follow(time);
+    const share = this.axis.share(time);
+    this.head.hidden = share < 0 || share > 1;
+    this.head.style.transform = `translateX(${share * this.area.clientWidth}px)`;
+    this.head.style.height = `${this.paper ? this.paper.height : 0}px`;
+    const rows = this.labels.children;
+    this.faps.forEach((fap, row) => {
+      this.app.clips.forEach((clip, i) => {
+        const text = String(clip.value(fap, clip.frameAt(time)));
+        const cell = rows[row].children[i + 1];
+        if (cell.textContent !== text) cell.textContent = text;
+      });
+    });
+    const phone = pieceAt(this.phones, time);
+    this.now.textContent = phone ? [phone[2], phone[3]].filter(Boolean).join(' · ') : '';
+  }
+}
+
+/** The piece [start, end, ...] that a time lies in. */
+export function pieceAt(pieces, time) {
+  return pieces.find(([start, end]) => time >= start && time < end);
+}
+
+// Phones that follow one another in one word.
+function wordsOf(phones) {
+  const words = [];
+  for (const [start, end, , word] of phones) {
+    const last = words[words.length - 1];
+    if (!word) continue;
+    if (last && last[2] === word && Math.abs(last[1] - start) < 1e-3) last[1] = end;
+    else words.push([start, end, word]);
+  }
+  return words;
+}

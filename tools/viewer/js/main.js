@@ -1,0 +1,206 @@
+// Puts the page together: data, player, stage, curves, controls; window.animeme.
+import {fromBase64} from './bytes.js';
+import {Axis} from './axis.js';
+import {Chooser, mostMoving} from './chooser.js';
+import {Clip} from './clip.js';
+import {Controls} from './controls.js';
+import {Curves} from './curves.js';
+import {fillHelp, keyTable, listenToKeys} from './keys.js';
+import {readModel} from './model.js';
+import {Player} from './player.js';
+import {MODES, Stage} from './stage.js';
+
+const byId = (id) => document.getElementById(id);
+const data = (id) => (byId(id) ? fromBase64(byId(id).textContent) : null);
+const asked = new URLSearchParams(location.search);
+const flag = (name) => asked.has(name) && asked.get(name) !== '0';
+
+/** What the page does; controls and keys call it. */
+class App {
+  constructor(facts) {
+    this.clips = [data('clip0'), data('clip1')].filter(Boolean).map((bytes) => new Clip(bytes));
+    this.hasSound = Boolean(facts.sound);
+    this.options = {wire: false, points: false, between: true, mode: 'first'};
+    const ends = this.clips.map((clip) => clip.end);
+    this.player = new Player(Math.max(...ends));
+    this.axis = new Axis(this.player.duration);
+    this.needed = false;
+    this.resume = false;
+    const model = flag('nohead') ? null : readModel(data('model'));
+    this.stage = new Stage({
+      element: byId('stage'), canvas: byId('picture'), overlay: byId('overlay'), tip: byId('tip'),
+      message: byId('message'), readout: byId('readout'), names: [byId('name0'), byId('name1')],
+    }, model, this.clips);
+    this.curves = new Curves({
+      area: byId('area'), canvas: byId('curves'), labels: byId('labels'), head: byId('head'),
+      now: byId('now'),
+    }, this, this.axis, facts);
+    this.controls = new Controls(byId, this);
+    this.chooser = new Chooser({search: byId('search'), list: byId('list'), count: byId('count')},
+        facts, this.clips, (faps) => this.curves.choose(faps));
+    this.stage.onNeed = () => this.need();
+    this.player.onChange = () => this.changed();
+  }
+
+  time() {
+    return this.player.position();
+  }
+
+  /** Asks for a picture, soon. */
+  need() {
+    if (this.needed) return;
+    this.needed = true;
+    requestAnimationFrame(() => this.draw());
+  }
+
+  draw() {
+    this.needed = false;
+    const time = this.player.tick();
+    this.drawn = {time, frame: this.clips[0].frameAt(time), clock: this.player.clock()};
+    this.stage.show(time, this.options.between && this.player.playing);
+    this.curves.show(time);
+    this.controls.show(time, this.drawn.frame);
+    if (this.player.playing) this.need();
+  }
+
+  changed() {
+    if (this.axis.total !== this.player.duration) {
+      this.axis.total = this.axis.end = this.player.duration;
+    }
+    this.controls.update();
+    this.curves.draw();
+    this.need();
+  }
+
+  set(name, value) {
+    this.options[name] = name === 'mode' ? this.stage.setMode(value) : value;
+    if (name === 'wire' && this.stage.view) this.stage.view.wire = value;
+    if (name === 'points' && this.stage.view) this.stage.points.set(value);
+    this.controls.update();
+    this.need();
+  }
+
+  nextMode() {
+    this.set('mode', MODES[(MODES.indexOf(this.options.mode) + 1) % MODES.length]);
+  }
+
+  seek(time) {
+    this.player.seek(time);
+  }
+
+  /** To the beginning of a neighbouring frame. */
+  step(frames) {
+    this.player.pause();
+    const [clip] = this.clips;
+    // A little behind its beginning, so that rounding never shows the frame before.
+    const frame = Math.max(clip.frameAt(this.time()) + frames, 0);
+    this.seek(clip.timeOf(Math.min(frame, clip.frames - 1)) + 1e-4);
+  }
+
+  /** Seeks while something is dragged; the sound rests meanwhile. */
+  scrub(time) {
+    this.resume = this.resume || this.player.playing;
+    this.player.pause();
+    this.seek(time);
+  }
+
+  endScrub() {
+    if (this.resume) this.player.play();
+    this.resume = false;
+  }
+
+  mark(region) {
+    const {duration} = this.player;
+    const inside = region && region.map((time) => Math.min(Math.max(time, 0), duration));
+    this.player.setLooping(Boolean(inside), inside);
+  }
+
+  mute() {
+    this.player.setVolume(this.player.volume > 0 ? 0 : 1);
+  }
+
+  resetView() {
+    if (this.stage.view) this.stage.view.camera.reset();
+  }
+
+  fullscreen() {
+    if (document.fullscreenElement) document.exitFullscreen();
+    else if (byId('main').requestFullscreen) byId('main').requestFullscreen().catch(() => {});
+  }
+
+  help() {
+    const dialog = byId('keys');
+    if (dialog.open) dialog.close();
+    else dialog.showModal();
+  }
+}
+
+// What the address asks for, see README.md.
+function obey(app) {
+  const number = (name) => (asked.has(name) ? Number(asked.get(name)) : NaN);
+  if (asked.has('theme')) document.documentElement.dataset.theme = asked.get('theme');
+  for (const name of ['wire', 'points']) if (flag(name)) app.set(name, true);
+  if (asked.has('between')) app.set('between', flag('between'));
+  app.set('mode', asked.get('mode') || 'side');
+  if (asked.has('speed')) app.player.setRate(number('speed'));
+  if (asked.has('left') || asked.has('up') || asked.has('zoom')) {
+    const {view} = app.stage;
+    if (view) view.camera.reset(number('left') || 0, number('up') || 0, number('zoom') || undefined);
+  }
+  const [from, to] = (asked.get('loop') || '').split('-').map(Number);
+  if (to > from) app.mark([from, to]);
+  const faps = (asked.get('faps') || '').split(',').map(Number).filter((f) => f >= 3 && f <= 68);
+  app.chooser.choose(faps.length ? faps : mostMoving(app.clips[0], 5));
+  if (asked.has('frame')) app.seek(app.clips[0].timeOf(number('frame')) + 1e-4);
+  if (asked.has('t')) app.seek(number('t'));
+}
+
+async function start() {
+  const facts = JSON.parse(byId('facts').textContent);
+  const app = new App(facts);
+  byId('title').textContent = app.clips.map((clip) => clip.name).join(' / ');
+  byId('now').hidden = !facts.phones.length;
+  const table = keyTable(app);
+  fillHelp(byId('keylist'), table);
+  listenToKeys(table, byId('keys'));
+  for (const query of ['(prefers-color-scheme: dark)', '(prefers-contrast: more)']) {
+    matchMedia(query).addEventListener('change', () => app.curves.draw());
+  }
+  const {stage, player} = app;
+  const api = {
+    seek: (time) => app.seek(time),
+    play: () => player.play(),
+    pause: () => player.pause(),
+    /** What the last picture showed, and how the player stands. */
+    state: () => ({
+      ...app.drawn, playing: player.playing, duration: player.duration, rate: player.rate,
+      position: player.position(), frames: app.clips[0].frames, clips: app.clips.length,
+      sound: Boolean(player.buffer), loop: player.loop(), faps: app.curves.faps,
+      head: Boolean(stage.view), ...app.options,
+    }),
+    /** Vertices of a part ('skin' ...) of head 0 or 1 as they are shown, x y z one after the other
+        in cm; null without a head. */
+    vertices: (part, head = 0) => {
+      if (!stage.view) return null;
+      const rig = stage.view.rigs[head];
+      return rig.placed(rig.index[part]);
+    },
+    points: () => (stage.view ? stage.view.points() : []),
+    /** Draws now. */
+    draw: () => app.draw(),
+    context: () => player.context,
+    output: () => player.gain,
+  };
+  Object.assign(window.animeme, api);
+  obey(app);
+  if (facts.sound) {
+    await player.loadSound(data('sound')).catch(() => {
+      byId('silent').hidden = false;
+    });
+  }
+  app.draw();
+  if (flag('play')) player.play();
+}
+
+window.animeme = {};
+window.animeme.ready = start().then(() => window.animeme);

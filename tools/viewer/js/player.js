@@ -1,0 +1,173 @@
+// The clock of the page. With sound it is what is heard: the time of the audio context less the
+// delay of its output. Pictures ask for position() when they are drawn; nothing counts pictures.
+
+const LEAD = 0.02;  // seconds between a decision to play and the first sample
+const JUMP = 0.03;  // the steps of the audio clock are smoothed up to this many seconds
+
+/** Plays from 0 to `duration` seconds; silent until loadSound() is done. */
+export class Player {
+  constructor(duration) {
+    this.duration = duration;
+    this.playing = false;
+    this.rate = 1;
+    this.volume = 1;
+    this.looping = false;
+    /** [from, to] in seconds to play again and again; null: all. */
+    this.region = null;
+    /** Called after each change that is not the passing of time. */
+    this.onChange = () => {};
+    this.at = 0;  // position when playing began, or where it rests
+    this.buffer = null;
+    this.context = null;
+  }
+
+  /** Decodes the sound and makes it as long as the clip. Rejects if the browser cannot. */
+  async loadSound(bytes) {
+    const decoder = new OfflineAudioContext(1, 1, 48000);
+    const sound = await decoder.decodeAudioData(bytes.buffer);
+    this.duration = Math.max(this.duration, sound.duration);
+    const length = Math.ceil(this.duration * sound.sampleRate);
+    const buffer = new AudioBuffer(
+        {length, sampleRate: sound.sampleRate, numberOfChannels: sound.numberOfChannels});
+    for (let c = 0; c < sound.numberOfChannels; ++c) {
+      buffer.copyToChannel(sound.getChannelData(c), c);
+    }
+    this.buffer = buffer;
+    this.restart();
+    this.onChange();
+  }
+
+  /** Where the loop is: [from, to], or null when it is off. */
+  loop() {
+    return this.looping ? this.region || [0, this.duration] : null;
+  }
+
+  /** Seconds on the clock of the audio context at which that leaves it which is heard now; null
+      without sound. */
+  clock() {
+    return this.context ? this.context.currentTime - (this.context.outputLatency || 0) : null;
+  }
+
+  /** The same without the steps in which the context counts. */
+  heard() {
+    const now = performance.now() / 1000;
+    const raw = this.clock();
+    const last = this.last;
+    let value = raw;
+    if (last && this.context.state === 'running') {
+      const expected = last.value + now - last.now;
+      const error = raw - expected;
+      if (Math.abs(error) < JUMP) value = Math.max(last.value, expected + 0.1 * error);
+    }
+    this.last = {value, now};
+    return value;
+  }
+
+  /** Seconds since the beginning of the clip that are shown now. */
+  position() {
+    if (!this.playing) return this.at;
+    const passed = this.source ? this.heard() - this.began : performance.now() / 1000 - this.began;
+    const time = this.at + Math.max(passed, 0) * this.rate;
+    const loop = this.loop();
+    if (loop && time >= loop[1]) return loop[0] + (time - loop[0]) % (loop[1] - loop[0]);
+    return Math.min(time, this.duration);
+  }
+
+  /** To be called before each picture: stops at the end. The position. */
+  tick() {
+    const time = this.position();
+    if (this.playing && !this.looping && time >= this.duration) this.pause();
+    return time;
+  }
+
+  play() {
+    if (this.playing) return;
+    const loop = this.loop();
+    if (loop && (this.at >= loop[1] - 1e-3 || this.at < loop[0])) this.at = loop[0];
+    if (this.at >= this.duration - 1e-3) this.at = 0;
+    this.playing = true;
+    this.restart();
+    this.onChange();
+  }
+
+  pause() {
+    if (!this.playing) return;
+    this.at = this.position();
+    this.playing = false;
+    this.restart();
+    this.onChange();
+  }
+
+  toggle() {
+    if (this.playing) this.pause();
+    else this.play();
+  }
+
+  seek(time) {
+    this.at = Math.min(Math.max(Number.isFinite(time) ? time : 0, 0), this.duration);
+    this.restart();
+    this.onChange();
+  }
+
+  /** 0.25 to 2; the pitch goes along. */
+  setRate(rate) {
+    this.change(() => { this.rate = Math.min(Math.max(rate || 1, 0.25), 2); });
+  }
+
+  setVolume(volume) {
+    this.volume = Math.min(Math.max(volume, 0), 1);
+    if (this.gain) this.gain.gain.value = this.volume;
+    this.onChange();
+  }
+
+  setLooping(looping, region = this.region) {
+    this.change(() => {
+      this.region = region && region[1] - region[0] >= 0.02 ? region : null;
+      this.looping = looping;
+    });
+  }
+
+  // What changes the way from time to position begins anew where it is.
+  change(set) {
+    this.at = this.position();
+    set();
+    this.restart();
+    this.onChange();
+  }
+
+  /** The context of the sound; made when it is first played, as browsers want it. */
+  open() {
+    if (this.context) return;
+    this.context = new AudioContext({latencyHint: 'interactive'});
+    this.gain = this.context.createGain();
+    this.gain.gain.value = this.volume;
+    this.gain.connect(this.context.destination);
+  }
+
+  // Begins to play at `at`, or is silent.
+  restart() {
+    if (this.source) {
+      this.source.stop();
+      this.source.disconnect();
+      this.source = null;
+    }
+    if (!this.playing) return;
+    this.began = performance.now() / 1000;
+    if (!this.buffer) return;
+    this.open();
+    if (this.context.state !== 'running') this.context.resume();
+    const source = this.context.createBufferSource();
+    source.buffer = this.buffer;
+    source.playbackRate.value = this.rate;
+    const loop = this.loop();
+    if (loop && this.at < loop[1]) {
+      source.loop = true;
+      [source.loopStart, source.loopEnd] = loop;
+    }
+    source.connect(this.gain);
+    this.last = null;
+    this.began = this.context.currentTime + LEAD;
+    source.start(this.began, this.at);
+    this.source = source;
+  }
+}

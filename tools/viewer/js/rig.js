@@ -1,0 +1,207 @@
+// Moves a head: the same as pose.cpp in fap/head, vertex for vertex.
+import {IDENTITY, compose, moved, movedPoints, rotationAbout, smoothNormals, smoothStep} from
+  './vector.js';
+
+export const FAP_COUNT = 68;
+const RADIANS = 1e-5;  // one unit of an angle
+const CONTACT = 0.06;  // lips and lids feel each other at this share of the mouth-nose distance
+
+// Two FAPs whose points would pass each other let them meet half way.
+function meet(v, a, b) {
+  const over = (v[a] + v[b]) / 2;
+  if (over <= 0) return;
+  v[a] -= over;
+  v[b] -= over;
+}
+
+// The same where the meeting place follows from the shares of both.
+function share(v, a, b, room) {
+  const sum = v[a] + v[b];
+  if (sum <= room) return;
+  if (v[a] > 0 && v[b] > 0) {
+    v[a] *= room / sum;
+    v[b] *= room / sum;
+  } else if (v[a] > v[b]) {
+    v[a] = room - v[b];
+  } else {
+    v[b] = room - v[a];
+  }
+}
+
+/** One head in one pose. */
+export class Rig {
+  constructor(model) {
+    this.model = model;
+    const names = model.parts.map((part) => part.name);
+    this.index = Object.fromEntries(names.map((name, i) => [name, i]));
+    /** Positions and normals of each part; those that do not deform are the model's own. */
+    this.positions = model.parts.map((part) => part.positions);
+    this.normals = model.parts.map((part) => part.normals);
+    this.transforms = model.parts.map(() => IDENTITY);
+    this.head = IDENTITY;
+    /** Parts whose vertices move. */
+    this.deforming = ['skin', 'left_eye', 'right_eye', 'tongue', 'brows', 'lashes']
+        .map((name) => this.index[name]);
+    for (const i of this.deforming) {
+      this.positions[i] = Float32Array.from(model.parts[i].positions);
+      this.normals[i] = Float32Array.from(model.parts[i].normals);
+    }
+    this.values = new Float64Array(FAP_COUNT + 1);
+  }
+
+  /** FAP values, index = FAP number, any array of 69 numbers; low-level FAPs alone. */
+  pose(values) {
+    const {model, positions, index} = this;
+    const v = this.values;
+    for (let f = 3; f <= FAP_COUNT; ++f) v[f] = values[f] || 0;
+    for (const [upper, lower] of [[4, 5], [8, 10], [9, 11]]) meet(v, upper, lower);
+    share(v, 19, 21, 1024);
+    share(v, 20, 22, 1024);
+    for (const i of this.deforming) positions[i].set(model.parts[i].positions);
+    const skin = positions[index.skin];
+    this.applyTargets(v, true);
+    this.slideLids(skin);
+    this.applyTargets(v, false);
+    const touch = CONTACT * model.fapu.mns;
+    for (const pairs of [model.lips, ...model.lids]) closePairs(pairs, touch, skin);
+    this.turnLashes(skin, positions[index.lashes]);
+    this.setTransforms(v);
+    this.turnNeck(skin);
+    for (const i of this.deforming) {
+      smoothNormals(positions[i], model.parts[i].triangles, this.normals[i]);
+    }
+  }
+
+  /** Where the vertices of a part are in the scene. */
+  placed(part) {
+    return movedPoints(this.transforms[part], this.positions[part]);
+  }
+
+  applyTargets(v, lids) {
+    for (const {fap, part, vertices, axes} of this.model.targets) {
+      if (v[fap] === 0 || (fap >= 19 && fap <= 22) !== lids) continue;
+      const places = this.positions[part];
+      for (const {axis, step, deltas} of axes) {
+        const scale = v[fap] * step;
+        for (let i = 0; i < vertices.length; ++i) places[vertices[i] + axis] += deltas[i] * scale;
+      }
+    }
+  }
+
+  // Lids keep their distance from the centre of the eye.
+  slideLids(skin) {
+    const neutral = this.model.parts[this.index.skin].positions;
+    this.model.sliding.forEach((vertices, side) => {
+      const [cx, cy, cz] = this.model.eyes[side];
+      for (const vertex of vertices) {
+        const i = vertex * 3;
+        if (skin[i] === neutral[i] && skin[i + 1] === neutral[i + 1] &&
+            skin[i + 2] === neutral[i + 2]) continue;
+        const was = (neutral[i] - cx) ** 2 + (neutral[i + 1] - cy) ** 2 +
+            (neutral[i + 2] - cz) ** 2;
+        const square = was - (skin[i] - cx) ** 2 - (skin[i + 1] - cy) ** 2;
+        skin[i + 2] = cz + Math.sqrt(Math.max(square, 0.04 * was));
+      }
+    });
+  }
+
+  // Lashes turn with the rim that carries them, about the centre of the eye.
+  turnLashes(skin, lashes) {
+    const {anchors, eyes} = this.model;
+    const neutral = this.model.parts[this.index.skin].positions;
+    const rest = this.model.parts[this.index.lashes].positions;
+    for (let k = 0; k < anchors.length; ++k) {
+      const a = anchors[k] * 3;
+      const i = k * 3;
+      const [, cy, cz] = eyes[rest[i] > 0 ? 0 : 1];
+      const [wy, wz] = [neutral[a + 1] - cy, neutral[a + 2] - cz];
+      const [y, z] = [skin[a + 1] - cy, skin[a + 2] - cz];
+      const size = Math.sqrt((wy * wy + wz * wz) * (y * y + z * z));
+      if (size <= 0) continue;
+      const c = (wy * y + wz * z) / size;
+      const s = (wy * z - wz * y) / size;
+      const oy = rest[i + 1] - neutral[a + 1];
+      const oz = rest[i + 2] - neutral[a + 2];
+      lashes[i] = skin[a] + rest[i] - neutral[a];
+      lashes[i + 1] = skin[a + 1] + c * oy - s * oz;
+      lashes[i + 2] = skin[a + 2] + s * oy + c * oz;
+    }
+  }
+
+  jawTransform(v) {
+    const {axis, sine, limit, thrust, shift} = this.model.jaw;
+    const turn = Math.asin(Math.min(Math.max(v[3] * sine, -limit), limit));
+    const jaw = rotationAbout(axis, turn, 0, 0);
+    jaw[11] += v[14] * thrust;
+    jaw[9] += v[15] * shift;
+    return jaw;
+  }
+
+  eyeTransform(side, v) {
+    const turn = rotationAbout(this.model.eyes[side], v[25 + side] * RADIANS,
+        v[23 + side] * RADIANS, 0);
+    turn[11] += v[27 + side] * this.model.fapu.es / 1024;
+    return turn;
+  }
+
+  setTransforms(v) {
+    const straight = v[48] === 0 && v[49] === 0 && v[50] === 0;
+    this.head = straight ? IDENTITY :
+        rotationAbout(this.model.neck, v[48] * RADIANS, v[49] * RADIANS, v[50] * RADIANS);
+    const inJaw = compose(this.head, this.jawTransform(v));
+    const set = (name, transform) => { this.transforms[this.index[name]] = transform; };
+    for (const name of ['upper_teeth', 'hair', 'brows', 'lashes']) set(name, this.head);
+    for (const name of ['lower_teeth', 'tongue']) set(name, inJaw);
+    set('left_eye', compose(this.head, this.eyeTransform(0, v)));
+    set('right_eye', compose(this.head, this.eyeTransform(1, v)));
+  }
+
+  turnNeck(skin) {
+    if (this.head === IDENTITY) return;
+    const weights = this.model.neckWeights;
+    for (let i = 0; i < skin.length; i += 3) {
+      const weight = weights[i / 3];
+      if (weight === 0) continue;
+      const [x, y, z] = moved(this.head, skin[i], skin[i + 1], skin[i + 2]);
+      skin[i] += (x - skin[i]) * weight;
+      skin[i + 1] += (y - skin[i + 1]) * weight;
+      skin[i + 2] += (z - skin[i + 2]) * weight;
+    }
+  }
+}
+
+// Pairs that have passed each other meet in the middle; near contact their depths agree.
+function closePairs(pairs, soft, skin) {
+  for (let k = 0; k < pairs.length; k += 2) {
+    const u = pairs[k] * 3;
+    const l = pairs[k + 1] * 3;
+    const gap = skin[u + 1] - skin[l + 1];
+    if (gap < 0) skin[u + 1] = skin[l + 1] = 0.5 * (skin[u + 1] + skin[l + 1]);
+    const touch = smoothStep(soft, 0, gap) * 0.5;
+    for (const axis of [0, 2]) {
+      const apart = (skin[l + axis] - skin[u + axis]) * touch;
+      skin[u + axis] += apart;
+      skin[l + axis] -= apart;
+    }
+  }
+}
+
+/** The low-level FAPs of viseme {select1, select2, blend} and expression {select1, intensity1,
+    select2, intensity2}, either may be null; FAPs in `own`, an object by number, win. The same as
+    low_level() in head/shapes.h. */
+export function lowLevel(model, viseme, expression, own = {}) {
+  const values = new Float64Array(FAP_COUNT + 1);
+  const add = (shape, weight) => {
+    for (const [fap, value] of shape || []) values[fap] += weight * value;
+  };
+  if (viseme) {
+    add(model.visemes[viseme.select1], viseme.blend / 63);
+    add(model.visemes[viseme.select2], 1 - viseme.blend / 63);
+  }
+  if (expression) {
+    add(model.expressions[expression.select1], expression.intensity1 / 63);
+    add(model.expressions[expression.select2], expression.intensity2 / 63);
+  }
+  for (const fap of Object.keys(own)) values[fap] = own[fap];
+  return values;
+}

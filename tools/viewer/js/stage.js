@@ -1,0 +1,72 @@
+// The place where heads are shown: the picture, the points over it, what two clips differ by.
+import {valueDifference} from './clip.js';
+import {HeadView} from './head.js';
+import {PointOverlay} from './points.js';
+
+export const MODES = ['first', 'second', 'side', 'ghost', 'heat'];
+
+export class Stage {
+  /** `model` null: without a head. */
+  constructor(elements, model, clips) {
+    Object.assign(this, {...elements, clips});
+    this.view = null;
+    this.last = [];
+    if (model) this.open(model);
+    this.names.forEach((element, i) => { element.textContent = clips[i] ? clips[i].name : ''; });
+  }
+
+  open(model) {
+    try {
+      this.view = new HeadView(this.canvas, model, this.clips.length);
+    } catch (error) {
+      this.canvas.hidden = true;
+      this.message.hidden = false;
+      this.message.textContent = error.message === 'no WebGL2' ?
+          'This browser shows no WebGL2, which the head needs: switch hardware acceleration on, ' +
+          'or use a current Firefox, Chrome, Edge or Safari. Curves and sound work without it.' :
+          `The head cannot be drawn: ${error.message}`;
+      return;
+    }
+    this.points = new PointOverlay(this.overlay, this.tip, this.view);
+    this.view.camera.listen(this.canvas);
+  }
+
+  /** Called when the picture is out of date. */
+  set onNeed(call) {
+    if (!this.view) return;
+    this.view.onNeed = call;
+    new ResizeObserver(call).observe(this.canvas);
+  }
+
+  setMode(mode) {
+    const chosen = this.clips.length > 1 && MODES.includes(mode) ? mode : 'first';
+    if (this.view) this.view.mode = chosen;
+    this.element.dataset.mode = this.clips.length > 1 ? chosen : 'only';
+    return chosen;
+  }
+
+  /** Shows a time; `between` mixes neighbouring frames. */
+  show(time, between) {
+    const values = this.clips.map((clip) => clip.values(time, between));
+    if (this.view) {
+      values.forEach((v, i) => {
+        const key = v.join();
+        if (key !== this.last[i]) this.view.pose(v, i);
+        this.last[i] = key;
+      });
+      this.view.draw();
+      this.points.draw();
+    }
+    if (values.length > 1) this.tellDifference(values);
+  }
+
+  tellDifference([a, b]) {
+    const parts = [`${valueDifference(a, b).toFixed(1)} FAP units RMS`];
+    if (this.view) {
+      const {largest, mean} = this.view.difference();
+      parts.push(`skin ${(mean * 10).toFixed(2)} mm mean, ${(largest * 10).toFixed(2)} mm at most`);
+    }
+    const text = parts.join(' · ');
+    if (this.readout.textContent !== text) this.readout.textContent = text;
+  }
+}

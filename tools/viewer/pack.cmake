@@ -1,0 +1,40 @@
+# cmake -DOUTPUT=parts.cpp -DSOURCE=folder "-DHEAD=a.js b.js" "-DPAGE=c.js ..." -P pack.cmake
+# Modules become one script: their imports and the word export go, so names must be unique.
+set(text "#include \"tools/viewer/detail/parts.h\"\n\nnamespace animeme::viewer::detail {\n")
+
+# Adds a text as a constant. Literals longer than 64 kB are not portable.
+function(add_constant name content)
+  string(FIND "${content}" ")animeme_part\"" clash)
+  if(NOT clash EQUAL -1)
+    message(FATAL_ERROR "${name} holds the end mark of its own literal")
+  endif()
+  set(text "${text}\nconst std::string_view ${name} = R\"animeme_part(${content})animeme_part\";\n"
+    PARENT_SCOPE)
+endfunction()
+
+function(read_modules result names)
+  separate_arguments(names)
+  set(all "")
+  foreach(name IN LISTS names)
+    file(READ ${SOURCE}/js/${name} module)
+    string(REGEX REPLACE "(^|\n)import [^;]*;" "\\1" module "${module}")
+    string(REGEX REPLACE "(^|\n)export " "\\1" module "${module}")
+    string(REPLACE "'use strict';\n" "" module "${module}")
+    set(all "${all}// ${name}\n${module}\n")
+  endforeach()
+  string(FIND "${all}" "</script" clash)
+  if(NOT clash EQUAL -1)
+    message(FATAL_ERROR "a module would end the script that holds it")
+  endif()
+  set(${result} "${all}" PARENT_SCOPE)
+endfunction()
+
+file(READ ${SOURCE}/page.html content)
+add_constant(kTemplate "${content}")
+file(READ ${SOURCE}/page.css content)
+add_constant(kStyle "${content}")
+read_modules(content "${HEAD}")
+add_constant(kHeadModules "${content}")
+read_modules(content "${PAGE}")
+add_constant(kPageModules "${content}")
+file(WRITE ${OUTPUT} "${text}\n}  // namespace animeme::viewer::detail\n")

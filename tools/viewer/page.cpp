@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "fap/head/shapes.h"
+#include "fap/tables.h"
+#include "tools/viewer/detail/bytes.h"
+#include "tools/viewer/detail/parts.h"
+#include "tools/viewer/viewer.h"
+
+namespace animeme::viewer {
+namespace {
+
+using detail::Bytes;
+using Json = nlohmann::ordered_json;
+
+// JSON inside of a script element: nothing in it can end the element.
+std::string script_text(const Json& json) {
+  std::string out;
+  for (const char c : json.dump(-1, ' ', true, Json::error_handler_t::replace)) {
+    if (c == '<') {
+      out += "\\u003c";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+std::string html_text(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+// The columns of a clip: for each FAP that moves, differences from frame to frame.
+std::string pack_clip(const Clip& clip) {
+  std::vector<fap::Frame> frames;
+  frames.reserve(clip.motion.frames.size());
+  for (const fap::Frame& frame : clip.motion.frames) frames.push_back(head::low_level(frame));
+  Json faps = Json::array();
+  Bytes data;
+  for (std::size_t f = fap::kFirstLowLevel; f <= fap::kFapCount; ++f) {
+    const bool moves = std::any_of(frames.begin(), frames.end(),
+                                   [f](const fap::Frame& frame) { return frame.value[f] != 0; });
+    if (!moves) continue;
+    faps.push_back(f);
+    std::int64_t last = 0;
+    for (const fap::Frame& frame : frames) {
+      data.zigzag(frame.value[f] - last);
+      last = frame.value[f];
+    }
+  }
+  const fap::Rate rate = clip.motion.rate;
+  const Json header{{"name", clip.name},       {"rate", {rate.num, rate.den}},
+                    {"start", clip.start},     {"first", frames.front().number},
+                    {"frames", frames.size()}, {"faps", faps}};
+  return detail::base64(
+      detail::with_header(header.dump(-1, ' ', true, Json::error_handler_t::replace), data).take());
+}
+
+Json fap_table() {
+  Json table = Json::array();
+  for (const fap::FapInfo& info : fap::kFaps) {
+    table.push_back({{"number", info.number},
+                     {"name", info.name},
+                     {"group", info.group},
+                     {"point", info.feature_point}});
+  }
+  return table;
+}
+
+Json phones_of(const dam::Script& script) {
+  Json phones = Json::array();
+  for (const dam::Phone& phone : script.phones) {
+    phones.push_back({phone.start, phone.end, phone.label, phone.word});
+  }
+  return phones;
+}
+
+Json facts_of(const Page& page) {
+  Json groups = Json::array();
+  for (const fap::GroupInfo& group : fap::kGroups) groups.push_back(group.name);
+  Json facts{{"faps", fap_table()}, {"groups", groups}, {"phones", phones_of(page.script)}};
+  if (page.sound) facts["sound"] = page.sound->type;
+  return facts;
+}
+
+std::string data_element(const std::string& id, const std::string& text) {
+  return "<script type=\"text/plain\" id=\"" + id + "\">" + text + "</script>\n";
+}
+
+std::string data_elements(const Page& page) {
+  std::string out = "<script type=\"application/json\" id=\"facts\">" +
+                    script_text(facts_of(page)) + "</script>\n" +
+                    data_element("model", detail::base64(pack_head(*page.head, *page.rig)));
+  for (std::size_t i = 0; i < page.clips.size(); ++i) {
+    out += data_element("clip" + std::to_string(i), pack_clip(page.clips[i]));
+  }
+  if (page.sound) out += data_element("sound", detail::base64(page.sound->file));
+  return out;
+}
+
+struct Mark {
+  std::string_view name;
+  std::string text;
+};
+
+// One pass: marks inside of what was put in are no marks.
+std::string filled(std::string_view text, const std::vector<Mark>& marks) {
+  std::string out;
+  while (!text.empty()) {
+    std::size_t first = std::string_view::npos;
+    const Mark* next = nullptr;
+    for (const Mark& mark : marks) {
+      const std::size_t at = text.find(mark.name);
+      if (at < first) {
+        first = at;
+        next = &mark;
+      }
+    }
+    out += text.substr(0, first);
+    if (next == nullptr) break;
+    out += next->text;
+    text.remove_prefix(first + next->name.size());
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<std::string> make_page(const Page& page) {
+  if (page.head == nullptr || page.rig == nullptr) {
+    return make_error(Code::invalid_argument, "a page needs a head and its rig");
+  }
+  if (page.clips.empty() || page.clips.size() > 2) {
+    return make_error(Code::invalid_argument, "a page shows one clip, or two to compare");
+  }
+  for (const Clip& clip : page.clips) {
+    if (clip.motion.frames.empty() || !clip.motion.rate.valid()) {
+      return make_error(Code::invalid_argument, "a clip needs frames and a rate");
+    }
+  }
+  // Through JSON and back: what is no UTF-8 becomes a replacement mark.
+  const std::string name =
+      Json::parse(Json(page.clips[0].name).dump(-1, ' ', true, Json::error_handler_t::replace))
+          .get<std::string>();
+  const std::string script = std::string(detail::kHeadModules) + std::string(detail::kPageModules);
+  return filled(detail::kTemplate, {{"<!--title-->", html_text(name)},
+                                    {"/*style*/", std::string(detail::kStyle)},
+                                    {"<!--data-->", data_elements(page)},
+                                    {"/*script*/", script}});
+}
+
+std::string_view head_script() { return detail::kHeadModules; }
+
+}  // namespace animeme::viewer

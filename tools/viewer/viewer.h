@@ -1,0 +1,62 @@
+// A face as one HTML file: the head, the motion, the sound and the program that plays them.
+//
+//     head::Head head = *head::make_head();
+//     head::Rig rig = head::make_rig(head);
+//     viewer::Page page{.head = &head, .rig = &rig};
+//     page.clips.push_back({.motion = filled, .name = "talk.fba"});
+//     std::string html = viewer::make_page(page);
+//
+// The file needs a browser with WebGL2 and nothing else: it opens from disk and loads nothing.
+// What it can do, and how its parts serve other pages, stands in README.md of this folder.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dam/script.h"
+#include "fap/frame.h"
+#include "fap/head/rig.h"
+#include "fap/result.h"
+
+namespace animeme::viewer {
+
+/// A motion to show.
+struct Clip {
+  /// Complete: what fap::fill() or fba::fill() gave. FAP 1 and 2 are shown by the tables of the
+  /// head (head/shapes.h).
+  fap::Sequence motion;
+  double start = 0;  ///< seconds on the clock of the sound at which frame number 0 is shown
+  std::string name;  ///< shown to people; any text
+};
+
+/// Coded sound in a file that browsers read.
+struct Sound {
+  std::vector<std::uint8_t> file;
+  std::string type;  ///< "audio/mp4"
+};
+
+/// What goes into a page; the head and the rig are borrowed.
+struct Page {
+  const head::Head* head = nullptr;
+  const head::Rig* rig = nullptr;
+  std::vector<Clip> clips;     ///< one, or two to compare
+  std::optional<Sound> sound;  ///< nothing: the page is silent
+  dam::Script script;          ///< phones below the curves; empty: none
+};
+
+/// The page. The same input gives the same bytes. Texts from outside (names, labels, words) are
+/// shown as text, whatever is in them.
+/// Errors: invalid_argument (no head or rig; not one clip or two; a clip without frames).
+Result<std::string> make_page(const Page& page);
+
+/// A head for the browser, as model.js reads it: about 1.2 MB. The format stands in README.md.
+std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig);
+
+/// The modules that draw a head, as one script without imports and exports: class HeadView and what
+/// it needs, for pages that have their own source of motion.
+std::string_view head_script();
+
+}  // namespace animeme::viewer
