@@ -29,7 +29,8 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "animeme " ANIMEME_VERSION);
   app.footer(
       "'animeme COMMAND --help' explains a command.\n"
-      "Exit codes: 0 ok, 1 a check failed, 2 usage, 3 bad input, 4 internal error.");
+      "Exit codes: 0 ok, 1 a check failed, 2 usage, 3 bad input, 4 internal error,\n"
+      "130 ended by Ctrl-C.");
   bool quiet = false;
   app.add_flag("-q,--quiet", quiet, "No talk on standard error but errors");
   app.fallthrough();
