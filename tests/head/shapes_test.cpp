@@ -99,7 +99,7 @@ TEST_P(EachMouth, LipsMeetAtPAndOpenAtA) {
 TEST_P(EachMouth, LipsNeverPassEachOther) {
   const head::Rig& rig = rig_of(GetParam());
   for (int v = 0; v <= 14; ++v) {
-    for (int w = 0; w <= 14; ++w) {
+    for (const int w : {1, 6, 10, 14}) {
       const Pose pose = head::pose(rig, viseme(v, w, 32));
       for (const head::ContactPair& pair : rig.lips) {
         EXPECT_GE(skin(pose)[pair.upper].y, skin(pose)[pair.lower].y - 1e-4f) << v << " " << w;

@@ -12,7 +12,7 @@ float bump(double distance, double width) {
   return float(std::exp(-distance * distance / (width * width)));
 }
 
-constexpr Vec3 kMouthInside{0.20f, 0.035f, 0.03f};
+constexpr Vec3 kMouthInside{0.13f, 0.022f, 0.02f};
 
 Vec3 face_colour(const Shape& shape, Vec3d p) {
   const Vec3 skin = linear_colour(shape.p.skin_colour);

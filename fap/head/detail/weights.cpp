@@ -20,7 +20,7 @@ constexpr std::array kControls = {
     ControlInfo{"4.1", 4.2f, 1.1f, ""},    ControlInfo{"4.2", 4.2f, 1.1f, ""},
     ControlInfo{"4.3", 4.2f, 1.1f, ""},    ControlInfo{"4.4", 4.2f, 1.1f, ""},
     ControlInfo{"4.5", 3.8f, 1.1f, ""},    ControlInfo{"4.6", 3.8f, 1.1f, ""},
-    ControlInfo{"5.1", 4.2f, 1.0f, ""},    ControlInfo{"5.2", 4.2f, 1.0f, ""},
+    ControlInfo{"5.1", 5.0f, 1.7f, ""},    ControlInfo{"5.2", 5.0f, 1.7f, ""},
     ControlInfo{"5.3", 3.8f, 1.0f, ""},    ControlInfo{"5.4", 3.8f, 1.0f, ""},
     ControlInfo{"9.1", 2.3f, 0.45f, ""},   ControlInfo{"9.2", 2.3f, 0.45f, ""},
     ControlInfo{"9.3", 2.6f, 0.45f, ""},   ControlInfo{"10.1", 3.0f, 0.5f, ""},
