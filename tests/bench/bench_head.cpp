@@ -41,14 +41,16 @@ void make(benchmark::State& state) {
 }
 
 void rig(benchmark::State& state) {
-  for (auto _ : state) benchmark::DoNotOptimize(head::make_rig(ready().head));
+  const head::Head& head = ready().head;
+  for (auto _ : state) benchmark::DoNotOptimize(head::make_rig(head));
 }
 
 void pose(benchmark::State& state) {
+  const head::Rig& rig = ready().rig;
   head::Pose out;
   int i = 0;
   for (auto _ : state) {
-    head::pose(ready().rig, speaking(i++), out);
+    head::pose(rig, speaking(i++), out);
     benchmark::DoNotOptimize(out);
   }
   state.counters["vertices"] = double(ready().head.part(head::Part::skin).positions.size());

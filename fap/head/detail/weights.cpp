@@ -135,14 +135,12 @@ class Builder {
   void hold_lids() {
     std::vector<float> held(weights_.vertices(), 1);
     const float reach = 1.3f * scale_;
+    std::vector<std::uint32_t> rims;
     for (const auto& lids : head_.seams.lids) {
-      for (const ContactPair& pair : lids) {
-        for (const std::uint32_t rim : {pair.upper, pair.lower}) {
-          for (const Reached& r : walk(mesh_.positions, neighbours_, rim, reach)) {
-            held[r.vertex] = std::min(held[r.vertex], smooth_step(0.0f, reach, r.distance));
-          }
-        }
-      }
+      for (const ContactPair& pair : lids) rims.insert(rims.end(), {pair.upper, pair.lower});
+    }
+    for (const Reached& r : walk(mesh_.positions, neighbours_, rims, reach)) {
+      held[r.vertex] = smooth_step(0.0f, reach, r.distance);
     }
     for (std::size_t v = 0; v < weights_.vertices(); ++v) {
       for (std::size_t c = 0; c < kControls.size(); ++c) {
