@@ -48,8 +48,6 @@ void paint_skin(const Shape& shape, Skin& skin) {
   Mesh& mesh = skin.mesh;
   mesh.colours.assign(skin.places.size(), kMouthInside);
   mesh.occlusion.assign(skin.places.size(), 1.0f);
-  const std::size_t first_inside = skin.seams.jaw_weights.size();
-  (void)first_inside;
   for (int row = 0; row < l.rows(); ++row) {
     for (int c = -l.back; c < l.back; ++c) {
       const std::uint32_t id = skin.at(row, c);
