@@ -13,11 +13,11 @@ namespace animeme::fba {
 
 namespace {
 
-// Profiles (section 13): a face alone, within 16 kbit/s or not; anything with a body.
+// Profiles (section 13): a face alone, or anything with a body. Level 2 is for more than 16 or
+// 32 kbit/s in any second.
 constexpr std::uint8_t kSimpleFaceLevel1 = 0x61;
-constexpr std::uint8_t kSimpleFaceLevel2 = 0x62;
 constexpr std::uint8_t kSimpleFbaLevel1 = 0x63;
-constexpr std::uint32_t kLevel1Rate = 16000;
+constexpr std::int64_t kFaceLevel1Rate = 16000, kFbaLevel1Rate = 32000;
 constexpr std::uint32_t kMinimumTimescale = 10000;  // muxers replace coarser ones
 constexpr std::uint32_t kFallbackTimescale = 90000;
 
@@ -46,15 +46,26 @@ TimeBase time_base(const std::vector<Plane>& planes) {
   return base;
 }
 
-std::uint8_t profile(const std::vector<Plane>& planes) {
-  double bits = 0;
-  for (const Plane& plane : planes) {
-    if (has_body(plane.object_mask)) return kSimpleFbaLevel1;
-    bits += double(plane.bit_end - plane.bit_begin);
+// The most bits in any second that begins with a plane.
+std::int64_t peak_rate(const std::vector<Plane>& planes) {
+  std::int64_t peak = 0, bits = 0;
+  std::size_t end = 0;
+  for (const Plane& first : planes) {
+    while (end < planes.size() && planes[end].seconds < first.seconds + 1.0) {
+      bits += planes[end].bit_end - planes[end].bit_begin;
+      ++end;
+    }
+    peak = std::max(peak, bits);
+    bits -= first.bit_end - first.bit_begin;
   }
-  const Plane& last = planes.back();
-  const double seconds = last.rate.seconds(double(last.number - planes.front().number + 1));
-  return bits > kLevel1Rate * seconds ? kSimpleFaceLevel2 : kSimpleFaceLevel1;
+  return peak;
+}
+
+std::uint8_t profile(const std::vector<Plane>& planes) {
+  const bool body = std::any_of(planes.begin(), planes.end(),
+                                [](const Plane& plane) { return has_body(plane.object_mask); });
+  const bool level2 = peak_rate(planes) > (body ? kFbaLevel1Rate : kFaceLevel1Rate);
+  return std::uint8_t((body ? kSimpleFbaLevel1 : kSimpleFaceLevel1) + (level2 ? 1 : 0));
 }
 
 std::vector<std::uint8_t> configuration(std::uint8_t profile) {

@@ -12,7 +12,7 @@ namespace {
 class ExtractAudio : public testing::Test {
  protected:
   void SetUp() override {
-    const Result<void> written = write_mp4(talk_, {.face = &face_, .audio = &sound_});
+    const Result<MuxResult> written = write_mp4(talk_, {.face = &face_, .audio = &sound_});
     ASSERT_TRUE(written) << written.error().describe();
   }
 

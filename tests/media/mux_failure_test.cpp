@@ -1,13 +1,11 @@
 // Nothing half-written is left behind, and every refusal says why.
 #include <gmock/gmock.h>
-#include <sys/resource.h>
-
-#include <csignal>
-#include <functional>
 
 #include "tests/media/media_support.h"
+#include "tests/media/small_disk.h"
 #include "tools/media/audio.h"
 #include "tools/media/container.h"
+#include "tools/media/encoded_audio.h"
 #include "tools/media/mux.h"
 
 namespace animeme::media {
@@ -16,7 +14,7 @@ namespace {
 class MuxFailure : public testing::Test {
  protected:
   void expect_refused(Code code, const std::string& words) {
-    const Result<void> written = write_container(dir_.file("talk.mp4"), input_);
+    const Result<MuxResult> written = write_container(dir_.file("talk.mp4"), input_);
     ASSERT_FALSE(written) << words;
     EXPECT_EQ(written.error().code, code);
     EXPECT_THAT(written.error().message, testing::HasSubstr(words));
@@ -78,19 +76,19 @@ TEST_F(MuxFailure, EmptySound) {
 
 TEST_F(MuxFailure, UnknownExtension) {
   for (const char* name : {"talk.avi", "talk", "talk.mp3"}) {
-    const Result<void> written = write_container(dir_.file(name), input_);
+    const Result<MuxResult> written = write_container(dir_.file(name), input_);
     ASSERT_FALSE(written) << name;
     EXPECT_EQ(written.error().code, Code::unsupported);
     EXPECT_THAT(written.error().message, testing::HasSubstr("use .mp4, .mkv or .ts"));
   }
-  const Result<void> face_in_m4a = write_container(dir_.file("talk.m4a"), input_);
+  const auto face_in_m4a = write_container(dir_.file("talk.m4a"), input_);
   ASSERT_FALSE(face_in_m4a);
   EXPECT_EQ(face_in_m4a.error().code, Code::unsupported);
   EXPECT_EQ(dir_.count(), 0u);
 }
 
 TEST_F(MuxFailure, FolderMissing) {
-  const Result<void> written = write_container(dir_.file("no/such/talk.mp4"), input_);
+  const Result<MuxResult> written = write_container(dir_.file("no/such/talk.mp4"), input_);
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().code, Code::io);
   EXPECT_EQ(written.error().where.file, dir_.file("no/such/talk.mp4"));
@@ -98,22 +96,10 @@ TEST_F(MuxFailure, FolderMissing) {
 
 TEST_F(MuxFailure, AFolderIsNotOverwritten) {
   std::filesystem::create_directory(dir_.file("talk.mp4"));
-  const Result<void> written = write_container(dir_.file("talk.mp4"), input_);
+  const Result<MuxResult> written = write_container(dir_.file("talk.mp4"), input_);
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().code, Code::io);
   EXPECT_EQ(dir_.count(), 1u);
-}
-
-// Runs `body` with files limited to `bytes`, the nearest thing to a full disk.
-void with_small_disk(rlim_t bytes, const std::function<void()>& body) {
-  rlimit old{};
-  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old), 0);
-  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit small{bytes, old.rlim_max};
-  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
-  body();
-  setrlimit(RLIMIT_FSIZE, &old);
-  std::signal(SIGXFSZ, handler);
 }
 
 TEST_F(MuxFailure, FullDiskLeavesNothingAndKeepsTheOldFile) {
@@ -124,31 +110,101 @@ TEST_F(MuxFailure, FullDiskLeavesNothingAndKeepsTheOldFile) {
     sample = float(state >> 8) / float(1 << 24) - 0.5f;
   }
   input_.audio = &noise;
-  const auto files = {"a.mp4", "a.mkv", "a.ts"};
+  const auto files = {"a.mp4", "a.mkv", "a.ts", "a.mka", "a.m4a"};
   for (const char* name : files) test::write_bytes(dir_.file(name), {1, 2, 3});
   test::write_bytes(dir_.file("a.wav"), {1, 2, 3});
-  with_small_disk(20000, [&] {
+  test::with_small_disk(20000, [&] {
     for (const char* name : files) {
-      const Result<void> written = write_container(dir_.file(name), input_);
+      input_.face = std::string(name).ends_with("a") ? nullptr : &face_;
+      const Result<MuxResult> written = write_container(dir_.file(name), input_);
       ASSERT_FALSE(written) << name;
       EXPECT_EQ(written.error().code, Code::io) << name << written.error().describe();
-      EXPECT_THAT(written.error().message, testing::HasSubstr("File too large")) << name;
+      EXPECT_THAT(written.error().message, testing::HasSubstr("File too large; the file system"))
+          << name;
     }
     const Result<void> wav = write_wav(dir_.file("a.wav"), noise);
     ASSERT_FALSE(wav);
     EXPECT_EQ(wav.error().code, Code::io);
   });
-  EXPECT_EQ(dir_.count(), 4u);
-  for (const char* name : {"a.mp4", "a.mkv", "a.ts", "a.wav"}) {
+  EXPECT_EQ(dir_.count(), files.size() + 1);
+  EXPECT_EQ(test::read_bytes(dir_.file("a.wav")), (test::Bytes{1, 2, 3}));
+  for (const char* name : files) {
     EXPECT_EQ(test::read_bytes(dir_.file(name)), (test::Bytes{1, 2, 3})) << name;
   }
+}
+
+TEST_F(MuxFailure, FullDiskWhileTheContentsAreMoved) {
+  // All of it fits but not the contents, which are longer at the end.
+  ASSERT_TRUE(write_container(dir_.file("whole.mp4"), input_));
+  const auto size = std::filesystem::file_size(dir_.file("whole.mp4"));
+  test::with_small_disk(size - 5, [&] {
+    const auto written = write_container(dir_.file("talk.mp4"), input_);
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().code, Code::io);
+    EXPECT_THAT(written.error().message, testing::HasSubstr("File too large"));
+  });
+  EXPECT_EQ(dir_.count(), 1u);
+}
+
+TEST_F(MuxFailure, CodecsThatAFormatDoesNotTake) {
+  const auto coded = encode_audio(sound_, {.codec = AudioCodec::opus});
+  ASSERT_TRUE(coded);
+  const auto refused = [&](const char* name, const MuxInput& input, const MuxOptions& options,
+                           const char* words) {
+    const auto written = write_container(dir_.file(name), input, options);
+    ASSERT_FALSE(written) << name;
+    EXPECT_EQ(written.error().code, Code::unsupported) << name;
+    EXPECT_THAT(written.error().message, testing::HasSubstr(words)) << name;
+  };
+  const MuxOptions opus{.audio = {.codec = AudioCodec::opus}};
+  refused("a.ts", input_, opus, "a .ts file takes no opus; code the sound as aac");
+  refused("a.m4a", {.audio = &sound_}, opus, "takes no opus");
+  refused("a.opus", {.audio = &sound_}, {}, "takes no aac; code the sound as opus");
+  refused("a.webm", {.audio = &sound_}, {}, "takes no aac");
+  refused("a.webm", input_, opus, "holds sound only");
+  refused("a.ts", {.face = &face_, .encoded = &*coded}, {}, "takes no opus");
+  refused("a.mp4", {.face = &face_, .encoded = &*coded}, {.systems = true}, "takes AAC");
+  refused("a.mkv", input_, {.fragmented = true}, "only an mp4");
+  refused("a.mp4", input_, {.fragmented = true, .systems = true}, "cannot be fragmented");
+  EXPECT_EQ(dir_.count(), 0u);
+}
+
+TEST_F(MuxFailure, SoundGivenTwiceAndFragmentsOfNoLength) {
+  const auto coded = encode_audio(sound_);
+  ASSERT_TRUE(coded);
+  input_.encoded = &*coded;
+  expect_refused(Code::invalid_argument, "given twice");
+  input_.encoded = nullptr;
+  for (const double seconds : {0.0, -1.0, 1e9, double(NAN)}) {
+    const auto written = write_container(dir_.file("a.mp4"), input_, {.fragment_seconds = seconds});
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().code, Code::invalid_argument);
+  }
+}
+
+TEST_F(MuxFailure, CodedSoundThatIsNone) {
+  auto coded = encode_audio(sound_);
+  ASSERT_TRUE(coded);
+  input_.audio = nullptr;
+  EncodedAudio bad = *coded;
+  input_.encoded = &bad;
+  bad.packets[3].bytes.clear();
+  expect_refused(Code::invalid_argument, "sound packet 3 is empty");
+  bad = *coded;
+  bad.packets[3].time = bad.packets[2].time;
+  expect_refused(Code::invalid_argument, "sound packet 3 has the time");
+  bad = *coded;
+  bad.format.config.clear();
+  expect_refused(Code::invalid_argument, "configuration");
+  bad.packets.clear();
+  expect_refused(Code::invalid_argument, "sound is empty");
 }
 
 TEST_F(MuxFailure, NonsenseSamplesDoNotStopTheEncoder) {
   sound_.samples[100] = NAN;
   sound_.samples[101] = INFINITY;
   sound_.samples[102] = -1e30f;
-  const Result<void> written = write_container(dir_.file("talk.mp4"), input_);
+  const Result<MuxResult> written = write_container(dir_.file("talk.mp4"), input_);
   EXPECT_TRUE(written) << written.error().describe();
 }
 

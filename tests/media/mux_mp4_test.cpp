@@ -17,7 +17,7 @@ class MuxMp4 : public testing::Test {
  protected:
   void write(const MuxOptions& options = {}) {
     const MuxInput input{.face = &face_, .audio = &sound_};
-    const Result<void> written = write_mp4(path_, input, options);
+    const Result<MuxResult> written = write_mp4(path_, input, options);
     ASSERT_TRUE(written) << written.error().describe();
   }
 
@@ -61,7 +61,7 @@ TEST_P(MuxMp4Clock, TimesSurviveExactly) {
   const auto [timescale, duration] = GetParam();
   const fba::AccessUnits face = test::make_face(60, timescale, duration, 20);
   const Pcm sound = test::make_clicks(44100, 44100, {22050});
-  const Result<void> written = write_mp4(dir.file("a.mp4"), {.face = &face, .audio = &sound});
+  const Result<MuxResult> written = write_mp4(dir.file("a.mp4"), {.face = &face, .audio = &sound});
   ASSERT_TRUE(written) << written.error().describe();
   const Result<Container> back = read_container(dir.file("a.mp4"));
   ASSERT_TRUE(back) << back.error().describe();
@@ -134,7 +134,17 @@ TEST_F(MuxMp4, EsIdIsZeroInTheSoundTrackToo) {
 TEST_F(MuxMp4, IodsHasTheBytesOfTheSpecification) {
   write();
   EXPECT_EQ(test::find_box(test::read_bytes(path_), "moov/iods"),
-            (Bytes{0, 0, 0, 0, 0x10, 0x80, 0x80, 0x80, 7, 0, 0x4F, 0xFF, 0xFF, 0x29, 0x61, 0xFF}));
+            (Bytes{0,    0,    0,    0,    0x10, 0x80, 0x80, 0x80, 25,
+                   0,    0x4F, 0xFF, 0xFF, 0x29, 0x61, 0xFF,           // profiles
+                   0x0E, 0x80, 0x80, 0x80, 4,    0,    0,    0,    1,  // ES_ID_Inc: tracks
+                   0x0E, 0x80, 0x80, 0x80, 4,    0,    0,    0,    2}));
+}
+
+TEST_F(MuxMp4, IodsListsOnlyTracksWithAnEsDescriptor) {
+  write({.audio = {.codec = AudioCodec::opus}});
+  const Bytes iods = test::find_box(test::read_bytes(path_), "moov/iods");
+  EXPECT_EQ(iods[8], 16) << "profiles and one track";
+  EXPECT_EQ(iods[13], 0xFE) << "Opus is no MPEG-4 audio";
 }
 
 TEST_F(MuxMp4, IodsTakesTheProfileThatIsGiven) {

@@ -184,8 +184,16 @@ void ProgressLine::update(double done, const std::string& detail) {
             << std::flush;
 }
 
+bool is_playlist(std::span<const std::uint8_t> bytes) {
+  if (starts_with(bytes, "#EXTM3U")) return true;
+  const auto head = bytes.first(std::min<std::size_t>(bytes.size(), 4096));
+  const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
+  return text.starts_with("<") && text.find("<MPD") != std::string_view::npos;
+}
+
 FileKind kind_of(std::span<const std::uint8_t> bytes) {
   if (starts_with(bytes, "ANIMEDAM")) return FileKind::model;
+  if (is_playlist(bytes)) return FileKind::media;
   if (bytes.size() >= 4 && bytes[0] == 0 && bytes[1] == 0 && bytes[2] == 1) {
     const std::uint32_t code = bytes[3];
     const bool fba = code == 0xB0 || code == 0xB2 || code == 0xB5 || code == 0xBA || code == 0xBB ||

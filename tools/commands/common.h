@@ -23,6 +23,7 @@ enum ExitCode : int {
   kUsage = 2,
   kBadInput = 3,
   kInternal = 4,
+  kInterrupted = 130,  ///< Ctrl-C; what was written is complete as far as it goes
 };
 
 /// A command puts its options into `app` and returns what is to run when it was chosen: the exit
@@ -38,8 +39,8 @@ struct Command {
   Action (*add)(CLI::App& app);
 };
 
-extern const Command kAlign, kCheck, kCompare, kDecode, kDemux, kEncode, kEvaluate, kExport, kFollow,
-    kImport, kInfo, kMux, kPlot, kSpeak, kStats, kTrain;
+extern const Command kAlign, kCheck, kCompare, kDecode, kDemux, kEncode, kEvaluate, kExport,
+    kFollow, kImport, kInfo, kMux, kPlot, kReceive, kRender, kSpeak, kStats, kStream, kTrain;
 
 /// Prints a usage error on standard error; returns kUsage for the command to return.
 int usage_error(const std::string& text);
@@ -102,6 +103,9 @@ enum class FileKind : std::uint8_t {
   unknown
 };
 FileKind kind_of(std::span<const std::uint8_t> bytes);
+/// Is it media in segments (HLS, DASH)? Such a file is to be read by its path, never by its bytes:
+/// what it names lies beside it.
+bool is_playlist(std::span<const std::uint8_t> bytes);
 
 /// Any input with motion: .fap or .bap text, raw .fba, a container, or a table of curves
 /// (time_s, fap3_open_jaw ... as in a corpus; ARKit shapes, see arkit_csv.h). For text, warnings

@@ -1,11 +1,13 @@
-// Motion for other programs: what they know are ARKit's shapes, visemes or mouth shapes, not FAPs.
+// Motion for other programs: what they know are ARKit's shapes, visemes, mouth shapes or glTF.
 #include <algorithm>
 #include <memory>
 
 #include "fap/fill.h"
+#include "fap/head/model.h"
 #include "fap/rate_text.h"
 #include "tools/commands/arkit_export.h"
 #include "tools/commands/common.h"
+#include "tools/commands/export_glb.h"
 #include "tools/commands/viseme_export.h"
 
 namespace animeme::tools {
@@ -20,6 +22,7 @@ struct Options {
   std::string script;
   std::string rate = "25";
   double crossfade = 0.08;
+  GlbExport glb;
 };
 
 // What a name like talk.visemes.json asks for.
@@ -28,6 +31,7 @@ std::string what_of(const Options& options, bool from_script) {
   const std::string extension = extension_of(options.output);
   const std::string inner = extension_of(std::filesystem::path(options.output).stem().string());
   if (inner == ".rhubarb" || extension == ".tsv") return "rhubarb";
+  if (extension == ".glb") return "head";
   if (inner == ".visemes" || from_script) return "visemes";
   return "arkit";
 }
@@ -35,10 +39,13 @@ std::string what_of(const Options& options, bool from_script) {
 // Empty if `what` can be written with this extension.
 std::string wrong_extension(const std::string& what, const std::string& path) {
   const std::string extension = extension_of(path);
+  if (what == "head") {
+    return extension == ".glb" ? "" : "--output must end in .glb for a head, not " + path;
+  }
   if (extension == ".json" || extension == (what == "rhubarb" ? ".tsv" : ".csv")) return {};
   const char* wanted = what == "rhubarb"   ? ".tsv or .json"
                        : what == "visemes" ? ".csv or .json"
-                                           : ".csv (Live Link Face) or .json";
+                                           : ".csv (Live Link Face), .json or .glb";
   return "--output must end in " + std::string(wanted) + " for " + what + ", not " + path;
 }
 
@@ -75,6 +82,17 @@ Result<int> write_arkit(const Options& options, std::vector<std::uint8_t> bytes)
   if (auto written = write_file(options.output, text); !written) return written.error();
   say(options.output + ": " + std::to_string(curves.frames.size()) + " frames of 52 shapes, " +
       fap::format_rate(curves.rate) + " frames a second");
+  return kOk;
+}
+
+Result<int> write_head(const Options& options, std::vector<std::uint8_t> bytes) {
+  const Result<fap::Sequence> clip = read_filled(options, std::move(bytes), false);
+  if (!clip) return clip.error();
+  GlbExport settings = options.glb;
+  settings.audio = std::filesystem::path(options.audio).filename().string();
+  if (auto written = export_glb(options.output, *clip, settings); !written) {
+    return written.error();
+  }
   return kOk;
 }
 
@@ -138,7 +156,7 @@ Result<int> run(const Options& options) {
   if (!bytes) return bytes.error();
   const bool from_script = kind_of(*bytes) == FileKind::script;
   const std::string what = what_of(options, from_script);
-  if (what == "arkit") {
+  if (what == "arkit" || what == "head") {
     if (!options.script.empty()) {
       return usage_error("--script is for visemes; add --what visemes");
     }
@@ -148,11 +166,25 @@ Result<int> run(const Options& options) {
                         "its visemes")
           .in_file(options.input);
     }
-    return write_arkit(options, std::move(*bytes));
+    return what == "head" ? write_head(options, std::move(*bytes))
+                          : write_arkit(options, std::move(*bytes));
   }
   Result<VisemeTrack> track = track_of(options, std::move(*bytes), from_script, *rate);
   if (!track) return track.error();
   return write_visemes(options, what, std::move(*track));
+}
+
+void add_head_options(CLI::App& app, GlbExport& glb) {
+  app.add_option("--head", glb.head, "glb: woman, man or child")
+      ->check(
+          CLI::IsMember(std::vector<std::string>(head::kHeadNames.begin(), head::kHeadNames.end())))
+      ->capture_default_str();
+  app.add_option("--morphs", glb.morphs,
+                 "glb: morph targets by the names of ARKit (jawOpen ...) or of FAPs (open_jaw ...)")
+      ->check(CLI::IsMember({"arkit", "fap"}))
+      ->capture_default_str();
+  app.add_flag("--normals", glb.normals,
+               "glb: normals of the morph targets, for players that do not compute them");
 }
 
 Action add(CLI::App& app) {
@@ -163,15 +195,16 @@ Action add(CLI::App& app) {
       ->required();
   app.add_option("-o,--output", options->output,
                  "File to write: .csv (Live Link Face: Unreal, Blender, Maya), .json (the same "
-                 "curves for scripts), .visemes.json or .visemes.csv (15 weights a frame under "
+                 "curves for scripts), .glb (a head with morph targets and animation), "
+                 ".visemes.json or .visemes.csv (15 weights a frame under "
                  "the names of Oculus and Ready Player Me), .tsv or .rhubarb.json (mouth shapes of "
                  "Rhubarb Lip Sync)")
       ->required();
   app.add_option("--what", options->what,
                  "What to write, whatever the file is called: arkit (52 shapes and 9 angles), "
-                 "visemes, rhubarb")
-      ->check(CLI::IsMember({"arkit", "visemes", "rhubarb"}));
-  app.add_option("--audio", options->audio, "Name of the sound to mention in the .json");
+                 "visemes, rhubarb, head (.glb)")
+      ->check(CLI::IsMember({"arkit", "visemes", "rhubarb", "head"}));
+  app.add_option("--audio", options->audio, "Name of the sound to mention in .json and .glb");
   app.add_option("--script", options->script,
                  "Phoneme script of the face: the events of visemes are its sounds; without it, "
                  "what the face shows most");
@@ -181,6 +214,7 @@ Action add(CLI::App& app) {
                  "Seconds that one viseme of a script takes to fade into the next, at most")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1.0));
+  add_head_options(app, options->glb);
   return [options] { return run(*options); };
 }
 
@@ -190,6 +224,7 @@ const Command kExport{
     "export", "Turn a face into curves for Unreal, Blender, Unity, web avatars or scripts",
     "  animeme export talk.mp4 -o talk.csv\n"
     "  animeme export talk.fap --audio voice.wav -o talk.json\n"
+    "  animeme export talk.fba --head man -o talk.glb\n"
     "  animeme export talk.fap -o talk.visemes.json\n"
     "  animeme export talk.fap --script words.tsv --audio voice.wav -o talk.visemes.json\n"
     "  animeme export words.tsv --rate 60 -o words.visemes.csv\n"

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "codec/encode.h"
+#include "tools/commands/interrupt.h"
 #include "tools/media/mux.h"
 
 namespace animeme::tools {
@@ -61,25 +62,68 @@ Result<fba::AccessUnits> access_units(const FaceInput& face, const StreamSetting
   return fba::split_access_units(*stream);
 }
 
-Result<int> write_media(const std::string& path, const fba::AccessUnits& units,
-                        const media::Pcm* audio, media::MuxOptions options) {
-  media::MuxInput input;
-  input.face = &units;
-  input.audio = audio;
+void add_sound_options(CLI::App& app, SoundSettings& settings, bool copy) {
+  app.add_option("--audio-codec", settings.codec,
+                 copy ? "Coding of the sound: aac, opus, or copy for sound that is one of them; "
+                        "default: aac, where the file takes it"
+                      : "Coding of the sound: aac or opus; default: aac, where the file takes it")
+      ->check(copy ? CLI::IsMember({"aac", "opus", "copy"}) : CLI::IsMember({"aac", "opus"}));
+  app.add_option("--audio-bitrate", settings.bit_rate,
+                 "Bits a second of the sound; default: 64000 for aac, 40000 for opus")
+      ->check(CLI::Range(6000, 320000));
+}
+
+media::AudioSettings audio_settings(const SoundSettings& settings, const std::string& path) {
+  media::AudioSettings audio{media::usual_codec(path), settings.bit_rate};
+  if (settings.codec == "aac") audio.codec = media::AudioCodec::aac;
+  if (settings.codec == "opus") audio.codec = media::AudioCodec::opus;
+  return audio;
+}
+
+namespace {
+
+// ": face 100 planes, 4.00 s, 2.52 kbit/s, sound aac".
+std::string summary(const media::MuxInput& input, const media::MuxOptions& options) {
+  std::string text = ": ";
+  if (input.face != nullptr) {
+    const fba::AccessUnits& face = *input.face;
+    std::size_t bytes = 0;
+    for (const fba::AccessUnit& unit : face.units) bytes += unit.bytes.size();
+    const fba::AccessUnit& last = face.units.back();
+    const double seconds = double(last.time + last.duration) / face.timescale;
+    char facts[120];
+    std::snprintf(facts, sizeof facts, "face %zu planes, %.2f s, %.2f kbit/s", face.units.size(),
+                  seconds, double(bytes) * 8e-3 / seconds);
+    text += facts;
+  }
+  if (input.audio != nullptr) {
+    text +=
+        ", sound " + seconds_text(input.audio->duration()) + " as " + name_of(options.audio.codec);
+  }
+  if (input.encoded != nullptr) {
+    const media::EncodedAudio& audio = *input.encoded;
+    text += ", sound " + seconds_text(double(audio.length) / audio.format.sample_rate) +
+            " copied (" + name_of(audio.format.codec) + ")";
+  }
+  return text;
+}
+
+}  // namespace
+
+Result<int> write_media(const std::string& path, const media::MuxInput& input,
+                        media::MuxOptions options) {
+  const Interrupt interrupt;
   ProgressLine progress("writing " + path);
   options.progress = [&progress](double done) { progress.update(done); };
-  if (auto written = media::write_container(path, input, options); !written) {
-    return written.error().in_file(path);
+  options.stop = [] { return Interrupt::requested(); };
+  Result<media::MuxResult> written = media::write_container(path, input, options);
+  progress.clear();
+  if (!written) return written.error().in_file(path);
+  if (written->stopped) {
+    say(path + ": stopped; the file holds the first " + seconds_text(written->seconds));
+    return kInterrupted;
   }
-  std::size_t bytes = 0;
-  for (const fba::AccessUnit& unit : units.units) bytes += unit.bytes.size();
-  const fba::AccessUnit& last = units.units.back();
-  const double seconds = double(last.time + last.duration) / units.timescale;
-  char text[160];
-  std::snprintf(text, sizeof text, ": face %zu planes, %.2f s, %.2f kbit/s%s", units.units.size(),
-                seconds, double(bytes) * 8e-3 / seconds,
-                audio != nullptr ? (", sound " + seconds_text(audio->duration())).c_str() : "");
-  say(path + text);
+  say(path + summary(input, options));
   return kOk;
 }
 

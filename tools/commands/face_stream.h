@@ -34,8 +34,21 @@ std::string seconds_text(double seconds);
 /// The access units of a face: a stream keeps its own coding, a clip is coded with `settings`.
 Result<fba::AccessUnits> access_units(const FaceInput& face, const StreamSettings& settings);
 
-/// Writes a container with progress and says what was written. `audio` may be null.
-Result<int> write_media(const std::string& path, const fba::AccessUnits& units,
-                        const media::Pcm* audio, media::MuxOptions options);
+/// How the sound of a container is coded, as it was asked for.
+struct SoundSettings {
+  std::string codec;  ///< "aac", "opus", "copy" (mux only); empty: as the container wants it
+  int bit_rate = 0;   ///< bits a second; 0: usual
+};
+
+/// Adds --audio-codec and --audio-bitrate; with `copy`, sound may also be taken as it is.
+void add_sound_options(CLI::App& app, SoundSettings& settings, bool copy);
+
+/// For a container of this name.
+media::AudioSettings audio_settings(const SoundSettings& settings, const std::string& path);
+
+/// Writes a container with progress and says what was written. Ctrl-C completes what was written
+/// so far: the exit code is kInterrupted then.
+Result<int> write_media(const std::string& path, const media::MuxInput& input,
+                        media::MuxOptions options);
 
 }  // namespace animeme::tools

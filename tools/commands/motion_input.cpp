@@ -95,7 +95,9 @@ Result<MotionInput> parse_motion(std::vector<std::uint8_t> bytes, const std::str
       return input;
     }
     case FileKind::media: {
-      auto container = media::read_container(std::span<const std::uint8_t>(bytes));
+      auto container = is_playlist(bytes)
+                           ? media::read_container(path)
+                           : media::read_container(std::span<const std::uint8_t>(bytes));
       if (!container) return container.error().in_file(path);
       for (const std::string& text : container->warnings) warn(path + ": " + text);
       input.stream = fba::join_access_units(container->face);

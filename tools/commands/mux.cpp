@@ -1,11 +1,13 @@
 #include "tools/media/mux.h"
 
+#include <cmath>
 #include <memory>
+#include <optional>
 
-#include "codec/encoder.h"
 #include "tools/commands/common.h"
 #include "tools/commands/face_stream.h"
 #include "tools/media/audio.h"
+#include "tools/media/container.h"
 
 namespace animeme::tools {
 
@@ -16,38 +18,93 @@ struct Options {
   std::string audio;
   std::string output;
   StreamSettings stream;
+  SoundSettings sound;
   media::MuxOptions mux;
 };
 
-Result<int> run(const Options& options) {
-  Result<FaceInput> face = read_face(options.face);
+// A face out of a container keeps its times, which its planes alone would not tell.
+Result<fba::AccessUnits> read_units(const Options& options) {
+  Result<std::vector<std::uint8_t>> bytes = read_file(options.face);
+  if (!bytes) return bytes.error();
+  if (kind_of(*bytes) == FileKind::media) {
+    Result<media::Container> container =
+        is_playlist(*bytes) ? media::read_container(options.face) : media::read_container(*bytes);
+    if (!container) return container.error();
+    for (const std::string& text : container->warnings) warn(options.face + ": " + text);
+    return std::move(container->face);
+  }
+  Result<FaceInput> face = parse_face(std::move(*bytes), options.face);
   if (!face) return face.error();
+  return access_units(*face, options.stream);
+}
+
+struct Sound {
+  std::optional<media::Pcm> samples;
+  std::optional<media::EncodedAudio> coded;
+
+  double seconds() const {
+    return samples ? samples->duration() : double(coded->length) / coded->format.sample_rate;
+  }
+};
+
+Result<Sound> read_sound(const Options& options) {
+  Sound sound;
+  if (options.sound.codec == "copy") {
+    Result<media::EncodedAudio> coded = media::read_encoded_audio(options.audio);
+    if (!coded) return coded.error();
+    sound.coded = std::move(*coded);
+    return sound;
+  }
   std::vector<std::string> warnings;
   media::ReadAudioOptions read;
   read.warnings = &warnings;
-  Result<media::Pcm> audio = media::read_audio(options.audio, read);
-  if (!audio) return audio.error().in_file(options.audio);
+  Result<media::Pcm> samples = media::read_audio(options.audio, read);
+  if (!samples) return samples.error();
   for (const std::string& text : warnings) warn(options.audio + ": " + text);
-  Result<fba::AccessUnits> units = access_units(*face, options.stream);
+  sound.samples = std::move(*samples);
+  return sound;
+}
+
+Result<int> run(Options options) {
+  Result<fba::AccessUnits> units = read_units(options);
   if (!units) return units.error().in_file(options.face);
-  if (std::abs(audio->duration() - face->clip.duration()) > 1.0) {
-    warn("the face lasts " + seconds_text(face->clip.duration()) + ", the sound " +
-         seconds_text(audio->duration()));
+  Result<Sound> sound = read_sound(options);
+  if (!sound) return sound.error().in_file(options.audio);
+  const fba::AccessUnit& last = units->units.back();
+  const double seconds = double(last.time + last.duration) / units->timescale;
+  if (std::abs(sound->seconds() - seconds) > 1.0) {
+    warn("the face lasts " + seconds_text(seconds) + ", the sound " +
+         seconds_text(sound->seconds()));
   }
-  return write_media(options.output, *units, &*audio, options.mux);
+  media::MuxInput input;
+  input.face = &*units;
+  if (sound->samples) input.audio = &*sound->samples;
+  if (sound->coded) input.encoded = &*sound->coded;
+  options.mux.audio = audio_settings(options.sound, options.output);
+  return write_media(options.output, input, options.mux);
 }
 
 Action add(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  app.add_option("face", options->face, "FAP text or FBA stream")->required();
+  app.add_option("face", options->face, "FAP text, FBA stream, or a container with a face")
+      ->required();
   app.add_option("audio", options->audio, "Sound in any format that FFmpeg reads")->required();
-  app.add_option("-o,--output", options->output, "File to write: .mp4, .mkv or .ts")->required();
+  app.add_option("-o,--output", options->output,
+                 "File to write: .mp4, .mkv, .ts; .m3u8 (HLS) or .mpd (DASH) with a "
+                 "folder of segments beside it")
+      ->required();
   add_stream_options(app, options->stream);
-  app.add_option("--audio-bitrate", options->mux.audio_bit_rate, "Bits a second of the AAC track")
-      ->check(CLI::Range(8000, 320000))
+  add_sound_options(app, options->sound, true);
+  CLI::Option* fragmented =
+      app.add_flag("--fragmented", options->mux.fragmented,
+                   "mp4: in fragments, so that a reader can begin before the file is complete");
+  app.add_option("--fragment-seconds", options->mux.fragment_seconds,
+                 "Length of fragments and of segments (.m3u8, .mpd), seconds")
+      ->check(CLI::Range(0.02, 600.0))
       ->capture_default_str();
   app.add_flag("--systems", options->mux.systems,
-               "mp4: add the scene and object streams of a complete MPEG-4 Systems presentation");
+               "mp4: add the scene and object streams of a complete MPEG-4 Systems presentation")
+      ->excludes(fragmented);
   return [options] { return run(*options); };
 }
 
@@ -56,6 +113,9 @@ Action add(CLI::App& app) {
 const Command kMux{"mux", "Put a face and a voice into one file",
                    "  animeme mux talk.fba voice.wav -o talk.mp4\n"
                    "  animeme mux talk.fap voice.flac --quant 2 -o talk.mkv\n"
+                   "  animeme mux talk.fba voice.wav --audio-codec opus --fragmented -o talk.mp4\n"
+                   "  animeme mux talk.mp4 talk.mp4 --audio-codec copy -o talk.ts\n"
+                   "  animeme mux talk.fba voice.wav --fragment-seconds 4 -o talk.m3u8\n"
                    "  animeme mux talk.fba voice.wav --systems -o scene.mp4",
                    add};
 

@@ -25,7 +25,7 @@ struct Options {
   std::string rate = "25";
   std::string save_script;
   StreamSettings stream;
-  media::MuxOptions mux;
+  SoundSettings sound;
   double style = 1;
   bool no_closure = false;
   bool life = false;
@@ -34,7 +34,8 @@ struct Options {
 };
 
 bool is_container(const std::string& extension) {
-  return extension == ".mp4" || extension == ".mkv" || extension == ".ts";
+  return extension == ".mp4" || extension == ".mkv" || extension == ".ts" || extension == ".m3u8" ||
+         extension == ".mpd";
 }
 
 bool is_output(const std::string& path) {
@@ -85,7 +86,9 @@ Result<int> write_result(const Options& options, const fap::Sequence& clip, cons
   if (!units) return units.error();
   const media::Pcm* audio = spoken.audio ? &*spoken.audio : nullptr;
   if (audio == nullptr) warn("there is no recorded voice (--audio), the file will be silent");
-  return write_media(options.output, *units, audio, options.mux);
+  media::MuxOptions mux;
+  mux.audio = audio_settings(options.sound, options.output);
+  return write_media(options.output, {.face = &*units, .audio = audio}, mux);
 }
 
 void report(const Options& options, const Spoken& spoken, const dam::Signal& signal,
@@ -110,8 +113,9 @@ void report(const Options& options, const Spoken& spoken, const dam::Signal& sig
 
 Result<int> run(const Options& options) {
   if (!is_output(options.output)) {
-    return usage_error("--output must end in .mp4, .mkv, .ts, .fba, .fap or .csv, not " +
-                       options.output);
+    return usage_error(
+        "--output must end in .mp4, .mkv, .ts, .m3u8, .mpd, .fba, .fap or .csv, not " +
+        options.output);
   }
   if (const std::string missing = missing_options(options.spoken); !missing.empty()) {
     return usage_error(missing);
@@ -155,7 +159,7 @@ Result<int> run(const Options& options) {
     if (auto done = write_file(options.save_script, text); !done) return done.error();
   }
   report(options, *spoken, *signal, synthesis);
-  return kOk;
+  return written;
 }
 
 Action add(CLI::App& app) {
@@ -163,7 +167,8 @@ Action add(CLI::App& app) {
   add_spoken_options(app, options->spoken);
   app.add_option(
          "-o,--output", options->output,
-         "What to write: .mp4 .mkv .ts (face and voice), .fba (stream), .fap (text), .csv (curves)")
+         "What to write: .mp4 .mkv .ts .m3u8 .mpd (face and voice), .fba (stream), .fap (text), "
+         ".csv (curves)")
       ->required();
   app.add_option("--model", options->model, "Model file of a character; default: the built-in one");
   app.add_option("--rate", options->rate, "Frames a second: 25, 29.97, 60 ...")
@@ -181,9 +186,7 @@ Action add(CLI::App& app) {
   app.add_option("--seed", options->seed, "Other times of blinks and another sway of the head")
       ->needs("--life");
   add_stream_options(app, options->stream);
-  app.add_option("--audio-bitrate", options->mux.audio_bit_rate, "Bits a second of the AAC track")
-      ->check(CLI::Range(8000, 320000))
-      ->capture_default_str();
+  add_sound_options(app, options->sound, false);
   app.add_flag("--json", options->json, "Machine-readable summary on standard output");
   return [options] { return run(*options); };
 }

@@ -18,6 +18,7 @@
 
 #include "codec/access_unit.h"
 #include "fap/result.h"
+#include "tools/media/encoded_audio.h"
 
 namespace animeme::media {
 
@@ -63,6 +64,16 @@ Result<Container> read_container(const std::string& path, const ReadOptions& opt
 /// The same from memory.
 Result<Container> read_container(std::span<const std::uint8_t> file,
                                  const ReadOptions& options = {});
+
+/// The best audio track as it is coded, AAC or Opus, packet by packet. Time 0 is sample 0 of
+/// read_audio(); times of coarse clocks (mkv, TS) are made whole again where packets follow one
+/// another. Damaged packets are left out. Errors: not_found (no file, no audio track), io,
+/// truncated, syntax (nothing can be read), unsupported (another codec; a format that FFmpeg does
+/// not know), out_of_range (over 1 GB, memory).
+Result<EncodedAudio> read_encoded_audio(const std::string& path);
+
+/// The same from memory.
+Result<EncodedAudio> read_encoded_audio(std::span<const std::uint8_t> file);
 
 enum class TrackKind : std::uint8_t { face, audio, video, other };
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -9,9 +8,11 @@
 #include "tools/media/audio.h"
 #include "tools/media/container.h"
 #include "tools/media/detail/audio_decoder.h"
+#include "tools/media/detail/extension.h"
 #include "tools/media/detail/face_track.h"
 #include "tools/media/detail/muxer.h"
 #include "tools/media/detail/output_file.h"
+#include "tools/media/detail/rendition.h"
 
 namespace animeme::media {
 namespace {
@@ -41,14 +42,6 @@ bool takes(const CopyTarget& target, AVCodecID codec) {
          std::find(codecs.begin(), codecs.end(), codec) != codecs.end();
 }
 
-std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-  }
-  return extension;
-}
-
 Error does_not_fit(std::string_view extension, AVCodecID codec) {
   std::string fitting;
   for (const CopyTarget& target : kTargets) {
@@ -63,6 +56,7 @@ Result<void> copy_packets(Input& input, int index, Muxer& muxer) {
   AVFormatContext& file = *input.context();
   const av::Packet packet(av_packet_alloc());
   if (!packet) return make_error(Code::out_of_range, "not enough memory");
+  const std::optional<std::int64_t> end = end_of_sound(input, *file.streams[index]);
   std::optional<std::int64_t> begin;  // subtracted; priming before 0 stays where it is
   while (av_read_frame(&file, packet.get()) >= 0) {
     if (packet->stream_index != index) {
@@ -70,6 +64,10 @@ Result<void> copy_packets(Input& input, int index, Muxer& muxer) {
       continue;
     }
     const std::int64_t time = packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts;
+    // The last packet of a fragmented file is said to be whole.
+    if (end && time != AV_NOPTS_VALUE && time < *end && packet->duration > *end - time) {
+      packet->duration = *end - time;
+    }
     if (!begin && time != AV_NOPTS_VALUE) begin = std::max<std::int64_t>(time, 0);
     if (packet->pts != AV_NOPTS_VALUE) packet->pts -= begin.value_or(0);
     if (packet->dts != AV_NOPTS_VALUE) packet->dts -= begin.value_or(0);
@@ -132,9 +130,12 @@ Result<void> extract(const std::string& in, const std::string& out) {
         .in_file(out);
   }
   const av::LogCapture log;
-  Result<std::unique_ptr<Input>> input = Input::open(in, nullptr);
-  if (!input) return input.error();
-  Result<void> copied = copy_track(**input, *target, out);
+  const auto copy = [&](const auto& source) -> Result<void> {
+    Result<std::unique_ptr<Input>> input = Input::open(source, nullptr);
+    if (!input) return input.error();
+    return copy_track(**input, *target, out);
+  };
+  Result<void> copied = is_playlist(in) ? read_sound_of(in, copy) : copy(in);
   if (!copied) return std::move(copied.error()).in_file(in);
   return copied;
 }

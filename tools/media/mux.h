@@ -1,12 +1,13 @@
 // Writing a face and its sound into one file.
 //
 //     MuxInput input{.face = &units, .audio = &voice};
-//     Result<void> written = write_container("talk.mp4", input);
+//     Result<MuxResult> written = write_container("talk.mp4", input);
 //
-// Access units and sound stay the caller's; nothing is changed in them. The sound is encoded as
-// AAC-LC, mono. Time 0 of the face is sample 0 of the sound. Files are written whole or not at
-// all, and the same input gives the same bytes (with the same FFmpeg on the same machine; other
-// versions of its AAC encoder may round differently). Source: containers, sections 2.1, 3.1, 3.2.
+// Access units and sound stay the caller's; nothing is changed in them. Sound given as samples is
+// coded, mono; sound that is coded already goes in as it is. Time 0 of the face is sample 0 of the
+// sound. Files are written whole or not at all, and the same input gives the same bytes (with the
+// same FFmpeg on the same machine; other versions of its encoders may round differently).
+// Source: containers, sections 2.1, 2.2, 3.1, 3.2.
 #pragma once
 
 #include <cstdint>
@@ -15,52 +16,78 @@
 
 #include "codec/access_unit.h"
 #include "fap/result.h"
+#include "tools/media/encoded_audio.h"
 #include "tools/media/pcm.h"
 
 namespace animeme::media {
 
-/// What goes into the file; at least one of the two.
+/// What goes into the file; a face, a sound or both.
 struct MuxInput {
   const fba::AccessUnits* face = nullptr;  ///< nullptr: sound only
-  const Pcm* audio = nullptr;              ///< nullptr: no sound
+  const Pcm* audio = nullptr;              ///< samples to be coded; nullptr: none
+  /// Coded sound to be copied, packet by packet; nullptr: none. Not together with `audio`.
+  const EncodedAudio* encoded = nullptr;
   /// Visual profile and level for the file's own table of contents (mp4 `iods`): 0x61..0x64.
   /// 0: as in the face's configuration, 0x61 if that has none.
   std::uint8_t visual_profile = 0;
 };
 
 struct MuxOptions {
-  /// Bits a second of the AAC track, 8000..320000. AAC allows at most 6 bits a sample, so
-  /// 64000 becomes 48000 at 8 kHz.
-  int audio_bit_rate = 64000;
+  AudioSettings audio;  ///< how MuxInput::audio is coded
   /// mp4: contents before data, so that a player can begin while it loads.
   bool faststart = true;
+  /// mp4: in fragments, each of which is complete, so that a reader can begin while the file is
+  /// still being made or sent. A fragment begins with each intra plane, too.
+  bool fragmented = false;
+  double fragment_seconds = 1;  ///< the longest fragment, 0.02..600
   /// mp4: a complete MPEG-4 Systems presentation with a scene of a face and a sound, an object
   /// stream and the initial object descriptor; for players and tools of MPEG-4 Systems. It is made
-  /// in memory, with the contents first, and limited to 4 GB.
+  /// in memory, with the contents first, and limited to 4 GB. Sound: AAC.
   bool systems = false;
+  /// Asked before each packet, once every track has half a second: true completes the file with
+  /// what it has so far. Not asked for Systems presentations, which are made in one piece. Empty:
+  /// never.
+  std::function<bool()> stop = {};
   /// Called with 0..1 from time to time, at last with 1; empty: not wanted.
   std::function<void(double)> progress = {};
 };
 
-/// MPEG-4 file: brand mp42, `iods` with profile bytes, face as handler `vide`, entry `mp4v`, with
-/// `esds` (object type 0x20, ES_ID 0, bufferSizeDB and maximum bit rate from the data) and sync
-/// table; exact media time scale (times a whole factor if it is below 10000); AAC priming in the
-/// edit list, so sound and face agree to the sample. A sample rate that AAC lacks is resampled to
-/// the next higher one it has.
-/// Errors: invalid_argument (nothing to write; no units; configuration not of a face; an empty
-/// unit; times not ascending or negative; durations not positive; empty sound; bit rate), io
-/// (folder missing, disk full ...), unsupported (this FFmpeg lacks the AAC encoder), out_of_range
-/// (memory).
-Result<void> write_mp4(const std::string& path, const MuxInput& input,
-                       const MuxOptions& options = {});
+/// What became of it.
+struct MuxResult {
+  double seconds = 0;    ///< end of the longer track in the file
+  bool stopped = false;  ///< MuxOptions::stop ended it: the file holds the first `seconds` only
+};
 
-/// The same by extension: .mp4 .m4a (m4a: sound only) .mkv .mka .ts.
-/// mkv: times are rounded to 1 ms and everything is moved by the AAC priming (21.3 ms at 48 kHz),
-/// face against sound at most 0.5 ms off. ts: configuration in front of each intra plane,
-/// stream type 0x10, the same common shift, 90 kHz clock, 188 bytes or more for each plane.
-/// Further error: unsupported (another extension; a face in .m4a or .mka; a Systems presentation
-/// that is no mp4 or has no face).
-Result<void> write_container(const std::string& path, const MuxInput& input,
-                             const MuxOptions& options = {});
+/// The codec to take for a file of this name when nobody chose: Opus for .opus, .webm and .weba,
+/// which hold no AAC, else AAC.
+AudioCodec usual_codec(const std::string& path);
+
+/// MPEG-4 file: brand mp42, `iods` with profile bytes and tracks, face as handler `vide`, entry
+/// `mp4v`, with `esds` (object type 0x20, ES_ID 0, bufferSizeDB and maximum bit rate from the
+/// data) and sync table; exact media time scale (times a whole factor if it is below 10000);
+/// priming of the sound in the edit list, so sound and face agree to the sample. A sample rate
+/// that the codec lacks is resampled (see AudioEncoder).
+/// Errors: invalid_argument (nothing to write; no units; configuration not of a face; an empty
+/// unit or packet; times not ascending or negative; durations not positive; empty sound; bit rate;
+/// sound given twice; fragment length), io (folder missing, disk full ...), unsupported (this
+/// FFmpeg lacks the encoder; Opus in a Systems presentation), out_of_range (memory).
+Result<MuxResult> write_mp4(const std::string& path, const MuxInput& input,
+                            const MuxOptions& options = {});
+
+/// The same by extension:
+///   .mp4                 face, AAC or Opus
+///   .mkv                 face, AAC or Opus; times are rounded to 1 ms, and with AAC everything is
+///                        moved by its priming (21.3 ms at 48 kHz); face against sound at most
+///                        0.5 ms off
+///   .ts                  face, AAC; configuration in front of each intra plane, stream type 0x10
+///                        with an MPEG-4 video descriptor, the same common shift, 90 kHz clock, 188
+///                        bytes or more for each plane
+///   .m4a                 sound alone: AAC
+///   .mka                 sound alone: AAC or Opus
+///   .webm .weba .opus    sound alone: Opus
+/// Further error: unsupported (another extension; a face or a codec that the format does not take;
+/// a Systems presentation or fragments that are no mp4).
+Result<MuxResult> write_container(const std::string& path, const MuxInput& input,
+                                  const MuxOptions& options = {});
 
 }  // namespace animeme::media

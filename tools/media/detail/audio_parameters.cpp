@@ -76,6 +76,7 @@ std::int64_t mean_bit_rate(const EncodedAudio& audio) {
 
 Result<void> check_audio(const EncodedAudio& audio) {
   if (audio.packets.empty()) return invalid("the sound is empty");
+  if (audio.format.config.empty()) return invalid("the sound lacks its decoder configuration");
   std::int64_t last = -kLongestTime;
   for (std::size_t i = 0; i < audio.packets.size(); ++i) {
     const AudioPacket& packet = audio.packets[i];

@@ -28,8 +28,8 @@ Result<av::Parameters> codec_parameters(const AudioFormat& format, std::int64_t 
 /// Bits a second of all packets; 0: there are none.
 std::int64_t mean_bit_rate(const EncodedAudio& audio);
 
-/// Packets that lie apart, times that do not ascend, empty packets: nothing a muxer or decoder
-/// could use. Error: invalid_argument.
+/// Refuses what no muxer or decoder could use: no packets or no configuration, empty packets,
+/// times that do not ascend. Error: invalid_argument.
 Result<void> check_audio(const EncodedAudio& audio);
 
 /// Makes `target` a copy of `source` with time stamps in samples; a packet that is heard in part

@@ -70,6 +70,8 @@ Code error_code(int status) {
     case AVERROR(EISDIR):
     case AVERROR(ENOSPC):
     case AVERROR(EFBIG):
+    case AVERROR(EPIPE):
+    case AVERROR(ENOTDIR):
     case AVERROR(EROFS):
       return Code::io;
     case AVERROR(ENOMEM):

@@ -1,11 +1,16 @@
 #include "tools/media/detail/mp4_fix.h"
 
+#include <algorithm>
+#include <array>
+#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <memory>
 #include <string_view>
 
+#include "tools/media/detail/box_writer.h"
 #include "tools/media/detail/boxes.h"
+#include "tools/media/detail/output_stream.h"
 
 namespace animeme::media {
 namespace {
@@ -13,6 +18,8 @@ namespace {
 constexpr std::size_t kVisualFields = 78;  // of a VisualSampleEntry, behind the box header
 constexpr std::size_t kAudioFields = 28;   // of an AudioSampleEntry, version 0
 constexpr std::uint8_t kEsDescriptor = 3;
+constexpr std::uint8_t kInitialObjectDescriptor = 0x10, kTrackReference = 0x0E;
+constexpr std::size_t kProfileBytes = 7;  // of an initial object descriptor without streams
 
 // Content of an esds: version and flags, then tag 3, a length of 1 to 4 bytes, then ES_ID.
 void add_es_id(Bytes bytes, const Box& esds, std::vector<std::size_t>& found) {
@@ -24,10 +31,14 @@ void add_es_id(Bytes bytes, const Box& esds, std::vector<std::size_t>& found) {
   if (at + 2 <= esds.end) found.push_back(at);
 }
 
+bool holds_tables(std::string_view type) {
+  return type == "moov" || type == "trak" || type == "mdia" || type == "minf" || type == "stbl";
+}
+
 void walk(Bytes bytes, const Box& parent, std::vector<std::size_t>& found, int depth) {
   for_each_box(bytes, parent.begin, parent.end, [&](const Box& box) {
     const std::string_view type = box.type;
-    if (type == "trak" || type == "mdia" || type == "minf" || type == "stbl") {
+    if (holds_tables(type)) {
       if (depth < 8) walk(bytes, box, found, depth + 1);
     } else if (type == "stsd" && box.end - box.begin >= 8) {
       walk(bytes, {type, box.begin + 8, box.end}, found, depth + 1);
@@ -41,27 +52,156 @@ void walk(Bytes bytes, const Box& parent, std::vector<std::size_t>& found, int d
   });
 }
 
+std::uint32_t track_id(Bytes moov, const Box& trak) {
+  std::uint32_t id = 0;
+  for_each_box(moov, trak.begin, trak.end, [&](const Box& box) {
+    if (box.type != "tkhd" || box.end == box.begin) return;
+    const std::size_t at = box.begin + (moov[box.begin] == 1 ? 20 : 12);
+    if (at + 4 <= box.end) id = std::uint32_t(read_big_endian(moov, at, 4));
+  });
+  return id;
+}
+
+// Tracks of MPEG-4 systems, in their order.
+std::vector<std::uint32_t> tracks_with_descriptor(Bytes moov, const Box& whole) {
+  std::vector<std::uint32_t> ids;
+  for_each_box(moov, whole.begin, whole.end, [&](const Box& box) {
+    if (box.type != "trak") return;
+    std::vector<std::size_t> found;
+    walk(moov, box, found, 0);
+    if (!found.empty()) ids.push_back(track_id(moov, box));
+  });
+  return ids;
+}
+
+// next_track_ID, the last field of mvhd: libavformat counts only the tracks that had a sample when
+// it wrote the contents of fragments.
+void set_next_track_id(std::span<std::uint8_t> moov, const Box& whole) {
+  constexpr std::size_t kSize = 100;  // of the content of mvhd, short form
+  std::uint32_t last = 0;
+  for_each_box(moov, whole.begin, whole.end, [&](const Box& box) {
+    if (box.type == "trak") last = std::max(last, track_id(moov, box));
+  });
+  for_each_box(moov, whole.begin, whole.end, [&](const Box& box) {
+    if (box.type != "mvhd" || box.end - box.begin < kSize) return;
+    for (std::size_t i = 0; i < 4; ++i) {
+      moov[box.end - 4 + i] = std::uint8_t((last + 1) >> (24 - 8 * i));
+    }
+  });
+}
+
+// The content of iods as libavformat writes it, with the tracks behind the profiles.
+void put_iods(BoxWriter& out, Bytes content, const std::vector<std::uint32_t>& ids) {
+  constexpr std::size_t kHeader = 4 + 5;  // version and flags, tag, length in four bytes
+  const bool known = content.size() == kHeader + kProfileBytes &&
+                     content[4] == kInitialObjectDescriptor && content[8] == kProfileBytes;
+  out.begin("iods");
+  if (!known) {
+    out.raw(content);
+    out.end();
+    return;
+  }
+  BoxWriter descriptor;
+  descriptor.raw(content.subspan(kHeader));
+  for (const std::uint32_t id : ids) {
+    BoxWriter number;
+    number.u32(id);
+    descriptor.descriptor(kTrackReference, number.bytes());
+  }
+  out.u32(0);
+  out.descriptor(kInitialObjectDescriptor, descriptor.bytes());
+  out.end();
+}
+
+Result<void> shift_table(std::span<std::uint8_t> moov, const Box& table, std::uint64_t shift) {
+  const std::size_t width = table.type == "co64" ? 8 : 4;
+  const std::size_t first = table.begin + 8;  // version, flags, count
+  for (std::size_t at = first; at + width <= table.end; at += width) {
+    const std::uint64_t offset = read_big_endian(moov, at, width) + shift;
+    if (width == 4 && offset > UINT32_MAX) {
+      return make_error(Code::out_of_range,
+                        "the file is too large to begin with its contents; write it without "
+                        "faststart, or as .mkv");
+    }
+    for (std::size_t i = 0; i < width; ++i) {
+      moov[at + i] = std::uint8_t(offset >> (8 * (width - 1 - i)));
+    }
+  }
+  return {};
+}
+
+Result<void> shift_in(std::span<std::uint8_t> moov, const Box& parent, std::uint64_t shift) {
+  Result<void> done;
+  for_each_box(moov, parent.begin, parent.end, [&](const Box& box) {
+    if (!done) return;
+    if (holds_tables(box.type)) done = shift_in(moov, box, shift);
+    if (box.type == "stco" || box.type == "co64") done = shift_table(moov, box, shift);
+  });
+  return done;
+}
+
 struct Closer {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
-using File = std::unique_ptr<std::FILE, Closer>;
 
-Error io_error() { return make_error(Code::io, "the finished file cannot be read again"); }
+// A finished file that is opened again.
+class Patch {
+ public:
+  explicit Patch(const std::string& path) : file_(std::fopen(path.c_str(), "r+b")) {}
+  bool good() const { return file_ != nullptr; }
+  std::size_t read(std::uint64_t at, std::span<std::uint8_t> bytes) {
+    if (std::fseek(file_.get(), long(at), SEEK_SET) != 0) return 0;
+    return std::fread(bytes.data(), 1, bytes.size(), file_.get());
+  }
+  bool write(std::uint64_t at, std::span<const std::uint8_t> bytes) {
+    return std::fseek(file_.get(), long(at), SEEK_SET) == 0 &&
+           std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) == bytes.size();
+  }
+  bool flush() { return std::fflush(file_.get()) == 0; }
+  std::uint64_t size() {
+    return std::fseek(file_.get(), 0, SEEK_END) == 0 ? std::uint64_t(std::ftell(file_.get())) : 0;
+  }
+  // Moves [begin, end) towards the end of the file.
+  bool move(std::uint64_t begin, std::uint64_t end, std::uint64_t by) {
+    std::vector<std::uint8_t> block(std::size_t(1) << 20);
+    while (end > begin) {
+      const auto count = std::size_t(std::min<std::uint64_t>(block.size(), end - begin));
+      const std::span<std::uint8_t> part(block.data(), count);
+      end -= count;
+      if (read(end, part) != count || !write(end + by, part)) return false;
+    }
+    return true;
+  }
 
-// Position and size of the top-level moov box; size 0: not found.
-Result<void> find_moov(std::FILE* file, std::uint64_t& at, std::uint64_t& size) {
-  at = 0;
+ private:
+  std::unique_ptr<std::FILE, Closer> file_;
+};
+
+struct Place {
+  std::uint64_t at = 0;
+  std::uint64_t size = 0;
+};
+
+// ftyp and moov among the boxes of the file; size 0: not there.
+void find_boxes(Patch& file, Place& brand, Place& contents) {
+  std::uint64_t at = 0;
   for (;;) {
-    std::uint8_t header[16] = {};
-    if (std::fseek(file, long(at), SEEK_SET) != 0) return io_error();
-    const std::size_t got = std::fread(header, 1, sizeof header, file);
-    if (got < 8) return make_error(Code::internal, "the finished file has no moov box");
-    size = read_big_endian(header, 0, 4);
+    std::array<std::uint8_t, 16> header{};
+    const std::size_t got = file.read(at, header);
+    if (got < 8) return;
+    std::uint64_t size = read_big_endian(header, 0, 4);
     if (size == 1 && got == 16) size = read_big_endian(header, 8, 8);
-    if (std::memcmp(header + 4, "moov", 4) == 0) return {};
-    if (size < 8) return make_error(Code::internal, "the finished file has no moov box");
+    if (size < 8) return;
+    if (std::memcmp(header.data() + 4, "ftyp", 4) == 0) brand = {at, size};
+    if (std::memcmp(header.data() + 4, "moov", 4) == 0) contents = {at, size};
     at += size;
   }
+}
+
+// The completed contents to their place; everything from `tail` to `end` makes room.
+bool replace(Patch& file, std::uint64_t at, std::uint64_t tail, std::uint64_t end,
+             std::span<const std::uint8_t> moov) {
+  return file.move(tail, end, at + moov.size() - tail) && file.write(at, moov) && file.flush();
 }
 
 }  // namespace
@@ -73,26 +213,57 @@ std::vector<std::size_t> find_es_ids(std::span<const std::uint8_t> moov) {
   return found;
 }
 
-Result<void> clear_es_ids(const std::string& path) {
-  const File file(std::fopen(path.c_str(), "r+b"));
-  if (!file) return io_error();
-  std::uint64_t at = 0;
-  std::uint64_t size = 0;
-  Result<void> found = find_moov(file.get(), at, size);
-  if (!found) return found;
-  std::vector<std::uint8_t> moov(static_cast<std::size_t>(size));
-  if (std::fseek(file.get(), long(at), SEEK_SET) != 0 ||
-      std::fread(moov.data(), 1, moov.size(), file.get()) != moov.size()) {
-    return io_error();
-  }
-  const std::uint8_t zero[2] = {0, 0};
-  for (const std::size_t offset : find_es_ids(moov)) {
-    if (std::fseek(file.get(), long(at + offset), SEEK_SET) != 0 ||
-        std::fwrite(zero, 1, 2, file.get()) != 2) {
-      return io_error();
+std::vector<std::uint8_t> complete_moov(std::span<const std::uint8_t> moov) {
+  std::vector<std::uint8_t> cleared(moov.begin(), moov.end());
+  for (const std::size_t at : find_es_ids(moov)) cleared[at] = cleared[at + 1] = 0;
+  const Box whole = box_at(cleared, 0, cleared.size());
+  if (whole.begin == 0) return cleared;
+  set_next_track_id(cleared, whole);
+  const std::vector<std::uint32_t> ids = tracks_with_descriptor(cleared, whole);
+  const Bytes bytes(cleared);
+  BoxWriter out;
+  out.begin("moov");
+  for_each_box(bytes, whole.begin, whole.end, [&](const Box& box) {
+    const Bytes content = bytes.subspan(box.begin, box.end - box.begin);
+    if (box.type == "iods") {
+      put_iods(out, content, ids);
+    } else {
+      out.begin(box.type);
+      out.raw(content);
+      out.end();
     }
+  });
+  out.end();
+  return out.bytes();
+}
+
+Result<void> shift_chunks(std::span<std::uint8_t> moov, std::uint64_t shift) {
+  return shift_in(moov, {"", 0, moov.size()}, shift);
+}
+
+Result<void> complete_mp4(const std::string& path, bool contents_first) {
+  const auto failed = [] { return write_error(AVERROR(errno != 0 ? errno : EIO)); };
+  errno = 0;
+  Patch file(path);
+  if (!file.good()) return failed();
+  Place brand;
+  Place contents;
+  find_boxes(file, brand, contents);
+  if (contents.size == 0) {
+    return make_error(Code::internal, "the finished file has no moov box");
   }
-  return std::fflush(file.get()) == 0 ? Result<void>() : io_error();
+  std::vector<std::uint8_t> old(static_cast<std::size_t>(contents.size));
+  if (file.read(contents.at, old) != old.size()) return failed();
+  std::vector<std::uint8_t> moov = complete_moov(old);
+  const std::uint64_t moov_end = contents.at + contents.size;
+  const std::uint64_t brand_end = brand.at + brand.size;
+  const bool last = moov_end == file.size();
+  if (last && contents_first && contents.at > brand_end) {
+    if (auto shifted = shift_chunks(moov, moov.size()); !shifted) return shifted;
+    return replace(file, brand_end, brand_end, contents.at, moov) ? Result<void>() : failed();
+  }
+  // Data behind the contents lies in fragments, which count from their own beginnings.
+  return replace(file, contents.at, moov_end, file.size(), moov) ? Result<void>() : failed();
 }
 
 }  // namespace animeme::media

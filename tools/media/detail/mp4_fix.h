@@ -1,4 +1,4 @@
-// What libavformat leaves to do in a finished mp4 file.
+// What libavformat leaves to do in a finished mp4 file. Source: containers, section 1.4.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,17 @@ namespace animeme::media {
 /// Walks boxes and descriptors; nothing is searched for. Broken boxes are passed over.
 std::vector<std::size_t> find_es_ids(std::span<const std::uint8_t> moov);
 
-/// Sets ES_ID to 0 in every `esds`, as 14496-14 wants it in files (source: containers, 1.4).
-/// Errors: io, internal (no moov box).
-Result<void> clear_es_ids(const std::string& path);
+/// A whole `moov` box with ES_ID 0 in every `esds`, as 14496-14 wants it in files, with the
+/// tracks that have one listed in its `iods`, if there is one (ES_ID_Inc with the track ID), and
+/// with a next_track_ID that is free.
+std::vector<std::uint8_t> complete_moov(std::span<const std::uint8_t> moov);
+
+/// Adds `shift` to every chunk offset of a whole `moov` box. Error: out_of_range (an offset of 32
+/// bits would pass 4 GB).
+Result<void> shift_chunks(std::span<std::uint8_t> moov, std::uint64_t shift);
+
+/// Completes the `moov` of a file. If media data lies before it and `contents_first` is set, it
+/// is moved to the front. Works in place. Errors: io, out_of_range, internal (no moov box).
+Result<void> complete_mp4(const std::string& path, bool contents_first);
 
 }  // namespace animeme::media

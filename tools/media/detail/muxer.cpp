@@ -1,6 +1,8 @@
 #include "tools/media/detail/muxer.h"
 
+#include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "tools/media/detail/audio_parameters.h"
 #include "tools/media/detail/unit_facts.h"
@@ -10,18 +12,6 @@ namespace {
 
 // Below this libavformat's mp4 writer doubles the time scale until it is reached.
 constexpr std::uint32_t kLowestTimescale = 10000;
-
-const char* name_of(MuxFormat format) {
-  switch (format) {
-    case MuxFormat::mp4:
-      return "mp4";
-    case MuxFormat::matroska:
-      return "matroska";
-    case MuxFormat::mpegts:
-      return "mpegts";
-  }
-  return "mp4";
-}
 
 std::uint32_t container_timescale(std::uint32_t timescale) {
   if (timescale >= kLowestTimescale) return timescale;
@@ -44,13 +34,8 @@ Error no_memory() { return make_error(Code::out_of_range, "not enough memory"); 
 
 }  // namespace
 
-Result<std::unique_ptr<Muxer>> Muxer::open(const std::string& path, MuxFormat format) {
-  Result<std::unique_ptr<Muxer>> muxer = open(path, name_of(format));
-  if (muxer) (*muxer)->in_band_config_ = format == MuxFormat::mpegts;
-  return muxer;
-}
-
-Result<std::unique_ptr<Muxer>> Muxer::open(const std::string& path, const char* format) {
+Result<std::unique_ptr<Muxer>> Muxer::open(const std::string& path, const char* format,
+                                           OutputStream::Filter filter) {
   std::unique_ptr<Muxer> muxer(new Muxer);
   muxer->packet_.reset(av_packet_alloc());
   if (!muxer->packet_) return no_memory();
@@ -60,16 +45,19 @@ Result<std::unique_ptr<Muxer>> Muxer::open(const std::string& path, const char* 
     return make_error(Code::unsupported,
                       std::string("this FFmpeg was built without the format ") + format);
   }
-  if (status >= 0) status = avio_open(&muxer->context_->pb, url.c_str(), AVIO_FLAG_WRITE);
-  if (status < 0) return av::make_av_error(status, "cannot be written");
+  if (status < 0) return write_error(status);
+  Result<std::unique_ptr<OutputStream>> out = OutputStream::to_file(path, std::move(filter));
+  if (!out) return out.error();
+  muxer->out_ = std::move(*out);
+  muxer->context_->pb = muxer->out_->io();
   muxer->context_->flags |= AVFMT_FLAG_BITEXACT;
   return muxer;
 }
 
-Muxer::~Muxer() {
-  if (context_ == nullptr) return;
-  if (context_->pb != nullptr) avio_closep(&context_->pb);
-  avformat_free_context(context_);
+Muxer::~Muxer() { avformat_free_context(context_); }
+
+bool Muxer::is(const char* format) const {
+  return std::strcmp(context_->oformat->name, format) == 0;
 }
 
 Result<void> Muxer::add_face(const fba::AccessUnits& units) {
@@ -98,7 +86,7 @@ Result<void> Muxer::add_stream(const AVCodecParameters& parameters, AVRational t
   AVStream* stream = avformat_new_stream(context_, nullptr);
   if (stream == nullptr) return no_memory();
   const int status = avcodec_parameters_copy(stream->codecpar, &parameters);
-  if (status < 0) return av::make_av_error(status, "cannot be written");
+  if (status < 0) return write_error(status);
   stream->codecpar->codec_tag = 0;
   stream->time_base = time_base;
   other_stream_ = stream;
@@ -110,15 +98,18 @@ Result<void> Muxer::add_sound(const AudioFormat& format, std::int64_t bit_rate) 
   Result<av::Parameters> parameters = codec_parameters(format, bit_rate);
   if (!parameters) return parameters.error();
   sound_ = format;
+  // libavformat 5.1 moves the blocks by the pre-skip and has players skip it, too. Source:
+  // containers, section 3.1.
+  if (format.codec == AudioCodec::opus && (is("matroska") || is("webm"))) {
+    sound_shift_ = format.priming;
+  }
   return add_stream(**parameters, {1, format.sample_rate});
 }
 
 Result<void> Muxer::check(int status) {
-  if (status >= 0 && context_->pb != nullptr && context_->pb->error < 0) {
-    status = context_->pb->error;
-  }
-  if (status >= 0) return {};
-  return av::make_av_error(status, "cannot be written");
+  // The reason lies where the bytes went; libavformat passes on what it made of it.
+  if (context_->pb->error < 0) status = context_->pb->error;
+  return status < 0 ? write_error(status) : Result<void>();
 }
 
 Result<void> Muxer::write_header(av::Options& options) {
@@ -138,7 +129,7 @@ Result<void> Muxer::write(AVPacket& packet, const AVStream& stream, AVRational f
 }
 
 Result<void> Muxer::write_unit(const fba::AccessUnit& unit) {
-  const std::size_t prefix = in_band_config_ && unit.intra ? face_->config.size() : 0;
+  const std::size_t prefix = is("mpegts") && unit.intra ? face_->config.size() : 0;
   const int status = av_new_packet(packet_.get(), int(prefix + unit.bytes.size()));
   if (status < 0) return no_memory();
   if (prefix > 0) std::memcpy(packet_->data, face_->config.data(), prefix);
@@ -151,19 +142,26 @@ Result<void> Muxer::write_unit(const fba::AccessUnit& unit) {
 
 Result<void> Muxer::write_sound(const AudioPacket& packet) {
   Result<void> copied = copy_packet(packet, sound_, *packet_);
-  return copied ? write_packet(*packet_) : copied;
+  if (!copied) return copied;
+  packet_->pts += sound_shift_;
+  packet_->dts += sound_shift_;
+  return write_packet(*packet_);
 }
 
 Result<void> Muxer::write_packet(AVPacket& packet) {
   return write(packet, *other_stream_, other_base_);
 }
 
+Result<void> Muxer::end_fragment() {
+  Result<void> flushed = check(av_interleaved_write_frame(context_, nullptr));
+  // With delay_moov the first call writes the contents only; one too many does nothing.
+  for (int i = 0; flushed && i < 2; ++i) flushed = check(av_write_frame(context_, nullptr));
+  return flushed;
+}
+
 Result<void> Muxer::finish() {
   Result<void> ended = check(av_write_trailer(context_));
-  if (!ended) return ended;
-  const int closed = avio_closep(&context_->pb);
-  if (closed < 0) return av::make_av_error(closed, "cannot be written");
-  return {};
+  return ended ? out_->close() : ended;
 }
 
 }  // namespace animeme::media

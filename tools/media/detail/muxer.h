@@ -1,5 +1,5 @@
-// One output file of libavformat: streams first, then packets in time order. Knows formats, not
-// where the data comes from.
+// One output of libavformat: streams first, then packets in time order. Knows formats, not where
+// the data comes from.
 #pragma once
 
 #include <cstdint>
@@ -8,18 +8,17 @@
 
 #include "codec/access_unit.h"
 #include "tools/media/detail/ffmpeg.h"
+#include "tools/media/detail/output_stream.h"
 #include "tools/media/encoded_audio.h"
 
 namespace animeme::media {
 
-enum class MuxFormat : std::uint8_t { mp4, matroska, mpegts };
-
 class Muxer {
  public:
-  /// Opens `path`, which must exist or be creatable, for writing.
-  static Result<std::unique_ptr<Muxer>> open(const std::string& path, MuxFormat format);
-  /// The same for any libavformat muxer by name.
-  static Result<std::unique_ptr<Muxer>> open(const std::string& path, const char* format);
+  /// A file at `path`, written by a muxer of libavformat's: "mp4", "matroska", "mpegts" ...
+  /// `filter` as in OutputStream. Errors: unsupported, io.
+  static Result<std::unique_ptr<Muxer>> open(const std::string& path, const char* format,
+                                             OutputStream::Filter filter = nullptr);
   ~Muxer();
   Muxer(const Muxer&) = delete;
   Muxer& operator=(const Muxer&) = delete;
@@ -37,6 +36,8 @@ class Muxer {
   Result<void> write_sound(const AudioPacket& packet);
   /// Takes the packet's content. Times in the time_base given to add_stream().
   Result<void> write_packet(AVPacket& packet);
+  /// mp4 with frag_custom: what comes next begins a fragment.
+  Result<void> end_fragment();
   /// Completes the file and closes it.
   Result<void> finish();
 
@@ -44,15 +45,17 @@ class Muxer {
   Muxer() = default;
   Result<void> check(int status);
   Result<void> write(AVPacket& packet, const AVStream& stream, AVRational from);
+  bool is(const char* format) const;
 
+  std::unique_ptr<OutputStream> out_;
   AVFormatContext* context_ = nullptr;
   av::Packet packet_;
-  bool in_band_config_ = false;
   const fba::AccessUnits* face_ = nullptr;
   AVStream* face_stream_ = nullptr;
   AVStream* other_stream_ = nullptr;
   AudioFormat sound_;
-  AVRational face_base_{1, 1};  // of AccessUnit times
+  std::int64_t sound_shift_ = 0;  // samples
+  AVRational face_base_{1, 1};    // of AccessUnit times
   AVRational other_base_{1, 1};
 };
 

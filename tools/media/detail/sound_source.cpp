@@ -42,10 +42,21 @@ Result<void> SoundSource::refill() {
   return {};
 }
 
+// What lies behind the end of the sound is left out, and the last packet ends there.
+const AudioPacket* SoundSource::next_copy() {
+  if (at_ == audio_->packets.size()) return nullptr;
+  const AudioPacket& packet = audio_->packets[at_];
+  const std::int64_t end = audio_->length;
+  if (end > 0 && packet.time >= end) return nullptr;
+  ++at_;
+  if (end <= 0 || packet.time + packet.duration <= end) return &packet;
+  coded_ = {packet};
+  coded_.front().duration = end - packet.time;
+  return &coded_.front();
+}
+
 Result<const AudioPacket*> SoundSource::next() {
-  if (audio_ != nullptr) {
-    return at_ < audio_->packets.size() ? &audio_->packets[at_++] : nullptr;
-  }
+  if (audio_ != nullptr) return next_copy();
   if (at_ == coded_.size()) {
     Result<void> filled = refill();
     if (!filled) return filled.error();

@@ -26,6 +26,7 @@ class SoundSource {
  private:
   SoundSource() = default;
   Result<void> refill();
+  const AudioPacket* next_copy();
 
   const EncodedAudio* audio_ = nullptr;
   const Pcm* pcm_ = nullptr;

@@ -1,0 +1,72 @@
+#include "fap/head/detail/assemble.h"
+#include "fap/head/detail/normals.h"
+#include "fap/head/detail/paint.h"
+
+namespace animeme::head::detail {
+
+EarVertices add_ears(const Shape& shape, Mesh& skin) {
+  EarVertices ears{};
+  Mesh ear = make_left_ear(shape);
+  const Vec3 base = linear_colour(shape.p.skin_colour);
+  const Vec3 blush = linear_colour(shape.p.cheek_colour);
+  ear.colours.assign(ear.positions.size(), mix(base, blush, 0.35f));
+  ear.occlusion.assign(ear.positions.size(), 1.0f);
+  const std::size_t triangles = skin.triangles.size();
+  ears.left_first = std::uint32_t(skin.positions.size());
+  append(skin, ear);
+  ears.right_first = std::uint32_t(skin.positions.size());
+  append_mirrored(skin, ears.left_first, triangles);
+  ears.end = std::uint32_t(skin.positions.size());
+  return ears;
+}
+
+namespace {
+
+template <class Field>
+void shade_by(const Field& field, double reach, double strength, std::size_t count, Mesh& mesh) {
+  std::vector<Vec3> normals;
+  smooth_normals(mesh.positions, mesh.triangles, normals);
+  mesh.occlusion.resize(mesh.positions.size(), 1.0f);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double sky = open_sky(field, Vec3d(mesh.positions[i]), Vec3d(normals[i]), reach);
+    mesh.occlusion[i] *= float(1 - strength * (1 - sky));
+  }
+}
+
+}  // namespace
+
+void shade_parts(const Shape& shape, const Skin& skin, Head& head) {
+  const HairLines lines = hair_lines(shape);
+  const auto all = [&](Vec3d p) {
+    double d = std::min(shape.skin(p), hair_field(shape, lines, p));
+    if (p.y < -7) d = std::min(d, body_field(shape, p));
+    if (std::abs(p.x) > 5 && p.z < 4) d = std::min(d, ear_field(shape, p));
+    return d;
+  };
+  Mesh& face = head.part(Part::skin);
+  // Outer rows by the field; inside of the mouth the deeper the darker.
+  const auto outside = std::size_t(skin.at(skin.layout.bottom, -1)) + 1;
+  const std::size_t faces = skin.places.size();
+  shade_by(all, 3.2, 0.85, outside, face);
+  const double lips = skin.places[skin.at(skin.layout.upper_contact, 0)].z;
+  for (std::size_t i = outside; i < faces; ++i) {
+    const double depth = lips - skin.places[i].z;
+    const bool mouth = std::abs(skin.places[i].y + shape.p.mouth_drop) < 2.5;
+    face.occlusion[i] = mouth ? float(std::max(0.6 - 0.30 * depth, 0.03)) : 0.6f;
+  }
+  Mesh ears;
+  ears.positions.assign(face.positions.begin() + std::ptrdiff_t(faces), face.positions.end());
+  for (const Triangle& t : face.triangles) {
+    const auto base = std::uint32_t(faces);
+    if (t[0] >= base) ears.triangles.push_back({t[0] - base, t[1] - base, t[2] - base});
+  }
+  shade_by(all, 1.6, 0.9, ears.positions.size(), ears);
+  std::copy(ears.occlusion.begin(), ears.occlusion.end(),
+            face.occlusion.begin() + std::ptrdiff_t(faces));
+  Mesh& hair = head.part(Part::hair);
+  shade_by(all, 3.0, 0.7, hair.positions.size(), hair);
+  Mesh& body = head.part(Part::body);
+  shade_by(all, 5.0, 0.8, body.positions.size(), body);
+}
+
+}  // namespace animeme::head::detail

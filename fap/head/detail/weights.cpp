@@ -1,0 +1,249 @@
+#include "fap/head/detail/weights.h"
+
+#include <limits>
+
+namespace animeme::head::detail {
+namespace {
+
+constexpr std::array kControls = {
+    ControlInfo{"2.1", 5.5f, 0.7f, ""},    ControlInfo{"2.10", 4.2f, 0.7f, ""},
+    ControlInfo{"2.2", 3.0f, 0.7f, "2.3"}, ControlInfo{"2.3", 3.0f, 0.7f, "2.2"},
+    ControlInfo{"2.4", 3.4f, 0.5f, "2.4"}, ControlInfo{"2.5", 3.4f, 0.5f, "2.5"},
+    ControlInfo{"2.6", 3.0f, 0.7f, "2.8"}, ControlInfo{"2.7", 3.0f, 0.7f, "2.9"},
+    ControlInfo{"2.8", 3.0f, 0.7f, "2.6"}, ControlInfo{"2.9", 3.0f, 0.7f, "2.7"},
+    ControlInfo{"8.1", 3.4f, 0.7f, "8.2"}, ControlInfo{"8.2", 3.4f, 0.7f, "8.1"},
+    ControlInfo{"8.3", 4.2f, 0.5f, "8.3"}, ControlInfo{"8.4", 4.2f, 0.5f, "8.4"},
+    ControlInfo{"8.5", 3.4f, 0.7f, "8.7"}, ControlInfo{"8.6", 3.4f, 0.7f, "8.8"},
+    ControlInfo{"8.7", 3.4f, 0.7f, "8.5"}, ControlInfo{"8.8", 3.4f, 0.7f, "8.6"},
+    ControlInfo{"3.1", 1.9f, 0.4f, ""},    ControlInfo{"3.2", 1.9f, 0.4f, ""},
+    ControlInfo{"3.3", 1.9f, 0.4f, ""},    ControlInfo{"3.4", 1.9f, 0.4f, ""},
+    ControlInfo{"4.1", 4.2f, 1.1f, ""},    ControlInfo{"4.2", 4.2f, 1.1f, ""},
+    ControlInfo{"4.3", 4.2f, 1.1f, ""},    ControlInfo{"4.4", 4.2f, 1.1f, ""},
+    ControlInfo{"4.5", 3.8f, 1.1f, ""},    ControlInfo{"4.6", 3.8f, 1.1f, ""},
+    ControlInfo{"5.1", 4.2f, 1.0f, ""},    ControlInfo{"5.2", 4.2f, 1.0f, ""},
+    ControlInfo{"5.3", 3.8f, 1.0f, ""},    ControlInfo{"5.4", 3.8f, 1.0f, ""},
+    ControlInfo{"9.1", 2.3f, 0.45f, ""},   ControlInfo{"9.2", 2.3f, 0.45f, ""},
+    ControlInfo{"9.3", 2.6f, 0.45f, ""},   ControlInfo{"10.1", 3.0f, 0.5f, ""},
+    ControlInfo{"10.2", 3.0f, 0.5f, ""},   ControlInfo{"10.3", 3.0f, 0.5f, ""},
+    ControlInfo{"10.4", 3.0f, 0.5f, ""},
+};
+
+// What holds still.
+constexpr struct {
+  std::string_view id;
+  float reach;
+} kAnchors[] = {{"3.7", 2.5f},  {"3.8", 2.5f},  {"3.11", 2.5f}, {"3.12", 2.5f},  {"9.6", 2.5f},
+                {"9.7", 2.5f},  {"9.12", 2.5f}, {"9.13", 2.5f}, {"9.14", 2.5f},  {"9.15", 2.0f},
+                {"10.7", 3.0f}, {"10.8", 3.0f}, {"10.9", 3.0f}, {"10.10", 3.0f}, {"11.1", 4.0f},
+                {"11.2", 4.0f}, {"11.3", 4.0f}};
+
+constexpr float kBackground = 0.02f;
+constexpr float kCore = 0.3f;  // of anchors
+constexpr int kSmoothings = 7;
+
+class Builder {
+ public:
+  explicit Builder(const Head& head)
+      : mesh_(head.part(Part::skin)),
+        head_(head),
+        neighbours_(neighbours_of(mesh_.positions.size(), mesh_.triangles)),
+        scale_(head.fapu.es > 0 ? float(head.fapu.es) / 6.3f : 1.0f),
+        weights_(mesh_.positions.size(), kControls.size()),
+        sum_(mesh_.positions.size(), kBackground) {}
+
+  Weights build() {
+    for (std::size_t c = 0; c < kControls.size(); ++c) {
+      add(vertex_of(kControls[c].id), kControls[c].reach, kControls[c].core, int(c), 1);
+    }
+    for (const auto& anchor : kAnchors) add(vertex_of(anchor.id), anchor.reach, kCore, -1, 1);
+    add_jaw_line();
+    add_brow_line();
+    for (std::size_t v = 0; v < weights_.vertices(); ++v) {
+      for (float& w : weights_.row(v)) w /= sum_[v];
+    }
+    for (int i = 0; i < kSmoothings; ++i) smooth();
+    hold_lids();
+    make_exact();
+    match_lips();
+    return std::move(weights_);
+  }
+
+ private:
+  std::uint32_t vertex_of(std::string_view id) const {
+    const FeaturePoint point = head_.point(id);
+    return point.part == Part::skin ? point.vertex : kMissing;
+  }
+
+  // A share of the point's pull goes into a column, the rest holds still; -1: all of it.
+  void add(std::uint32_t vertex, float reach, float core, int column, float share) {
+    if (vertex == kMissing) return;
+    reach *= scale_;
+    core *= scale_;
+    for (const Reached& r : walk(mesh_.positions, neighbours_, vertex, reach)) {
+      const float near = (reach - r.distance) / reach;
+      const float ratio = r.distance / core;
+      const float pull = near * near / (ratio * ratio + 1);
+      sum_[r.vertex] += pull;
+      if (column >= 0) weights_.row(r.vertex)[std::size_t(column)] += share * pull;
+    }
+  }
+
+  std::uint32_t nearest(Vec3 place) const {
+    std::uint32_t best = 0;
+    float least = std::numeric_limits<float>::max();
+    for (std::uint32_t v = 0; v < mesh_.positions.size(); ++v) {
+      const Vec3 d = mesh_.positions[v] - place;
+      if (dot(d, d) < least) {
+        least = dot(d, d);
+        best = v;
+      }
+    }
+    return best;
+  }
+
+  // The jaw is wider than its point: helpers along the bone go along, less and less to the back.
+  void add_jaw_line() {
+    for (const auto& [chin, corner] : {std::pair("2.11", "2.13"), std::pair("2.12", "2.14")}) {
+      if (vertex_of(chin) == kMissing) continue;
+      add(vertex_of(chin), 4.5f, 0.7f, 0, 0.92f);
+      if (vertex_of(corner) == kMissing) continue;
+      const Vec3 a = head_.at(chin);
+      const Vec3 b = head_.at(corner);
+      add(nearest(mix(a, b, 0.33f)), 4.5f, 0.7f, 0, 0.74f);
+      add(nearest(mix(a, b, 0.66f)), 4.5f, 0.7f, 0, 0.42f);
+      add(vertex_of(corner), 4.5f, 0.7f, 0, 0.10f);
+    }
+    if (vertex_of("2.1") == kMissing) return;
+    const Vec3 chin = head_.at("2.1");
+    const float depth = chin.z - head_.neck_pivot.z;
+    add(nearest(chin + Vec3{0, 0, -0.28f * depth}), 4.0f, 0.7f, 0, 0.72f);
+    add(nearest(chin + Vec3{0, -0.05f * depth, -0.5f * depth}), 4.0f, 0.7f, 0, 0.25f);
+  }
+
+  // Between the points of a brow its line goes along with both neighbours.
+  void add_brow_line() {
+    for (const auto& [a, b] : {std::pair("4.1", "4.3"), std::pair("4.3", "4.5"),
+                               std::pair("4.2", "4.4"), std::pair("4.4", "4.6")}) {
+      if (vertex_of(a) == kMissing || vertex_of(b) == kMissing) continue;
+      const std::uint32_t middle = nearest(mix(head_.at(a), head_.at(b), 0.5f));
+      for (const char* id : {a, b}) add(middle, 4.0f, 1.0f, control_index(id), 1);
+    }
+  }
+
+  // The rims of the lids and what is near go along with nothing but their own FAPs.
+  void hold_lids() {
+    std::vector<float> held(weights_.vertices(), 1);
+    const float reach = 1.3f * scale_;
+    for (const auto& lids : head_.seams.lids) {
+      for (const ContactPair& pair : lids) {
+        for (const std::uint32_t rim : {pair.upper, pair.lower}) {
+          for (const Reached& r : walk(mesh_.positions, neighbours_, rim, reach)) {
+            held[r.vertex] = std::min(held[r.vertex], smooth_step(0.0f, reach, r.distance));
+          }
+        }
+      }
+    }
+    for (std::size_t v = 0; v < weights_.vertices(); ++v) {
+      for (std::size_t c = 0; c < kControls.size(); ++c) {
+        if (!kControls[c].id.starts_with("3.")) weights_.row(v)[c] *= held[v];
+      }
+    }
+  }
+
+  void smooth() {
+    Weights next(weights_.vertices(), weights_.controls());
+    for (std::size_t v = 0; v < weights_.vertices(); ++v) {
+      const std::span<float> out = next.row(v);
+      const auto around = neighbours_.of(v);
+      for (const std::uint32_t n : around) {
+        const std::span<const float> in = weights_.row(n);
+        for (std::size_t c = 0; c < out.size(); ++c) out[c] += in[c];
+      }
+      const float share = around.empty() ? 0 : 0.5f / float(around.size());
+      const std::span<const float> own = weights_.row(v);
+      for (std::size_t c = 0; c < out.size(); ++c) out[c] = 0.5f * own[c] + share * out[c];
+    }
+    std::swap(weights_, next);
+  }
+
+  // Multiplies the table by the inverse of its rows at the controls.
+  void make_exact() {
+    std::vector<std::size_t> present;
+    for (std::size_t c = 0; c < kControls.size(); ++c) {
+      if (vertex_of(kControls[c].id) != kMissing) present.push_back(c);
+    }
+    const std::size_t n = present.size();
+    // [own rows | identity] by Gauss and Jordan with pivots.
+    std::vector<std::vector<double>> m(n, std::vector<double>(2 * n, 0));
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto row = weights_.row(vertex_of(kControls[present[i]].id));
+      for (std::size_t j = 0; j < n; ++j) m[i][j] = row[present[j]];
+      m[i][n + i] = 1;
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+      std::size_t pivot = k;
+      for (std::size_t i = k + 1; i < n; ++i) {
+        if (std::abs(m[i][k]) > std::abs(m[pivot][k])) pivot = i;
+      }
+      if (std::abs(m[pivot][k]) < 1e-6) return;  // two points are one: stay with what there is
+      std::swap(m[k], m[pivot]);
+      const double scale = 1 / m[k][k];
+      for (double& x : m[k]) x *= scale;
+      for (std::size_t i = 0; i < n; ++i) {
+        if (i == k || m[i][k] == 0) continue;
+        const double factor = m[i][k];
+        for (std::size_t j = 0; j < 2 * n; ++j) m[i][j] -= factor * m[k][j];
+      }
+    }
+    std::vector<float> exact(n);
+    for (std::size_t v = 0; v < weights_.vertices(); ++v) {
+      const std::span<float> row = weights_.row(v);
+      for (std::size_t j = 0; j < n; ++j) {
+        double sum = 0;
+        for (std::size_t i = 0; i < n; ++i) sum += row[present[i]] * m[i][n + j];
+        exact[j] = float(sum);
+      }
+      for (std::size_t j = 0; j < n; ++j) row[present[j]] = exact[j];
+    }
+  }
+
+  // Vertices that meet in the closed mouth move alike, so that closed lips stay closed when both
+  // are moved alike.
+  void match_lips() {
+    for (const ContactPair& pair : head_.seams.lips) {
+      const std::span<float> upper = weights_.row(pair.upper);
+      const std::span<float> lower = weights_.row(pair.lower);
+      for (std::size_t c = 0; c < kControls.size(); ++c) {
+        const int dual = control_index(kControls[c].dual);
+        if (dual < 0) {
+          upper[c] = lower[c] =
+              kControls[c].id.starts_with("2.") ? 0 : 0.5f * (upper[c] + lower[c]);
+        } else {
+          upper[c] = lower[std::size_t(dual)] = 0.5f * (upper[c] + lower[std::size_t(dual)]);
+        }
+      }
+    }
+  }
+
+  const Mesh& mesh_;
+  const Head& head_;
+  Neighbours neighbours_;
+  float scale_;
+  Weights weights_;
+  std::vector<float> sum_;
+};
+
+}  // namespace
+
+std::span<const ControlInfo> controls() { return kControls; }
+
+int control_index(std::string_view id) {
+  for (std::size_t c = 0; c < kControls.size(); ++c) {
+    if (!id.empty() && kControls[c].id == id) return int(c);
+  }
+  return -1;
+}
+
+Weights skin_weights(const Head& head) { return Builder(head).build(); }
+
+}  // namespace animeme::head::detail

@@ -1,0 +1,165 @@
+// A head by code: no file, no foreign licence, the same bytes on each call.
+//
+//     animeme::head::Head head =
+//     animeme::head::make_head(*animeme::head::head_parameters("woman")); animeme::head::Rig rig =
+//     animeme::head::make_rig(head);        // rig.h animeme::head::Pose pose =
+//     animeme::head::pose(rig, frame);
+//
+// Lengths are centimetres. Axes as everywhere in Animeme: +X to the person's left, +Y up, +Z
+// forward. The origin lies between the centres of the eyes, at the depth of the ears.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fap/fapu.h"
+#include "fap/head/vector.h"
+#include "fap/result.h"
+
+namespace animeme::head {
+
+using Triangle = std::array<std::uint32_t, 3>;  ///< counterclockwise seen from outside
+
+/// How a surface takes light. Colours are those of the vertices.
+enum class Material : std::uint8_t { skin, eye, teeth, wet, hair, cloth };
+
+/// Triangles with a colour for each vertex. The vectors of vertices have the same length.
+struct Mesh {
+  std::vector<Vec3> positions;
+  std::vector<Triangle> triangles;
+  std::vector<Vec3> colours;     ///< linear RGB, 0..1
+  std::vector<float> occlusion;  ///< 1: open sky, 0: no light gets here
+  Material material = Material::skin;
+};
+
+/// The meshes of a head.
+enum class Part : std::uint8_t {
+  skin,  ///< face, ears, neck, sockets of the eyes, lips and the bag of the mouth: closed surfaces
+  left_eye,
+  right_eye,
+  upper_teeth,  ///< with their gums, fixed in the head
+  lower_teeth,  ///< with their gums, turn with the jaw
+  tongue,
+  hair,
+  brows,   ///< left, then right, the same number of vertices
+  lashes,  ///< the same
+  body,    ///< shoulders in clothes; do not move
+};
+inline constexpr int kPartCount = 10;
+/// "skin", "left_eye" ...
+extern const std::array<std::string_view, kPartCount> kPartNames;
+
+/// A ball that looks along +Z.
+struct Eye {
+  Vec3 centre;
+  float radius = 0;
+  float iris_radius = 0;   ///< of its border, seen from the front
+  float pupil_radius = 0;  ///< at rest
+};
+
+inline constexpr std::uint32_t kMissing = ~0u;  ///< this head does not have the point
+
+/// A feature point: a vertex of a part.
+struct FeaturePoint {
+  Part part = Part::skin;
+  std::uint32_t vertex = kMissing;
+
+  bool exists() const { return vertex != kMissing; }
+};
+
+/// Vertices of the skin that meet: the contact line of the lips, or the rims of two lids.
+struct ContactPair {
+  std::uint32_t upper = 0;
+  std::uint32_t lower = 0;
+};
+
+/// What a rig can use if the maker of a head knows it; see rig.h.
+struct Seams {
+  std::vector<ContactPair> lips;                 ///< from the right corner to the left one
+  std::array<std::vector<ContactPair>, 2> lids;  ///< left eye, right eye
+  /// For each skin vertex: how far it goes along with a lid, 0..1: upper and lower lids of the left
+  /// and right eye. Empty: from the feature points alone.
+  std::array<std::vector<float>, 4> lid_weights;
+  /// For each skin vertex: how far it turns with the jaw, inside the mouth. Empty: nowhere.
+  std::vector<float> jaw_weights;
+};
+
+struct Head {
+  std::string name;
+  std::array<Mesh, kPartCount> parts;
+  std::array<Eye, 2> eyes;  ///< left, right
+  /// All 84 points of the standard, in the order of fap::kFeaturePoints. 7.1, the top of the spine,
+  /// is no vertex: it is neck_pivot.
+  std::array<FeaturePoint, 84> feature_points;
+  fap::Fapu fapu;   ///< measured on them
+  Vec3 jaw_axis;    ///< the jaw turns about the X direction through this point
+  Vec3 neck_pivot;  ///< the head turns about this point: 7.1, top of the spine
+  Seams seams;
+  std::vector<std::uint32_t> lash_anchors;  ///< skin vertex at the root of each vertex of lashes
+
+  Mesh& part(Part p) { return parts[std::size_t(p)]; }
+  const Mesh& part(Part p) const { return parts[std::size_t(p)]; }
+  /// A feature point by its id ("2.1"); missing for ids that do not exist.
+  FeaturePoint point(std::string_view id) const;
+  /// Its place; neck_pivot for 7.1, the origin if it is missing.
+  Vec3 at(std::string_view id) const;
+};
+
+enum class HairStyle : std::uint8_t { bob, short_cut, fringe };
+
+/// Sizes in cm and colours (sRGB, 0xRRGGBB) of a head. Sizes may be changed within about a
+/// quarter; beyond that parts get into each other's way.
+struct HeadParameters {
+  std::string name = "woman";
+  double density = 1;         ///< 0.5..2; vertices of the skin grow with its square
+  double scale = 1;           ///< of the whole head
+  double skull_width = 7.5;   ///< half width
+  double skull_height = 7.6;  ///< above skull centre
+  double face_width = 5.95;   ///< half width at the cheek bones
+  double jaw_width = 3.05;    ///< half width of the lower face
+  double chin_drop = 8.35;    ///< chin below the eyes
+  double chin_size = 1.25;    ///< radius
+  double cheek = 2.35;        ///< roundness of the cheeks
+  double brow_ridge = 0.08;   ///< bone above the eyes
+  double neck = 3.35;         ///< half width
+  double eye_distance = 3.2;  ///< half the distance of the pupils
+  double eye_radius = 1.82;
+  double eye_opening = 1.56;     ///< height of the lid opening
+  double eye_width = 3.24;       ///< from corner to corner
+  double iris = 0.93;            ///< radius
+  double nose_length = 3.05;     ///< tip below the eyes
+  double nose_size = 0.6;        ///< radius of the tip
+  double nose_bridge = 0.0;      ///< height of the bone
+  double mouth_drop = 5.2;       ///< mouth below the eyes
+  double mouth_width = 1.95;     ///< half width of the contact line
+  double lip_fullness = 1.0;     ///< height of the lips
+  double smile = 0.2;            ///< height of the corners
+  double brow_height = 2.35;     ///< above the eyes
+  double brow_thickness = 0.26;  ///< half height
+  double ear = 1.0;              ///< size
+  double lashes = 0.36;          ///< length
+  HairStyle hair = HairStyle::bob;
+  std::uint32_t skin_colour = 0xE8AC88;
+  std::uint32_t lip_colour = 0xC4605C;
+  std::uint32_t cheek_colour = 0xDE8468;
+  std::uint32_t iris_colour = 0x56723A;
+  std::uint32_t hair_colour = 0x4A2A1B;
+  std::uint32_t brow_colour = 0x3C2418;
+  std::uint32_t cloth_colour = 0x3F6F86;
+};
+
+/// "woman", "man", "child"; nothing for other names.
+std::optional<HeadParameters> head_parameters(std::string_view name);
+/// The names that head_parameters() knows.
+extern const std::array<std::string_view, 3> kHeadNames;
+
+/// Makes a head. Deterministic; about half a second.
+/// Errors: invalid_argument if a size is not finite and positive (smile, nose_bridge, brow_ridge and
+/// lashes may be 0), or the density is not in 0.5..2.
+Result<Head> make_head(const HeadParameters& parameters = {});
+
+}  // namespace animeme::head

@@ -1,0 +1,192 @@
+#include "fap/head/detail/normals.h"
+#include "fap/head/detail/targets.h"
+#include "fap/head/rig.h"
+#include "fap/head/shapes.h"
+
+namespace animeme::head {
+namespace {
+
+using Values = std::array<float, fap::kFapCount + 1>;
+
+constexpr Part kDeforming[] = {Part::skin, Part::left_eye, Part::right_eye, Part::tongue,
+                               Part::brows};
+
+std::size_t index(Part part) { return std::size_t(part); }
+
+Values values_of(const fap::Frame& frame) {
+  const fap::Frame low = low_level(frame);
+  Values values{};
+  for (std::size_t f = fap::kFirstLowLevel; f < values.size(); ++f) {
+    values[f] = low.mask[f] ? float(low.value[f]) : 0;
+  }
+  return values;
+}
+
+// Two FAPs that would make their points pass each other let them meet half way instead. `room` is
+// how far they may come together.
+void meet(float& a, float& b, float room) {
+  const float over = (a + b - room) / 2;
+  if (over <= 0) return;
+  a -= over;
+  b -= over;
+}
+
+// The same where the meeting place follows from the shares of both.
+void share(float& a, float& b, float room) {
+  if (a + b <= room) return;
+  const float scale = a > 0 && b > 0 ? room / (a + b) : 0;
+  if (scale > 0) {
+    a *= scale;
+    b *= scale;
+  } else if (a > b) {
+    a = room - b;
+  } else {
+    b = room - a;
+  }
+}
+
+void stop_at_contact(Values& v) {
+  for (const auto& [upper, lower] : {std::pair(4, 5), {8, 10}, {9, 11}}) {
+    meet(v[std::size_t(upper)], v[std::size_t(lower)], 0);
+  }
+  share(v[19], v[21], 1024);
+  share(v[20], v[22], 1024);
+}
+
+bool is_lid(int fap) { return fap >= 19 && fap <= 22; }
+
+// Lids only, or everything but the lids.
+void apply_targets(const Rig& rig, const Values& values, bool lids, Pose& out) {
+  for (const Target& target : rig.targets) {
+    const float value = values[std::size_t(target.fap)];
+    if (value == 0 || is_lid(target.fap) != lids) continue;
+    Vec3* places = out.positions[index(target.part)].data();
+    const std::uint32_t* vertices = target.vertices.data();
+    const Vec3* deltas = target.deltas.data();
+    for (std::size_t k = 0; k < target.vertices.size(); ++k) {
+      places[vertices[k]] += deltas[k] * value;
+    }
+  }
+}
+
+// Puts the skin of the lids back to its distance from the centre of the eye, so that it slides.
+void slide_lids(const Rig& rig, std::vector<Vec3>& skin) {
+  const auto& neutral = rig.parts[index(Part::skin)].positions;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Vec3 centre = rig.eyes[side].centre;
+    for (const std::uint32_t v : rig.lid_vertices[side]) {
+      if (skin[v] == neutral[v]) continue;
+      const Vec3 was = neutral[v] - centre;
+      const Vec3 is = skin[v] - centre;
+      const float square = dot(was, was) - is.x * is.x - is.y * is.y;
+      skin[v].z = centre.z + std::sqrt(std::max(square, 0.04f * dot(was, was)));
+    }
+  }
+}
+
+// Pairs that have passed each other meet in the middle; near contact their depths agree.
+void close_pairs(const std::vector<ContactPair>& pairs, float soft, std::vector<Vec3>& skin) {
+  for (const ContactPair& pair : pairs) {
+    Vec3& upper = skin[pair.upper];
+    Vec3& lower = skin[pair.lower];
+    const float gap = upper.y - lower.y;
+    if (gap < 0) upper.y = lower.y = 0.5f * (upper.y + lower.y);
+    const float touch = smooth_step(soft, 0.0f, gap) * 0.5f;
+    const Vec3 apart{lower.x - upper.x, 0, lower.z - upper.z};
+    upper += apart * touch;
+    lower -= apart * touch;
+  }
+}
+
+// Lashes turn with the rim that carries them, about the centre of the eye.
+void turn_lashes(const Rig& rig, const std::vector<Vec3>& skin, std::vector<Vec3>& lashes) {
+  const auto& neutral_skin = rig.parts[index(Part::skin)].positions;
+  const auto& neutral = rig.parts[index(Part::lashes)].positions;
+  lashes = neutral;
+  if (rig.lash_anchors.size() != neutral.size()) return;
+  for (std::size_t i = 0; i < neutral.size(); ++i) {
+    const std::uint32_t anchor = rig.lash_anchors[i];
+    if (skin[anchor] == neutral_skin[anchor]) continue;
+    const Vec3 centre = rig.eyes[neutral[i].x > 0 ? 0 : 1].centre;
+    const Vec3 was = neutral_skin[anchor] - centre;
+    const Vec3 is = skin[anchor] - centre;
+    // The turn about X that brings the anchor from its old height to its new one.
+    const float size = std::sqrt((was.y * was.y + was.z * was.z) * (is.y * is.y + is.z * is.z));
+    if (size <= 0) continue;
+    const float c = (was.y * is.y + was.z * is.z) / size;
+    const float s = (was.y * is.z - was.z * is.y) / size;
+    const Vec3 offset = neutral[i] - neutral_skin[anchor];
+    lashes[i] =
+        skin[anchor] + Vec3{offset.x, c * offset.y - s * offset.z, s * offset.y + c * offset.z};
+  }
+}
+
+void turn_neck(const Rig& rig, const Transform& head, std::vector<Vec3>& skin) {
+  if (head == Transform{}) return;
+  for (std::size_t v = 0; v < skin.size(); ++v) {
+    skin[v] = mix(skin[v], head(skin[v]), rig.neck_weights[v]);
+  }
+}
+
+Transform eye_transform(const Rig& rig, std::size_t side, const Values& v) {
+  constexpr float kRad = 1e-5f;
+  Transform turn =
+      rotation_about(rig.eyes[side].centre, v[25 + side] * kRad, v[23 + side] * kRad, 0);
+  turn.shift.z += v[27 + side] * float(rig.fapu.es) / 1024;
+  return turn;
+}
+
+void set_transforms(const Rig& rig, const Values& v, Pose& out) {
+  constexpr float kRad = 1e-5f;
+  out.head = rotation_about(rig.neck_pivot, v[48] * kRad, v[49] * kRad, v[50] * kRad);
+  out.jaw = detail::jaw_transform(rig, v[3], v[14], v[15]);
+  const bool straight = v[48] == 0 && v[49] == 0 && v[50] == 0;
+  if (straight) out.head = {};
+  for (const Part part : {Part::upper_teeth, Part::hair, Part::brows, Part::lashes}) {
+    out.transforms[index(part)] = out.head;
+  }
+  for (const Part part : {Part::lower_teeth, Part::tongue}) {
+    out.transforms[index(part)] = compose(out.head, out.jaw);
+  }
+  out.transforms[index(Part::left_eye)] = compose(out.head, eye_transform(rig, 0, v));
+  out.transforms[index(Part::right_eye)] = compose(out.head, eye_transform(rig, 1, v));
+  out.transforms[index(Part::skin)] = {};
+  out.transforms[index(Part::body)] = {};
+}
+
+}  // namespace
+
+void pose(const Rig& rig, const fap::Frame& frame, Pose& out, const PoseOptions& options) {
+  Values values = values_of(frame);
+  if (options.contact) stop_at_contact(values);
+  for (const Part part : kDeforming) {
+    out.positions[index(part)] = rig.parts[index(part)].positions;
+  }
+  std::vector<Vec3>& skin = out.positions[index(Part::skin)];
+  apply_targets(rig, values, true, out);
+  slide_lids(rig, skin);
+  apply_targets(rig, values, false, out);
+  if (options.contact) {
+    const float touch = 0.06f * float(rig.fapu.mns);
+    close_pairs(rig.lips, touch, skin);
+    for (const auto& lids : rig.lids) close_pairs(lids, touch, skin);
+  }
+  turn_lashes(rig, skin, out.positions[index(Part::lashes)]);
+  set_transforms(rig, values, out);
+  turn_neck(rig, out.head, skin);
+  for (const Part part : kDeforming) {
+    detail::smooth_normals(out.positions[index(part)], rig.parts[index(part)].triangles,
+                           out.normals[index(part)]);
+  }
+  detail::smooth_normals(out.positions[index(Part::lashes)],
+                         rig.parts[index(Part::lashes)].triangles,
+                         out.normals[index(Part::lashes)]);
+}
+
+Pose pose(const Rig& rig, const fap::Frame& frame, const PoseOptions& options) {
+  Pose out;
+  pose(rig, frame, out, options);
+  return out;
+}
+
+}  // namespace animeme::head

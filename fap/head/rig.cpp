@@ -1,0 +1,66 @@
+#include "fap/head/rig.h"
+
+#include "fap/head/detail/normals.h"
+#include "fap/head/detail/targets.h"
+
+namespace animeme::head {
+namespace {
+
+// The skin near the eyes keeps its distance from the eyeball when lids move.
+std::array<std::vector<std::uint32_t>, 2> sliding_vertices(const Rig& rig) {
+  std::array<std::vector<std::uint32_t>, 2> sliding;
+  const auto& places = rig.parts[std::size_t(Part::skin)].positions;
+  for (const Target& target : rig.targets) {
+    if (target.fap < 19 || target.fap > 22) continue;
+    const std::size_t side = target.fap % 2 == 1 ? 0 : 1;
+    const Eye& eye = rig.eyes[side];
+    for (const std::uint32_t v : target.vertices) {
+      const Vec3 d = places[v] - eye.centre;
+      if (eye.radius > 0 && length(d) > eye.radius * 0.95f && d.z > 0) sliding[side].push_back(v);
+    }
+  }
+  for (auto& list : sliding) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+  return sliding;
+}
+
+// 1 for the head, 0 at the end of the neck.
+std::vector<float> neck_weights(const Rig& rig) {
+  std::vector<float> weights;
+  const float size = length(rig.chin - rig.neck_pivot);
+  const float high = rig.chin.y + 0.03f * size;
+  const float low = high - 0.52f * size;
+  for (const Vec3& p : rig.parts[std::size_t(Part::skin)].positions) {
+    const float before = std::max(p.z - rig.neck_pivot.z, 0.0f);
+    weights.push_back(smooth_step(low, high, p.y + 0.25f * before));
+  }
+  return weights;
+}
+
+}  // namespace
+
+Rig make_rig(const Head& head) {
+  Rig rig;
+  for (std::size_t i = 0; i < head.parts.size(); ++i) {
+    const Mesh& mesh = head.parts[i];
+    rig.parts[i].positions = mesh.positions;
+    rig.parts[i].triangles = mesh.triangles;
+    detail::smooth_normals(mesh.positions, mesh.triangles, rig.parts[i].normals);
+  }
+  rig.fapu = head.fapu;
+  rig.eyes = head.eyes;
+  rig.jaw_axis = head.jaw_axis;
+  rig.neck_pivot = head.neck_pivot;
+  rig.chin = head.at("2.1");
+  rig.lips = head.seams.lips;
+  rig.lids = head.seams.lids;
+  rig.lash_anchors = head.lash_anchors;
+  rig.targets = detail::make_targets(head);
+  rig.lid_vertices = sliding_vertices(rig);
+  rig.neck_weights = neck_weights(rig);
+  return rig;
+}
+
+}  // namespace animeme::head

@@ -1,0 +1,135 @@
+// The descriptor in the program map of a transport stream.
+#include "tools/media/detail/ts_pmt.h"
+
+#include <gmock/gmock.h>
+
+#include <span>
+
+#include "tests/media/media_support.h"
+#include "tools/media/container.h"
+#include "tools/media/mux.h"
+
+namespace animeme::media {
+namespace {
+
+using test::Bytes;
+
+constexpr std::size_t kPacket = 188;
+
+Bytes with_crc(Bytes section) {
+  section[2] = std::uint8_t(section.size() + 4 - 3);
+  const std::uint32_t crc = mpeg_crc32(section);
+  for (const unsigned shift : {24u, 16u, 8u, 0u}) section.push_back(std::uint8_t(crc >> shift));
+  return section;
+}
+
+Bytes packet(unsigned pid, const Bytes& section) {
+  Bytes out = {0x47, std::uint8_t(0x40 | pid >> 8), std::uint8_t(pid), 0x10, 0};
+  out.insert(out.end(), section.begin(), section.end());
+  out.resize(kPacket, 0xFF);
+  return out;
+}
+
+const Bytes kAssociation = with_crc({0x00, 0xB0, 0, 0, 1, 0xC1, 0, 0, 0, 1, 0xF0, 0x00});
+
+// Streams: type, PID low byte, descriptors.
+Bytes map(const std::vector<std::pair<int, Bytes>>& streams) {
+  Bytes section = {0x02, 0xB0, 0, 0, 1, 0xC1, 0, 0, 0xE1, 0, 0xF0, 0};
+  for (const auto& [type, descriptors] : streams) {
+    section.insert(section.end(),
+                   {std::uint8_t(type), 0xE1, 0, 0xF0, std::uint8_t(descriptors.size())});
+    section.insert(section.end(), descriptors.begin(), descriptors.end());
+  }
+  return with_crc(section);
+}
+
+Bytes filtered(const Bytes& stream, std::size_t cut = 1 << 20, std::uint8_t profile = 0x61) {
+  ProgramMapFilter filter(profile);
+  Bytes out;
+  for (std::size_t at = 0; at < stream.size(); at += cut) {
+    const Bytes part =
+        filter.push(std::span(stream).subspan(at, std::min(cut, stream.size() - at)));
+    out.insert(out.end(), part.begin(), part.end());
+  }
+  const Bytes rest = filter.finish();
+  out.insert(out.end(), rest.begin(), rest.end());
+  return out;
+}
+
+Bytes joined(const Bytes& a, const Bytes& b) {
+  Bytes out = a;
+  out.insert(out.end(), b.begin(), b.end());
+  return out;
+}
+
+TEST(ProgramMap, CrcOfAPublishedSection) {
+  // The program association that libavformat and many broadcasters send: programme 1 on PID 1000.
+  const Bytes section = {0x00, 0xB0, 0x0D, 0, 1, 0xC1, 0, 0, 0, 1, 0xF0, 0x00};
+  EXPECT_EQ(mpeg_crc32(section), 0x2AB104B2u);
+}
+
+TEST(ProgramMap, FacesGetTheDescriptor) {
+  const Bytes before =
+      joined(packet(0, kAssociation), packet(0x1000, map({{0x0F, {}}, {0x10, {0x0A, 1, 2}}})));
+  const Bytes after =
+      joined(packet(0, kAssociation),
+             packet(0x1000, map({{0x0F, {}}, {0x10, {0x0A, 1, 2, 0x1B, 1, 0x62}}})));
+  EXPECT_EQ(filtered(before, 1 << 20, 0x62), after);
+  for (const std::size_t cut : {1u, 7u, 187u, 189u}) {
+    EXPECT_EQ(filtered(before, cut, 0x62), after) << cut;
+  }
+}
+
+TEST(ProgramMap, AllElsePassesAsItIs) {
+  const Bytes described = map({{0x10, {0x1B, 1, 0x61}}});
+  const Bytes video = map({{0x1B, {}}, {0x0F, {}}});
+  const Bytes plain = map({{0x10, {}}});
+  for (const Bytes& stream :
+       {joined(packet(0, kAssociation), packet(0x1000, described)),
+        joined(packet(0, kAssociation), packet(0x1000, video)),
+        joined(packet(0, kAssociation), packet(0x1001, plain)),  // no map of a programme
+        packet(0x1000, plain),                                   // before the association
+        Bytes(1000, 0x47), Bytes(999, 0)}) {
+    EXPECT_EQ(filtered(stream, 50), stream);
+  }
+  Bytes full = map({{0x10, Bytes(160, 0)}});  // 3 bytes more do not fit
+  full = joined(packet(0, kAssociation), packet(0x1000, full));
+  EXPECT_EQ(filtered(full), full);
+}
+
+TEST(ProgramMap, DamageIsPassedOn) {
+  const Bytes good = joined(packet(0, kAssociation), packet(0x1000, map({{0x10, {}}, {0x0F, {}}})));
+  for (std::size_t at = 0; at < good.size(); ++at) {
+    for (const int value : {0x00, 0xFF, 0x7F}) {
+      Bytes damaged = good;
+      damaged[at] = std::uint8_t(value);
+      EXPECT_EQ(filtered(damaged).size(), damaged.size());
+    }
+  }
+}
+
+TEST(ProgramMap, OurFilesHaveIt) {
+  const test::TempDir dir;
+  fba::AccessUnits face = test::make_face(30);
+  face.config[4] = 0x62;
+  const Pcm sound = test::make_clicks(48000, 48000, {24000});
+  ASSERT_TRUE(write_container(dir.file("a.ts"), {.face = &face, .audio = &sound}));
+  const Bytes file = test::read_bytes(dir.file("a.ts"));
+  int maps = 0;
+  for (std::size_t at = 0; at + kPacket <= file.size(); at += kPacket) {
+    const Bytes each(file.begin() + std::ptrdiff_t(at),
+                     file.begin() + std::ptrdiff_t(at + kPacket));
+    if ((each[1] & 0x1F) != 0x10 || each[2] != 0) continue;  // PID 0x1000
+    ++maps;
+    const std::size_t size = 3 + each[7];
+    EXPECT_EQ(mpeg_crc32(std::span(each).subspan(5, size)), 0u) << "with its CRC, all is zero";
+    EXPECT_THAT(std::string(each.begin(), each.end()), testing::HasSubstr("\x1B\x01\x62"));
+  }
+  EXPECT_GT(maps, 0);
+  const Result<Container> back = read_container(file);
+  ASSERT_TRUE(back) << back.error().describe();
+  EXPECT_EQ(back->face.units.size(), face.units.size());
+}
+
+}  // namespace
+}  // namespace animeme::media

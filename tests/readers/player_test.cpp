@@ -1,0 +1,55 @@
+// Players: the sound of every layout, its length, and the bursts in their places (containers,
+// section 5.3).
+#include "tests/readers/readers_support.h"
+#include "tests/readers/talk.h"
+
+namespace animeme::test {
+namespace {
+
+class Player : public testing::TestWithParam<std::string> {
+ protected:
+  // `command` plays `path_` into the file `raw_`, as 32-bit floats of one channel.
+  void expect_sound(const std::string& command, std::int64_t delay) const {
+    int status = 0;
+    const std::string said = run(command + " 2>&1", &status);
+    ASSERT_EQ(status, 0) << command << "\n" << said;
+    const media::Pcm heard = read_floats(raw_, talk_.sound.sample_rate);
+    // The last frame is whole.
+    const auto length = std::int64_t(talk_.sound.samples.size()) + delay;
+    EXPECT_GE(std::int64_t(heard.samples.size()), length);
+    EXPECT_LT(std::int64_t(heard.samples.size()), length + 2 * 1024);
+    ASSERT_GE(talk_.clicks.size(), 2u);
+    for (const std::int64_t click : talk_.clicks) {
+      EXPECT_NEAR(double(find_click(heard, click + delay, 3000)), double(click + delay), 1.0);
+    }
+  }
+
+  TempDir dir_;
+  Talk talk_ = walking_talk();
+  Layout layout_ = layout_of(GetParam());
+  std::string path_ = write_talk(dir_, talk_, layout_);
+  std::string raw_ = dir_.file("heard.f32");
+};
+
+TEST_P(Player, Ffmpeg) {
+  NEEDS_PROGRAM("ffmpeg", "ffmpeg");
+  // In fragments it knows of the priming of AAC by the times only, and raw samples have none.
+  const bool keeps_priming = layout_.options.fragmented && !layout_.opus();
+  expect_sound("ffmpeg -nostdin -v fatal -i '" + path_ + "' -vn -f f32le '" + raw_ + "'",
+               keeps_priming ? layout_.priming() : layout_.late());
+}
+
+TEST_P(Player, Mpv) {
+  NEEDS_PROGRAM("mpv", "mpv");
+  expect_sound(
+      "mpv --no-config --no-video --really-quiet --audio-format=float --ao=pcm "
+      "--ao-pcm-waveheader=no --ao-pcm-file='" +
+          raw_ + "' '" + path_ + "'",
+      layout_.late());
+}
+
+INSTANTIATE_TEST_SUITE_P(Layouts, Player, testing::ValuesIn(layout_names()),
+                         [](const auto& value) { return value.param; });
+
+}  // namespace
+}  // namespace animeme::test

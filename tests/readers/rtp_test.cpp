@@ -1,0 +1,128 @@
+// Receivers of RTP: GStreamer's rtpmp4vdepay and ffprobe take what `animeme stream` sends, on
+// loopback. Source: containers, section 4.1.
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <future>
+#include <thread>
+
+#include "tests/readers/readers_support.h"
+#include "tests/readers/talk.h"
+
+namespace animeme::test {
+namespace {
+
+const std::string kProgram = "'" ANIMEME_BINARY_DIR "/bin/animeme'";
+constexpr int kRepeat = 2;  // copies of each packet, as the program sends them by itself
+
+bool bind_udp(int port, int& bound) {
+  const int handle = socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(std::uint16_t(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  auto* plain = reinterpret_cast<sockaddr*>(&address);
+  const bool ok = bind(handle, plain, size) == 0 && getsockname(handle, plain, &size) == 0;
+  bound = ntohs(address.sin_port);
+  close(handle);
+  return ok;
+}
+
+// An even port with four free ones from it on: face, sound, and the reports of both.
+int free_port() {
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    int port = 0, ignored = 0;
+    if (!bind_udp(0, port)) continue;
+    port &= ~1;
+    bool all = true;
+    for (int i = 0; i < 4; ++i) all = all && bind_udp(port + i, ignored);
+    if (all) return port;
+  }
+  return 0;
+}
+
+// Waits until somebody listens on a port.
+bool listened_to(int port) {
+  for (int i = 0; i < 1000; ++i) {
+    int ignored = 0;
+    if (!bind_udp(port, ignored)) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+class Rtp : public testing::Test {
+ protected:
+  void SetUp() override {
+    int status = 0;
+    run(kProgram + " stream --help 2>&1", &status);
+    if (status != 0) GTEST_SKIP() << "the program has no command 'stream' yet";
+  }
+
+  // Starts a receiver, sends the talk to it and returns what the receiver prints.
+  std::string send_to(const std::string& receiver, int port) const {
+    auto heard = std::async(std::launch::async, [&] { return run(receiver + " 2>&1"); });
+    EXPECT_TRUE(listened_to(port)) << receiver;
+    int status = 0;
+    const std::string said =
+        run(kProgram + " stream '" + path_ + "' --copy --repeat " + std::to_string(kRepeat) +
+                " --to rtp://127.0.0.1:" + std::to_string(port) + " 2>&1",
+            &status);
+    EXPECT_EQ(status, 0) << said;
+    return heard.get();
+  }
+
+  TempDir dir_;
+  Talk talk_ = walking_talk();
+  std::string path_ = write_talk(dir_, talk_, layout_of("mp4"));
+};
+
+TEST_F(Rtp, GStreamerGivesTheUnitsByteForByte) {
+  NEEDS_PROGRAM("gst-launch-1.0", "gstreamer1.0-tools");
+  const int port = free_port();
+  ASSERT_NE(port, 0);
+  const std::size_t packets = kRepeat * talk_.face.units.size();
+  const std::string said = send_to(
+      "timeout 30 gst-launch-1.0 udpsrc address=127.0.0.1 port=" + std::to_string(port) +
+          " num-buffers=" + std::to_string(packets) +
+          " caps=application/x-rtp,media=video,clock-rate=90000,encoding-name=MP4V-ES,payload=96"
+          " ! rtpjitterbuffer ! rtpmp4vdepay ! filesink location='" +
+          dir_.file("units") + "'",
+      port);
+  EXPECT_EQ(to_hex(read_bytes(dir_.file("units"))), to_hex(joined(units_of(talk_, true)))) << said;
+}
+
+TEST_F(Rtp, FfprobeGivesTheUnitsInTime) {
+  NEEDS_PROGRAM("ffprobe", "ffmpeg");
+  const int port = free_port();
+  ASSERT_NE(port, 0);
+  // The description of the containers specification, not the one that the program writes.
+  std::ofstream(dir_.file("face.sdp"))
+      << "v=0\no=- 0 0 IN IP4 127.0.0.1\ns=-\nc=IN IP4 127.0.0.1\nt=0 0\n"
+         "m=video "
+      << port
+      << " RTP/AVP 96\n"
+         "a=rtpmap:96 MP4V-ES/90000\n"
+         "a=fmtp:96 profile-level-id=97; config=000001B061000001B58947\n";
+  const std::string said = send_to(
+      "timeout 30 ffprobe -v fatal -fflags noparse -protocol_whitelist file,udp,rtp -probesize 32 "
+      "-analyzeduration 100000 -of json -show_packets -show_data '" +
+          dir_.file("face.sdp") + "'",
+      port);
+  const Json report = Json::parse(said, nullptr, false);
+  ASSERT_TRUE(report.contains("packets")) << said;
+  const std::vector<Bytes> units = units_of(talk_, true);
+  ASSERT_EQ(report["packets"].size(), units.size());
+  const std::int64_t first = report["packets"][0]["pts"];
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    const Json& packet = report["packets"][i];
+    EXPECT_EQ(to_hex(from_dump(packet["data"])), to_hex(units[i])) << "unit " << i;
+    EXPECT_EQ(packet["pts"].get<std::int64_t>() - first, std::int64_t(i) * 90000 / 25);
+  }
+}
+
+}  // namespace
+}  // namespace animeme::test

@@ -1,0 +1,145 @@
+// A face that speaks clicks, written in every layout that we offer, for the readers of others.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "codec/encode.h"
+#include "tests/media/media_support.h"
+#include "tests/support/random_clip.h"
+#include "tools/media/mux.h"
+
+namespace animeme::test {
+
+struct Talk {
+  fba::AccessUnits face;
+  media::Pcm sound;
+  std::vector<std::int64_t> clicks;  ///< samples at which bursts begin
+};
+
+/// Bursts off the beat of planes and of audio frames.
+inline void add_clicks(Talk& talk, int sample_rate, std::size_t length) {
+  std::vector<std::size_t> starts;
+  for (std::size_t start = std::size_t(sample_rate) / 2 + 37; start + 4000 < length;
+       start += std::size_t(sample_rate) * 3 / 4 + 11) {
+    starts.push_back(start);
+    talk.clicks.push_back(std::int64_t(start));
+  }
+  talk.sound = make_clicks(sample_rate, length, starts);
+}
+
+/// 2.4 s of a face that walks at random, an intra plane every second.
+inline Talk walking_talk(int sample_rate = 48000) {
+  Talk talk;
+  fap::Sequence clip = random_clip(11, 60);
+  clip.rate = {25, 1};
+  fba::EncodeOptions options;
+  options.intra_period = 25;
+  const auto stream = fba::encode(clip, options);
+  EXPECT_TRUE(stream) << stream.error().describe();
+  if (!stream) return talk;
+  const auto face = fba::split_access_units(*stream);
+  EXPECT_TRUE(face) << face.error().describe();
+  if (face) talk.face = *face;
+  add_clicks(talk, sample_rate, std::size_t(sample_rate) * 12 / 5);
+  return talk;
+}
+
+/// A stream of the conformance suite, e.g. one with start codes inside its planes.
+inline Talk reference_talk(const std::string& name) {
+  Talk talk;
+  const fs::path file =
+      fs::path(ANIMEME_BINARY_DIR) / "conformance" / "cases" / name / (name + ".fba");
+  const auto face = fba::split_access_units(read_bytes(file.string()));
+  EXPECT_TRUE(face) << file << ": " << face.error().describe();
+  if (!face) return talk;
+  talk.face = *face;
+  // As long as the face: qtdemux takes a face of less than a fifth of the sound for a picture.
+  const double ticks = double(talk.face.units.back().time + talk.face.units.back().duration);
+  add_clicks(talk, 44100, std::size_t(44100 * ticks / talk.face.timescale));
+  return talk;
+}
+
+struct Layout {
+  std::string name;
+  std::string extension;
+  media::MuxOptions options = {};
+
+  bool mp4() const { return extension == ".mp4"; }
+  bool ts() const { return extension == ".ts"; }
+  bool opus() const { return options.audio.codec == media::AudioCodec::opus; }
+  /// Samples that a decoder puts out before the sound (containers, section 5.1).
+  std::int64_t priming() const { return opus() ? 312 : 1024; }
+  /// Samples by which face and sound begin late: Matroska and TS cannot say what priming of AAC is
+  /// (containers, section 5.2).
+  std::int64_t late() const { return mp4() || opus() ? 0 : priming(); }
+};
+
+inline std::vector<Layout> layouts() {
+  std::vector<Layout> all = {
+      {"mp4", ".mp4"},     {"mp4_opus", ".mp4"}, {"fragments", ".mp4"}, {"fragments_opus", ".mp4"},
+      {"systems", ".mp4"}, {"mkv", ".mkv"},      {"mkv_opus", ".mkv"},  {"ts", ".ts"}};
+  for (Layout& layout : all) {
+    layout.options.fragmented = layout.name.starts_with("fragments");
+    layout.options.systems = layout.name == "systems";
+    if (layout.name.ends_with("opus")) layout.options.audio.codec = media::AudioCodec::opus;
+  }
+  return all;
+}
+
+/// Of all layouts, or of those with an extension.
+inline std::vector<std::string> layout_names(const std::string& extension = "") {
+  std::vector<std::string> names;
+  for (const Layout& layout : layouts()) {
+    if (extension.empty() || layout.extension == extension) names.push_back(layout.name);
+  }
+  return names;
+}
+
+inline Layout layout_of(const std::string& name) {
+  for (const Layout& layout : layouts()) {
+    if (layout.name == name) return layout;
+  }
+  ADD_FAILURE() << "no layout " << name;
+  return {};
+}
+
+/// Writes the talk into `dir`; the path of the file, empty after a failure of the test.
+inline std::string write_talk(const TempDir& dir, const Talk& talk, const Layout& layout) {
+  const std::string path = dir.file(layout.name + layout.extension);
+  const auto written =
+      media::write_container(path, {.face = &talk.face, .audio = &talk.sound}, layout.options);
+  EXPECT_TRUE(written) << layout.name << ": " << written.error().describe();
+  return written ? path : std::string();
+}
+
+/// The units as a container without a place for the configuration has them: TS repeats it in
+/// front of each intra plane (containers, section 3.2).
+inline std::vector<Bytes> units_of(const Talk& talk, bool config_in_band) {
+  std::vector<Bytes> out;
+  for (const fba::AccessUnit& unit : talk.face.units) {
+    Bytes bytes = config_in_band && unit.intra ? talk.face.config : Bytes();
+    bytes.insert(bytes.end(), unit.bytes.begin(), unit.bytes.end());
+    out.push_back(std::move(bytes));
+  }
+  return out;
+}
+
+inline Bytes joined(const std::vector<Bytes>& units) {
+  Bytes out;
+  for (const Bytes& unit : units) out.insert(out.end(), unit.begin(), unit.end());
+  return out;
+}
+
+inline std::string to_hex(const Bytes& bytes) {
+  std::string out;
+  for (const std::uint8_t byte : bytes) {
+    out += "0123456789abcdef"[byte >> 4];
+    out += "0123456789abcdef"[byte & 15];
+  }
+  return out;
+}
+
+}  // namespace animeme::test

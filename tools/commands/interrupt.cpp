@@ -1,0 +1,43 @@
+#include "tools/commands/interrupt.h"
+
+#include <signal.h>
+
+#include <atomic>
+#include <csignal>
+
+namespace animeme::tools {
+
+namespace {
+
+std::atomic<bool> noted = false;
+int living = 0;
+struct sigaction old_interrupt, old_terminate, old_pipe;
+
+void note(int) { noted = true; }
+
+}  // namespace
+
+Interrupt::Interrupt() {
+  if (living++ > 0) return;
+  noted = false;
+  struct sigaction action = {};
+  action.sa_handler = note;
+  action.sa_flags = int(SA_RESETHAND);  // the second one does what it always does
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, &old_interrupt);
+  sigaction(SIGTERM, &action, &old_terminate);
+  action.sa_handler = SIG_IGN;
+  action.sa_flags = 0;
+  sigaction(SIGPIPE, &action, &old_pipe);
+}
+
+Interrupt::~Interrupt() {
+  if (--living > 0) return;
+  sigaction(SIGINT, &old_interrupt, nullptr);
+  sigaction(SIGTERM, &old_terminate, nullptr);
+  sigaction(SIGPIPE, &old_pipe, nullptr);
+}
+
+bool Interrupt::requested() { return noted; }
+
+}  // namespace animeme::tools

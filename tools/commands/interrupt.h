@@ -1,0 +1,25 @@
+// Ctrl-C while something is being written or sent.
+//
+//     Interrupt interrupt;
+//     while (!Interrupt::requested()) ...
+//     if (Interrupt::requested()) return kInterrupted;
+#pragma once
+
+namespace animeme::tools {
+
+/// While one lives, the first SIGINT or SIGTERM is only noted, so that the work can be brought to
+/// a clean end; the second one ends the program at once. SIGPIPE is ignored, so that a reader that
+/// goes away is an error of writing. What was set before comes back with the last of them.
+/// For the main thread.
+class Interrupt {
+ public:
+  Interrupt();
+  ~Interrupt();
+  Interrupt(const Interrupt&) = delete;
+  Interrupt& operator=(const Interrupt&) = delete;
+
+  /// Has a signal come since the first of them was made? Safe in any thread.
+  static bool requested();
+};
+
+}  // namespace animeme::tools

@@ -1,0 +1,180 @@
+#include "tools/commands/live_clip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "codec/live.h"
+#include "tools/commands/face_stream.h"
+#include "tools/media/audio.h"
+#include "tools/media/container.h"
+
+namespace animeme::tools {
+
+namespace {
+
+constexpr double kLongInterval = 2;  // seconds that a receiver may have to wait
+
+/// One plane of a clip that is to be coded.
+struct Instant {
+  const fap::Frame* face;
+  const fba::BodyFrame* body;
+  std::int64_t number;
+};
+
+fba::LiveOptions live_options(fap::Rate rate, const LiveCoding& coding) {
+  fba::LiveOptions options;
+  options.rate = rate;
+  options.fap_quant = coding.quant;
+  const double planes = coding.intra_seconds * rate.frames_per_second();
+  options.intra_period = int(std::lround(std::min(planes, 1e6)));
+  return options;
+}
+
+Result<fba::AccessUnits> code(const std::vector<Instant>& instants, fba::LiveOptions options) {
+  if (instants.empty()) return make_error(Code::not_found, "there are no frames to stream");
+  fap::Mask used;
+  for (const Instant& instant : instants) used |= instant.face->mask;
+  options.faps = used;
+  fba::LiveEncoder encoder(options);
+  std::vector<std::uint8_t> stream;
+  for (std::size_t i = 0; i < instants.size(); ++i) {
+    const bool last = i + 1 == instants.size();
+    const std::int64_t skip = last ? 0 : instants[i + 1].number - instants[i].number - 1;
+    const auto unit = encoder.write(*instants[i].face, std::uint32_t(skip), instants[i].body);
+    if (!unit) return unit.error();
+    stream.insert(stream.end(), unit->begin(), unit->end());
+  }
+  const auto end = encoder.finish();
+  stream.insert(stream.end(), end.begin(), end.end());
+  return fba::split_access_units(stream);
+}
+
+/// A decoded stream coded again for live use, with its own quantisers.
+Result<fba::AccessUnits> code_again(const fba::DecodedStream& stream, const LiveCoding& coding) {
+  fba::LiveOptions options = live_options(stream.rate, coding);
+  std::vector<Instant> instants;
+  for (const fba::Plane& plane : stream.planes) {
+    if (plane.face_settings) options.fap_quant = plane.face_settings->fap_quant;
+    if (plane.body_settings) options.bap_quant = plane.body_settings->bap_quant;
+    instants.push_back({&plane.face, plane.body.get(), plane.number});
+  }
+  return code(instants, options);
+}
+
+std::string interval_text(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f s", seconds);
+  return text;
+}
+
+/// Keeps the units or codes them again, as is asked for.
+Result<fba::AccessUnits> for_live_use(fba::AccessUnits units, const fba::DecodedStream& decoded,
+                                      const std::string& path, const LiveCoding& coding) {
+  const double longest = longest_intra_interval(units);
+  // A plane of tolerance: periods are whole numbers of planes.
+  const double plane = decoded.rate.seconds(1);
+  if (coding.intra_given && !coding.copy && longest > coding.intra_seconds + plane) {
+    say(path + ": coded again, receivers can join every " + interval_text(coding.intra_seconds));
+    auto again = code_again(decoded, coding);
+    if (!again) return again.error().in_file(path);
+    return again;
+  }
+  if (longest > kLongInterval) {
+    warn(path + ": up to " + interval_text(longest) +
+         " pass between two intra planes, so long a receiver that joins or loses a packet has to "
+         "wait; --intra-seconds 1 codes it again");
+  }
+  return units;
+}
+
+/// Sound from any file, packets as they are where that is possible and wanted.
+Result<media::EncodedAudio> load_sound(const std::string& path, const LiveCoding& coding) {
+  Result<media::EncodedAudio> copied = media::read_encoded_audio(path);
+  if (copied && (!coding.codec_given || copied->format.codec == coding.audio.codec)) {
+    return copied;
+  }
+  if (!copied && copied.error().code != Code::unsupported) return copied.error().in_file(path);
+  Result<media::Pcm> pcm = read_voice(path);
+  if (!pcm) return pcm.error();
+  return media::encode_audio(*pcm, coding.audio);
+}
+
+}  // namespace
+
+double longest_intra_interval(const fba::AccessUnits& units) {
+  if (units.units.empty()) return 0;
+  std::int64_t begin = units.units.front().time, longest = 0;
+  for (const fba::AccessUnit& unit : units.units) {
+    longest = std::max(longest, unit.time - begin);
+    if (unit.intra) begin = unit.time;
+  }
+  const fba::AccessUnit& last = units.units.back();
+  longest = std::max(longest, last.time + last.duration - begin);
+  return double(longest) / units.timescale;
+}
+
+Result<fba::AccessUnits> live_units(const fap::Sequence& clip, const LiveCoding& coding) {
+  std::vector<Instant> instants;
+  for (const fap::Frame& frame : clip.frames) instants.push_back({&frame, nullptr, frame.number});
+  return code(instants, live_options(clip.rate, coding));
+}
+
+Result<LiveClip> code_live_clip(const fap::Sequence& clip, const media::Pcm* audio,
+                                const LiveCoding& coding) {
+  Result<fba::AccessUnits> face = live_units(clip, coding);
+  if (!face) return face.error();
+  LiveClip out{std::move(*face), {}};
+  if (audio == nullptr || !coding.sound) return out;
+  Result<media::EncodedAudio> sound = media::encode_audio(*audio, coding.audio);
+  if (!sound) return sound.error();
+  out.sound = std::move(*sound);
+  return out;
+}
+
+Result<LiveClip> load_live_clip(const std::string& path, const std::string& audio,
+                                const LiveCoding& coding) {
+  Result<std::vector<std::uint8_t>> bytes = read_file(path);
+  if (!bytes) return bytes.error();
+  LiveClip clip;
+  const bool media = kind_of(*bytes) == FileKind::media;
+  if (media) {
+    // Its units with their own times.
+    Result<media::Container> container =
+        media::read_container(std::span<const std::uint8_t>(*bytes));
+    if (!container) return container.error().in_file(path);
+    clip.face = std::move(container->face);
+    const bool own_sound = audio.empty() && coding.sound && container->audio.has_value();
+    if (own_sound) {
+      Result<media::EncodedAudio> sound = load_sound(path, coding);
+      if (!sound) return sound.error();
+      clip.sound = std::move(*sound);
+    }
+  }
+  Result<MotionInput> motion = parse_motion(std::move(*bytes), path);
+  if (!motion) return motion.error();
+  if (motion->stream.empty()) {
+    if (auto ok = require_face(*motion, path); !ok) return ok.error();
+    Result<fba::AccessUnits> face = live_units(motion->face, coding);
+    if (!face) return face.error().in_file(path);
+    clip.face = std::move(*face);
+  } else {
+    if (!media) {
+      Result<fba::AccessUnits> units = fba::split_access_units(motion->stream);
+      if (!units) return units.error().in_file(path);
+      clip.face = std::move(*units);
+    }
+    auto face = for_live_use(std::move(clip.face), motion->decoded, path, coding);
+    if (!face) return face.error();
+    clip.face = std::move(*face);
+  }
+  if (!audio.empty() && coding.sound) {
+    Result<media::EncodedAudio> sound = load_sound(audio, coding);
+    if (!sound) return sound.error();
+    clip.sound = std::move(*sound);
+  }
+  return clip;
+}
+
+}  // namespace animeme::tools

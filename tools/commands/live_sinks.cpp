@@ -1,0 +1,91 @@
+#include "tools/commands/live_sinks.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace animeme::tools {
+
+bool is_rtp(const std::string& url) { return url.starts_with("rtp://"); }
+
+Result<LiveSinks> LiveSinks::open(const std::vector<std::string>& urls,
+                                  const std::vector<std::string>& sdp,
+                                  const media::SinkOptions& options) {
+  LiveSinks sinks;
+  std::size_t described = 0;
+  for (const std::string& url : urls) {
+    media::SinkOptions own = options;
+    own.rtp.sdp_path.clear();
+    if (is_rtp(url) && described < sdp.size()) own.rtp.sdp_path = sdp[described++];
+    auto sink = media::open_sink(url, own);
+    if (!sink) return sink.error().in_file(url);
+    sinks.addresses_.push_back({url, std::move(*sink), false});
+  }
+  return sinks;
+}
+
+template <class Act>
+Result<void> LiveSinks::each(Act act) {
+  std::optional<Error> last;
+  bool alive = false;
+  for (LiveAddress& address : addresses_) {
+    if (address.broken) continue;
+    auto done = act(*address.sink);
+    if (done) {
+      alive = true;
+      continue;
+    }
+    address.broken = true;
+    if (last) warn(last->describe() + "; it is left out from here on");
+    last = done.error().in_file(address.url);
+  }
+  if (!last) return {};
+  if (!alive) return *last;
+  warn(last->describe() + "; it is left out from here on");
+  return {};
+}
+
+Result<void> LiveSinks::start(const media::LiveInfo& info) {
+  for (LiveAddress& address : addresses_) {
+    if (auto ok = address.sink->start(info); !ok) return ok.error().in_file(address.url);
+  }
+  return {};
+}
+
+Result<void> LiveSinks::send(const media::LiveUnit& unit) {
+  return each([&](media::LiveSink& sink) { return sink.send(unit); });
+}
+
+Result<void> LiveSinks::poll() {
+  return each([](media::LiveSink& sink) { return sink.poll(); });
+}
+
+Result<void> LiveSinks::finish() {
+  std::optional<Error> first;
+  for (LiveAddress& address : addresses_) {
+    if (address.broken) continue;
+    if (auto done = address.sink->finish(); !done && !first) {
+      first = done.error().in_file(address.url);
+    }
+  }
+  if (first) return *first;
+  return {};
+}
+
+media::SendStats LiveSinks::stats() const {
+  media::SendStats sum;
+  for (const LiveAddress& address : addresses_) {
+    const media::SendStats one = address.sink->stats();
+    sum.face_units = std::max(sum.face_units, one.face_units);
+    sum.audio_units = std::max(sum.audio_units, one.audio_units);
+    sum.packets += one.packets;
+    sum.bytes += one.bytes;
+    sum.repeated += one.repeated;
+    sum.receivers += one.receivers;
+    sum.dropped += one.dropped;
+    sum.reported_loss = std::max(sum.reported_loss, one.reported_loss);
+  }
+  return sum;
+}
+
+}  // namespace animeme::tools

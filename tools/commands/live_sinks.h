@@ -1,0 +1,52 @@
+// Several live addresses as one.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tools/commands/common.h"
+#include "tools/media/live/open.h"
+
+namespace animeme::tools {
+
+/// What is sent to one address, and how that goes.
+struct LiveAddress {
+  std::string url;
+  std::unique_ptr<media::LiveSink> sink;
+  bool broken = false;
+};
+
+/// All addresses of a stream. One that breaks while it runs is left behind with a warning as long
+/// as another one works.
+class LiveSinks {
+ public:
+  /// `sdp` names the session descriptions of the rtp addresses, in their order; fewer will do.
+  /// Errors: those of open_sink(), with the address.
+  static Result<LiveSinks> open(const std::vector<std::string>& urls,
+                                const std::vector<std::string>& sdp,
+                                const media::SinkOptions& options);
+
+  /// Errors: of any address.
+  Result<void> start(const media::LiveInfo& info);
+  /// Errors: when the last address breaks.
+  Result<void> send(const media::LiveUnit& unit);
+  Result<void> poll();
+  /// Says goodbye everywhere; the first error.
+  Result<void> finish();
+
+  const std::vector<LiveAddress>& addresses() const { return addresses_; }
+  /// Of all addresses: receivers are added up, the largest loss counts.
+  media::SendStats stats() const;
+
+ private:
+  template <class Act>
+  Result<void> each(Act act);
+
+  std::vector<LiveAddress> addresses_;
+};
+
+/// True for an address whose receivers need a session description.
+bool is_rtp(const std::string& url);
+
+}  // namespace animeme::tools

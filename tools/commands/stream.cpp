@@ -1,0 +1,232 @@
+// Sending a face and its sound while time passes.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "fap/rate_text.h"
+#include "tools/commands/interrupt.h"
+#include "tools/commands/status_line.h"
+#include "tools/commands/stream_program.h"
+#include "tools/commands/stream_report.h"
+
+namespace animeme::tools {
+
+namespace {
+
+constexpr double kPollSeconds = 0.05;  // sinks are looked after so often
+
+std::string bad_options(const StreamOptions& options) {
+  const bool spoken = options.spoken.has_text || !options.spoken.text_file.empty() ||
+                      !options.spoken.script.empty() || options.spoken.has_transcript;
+  const int sources = int(!options.input.empty()) + int(!options.say.empty()) + int(spoken);
+  if (sources > 1) return "name one thing to stream: a file, --say, or --text and its like";
+  if (!options.say.empty() && !options.spoken.audio.empty()) {
+    return "--audio goes with a face, not with --say, whose voice is synthetic";
+  }
+  if (sources == 0 && options.spoken.audio.empty()) {
+    return "nothing to stream: name a file with a face, or give --text, --script or --say -";
+  }
+  if (sources == 0) return "--audio needs a face beside it, --transcript or --script";
+  if (!options.say.empty() && options.loop) return "--loop repeats clips, --say is none";
+  if (!options.say.empty() && options.fast) {
+    return "--fast does not go with --say, whose lines come in their own time";
+  }
+  std::size_t rtp = 0;
+  for (const std::string& url : options.to) rtp += is_rtp(url);
+  if (options.sdp.size() > rtp) return "there are more --sdp files than rtp addresses";
+  return {};
+}
+
+/// Tells once a second how it goes, and of lines that could not be spoken.
+class Watch {
+ public:
+  Watch(const StreamOptions& options, Program& program, StreamReport& report)
+      : options_(options), program_(program), report_(report) {}
+
+  void look(const LiveSinks& sinks, const media::Pacer& pacer, double now) {
+    if (program_.lines) tell(program_.lines->take_warnings());
+    if (program_.speaker) tell(program_.speaker->take_warnings());
+    if (!options_.stats || now < next_) return;
+    next_ = std::floor(now) + 1;
+    if (now >= 1) status_.show(report_.line(now, sinks, pacer));
+  }
+  void done() { status_.clear(); }
+
+ private:
+  void tell(const std::vector<std::string>& warnings) {
+    if (!warnings.empty()) status_.clear();
+    for (const std::string& text : warnings) warn(text);
+  }
+
+  const StreamOptions& options_;
+  Program& program_;
+  StreamReport& report_;
+  StatusLine status_;
+  double next_ = 1;
+};
+
+/// Sends all of it, unit by unit. Ends early at Ctrl-C.
+Result<void> send_all(media::LiveInput& input, LiveSinks& sinks, media::Clock& clock,
+                      media::Pacer& pacer, StreamReport& report, Watch& watch, double begin) {
+  double polled = clock.now();
+  const auto look = [&]() -> Result<void> {
+    if (clock.now() - polled < kPollSeconds) return {};
+    polled = clock.now();
+    watch.look(sinks, pacer, pacer.now() - begin);
+    return sinks.poll();
+  };
+  while (!Interrupt::requested()) {
+    const std::optional<double> due = input.next_due();
+    if (!due) return {};
+    const bool reached = pacer.wait_until(*due);
+    if (auto ok = look(); !ok) return ok;
+    if (!reached) continue;
+    Result<std::vector<media::LiveUnit>> units = input.take(pacer.now());
+    if (!units) return units.error();
+    for (const media::LiveUnit& unit : *units) {
+      if (auto ok = sinks.send(unit); !ok) return ok;
+      input.sent(unit, clock.now());
+      pacer.sent(media::due_of(input, unit));
+      report.add(unit);
+    }
+  }
+  return {};
+}
+
+void print_result(const StreamOptions& options, const StreamReport& report, double seconds,
+                  const LiveSinks& sinks, const media::Pacer& pacer, const Program& program) {
+  const auto traces = program.speaker ? program.speaker->traces() : std::deque<speech::LineTrace>{};
+  say(report.summary(seconds, sinks, pacer, traces));
+  if (options.json) {
+    std::printf("%s\n", report.json(seconds, sinks, pacer, traces).dump(2).c_str());
+  }
+}
+
+Result<int> send(const StreamOptions& options, Program& program, LiveSinks& sinks) {
+  media::LiveInput& input = program.input();
+  media::JumpingClock jumping;
+  media::Clock& clock = options.fast ? static_cast<media::Clock&>(jumping) : media::steady_clock();
+  const Interrupt interrupt;
+  if (auto ok = sinks.start(input.info()); !ok) return ok.error();
+  for (const LiveAddress& address : sinks.addresses()) say("sending to " + address.url);
+  // Priming is due before time 0.
+  const double begin = std::min(0.0, input.next_due().value_or(0));
+  media::Pacer pacer(clock, kPollSeconds);
+  pacer.restart(-begin);
+  StreamReport report(input.info());
+  Watch watch(options, program, report);
+  const auto sent = send_all(input, sinks, clock, pacer, report, watch, begin);
+  watch.done();
+  const auto finished = sinks.finish();
+  if (!sent) return sent.error();
+  print_result(options, report, pacer.now() - begin, sinks, pacer, program);
+  if (!finished) return finished.error();
+  return Interrupt::requested() ? kInterrupted : kOk;
+}
+
+Result<int> run(StreamOptions& options) {
+  if (const std::string bad = bad_options(options); !bad.empty()) return usage_error(bad);
+  Result<fap::Rate> rate = fap::parse_rate(options.rate);
+  if (!rate) return usage_error("--rate " + options.rate + ": " + rate.error().message);
+  options.coding.codec_given = !options.codec.empty();
+  options.coding.sound = !options.no_sound;
+  // Opus packets are shorter, which is what counts when sound is made while it is sent.
+  const bool opus = options.codec.empty() ? !options.say.empty() : options.codec == "opus";
+  options.coding.audio.codec = opus ? media::AudioCodec::opus : media::AudioCodec::aac;
+  auto sinks = LiveSinks::open(options.to, options.sdp, options.sink);
+  if (!sinks && sinks.error().code == Code::invalid_argument) {
+    return usage_error(sinks.error().message);
+  }
+  if (!sinks) return sinks.error();
+  if (options.sdp.empty() && std::any_of(options.to.begin(), options.to.end(), is_rtp)) {
+    warn("receivers of rtp need a session description: write one with --sdp talk.sdp");
+  }
+  Program program;
+  if (auto ok = open_program(options, *rate, program); !ok) return ok.error();
+  return send(options, program, *sinks);
+}
+
+void add_source_options(CLI::App& app, StreamOptions& options) {
+  app.add_option("input", options.input,
+                 "File with a face: mp4, mkv, ts (with its sound), .fba, .fap");
+  add_spoken_options(app, options.spoken);
+  app.add_option("--say", options.say,
+                 "Lines of text to speak as they come, - for standard input; between them the face "
+                 "idles");
+  app.add_flag("--loop", options.loop, "Begin the clip again at its end; times go on");
+  app.add_option("--duration", options.duration, "End after so many seconds")
+      ->check(CLI::PositiveNumber);
+  app.add_flag("--no-sound", options.no_sound, "Send the face alone");
+  app.add_option("--model", options.model, "Model file of a character; default: the built-in one");
+  app.add_option("--rate", options.rate, "Frames a second of a face made from text or script")
+      ->capture_default_str();
+  app.add_option("--style", options.style, "Intensity: 0 at rest, 1 as learned, 1.5 exaggerated")
+      ->check(CLI::Range(0.0, dam::kMostStyle))
+      ->capture_default_str();
+  app.add_flag("--life", options.life, "Add blinks, and brows and head that move a little");
+  app.add_option("--seed", options.seed, "Other times of blinks and another sway of the head")
+      ->needs("--life");
+}
+
+void add_coding_options(CLI::App& app, StreamOptions& options) {
+  app.add_option("--intra-seconds", options.coding.intra_seconds,
+                 "Seconds between points where receivers can join; streams and containers keep "
+                 "their own coding unless this is given and theirs lie farther apart")
+      ->check(CLI::Range(0.04, 60.0))
+      ->capture_default_str()
+      ->each([&options](const std::string&) { options.coding.intra_given = true; });
+  app.add_flag("--copy", options.coding.copy, "Keep the coding of streams and containers always");
+  app.add_option("--quant", options.coding.quant, "Quantiser fap_quant of faces that are coded")
+      ->check(CLI::Range(0, 31))
+      ->capture_default_str();
+  app.add_option("--audio-codec", options.codec,
+                 "aac or opus; default: what a file has, opus for --say, else aac")
+      ->check(CLI::IsMember({"aac", "opus"}));
+  app.add_option("--audio-bitrate", options.coding.audio.bit_rate,
+                 "Bits a second of sound that is coded; default: aac 64000, opus 40000")
+      ->check(CLI::Range(6000, 320000));
+}
+
+Action add(CLI::App& app) {
+  auto options = std::make_shared<StreamOptions>();
+  add_source_options(app, *options);
+  app.add_option("--to", options->to,
+                 "Address: rtp://host:port, udp://host:port, srt://host:port; may be repeated")
+      ->required()
+      ->allow_extra_args(false);
+  app.add_option("--sdp", options->sdp,
+                 "Session description to write for an rtp address; receivers need it")
+      ->allow_extra_args(false);
+  app.add_option("--mtu", options->sink.rtp.mtu, "Largest datagram, bytes")
+      ->check(CLI::Range(256, 65000))
+      ->capture_default_str();
+  app.add_option("--repeat", options->sink.rtp.repeat,
+                 "rtp: how often each packet of the face is sent, against loss")
+      ->check(CLI::Range(1, 8))
+      ->capture_default_str();
+  app.add_option("--bundle", options->sink.rtp.bundle,
+                 "rtp: planes a packet; more save headers and cost delay")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str();
+  add_coding_options(app, *options);
+  app.add_flag("--fast", options->fast, "Do not wait for the clock, send as fast as it goes");
+  app.add_flag("--stats", options->stats, "Tell once a second how it goes");
+  app.add_flag("--json", options->json, "Machine-readable summary on standard output at the end");
+  return [options] { return run(*options); };
+}
+
+}  // namespace
+
+const Command kStream{
+    "stream", "Send a face and its sound live: a clip, a text, or lines as they are typed",
+    "  animeme stream talk.mp4 --to rtp://192.0.2.7:5004 --sdp talk.sdp --loop\n"
+    "  animeme stream talk.fba --audio talk.wav --to udp://239.1.2.3:5004 --intra-seconds 1\n"
+    "  animeme stream --text \"Hello\" --to srt://192.0.2.7:5005\n"
+    "  my_chat_bot | animeme stream --say - --life --to rtp://192.0.2.7:5004 --sdp bot.sdp "
+    "--stats\n"
+    "Ctrl-C ends it in good order: receivers are told, the summary is printed; exit code 130.",
+    add};
+
+}  // namespace animeme::tools

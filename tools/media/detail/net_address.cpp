@@ -1,0 +1,76 @@
+#include "tools/media/detail/net_address.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "tools/media/detail/ffmpeg.h"
+
+namespace animeme::media {
+namespace {
+
+bool has_protocol(const std::string& scheme, bool output) {
+  void* state = nullptr;
+  while (const char* name = avio_enum_protocols(&state, output ? 1 : 0)) {
+    if (scheme == name) return true;
+  }
+  return false;
+}
+
+Error bad_address(const std::string& what) {
+  return make_error(Code::invalid_argument,
+                    what + "; give udp://HOST:PORT or srt://HOST:PORT?mode=caller (or listener)");
+}
+
+}  // namespace
+
+std::string NetAddress::option(const std::string& name) const {
+  std::size_t at = 0;
+  while (at < query.size()) {
+    const std::size_t end = std::min(query.find('&', at + 1), query.size());
+    const std::string entry = query.substr(at + 1, end - at - 1);
+    if (entry.compare(0, name.size() + 1, name + "=") == 0) return entry.substr(name.size() + 1);
+    at = end;
+  }
+  return {};
+}
+
+Result<NetAddress> parse_net_address(const std::string& url, bool for_reading) {
+  NetAddress address;
+  const std::size_t scheme = url.find("://");
+  if (scheme == std::string::npos) return bad_address("not an address");
+  address.scheme = url.substr(0, scheme);
+  if (address.scheme != "udp" && address.scheme != "srt") {
+    return bad_address("an address of " + address.scheme + " cannot be used here");
+  }
+  std::string place = url.substr(scheme + 3);
+  const std::size_t mark = place.find_first_of("?/");
+  if (mark != std::string::npos) {
+    const std::size_t query = place.find('?');
+    if (query != std::string::npos) address.query = place.substr(query);
+    place.resize(mark);
+  }
+  const std::size_t colon = place.rfind(':');
+  if (colon == std::string::npos) return bad_address("the address has no port");
+  address.host = place.substr(0, colon);
+  if (address.host == "@") address.host.clear();
+  const std::string port = place.substr(colon + 1);
+  const auto [end, status] = std::from_chars(port.data(), port.data() + port.size(), address.port);
+  if (status != std::errc() || end != port.data() + port.size() || address.port < 1 ||
+      address.port > 65535) {
+    return bad_address("the port is no number from 1 to 65535");
+  }
+  const std::string mode = address.option("mode");
+  if (address.scheme == "srt" && !mode.empty() && mode != "caller" && mode != "listener") {
+    return bad_address("the mode is neither caller nor listener");
+  }
+  address.listener = address.scheme == "srt" && mode == "listener";
+  if (address.host.empty() && !address.listener && !(for_reading && address.scheme == "udp")) {
+    return bad_address("the address has no host");
+  }
+  if (!has_protocol(address.scheme, !for_reading)) {
+    return make_error(Code::unsupported, "this FFmpeg was built without " + address.scheme);
+  }
+  return address;
+}
+
+}  // namespace animeme::media

@@ -1,0 +1,246 @@
+#include "tools/media/detail/net_stream.h"
+
+#include <arpa/inet.h>
+#include <netdb.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "tools/media/detail/ffmpeg.h"
+
+namespace animeme::media {
+namespace {
+
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+
+constexpr int kLargestDatagram = 65536;
+constexpr std::int64_t kSocketBuffer = std::int64_t(1) << 20;
+constexpr milliseconds kRetry{200};
+constexpr std::int64_t kSrtLatency = 120000;  // microseconds, unless the address says otherwise
+
+bool is_multicast(const sockaddr& address) {
+  if (address.sa_family == AF_INET) {
+    const auto& v4 = reinterpret_cast<const sockaddr_in&>(address);
+    return IN_MULTICAST(ntohl(v4.sin_addr.s_addr));
+  }
+  const auto& v6 = reinterpret_cast<const sockaddr_in6&>(address);
+  return address.sa_family == AF_INET6 && IN6_IS_ADDR_MULTICAST(&v6.sin6_addr);
+}
+
+/// Is this an address of this machine that a socket can be bound to?
+bool is_own_address(const std::string& host) {
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_DGRAM;
+  addrinfo* found = nullptr;
+  if (getaddrinfo(host.c_str(), nullptr, &hints, &found) != 0) return false;
+  bool own = false;
+  const int handle = socket(found->ai_family, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  if (handle >= 0) {
+    own = !is_multicast(*found->ai_addr) && bind(handle, found->ai_addr, found->ai_addrlen) == 0;
+    ::close(handle);
+  }
+  freeaddrinfo(found);
+  return own;
+}
+
+}  // namespace
+
+int NetThread::is_stopping(void* self) {
+  return static_cast<NetThread*>(self)->stopping_.load() ? 1 : 0;
+}
+
+Result<void> NetThread::open(int flags, int datagram_bytes) {
+  const bool reading = (flags & AVIO_FLAG_WRITE) == 0, udp = address_.scheme == "udp";
+  av::LogCapture log;
+  av::Options options;
+  options.set("pkt_size", std::int64_t(datagram_bytes));
+  if (udp && reading) {
+    options.set("fifo_size", std::int64_t(0));  // the thread is ours
+    options.set("buffer_size", kSocketBuffer);
+  }
+  if (!udp && address_.listener) options.set("listen_timeout", std::int64_t(-1));
+  // An address of ours is bound to alone; that of another machine means: whoever sends.
+  if (udp && reading && address_.option("localaddr").empty() && is_own_address(address_.host)) {
+    options.set("localaddr", address_.host);
+  }
+  const std::string host = address_.host.empty() ? "0.0.0.0" : address_.host;
+  const std::string url =
+      address_.scheme + "://" + host + ":" + std::to_string(address_.port) + address_.query;
+  AVIOInterruptCB interrupt{&NetThread::is_stopping, this};
+  const int status = avio_open2(&io_, url.c_str(), flags, &interrupt, options.get());
+  if (status >= 0) return {};
+  io_ = nullptr;
+  std::string why = log.lines().empty() ? av::error_text(status) : log.lines().back();
+  if (const std::size_t at = why.find(url); at != std::string::npos) {
+    why.replace(at, url.size(), address_.text());  // no passphrase in messages
+  }
+  if (udp && reading) why += "; is the port in use, or the host no address of this machine?";
+  if (!udp && !address_.listener) why += "; is somebody listening there (mode=listener)?";
+  if (address_.listener) why += "; is the port in use?";
+  return make_error(Code::io, address_.text() + " cannot be opened: " + why);
+}
+
+void NetThread::close() {
+  av::LogCapture quiet;
+  if (io_ != nullptr) avio_closep(&io_);
+}
+
+void NetThread::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+  close();
+}
+
+NetReader::~NetReader() { stop(); }
+
+Result<void> NetReader::start() {
+  if (!address_.listener) {
+    Result<void> opened = open(AVIO_FLAG_READ, address_.scheme == "udp" ? kLargestDatagram : 1456);
+    if (!opened) return opened;
+  }
+  thread_ = std::thread([this] { run(); });
+  return {};
+}
+
+void NetReader::run() {
+  av::LogCapture quiet;
+  Error failure;
+  if (io_ == nullptr) {
+    Result<void> opened = open(AVIO_FLAG_READ, 1456);
+    if (!opened) failure = opened.error();
+  }
+  if (io_ != nullptr) read_all();
+  const std::lock_guard lock(mutex_);
+  failure_ = std::move(failure);
+  ended_ = true;
+  changed_.notify_all();
+}
+
+void NetReader::read_all() {
+  std::vector<std::uint8_t> block(kLargestDatagram);
+  while (!stopping_) {
+    const int count = avio_read_partial(io_, block.data(), int(block.size()));
+    if (count == AVERROR(EAGAIN) || count == 0) continue;
+    if (count < 0) {
+      // A UDP port has no end: an error is one of a single datagram.
+      if (address_.scheme != "udp" || count == AVERROR_EXIT) return;
+      io_->eof_reached = io_->error = 0;
+      std::this_thread::sleep_for(milliseconds(10));
+      continue;
+    }
+    const std::lock_guard lock(mutex_);
+    if (queued_ + std::size_t(count) > queue_bytes_) continue;  // the counters will show it
+    queue_.emplace_back(block.begin(), block.begin() + count);
+    queued_ += std::size_t(count);
+    changed_.notify_all();
+  }
+}
+
+std::optional<NetReader::Datagram> NetReader::next(std::chrono::steady_clock::time_point until) {
+  std::unique_lock lock(mutex_);
+  changed_.wait_until(lock, until, [this] { return !queue_.empty() || ended_; });
+  if (queue_.empty()) {
+    if (!ended_) return {};
+    return Datagram{.end = true, .error = failure_};
+  }
+  Datagram datagram{.bytes = std::move(queue_.front())};
+  queue_.pop_front();
+  queued_ -= datagram.bytes.size();
+  return datagram;
+}
+
+NetWriter::~NetWriter() { stop(); }
+
+Result<void> NetWriter::start() {
+  if (!address_.listener) {
+    Result<void> opened = open(AVIO_FLAG_WRITE, datagram_bytes_);
+    if (!opened) return opened;
+    connected_ = true;
+  }
+  thread_ = std::thread([this] { run(); });
+  return {};
+}
+
+void NetWriter::run() {
+  av::LogCapture quiet;
+  while (!stopping_) {
+    if (io_ == nullptr) {
+      if (!open(AVIO_FLAG_WRITE, datagram_bytes_)) {
+        std::unique_lock lock(mutex_);
+        changed_.wait_for(lock, kRetry, [this] { return stopping_.load() || last_; });
+        if (last_) return;
+        continue;
+      }
+      connected_ = true;
+    }
+    if (write_all()) return;
+    connected_ = false;
+    if (!address_.listener) {
+      broken_ = true;
+      return;
+    }
+    close();
+    const std::lock_guard lock(mutex_);
+    queue_.clear();
+    queued_ = 0;
+    changed_.notify_all();
+  }
+}
+
+/// True: all is sent, after finish(). False: the connection is gone.
+bool NetWriter::write_all() {
+  const bool udp = address_.scheme == "udp";
+  for (;;) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return stopping_ || last_ || !queue_.empty(); });
+    if (stopping_ || queue_.empty()) return true;
+    std::vector<std::uint8_t> datagram = std::move(queue_.front());
+    queue_.pop_front();
+    queued_ -= datagram.size();
+    lock.unlock();
+    avio_write(io_, datagram.data(), int(datagram.size()));
+    avio_flush(io_);
+    if (io_->error >= 0) continue;
+    if (!udp) return false;
+    io_->error = 0;  // nobody listens on a UDP port: not our concern
+  }
+}
+
+bool NetWriter::write(std::span<const std::uint8_t> bytes) {
+  if (!connected_) return false;
+  const std::lock_guard lock(mutex_);
+  if (queued_ + bytes.size() > queue_bytes_) return false;
+  queue_.emplace_back(bytes.begin(), bytes.end());
+  queued_ += bytes.size();
+  changed_.notify_all();
+  return true;
+}
+
+void NetWriter::finish() {
+  {
+    const std::lock_guard lock(mutex_);
+    last_ = true;
+    if (!connected_) stopping_ = true;  // a listener without a receiver
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+  if (connected_ && address_.scheme == "srt") {
+    // SRT gives out its packets late on purpose, and drops the rest when the sender hangs up.
+    std::int64_t latency = kSrtLatency;
+    for (const char* name : {"latency", "rcvlatency", "peerlatency", "tsbpddelay"}) {
+      latency = std::max<std::int64_t>(latency, std::atoll(address_.option(name).c_str()));
+    }
+    std::this_thread::sleep_for(microseconds(std::min<std::int64_t>(latency, 8000000)) +
+                                milliseconds(150));
+  }
+  connected_ = false;
+  close();
+}
+
+}  // namespace animeme::media

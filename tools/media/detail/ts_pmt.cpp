@@ -1,0 +1,129 @@
+#include "tools/media/detail/ts_pmt.h"
+
+#include <algorithm>
+
+namespace animeme::media {
+namespace {
+
+constexpr std::uint8_t kSync = 0x47;
+constexpr std::uint8_t kAssociationTable = 0x00, kMapTable = 0x02;
+constexpr std::uint8_t kVisual = 0x10;      // stream type of 14496-2
+constexpr std::uint8_t kDescriptor = 0x1B;  // MPEG-4_video_descriptor
+constexpr std::size_t kCrc = 4;
+constexpr std::size_t kMostMaps = 64;
+
+using Bytes = std::span<const std::uint8_t>;
+
+unsigned u16(Bytes bytes, std::size_t at) { return unsigned(bytes[at]) << 8 | bytes[at + 1]; }
+
+void put_u12(std::vector<std::uint8_t>& bytes, std::size_t at, std::size_t value) {
+  bytes[at] = std::uint8_t((bytes[at] & 0xF0) | (value >> 8 & 0x0F));
+  bytes[at + 1] = std::uint8_t(value);
+}
+
+/// Where the payload of a packet begins; 0: it has none, or no section begins in it.
+std::size_t section_begin(Bytes packet) {
+  const bool starts = (packet[1] & 0x40) != 0, has_payload = (packet[3] & 0x10) != 0;
+  if (packet[0] != kSync || !starts || !has_payload) return 0;
+  std::size_t at = 4;
+  if ((packet[3] & 0x20) != 0) at += 1 + std::size_t(packet[4]);
+  if (at >= packet.size()) return 0;
+  at += 1 + std::size_t(packet[at]);  // pointer field
+  return at + 3 <= packet.size() ? at : 0;
+}
+
+/// The section at `at`; empty: it is not whole in this packet.
+Bytes section_at(Bytes packet, std::size_t at) {
+  const std::size_t size = 3 + (u16(packet, at + 1) & 0x0FFF);
+  return at + size <= packet.size() ? packet.subspan(at, size) : Bytes();
+}
+
+bool has_descriptor(Bytes descriptors) {
+  for (std::size_t at = 0; at + 2 <= descriptors.size(); at += 2 + std::size_t(descriptors[at + 1]))
+    if (descriptors[at] == kDescriptor) return true;
+  return false;
+}
+
+/// The map with the descriptors, without its CRC; empty: nothing is to be done, or it is damaged.
+std::vector<std::uint8_t> describe(Bytes section, std::uint8_t profile) {
+  constexpr std::size_t kFixed = 12;  // up to program_info_length
+  if (section.size() < kFixed + kCrc) return {};
+  const std::size_t end = section.size() - kCrc;
+  std::size_t at = kFixed + (u16(section, 10) & 0x0FFF);
+  if (at > end) return {};
+  std::vector<std::uint8_t> out(section.begin(), section.begin() + std::ptrdiff_t(at));
+  bool changed = false;
+  while (at + 5 <= end) {
+    const std::size_t length = u16(section, at + 3) & 0x0FFF;
+    if (at + 5 + length > end) return {};
+    const Bytes entry = section.subspan(at, 5 + length);
+    const std::size_t begin = out.size();
+    out.insert(out.end(), entry.begin(), entry.end());
+    if (entry[0] == kVisual && !has_descriptor(entry.subspan(5))) {
+      out.insert(out.end(), {kDescriptor, 1, profile});
+      put_u12(out, begin + 3, length + 3);
+      changed = true;
+    }
+    at += 5 + length;
+  }
+  if (!changed || at != end) return {};
+  put_u12(out, 1, out.size() + kCrc - 3);
+  return out;
+}
+
+}  // namespace
+
+std::uint32_t mpeg_crc32(std::span<const std::uint8_t> bytes) {
+  std::uint32_t crc = ~0u;
+  for (const std::uint8_t byte : bytes) {
+    crc ^= std::uint32_t(byte) << 24;
+    for (int i = 0; i < 8; ++i) crc = (crc & 0x80000000u) != 0 ? crc << 1 ^ 0x04C11DB7u : crc << 1;
+  }
+  return crc;
+}
+
+void ProgramMapFilter::read_associations(std::span<const std::uint8_t> section) {
+  if (section.size() < 8 + kCrc || section[0] != kAssociationTable) return;
+  map_pids_.clear();
+  for (std::size_t at = 8; at + 4 <= section.size() - kCrc; at += 4) {
+    const bool network = u16(section, at) == 0;
+    if (!network && map_pids_.size() < kMostMaps) {
+      map_pids_.push_back(std::uint16_t(u16(section, at + 2) & 0x1FFF));
+    }
+  }
+}
+
+void ProgramMapFilter::rewrite(std::span<std::uint8_t> packet) {
+  const std::size_t at = section_begin(packet);
+  if (at == 0) return;
+  const Bytes section = section_at(packet, at);
+  if (section.empty()) return;
+  const auto pid = std::uint16_t(u16(packet, 1) & 0x1FFF);
+  if (pid == 0) return read_associations(section);
+  const bool map = std::find(map_pids_.begin(), map_pids_.end(), pid) != map_pids_.end();
+  if (!map || section[0] != kMapTable) return;
+  std::vector<std::uint8_t> described = describe(section, profile_);
+  if (described.empty() || at + described.size() + kCrc > packet.size()) return;
+  // What follows the section in its packet must be stuffing, or it would be lost.
+  const auto behind = packet.subspan(at + section.size());
+  if (std::any_of(behind.begin(), behind.end(), [](std::uint8_t b) { return b != 0xFF; })) return;
+  const std::uint32_t crc = mpeg_crc32(described);
+  for (const unsigned shift : {24u, 16u, 8u, 0u}) described.push_back(std::uint8_t(crc >> shift));
+  std::copy(described.begin(), described.end(), packet.begin() + std::ptrdiff_t(at));
+}
+
+std::vector<std::uint8_t> ProgramMapFilter::push(std::span<const std::uint8_t> bytes) {
+  std::vector<std::uint8_t> out = std::move(rest_);
+  out.insert(out.end(), bytes.begin(), bytes.end());
+  const std::size_t whole = out.size() / kPacket * kPacket;
+  rest_.assign(out.begin() + std::ptrdiff_t(whole), out.end());
+  out.resize(whole);
+  for (std::size_t at = 0; at < whole; at += kPacket) {
+    rewrite(std::span(out).subspan(at, kPacket));
+  }
+  return out;
+}
+
+std::vector<std::uint8_t> ProgramMapFilter::finish() { return std::move(rest_); }
+
+}  // namespace animeme::media

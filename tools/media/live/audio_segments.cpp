@@ -1,0 +1,220 @@
+#include "tools/media/live/audio_segments.h"
+
+#include <algorithm>
+
+#include "tools/media/detail/box_writer.h"
+#include "tools/media/detail/systems_scene.h"
+
+namespace animeme::media {
+namespace {
+
+constexpr unsigned kTrack = 1;
+constexpr unsigned kAac = 0x40, kAudioStream = 5;
+constexpr unsigned kDefaultBaseIsMoof = 0x020000;
+constexpr unsigned kDataOffset = 0x1, kDurations = 0x100, kSizes = 0x200;
+// Bytes of a segment in front of the time in tfdt: moof, mfhd, traf, tfhd, tfdt up to its time.
+constexpr std::size_t kTimeAt = 8 + 16 + 8 + 16 + 12;
+
+void put_esds(BoxWriter& out, const std::vector<std::uint8_t>& config) {
+  out.begin_full("esds", 0, 0);
+  out.raw(elementary_stream_descriptor(
+      {.object_type = kAac, .stream_type = kAudioStream, .config = config}));
+  out.end();
+}
+
+/// OpusHead (little endian) as the box dOps (big endian), without pre-skip.
+void put_opus_box(BoxWriter& out, const AudioFormat& format) {
+  out.begin("dOps");
+  out.u8(0);
+  out.u8(unsigned(format.channels));
+  out.u16(0);
+  out.u32(48000);
+  out.u16(format.config.size() >= 18 ? format.config[16] | unsigned(format.config[17]) << 8 : 0);
+  out.u8(0);  // mapping family
+  out.end();
+}
+
+void put_sample_entry(BoxWriter& out, const AudioFormat& format) {
+  const bool aac = format.codec == AudioCodec::aac;
+  out.begin(aac ? "mp4a" : "Opus");
+  out.zeros(6);
+  out.u16(1);  // data reference
+  out.zeros(8);
+  out.u16(unsigned(format.channels));
+  out.u16(16);
+  out.zeros(4);
+  out.u32(format.sample_rate < 65536 ? std::uint64_t(format.sample_rate) << 16 : 0);
+  aac ? put_esds(out, format.config) : put_opus_box(out, format);
+  out.end();
+}
+
+void put_empty_tables(BoxWriter& out) {
+  for (const char* name : {"stts", "stsc"}) {
+    out.begin_full(name, 0, 0);
+    out.u32(0);
+    out.end();
+  }
+  out.begin_full("stsz", 0, 0);
+  out.u32(0);
+  out.u32(0);
+  out.end();
+  out.begin_full("stco", 0, 0);
+  out.u32(0);
+  out.end();
+}
+
+void put_media(BoxWriter& out, const AudioFormat& format) {
+  out.begin("mdia");
+  out.begin_full("mdhd", 0, 0);
+  out.zeros(8);
+  out.u32(std::uint64_t(format.sample_rate));
+  out.u32(0);
+  out.u16(0x55C4);  // no language
+  out.u16(0);
+  out.end();
+  out.begin_full("hdlr", 0, 0);
+  out.u32(0);
+  out.text("soun");
+  out.zeros(13);
+  out.end();
+  out.begin("minf");
+  out.begin_full("smhd", 0, 0);
+  out.zeros(4);
+  out.end();
+  out.begin("dinf");
+  out.begin_full("dref", 0, 0);
+  out.u32(1);
+  out.begin_full("url ", 0, 1);
+  out.end();
+  out.end();
+  out.end();
+  out.begin("stbl");
+  out.begin_full("stsd", 0, 0);
+  out.u32(1);
+  put_sample_entry(out, format);
+  out.end();
+  put_empty_tables(out);
+  for (int open = 0; open < 3; ++open) out.end();  // stbl, minf, mdia
+}
+
+void put_matrix(BoxWriter& out) {
+  for (const std::uint32_t value : {0x10000u, 0u, 0u, 0u, 0x10000u, 0u, 0u, 0u, 0x40000000u}) {
+    out.u32(value);
+  }
+}
+
+void put_track_header(BoxWriter& out) {
+  out.begin_full("tkhd", 0, 3);
+  out.zeros(8);
+  out.u32(kTrack);
+  out.zeros(20);
+  out.u16(0x100);  // full volume
+  out.u16(0);
+  put_matrix(out);
+  out.zeros(8);
+  out.end();
+}
+
+void put_movie_header(BoxWriter& out) {
+  out.begin_full("mvhd", 0, 0);
+  out.zeros(8);
+  out.u32(1000);
+  out.u32(0);
+  out.u32(0x10000);
+  out.u16(0x100);
+  out.zeros(10);
+  put_matrix(out);
+  out.zeros(24);
+  out.u32(kTrack + 1);
+  out.end();
+}
+
+}  // namespace
+
+std::string audio_mime(const AudioFormat& format) {
+  if (format.codec == AudioCodec::opus) return "audio/mp4; codecs=\"opus\"";
+  const int object_type = format.config.empty() ? 2 : format.config[0] >> 3;
+  return "audio/mp4; codecs=\"mp4a.40." + std::to_string(object_type) + "\"";
+}
+
+Result<std::vector<std::uint8_t>> write_audio_init(const AudioFormat& format) {
+  if (format.config.empty() || format.sample_rate <= 0 || format.channels <= 0) {
+    return make_error(Code::invalid_argument,
+                      "the sound has no configuration, sample rate or channels");
+  }
+  BoxWriter out;
+  out.begin("ftyp");
+  out.text("iso5");
+  out.u32(0);
+  out.text("iso5mp42");
+  out.end();
+  out.begin("moov");
+  put_movie_header(out);
+  out.begin("trak");
+  put_track_header(out);
+  put_media(out, format);
+  out.end();
+  out.begin("mvex");
+  out.begin_full("trex", 0, 0);
+  out.u32(kTrack);
+  out.u32(1);
+  out.u32(std::uint64_t(std::max(format.frame_samples, 0)));
+  out.u32(0);
+  out.u32(0);
+  out.end();
+  out.end();
+  out.end();
+  return out.bytes();
+}
+
+Result<std::vector<std::uint8_t>> write_audio_segment(std::uint32_t sequence,
+                                                      std::span<const AudioPacket> packets) {
+  if (packets.empty() || packets.front().time < 0) {
+    return make_error(Code::invalid_argument, "no packets, or a negative time");
+  }
+  // The size of moof: everything up to the time, the time, trun with two numbers a packet.
+  const std::size_t moof = kTimeAt + 8 + 20 + 8 * packets.size();
+  BoxWriter out;
+  out.begin("moof");
+  out.begin_full("mfhd", 0, 0);
+  out.u32(sequence);
+  out.end();
+  out.begin("traf");
+  out.begin_full("tfhd", 0, kDefaultBaseIsMoof);
+  out.u32(kTrack);
+  out.end();
+  out.begin_full("tfdt", 1, 0);
+  out.u64(std::uint64_t(packets.front().time));
+  out.end();
+  out.begin_full("trun", 0, kDataOffset | kDurations | kSizes);
+  out.u32(packets.size());
+  out.u32(moof + 8);
+  for (const AudioPacket& packet : packets) {
+    if (packet.bytes.empty() || packet.duration <= 0) {
+      return make_error(Code::invalid_argument, "a packet of sound is empty");
+    }
+    out.u32(std::uint64_t(packet.duration));
+    out.u32(packet.bytes.size());
+  }
+  for (int open = 0; open < 3; ++open) out.end();  // trun, traf, moof
+  out.begin("mdat");
+  for (const AudioPacket& packet : packets) out.raw(packet.bytes);
+  out.end();
+  return out.bytes();
+}
+
+void set_segment_time(std::span<std::uint8_t> segment, std::int64_t time) {
+  if (segment.size() < kTimeAt + 8) return;
+  for (std::size_t i = 0; i < 8; ++i) {
+    segment[kTimeAt + i] = std::uint8_t(std::uint64_t(time) >> (56 - 8 * i));
+  }
+}
+
+void set_priming(AudioFormat& format, int priming) {
+  format.priming = priming;
+  if (format.codec != AudioCodec::opus || format.config.size() < 12) return;
+  format.config[10] = std::uint8_t(priming & 0xFF);
+  format.config[11] = std::uint8_t(priming >> 8);
+}
+
+}  // namespace animeme::media

@@ -1,0 +1,88 @@
+// When to send: a clock that can be replaced, and a pacer that holds units to it.
+//
+//     Pacer pacer(steady_clock());
+//     while (auto due = input.next_due()) {
+//       while (!pacer.wait_until(*due)) sink.poll();     // returns at least every 50 ms
+//       for (LiveUnit& unit : input.take(*due)) sink.send(unit);
+//       pacer.sent(*due);
+//     }
+//
+// Instants are absolute: that of a unit is the start of the presentation plus its own time, never
+// the instant of the unit before plus a distance. So errors of one wait do not add up, and the
+// sender keeps the speed of the machine's steady clock for days.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace animeme::media {
+
+/// Seconds from an arbitrary instant that never go back.
+class Clock {
+ public:
+  virtual ~Clock() = default;
+  virtual double now() = 0;
+  /// Returns at `instant` or a little later, at once if that is over.
+  virtual void sleep_until(double instant) = 0;
+};
+
+/// The steady clock of the machine, sleeping for real. Lives as long as the program.
+Clock& steady_clock();
+
+/// A clock that jumps to where one sleeps: presentations run as fast as they are made.
+class JumpingClock : public Clock {
+ public:
+  double now() override { return now_; }
+  void sleep_until(double instant) override {
+    if (instant > now_) now_ = instant;
+  }
+
+ private:
+  double now_ = 0;
+};
+
+/// How late things were, in seconds; memory does not grow. Negative values count as 0.
+class LatenessMeter {
+ public:
+  void add(double seconds);
+  std::int64_t count() const { return count_; }
+  double mean() const { return count_ == 0 ? 0 : sum_ / double(count_); }
+  double worst() const { return worst_; }
+  /// The value that a share of `part` (0..1) does not exceed: exact to 0.1 ms below 0.2 s, to 5 %
+  /// above; 0 if nothing was added.
+  double percentile(double part) const;
+
+ private:
+  // 0.1 ms steps up to 0.2 s, then steps that grow by 5 % up to about an hour.
+  static constexpr int kFine = 2000, kCoarse = 202;
+  static double upper_border(int bin);
+  std::array<std::int64_t, kFine + kCoarse> bins_{};
+  std::int64_t count_ = 0;
+  double sum_ = 0, worst_ = 0;
+};
+
+/// Holds a presentation to a clock. Time 0 of the presentation is the instant of construction
+/// or of the last restart().
+class Pacer {
+ public:
+  /// `slice` seconds are the longest that wait_until() sleeps. The clock must outlive the pacer.
+  explicit Pacer(Clock& clock, double slice = 0.05);
+
+  /// Time 0 is `lead` seconds from now (negative: ago).
+  void restart(double lead = 0);
+  /// Presentation time.
+  double now() const;
+  /// Sleeps towards presentation time `due`, for one slice at most. True once it is reached.
+  bool wait_until(double due);
+  /// Notes that what was due at `due` has just been sent.
+  void sent(double due);
+  const LatenessMeter& lateness() const { return lateness_; }
+
+ private:
+  Clock* clock_;
+  double slice_;
+  double start_;
+  LatenessMeter lateness_;
+};
+
+}  // namespace animeme::media

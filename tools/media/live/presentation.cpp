@@ -1,0 +1,130 @@
+#include "tools/media/live/presentation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace animeme::media {
+
+namespace {
+
+constexpr std::array<std::uint8_t, 5> kObjectStart = {0x00, 0x00, 0x01, 0xBA, 0x7F};
+constexpr std::size_t kProfileByte = 4;  // of the configuration
+
+void drop_object_start(std::vector<std::uint8_t>& bytes) {
+  if (bytes.size() > kObjectStart.size() &&
+      std::equal(kObjectStart.begin(), kObjectStart.end(), bytes.begin())) {
+    bytes.erase(bytes.begin(), bytes.begin() + kObjectStart.size());
+  }
+}
+
+std::int64_t up_to_multiple(double value, std::int64_t unit) {
+  // Half a millionth of a tick is rounding, not length.
+  return unit * std::int64_t(std::ceil(value / double(unit) - 1e-6));
+}
+
+}  // namespace
+
+double seconds_of(const LiveInfo& info, LiveTrack track, std::int64_t time) {
+  if (track == LiveTrack::face) return double(time) / double(info.timescale);
+  return info.audio ? double(time) / double(info.audio->sample_rate) : 0;
+}
+
+double due_of(const LiveInput& input, const LiveUnit& unit) {
+  const double seconds = seconds_of(input.info(), unit.track, unit.time);
+  return unit.track == LiveTrack::audio ? seconds - input.audio_ahead() : seconds;
+}
+
+ClipInput::ClipInput(fba::AccessUnits face, EncodedAudio audio, const ClipOptions& options)
+    : face_(std::move(face)), audio_(std::move(audio)), options_(options) {
+  double face_end = 0, audio_end = 0;  // seconds
+  std::int64_t grid = 1;
+  if (!face_.units.empty()) {
+    info_.face_config = face_.config;
+    info_.timescale = face_.timescale;
+    if (face_.config.size() > kProfileByte) info_.visual_profile = face_.config[kProfileByte];
+    const fba::AccessUnit& last = face_.units.back();
+    face_end = seconds_of(info_, LiveTrack::face, last.time + last.duration);
+    grid = std::max<std::int64_t>(1, last.duration);
+  }
+  if (!audio_.packets.empty()) {
+    info_.audio = audio_.format;
+    if (face_.units.empty()) info_.timescale = std::uint32_t(audio_.format.sample_rate);
+    const AudioPacket& last = audio_.packets.back();
+    audio_end =
+        seconds_of(info_, LiveTrack::audio, last.time + last.duration + audio_.format.priming);
+  }
+  round_ = std::max(grid, up_to_multiple(std::max(face_end, audio_end) * info_.timescale, grid));
+}
+
+std::int64_t ClipInput::shift(LiveTrack track, std::int64_t round) const {
+  const std::int64_t ticks = round * round_;
+  if (track == LiveTrack::face || !info_.audio) return ticks;
+  const std::int64_t rate = info_.audio->sample_rate;
+  const std::int64_t scale = info_.timescale;
+  // In two parts, since the product of both could leave 64 bits after some months.
+  return ticks / scale * rate + (ticks % scale * rate + scale / 2) / scale;
+}
+
+std::optional<double> ClipInput::due(LiveTrack track) const {
+  const Cursor& at = at_[std::size_t(track)];
+  const bool face = track == LiveTrack::face;
+  if (at.unit >= (face ? face_.units.size() : audio_.packets.size())) return std::nullopt;
+  const std::int64_t time = face ? face_.units[at.unit].time : audio_.packets[at.unit].time;
+  const double seconds = seconds_of(info_, track, time + shift(track, at.round));
+  if (seconds >= options_.duration) return std::nullopt;
+  return face ? seconds : seconds - options_.audio_ahead;
+}
+
+LiveUnit ClipInput::current(LiveTrack track) const {
+  const Cursor& at = at_[std::size_t(track)];
+  LiveUnit out;
+  out.track = track;
+  if (track == LiveTrack::face) {
+    const fba::AccessUnit& unit = face_.units[at.unit];
+    out.bytes = unit.bytes;
+    if (at.round > 0) drop_object_start(out.bytes);
+    out.intra = unit.intra;
+    out.time = unit.time;
+    out.duration = unit.duration;
+  } else {
+    const AudioPacket& packet = audio_.packets[at.unit];
+    out.bytes = packet.bytes;
+    out.time = packet.time;
+    out.duration = packet.duration;
+  }
+  out.time += shift(track, at.round);
+  return out;
+}
+
+void ClipInput::advance(LiveTrack track) {
+  Cursor& at = at_[std::size_t(track)];
+  const std::size_t count = track == LiveTrack::face ? face_.units.size() : audio_.packets.size();
+  if (++at.unit < count || !options_.loop) return;
+  at.unit = 0;
+  ++at.round;
+}
+
+std::optional<double> ClipInput::next_due() {
+  const std::optional<double> face = due(LiveTrack::face);
+  const std::optional<double> audio = due(LiveTrack::audio);
+  if (!face) return audio;
+  return audio ? std::min(*face, *audio) : *face;
+}
+
+Result<std::vector<LiveUnit>> ClipInput::take(double now) {
+  std::vector<LiveUnit> units;
+  for (;;) {
+    const std::optional<double> face = due(LiveTrack::face);
+    const std::optional<double> audio = due(LiveTrack::audio);
+    const bool sound_first = audio && (!face || *audio <= *face);
+    const LiveTrack track = sound_first ? LiveTrack::audio : LiveTrack::face;
+    const std::optional<double>& first = sound_first ? audio : face;
+    if (!first || *first > now) return units;
+    units.push_back(current(track));
+    advance(track);
+  }
+}
+
+}  // namespace animeme::media

@@ -1,0 +1,258 @@
+#include "tools/media/live/rtp_receiver.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace animeme::media {
+namespace {
+
+constexpr std::size_t kMaxWaiting = 8 << 20;
+constexpr std::size_t kItemCost = 256;  // of a queue entry beside its bytes
+constexpr double kOtherSilent = 1;      // after a goodbye of one track the other one has gone, too
+
+std::size_t cost(const LiveEvent& event) {
+  const LiveUnit* unit = std::get_if<LiveUnit>(&event);
+  return kItemCost + (unit != nullptr ? unit->bytes.size() : 0);
+}
+
+}  // namespace
+
+RtpReceiver::RtpReceiver(const RtpSession& session, const RtpReceiveOptions& options,
+                         std::uint32_t id)
+    : session_(session),
+      options_(options),
+      id_(id),
+      dice_(id | 1),
+      timeline_(session.face ? kFaceClock : 0, session.audio ? session.audio->clock : 0,
+                options.sync_seconds),
+      timescale_(session.face && session.face->timescale > 0 ? session.face->timescale
+                                                             : kFaceClock) {
+  const ReorderLimits limits{options.reorder_seconds, std::size_t(options.reorder_packets)};
+  if (session.face) {
+    face_.emplace(session.face->config, timescale_);
+    sources_.push_back({LiveTrack::face, RtpInput({session.face->payload_type, kFaceClock,
+                                                   session.face->bundle_id, limits})});
+  }
+  if (session.audio) {
+    audio_.emplace(*session.audio);
+    sources_.push_back({LiveTrack::audio,
+                        RtpInput({session.audio->payload_type, session.audio->clock, 0, limits})});
+  }
+}
+
+RtpReceiver::Source* RtpReceiver::source(LiveTrack track) {
+  for (Source& each : sources_) {
+    if (each.track == track) return &each;
+  }
+  return nullptr;
+}
+
+const RtpTrack& RtpReceiver::described(const Source& source) const {
+  if (source.track == LiveTrack::face) return *session_.face;
+  return *session_.audio;
+}
+
+// The clock in the description holds for the sender that wrote it. Once one track is known to come
+// from there, the other one, not yet heard, is believed to.
+void RtpReceiver::describe(const Source& source) {
+  if (source.input.ssrc() != described(source).ssrc) {
+    timeline_.describe(source.track, std::nullopt);
+    return;
+  }
+  for (const Source& each : sources_) {
+    const RtpTrack& track = described(each);
+    const bool fits = !each.input.ssrc() || each.input.ssrc() == track.ssrc;
+    timeline_.describe(each.track, fits ? track.clock_offset : std::nullopt);
+  }
+}
+
+void RtpReceiver::rtp(LiveTrack track, std::span<const std::uint8_t> datagram, double now) {
+  Source* const from = source(track);
+  if (from == nullptr) return;
+  if (looks_like_rtcp(datagram)) return rtcp(track, datagram, now);
+  const RtpInput::Taken taken = from->input.add(datagram, now);
+  if (taken == RtpInput::Taken::no) return;
+  if (taken == RtpInput::Taken::restart) restart(*from, now);
+  if (!from->begun) describe(*from);
+  from->begun = true;
+  drain(*from, now);
+}
+
+void RtpReceiver::rtcp(LiveTrack track, std::span<const std::uint8_t> datagram, double now) {
+  Source* const from = source(track);
+  const std::optional<RtcpMessage> message = read_rtcp(datagram);
+  if (from == nullptr || !message) return;
+  for (const RtcpReport& report : message->reports) {
+    if (from->input.add_report(report, now)) timeline_.add_report(track, *report.sender);
+  }
+  for (const std::uint32_t ssrc : message->byes) from->input.add_bye(ssrc, now);
+}
+
+void RtpReceiver::drain(Source& source, double now) {
+  while (std::optional<ReorderBuffer::Item> item = source.input.next(now)) {
+    const bool face = source.track == LiveTrack::face;
+    if (const auto* missing = std::get_if<ReorderBuffer::Missing>(&*item)) {
+      face ? face_->gap() : audio_->gap();
+      push(LiveGap{source.track, missing->packets});
+      continue;
+    }
+    const RtpPacket& packet = std::get<RtpPacket>(*item);
+    const std::int64_t time = timeline_.add(source.track, packet.timestamp, now);
+    add_units(source, face ? face_->add(packet, time) : audio_->add(packet, time));
+  }
+}
+
+void RtpReceiver::add_units(Source& source, RtpUnits units) {
+  if (units.damaged) push(LiveGap{source.track, 0});
+  if (source.track == LiveTrack::face && face_->config() != session_.face->config) {
+    session_.face->config = face_->config();
+    if (announced_) push(info());
+  }
+  for (LiveUnit& unit : units.units) push(std::move(unit));
+}
+
+void RtpReceiver::push(LiveEvent event) {
+  ended_ = false;
+  if (waiting_bytes_ + cost(event) > kMaxWaiting) {
+    overflowed_ = true;
+    return;
+  }
+  if (overflowed_) {
+    overflowed_ = false;
+    for (const Source& each : sources_) push(LiveGap{each.track, 0});
+  }
+  waiting_bytes_ += cost(event);
+  pending_.push_back(std::move(event));
+}
+
+LiveEvent RtpReceiver::pop(std::deque<LiveEvent>& queue) {
+  LiveEvent event = std::move(queue.front());
+  queue.pop_front();
+  waiting_bytes_ -= cost(event);
+  return event;
+}
+
+// The old sender's units get their times while its clock is known.
+void RtpReceiver::restart(Source& source, double now) {
+  source.input.flush();
+  drain(source, now);
+  timeline_.settle(std::numeric_limits<double>::infinity());
+  if (!announced_ && !pending_.empty()) {
+    ready_.push_back(info());
+    waiting_bytes_ += cost(ready_.back());
+  }
+  for (LiveEvent& event : pending_) {
+    if (LiveUnit* unit = std::get_if<LiveUnit>(&event)) *unit = timed(std::move(*unit));
+    ready_.push_back(std::move(event));
+  }
+  pending_.clear();
+  source.input.accept(now);
+  source.track == LiveTrack::face ? face_->restart() : audio_->gap();
+  timeline_.restart(source.track);
+  announced_ = false;
+  for (Source& each : sources_) each.begun = false;
+  push(LiveGap{source.track, 0});
+}
+
+LiveUnit RtpReceiver::timed(LiveUnit unit) {
+  unit.time = timeline_.time(unit.track, unit.time);
+  if (unit.track == LiveTrack::face) {
+    unit.time = to_timescale(unit.time, timescale_, face_->rate());
+  }
+  return unit;
+}
+
+LiveInfo RtpReceiver::info() const {
+  LiveInfo info;
+  info.timescale = timescale_;
+  if (session_.face) {
+    info.face_config = face_->config();
+    info.visual_profile = session_.face->visual_profile;
+  }
+  if (session_.audio) info.audio = session_.audio->format;
+  return info;
+}
+
+std::optional<LiveEvent> RtpReceiver::next(double now) {
+  for (Source& source : sources_) drain(source, now);
+  if (!ready_.empty()) return pop(ready_);
+  if (!pending_.empty() && timeline_.settle(now)) {
+    if (!std::exchange(announced_, true)) return info();
+    LiveEvent event = pop(pending_);
+    if (LiveUnit* unit = std::get_if<LiveUnit>(&event)) *unit = timed(std::move(*unit));
+    return event;
+  }
+  const std::optional<double> end = end_time();
+  if (ended_ || !pending_.empty() || !end || *end > now) return std::nullopt;
+  ended_ = true;
+  return LiveEnd{};
+}
+
+// Packets may still be on their way when the goodbye is here.
+std::optional<double> RtpReceiver::end_time() const {
+  std::optional<double> end;
+  for (const Source& each : sources_) {
+    if (each.input.bye_at()) end = std::max(end.value_or(0), *each.input.bye_at());
+  }
+  if (!end) return std::nullopt;
+  *end += options_.reorder_seconds;
+  for (const Source& each : sources_) {
+    if (each.begun && !each.input.bye_at()) {
+      end = std::max(*end, each.input.last_heard() + kOtherSilent);
+    }
+  }
+  return end;
+}
+
+std::optional<double> RtpReceiver::deadline() const {
+  std::optional<double> first;
+  const auto consider = [&first](std::optional<double> when) {
+    if (when && (!first || *when < *first)) first = when;
+  };
+  for (const Source& each : sources_) consider(each.input.deadline());
+  if (!ready_.empty() || !pending_.empty()) consider(timeline_.deadline().value_or(0));
+  if (!ended_) consider(end_time());
+  return first;
+}
+
+// Half to one and a half times five seconds, as RFC 3550 section 6.2 asks, so that receivers that
+// began together do not report together.
+double RtpReceiver::report_interval() {
+  dice_ ^= dice_ << 13;
+  dice_ ^= dice_ >> 17;
+  dice_ ^= dice_ << 5;
+  return 2.5 + 5.0 * (dice_ >> 8) / double(1 << 24);
+}
+
+std::vector<RtpDatagram> RtpReceiver::reports(double now) {
+  std::vector<RtpDatagram> out;
+  for (Source& each : sources_) {
+    if (!options_.send_reports || !each.begun || now < each.next_report) continue;
+    const bool first = each.next_report == 0;
+    each.next_report = now + (first ? 1 : report_interval());
+    if (first) continue;
+    RtcpMessage message;
+    message.reports.push_back({id_, std::nullopt, {each.input.report(now)}});
+    message.names.push_back({id_, "animeme"});
+    out.push_back({each.track, true, write_rtcp(message)});
+  }
+  return out;
+}
+
+ReceiveStats RtpReceiver::stats() const {
+  ReceiveStats stats;
+  for (const Source& each : sources_) {
+    const ReorderBuffer::Counts counts = each.input.counts();
+    stats.packets += counts.received + counts.late + counts.duplicates;
+    stats.bytes += each.input.bytes();
+    stats.lost += counts.lost;
+    stats.late += counts.late;
+    stats.duplicates += counts.duplicates;
+    stats.reordered += counts.reordered;
+    if (each.track == LiveTrack::face) stats.jitter = each.input.jitter_seconds();
+  }
+  return stats;
+}
+
+}  // namespace animeme::media

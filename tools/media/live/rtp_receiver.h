@@ -1,0 +1,82 @@
+// What RTP and RTCP packets say, without sockets: a caller hands in datagrams and the time, and
+// takes out events and reports.
+//
+//     RtpReceiver receiver(*read_sdp(text), {}, 1);
+//     receiver.rtp(LiveTrack::face, datagram, seconds);
+//     while (auto event = receiver.next(seconds)) { ... }
+//
+// Safe for whatever comes in. At most 8 MB wait in it, besides `reorder_packets` datagrams a track;
+// when the caller does not take them out, further units are dropped and reported as a gap.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tools/media/live/rtp.h"
+#include "tools/media/live/rtp_input.h"
+#include "tools/media/live/rtp_timeline.h"
+#include "tools/media/live/rtp_units.h"
+#include "tools/media/live/sdp.h"
+
+namespace animeme::media {
+
+class RtpReceiver {
+ public:
+  /// `id`: own identifier in reports. Times ("now") are seconds of any steady clock.
+  RtpReceiver(const RtpSession& session, const RtpReceiveOptions& options, std::uint32_t id);
+
+  void rtp(LiveTrack track, std::span<const std::uint8_t> datagram, double now);
+  void rtcp(LiveTrack track, std::span<const std::uint8_t> datagram, double now);
+  /// The next event, never LiveIdle. nullopt: nothing is ready.
+  std::optional<LiveEvent> next(double now);
+  /// When next() will have something without a further datagram; in the past: now.
+  std::optional<double> deadline() const;
+  /// Receiver reports that are due: about every five seconds.
+  std::vector<RtpDatagram> reports(double now);
+
+  ReceiveStats stats() const;
+  RtpSync sync() const { return timeline_.sync(); }
+
+ private:
+  struct Source {
+    LiveTrack track = LiveTrack::face;
+    RtpInput input;
+    double next_report = 0;
+    bool begun = false;  // a unit has come since the sender began
+  };
+
+  Source* source(LiveTrack track);
+  const RtpTrack& described(const Source& source) const;
+  void describe(const Source& source);
+  void drain(Source& source, double now);
+  void add_units(Source& source, RtpUnits units);
+  void push(LiveEvent event);
+  LiveEvent pop(std::deque<LiveEvent>& queue);
+  void restart(Source& source, double now);
+  void convert_pending();
+  LiveUnit timed(LiveUnit unit);
+  LiveInfo info() const;
+  std::optional<double> end_time() const;
+  double report_interval();
+
+  RtpSession session_;
+  RtpReceiveOptions options_;
+  std::uint32_t id_;
+  std::uint32_t dice_;
+  std::vector<Source> sources_;
+  std::optional<FaceAssembler> face_;
+  std::optional<AudioAssembler> audio_;
+  RtpTimeline timeline_;
+  std::uint32_t timescale_;
+  std::deque<LiveEvent> pending_;  // with times of RTP
+  std::deque<LiveEvent> ready_;    // what an earlier sender has left
+  std::size_t waiting_bytes_ = 0;
+  bool overflowed_ = false;
+  bool announced_ = false;
+  bool ended_ = false;
+};
+
+}  // namespace animeme::media

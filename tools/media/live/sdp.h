@@ -1,0 +1,80 @@
+// Session descriptions: where the packets of a presentation come from and what is in them.
+// Source: RFC 8866, 6416, 3640, 7587, 5576 (ssrc), 7273 (media clock), 8285 (extmap); containers,
+// section 4.1.
+//
+//     m=video 5004 RTP/AVP 96
+//     a=rtpmap:96 MP4V-ES/90000
+//     a=fmtp:96 profile-level-id=97; config=000001B061000001B58947
+//     a=ssrc:305419896 cname:animeme
+//     a=mediaclk:direct=2271560481       RTP time of time 0
+//     a=x-animeme:timescale=25000        ours; others pass over it
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fap/result.h"
+#include "tools/media/live/live.h"
+#include "tools/media/live/rtp_payload.h"
+
+namespace animeme::media {
+
+inline constexpr std::uint32_t kFaceClock = 90000;
+/// Largest LiveInfo::timescale; that of the fastest stream of 14496-2 is 4095000.
+inline constexpr std::uint32_t kMaxTimescale = 10000000;
+
+/// What face and sound have in common.
+struct RtpTrack {
+  std::string address;      ///< numbers as a rule: "192.0.2.7", "ff15::1"
+  int port = 0;             ///< 1..65534
+  int rtcp_port = 0;        ///< as a rule port + 1
+  int ttl = 0;              ///< of multicast packets; 0: not said
+  int payload_type = 96;    ///< 0..127
+  std::uint32_t clock = 0;  ///< ticks a second
+  /// Sender and its RTP time at time 0; the second holds for this sender only.
+  std::optional<std::uint32_t> ssrc;
+  std::optional<std::uint32_t> clock_offset;
+
+  friend bool operator==(const RtpTrack&, const RtpTrack&) = default;
+};
+
+struct FaceTrack : RtpTrack {
+  std::vector<std::uint8_t> config;  ///< empty: comes in band
+  std::uint8_t visual_profile = 0x61;
+  std::uint32_t timescale = 0;  ///< of the sender; 0: not said
+  int bundle_id = 0;            ///< number of the extension kBundleExtension; 0: not used
+
+  friend bool operator==(const FaceTrack&, const FaceTrack&) = default;
+};
+
+struct AudioTrack : RtpTrack {
+  AudioFormat format;
+  AacFields fields;
+
+  friend bool operator==(const AudioTrack&, const AudioTrack&) = default;
+};
+
+struct RtpSession {
+  std::string name = "animeme";
+  std::string cname = "animeme";
+  std::optional<FaceTrack> face;
+  std::optional<AudioTrack> audio;
+  /// Media that are not for us, a sentence each.
+  std::vector<std::string> ignored;
+
+  friend bool operator==(const RtpSession&, const RtpSession&) = default;
+};
+
+/// The text, lines ended by CR LF. Line ends in names become spaces.
+std::string write_sdp(const RtpSession& session);
+
+/// Reads a description of ours, of FFmpeg, GStreamer or VLC: any line ends, any case of names,
+/// unknown lines passed over. Of several faces or sounds the first that can be received counts.
+/// Errors: syntax (no "v=0" and no "m=" line, a number that is none, larger than 64 kB; with
+/// line), unsupported (neither a face nor a sound that is known here).
+Result<RtpSession> read_sdp(std::string_view text);
+
+}  // namespace animeme::media

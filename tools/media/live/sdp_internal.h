@@ -1,0 +1,66 @@
+// The grammar below session descriptions: words, numbers, bytes, parameter lists. Nothing here
+// allocates more than its input is long.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/media/encoded_audio.h"
+
+namespace animeme::media {
+
+/// Upper case.
+std::string to_hex(std::span<const std::uint8_t> bytes);
+/// Any case; nullopt: an odd number of digits or something else than digits.
+std::optional<std::vector<std::uint8_t>> from_hex(std::string_view text);
+
+std::string_view trim(std::string_view text);
+std::string lower(std::string_view text);
+/// What stands in front of the first `mark`, trimmed; `text` goes on behind it.
+std::string_view take_until(std::string_view& text, char mark);
+/// Decimal digits alone, at most `highest`.
+std::optional<std::uint32_t> to_number(std::string_view text, std::uint32_t highest);
+
+/// "key=value; key=value", keys in lower case; the first of equal keys counts.
+using Parameters = std::map<std::string, std::string, std::less<>>;
+Parameters read_parameters(std::string_view text);
+/// nullopt: not there or no number up to `highest`.
+std::optional<std::uint32_t> number_of(const Parameters& parameters, std::string_view key,
+                                       std::uint32_t highest);
+
+/// One medium as it was read, before anybody asks whether it is for us.
+struct SdpMedium {
+  std::string kind;     // "video", "audio" ...
+  std::string address;  // empty: not said
+  int ttl = 0;
+  std::uint32_t port = 0;
+  std::uint32_t rtcp_port = 0;  // 0: not said
+  int payload_type = -1;        // the first one
+  std::string encoding;         // lower case; empty: no rtpmap
+  std::uint32_t clock = 0;
+  std::uint32_t channels = 1;
+  Parameters format;  // a=fmtp
+  Parameters own;     // a=x-animeme
+  std::optional<std::uint32_t> ssrc;
+  std::optional<std::uint32_t> clock_offset;
+  std::string cname;
+  int bundle_id = 0;
+  std::int64_t line = 0;
+};
+
+/// What an AudioSpecificConfig says. nullopt: not AAC, or too short.
+struct AacFacts {
+  int frame_samples = 1024;
+  int channels = 0;  // 0: in the config's own program element
+};
+std::optional<AacFacts> read_aac_config(std::span<const std::uint8_t> config);
+
+/// OpusHead, as the format of Ogg has it, with no pre-skip.
+std::vector<std::uint8_t> default_opus_head(int channels);
+
+}  // namespace animeme::media

@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <cctype>
+
+#include "codec/bits.h"
+#include "tools/media/live/sdp_internal.h"
+
+namespace animeme::media {
+namespace {
+
+int digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+}  // namespace
+
+std::optional<std::vector<std::uint8_t>> from_hex(std::string_view text) {
+  if (text.size() % 2 != 0) return std::nullopt;
+  std::vector<std::uint8_t> out;
+  for (std::size_t i = 0; i < text.size(); i += 2) {
+    const int high = digit(text[i]);
+    const int low = digit(text[i + 1]);
+    if (high < 0 || low < 0) return std::nullopt;
+    out.push_back(std::uint8_t(high << 4 | low));
+  }
+  return out;
+}
+
+std::string_view trim(std::string_view text) {
+  constexpr std::string_view kBlank = " \t\r\n";
+  const std::size_t begin = text.find_first_not_of(kBlank);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
+}
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
+std::string_view take_until(std::string_view& text, char mark) {
+  const std::size_t end = std::min(text.find(mark), text.size());
+  const std::string_view part = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return trim(part);
+}
+
+std::optional<std::uint32_t> to_number(std::string_view text, std::uint32_t highest) {
+  if (text.empty() || text.size() > 10) return std::nullopt;
+  std::uint64_t value = 0;
+  for (const char c : text) {
+    if (c < '0' || c > '9') return std::nullopt;
+    value = value * 10 + std::uint64_t(c - '0');
+  }
+  if (value > highest) return std::nullopt;
+  return std::uint32_t(value);
+}
+
+Parameters read_parameters(std::string_view text) {
+  Parameters out;
+  while (!text.empty()) {
+    std::string_view value = take_until(text, ';');
+    const std::string key = lower(take_until(value, '='));
+    if (!key.empty()) out.try_emplace(key, trim(value));
+  }
+  return out;
+}
+
+std::optional<std::uint32_t> number_of(const Parameters& parameters, std::string_view key,
+                                       std::uint32_t highest) {
+  const auto found = parameters.find(key);
+  if (found == parameters.end()) return std::nullopt;
+  return to_number(found->second, highest);
+}
+
+// Source: ISO/IEC 14496-3 section 1.6.2.1, as far as AAC without extensions goes.
+std::optional<AacFacts> read_aac_config(std::span<const std::uint8_t> config) {
+  constexpr std::uint32_t kEscape = 31;
+  constexpr std::uint32_t kOwnRate = 15;
+  fba::BitReader in(config);
+  std::uint32_t type = in.bits(5);
+  if (type == kEscape) type = 32 + in.bits(6);
+  if (in.bits(4) == kOwnRate) in.bits(24);
+  AacFacts facts;
+  facts.channels = int(in.bits(4));
+  if (in.bit() != 0) facts.frame_samples = 960;
+  if (in.overrun() || type == 0) return std::nullopt;
+  if (facts.channels == 7) facts.channels = 8;
+  return facts;
+}
+
+std::vector<std::uint8_t> default_opus_head(int channels) {
+  std::vector<std::uint8_t> out = {'O', 'p', 'u', 's', 'H', 'e', 'a', 'd', 1};
+  out.push_back(std::uint8_t(channels));
+  out.insert(out.end(), {0, 0, 0x80, 0xBB, 0, 0, 0, 0, 0});  // pre-skip, 48000 Hz, gain, mapping
+  return out;
+}
+
+}  // namespace animeme::media

@@ -1,0 +1,83 @@
+// Datagrams over IPv4 and IPv6, to one host or a multicast group.
+//
+//     auto in = UdpSocket::bind("127.0.0.1", 5004);
+//     auto got = in->receive(buffer);
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fap/result.h"
+
+struct sockaddr_storage;
+
+namespace animeme::media {
+
+/// A host and a port, resolved.
+class UdpAddress {
+ public:
+  /// `host`: a name or a number; a name that has both gets its IPv4 address. Errors: io (no such
+  /// host), invalid_argument (port outside 0..65535).
+  static Result<UdpAddress> resolve(const std::string& host, int port);
+
+  std::string host() const;  ///< as numbers, without brackets
+  int port() const;
+  bool is_multicast() const;
+  bool is_loopback() const;
+  bool is_ipv6() const;
+  UdpAddress with_port(int port) const;
+
+ private:
+  friend class UdpSocket;
+  alignas(8) std::uint8_t bytes_[128] = {};  // sockaddr_storage
+  std::uint32_t size_ = 0;
+};
+
+/// Settings of multicast. Elsewhere they do nothing.
+struct Multicast {
+  int ttl = 1;            ///< hops of what is sent
+  std::string interface;  ///< IPv4: address of ours, IPv6: name; empty: the system's choice
+};
+
+/// Owner of one socket. Movable, not copyable.
+class UdpSocket {
+ public:
+  /// For receiving at an address of ours, or from a group (which is joined). Host empty: all
+  /// addresses, IPv4. Port 0: any. Errors: io (address in use, not ours ...).
+  static Result<UdpSocket> bind(const std::string& host, int port, const Multicast& multicast = {});
+  /// For sending to `to` and receiving answers. Errors: io.
+  static Result<UdpSocket> open_for(const UdpAddress& to, const Multicast& multicast = {});
+  UdpSocket(UdpSocket&& other) noexcept;
+  UdpSocket& operator=(UdpSocket&& other) noexcept;
+  ~UdpSocket();
+
+  /// Sends at once. A receiver that is not there, a full buffer or a network that is down for now
+  /// are no errors: datagrams get lost. Errors: io (anything else, as a message too long).
+  Result<void> send(std::span<const std::uint8_t> datagram, const UdpAddress& to);
+  /// A datagram that is there, without waiting; nullopt: none is. `from` may be null. Errors: io.
+  Result<std::optional<std::vector<std::uint8_t>>> receive(UdpAddress* from = nullptr);
+  /// The port that it is bound to.
+  int port() const;
+  int handle() const { return handle_; }
+
+ private:
+  explicit UdpSocket(int handle) : handle_(handle) {}
+  int handle_ = -1;
+};
+
+/// Waits until one of the sockets has a datagram, at most `seconds` (>= 0). false: time is over.
+/// Errors: io.
+Result<bool> wait_for_any(std::span<const UdpSocket* const> sockets, double seconds);
+
+/// host and port of "scheme://host:port"; IPv6 hosts in brackets. `standard_port` where there is
+/// none. Errors: invalid_argument.
+struct HostPort {
+  std::string host;
+  int port = 0;
+};
+Result<HostPort> read_host_port(const std::string& url, int standard_port);
+
+}  // namespace animeme::media

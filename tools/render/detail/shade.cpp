@@ -1,0 +1,149 @@
+#include "tools/render/detail/shade.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace animeme::render::detail {
+namespace {
+
+using head::dot;
+using head::Material;
+using head::normalised;
+using head::Vec3;
+
+constexpr int kShownSteps = 4096;
+
+const std::array<float, kShownSteps + 2>& shown_table() {
+  static const std::array<float, kShownSteps + 2> table = [] {
+    std::array<float, kShownSteps + 2> t{};
+    for (int i = 0; i < kShownSteps + 2; ++i) {
+      const double v = std::min(double(i) / kShownSteps, 1.0);
+      t[std::size_t(i)] =
+          float(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055));
+    }
+    return t;
+  }();
+  return table;
+}
+
+// How a material answers to light.
+struct Look {
+  Vec3 wrap;      // how far light goes around, red first
+  float shine;    // strength of the highlight
+  int sharpness;  // its exponent is 2^sharpness
+  float rim;
+  float tint = 0;  // of the highlight: 0 white, 1 as the surface
+};
+
+Look look_of(Material material) {
+  switch (material) {
+    case Material::skin:
+      return {{0.42f, 0.22f, 0.16f}, 0.10f, 4, 0.22f};
+    case Material::eye:
+      return {{0.25f, 0.22f, 0.20f}, 0, 1, 0};
+    case Material::teeth:
+      return {{0.2f, 0.2f, 0.2f}, 0.35f, 5, 0};
+    case Material::wet:
+      return {{0.3f, 0.15f, 0.1f}, 0.25f, 5, 0};
+    case Material::hair:
+      return {{0.15f, 0.12f, 0.10f}, 0.14f, 4, 0.3f, 0.85f};
+    case Material::cloth:
+      return {{0.15f, 0.15f, 0.15f}, 0.02f, 3, 0.12f};
+  }
+  return {{0, 0, 0}, 0, 1, 0};
+}
+
+float power(float base, int squarings) {
+  for (int i = 0; i < squarings; ++i) base *= base;
+  return base;
+}
+
+float wrapped(float cosine, float wrap) {
+  const float v = std::max((cosine + wrap) / (1 + wrap), 0.0f);
+  return v * (0.35f + 0.65f * v);
+}
+
+constexpr Vec3 kKey{2.35f, 2.20f, 2.0f};
+constexpr Vec3 kFill{0.34f, 0.42f, 0.54f};
+constexpr Vec3 kSky{0.46f, 0.48f, 0.52f};
+constexpr Vec3 kGround{0.26f, 0.22f, 0.20f};
+constexpr Vec3 kRim{0.85f, 0.92f, 1.0f};
+constexpr float kExposure = 0.62f;
+
+Vec3 lit(Vec3 n, Vec3 to_eye, Vec3 albedo, float sky, const Look& look, const View& view) {
+  const float key = dot(n, view.key);
+  const float fill = wrapped(dot(n, view.fill), 0.3f);
+  const float up = 0.5f + 0.5f * n.y;
+  // What lies deep gets less of the key, too, and the light that is left is redder.
+  const float key_sky = 0.25f + 0.75f * sky;
+  const Vec3 tint{std::sqrt(sky), sky, sky};
+  Vec3 light =
+      kKey * Vec3{wrapped(key, look.wrap.x), wrapped(key, look.wrap.y), wrapped(key, look.wrap.z)} *
+      key_sky;
+  light += (kFill * fill + mix(kGround, kSky, up)) * tint;
+  Vec3 c = albedo * light;
+  const float facing = std::max(dot(n, to_eye), 0.0f);
+  const float edge = 1 - facing;
+  c += kRim * (look.rim * edge * edge * edge * std::max(dot(n, view.rim) + 0.25f, 0.0f) * sky);
+  const float half = std::max(dot(n, normalised(view.key + to_eye)), 0.0f);
+  const Vec3 gloss = mix(Vec3{1, 1, 1}, albedo * 6.0f, look.tint);
+  c += kKey * gloss * (look.shine * power(half, look.sharpness) * key_sky * std::max(key, 0.0f));
+  return c * kExposure;
+}
+
+}  // namespace
+
+View::View(const Camera& camera, int width, int height) : eye(camera.eye) {
+  back = normalised(camera.eye - camera.target);
+  right = normalised(cross(camera.up, back));
+  up = cross(back, right);
+  focus = 0.5f * float(height) / std::tan(camera.view_angle / 2);
+  middle_x = 0.5f * float(width);
+  middle_y = 0.5f * float(height);
+  key = normalised(right * 0.55f + up * 0.62f + back * 0.75f);
+  fill = normalised(right * -0.9f + up * 0.1f + back * 0.5f);
+  rim = normalised(right * -0.7f + up * 0.5f + back * -0.8f);
+}
+
+float shown(float light) {
+  const float x = std::clamp(light, 0.0f, 1.0f) * kShownSteps;
+  const int i = int(x);
+  const auto& table = shown_table();
+  return table[std::size_t(i)] +
+         (table[std::size_t(i + 1)] - table[std::size_t(i)]) * (x - float(i));
+}
+
+float filmic(float x) { return shown(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f)); }
+
+void shade(const Surface& surface, const View& view, std::size_t first, std::size_t last,
+           ScreenVertex* out) {
+  const Look look = look_of(surface.material);
+  for (std::size_t i = first; i < last; ++i) {
+    const Vec3 place = surface.transform(surface.positions[i]);
+    const Vec3 normal = surface.transform.turn(surface.normals[i]);
+    const Vec3 from_eye = place - view.eye;
+    const float distance = -dot(from_eye, view.back);
+    ScreenVertex& v = out[i];
+    v.nearness = distance > 1 ? 1 / distance : 0;
+    const float px = view.middle_x + view.focus * dot(from_eye, view.right) * v.nearness;
+    const float py = view.middle_y - view.focus * dot(from_eye, view.up) * v.nearness;
+    constexpr float kFar = 1 << 14;  // far outside of any picture; the product of two fits 64 bits
+    v.x = std::int32_t(std::lrint(std::clamp(px, -kFar, kFar) * kSubpixels));
+    v.y = std::int32_t(std::lrint(std::clamp(py, -kFar, kFar) * kSubpixels));
+    v.normal = normal;
+    const Vec3 to_eye = normalised(Vec3{} - from_eye);
+    if (dot(to_eye, normal) < -0.5f) continue;  // no triangle that is seen has such a corner
+    const Vec3 c = lit(normal, to_eye, surface.colours[i], surface.occlusion[i], look, view);
+    v.colour = {filmic(c.x), filmic(c.y), filmic(c.z)};
+  }
+}
+
+float eye_highlight(Vec3 normal, const View& view) {
+  const Vec3 n = normalised(normal);
+  const float key = std::max(dot(n, normalised(view.key + view.back)), 0.0f);
+  const float fill = std::max(dot(n, normalised(view.fill + view.back)), 0.0f);
+  const float sharp = head::smooth_step(0.978f, 0.988f, key);
+  return 235 * sharp + 30 * power(key, 5) + 26 * head::smooth_step(0.972f, 0.99f, fill);
+}
+
+}  // namespace animeme::render::detail

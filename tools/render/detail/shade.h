@@ -1,0 +1,44 @@
+// From a surface to shaded vertices on the screen.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "tools/render/raster.h"
+
+namespace animeme::render::detail {
+
+inline constexpr int kSubpixels = 16;  ///< steps of a pixel in which vertices are placed
+
+/// The camera with everything that depends on it.
+struct View {
+  View(const Camera& camera, int width, int height);
+
+  head::Vec3 eye, right, up, back;  // axes of the camera
+  float focus;                      // pixels
+  float middle_x, middle_y;         // pixels
+  head::Vec3 key, fill, rim;        // towards the lights
+};
+
+struct ScreenVertex {
+  std::int32_t x = 0;  ///< 1/16 pixels
+  std::int32_t y = 0;
+  float nearness = 0;  ///< 1/distance; <= 0: not visible
+  head::Vec3 colour;   ///< 0..255, as shown
+  head::Vec3 normal;   ///< of eyes: half way between light and eye is what matters
+};
+
+/// sRGB value 0..255 of linear light 0..1, by table.
+float shown(float light);
+/// The same after the filmic curve.
+float filmic(float light);
+
+/// Vertices first .. last - 1.
+void shade(const Surface& surface, const View& view, std::size_t first, std::size_t last,
+           ScreenVertex* out);
+
+/// Added to the colour of an eye with this normal, 0..255.
+float eye_highlight(head::Vec3 normal, const View& view);
+
+}  // namespace animeme::render::detail

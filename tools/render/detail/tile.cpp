@@ -1,0 +1,235 @@
+#include "tools/render/detail/tile.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace animeme::render::detail {
+namespace {
+
+using head::Vec3;
+
+// Samples of a pixel in subpixels: a turned square, no two in one row or column.
+constexpr I4 kSampleX = {6, 14, 2, 10};
+constexpr I4 kSampleY = {2, 6, 10, 14};
+
+// Middle of the samples that a mask names, in pixels.
+struct Middle {
+  float x, y;
+};
+constexpr std::array<Middle, 16> make_middles() {
+  std::array<Middle, 16> middles{};
+  const int xs[] = {6, 14, 2, 10};
+  const int ys[] = {2, 6, 10, 14};
+  for (int mask = 1; mask < 16; ++mask) {
+    int count = 0;
+    int x = 0;
+    int y = 0;
+    for (int s = 0; s < 4; ++s) {
+      if ((mask >> s & 1) == 0) continue;
+      ++count;
+      x += xs[s];
+      y += ys[s];
+    }
+    middles[std::size_t(mask)] = {float(x) / float(16 * count), float(y) / float(16 * count)};
+  }
+  return middles;
+}
+constexpr std::array<Middle, 16> kMiddles = make_middles();
+
+F4 splat(float v) { return F4{v, v, v, v}; }
+I4 splat(std::int32_t v) { return I4{v, v, v, v}; }
+
+F4 as_float(I4 v) {
+  F4 f;
+  std::memcpy(&f, &v, sizeof f);
+  return f;
+}
+I4 as_int(F4 v) {
+  I4 i;
+  std::memcpy(&i, &v, sizeof i);
+  return i;
+}
+// Bit k: lane k is set.
+int lanes(I4 v) {
+#ifdef __SSE__
+  return __builtin_ia32_movmskps(as_float(v));
+#else
+  return (v[0] & 1) | (v[1] & 2) | (v[2] & 4) | (v[3] & 8);
+#endif
+}
+F4 to_float(I4 v) { return __builtin_convertvector(v, F4); }
+
+// One side of a triangle: value(x, y) >= 0 inside. Exact in integers, so neighbours share no
+// sample and leave none out.
+struct Side {
+  std::int32_t step_x, step_y;
+  std::int32_t start;
+};
+
+Side make_side(const ScreenVertex& p, const ScreenVertex& q, std::int32_t x0, std::int32_t y0) {
+  const std::int32_t step_x = q.y - p.y;
+  const std::int32_t step_y = p.x - q.x;
+  std::int64_t start = std::int64_t(step_x) * (x0 - p.x) + std::int64_t(step_y) * (y0 - p.y);
+  // A sample right on the side belongs to one of the two triangles.
+  if (!(step_x > 0 || (step_x == 0 && step_y > 0))) start -= 1;
+  constexpr std::int64_t kLarge = 1 << 30;  // no change of sign within a tile
+  return {step_x, step_y, std::int32_t(std::clamp(start, -kLarge, kLarge))};
+}
+
+// value = at + dx * x + dy * y, pixels from the first corner; four values at once.
+struct Plane {
+  F4 at, dx, dy;
+  F4 operator()(float x, float y) const { return at + dx * splat(x) + dy * splat(y); }
+};
+
+// Sides of a triangle on the screen, from its first corner, in pixels.
+struct Frame {
+  float bx, by, cx, cy, scale;
+
+  Plane plane(F4 a, F4 b, F4 c) const {
+    const F4 db = b - a;
+    const F4 dc = c - a;
+    return {a, (db * splat(cy) - dc * splat(by)) * splat(scale),
+            (dc * splat(bx) - db * splat(cx)) * splat(scale)};
+  }
+};
+
+F4 as_vector(Vec3 v) { return F4{v.x, v.y, v.z, 0}; }
+
+Vec3 unpack(std::uint32_t srgb) {
+  return {float(srgb >> 16 & 255u), float(srgb >> 8 & 255u), float(srgb & 255u)};
+}
+
+// 0xBBGGRR of red, green and blue.
+inline std::int32_t pack(F4 colour) {
+  const F4 high = splat(255.0f);
+  const I4 over = colour > high;
+  const I4 positive = colour > splat(0.0f);
+  colour = as_float(((over & as_int(high)) | (~over & as_int(colour))) & positive);
+  const I4 bytes = __builtin_convertvector(colour + splat(0.5f), I4);
+  return bytes[0] | bytes[1] << 8 | bytes[2] << 16;
+}
+
+}  // namespace
+
+// What a triangle shows; made when the first of its pixels is seen.
+struct Tile::Planes {
+  const Corners& corners;
+  const Frame& frame;
+  bool eye;
+  bool ready = false;
+  Plane colour{};
+  Plane normal{};
+
+  void make() {
+    const ScreenVertex& a = *corners.a;
+    const ScreenVertex& b = *corners.b;
+    const ScreenVertex& c = *corners.c;
+    colour = frame.plane(as_vector(a.colour), as_vector(b.colour), as_vector(c.colour));
+    if (eye) normal = frame.plane(as_vector(a.normal), as_vector(b.normal), as_vector(c.normal));
+    ready = true;
+  }
+};
+
+void Tile::start(int x, int y, const RenderOptions& options) {
+  x_ = x;
+  y_ = y;
+  width_ = std::min(kTile, options.width - x);
+  height_ = std::min(kTile, options.height - y);
+  nearness_.fill(splat(0.0f));
+  const Vec3 top = unpack(options.background_top);
+  const Vec3 bottom = unpack(options.background_bottom);
+  for (int row = 0; row < kTile; ++row) {
+    const Vec3 c = head::mix(top, bottom, (float(y + row) + 0.5f) / float(options.height));
+    std::fill_n(colour_.begin() + row * kTile, kTile, splat(pack(as_vector(c))));
+  }
+}
+
+void Tile::draw(const Corners& corners, bool eye, const View& view) {
+  const ScreenVertex& a = *corners.a;
+  const ScreenVertex& b = *corners.b;
+  const ScreenVertex& c = *corners.c;
+  const auto first = [](std::int32_t low, int origin) { return std::max((low >> 4) - origin, 0); };
+  const int x0 = first(std::min({a.x, b.x, c.x}), x_);
+  const int y0 = first(std::min({a.y, b.y, c.y}), y_);
+  const int x1 = std::min((std::max({a.x, b.x, c.x}) >> 4) - x_, width_ - 1);
+  const int y1 = std::min((std::max({a.y, b.y, c.y}) >> 4) - y_, height_ - 1);
+  if (x0 > x1 || y0 > y1) return;
+  const std::int32_t left = (x_ + x0) * kSubpixels;
+  const std::int32_t top = (y_ + y0) * kSubpixels;
+  // On the screen, with y down, corners that were counterclockwise have a negative area.
+  const Side sides[] = {make_side(a, b, left, top), make_side(b, c, left, top),
+                        make_side(c, a, left, top)};
+  Frame frame{float(b.x - a.x) / kSubpixels, float(b.y - a.y) / kSubpixels,
+              float(c.x - a.x) / kSubpixels, float(c.y - a.y) / kSubpixels, 0};
+  frame.scale = 1 / (frame.bx * frame.cy - frame.by * frame.cx);
+  const Plane near = frame.plane(splat(a.nearness), splat(b.nearness), splat(c.nearness));
+  Planes planes{corners, frame, eye};
+  I4 row_edge[3];
+  for (int s = 0; s < 3; ++s) {
+    row_edge[s] = sides[s].start + sides[s].step_x * kSampleX + sides[s].step_y * kSampleY;
+  }
+  const F4 sample_near =
+      (to_float(kSampleX) * near.dx + to_float(kSampleY) * near.dy) * splat(1.0f / kSubpixels);
+  const float ax = float(a.x) / kSubpixels;
+  const float ay = float(a.y) / kSubpixels;
+  for (int y = y0; y <= y1; ++y) {
+    I4 e0 = row_edge[0];
+    I4 e1 = row_edge[1];
+    I4 e2 = row_edge[2];
+    const float py = float(y_ + y) - ay;
+    for (int x = x0; x <= x1; ++x) {
+      const I4 inside = (e0 | e1 | e2) >= 0;
+      if (lanes(inside) != 0) {
+        const float px = float(x_ + x) - ax;
+        draw_pixel(y * kTile + x, inside, near(px, py) + sample_near, planes, px, py, view);
+      }
+      e0 += sides[0].step_x * kSubpixels;
+      e1 += sides[1].step_x * kSubpixels;
+      e2 += sides[2].step_x * kSubpixels;
+    }
+    for (int s = 0; s < 3; ++s) row_edge[s] += sides[s].step_y * kSubpixels;
+  }
+}
+
+inline void Tile::draw_pixel(int index, const I4& inside, const F4& nearness, Planes& planes,
+                             float x, float y, const View& view) {
+  F4& depth = nearness_[std::size_t(index)];
+  const I4 seen = inside & (nearness > depth);
+  const int mask = lanes(seen);
+  if (mask == 0) return;
+  if (!planes.ready) planes.make();
+  depth = as_float((seen & as_int(nearness)) | (~seen & as_int(depth)));
+  const Middle& m = kMiddles[std::size_t(mask)];
+  F4 shown = planes.colour(x + m.x, y + m.y);
+  if (planes.eye) {
+    const F4 n = planes.normal(x + m.x, y + m.y);
+    shown += splat(eye_highlight({n[0], n[1], n[2]}, view));
+  }
+  const I4 colour = splat(pack(shown));
+  I4& old = colour_[std::size_t(index)];
+  old = (seen & colour) | (~seen & old);
+}
+
+void Tile::finish(Image& image) const {
+  for (int y = 0; y < height_; ++y) {
+    std::uint8_t* out =
+        &image.rgba[(std::size_t(y_ + y) * std::size_t(image.width) + std::size_t(x_)) * 4];
+    for (int x = 0; x < width_; ++x, out += 4) {
+      const I4& c = colour_[std::size_t(y * kTile + x)];
+      // Red and blue together: sums of four bytes do not run into each other.
+      const auto sum = [&](int shift) {
+        return (c[0] >> shift & 0xFF00FF) + (c[1] >> shift & 0xFF00FF) +
+               (c[2] >> shift & 0xFF00FF) + (c[3] >> shift & 0xFF00FF) + 0x20002;
+      };
+      const std::int32_t rb = sum(0);
+      const std::int32_t g = sum(8);
+      out[0] = std::uint8_t(rb >> 2);
+      out[1] = std::uint8_t(g >> 2);
+      out[2] = std::uint8_t(rb >> 18);
+      out[3] = 255;
+    }
+  }
+}
+
+}  // namespace animeme::render::detail

@@ -1,0 +1,18 @@
+// Pictures in memory.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace animeme::render {
+
+/// Rows from the top, pixels from the left, 4 bytes each: R, G, B (sRGB), A (always 255).
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgba;
+
+  friend bool operator==(const Image&, const Image&) = default;
+};
+
+}  // namespace animeme::render

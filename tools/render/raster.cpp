@@ -1,0 +1,164 @@
+#include "tools/render/raster.h"
+
+#include <algorithm>
+#include <barrier>
+#include <thread>
+
+#include "tools/render/detail/tile.h"
+
+namespace animeme::render {
+namespace {
+
+using detail::kSubpixels;
+using detail::kTile;
+using detail::ScreenVertex;
+
+// A triangle of a tile: which surface, which triangle.
+struct Entry {
+  std::uint32_t surface;
+  std::uint32_t triangle;
+};
+
+// What one thread found for each tile. Threads take neighbouring stretches of all triangles, so
+// their lists one after the other are in the order of the scene.
+using Bins = std::vector<std::vector<Entry>>;
+
+struct Stretch {
+  std::size_t first, last;
+};
+Stretch stretch_of(std::size_t count, int thread, int threads) {
+  return {count * std::size_t(thread) / std::size_t(threads),
+          count * std::size_t(thread + 1) / std::size_t(threads)};
+}
+
+// Twice the area on the screen; negative: seen from its front.
+std::int64_t screen_area(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) {
+  return std::int64_t(b.x - a.x) * (c.y - a.y) - std::int64_t(b.y - a.y) * (c.x - a.x);
+}
+
+}  // namespace
+
+struct Renderer::State {
+  RenderOptions options;
+  Image image;
+  int threads = 1;
+  int tiles_x = 0;
+  int tiles_y = 0;
+  std::vector<std::vector<ScreenVertex>> vertices;  // by surface
+  std::vector<Bins> bins;                           // by thread
+  std::vector<detail::Tile> tiles;                  // by thread
+
+  void shade_part(const Scene& scene, const detail::View& view, int thread);
+  void bin_part(const Scene& scene, int thread);
+  void bin_triangle(const Surface& surface, Entry entry, Bins& out);
+  void draw_part(const Scene& scene, const detail::View& view, int thread);
+};
+
+void Renderer::State::shade_part(const Scene& scene, const detail::View& view, int thread) {
+  for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
+    const Stretch part = stretch_of(vertices[s].size(), thread, threads);
+    detail::shade(scene.surfaces[s], view, part.first, part.last, vertices[s].data());
+  }
+}
+
+void Renderer::State::bin_part(const Scene& scene, int thread) {
+  Bins& out = bins[std::size_t(thread)];
+  for (auto& list : out) list.clear();
+  std::size_t total = 0;
+  for (const Surface& surface : scene.surfaces) total += surface.triangles.size();
+  const Stretch part = stretch_of(total, thread, threads);
+  std::size_t begin = 0;
+  for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
+    const std::size_t count = scene.surfaces[s].triangles.size();
+    const std::size_t first = std::max(part.first, begin) - begin;
+    const std::size_t last = std::max(std::min(part.last, begin + count), begin) - begin;
+    for (std::size_t t = first; t < last; ++t) {
+      bin_triangle(scene.surfaces[s], {std::uint32_t(s), std::uint32_t(t)}, out);
+    }
+    begin += count;
+  }
+}
+
+void Renderer::State::bin_triangle(const Surface& surface, Entry entry, Bins& out) {
+  const auto& screen = vertices[entry.surface];
+  const head::Triangle& t = surface.triangles[entry.triangle];
+  if (t[0] >= screen.size() || t[1] >= screen.size() || t[2] >= screen.size()) return;
+  const ScreenVertex& a = screen[t[0]];
+  const ScreenVertex& b = screen[t[1]];
+  const ScreenVertex& c = screen[t[2]];
+  if (a.nearness <= 0 || b.nearness <= 0 || c.nearness <= 0 || screen_area(a, b, c) >= 0) return;
+  constexpr int kStep = kTile * kSubpixels;
+  const auto tile = [](std::int32_t v) { return v >= 0 ? v / kStep : -1; };
+  const int x0 = std::max(tile(std::min({a.x, b.x, c.x})), 0);
+  const int y0 = std::max(tile(std::min({a.y, b.y, c.y})), 0);
+  const int x1 = std::min(tile(std::max({a.x, b.x, c.x})), tiles_x - 1);
+  const int y1 = std::min(tile(std::max({a.y, b.y, c.y})), tiles_y - 1);
+  for (int y = y0; y <= y1; ++y) {
+    for (int x = x0; x <= x1; ++x) out[std::size_t(y * tiles_x + x)].push_back(entry);
+  }
+}
+
+void Renderer::State::draw_part(const Scene& scene, const detail::View& view, int thread) {
+  detail::Tile& tile = tiles[std::size_t(thread)];
+  for (int index = thread; index < tiles_x * tiles_y; index += threads) {
+    tile.start(index % tiles_x * kTile, index / tiles_x * kTile, options);
+    for (const Bins& found : bins) {
+      for (const Entry& entry : found[std::size_t(index)]) {
+        const Surface& surface = scene.surfaces[entry.surface];
+        const head::Triangle& t = surface.triangles[entry.triangle];
+        const ScreenVertex* v = vertices[entry.surface].data();
+        tile.draw({v + t[0], v + t[1], v + t[2]}, surface.material == head::Material::eye, view);
+      }
+    }
+    tile.finish(image);
+  }
+}
+
+Renderer::Renderer(const RenderOptions& options) : state_(std::make_unique<State>()) {
+  State& s = *state_;
+  s.options = options;
+  s.options.width = std::clamp(options.width, 1, 8192);
+  s.options.height = std::clamp(options.height, 1, 8192);
+  s.image.width = s.options.width;
+  s.image.height = s.options.height;
+  s.image.rgba.resize(std::size_t(s.image.width) * std::size_t(s.image.height) * 4);
+  const int machine = std::max(int(std::thread::hardware_concurrency()), 1);
+  s.threads = std::clamp(options.threads > 0 ? options.threads : machine, 1, 64);
+  s.tiles_x = (s.options.width + kTile - 1) / kTile;
+  s.tiles_y = (s.options.height + kTile - 1) / kTile;
+  s.bins.resize(std::size_t(s.threads));
+  for (Bins& b : s.bins) b.resize(std::size_t(s.tiles_x * s.tiles_y));
+  s.tiles.resize(std::size_t(s.threads));
+}
+
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+const Image& Renderer::render(const Scene& scene, const Camera& camera) {
+  State& s = *state_;
+  const detail::View view(camera, s.options.width, s.options.height);
+  s.vertices.resize(scene.surfaces.size());
+  for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
+    s.vertices[i].resize(scene.surfaces[i].positions.size());
+  }
+  std::barrier step(s.threads);
+  const auto work = [&](int thread) {
+    s.shade_part(scene, view, thread);
+    step.arrive_and_wait();
+    s.bin_part(scene, thread);
+    step.arrive_and_wait();
+    s.draw_part(scene, view, thread);
+  };
+  std::vector<std::thread> others;
+  for (int t = 1; t < s.threads; ++t) others.emplace_back(work, t);
+  work(0);
+  for (std::thread& thread : others) thread.join();
+  return s.image;
+}
+
+Image render(const Scene& scene, const Camera& camera, const RenderOptions& options) {
+  return Renderer(options).render(scene, camera);
+}
+
+}  // namespace animeme::render

@@ -1,0 +1,74 @@
+// A software renderer for heads: no GPU, the same pixels with any number of threads.
+//
+//     animeme::render::Renderer renderer({.width = 640, .height = 640});
+//     const animeme::render::Image& image = renderer.render(scene, camera);
+//
+// Four samples a pixel for edges, one for colour; light is computed at the vertices, highlights of
+// eyes at the pixels. Lights stand beside the camera: a warm key from the upper right with a red
+// terminator (light inside of skin), a cool fill from the left, a weak rim from behind.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "fap/head/model.h"
+#include "tools/render/image.h"
+
+namespace animeme::render {
+
+/// A perspective camera. Right-handed: the picture's right is cross(target - eye, up).
+struct Camera {
+  head::Vec3 eye = {0, 0, 100};
+  head::Vec3 target = {0, 0, 0};
+  head::Vec3 up = {0, 1, 0};
+  float view_angle = 0.45f;  ///< from the bottom of the picture to its top, rad
+};
+
+/// A mesh to draw. All spans are borrowed; those of vertices have the same length.
+/// Triangles that the camera sees clockwise are not drawn.
+struct Surface {
+  std::span<const head::Vec3> positions;
+  std::span<const head::Vec3> normals;  ///< length 1
+  std::span<const head::Vec3> colours;  ///< linear RGB
+  std::span<const float> occlusion;     ///< 0..1
+  std::span<const head::Triangle> triangles;
+  head::Material material = head::Material::skin;
+  head::Transform transform;  ///< applied to positions and normals
+};
+
+struct Scene {
+  std::vector<Surface> surfaces;
+};
+
+struct RenderOptions {
+  int width = 640;                             ///< pixels, 1..8192
+  int height = 640;                            ///< pixels, 1..8192
+  int threads = 0;                             ///< 0: as many as the machine has
+  std::uint32_t background_top = 0x51606E;     ///< sRGB
+  std::uint32_t background_bottom = 0x262B33;  ///< sRGB
+};
+
+/// Draws one picture after the other and keeps its memory.
+class Renderer {
+ public:
+  /// Sizes outside of their range are clamped.
+  explicit Renderer(const RenderOptions& options);
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+
+  /// The picture is valid until the next call. Triangles nearer to the camera than 1 or with an
+  /// index beyond the vertices are not drawn.
+  const Image& render(const Scene& scene, const Camera& camera);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// One picture.
+Image render(const Scene& scene, const Camera& camera, const RenderOptions& options = {});
+
+}  // namespace animeme::render

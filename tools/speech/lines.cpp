@@ -1,0 +1,162 @@
+#include "tools/speech/lines.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+namespace animeme::speech {
+
+namespace {
+
+constexpr std::size_t kMostBytes = 4000;  // of a line
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+std::string trimmed(std::string text) {
+  while (!text.empty() && is_blank(text.back())) text.pop_back();
+  const auto first = std::find_if_not(text.begin(), text.end(), is_blank);
+  text.erase(text.begin(), first);
+  return text;
+}
+
+/// Cuts lines out of bytes as they come.
+class LineCutter {
+ public:
+  std::vector<std::string> push(std::string_view bytes) {
+    rest_ += bytes;
+    std::vector<std::string> lines;
+    for (;;) {
+      std::size_t end = rest_.find('\n');
+      std::size_t next = end + 1;
+      if (end == std::string::npos) {
+        if (rest_.size() <= kMostBytes) return lines;
+        const std::size_t blank = rest_.rfind(' ', kMostBytes);
+        end = next = blank == std::string::npos || blank == 0 ? kMostBytes : blank;
+      }
+      lines.push_back(trimmed(rest_.substr(0, end)));
+      rest_.erase(0, next);
+    }
+  }
+  std::string rest() { return trimmed(std::exchange(rest_, {})); }
+
+ private:
+  std::string rest_;
+};
+
+}  // namespace
+
+struct VoiceLines::Impl {
+  int descriptor = -1;
+  std::array<int, 2> wake = {-1, -1};  // a pipe: closing its end stops the thread
+  voice::VoiceOptions options;
+  media::Clock* clock = nullptr;
+
+  std::mutex mutex;  // guards what follows
+  std::vector<SpokenLine> done;
+  std::vector<std::string> warnings;
+  bool over = false;
+
+  std::thread thread;  // last: it uses all of the above
+
+  ~Impl() {
+    if (wake[1] >= 0) ::close(wake[1]);
+    if (thread.joinable()) thread.join();
+    if (wake[0] >= 0) ::close(wake[0]);
+  }
+
+  bool stopped() const {
+    pollfd fd{wake[0], POLLIN, 0};
+    return ::poll(&fd, 1, 0) > 0;
+  }
+
+  /// Bytes read; 0 at the end or when it is to stop.
+  ssize_t read_some(std::array<char, 4096>& buffer) const {
+    for (;;) {
+      pollfd fds[2] = {{descriptor, POLLIN, 0}, {wake[0], POLLIN, 0}};
+      if (::poll(fds, 2, -1) < 0) {
+        if (errno == EINTR) continue;
+        return 0;
+      }
+      if (fds[1].revents != 0) return 0;
+      const ssize_t count = ::read(descriptor, buffer.data(), buffer.size());
+      if (count >= 0 || (errno != EINTR && errno != EAGAIN)) return std::max<ssize_t>(count, 0);
+    }
+  }
+
+  void speak(std::string text, double arrived) {
+    if (text.empty() || stopped()) return;
+    Result<voice::Speech> speech = voice::speak_text(text, options);
+    const double spoken = clock->now();
+    const std::lock_guard lock(mutex);
+    if (speech) {
+      done.push_back({std::move(text), std::move(*speech), arrived, spoken});
+    } else {
+      warnings.push_back("\"" + text.substr(0, 60) + "\" is left out: " + speech.error().message);
+    }
+  }
+
+  void run() {
+    LineCutter cutter;
+    std::array<char, 4096> buffer{};
+    for (;;) {
+      const ssize_t count = read_some(buffer);
+      const double arrived = clock->now();
+      if (count == 0) break;
+      for (std::string& line : cutter.push({buffer.data(), std::size_t(count)})) {
+        speak(std::move(line), arrived);
+      }
+    }
+    speak(cutter.rest(), clock->now());
+    const std::lock_guard lock(mutex);
+    over = true;
+  }
+};
+
+VoiceLines::VoiceLines(std::unique_ptr<Impl> impl, int sample_rate)
+    : impl_(std::move(impl)), sample_rate_(sample_rate) {}
+
+VoiceLines::~VoiceLines() = default;
+
+Result<std::unique_ptr<VoiceLines>> VoiceLines::open(int descriptor,
+                                                     const voice::VoiceOptions& options,
+                                                     media::Clock& clock) {
+  const Result<voice::Speech> probe = voice::speak_text("1", options);
+  if (!probe) return probe.error();
+  auto impl = std::make_unique<Impl>();
+  impl->descriptor = descriptor;
+  impl->options = options;
+  impl->clock = &clock;
+  if (::pipe(impl->wake.data()) != 0) {
+    return make_error(Code::io, "no pipe can be made: too many open files");
+  }
+  try {
+    impl->thread = std::thread([raw = impl.get()] { raw->run(); });
+  } catch (const std::system_error&) {
+    return make_error(Code::io, "no thread can be started for the voice");
+  }
+  return std::unique_ptr<VoiceLines>(new VoiceLines(std::move(impl), probe->audio.sample_rate));
+}
+
+std::vector<SpokenLine> VoiceLines::take() {
+  const std::lock_guard lock(impl_->mutex);
+  return std::exchange(impl_->done, {});
+}
+
+bool VoiceLines::ended() {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->over && impl_->done.empty();
+}
+
+std::vector<std::string> VoiceLines::take_warnings() {
+  const std::lock_guard lock(impl_->mutex);
+  return std::exchange(impl_->warnings, {});
+}
+
+}  // namespace animeme::speech

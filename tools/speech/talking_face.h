@@ -1,0 +1,76 @@
+// The frames of a face that speaks when there is something to say and idles when there is not.
+//
+//     auto face = TalkingFace::open(model, {.life = true});
+//     for (;;) {
+//       if (have_line && !face->speaking()) face->say(script);
+//       auto frame = face->next();                   // one every 1/rate seconds, for ever
+//     }
+//
+// What is said begins with the next frame. Between two pieces (a line, idling, another line)
+// nothing jumps: the difference at the joint fades within 0.25 s.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "dam/model.h"
+#include "dam/script.h"
+#include "dam/signal.h"
+#include "dam/synthesise.h"
+#include "fap/frame.h"
+#include "fap/result.h"
+
+namespace animeme::speech {
+
+struct FaceOptions {
+  dam::SynthesisOptions synthesis;  ///< `frames` and `tail` are not used
+  bool life = false;                ///< blinks, brows, head: see dam/life.h
+  std::uint64_t seed = 1;           ///< of life
+};
+
+/// What say() makes of a script.
+struct Line {
+  std::int64_t first = 0;   ///< number of its first frame
+  std::int64_t frames = 0;  ///< at least one
+  /// The first frame in which a FAP of the mouth is not where it was before the line; the first
+  /// frame if the mouth never moves.
+  std::int64_t first_moved = 0;
+};
+
+/// Movable, not copyable. The same scripts at the same frames give the same frames.
+class TalkingFace {
+ public:
+  /// The model must outlive the face. Errors: not_found (the model has no FAPs), those of
+  /// dam::synthesise() and dam::add_life().
+  static Result<TalkingFace> open(const dam::Model& model, const FaceOptions& options);
+
+  /// The FAPs of every frame.
+  const fap::Mask& mask() const { return mask_; }
+  /// Number of the frame that next() makes, from 0.
+  std::int64_t number() const { return number_; }
+  /// True while frames of a line are left.
+  bool speaking() const { return speaking_ && at_ < clip_.frames.size(); }
+  /// Begins a line with the next frame; what is left of the line before is dropped.
+  /// Errors: those of dam::synthesise() and dam::add_life().
+  Result<Line> say(const dam::Script& script);
+  /// The next frame. Errors: as say().
+  Result<fap::Frame> next();
+
+ private:
+  TalkingFace(const dam::Model& model, const FaceOptions& options)
+      : model_(&model), options_(options) {}
+  Result<void> begin(const dam::Script& script);
+
+  const dam::Model* model_;
+  FaceOptions options_;
+  fap::Mask mask_;
+  dam::Signal signal_;  // of the piece that is shown, faded
+  fap::Sequence clip_;  // the same as FAPs
+  std::size_t at_ = 0;  // frame of the piece
+  std::int64_t number_ = 0;
+  std::uint64_t pieces_ = 0;
+  bool speaking_ = false;
+};
+
+}  // namespace animeme::speech
