@@ -181,9 +181,10 @@ TEST(Landmarks, TheNeutralFaceIsFound) {
     for (int i = 0; i < 360; ++i) {
       Frame frame = talking(i);
       if (!depth) frame.value[48] = frame.value[49] = 0;
+      const FeaturePoints face = moved_face(frame);
       LandmarkFrame seen{i, {}, {}, {}};
       for (const std::string& id : track.points) {
-        seen.at.push_back(Camera{2, {3, 4, 5}}(moved_face(frame).find(id)->second, frame));
+        seen.at.push_back(Camera{2, {3, 4, 5}}(face.find(id)->second, frame));
       }
       track.frames.push_back(seen);
     }
