@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fap/arkit_internal.h"
+#include "fap/detail/symmetry.h"
 #include "fap/tables.h"
 
 namespace animeme::fap {
@@ -76,8 +77,7 @@ namespace {
 
 using internal::ArkitWeight;
 
-constexpr int kLidsMeet = 1024;      // FAP 19 + 21: IRISD is the opening of the lids
-constexpr int kLongestLevel = 1860;  // 31 * 60, the widest range of a stream
+constexpr int kLidsMeet = 1024;  // FAP 19 + 21: IRISD is the opening of the lids
 constexpr std::size_t kLongestName = 32;
 constexpr std::size_t kFirstEyeball = 23, kLastEyeball = 26;
 
@@ -106,14 +106,9 @@ std::string other_side(std::string_view name) {
   return std::string(name.substr(0, name.size() - 4)) + "Right";
 }
 
-// A mirrored face has the value of a FAP on its partner. FAPs that point to one side of the
-// world and not of the face (yaw of both eyes is positive to the left) change their sign.
 ArkitWeight mirrored(const ArkitWeight& weight) {
-  const FapInfo& fap = info(weight.fap);
-  const int partner = fap.mirror != 0 ? fap.mirror : fap.number;
-  const bool sideways = fap.motion == Motion::left || fap.motion == Motion::right;
-  const bool flips = sideways && info(partner).motion == fap.motion;
-  return {partner, flips ? -weight.value : weight.value};
+  const internal::MirrorImage image = internal::mirror_image(weight.fap);
+  return {image.fap, image.sign * weight.value};
 }
 
 using internal::ArkitWeights;
@@ -140,11 +135,6 @@ Mask eyeballs_of_shapes(const ArkitChannels& channels) {
   Mask mask;
   for (std::size_t fap = kFirstEyeball; fap <= kLastEyeball; ++fap) mask[fap] = reached[fap];
   return mask;
-}
-
-std::int32_t clipped(double value, int fap) {
-  const double limit = double(kLongestLevel) * info(fap).quant_step;
-  return std::int32_t(std::lround(std::clamp(value, -limit, limit)));
 }
 
 void keep_lids_apart(Frame& frame, std::size_t upper, std::size_t lower) {
@@ -193,7 +183,7 @@ Frame arkit_to_fap(const ArkitFrame& frame, const ArkitChannels& channels) {
   out.mask = arkit_faps(channels);
   for (int fap = kFirstLowLevel; fap <= kFapCount; ++fap) {
     if (out.mask[std::size_t(fap)])
-      out.value[std::size_t(fap)] = clipped(sum[std::size_t(fap)], fap);
+      out.value[std::size_t(fap)] = internal::coded_value(sum[std::size_t(fap)], fap);
   }
   keep_lids_apart(out, 19, 21);
   keep_lids_apart(out, 20, 22);

@@ -2,20 +2,17 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "fap/arkit.h"
+#include "fap/detail/bounded_fit.h"
 
 namespace animeme::fap::internal {
 
 /// What a channel at 1 (shapes) or 1 rad (angles) does to one FAP, in FAP units.
-struct ArkitWeight {
-  int fap;
-  std::int32_t value;
-};
+using ArkitWeight = ShapeWeight;
 
 struct ArkitShape {
   std::string_view name;

@@ -34,9 +34,10 @@ int run(int argc, char** argv) {
   app.add_flag("-q,--quiet", quiet, "No talk on standard error but errors");
   app.fallthrough();
 
-  const Command* commands[] = {&kSpeak,  &kFollow, &kAlign, &kTrain,  &kEvaluate, &kEncode,
-                               &kDecode, &kMux,    &kDemux, &kInfo,   &kCompare,  &kCheck,
-                               &kStats,  &kPlot,   &kView,  &kImport, &kExport,   &kStream};
+  const Command* commands[] = {&kSpeak,   &kFollow, &kAlign,  &kTrain,  &kEvaluate,
+                               &kEncode,  &kDecode, &kMux,    &kDemux,  &kInfo,
+                               &kCompare, &kCheck,  &kStats,  &kPlot,   &kRender,
+                               &kView,    &kImport, &kExport, &kStream, &kReceive};
   Action chosen;
   for (const Command* command : commands) {
     CLI::App* sub = app.add_subcommand(command->name, command->summary);

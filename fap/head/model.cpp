@@ -48,7 +48,7 @@ std::optional<Error> check(const HeadParameters& p) {
                {"iris", p.iris},
                {"nose_length", p.nose_length},
                {"nose_size", p.nose_size},
-               {"nose_bridge", p.nose_bridge},
+               {"nose_bridge", p.nose_bridge, true},
                {"mouth_drop", p.mouth_drop},
                {"mouth_width", p.mouth_width},
                {"lip_fullness", p.lip_fullness},
@@ -125,6 +125,7 @@ Result<Head> make_head(const HeadParameters& parameters) {
   const std::size_t vertices = head.part(Part::skin).positions.size();
   detail::weigh_lids(shape, skin, vertices);
   skin.seams.jaw_weights.resize(vertices, 0);
+  skin.seams.freedom = detail::freedom_below_hair(shape, head.part(Part::skin));
   detail::find_feature_points(shape, skin, ears, head);
   head.seams = std::move(skin.seams);
   enlarge(head, float(parameters.scale));

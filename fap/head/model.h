@@ -86,6 +86,8 @@ struct Seams {
   std::array<std::vector<float>, 4> lid_weights;
   /// For each skin vertex: how far it turns with the jaw, inside the mouth. Empty: nowhere.
   std::vector<float> jaw_weights;
+  /// For each skin vertex: 1 is free to move, 0 is held, as below hair. Empty: all are free.
+  std::vector<float> freedom;
 };
 
 struct Head {
@@ -115,40 +117,40 @@ enum class HairStyle : std::uint8_t { bob, short_cut, fringe };
 /// quarter; beyond that parts get into each other's way.
 struct HeadParameters {
   std::string name = "woman";
-  double density = 1;          ///< 0.5..2; vertices of the skin grow with its square
-  double scale = 1;            ///< of the whole head
-  double skull_width = 7.5;    ///< half width
-  double skull_height = 7.6;   ///< above skull centre
-  double face_width = 6.1;     ///< half width at the cheek bones
-  double jaw_width = 3.3;      ///< half width of the lower face
-  double chin_drop = 8.9;      ///< chin below the eyes
-  double chin_size = 1.35;     ///< radius
-  double cheek = 2.3;          ///< roundness of the cheeks
-  double brow_ridge = 0.15;    ///< bone above the eyes
-  double neck = 4.0;           ///< half width
-  double eye_distance = 3.15;  ///< half the distance of the pupils
-  double eye_radius = 1.66;
-  double eye_opening = 1.36;    ///< height of the lid opening
-  double eye_width = 2.94;      ///< from corner to corner
-  double iris = 0.80;           ///< radius
-  double nose_length = 3.55;    ///< tip below the eyes
-  double nose_size = 0.72;      ///< radius of the tip
-  double nose_bridge = 0.3;     ///< height of the bone
-  double mouth_drop = 5.75;     ///< mouth below the eyes
-  double mouth_width = 2.35;    ///< half width of the contact line
-  double lip_fullness = 1.0;    ///< height of the lips
-  double smile = 0.16;          ///< height of the corners
-  double brow_height = 2.15;    ///< above the eyes
-  double brow_thickness = 0.3;  ///< half height
-  double ear = 1.0;             ///< size
-  double lashes = 0.42;         ///< length
+  double density = 1;         ///< 0.5..2; vertices of the skin grow with its square
+  double scale = 1;           ///< of the whole head
+  double skull_width = 7.5;   ///< half width
+  double skull_height = 7.6;  ///< above skull centre
+  double face_width = 5.95;   ///< half width at the cheek bones
+  double jaw_width = 3.05;    ///< half width of the lower face
+  double chin_drop = 8.35;    ///< chin below the eyes
+  double chin_size = 1.25;    ///< radius
+  double cheek = 2.35;        ///< roundness of the cheeks
+  double brow_ridge = 0.08;   ///< bone above the eyes
+  double neck = 3.35;         ///< half width
+  double eye_distance = 3.2;  ///< half the distance of the pupils
+  double eye_radius = 1.82;
+  double eye_opening = 1.56;     ///< height of the lid opening
+  double eye_width = 3.24;       ///< from corner to corner
+  double iris = 0.93;            ///< radius
+  double nose_length = 3.05;     ///< tip below the eyes
+  double nose_size = 0.6;        ///< radius of the tip
+  double nose_bridge = 0.0;      ///< height of the bone
+  double mouth_drop = 5.2;       ///< mouth below the eyes
+  double mouth_width = 1.95;     ///< half width of the contact line
+  double lip_fullness = 1.0;     ///< height of the lips
+  double smile = 0.2;            ///< height of the corners
+  double brow_height = 2.35;     ///< above the eyes
+  double brow_thickness = 0.26;  ///< half height
+  double ear = 1.0;              ///< size
+  double lashes = 0.36;          ///< length
   HairStyle hair = HairStyle::bob;
-  std::uint32_t skin_colour = 0xEDBE9F;
-  std::uint32_t lip_colour = 0xC9706C;
-  std::uint32_t cheek_colour = 0xE59B86;
-  std::uint32_t iris_colour = 0x5E7F4E;
-  std::uint32_t hair_colour = 0x5A3420;
-  std::uint32_t brow_colour = 0x4A2C1C;
+  std::uint32_t skin_colour = 0xE8AC88;
+  std::uint32_t lip_colour = 0xC4605C;
+  std::uint32_t cheek_colour = 0xDE8468;
+  std::uint32_t iris_colour = 0x56723A;
+  std::uint32_t hair_colour = 0x4A2A1B;
+  std::uint32_t brow_colour = 0x3C2418;
   std::uint32_t cloth_colour = 0x3F6F86;
 };
 
@@ -158,8 +160,8 @@ std::optional<HeadParameters> head_parameters(std::string_view name);
 extern const std::array<std::string_view, 3> kHeadNames;
 
 /// Makes a head. Deterministic; about half a second.
-/// Errors: invalid_argument if a size is not finite and positive (colour, smile, brow_ridge and
-/// lashes may be 0), or the density is not in 0.5..2.
+/// Errors: invalid_argument if a size is not finite and positive (smile, nose_bridge, brow_ridge
+/// and lashes may be 0), or the density is not in 0.5..2.
 Result<Head> make_head(const HeadParameters& parameters = {});
 
 }  // namespace animeme::head

@@ -84,6 +84,21 @@ void slide_lids(const Rig& rig, std::vector<Vec3>& skin) {
   }
 }
 
+// Skin that other FAPs have pushed into an eyeball comes out again.
+void keep_off_eyes(const Rig& rig, const Values& values, std::vector<Vec3>& skin) {
+  const auto& neutral = rig.parts[index(Part::skin)].positions;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Eye& eye = rig.eyes[side];
+    const Vec3 forward{0, 0, values[27 + side] * float(rig.fapu.es) / 1024};
+    for (const std::uint32_t v : rig.eye_skin[side]) {
+      const Vec3 d = skin[v] - eye.centre - forward;
+      const float least = std::min(1.07f * eye.radius, length(neutral[v] - eye.centre));
+      const float distance = length(d);
+      if (distance < least && distance > 0) skin[v] += d * (least / distance - 1);
+    }
+  }
+}
+
 // Pairs that have passed each other meet in the middle; near contact their depths agree.
 void close_pairs(const std::vector<ContactPair>& pairs, float soft, std::vector<Vec3>& skin) {
   for (const ContactPair& pair : pairs) {
@@ -116,8 +131,8 @@ void turn_lashes(const Rig& rig, const std::vector<Vec3>& skin, std::vector<Vec3
     const float c = (was.y * is.y + was.z * is.z) / size;
     const float s = (was.y * is.z - was.z * is.y) / size;
     const Vec3 offset = neutral[i] - neutral_skin[anchor];
-    lashes[i] = skin[anchor] +
-                Vec3{offset.x, c * offset.y - s * offset.z, s * offset.y + c * offset.z};
+    lashes[i] =
+        skin[anchor] + Vec3{offset.x, c * offset.y - s * offset.z, s * offset.y + c * offset.z};
   }
 }
 
@@ -166,6 +181,7 @@ void pose(const Rig& rig, const fap::Frame& frame, Pose& out, const PoseOptions&
   apply_targets(rig, values, true, out);
   slide_lids(rig, skin);
   apply_targets(rig, values, false, out);
+  keep_off_eyes(rig, values, skin);
   if (options.contact) {
     const float touch = 0.06f * float(rig.fapu.mns);
     close_pairs(rig.lips, touch, skin);

@@ -26,12 +26,24 @@ std::array<std::vector<std::uint32_t>, 2> sliding_vertices(const Rig& rig) {
   return sliding;
 }
 
+// Skin before an eyeball, which must not get into it.
+std::vector<std::uint32_t> skin_before(const Rig& rig, const Eye& eye) {
+  std::vector<std::uint32_t> found;
+  const auto& places = rig.parts[std::size_t(Part::skin)].positions;
+  for (std::uint32_t v = 0; v < places.size() && eye.radius > 0; ++v) {
+    const Vec3 d = places[v] - eye.centre;
+    const float distance = length(d);
+    if (distance > eye.radius && distance < 2 * eye.radius && d.z > 0) found.push_back(v);
+  }
+  return found;
+}
+
 // 1 for the head, 0 at the end of the neck.
 std::vector<float> neck_weights(const Rig& rig) {
   std::vector<float> weights;
   const float size = length(rig.chin - rig.neck_pivot);
   const float high = rig.chin.y + 0.03f * size;
-  const float low = high - 0.62f * size;
+  const float low = high - 0.52f * size;
   for (const Vec3& p : rig.parts[std::size_t(Part::skin)].positions) {
     const float before = std::max(p.z - rig.neck_pivot.z, 0.0f);
     weights.push_back(smooth_step(low, high, p.y + 0.25f * before));
@@ -59,6 +71,7 @@ Rig make_rig(const Head& head) {
   rig.lash_anchors = head.lash_anchors;
   rig.targets = detail::make_targets(head);
   rig.lid_vertices = sliding_vertices(rig);
+  for (std::size_t i = 0; i < 2; ++i) rig.eye_skin[i] = skin_before(rig, rig.eyes[i]);
   rig.neck_weights = neck_weights(rig);
   return rig;
 }

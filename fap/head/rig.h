@@ -46,10 +46,11 @@ struct Rig {
   std::array<Eye, 2> eyes;
   Vec3 jaw_axis;
   Vec3 neck_pivot;
-  Vec3 chin;                         ///< 2.1, neutral
-  std::vector<ContactPair> lips;     ///< see Seams
+  Vec3 chin;                      ///< 2.1, neutral
+  std::vector<ContactPair> lips;  ///< see Seams
   std::array<std::vector<ContactPair>, 2> lids;
   std::array<std::vector<std::uint32_t>, 2> lid_vertices;  ///< that slide, left and right eye
+  std::array<std::vector<std::uint32_t>, 2> eye_skin;      ///< before the left and right eye
   std::vector<std::uint32_t> lash_anchors;                 ///< see Head
   std::vector<float> neck_weights;  ///< of the skin: 1 turns with the head, 0 stays
 };

@@ -1,11 +1,8 @@
 // Nothing half-written is left behind, and every refusal says why.
 #include <gmock/gmock.h>
-#include <sys/resource.h>
-
-#include <csignal>
-#include <functional>
 
 #include "tests/media/media_support.h"
+#include "tests/media/small_disk.h"
 #include "tools/media/audio.h"
 #include "tools/media/container.h"
 #include "tools/media/encoded_audio.h"
@@ -105,18 +102,6 @@ TEST_F(MuxFailure, AFolderIsNotOverwritten) {
   EXPECT_EQ(dir_.count(), 1u);
 }
 
-// Runs `body` with files limited to `bytes`, the nearest thing to a full disk.
-void with_small_disk(rlim_t bytes, const std::function<void()>& body) {
-  rlimit old{};
-  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old), 0);
-  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit small{bytes, old.rlim_max};
-  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
-  body();
-  setrlimit(RLIMIT_FSIZE, &old);
-  std::signal(SIGXFSZ, handler);
-}
-
 TEST_F(MuxFailure, FullDiskLeavesNothingAndKeepsTheOldFile) {
   Pcm noise{48000, std::vector<float>(48000 * 10)};
   std::uint32_t state = 1;
@@ -128,7 +113,7 @@ TEST_F(MuxFailure, FullDiskLeavesNothingAndKeepsTheOldFile) {
   const auto files = {"a.mp4", "a.mkv", "a.ts", "a.mka", "a.m4a"};
   for (const char* name : files) test::write_bytes(dir_.file(name), {1, 2, 3});
   test::write_bytes(dir_.file("a.wav"), {1, 2, 3});
-  with_small_disk(20000, [&] {
+  test::with_small_disk(20000, [&] {
     for (const char* name : files) {
       input_.face = std::string(name).ends_with("a") ? nullptr : &face_;
       const Result<MuxResult> written = write_container(dir_.file(name), input_);
@@ -152,7 +137,7 @@ TEST_F(MuxFailure, FullDiskWhileTheContentsAreMoved) {
   // All of it fits but not the contents, which are longer at the end.
   ASSERT_TRUE(write_container(dir_.file("whole.mp4"), input_));
   const auto size = std::filesystem::file_size(dir_.file("whole.mp4"));
-  with_small_disk(size - 5, [&] {
+  test::with_small_disk(size - 5, [&] {
     const auto written = write_container(dir_.file("talk.mp4"), input_);
     ASSERT_FALSE(written);
     EXPECT_EQ(written.error().code, Code::io);

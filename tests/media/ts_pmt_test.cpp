@@ -7,6 +7,7 @@
 
 #include "tests/media/media_support.h"
 #include "tools/media/container.h"
+#include "tools/media/detail/ts_sections.h"
 #include "tools/media/mux.h"
 
 namespace animeme::media {
@@ -18,7 +19,7 @@ constexpr std::size_t kPacket = 188;
 
 Bytes with_crc(Bytes section) {
   section[2] = std::uint8_t(section.size() + 4 - 3);
-  const std::uint32_t crc = mpeg_crc32(section);
+  const std::uint32_t crc = ts_crc(section);
   for (const unsigned shift : {24u, 16u, 8u, 0u}) section.push_back(std::uint8_t(crc >> shift));
   return section;
 }
@@ -65,7 +66,7 @@ Bytes joined(const Bytes& a, const Bytes& b) {
 TEST(ProgramMap, CrcOfAPublishedSection) {
   // The program association that libavformat and many broadcasters send: programme 1 on PID 1000.
   const Bytes section = {0x00, 0xB0, 0x0D, 0, 1, 0xC1, 0, 0, 0, 1, 0xF0, 0x00};
-  EXPECT_EQ(mpeg_crc32(section), 0x2AB104B2u);
+  EXPECT_EQ(ts_crc(section), 0x2AB104B2u);
 }
 
 TEST(ProgramMap, FacesGetTheDescriptor) {
@@ -122,7 +123,7 @@ TEST(ProgramMap, OurFilesHaveIt) {
     if ((each[1] & 0x1F) != 0x10 || each[2] != 0) continue;  // PID 0x1000
     ++maps;
     const std::size_t size = 3 + each[7];
-    EXPECT_EQ(mpeg_crc32(std::span(each).subspan(5, size)), 0u) << "with its CRC, all is zero";
+    EXPECT_EQ(ts_crc(std::span(each).subspan(5, size)), 0u) << "with its CRC, all is zero";
     EXPECT_THAT(std::string(each.begin(), each.end()), testing::HasSubstr("\x1B\x01\x62"));
   }
   EXPECT_GT(maps, 0);

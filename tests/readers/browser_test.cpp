@@ -7,26 +7,38 @@
 namespace animeme::test {
 namespace {
 
+// Chromium cuts the priming of Opus off twice where an edit list tells it, too (of any writer's
+// files, Ogg included); without, as in fragments, it is right.
+std::vector<std::int64_t> delays_of(const Layout& layout) {
+  if (layout.name == "mp4_opus") return {0, -layout.priming()};
+  return {layout.late()};
+}
+
 void expect_decoded(const Json& decoded, const std::string& path, const Talk& talk,
-                    std::int64_t delay) {
+                    const Layout& layout) {
   ASSERT_TRUE(decoded.contains("length")) << decoded;
-  const auto length = std::int64_t(talk.sound.samples.size()) + delay;
-  // Only an edit list can tell where the last frame of AAC ends.
-  EXPECT_GE(decoded["length"], length);
-  EXPECT_LE(decoded["length"], delay == 0 ? length : length + 2048);
+  // Only an edit list can tell where the last frame ends.
+  const auto length = std::int64_t(talk.sound.samples.size());
+  EXPECT_NEAR(decoded["length"], double(length + layout.late()), layout.name == "mp4" ? 0 : 1500);
   const media::Pcm heard = read_floats(path + ".f32", decoded["rate"]);
+  const double rounding = layout.extension == ".mkv" ? 48 : layout.opus() ? 3 : 1;
   for (const std::int64_t click : talk.clicks) {
-    EXPECT_NEAR(double(find_click(heard, click + delay, 3000)), double(click + delay), 1.0);
+    const std::int64_t found = find_click(heard, click, 3000);
+    double error = 1e9;
+    for (const std::int64_t delay : delays_of(layout)) {
+      error = std::min(error, std::abs(double(found - click - delay)));
+    }
+    EXPECT_LE(error, rounding) << "burst at " << click << " heard at " << found;
   }
 }
 
-void expect_played(const Json& played, const Talk& talk, std::int64_t delay) {
+void expect_played(const Json& played, const Talk& talk, const Layout& layout) {
   ASSERT_TRUE(played["error"].is_null()) << played;
   EXPECT_GE(played["heard"], 1.0);
   EXPECT_EQ(played["ascending"], true);
   EXPECT_GT(played["steps"], 10);
   const double seconds =
-      double(std::int64_t(talk.sound.samples.size()) + delay) / talk.sound.sample_rate;
+      double(std::int64_t(talk.sound.samples.size()) + layout.late()) / talk.sound.sample_rate;
   EXPECT_NEAR(played["duration"], seconds, 0.03);
 }
 
@@ -46,11 +58,10 @@ TEST(Browser, PlaysTheSoundAndReadsTheFace) {
     SCOPED_TRACE(layout.name);
     const std::string path = dir.file(layout.name + layout.extension);
     const Json& said = report["files"][layout.name + layout.extension];
-    if (layout.extension == ".ts") continue;  // no browser reads one by itself
-    const std::int64_t delay = layout.extension == ".mkv" ? 1024 : 0;
-    expect_decoded(said["decoded"], path, talk, delay);
-    expect_played(said["played"], talk, delay);
-    if (layout.extension != ".mp4") continue;
+    if (layout.ts()) continue;  // no browser reads one by itself
+    expect_decoded(said["decoded"], path, talk, layout);
+    expect_played(said["played"], talk, layout);
+    if (!layout.mp4()) continue;
     // script_test.cpp compares what node says with the talk, sample for sample.
     EXPECT_EQ(said["mp4box"], run_script("report.js", "mp4box '" + path + "'"));
   }

@@ -56,11 +56,11 @@ class GStreamer : public testing::TestWithParam<Route> {
 
 TEST_P(GStreamer, GivesTheUnitsByteForByteAndInTime) {
   const TempDir dir;
-  const bool ts = GetParam().layout == "ts";
+  const Layout layout = layout_of(GetParam().layout);
   for (const Talk& talk : {walking_talk(), reference_talk("start_code_inside_face")}) {
-    const std::string path = write_talk(dir, talk, layout_of(GetParam().layout));
+    const std::string path = write_talk(dir, talk, layout);
     const auto said = demux(path, dir.file("units"));
-    const std::vector<Bytes> units = units_of(talk, ts);
+    const std::vector<Bytes> units = units_of(talk, layout.ts());
     EXPECT_EQ(to_hex(read_bytes(dir.file("units"))), to_hex(joined(units)));
     std::size_t count = 0;
     for (const std::string& line : said) {
@@ -71,9 +71,10 @@ TEST_P(GStreamer, GivesTheUnitsByteForByteAndInTime) {
       EXPECT_EQ(field(line, "(unit:sink) ("), std::to_string(units[count].size()));
       const double time = double(unit.time) / talk.face.timescale;
       // tsdemux lets the face begin at 0, mkv has whole milliseconds behind the priming.
-      const double shift = GetParam().layout == "mkv" ? 1024.0 / talk.sound.sample_rate : 0;
-      EXPECT_NEAR(seconds_of(field(line, "pts: ")), time + shift, ts ? 2.0 / 90000 : 0.001);
-      if (!ts) {
+      const double shift = layout.ts() ? 0 : double(layout.late()) / talk.sound.sample_rate;
+      EXPECT_NEAR(seconds_of(field(line, "pts: ")), time + shift,
+                  layout.ts() ? 2.0 / 90000 : 0.001);
+      if (!layout.ts()) {
         EXPECT_EQ(line.find("delta-unit") == std::string::npos, unit.intra);
       }
       ++count;
@@ -90,20 +91,32 @@ TEST_P(GStreamer, NamesTheProfile) {
     if (line.find("GstIdentity:unit.GstPad:sink: caps") != std::string::npos) caps = line;
   }
   EXPECT_NE(caps.find("video/mpeg, mpegversion=(int)4"), std::string::npos) << caps;
-  if (GetParam().layout == "ts") return;  // the transport stream tells no more
+  if (GetParam().element == "tsdemux") return;  // the transport stream tells no more
   EXPECT_NE(caps.find("codec_data=(buffer)000001b061000001b58947"), std::string::npos) << caps;
-  if (GetParam().layout == "mkv") return;  // matroskademux calls it "simple"
+  if (GetParam().element == "matroskademux") return;  // matroskademux calls it "simple"
   EXPECT_NE(caps.find("profile=(string)simple-face, level=(string)1"), std::string::npos) << caps;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Routes, GStreamer,
-    testing::Values(Route{"mp4", "qtdemux", "gstreamer1.0-plugins-good", "d.video_0"},
-                    Route{"systems", "qtdemux", "gstreamer1.0-plugins-good", "d.video_0"},
-                    Route{"mkv", "matroskademux", "gstreamer1.0-plugins-good", "d.video_0"},
-                    Route{"ts", "tsdemux", "gstreamer1.0-plugins-bad",
-                          "d. ! video/mpeg,mpegversion=4,systemstream=false"}),
-    [](const auto& value) { return value.param.layout; });
+Route route_of(const std::string& layout) {
+  const std::string extension = layout_of(layout).extension;
+  if (extension == ".mkv") {
+    return {layout, "matroskademux", "gstreamer1.0-plugins-good", "d.video_0"};
+  }
+  if (extension == ".ts") {
+    return {layout, "tsdemux", "gstreamer1.0-plugins-bad",
+            "d. ! video/mpeg,mpegversion=4,systemstream=false"};
+  }
+  return {layout, "qtdemux", "gstreamer1.0-plugins-good", "d.video_0"};
+}
+
+std::vector<Route> routes() {
+  std::vector<Route> all;
+  for (const std::string& layout : layout_names()) all.push_back(route_of(layout));
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Routes, GStreamer, testing::ValuesIn(routes()),
+                         [](const auto& value) { return value.param.layout; });
 
 }  // namespace
 }  // namespace animeme::test

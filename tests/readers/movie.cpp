@@ -24,6 +24,7 @@ class Reader {
     }
     movie_.timescale = std::uint32_t(get(*mvhd, wide(*mvhd) ? 20 : 12, 4));
     movie_.duration = wide(*mvhd) ? get(*mvhd, 24, 8) : get(*mvhd, 16, 4);
+    fragmented_ = moov->find("mvex") != nullptr;
     for (const Box* trak : moov->all("trak")) read_track(*trak);
     read_fragments(moov->find("mvex"));
     check_ids(*mvhd);
@@ -247,9 +248,9 @@ class Reader {
     if (sum != track.media_duration) fail(name + "mdhd and stts do not agree");
     std::uint64_t shown = 0;
     for (const MovieEdit& edit : track.edits) shown += edit.duration;
-    // Each edit is rounded by itself.
+    // Each edit is rounded by itself; of fragments nobody knows the end.
     const std::uint64_t apart = std::max(shown, track.duration) - std::min(shown, track.duration);
-    if (!track.edits.empty() && apart >= track.edits.size()) {
+    if (!fragmented_ && !track.edits.empty() && apart >= track.edits.size()) {
       fail(name + "tkhd and elst do not agree");
     }
     if (track.duration > movie_.duration) fail(name + "longer than the movie");
@@ -287,6 +288,7 @@ class Reader {
 
   const BoxFile& file_;
   Movie movie_;
+  bool fragmented_ = false;
 };
 
 }  // namespace

@@ -6,11 +6,6 @@
 namespace animeme::test {
 namespace {
 
-// Samples by which a layout begins late: Matroska and TS cannot say what priming is.
-std::int64_t priming_of(const std::string& layout) {
-  return layout == "mkv" || layout == "ts" ? 1024 : 0;
-}
-
 class Player : public testing::TestWithParam<std::string> {
  protected:
   // `command` plays `path_` into the file `raw_`, as 32-bit floats of one channel.
@@ -19,7 +14,7 @@ class Player : public testing::TestWithParam<std::string> {
     const std::string said = run(command + " 2>&1", &status);
     ASSERT_EQ(status, 0) << command << "\n" << said;
     const media::Pcm heard = read_floats(raw_, talk_.sound.sample_rate);
-    // The last frame of AAC is whole.
+    // The last frame is whole.
     const auto length = std::int64_t(talk_.sound.samples.size()) + delay;
     EXPECT_GE(std::int64_t(heard.samples.size()), length);
     EXPECT_LT(std::int64_t(heard.samples.size()), length + 2 * 1024);
@@ -31,14 +26,17 @@ class Player : public testing::TestWithParam<std::string> {
 
   TempDir dir_;
   Talk talk_ = walking_talk();
-  std::string path_ = write_talk(dir_, talk_, layout_of(GetParam()));
+  Layout layout_ = layout_of(GetParam());
+  std::string path_ = write_talk(dir_, talk_, layout_);
   std::string raw_ = dir_.file("heard.f32");
 };
 
 TEST_P(Player, Ffmpeg) {
   NEEDS_PROGRAM("ffmpeg", "ffmpeg");
+  // In fragments it knows of the priming of AAC by the times only, and raw samples have none.
+  const bool keeps_priming = layout_.options.fragmented && !layout_.opus();
   expect_sound("ffmpeg -nostdin -v fatal -i '" + path_ + "' -vn -f f32le '" + raw_ + "'",
-               priming_of(GetParam()));
+               keeps_priming ? layout_.priming() : layout_.late());
 }
 
 TEST_P(Player, Mpv) {
@@ -47,10 +45,10 @@ TEST_P(Player, Mpv) {
       "mpv --no-config --no-video --really-quiet --audio-format=float --ao=pcm "
       "--ao-pcm-waveheader=no --ao-pcm-file='" +
           raw_ + "' '" + path_ + "'",
-      priming_of(GetParam()));
+      layout_.late());
 }
 
-INSTANTIATE_TEST_SUITE_P(Layouts, Player, testing::Values("mp4", "systems", "mkv", "ts"),
+INSTANTIATE_TEST_SUITE_P(Layouts, Player, testing::ValuesIn(layout_names()),
                          [](const auto& value) { return value.param; });
 
 }  // namespace

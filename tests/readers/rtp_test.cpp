@@ -67,10 +67,10 @@ class Rtp : public testing::Test {
     auto heard = std::async(std::launch::async, [&] { return run(receiver + " 2>&1"); });
     EXPECT_TRUE(listened_to(port)) << receiver;
     int status = 0;
-    const std::string said = run(kProgram + " stream '" + path_ + "' --copy --repeat " +
-                                     std::to_string(kRepeat) + " --to rtp://127.0.0.1:" +
-                                     std::to_string(port) + " 2>&1",
-                                 &status);
+    const std::string said =
+        run(kProgram + " stream '" + path_ + "' --copy --repeat " + std::to_string(kRepeat) +
+                " --to rtp://127.0.0.1:" + std::to_string(port) + " 2>&1",
+            &status);
     EXPECT_EQ(status, 0) << said;
     return heard.get();
   }
@@ -89,9 +89,10 @@ TEST_F(Rtp, GStreamerGivesTheUnitsByteForByte) {
       "timeout 30 gst-launch-1.0 udpsrc address=127.0.0.1 port=" + std::to_string(port) +
           " num-buffers=" + std::to_string(packets) +
           " caps=application/x-rtp,media=video,clock-rate=90000,encoding-name=MP4V-ES,payload=96"
-          " ! rtpjitterbuffer ! rtpmp4vdepay ! filesink location='" + dir_.file("units") + "'",
+          " ! rtpjitterbuffer ! rtpmp4vdepay ! filesink location='" +
+          dir_.file("units") + "'",
       port);
-  EXPECT_EQ(to_hex(read_bytesdir_.file("units")), to_hex(joined(units_of(talk_, true)))) << said;
+  EXPECT_EQ(to_hex(read_bytes(dir_.file("units"))), to_hex(joined(units_of(talk_, true)))) << said;
 }
 
 TEST_F(Rtp, FfprobeGivesTheUnitsInTime) {
@@ -99,13 +100,17 @@ TEST_F(Rtp, FfprobeGivesTheUnitsInTime) {
   const int port = free_port();
   ASSERT_NE(port, 0);
   // The description of the containers specification, not the one that the program writes.
-  std::ofstream(dir_.file("face.sdp")) << "v=0\no=- 0 0 IN IP4 127.0.0.1\ns=-\nc=IN IP4 127.0.0.1\nt=0 0\n"
-                           "m=video " << port << " RTP/AVP 96\n"
-                           "a=rtpmap:96 MP4V-ES/90000\n"
-                           "a=fmtp:96 profile-level-id=97; config=000001B061000001B58947\n";
+  std::ofstream(dir_.file("face.sdp"))
+      << "v=0\no=- 0 0 IN IP4 127.0.0.1\ns=-\nc=IN IP4 127.0.0.1\nt=0 0\n"
+         "m=video "
+      << port
+      << " RTP/AVP 96\n"
+         "a=rtpmap:96 MP4V-ES/90000\n"
+         "a=fmtp:96 profile-level-id=97; config=000001B061000001B58947\n";
   const std::string said = send_to(
       "timeout 30 ffprobe -v fatal -fflags noparse -protocol_whitelist file,udp,rtp -probesize 32 "
-      "-analyzeduration 100000 -of json -show_packets -show_data '" + dir_.file("face.sdp") + "'",
+      "-analyzeduration 100000 -of json -show_packets -show_data '" +
+          dir_.file("face.sdp") + "'",
       port);
   const Json report = Json::parse(said, nullptr, false);
   ASSERT_TRUE(report.contains("packets")) << said;

@@ -66,12 +66,36 @@ struct Layout {
   std::string name;
   std::string extension;
   media::MuxOptions options = {};
+
+  bool mp4() const { return extension == ".mp4"; }
+  bool ts() const { return extension == ".ts"; }
+  bool opus() const { return options.audio.codec == media::AudioCodec::opus; }
+  /// Samples that a decoder puts out before the sound (containers, section 5.1).
+  std::int64_t priming() const { return opus() ? 312 : 1024; }
+  /// Samples by which face and sound begin late: Matroska and TS cannot say what priming of AAC is
+  /// (containers, section 5.2).
+  std::int64_t late() const { return mp4() || opus() ? 0 : priming(); }
 };
 
 inline std::vector<Layout> layouts() {
-  Layout systems{"systems", ".mp4"};
-  systems.options.systems = true;
-  return {{"mp4", ".mp4"}, systems, {"mkv", ".mkv"}, {"ts", ".ts"}};
+  std::vector<Layout> all = {
+      {"mp4", ".mp4"},     {"mp4_opus", ".mp4"}, {"fragments", ".mp4"}, {"fragments_opus", ".mp4"},
+      {"systems", ".mp4"}, {"mkv", ".mkv"},      {"mkv_opus", ".mkv"},  {"ts", ".ts"}};
+  for (Layout& layout : all) {
+    layout.options.fragmented = layout.name.starts_with("fragments");
+    layout.options.systems = layout.name == "systems";
+    if (layout.name.ends_with("opus")) layout.options.audio.codec = media::AudioCodec::opus;
+  }
+  return all;
+}
+
+/// Of all layouts, or of those with an extension.
+inline std::vector<std::string> layout_names(const std::string& extension = "") {
+  std::vector<std::string> names;
+  for (const Layout& layout : layouts()) {
+    if (extension.empty() || layout.extension == extension) names.push_back(layout.name);
+  }
+  return names;
 }
 
 inline Layout layout_of(const std::string& name) {

@@ -135,6 +135,8 @@ TEST(StructureRules, LayersFire) {
   EXPECT_FALSE(broken("tools/media/mux.cpp", "<libavformat/avformat.h>"));
   EXPECT_TRUE(broken("tools/main.cpp", "<libavformat/avformat.h>"));
   EXPECT_TRUE(broken("tools/main.cpp", "<libswscale/swscale.h>"));
+  EXPECT_TRUE(broken("tools/web/web.h", "<libwebsockets.h>"));
+  EXPECT_FALSE(broken("tools/web/detail/service.h", "<libwebsockets.h>"));
   EXPECT_FALSE(broken("tools/voice/speak.cpp", "<espeak-ng/speak_lib.h>"));
   EXPECT_TRUE(broken("tools/media/speak.cpp", "<espeak-ng/speak_lib.h>"));
   EXPECT_TRUE(broken("tools/main.cpp", "<pocketsphinx.h>"));

@@ -35,6 +35,8 @@ bool is_voice(std::string_view name) {
          starts_with(name, "pocketsphinx") || starts_with(name, "sphinxbase");
 }
 
+bool is_web(std::string_view name) { return starts_with(name, "libwebsockets"); }
+
 bool is_eigen(std::string_view name) {
   return starts_with(name, "Eigen/") || starts_with(name, "unsupported/Eigen/");
 }
@@ -53,6 +55,9 @@ std::string library_rule(std::string_view path, const Include& include) {
   }
   if (is_voice(include.name) && !in_any(path, {"tools/voice/", "tests/voice/"})) {
     return "espeak and pocketsphinx belong to tools/voice";
+  }
+  if (is_web(include.name) && !in_any(path, {"tools/web/detail/"})) {
+    return "libwebsockets belongs to tools/web/detail";
   }
   if (is_eigen(include.name)) {
     if (!in_any(path, {"dam/", "tests/dam/", "tests/bench/"})) return "Eigen belongs to dam";

@@ -196,7 +196,7 @@ TEST(Usage, IsExitCode2) {
 
 TEST(Usage, HelpFitsAndHasExamples) {
   for (const char* command : {"speak", "align", "train", "evaluate", "encode", "decode", "mux",
-                              "demux", "info", "compare", "check", "stats", "plot"}) {
+                              "demux", "info", "compare", "check", "stats", "plot", "render"}) {
     const auto result = animeme({command, "--help"});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.out, HasSubstr("Examples:\n  animeme ")) << command;

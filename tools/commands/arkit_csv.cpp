@@ -6,15 +6,11 @@
 
 #include "dam/detail/table_text.h"
 #include "fap/arkit.h"
-#include "fap/rate_text.h"
-#include "tools/commands/arkit_times.h"
+#include "tools/commands/curve_table.h"
 
 namespace animeme::tools {
 
 namespace {
-
-constexpr double kLargestFrame = 10'000'000;
-constexpr std::size_t kNamesInWarning = 6;
 
 struct Columns {
   char separator = ',';
@@ -31,39 +27,6 @@ struct Row {
   fap::ArkitFrame values;
 };
 
-std::string lower_case(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-  return out;
-}
-
-char separator_of(std::string_view header) {
-  char best = ',';
-  for (const char c : {';', '\t'}) {
-    if (std::count(header.begin(), header.end(), c) >
-        std::count(header.begin(), header.end(), best)) {
-      best = c;
-    }
-  }
-  return best;
-}
-
-bool is_time(const std::string& name) {
-  return name == "timecode" || name == "time_s" || name == "time" || name == "timestamp";
-}
-
-// "A, B, C and 3 more".
-std::string list_of(const std::vector<std::string>& names) {
-  std::string out;
-  for (std::size_t i = 0; i < std::min(names.size(), kNamesInWarning); ++i) {
-    out += (i == 0 ? "" : ", ") + names[i];
-  }
-  if (names.size() > kNamesInWarning) {
-    out += " and " + std::to_string(names.size() - kNamesInWarning) + " more";
-  }
-  return out;
-}
-
 Result<Columns> read_header(const dam::TableLine& line, std::vector<std::string>& warnings) {
   const auto at = std::int64_t(line.number);
   Columns columns;
@@ -76,7 +39,7 @@ Result<Columns> read_header(const dam::TableLine& line, std::vector<std::string>
   for (std::size_t i = 0; i < fields.size(); ++i) {
     columns.names.emplace_back(dam::trimmed(fields[i]));
     const std::string name = lower_case(columns.names[i]);
-    if (is_time(name)) {
+    if (is_time_name(name)) {
       if (!time) time = i;
     } else if (name == "blendshapecount") {
       columns.shape_count = i;
@@ -95,8 +58,9 @@ Result<Columns> read_header(const dam::TableLine& line, std::vector<std::string>
   }
   if (columns.channels.empty()) {
     return error_at_line(Code::not_found,
-                         "no column is an ARKit blend shape: names like jawOpen or EyeBlinkLeft "
-                         "are needed in the first line",
+                         "no column is an ARKit blend shape (jawOpen, EyeBlinkLeft ...), and there "
+                         "are not all points of a set of landmarks (x_0, y_0 ... x_67, y_67; see "
+                         "import --help); name the columns so in the first line",
                          at);
   }
   if (!time) {
@@ -106,7 +70,8 @@ Result<Columns> read_header(const dam::TableLine& line, std::vector<std::string>
                          at);
   }
   if (!unknown.empty()) {
-    warnings.push_back("columns that are no ARKit blend shape are left out: " + list_of(unknown));
+    warnings.push_back("columns that are no ARKit blend shape are left out: " +
+                       list_of_names(unknown));
   }
   columns.time = *time;
   return columns;
@@ -208,6 +173,12 @@ std::vector<TimeField> times_of(const std::vector<Row>& rows) {
   return times;
 }
 
+std::vector<std::size_t> lines_of(const std::vector<Row>& rows) {
+  std::vector<std::size_t> lines;
+  for (const Row& row : rows) lines.push_back(row.line);
+  return lines;
+}
+
 }  // namespace
 
 bool is_arkit_csv(std::string_view text) {
@@ -228,40 +199,17 @@ Result<fap::Sequence> read_arkit_csv(std::string_view text, const ArkitCsvOption
   if (!columns) return columns.error();
   Result<std::vector<Row>> rows = read_rows(lines, *columns, warnings);
   if (!rows) return rows.error();
-  Result<Timing> timing = tell_timing(times_of(*rows), options.rate);
-  if (!timing) return std::move(timing).error();
-  for (std::string& warning : timing->warnings) warnings.push_back(std::move(warning));
+  const Result<PlacedRows> placed =
+      place_rows(times_of(*rows), lines_of(*rows), options.rate, warnings);
+  if (!placed) return placed.error();
   to_radians(*rows, options.degrees, warnings);
 
   const fap::ArkitChannels channels = channels_of(*columns, *rows);
-  fap::Sequence clip{timing->rate, {}, {}};
-  std::size_t merged = 0;
-  std::int64_t number = -1;
+  fap::Sequence clip{placed->rate, {}, {}};
   for (std::size_t i = 0; i < rows->size(); ++i) {
-    const Row& row = (*rows)[i];
-    const double position = timing->positions[i];
-    const auto at = std::int64_t(row.line);
-    if (i > 0 && position < timing->positions[i - 1]) {
-      return error_at_line(Code::out_of_range, "the time goes back; sort the rows by time", at);
-    }
-    if (position > kLargestFrame) {
-      return error_at_line(Code::out_of_range,
-                           "the time is more than 10 million frames after the first; correct it",
-                           at);
-    }
-    const std::int64_t next = next_number(number, position);
-    if (next == number) {
-      clip.frames.pop_back();
-      ++merged;
-    }
-    number = next;
-    clip.frames.push_back(fap::arkit_to_fap(row.values, channels));
-    clip.frames.back().number = number;
-  }
-  if (merged > 0) {
-    warnings.push_back(
-        "rows on the same frame as the next one, left out: " + std::to_string(merged) + " (at " +
-        fap::format_rate(clip.rate) + " frames a second)");
+    if (!placed->numbers[i]) continue;
+    clip.frames.push_back(fap::arkit_to_fap((*rows)[i].values, channels));
+    clip.frames.back().number = *placed->numbers[i];
   }
   return clip;
 }

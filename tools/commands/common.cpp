@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "tools/commands/arkit_csv.h"
+#include "tools/commands/landmark_csv.h"
 
 namespace animeme::tools {
 
@@ -183,8 +184,16 @@ void ProgressLine::update(double done, const std::string& detail) {
             << std::flush;
 }
 
+bool is_playlist(std::span<const std::uint8_t> bytes) {
+  if (starts_with(bytes, "#EXTM3U")) return true;
+  const auto head = bytes.first(std::min<std::size_t>(bytes.size(), 4096));
+  const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
+  return text.starts_with("<") && text.find("<MPD") != std::string_view::npos;
+}
+
 FileKind kind_of(std::span<const std::uint8_t> bytes) {
   if (starts_with(bytes, "ANIMEDAM")) return FileKind::model;
+  if (is_playlist(bytes)) return FileKind::media;
   if (bytes.size() >= 4 && bytes[0] == 0 && bytes[1] == 0 && bytes[2] == 1) {
     const std::uint32_t code = bytes[3];
     const bool fba = code == 0xB0 || code == 0xB2 || code == 0xB5 || code == 0xBA || code == 0xBB ||
@@ -199,6 +208,7 @@ FileKind kind_of(std::span<const std::uint8_t> bytes) {
   });
   if (!text) return FileKind::media;
   std::string_view view(reinterpret_cast<const char*>(head.data()), head.size());
+  const char* const end_of_file = view.data() + bytes.size();
   if (view.starts_with("\xEF\xBB\xBF")) view.remove_prefix(3);
   if (view.find("ooTextFile") != std::string_view::npos) return FileKind::script;
   // A table with a header line of words is a script; FAP text is numbers from its first word on.
@@ -207,7 +217,11 @@ FileKind kind_of(std::span<const std::uint8_t> bytes) {
     const std::string_view line = view.substr(0, end);
     const std::size_t first = line.find_first_not_of(" \t\r");
     if (first != std::string_view::npos && line[first] != '#') {
-      if (line.substr(first).starts_with("time_s") || is_arkit_csv(line)) return FileKind::curves;
+      // The header of a table of landmarks is longer than the head.
+      const std::string_view rest(line.data(), std::size_t(end_of_file - line.data()));
+      if (line.substr(first).starts_with("time_s") || is_arkit_csv(line) || is_landmark_csv(rest)) {
+        return FileKind::curves;
+      }
       const char c = line[first];
       const bool number = (c >= '0' && c <= '9') || c == '-' || c == '.';
       if (!number) return FileKind::script;

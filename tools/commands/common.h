@@ -40,7 +40,7 @@ struct Command {
 };
 
 extern const Command kAlign, kCheck, kCompare, kDecode, kDemux, kEncode, kEvaluate, kExport,
-    kFollow, kImport, kInfo, kMux, kPlot, kReceive, kSpeak, kStats, kStream, kTrain, kView;
+    kFollow, kImport, kInfo, kMux, kPlot, kReceive, kRender, kSpeak, kStats, kStream, kTrain, kView;
 
 /// Prints a usage error on standard error; returns kUsage for the command to return.
 int usage_error(const std::string& text);
@@ -103,6 +103,9 @@ enum class FileKind : std::uint8_t {
   unknown
 };
 FileKind kind_of(std::span<const std::uint8_t> bytes);
+/// Is it media in segments (HLS, DASH)? Such a file is to be read by its path, never by its bytes:
+/// what it names lies beside it.
+bool is_playlist(std::span<const std::uint8_t> bytes);
 
 /// Any input with motion: .fap or .bap text, raw .fba, a container, or a table of curves
 /// (time_s, fap3_open_jaw ... as in a corpus; ARKit shapes, see arkit_csv.h). For text, warnings

@@ -38,7 +38,7 @@ Result<int> run(const Options& options) {
 
 Action add(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  app.add_option("input", options->input, "mp4, mkv or ts file with a face")->required();
+  app.add_option("input", options->input, "mp4, mkv, ts, m3u8 or mpd file with a face")->required();
   app.add_option("--face", options->face, "Raw FBA stream to write, - for standard output");
   app.add_option("--audio", options->audio, "Sound to write: .wav, or .m4a and others as it is");
   app.add_flag("--es-headers", options->headers,

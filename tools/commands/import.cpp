@@ -1,3 +1,4 @@
+// Motion captured by other programs: shapes of a phone, points of a tracker.
 #include <filesystem>
 #include <memory>
 
@@ -5,6 +6,7 @@
 #include "fap/text.h"
 #include "tools/commands/arkit_csv.h"
 #include "tools/commands/common.h"
+#include "tools/commands/landmark_import.h"
 
 namespace animeme::tools {
 
@@ -15,17 +17,56 @@ struct Options {
   std::string output;
   std::string rate;
   bool degrees = false;
+  std::string layout;
+  std::string size;
+  int face = -1;
+  LandmarkImportOptions landmarks;
+  bool for_landmarks = false;  // an option was given that only landmarks know
 };
 
-Result<int> run(const Options& options) {
-  ArkitCsvOptions settings;
-  settings.degrees = options.degrees;
+Result<LandmarkImport> read_table(const Options& options, std::optional<fap::Rate> rate,
+                                  const std::string& text, std::vector<std::string>& warnings) {
+  if (options.for_landmarks || is_landmark_csv(text)) {
+    LandmarkImportOptions settings = options.landmarks;
+    settings.table.rate = rate;
+    if (options.layout == "68") settings.table.columns.layout = fap::LandmarkLayout::ibug68;
+    if (options.layout == "mediapipe") {
+      settings.table.columns.layout = fap::LandmarkLayout::mediapipe;
+    }
+    if (options.face >= 0) settings.table.rows.face = options.face;
+    return import_landmarks(text, settings, warnings);
+  }
+  auto clip = read_arkit_csv(text, {rate, options.degrees}, warnings);
+  if (!clip) return clip.error();
+  return LandmarkImport{std::move(*clip), {}};
+}
+
+// "1280x720"; nothing if it is something else.
+std::optional<PictureSize> parse_size(const std::string& text) {
+  const std::size_t cross = text.find_first_of("xX:");
+  if (cross == std::string::npos) return std::nullopt;
+  const auto width = dam::parse_number(std::string_view(text).substr(0, cross));
+  const auto height = dam::parse_number(std::string_view(text).substr(cross + 1));
+  if (!width || !height || !(*width > 0 && *width < 1e6 && *height > 0 && *height < 1e6)) {
+    return std::nullopt;
+  }
+  return PictureSize{*width, *height};
+}
+
+Result<int> run(Options options) {
+  std::optional<fap::Rate> given_rate;
   if (!options.rate.empty()) {
     const Result<fap::Rate> rate = fap::parse_rate(options.rate);
     if (!rate || !rate->valid()) {
       return usage_error("--rate: '" + options.rate + "' is no frame rate; write 30 or 29.97");
     }
-    settings.rate = *rate;
+    given_rate = *rate;
+  }
+  if (!options.size.empty()) {
+    options.landmarks.table.size = parse_size(options.size);
+    if (!options.landmarks.table.size) {
+      return usage_error("--size: '" + options.size + "' is no size; write 1280x720");
+    }
   }
   const Result<std::string> text = read_text_file(options.input);
   if (!text) return text.error();
@@ -33,41 +74,88 @@ Result<int> run(const Options& options) {
     return make_error(Code::unsupported, "this is a packed file; unpack it with gunzip first")
         .in_file(options.input);
   }
+  if (options.for_landmarks && is_arkit_csv(*text)) {
+    return usage_error(options.input +
+                       " has blend shapes: --layout, --neutral and the like are "
+                       "for landmarks");
+  }
   std::vector<std::string> warnings;
-  Result<fap::Sequence> clip = read_arkit_csv(*text, settings, warnings);
-  if (!clip) return clip.error().in_file(options.input);
+  Result<LandmarkImport> table = read_table(options, given_rate, *text, warnings);
+  if (!table) return table.error().in_file(options.input);
   for (const std::string& warning : warnings) warn(options.input + ": " + warning);
-  if (options.input != "-") clip->name = std::filesystem::path(options.input).stem().string();
-  if (auto written = write_file(options.output, fap::write_text(*clip)); !written) {
+  if (!table->talk.empty()) say(options.input + ": " + table->talk);
+  fap::Sequence& clip = table->clip;
+  if (options.input != "-") clip.name = std::filesystem::path(options.input).stem().string();
+  if (auto written = write_file(options.output, fap::write_text(clip)); !written) {
     return written.error();
   }
-  const std::int64_t skipped = clip->frames.back().number + 1 - std::int64_t(clip->frames.size());
-  say(name_of_output(options.output) + ": " + std::to_string(clip->frames.size()) + " frames, " +
-      std::to_string(clip->frames.front().mask.count()) + " FAPs, " + fap::format_rate(clip->rate) +
+  const std::int64_t skipped = clip.frames.back().number + 1 - std::int64_t(clip.frames.size());
+  say(name_of_output(options.output) + ": " + std::to_string(clip.frames.size()) + " frames, " +
+      std::to_string(clip.frames.front().mask.count()) + " FAPs, " + fap::format_rate(clip.rate) +
       " frames a second" + (skipped > 0 ? ", " + std::to_string(skipped) + " frames skipped" : ""));
   return kOk;
+}
+
+void add_landmark_options(CLI::App& app, Options& options) {
+  const char* group = "Landmarks";
+  const auto seen = [&options](const std::string&) { options.for_landmarks = true; };
+  const auto add = [&](CLI::Option* option) { option->group(group)->each(seen); };
+  const auto flag = [&](const char* name, bool& value, const char* help) {
+    app.add_flag_callback(
+           name, [&options, &value] { value = options.for_landmarks = true; }, help)
+        ->group(group);
+  };
+  add(app.add_option("--neutral", options.landmarks.neutral,
+                     "Where the face is neutral (looks at the camera, eyes open, mouth closed): "
+                     "frames like 12 or 0-24, seconds like 1.5s or 0.5-1.2s. Without it: frames "
+                     "with open eyes and closed lips, the calmer half of them"));
+  add(app.add_option("--smooth", options.landmarks.face.smooth,
+                     "Seconds (standard deviation) to average over, both ways, so nothing is "
+                     "delayed; 0 leaves all as it is")
+          ->capture_default_str()
+          ->check(CLI::Range(0.0, 1.0)));
+  add(app.add_option("--layout", options.layout,
+                     "What numbered points are, if the table has a part of them only")
+          ->check(CLI::IsMember({"68", "mediapipe"})));
+  add(app.add_option("--size", options.size,
+                     "Size of the picture, like 1280x720, where points are shares of it "
+                     "(MediaPipe)"));
+  add(app.add_option("--face", options.face, "Number (face_id) of the face to read; the first")
+          ->check(CLI::NonNegativeNumber));
+  add(app.add_option("--confidence", options.landmarks.table.rows.confidence,
+                     "Rows with less are left out (OpenFace)")
+          ->capture_default_str());
+  flag("--flat", options.landmarks.table.columns.flat, "Use the picture alone, not the depth");
+  flag("--mirrored", options.landmarks.face.mirrored,
+       "The picture was mirrored, as selfie cameras do: swap left and right");
 }
 
 Action add(CLI::App& app) {
   auto options = std::make_shared<Options>();
   app.add_option("input", options->input,
-                 "Table of ARKit blend shapes: a CSV file of Live Link Face, or time_s and one "
-                 "column a shape; - for standard input")
+                 "Table (CSV) of ARKit blend shapes: of Live Link Face, or time_s and one column a "
+                 "shape; or of landmarks: of OpenFace, 68 points (x_0, y_0 or landmark_0_x ...), "
+                 "468 or 478 points of MediaPipe, or feature points (8.1_x, 8.1_y ...); - for "
+                 "standard input")
       ->required();
   app.add_option("-o,--output", options->output, "FAP text to write, - for standard output")
       ->required();
   app.add_option("--rate", options->rate,
                  "Frames a second of the clip, like 30 or 29.97; without it the times tell");
   app.add_flag("--degrees", options->degrees, "Angles of head and eyes are degrees, not radians");
+  add_landmark_options(app, *options);
   return [options] { return run(*options); };
 }
 
 }  // namespace
 
-const Command kImport{"import", "Turn a face captured by a phone (ARKit curves) into FAPs",
+const Command kImport{"import", "Turn a captured face (ARKit curves, landmarks) into FAPs",
                       "  animeme import take.csv -o take.fap\n"
                       "  animeme import take.csv --rate 29.97 -o take.fap\n"
-                      "  animeme import take.csv -o - | animeme encode - -o take.fba",
+                      "  animeme import take.csv -o - | animeme encode - -o take.fba\n"
+                      "  animeme import openface.csv -o take.fap\n"
+                      "  animeme import openface.csv --flat --neutral 0.5-1.2s -o take.fap\n"
+                      "  animeme import mediapipe.csv --size 1280x720 --mirrored -o take.fap",
                       add};
 
 }  // namespace animeme::tools

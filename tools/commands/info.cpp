@@ -61,14 +61,16 @@ Json describe_track(const media::TrackInfo& track) {
 
 Result<Json> describe_media(const Options& options, std::span<const std::uint8_t> bytes,
                             Description& out) {
-  Result<media::ContainerInfo> info = media::probe(bytes);
+  const bool playlist = is_playlist(bytes);
+  Result<media::ContainerInfo> info = playlist ? media::probe(options.input) : media::probe(bytes);
   if (!info) return info.error();
   Json tracks = Json::array();
   for (const media::TrackInfo& track : info->tracks) tracks.push_back(describe_track(track));
-  Json json = {{"kind", "media"},           {"format", info->format}, {"bytes", bytes.size()},
+  Json json = {{"kind", "media"},           {"format", info->format}, {"bytes", info->bytes},
                {"seconds", info->duration}, {"tracks", tracks},       {"warnings", info->warnings}};
   if (info->first(media::TrackKind::face) == nullptr) return json;
-  Result<media::Container> container = media::read_container(bytes);
+  Result<media::Container> container =
+      playlist ? media::read_container(options.input) : media::read_container(bytes);
   if (!container) return container.error();
   Result<Json> stream = describe_coded(options, fba::join_access_units(container->face), out);
   if (!stream) return stream.error();

@@ -1,6 +1,7 @@
 #include "tools/commands/live_clip.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -63,6 +64,29 @@ Result<fba::AccessUnits> code_again(const fba::DecodedStream& stream, const Live
   return code(instants, options);
 }
 
+/// Marks as intra those units only at which a receiver can join: their plane tells the rate and all
+/// ranges that an earlier plane has set.
+fba::AccessUnits with_true_joints(fba::AccessUnits units, const fba::DecodedStream& decoded) {
+  if (units.units.size() != decoded.planes.size()) return units;
+  std::array<bool, 4> face_set{}, body_set{};
+  const auto tells_all = [](const auto& settings, std::array<bool, 4>& set) {
+    bool all = true;
+    for (std::size_t kind = 0; settings && kind < set.size(); ++kind) {
+      all = all && (settings->send_range[kind] || !set[kind]);
+      set[kind] = set[kind] || settings->send_range[kind];
+    }
+    return all;
+  };
+  for (std::size_t i = 0; i < units.units.size(); ++i) {
+    const fba::Plane& plane = decoded.planes[i];
+    if (!plane.intra) continue;
+    const bool face = tells_all(plane.face_settings, face_set);
+    const bool body = tells_all(plane.body_settings, body_set);
+    units.units[i].intra = i == 0 || (face && body && plane.temporal.rate.has_value());
+  }
+  return units;
+}
+
 std::string interval_text(double seconds) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f s", seconds);
@@ -72,13 +96,15 @@ std::string interval_text(double seconds) {
 /// Keeps the units or codes them again, as is asked for.
 Result<fba::AccessUnits> for_live_use(fba::AccessUnits units, const fba::DecodedStream& decoded,
                                       const std::string& path, const LiveCoding& coding) {
-  const double longest = longest_intra_interval(units);
+  const double longest = longest_intra_interval(with_true_joints(units, decoded));
   // A plane of tolerance: periods are whole numbers of planes.
   const double plane = decoded.rate.seconds(1);
   if (coding.intra_given && !coding.copy && longest > coding.intra_seconds + plane) {
     say(path + ": coded again, receivers can join every " + interval_text(coding.intra_seconds));
     auto again = code_again(decoded, coding);
     if (!again) return again.error().in_file(path);
+    const double begin = double(units.units.front().time) / units.timescale;
+    for (fba::AccessUnit& unit : again->units) unit.time += std::llround(begin * again->timescale);
     return again;
   }
   if (longest > kLongInterval) {

@@ -6,18 +6,16 @@
 
 namespace animeme::tools {
 
-bool is_rtp(const std::string& url) { return url.starts_with("rtp://"); }
-
 Result<LiveSinks> LiveSinks::open(const std::vector<std::string>& urls,
                                   const std::vector<std::string>& sdp,
-                                  const media::SinkOptions& options) {
+                                  const LiveSinkOptions& options) {
   LiveSinks sinks;
   std::size_t described = 0;
   for (const std::string& url : urls) {
-    media::SinkOptions own = options;
-    own.rtp.sdp_path.clear();
-    if (is_rtp(url) && described < sdp.size()) own.rtp.sdp_path = sdp[described++];
-    auto sink = media::open_sink(url, own);
+    LiveSinkOptions own = options;
+    own.media.rtp.sdp_path.clear();
+    if (is_rtp(url) && described < sdp.size()) own.media.rtp.sdp_path = sdp[described++];
+    auto sink = open_live_sink(url, own);
     if (!sink) return sink.error().in_file(url);
     sinks.addresses_.push_back({url, std::move(*sink), false});
   }

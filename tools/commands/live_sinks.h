@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tools/commands/common.h"
-#include "tools/media/live/open.h"
+#include "tools/commands/live_address.h"
 
 namespace animeme::tools {
 
@@ -22,10 +22,10 @@ struct LiveAddress {
 class LiveSinks {
  public:
   /// `sdp` names the session descriptions of the rtp addresses, in their order; fewer will do.
-  /// Errors: those of open_sink(), with the address.
+  /// Errors: those of open_live_sink(), with the address.
   static Result<LiveSinks> open(const std::vector<std::string>& urls,
                                 const std::vector<std::string>& sdp,
-                                const media::SinkOptions& options);
+                                const LiveSinkOptions& options);
 
   /// Errors: of any address.
   Result<void> start(const media::LiveInfo& info);
@@ -45,8 +45,5 @@ class LiveSinks {
 
   std::vector<LiveAddress> addresses_;
 };
-
-/// True for an address whose receivers need a session description.
-bool is_rtp(const std::string& url);
 
 }  // namespace animeme::tools

@@ -8,6 +8,7 @@
 #include "fap/text.h"
 #include "tools/commands/arkit_csv.h"
 #include "tools/commands/common.h"
+#include "tools/commands/landmark_import.h"
 #include "tools/media/container.h"
 
 namespace animeme::tools {
@@ -41,10 +42,15 @@ Result<Sequence> tell_quirks(Result<Sequence> clip, const std::vector<std::strin
   return clip;
 }
 
-// Curves of FAPs, or of a phone's face capture.
+// Curves of FAPs, of a phone's face capture, or landmarks.
 Result<fap::Sequence> read_table_of_curves(std::string_view text,
                                            std::vector<std::string>& warnings) {
   if (is_arkit_csv(text)) return read_arkit_csv(text, {}, warnings);
+  if (is_landmark_csv(text)) {
+    auto face = import_landmarks(text, {}, warnings);
+    if (!face) return face.error();
+    return std::move(face->clip);
+  }
   Result<dam::Signal> signal = dam::read_curves(text);
   if (!signal) return signal.error();
   return dam::to_sequence(*signal);
@@ -89,7 +95,9 @@ Result<MotionInput> parse_motion(std::vector<std::uint8_t> bytes, const std::str
       return input;
     }
     case FileKind::media: {
-      auto container = media::read_container(std::span<const std::uint8_t>(bytes));
+      auto container = is_playlist(bytes)
+                           ? media::read_container(path)
+                           : media::read_container(std::span<const std::uint8_t>(bytes));
       if (!container) return container.error().in_file(path);
       for (const std::string& text : container->warnings) warn(path + ": " + text);
       input.stream = fba::join_access_units(container->face);

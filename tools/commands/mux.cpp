@@ -27,7 +27,8 @@ Result<fba::AccessUnits> read_units(const Options& options) {
   Result<std::vector<std::uint8_t>> bytes = read_file(options.face);
   if (!bytes) return bytes.error();
   if (kind_of(*bytes) == FileKind::media) {
-    Result<media::Container> container = media::read_container(*bytes);
+    Result<media::Container> container =
+        is_playlist(*bytes) ? media::read_container(options.face) : media::read_container(*bytes);
     if (!container) return container.error();
     for (const std::string& text : container->warnings) warn(options.face + ": " + text);
     return std::move(container->face);
@@ -88,14 +89,17 @@ Action add(CLI::App& app) {
   app.add_option("face", options->face, "FAP text, FBA stream, or a container with a face")
       ->required();
   app.add_option("audio", options->audio, "Sound in any format that FFmpeg reads")->required();
-  app.add_option("-o,--output", options->output, "File to write: .mp4, .mkv or .ts")->required();
+  app.add_option("-o,--output", options->output,
+                 "File to write: .mp4, .mkv, .ts; .m3u8 (HLS) or .mpd (DASH) with a "
+                 "folder of segments beside it")
+      ->required();
   add_stream_options(app, options->stream);
   add_sound_options(app, options->sound, true);
   CLI::Option* fragmented =
       app.add_flag("--fragmented", options->mux.fragmented,
                    "mp4: in fragments, so that a reader can begin before the file is complete");
   app.add_option("--fragment-seconds", options->mux.fragment_seconds,
-                 "The longest fragment, seconds")
+                 "Length of fragments and of segments (.m3u8, .mpd), seconds")
       ->check(CLI::Range(0.02, 600.0))
       ->capture_default_str();
   app.add_flag("--systems", options->mux.systems,
@@ -111,6 +115,7 @@ const Command kMux{"mux", "Put a face and a voice into one file",
                    "  animeme mux talk.fap voice.flac --quant 2 -o talk.mkv\n"
                    "  animeme mux talk.fba voice.wav --audio-codec opus --fragmented -o talk.mp4\n"
                    "  animeme mux talk.mp4 talk.mp4 --audio-codec copy -o talk.ts\n"
+                   "  animeme mux talk.fba voice.wav --fragment-seconds 4 -o talk.m3u8\n"
                    "  animeme mux talk.fba voice.wav --systems -o scene.mp4",
                    add};
 

@@ -34,7 +34,8 @@ struct Options {
 };
 
 bool is_container(const std::string& extension) {
-  return extension == ".mp4" || extension == ".mkv" || extension == ".ts";
+  return extension == ".mp4" || extension == ".mkv" || extension == ".ts" || extension == ".m3u8" ||
+         extension == ".mpd";
 }
 
 bool is_output(const std::string& path) {
@@ -112,8 +113,9 @@ void report(const Options& options, const Spoken& spoken, const dam::Signal& sig
 
 Result<int> run(const Options& options) {
   if (!is_output(options.output)) {
-    return usage_error("--output must end in .mp4, .mkv, .ts, .fba, .fap or .csv, not " +
-                       options.output);
+    return usage_error(
+        "--output must end in .mp4, .mkv, .ts, .m3u8, .mpd, .fba, .fap or .csv, not " +
+        options.output);
   }
   if (const std::string missing = missing_options(options.spoken); !missing.empty()) {
     return usage_error(missing);
@@ -165,7 +167,8 @@ Action add(CLI::App& app) {
   add_spoken_options(app, options->spoken);
   app.add_option(
          "-o,--output", options->output,
-         "What to write: .mp4 .mkv .ts (face and voice), .fba (stream), .fap (text), .csv (curves)")
+         "What to write: .mp4 .mkv .ts .m3u8 .mpd (face and voice), .fba (stream), .fap (text), "
+         ".csv (curves)")
       ->required();
   app.add_option("--model", options->model, "Model file of a character; default: the built-in one");
   app.add_option("--rate", options->rate, "Frames a second: 25, 29.97, 60 ...")

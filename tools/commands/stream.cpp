@@ -7,6 +7,7 @@
 
 #include "fap/rate_text.h"
 #include "tools/commands/interrupt.h"
+#include "tools/commands/status_line.h"
 #include "tools/commands/stream_program.h"
 #include "tools/commands/stream_report.h"
 
@@ -122,7 +123,7 @@ Result<int> send(const StreamOptions& options, Program& program, LiveSinks& sink
   if (!sent) return sent.error();
   print_result(options, report, pacer.now() - begin, sinks, pacer, program);
   if (!finished) return finished.error();
-  return kOk;
+  return Interrupt::requested() ? kInterrupted : kOk;
 }
 
 Result<int> run(StreamOptions& options) {
@@ -191,21 +192,23 @@ void add_coding_options(CLI::App& app, StreamOptions& options) {
 Action add(CLI::App& app) {
   auto options = std::make_shared<StreamOptions>();
   add_source_options(app, *options);
-  app.add_option("--to", options->to,
-                 "Address: rtp://host:port, udp://host:port, srt://host:port; may be repeated")
+  app.add_option(
+         "--to", options->to,
+         "Address: rtp://host:port, udp://host:port, srt://host:port, or http://host:port to "
+         "serve browsers; may be repeated")
       ->required()
-      ->take_all();
+      ->allow_extra_args(false);
   app.add_option("--sdp", options->sdp,
                  "Session description to write for an rtp address; receivers need it")
-      ->take_all();
-  app.add_option("--mtu", options->sink.rtp.mtu, "Largest datagram, bytes")
+      ->allow_extra_args(false);
+  app.add_option("--mtu", options->sink.media.rtp.mtu, "Largest datagram, bytes")
       ->check(CLI::Range(256, 65000))
       ->capture_default_str();
-  app.add_option("--repeat", options->sink.rtp.repeat,
+  app.add_option("--repeat", options->sink.media.rtp.repeat,
                  "rtp: how often each packet of the face is sent, against loss")
       ->check(CLI::Range(1, 8))
       ->capture_default_str();
-  app.add_option("--bundle", options->sink.rtp.bundle,
+  app.add_option("--bundle", options->sink.media.rtp.bundle,
                  "rtp: planes a packet; more save headers and cost delay")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();
@@ -222,10 +225,10 @@ const Command kStream{
     "stream", "Send a face and its sound live: a clip, a text, or lines as they are typed",
     "  animeme stream talk.mp4 --to rtp://192.0.2.7:5004 --sdp talk.sdp --loop\n"
     "  animeme stream talk.fba --audio talk.wav --to udp://239.1.2.3:5004 --intra-seconds 1\n"
-    "  animeme stream --text \"Hello\" --to srt://192.0.2.7:5005\n"
+    "  animeme stream --text \"Hello\" --to srt://192.0.2.7:5005 --to http://127.0.0.1:8080\n"
     "  my_chat_bot | animeme stream --say - --life --to rtp://192.0.2.7:5004 --sdp bot.sdp "
     "--stats\n"
-    "Ctrl-C ends it in good order: receivers are told, the summary is printed, exit code 0.",
+    "Ctrl-C ends it in good order: receivers are told, the summary is printed; exit code 130.",
     add};
 
 }  // namespace animeme::tools

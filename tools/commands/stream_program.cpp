@@ -14,9 +14,9 @@ namespace animeme::tools {
 
 namespace {
 
-constexpr double kAhead = 0.02;     // seconds that sound is sent before its time
-constexpr double kLiveLead = 0.1;   // silence before a live line, time to open the mouth
-constexpr double kLiveTail = 0.3;   // after it, to close it
+constexpr double kAhead = 0.02;    // seconds that sound is sent before its time
+constexpr double kLiveLead = 0.1;  // silence before a live line, time to open the mouth
+constexpr double kLiveTail = 0.3;  // after it, to close it
 
 dam::SynthesisOptions synthesis_of(const StreamOptions& options, fap::Rate rate) {
   dam::SynthesisOptions settings;

@@ -9,8 +9,8 @@
 
 #include "dam/model.h"
 #include "fap/rate.h"
+#include "tools/commands/live_address.h"
 #include "tools/commands/live_clip.h"
-#include "tools/media/live/open.h"
 #include "tools/media/live/presentation.h"
 #include "tools/speech/live_speaker.h"
 
@@ -22,7 +22,7 @@ struct StreamOptions {
   SpokenOptions spoken;
   std::vector<std::string> to;
   std::vector<std::string> sdp;
-  media::SinkOptions sink;
+  LiveSinkOptions sink;
   LiveCoding coding;
   std::string codec;
   std::string model;

@@ -1,11 +1,9 @@
 #include "tools/commands/stream_report.h"
 
-#include <unistd.h>
-
 #include <algorithm>
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
-#include <iostream>
 #include <nlohmann/json.hpp>
 
 namespace animeme::tools {
@@ -53,21 +51,6 @@ ordered_json to_json(const LiveAddress& address) {
 }
 
 }  // namespace
-
-StatusLine::StatusLine() : terminal_(::isatty(STDERR_FILENO) != 0) {}
-
-StatusLine::~StatusLine() { clear(); }
-
-void StatusLine::show(const std::string& text) {
-  if (!terminal_) return say(text);
-  std::cerr << "\r\x1b[K" << text << std::flush;
-  shown_ = true;
-}
-
-void StatusLine::clear() {
-  if (shown_) std::cerr << "\r\x1b[K" << std::flush;
-  shown_ = false;
-}
 
 void StreamReport::add(const media::LiveUnit& unit) {
   Track& track = unit.track == media::LiveTrack::face ? face_ : sound_;

@@ -12,20 +12,6 @@
 
 namespace animeme::tools {
 
-/// One line on standard error that is renewed on a terminal and added to elsewhere.
-class StatusLine {
- public:
-  StatusLine();
-  ~StatusLine();
-  void show(const std::string& text);
-  /// Takes it away from a terminal, so that something else can be printed.
-  void clear();
-
- private:
-  bool terminal_;
-  bool shown_ = false;
-};
-
 class StreamReport {
  public:
   explicit StreamReport(const media::LiveInfo& info) : info_(info) {}

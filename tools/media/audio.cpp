@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tools/media/detail/audio_decoder.h"
+#include "tools/media/detail/rendition.h"
 #include "tools/media/detail/resampler.h"
 
 namespace animeme::media {
@@ -130,12 +131,9 @@ Result<Pcm> SoundCollector::finish() {
   if (!resampler_) return make_error(Code::syntax, "nothing in the audio track can be decoded");
   Result<void> finished = resampler_->finish();
   if (!finished) return finished.error();
-  const bool timed = start_ != AV_NOPTS_VALUE && stream_.start_time != AV_NOPTS_VALUE &&
-                     stream_.duration > 0 && stream_.duration < INT64_MAX / 4 &&
-                     std::abs(stream_.start_time) < INT64_MAX / 4;
-  if (input_.is_mp4_family() && timed) {
-    const std::int64_t end = av_rescale_q(stream_.start_time + stream_.duration - start_,
-                                          stream_.time_base, {1, pcm_.sample_rate});
+  const std::optional<std::int64_t> told = end_of_sound(input_, stream_);
+  if (told && start_ != AV_NOPTS_VALUE) {
+    const std::int64_t end = av_rescale_q(*told - start_, stream_.time_base, {1, pcm_.sample_rate});
     const std::int64_t surplus = std::int64_t(pcm_.samples.size()) - end;
     if (end > 0 && surplus > 0 && surplus <= pcm_.sample_rate / kPaddingPerSecond) {
       pcm_.samples.resize(std::size_t(end));
@@ -213,7 +211,10 @@ Result<Pcm> read_from(const Source& source, const ReadAudioOptions& options) {
 
 Result<Pcm> read_audio(const std::string& path, const ReadAudioOptions& options) {
   return av::guarded([&]() -> Result<Pcm> {
-    Result<Pcm> pcm = read_from(path, options);
+    Result<Pcm> pcm =
+        is_playlist(path)
+            ? read_sound_of(path, [&](auto bytes) { return read_from(bytes, options); })
+            : read_from(path, options);
     if (!pcm) return std::move(pcm.error()).in_file(path);
     return pcm;
   });

@@ -28,7 +28,8 @@ struct ReadAudioOptions {
   std::vector<std::string>* warnings = nullptr;
 };
 
-/// Reads the best audio track of any file that FFmpeg knows and mixes it down to one channel.
+/// Reads the best audio track of any file that FFmpeg knows, or of a playlist (see container.h),
+/// and mixes it down to one channel.
 /// Sample 0 is the first sample that a player would play: encoder delay is skipped where the file
 /// tells it (mp4, mkv, ogg, mp3; raw ADTS .aac does not: 1024 samples too many). Padding at the
 /// end of an mp4 or m4a is cut at the duration that the file states. Gaps between the time stamps

@@ -6,6 +6,8 @@
 //
 // The kind of a file is told by its content. mp4 (also fragmented, mov), Matroska, MPEG-TS
 // (stream type 0x10, and 0x06 that begins with an FBA code) and NUT can carry a face.
+// A name that ends in .m3u8 or .mpd is a playlist of segments (HLS, DASH), which are read, too:
+// only ordinary files in its folder or below, 1 GB in all.
 // Safe for untrusted input: no other file or address is opened, memory and time stay bounded.
 // Source: containers, sections 1.2, 1.3, 2.3, 3.
 #pragma once
@@ -33,7 +35,7 @@ struct AudioInfo {
 
 /// A face with its times, and what else was found.
 struct Container {
-  std::string format;  ///< "mp4", "mov", "matroska", "mpegts", "nut"
+  std::string format;  ///< "mp4", "mov", "matroska", "mpegts", "nut", "hls", "dash"
   /// Units byte for byte; configurations repeated in front of planes (TS) are taken off. `intra`
   /// comes from the plane header. Time 0 is sample 0 of read_audio() for the same file, to one
   /// tick of the container's clock (times are negative where the face begins before the sound); a
@@ -127,8 +129,10 @@ Result<ContainerInfo> probe(std::span<const std::uint8_t> file);
 ///   .wav                  decoded to 16 bits, mono, the file's sample rate (see read_audio())
 ///   .m4a .mp4             copied: aac, alac (m4a), mp3, opus (mp4); priming stays in the edit list
 ///   .aac                  copied: aac; the format cannot say that the first 1024 samples are
-///   priming .opus .ogg            copied: opus, vorbis (ogg), flac (ogg) .mka copied: what
-///   Matroska takes .mp3 .flac            copied: the codec of that name
+///                         priming
+///   .opus .ogg            copied: opus, vorbis (ogg), flac (ogg)
+///   .mka                  copied: what Matroska takes
+///   .mp3 .flac            copied: the codec of that name
 /// Copied packets keep their bytes; time begins at 0 when the track begins later.
 /// Errors: those of reading; unsupported (extension, or the codec does not fit: the sentence names
 /// what to use); io (writing). No file is left behind after a failure.

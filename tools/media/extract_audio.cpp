@@ -12,6 +12,7 @@
 #include "tools/media/detail/face_track.h"
 #include "tools/media/detail/muxer.h"
 #include "tools/media/detail/output_file.h"
+#include "tools/media/detail/rendition.h"
 
 namespace animeme::media {
 namespace {
@@ -55,6 +56,7 @@ Result<void> copy_packets(Input& input, int index, Muxer& muxer) {
   AVFormatContext& file = *input.context();
   const av::Packet packet(av_packet_alloc());
   if (!packet) return make_error(Code::out_of_range, "not enough memory");
+  const std::optional<std::int64_t> end = end_of_sound(input, *file.streams[index]);
   std::optional<std::int64_t> begin;  // subtracted; priming before 0 stays where it is
   while (av_read_frame(&file, packet.get()) >= 0) {
     if (packet->stream_index != index) {
@@ -62,6 +64,10 @@ Result<void> copy_packets(Input& input, int index, Muxer& muxer) {
       continue;
     }
     const std::int64_t time = packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts;
+    // The last packet of a fragmented file is said to be whole.
+    if (end && time != AV_NOPTS_VALUE && time < *end && packet->duration > *end - time) {
+      packet->duration = *end - time;
+    }
     if (!begin && time != AV_NOPTS_VALUE) begin = std::max<std::int64_t>(time, 0);
     if (packet->pts != AV_NOPTS_VALUE) packet->pts -= begin.value_or(0);
     if (packet->dts != AV_NOPTS_VALUE) packet->dts -= begin.value_or(0);
@@ -124,9 +130,12 @@ Result<void> extract(const std::string& in, const std::string& out) {
         .in_file(out);
   }
   const av::LogCapture log;
-  Result<std::unique_ptr<Input>> input = Input::open(in, nullptr);
-  if (!input) return input.error();
-  Result<void> copied = copy_track(**input, *target, out);
+  const auto copy = [&](const auto& source) -> Result<void> {
+    Result<std::unique_ptr<Input>> input = Input::open(source, nullptr);
+    if (!input) return input.error();
+    return copy_track(**input, *target, out);
+  };
+  Result<void> copied = is_playlist(in) ? read_sound_of(in, copy) : copy(in);
   if (!copied) return std::move(copied.error()).in_file(in);
   return copied;
 }

@@ -6,22 +6,18 @@
 #include <optional>
 #include <string_view>
 
-#include "tools/media/detail/audio_parameters.h"
 #include "tools/media/detail/extension.h"
-#include "tools/media/detail/face_header.h"
 #include "tools/media/detail/interleaver.h"
 #include "tools/media/detail/mp4_fix.h"
 #include "tools/media/detail/mux_check.h"
+#include "tools/media/detail/mux_parts.h"
 #include "tools/media/detail/output_file.h"
+#include "tools/media/detail/segment_writer.h"
 #include "tools/media/detail/systems_movie.h"
 #include "tools/media/detail/ts_pmt.h"
 
 namespace animeme::media {
 namespace {
-
-constexpr int kAacLevel2 = 0x29;  // up to 48 kHz, two channels
-constexpr int kUnspecified = 0xFE;
-constexpr int kNoneRequired = 0xFF;
 
 // What goes into files with an extension, and who writes them.
 struct FileType {
@@ -30,15 +26,25 @@ struct FileType {
   bool face, aac, opus;
 
   bool is_mp4() const { return std::string_view(muxer) == "mp4"; }
+  bool is_segments() const { return std::string_view(muxer) == "segments"; }
   bool takes(AudioCodec codec) const { return codec == AudioCodec::opus ? opus : aac; }
 };
 
+// clang-format off
 constexpr FileType kTypes[] = {
-    {".mp4", "mp4", true, true, true},       {".mkv", "matroska", true, true, true},
-    {".ts", "mpegts", true, true, false},    {".m4a", "mp4", false, true, false},
-    {".mka", "matroska", false, true, true}, {".webm", "webm", false, false, true},
-    {".weba", "webm", false, false, true},   {".opus", "opus", false, false, true},
+    // extension, muxer,     face,  aac,   opus
+    {".mp4",  "mp4",      true,  true,  true},
+    {".mkv",  "matroska", true,  true,  true},
+    {".ts",   "mpegts",   true,  true,  false},
+    {".m3u8", "segments", true,  true,  true},
+    {".mpd",  "segments", true,  true,  true},
+    {".m4a",  "mp4",      false, true,  false},
+    {".mka",  "matroska", false, true,  true},
+    {".webm", "webm",     false, false, true},
+    {".weba", "webm",     false, false, true},
+    {".opus", "opus",     false, false, true},
 };
+// clang-format on
 
 const FileType* type_of(const std::string& path) {
   const std::string extension = extension_of(path);
@@ -73,56 +79,10 @@ Result<void> check_type(const FileType& type, const MuxInput& input, const MuxOp
   return {};
 }
 
-int visual_profile(const MuxInput& input) {
-  if (input.visual_profile != 0) return input.visual_profile;
-  if (input.face == nullptr) return kNoneRequired;
-  const std::uint8_t profile = read_visual_headers(input.face->config).profile;
-  return profile != 0 ? profile : 0x61;
-}
-
-int audio_profile(const AudioFormat* sound) {
-  if (sound == nullptr) return kNoneRequired;
-  const bool level2 =
-      sound->codec == AudioCodec::aac && sound->sample_rate <= 48000 && sound->channels <= 2;
-  return level2 ? kAacLevel2 : kUnspecified;
-}
-
-void set_mp4_options(const MuxInput& input, const AudioFormat* sound, const MuxOptions& options,
-                     av::Options& header) {
-  header.set("brand", std::string("mp42"));
-  header.set("skip_iods", 0);
-  header.set("iods_video_profile", visual_profile(input));
-  header.set("iods_audio_profile", audio_profile(sound));
-  if (options.fragmented) {
-    header.set("movflags", std::string("frag_keyframe+delay_moov+default_base_moof+skip_trailer"));
-    header.set("frag_duration", std::int64_t(options.fragment_seconds * 1e6));
-  }
-  // The unit of track durations; the default of 1 ms would round them.
-  header.set("movie_timescale",
-             sound != nullptr ? sound->sample_rate : std::int64_t(input.face->timescale));
-}
-
-Result<std::optional<SoundSource>> open_sound(const MuxInput& input, const MuxOptions& options) {
-  std::optional<SoundSource> sound;
-  if (input.encoded != nullptr) sound.emplace(SoundSource::copying(*input.encoded));
-  if (input.audio != nullptr) {
-    Result<SoundSource> opened = SoundSource::coding(*input.audio, options.audio);
-    if (!opened) return opened.error();
-    sound.emplace(std::move(*opened));
-  }
-  return sound;
-}
-
 OutputStream::Filter filter_of(const FileType& type, const MuxInput& input) {
   if (std::string_view(type.muxer) != "mpegts" || input.face == nullptr) return nullptr;
   const auto filter = std::make_shared<ProgramMapFilter>(std::uint8_t(visual_profile(input)));
   return [filter](std::span<const std::uint8_t> bytes) { return filter->push(bytes); };
-}
-
-double seconds_of_sound(const MuxInput& input) {
-  if (input.audio != nullptr) return input.audio->duration();
-  const EncodedAudio& audio = *input.encoded;
-  return double(audio.packets.back().time) / audio.format.sample_rate;
 }
 
 Result<MuxResult> write_streams(const std::string& path, const FileType& type,
@@ -144,7 +104,12 @@ Result<MuxResult> write_streams(const std::string& path, const FileType& type,
     feeds.push_back(sound_feed(muxer, **sound, seconds_of_sound(input)));
   }
   av::Options header;
-  if (type.is_mp4()) set_mp4_options(input, format, options, header);
+  if (type.is_mp4()) {
+    set_mp4_options({input.face, visual_profile(input), format}, header);
+    if (options.fragmented) {
+      set_fragment_options("frag_keyframe", options.fragment_seconds, header);
+    }
+  }
   if (auto started = muxer.write_header(header); !started) return started.error();
   Result<Interleaved> done = interleave(feeds, options.stop, options.progress);
   if (!done) return done.error();
@@ -185,6 +150,7 @@ Result<MuxResult> write_file(const std::string& path, const FileType& type, cons
   if (auto legal = check_input(input, options); !legal) return legal.error();
   if (auto legal = check_type(type, input, options); !legal) return legal.error();
   const av::LogCapture log;
+  if (type.is_segments()) return write_segments(path, input, options);
   Result<OutputFile> out = OutputFile::create(path);
   if (!out) return out.error();
   Result<MuxResult> written = options.systems
@@ -192,7 +158,6 @@ Result<MuxResult> write_file(const std::string& path, const FileType& type, cons
                                   : write_streams(out->temporary(), type, input, options);
   if (!written) return written;
   if (auto committed = out->commit(); !committed) return committed.error();
-  if (options.progress) options.progress(1.0);
   return written;
 }
 
@@ -201,6 +166,7 @@ Result<MuxResult> guarded_write(const std::string& path, const FileType& type,
   return av::guarded([&]() -> Result<MuxResult> {
     Result<MuxResult> written = write_file(path, type, input, options);
     if (!written) return std::move(written.error()).in_file(path);
+    if (options.progress) options.progress(1.0);
     return written;
   });
 }
@@ -219,6 +185,11 @@ Result<MuxResult> write_mp4(const std::string& path, const MuxInput& input,
 
 Result<MuxResult> write_container(const std::string& path, const MuxInput& input,
                                   const MuxOptions& options) {
+  if (path == "-") {
+    return unsupported(
+        "a container cannot go to standard output, because its writer goes back in it; write a "
+        "file");
+  }
   const FileType* type = type_of(path);
   if (type != nullptr) return guarded_write(path, *type, input, options);
   const bool face = input.face != nullptr;

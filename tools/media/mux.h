@@ -39,7 +39,8 @@ struct MuxOptions {
   /// mp4: in fragments, each of which is complete, so that a reader can begin while the file is
   /// still being made or sent. A fragment begins with each intra plane, too.
   bool fragmented = false;
-  double fragment_seconds = 1;  ///< the longest fragment, 0.02..600
+  /// The longest fragment, and the shortest segment of HLS and DASH but for the last; 0.02..600.
+  double fragment_seconds = 1;
   /// mp4: a complete MPEG-4 Systems presentation with a scene of a face and a sound, an object
   /// stream and the initial object descriptor; for players and tools of MPEG-4 Systems. It is made
   /// in memory, with the contents first, and limited to 4 GB. Sound: AAC.
@@ -82,11 +83,17 @@ Result<MuxResult> write_mp4(const std::string& path, const MuxInput& input,
 ///   .ts                  face, AAC; configuration in front of each intra plane, stream type 0x10
 ///                        with an MPEG-4 video descriptor, the same common shift, 90 kHz clock, 188
 ///                        bytes or more for each plane
+///   .m3u8 .mpd           HLS or DASH: face and sound as fragmented mp4 segments, each a rendition
+///                        of its own, in a folder beside the file ("talk_hls", "talk_dash"), which
+///                        is replaced if it holds such segments only. The sound is what a player
+///                        finds that knows no faces. A segment begins with an intra plane and lasts
+///                        MuxOptions::fragment_seconds or longer; face and sound as in mp4
 ///   .m4a                 sound alone: AAC
 ///   .mka                 sound alone: AAC or Opus
 ///   .webm .weba .opus    sound alone: Opus
-/// Further error: unsupported (another extension; a face or a codec that the format does not take;
-/// a Systems presentation or fragments that are no mp4).
+/// Further errors: unsupported (another extension, "-"; a face or a codec that the format does not
+/// take; a Systems presentation or fragments that are no mp4), io (the folder of segments holds
+/// other files).
 Result<MuxResult> write_container(const std::string& path, const MuxInput& input,
                                   const MuxOptions& options = {});
 

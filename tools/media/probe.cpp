@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <utility>
 
 #include "tools/media/container.h"
 #include "tools/media/detail/face_header.h"
 #include "tools/media/detail/face_track.h"
+#include "tools/media/detail/presentation.h"
 
 namespace animeme::media {
 namespace {
@@ -113,6 +115,24 @@ Result<ContainerInfo> probe_from(const Source& source) {
   return info;
 }
 
+// All renditions as one.
+Result<ContainerInfo> probe_playlist(const std::string& path) {
+  const Result<Presentation> presentation = read_presentation(path);
+  if (!presentation) return presentation.error();
+  ContainerInfo all;
+  all.format = presentation->format;
+  all.bytes = 0;
+  for (const std::vector<std::uint8_t>& bytes : presentation->renditions) {
+    Result<ContainerInfo> info = probe_from(bytes);
+    if (!info) return info.error();
+    all.duration = std::max(all.duration, info->duration);
+    all.bytes += std::int64_t(bytes.size());
+    for (TrackInfo& track : info->tracks) all.tracks.push_back(std::move(track));
+    for (std::string& text : info->warnings) all.warnings.push_back(std::move(text));
+  }
+  return all;
+}
+
 }  // namespace
 
 const char* name_of(TrackKind kind) {
@@ -131,7 +151,7 @@ const char* name_of(TrackKind kind) {
 
 Result<ContainerInfo> probe(const std::string& path) {
   return av::guarded([&]() -> Result<ContainerInfo> {
-    Result<ContainerInfo> info = probe_from(path);
+    Result<ContainerInfo> info = is_playlist(path) ? probe_playlist(path) : probe_from(path);
     if (!info) return std::move(info.error()).in_file(path);
     return info;
   });

@@ -5,6 +5,7 @@
 #include "tools/media/container.h"
 #include "tools/media/detail/audio_decoder.h"
 #include "tools/media/detail/face_track.h"
+#include "tools/media/detail/rendition.h"
 #include "tools/media/detail/unit_collector.h"
 
 namespace animeme::media {
@@ -62,10 +63,40 @@ class SoundStart {
   int tried_ = 0;
 };
 
+// Sound in another place than the face: where its time 0 lies, and what it is.
+struct OtherSound {
+  AudioInfo info;
+  std::optional<std::int64_t> time;
+  AVRational time_base{1, 1};
+};
+
+std::optional<OtherSound> look_at_sound(Input& input) {
+  AVFormatContext& file = *input.context();
+  FaceTracks tracks;
+  tracks.update(file);
+  if (avformat_find_stream_info(&file, nullptr) < 0) return std::nullopt;
+  const std::optional<int> index = find_audio(input);
+  const av::Packet packet(av_packet_alloc());
+  if (!index || !packet) return std::nullopt;
+  AVStream* stream = file.streams[*index];
+  SoundStart start(input, stream);
+  while (start.searching() && av_read_frame(&file, packet.get()) >= 0) {
+    if (packet->stream_index == *index) start.try_packet(*packet);
+    av_packet_unref(packet.get());
+  }
+  return OtherSound{describe_audio(input, *stream), start.time(), stream->time_base};
+}
+
 class Reader {
  public:
   Reader(Input& input, const ReadOptions& options)
       : input_(input), file_(*input.context()), options_(options) {}
+
+  /// The sound is not that of `input`.
+  void use(const OtherSound& sound) {
+    result_.audio = sound.info;
+    other_sound_ = sound;
+  }
 
   Result<Container> read(const av::LogCapture& log);
 
@@ -83,6 +114,7 @@ class Reader {
   FaceTracks tracks_;
   int face_ = -1;  // stream index, once it is certain
   std::optional<UnitCollector> units_;
+  std::optional<OtherSound> other_sound_;
   int status_ = 0;
 };
 
@@ -135,9 +167,11 @@ Result<void> Reader::read_packets(SoundStart& sound) {
 // Ticks to subtract from the face's times.
 std::int64_t Reader::shift(const SoundStart& sound) const {
   const AVRational base = units_->time_base();
-  if (sound.time()) {
-    const AVRational from = file_.streams[sound.stream()]->time_base;
-    const std::int64_t start = *sound.time();
+  const std::optional<std::int64_t> time = other_sound_ ? other_sound_->time : sound.time();
+  if (time) {
+    const AVRational from =
+        other_sound_ ? other_sound_->time_base : file_.streams[sound.stream()]->time_base;
+    const std::int64_t start = *time;
     // Within one tick of a coarse clock the start is not known better than 0.
     if (start >= -1 && start <= 1) return 0;
     const std::int64_t ticks = av_rescale_q(start, from, base);
@@ -168,7 +202,7 @@ Result<Container> Reader::read(const av::LogCapture& log) {
     result_.warnings.push_back("the stream headers are incomplete");
   }
   tracks_.update(file_);
-  const std::optional<int> audio = find_audio(input_);
+  const std::optional<int> audio = other_sound_ ? std::nullopt : find_audio(input_);
   for (unsigned i = 0; i < file_.nb_streams; ++i) {
     const bool wanted =
         int(i) == audio.value_or(-1) || tracks_[int(i)].state != FaceTrack::State::no;
@@ -197,11 +231,34 @@ Result<Container> read_from(const Source& source, const ReadOptions& options) {
   return Reader(**input, options).read(log);
 }
 
+Result<Container> read_playlist(const std::string& path, const ReadOptions& options) {
+  const Result<Presentation> presentation = read_presentation(path);
+  if (!presentation) return presentation.error();
+  const std::vector<std::uint8_t>* face = find_rendition(*presentation, TrackKind::face);
+  if (face == nullptr) {
+    return make_error(Code::not_found, "the presentation has no face animation track");
+  }
+  const std::vector<std::uint8_t>* sound = find_rendition(*presentation, TrackKind::audio);
+  const av::LogCapture log;
+  Result<std::unique_ptr<Input>> input = Input::open(*face, kFaceFormats);
+  if (!input) return input.error();
+  Reader reader(**input, options);
+  if (sound != nullptr && sound != face) {
+    Result<std::unique_ptr<Input>> other = Input::open(*sound, nullptr);
+    const auto found = other ? look_at_sound(**other) : std::nullopt;
+    if (found) reader.use(*found);
+  }
+  Result<Container> container = reader.read(log);
+  if (container) container->format = presentation->format;
+  return container;
+}
+
 }  // namespace
 
 Result<Container> read_container(const std::string& path, const ReadOptions& options) {
   return av::guarded([&]() -> Result<Container> {
-    Result<Container> container = read_from(path, options);
+    Result<Container> container =
+        is_playlist(path) ? read_playlist(path, options) : read_from(path, options);
     if (!container) return std::move(container.error()).in_file(path);
     return container;
   });

@@ -12,6 +12,7 @@ extern "C" {
 #include "tools/media/container.h"
 #include "tools/media/detail/audio_decoder.h"
 #include "tools/media/detail/face_track.h"
+#include "tools/media/detail/rendition.h"
 
 namespace animeme::media {
 namespace {
@@ -165,13 +166,9 @@ Result<void> PacketCollector::take(const AVPacket& packet) {
 void PacketCollector::set_length() {
   audio_.length = next_;
   const std::int64_t rate = audio_.format.sample_rate;
-  const bool timed = stream_.start_time != AV_NOPTS_VALUE && stream_.duration > 0 && origin_ &&
-                     stream_.duration < INT64_MAX / 4 &&
-                     std::abs(stream_.start_time) < INT64_MAX / 4;
-  if (!input_.is_mp4_family() || !timed) return;
-  const std::int64_t end =
-      av_rescale_q(stream_.start_time + stream_.duration, stream_.time_base, {1, int(rate)}) -
-      *origin_;
+  const std::optional<std::int64_t> told = end_of_sound(input_, stream_);
+  if (!told || !origin_) return;
+  const std::int64_t end = av_rescale_q(*told, stream_.time_base, {1, int(rate)}) - *origin_;
   if (end > 0 && end < next_ && next_ - end <= rate / kPaddingPerSecond) audio_.length = end;
 }
 
@@ -180,6 +177,11 @@ Result<EncodedAudio> PacketCollector::finish() {
     return make_error(Code::syntax, "nothing in the audio track can be read");
   }
   set_length();
+  // The last packet of a fragmented file is said to be whole.
+  AudioPacket& last = audio_.packets.back();
+  if (audio_.length > last.time && audio_.length < last.time + last.duration) {
+    last.duration = audio_.length - last.time;
+  }
   AudioFormat& format = audio_.format;
   format.priming =
       int(std::clamp<std::int64_t>(-audio_.packets.front().time, 0, format.sample_rate));
@@ -229,7 +231,9 @@ Result<EncodedAudio> read_from(const Source& source) {
 
 Result<EncodedAudio> read_encoded_audio(const std::string& path) {
   return av::guarded([&]() -> Result<EncodedAudio> {
-    Result<EncodedAudio> audio = read_from(path);
+    Result<EncodedAudio> audio =
+        is_playlist(path) ? read_sound_of(path, [](auto bytes) { return read_from(bytes); })
+                          : read_from(path);
     if (!audio) return std::move(audio.error()).in_file(path);
     return audio;
   });

@@ -25,7 +25,12 @@ Camera look_at(const head::Head& head, double left_degrees, double up_degrees, d
   const double top = head.at("11.4").y + 1.0;
   const double chin = head.at("2.1").y;
   const double height = top - chin;
-  const head::Vec3d target{0, chin + height * 0.44, head.neck_pivot.z + height * 0.16};
+  // Nearer pictures have the face in their middle.
+  const double face = 0.5 * (double(head.at("4.1").y) + chin);
+  const double near = head::smooth_step(1.0, 1.8, zoom);
+  const double middle = (chin + height * 0.44) * (1 - near) + face * near;
+  const double depth = height * (0.16 + 0.16 * near);
+  const head::Vec3d target{0, middle, head.neck_pivot.z + depth};
   const head::Vec3d direction{std::sin(left) * std::cos(up), std::sin(up),
                               std::cos(left) * std::cos(up)};
   const double distance = height * 3.4;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <condition_variable>
 #include <mutex>
 #include <system_error>
 #include <thread>
@@ -16,6 +17,7 @@ namespace animeme::speech {
 namespace {
 
 constexpr std::size_t kMostBytes = 4000;  // of a line
+constexpr std::size_t kMostDone = 4;      // lines that wait: a voice is faster than speech
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
@@ -62,18 +64,25 @@ struct VoiceLines::Impl {
   std::vector<SpokenLine> done;
   std::vector<std::string> warnings;
   bool over = false;
+  bool stopping = false;
+  std::condition_variable room;  // in `done`
 
   std::thread thread;  // last: it uses all of the above
 
   ~Impl() {
+    {
+      const std::lock_guard lock(mutex);
+      stopping = true;
+    }
+    room.notify_all();
     if (wake[1] >= 0) ::close(wake[1]);
     if (thread.joinable()) thread.join();
     if (wake[0] >= 0) ::close(wake[0]);
   }
 
-  bool stopped() const {
-    pollfd fd{wake[0], POLLIN, 0};
-    return ::poll(&fd, 1, 0) > 0;
+  bool stopped() {
+    const std::lock_guard lock(mutex);
+    return stopping;
   }
 
   /// Bytes read; 0 at the end or when it is to stop.
@@ -94,7 +103,8 @@ struct VoiceLines::Impl {
     if (text.empty() || stopped()) return;
     Result<voice::Speech> speech = voice::speak_text(text, options);
     const double spoken = clock->now();
-    const std::lock_guard lock(mutex);
+    std::unique_lock lock(mutex);
+    room.wait(lock, [this] { return stopping || done.size() < kMostDone; });
     if (speech) {
       done.push_back({std::move(text), std::move(*speech), arrived, spoken});
     } else {
@@ -146,6 +156,7 @@ Result<std::unique_ptr<VoiceLines>> VoiceLines::open(int descriptor,
 
 std::vector<SpokenLine> VoiceLines::take() {
   const std::lock_guard lock(impl_->mutex);
+  impl_->room.notify_all();
   return std::exchange(impl_->done, {});
 }
 

@@ -36,7 +36,8 @@ class LineSource {
 };
 
 /// Text by the line from a file descriptor, spoken by tools/voice. Empty lines are skipped; a last
-/// line without its end counts. A line longer than 4000 bytes is cut at a blank.
+/// line without its end counts. A line longer than 4000 bytes is cut at a blank. While four lines
+/// wait to be taken, no more are spoken, so that a whole book at once needs no more memory.
 class VoiceLines : public LineSource {
  public:
   /// Says something once, so that a voice that is missing is known at once and the first line finds

@@ -84,6 +84,7 @@ struct LiveSpeaker::Impl {
 };
 
 void LiveSpeaker::Impl::collect() {
+  if (waiting.size() > 1) return;  // the source keeps what is not wanted yet
   for (SpokenLine& line : lines->take()) {
     const bool waited = !waiting.empty() || face.speaking();
     waiting.emplace_back(std::move(line), waited);

@@ -119,9 +119,9 @@ Mesh make_brows(const Shape& shape) {
     const Vec3d out = gradient(shape.skin, place, 0.1);
     const Vec3d up = normalised(cross(out, along));
     const double taper =
-        std::pow(std::sin(kPi * std::clamp(0.10 + 0.87 * t, 0.0, 1.0)), 0.55) * (1.15 - 0.55 * t);
+        std::pow(std::sin(kPi * std::clamp(0.035 + 0.945 * t, 0.0, 1.0)), 0.5) * (1.15 - 0.55 * t);
     const double half = shape.p.brow_thickness * taper;
-    sections.push_back({place + out * 0.02, up * half, out * (0.10 + 0.25 * half)});
+    sections.push_back({place + out * 0.07, up * half, out * (0.10 + 0.25 * half)});
   }
   Mesh mesh;
   add_tube(sections, 10, mesh);

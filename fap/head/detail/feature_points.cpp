@@ -81,7 +81,7 @@ void lips_and_chin(const Layout& l, Finder& find) {
   find.pair("2.8", "2.9", l.lower_contact, half);
   find.grid("8.1", l.upper_lip, 0);
   find.grid("8.2", l.lower_lip, 0);
-  find.pair("8.3", "8.4", l.upper_contact, corner + 3);
+  find.pair("8.3", "8.4", l.upper_contact, corner + std::max(corner * 3 / 20, 1));
   find.pair("8.5", "8.6", l.upper_lip, half);
   find.pair("8.7", "8.8", l.lower_lip, half);
   find.pair("8.10", "8.9", l.upper_lip, corner / 5);

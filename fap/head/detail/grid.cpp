@@ -72,21 +72,32 @@ Keys make_keys(const Shape& shape, const Layout& l, const Columns& columns, int 
   const double line = shape.lip_line(at_mouth);
   const double spread = 1.0 * std::min(std::pow(beyond, 1.2), 1.1);
   const double side = columns.angle[std::size_t(i)] / kPi;  // 0 front, 1 back
-  const double under = -1.12 + 0.75 * smooth_step(0.1, 0.6, side);
-  return {{{0, 2.0, 0, kPi / 2},
-           {l.hairline, 2.0, 0, 0.80},
-           {l.brow, p.brow_height, 0, 0, 0.8},
-           {l.upper_lid, upper, 0, 0},
-           {l.lower_lid, lower, 0, 0, 1.25},
-           {l.nose_base, -p.nose_length - 0.62, 0, 0},
-           {l.upper_lip, shape.upper_lip(at_mouth) + spread, 0, 0},
-           {l.upper_contact, line, 0, 0},
-           {l.lower_contact, line, 0, 0},
-           {l.lower_lip, shape.lower_lip(at_mouth) - spread, 0, 0},
-           {l.chin, -p.chin_drop + 0.5, 0, 0},
-           {l.under_chin, -5.2, 1.0, under},
-           {l.throat, -11.6, -1.6, 0},
-           {l.bottom, -17.2, -3.0, 0}}};
+  // Under the chin rays point down; at the sides and behind there is only the neck.
+  const double behind = smooth_step(0.12, 0.42, side);
+  const double chin = -p.chin_drop + 0.5;
+  const double throat = -p.chin_drop - 3.2;
+  Keys keys = {{{0, 2.0, 0, kPi / 2},
+                {l.hairline, 2.0, 0, 0.80},
+                {l.brow, p.brow_height, 0, 0, 0.8},
+                {l.upper_lid, upper, 0, 0},
+                {l.lower_lid, lower, 0, 0, 1.25},
+                {l.nose_base, -p.nose_length - 0.62, 0, 0},
+                {l.upper_lip, shape.upper_lip(at_mouth) + spread, 0, 0},
+                {l.upper_contact, line, 0, 0},
+                {l.lower_contact, line, 0, 0},
+                {l.lower_lip, shape.lower_lip(at_mouth) - spread, 0, 0},
+                {l.chin, chin, 0, 0},
+                {l.under_chin, -5.2 + (0.5 * (chin + throat) + 5.2) * behind, 1.0 - 1.8 * behind,
+                 -1.12 * (1 - behind)},
+                {l.throat, throat, -1.6, 0},
+                {l.bottom, -17.2, -3.0, 0}}};
+  // Rows do not pass each other, whatever the sizes are.
+  for (std::size_t k = 3; k + 3 < keys.size(); ++k) {
+    if (keys[k].row == l.lower_lid || keys[k].row == l.lower_contact) continue;
+    const double least = 0.012 * (keys[k].row - keys[k - 1].row);
+    keys[k].y = std::min(keys[k].y, keys[k - 1].y - least);
+  }
+  return keys;
 }
 
 Vec3d cast(const Shape& shape, const Columns& columns, const Layout& l, const Keys& keys, int row,

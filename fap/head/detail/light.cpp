@@ -36,9 +36,10 @@ void shade_by(const Field& field, double reach, double strength, std::size_t cou
 }  // namespace
 
 void shade_parts(const Shape& shape, const Skin& skin, Head& head) {
-  const auto all = [&shape](Vec3d p) {
-    double d = std::min(shape.skin(p), hair_field(shape, p));
-    if (p.y < -9) d = std::min(d, body_field(shape, p));
+  const HairLines lines = hair_lines(shape);
+  const auto all = [&](Vec3d p) {
+    double d = std::min(shape.skin(p), hair_field(shape, lines, p));
+    if (p.y < -7) d = std::min(d, body_field(shape, p));
     if (std::abs(p.x) > 5 && p.z < 4) d = std::min(d, ear_field(shape, p));
     return d;
   };
@@ -51,7 +52,7 @@ void shade_parts(const Shape& shape, const Skin& skin, Head& head) {
   for (std::size_t i = outside; i < faces; ++i) {
     const double depth = lips - skin.places[i].z;
     const bool mouth = std::abs(skin.places[i].y + shape.p.mouth_drop) < 2.5;
-    face.occlusion[i] = mouth ? float(std::max(0.75 - 0.28 * depth, 0.03)) : 0.6f;
+    face.occlusion[i] = mouth ? float(std::max(0.6 - 0.30 * depth, 0.03)) : 0.6f;
   }
   Mesh ears;
   ears.positions.assign(face.positions.begin() + std::ptrdiff_t(faces), face.positions.end());
@@ -66,6 +67,15 @@ void shade_parts(const Shape& shape, const Skin& skin, Head& head) {
   shade_by(all, 3.0, 0.7, hair.positions.size(), hair);
   Mesh& body = head.part(Part::body);
   shade_by(all, 5.0, 0.8, body.positions.size(), body);
+}
+
+std::vector<float> freedom_below_hair(const Shape& shape, const Mesh& skin) {
+  const HairLines lines = hair_lines(shape);
+  std::vector<float> freedom;
+  for (const Vec3& p : skin.positions) {
+    freedom.push_back(float(smooth_step(-0.05, 0.3, hair_field(shape, lines, Vec3d(p)))));
+  }
+  return freedom;
 }
 
 }  // namespace animeme::head::detail

@@ -6,10 +6,15 @@
 
 namespace animeme::head::detail {
 
-Mesh make_eye(const Shape& shape, int side);     ///< 1: left, -1: right
-double ear_field(const Shape& shape, Vec3d p);   ///< distance to the left ear
-Mesh make_left_ear(const Shape& shape);          ///< closed, a part of the skin
-double hair_field(const Shape& shape, Vec3d p);  ///< distance to the hair
+Mesh make_eye(const Shape& shape, int side);    ///< 1: left, -1: right
+double ear_field(const Shape& shape, Vec3d p);  ///< distance to the left ear
+Mesh make_left_ear(const Shape& shape);         ///< closed, a part of the skin
+/// Edges of the hair above the face, on the skin.
+struct HairLines {
+  std::vector<Vec3d> left, right;
+};
+HairLines hair_lines(const Shape& shape);
+double hair_field(const Shape& shape, const HairLines& lines, Vec3d p);  ///< distance to the hair
 Mesh make_hair(const Shape& shape);
 double body_field(const Shape& shape, Vec3d p);
 Mesh make_body(const Shape& shape);

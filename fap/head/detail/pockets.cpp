@@ -37,8 +37,14 @@ void add_pocket(Skin& skin, const std::vector<LoopVertex>& loop, int rings, cons
     }
     for (std::size_t k = 0; k < n; ++k) {
       const std::size_t next = (k + 1) % n;
-      skin.mesh.triangles.push_back({outer[k], inner[k], inner[next]});
-      skin.mesh.triangles.push_back({outer[k], inner[next], outer[next]});
+      // The diagonals of the right side are the mirror images of those of the left one.
+      if (std::abs(loop[next].column) > std::abs(loop[k].column)) {
+        skin.mesh.triangles.push_back({outer[k], inner[k], inner[next]});
+        skin.mesh.triangles.push_back({outer[k], inner[next], outer[next]});
+      } else {
+        skin.mesh.triangles.push_back({outer[k], inner[k], outer[next]});
+        skin.mesh.triangles.push_back({inner[k], inner[next], outer[next]});
+      }
     }
     outer = inner;
   }

@@ -26,9 +26,9 @@ void add_flesh(Form& form, const HeadParameters& p) {
 void add_nose(Form& form, const HeadParameters& p) {
   const double tip = -p.nose_length;
   const double r = p.nose_size;
-  form.limb({0, 0.4, 7.95 + p.nose_bridge}, {0, tip + 0.25, 9.65}, 0.42, r * 0.78, 1.1);
-  form.ball({0, tip, 9.75}, {r * 0.98, r * 0.88, r}, 0.55);
-  form.ball({r * 1.12, tip - 0.28, 9.05}, {r * 0.62, r * 0.56, r * 0.85}, 0.5);
+  form.limb({0, -0.3, 7.75 + p.nose_bridge}, {0, tip + 0.2, 9.5}, 0.40, r * 0.8, 1.5);
+  form.ball({0, tip, 9.7}, {r * 0.98, r * 0.88, r}, 0.55);
+  form.ball({r * 1.1, tip - 0.2, 9.05}, {r * 0.6, r * 0.55, r * 0.85}, 0.55);
   form.hollow({r * 0.52, tip - r * 1.05, 9.5}, {r * 0.3, r * 0.3, r * 0.42}, 0.3);
 }
 
@@ -41,7 +41,7 @@ Shape::Shape(const HeadParameters& parameters) : p(parameters) {
   neck_pivot = {0, -6.2, -2.2};
   add_bones(skin, p);
   add_flesh(skin, p);
-  skin.hollow({eye.x + 0.1, 0.15, 9.4}, {2.1, 1.35, 1.7}, 1.5);
+  skin.hollow({eye.x + 0.1, 0.2, 9.5}, {2.2, 1.4, 1.6}, 1.7);
   skin.ball(eye, {lid, lid, lid}, 0.75);
   add_nose(skin, p);
 }
@@ -92,8 +92,8 @@ double Shape::lip_body(double x) const {
 
 Vec3d Shape::brow(double t) const {
   const double x = 1.25 + t * 3.75;
-  const double arch = 0.42 * std::sin(3.14159265 * std::pow(t, 1.25)) - 0.18 * t * t;
-  return front(x, p.brow_height + arch - 0.12);
+  const double arch = 0.36 * std::sin(3.14159265 * std::pow(t, 1.25)) - 0.18 * t * t;
+  return front(x, p.brow_height + arch - 0.04);
 }
 
 Vec3d Shape::front(double x, double y) const { return outer_hit(skin, {x, y, 0}, {0, 0, 1}, 14); }

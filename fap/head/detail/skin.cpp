@@ -28,7 +28,8 @@ void form_lips(const Shape& shape, const Layout& l, std::vector<Vec3d>& grid) {
         const double tuck = smooth_step(0.55, 1.0, r);
         const double bulge = upper ? 0.40 : 0.46;
         const double swell = std::sin(std::numbers::pi * 0.5 * std::min(r / 0.66, 1.0));
-        const double height = bulge * body * (swell - 0.62 * tuck * tuck) - 0.06 * tuck;
+        // Both lips come to the same line.
+        const double height = body * (bulge * swell - (bulge - 0.16) * tuck * tuck) - 0.06 * tuck;
         grid[std::size_t(row * n + i)] = shape.front(x, y) + out * height;
       }
     }
@@ -45,7 +46,11 @@ void form_lids(const Shape& shape, const Layout& l, std::vector<Vec3d>& grid) {
       const int from_rim = row <= l.upper_lid ? l.upper_lid - row : row - l.lower_lid;
       const Vec3d away = normalised(place - shape.eye);
       const double on_ball = smooth_step(double(reach), 1.0, double(from_rim));
-      if (l.in_eye(i)) place = mix(place, shape.eye + away * shape.lid, on_ball);
+      if (l.in_eye(i)) {
+        const Vec3d d = place - shape.eye;
+        const double square = shape.lid * shape.lid - d.x * d.x - d.y * d.y;
+        place.z += on_ball * (shape.eye.z + std::sqrt(std::max(square, 0.01)) - place.z);
+      }
       if (row >= l.upper_lid) continue;
       const double d = place.y - shape.crease(place.x);
       const double q = (place.x - shape.eye.x) / (shape.p.eye_width / 2);

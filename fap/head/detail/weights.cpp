@@ -6,25 +6,25 @@ namespace animeme::head::detail {
 namespace {
 
 constexpr std::array kControls = {
-    ControlInfo{"2.1", 5.5f, 0.7f, ""},     ControlInfo{"2.10", 4.2f, 0.7f, ""},
-    ControlInfo{"2.2", 3.0f, 0.45f, "2.3"}, ControlInfo{"2.3", 3.0f, 0.45f, "2.2"},
-    ControlInfo{"2.4", 3.4f, 0.5f, "2.4"},  ControlInfo{"2.5", 3.4f, 0.5f, "2.5"},
-    ControlInfo{"2.6", 3.0f, 0.45f, "2.8"}, ControlInfo{"2.7", 3.0f, 0.45f, "2.9"},
-    ControlInfo{"2.8", 3.0f, 0.45f, "2.6"}, ControlInfo{"2.9", 3.0f, 0.45f, "2.7"},
-    ControlInfo{"8.1", 3.4f, 0.45f, "8.2"}, ControlInfo{"8.2", 3.4f, 0.45f, "8.1"},
-    ControlInfo{"8.3", 4.2f, 0.5f, "8.3"},  ControlInfo{"8.4", 4.2f, 0.5f, "8.4"},
-    ControlInfo{"8.5", 3.4f, 0.45f, "8.7"}, ControlInfo{"8.6", 3.4f, 0.45f, "8.8"},
-    ControlInfo{"8.7", 3.4f, 0.45f, "8.5"}, ControlInfo{"8.8", 3.4f, 0.45f, "8.6"},
-    ControlInfo{"3.1", 1.9f, 0.4f, ""},     ControlInfo{"3.2", 1.9f, 0.4f, ""},
-    ControlInfo{"3.3", 1.9f, 0.4f, ""},     ControlInfo{"3.4", 1.9f, 0.4f, ""},
-    ControlInfo{"4.1", 4.2f, 1.1f, ""},     ControlInfo{"4.2", 4.2f, 1.1f, ""},
-    ControlInfo{"4.3", 4.2f, 1.1f, ""},     ControlInfo{"4.4", 4.2f, 1.1f, ""},
-    ControlInfo{"4.5", 3.8f, 1.1f, ""},     ControlInfo{"4.6", 3.8f, 1.1f, ""},
-    ControlInfo{"5.1", 4.2f, 1.0f, ""},     ControlInfo{"5.2", 4.2f, 1.0f, ""},
-    ControlInfo{"5.3", 3.8f, 1.0f, ""},     ControlInfo{"5.4", 3.8f, 1.0f, ""},
-    ControlInfo{"9.1", 2.3f, 0.45f, ""},    ControlInfo{"9.2", 2.3f, 0.45f, ""},
-    ControlInfo{"9.3", 2.6f, 0.45f, ""},    ControlInfo{"10.1", 3.0f, 0.5f, ""},
-    ControlInfo{"10.2", 3.0f, 0.5f, ""},    ControlInfo{"10.3", 3.0f, 0.5f, ""},
+    ControlInfo{"2.1", 5.5f, 0.7f, ""},    ControlInfo{"2.10", 4.2f, 0.7f, ""},
+    ControlInfo{"2.2", 3.0f, 0.7f, "2.3"}, ControlInfo{"2.3", 3.0f, 0.7f, "2.2"},
+    ControlInfo{"2.4", 3.4f, 0.5f, "2.4"}, ControlInfo{"2.5", 3.4f, 0.5f, "2.5"},
+    ControlInfo{"2.6", 3.0f, 0.7f, "2.8"}, ControlInfo{"2.7", 3.0f, 0.7f, "2.9"},
+    ControlInfo{"2.8", 3.0f, 0.7f, "2.6"}, ControlInfo{"2.9", 3.0f, 0.7f, "2.7"},
+    ControlInfo{"8.1", 3.4f, 0.7f, "8.2"}, ControlInfo{"8.2", 3.4f, 0.7f, "8.1"},
+    ControlInfo{"8.3", 4.2f, 0.5f, "8.3"}, ControlInfo{"8.4", 4.2f, 0.5f, "8.4"},
+    ControlInfo{"8.5", 3.4f, 0.7f, "8.7"}, ControlInfo{"8.6", 3.4f, 0.7f, "8.8"},
+    ControlInfo{"8.7", 3.4f, 0.7f, "8.5"}, ControlInfo{"8.8", 3.4f, 0.7f, "8.6"},
+    ControlInfo{"3.1", 1.9f, 0.4f, ""},    ControlInfo{"3.2", 1.9f, 0.4f, ""},
+    ControlInfo{"3.3", 1.9f, 0.4f, ""},    ControlInfo{"3.4", 1.9f, 0.4f, ""},
+    ControlInfo{"4.1", 4.2f, 1.1f, ""},    ControlInfo{"4.2", 4.2f, 1.1f, ""},
+    ControlInfo{"4.3", 4.2f, 1.1f, ""},    ControlInfo{"4.4", 4.2f, 1.1f, ""},
+    ControlInfo{"4.5", 3.8f, 1.1f, ""},    ControlInfo{"4.6", 3.8f, 1.1f, ""},
+    ControlInfo{"5.1", 4.2f, 1.0f, ""},    ControlInfo{"5.2", 4.2f, 1.0f, ""},
+    ControlInfo{"5.3", 3.8f, 1.0f, ""},    ControlInfo{"5.4", 3.8f, 1.0f, ""},
+    ControlInfo{"9.1", 2.3f, 0.45f, ""},   ControlInfo{"9.2", 2.3f, 0.45f, ""},
+    ControlInfo{"9.3", 2.6f, 0.45f, ""},   ControlInfo{"10.1", 3.0f, 0.5f, ""},
+    ControlInfo{"10.2", 3.0f, 0.5f, ""},   ControlInfo{"10.3", 3.0f, 0.5f, ""},
     ControlInfo{"10.4", 3.0f, 0.5f, ""},
 };
 
@@ -65,6 +65,7 @@ class Builder {
     hold_lids();
     make_exact();
     match_lips();
+    hold_hair();
     return std::move(weights_);
   }
 
@@ -146,6 +147,15 @@ class Builder {
     for (std::size_t v = 0; v < weights_.vertices(); ++v) {
       for (std::size_t c = 0; c < kControls.size(); ++c) {
         if (!kControls[c].id.starts_with("3.")) weights_.row(v)[c] *= held[v];
+      }
+    }
+  }
+
+  void hold_hair() {
+    const std::size_t known = std::min(head_.seams.freedom.size(), weights_.vertices());
+    for (std::size_t v = 0; v < known; ++v) {
+      for (std::size_t c = 0; c < kControls.size(); ++c) {
+        if (!kControls[c].id.starts_with("10.")) weights_.row(v)[c] *= head_.seams.freedom[v];
       }
     }
   }

@@ -1,6 +1,7 @@
 #include "tools/media/detail/audio_decoder.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
 
 namespace animeme::media {
@@ -46,6 +47,13 @@ Result<bool> decode_packet(AVCodecContext& codec, const AVPacket* packet, AVFram
 
 std::int64_t first_played(const Input& input, std::int64_t first_decoded) {
   return input.is_mp4_family() ? std::max<std::int64_t>(first_decoded, 0) : first_decoded;
+}
+
+std::optional<std::int64_t> end_of_sound(const Input& input, const AVStream& stream) {
+  const bool timed = stream.start_time != AV_NOPTS_VALUE && stream.duration > 0 &&
+                     stream.duration < INT64_MAX / 4 && std::abs(stream.start_time) < INT64_MAX / 4;
+  if (!input.is_mp4_family() || !timed) return std::nullopt;
+  return stream.start_time + stream.duration;
 }
 
 std::optional<int> find_audio(const Input& input) {

@@ -25,6 +25,10 @@ Result<bool> decode_packet(AVCodecContext& codec, const AVPacket* packet, AVFram
 /// before time 0 in mp4 and its relatives.
 std::int64_t first_played(const Input& input, std::int64_t first_decoded);
 
+/// The time stamp at which a stream ends, in its time base, where the file tells it to the sample
+/// (mp4 and its relatives); nullopt: elsewhere.
+std::optional<std::int64_t> end_of_sound(const Input& input, const AVStream& stream);
+
 /// Number of the best audio stream, nullopt: there is none.
 std::optional<int> find_audio(const Input& input);
 

@@ -16,6 +16,7 @@ class FaceFeed : public TrackFeed {
   bool ready() const override { return next_ < face_.units.size(); }
   std::int64_t time() const override { return face_.units[next_].time; }
   AVRational time_base() const override { return {1, int(face_.timescale)}; }
+  bool sync() const override { return face_.units[next_].intra; }
   Result<void> write() override { return muxer_.write_unit(face_.units[next_++]); }
   double end() const override {
     if (next_ == 0) return 0;
@@ -44,6 +45,7 @@ class SoundFeed : public TrackFeed {
   bool ready() const override { return packet_ != nullptr; }
   std::int64_t time() const override { return packet_->time; }
   AVRational time_base() const override { return {1, sound_.format().sample_rate}; }
+  bool sync() const override { return true; }
   Result<void> write() override {
     end_ = packet_->time + packet_->duration;
     Result<void> written = muxer_.write_sound(*packet_);

@@ -23,6 +23,8 @@ class TrackFeed {
   /// Of the packet that is ready.
   virtual std::int64_t time() const = 0;
   virtual AVRational time_base() const = 0;
+  /// Can a reader begin with it?
+  virtual bool sync() const = 0;
   /// Writes it and makes the next one ready. Error: io.
   virtual Result<void> write() = 0;
   /// End of what was written, seconds.

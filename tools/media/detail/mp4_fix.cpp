@@ -74,6 +74,22 @@ std::vector<std::uint32_t> tracks_with_descriptor(Bytes moov, const Box& whole) 
   return ids;
 }
 
+// next_track_ID, the last field of mvhd: libavformat counts only the tracks that had a sample when
+// it wrote the contents of fragments.
+void set_next_track_id(std::span<std::uint8_t> moov, const Box& whole) {
+  constexpr std::size_t kSize = 100;  // of the content of mvhd, short form
+  std::uint32_t last = 0;
+  for_each_box(moov, whole.begin, whole.end, [&](const Box& box) {
+    if (box.type == "trak") last = std::max(last, track_id(moov, box));
+  });
+  for_each_box(moov, whole.begin, whole.end, [&](const Box& box) {
+    if (box.type != "mvhd" || box.end - box.begin < kSize) return;
+    for (std::size_t i = 0; i < 4; ++i) {
+      moov[box.end - 4 + i] = std::uint8_t((last + 1) >> (24 - 8 * i));
+    }
+  });
+}
+
 // The content of iods as libavformat writes it, with the tracks behind the profiles.
 void put_iods(BoxWriter& out, Bytes content, const std::vector<std::uint32_t>& ids) {
   constexpr std::size_t kHeader = 4 + 5;  // version and flags, tag, length in four bytes
@@ -202,6 +218,7 @@ std::vector<std::uint8_t> complete_moov(std::span<const std::uint8_t> moov) {
   for (const std::size_t at : find_es_ids(moov)) cleared[at] = cleared[at + 1] = 0;
   const Box whole = box_at(cleared, 0, cleared.size());
   if (whole.begin == 0) return cleared;
+  set_next_track_id(cleared, whole);
   const std::vector<std::uint32_t> ids = tracks_with_descriptor(cleared, whole);
   const Bytes bytes(cleared);
   BoxWriter out;

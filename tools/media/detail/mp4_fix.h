@@ -15,8 +15,9 @@ namespace animeme::media {
 /// Walks boxes and descriptors; nothing is searched for. Broken boxes are passed over.
 std::vector<std::size_t> find_es_ids(std::span<const std::uint8_t> moov);
 
-/// A whole `moov` box with ES_ID 0 in every `esds`, as 14496-14 wants it in files, and with the
-/// tracks that have one listed in its `iods`, if there is one (ES_ID_Inc with the track ID).
+/// A whole `moov` box with ES_ID 0 in every `esds`, as 14496-14 wants it in files, with the
+/// tracks that have one listed in its `iods`, if there is one (ES_ID_Inc with the track ID), and
+/// with a next_track_ID that is free.
 std::vector<std::uint8_t> complete_moov(std::span<const std::uint8_t> moov);
 
 /// Adds `shift` to every chunk offset of a whole `moov` box. Error: out_of_range (an offset of 32

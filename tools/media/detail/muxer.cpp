@@ -152,6 +152,13 @@ Result<void> Muxer::write_packet(AVPacket& packet) {
   return write(packet, *other_stream_, other_base_);
 }
 
+Result<void> Muxer::end_fragment() {
+  Result<void> flushed = check(av_interleaved_write_frame(context_, nullptr));
+  // With delay_moov the first call writes the contents only; one too many does nothing.
+  for (int i = 0; flushed && i < 2; ++i) flushed = check(av_write_frame(context_, nullptr));
+  return flushed;
+}
+
 Result<void> Muxer::finish() {
   Result<void> ended = check(av_write_trailer(context_));
   return ended ? out_->close() : ended;

@@ -36,6 +36,8 @@ class Muxer {
   Result<void> write_sound(const AudioPacket& packet);
   /// Takes the packet's content. Times in the time_base given to add_stream().
   Result<void> write_packet(AVPacket& packet);
+  /// mp4 with frag_custom: what comes next begins a fragment.
+  Result<void> end_fragment();
   /// Completes the file and closes it.
   Result<void> finish();
 

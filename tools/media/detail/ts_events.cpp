@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "tools/media/detail/face_header.h"
+#include "tools/media/live/audio_segments.h"
 #include "tools/media/live/ts_live.h"
 
 namespace animeme::media {
@@ -154,10 +155,7 @@ LiveInfo TsEvents::describe() const {
   }
   if (sound_.known()) {
     info.audio = sound_.format();
-    info.audio->priming = priming_;
-    if (info.audio->codec == AudioCodec::opus) {
-      info.audio->config = opus_head(info.audio->channels, priming_);
-    }
+    set_priming(*info.audio, priming_);
   }
   return info;
 }

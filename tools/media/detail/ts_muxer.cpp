@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "tools/media/detail/audio_parameters.h"
 #include "tools/media/detail/face_header.h"
 #include "tools/media/live/ts_live.h"
 
@@ -16,15 +17,6 @@ constexpr std::int64_t kAddedByMuxer = 2 * kMaxDelay * 9 / 100;  // ticks of 90 
 constexpr AVRational kStampBase{1, 90000};
 
 Error no_memory() { return make_error(Code::out_of_range, "not enough memory"); }
-
-bool set_extradata(AVCodecParameters& parameters, const std::vector<std::uint8_t>& bytes) {
-  parameters.extradata =
-      static_cast<std::uint8_t*>(av_mallocz(bytes.size() + AV_INPUT_BUFFER_PADDING_SIZE));
-  if (parameters.extradata == nullptr) return false;
-  if (!bytes.empty()) std::memcpy(parameters.extradata, bytes.data(), bytes.size());
-  parameters.extradata_size = int(bytes.size());
-  return true;
-}
 
 }  // namespace
 
@@ -41,6 +33,7 @@ int TsMuxer::collect(void* self, std::uint8_t* bytes, int size) {
 Result<std::unique_ptr<TsMuxer>> TsMuxer::open(const LiveInfo& info, double table_period) {
   std::unique_ptr<TsMuxer> muxer(new TsMuxer);
   muxer->info_ = info;
+  muxer->program_map_ = ProgramMapFilter(info.visual_profile);
   Result<void> started = muxer->start(table_period);
   if (!started) return started.error();
   return muxer;
@@ -98,7 +91,7 @@ Result<void> TsMuxer::add_face() {
   parameters.codec_id = AV_CODEC_ID_MPEG4;
   parameters.width = 320;
   parameters.height = 240;
-  if (!set_extradata(parameters, info_.face_config)) return no_memory();
+  if (!av::set_extradata(parameters, info_.face_config)) return no_memory();
   stream->time_base = kStampBase;
   streams_[0] = stream;
   return {};
@@ -107,16 +100,12 @@ Result<void> TsMuxer::add_face() {
 Result<void> TsMuxer::add_sound() {
   AVStream* stream = avformat_new_stream(context_, nullptr);
   if (stream == nullptr) return no_memory();
-  AVCodecParameters& parameters = *stream->codecpar;
-  parameters.codec_type = AVMEDIA_TYPE_AUDIO;
-  parameters.codec_id = info_.audio->codec == AudioCodec::opus ? AV_CODEC_ID_OPUS : AV_CODEC_ID_AAC;
-  parameters.sample_rate = info_.audio->sample_rate;
-  parameters.frame_size = info_.audio->frame_samples;
-  av_channel_layout_default(&parameters.ch_layout, info_.audio->channels);
-  if (info_.audio->sample_rate <= 0 || info_.audio->config.empty()) {
-    return make_error(Code::invalid_argument, "the sound has no configuration or sample rate");
+  if (info_.audio->config.empty()) {
+    return make_error(Code::invalid_argument, "the sound has no configuration");
   }
-  if (!set_extradata(parameters, info_.audio->config)) return no_memory();
+  Result<av::Parameters> parameters = codec_parameters(*info_.audio);
+  if (!parameters) return parameters.error();
+  if (avcodec_parameters_copy(stream->codecpar, parameters->get()) < 0) return no_memory();
   stream->time_base = kStampBase;
   streams_[1] = stream;
   return {};
@@ -170,7 +159,7 @@ Result<std::vector<std::uint8_t>> TsMuxer::write(const LiveUnit& unit) {
   avio_flush(io_);
   std::vector<std::uint8_t> packets;
   packets.swap(bytes_);
-  return packets;
+  return program_map_.push(packets);
 }
 
 }  // namespace animeme::media

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tools/media/detail/ffmpeg.h"
+#include "tools/media/detail/ts_pmt.h"
 #include "tools/media/live/live.h"
 
 namespace animeme::media {
@@ -31,6 +32,7 @@ class TsMuxer {
   static int collect(void* self, std::uint8_t* bytes, int size);
 
   LiveInfo info_;
+  ProgramMapFilter program_map_{0x61};
   std::vector<std::uint8_t> bytes_;
   AVFormatContext* context_ = nullptr;
   AVIOContext* io_ = nullptr;

@@ -1,16 +1,17 @@
 #include "tools/media/detail/ts_pmt.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "tools/media/detail/ts_sections.h"
 
 namespace animeme::media {
 namespace {
 
-constexpr std::uint8_t kSync = 0x47;
-constexpr std::uint8_t kAssociationTable = 0x00, kMapTable = 0x02;
+constexpr std::uint8_t kMapTable = 0x02;
 constexpr std::uint8_t kVisual = 0x10;      // stream type of 14496-2
 constexpr std::uint8_t kDescriptor = 0x1B;  // MPEG-4_video_descriptor
 constexpr std::size_t kCrc = 4;
-constexpr std::size_t kMostMaps = 64;
 
 using Bytes = std::span<const std::uint8_t>;
 
@@ -24,7 +25,7 @@ void put_u12(std::vector<std::uint8_t>& bytes, std::size_t at, std::size_t value
 /// Where the payload of a packet begins; 0: it has none, or no section begins in it.
 std::size_t section_begin(Bytes packet) {
   const bool starts = (packet[1] & 0x40) != 0, has_payload = (packet[3] & 0x10) != 0;
-  if (packet[0] != kSync || !starts || !has_payload) return 0;
+  if (packet[0] != kTsSync || !starts || !has_payload) return 0;
   std::size_t at = 4;
   if ((packet[3] & 0x20) != 0) at += 1 + std::size_t(packet[4]);
   if (at >= packet.size()) return 0;
@@ -73,33 +74,16 @@ std::vector<std::uint8_t> describe(Bytes section, std::uint8_t profile) {
 
 }  // namespace
 
-std::uint32_t mpeg_crc32(std::span<const std::uint8_t> bytes) {
-  std::uint32_t crc = ~0u;
-  for (const std::uint8_t byte : bytes) {
-    crc ^= std::uint32_t(byte) << 24;
-    for (int i = 0; i < 8; ++i) crc = (crc & 0x80000000u) != 0 ? crc << 1 ^ 0x04C11DB7u : crc << 1;
-  }
-  return crc;
-}
-
-void ProgramMapFilter::read_associations(std::span<const std::uint8_t> section) {
-  if (section.size() < 8 + kCrc || section[0] != kAssociationTable) return;
-  map_pids_.clear();
-  for (std::size_t at = 8; at + 4 <= section.size() - kCrc; at += 4) {
-    const bool network = u16(section, at) == 0;
-    if (!network && map_pids_.size() < kMostMaps) {
-      map_pids_.push_back(std::uint16_t(u16(section, at + 2) & 0x1FFF));
-    }
-  }
-}
-
 void ProgramMapFilter::rewrite(std::span<std::uint8_t> packet) {
   const std::size_t at = section_begin(packet);
   if (at == 0) return;
   const Bytes section = section_at(packet, at);
   if (section.empty()) return;
-  const auto pid = std::uint16_t(u16(packet, 1) & 0x1FFF);
-  if (pid == 0) return read_associations(section);
+  const int pid = int(u16(packet, 1) & 0x1FFF);
+  if (pid == 0) {
+    if (auto maps = read_pat(section)) map_pids_ = std::move(*maps);
+    return;
+  }
   const bool map = std::find(map_pids_.begin(), map_pids_.end(), pid) != map_pids_.end();
   if (!map || section[0] != kMapTable) return;
   std::vector<std::uint8_t> described = describe(section, profile_);
@@ -107,7 +91,7 @@ void ProgramMapFilter::rewrite(std::span<std::uint8_t> packet) {
   // What follows the section in its packet must be stuffing, or it would be lost.
   const auto behind = packet.subspan(at + section.size());
   if (std::any_of(behind.begin(), behind.end(), [](std::uint8_t b) { return b != 0xFF; })) return;
-  const std::uint32_t crc = mpeg_crc32(described);
+  const std::uint32_t crc = ts_crc(described);
   for (const unsigned shift : {24u, 16u, 8u, 0u}) described.push_back(std::uint8_t(crc >> shift));
   std::copy(described.begin(), described.end(), packet.begin() + std::ptrdiff_t(at));
 }
@@ -115,11 +99,11 @@ void ProgramMapFilter::rewrite(std::span<std::uint8_t> packet) {
 std::vector<std::uint8_t> ProgramMapFilter::push(std::span<const std::uint8_t> bytes) {
   std::vector<std::uint8_t> out = std::move(rest_);
   out.insert(out.end(), bytes.begin(), bytes.end());
-  const std::size_t whole = out.size() / kPacket * kPacket;
+  const std::size_t whole = out.size() / kTsPacket * kTsPacket;
   rest_.assign(out.begin() + std::ptrdiff_t(whole), out.end());
   out.resize(whole);
-  for (std::size_t at = 0; at < whole; at += kPacket) {
-    rewrite(std::span(out).subspan(at, kPacket));
+  for (std::size_t at = 0; at < whole; at += kTsPacket) {
+    rewrite(std::span(out).subspan(at, kTsPacket));
   }
   return out;
 }

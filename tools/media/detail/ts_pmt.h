@@ -2,15 +2,11 @@
 // Source: containers, section 3.2; ISO/IEC 13818-1, sections 2.4.4 and 2.6.36.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace animeme::media {
-
-/// CRC of MPEG sections: polynomial 04C11DB7, from ones, not reflected.
-std::uint32_t mpeg_crc32(std::span<const std::uint8_t> bytes);
 
 /// Looks through a stream of 188-byte packets, cut anywhere, and gives each stream of type 0x10 in
 /// a program map the descriptor `1B 01 <profile>`. All else passes as it is, also what is no
@@ -25,14 +21,11 @@ class ProgramMapFilter {
   std::vector<std::uint8_t> finish();
 
  private:
-  static constexpr std::size_t kPacket = 188;
-
   void rewrite(std::span<std::uint8_t> packet);
-  void read_associations(std::span<const std::uint8_t> section);
 
   std::uint8_t profile_;
   std::vector<std::uint8_t> rest_;
-  std::vector<std::uint16_t> map_pids_;
+  std::vector<int> map_pids_;
 };
 
 }  // namespace animeme::media

@@ -20,6 +20,28 @@ void UnitCollector::lose() {
   wait_for_intra_ = true;  // predicted planes build on the lost one
 }
 
+Error UnitCollector::too_long() const {
+  return make_error(Code::out_of_range, "the face track is longer than the limit of " +
+                                            std::to_string(options_.max_units) + " planes or " +
+                                            std::to_string(options_.max_bytes) +
+                                            " bytes; raise the limit");
+}
+
+// A packet without a start code is a further part of a unit that was too large for one, if it has
+// the time of that unit or none of its own.
+bool UnitCollector::continues(const AVPacket& packet) const {
+  if (units_.empty() || wait_for_intra_ || (packet.flags & AV_PKT_FLAG_CORRUPT) != 0) return false;
+  return packet.pts == AV_NOPTS_VALUE || packet.pts == units_.back().time;
+}
+
+Result<void> UnitCollector::append(std::span<const std::uint8_t> bytes) {
+  if (bytes_ + bytes.size() > options_.max_bytes) return too_long();
+  bytes_ += bytes.size();
+  std::vector<std::uint8_t>& unit = units_.back().bytes;
+  unit.insert(unit.end(), bytes.begin(), bytes.end());
+  return {};
+}
+
 Result<void> UnitCollector::add(const AVPacket& packet, AVRational time_base) {
   if (packet.data == nullptr || packet.size <= 0) return {};
   base_ = time_base;
@@ -30,6 +52,7 @@ Result<void> UnitCollector::add(const AVPacket& packet, AVRational time_base) {
   }
   bytes = bytes.subspan(headers.size);
   const std::optional<bool> intra = read_is_intra(bytes);
+  if (!intra && continues(packet)) return append(bytes);
   if (!intra || (packet.flags & AV_PKT_FLAG_CORRUPT) != 0) {
     if (!bytes.empty()) lose();
     return {};
@@ -47,10 +70,7 @@ Result<void> UnitCollector::add(const AVPacket& packet, AVRational time_base) {
     return {};
   }
   if (units_.size() >= options_.max_units || bytes_ + bytes.size() > options_.max_bytes) {
-    return make_error(Code::out_of_range, "the face track is longer than the limit of " +
-                                              std::to_string(options_.max_units) + " planes or " +
-                                              std::to_string(options_.max_bytes) +
-                                              " bytes; raise the limit");
+    return too_long();
   }
   wait_for_intra_ = false;
   bytes_ += bytes.size();

@@ -30,6 +30,9 @@ class UnitCollector {
 
  private:
   void lose();
+  Error too_long() const;
+  bool continues(const AVPacket& packet) const;
+  Result<void> append(std::span<const std::uint8_t> bytes);
   void set_durations();
 
   ReadOptions options_;

@@ -210,4 +210,11 @@ void set_segment_time(std::span<std::uint8_t> segment, std::int64_t time) {
   }
 }
 
+void set_priming(AudioFormat& format, int priming) {
+  format.priming = priming;
+  if (format.codec != AudioCodec::opus || format.config.size() < 12) return;
+  format.config[10] = std::uint8_t(priming & 0xFF);
+  format.config[11] = std::uint8_t(priming >> 8);
+}
+
 }  // namespace animeme::media

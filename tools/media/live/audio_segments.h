@@ -45,4 +45,7 @@ Result<AudioFormat> read_audio_init(std::span<const std::uint8_t> segment);
 /// packets. Errors: syntax.
 Result<std::vector<AudioPacket>> read_audio_segment(std::span<const std::uint8_t> segment);
 
+/// Sets `priming`, and the pre-skip in the OpusHead of Opus.
+void set_priming(AudioFormat& format, int priming);
+
 }  // namespace animeme::media

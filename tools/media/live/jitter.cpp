@@ -46,7 +46,10 @@ void ReorderBuffer::count_old(std::int64_t sequence) {
 }
 
 bool ReorderBuffer::add(RtpPacket packet, double now) {
-  if (!begun_) begin_at(packet.sequence);
+  if (!begun_) {
+    begin_at(packet.sequence);
+    begin_until_ = now + limits_.seconds;
+  }
   std::int64_t sequence = extend(packet.sequence);
   if (std::abs(sequence - highest_) > kMaxJump) {
     const bool goes_on = jump_ && std::uint16_t(jump_->packet.sequence + 1) == packet.sequence;
@@ -55,12 +58,14 @@ bool ReorderBuffer::add(RtpPacket packet, double now) {
       return false;
     }
     begin_at(jump_->packet.sequence);
+    begin_until_ = now;
     restarted_ = true;
     ++counts_.received;
     waiting_.emplace(first_, *std::exchange(jump_, std::nullopt));
     sequence = first_ + 1;
   }
   jump_.reset();
+  if (sequence < next_ && beginning(now)) next_ = first_ = sequence;
   if (sequence < next_) {
     count_old(sequence);
     return false;
@@ -75,6 +80,11 @@ bool ReorderBuffer::add(RtpPacket packet, double now) {
   return true;
 }
 
+// Nothing has been given out yet and there is time to wait.
+bool ReorderBuffer::beginning(double now) const {
+  return now < begin_until_ && next_ == first_ && waiting_.size() <= limits_.packets && !flushing_;
+}
+
 bool ReorderBuffer::must_go(double now) const {
   if (flushing_ || waiting_.size() > limits_.packets) return true;
   const std::optional<double> when = deadline();
@@ -86,7 +96,7 @@ std::optional<ReorderBuffer::Item> ReorderBuffer::next(double now) {
     restarted_ = false;
     return Missing{};
   }
-  if (waiting_.empty()) return std::nullopt;
+  if (waiting_.empty() || beginning(now)) return std::nullopt;
   const auto head = waiting_.begin();
   if (head->first != next_) {
     if (!must_go(now)) return std::nullopt;
@@ -104,7 +114,10 @@ std::optional<ReorderBuffer::Item> ReorderBuffer::next(double now) {
 
 std::optional<double> ReorderBuffer::deadline() const {
   if (waiting_.empty()) return std::nullopt;
-  if (waiting_.begin()->first == next_) return waiting_.begin()->second.since;
+  if (waiting_.begin()->first == next_) {
+    const double since = waiting_.begin()->second.since;
+    return next_ == first_ ? std::max(since, begin_until_) : since;
+  }
   double oldest = waiting_.begin()->second.since;
   for (const auto& [sequence, waiting] : waiting_) oldest = std::min(oldest, waiting.since);
   return oldest + limits_.seconds;

@@ -29,7 +29,9 @@ struct ReorderLimits {
   std::size_t packets = 64;  ///< at most so many wait
 };
 
-/// One sender's packets in order of sequence numbers. A jump of more than 3000 numbers is taken
+/// One sender's packets in order of sequence numbers. The first packet waits, too: an earlier one,
+/// or its copy, may be on its way, and a face that begins with a loss begins an intra plane later.
+/// A jump of more than 3000 numbers is taken
 /// for a sender that has begun anew if the packet after it goes on from there; else the packet is
 /// dropped.
 class ReorderBuffer {
@@ -76,11 +78,13 @@ class ReorderBuffer {
   bool was_given(std::int64_t sequence) const;
   void count_old(std::int64_t sequence);
   bool must_go(double now) const;
+  bool beginning(double now) const;
 
   ReorderLimits limits_;
   std::map<std::int64_t, Waiting> waiting_;
   std::bitset<kHistory> given_;  // of the last numbers before next_
   bool begun_ = false;
+  double begin_until_ = 0;  // so long packets may come that are earlier than the first
   bool restarted_ = false;  // tell of a gap of unknown size
   bool flushing_ = false;
   std::int64_t next_ = 0;

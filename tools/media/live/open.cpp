@@ -14,22 +14,21 @@ Error no_such_scheme(const std::string& url) {
                         "srt://host:port, or name a .sdp file to receive what it describes");
 }
 
-// Transport streams: make_ts_sink() and make_ts_source() of ts_live.h go here.
-Error no_transport_stream() {
-  return make_error(Code::unsupported, "transport streams over udp:// and srt:// are not built in");
+bool is_transport_stream(const std::string& url) {
+  return has_scheme(url, "udp") || has_scheme(url, "srt");
 }
 
 }  // namespace
 
 Result<std::unique_ptr<LiveSink>> open_sink(const std::string& url, const SinkOptions& options) {
   if (has_scheme(url, "rtp")) return make_rtp_sink(url, options.rtp);
-  if (has_scheme(url, "udp") || has_scheme(url, "srt")) return no_transport_stream();
+  if (is_transport_stream(url)) return make_ts_sink(url, options.ts);
   return no_such_scheme(url);
 }
 
 Result<std::unique_ptr<LiveSource>> open_source(const std::string& where,
                                                 const SourceOptions& options) {
-  if (has_scheme(where, "udp") || has_scheme(where, "srt")) return no_transport_stream();
+  if (is_transport_stream(where)) return make_ts_source(where, options.ts);
   if (has_scheme(where, "rtp") || where.ends_with(".sdp")) {
     return make_rtp_source(where, options.rtp);
   }

@@ -16,15 +16,18 @@
 #include "fap/result.h"
 #include "tools/media/live/live.h"
 #include "tools/media/live/rtp.h"
+#include "tools/media/live/ts_live.h"
 
 namespace animeme::media {
 
 /// Each transport reads its own part.
 struct SinkOptions {
   RtpOptions rtp;
+  TsOptions ts;
 };
 struct SourceOptions {
   RtpReceiveOptions rtp;
+  TsOptions ts;
 };
 
 /// A sink for `url`, not yet started. Errors: invalid_argument (no address of ours; the message

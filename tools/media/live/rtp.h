@@ -37,8 +37,8 @@ struct RtpOptions {
   std::string name = "animeme";  ///< of the session
   int ttl = 1;                   ///< hops of multicast packets, 0..255
   std::string interface;         ///< address (IPv4) or name (IPv6) for multicast; empty: default
-  /// Identifiers, first sequence numbers and time stamps follow from it; nothing: random, as RFC
-  /// 3550 asks for.
+  /// Identifiers, names, first sequence numbers and time stamps follow from it; nothing: random, as
+  /// RFC 3550 asks for.
   std::optional<std::uint64_t> seed;
 };
 

@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "tools/media/detail/face_header.h"
+
 namespace animeme::media {
 namespace {
 
@@ -168,7 +170,8 @@ LiveInfo RtpReceiver::info() const {
   info.timescale = timescale_;
   if (session_.face) {
     info.face_config = face_->config();
-    info.visual_profile = session_.face->visual_profile;
+    const std::uint8_t profile = read_visual_headers(info.face_config).profile;
+    info.visual_profile = profile != 0 ? profile : session_.face->visual_profile;
   }
   if (session_.audio) info.audio = session_.audio->format;
   return info;
@@ -234,7 +237,7 @@ std::vector<RtpDatagram> RtpReceiver::reports(double now) {
     if (first) continue;
     RtcpMessage message;
     message.reports.push_back({id_, std::nullopt, {each.input.report(now)}});
-    message.names.push_back({id_, "animeme"});
+    message.names.push_back({id_, "animeme-" + std::to_string(id_)});
     out.push_back({each.track, true, write_rtcp(message)});
   }
   return out;

@@ -78,6 +78,8 @@ RtpSender::RtpSender(const LiveInfo& info, const RtpOptions& options, const std:
     track.ttl = options.ttl;
   };
   session_.name = options.name;
+  // Nobody else should have it, RFC 7022.
+  session_.cname = "animeme-" + std::to_string(seed);
   if (!info.face_config.empty()) {
     FaceTrack& face = session_.face.emplace();
     describe(face, port);

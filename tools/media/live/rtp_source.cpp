@@ -34,8 +34,8 @@ class RtpSource : public LiveSource {
       if (auto ok = report(); !ok) return ok.error();
       const double at = now();
       if (std::optional<LiveEvent> event = receiver_.next(at)) return std::move(*event);
-      if (*came) continue;
       if (at >= end) return LiveEvent(LiveIdle{});
+      if (*came) continue;
       const double until = std::min(end, receiver_.deadline().value_or(end));
       const Result<bool> waited = wait_for_any(sockets(), until - at);
       if (!waited) return waited.error();

@@ -10,6 +10,7 @@
 namespace animeme::media {
 namespace {
 
+constexpr std::size_t kMaxConfig = 1024;
 constexpr fap::Rate kUnknownRate{30, 1};  // what a decoder assumes until the stream tells
 
 // a * b / c to the nearest, halves up; c > 0. Wide enough for times of centuries.
@@ -51,7 +52,7 @@ RtpUnits FaceAssembler::add(const RtpPacket& packet, std::int64_t time) {
 
 bool FaceAssembler::add_plane(RtpUnit plane, RtpUnits& out) {
   const VisualHeaders headers = read_visual_headers(plane.bytes);
-  if (headers.kind == VisualKind::other) return false;
+  if (headers.kind == VisualKind::other || headers.size > kMaxConfig) return false;
   if (headers.kind == VisualKind::face) {
     const auto end = plane.bytes.begin() + std::ptrdiff_t(headers.size);
     config_.assign(plane.bytes.begin(), end);

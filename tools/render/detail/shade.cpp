@@ -32,6 +32,7 @@ struct Look {
   float shine;    // strength of the highlight
   int sharpness;  // its exponent is 2^sharpness
   float rim;
+  float tint = 0;  // of the highlight: 0 white, 1 as the surface
 };
 
 Look look_of(Material material) {
@@ -45,7 +46,7 @@ Look look_of(Material material) {
     case Material::wet:
       return {{0.3f, 0.15f, 0.1f}, 0.25f, 5, 0};
     case Material::hair:
-      return {{0.15f, 0.12f, 0.10f}, 0.16f, 4, 0.35f};
+      return {{0.15f, 0.12f, 0.10f}, 0.14f, 4, 0.3f, 0.85f};
     case Material::cloth:
       return {{0.15f, 0.15f, 0.15f}, 0.02f, 3, 0.12f};
   }
@@ -85,7 +86,8 @@ Vec3 lit(Vec3 n, Vec3 to_eye, Vec3 albedo, float sky, const Look& look, const Vi
   const float edge = 1 - facing;
   c += kRim * (look.rim * edge * edge * edge * std::max(dot(n, view.rim) + 0.25f, 0.0f) * sky);
   const float half = std::max(dot(n, normalised(view.key + to_eye)), 0.0f);
-  c += kKey * (look.shine * power(half, look.sharpness) * key_sky * std::max(key, 0.0f));
+  const Vec3 gloss = mix(Vec3{1, 1, 1}, albedo * 6.0f, look.tint);
+  c += kKey * gloss * (look.shine * power(half, look.sharpness) * key_sky * std::max(key, 0.0f));
   return c * kExposure;
 }
 

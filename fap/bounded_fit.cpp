@@ -1,0 +1,129 @@
+#include "fap/detail/bounded_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fap/tables.h"
+
+namespace animeme::fap::internal {
+namespace {
+
+constexpr int kMostSweeps = 5000;
+constexpr double kStill = 1e-6;   // a weight that changes less has arrived
+constexpr double kLidsCount = 3;  // the opening of the eye is short and everybody looks at it
+
+// Lengths of the FAPUs of ICT-FaceKit's head, in its units (about 2 cm).
+double length_of(Unit unit) {
+  switch (unit) {
+    case Unit::irisd:
+      return 0.993 * kLidsCount;
+    case Unit::es:
+      return 5.903;
+    case Unit::ens:
+      return 4.821;
+    case Unit::mns:
+      return 2.120;
+    case Unit::mw:
+      return 5.070;
+    case Unit::angle:
+    case Unit::none:
+      return 0;
+  }
+  return 0;
+}
+
+FapValues fap_lengths() {
+  FapValues lengths{};
+  for (int fap = kFirstLowLevel; fap <= kFapCount; ++fap) {
+    lengths[std::size_t(fap)] = length_of(info(fap).unit) / 1024;
+  }
+  return lengths;
+}
+
+const FapValues& lengths() {
+  static const FapValues all = fap_lengths();
+  return all;
+}
+
+}  // namespace
+
+FapValues target_of(const Frame& frame) {
+  FapValues target{};
+  for (std::size_t fap = kFirstLowLevel; fap <= kFapCount; ++fap) {
+    target[fap] = frame.mask[fap] ? frame.value[fap] : 0;
+  }
+  return target;
+}
+
+BoundedFit::BoundedFit(std::vector<std::vector<ShapeWeight>> shapes, double ridge,
+                       double steadiness)
+    : shapes_(std::move(shapes)),
+      ridge_(std::clamp(ridge, 0.0, 1.0)),
+      steadiness_(std::clamp(steadiness, 0.0, 1.0)),
+      weights_(shapes_.size(), 0.0) {}
+
+void BoundedFit::set_mask(const Mask& wanted) {
+  if (has_gram_ && wanted == mask_) return;
+  mask_ = wanted;
+  has_gram_ = true;
+  const std::size_t n = shapes_.size();
+  std::vector<FapValues> columns(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    columns[i].fill(0);
+    for (const ShapeWeight& weight : shapes_[i]) {
+      const std::size_t fap = std::size_t(weight.fap);
+      if (mask_[fap]) columns[i][fap] = weight.value * lengths()[fap];
+    }
+  }
+  gram_.assign(n * n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      for (std::size_t fap = kFirstLowLevel; fap <= kFapCount; ++fap) {
+        gram_[i * n + j] += columns[i][fap] * columns[j][fap];
+      }
+    }
+  }
+}
+
+// What each shape would explain of the target.
+std::vector<double> BoundedFit::projections(const FapValues& target) const {
+  std::vector<double> sums(shapes_.size(), 0.0);
+  for (std::size_t i = 0; i < shapes_.size(); ++i) {
+    for (const ShapeWeight& weight : shapes_[i]) {
+      const std::size_t fap = std::size_t(weight.fap);
+      if (!mask_[fap]) continue;
+      sums[i] += weight.value * lengths()[fap] * target[fap] * lengths()[fap];
+    }
+  }
+  return sums;
+}
+
+void BoundedFit::descend(const std::vector<double>& wanted) {
+  const std::size_t n = shapes_.size();
+  const std::vector<double> before = weights_;
+  const double steadiness = is_first_ ? 0 : steadiness_;
+  is_first_ = false;
+  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+    double largest = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double own = gram_[i * n + i];
+      if (own <= 0) continue;  // the frame has none of its FAPs: it stays as it is
+      double left = wanted[i] + steadiness * own * before[i];
+      for (std::size_t j = 0; j < n; ++j) {
+        if (j != i) left -= gram_[i * n + j] * weights_[j];
+      }
+      const double best = std::clamp(left / (own * (1 + ridge_ + steadiness)), 0.0, 1.0);
+      largest = std::max(largest, std::abs(best - weights_[i]));
+      weights_[i] = best;
+    }
+    if (largest < kStill) return;
+  }
+}
+
+const std::vector<double>& BoundedFit::fit(const Mask& mask, const FapValues& target) {
+  set_mask(mask);
+  descend(projections(target));
+  return weights_;
+}
+
+}  // namespace animeme::fap::internal

@@ -1,0 +1,52 @@
+// Weights of shapes whose FAPs come nearest to a face: least squares with bounds. Internal.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "fap/frame.h"
+
+namespace animeme::fap::internal {
+
+/// What a shape at weight 1 does to one FAP, in FAP units.
+struct ShapeWeight {
+  int fap;
+  std::int32_t value;
+};
+
+/// Low-level FAPs by number.
+using FapValues = std::array<double, kFapCount + 1>;
+
+/// The values of a frame, 0 for FAPs that it does not have.
+FapValues target_of(const Frame& frame);
+
+/// Frame by frame: weights from 0 to 1 that make the sum of squares smallest, over the FAPs of a
+/// mask, in lengths on a face of usual proportions (lids count three times, so that closed eyes are
+/// closed). FAPs that are angles do not count. By coordinate descent from the weights of the frame
+/// before, in the order of the shapes: the same input gives the same weights everywhere.
+class BoundedFit {
+ public:
+  /// `ridge`: what it costs to use a shape, as a share of what it does to the face. `steadiness`:
+  /// what it costs to change a weight, likewise. Both are clamped to 0..1.
+  BoundedFit(std::vector<std::vector<ShapeWeight>> shapes, double ridge, double steadiness);
+
+  /// By shape; good until the next call. Shapes without any FAP of `mask` keep their weight.
+  const std::vector<double>& fit(const Mask& mask, const FapValues& target);
+
+ private:
+  void set_mask(const Mask& wanted);
+  std::vector<double> projections(const FapValues& target) const;
+  void descend(const std::vector<double>& wanted);
+
+  std::vector<std::vector<ShapeWeight>> shapes_;
+  double ridge_;
+  double steadiness_;
+  std::vector<double> gram_;  // shapes x shapes, for mask_
+  Mask mask_;
+  bool has_gram_ = false;
+  std::vector<double> weights_;  // of the frame before
+  bool is_first_ = true;
+};
+
+}  // namespace animeme::fap::internal

@@ -1,0 +1,74 @@
+
+
+#include "fap/head/detail/paint.h"
+#include "fap/head/detail/parts.h"
+
+namespace animeme::head::detail {
+namespace {
+
+// Into the ear's own axes: x outwards, y up, z to the back, in units of its size.
+Vec3d to_ear(const Shape& shape, Vec3d p) {
+  const Vec3d hole{shape.p.skull_width * 0.86, -0.75, -0.3};
+  const Vec3d q = (p - hole) * (1 / shape.p.ear);
+  const double turn = 0.45;  // the back edge stands off
+  const double lean = 0.16;  // the top leans back
+  const double x = std::cos(turn) * q.x + std::sin(turn) * q.z;
+  const double back = -std::cos(turn) * q.z + std::sin(turn) * q.x;
+  return {x, std::cos(lean) * q.y + std::sin(lean) * back * -1.0,
+          std::cos(lean) * back * 1.0 - std::sin(lean) * q.y * 1.0};
+}
+
+// Distance to an oval ring of the given half axes and thickness.
+double ring(Vec3d p, double height, double depth, double out, double radius) {
+  const double r = std::sqrt(p.y * p.y / (height * height) + p.z * p.z / (depth * depth));
+  return std::hypot((r - 1) * 0.5 * (height + depth) * 0.85, p.x - out) - radius;
+}
+
+}  // namespace
+
+double ear_field(const Shape& shape, Vec3d p) {
+  const Vec3d q = to_ear(shape, {std::abs(p.x), p.y, p.z});
+  const double plate = ellipsoid(q - Vec3d{-0.05, 0.1, 0.1}, {0.30, 2.0, 1.25});
+  double d = smooth_min(plate, ring(q - Vec3d{0, 0.25, 0.1}, 1.85, 1.18, 0.10, 0.24), 0.25);
+  d = smooth_max(d, -ellipsoid(q - Vec3d{0.42, -0.25, -0.15}, {0.5, 0.85, 0.62}), 0.25);
+  const double fold = ring(q - Vec3d{0, 0.0, 0.0}, 1.15, 0.72, 0.12, 0.15);
+  d = smooth_min(d, smooth_max(fold, -q.z - 0.1, 0.3), 0.25);
+  d = smooth_min(d, ellipsoid(q - Vec3d{-0.02, -1.75, -0.3}, {0.3, 0.5, 0.5}), 0.4);
+  d = smooth_min(d, ellipsoid(q - Vec3d{0.12, -0.3, -0.85}, {0.25, 0.4, 0.28}), 0.3);
+  const double root = ellipsoid(q - Vec3d{-0.75, -0.2, -0.25}, {0.8, 1.3, 0.85});
+  return smooth_min(d, root, 0.4) * shape.p.ear;
+}
+
+Mesh make_left_ear(const Shape& shape) {
+  const double s = shape.p.ear;
+  const Vec3d middle{shape.p.skull_width * 0.86, -0.75, -0.3};
+  return surface_nets([&shape](Vec3d p) { return ear_field(shape, p); },
+                      middle - Vec3d{2.4, 3.2, 2.8} * s, middle + Vec3d{2.2, 3.2, 2.8} * s,
+                      0.16 * s / std::sqrt(shape.p.density));
+}
+
+double body_field(const Shape& shape, Vec3d p) {
+  p.y -= 9.8 - shape.p.chin_drop;  // the collar stays below the chin
+  const double x = std::abs(p.x);
+  const double n = shape.p.neck;
+  const Vec3d q{x, p.y, p.z};
+  double d = ellipsoid(q - Vec3d{0, -24, -3.4}, {n * 3.3, 8.2, 6.6});
+  d = smooth_min(d, cone(q, {1.5, -15.6, -3.4}, {n * 2.9, -18.4, -3.6}, 2.9, 2.7), 2.6);
+  // A rolled collar that stands a little off the neck.
+  const Vec3d c = q - Vec3d{0, -13.7 - 0.16 * (p.z + 2.6), -2.6};
+  const double from_neck = std::hypot(c.x, c.z) - (n * 1.08 + 0.15);
+  const double collar = std::hypot(std::max(std::abs(c.y) - 0.5, 0.0), from_neck - 0.42) - 0.42;
+  d = smooth_min(d, smooth_max(from_neck - 0.5, c.y + 0.1, 0.2), 0.8);
+  return smooth_min(d, collar, 0.7);
+}
+
+Mesh make_body(const Shape& shape) {
+  const double wide = shape.p.neck * 4.2;
+  const auto field = [&shape](Vec3d p) { return std::max(body_field(shape, p), -19.0 - p.y); };
+  Mesh mesh = surface_nets(field, {-wide, -20, -12}, {wide, -8.5, 6}, 0.42);
+  mesh.colours.assign(mesh.positions.size(), linear_colour(shape.p.cloth_colour));
+  mesh.material = Material::cloth;
+  return mesh;
+}
+
+}  // namespace animeme::head::detail

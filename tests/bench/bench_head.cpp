@@ -1,0 +1,79 @@
+// Speed of heads: making, rigging, posing and drawing them. `frame` is a pose and its picture of
+// 640x640 pixels with the threads of its argument; frames/s counts wall time.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+
+#include "fap/head/rig.h"
+#include "tools/render/scene.h"
+
+namespace animeme::bench {
+namespace {
+
+struct Ready {
+  head::Head head = *head::make_head();
+  head::Rig rig = head::make_rig(head);
+};
+
+const Ready& ready() {
+  static const Ready r;
+  return r;
+}
+
+// Speech with gaze and nods: no frame is like the one before.
+fap::Frame speaking(int i) {
+  fap::Frame frame;
+  frame.mask.set(1);
+  frame.viseme = {1 + i % 14, 1 + i / 3 % 14, i * 7 % 64, false};
+  frame.set(19, i % 12 * 80);
+  frame.set(20, i % 12 * 80);
+  frame.set(23, i % 40 * 300);
+  frame.set(24, i % 40 * 300);
+  frame.set(33, i % 30 * 8);
+  frame.set(48, i % 25 * 500);
+  frame.set(49, i % 60 * 300);
+  return frame;
+}
+
+void make(benchmark::State& state) {
+  for (auto _ : state) benchmark::DoNotOptimize(head::make_head());
+}
+
+void rig(benchmark::State& state) {
+  for (auto _ : state) benchmark::DoNotOptimize(head::make_rig(ready().head));
+}
+
+void pose(benchmark::State& state) {
+  head::Pose out;
+  int i = 0;
+  for (auto _ : state) {
+    head::pose(ready().rig, speaking(i++), out);
+    benchmark::DoNotOptimize(out);
+  }
+  state.counters["vertices"] = double(ready().head.part(head::Part::skin).positions.size());
+}
+
+void frame(benchmark::State& state) {
+  const Ready& r = ready();
+  render::Renderer renderer({.width = 640, .height = 640, .threads = int(state.range(0))});
+  const render::Camera camera = render::look_at(r.head, 0);
+  head::Pose out;
+  int i = 0;
+  for (auto _ : state) {
+    head::pose(r.rig, speaking(i++), out);
+    benchmark::DoNotOptimize(renderer.render(render::scene_of(r.head, r.rig, out), camera));
+  }
+  std::size_t triangles = 0;
+  for (const head::Mesh& mesh : r.head.parts) triangles += mesh.triangles.size();
+  state.counters["triangles"] = double(triangles);
+  state.counters["frames/s"] =
+      benchmark::Counter(double(state.iterations()), benchmark::Counter::kIsRate);
+}
+
+BENCHMARK(make)->Unit(benchmark::kMillisecond);
+BENCHMARK(rig)->Unit(benchmark::kMillisecond);
+BENCHMARK(pose)->Unit(benchmark::kMillisecond);
+BENCHMARK(frame)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace
+}  // namespace animeme::bench

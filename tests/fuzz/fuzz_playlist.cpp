@@ -1,0 +1,44 @@
+// libFuzzer entry: whatever the text is, the readers of playlists return in bounded memory, and no
+// name leads out of the folder.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <string_view>
+
+#include "tools/media/detail/playlist_text.h"
+#include "tools/media/detail/presentation.h"
+
+namespace {
+
+void check(const std::string& reference) {
+  const auto name = animeme::media::from_reference(reference);
+  if (!name) return;
+  const std::filesystem::path path(*name);
+  if (path.empty() || path.is_absolute()) std::abort();
+  for (const auto& part : path) {
+    if (part == "..") std::abort();
+  }
+}
+
+void check(const animeme::media::Rendition& rendition) {
+  if (rendition.segments.size() > animeme::media::kMostSegments) std::abort();
+  check(rendition.init);
+  for (const std::string& segment : rendition.segments) check(segment);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace animeme::media;
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  if (const auto hls = read_hls(text)) {
+    for (const std::string& playlist : hls->playlists) check(playlist);
+    check(hls->rendition);
+  }
+  if (const auto dash = read_dash(text)) {
+    for (const Rendition& rendition : *dash) check(rendition);
+  }
+  check(std::string(text.substr(0, 300)));
+  return 0;
+}

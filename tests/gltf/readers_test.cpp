@@ -1,0 +1,116 @@
+// What programs of others make of our glTF files: the Khronos validator and Blender.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "fap/arkit.h"
+#include "tests/support/program.h"
+#include "tools/gltf/glb.h"
+
+namespace animeme::gltf {
+namespace {
+
+using nlohmann::json;
+using test::quoted;
+using test::TempDir;
+namespace fs = std::filesystem;
+
+const fs::path kHere = fs::path(ANIMEME_SOURCE_DIR) / "tests" / "gltf" / "scripts";
+
+std::string output_of(const std::string& command) {
+  std::string text;
+  FILE* pipe = ::popen(command.c_str(), "r");
+  if (pipe == nullptr) return text;
+  char block[4096];
+  for (std::size_t n = 0; (n = std::fread(block, 1, sizeof block, pipe)) > 0;) {
+    text.append(block, n);
+  }
+  ::pclose(pipe);
+  return text;
+}
+
+bool has(const std::string& program) {
+  return !output_of("command -v " + program + " 2>/dev/null").empty();
+}
+
+// Five frames of a mouth that opens while the head turns.
+std::string write_talk(const TempDir& dir, const GlbOptions& options) {
+  fap::Sequence clip{{25, 1}, {}, "x"};
+  for (int i = 0; i < 5; ++i) {
+    fap::ArkitFrame weights{};
+    weights[std::size_t(*fap::find_arkit("jawOpen"))] = 0.15 * i;
+    weights[std::size_t(*fap::find_arkit("eyeBlinkLeft"))] = 0.2 * i;
+    fap::Frame frame = fap::arkit_to_fap(weights, fap::kAllArkit);
+    frame.number = i;
+    frame.set(49, 5000 * i);
+    clip.frames.push_back(frame);
+  }
+  const auto head = head::make_head(*head::head_parameters("child"));
+  EXPECT_TRUE(head);
+  const auto file = make_glb(*head, head::make_rig(*head), clip, options);
+  EXPECT_TRUE(file);
+  test::spill(dir / "talk.glb", std::string(file->begin(), file->end()));
+  return dir / "talk.glb";
+}
+
+TEST(GlbReaders, TheValidatorFindsNothing) {
+  if (!has("node")) GTEST_SKIP() << "node is not installed (Debian package nodejs)";
+  if (!fs::exists(fs::path(ANIMEME_SOURCE_DIR) / "tests/readers/js/node_modules/gltf-validator")) {
+    GTEST_SKIP() << "npm gltf-validator is not installed: tools/setup.sh tests";
+  }
+  for (const GlbOptions& options :
+       {GlbOptions{}, GlbOptions{.morphs = MorphNames::fap, .normals = true}}) {
+    const TempDir dir;
+    const std::string path = write_talk(dir, options);
+    const json report = json::parse(
+        output_of("node " + quoted((kHere / "validate.js").string()) + " " + quoted(path)), nullptr,
+        false);
+    ASSERT_TRUE(report.is_object());
+    EXPECT_EQ(report["issues"]["numErrors"], 0) << report["issues"].dump(1).substr(0, 2000);
+    EXPECT_EQ(report["issues"]["numWarnings"], 0) << report["issues"].dump(1).substr(0, 2000);
+    EXPECT_EQ(report["info"]["animationCount"], 1);
+    EXPECT_EQ(report["info"]["hasMorphTargets"], true);
+    EXPECT_EQ(report["info"]["hasSkins"], true);
+  }
+}
+
+TEST(GlbReaders, BlenderHasTheTargetsAndTheKeys) {
+  if (!has("blender")) GTEST_SKIP() << "Blender is not installed (Debian package blender)";
+  const TempDir dir;
+  const std::string path = write_talk(dir, {});
+  const std::string text =
+      output_of("blender --background --factory-startup --python " +
+                quoted((kHere / "blender.py").string()) + " -- " + quoted(path) + " 2>/dev/null");
+  const std::size_t at = text.find("REPORT ");
+  ASSERT_NE(at, std::string::npos) << text.substr(0, 2000);
+  const json report = json::parse(text.substr(at + 7, text.find('\n', at) - at - 7));
+  json keys;  // of the face, which Blender may have given another name
+  for (const json& object : report["objects"]) {
+    if (object["type"] == "MESH" && object["shape_keys"].size() > keys.size()) {
+      keys = object["shape_keys"];
+    }
+  }
+  for (const char* name : {"Basis", "jawOpen", "eyeBlinkLeft", "mouthPucker", "browInnerUp"}) {
+    EXPECT_NE(std::find(keys.begin(), keys.end(), name), keys.end()) << name;
+  }
+  bool jaw_keys = false;
+  bool bone_keys = false;
+  for (const auto& [action, curves] : report["actions"].items()) {
+    for (const auto& [curve, count] : curves.items()) {
+      if (curve == "key_blocks[\"jawOpen\"].value") {
+        jaw_keys = true;
+        EXPECT_EQ(count, 5);
+      }
+      bone_keys = bone_keys || curve.find("neck") != std::string::npos;
+    }
+  }
+  EXPECT_TRUE(jaw_keys) << report["actions"].dump(1).substr(0, 2000);
+  EXPECT_TRUE(bone_keys) << report["actions"].dump(1).substr(0, 2000);
+}
+
+}  // namespace
+}  // namespace animeme::gltf

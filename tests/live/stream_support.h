@@ -1,0 +1,108 @@
+// Streaming through the program: one sends, the other receives, on this machine.
+#pragma once
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/live/ports.h"
+#include "tests/support/program.h"
+#include "tools/media/container.h"
+
+namespace animeme::test {
+
+/// The first of four UDP ports in a row that nobody uses now; even, as RTP wants it.
+inline int free_ports() {
+  for (int port = 20000 + ::getpid() * 16 % 20000; port < 60000; port += 8) {
+    try {
+      const UdpSocket a(port), b(port + 1), c(port + 2), d(port + 3);
+      return port;
+    } catch (const std::runtime_error&) {
+    }
+  }
+  return 5004;
+}
+
+/// The program running beside the test; ended with it.
+class Running {
+ public:
+  Running(std::vector<std::string> arguments, const std::string& out, const std::string& err,
+          int input = -1) {
+    arguments.insert(arguments.begin(), std::string(ANIMEME_BINARY_DIR) + "/bin/animeme");
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    pid_ = ::fork();
+    if (pid_ != 0) return;
+    if (input >= 0) ::dup2(input, STDIN_FILENO);
+    ::dup2(::open(out.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600), STDOUT_FILENO);
+    ::dup2(::open(err.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600), STDERR_FILENO);
+    ::execv(argv[0], argv.data());
+    ::_exit(127);
+  }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+  ~Running() {
+    if (!code_) ::kill(pid_, SIGKILL);
+    (void)wait();
+  }
+  void signal(int number) const { ::kill(pid_, number); }
+  int wait() {
+    if (code_) return *code_;
+    int status = 0;
+    ::waitpid(pid_, &status, 0);
+    code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return *code_;
+  }
+
+ private:
+  pid_t pid_;
+  std::optional<int> code_;
+};
+
+template <class Condition>
+bool wait_for(Condition condition, int seconds = 60) {
+  for (int i = 0; i < seconds * 50; ++i) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return false;
+}
+
+/// A talking face of about two seconds with its sound.
+class Streams : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto made = animeme({"speak", "--text", "Hello my old friend, how are you?",
+                               "--intra-seconds", "0.4", "-o", dir / "talk.mp4"});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    url = "rtp://127.0.0.1:" + std::to_string(free_ports());
+  }
+  // Writes the session description as the sender will: a first run without a receiver.
+  std::vector<std::string> sender(std::vector<std::string> more) const {
+    std::vector<std::string> all = {"stream", "--to", url, "--sdp", dir / "talk.sdp"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  bool described() const { return std::filesystem::exists(dir / "talk.sdp"); }
+
+  TempDir dir;
+  std::string url;
+};
+
+inline media::Container container(const std::string& path) {
+  auto read = media::read_container(path);
+  EXPECT_TRUE(read) << read.error().describe();
+  return read ? std::move(*read) : media::Container{};
+}
+
+}  // namespace animeme::test

@@ -1,0 +1,113 @@
+// Every transport, end to end, and what is said when something is wrong.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "fap/text.h"
+#include "tests/live/stream_support.h"
+#include "tests/support/random_clip.h"
+
+namespace animeme {
+namespace {
+
+using test::animeme;
+using test::container;
+using test::Running;
+using test::Streams;
+using test::TempDir;
+using test::wait_for;
+using testing::HasSubstr;
+
+struct Way {
+  const char* name;
+  std::string (*to)(const std::string& port);
+  std::string (*from)(const std::string& port);
+};
+
+class Transports : public Streams, public testing::WithParamInterface<Way> {};
+
+TEST_P(Transports, CarryEveryFrame) {
+  const std::string port = std::to_string(test::free_ports());
+  Running send({"stream", dir / "talk.mp4", "--loop", "--to", GetParam().to(port)}, dir / "s.out",
+               dir / "s.err");
+  ASSERT_TRUE(
+      wait_for([&] { return test::slurp(dir / "s.err").find("sending") != std::string::npos; }));
+  ASSERT_EQ(animeme({"decode", dir / "talk.mp4", "-o", dir / "talk.fap"}).exit_code, 0);
+  const auto got = animeme(
+      {"receive", GetParam().from(port), "-o", dir / "got.mp4", "--duration", "2", "--wait", "30"});
+  send.signal(SIGINT);
+  const int sent = send.wait();
+  if (sent == 3) GTEST_SKIP() << test::slurp(dir / "s.err");
+  EXPECT_EQ(sent, 130) << test::slurp(dir / "s.err");
+  ASSERT_EQ(got.exit_code, 0) << got.err;
+  ASSERT_EQ(animeme({"decode", dir / "got.mp4", "-o", dir / "got.fap"}).exit_code, 0);
+  const auto source = fap::read_text(test::slurp(dir / "talk.fap"));
+  const auto received = fap::read_text(test::slurp(dir / "got.fap"));
+  ASSERT_TRUE(source && received);
+  ASSERT_GT(received->frames.size(), 20u);
+  EXPECT_TRUE(container(dir / "got.mp4").audio.has_value());
+  const auto value = [&](const fap::Sequence& clip, std::size_t i) {
+    return clip.frames[i % clip.frames.size()].value;
+  };
+  std::size_t at = 0, same = 0;
+  for (; at < source->frames.size() && same < received->frames.size(); ++at) {
+    for (same = 0; same < received->frames.size(); ++same) {
+      if (value(*received, same) != value(*source, at + same)) break;
+    }
+  }
+  EXPECT_EQ(same, received->frames.size());
+}
+
+std::string udp(const std::string& port) { return "udp://127.0.0.1:" + port; }
+
+INSTANTIATE_TEST_SUITE_P(
+    All, Transports,
+    testing::Values(Way{"udp", udp, udp},
+                    Way{"srt",
+                        [](const std::string& port) {
+                          return "srt://127.0.0.1:" + port + "?mode=listener";
+                        },
+                        [](const std::string& port) { return "srt://127.0.0.1:" + port; }},
+                    Way{"web", [](const std::string& port) { return "http://127.0.0.1:" + port; },
+                        [](const std::string& port) { return "ws://127.0.0.1:" + port; }}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(Stream, WhatIsWrongIsSaidInASentence) {
+  const TempDir dir;
+  test::spill(dir / "clip.fap", fap::write_text(test::random_clip(1, 30)));
+  const auto scheme = animeme({"stream", dir / "clip.fap", "--to", "gopher://127.0.0.1:70"});
+  EXPECT_EQ(scheme.exit_code, 2);
+  EXPECT_THAT(scheme.err, HasSubstr("http://host:port"));
+  const auto missing = animeme({"stream", dir / "none.mp4", "--to", "rtp://127.0.0.1:5004"});
+  EXPECT_EQ(missing.exit_code, 3);
+  EXPECT_THAT(missing.err, HasSubstr("none.mp4"));
+  const auto nothing = animeme({"stream", "--to", "rtp://127.0.0.1:5004"});
+  EXPECT_EQ(nothing.exit_code, 2);
+  EXPECT_THAT(nothing.err, HasSubstr("nothing to stream"));
+  const auto both = animeme({"stream", dir / "clip.fap", "--text", "x", "--to", "rtp://127.0.0.1"});
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_EQ(animeme({"stream", dir / "clip.fap"}).exit_code, 2);
+  EXPECT_EQ(animeme({"stream", "--say", "-", "--fast", "--to", "rtp://127.0.0.1:5004"}).exit_code,
+            2);
+}
+
+TEST(Receive, WhatIsWrongIsSaidInASentence) {
+  const TempDir dir;
+  EXPECT_EQ(animeme({"receive", "rtp://127.0.0.1:5004", "-o", dir / "x.wav"}).exit_code, 2);
+  EXPECT_EQ(animeme({"receive", "gopher://127.0.0.1:70", "-o", dir / "x.mp4"}).exit_code, 2);
+  const auto missing = animeme({"receive", dir / "none.sdp", "-o", dir / "x.mp4"});
+  EXPECT_EQ(missing.exit_code, 3);
+  EXPECT_THAT(missing.err, HasSubstr("none.sdp"));
+  const std::string url = "rtp://127.0.0.1:" + std::to_string(test::free_ports());
+  const auto silent = animeme({"receive", url, "-o", dir / "x.mp4", "--wait", "0.3"});
+  EXPECT_EQ(silent.exit_code, 3);
+  EXPECT_THAT(silent.err, HasSubstr("nothing came"));
+  EXPECT_THAT(dir.files(), testing::IsEmpty());
+  // A port that another receiver has.
+  const test::UdpSocket other(std::stoi(url.substr(url.rfind(':') + 1)));
+  const auto taken = animeme({"receive", url, "-o", dir / "x.mp4", "--wait", "0.3"});
+  EXPECT_EQ(taken.exit_code, 3);
+  EXPECT_THAT(taken.err, HasSubstr("in use"));
+}
+
+}  // namespace
+}  // namespace animeme

@@ -1,0 +1,125 @@
+// mux and demux through the program: codecs, formats, segments, and an end by a signal.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/program.h"
+#include "tests/support/shared.h"
+
+namespace animeme {
+namespace {
+
+using test::animeme;
+using test::TempDir;
+using testing::HasSubstr;
+
+// 8 bits, 8 kHz.
+void write_noise(const std::string& path, std::uint32_t seconds) {
+  const std::uint32_t bytes = seconds * 8000;
+  std::string wav = "RIFF....WAVEfmt ";
+  const auto number = [&](std::uint32_t value, int count) {
+    for (int i = 0; i < count; ++i) wav += char(value >> (8 * i) & 255);
+  };
+  number(16, 4);
+  number(1, 2);
+  number(1, 2);
+  number(8000, 4);
+  number(8000, 4);
+  number(1, 2);
+  number(8, 2);
+  wav += "data";
+  number(bytes, 4);
+  std::uint32_t state = 1;
+  for (std::uint32_t i = 0; i < bytes; ++i) {
+    state = state * 1664525u + 1013904223u;
+    wav += char(state >> 24);
+  }
+  test::spill(path, wav);
+}
+
+std::string sample() { return (test::data_dir() / "containers" / "std_aac.mp4").string(); }
+
+std::string codec_of_sound(const std::string& path) {
+  const auto info = animeme({"info", path, "--json"});
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+  const auto json = nlohmann::json::parse(info.out, nullptr, false);
+  if (!json.is_object()) return "";
+  for (const auto& track : json["tracks"]) {
+    if (track["kind"] == "audio") return track["codec"];
+  }
+  return "none";
+}
+
+TEST(MuxCommand, TheFaceStaysTheSameInEveryFormat) {
+  const TempDir dir;
+  ASSERT_EQ(animeme({"demux", sample(), "--face", dir / "in.fba"}).exit_code, 0);
+  struct Way {
+    const char* file;
+    std::vector<std::string> options;
+    const char* codec;
+  };
+  for (const Way& way :
+       {Way{"a.mp4", {}, "aac"}, Way{"b.mp4", {"--audio-codec", "opus"}, "opus"},
+        Way{"c.mp4", {"--fragmented"}, "aac"},
+        Way{"d.mkv", {"--audio-codec", "opus", "--audio-bitrate", "24000"}, "opus"},
+        Way{"e.ts", {"--audio-codec", "copy"}, "aac"}, Way{"f.m3u8", {}, "aac"},
+        Way{"g.mpd", {"--fragment-seconds", "1"}, "aac"}}) {
+    SCOPED_TRACE(way.file);
+    std::vector<std::string> arguments = {"mux", sample(), sample(), "-o", dir / way.file};
+    arguments.insert(arguments.end(), way.options.begin(), way.options.end());
+    const auto muxed = animeme(arguments);
+    ASSERT_EQ(muxed.exit_code, 0) << muxed.err;
+    EXPECT_EQ(codec_of_sound(dir / way.file), way.codec);
+    ASSERT_EQ(animeme({"demux", dir / way.file, "--face", dir / "out.fba"}).exit_code, 0);
+    EXPECT_EQ(test::slurp(dir / "out.fba"), test::slurp(dir / "in.fba"));
+  }
+}
+
+TEST(MuxCommand, RefusalsNameTheRemedy) {
+  const TempDir dir;
+  const auto ts = animeme({"mux", sample(), sample(), "--audio-codec", "opus", "-o", dir / "a.ts"});
+  EXPECT_EQ(ts.exit_code, 3);
+  EXPECT_THAT(ts.err, HasSubstr("takes no opus; code the sound as aac"));
+  const auto pipe = animeme({"mux", sample(), sample(), "-o", "-"});
+  EXPECT_EQ(pipe.exit_code, 3);
+  EXPECT_THAT(pipe.err, HasSubstr("standard output"));
+  write_noise(dir / "a.wav", 1);
+  const auto copy =
+      animeme({"mux", sample(), dir / "a.wav", "--audio-codec", "copy", "-o", dir / "a.mp4"});
+  EXPECT_EQ(copy.exit_code, 3);
+  EXPECT_THAT(copy.err, HasSubstr("only aac and opus can be taken as they are"));
+  EXPECT_EQ(
+      animeme({"mux", sample(), sample(), "--audio-codec", "mp3", "-o", dir / "a.mp4"}).exit_code,
+      2);
+  EXPECT_EQ(dir.files().size(), 1u) << "nothing is left but the sound";
+}
+
+TEST(MuxCommand, ASignalEndsTheFileInOrder) {
+  const TempDir dir;
+  write_noise(dir / "long.wav", 30 * 60);
+  for (const char* name : {"a.mp4", "a.m3u8"}) {
+    SCOPED_TRACE(name);
+    // The signal is sent when the temporary file has some content.
+    const std::string script =
+        "cd " + test::quoted(dir.path().string()) + "; " +
+        test::quoted(std::string(ANIMEME_BINARY_DIR) + "/bin/animeme") + " mux " +
+        test::quoted(sample()) + " long.wav -o " + name +
+        " & pid=$!; while kill -0 $pid && [ -z \"$(find . -path '*.part*' -type f -size +4k)\" ]; "
+        "do sleep 0.02; done; kill -TERM $pid; wait $pid";
+    const auto result = test::run_command({"sh", "-c", script});
+    EXPECT_EQ(result.exit_code, 130) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("stopped; the file holds the first"));
+    const auto info = animeme({"info", dir / name, "--json"});
+    ASSERT_EQ(info.exit_code, 0) << info.err;
+    const auto json = nlohmann::json::parse(info.out, nullptr, false);
+    EXPECT_GT(json["seconds"], 0.4);
+    EXPECT_LT(json["seconds"], 30 * 60 - 1);
+    for (const std::string& file : dir.files()) {
+      EXPECT_EQ(file.find(".part"), std::string::npos) << file;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace animeme

@@ -1,0 +1,237 @@
+// The page in a real browser: sound, face and both together. Pictures of it lie in
+// <build>/screenshots.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <thread>
+
+#include "codec/live.h"
+#include "tests/web/chromium.h"
+#include "tools/media/encoded_audio.h"
+#include "tools/media/live/pacer.h"
+#include "tools/media/live/presentation.h"
+#include "tools/web/web.h"
+
+namespace animeme::test {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double kPeriod = 0.8, kSound = 0.2;  // seconds: a tone that long, that often
+
+/// While the tone sounds the mouth is open.
+media::Pcm make_tones(double seconds) {
+  media::Pcm pcm{48000, std::vector<float>(std::size_t(seconds * 48000))};
+  for (std::size_t i = 0; i < pcm.samples.size(); ++i) {
+    const double t = double(i) / 48000;
+    if (std::fmod(t, kPeriod) < kSound) {
+      pcm.samples[i] = float(0.4 * std::sin(2 * std::numbers::pi * 500 * t));
+    }
+  }
+  return pcm;
+}
+
+fba::AccessUnits make_mouth(double seconds) {
+  fba::LiveEncoder encoder({.intra_period = 20});
+  fba::AccessUnits face{.config = {0, 0, 1, 0xB0, 0x61, 0, 0, 1, 0xB5, 0x89, 0x47}};
+  for (int i = 0; i < int(seconds * 25); ++i) {
+    const double t = i / 25.0;
+    const bool open = std::fmod(t + 1e-9, kPeriod) < kSound;
+    fap::Frame frame;
+    frame.set(3, open ? 700 : 0);
+    frame.set(4, open ? -150 : 0);
+    frame.set(5, open ? -700 : 0);
+    frame.set(6, int(60 * std::sin(t * 3)));
+    frame.set(7, int(60 * std::sin(t * 3)));
+    frame.set(12, int(200 + 150 * std::sin(t * 2)));
+    frame.set(13, int(200 + 150 * std::sin(t * 2)));
+    frame.set(31, int(120 * std::sin(t)));
+    frame.set(32, int(120 * std::sin(t)));
+    frame.set(50, int(4000 * std::sin(t)));
+    auto unit = encoder.write(frame);
+    EXPECT_TRUE(unit);
+    if (unit) face.units.push_back({std::move(*unit), encoder.intra(), i * 1000, 1000});
+  }
+  return face;
+}
+
+/// A server that sends a presentation again and again, at its pace.
+class Station {
+ public:
+  explicit Station(media::AudioCodec codec) {
+    auto sound = media::encode_audio(make_tones(8), {.codec = codec});
+    EXPECT_TRUE(sound);
+    input_.emplace(make_mouth(8), std::move(*sound), media::ClipOptions{.loop = true});
+    auto sink = web::make_web_sink("http://127.0.0.1:0/");
+    EXPECT_TRUE(sink);
+    sink_ = std::move(*sink);
+    EXPECT_TRUE(sink_->start(input_->info()));
+    thread_ = std::thread([this] { run(); });
+  }
+  ~Station() {
+    over_ = true;
+    thread_.join();
+  }
+  std::string address() const { return sink_->address(); }
+  void pause(bool paused) { paused_ = paused; }
+
+ private:
+  void run() {
+    media::Pacer pacer(media::steady_clock());
+    while (auto due = input_->next_due()) {
+      while (!over_ && !pacer.wait_until(*due)) {
+      }
+      if (over_) return;
+      auto units = input_->take(*due);
+      if (!units) return;
+      for (const media::LiveUnit& unit : *units) {
+        if (paused_) continue;
+        EXPECT_TRUE(sink_->send(unit));
+      }
+    }
+  }
+
+  std::optional<media::ClipInput> input_;
+  std::unique_ptr<web::WebSink> sink_;
+  std::atomic<bool> over_ = false, paused_ = false;
+  std::thread thread_;
+};
+
+/// Waits until an expression is true in the page.
+bool wait_for(Chromium& browser, const std::string& expression) {
+  return browser.evaluate(
+             "new Promise(done => { const end = Date.now() + 20000; (function look() "
+             "{ if (" +
+             expression +
+             ") done(true); else if (Date.now() > end) "
+             "done(false); else setTimeout(look, 50); })(); })") == true;
+}
+
+constexpr const char* kSample =
+    "({time: audio.currentTime, wall: performance.now() / 1000, shown: animeme.shown, "
+    "offset: animeme.offset, face: animeme.time, latency: animeme.session.latency(), "
+    "gaps: animeme.session.gaps, state: animeme.state})";
+
+class Page : public ::testing::TestWithParam<media::AudioCodec> {
+ protected:
+  void SetUp() override {
+    if (Chromium::find().empty()) GTEST_SKIP() << "Chromium is not installed";
+    browser_.emplace();
+    ASSERT_TRUE(browser_->is_open()) << "Chromium does not start";
+  }
+  void start(const Station& station, int width, int height, bool dark) {
+    browser_->open(station.address(), width, height, dark);
+    EXPECT_EQ(browser_->evaluate("animeme.state"), "idle") << "no sound without a click";
+    browser_->evaluate("document.getElementById('start').click()");
+    ASSERT_TRUE(wait_for(*browser_, "animeme.state === 'live' && animeme.shown > 20"));
+  }
+  void expect_no_complaints() { EXPECT_THAT(browser_->complaints(), ::testing::IsEmpty()); }
+  std::optional<Chromium> browser_;
+};
+
+TEST_P(Page, PlaysSoundAndFaceTogether) {
+  Station station(GetParam());
+  start(station, 1100, 800, false);
+  const Json a = browser_->evaluate(kSample);
+  ASSERT_TRUE(wait_for(*browser_, "animeme.shown > " + std::to_string(int(a["shown"]) + 50)));
+  const Json b = browser_->evaluate(kSample);
+  const double wall = double(b["wall"]) - double(a["wall"]);
+  const double played = double(b["time"]) - double(a["time"]);
+  RecordProperty("played_per_second", std::to_string(played / wall));
+  EXPECT_GT(played, 0.7 * wall);
+  EXPECT_LT(played, 1.3 * wall);
+  EXPECT_EQ(b["state"], "live");
+  EXPECT_EQ(b["gaps"], 0);
+  EXPECT_GE(double(b["offset"]), 0);
+  EXPECT_LT(double(b["offset"]), 0.15);
+  EXPECT_LT(std::abs(double(b["face"]) - double(b["time"])), 0.2);
+  EXPECT_LT(double(b["latency"]), 2.5);
+  expect_no_complaints();
+  const std::string name = std::string("web_desktop_") + media::name_of(GetParam()) + ".png";
+  browser_->save_picture(std::filesystem::path(ANIMEME_BINARY_DIR) / "screenshots" / name);
+}
+
+// The sound that comes out of the element, sample by sample, against the mouth that is shown.
+TEST_P(Page, TheMouthOpensWithTheTone) {
+  Station station(GetParam());
+  start(station, 800, 600, true);
+  const Json seen = browser_->evaluate(R"(new Promise(async done => {
+    const context = new AudioContext();
+    const tap = context.createAnalyser();
+    tap.fftSize = 512;
+    context.createMediaElementSource(audio).connect(tap).connect(context.destination);
+    await context.resume();
+    const wave = new Float32Array(512), tones = [], mouths = [];
+    let loud = false, open = false, begin = performance.now();
+    animeme.onFrame = (values) => {
+      if ((values[3] > 300) !== open) {
+        open = !open;
+        if (open) mouths.push(performance.now() / 1000);
+      }
+    };
+    const timer = setInterval(() => {
+      tap.getFloatTimeDomainData(wave);
+      const level = Math.sqrt(wave.reduce((sum, x) => sum + x * x, 0) / wave.length);
+      if ((level > 0.1) !== loud) {
+        loud = !loud;
+        if (loud) tones.push(performance.now() / 1000);
+      }
+      if (performance.now() - begin > 7000) {
+        clearInterval(timer);
+        done({tones, mouths});
+      }
+    }, 4);
+  }))");
+  ASSERT_TRUE(seen.contains("tones"));
+  std::vector<double> distances;
+  for (const double mouth : seen["mouths"]) {
+    double nearest = 1;
+    for (const double tone : seen["tones"]) {
+      if (std::abs(mouth - tone) < std::abs(nearest)) nearest = mouth - tone;
+    }
+    distances.push_back(nearest);
+  }
+  ASSERT_GE(distances.size(), 5u);
+  std::sort(distances.begin(), distances.end());
+  const double middle = distances[distances.size() / 2];
+  std::printf("mouth behind tone: %.0f ms (%.0f .. %.0f)\n", 1000 * middle,
+              1000 * distances.front(), 1000 * distances.back());
+  EXPECT_LT(std::abs(middle), 0.08);
+  expect_no_complaints();
+}
+
+INSTANTIATE_TEST_SUITE_P(Codecs, Page,
+                         ::testing::Values(media::AudioCodec::aac, media::AudioCodec::opus),
+                         [](const auto& each) { return media::name_of(each.param); });
+
+using PageOnce = Page;
+
+TEST_P(PageOnce, FitsAPhoneAndSurvivesAPause) {
+  Station station(GetParam());
+  start(station, 360, 740, true);
+  EXPECT_EQ(browser_->evaluate("document.documentElement.scrollWidth <= innerWidth"), true)
+      << "nothing sticks out";
+  EXPECT_EQ(browser_->evaluate("[...document.querySelectorAll('canvas')].every(c => "
+                               "c.getAttribute('aria-label'))"),
+            true);
+  browser_->save_picture(std::filesystem::path(ANIMEME_BINARY_DIR) / "screenshots" /
+                         "web_phone.png");
+  station.pause(true);
+  ASSERT_TRUE(wait_for(*browser_, "animeme.state === 'waiting'"));
+  station.pause(false);
+  ASSERT_TRUE(wait_for(*browser_, "animeme.state === 'live'"));
+  const Json a = browser_->evaluate(kSample);
+  ASSERT_TRUE(wait_for(*browser_, "animeme.shown > " + std::to_string(int(a["shown"]) + 20)));
+  expect_no_complaints();
+  browser_->evaluate("document.getElementById('start').click()");
+  EXPECT_EQ(browser_->evaluate("animeme.state"), "idle");
+}
+
+INSTANTIATE_TEST_SUITE_P(Aac, PageOnce, ::testing::Values(media::AudioCodec::aac),
+                         [](const auto& each) { return media::name_of(each.param); });
+
+}  // namespace
+}  // namespace animeme::test

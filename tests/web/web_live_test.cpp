@@ -1,0 +1,210 @@
+// The web server and its client, there and back.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/codec/reference_streams.h"
+#include "tests/support/live_loop.h"
+#include "tools/web/web.h"
+
+namespace animeme::test {
+namespace {
+
+using media::LiveTrack;
+using media::LiveUnit;
+using ::testing::HasSubstr;
+using web::make_web_sink;
+using web::make_web_source;
+
+Presentation reference(const std::filesystem::path& base) {
+  const auto units = fba::split_access_units(read_bytes(with(base, ".fba")));
+  return units ? presentation(*units, 60) : Presentation{};
+}
+
+std::unique_ptr<web::WebSink> serve(const Presentation& show, const web::WebOptions& options = {}) {
+  auto sink = make_web_sink("http://127.0.0.1:0/", options);
+  EXPECT_TRUE(sink);
+  const Result<void> started = (*sink)->start(show.info);
+  EXPECT_TRUE(started) << (started ? "" : started.error().describe());
+  return std::move(*sink);
+}
+
+void expect_equal(const std::vector<LiveUnit>& got, const std::vector<LiveUnit>& want) {
+  ASSERT_EQ(got.size(), want.size());
+  for (std::size_t i = 0; i < got.size(); ++i) ASSERT_EQ(got[i], want[i]) << "unit " << i;
+}
+
+std::vector<LiveUnit> of(const Presentation& show, LiveTrack track) {
+  std::vector<LiveUnit> units;
+  for (const LiveUnit& unit : show.units) {
+    if (unit.track == track) units.push_back(unit);
+  }
+  return units;
+}
+
+TEST(WebLive, EveryReferenceStreamComesBack) {
+  int count = 0;
+  for (const auto& base : reference_streams()) {
+    SCOPED_TRACE(base.filename());
+    Presentation show = reference(base);
+    if (show.units.empty()) continue;
+    if (count % 3 == 1) add_sound(show, aac_format(), unsigned(count));
+    if (count % 3 == 2) add_sound(show, opus_format(), unsigned(count));
+    const auto sink = serve(show, {.packets_per_segment = 1 + count % 5});
+    auto source = make_web_source(sink->address());
+    ASSERT_TRUE(source) << source.error().describe();
+    const Received got = loop(*sink, **source, show);
+    EXPECT_EQ(got.error, "");
+    EXPECT_TRUE(got.ended);
+    EXPECT_TRUE(got.gaps.empty());
+    ASSERT_EQ(got.infos.size(), 1u);
+    EXPECT_EQ(got.infos[0], show.info);
+    expect_equal(got.of(LiveTrack::face), of(show, LiveTrack::face));
+    expect_equal(got.of(LiveTrack::audio), of(show, LiveTrack::audio));
+    if (HasFatalFailure()) return;
+    ++count;
+  }
+  EXPECT_GT(count, 100);
+}
+
+TEST(WebLive, SoundAloneIsServed) {
+  Presentation show = live_presentation(50, 10);
+  add_sound(show, aac_format());
+  std::erase_if(show.units, [](const LiveUnit& unit) { return unit.track == LiveTrack::face; });
+  show.info.face_config.clear();
+  const auto sink = serve(show);
+  auto source = make_web_source(sink->address());
+  ASSERT_TRUE(source);
+  const Received got = loop(*sink, **source, show);
+  EXPECT_TRUE(got.ended);
+  expect_equal(got.of(LiveTrack::audio), show.units);
+}
+
+// A newcomer begins with the newest intra plane, at once or with the next one.
+TEST(WebLive, LateJoinersBeginAtAnIntraPlane) {
+  Presentation show = live_presentation(100, 20);
+  add_sound(show, aac_format());
+  for (const bool catch_up : {true, false}) {
+    const auto sink = serve(show, {.catch_up = catch_up});
+    std::size_t i = 0;
+    for (int planes = 0; planes < 50; ++i) {
+      ASSERT_TRUE(sink->send(show.units[i]));
+      planes += show.units[i].track == LiveTrack::face ? 1 : 0;
+    }
+    auto source = make_web_source(sink->address());
+    ASSERT_TRUE(source);
+    Received got;
+    receive(**source, got, catch_up ? 5 : 0.2);
+    for (; i < show.units.size(); ++i) ASSERT_TRUE(sink->send(show.units[i]));
+    ASSERT_TRUE(sink->finish());
+    while (receive(**source, got, 5)) {
+    }
+    EXPECT_TRUE(got.ended);
+    const auto face = got.of(LiveTrack::face), sent = of(show, LiveTrack::face);
+    const std::size_t first = catch_up ? 40 : 60;
+    ASSERT_EQ(face.size(), 100 - first);
+    for (std::size_t k = 0; k < face.size(); ++k) EXPECT_EQ(face[k], sent[first + k]);
+    ASSERT_EQ(got.infos.size(), 1u);
+    EXPECT_EQ(got.infos[0].audio->priming, 0);
+    const auto sound = got.of(LiveTrack::audio);
+    ASSERT_FALSE(sound.empty());
+    const double lead = double(face[0].time) / 25000 - double(sound[0].time) / 48000;
+    if (catch_up) {
+      EXPECT_NEAR(lead, 0.25, 0.1) << "sound from a little before the plane";
+    }
+  }
+}
+
+TEST(WebLive, AClientThatDoesNotReadLosesUnitsAndIsTold) {
+  Presentation show = live_presentation(3000, 50);
+  const auto sink = serve(show, {.client_bytes = 4096});
+  auto source = make_web_source(sink->address(), {.queue_bytes = 2000});
+  ASSERT_TRUE(source);
+  // The sockets between the two take some megabytes, so the units have to be large.
+  const std::vector<std::uint8_t> ballast(200000, 0x55);
+  std::vector<LiveUnit> sent;
+  for (int i = 0; i < 120; ++i) {
+    LiveUnit unit = show.units[std::size_t(i)];
+    unit.bytes.insert(unit.bytes.end(), ballast.begin(), ballast.end());
+    sent.push_back(unit);
+    ASSERT_TRUE(sink->send(unit));
+  }
+  EXPECT_GT(sink->stats().dropped, 0);
+  Received got;
+  while (receive(**source, got, 0.5)) {
+  }
+  const std::size_t before = got.units.size();
+  EXPECT_LT(before, sent.size());
+  for (int i = 120; i < 220; ++i) {  // now it reads
+    sent.push_back(show.units[std::size_t(i)]);
+    ASSERT_TRUE(sink->send(sent.back()));
+    while (receive(**source, got, 0.002)) {
+    }
+  }
+  ASSERT_TRUE(sink->finish());
+  while (receive(**source, got, 5)) {
+  }
+  EXPECT_TRUE(got.ended);
+  EXPECT_FALSE(got.gaps.empty());
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < got.units.size(); ++i) {
+    const bool gap = std::any_of(got.gaps.begin(), got.gaps.end(),
+                                 [&](const auto& each) { return each.first == i; });
+    const std::size_t from = at;
+    while (at < sent.size() && sent[at] != got.units[i]) ++at;
+    ASSERT_LT(at, sent.size());
+    EXPECT_TRUE(at == from || gap) << "a loss that nobody tells of at " << i;
+    EXPECT_TRUE(!gap || got.units[i].intra);
+    ++at;
+  }
+  EXPECT_EQ(got.units.back(), sent.back());
+}
+
+TEST(WebLive, ErrorsNameTheRemedy) {
+  for (const char* url : {"", "http:/", "udp://127.0.0.1:80", "http://127.0.0.1:99999",
+                          "http://127.0.0.1:80/live", "http://a b:80/", "http://h:x/"}) {
+    const auto sink = make_web_sink(url);
+    ASSERT_FALSE(sink) << url;
+    EXPECT_EQ(sink.error().code, Code::invalid_argument) << url;
+  }
+  EXPECT_EQ(make_web_sink("https://127.0.0.1/").error().code, Code::unsupported);
+  EXPECT_EQ(make_web_sink("http://127.0.0.1:0", {.max_clients = 0}).error().code,
+            Code::invalid_argument);
+  EXPECT_EQ(make_web_sink("http://127.0.0.1:0", {.packets_per_segment = 99}).error().code,
+            Code::invalid_argument);
+  const Presentation show = live_presentation(3, 2);
+  const auto sink = serve(show);
+  auto second = make_web_sink(sink->address());
+  const Result<void> busy = (*second)->start(show.info);
+  ASSERT_FALSE(busy);
+  EXPECT_EQ(busy.error().code, Code::io);
+  EXPECT_THAT(busy.error().message, HasSubstr("in use"));
+  auto elsewhere = make_web_sink("http://192.0.2.1:0/");  // of no machine
+  EXPECT_EQ((*elsewhere)->start(show.info).error().code, Code::io);
+  const std::string address = sink->address();
+  ASSERT_TRUE(sink->finish());
+  const auto alone = make_web_source(address);
+  ASSERT_FALSE(alone);
+  EXPECT_EQ(alone.error().code, Code::io);
+  EXPECT_THAT(alone.error().message, HasSubstr("does a server"));
+}
+
+TEST(WebLive, TheSinkRefusesWhatItCannotSend) {
+  const Presentation show = live_presentation(3, 2);
+  auto sink = make_web_sink("http://127.0.0.1:0/");
+  EXPECT_EQ((*sink)->address(), "");
+  EXPECT_EQ((*sink)->send(show.units[0]).error().code, Code::invalid_argument);
+  EXPECT_EQ((*sink)->start({}).error().code, Code::invalid_argument);
+  ASSERT_TRUE((*sink)->start(show.info));
+  EXPECT_EQ((*sink)->start(show.info).error().code, Code::invalid_argument);
+  LiveUnit unit = show.units[0];
+  unit.time = -25001;
+  EXPECT_EQ((*sink)->send(unit).error().code, Code::invalid_argument);
+  unit.track = LiveTrack::audio;
+  EXPECT_EQ((*sink)->send(unit).error().code, Code::invalid_argument);
+  EXPECT_TRUE((*sink)->finish());
+  EXPECT_TRUE((*sink)->finish()) << "twice is no error";
+  EXPECT_EQ((*sink)->send(show.units[0]).error().code, Code::invalid_argument);
+}
+
+}  // namespace
+}  // namespace animeme::test

@@ -1,0 +1,22 @@
+// `animeme export` to glTF: a head that plays the clip.
+#pragma once
+
+#include <string>
+
+#include "fap/frame.h"
+#include "fap/result.h"
+
+namespace animeme::tools {
+
+struct GlbExport {
+  std::string head = "woman";
+  std::string morphs = "arkit";  ///< or "fap"
+  std::string audio;             ///< name to mention; may be empty
+  bool normals = false;
+};
+
+/// Writes a .glb with progress and says so. Errors: those of gltf::make_glb(); io.
+Result<void> export_glb(const std::string& path, const fap::Sequence& filled,
+                        const GlbExport& options);
+
+}  // namespace animeme::tools

@@ -1,0 +1,51 @@
+#include "tools/commands/live_address.h"
+
+#include <initializer_list>
+#include <string_view>
+
+namespace animeme::tools {
+
+namespace {
+
+bool begins(const std::string& url, std::initializer_list<std::string_view> schemes) {
+  for (const std::string_view scheme : schemes) {
+    if (url.starts_with(scheme)) return true;
+  }
+  return false;
+}
+
+bool is_web(const std::string& url) {
+  return begins(url, {"http://", "https://", "ws://", "wss://"});
+}
+
+bool is_media(const std::string& url) { return begins(url, {"rtp://", "udp://", "srt://"}); }
+
+}  // namespace
+
+bool is_rtp(const std::string& url) { return begins(url, {"rtp://"}); }
+
+Result<std::unique_ptr<media::LiveSink>> open_live_sink(const std::string& url,
+                                                        const LiveSinkOptions& options) {
+  if (is_web(url)) {
+    auto sink = web::make_web_sink(url, options.web);
+    if (!sink) return sink.error();
+    return std::unique_ptr<media::LiveSink>(std::move(*sink));
+  }
+  if (is_media(url)) return media::open_sink(url, options.media);
+  return make_error(Code::invalid_argument,
+                    "'" + url +
+                        "' is no address to send to; write rtp://host:port, udp://host:port, "
+                        "srt://host:port or http://host:port");
+}
+
+Result<std::unique_ptr<media::LiveSource>> open_live_source(const std::string& where,
+                                                            const LiveSourceOptions& options) {
+  if (is_web(where)) return web::make_web_source(where, options.web);
+  if (is_media(where) || where.ends_with(".sdp")) return media::open_source(where, options.media);
+  return make_error(Code::invalid_argument,
+                    "'" + where +
+                        "' is nothing to receive from; name a session description (.sdp) or write "
+                        "rtp://host:port, udp://host:port, srt://host:port or ws://host:port");
+}
+
+}  // namespace animeme::tools

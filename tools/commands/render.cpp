@@ -1,0 +1,183 @@
+#include <charconv>
+#include <memory>
+
+#include "fap/fill.h"
+#include "fap/head/rig.h"
+#include "tools/commands/common.h"
+#include "tools/commands/render_frames.h"
+#include "tools/render/scene.h"
+
+namespace animeme::tools {
+
+namespace {
+
+constexpr int kLargestPicture = 8192;  // pixels a side, a whole sheet
+constexpr int kMostPictures = 400;
+
+struct Options {
+  std::string input;
+  std::string output;
+  std::string shapes;
+  std::int64_t frame = -1;
+  std::vector<double> times;
+  std::string sheet;
+  std::string head = "woman";
+  std::string view = "front";
+  double up = 0;
+  double zoom = 1;
+  std::string size = "640x640";
+};
+
+struct Pair {
+  int x = 0;
+  int y = 0;
+};
+
+// "640x480"; both from 1 to `most`.
+std::optional<Pair> parse_pair(const std::string& text, int most) {
+  Pair pair;
+  const char* end = text.data() + text.size();
+  const auto [middle, bad_x] = std::from_chars(text.data(), end, pair.x);
+  if (bad_x != std::errc() || middle == end || *middle != 'x') return std::nullopt;
+  const auto [stop, bad_y] = std::from_chars(middle + 1, end, pair.y);
+  if (bad_y != std::errc() || stop != end) return std::nullopt;
+  if (pair.x < 1 || pair.y < 1 || pair.x > most || pair.y > most) return std::nullopt;
+  return pair;
+}
+
+// What was asked for, checked.
+struct Plan {
+  Pair size;
+  Pair sheet;
+  double degrees = 0;
+  head::HeadParameters head;
+};
+
+Result<Plan> make_plan(const Options& options) {
+  Plan plan;
+  const auto size = parse_pair(options.size, kLargestPicture);
+  if (!size) return make_error(Code::invalid_argument, "--size is WIDTHxHEIGHT, such as 640x640");
+  plan.size = *size;
+  plan.sheet = {1, 1};
+  if (!options.sheet.empty()) {
+    const auto sheet = parse_pair(options.sheet, kMostPictures);
+    if (!sheet || sheet->x * sheet->y > kMostPictures) {
+      return make_error(Code::invalid_argument, "--sheet is COLUMNSxROWS, such as 4x3");
+    }
+    plan.sheet = *sheet;
+  }
+  if (plan.size.x * plan.sheet.x > kLargestPicture ||
+      plan.size.y * plan.sheet.y > kLargestPicture) {
+    return make_error(
+        Code::invalid_argument,
+        "the sheet is larger than 8192 pixels: make the pictures smaller with --size");
+  }
+  const auto degrees = render::view_degrees(options.view);
+  if (!degrees) {
+    return make_error(Code::invalid_argument,
+                      "--view is front, three-quarter, side or degrees to the left");
+  }
+  plan.degrees = *degrees;
+  const auto head = head::head_parameters(options.head);
+  if (!head) {
+    return make_error(Code::invalid_argument, "--head is woman, man or child");
+  }
+  plan.head = *head;
+  return plan;
+}
+
+Result<std::vector<ShownFrame>> choose_frames(const Options& options, const Plan& plan) {
+  if (!options.shapes.empty()) return shape_frames(options.shapes);
+  Result<FaceInput> input = read_face(options.input);
+  if (!input) return input.error();
+  const Result<fap::Sequence> clip = fap::fill(input->clip);
+  if (!clip) return clip.error().in_file(options.input);
+  Result<std::vector<ShownFrame>> frames = options.frame >= 0 ? frame_number(*clip, options.frame)
+                                           : !options.times.empty()
+                                               ? frames_at(*clip, options.times)
+                                               : even_frames(*clip, plan.sheet.x * plan.sheet.y);
+  if (!frames) return frames.error().in_file(options.input);
+  return frames;
+}
+
+Result<void> draw(const Options& options, const Plan& plan, const std::vector<ShownFrame>& frames,
+                  PictureSink& sink) {
+  const Result<head::Head> head = head::make_head(plan.head);
+  if (!head) return head.error();
+  const head::Rig rig = head::make_rig(*head);
+  const render::Camera camera = render::look_at(*head, plan.degrees, options.up, options.zoom);
+  render::Renderer renderer({.width = plan.size.x, .height = plan.size.y});
+  head::Pose pose;
+  for (const ShownFrame& shown : frames) {
+    head::pose(rig, shown.frame, pose);
+    auto added = sink.add(renderer.render(render::scene_of(*head, rig, pose), camera));
+    if (!added) return added;
+  }
+  return sink.finish();
+}
+
+// Columns that make the sheet about as wide as high.
+int columns_for(std::size_t pictures) {
+  int columns = 1;
+  while (std::size_t(columns * columns) < pictures) ++columns;
+  return columns;
+}
+
+Result<int> run(const Options& options) {
+  if (options.input.empty() == options.shapes.empty()) {
+    return usage_error("give a file to show, or --shapes visemes or expressions");
+  }
+  const Result<Plan> plan = make_plan(options);
+  if (!plan) return usage_error(plan.error().message);
+  if (const std::string extension = extension_of(options.output);
+      extension != ".png" && options.output != "-") {
+    return usage_error("the output " + options.output + " has to end in .png");
+  }
+  Result<std::vector<ShownFrame>> frames = choose_frames(options, *plan);
+  if (!frames) return frames.error();
+  const int columns = options.sheet.empty() ? columns_for(frames->size()) : plan->sheet.x;
+  const auto sink = png_sink(options.output, columns);
+  if (auto drawn = draw(options, *plan, *frames, *sink); !drawn) return drawn.error();
+  return kOk;
+}
+
+Action add(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  app.add_option("input", options->input, "FAP text, FBA stream, container or table of curves");
+  app.add_option("-o,--output", options->output, "PNG file to write, - for standard output")
+      ->required();
+  auto* shapes = app.add_option("--shapes", options->shapes,
+                                "Instead of a file: neutral and all visemes or expressions");
+  auto* frame = app.add_option("--frame", options->frame, "Frame to show, from 0")
+                    ->check(CLI::NonNegativeNumber);
+  auto* time = app.add_option("--time", options->times, "Seconds to show; several make a sheet")
+                   ->delimiter(',');
+  auto* sheet = app.add_option("--sheet", options->sheet,
+                               "Contact sheet, COLUMNSxROWS: frames evenly over the clip");
+  frame->excludes(time)->excludes(shapes)->excludes(sheet);
+  time->excludes(shapes);
+  app.add_option("--head", options->head, "woman, man or child")->capture_default_str();
+  app.add_option("--view", options->view,
+                 "front, three-quarter, side, or degrees to the person's left")
+      ->capture_default_str();
+  app.add_option("--up", options->up, "Degrees to look from above")
+      ->check(CLI::Range(-80, 80))
+      ->capture_default_str();
+  app.add_option("--zoom", options->zoom, "1: head and shoulders; 2 is twice as near")
+      ->check(CLI::Range(0.2, 20.0))
+      ->capture_default_str();
+  app.add_option("--size", options->size, "Pixels of one picture, WIDTHxHEIGHT")
+      ->capture_default_str();
+  return [options] { return run(*options); };
+}
+
+}  // namespace
+
+const Command kRender{"render", "Pictures of a face",
+                      "  animeme render talk.fap --time 1.5 -o still.png\n"
+                      "  animeme render talk.mp4 --sheet 4x3 --head man --view three-quarter "
+                      "-o sheet.png\n"
+                      "  animeme render --shapes visemes --size 200x200 -o visemes.png",
+                      add};
+
+}  // namespace animeme::tools

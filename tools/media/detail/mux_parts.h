@@ -1,0 +1,36 @@
+// What files and segments share in being written.
+#pragma once
+
+#include <optional>
+
+#include "tools/media/detail/ffmpeg.h"
+#include "tools/media/detail/sound_source.h"
+#include "tools/media/mux.h"
+
+namespace animeme::media {
+
+/// Profile and level of the face, 0xFF (none required) without one.
+int visual_profile(const MuxInput& input);
+
+/// What the contents of an mp4 say.
+struct Mp4Contents {
+  const fba::AccessUnits* face = nullptr;
+  int visual_profile = 0xFF;
+  const AudioFormat* sound = nullptr;
+};
+
+/// Options of libavformat's mp4 muxer: brand, initial object descriptor, movie time scale.
+void set_mp4_options(const Mp4Contents& contents, av::Options& header);
+
+/// The same for a file of fragments; `cut` is libavformat's word for where they begin besides:
+/// "frag_keyframe" or "frag_custom". `seconds` 0: no longest fragment.
+void set_fragment_options(const char* cut, double seconds, av::Options& header);
+
+/// The sound of `input`, coded as `options` say; nothing: there is none. Errors: those of
+/// AudioEncoder::open().
+Result<std::optional<SoundSource>> open_sound(const MuxInput& input, const MuxOptions& options);
+
+/// Length of the sound, which must be there, seconds.
+double seconds_of_sound(const MuxInput& input);
+
+}  // namespace animeme::media

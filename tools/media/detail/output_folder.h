@@ -1,0 +1,38 @@
+// A whole folder or none: files go into a temporary folder beside the wanted one.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "fap/result.h"
+
+namespace animeme::media {
+
+class OutputFolder {
+ public:
+  /// May a folder that is there be replaced? Told by the names of the files in it.
+  using Replaceable = bool (*)(std::string_view file);
+
+  /// Creates "<path>.partN", empty. Errors: io (not writable; `path` is there and is no folder, or
+  /// holds a file that is not `replaceable`).
+  static Result<OutputFolder> create(const std::string& path, Replaceable replaceable);
+  OutputFolder(OutputFolder&& other) noexcept;
+  OutputFolder& operator=(OutputFolder&&) = delete;
+  ~OutputFolder();  ///< removes what has not been committed, and puts the old folder back
+
+  /// Path of a file in the temporary folder.
+  std::string file(const std::string& name) const { return temporary_ + "/" + name; }
+  /// Gives the folder its name; the old one is kept aside until keep(). Error: io.
+  Result<void> commit();
+  /// Removes the old folder for good.
+  void keep();
+
+ private:
+  OutputFolder() = default;
+  std::string path_;
+  std::string temporary_;  // empty: has its name, or nothing to remove
+  std::string old_;        // where the old folder is kept; empty: there is none
+  bool committed_ = false;
+};
+
+}  // namespace animeme::media

@@ -1,0 +1,254 @@
+#include "tools/media/detail/segment_writer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <utility>
+
+#include "tools/media/detail/boxes.h"
+#include "tools/media/detail/extension.h"
+#include "tools/media/detail/interleaver.h"
+#include "tools/media/detail/mp4_fix.h"
+#include "tools/media/detail/mux_parts.h"
+#include "tools/media/detail/output_file.h"
+#include "tools/media/detail/output_folder.h"
+#include "tools/media/detail/output_stream.h"
+#include "tools/media/detail/playlist_text.h"
+#include "tools/media/detail/presentation.h"
+
+namespace animeme::media {
+namespace {
+
+// Passes packets on and begins a fragment at the first one, long enough after the last begin, with
+// which a reader can begin.
+class CuttingFeed : public TrackFeed {
+ public:
+  CuttingFeed(Muxer& muxer, std::unique_ptr<TrackFeed> feed, double seconds,
+              std::vector<std::int64_t>& begins)
+      : muxer_(muxer), feed_(std::move(feed)), seconds_(seconds), begins_(begins) {}
+
+  Result<void> begin() override { return feed_->begin(); }
+  bool ready() const override { return feed_->ready(); }
+  std::int64_t time() const override { return feed_->time(); }
+  AVRational time_base() const override { return feed_->time_base(); }
+  bool sync() const override { return feed_->sync(); }
+  double end() const override { return feed_->end(); }
+  double share() const override { return feed_->share(); }
+
+  Result<void> write() override {
+    const std::int64_t now = time();
+    if (begins_.empty()) {
+      begins_.push_back(now);
+    } else if (sync() && double(now - begins_.back()) >= seconds_ * time_base().den) {
+      if (auto ended = muxer_.end_fragment(); !ended) return ended;
+      begins_.push_back(now);
+    }
+    return feed_->write();
+  }
+
+ private:
+  Muxer& muxer_;
+  std::unique_ptr<TrackFeed> feed_;
+  double seconds_;
+  std::vector<std::int64_t>& begins_;
+};
+
+// One track on its way into the folder.
+struct Track {
+  SegmentedTrack description;
+  std::string whole;  // file with all of its fragments
+  std::unique_ptr<Muxer> muxer;
+  std::vector<std::int64_t> begins;  // of the fragments, presentation time
+};
+
+std::string hexadecimal(int value) {
+  char text[8];
+  std::snprintf(text, sizeof text, "%02X", unsigned(value));
+  return text;
+}
+
+// RFC 6381.
+std::string codecs_of(const AudioFormat& sound) {
+  if (sound.codec == AudioCodec::opus) return "opus";
+  return "mp4a.40." + std::to_string(sound.config[0] >> 3);
+}
+
+bool is_ours(std::string_view file) {
+  const bool named = file.starts_with("face") || file.starts_with("sound");
+  return named &&
+         (file.ends_with(".m4s") || file.ends_with("-init.mp4") || file.ends_with(".m3u8"));
+}
+
+Result<void> write_bytes(const std::string& path, std::span<const std::uint8_t> bytes) {
+  errno = 0;
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  const bool written =
+      file != nullptr && std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  int reason = errno;
+  const bool closed = file != nullptr && std::fclose(file) == 0;
+  if (written && !closed) reason = errno;
+  return written && closed ? Result<void>() : write_error(AVERROR(reason != 0 ? reason : EIO));
+}
+
+Result<void> write_text(const std::string& path, const std::string& text) {
+  return write_bytes(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+// The file of fragments as an initialization segment and one segment a fragment.
+Result<void> split(const OutputFolder& folder, Track& track, double end) {
+  std::ifstream in(track.whole, std::ios::binary);
+  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(in), {}};
+  in.close();
+  SegmentedTrack& description = track.description;
+  std::vector<std::size_t> begins;
+  const std::size_t all = for_each_box(bytes, 0, bytes.size(), [&](const Box& box) {
+    if (box.type == "moof") begins.push_back(box.begin - 8);
+  });
+  if (begins.size() != track.begins.size() || all != bytes.size()) {
+    return make_error(Code::internal, "the fragments are not those that were asked for");
+  }
+  description.init = description.name + "-init.mp4";
+  const std::span<const std::uint8_t> whole(bytes);
+  if (auto done = write_bytes(folder.file(description.init), whole.first(begins[0])); !done) {
+    return done;
+  }
+  begins.push_back(bytes.size());
+  track.begins.push_back(std::llround(end * description.timescale));
+  for (std::size_t i = 0; i + 1 < begins.size(); ++i) {
+    char name[40];
+    std::snprintf(name, sizeof name, "%s-%05zu.m4s", description.name.c_str(), i + 1);
+    // What lies before time 0 is never heard.
+    const std::int64_t time = std::max<std::int64_t>(track.begins[i], 0);
+    const std::size_t size = begins[i + 1] - begins[i];
+    description.segments.push_back(
+        {name, time, std::max<std::int64_t>(track.begins[i + 1] - time, 1), std::int64_t(size)});
+    auto done = write_bytes(folder.file(name), whole.subspan(begins[i], size));
+    if (!done) return done;
+  }
+  std::error_code ignored;
+  std::filesystem::remove(track.whole, ignored);
+  return {};
+}
+
+class Writer {
+ public:
+  Writer(const std::string& path, const MuxInput& input, const MuxOptions& options)
+      : path_(path), input_(input), options_(options), dash_(extension_of(path) == ".mpd") {}
+
+  Result<MuxResult> write();
+
+ private:
+  Result<void> open(const OutputFolder& folder);
+  Result<Track*> add_track(const OutputFolder& folder, const char* name);
+  Result<void> start(Track& track, const Mp4Contents& contents, std::unique_ptr<TrackFeed> feed);
+  std::string text(const std::string& folder) const;
+
+  const std::string& path_;
+  const MuxInput& input_;
+  const MuxOptions& options_;
+  bool dash_;
+  std::optional<SoundSource> sound_;
+  std::vector<std::unique_ptr<Track>> tracks_;
+  std::vector<std::unique_ptr<TrackFeed>> feeds_;
+};
+
+Result<Track*> Writer::add_track(const OutputFolder& folder, const char* name) {
+  auto track = std::make_unique<Track>();
+  track->description.name = name;
+  track->whole = folder.file(std::string(name) + ".all");
+  Result<std::unique_ptr<Muxer>> muxer = Muxer::open(track->whole, "mp4");
+  if (!muxer) return muxer.error();
+  track->muxer = std::move(*muxer);
+  tracks_.push_back(std::move(track));
+  return tracks_.back().get();
+}
+
+Result<void> Writer::start(Track& track, const Mp4Contents& contents,
+                           std::unique_ptr<TrackFeed> feed) {
+  av::Options header;
+  set_mp4_options(contents, header);
+  set_fragment_options("frag_custom", 0, header);
+  track.description.timescale = std::uint32_t(feed->time_base().den);
+  feeds_.push_back(std::make_unique<CuttingFeed>(*track.muxer, std::move(feed),
+                                                 options_.fragment_seconds, track.begins));
+  return track.muxer->write_header(header);
+}
+
+Result<void> Writer::open(const OutputFolder& folder) {
+  if (input_.face != nullptr) {
+    Result<Track*> track = add_track(folder, "face");
+    if (!track) return track.error();
+    Muxer& muxer = *(*track)->muxer;
+    const int profile = visual_profile(input_);
+    (*track)->description.face = true;
+    (*track)->description.codecs = "mp4v.20." + hexadecimal(profile);
+    Result<void> done = muxer.add_face(*input_.face);
+    if (done) {
+      done = start(**track, {input_.face, profile, nullptr}, face_feed(muxer, *input_.face));
+    }
+    if (!done) return done;
+  }
+  Result<std::optional<SoundSource>> sound = open_sound(input_, options_);
+  if (!sound) return sound.error();
+  sound_ = std::move(*sound);
+  if (!sound_) return {};
+  Result<Track*> track = add_track(folder, "sound");
+  if (!track) return track.error();
+  const AudioFormat& format = sound_->format();
+  SegmentedTrack& description = (*track)->description;
+  description.codecs = codecs_of(format);
+  description.sample_rate = format.sample_rate;
+  description.channels = format.channels;
+  Muxer& muxer = *(*track)->muxer;
+  if (auto added = muxer.add_sound(format, sound_->bit_rate()); !added) return added;
+  return start(**track, {nullptr, 0xFF, &format},
+               sound_feed(muxer, *sound_, seconds_of_sound(input_)));
+}
+
+std::string Writer::text(const std::string& folder) const {
+  std::vector<SegmentedTrack> descriptions;
+  for (const auto& track : tracks_) descriptions.push_back(track->description);
+  return dash_ ? dash_description(descriptions, folder) : hls_master(descriptions, folder);
+}
+
+Result<MuxResult> Writer::write() {
+  const std::filesystem::path target(path_);
+  const std::string folder_name = target.stem().string() + (dash_ ? "_dash" : "_hls");
+  Result<OutputFile> playlist = OutputFile::create(path_);
+  if (!playlist) return playlist.error();
+  Result<OutputFolder> folder =
+      OutputFolder::create((target.parent_path() / folder_name).string(), is_ours);
+  if (!folder) return folder.error();
+  if (auto opened = open(*folder); !opened) return opened.error();
+  Result<Interleaved> done = interleave(feeds_, options_.stop, options_.progress);
+  if (!done) return done.error();
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    Track& track = *tracks_[i];
+    Result<void> step = track.muxer->finish();
+    if (step) step = complete_mp4(track.whole, true);
+    if (step) step = split(*folder, track, feeds_[i]->end());
+    if (step && !dash_) {
+      step =
+          write_text(folder->file(track.description.name + ".m3u8"), hls_media(track.description));
+    }
+    if (!step) return step.error();
+  }
+  Result<void> step = write_text(playlist->temporary(), text(to_reference(folder_name)));
+  if (step) step = folder->commit();
+  if (step) step = playlist->commit();  // last: it is what readers look for
+  if (!step) return step.error();
+  folder->keep();
+  return MuxResult{done->seconds, done->stopped};
+}
+
+}  // namespace
+
+Result<MuxResult> write_segments(const std::string& path, const MuxInput& input,
+                                 const MuxOptions& options) {
+  return Writer(path, input, options).write();
+}
+
+}  // namespace animeme::media

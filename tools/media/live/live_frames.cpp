@@ -1,0 +1,118 @@
+#include "tools/media/live/live_frames.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "codec/fill.h"
+#include "fap/fill.h"
+#include "fap/text.h"
+
+namespace animeme::media {
+
+namespace {
+
+constexpr double kEaseSeconds = 0.4;
+constexpr std::int64_t kMostGapFrames = 100'000;
+
+/// `share` of the way from neutral.
+fap::Frame towards_neutral(fap::Frame frame, double share) {
+  for (std::int32_t& value : frame.value) value = std::int32_t(std::lround(value * share));
+  frame.expression.intensity1 = int(std::lround(frame.expression.intensity1 * share));
+  frame.expression.intensity2 = int(std::lround(frame.expression.intensity2 * share));
+  if (share <= 0) frame.viseme = {};
+  return frame;
+}
+
+}  // namespace
+
+Result<std::optional<fba::Plane>> LiveFrames::decode(const LiveUnit& unit) {
+  decoder_.push(unit.bytes);
+  std::optional<fba::Plane> plane;
+  for (;;) {
+    Result<fba::Event> event = decoder_.next();
+    if (!event) {
+      const Code code = event.error().code;
+      if (code == Code::need_data || code == Code::end_of_stream) return plane;
+      return event.error();
+    }
+    if (event->kind == fba::Event::Kind::plane) plane = std::move(event->plane);
+  }
+}
+
+void LiveFrames::add_gap(std::int64_t end, std::vector<fap::Frame>& frames) const {
+  if (!last_ || gap_ == GapRule::skip) return;
+  end = std::min(end, last_->number + 1 + kMostGapFrames);
+  for (std::int64_t number = last_->number + 1; number < end; ++number) {
+    fap::Frame frame = *last_;
+    if (gap_ == GapRule::neutral) {
+      const double gone = rate_.seconds(double(number - last_->number)) / kEaseSeconds;
+      frame = towards_neutral(frame, std::max(0.0, 1 - gone));
+    }
+    frame.number = number;
+    frames.push_back(frame);
+  }
+}
+
+/// Two frames are enough: the one before has every FAP as it is shown.
+Result<fap::Frame> LiveFrames::filled(const fba::Plane& plane, fap::Frame frame) const {
+  fap::Sequence pair;
+  pair.rate = rate_;
+  std::vector<fap::GroupRules> rules;
+  const fap::GroupRules own =
+      plane.face_settings ? fba::group_rules(*plane.face_settings) : fap::GroupRules{};
+  if (last_) {
+    pair.frames.push_back(*last_);
+    pair.frames.back().number = 0;
+    rules.push_back(own);
+  }
+  const std::int64_t number = std::exchange(frame.number, std::int64_t(pair.frames.size()));
+  pair.frames.push_back(frame);
+  rules.push_back(own);
+  Result<fap::Sequence> filled = fap::fill(pair, rules, {.complete = true});
+  if (!filled) return filled.error();
+  frame = filled->frames.back();
+  frame.number = number;
+  return frame;
+}
+
+Result<std::vector<fap::Frame>> LiveFrames::push(const LiveUnit& unit, std::uint32_t timescale,
+                                                 bool after_gap) {
+  Result<std::optional<fba::Plane>> plane = decode(unit);
+  if (!plane) return plane.error();
+  std::vector<fap::Frame> frames;
+  if (!*plane || !fba::has_face((*plane)->object_mask)) return frames;
+  rate_ = (*plane)->rate;
+  if (!first_time_) first_time_ = unit.time;
+  const double seconds = double(unit.time - *first_time_) / timescale;
+  fap::Frame frame = (*plane)->face;
+  frame.number = std::llround(seconds * rate_.frames_per_second());
+  if (last_) frame.number = std::max(frame.number, last_->number + 1);
+  if (after_gap) add_gap(frame.number, frames);
+  if (fill_) {
+    Result<fap::Frame> complete = filled(**plane, frame);
+    if (!complete) return complete.error();
+    frame = *complete;
+  }
+  frames.push_back(frame);
+  last_ = frame;
+  return frames;
+}
+
+std::string fap_header(fap::Rate rate, const std::string& name) {
+  fap::Sequence nothing;
+  nothing.rate = rate;
+  nothing.name = name;
+  return fap::write_text(nothing);
+}
+
+std::string fap_lines(const fap::Frame& frame, fap::Rate rate) {
+  fap::Sequence one;
+  one.rate = rate;
+  one.frames.push_back(frame);
+  const std::string text = fap::write_text(one);
+  return text.substr(text.find('\n') + 1);
+}
+
+}  // namespace animeme::media

@@ -1,0 +1,84 @@
+#include "tools/web/detail/address.h"
+
+#include <netdb.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+
+namespace animeme::web {
+namespace {
+
+Error bad(const std::string& what) {
+  return make_error(Code::invalid_argument,
+                    what + "; give http://HOST:PORT/ for a server, ws://HOST:PORT/ for a client");
+}
+
+}  // namespace
+
+Result<WebAddress> parse_web_address(const std::string& url) {
+  const std::size_t scheme = url.find("://");
+  const std::string name = url.substr(0, scheme);
+  if (scheme != std::string::npos && (name == "https" || name == "wss")) {
+    return make_error(Code::unsupported,
+                      "encryption is left to a proxy in front of the server; use http:// or ws://");
+  }
+  if (scheme == std::string::npos || (name != "http" && name != "ws")) {
+    return bad("not an address of a web server");
+  }
+  std::string place = url.substr(scheme + 3);
+  const std::size_t path = place.find('/');
+  if (path != std::string::npos && path + 1 != place.size()) return bad("the address has a path");
+  place = place.substr(0, path);
+  WebAddress address;
+  const std::size_t bracket = place.rfind(']');
+  const std::size_t colon = place.rfind(':');
+  const bool has_port =
+      colon != std::string::npos && (bracket == std::string::npos || colon > bracket);
+  address.host = place.substr(0, has_port ? colon : std::string::npos);
+  if (address.host.size() > 2 && address.host.front() == '[' && address.host.back() == ']') {
+    address.host = address.host.substr(1, address.host.size() - 2);
+  }
+  if (address.host.empty() || address.host == "localhost") address.host = "127.0.0.1";
+  for (const char c : address.host) {
+    const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                       c == '.' || c == '-' || c == ':';
+    if (!plain) return bad("the host has a character that no host has");
+  }
+  if (!has_port) return address;
+  const std::string port = place.substr(colon + 1);
+  const auto [end, status] = std::from_chars(port.data(), port.data() + port.size(), address.port);
+  if (status != std::errc() || end != port.data() + port.size() || address.port < 0 ||
+      address.port > 65535) {
+    return bad("the port is no number up to 65535");
+  }
+  return address;
+}
+
+// libwebsockets would say no more than that it failed, and lose some memory.
+Result<void> check_listening(const WebAddress& address) {
+  const auto failed = [&](const char* why) {
+    return make_error(Code::io, "cannot listen at " + address.text() + ": " + why);
+  };
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  hints.ai_flags = AI_PASSIVE;
+  addrinfo* found = nullptr;
+  const std::string port = std::to_string(address.port);
+  const int status = getaddrinfo(address.host.c_str(), port.c_str(), &hints, &found);
+  if (status != 0) return failed(gai_strerror(status));
+  const int handle = socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  const int yes = 1;
+  setsockopt(handle, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  const bool free =
+      handle >= 0 && bind(handle, found->ai_addr, found->ai_addrlen) == 0 && listen(handle, 1) == 0;
+  const int problem = errno;
+  freeaddrinfo(found);
+  if (handle >= 0) close(handle);
+  if (free) return {};
+  return failed(problem == EADDRINUSE ? "the port is in use" : std::strerror(problem));
+}
+
+}  // namespace animeme::web

@@ -1,0 +1,23 @@
+// What is left without libwebsockets.
+#include "tools/web/web.h"
+
+namespace animeme::web {
+namespace {
+
+Error absent() {
+  return make_error(Code::unsupported,
+                    "this program was built without libwebsockets; install libwebsockets-dev and "
+                    "build again");
+}
+
+}  // namespace
+
+Result<std::unique_ptr<WebSink>> make_web_sink(const std::string&, const WebOptions&) {
+  return absent();
+}
+
+Result<std::unique_ptr<media::LiveSource>> make_web_source(const std::string&, const WebOptions&) {
+  return absent();
+}
+
+}  // namespace animeme::web
