@@ -5,20 +5,23 @@ import {Chooser, mostMoving} from './chooser.js';
 import {Clip} from './clip.js';
 import {Controls} from './controls.js';
 import {Curves} from './curves.js';
+import {inflate} from './inflate.js';
 import {fillHelp, keyTable, listenToKeys} from './keys.js';
 import {readModel} from './model.js';
 import {Player} from './player.js';
 import {MODES, Stage} from './stage.js';
 
 const byId = (id) => document.getElementById(id);
-const data = (id) => (byId(id) ? fromBase64(byId(id).textContent) : null);
+const coded = (id) => fromBase64(byId(id).textContent);
+const data = (id) => (byId(id) ? inflate(coded(id)) : null);
 const asked = new URLSearchParams(location.search);
 const flag = (name) => asked.has(name) && asked.get(name) !== '0';
 
 /** What the page does; controls and keys call it. */
 class App {
-  constructor(facts) {
-    this.clips = [data('clip0'), data('clip1')].filter(Boolean).map((bytes) => new Clip(bytes));
+  /** `model`: the bytes of a head, null for none; `clips`: the bytes of one or two. */
+  constructor(facts, model, clips) {
+    this.clips = clips.filter(Boolean).map((bytes) => new Clip(bytes));
     this.hasSound = Boolean(facts.sound);
     this.options = {wire: false, points: false, between: true, mode: 'first'};
     const ends = this.clips.map((clip) => clip.end);
@@ -26,11 +29,10 @@ class App {
     this.axis = new Axis(this.player.duration);
     this.needed = false;
     this.resume = false;
-    const model = flag('nohead') ? null : readModel(data('model'));
     this.stage = new Stage({
       element: byId('stage'), canvas: byId('picture'), overlay: byId('overlay'), tip: byId('tip'),
       message: byId('message'), readout: byId('readout'), names: [byId('name0'), byId('name1')],
-    }, model, this.clips);
+    }, model && readModel(model), this.clips);
     this.curves = new Curves({
       area: byId('area'), canvas: byId('curves'), labels: byId('labels'), head: byId('head'),
       now: byId('now'),
@@ -157,7 +159,8 @@ function obey(app) {
 
 async function start() {
   const facts = JSON.parse(byId('facts').textContent);
-  const app = new App(facts);
+  const model = flag('nohead') ? null : await data('model');
+  const app = new App(facts, model, [await data('clip0'), await data('clip1')]);
   byId('title').textContent = app.clips.map((clip) => clip.name).join(' / ');
   byId('now').hidden = !facts.phones.length;
   const table = keyTable(app);
@@ -194,7 +197,7 @@ async function start() {
   Object.assign(window.animeme, api);
   obey(app);
   if (facts.sound) {
-    await player.loadSound(data('sound')).catch(() => {
+    await player.loadSound(coded('sound')).catch(() => {
       byId('silent').hidden = false;
     });
   }

@@ -210,7 +210,7 @@ function closePairs(pairs, soft, skin) {
 }
 
 /** The low-level FAPs of viseme {select1, select2, blend} and expression {select1, intensity1,
-    select2, intensity2}, either may be null; FAPs in `own`, an object by number, win. The same as
+    select2, intensity2}, either may be null; those of `own`, by number, win. The same as
     low_level() in head/shapes.h. */
 export function lowLevel(model, viseme, expression, own = {}) {
   const values = new Float64Array(FAP_COUNT + 1);
@@ -225,6 +225,6 @@ export function lowLevel(model, viseme, expression, own = {}) {
     add(model.expressions[expression.select1], expression.intensity1 / 63);
     add(model.expressions[expression.select2], expression.intensity2 / 63);
   }
-  for (const fap of Object.keys(own)) values[fap] = own[fap];
+  for (let fap = 3; fap <= FAP_COUNT; ++fap) values[fap] = own[fap] ?? values[fap];
   return values;
 }
