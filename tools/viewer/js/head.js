@@ -12,9 +12,9 @@ import {Renderer} from './gl.js';
 import {Rig, lowLevel} from './rig.js';
 
 const PLAIN = [0, 0, 0, 0];
-const GHOST = [0.10, 0.35, 0.85, 0.45];  // the second head where both are in one place
+const GHOST = [0.10, 0.35, 0.85, 0.35];  // the second head where both are in one place
 const WIRE = [0.05, 0.07, 0.12, 0.30];
-const HEAT_TOP = 0.3;  // cm that are shown in the strongest colour
+const HEAT_TOP = 0.2;  // cm that are shown in the strongest colour
 
 export class HeadView {
   /** `count` 2: a second head of the same model, to compare. */
@@ -94,7 +94,7 @@ export class HeadView {
       this.stale[head] = false;
       const over = i > 0 && this.mode === 'ghost';
       this.renderer.draw(meshes, rig, view, {
-        tint: over ? GHOST : PLAIN, opacity: over ? 0.5 : 1, wire: this.wire ? WIRE : null,
+        tint: over ? GHOST : PLAIN, opacity: over ? 0.45 : 1, wire: this.wire ? WIRE : null,
       });
     });
   }

@@ -66,9 +66,7 @@ class App {
   }
 
   changed() {
-    if (this.axis.total !== this.player.duration) {
-      this.axis.total = this.axis.end = this.player.duration;
-    }
+    if (this.axis.total !== this.player.duration) this.axis.setTotal(this.player.duration);
     this.controls.update();
     this.curves.draw();
     this.need();
@@ -149,6 +147,8 @@ function obey(app) {
     const {view} = app.stage;
     if (view) view.camera.reset(number('left') || 0, number('up') || 0, number('zoom') || undefined);
   }
+  // So much time at first that phones can be read.
+  app.axis.show(0, byId('area').clientWidth / 160);
   const [from, to] = (asked.get('loop') || '').split('-').map(Number);
   if (to > from) app.mark([from, to]);
   const faps = (asked.get('faps') || '').split(',').map(Number).filter((f) => f >= 3 && f <= 68);

@@ -89,7 +89,7 @@ vec3 lit(vec3 n, vec3 surface) {
   return c * 0.62;
 }
 vec3 heatColour(float t) {
-  return t < 0.5 ? mix(vec3(0.05, 0.10, 0.35), vec3(0.95, 0.75, 0.10), t * 2.0) :
+  return t < 0.5 ? mix(vec3(0.34, 0.38, 0.43), vec3(0.95, 0.70, 0.08), t * 2.0) :
       mix(vec3(0.95, 0.75, 0.10), vec3(0.85, 0.03, 0.03), t * 2.0 - 1.0);
 }
 void main() {
