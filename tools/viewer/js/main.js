@@ -123,6 +123,11 @@ class App {
     if (this.stage.view) this.stage.view.camera.reset();
   }
 
+  /** By degrees to the person's left and up. */
+  turnView(left, up) {
+    if (this.stage.view) this.stage.view.camera.turn(left * Math.PI / 180, up * Math.PI / 180);
+  }
+
   fullscreen() {
     if (document.fullscreenElement) document.exitFullscreen();
     else if (byId('main').requestFullscreen) byId('main').requestFullscreen().catch(() => {});
