@@ -15,7 +15,7 @@ struct StripOptions {
   int height = 128;
   std::vector<int> faps;  ///< one colour each, three at most; may be empty
   const dam::Script* script = nullptr;
-  double page = 6;  ///< seconds in view; then the next ones
+  double page = 6;  ///< seconds in view, > 0; then the next ones
 };
 
 /// Draws strips page by page. Movable, not copyable.

@@ -15,6 +15,7 @@ namespace animeme::tools {
 namespace {
 
 constexpr int kStripHeight = 128;
+constexpr double kLongestPage = 6;  // seconds of curves in view
 
 double seconds_of(const media::MuxInput& sound) {
   if (sound.audio != nullptr) return sound.audio->duration();
@@ -58,11 +59,14 @@ Result<Rendered> render_all(const std::string& path, const fap::Sequence& clip, 
   Result<media::VideoEncoder> encoder =
       media::VideoEncoder::open({*codec, look.width, look.height, rate, options.quality});
   if (!encoder) return encoder.error();
-  Result<HeadView> view = HeadView::make(look);
-  if (!view) return view.error();
   const bool has_strip = options.script != nullptr || !options.faps.empty();
-  CurveStrip strip(clip,
-                   {look.width, std::min(kStripHeight, look.height), options.faps, options.script});
+  HeadLook above = look;  // the head keeps clear of the strip
+  const int strip_height = has_strip ? std::min(kStripHeight, look.height / 3) : 0;
+  above.height -= strip_height;
+  Result<HeadView> view = HeadView::make(above);
+  if (!view) return view.error();
+  CurveStrip strip(clip, {look.width, strip_height, options.faps, options.script,
+                          std::clamp(seconds, 0.5, kLongestPage)});
   const auto pictures = std::int64_t(std::ceil(seconds * rate.frames_per_second() - 1e-6));
   ProgressLine progress("rendering " + path);
   Rendered out;
@@ -76,6 +80,7 @@ Result<Rendered> render_all(const std::string& path, const fap::Sequence& clip, 
     Result<void> pushed;
     if (has_strip) {
       std::vector<std::uint8_t> rgba = image.rgba;
+      rgba.resize(std::size_t(look.width) * std::size_t(look.height) * 4);
       if (auto drawn = strip.draw(time, look.height, rgba); !drawn) return drawn.error();
       pushed = encoder->push(rgba);
     } else {
