@@ -71,7 +71,7 @@ TEST(RenderVideo, PicturesAndSoundOfTheClip) {
     const json info = info_of(dir / name);
     EXPECT_EQ(track(info, "video")["codec"], codec);
     EXPECT_EQ(track(info, "video")["width"], 96);
-    EXPECT_NEAR(info["duration"].get<double>(), 1.0, 0.06);
+    EXPECT_NEAR(info["seconds"].get<double>(), 1.0, 0.06);
     EXPECT_EQ(info["tracks"].size(), 2u);
     track(info, "audio");
   }
