@@ -83,7 +83,8 @@ Result<void> send_all(media::LiveInput& input, LiveSinks& sinks, media::Clock& c
     const bool reached = pacer.wait_until(*due);
     if (auto ok = look(); !ok) return ok;
     if (!reached) continue;
-    Result<std::vector<media::LiveUnit>> units = input.take(pacer.now());
+    // What is due is taken even if the difference of two instants is a bit below it.
+    Result<std::vector<media::LiveUnit>> units = input.take(std::max(pacer.now(), *due));
     if (!units) return units.error();
     for (const media::LiveUnit& unit : *units) {
       if (auto ok = sinks.send(unit); !ok) return ok;
