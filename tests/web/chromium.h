@@ -71,7 +71,7 @@ class Chromium {
 
   /// Result of a command; {"error": ...} if it fails or nothing comes.
   Json call(const std::string& method, const Json& parameters = Json::object(),
-            double seconds = 60) {
+            double seconds = 90) {
     Json command{{"id", ++last_id_}, {"method", method}, {"params", parameters}};
     if (!session_.empty() && method.rfind("Browser.", 0) != 0) command["sessionId"] = session_;
     const std::string text = command.dump();
