@@ -168,7 +168,7 @@ async function texts(page, file, folder) {
 async function live(page, file) {
   await page.resize(300, 300);
   await page.goto(pathToFileURL(file).href);
-  return {result: await page.wait('window.result')};
+  return {result: await page.wait('window.result', {seconds: 120})};
 }
 
 async function main([kind, file, folder]) {
