@@ -108,6 +108,8 @@ struct LandmarkFace {
 ///   from LandmarkFrame::head, else FAP 50 alone.
 /// - FAPs of feature points, all that the track has but the pupils' size and the eyeballs' depth
 ///   (FAP 27 to 30); without depth, those along Z (14, 16, 17, 45) are left out.
+///   A head that turns or nods then looks like a face that moves: a camera should see it from the
+///   front, and head_error tells how far it did not.
 /// - Eyeballs (FAP 23 to 26): turn of the gaze against the head and against the neutral gaze. By
 ///   pupils: the eyeball's radius is taken as 0.18 ES (11.5 mm at 63 mm between the pupils, means
 ///   of adults), an estimate.

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "fap/detail/similarity.h"
 #include "fap/landmarks.h"
 #include "tests/fap/make.h"
 #include "tests/support/made_up_face.h"
@@ -182,9 +181,10 @@ TEST(Landmarks, TheNeutralFaceIsFound) {
     for (int i = 0; i < 360; ++i) {
       Frame frame = talking(i);
       if (!depth) frame.value[48] = frame.value[49] = 0;
+      const FeaturePoints face = moved_face(frame);
       LandmarkFrame seen{i, {}, {}, {}};
       for (const std::string& id : track.points) {
-        seen.at.push_back(Camera{2, {3, 4, 5}}(moved_face(frame).find(id)->second, frame));
+        seen.at.push_back(Camera{2, {3, 4, 5}}(face.find(id)->second, frame));
       }
       track.frames.push_back(seen);
     }
@@ -279,30 +279,6 @@ TEST(Landmarks, SmoothingKeepsLinesAndCountsTimeNotFrames) {
   EXPECT_EQ(found->clip.frames[12].number, 32);
   EXPECT_NEAR(found->clip.frames[9].value[3], 90, 25);  // nothing from the other side of the gap
   EXPECT_NEAR(found->clip.frames[19].value[3], 390, 25);
-}
-
-TEST(Similarity, WhatIsOpenIsNotAnswered) {
-  using internal::fit_similarity;
-  const std::vector<double> weights(4, 1.0);
-  const std::vector<Point> line = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}};
-  const std::vector<Point> place(4, Point{1, 2, 3});
-  EXPECT_FALSE(fit_similarity(line, line, weights, true));
-  EXPECT_TRUE(fit_similarity(line, line, weights, false));
-  EXPECT_FALSE(fit_similarity(place, place, weights, true));
-  EXPECT_FALSE(fit_similarity(place, place, weights, false));
-  EXPECT_FALSE(fit_similarity({}, {}, {}, true));
-}
-
-TEST(Similarity, AnglesComeBack) {
-  Random random(9);
-  for (int i = 0; i < 100; ++i) {
-    const auto angle = [&](int limit) { return double(random.in(-limit, limit)) * 1e-3; };
-    const internal::HeadAngles given{angle(1500), angle(3000), angle(3000)};
-    const internal::HeadAngles found = internal::angles_of(internal::rotation_of(given));
-    EXPECT_NEAR(found.pitch, given.pitch, 1e-9);
-    EXPECT_NEAR(found.yaw, given.yaw, 1e-9);
-    EXPECT_NEAR(found.roll, given.roll, 1e-9);
-  }
 }
 
 }  // namespace

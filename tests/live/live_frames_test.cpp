@@ -84,7 +84,7 @@ fap::Sequence ramp(int frames) {
   for (int i = 0; i < frames; ++i) {
     fap::Frame frame;
     frame.number = i;
-    frame.set(3, 100 + i);
+    frame.set(3, 100 + 4 * i);  // FAP 3 has steps of 4
     clip.frames.push_back(frame);
   }
   return clip;
@@ -109,7 +109,7 @@ TEST(LiveFrames, AGapHoldsTheLastValues) {
   ASSERT_EQ(frames.size(), 30u);
   for (int i = 0; i < 30; ++i) {
     EXPECT_EQ(frames[std::size_t(i)].number, i);
-    EXPECT_EQ(frames[std::size_t(i)].value[3], i >= 15 && i < 20 ? 114 : 100 + i);
+    EXPECT_EQ(frames[std::size_t(i)].value[3], i >= 15 && i < 20 ? 156 : 100 + 4 * i);
   }
 }
 
@@ -118,9 +118,9 @@ TEST(LiveFrames, AGapEasesToNeutral) {
   ASSERT_EQ(frames.size(), 30u);
   // 0.4 s are ten frames: a tenth of the way each.
   for (int i = 15; i < 20; ++i) {
-    EXPECT_NEAR(frames[std::size_t(i)].value[3], 114 * (1 - (i - 14) / 10.0), 0.51) << i;
+    EXPECT_NEAR(frames[std::size_t(i)].value[3], 156 * (1 - (i - 14) / 10.0), 0.51) << i;
   }
-  EXPECT_EQ(frames[20].value[3], 120);
+  EXPECT_EQ(frames[20].value[3], 180);
 }
 
 TEST(LiveFrames, AGapIsSkippedOnRequest) {
@@ -136,7 +136,23 @@ TEST(LiveFrames, JoiningInTheMiddleBeginsAtNumber0) {
   const auto all = push_all(frames, {coded.units.begin() + 10, coded.units.end()});
   ASSERT_EQ(all.size(), 20u);
   EXPECT_EQ(all[0].number, 0);
-  EXPECT_EQ(all[0].value[3], 110);
+  EXPECT_EQ(all[0].value[3], 140);
+}
+
+TEST(LiveFrames, ADamagedPlaneIsAGapUpToTheNextIntraPlane) {
+  const Coded coded = code(ramp(30));
+  LiveFrames frames(GapRule::hold, false);
+  std::vector<fap::Frame> all;
+  for (std::size_t i = 0; i < 30; ++i) {
+    LiveUnit unit = coded.units[i];
+    if (i == 12) unit.bytes.resize(5);  // start code and a byte
+    const auto some = frames.push(unit, 90000, false);
+    ASSERT_TRUE(some);
+    all.insert(all.end(), some->begin(), some->end());
+  }
+  ASSERT_EQ(all.size(), 30u);
+  EXPECT_EQ(all[11].value[3], 144);
+  for (std::size_t i = 20; i < 30; ++i) EXPECT_EQ(all[i].value[3], 100 + 4 * int(i));
 }
 
 TEST(LiveFrames, TextByTheFrameIsATextThatIsReadAgain) {

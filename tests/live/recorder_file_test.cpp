@@ -61,6 +61,9 @@ TEST_P(LateJoiners, HearTheClickAtItsPlane) {
   const test::TempDir dir;
   for (const char* name : {"talk.mp4", "talk.mkv", "talk.ts"}) {
     const std::string path = dir.file(name);
+    // Files of ours have no Opus in TS.
+    const bool ts = std::string_view(name) == "talk.ts";
+    if (ts && GetParam().codec == AudioCodec::opus) continue;
     MuxInput input{.face = &recording.face, .encoded = &recording.sound};
     const auto written = write_container(path, input);
     ASSERT_TRUE(written) << name << ": " << written.error().describe();

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "codec/decoder.h"
 #include "fap/text.h"
 #include "tests/live/stream_support.h"
@@ -143,10 +145,31 @@ TEST_F(Streams, CtrlCLeavesAReadableFile) {
 }
 
 TEST_F(Streams, FastDoesNotWaitForTheClock) {
-  const auto fast = animeme(
-      sender({dir / "talk.mp4", "--fast", "--loop", "--duration", "20", "--json", "--no-sound"}));
-  EXPECT_EQ(fast.exit_code, 0) << fast.err;
-  EXPECT_THAT(fast.out, HasSubstr("\"sound\": {\n    \"units\": 0"));
+  const auto made =
+      animeme(sender({dir / "talk.mp4", "--fast", "--loop", "--duration", "20", "--json"}));
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  const auto json = nlohmann::json::parse(made.out);
+  EXPECT_NEAR(json["face"]["units"].get<double>(), 490, 15);  // a loop ends with a short pause
+  EXPECT_NEAR(json["sound"]["units"].get<double>(), 20 * 22050 / 1024.0, 15);
+  EXPECT_NEAR(json["seconds"].get<double>(), 20, 0.2);
+}
+
+TEST_F(Streams, ACodedStreamIsCodedAgainOnlyWhenAskedFor) {
+  ASSERT_EQ(animeme({"demux", dir / "talk.mp4", "--face", dir / "talk.fba"}).exit_code, 0);
+  ASSERT_EQ(animeme({"decode", dir / "talk.fba", "-o", dir / "talk.fap"}).exit_code, 0);
+  ASSERT_EQ(animeme({"encode", dir / "talk.fap", "-o", dir / "one.fba"}).exit_code, 0);
+  const auto intra = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {dir / "one.fba", "--fast", "--json"});
+    const auto made = animeme(sender(more));
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    const auto json = nlohmann::json::parse(made.out);
+    return std::pair(json["face"]["intra"].get<int>(), made.err);
+  };
+  const auto [kept, warning] = intra({});
+  EXPECT_EQ(kept, 1);
+  EXPECT_THAT(warning, HasSubstr("--intra-seconds 1 codes it again"));
+  EXPECT_EQ(intra({"--intra-seconds", "0.2", "--copy"}).first, 1);
+  EXPECT_GT(intra({"--intra-seconds", "0.2"}).first, 8);
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(
                         [](const std::string& port) { return "srt://127.0.0.1:" + port; }},
                     Way{"web", [](const std::string& port) { return "http://127.0.0.1:" + port; },
                         [](const std::string& port) { return "ws://127.0.0.1:" + port; }}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& way) { return way.param.name; });
 
 TEST(Stream, WhatIsWrongIsSaidInASentence) {
   const TempDir dir;
@@ -97,6 +97,9 @@ TEST(Receive, WhatIsWrongIsSaidInASentence) {
   const auto missing = animeme({"receive", dir / "none.sdp", "-o", dir / "x.mp4"});
   EXPECT_EQ(missing.exit_code, 3);
   EXPECT_THAT(missing.err, HasSubstr("none.sdp"));
+  const auto folder = animeme({"receive", "rtp://127.0.0.1:5004", "-o", dir / "no/x.mp4"});
+  EXPECT_EQ(folder.exit_code, 3);
+  EXPECT_THAT(folder.err, HasSubstr("folder"));
   const std::string url = "rtp://127.0.0.1:" + std::to_string(test::free_ports());
   const auto silent = animeme({"receive", url, "-o", dir / "x.mp4", "--wait", "0.3"});
   EXPECT_EQ(silent.exit_code, 3);

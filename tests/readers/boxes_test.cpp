@@ -1,8 +1,7 @@
 // The structure of our MP4 files: boxes, tables, edit lists, sync samples.
 #include <gmock/gmock.h>
 
-#include "tests/readers/movie.h"
-#include "tests/readers/talk.h"
+#include "tests/readers/movie_checks.h"
 
 namespace animeme::test {
 namespace {
@@ -10,27 +9,6 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-Bytes bytes_of(const BoxFile& file, const MovieSample& sample) {
-  const auto start = file.bytes().begin() + std::ptrdiff_t(sample.offset);
-  return Bytes(start, start + std::ptrdiff_t(sample.size));
-}
-
-void expect_face(const BoxFile& file, const Movie& movie, const Talk& talk) {
-  const MovieTrack* face = movie.track("vide");
-  ASSERT_NE(face, nullptr);
-  EXPECT_EQ(face->entry, "mp4v");
-  ASSERT_EQ(face->samples.size(), talk.face.units.size());
-  for (std::size_t i = 0; i < face->samples.size(); ++i) {
-    const fba::AccessUnit& unit = talk.face.units[i];
-    SCOPED_TRACE("unit " + std::to_string(i));
-    EXPECT_EQ(to_hex(bytes_of(file, face->samples[i])), to_hex(unit.bytes));
-    EXPECT_EQ(face->samples[i].sync, unit.intra);
-    // The movie's clock is that of the sound: a late start is rounded down to it.
-    EXPECT_NEAR(face->shown_at(face->samples[i].time, movie.timescale),
-                double(unit.time) / talk.face.timescale, 1.0 / movie.timescale);
-  }
-}
 
 void expect_sound(const Movie& movie, const Talk& talk, const Layout& layout) {
   const MovieTrack* sound = movie.track("soun");
@@ -57,8 +35,7 @@ TEST(Boxes, TablesAgreeAndNameEveryByte) {
   const TempDir dir;
   for (const Talk& talk : {walking_talk(), walking_talk(22050), late_talk(),
                            reference_talk("skip_frames"), reference_talk("rate_29_97")}) {
-    for (const Layout& layout : layouts()) {
-      if (!layout.mp4()) continue;
+    for (const Layout& layout : mp4_layouts()) {
       SCOPED_TRACE(layout.name);
       const BoxFile file(read_bytes(write_talk(dir, talk, layout)));
       const Movie movie = read_movie(file);

@@ -82,7 +82,7 @@ TEST_P(Describe, Mkvmerge) {
   EXPECT_EQ(tracks, layout_.ts() ? sound : "video MPEG-4p2\n" + sound);
 }
 
-INSTANTIATE_TEST_SUITE_P(Layouts, Describe, testing::ValuesIn(layout_names()),
+INSTANTIATE_TEST_SUITE_P(Layouts, Describe, testing::ValuesIn(names_of(layouts())),
                          [](const auto& value) { return value.param; });
 
 }  // namespace

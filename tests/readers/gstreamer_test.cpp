@@ -111,7 +111,7 @@ Route route_of(const std::string& layout) {
 
 std::vector<Route> routes() {
   std::vector<Route> all;
-  for (const std::string& layout : layout_names()) all.push_back(route_of(layout));
+  for (const std::string& layout : names_of(layouts())) all.push_back(route_of(layout));
   return all;
 }
 

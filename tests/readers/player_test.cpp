@@ -14,14 +14,11 @@ class Player : public testing::TestWithParam<std::string> {
     const std::string said = run(command + " 2>&1", &status);
     ASSERT_EQ(status, 0) << command << "\n" << said;
     const media::Pcm heard = read_floats(raw_, talk_.sound.sample_rate);
-    // The last frame is whole.
+    // The last frame is whole, but some players leave it to the decoder.
     const auto length = std::int64_t(talk_.sound.samples.size()) + delay;
-    EXPECT_GE(std::int64_t(heard.samples.size()), length);
+    EXPECT_GT(std::int64_t(heard.samples.size()), length - 1024);
     EXPECT_LT(std::int64_t(heard.samples.size()), length + 2 * 1024);
-    ASSERT_GE(talk_.clicks.size(), 2u);
-    for (const std::int64_t click : talk_.clicks) {
-      EXPECT_NEAR(double(find_click(heard, click + delay, 3000)), double(click + delay), 1.0);
-    }
+    expect_bursts(heard, talk_, delay, layout_.opus() ? 3 : 1);
   }
 
   TempDir dir_;
@@ -48,7 +45,27 @@ TEST_P(Player, Mpv) {
       layout_.late());
 }
 
-INSTANTIATE_TEST_SUITE_P(Layouts, Player, testing::ValuesIn(layout_names()),
+INSTANTIATE_TEST_SUITE_P(Layouts, Player, testing::ValuesIn(names_of(layouts())),
+                         [](const auto& value) { return value.param; });
+INSTANTIATE_TEST_SUITE_P(SoundAlone, Player, testing::ValuesIn(names_of(sound_layouts())),
+                         [](const auto& value) { return value.param; });
+
+// GStreamer's player stops at a face (see the README of tools/media): sound alone it plays. With
+// the decoder faad, AAC of whatever writer comes a frame early.
+class SoundPlayer : public Player {};
+
+TEST_P(SoundPlayer, Playbin) {
+  NEEDS_PROGRAM("gst-launch-1.0", "gstreamer1.0-tools");
+  const bool faad = !layout_.opus() && std::system("gst-inspect-1.0 --exists faad") == 0 &&
+                    std::system("gst-inspect-1.0 --exists avdec_aac") != 0;
+  const std::string sink =
+      "audioconvert ! audio/x-raw,format=F32LE,channels=1 ! filesink location=" + raw_;
+  expect_sound(
+      "timeout 60 gst-launch-1.0 -q playbin uri='file://" + path_ + "' audio-sink='" + sink + "'",
+      layout_.late() - (faad ? 1024 : 0));
+}
+
+INSTANTIATE_TEST_SUITE_P(SoundAlone, SoundPlayer, testing::ValuesIn(names_of(sound_layouts())),
                          [](const auto& value) { return value.param; });
 
 }  // namespace

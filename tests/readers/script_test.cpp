@@ -141,7 +141,7 @@ TEST_P(Script, IsoboxerSeesTheSame) {
   expect_face_samples(samples, talk_);
 }
 
-INSTANTIATE_TEST_SUITE_P(Layouts, Script, testing::ValuesIn(layout_names(".mp4")),
+INSTANTIATE_TEST_SUITE_P(Layouts, Script, testing::ValuesIn(names_of(mp4_layouts())),
                          [](const auto& value) { return value.param; });
 
 TEST(ScriptMp4, InitialObjectDescriptor) {

@@ -62,19 +62,33 @@ inline Talk reference_talk(const std::string& name) {
   return talk;
 }
 
+/// The bursts are where they belong, or `delay` samples later, within `rounding`.
+inline void expect_bursts(const media::Pcm& heard, const Talk& talk, std::int64_t delay,
+                          double rounding = 1) {
+  ASSERT_GE(talk.clicks.size(), 2u);
+  for (const std::int64_t click : talk.clicks) {
+    EXPECT_NEAR(double(find_click(heard, click + delay, 3000)), double(click + delay), rounding);
+  }
+}
+
 struct Layout {
   std::string name;
   std::string extension;
   media::MuxOptions options = {};
+  bool face = true;  ///< false: the sound alone
 
   bool mp4() const { return extension == ".mp4"; }
+  bool segments() const { return extension == ".m3u8" || extension == ".mpd"; }
+  bool fragments() const { return options.fragmented || segments(); }
   bool ts() const { return extension == ".ts"; }
   bool opus() const { return options.audio.codec == media::AudioCodec::opus; }
   /// Samples that a decoder puts out before the sound (containers, section 5.1).
   std::int64_t priming() const { return opus() ? 312 : 1024; }
   /// Samples by which face and sound begin late: Matroska and TS cannot say what priming of AAC is
   /// (containers, section 5.2).
-  std::int64_t late() const { return mp4() || opus() ? 0 : priming(); }
+  std::int64_t late() const {
+    return mp4() || segments() || extension == ".m4a" || opus() ? 0 : priming();
+  }
 };
 
 inline std::vector<Layout> layouts() {
@@ -89,18 +103,47 @@ inline std::vector<Layout> layouts() {
   return all;
 }
 
-/// Of all layouts, or of those with an extension.
-inline std::vector<std::string> layout_names(const std::string& extension = "") {
-  std::vector<std::string> names;
+inline std::vector<Layout> mp4_layouts() {
+  std::vector<Layout> some;
   for (const Layout& layout : layouts()) {
-    if (extension.empty() || layout.extension == extension) names.push_back(layout.name);
+    if (layout.mp4()) some.push_back(layout);
   }
+  return some;
+}
+
+/// Without a face, for players that know none.
+inline std::vector<Layout> sound_layouts() {
+  std::vector<Layout> all = {
+      {"m4a", ".m4a"}, {"mka", ".mka"}, {"webm", ".webm"}, {"opus", ".opus"}};
+  for (Layout& layout : all) {
+    layout.face = false;
+    layout.options.audio.codec = media::usual_codec("sound" + layout.extension);
+  }
+  return all;
+}
+
+/// Playlists beside folders of segments, a second each.
+inline std::vector<Layout> segment_layouts() {
+  std::vector<Layout> all = {
+      {"hls", ".m3u8"}, {"hls_opus", ".m3u8"}, {"dash", ".mpd"}, {"dash_opus", ".mpd"}};
+  for (Layout& layout : all) {
+    layout.options.fragment_seconds = 1;
+    if (layout.name.ends_with("opus")) layout.options.audio.codec = media::AudioCodec::opus;
+  }
+  return all;
+}
+
+inline std::vector<std::string> names_of(const std::vector<Layout>& layouts) {
+  std::vector<std::string> names;
+  for (const Layout& layout : layouts) names.push_back(layout.name);
   return names;
 }
 
 inline Layout layout_of(const std::string& name) {
-  for (const Layout& layout : layouts()) {
-    if (layout.name == name) return layout;
+  for (const auto& list : {layouts(), sound_layouts(), segment_layouts()}) {
+    for (const Layout& layout : list) {
+      if (layout.name == name) return layout;
+    }
   }
   ADD_FAILURE() << "no layout " << name;
   return {};
@@ -109,8 +152,8 @@ inline Layout layout_of(const std::string& name) {
 /// Writes the talk into `dir`; the path of the file, empty after a failure of the test.
 inline std::string write_talk(const TempDir& dir, const Talk& talk, const Layout& layout) {
   const std::string path = dir.file(layout.name + layout.extension);
-  const auto written =
-      media::write_container(path, {.face = &talk.face, .audio = &talk.sound}, layout.options);
+  const media::MuxInput input{.face = layout.face ? &talk.face : nullptr, .audio = &talk.sound};
+  const auto written = media::write_container(path, input, layout.options);
   EXPECT_TRUE(written) << layout.name << ": " << written.error().describe();
   return written ? path : std::string();
 }

@@ -121,6 +121,9 @@ TEST(StructureRules, LayersFire) {
   EXPECT_TRUE(broken("fap/text.cpp", "\"frame.h\""));
   EXPECT_TRUE(broken("fap/text.cpp", "\"codec/bits.h\""));
   EXPECT_TRUE(broken("fap/text.cpp", "<zlib.h>"));
+  EXPECT_TRUE(broken("fap/text.cpp", "\"fap/head/model.h\""));
+  EXPECT_FALSE(broken("fap/head/rig.cpp", "\"fap/head/model.h\""));
+  EXPECT_FALSE(broken("fap/head/rig.cpp", "\"fap/frame.h\""));
   EXPECT_TRUE(broken("fap/text.cpp", "<libxml/parser.h>"));
   EXPECT_FALSE(broken("fap/fdp_xml.cpp", "<libxml/parser.h>"));
   EXPECT_FALSE(broken("codec/bits.cpp", "\"fap/frame.h\""));

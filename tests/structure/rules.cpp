@@ -70,6 +70,9 @@ std::string library_rule(std::string_view path, const Include& include) {
 
 std::string library_folder_rule(std::string_view path, const Include& include) {
   if (starts_with(path, "fap/")) {
+    if (!starts_with(path, "fap/head/") && starts_with(include.name, "fap/head/")) {
+      return "fap does not know its heads";
+    }
     if (is_standard(include) || (include.quoted && starts_with(include.name, "fap/"))) return {};
     if (starts_with(include.name, "libxml/") && contains(path.substr(4), "xml")) return {};
     return "fap includes only fap and the C++ library";

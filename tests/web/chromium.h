@@ -71,7 +71,7 @@ class Chromium {
 
   /// Result of a command; {"error": ...} if it fails or nothing comes.
   Json call(const std::string& method, const Json& parameters = Json::object(),
-            double seconds = 60) {
+            double seconds = 90) {
     Json command{{"id", ++last_id_}, {"method", method}, {"params", parameters}};
     if (!session_.empty() && method.rfind("Browser.", 0) != 0) command["sessionId"] = session_;
     const std::string text = command.dump();
@@ -149,11 +149,13 @@ class Chromium {
     close(in_copy);
     close(out_copy);
     const std::string browser = find(), data = "--user-data-dir=" + folder_;
-    execl(browser.c_str(), browser.c_str(), "--headless", "--no-sandbox", "--disable-gpu",
-          "--disable-quic", "--no-first-run", "--disable-background-networking",
-          "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage",
-          "--disable-extensions", "--disable-default-apps", "--remote-debugging-pipe",
-          "--autoplay-policy=user-gesture-required", data.c_str(), static_cast<char*>(nullptr));
+    execl(browser.c_str(), browser.c_str(), "--headless", "--no-sandbox", "--disable-quic",
+          "--no-first-run", "--disable-background-networking", "--disable-component-update",
+          "--disable-sync", "--disable-dev-shm-usage", "--disable-extensions",
+          "--disable-default-apps", "--remote-debugging-pipe",
+          "--autoplay-policy=user-gesture-required", "--use-angle=swiftshader",
+          "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", data.c_str(),
+          static_cast<char*>(nullptr));
     _exit(127);
   }
 

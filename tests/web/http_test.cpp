@@ -70,6 +70,17 @@ TEST_F(Http, InfoIsJson) {
   EXPECT_EQ(info["audio"]["sample_rate"], 48000);
 }
 
+TEST_F(Http, AHeadIsServedIfThereIsOne) {
+  serve();
+  EXPECT_EQ(status_of(get(port_, "/head.bin")), 404);
+  EXPECT_THAT(body_of(get(port_, "/")), Not(HasSubstr("type=\"module\"")));
+  sink_.reset();
+  serve({.head_script = "class HeadView {}\n", .head_model = {1, 2, 3}});
+  EXPECT_EQ(body_of(get(port_, "/head.bin")), std::string("\x01\x02\x03"));
+  EXPECT_THAT(body_of(get(port_, "/")), HasSubstr("<script type=\"module\">\nclass HeadView"));
+  EXPECT_FALSE(web::make_web_sink("http://127.0.0.1:0/", {.head_script = "x"}));
+}
+
 TEST_F(Http, OnlyWhatIsListedExists) {
   serve();
   for (const char* path : {"/favicon.ico", "/../../etc/passwd", "/%2e%2e/%2e%2e/etc/passwd",

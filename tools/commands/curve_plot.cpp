@@ -24,22 +24,6 @@ constexpr double kWide = 2400;
 constexpr double kWideWithPhones = 8000;
 constexpr const char* kColours[] = {"#1f5fbf", "#d1495b", "#2a8c55"};
 
-std::string escape(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
 std::string number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f", value);
@@ -94,7 +78,7 @@ Place place(const PlotPanel& panel, double offset) {
 std::string heading(const PlotPanel& panel, const Place& at) {
   if (panel.heading.empty()) return {};
   return "<text x=\"8\" y=\"" + number(at.begin - 8) + "\" font-size=\"14\" font-weight=\"bold\">" +
-         escape(panel.heading) + "</text>\n";
+         escape_xml(panel.heading) + "</text>\n";
 }
 
 std::string time_axis(const PlotPanel& panel, const Axis& axis, const Place& at) {
@@ -130,7 +114,7 @@ std::string phones(const PlotPanel& panel, const Axis& axis, const Place& at) {
            (closure ? "#ffd9b3" : "#eef3fa") + "\" stroke=\"#ffffff\"/>\n<text x=\"" +
            number(axis.x(start) + width / 2) + "\" y=\"" + number(at.names) +
            "\" text-anchor=\"middle\" font-size=\"" + number(std::clamp(width * 0.6, 7.0, 12.0)) +
-           "\">" + escape(phone.label) + "</text>\n";
+           "\">" + escape_xml(phone.label) + "</text>\n";
   }
   return svg;
 }
@@ -149,11 +133,11 @@ std::string row_svg(const PlotRow& row, const Axis& axis, double base, double wi
   const auto y = [&](double value) {
     return base + kRow - 12 - (value - low) / (high - low) * (kRow - 24);
   };
-  std::string svg = "<text x=\"8\" y=\"" + number(base + kRow / 2 - 4) + "\">" + escape(row.title) +
-                    "</text>\n<text x=\"8\" y=\"" + number(base + kRow / 2 + 12) +
-                    "\" fill=\"#555555\" font-size=\"11\">" + escape(row.subtitle) +
-                    "</text>\n<line x1=\"" + number(kLeft) + "\" x2=\"" + number(width - kRight) +
-                    "\" y1=\"" + number(y(0)) + "\" y2=\"" + number(y(0)) +
+  std::string svg = "<text x=\"8\" y=\"" + number(base + kRow / 2 - 4) + "\">" +
+                    escape_xml(row.title) + "</text>\n<text x=\"8\" y=\"" +
+                    number(base + kRow / 2 + 12) + "\" fill=\"#555555\" font-size=\"11\">" +
+                    escape_xml(row.subtitle) + "</text>\n<line x1=\"" + number(kLeft) + "\" x2=\"" +
+                    number(width - kRight) + "\" y1=\"" + number(y(0)) + "\" y2=\"" + number(y(0)) +
                     "\" stroke=\"#888888\"/>\n";
   for (const double edge : {low, high}) {
     svg += "<text x=\"" + number(kLeft - 6) + "\" y=\"" + number(y(edge) + 4) +
@@ -176,13 +160,29 @@ std::string legend_svg(const std::vector<std::string>& names, double bottom) {
   double at = 8;
   for (std::size_t i = 0; i < names.size(); ++i) {
     svg += "<text x=\"" + number(at) + "\" y=\"" + number(bottom + 8) + "\" fill=\"" + kColours[i] +
-           "\">" + escape(names[i]) + "</text>\n";
+           "\">" + escape_xml(names[i]) + "</text>\n";
     at += 30 + 7.0 * double(names[i].size());
   }
   return svg;
 }
 
 }  // namespace
+
+std::string escape_xml(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&') {
+      out += "&amp;";
+    } else if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
 
 std::string curves_svg(const std::vector<PlotPanel>& panels,
                        const std::vector<std::string>& legend) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -9,6 +10,9 @@
 #include "fap/result.h"
 
 namespace animeme::tools {
+
+/// Text as the content of an element.
+std::string escape_xml(std::string_view text);
 
 /// Seconds and value.
 using PlotPoints = std::vector<std::pair<double, double>>;

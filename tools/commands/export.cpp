@@ -1,4 +1,4 @@
-// Motion for other programs: what they know are ARKit's shapes, visemes or mouth shapes, not FAPs.
+// Motion for other programs: what they know are ARKit's shapes, visemes, mouth shapes or glTF.
 #include <algorithm>
 #include <memory>
 
@@ -30,8 +30,8 @@ std::string what_of(const Options& options, bool from_script) {
   if (!options.what.empty()) return options.what;
   const std::string extension = extension_of(options.output);
   const std::string inner = extension_of(std::filesystem::path(options.output).stem().string());
-  if (extension == ".glb") return "glb";
   if (inner == ".rhubarb" || extension == ".tsv") return "rhubarb";
+  if (extension == ".glb") return "head";
   if (inner == ".visemes" || from_script) return "visemes";
   return "arkit";
 }
@@ -39,11 +39,13 @@ std::string what_of(const Options& options, bool from_script) {
 // Empty if `what` can be written with this extension.
 std::string wrong_extension(const std::string& what, const std::string& path) {
   const std::string extension = extension_of(path);
-  if (what == "glb") return extension == ".glb" ? "" : "--output must end in .glb, not " + path;
+  if (what == "head") {
+    return extension == ".glb" ? "" : "--output must end in .glb for a head, not " + path;
+  }
   if (extension == ".json" || extension == (what == "rhubarb" ? ".tsv" : ".csv")) return {};
   const char* wanted = what == "rhubarb"   ? ".tsv or .json"
                        : what == "visemes" ? ".csv or .json"
-                                           : ".csv (Live Link Face) or .json";
+                                           : ".csv (Live Link Face), .json or .glb";
   return "--output must end in " + std::string(wanted) + " for " + what + ", not " + path;
 }
 
@@ -83,7 +85,7 @@ Result<int> write_arkit(const Options& options, std::vector<std::uint8_t> bytes)
   return kOk;
 }
 
-Result<int> write_glb(const Options& options, std::vector<std::uint8_t> bytes) {
+Result<int> write_head(const Options& options, std::vector<std::uint8_t> bytes) {
   const Result<fap::Sequence> clip = read_filled(options, std::move(bytes), false);
   if (!clip) return clip.error();
   GlbExport settings = options.glb;
@@ -154,7 +156,7 @@ Result<int> run(const Options& options) {
   if (!bytes) return bytes.error();
   const bool from_script = kind_of(*bytes) == FileKind::script;
   const std::string what = what_of(options, from_script);
-  if (what == "arkit" || what == "glb") {
+  if (what == "arkit" || what == "head") {
     if (!options.script.empty()) {
       return usage_error("--script is for visemes; add --what visemes");
     }
@@ -164,15 +166,15 @@ Result<int> run(const Options& options) {
                         "its visemes")
           .in_file(options.input);
     }
-    return what == "glb" ? write_glb(options, std::move(*bytes))
-                         : write_arkit(options, std::move(*bytes));
+    return what == "head" ? write_head(options, std::move(*bytes))
+                          : write_arkit(options, std::move(*bytes));
   }
   Result<VisemeTrack> track = track_of(options, std::move(*bytes), from_script, *rate);
   if (!track) return track.error();
   return write_visemes(options, what, std::move(*track));
 }
 
-void add_glb_options(CLI::App& app, GlbExport& glb) {
+void add_head_options(CLI::App& app, GlbExport& glb) {
   app.add_option("--head", glb.head, "glb: woman, man or child")
       ->check(
           CLI::IsMember(std::vector<std::string>(head::kHeadNames.begin(), head::kHeadNames.end())))
@@ -200,10 +202,9 @@ Action add(CLI::App& app) {
       ->required();
   app.add_option("--what", options->what,
                  "What to write, whatever the file is called: arkit (52 shapes and 9 angles), "
-                 "glb, visemes, rhubarb")
-      ->check(CLI::IsMember({"arkit", "glb", "visemes", "rhubarb"}));
+                 "visemes, rhubarb, head (.glb)")
+      ->check(CLI::IsMember({"arkit", "visemes", "rhubarb", "head"}));
   app.add_option("--audio", options->audio, "Name of the sound to mention in .json and .glb");
-  add_glb_options(app, options->glb);
   app.add_option("--script", options->script,
                  "Phoneme script of the face: the events of visemes are its sounds; without it, "
                  "what the face shows most");
@@ -213,6 +214,7 @@ Action add(CLI::App& app) {
                  "Seconds that one viseme of a script takes to fade into the next, at most")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1.0));
+  add_head_options(app, options->glb);
   return [options] { return run(*options); };
 }
 

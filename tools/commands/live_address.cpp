@@ -3,6 +3,10 @@
 #include <initializer_list>
 #include <string_view>
 
+#include "fap/head/model.h"
+#include "fap/head/rig.h"
+#include "tools/viewer/viewer.h"
+
 namespace animeme::tools {
 
 namespace {
@@ -20,6 +24,16 @@ bool is_web(const std::string& url) {
 
 bool is_media(const std::string& url) { return begins(url, {"rtp://", "udp://", "srt://"}); }
 
+/// The page shows a head of ours unless it has one.
+web::WebOptions with_head(web::WebOptions options) {
+  if (!options.head_script.empty()) return options;
+  const Result<head::Head> head = head::make_head();
+  if (!head) return options;  // it has a schematic face for that
+  options.head_script = viewer::head_script();
+  options.head_model = viewer::pack_head(*head, head::make_rig(*head));
+  return options;
+}
+
 }  // namespace
 
 bool is_rtp(const std::string& url) { return begins(url, {"rtp://"}); }
@@ -27,7 +41,7 @@ bool is_rtp(const std::string& url) { return begins(url, {"rtp://"}); }
 Result<std::unique_ptr<media::LiveSink>> open_live_sink(const std::string& url,
                                                         const LiveSinkOptions& options) {
   if (is_web(url)) {
-    auto sink = web::make_web_sink(url, options.web);
+    auto sink = web::make_web_sink(url, with_head(options.web));
     if (!sink) return sink.error();
     return std::unique_ptr<media::LiveSink>(std::move(*sink));
   }

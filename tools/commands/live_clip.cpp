@@ -99,8 +99,9 @@ Result<fba::AccessUnits> for_live_use(fba::AccessUnits units, const fba::Decoded
   const double longest = longest_intra_interval(with_true_joints(units, decoded));
   // A plane of tolerance: periods are whole numbers of planes.
   const double plane = decoded.rate.seconds(1);
-  if (coding.intra_given && !coding.copy && longest > coding.intra_seconds + plane) {
-    say(path + ": coded again, receivers can join every " + interval_text(coding.intra_seconds));
+  if (!coding.copy && longest > coding.intra_seconds + plane) {
+    say(path + ": coded again, so that receivers can join every " +
+        interval_text(coding.intra_seconds) + "; --copy keeps it as it is");
     auto again = code_again(decoded, coding);
     if (!again) return again.error().in_file(path);
     const double begin = double(units.units.front().time) / units.timescale;
@@ -110,7 +111,7 @@ Result<fba::AccessUnits> for_live_use(fba::AccessUnits units, const fba::Decoded
   if (longest > kLongInterval) {
     warn(path + ": up to " + interval_text(longest) +
          " pass between two intra planes, so long a receiver that joins or loses a packet has to "
-         "wait; --intra-seconds 1 codes it again");
+         "wait; without --copy it is coded again");
   }
   return units;
 }

@@ -13,8 +13,7 @@ namespace animeme::tools {
 /// How face and sound are coded where they are not yet.
 struct LiveCoding {
   int quant = 1;
-  double intra_seconds = 1;
-  bool intra_given = false;  ///< asked for: coded streams with longer distances are coded again
+  double intra_seconds = 1;  ///< coded streams with longer distances are coded again
   bool copy = false;         ///< coded streams stay as they are, whatever is asked for
   bool sound = true;
   media::AudioSettings audio;

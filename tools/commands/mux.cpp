@@ -6,6 +6,7 @@
 
 #include "tools/commands/common.h"
 #include "tools/commands/face_stream.h"
+#include "tools/commands/preview.h"
 #include "tools/media/audio.h"
 #include "tools/media/container.h"
 
@@ -18,6 +19,7 @@ struct Options {
   std::string audio;
   std::string output;
   StreamSettings stream;
+  std::string preview;
   SoundSettings sound;
   media::MuxOptions mux;
 };
@@ -81,7 +83,9 @@ Result<int> run(Options options) {
   if (sound->samples) input.audio = &*sound->samples;
   if (sound->coded) input.encoded = &*sound->coded;
   options.mux.audio = audio_settings(options.sound, options.output);
-  return write_media(options.output, input, options.mux);
+  Result<int> written = write_media(options.output, input, options.mux);
+  if (!written || *written != kOk || options.preview.empty()) return written;
+  return write_preview(options.preview, *units, input);
 }
 
 Action add(CLI::App& app) {
@@ -105,6 +109,7 @@ Action add(CLI::App& app) {
   app.add_flag("--systems", options->mux.systems,
                "mp4: add the scene and object streams of a complete MPEG-4 Systems presentation")
       ->excludes(fragmented);
+  add_preview_option(app, options->preview);
   return [options] { return run(*options); };
 }
 
@@ -116,7 +121,8 @@ const Command kMux{"mux", "Put a face and a voice into one file",
                    "  animeme mux talk.fba voice.wav --audio-codec opus --fragmented -o talk.mp4\n"
                    "  animeme mux talk.mp4 talk.mp4 --audio-codec copy -o talk.ts\n"
                    "  animeme mux talk.fba voice.wav --fragment-seconds 4 -o talk.m3u8\n"
-                   "  animeme mux talk.fba voice.wav --systems -o scene.mp4",
+                   "  animeme mux talk.fba voice.wav --systems -o scene.mp4\n"
+                   "  animeme mux talk.fba voice.wav -o talk.mp4 --preview talk.preview.mp4",
                    add};
 
 }  // namespace animeme::tools

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstdlib>
 #include <memory>
 
 #include "dam/script.h"
@@ -7,6 +6,7 @@
 #include "fap/tables.h"
 #include "tools/commands/common.h"
 #include "tools/commands/curve_plot.h"
+#include "tools/commands/fap_names.h"
 
 namespace animeme::tools {
 
@@ -49,24 +49,8 @@ PlotRow difference_of(int fap, const fap::Sequence& a, const fap::Sequence& b) {
   return row;
 }
 
-// FAP numbers of what the user named; 0 at the end: the last one is not known.
-std::vector<int> numbers_of(const std::vector<std::string>& names) {
-  std::vector<int> numbers;
-  for (const std::string& name : names) {
-    int number = fap::find_fap(name).value_or(0);
-    if (number == 0 && name.size() <= 2 &&
-        name.find_first_not_of("0123456789") == std::string::npos) {
-      number = std::atoi(name.c_str());
-    }
-    if (number < fap::kFirstLowLevel || number > fap::kFapCount) number = 0;
-    numbers.push_back(number);
-    if (number == 0) break;
-  }
-  return numbers;
-}
-
 Result<int> run(const Options& options) {
-  const std::vector<int> faps = numbers_of(options.faps);
+  const std::vector<int> faps = fap_numbers(options.faps);
   if (!faps.empty() && faps.back() == 0) {
     return usage_error("--faps: " + options.faps[faps.size() - 1] +
                        " is no FAP; give numbers 3 to 68 or names like open_jaw");

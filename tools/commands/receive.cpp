@@ -1,20 +1,17 @@
 // Recording or printing a face and its sound while they come in.
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "fap/text.h"
 #include "tools/commands/common.h"
 #include "tools/commands/interrupt.h"
 #include "tools/commands/live_address.h"
+#include "tools/commands/receive_output.h"
 #include "tools/commands/receive_report.h"
 #include "tools/commands/status_line.h"
-#include "tools/media/live/live_frames.h"
 #include "tools/media/live/pacer.h"
 #include "tools/media/live/recorder.h"
-#include "tools/media/mux.h"
 
 namespace animeme::tools {
 
@@ -36,64 +33,10 @@ struct Options {
   bool json = false;
 };
 
-bool is_container(const std::string& extension) {
-  return extension == ".mp4" || extension == ".mkv" || extension == ".ts";
-}
-
-bool is_text(const std::string& output) { return output == "-" || extension_of(output) == ".fap"; }
-
 media::GapRule rule_of(const std::string& name) {
   if (name == "neutral") return media::GapRule::neutral;
   return name == "skip" ? media::GapRule::skip : media::GapRule::hold;
 }
-
-std::string name_of(const std::string& output) {
-  return output == "-" ? "live" : std::filesystem::path(output).stem().string();
-}
-
-/// Frames as text: on standard output as they come, else kept for the file.
-class TextWriter {
- public:
-  explicit TextWriter(const Options& options)
-      : options_(options), frames_(rule_of(options.gap), options.fill) {}
-
-  bool wanted() const { return is_text(options_.output); }
-
-  Result<void> push(const media::LiveUnit& unit, std::uint32_t timescale, bool after_gap) {
-    if (!wanted() || unit.track != media::LiveTrack::face) return {};
-    Result<std::vector<fap::Frame>> frames = frames_.push(unit, timescale, after_gap);
-    if (!frames) return frames.error();
-    clip_.rate = frames_.rate();
-    if (options_.output != "-") {
-      clip_.frames.insert(clip_.frames.end(), frames->begin(), frames->end());
-      return {};
-    }
-    return print(*frames);
-  }
-
-  Result<void> finish() {
-    if (options_.output == "-") return {};
-    clip_.name = name_of(options_.output);
-    return write_file(options_.output, fap::write_text(clip_));
-  }
-
- private:
-  Result<void> print(const std::vector<fap::Frame>& frames) {
-    if (frames.empty()) return {};
-    std::string text;
-    if (!begun_) text = media::fap_header(clip_.rate, name_of(options_.output));
-    begun_ = true;
-    for (const fap::Frame& frame : frames) text += media::fap_lines(frame, clip_.rate);
-    const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-    if (written && std::fflush(stdout) == 0) return {};
-    return make_error(Code::io, "the frames cannot be written: nobody reads standard output");
-  }
-
-  const Options& options_;
-  media::LiveFrames frames_;
-  fap::Sequence clip_;
-  bool begun_ = false;
-};
 
 /// One reception from the first packet to the last.
 class Reception {
@@ -101,8 +44,8 @@ class Reception {
   Reception(const Options& options, media::LiveSource& source)
       : options_(options),
         source_(source),
-        recorder_({.duration = options.duration, .keep = !is_text(options.output)}),
-        text_(options) {}
+        recorder_({.duration = options.duration, .keep = !is_fap_output(options.output)}),
+        text_(options.output, rule_of(options.gap), options.fill) {}
 
   bool has_face() const { return recorder_.recovery().usable > 0; }
   bool has_sound() const { return recorder_.sound_seconds() > 0; }
@@ -121,7 +64,7 @@ class Reception {
   const Options& options_;
   media::LiveSource& source_;
   media::Recorder recorder_;
-  TextWriter text_;
+  FapOutput text_;
   StatusLine status_;
   std::vector<media::IntraInterval> intervals_;
   std::optional<double> first_;  // instant of the first unit
@@ -168,21 +111,11 @@ Result<void> Reception::run() {
 
 Result<void> Reception::write() {
   if (text_.wanted()) return text_.finish();
-  const media::Recording recording = recorder_.recording();
-  const bool face = !recording.face.units.empty(), sound = !recording.sound.packets.empty();
-  if (extension_of(options_.output) == ".fba") {
-    if (recorder_.recovery().frozen_seconds > 0) {
-      warn("a raw stream has no place for missing planes: " + options_.output +
-           " is shorter than what was sent; mp4 keeps the times");
-    }
-    return write_file(options_.output, fba::join_access_units(recording.face));
+  if (extension_of(options_.output) == ".fba" && recorder_.recovery().frozen_seconds > 0) {
+    warn("a raw stream has no place for missing planes: " + options_.output +
+         " is shorter than what was sent; mp4 keeps the times");
   }
-  media::MuxInput input;
-  if (face) input.face = &recording.face;
-  if (sound) input.encoded = &recording.sound;
-  const auto written = media::write_container(options_.output, input);
-  if (!written) return written.error().in_file(options_.output);
-  return {};
+  return write_recording(options_.output, recorder_.recording());
 }
 
 void Reception::report() {
@@ -205,15 +138,15 @@ Error nothing_came(const Options& options, const Reception& reception) {
 }
 
 Result<int> run(const Options& options) {
-  const std::string extension = extension_of(options.output);
-  if (options.output != "-" && !is_container(extension) && extension != ".fap" &&
-      extension != ".fba") {
+  if (!is_fap_output(options.output) && !is_container_output(options.output) &&
+      extension_of(options.output) != ".fba") {
     return usage_error("--output must end in .fap, .fba, .mp4, .mkv or .ts, or be -, not " +
                        options.output);
   }
   if (options.json && options.output == "-") {
     return usage_error("--json and the frames of -o - both go to standard output");
   }
+  if (auto ok = check_folder(options.output); !ok) return ok.error();
   auto source = open_live_source(options.source, options.receive);
   if (!source && source.error().code == Code::invalid_argument) {
     return usage_error(source.error().message);
@@ -222,7 +155,8 @@ Result<int> run(const Options& options) {
   const Interrupt interrupt;
   Reception reception(options, **source);
   const auto received = reception.run();
-  const bool enough = reception.has_face() || (is_container(extension) && reception.has_sound());
+  const bool enough =
+      reception.has_face() || (is_container_output(options.output) && reception.has_sound());
   if (enough) {
     if (auto written = reception.write(); !written) return written.error();
   }

@@ -1,10 +1,17 @@
 #include <charconv>
 #include <memory>
 
+#include "dam/script.h"
 #include "fap/fill.h"
-#include "fap/head/rig.h"
+#include "fap/head/model.h"
+#include "fap/rate_text.h"
 #include "tools/commands/common.h"
+#include "tools/commands/fap_names.h"
+#include "tools/commands/head_view.h"
+#include "tools/commands/preview.h"
 #include "tools/commands/render_frames.h"
+#include "tools/media/audio.h"
+#include "tools/media/container.h"
 #include "tools/render/scene.h"
 
 namespace animeme::tools {
@@ -26,6 +33,12 @@ struct Options {
   double up = 0;
   double zoom = 1;
   std::string size = "640x640";
+  std::string audio;
+  std::string script;
+  std::string rate;
+  std::vector<std::string> curves;
+  int quality = 20;
+  int audio_bit_rate = 0;
 };
 
 struct Pair {
@@ -49,8 +62,7 @@ std::optional<Pair> parse_pair(const std::string& text, int most) {
 struct Plan {
   Pair size;
   Pair sheet;
-  double degrees = 0;
-  head::HeadParameters head;
+  HeadLook look;
 };
 
 Result<Plan> make_plan(const Options& options) {
@@ -77,12 +89,10 @@ Result<Plan> make_plan(const Options& options) {
     return make_error(Code::invalid_argument,
                       "--view is front, three-quarter, side or degrees to the left");
   }
-  plan.degrees = *degrees;
-  const auto head = head::head_parameters(options.head);
-  if (!head) {
+  if (!head::head_parameters(options.head)) {
     return make_error(Code::invalid_argument, "--head is woman, man or child");
   }
-  plan.head = *head;
+  plan.look = {options.head, *degrees, options.up, options.zoom, plan.size.x, plan.size.y};
   return plan;
 }
 
@@ -100,20 +110,71 @@ Result<std::vector<ShownFrame>> choose_frames(const Options& options, const Plan
   return frames;
 }
 
-Result<void> draw(const Options& options, const Plan& plan, const std::vector<ShownFrame>& frames,
-                  PictureSink& sink) {
-  const Result<head::Head> head = head::make_head(plan.head);
-  if (!head) return head.error();
-  const head::Rig rig = head::make_rig(*head);
-  const render::Camera camera = render::look_at(*head, plan.degrees, options.up, options.zoom);
-  render::Renderer renderer({.width = plan.size.x, .height = plan.size.y});
-  head::Pose pose;
+Result<void> draw(const Plan& plan, const std::vector<ShownFrame>& frames, PictureSink& sink) {
+  Result<HeadView> view = HeadView::make(plan.look);
+  if (!view) return view.error();
   for (const ShownFrame& shown : frames) {
-    head::pose(rig, shown.frame, pose);
-    auto added = sink.add(renderer.render(render::scene_of(*head, rig, pose), camera));
-    if (!added) return added;
+    if (auto added = sink.add(view->draw(shown.frame)); !added) return added;
   }
   return sink.finish();
+}
+
+// The sound of the video, as the file takes it: copied where that can be.
+struct VideoSound {
+  std::optional<media::EncodedAudio> coded;
+  std::optional<media::Pcm> samples;
+};
+
+Result<VideoSound> read_sound(const Options& options) {
+  VideoSound sound;
+  const bool own = options.audio.empty();
+  const std::string& path = own ? options.input : options.audio;
+  Result<media::EncodedAudio> coded = media::read_encoded_audio(path);
+  const bool opus = media::usual_codec(options.output) == media::AudioCodec::opus;
+  if (coded && (!opus || coded->format.codec == media::AudioCodec::opus)) {
+    sound.coded = std::move(*coded);
+    return sound;
+  }
+  Result<media::Pcm> samples = media::read_audio(path);
+  if (samples) {
+    sound.samples = std::move(*samples);
+  } else if (!own) {
+    return samples.error().in_file(path);
+  }
+  return sound;
+}
+
+Result<int> render_video(const Options& options, const Plan& plan) {
+  PreviewOptions preview{
+      .look = plan.look, .quality = options.quality, .audio_bit_rate = options.audio_bit_rate};
+  if (!options.rate.empty()) {
+    const Result<fap::Rate> rate = fap::parse_rate(options.rate);
+    if (!rate || !rate->valid()) return usage_error("--rate is a number such as 25 or 29.97");
+    preview.rate = *rate;
+  }
+  preview.faps = fap_numbers(options.curves);
+  if (!preview.faps.empty() && preview.faps.back() == 0) {
+    return usage_error("--curves: " + options.curves[preview.faps.size() - 1] +
+                       " is no FAP; give numbers 3 to 68 or names like open_jaw");
+  }
+  Result<FaceInput> input = read_face(options.input);
+  if (!input) return input.error();
+  const Result<fap::Sequence> clip = fap::fill(input->clip, {.interpolate = true});
+  if (!clip) return clip.error().in_file(options.input);
+  Result<dam::Script> script = dam::Script{};
+  if (!options.script.empty()) {
+    const Result<std::string> text = read_text_file(options.script);
+    if (!text) return text.error();
+    script = dam::read_script(*text);
+    if (!script) return script.error().in_file(options.script);
+    preview.script = &*script;
+  }
+  const Result<VideoSound> sound = read_sound(options);
+  if (!sound) return sound.error();
+  media::MuxInput tracks;
+  if (sound->coded) tracks.encoded = &*sound->coded;
+  if (sound->samples) tracks.audio = &*sound->samples;
+  return write_preview(options.output, *clip, tracks, preview);
 }
 
 // Columns that make the sheet about as wide as high.
@@ -129,22 +190,32 @@ Result<int> run(const Options& options) {
   }
   const Result<Plan> plan = make_plan(options);
   if (!plan) return usage_error(plan.error().message);
-  if (const std::string extension = extension_of(options.output);
-      extension != ".png" && options.output != "-") {
-    return usage_error("the output " + options.output + " has to end in .png");
+  const std::string extension = extension_of(options.output);
+  const bool still = options.frame >= 0 || !options.times.empty() || !options.sheet.empty();
+  if (is_video(extension) && (still || !options.shapes.empty())) {
+    return usage_error(
+        "a video shows the whole clip; --frame, --time, --sheet and --shapes are for "
+        ".png");
+  }
+  if (is_video(extension)) return render_video(options, *plan);
+  if (extension != ".png" && options.output != "-") {
+    return usage_error("the output " + options.output + " has to end in .png, .mp4, .webm or .mkv");
   }
   Result<std::vector<ShownFrame>> frames = choose_frames(options, *plan);
   if (!frames) return frames.error();
   const int columns = options.sheet.empty() ? columns_for(frames->size()) : plan->sheet.x;
   const auto sink = png_sink(options.output, columns);
-  if (auto drawn = draw(options, *plan, *frames, *sink); !drawn) return drawn.error();
+  if (auto drawn = draw(*plan, *frames, *sink); !drawn) return drawn.error();
   return kOk;
 }
 
 Action add(CLI::App& app) {
   auto options = std::make_shared<Options>();
   app.add_option("input", options->input, "FAP text, FBA stream, container or table of curves");
-  app.add_option("-o,--output", options->output, "PNG file to write, - for standard output")
+  app.add_option(
+         "-o,--output", options->output,
+         "File to write: .mp4 or .mkv (H.264), .webm (VP9), or a .png still or sheet; - is PNG on "
+         "standard output")
       ->required();
   auto* shapes = app.add_option("--shapes", options->shapes,
                                 "Instead of a file: neutral and all visemes or expressions");
@@ -168,12 +239,28 @@ Action add(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--size", options->size, "Pixels of one picture, WIDTHxHEIGHT")
       ->capture_default_str();
+  app.add_option("--audio", options->audio,
+                 "Video: sound beside the face; default: that of the input, if it has any");
+  app.add_option("--script", options->script, "Video: phones to show below the face");
+  app.add_option("--curves", options->curves,
+                 "Video: FAPs to draw below the face, three at most, by number or name")
+      ->delimiter(',')
+      ->expected(1, 3);
+  app.add_option("--rate", options->rate, "Video: pictures a second; default: those of the clip");
+  app.add_option("--quality", options->quality, "Video: 0 (best) to 51 (smallest)")
+      ->check(CLI::Range(0, 51))
+      ->capture_default_str();
+  app.add_option("--audio-bitrate", options->audio_bit_rate, "Video: bits a second of its sound")
+      ->check(CLI::Range(6000, 320000));
   return [options] { return run(*options); };
 }
 
 }  // namespace
 
-const Command kRender{"render", "Pictures of a face",
+const Command kRender{"render", "Videos and pictures of a face",
+                      "  animeme render talk.mp4 -o video.mp4\n"
+                      "  animeme render talk.fba --audio voice.wav --script talk.TextGrid --curves "
+                      "open_jaw,raise_b_midlip -o talk.webm\n"
                       "  animeme render talk.fap --time 1.5 -o still.png\n"
                       "  animeme render talk.mp4 --sheet 4x3 --head man --view three-quarter "
                       "-o sheet.png\n"

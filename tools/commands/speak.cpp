@@ -12,6 +12,7 @@
 #include "tools/commands/curve_text.h"
 #include "tools/commands/face_stream.h"
 #include "tools/commands/model_input.h"
+#include "tools/commands/preview.h"
 #include "tools/commands/spoken.h"
 
 namespace animeme::tools {
@@ -21,6 +22,7 @@ namespace {
 struct Options {
   SpokenOptions spoken;
   std::string output;
+  std::string preview;
   std::string model;
   std::string rate = "25";
   std::string save_script;
@@ -88,7 +90,10 @@ Result<int> write_result(const Options& options, const fap::Sequence& clip, cons
   if (audio == nullptr) warn("there is no recorded voice (--audio), the file will be silent");
   media::MuxOptions mux;
   mux.audio = audio_settings(options.sound, options.output);
-  return write_media(options.output, {.face = &*units, .audio = audio}, mux);
+  const media::MuxInput input{.face = &*units, .audio = audio};
+  Result<int> written = write_media(options.output, input, mux);
+  if (!written || *written != kOk || options.preview.empty()) return written;
+  return write_preview(options.preview, clip, input, {});
 }
 
 void report(const Options& options, const Spoken& spoken, const dam::Signal& signal,
@@ -186,6 +191,7 @@ Action add(CLI::App& app) {
   app.add_option("--seed", options->seed, "Other times of blinks and another sway of the head")
       ->needs("--life");
   add_stream_options(app, options->stream);
+  add_preview_option(app, options->preview);
   add_sound_options(app, options->sound, false);
   app.add_flag("--json", options->json, "Machine-readable summary on standard output");
   return [options] { return run(*options); };

@@ -83,7 +83,8 @@ Result<void> send_all(media::LiveInput& input, LiveSinks& sinks, media::Clock& c
     const bool reached = pacer.wait_until(*due);
     if (auto ok = look(); !ok) return ok;
     if (!reached) continue;
-    Result<std::vector<media::LiveUnit>> units = input.take(pacer.now());
+    // What is due is taken even if the difference of two instants is a bit below it.
+    Result<std::vector<media::LiveUnit>> units = input.take(std::max(pacer.now(), *due));
     if (!units) return units.error();
     for (const media::LiveUnit& unit : *units) {
       if (auto ok = sinks.send(unit); !ok) return ok;
@@ -172,12 +173,13 @@ void add_source_options(CLI::App& app, StreamOptions& options) {
 
 void add_coding_options(CLI::App& app, StreamOptions& options) {
   app.add_option("--intra-seconds", options.coding.intra_seconds,
-                 "Seconds between points where receivers can join; streams and containers keep "
-                 "their own coding unless this is given and theirs lie farther apart")
+                 "Seconds between points where receivers can join; streams and containers whose "
+                 "own lie farther apart are coded again, all others are sent as they are")
       ->check(CLI::Range(0.04, 60.0))
-      ->capture_default_str()
-      ->each([&options](const std::string&) { options.coding.intra_given = true; });
-  app.add_flag("--copy", options.coding.copy, "Keep the coding of streams and containers always");
+      ->capture_default_str();
+  app.add_flag(
+      "--copy", options.coding.copy,
+      "Send streams and containers as they are, however far their joining points are apart");
   app.add_option("--quant", options.coding.quant, "Quantiser fap_quant of faces that are coded")
       ->check(CLI::Range(0, 31))
       ->capture_default_str();

@@ -23,26 +23,27 @@ namespace {
 struct FileType {
   std::string_view extension;
   const char* muxer;
-  bool face, aac, opus;
+  bool face, aac, opus, h264, vp9;
 
   bool is_mp4() const { return std::string_view(muxer) == "mp4"; }
   bool is_segments() const { return std::string_view(muxer) == "segments"; }
   bool takes(AudioCodec codec) const { return codec == AudioCodec::opus ? opus : aac; }
+  bool takes(VideoCodec codec) const { return codec == VideoCodec::vp9 ? vp9 : h264; }
 };
 
 // clang-format off
 constexpr FileType kTypes[] = {
-    // extension, muxer,     face,  aac,   opus
-    {".mp4",  "mp4",      true,  true,  true},
-    {".mkv",  "matroska", true,  true,  true},
-    {".ts",   "mpegts",   true,  true,  false},
-    {".m3u8", "segments", true,  true,  true},
-    {".mpd",  "segments", true,  true,  true},
-    {".m4a",  "mp4",      false, true,  false},
-    {".mka",  "matroska", false, true,  true},
-    {".webm", "webm",     false, false, true},
-    {".weba", "webm",     false, false, true},
-    {".opus", "opus",     false, false, true},
+    // extension, muxer,  face,  aac,   opus,  h264,  vp9 (h264 stands for MPEG-4 video, too)
+    {".mp4",  "mp4",      true,  true,  true,  true,  true},
+    {".mkv",  "matroska", true,  true,  true,  true,  true},
+    {".ts",   "mpegts",   true,  true,  false, false, false},
+    {".m3u8", "segments", true,  true,  true,  false, false},
+    {".mpd",  "segments", true,  true,  true,  false, false},
+    {".m4a",  "mp4",      false, true,  false, false, false},
+    {".mka",  "matroska", false, true,  true,  false, false},
+    {".webm", "webm",     false, false, true,  false, true},
+    {".weba", "webm",     false, false, true,  false, false},
+    {".opus", "opus",     false, false, true,  false, false},
 };
 // clang-format on
 
@@ -62,6 +63,10 @@ Result<void> check_type(const FileType& type, const MuxInput& input, const MuxOp
     return unsupported("a Systems presentation is an .mp4 file");
   }
   if (options.fragmented && !type.is_mp4()) return unsupported("only an mp4 can be fragmented");
+  if (input.video != nullptr && !type.takes(input.video->codec)) {
+    return unsupported("a " + name + " file takes no " + name_of(input.video->codec) +
+                       " video; use .mp4 or .mkv");
+  }
   if (input.face != nullptr && !type.face) {
     return unsupported("a " + name + " file holds sound only; use .mp4, .mkv or .ts for a face");
   }
@@ -93,6 +98,10 @@ Result<MuxResult> write_streams(const std::string& path, const FileType& type,
   if (!opened) return opened.error();
   Muxer& muxer = **opened;
   std::vector<std::unique_ptr<TrackFeed>> feeds;
+  if (input.video != nullptr) {
+    if (auto added = muxer.add_video(*input.video); !added) return added.error();
+    feeds.push_back(video_feed(muxer, *input.video));
+  }
   if (input.face != nullptr) {
     if (auto added = muxer.add_face(*input.face); !added) return added.error();
     feeds.push_back(face_feed(muxer, *input.face));
@@ -105,7 +114,7 @@ Result<MuxResult> write_streams(const std::string& path, const FileType& type,
   }
   av::Options header;
   if (type.is_mp4()) {
-    set_mp4_options({input.face, visual_profile(input), format}, header);
+    set_mp4_options({input.face, visual_profile(input), format, input.video}, header);
     if (options.fragmented) {
       set_fragment_options("frag_keyframe", options.fragment_seconds, header);
     }

@@ -18,15 +18,20 @@
 #include "fap/result.h"
 #include "tools/media/encoded_audio.h"
 #include "tools/media/pcm.h"
+#include "tools/media/video.h"
 
 namespace animeme::media {
 
-/// What goes into the file; a face, a sound or both.
+/// What goes into the file: a face, a sound, pictures, or several of them.
 struct MuxInput {
   const fba::AccessUnits* face = nullptr;  ///< nullptr: sound only
   const Pcm* audio = nullptr;              ///< samples to be coded; nullptr: none
   /// Coded sound to be copied, packet by packet; nullptr: none. Not together with `audio`.
   const EncodedAudio* encoded = nullptr;
+  /// Pictures for players that know no faces; nullptr: none. They become the first track, and the
+  /// face beside them is not shown by default. In .mp4, .mkv and .webm (VP9), not in Systems
+  /// presentations.
+  const EncodedVideo* video = nullptr;
   /// Visual profile and level for the file's own table of contents (mp4 `iods`): 0x61..0x64.
   /// 0: as in the face's configuration, 0x61 if that has none.
   std::uint8_t visual_profile = 0;

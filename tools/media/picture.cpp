@@ -72,16 +72,38 @@ Result<av::Frame> to_rgb(const AVFrame& drawn) {
   return frame;
 }
 
-}  // namespace
-
-Result<std::vector<std::uint8_t>> svg_to_png(std::string_view svg) {
+Result<av::Frame> rgb_of(std::string_view svg) {
   if (svg.empty() || svg.size() > (64u << 20)) {
     return make_error(Code::out_of_range, "a drawing has 1 byte to 64 MB");
   }
-  const av::LogCapture log;
   Result<av::Frame> drawn = draw(svg);
   if (!drawn) return drawn.error();
-  Result<av::Frame> rgb = to_rgb(**drawn);
+  return to_rgb(**drawn);
+}
+
+}  // namespace
+
+Result<Pixels> svg_to_rgba(std::string_view svg) {
+  return av::guarded([&]() -> Result<Pixels> {
+    const av::LogCapture log;
+    Result<av::Frame> rgb = rgb_of(svg);
+    if (!rgb) return rgb.error();
+    const AVFrame& frame = **rgb;
+    Pixels pixels{frame.width, frame.height, {}};
+    pixels.rgba.reserve(std::size_t(frame.width) * std::size_t(frame.height) * 4);
+    for (int y = 0; y < frame.height; ++y) {
+      const std::uint8_t* row = frame.data[0] + std::ptrdiff_t(y) * frame.linesize[0];
+      for (int x = 0; x < frame.width; ++x) {
+        pixels.rgba.insert(pixels.rgba.end(), {row[3 * x], row[3 * x + 1], row[3 * x + 2], 255});
+      }
+    }
+    return pixels;
+  });
+}
+
+Result<std::vector<std::uint8_t>> svg_to_png(std::string_view svg) {
+  const av::LogCapture log;
+  Result<av::Frame> rgb = rgb_of(svg);
   if (!rgb) return rgb.error();
   Result<av::Codec> encoder = open(avcodec_find_encoder(AV_CODEC_ID_PNG), rgb->get());
   if (!encoder) return encoder.error();

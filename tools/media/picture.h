@@ -9,6 +9,16 @@
 
 namespace animeme::media {
 
+/// Rows from the top, R G B A, A always 255.
+struct Pixels {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgba;
+};
+
+/// An SVG drawing as pixels; see svg_to_png(). Errors: as there.
+Result<Pixels> svg_to_rgba(std::string_view svg);
+
 /// A PNG file (RGB, 8 bits) of an SVG drawing in its own size. What is transparent is undefined:
 /// give the drawing a background. Text looks as the fonts of the machine make it.
 /// Errors: unsupported (this FFmpeg was built without librsvg or PNG), syntax (no SVG),

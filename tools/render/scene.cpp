@@ -8,7 +8,12 @@ namespace animeme::render {
 
 Scene scene_of(const head::Head& head, const head::Rig& rig, const head::Pose& pose) {
   Scene scene;
-  for (std::size_t i = 0; i < head.parts.size(); ++i) {
+  // First what covers much, so that the rest is seen to be hidden at once.
+  using head::Part;
+  for (const Part part :
+       {Part::hair, Part::body, Part::skin, Part::left_eye, Part::right_eye, Part::upper_teeth,
+        Part::lower_teeth, Part::tongue, Part::brows, Part::lashes}) {
+    const auto i = std::size_t(part);
     const head::Mesh& mesh = head.parts[i];
     const bool moved = !pose.positions[i].empty();
     scene.surfaces.push_back({moved ? pose.positions[i] : rig.parts[i].positions,

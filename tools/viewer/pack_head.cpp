@@ -143,14 +143,18 @@ Json shapes_of(int count, Shape shape) {
 
 Json camera_of(const head::Head& head) {
   const render::Camera camera = render::look_at(head, 0);
+  // Nearer pictures look at another place; from 1.8 on it stays.
   return Json{{"target", json_of(camera.target)},
+              {"near", json_of(render::look_at(head, 0, 0, 1.8).target)},
               {"distance", length(camera.eye - camera.target)},
               {"angle", camera.view_angle}};
 }
 
 Json eyes_of(const head::Rig& rig) {
   Json eyes = Json::array();
-  for (const head::Eye& eye : rig.eyes) eyes.push_back(json_of(eye.centre));
+  for (const head::Eye& eye : rig.eyes) {
+    eyes.push_back({{"centre", json_of(eye.centre)}, {"radius", eye.radius}});
+  }
   return eyes;
 }
 
@@ -169,6 +173,9 @@ std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig
   for (const auto& vertices : rig.lid_vertices) {
     for (const std::uint32_t vertex : vertices) data.varint(vertex);
   }
+  for (const auto& vertices : rig.eye_skin) {
+    for (const std::uint32_t vertex : vertices) data.varint(vertex);
+  }
   for (const std::uint32_t vertex : rig.lash_anchors) data.varint(vertex);
   for (const float weight : rig.neck_weights) data.u16(rounded(weight * 65535, 65535));
   const Json header{
@@ -179,6 +186,7 @@ std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig
       {"lips", rig.lips.size()},
       {"lids", {rig.lids[0].size(), rig.lids[1].size()}},
       {"sliding", {rig.lid_vertices[0].size(), rig.lid_vertices[1].size()}},
+      {"before_eyes", {rig.eye_skin[0].size(), rig.eye_skin[1].size()}},
       {"anchors", rig.lash_anchors.size()},
       {"fapu", {{"es", rig.fapu.es}, {"mns", rig.fapu.mns}}},
       {"eyes", eyes_of(rig)},

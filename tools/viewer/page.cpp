@@ -49,6 +49,10 @@ std::string html_text(std::string_view text) {
   return out;
 }
 
+std::string packed(const std::vector<std::uint8_t>& bytes) {
+  return detail::base64(detail::deflated(bytes));
+}
+
 // The columns of a clip: for each FAP that moves, differences from frame to frame.
 std::string pack_clip(const Clip& clip) {
   std::vector<fap::Frame> frames;
@@ -71,7 +75,7 @@ std::string pack_clip(const Clip& clip) {
   const Json header{{"name", clip.name},       {"rate", {rate.num, rate.den}},
                     {"start", clip.start},     {"first", frames.front().number},
                     {"frames", frames.size()}, {"faps", faps}};
-  return detail::base64(
+  return packed(
       detail::with_header(header.dump(-1, ' ', true, Json::error_handler_t::replace), data).take());
 }
 
@@ -109,7 +113,7 @@ std::string data_element(const std::string& id, const std::string& text) {
 std::string data_elements(const Page& page) {
   std::string out = "<script type=\"application/json\" id=\"facts\">" +
                     script_text(facts_of(page)) + "</script>\n" +
-                    data_element("model", detail::base64(pack_head(*page.head, *page.rig)));
+                    data_element("model", packed(pack_head(*page.head, *page.rig)));
   for (std::size_t i = 0; i < page.clips.size(); ++i) {
     out += data_element("clip" + std::to_string(i), pack_clip(page.clips[i]));
   }

@@ -47,9 +47,9 @@ struct Page {
   dam::Script script;          ///< phones below the curves; empty: none
 };
 
-/// The page. The same input gives the same bytes. Texts from outside (names, labels, words) are
-/// shown as text, whatever is in them.
-/// Errors: invalid_argument (no head or rig; not one clip or two; a clip without frames).
+/// The page. The same input gives the same bytes with the same zlib. Texts from outside (names,
+/// labels, words) are shown as text, whatever is in them. Errors: invalid_argument (no head or rig;
+/// not one clip or two; a clip without frames).
 Result<std::string> make_page(const Page& page);
 
 /// A head for the browser, as model.js reads it: about 1.2 MB. The format stands in README.md.

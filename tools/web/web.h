@@ -15,8 +15,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "fap/result.h"
 #include "tools/media/live/live.h"
@@ -42,6 +44,11 @@ struct WebOptions {
   /// Origin of pages elsewhere that may use this server ("https://example.org"; "*": all). Empty:
   /// only pages of this server and programs that are no browsers.
   std::string allow_origin;
+  /// A head for the page, in place of its schematic face: viewer::head_script() and the bytes of
+  /// viewer::pack_head(), which the server then has as /head.bin. Both or none. Browsers without
+  /// WebGL2 keep the schematic face.
+  std::string head_script;
+  std::vector<std::uint8_t> head_model;
   /// Source: bytes that may wait for next(); the network waits when they are full.
   std::size_t queue_bytes = std::size_t(4) << 20;
 };

@@ -210,6 +210,9 @@ Result<std::unique_ptr<WebSink>> make_web_sink(const std::string& url, const Web
   if (options.client_bytes < 4096 || !(options.stall_seconds > 0)) {
     return invalid("a client needs at least 4096 bytes and some patience");
   }
+  if (options.head_script.empty() != options.head_model.empty()) {
+    return invalid("a head for the page needs its script and its model");
+  }
   for (const char c : options.allow_origin) {
     if (c <= ' ' || c > '~') return invalid("the origin has characters that no origin has");
   }

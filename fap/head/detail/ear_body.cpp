@@ -1,5 +1,3 @@
-
-
 #include "fap/head/detail/paint.h"
 #include "fap/head/detail/parts.h"
 
@@ -14,8 +12,8 @@ Vec3d to_ear(const Shape& shape, Vec3d p) {
   const double lean = 0.16;  // the top leans back
   const double x = std::cos(turn) * q.x + std::sin(turn) * q.z;
   const double back = -std::cos(turn) * q.z + std::sin(turn) * q.x;
-  return {x, std::cos(lean) * q.y + std::sin(lean) * back * -1.0,
-          std::cos(lean) * back * 1.0 - std::sin(lean) * q.y * 1.0};
+  return {x, std::cos(lean) * q.y - std::sin(lean) * back,
+          std::cos(lean) * back - std::sin(lean) * q.y};
 }
 
 // Distance to an oval ring of the given half axes and thickness.

@@ -142,7 +142,7 @@ void teeth_and_tongue(Finder& find) {
   find.set("6.4", Part::tongue, on_tongue(kTongueRows * 3 / 4, kTongueAround * 3 / 4));
 }
 
-void ears_and_hair(const Shape& shape, const Layout& l, const EarVertices& ears, Finder& find) {
+void ears_and_hair(const Shape& shape, const EarVertices& ears, Finder& find) {
   const struct {
     std::string_view left, right;
     Vec3 direction;
@@ -161,10 +161,6 @@ void ears_and_hair(const Shape& shape, const Layout& l, const EarVertices& ears,
   find.near("11.3", "11.2", shape.front(4.6, 4.6));
   find.grid("11.4", 0, 0);
   find.set("11.5", Part::hair, find.furthest(Part::hair, {0, 1, 0}, 0, find.count(Part::hair)));
-  int back = l.hairline;
-  for (int row = l.hairline; row < l.nose_base; ++row) {
-    if (find.place(row).z < find.place(back).z) back = row;
-  }
   find.near("11.6", "", {0, 3.4, -9.4});
 }
 
@@ -178,7 +174,7 @@ void find_feature_points(const Shape& shape, const Skin& skin, const EarVertices
   eyes(skin.layout, find);
   nose(shape, skin.layout, find);
   teeth_and_tongue(find);
-  ears_and_hair(shape, skin.layout, ears, find);
+  ears_and_hair(shape, ears, find);
 }
 
 }  // namespace animeme::head::detail

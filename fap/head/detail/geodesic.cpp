@@ -25,15 +25,17 @@ Neighbours neighbours_of(std::size_t vertices, std::span<const Triangle> triangl
 }
 
 std::vector<Reached> walk(std::span<const Vec3> positions, const Neighbours& neighbours,
-                          std::uint32_t start, float reach) {
+                          std::span<const std::uint32_t> starts, float reach) {
   std::vector<float> best(positions.size(), std::numeric_limits<float>::max());
   const auto later = [](const Reached& a, const Reached& b) {
     return a.distance != b.distance ? a.distance > b.distance : a.vertex > b.vertex;
   };
   std::priority_queue<Reached, std::vector<Reached>, decltype(later)> open(later);
   std::vector<Reached> result;
-  best[start] = 0;
-  open.push({start, 0});
+  for (const std::uint32_t start : starts) {
+    best[start] = 0;
+    open.push({start, 0});
+  }
   while (!open.empty()) {
     const Reached at = open.top();
     open.pop();

@@ -25,9 +25,13 @@ struct Reached {
   float distance;
 };
 
-/// All vertices within `reach` of `start`, nearest first, with the length of the shortest way along
-/// edges. Equal distances: the lower vertex first.
+/// All vertices within `reach` of the nearest of `starts`, nearest first, with the length of the
+/// shortest way along edges. Equal distances: the lower vertex first.
 std::vector<Reached> walk(std::span<const Vec3> positions, const Neighbours& neighbours,
-                          std::uint32_t start, float reach);
+                          std::span<const std::uint32_t> starts, float reach);
+inline std::vector<Reached> walk(std::span<const Vec3> positions, const Neighbours& neighbours,
+                                 std::uint32_t start, float reach) {
+  return walk(positions, neighbours, std::span(&start, 1), reach);
+}
 
 }  // namespace animeme::head::detail

@@ -73,7 +73,11 @@ std::vector<float> freedom_below_hair(const Shape& shape, const Mesh& skin) {
   const HairLines lines = hair_lines(shape);
   std::vector<float> freedom;
   for (const Vec3& p : skin.positions) {
-    freedom.push_back(float(smooth_step(-0.05, 0.3, hair_field(shape, lines, Vec3d(p)))));
+    // Faces move alike on both sides, even if the hair is not.
+    const Vec3d left(p);
+    const Vec3d right{-left.x, left.y, left.z};
+    const double hair = std::min(hair_field(shape, lines, left), hair_field(shape, lines, right));
+    freedom.push_back(float(smooth_step(-0.3, 0.0, hair)));
   }
   return freedom;
 }

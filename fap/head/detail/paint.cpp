@@ -12,7 +12,7 @@ float bump(double distance, double width) {
   return float(std::exp(-distance * distance / (width * width)));
 }
 
-constexpr Vec3 kMouthInside{0.20f, 0.035f, 0.03f};
+constexpr Vec3 kMouthInside{0.13f, 0.022f, 0.02f};
 
 Vec3 face_colour(const Shape& shape, Vec3d p) {
   const Vec3 skin = linear_colour(shape.p.skin_colour);
@@ -48,8 +48,6 @@ void paint_skin(const Shape& shape, Skin& skin) {
   Mesh& mesh = skin.mesh;
   mesh.colours.assign(skin.places.size(), kMouthInside);
   mesh.occlusion.assign(skin.places.size(), 1.0f);
-  const std::size_t first_inside = skin.seams.jaw_weights.size();
-  (void)first_inside;
   for (int row = 0; row < l.rows(); ++row) {
     for (int c = -l.back; c < l.back; ++c) {
       const std::uint32_t id = skin.at(row, c);

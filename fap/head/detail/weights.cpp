@@ -20,7 +20,7 @@ constexpr std::array kControls = {
     ControlInfo{"4.1", 4.2f, 1.1f, ""},    ControlInfo{"4.2", 4.2f, 1.1f, ""},
     ControlInfo{"4.3", 4.2f, 1.1f, ""},    ControlInfo{"4.4", 4.2f, 1.1f, ""},
     ControlInfo{"4.5", 3.8f, 1.1f, ""},    ControlInfo{"4.6", 3.8f, 1.1f, ""},
-    ControlInfo{"5.1", 4.2f, 1.0f, ""},    ControlInfo{"5.2", 4.2f, 1.0f, ""},
+    ControlInfo{"5.1", 5.0f, 1.7f, ""},    ControlInfo{"5.2", 5.0f, 1.7f, ""},
     ControlInfo{"5.3", 3.8f, 1.0f, ""},    ControlInfo{"5.4", 3.8f, 1.0f, ""},
     ControlInfo{"9.1", 2.3f, 0.45f, ""},   ControlInfo{"9.2", 2.3f, 0.45f, ""},
     ControlInfo{"9.3", 2.6f, 0.45f, ""},   ControlInfo{"10.1", 3.0f, 0.5f, ""},
@@ -135,14 +135,12 @@ class Builder {
   void hold_lids() {
     std::vector<float> held(weights_.vertices(), 1);
     const float reach = 1.3f * scale_;
+    std::vector<std::uint32_t> rims;
     for (const auto& lids : head_.seams.lids) {
-      for (const ContactPair& pair : lids) {
-        for (const std::uint32_t rim : {pair.upper, pair.lower}) {
-          for (const Reached& r : walk(mesh_.positions, neighbours_, rim, reach)) {
-            held[r.vertex] = std::min(held[r.vertex], smooth_step(0.0f, reach, r.distance));
-          }
-        }
-      }
+      for (const ContactPair& pair : lids) rims.insert(rims.end(), {pair.upper, pair.lower});
+    }
+    for (const Reached& r : walk(mesh_.positions, neighbours_, rims, reach)) {
+      held[r.vertex] = smooth_step(0.0f, reach, r.distance);
     }
     for (std::size_t v = 0; v < weights_.vertices(); ++v) {
       for (std::size_t c = 0; c < kControls.size(); ++c) {

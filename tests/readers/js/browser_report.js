@@ -2,7 +2,8 @@
 //
 // For each file: `decoded`, what decodeAudioData() gives ({rate, length}, the samples as 32-bit floats
 // in FOLDER/FILE.f32) or {error}; `played`, how an <audio> element plays it; for .mp4 `mp4box`, what
-// mp4box in the page makes of the fetched file. And `messages`, what the page said.
+// mp4box in the page makes of the fetched file. Playlists (.m3u8, .mpd) have only `played`, by the
+// Shaka player, which fetches the segments and feeds the element. And `messages`, what the page said.
 'use strict';
 
 const fs = require('fs');
@@ -12,7 +13,8 @@ const {serve} = require('./server');
 
 const PAGE = `<!doctype html><meta charset="utf-8"><title>media</title>
 <link rel="icon" href="data:,">
-<script src="/lib/mp4box.all.js"></script><script src="/js/mp4box_report.js"></script>`;
+<script src="/mp4box/mp4box.all.js"></script><script src="/js/mp4box_report.js"></script>
+<script src="/shaka/shaka-player.compiled.js"></script>`;
 
 // The functions below run in the page.
 
@@ -31,24 +33,33 @@ async function decode(name, rate) {
   }
 }
 
-// Plays until `seconds` are heard; times that the element shows must ascend.
+// Plays until `seconds` are heard, with the times that the element shows.
 async function play(name, seconds) {
-  const audio = new Audio(name);
+  const audio = new Audio();
   const times = [];
+  const playlist = /\.(m3u8|mpd)$/.test(name);
+  const player = playlist ? new shaka.Player() : null;
   try {
+    if (player) {
+      await player.attach(audio);
+      await player.load(name);
+    } else {
+      audio.src = name;
+    }
     await audio.play();
     while (!audio.error && !audio.ended && audio.currentTime < seconds) {
       await new Promise((next) => requestAnimationFrame(next));
       if (audio.currentTime !== times[times.length - 1]) times.push(audio.currentTime);
     }
   } catch (error) {
-    return {error: (audio.error && audio.error.message) || String(error)};
+    return {error: (audio.error && audio.error.message) || error.message || String(error)};
   }
   audio.pause();
   return {
     error: audio.error && audio.error.message, duration: audio.duration, steps: times.length,
     ascending: times.every((time, i) => i === 0 || time > times[i - 1]),
     heard: times[times.length - 1],
+    tracks: player && player.getVariantTracks().map((track) => track.codecs),
   };
 }
 
@@ -59,6 +70,7 @@ async function parse(name) {
 }
 
 async function look(page, folder, name) {
+  if (/\.(m3u8|mpd)$/.test(name)) return {};
   const decoded = await page.evaluate(decode, name, 48000);
   if (decoded.samples) {
     fs.writeFileSync(path.join(folder, name + '.f32'), Buffer.from(decoded.samples, 'base64'));
@@ -69,8 +81,12 @@ async function look(page, folder, name) {
 }
 
 async function main([folder, ...names]) {
-  const lib = path.join(__dirname, 'node_modules/mp4box/dist');
-  const server = await serve({'/': folder, '/lib/': lib, '/js/': __dirname}, (request, response) => {
+  const modules = path.join(__dirname, 'node_modules');
+  const folders = {
+    '/': folder, '/js/': __dirname, '/mp4box/': path.join(modules, 'mp4box/dist'),
+    '/shaka/': path.join(modules, 'shaka-player/dist'),
+  };
+  const server = await serve(folders, (request, response) => {
     if (request.url !== '/') return false;
     response.writeHead(200, {'Content-Type': 'text/html'}).end(PAGE);
     return true;

@@ -1,9 +1,10 @@
-// node viewer_report.js looks|sound|texts PAGE.html FOLDER: what Chromium makes of a page, as JSON.
+// node viewer_report.js looks|sound|texts|live PAGE.html FOLDER: what Chromium makes of a page, as JSON.
 //
 // looks: vertices of the frames 0 .. 7 as 32-bit floats in FOLDER/<part>_<frame>.f32; how much the
 //   mouth and the forehead change between the frames 0 and 1.
 // sound: plays ten seconds; each picture against what is heard then, told by the clicks.
 // texts: what is shown where names are hostile; the ways to compare; what works without a head.
+// live: `result` of a page with values of its own.
 // All have `messages`: what the console said.
 'use strict';
 
@@ -138,6 +139,9 @@ const LOOK_AT_TEXTS = `(() => ({
 
 async function texts(page, file, folder) {
   await page.resize(700, 500);
+  // As in browsers before 2023.
+  await page.send('Page.addScriptToEvaluateOnNewDocument',
+      {source: 'delete window.DecompressionStream'});
   await open(page, file, '?t=0.1');
   const report = {texts: await page.evaluate(LOOK_AT_TEXTS), modes: {}};
   for (const mode of ['first', 'second', 'side', 'ghost', 'heat']) {
@@ -161,11 +165,17 @@ async function texts(page, file, folder) {
   return report;
 }
 
+async function live(page, file) {
+  await page.resize(300, 300);
+  await page.goto(pathToFileURL(file).href);
+  return {result: await page.wait('window.result', {seconds: 120})};
+}
+
 async function main([kind, file, folder]) {
   const browser = await launch({flags: FLAGS});
   try {
     const page = await browser.open();
-    const report = await {looks, sound, texts}[kind](page, path.resolve(file), folder);
+    const report = await {looks, sound, texts, live}[kind](page, path.resolve(file), folder);
     report.messages = page.messages;
     process.stdout.write(JSON.stringify(report) + '\n');
   } finally {

@@ -31,6 +31,27 @@ class FaceFeed : public TrackFeed {
   std::size_t next_ = 0;
 };
 
+class VideoFeed : public TrackFeed {
+ public:
+  VideoFeed(Muxer& muxer, const EncodedVideo& video) : muxer_(muxer), video_(video) {}
+
+  Result<void> begin() override { return {}; }
+  bool ready() const override { return next_ < video_.packets.size(); }
+  std::int64_t time() const override { return video_.packets[next_].time; }
+  AVRational time_base() const override { return {int(video_.rate.den), int(video_.rate.num)}; }
+  bool sync() const override { return video_.packets[next_].key; }
+  Result<void> write() override { return muxer_.write_picture(video_.packets[next_++]); }
+  double end() const override {
+    return next_ == 0 ? 0 : video_.rate.seconds(double(video_.packets[next_ - 1].time + 1));
+  }
+  double share() const override { return double(next_) / double(video_.packets.size()); }
+
+ private:
+  Muxer& muxer_;
+  const EncodedVideo& video_;
+  std::size_t next_ = 0;
+};
+
 class SoundFeed : public TrackFeed {
  public:
   SoundFeed(Muxer& muxer, SoundSource& sound, double seconds)
@@ -78,6 +99,10 @@ TrackFeed* first_due(const std::vector<std::unique_ptr<TrackFeed>>& feeds) {
 
 std::unique_ptr<TrackFeed> face_feed(Muxer& muxer, const fba::AccessUnits& face) {
   return std::make_unique<FaceFeed>(muxer, face);
+}
+
+std::unique_ptr<TrackFeed> video_feed(Muxer& muxer, const EncodedVideo& video) {
+  return std::make_unique<VideoFeed>(muxer, video);
 }
 
 std::unique_ptr<TrackFeed> sound_feed(Muxer& muxer, SoundSource& sound, double seconds) {

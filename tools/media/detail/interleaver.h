@@ -35,6 +35,7 @@ class TrackFeed {
 
 /// All of these outlive the feed. `seconds` of sound, for share().
 std::unique_ptr<TrackFeed> face_feed(Muxer& muxer, const fba::AccessUnits& face);
+std::unique_ptr<TrackFeed> video_feed(Muxer& muxer, const EncodedVideo& video);
 std::unique_ptr<TrackFeed> sound_feed(Muxer& muxer, SoundSource& sound, double seconds);
 
 struct Interleaved {

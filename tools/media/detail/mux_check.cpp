@@ -53,14 +53,20 @@ Result<void> check_face(const fba::AccessUnits& face) {
 
 Result<void> check_input(const MuxInput& input, const MuxOptions& options) {
   const bool sound = input.audio != nullptr || input.encoded != nullptr;
-  if (input.face == nullptr && !sound) {
-    return invalid("nothing to write: neither a face nor sound was given");
+  if (input.face == nullptr && !sound && input.video == nullptr) {
+    return invalid("nothing to write: neither a face nor sound nor pictures were given");
   }
   if (input.audio != nullptr && input.encoded != nullptr) {
     return invalid("the sound was given twice, as samples and coded");
   }
   if (input.face != nullptr) {
     if (auto legal = check_face(*input.face); !legal) return legal;
+  }
+  if (input.video != nullptr && input.video->packets.empty()) {
+    return invalid("there are no pictures");
+  }
+  if (options.systems && input.video != nullptr) {
+    return make_error(Code::unsupported, "a Systems presentation has no pictures");
   }
   if (options.systems && input.face == nullptr) {
     return make_error(Code::unsupported, "a Systems presentation needs a face");

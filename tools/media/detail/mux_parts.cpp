@@ -32,11 +32,15 @@ int visual_profile(const MuxInput& input) {
 void set_mp4_options(const Mp4Contents& contents, av::Options& header) {
   header.set("brand", std::string("mp42"));
   header.set("skip_iods", 0);
-  header.set("iods_video_profile", contents.visual_profile);
+  // Of the pictures beside a face; theirs is in their own headers.
+  header.set("iods_video_profile",
+             contents.video != nullptr ? kUnspecified : contents.visual_profile);
   header.set("iods_audio_profile", audio_profile(contents.sound));
   // The unit of track durations; the default of 1 ms would round them.
   header.set("movie_timescale", contents.sound != nullptr ? contents.sound->sample_rate
-                                                          : std::int64_t(contents.face->timescale));
+                                : contents.face != nullptr
+                                    ? std::int64_t(contents.face->timescale)
+                                    : std::int64_t(contents.video->rate.num) * 1000);
 }
 
 void set_fragment_options(const char* cut, double seconds, av::Options& header) {

@@ -17,6 +17,7 @@ struct Mp4Contents {
   const fba::AccessUnits* face = nullptr;
   int visual_profile = 0xFF;
   const AudioFormat* sound = nullptr;
+  const EncodedVideo* video = nullptr;
 };
 
 /// Options of libavformat's mp4 muxer: brand, initial object descriptor, movie time scale.

@@ -82,6 +82,30 @@ Result<void> Muxer::add_face(const fba::AccessUnits& units) {
   return {};
 }
 
+Result<void> Muxer::add_video(const EncodedVideo& video) {
+  AVStream* stream = avformat_new_stream(context_, nullptr);
+  if (stream == nullptr) return no_memory();
+  AVCodecParameters& parameters = *stream->codecpar;
+  parameters.codec_type = AVMEDIA_TYPE_VIDEO;
+  parameters.codec_id = video.codec == VideoCodec::h264  ? AV_CODEC_ID_H264
+                        : video.codec == VideoCodec::vp9 ? AV_CODEC_ID_VP9
+                                                         : AV_CODEC_ID_MPEG4;
+  parameters.width = video.width;
+  parameters.height = video.height;
+  parameters.format = AV_PIX_FMT_YUV420P;
+  parameters.color_range = AVCOL_RANGE_MPEG;
+  parameters.color_space = AVCOL_SPC_BT709;
+  parameters.color_primaries = AVCOL_PRI_BT709;
+  parameters.color_trc = AVCOL_TRC_BT709;
+  if (!av::set_extradata(parameters, video.config)) return no_memory();
+  video_base_ = {int(video.rate.den), int(video.rate.num)};
+  stream->avg_frame_rate = av_inv_q(video_base_);
+  stream->time_base = {1, int(container_timescale(video.rate.num))};
+  stream->disposition = AV_DISPOSITION_DEFAULT;
+  video_stream_ = stream;
+  return {};
+}
+
 Result<void> Muxer::add_stream(const AVCodecParameters& parameters, AVRational time_base) {
   AVStream* stream = avformat_new_stream(context_, nullptr);
   if (stream == nullptr) return no_memory();
@@ -146,6 +170,15 @@ Result<void> Muxer::write_sound(const AudioPacket& packet) {
   packet_->pts += sound_shift_;
   packet_->dts += sound_shift_;
   return write_packet(*packet_);
+}
+
+Result<void> Muxer::write_picture(const VideoPacket& picture) {
+  if (av_new_packet(packet_.get(), int(picture.bytes.size())) < 0) return no_memory();
+  std::memcpy(packet_->data, picture.bytes.data(), picture.bytes.size());
+  packet_->pts = packet_->dts = picture.time;
+  packet_->duration = 1;
+  if (picture.key) packet_->flags |= AV_PKT_FLAG_KEY;
+  return write(*packet_, *video_stream_, video_base_);
 }
 
 Result<void> Muxer::write_packet(AVPacket& packet) {

@@ -10,6 +10,7 @@
 #include "tools/media/detail/ffmpeg.h"
 #include "tools/media/detail/output_stream.h"
 #include "tools/media/encoded_audio.h"
+#include "tools/media/video.h"
 
 namespace animeme::media {
 
@@ -25,6 +26,9 @@ class Muxer {
 
   /// Adds the face stream. `units` must outlive the muxer.
   Result<void> add_face(const fba::AccessUnits& units);
+  /// Adds the pictures; before the face, so that players choose them. `video` must outlive the
+  /// muxer.
+  Result<void> add_video(const EncodedVideo& video);
   /// Adds a stream with these parameters and packet times in `time_base`.
   Result<void> add_stream(const AVCodecParameters& parameters, AVRational time_base);
   /// Adds a stream of coded sound; `bit_rate` 0: not known.
@@ -34,6 +38,7 @@ class Muxer {
   Result<void> write_header(av::Options& options);
   Result<void> write_unit(const fba::AccessUnit& unit);
   Result<void> write_sound(const AudioPacket& packet);
+  Result<void> write_picture(const VideoPacket& packet);
   /// Takes the packet's content. Times in the time_base given to add_stream().
   Result<void> write_packet(AVPacket& packet);
   /// mp4 with frag_custom: what comes next begins a fragment.
@@ -52,10 +57,12 @@ class Muxer {
   av::Packet packet_;
   const fba::AccessUnits* face_ = nullptr;
   AVStream* face_stream_ = nullptr;
+  AVStream* video_stream_ = nullptr;
   AVStream* other_stream_ = nullptr;
   AudioFormat sound_;
   std::int64_t sound_shift_ = 0;  // samples
   AVRational face_base_{1, 1};    // of AccessUnit times
+  AVRational video_base_{1, 1};   // a picture
   AVRational other_base_{1, 1};
 };
 

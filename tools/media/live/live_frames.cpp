@@ -27,18 +27,35 @@ fap::Frame towards_neutral(fap::Frame frame, double share) {
 
 }  // namespace
 
-Result<std::optional<fba::Plane>> LiveFrames::decode(const LiveUnit& unit) {
-  decoder_.push(unit.bytes);
+/// A decoder knows that a plane is complete when the next one begins, which would be a plane too
+/// late: a copy of it is told that nothing follows.
+std::optional<fba::Plane> LiveFrames::decode(const LiveUnit& unit) {
   std::optional<fba::Plane> plane;
-  for (;;) {
-    Result<fba::Event> event = decoder_.next();
-    if (!event) {
+  const auto drain = [&](fba::Decoder& decoder) {
+    std::int64_t planes = 0;
+    for (;;) {
+      Result<fba::Event> event = decoder.next();
+      if (event && event->kind == fba::Event::Kind::plane) {
+        plane = std::move(event->plane);
+        ++planes;
+      }
+      if (event) continue;
+      // After any other error the decoder goes on with the next intra plane.
       const Code code = event.error().code;
-      if (code == Code::need_data || code == Code::end_of_stream) return plane;
-      return event.error();
+      if (code == Code::need_data || code == Code::end_of_stream || code == Code::truncated) {
+        return planes;
+      }
     }
-    if (event->kind == fba::Event::Kind::plane) plane = std::move(event->plane);
-  }
+  };
+  decoder_.push(unit.bytes);
+  ++pushed_;
+  delivered_ += drain(decoder_);
+  if (delivered_ == pushed_) return plane;
+  plane.reset();
+  fba::Decoder ahead = decoder_;
+  ahead.finish();
+  drain(ahead);
+  return plane;
 }
 
 void LiveFrames::add_gap(std::int64_t end, std::vector<fap::Frame>& frames) const {
@@ -79,19 +96,20 @@ Result<fap::Frame> LiveFrames::filled(const fba::Plane& plane, fap::Frame frame)
 
 Result<std::vector<fap::Frame>> LiveFrames::push(const LiveUnit& unit, std::uint32_t timescale,
                                                  bool after_gap) {
-  Result<std::optional<fba::Plane>> plane = decode(unit);
-  if (!plane) return plane.error();
+  const std::optional<fba::Plane> plane = decode(unit);
   std::vector<fap::Frame> frames;
-  if (!*plane || !fba::has_face((*plane)->object_mask)) return frames;
-  rate_ = (*plane)->rate;
+  damaged_ = damaged_ || !plane;
+  if (!plane || !fba::has_face(plane->object_mask)) return frames;
+  rate_ = plane->rate;
   if (!first_time_) first_time_ = unit.time;
   const double seconds = double(unit.time - *first_time_) / timescale;
-  fap::Frame frame = (*plane)->face;
+  fap::Frame frame = plane->face;
   frame.number = std::llround(seconds * rate_.frames_per_second());
   if (last_) frame.number = std::max(frame.number, last_->number + 1);
-  if (after_gap) add_gap(frame.number, frames);
+  if (after_gap || damaged_) add_gap(frame.number, frames);
+  damaged_ = false;
   if (fill_) {
-    Result<fap::Frame> complete = filled(**plane, frame);
+    Result<fap::Frame> complete = filled(*plane, frame);
     if (!complete) return complete.error();
     frame = *complete;
   }

@@ -34,20 +34,23 @@ class LiveFrames {
 
   /// The frames that a plane adds: those of the gap before it, if planes are missing there, and its
   /// own; none if it has no face. Planes must begin with an intra plane and, behind a gap, go on
-  /// with one. Errors: those of the decoder.
+  /// with one. A plane that cannot be decoded gives no frame, nor do those up to the next intra
+  /// plane. Errors: those of fap::fill().
   Result<std::vector<fap::Frame>> push(const LiveUnit& unit, std::uint32_t timescale,
                                        bool after_gap);
-  /// Rate of the last plane.
+  /// Rate of the last plane that was decoded.
   fap::Rate rate() const { return rate_; }
 
  private:
-  Result<std::optional<fba::Plane>> decode(const LiveUnit& unit);
+  std::optional<fba::Plane> decode(const LiveUnit& unit);
   void add_gap(std::int64_t end, std::vector<fap::Frame>& frames) const;
   Result<fap::Frame> filled(const fba::Plane& plane, fap::Frame frame) const;
 
   GapRule gap_;
   bool fill_;
   fba::Decoder decoder_;
+  std::int64_t pushed_ = 0, delivered_ = 0;  // planes, by and to the decoder
+  bool damaged_ = false;                     // planes could not be decoded since the last frame
   fap::Rate rate_;
   std::optional<std::int64_t> first_time_;
   std::optional<fap::Frame> last_;

@@ -91,6 +91,12 @@ Vec3 lit(Vec3 n, Vec3 to_eye, Vec3 albedo, float sky, const Look& look, const Vi
   return c * kExposure;
 }
 
+// The window of an eye is rounder than the ball, so it shows the lamp from most sides.
+Vec3 cornea(Vec3 normal, Vec3 gaze) {
+  const float ahead = dot(normal, gaze);
+  return normal + (normal - gaze * ahead) * (0.5f * head::smooth_step(0.2f, 1.0f, ahead));
+}
+
 }  // namespace
 
 View::View(const Camera& camera, int width, int height) : eye(camera.eye) {
@@ -118,6 +124,7 @@ float filmic(float x) { return shown(x * (2.51f * x + 0.03f) / (x * (2.43f * x +
 void shade(const Surface& surface, const View& view, std::size_t first, std::size_t last,
            ScreenVertex* out) {
   const Look look = look_of(surface.material);
+  const Vec3 gaze = surface.transform.turn({0, 0, 1});
   for (std::size_t i = first; i < last; ++i) {
     const Vec3 place = surface.transform(surface.positions[i]);
     const Vec3 normal = surface.transform.turn(surface.normals[i]);
@@ -130,7 +137,7 @@ void shade(const Surface& surface, const View& view, std::size_t first, std::siz
     constexpr float kFar = 1 << 14;  // far outside of any picture; the product of two fits 64 bits
     v.x = std::int32_t(std::lrint(std::clamp(px, -kFar, kFar) * kSubpixels));
     v.y = std::int32_t(std::lrint(std::clamp(py, -kFar, kFar) * kSubpixels));
-    v.normal = normal;
+    v.normal = surface.material == Material::eye ? cornea(normal, gaze) : normal;
     const Vec3 to_eye = normalised(Vec3{} - from_eye);
     if (dot(to_eye, normal) < -0.5f) continue;  // no triangle that is seen has such a corner
     const Vec3 c = lit(normal, to_eye, surface.colours[i], surface.occlusion[i], look, view);
@@ -141,9 +148,9 @@ void shade(const Surface& surface, const View& view, std::size_t first, std::siz
 float eye_highlight(Vec3 normal, const View& view) {
   const Vec3 n = normalised(normal);
   const float key = std::max(dot(n, normalised(view.key + view.back)), 0.0f);
-  const float fill = std::max(dot(n, normalised(view.fill + view.back)), 0.0f);
-  const float sharp = head::smooth_step(0.978f, 0.988f, key);
-  return 235 * sharp + 30 * power(key, 5) + 26 * head::smooth_step(0.972f, 0.99f, fill);
+  const float fill = std::max(dot(n, normalised(view.fill + view.up * 0.8f + view.back)), 0.0f);
+  const float sharp = head::smooth_step(0.962f, 0.976f, key);
+  return 235 * sharp + 30 * power(key, 5) + 150 * head::smooth_step(0.986f, 0.992f, fill);
 }
 
 }  // namespace animeme::render::detail

@@ -26,7 +26,7 @@ struct ScreenVertex {
   std::int32_t y = 0;
   float nearness = 0;  ///< 1/distance; <= 0: not visible
   head::Vec3 colour;   ///< 0..255, as shown
-  head::Vec3 normal;   ///< of eyes: half way between light and eye is what matters
+  head::Vec3 normal;   ///< for highlights; not of length 1
 };
 
 /// sRGB value 0..255 of linear light 0..1, by table.

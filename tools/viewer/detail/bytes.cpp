@@ -1,5 +1,7 @@
 #include "tools/viewer/detail/bytes.h"
 
+#include <zlib.h>
+
 #include <algorithm>
 
 namespace animeme::viewer::detail {
@@ -32,6 +34,15 @@ Bytes with_header(const std::string& json, const Bytes& rest) {
   out.u32(std::uint32_t(json.size()));
   out.text(json);
   out.append(rest);
+  return out;
+}
+
+std::vector<std::uint8_t> deflated(const std::vector<std::uint8_t>& bytes) {
+  uLongf size = ::compressBound(uLong(bytes.size()));
+  std::vector<std::uint8_t> out(size);
+  // With room for the worst case, memory alone can be missing; then the result would be empty.
+  if (::compress2(out.data(), &size, bytes.data(), uLong(bytes.size()), 9) != Z_OK) size = 0;
+  out.resize(size);
   return out;
 }
 

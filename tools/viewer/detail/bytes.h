@@ -33,6 +33,9 @@ class Bytes {
 /// A length of 32 bits, a header in JSON, the rest.
 Bytes with_header(const std::string& json, const Bytes& rest);
 
+/// Smaller, as zlib writes it (RFC 1950); other versions of zlib may choose other bytes.
+std::vector<std::uint8_t> deflated(const std::vector<std::uint8_t>& bytes);
+
 std::string base64(const std::vector<std::uint8_t>& bytes);
 
 }  // namespace animeme::viewer::detail

@@ -16,6 +16,13 @@ export class Axis {
     return this.end - this.begin;
   }
 
+  /** Another whole length; all of it is seen if that was so before. */
+  setTotal(total) {
+    const all = this.length >= this.total;
+    this.total = Math.max(total, SHORTEST);
+    this.show(all ? 0 : this.begin, all ? this.total : this.length);
+  }
+
   /** Place of a time as a share of the width. */
   share(time) {
     return (time - this.begin) / this.length;

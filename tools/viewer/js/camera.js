@@ -1,4 +1,5 @@
 // A camera that goes around a head, by mouse, touch or keys.
+import {smoothStep} from './vector.js';
 
 const cross = (a, b) => [
   a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -11,7 +12,7 @@ const CLOSE = 1.08;  // the face is what people want to see
 const NARROW = 0.74;  // pictures narrower than this share of their height see more
 const STEEPEST = 80 * Math.PI / 180;
 
-/** `home`: the camera of the model, {target, distance, angle}. */
+/** `home`: the camera of the model, {target, near, distance, angle}. */
 export class Camera {
   constructor(home) {
     this.home = home;
@@ -25,8 +26,14 @@ export class Camera {
     this.left = left * Math.PI / 180;
     this.up = up * Math.PI / 180;
     this.zoom = zoom;
-    this.target = [...this.home.target];
+    this.offset = [0, 0, 0];
     this.onChange();
+  }
+
+  /** What it looks at: nearer pictures have the face in their middle. */
+  get target() {
+    const near = smoothStep(1, 1.8, this.zoom);
+    return sum([this.home.target, 1 - near], [this.home.near, near], [this.offset, 1]);
   }
 
   turn(left, up) {
@@ -44,10 +51,9 @@ export class Camera {
   shift(right, up) {
     const size = 2 * this.home.distance * Math.tan(this.home.angle / 2) / this.zoom;
     const axes = this.axes();
-    const {distance} = this.home;
-    this.target = sum([this.target, 1], [axes.right, -right * size], [axes.up, -up * size])
-        .map((x, k) => Math.min(Math.max(x, this.home.target[k] - distance / 3),
-            this.home.target[k] + distance / 3));
+    const most = this.home.distance / 3;
+    this.offset = sum([this.offset, 1], [axes.right, -right * size], [axes.up, -up * size])
+        .map((x) => Math.min(Math.max(x, -most), most));
     this.onChange();
   }
 

@@ -5,6 +5,7 @@ const ROW = 48;
 // Fingers need larger buttons, which stand in the ruler.
 const RULER = matchMedia('(max-width: 760px)').matches ? 32 : 20;
 const TRACK = 20;
+const SILENCE = 'SIL';
 
 /** `facts`: faps (the table) and phones of the page; `app`: clips, player. */
 export class Curves {
@@ -95,7 +96,7 @@ export class Curves {
     pen.textBaseline = 'middle';
     this.paper = {pen, width, height, colour: (name) => style.getPropertyValue(`--${name}`)};
     this.drawRuler();
-    this.drawTrack(this.phones, RULER, 'phone', (label) => label === 'SIL');
+    this.drawTrack(this.phones, RULER, 'phone', (label) => label === SILENCE);
     this.drawTrack(this.words, RULER + TRACK, 'word', () => false);
     this.faps.forEach((fap, row) => this.drawRow(fap, this.top() + row * ROW));
     this.show(this.app.time(), true);
@@ -123,6 +124,7 @@ export class Curves {
       pen.moveTo(x, 4);
       pen.lineTo(x, height);
       pen.stroke();
+      if (x > width - 110) continue;  // buttons stand there
       pen.fillText(`${(k * step).toFixed(digits)} s`, x + 4, RULER / 2);
     }
   }
@@ -206,7 +208,8 @@ export class Curves {
       });
     });
     const phone = pieceAt(this.phones, time);
-    this.now.textContent = phone ? [phone[2], phone[3]].filter(Boolean).join(' · ') : '';
+    const spoken = phone && phone[2] !== SILENCE;
+    this.now.textContent = spoken ? [phone[2], phone[3]].filter(Boolean).join(' · ') : '';
   }
 }
 

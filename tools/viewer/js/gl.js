@@ -203,11 +203,12 @@ export class Renderer {
     meshes.forEach((mesh, i) => {
       if (mesh.count === 0) return;
       this.setPart(heads, rig.transforms[i]);
-      const {wrap, shine, sharpness, rim} = mesh.look;
+      const {wrap, shine, sharpness, rim, gloss = 0} = mesh.look;
       gl.uniform3fv(heads.place('wrap'), wrap);
       gl.uniform1f(heads.place('shine'), shine);
       gl.uniform1i(heads.place('sharpness'), sharpness);
       gl.uniform1f(heads.place('rimShare'), rim);
+      gl.uniform1f(heads.place('gloss'), gloss);
       gl.uniform1i(heads.place('eyeball'), mesh.part.material === 'eye' ? 1 : 0);
       mesh.drawTriangles();
     });

@@ -2,18 +2,19 @@
 //
 //     const view = new HeadView(canvas, readModel(bytes));     // throws without WebGL2
 //     view.camera.listen(canvas);                               // mouse and touch
-//     view.show(values);                                        // 69 numbers, index = FAP number
+//     view.show({3: 200, 5: -300});                             // by FAP number, missing ones are 0
 //
-// show() moves the head and draws it; call it once a displayed frame at most. Values are FAP units;
-// FAP 1 and 2 become low-level FAPs by lowLevel() of rig.js.
+// show() moves the head and draws it; call it once a displayed frame at most. Values are FAP units,
+// an array or an object; 1 may be {select1, select2, blend}, 2 {select1, intensity1, select2,
+// intensity2}, whose shapes are shown where the values have no own.
 import {Camera} from './camera.js';
 import {Renderer} from './gl.js';
-import {Rig} from './rig.js';
+import {Rig, lowLevel} from './rig.js';
 
 const PLAIN = [0, 0, 0, 0];
-const GHOST = [0.10, 0.35, 0.85, 0.45];  // the second head where both are in one place
+const GHOST = [0.10, 0.35, 0.85, 0.35];  // the second head where both are in one place
 const WIRE = [0.05, 0.07, 0.12, 0.30];
-const HEAT_TOP = 0.3;  // cm that are shown in the strongest colour
+const HEAT_TOP = 0.2;  // cm that are shown in the strongest colour
 
 export class HeadView {
   /** `count` 2: a second head of the same model, to compare. */
@@ -46,7 +47,8 @@ export class HeadView {
 
   /** Moves head `which` without drawing it. */
   pose(values, which = 0) {
-    this.rigs[which].pose(values);
+    const shapes = typeof values[1] === 'object' || typeof values[2] === 'object';
+    this.rigs[which].pose(shapes ? lowLevel(this.model, values[1], values[2], values) : values);
     this.stale[which] = true;
   }
 
@@ -92,7 +94,7 @@ export class HeadView {
       this.stale[head] = false;
       const over = i > 0 && this.mode === 'ghost';
       this.renderer.draw(meshes, rig, view, {
-        tint: over ? GHOST : PLAIN, opacity: over ? 0.5 : 1, wire: this.wire ? WIRE : null,
+        tint: over ? GHOST : PLAIN, opacity: over ? 0.45 : 1, wire: this.wire ? WIRE : null,
       });
     });
   }

@@ -31,6 +31,8 @@ export function keyTable(app) {
     ['P', ['p'], 'feature points', () => app.set('points', !app.options.points)],
     ['G', ['g'], 'next way to compare two clips', () => app.nextMode()],
     ['R', ['r'], 'look from the front', () => app.resetView()],
+    ['4 6 8 2', ['4', '6', '8', '2'], 'turn the head', (event) => app.turnView(
+        {4: -15, 6: 15}[event.key] || 0, {8: 10, 2: -10}[event.key] || 0)],
     ['F', ['f'], 'full screen', () => app.fullscreen()],
     ['+ −', ['+', '=', '-'], 'curves closer or wider',
       (event) => app.axis.zoom(event.key === '-' ? 0.5 : 2, app.time())],
@@ -41,9 +43,8 @@ export function keyTable(app) {
 // Keys that a focused element needs for itself.
 function isOwn(target, key) {
   if (target.closest('input[type=search], select')) return true;
-  if (key === ' ') return Boolean(target.closest('button, input'));
-  const arrows = key.startsWith('Arrow');
-  return arrows && Boolean(target.closest('input[type=radio], input[type=range]'));
+  if (key === ' ') return Boolean(target.closest('button, input:not([type=range])'));
+  return key.startsWith('Arrow') && Boolean(target.closest('input[type=radio]'));
 }
 
 /** Listens to the keys of the page. `dialog`: the list, which takes all keys while it is open. */

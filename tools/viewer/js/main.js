@@ -5,20 +5,23 @@ import {Chooser, mostMoving} from './chooser.js';
 import {Clip} from './clip.js';
 import {Controls} from './controls.js';
 import {Curves} from './curves.js';
+import {inflate} from './inflate.js';
 import {fillHelp, keyTable, listenToKeys} from './keys.js';
 import {readModel} from './model.js';
 import {Player} from './player.js';
 import {MODES, Stage} from './stage.js';
 
 const byId = (id) => document.getElementById(id);
-const data = (id) => (byId(id) ? fromBase64(byId(id).textContent) : null);
+const coded = (id) => fromBase64(byId(id).textContent);
+const data = (id) => (byId(id) ? inflate(coded(id)) : null);
 const asked = new URLSearchParams(location.search);
 const flag = (name) => asked.has(name) && asked.get(name) !== '0';
 
 /** What the page does; controls and keys call it. */
 class App {
-  constructor(facts) {
-    this.clips = [data('clip0'), data('clip1')].filter(Boolean).map((bytes) => new Clip(bytes));
+  /** `model`: the bytes of a head, null for none; `clips`: the bytes of one or two. */
+  constructor(facts, model, clips) {
+    this.clips = clips.filter(Boolean).map((bytes) => new Clip(bytes));
     this.hasSound = Boolean(facts.sound);
     this.options = {wire: false, points: false, between: true, mode: 'first'};
     const ends = this.clips.map((clip) => clip.end);
@@ -26,11 +29,10 @@ class App {
     this.axis = new Axis(this.player.duration);
     this.needed = false;
     this.resume = false;
-    const model = flag('nohead') ? null : readModel(data('model'));
     this.stage = new Stage({
       element: byId('stage'), canvas: byId('picture'), overlay: byId('overlay'), tip: byId('tip'),
       message: byId('message'), readout: byId('readout'), names: [byId('name0'), byId('name1')],
-    }, model, this.clips);
+    }, model && readModel(model), this.clips);
     this.curves = new Curves({
       area: byId('area'), canvas: byId('curves'), labels: byId('labels'), head: byId('head'),
       now: byId('now'),
@@ -64,9 +66,7 @@ class App {
   }
 
   changed() {
-    if (this.axis.total !== this.player.duration) {
-      this.axis.total = this.axis.end = this.player.duration;
-    }
+    if (this.axis.total !== this.player.duration) this.axis.setTotal(this.player.duration);
     this.controls.update();
     this.curves.draw();
     this.need();
@@ -123,6 +123,11 @@ class App {
     if (this.stage.view) this.stage.view.camera.reset();
   }
 
+  /** By degrees to the person's left and up. */
+  turnView(left, up) {
+    if (this.stage.view) this.stage.view.camera.turn(left * Math.PI / 180, up * Math.PI / 180);
+  }
+
   fullscreen() {
     if (document.fullscreenElement) document.exitFullscreen();
     else if (byId('main').requestFullscreen) byId('main').requestFullscreen().catch(() => {});
@@ -147,6 +152,8 @@ function obey(app) {
     const {view} = app.stage;
     if (view) view.camera.reset(number('left') || 0, number('up') || 0, number('zoom') || undefined);
   }
+  // So much time at first that phones can be read.
+  app.axis.show(0, byId('area').clientWidth / 160);
   const [from, to] = (asked.get('loop') || '').split('-').map(Number);
   if (to > from) app.mark([from, to]);
   const faps = (asked.get('faps') || '').split(',').map(Number).filter((f) => f >= 3 && f <= 68);
@@ -157,7 +164,8 @@ function obey(app) {
 
 async function start() {
   const facts = JSON.parse(byId('facts').textContent);
-  const app = new App(facts);
+  const model = flag('nohead') ? null : await data('model');
+  const app = new App(facts, model, [await data('clip0'), await data('clip1')]);
   byId('title').textContent = app.clips.map((clip) => clip.name).join(' / ');
   byId('now').hidden = !facts.phones.length;
   const table = keyTable(app);
@@ -194,7 +202,7 @@ async function start() {
   Object.assign(window.animeme, api);
   obey(app);
   if (facts.sound) {
-    await player.loadSound(data('sound')).catch(() => {
+    await player.loadSound(coded('sound')).catch(() => {
       byId('silent').hidden = false;
     });
   }

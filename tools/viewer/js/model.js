@@ -35,7 +35,7 @@ function readTarget(reader, {fap, part, count, steps}) {
 }
 
 /** {name, parts: [{name, material, positions, normals, paint, triangles}], targets, lips, lids,
-    sliding, anchors, neckWeights, and what the header has}. Vertices of targets are places in the
+    sliding, beforeEyes, anchors, neckWeights, and what the header has}. Vertices of targets are places in the
     array of positions. */
 export function readModel(bytes) {
   const reader = new ByteReader(bytes);
@@ -46,8 +46,9 @@ export function readModel(bytes) {
   const lips = reader.varints(header.lips * 2);
   const lids = header.lids.map((count) => reader.varints(count * 2));
   const sliding = header.sliding.map((count) => reader.varints(count));
+  const beforeEyes = header.before_eyes.map((count) => reader.varints(count));
   const anchors = reader.varints(header.anchors);
   const neckWeights = Float32Array.from(reader.u16(parts[0].positions.length / 3),
       (weight) => weight / 65535);
-  return {...header, parts, targets, lips, lids, sliding, anchors, neckWeights};
+  return {...header, parts, targets, lips, lids, sliding, beforeEyes, anchors, neckWeights};
 }

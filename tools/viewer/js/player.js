@@ -37,9 +37,10 @@ export class Player {
     this.onChange();
   }
 
-  /** Where the loop is: [from, to], or null when it is off. */
+  /** Where the loop is: [from, to]; null when it is off or lies behind. */
   loop() {
-    return this.looping ? this.region || [0, this.duration] : null;
+    const loop = this.looping ? this.region || [0, this.duration] : null;
+    return loop && this.at < loop[1] ? loop : null;
   }
 
   /** Seconds on the clock of the audio context at which that leaves it which is heard now; null
@@ -76,15 +77,14 @@ export class Player {
   /** To be called before each picture: stops at the end. The position. */
   tick() {
     const time = this.position();
-    if (this.playing && !this.looping && time >= this.duration) this.pause();
+    if (this.playing && !this.loop() && time >= this.duration) this.pause();
     return time;
   }
 
   play() {
     if (this.playing) return;
-    const loop = this.loop();
-    if (loop && (this.at >= loop[1] - 1e-3 || this.at < loop[0])) this.at = loop[0];
     if (this.at >= this.duration - 1e-3) this.at = 0;
+    if (this.looping && this.region) this.enterRegion();
     this.playing = true;
     this.restart();
     this.onChange();
@@ -124,7 +124,13 @@ export class Player {
     this.change(() => {
       this.region = region && region[1] - region[0] >= 0.02 ? region : null;
       this.looping = looping;
+      if (looping && this.region && this.playing) this.enterRegion();
     });
+  }
+
+  enterRegion() {
+    const [from, to] = this.region;
+    if (this.at < from || this.at >= to - 1e-3) this.at = from;
   }
 
   // What changes the way from time to position begins anew where it is.
@@ -160,7 +166,7 @@ export class Player {
     source.buffer = this.buffer;
     source.playbackRate.value = this.rate;
     const loop = this.loop();
-    if (loop && this.at < loop[1]) {
+    if (loop) {
       source.loop = true;
       [source.loopStart, source.loopEnd] = loop;
     }

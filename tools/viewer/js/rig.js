@@ -4,6 +4,7 @@ import {IDENTITY, compose, moved, movedPoints, rotationAbout, smoothNormals, smo
 
 export const FAP_COUNT = 68;
 const RADIANS = 1e-5;  // one unit of an angle
+const EYE_SKIN = 1.07;  // of the radius of an eyeball: skin comes no nearer to its centre
 const CONTACT = 0.06;  // lips and lids feel each other at this share of the mouth-nose distance
 
 // Two FAPs whose points would pass each other let them meet half way.
@@ -62,6 +63,7 @@ export class Rig {
     this.applyTargets(v, true);
     this.slideLids(skin);
     this.applyTargets(v, false);
+    this.keepOffEyes(v, skin);
     const touch = CONTACT * model.fapu.mns;
     for (const pairs of [model.lips, ...model.lids]) closePairs(pairs, touch, skin);
     this.turnLashes(skin, positions[index.lashes]);
@@ -92,7 +94,7 @@ export class Rig {
   slideLids(skin) {
     const neutral = this.model.parts[this.index.skin].positions;
     this.model.sliding.forEach((vertices, side) => {
-      const [cx, cy, cz] = this.model.eyes[side];
+      const [cx, cy, cz] = this.model.eyes[side].centre;
       for (const vertex of vertices) {
         const i = vertex * 3;
         if (skin[i] === neutral[i] && skin[i + 1] === neutral[i + 1] &&
@@ -105,6 +107,27 @@ export class Rig {
     });
   }
 
+  // Skin that other FAPs have pushed into an eyeball comes out again.
+  keepOffEyes(v, skin) {
+    const neutral = this.model.parts[this.index.skin].positions;
+    this.model.beforeEyes.forEach((vertices, side) => {
+      const {centre: [cx, cy, cz], radius} = this.model.eyes[side];
+      const front = cz + v[27 + side] * this.model.fapu.es / 1024;
+      for (const vertex of vertices) {
+        const i = vertex * 3;
+        const [x, y, z] = [skin[i] - cx, skin[i + 1] - cy, skin[i + 2] - front];
+        const rest = Math.hypot(neutral[i] - cx, neutral[i + 1] - cy, neutral[i + 2] - cz);
+        const least = Math.min(EYE_SKIN * radius, rest);
+        const distance = Math.sqrt(x * x + y * y + z * z);
+        if (distance >= least || distance === 0) continue;
+        const push = least / distance - 1;
+        skin[i] += x * push;
+        skin[i + 1] += y * push;
+        skin[i + 2] += z * push;
+      }
+    });
+  }
+
   // Lashes turn with the rim that carries them, about the centre of the eye.
   turnLashes(skin, lashes) {
     const {anchors, eyes} = this.model;
@@ -113,7 +136,7 @@ export class Rig {
     for (let k = 0; k < anchors.length; ++k) {
       const a = anchors[k] * 3;
       const i = k * 3;
-      const [, cy, cz] = eyes[rest[i] > 0 ? 0 : 1];
+      const [, cy, cz] = eyes[rest[i] > 0 ? 0 : 1].centre;
       const [wy, wz] = [neutral[a + 1] - cy, neutral[a + 2] - cz];
       const [y, z] = [skin[a + 1] - cy, skin[a + 2] - cz];
       const size = Math.sqrt((wy * wy + wz * wz) * (y * y + z * z));
@@ -138,7 +161,7 @@ export class Rig {
   }
 
   eyeTransform(side, v) {
-    const turn = rotationAbout(this.model.eyes[side], v[25 + side] * RADIANS,
+    const turn = rotationAbout(this.model.eyes[side].centre, v[25 + side] * RADIANS,
         v[23 + side] * RADIANS, 0);
     turn[11] += v[27 + side] * this.model.fapu.es / 1024;
     return turn;
@@ -187,7 +210,7 @@ function closePairs(pairs, soft, skin) {
 }
 
 /** The low-level FAPs of viseme {select1, select2, blend} and expression {select1, intensity1,
-    select2, intensity2}, either may be null; FAPs in `own`, an object by number, win. The same as
+    select2, intensity2}, either may be null; those of `own`, by number, win. The same as
     low_level() in head/shapes.h. */
 export function lowLevel(model, viseme, expression, own = {}) {
   const values = new Float64Array(FAP_COUNT + 1);
@@ -202,6 +225,6 @@ export function lowLevel(model, viseme, expression, own = {}) {
     add(model.expressions[expression.select1], expression.intensity1 / 63);
     add(model.expressions[expression.select2], expression.intensity2 / 63);
   }
-  for (const fap of Object.keys(own)) values[fap] = own[fap];
+  for (let fap = 3; fap <= FAP_COUNT; ++fap) values[fap] = own[fap] ?? values[fap];
   return values;
 }

@@ -41,7 +41,7 @@ centroid in float sky;
 centroid in float warmth;
 uniform vec3 eye, back, key, fill, rim;
 uniform vec3 wrap;
-uniform float shine, rimShare;
+uniform float shine, rimShare, gloss;
 uniform int sharpness;
 uniform bool eyeball;
 uniform vec4 tint;
@@ -84,11 +84,12 @@ vec3 lit(vec3 n, vec3 surface) {
   float edge = 1.0 - max(dot(n, toEye), 0.0);
   c += RIM * (rimShare * edge * edge * edge * max(dot(n, rim) + 0.25, 0.0) * sky);
   float half_ = max(dot(n, normalize(key + toEye)), 0.0);
-  c += KEY * (shine * power(half_, sharpness) * open * max(cosine, 0.0));
+  vec3 shade = mix(vec3(1.0), surface * 6.0, gloss);
+  c += KEY * shade * (shine * power(half_, sharpness) * open * max(cosine, 0.0));
   return c * 0.62;
 }
 vec3 heatColour(float t) {
-  return t < 0.5 ? mix(vec3(0.05, 0.10, 0.35), vec3(0.95, 0.75, 0.10), t * 2.0) :
+  return t < 0.5 ? mix(vec3(0.34, 0.38, 0.43), vec3(0.95, 0.70, 0.08), t * 2.0) :
       mix(vec3(0.95, 0.75, 0.10), vec3(0.85, 0.03, 0.03), t * 2.0 - 1.0);
 }
 void main() {
@@ -119,12 +120,12 @@ void main() {
 }`;
 
 /** How a material answers to light: how far it goes around, red first; strength and exponent
-    2^sharpness of the highlight; rim. */
+    2^sharpness of the highlight; rim; how much the highlight takes the colour of the surface. */
 export const LOOKS = {
   skin: {wrap: [0.42, 0.22, 0.16], shine: 0.10, sharpness: 4, rim: 0.22},
   eye: {wrap: [0.25, 0.22, 0.20], shine: 0, sharpness: 1, rim: 0},
   teeth: {wrap: [0.2, 0.2, 0.2], shine: 0.35, sharpness: 5, rim: 0},
   wet: {wrap: [0.3, 0.15, 0.1], shine: 0.25, sharpness: 5, rim: 0},
-  hair: {wrap: [0.15, 0.12, 0.10], shine: 0.16, sharpness: 4, rim: 0.35},
+  hair: {wrap: [0.15, 0.12, 0.10], shine: 0.14, sharpness: 4, rim: 0.3, gloss: 0.85},
   cloth: {wrap: [0.15, 0.15, 0.15], shine: 0.02, sharpness: 3, rim: 0.12},
 };

@@ -11,6 +11,7 @@ export class Stage {
     Object.assign(this, {...elements, clips});
     this.view = null;
     this.last = [];
+    this.element.classList.toggle('headless', !model);
     if (model) this.open(model);
     this.names.forEach((element, i) => { element.textContent = clips[i] ? clips[i].name : ''; });
   }
@@ -20,6 +21,7 @@ export class Stage {
       this.view = new HeadView(this.canvas, model, this.clips.length);
     } catch (error) {
       this.canvas.hidden = true;
+      this.element.classList.add('headless');
       this.message.hidden = false;
       this.message.textContent = error.message === 'no WebGL2' ?
           'This browser shows no WebGL2, which the head needs: switch hardware acceleration on, ' +

@@ -123,6 +123,11 @@ bool Client::over() const {
   return connections_[0].over && connections_[1].over;
 }
 
+/// Both are open, or there is no sound. The face tells so first.
+bool Client::ready() const {
+  return connections_[0].open && (connections_[1].open || connections_[1].over);
+}
+
 Result<void> Client::connect() {
   static const lws_protocols protocols[] = {{"animeme", &Client::callback, 0, 65536, 0, nullptr, 0},
                                             {nullptr, nullptr, 0, 0, 0, nullptr, 0}};
@@ -137,9 +142,8 @@ Result<void> Client::connect() {
   const bool asked = ask(connections_[0]);
   service_.run();
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, kPatience,
-                    [&] { return connections_[0].open || !problem_.empty() || !asked; });
-  if (connections_[0].open) return {};
+  changed_.wait_for(lock, kPatience, [&] { return ready() || !problem_.empty() || !asked; });
+  if (connections_[0].open && problem_.empty()) return {};
   const std::string why = problem_.empty() ? "nobody answers" : problem_;
   return make_error(Code::io, "no face at " + address_.text() + ": " + why +
                                   "; does a server of Animeme run there?");

@@ -32,7 +32,8 @@ class Client {
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
 
-  /// Waits until `/face` is open, 5 seconds at most. Errors: io.
+  /// Waits until `/face` and, if the server has one, its sound are open, 5 seconds at most: what is
+  /// sent from then on arrives. Errors: io.
   Result<void> connect();
   /// nullopt: nothing came in time. Errors: end_of_stream (the server said goodbye), io (the
   /// connection broke).
@@ -55,6 +56,7 @@ class Client {
   void close(Connection& connection, const std::string& why);
   void resume();
   bool over() const;
+  bool ready() const;
 
   const WebAddress address_;
   const std::size_t queue_bytes_;

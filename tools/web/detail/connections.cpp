@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "tools/media/live/audio_segments.h"
-#include "tools/web/detail/page.h"
 #include "tools/web/detail/server_impl.h"
 
 namespace animeme::web {
@@ -77,6 +76,7 @@ int Server::Impl::handle(lws* wsi, lws_callback_reasons reason, const char* in, 
 
 bool Server::Impl::exists(Resource resource) const {
   if (resource == Resource::none) return false;
+  if (resource == Resource::head) return !options.head_model.empty();
   const bool needs_sound = resource == Resource::audio || resource == Resource::talk;
   return !needs_sound || sound.sample_rate > 0;
 }
@@ -115,14 +115,17 @@ int Server::Impl::request(lws* wsi, const std::string& path) {
     }
     lws_set_timeout(wsi, NO_PENDING_TIMEOUT, 0);
   } else {
-    const bool page = resource == Resource::page;
-    if (page) {
-      session.body = page_text();
+    const char* type = "application/json";
+    if (resource == Resource::page) {
+      session.body = page;
+      type = "text/html; charset=utf-8";
+    } else if (resource == Resource::head) {
+      session.body.assign(options.head_model.begin(), options.head_model.end());
+      type = "application/octet-stream";
     } else {
       const std::lock_guard lock(mutex);
       session.body = info;
     }
-    const char* type = page ? "text/html; charset=utf-8" : "application/json";
     if (!send_header(wsi, type, session.body.size(), options.allow_origin)) return -1;
   }
   lws_callback_on_writable(wsi);

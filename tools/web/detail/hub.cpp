@@ -1,6 +1,7 @@
 #include "tools/web/detail/hub.h"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include "tools/web/detail/messages.h"
@@ -10,6 +11,17 @@ namespace {
 
 // More than that since the last intra plane: the newcomer had better wait for the next one.
 constexpr std::size_t kMostRecentBytes = std::size_t(1) << 20;
+
+/// The message with the note that others in front of it were dropped. (Segments of sound need none:
+/// their times show it.)
+MessagePtr marked(Message message, Channel channel) {
+  if (channel == Channel::face) message.bytes[kFlagsAt] |= kMissed;
+  if (channel == Channel::faps) {
+    constexpr std::string_view kNote = "\"missed\":true,";
+    message.bytes.insert(message.bytes.begin() + 1, kNote.begin(), kNote.end());  // behind the {
+  }
+  return std::make_shared<const Message>(std::move(message));
+}
 
 }  // namespace
 
@@ -69,11 +81,7 @@ void Hub::push(Client& client, const MessagePtr& message) {
   }
   client.waits_for_entry = false;
   MessagePtr own = message;
-  if (client.missed && client.channel == Channel::face) {
-    Message marked = *message;
-    marked.bytes[kFlagsAt] |= kMissed;
-    own = std::make_shared<const Message>(std::move(marked));
-  }
+  if (client.missed) own = marked(*message, client.channel);
   // Of one that has just lost all that waited for it, nobody can say that it takes anything.
   if (client.queue.empty() && !client.missed) client.taken = Clock::now();
   client.missed = false;

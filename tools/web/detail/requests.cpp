@@ -23,6 +23,7 @@ bool add(lws* wsi, const char* name, const std::string& value, unsigned char** a
 Resource resource_of(const std::string& path) {
   if (path == "/" || path == "/index.html") return Resource::page;
   if (path == "/info.json") return Resource::info;
+  if (path == "/head.bin") return Resource::head;
   if (path == "/talk.mp4") return Resource::talk;
   if (path == "/face") return Resource::face;
   if (path == "/faps") return Resource::faps;

@@ -11,7 +11,7 @@
 
 namespace animeme::web {
 
-enum class Resource : std::uint8_t { none, page, info, talk, face, faps, audio };
+enum class Resource : std::uint8_t { none, page, info, head, talk, face, faps, audio };
 
 /// `path`: as in the request line, without the query.
 Resource resource_of(const std::string& path);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tools/web/detail/hub.h"
+#include "tools/web/detail/page.h"
 #include "tools/web/detail/requests.h"
 #include "tools/web/detail/server.h"
 #include "tools/web/detail/service.h"
@@ -26,10 +27,14 @@ struct Session {
 
 struct Server::Impl {
   Impl(const WebOptions& web_options, SoundFacts facts)
-      : options(web_options), sound(facts), hub(web_options.client_bytes, web_options.catch_up) {}
+      : options(web_options),
+        sound(facts),
+        page(make_page(web_options.head_script)),
+        hub(web_options.client_bytes, web_options.catch_up) {}
 
   const WebOptions options;
   const SoundFacts sound;
+  const std::string page;
   Service service;
   int port = 0;
 

@@ -121,8 +121,7 @@ const Live = (() => {
     }
 
     take(frame) {
-      const last = this.frames.at(-1);
-      if (last && last.duration > 0 && frame.time > last.time + last.duration * 1.5) ++this.gaps;
+      if (frame.missed) ++this.gaps;  // the server had to drop planes for us
       frame.arrived = performance.now() / 1000;
       this.frames.push(frame);
       if (!this.info.audio && this.begun === undefined) {

@@ -1,5 +1,5 @@
-// Receivers of RTP: GStreamer's rtpmp4vdepay and ffprobe take what `animeme stream` sends, on
-// loopback. Source: containers, section 4.1.
+// Receivers: GStreamer's rtpmp4vdepay and ffprobe take what `animeme stream` sends by RTP or as a
+// transport stream, on loopback. Source: containers, sections 3.2 and 4.1.
 #include <arpa/inet.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -54,25 +54,34 @@ bool listened_to(int port) {
   return false;
 }
 
-class Rtp : public testing::Test {
+class Live : public testing::Test {
  protected:
-  void SetUp() override {
-    int status = 0;
-    run(kProgram + " stream --help 2>&1", &status);
-    if (status != 0) GTEST_SKIP() << "the program has no command 'stream' yet";
-  }
-
   // Starts a receiver, sends the talk to it and returns what the receiver prints.
-  std::string send_to(const std::string& receiver, int port) const {
+  std::string send_to(const std::string& receiver, int port,
+                      const std::string& scheme = "rtp") const {
     auto heard = std::async(std::launch::async, [&] { return run(receiver + " 2>&1"); });
     EXPECT_TRUE(listened_to(port)) << receiver;
     int status = 0;
     const std::string said =
         run(kProgram + " stream '" + path_ + "' --copy --repeat " + std::to_string(kRepeat) +
-                " --to rtp://127.0.0.1:" + std::to_string(port) + " 2>&1",
+                " --to " + scheme + "://127.0.0.1:" + std::to_string(port) + " 2>&1",
             &status);
     EXPECT_EQ(status, 0) << said;
     return heard.get();
+  }
+
+  // What ffprobe printed has every unit, a plane time apart.
+  void expect_units(const std::string& said) const {
+    const Json report = Json::parse(said, nullptr, false);
+    ASSERT_TRUE(report.contains("packets")) << said;
+    const std::vector<Bytes> units = units_of(talk_, true);
+    ASSERT_EQ(report["packets"].size(), units.size());
+    const std::int64_t first = report["packets"][0]["pts"];
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      const Json& packet = report["packets"][i];
+      EXPECT_EQ(to_hex(from_dump(packet["data"])), to_hex(units[i])) << "unit " << i;
+      EXPECT_EQ(packet["pts"].get<std::int64_t>() - first, std::int64_t(i) * 90000 / 25);
+    }
   }
 
   TempDir dir_;
@@ -80,7 +89,7 @@ class Rtp : public testing::Test {
   std::string path_ = write_talk(dir_, talk_, layout_of("mp4"));
 };
 
-TEST_F(Rtp, GStreamerGivesTheUnitsByteForByte) {
+TEST_F(Live, RtpToGStreamerGivesTheUnitsByteForByte) {
   NEEDS_PROGRAM("gst-launch-1.0", "gstreamer1.0-tools");
   const int port = free_port();
   ASSERT_NE(port, 0);
@@ -95,7 +104,7 @@ TEST_F(Rtp, GStreamerGivesTheUnitsByteForByte) {
   EXPECT_EQ(to_hex(read_bytes(dir_.file("units"))), to_hex(joined(units_of(talk_, true)))) << said;
 }
 
-TEST_F(Rtp, FfprobeGivesTheUnitsInTime) {
+TEST_F(Live, RtpToFfprobeGivesTheUnitsInTime) {
   NEEDS_PROGRAM("ffprobe", "ffmpeg");
   const int port = free_port();
   ASSERT_NE(port, 0);
@@ -112,16 +121,20 @@ TEST_F(Rtp, FfprobeGivesTheUnitsInTime) {
       "-analyzeduration 100000 -of json -show_packets -show_data '" +
           dir_.file("face.sdp") + "'",
       port);
-  const Json report = Json::parse(said, nullptr, false);
-  ASSERT_TRUE(report.contains("packets")) << said;
-  const std::vector<Bytes> units = units_of(talk_, true);
-  ASSERT_EQ(report["packets"].size(), units.size());
-  const std::int64_t first = report["packets"][0]["pts"];
-  for (std::size_t i = 0; i < units.size(); ++i) {
-    const Json& packet = report["packets"][i];
-    EXPECT_EQ(to_hex(from_dump(packet["data"])), to_hex(units[i])) << "unit " << i;
-    EXPECT_EQ(packet["pts"].get<std::int64_t>() - first, std::int64_t(i) * 90000 / 25);
-  }
+  expect_units(said);
+}
+
+TEST_F(Live, TransportStreamToFfprobeGivesTheUnitsInTime) {
+  NEEDS_PROGRAM("ffprobe", "ffmpeg");
+  const int port = free_port();
+  ASSERT_NE(port, 0);
+  // It ends when nothing has come for four seconds.
+  expect_units(
+      send_to("timeout 30 ffprobe -v fatal -fflags noparse -probesize 10000 "
+              "-analyzeduration 300000 -of json -select_streams v -show_packets "
+              "-show_data 'udp://127.0.0.1:" +
+                  std::to_string(port) + "?timeout=4000000'",
+              port, "udp"));
 }
 
 }  // namespace

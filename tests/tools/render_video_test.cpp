@@ -1,0 +1,124 @@
+// `animeme render` to video and `mux --preview`: what any player shows.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "fap/text.h"
+#include "tests/support/program.h"
+
+namespace animeme {
+namespace {
+
+using nlohmann::json;
+using test::animeme;
+using test::spill;
+using test::TempDir;
+using testing::HasSubstr;
+
+// One second of a jaw that opens and closes, and a tone.
+void write_talk(const TempDir& dir) {
+  fap::Sequence clip{{10, 1}, {}, "talk"};
+  for (int i = 0; i < 10; ++i) {
+    fap::Frame frame;
+    frame.number = i;
+    frame.set(3, i % 4 * 150);
+    frame.set(5, -(i % 4) * 200);
+    clip.frames.push_back(frame);
+  }
+  spill(dir / "talk.fap", fap::write_text(clip));
+  std::string wav = "RIFF....WAVEfmt ";
+  const auto put = [&](std::uint32_t value, int bytes) {
+    for (int i = 0; i < bytes; ++i) wav += char(value >> (8 * i) & 255);
+  };
+  put(16, 4), put(1, 2), put(1, 2), put(16000, 4), put(32000, 4), put(2, 2), put(16, 2);
+  wav += "data";
+  put(32000, 4);
+  for (int i = 0; i < 16000; ++i) {
+    put(std::uint32_t(std::lround(8000 * std::sin(0.1 * i))) & 0xFFFF, 2);
+  }
+  spill(dir / "voice.wav", wav);
+}
+
+json info_of(const std::string& path) {
+  const auto out = animeme({"info", path, "--json"});
+  EXPECT_EQ(out.exit_code, 0) << out.err;
+  return json::parse(out.out, nullptr, false);
+}
+
+const json& track(const json& info, const std::string& kind) {
+  for (const json& entry : info["tracks"]) {
+    if (entry["kind"] == kind) return entry;
+  }
+  ADD_FAILURE() << "no " << kind << " in " << info.dump(1);
+  return info;
+}
+
+bool lacks_encoder(const test::ProgramResult& out) {
+  return out.err.find("built without") != std::string::npos;
+}
+
+TEST(RenderVideo, PicturesAndSoundOfTheClip) {
+  const TempDir dir;
+  write_talk(dir);
+  for (const auto& [name, codec] : {std::pair{"talk.mp4", "h264"}, std::pair{"talk.webm", "vp9"}}) {
+    const auto out = animeme({"render", dir / "talk.fap", "--audio", dir / "voice.wav", "--size",
+                              "97x65", "-o", dir / name});
+    if (lacks_encoder(out)) GTEST_SKIP() << out.err;
+    ASSERT_EQ(out.exit_code, 0) << out.err;
+    EXPECT_THAT(out.err, HasSubstr("10 pictures, 96x64, 10 a second"));
+    const json info = info_of(dir / name);
+    EXPECT_EQ(track(info, "video")["codec"], codec);
+    EXPECT_EQ(track(info, "video")["width"], 96);
+    EXPECT_NEAR(info["seconds"].get<double>(), 1.0, 0.06);
+    EXPECT_EQ(info["tracks"].size(), 2u);
+    track(info, "audio");
+  }
+}
+
+TEST(RenderVideo, AnyRateAStripAndNoSound) {
+  const TempDir dir;
+  write_talk(dir);
+  spill(dir / "talk.tsv", "start_s\tend_s\tphone\n0\t0.4\tSIL\n0.4\t0.7\tAA\n0.7\t1\tM\n");
+  const auto out =
+      animeme({"render", dir / "talk.fap", "--rate", "29.97", "--script", dir / "talk.tsv",
+               "--curves", "open_jaw,5", "--size", "160x200", "-o", dir / "talk.mkv"});
+  if (lacks_encoder(out) || out.err.find("cannot draw SVG") != std::string::npos) {
+    GTEST_SKIP() << out.err;
+  }
+  ASSERT_EQ(out.exit_code, 0) << out.err;
+  EXPECT_THAT(out.err, HasSubstr("30 pictures"));
+  EXPECT_EQ(info_of(dir / "talk.mkv")["tracks"].size(), 1u);
+}
+
+TEST(RenderVideo, APreviewBesideTheFace) {
+  const TempDir dir;
+  write_talk(dir);
+  const auto out = animeme({"mux", dir / "talk.fap", dir / "voice.wav", "-o", dir / "talk.mp4",
+                            "--preview", dir / "talk.preview.mp4"});
+  if (lacks_encoder(out)) GTEST_SKIP() << out.err;
+  ASSERT_EQ(out.exit_code, 0) << out.err;
+  track(info_of(dir / "talk.mp4"), "face");
+  const json preview = info_of(dir / "talk.preview.mp4");
+  track(preview, "video");
+  track(preview, "audio");
+  EXPECT_EQ(preview["tracks"].size(), 2u);
+}
+
+TEST(RenderVideo, WhatCannotBeIsSaid) {
+  const TempDir dir;
+  write_talk(dir);
+  EXPECT_EQ(animeme({"render", dir / "talk.fap", "--time", "0.5", "-o", dir / "a.mp4"}).exit_code,
+            2);
+  EXPECT_EQ(animeme({"render", dir / "talk.fap", "-o", dir / "a.avi"}).exit_code, 2);
+  const auto curve = animeme({"render", dir / "talk.fap", "--curves", "jaw", "-o", dir / "a.mp4"});
+  EXPECT_EQ(curve.exit_code, 2);
+  EXPECT_THAT(curve.err, HasSubstr("jaw is no FAP"));
+  const auto preview = animeme({"mux", dir / "talk.fap", dir / "voice.wav", "-o", dir / "talk.mp4",
+                                "--preview", dir / "talk.gif"});
+  EXPECT_EQ(preview.exit_code, 2);
+}
+
+}  // namespace
+}  // namespace animeme

@@ -1,0 +1,46 @@
+#include "tools/commands/head_view.h"
+
+#include <utility>
+
+#include "fap/head/rig.h"
+#include "tools/render/scene.h"
+
+namespace animeme::tools {
+
+struct HeadView::State {
+  State(head::Head made, const HeadLook& look)
+      : head(std::move(made)),
+        rig(head::make_rig(head)),
+        camera(render::look_at(head, look.degrees, look.up, look.zoom)),
+        renderer({.width = look.width, .height = look.height}) {}
+
+  head::Head head;
+  head::Rig rig;
+  render::Camera camera;
+  render::Renderer renderer;
+  head::Pose pose;
+};
+
+HeadView::HeadView(std::unique_ptr<State> state) : state_(std::move(state)) {}
+HeadView::HeadView(HeadView&&) noexcept = default;
+HeadView& HeadView::operator=(HeadView&&) noexcept = default;
+HeadView::~HeadView() = default;
+
+Result<HeadView> HeadView::make(const HeadLook& look) {
+  const auto parameters = head::head_parameters(look.head);
+  if (!parameters) {
+    return make_error(Code::not_found,
+                      "there is no head " + look.head + "; take woman, man or child");
+  }
+  Result<head::Head> made = head::make_head(*parameters);
+  if (!made) return made.error();
+  return HeadView(std::make_unique<State>(std::move(*made), look));
+}
+
+const render::Image& HeadView::draw(const fap::Frame& frame) {
+  State& state = *state_;
+  head::pose(state.rig, frame, state.pose);
+  return state.renderer.render(render::scene_of(state.head, state.rig, state.pose), state.camera);
+}
+
+}  // namespace animeme::tools
