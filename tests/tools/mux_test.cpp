@@ -76,6 +76,20 @@ TEST(MuxCommand, TheFaceStaysTheSameInEveryFormat) {
   }
 }
 
+TEST(DemuxCommand, JsonTellsWhatWasTaken) {
+  const TempDir dir;
+  const auto done = animeme({"demux", sample(), "--face", dir / "a.fba", "--json"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const auto json = nlohmann::json::parse(done.out, nullptr, false);
+  ASSERT_TRUE(json.is_object()) << done.out;
+  EXPECT_EQ(json["face"]["planes"], 250);
+  EXPECT_EQ(json["face"]["format"], "mp4");
+  EXPECT_EQ(json["face"]["timescale"], 25000);
+  EXPECT_EQ(json["face"]["bytes"], test::slurp(dir / "a.fba").size());
+  EXPECT_FALSE(json.contains("audio"));
+  EXPECT_EQ(animeme({"demux", sample(), "--face", "-", "--json"}).exit_code, 2);
+}
+
 TEST(MuxCommand, RefusalsNameTheRemedy) {
   const TempDir dir;
   const auto ts = animeme({"mux", sample(), sample(), "--audio-codec", "opus", "-o", dir / "a.ts"});

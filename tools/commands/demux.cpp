@@ -1,4 +1,6 @@
+#include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "codec/access_unit.h"
 #include "tools/commands/common.h"
@@ -8,30 +10,58 @@ namespace animeme::tools {
 
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 struct Options {
   std::string input;
   std::string face;
   std::string audio;
   bool headers = false;
+  bool json = false;
 };
+
+Result<Json> write_face(const Options& options) {
+  Result<media::Container> container = media::read_container(options.input);
+  if (!container) return container.error().in_file(options.input);
+  for (const std::string& text : container->warnings) warn(options.input + ": " + text);
+  const fba::AccessUnits& face = container->face;
+  const auto stream = fba::join_access_units(face, options.headers);
+  if (auto written = write_file(options.face, stream); !written) return written.error();
+  say(name_of_output(options.face) + ": " + std::to_string(face.units.size()) + " planes");
+  const fba::AccessUnit& last = face.units.back();
+  return Json{{"file", options.face},
+              {"format", container->format},
+              {"planes", face.units.size()},
+              {"bytes", stream.size()},
+              {"start", double(face.units.front().time) / face.timescale},
+              {"end", double(last.time + last.duration) / face.timescale},
+              {"timescale", face.timescale},
+              {"profile", container->visual_profile},
+              {"warnings", container->warnings}};
+}
 
 Result<int> run(const Options& options) {
   if (options.face.empty() && options.audio.empty()) {
     return usage_error("nothing to do: give --face, --audio or both");
   }
+  if (options.json && options.face == "-") {
+    return usage_error("--json and --face - both want the standard output");
+  }
+  Json json = Json::object();
   if (!options.face.empty()) {
-    Result<media::Container> container = media::read_container(options.input);
-    if (!container) return container.error().in_file(options.input);
-    for (const std::string& text : container->warnings) warn(options.input + ": " + text);
-    const auto stream = fba::join_access_units(container->face, options.headers);
-    if (auto written = write_file(options.face, stream); !written) return written.error();
-    say(options.face + ": " + std::to_string(container->face.units.size()) + " planes");
+    Result<Json> face = write_face(options);
+    if (!face) return face.error();
+    json["face"] = std::move(*face);
   }
   if (!options.audio.empty()) {
     if (auto written = media::extract_audio(options.input, options.audio); !written) {
       return written.error().in_file(options.input);
     }
     say(options.audio + ": sound of " + options.input);
+    json["audio"] = {{"file", options.audio}};
+  }
+  if (options.json) {
+    std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
   }
   return kOk;
 }
@@ -43,6 +73,7 @@ Action add(CLI::App& app) {
   app.add_option("--audio", options->audio, "Sound to write: .wav, or .m4a and others as it is");
   app.add_flag("--es-headers", options->headers,
                "Begin the stream with its visual object headers (old decoders want none)");
+  app.add_flag("--json", options->json, "Machine-readable summary on standard output");
   return [options] { return run(*options); };
 }
 
@@ -50,7 +81,8 @@ Action add(CLI::App& app) {
 
 const Command kDemux{"demux", "Take face and voice out of a file",
                      "  animeme demux talk.mp4 --face talk.fba --audio voice.m4a\n"
-                     "  animeme demux talk.mp4 --audio voice.wav",
+                     "  animeme demux talk.m3u8 --audio voice.wav\n"
+                     "  animeme demux talk.mkv --face - | animeme decode - -o talk.fap",
                      add};
 
 }  // namespace animeme::tools
