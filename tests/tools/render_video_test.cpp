@@ -106,6 +106,20 @@ TEST(RenderVideo, APreviewBesideTheFace) {
   EXPECT_EQ(preview["tracks"].size(), 2u);
 }
 
+TEST(RenderVideo, SpeechHasAPreviewWithoutAFaceTrack) {
+  const TempDir dir;
+  spill(dir / "talk.tsv", "start_s\tend_s\tphone\n0\t0.2\tSIL\n0.2\t0.5\tAA\n0.5\t0.8\tM\n");
+  for (const char* name : {"talk.preview.mp4", "talk.webm"}) {
+    const auto out = animeme(
+        {"speak", "--script", dir / "talk.tsv", "-o", dir / "talk.mp4", "--preview", dir / name});
+    if (lacks_encoder(out)) GTEST_SKIP() << out.err;
+    ASSERT_EQ(out.exit_code, 0) << out.err;
+    const json preview = info_of(dir / name);
+    track(preview, "video");
+    EXPECT_EQ(preview["tracks"].size(), 1u) << name;
+  }
+}
+
 TEST(RenderVideo, WhatCannotBeIsSaid) {
   const TempDir dir;
   write_talk(dir);

@@ -93,7 +93,7 @@ Result<int> write_result(const Options& options, const fap::Sequence& clip, cons
   const media::MuxInput input{.face = &*units, .audio = audio};
   Result<int> written = write_media(options.output, input, mux);
   if (!written || *written != kOk || options.preview.empty()) return written;
-  return write_preview(options.preview, clip, input, {});
+  return write_preview(options.preview, *units, input);
 }
 
 void report(const Options& options, const Spoken& spoken, const dam::Signal& signal,
