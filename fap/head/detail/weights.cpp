@@ -1,6 +1,7 @@
 #include "fap/head/detail/weights.h"
 
 #include <limits>
+#include <utility>
 
 namespace animeme::head::detail {
 namespace {
@@ -39,7 +40,10 @@ constexpr struct {
 
 constexpr float kBackground = 0.02f;
 constexpr float kCore = 0.3f;  // of anchors
-constexpr int kSmoothings = 7;
+constexpr int kSmoothings = 2;
+constexpr int kRounds = 30;           // of each smoothing
+constexpr float kSmoothLips = 0.16f;  // cm: as far as values run into each other at the lips ...
+constexpr float kSmoothSkin = 0.75f;  // ... and away from them
 
 class Builder {
  public:
@@ -61,11 +65,11 @@ class Builder {
     for (std::size_t v = 0; v < weights_.vertices(); ++v) {
       for (float& w : weights_.row(v)) w /= sum_[v];
     }
-    for (int i = 0; i < kSmoothings; ++i) smooth();
+    const std::vector<float> radii = smooth_radii();
+    for (int i = 0; i < kSmoothings; ++i) smooth(radii);
     hold_lids();
     make_exact();
     match_lips();
-    hold_hair();
     return std::move(weights_);
   }
 
@@ -134,13 +138,14 @@ class Builder {
   // The rims of the lids and what is near go along with nothing but their own FAPs.
   void hold_lids() {
     std::vector<float> held(weights_.vertices(), 1);
-    const float reach = 1.3f * scale_;
+    const float reach = 1.5f * scale_;
     std::vector<std::uint32_t> rims;
     for (const auto& lids : head_.seams.lids) {
       for (const ContactPair& pair : lids) rims.insert(rims.end(), {pair.upper, pair.lower});
     }
     for (const Reached& r : walk(mesh_.positions, neighbours_, rims, reach)) {
-      held[r.vertex] = smooth_step(0.0f, reach, r.distance);
+      const float t = r.distance / reach;
+      held[r.vertex] = 0.65f * t + 0.35f * smooth_step(0.0f, 1.0f, t);
     }
     for (std::size_t v = 0; v < weights_.vertices(); ++v) {
       for (std::size_t c = 0; c < kControls.size(); ++c) {
@@ -149,29 +154,45 @@ class Builder {
     }
   }
 
-  void hold_hair() {
-    const std::size_t known = std::min(head_.seams.freedom.size(), weights_.vertices());
-    for (std::size_t v = 0; v < known; ++v) {
-      for (std::size_t c = 0; c < kControls.size(); ++c) {
-        if (!kControls[c].id.starts_with("10.")) weights_.row(v)[c] *= head_.seams.freedom[v];
-      }
+  // How far weights run into each other, cm: little at lips and lids, much where points are far
+  // apart.
+  std::vector<float> smooth_radii() const {
+    std::vector<std::uint32_t> seams;
+    for (const ContactPair& pair : head_.seams.lips)
+      seams.insert(seams.end(), {pair.upper, pair.lower});
+    for (const auto& lids : head_.seams.lids) {
+      for (const ContactPair& pair : lids) seams.insert(seams.end(), {pair.upper, pair.lower});
     }
+    std::vector<float> radii(weights_.vertices(), kSmoothSkin * scale_);
+    const float reach = 2.6f * scale_;
+    for (const Reached& r : walk(mesh_.positions, neighbours_, seams, reach)) {
+      const float far = smooth_step(0.5f * scale_, reach, r.distance);
+      radii[r.vertex] = (kSmoothLips + (kSmoothSkin - kSmoothLips) * far) * scale_;
+    }
+    return radii;
   }
 
-  void smooth() {
+  // One implicit step of heat flow, by Jacobi's rounds: fixed order, left and right alike.
+  void smooth(const std::vector<float>& radii) {
+    const Weights start = weights_;
     Weights next(weights_.vertices(), weights_.controls());
-    for (std::size_t v = 0; v < weights_.vertices(); ++v) {
-      const std::span<float> out = next.row(v);
-      const auto around = neighbours_.of(v);
-      for (const std::uint32_t n : around) {
-        const std::span<const float> in = weights_.row(n);
-        for (std::size_t c = 0; c < out.size(); ++c) out[c] += in[c];
+    for (int round = 0; round < kRounds; ++round) {
+      for (std::size_t v = 0; v < weights_.vertices(); ++v) {
+        const std::span<float> out = next.row(v);
+        const std::span<const float> own = start.row(v);
+        std::copy(own.begin(), own.end(), out.begin());
+        float sum = 1;
+        for (const std::uint32_t n : neighbours_.of(std::uint32_t(v))) {
+          const Vec3 d = mesh_.positions[n] - mesh_.positions[v];
+          const float share = radii[v] * radii[v] / std::max(dot(d, d), 1e-4f) * 0.5f;
+          const std::span<const float> in = std::as_const(weights_).row(n);
+          for (std::size_t c = 0; c < out.size(); ++c) out[c] += share * in[c];
+          sum += share;
+        }
+        for (float& w : out) w /= sum;
       }
-      const float share = around.empty() ? 0 : 0.5f / float(around.size());
-      const std::span<const float> own = weights_.row(v);
-      for (std::size_t c = 0; c < out.size(); ++c) out[c] = 0.5f * own[c] + share * out[c];
+      std::swap(weights_, next);
     }
-    std::swap(weights_, next);
   }
 
   // Multiplies the table by the inverse of its rows at the controls.
