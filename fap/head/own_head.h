@@ -22,11 +22,14 @@
 
 namespace animeme::head {
 
+/// Stands for a colour that is not known; assemble() chooses one.
+inline constexpr Vec3 kNoColour = {-1, -1, -1};
+
 /// A mesh of a file. Any axes and any unit, the same for all pieces of a head.
 struct Piece {
   std::string name;      ///< of the object or group; may be empty
   std::string material;  ///< its name; may be empty
-  Mesh mesh;             ///< colours and occlusion may be empty
+  Mesh mesh;             ///< colours and occlusion may be empty, colours also kNoColour
   /// For each vertex: 1 turns with the head, 0 stays with the body. Empty: by height.
   std::vector<float> neck_weights;
 };
@@ -53,9 +56,9 @@ struct Source {
   std::string name;
   std::vector<Piece> pieces;
   std::vector<PiecePoint> points;
-  std::optional<fap::Fapu> fapu;     ///< in units of the file; else measured on the points
-  std::vector<ShapeControl> shapes;  ///< see Head::shapes
-  std::vector<PieceTarget> targets;  ///< see Head::targets
+  std::optional<fap::Fapu> fapu;            ///< in units of the file; else measured on the points
+  std::vector<ShapeControl> shapes;         ///< see Head::shapes
+  std::vector<PieceTarget> targets;         ///< see Head::targets
   std::array<std::optional<Vec3>, 2> eyes;  ///< centres, left and right
   std::optional<Vec3> jaw_axis;
   std::optional<Vec3> neck_pivot;
@@ -65,6 +68,8 @@ struct Source {
   double centimetres = 0;
   /// The axes of the file are those of Head; else they are found from the feature points.
   bool upright = false;
+  /// What the reader wants the user to know; assemble() passes it on.
+  std::vector<std::string> notes;
 };
 
 /// The part that a piece is, by the words in its names ("Wolf3D_Teeth", "M_ScleraLeft",
@@ -75,8 +80,12 @@ struct Source {
 /// and the lower_teeth here; assemble() looks where their vertices are.
 std::optional<Part> part_by_name(std::string_view name, std::string_view material);
 
-/// Makes a head. `notes`, if given, gets a sentence for each thing that was guessed or is missing
-/// and that a user may want to know, in a fixed order.
+/// The colour that a mesh of this name has if nothing is known but its part; kNoColour for parts
+/// of one colour. Linear RGB.
+Vec3 colour_by_name(std::string_view name, std::string_view material);
+
+/// Makes a head. `notes`, if given, gets those of the source, then a sentence for each thing that
+/// was guessed or is missing and that a user may want to know, in a fixed order.
 ///
 /// Errors: invalid_argument if there is no triangle of skin, a triangle or point names a vertex
 /// that does not exist, a length is not finite, two points have one id, or measure_fapu() refuses
