@@ -39,12 +39,13 @@ Result<head::Source> read_source(const HeadChoice& choice) { return read_obj_hea
 
 }  // namespace
 
+const char* const kHeadHelp = "woman, man or child, or a head of your own: .obj with --points";
+const char* const kPointsHelp =
+    "Which vertex of your head is which feature point: lines such as 2.1,966 (animeme head --help)";
+
 void add_head_options(CLI::App& app, HeadChoice& choice) {
-  app.add_option("--head", choice.head,
-                 std::string(kOurs) + ", or a head of your own: .obj with --points")
-      ->capture_default_str();
-  app.add_option("--points", choice.points,
-                 "Which vertex of your head is which feature point: lines such as 2.1,966");
+  app.add_option("--head", choice.head, kHeadHelp)->capture_default_str();
+  app.add_option("--points", choice.points, kPointsHelp);
 }
 
 std::string problem_of(const HeadChoice& choice) {

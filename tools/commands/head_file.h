@@ -15,6 +15,10 @@ struct HeadChoice {
   std::string points;          ///< list of feature points; see fap/head/point_list.h
 };
 
+/// What --help says of them.
+extern const char* const kHeadHelp;
+extern const char* const kPointsHelp;
+
 /// Adds --head and --points.
 void add_head_options(CLI::App& app, HeadChoice& choice);
 
