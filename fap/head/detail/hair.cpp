@@ -50,56 +50,6 @@ double bob_field(const Shape& shape, const HairLines& lines, Vec3d p) {
   return d + 0.16 * parting + 0.075 * strand(p, 26, 1.0);
 }
 
-// A cap of hair: the skin, thicker where hair grows. Its lower edge runs around the head at heights
-// over the angle from the front.
-struct Cap {
-  std::array<double, 9> angles;  // rad, 0 = front, rising to pi
-  std::array<double, 9> heights;
-  double sides, top, front;  // thickness, cm
-  double edge;               // from nothing to full thickness, cm
-  double strands;            // depth of the grooves
-};
-
-constexpr Cap kShortCut{{0, 0.45, 0.72, 0.90, 1.05, 1.30, 1.48, 1.85, 3.15},
-                        {6.5, 6.2, 5.2, 3.3, 0.8, -1.4, 1.3, -3.2, -5.4},
-                        0.34,
-                        0.95,
-                        0.45,
-                        1.5,
-                        0.13};
-constexpr Cap kFringe{{0, 0.40, 0.70, 0.95, 1.12, 1.30, 1.48, 1.85, 3.15},
-                      {5.7, 5.5, 4.5, 2.3, -0.3, -1.6, 1.2, -3.0, -4.6},
-                      0.75,
-                      0.95,
-                      0.25,
-                      0.62,
-                      0.10};
-
-double edge_height(const Cap& cap, double angle) {
-  std::size_t i = 0;
-  while (i + 2 < cap.angles.size() && angle > cap.angles[i + 1]) ++i;
-  return cap.heights[i] + (cap.heights[i + 1] - cap.heights[i]) *
-                              smooth_step(cap.angles[i], cap.angles[i + 1], angle);
-}
-
-double cap_field(const Shape& shape, const Cap& cap, double jag, Vec3d p) {
-  const double skin = shape.skin(p);
-  if (skin > 4) return skin - 2;  // far from any hair
-  const double angle = std::atan2(std::abs(p.x), p.z);
-  const double front = smooth_step(1.3, 0.6, angle);
-  const double tips = jag * std::abs(std::sin(p.x * 1.15 + 0.5)) * front;
-  const double inside = (p.y - edge_height(cap, angle) + tips) * 0.8;
-  const double up = smooth_step(2.5, 8.0, p.y);
-  const double quiff = front * smooth_step(4.5, 7.0, p.y) * smooth_step(11.5, 8.0, p.y);
-  const double full = cap.sides + (cap.top - cap.sides) * up + cap.front * quiff;
-  const double grown =
-      full * smooth_step(-0.15, cap.edge, inside) - 0.25 * smooth_step(0.0, -0.3, inside);
-  const double hair =
-      skin - grown + cap.strands * strand(p, 24, 1.6) * smooth_step(0.0, 1.0, inside);
-  // Nothing is left inside of the head below the edge.
-  return smooth_max(hair, -inside - 0.7, 0.2) * 0.8;
-}
-
 }  // namespace
 
 HairLines hair_lines(const Shape& shape) {
@@ -120,18 +70,11 @@ HairLines hair_lines(const Shape& shape) {
 }
 
 double hair_field(const Shape& shape, const HairLines& lines, Vec3d p) {
-  switch (shape.p.hair) {
-    case HairStyle::bob:
-      return bob_field(shape, lines, p);
-    case HairStyle::short_cut:
-      return cap_field(shape, kShortCut, 0, p);
-    case HairStyle::fringe:
-      return cap_field(shape, kFringe, 0.7, p);
-  }
-  return 1;
+  return shape.p.hair == HairStyle::bob ? bob_field(shape, lines, p) : short_hair_field(shape, p);
 }
 
 Mesh make_hair(const Shape& shape) {
+  if (shape.p.hair != HairStyle::bob) return make_short_hair(shape);
   const HairLines lines = hair_lines(shape);
   Mesh mesh =
       surface_nets([&](Vec3d p) { return hair_field(shape, lines, p); }, {-11.2, -10.4, -12.4},

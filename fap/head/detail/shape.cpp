@@ -9,15 +9,18 @@ constexpr double kEyeDepth = 6.75;
 void add_bones(Form& form, const HeadParameters& p) {
   form.ball({0, 3.4, -0.4}, {p.skull_width, p.skull_height, 9.0}, 0);
   form.ball({0, 3.3, 2.4}, {p.skull_width * 0.84, 5.4, 6.5}, 2.0);
-  form.ball({0, -1.9, 2.5}, {p.face_width, 6.6, 6.2}, 2.0);
-  form.ball({0, -p.chin_drop + 3.4, 3.0}, {p.jaw_width * 1.42, 3.3, 5.0}, 2.6);
+  form.ball({0, -1.9, 2.5}, {p.face_width, 6.6, 6.0}, 2.0);
+  form.ball({0, -p.chin_drop + 3.4, 3.0}, {p.jaw_width * 1.42, 3.3, 4.6}, 2.6);
   form.ball({0, -p.chin_drop + p.chin_size, 7.0}, {p.chin_size * 1.25, p.chin_size, 1.45}, 2.2);
-  form.limb({0, -5, -1.4}, {0, -18, -3.2}, p.neck, p.neck * 1.08, 2.2);
+  // The bone of the jaw, from the chin to below the ear.
+  form.limb({p.chin_size * 0.9, -p.chin_drop + 1.25, 6.4},
+            {p.jaw_width * 1.26, -p.chin_drop + 4.3, 0.9}, 0.9, 0.75, 2.1);
+  form.limb({0, -5, -1.7}, {0, -18, -3.2}, p.neck, p.neck * 1.08, 1.5);
 }
 
 void add_flesh(Form& form, const HeadParameters& p) {
   form.ball({3.55, -2.55, 5.7}, {p.cheek, p.cheek * 0.92, p.cheek}, 1.9);
-  form.ball({0, -p.mouth_drop + 0.15, 6.75}, {2.75, 2.2, 2.0}, 1.9);
+  form.ball({0, -p.mouth_drop + 0.15, 6.6}, {2.25, 2.2, 2.15}, 1.8);
   if (p.brow_ridge > 0) {
     form.limb({0.9, 1.75, 8.0}, {4.6, 1.75, 6.2}, 0.55 + p.brow_ridge, 0.5 + p.brow_ridge, 1.3);
   }
@@ -44,6 +47,9 @@ Shape::Shape(const HeadParameters& parameters) : p(parameters) {
   skin.hollow({eye.x + 0.1, 0.2, 9.5}, {2.2, 1.4, 1.6}, 1.7);
   skin.ball(eye, {lid, lid, lid}, 0.75);
   add_nose(skin, p);
+  const auto side = [this](double y) { return outer_hit(skin, {0, y, -0.3}, {1, 0, 0}, 14); };
+  ear = side(-0.75);
+  ear_lean = (side(1.0).x - side(-2.5).x) / 3.5;
 }
 
 double Shape::upper_lid(double x) const {
