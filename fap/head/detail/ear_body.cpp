@@ -41,7 +41,7 @@ Mesh make_left_ear(const Shape& shape) {
   const double s = shape.p.ear;
   return surface_nets([&shape](Vec3d p) { return ear_field(shape, p); },
                       shape.ear - Vec3d{2.4, 3.2, 2.8} * s, shape.ear + Vec3d{2.4, 3.2, 2.8} * s,
-                      0.14 * s / std::sqrt(shape.p.density));
+                      0.155 * s / std::sqrt(shape.p.density));
 }
 
 double body_field(const Shape& shape, Vec3d p) {
@@ -62,7 +62,7 @@ double body_field(const Shape& shape, Vec3d p) {
 Mesh make_body(const Shape& shape) {
   const double wide = shape.p.neck * 4.2;
   const auto field = [&shape](Vec3d p) { return std::max(body_field(shape, p), -19.0 - p.y); };
-  Mesh mesh = surface_nets(field, {-wide, -20, -12}, {wide, -8.5, 6}, 0.42);
+  Mesh mesh = surface_nets(field, {-wide, -20, -12}, {wide, -8.5, 6}, 0.5);
   mesh.colours.assign(mesh.positions.size(), linear_colour(shape.p.cloth_colour));
   mesh.material = Material::cloth;
   return mesh;

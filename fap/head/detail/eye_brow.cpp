@@ -11,7 +11,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kPupil = 1.0 / 3;  // of the iris, as the standard has it, and a little more
 
 struct EyeColours {
-  Vec3 white{0.86f, 0.84f, 0.82f};
+  Vec3 white{0.80f, 0.775f, 0.75f};
   Vec3 iris, dark;
 };
 

@@ -31,8 +31,8 @@ void add_nose(Form& form, const HeadParameters& p) {
   const double r = p.nose_size;
   form.limb({0, -0.3, 7.75 + p.nose_bridge}, {0, tip + 0.2, 9.5}, 0.40, r * 0.8, 1.5);
   form.ball({0, tip, 9.7}, {r * 0.98, r * 0.88, r}, 0.55);
-  form.ball({r * 1.1, tip - 0.2, 9.05}, {r * 0.6, r * 0.55, r * 0.85}, 0.55);
-  form.hollow({r * 0.52, tip - r * 1.05, 9.5}, {r * 0.3, r * 0.3, r * 0.42}, 0.3);
+  form.ball({r * 1.16, tip - 0.2, 9.05}, {r * 0.58, r * 0.56, r * 0.85}, 0.42);
+  form.hollow({r * 0.66, tip - r * 0.98, 9.42}, {r * 0.27, r * 0.32, r * 0.42}, 0.22);
 }
 
 }  // namespace
@@ -47,6 +47,9 @@ Shape::Shape(const HeadParameters& parameters) : p(parameters) {
   skin.hollow({eye.x + 0.1, 0.2, 9.5}, {2.2, 1.4, 1.6}, 1.7);
   skin.ball(eye, {lid, lid, lid}, 0.75);
   add_nose(skin, p);
+  // Between nose and upper lip.
+  const double groove = 0.5 * (upper_lip(0) - p.nose_length - 0.62);
+  skin.hollow({0, groove, front(0, groove).z + 0.24}, {0.24, 0.62, 0.34}, 0.5);
   const auto side = [this](double y) { return outer_hit(skin, {0, y, -0.3}, {1, 0, 0}, 14); };
   ear = side(-0.75);
   ear_lean = (side(1.0).x - side(-2.5).x) / 3.5;
