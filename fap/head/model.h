@@ -188,7 +188,7 @@ struct HeadParameters {
   std::uint32_t skin_colour = 0xE8AC88;
   std::uint32_t lip_colour = 0xC4605C;
   std::uint32_t cheek_colour = 0xDE8468;
-  std::uint32_t iris_colour = 0x56723A;
+  std::uint32_t iris_colour = 0x5F6A42;
   std::uint32_t hair_colour = 0x4A2A1B;
   std::uint32_t brow_colour = 0x3C2418;
   std::uint32_t cloth_colour = 0x3F6F86;
