@@ -182,7 +182,7 @@ TEST(Page, TextsStayTexts) {
   EXPECT_EQ(texts["now"], "</title> · </script><script>window.hacked=2</script>");
   EXPECT_EQ(texts["images"], 0);
   EXPECT_EQ(texts["scripts"], 5);  // facts, model, two clips, the program
-  EXPECT_THAT(texts["readout"].get<std::string>(), testing::StartsWith("12.3 FAP units RMS"));
+  EXPECT_THAT(texts["readout"].get<std::string>(), testing::StartsWith("13.1 FAP units RMS"));
   for (const char* mode : {"first", "second", "side", "ghost", "heat"}) {
     EXPECT_EQ(report["modes"][mode], mode);
   }
@@ -201,6 +201,37 @@ TEST(Page, TextsStayTexts) {
   EXPECT_EQ(played["playing"], true);
   EXPECT_GE(played["position"], 0.2);
   EXPECT_LT(played["position"], 0.4);
+}
+
+// On desktops and phones, upright and lying: nothing is cut off or lies over something else, and
+// fingers find what they look for.
+TEST(Page, FitsTheScreen) {
+  NEEDS_BROWSER();
+  const TempDir dir;
+  dam::Script script;
+  script.phones.push_back({0, 0.5, "AH", "word"});
+  fap::Sequence other = moving_clip();
+  other.frames[2].set(48, 100);
+  const std::string long_name = "a rather long name of a file that somebody gave to a clip.fap";
+  const Json report = report_of(
+      "screens", make({{moving_clip(), 0, "a.fap"}, {other, 0, long_name}}, {}, script), dir);
+  ASSERT_TRUE(report.contains("messages"));
+  EXPECT_EQ(said(report), std::vector<std::string>());
+  int screens = 0;
+  for (const auto& [size, screen] : report.items()) {
+    if (size == "messages") continue;
+    ++screens;
+    EXPECT_EQ(screen["overlaps"], Json::array()) << size;
+    EXPECT_EQ(screen["outside"], Json::array()) << size;
+    EXPECT_EQ(screen["width"].get<int>(), std::stoi(size)) << size;
+    EXPECT_GT(screen["targets"].size(), 70u) << size;
+    for (const Json& target : screen["targets"]) {
+      const double least = screen["touch"].get<bool>() ? 36 : 18;
+      EXPECT_GE(target["width"].get<double>(), least) << size << " " << target;
+      EXPECT_GE(target["height"].get<double>(), least) << size << " " << target;
+    }
+  }
+  EXPECT_EQ(screens, 6);
 }
 
 // What README.md says about pages with motion of their own.

@@ -1,4 +1,4 @@
-// node viewer_report.js looks|sound|speeds|texts|live PAGE.html FOLDER: what Chromium makes of a page, as
+// node viewer_report.js looks|sound|speeds|texts|screens|live PAGE.html FOLDER: what Chromium makes of a page, as
 // JSON.
 //
 // looks: vertices of the frames 0 .. 7 as 32-bit floats in FOLDER/<part>_<frame>.f32; how much the
@@ -7,6 +7,8 @@
 // speeds: the same for three seconds of the clip at half and at double speed; `pitches` in Hz, of the
 //   first 80 ms of each burst.
 // texts: what is shown where names are hostile; the ways to compare; what works without a head.
+// screens: at the sizes of screens, what is to be hit or read: {size: {width (of the page), targets: [{name,
+//   width, height}], outside: [names], overlaps: [pairs of names]}}.
 // live: `result` of a page with values of its own.
 // All have `messages`: what the console said.
 'use strict';
@@ -186,6 +188,51 @@ async function texts(page, file, folder) {
   return report;
 }
 
+const SCREENS = [
+  {width: 1280, height: 800}, {width: 700, height: 620},
+  {width: 390, height: 844, touch: true}, {width: 320, height: 568, touch: true},
+  {width: 844, height: 390, touch: true}, {width: 667, height: 375, touch: true},
+];
+
+// Runs in the page.
+function measure() {
+  const shown = (element) => element.getClientRects().length > 0;
+  const named = [...document.querySelectorAll(
+      'main button, main select, main #slider, main #search, main label, .clock, .name, #readout, #now')]
+      .filter((element) => shown(element) && !element.matches('label.speed'));
+  const found = named.map((element) => ({
+    name: element.id || element.textContent.trim(), box: element.getBoundingClientRect(),
+    target: element.matches('button, select, input, label'),
+    listed: Boolean(element.closest('#list')),
+  }));
+  const names = ({name}) => name;
+  const meet = (a, b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 0.5 &&
+      Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 0.5;
+  const placed = found.filter(({listed}) => !listed);
+  const overlaps = placed.flatMap((a, i) => placed.slice(i + 1)
+      .filter((b) => meet(a.box, b.box)).map((b) => [a.name, b.name]));
+  return {
+    width: document.documentElement.scrollWidth, overlaps,
+    outside: found.filter(({box}) => box.left < -0.5 || box.right > innerWidth + 0.5).map(names),
+    targets: found.filter(({target}) => target).map(
+        ({name, box}) => ({name, width: box.width, height: box.height})),
+  };
+}
+
+async function screens(page, file, folder) {
+  const report = {};
+  for (const {width, height, touch = false} of SCREENS) {
+    await page.send('Emulation.setTouchEmulationEnabled', {enabled: touch, maxTouchPoints: 5});
+    await page.send('Emulation.setDeviceMetricsOverride',
+        {width, height, deviceScaleFactor: 1, mobile: touch});
+    await open(page, file, '?t=0.1&loop=0.2-0.4&faps=3,48');
+    await page.evaluate('window.animeme.draw()');
+    await page.screenshot(path.join(folder, `${width}x${height}.png`));
+    report[`${width}x${height}`] = {touch, ...await page.evaluate(measure)};
+  }
+  return report;
+}
+
 async function live(page, file) {
   await page.resize(300, 300);
   await page.goto(pathToFileURL(file).href);
@@ -196,7 +243,7 @@ async function main([kind, file, folder]) {
   const browser = await launch({flags: FLAGS});
   try {
     const page = await browser.open();
-    const report = await {looks, sound, speeds, texts, live}[kind](page, path.resolve(file), folder);
+    const report = await {looks, sound, speeds, texts, screens, live}[kind](page, path.resolve(file), folder);
     report.messages = page.messages;
     process.stdout.write(JSON.stringify(report) + '\n');
   } finally {
