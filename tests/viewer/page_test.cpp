@@ -38,6 +38,13 @@ double parity(const fap::Frame& frame, std::size_t number, const TempDir& dir) {
   return largest;
 }
 
+viewer::Sound sound_of(const media::Pcm& samples, const TempDir& dir) {
+  media::MuxInput input;
+  input.audio = &samples;
+  EXPECT_TRUE(media::write_mp4(dir.file("sound.mp4"), input));
+  return {read_bytes(dir.file("sound.mp4")), "audio/mp4"};
+}
+
 // How far pictures are from the sound that is heard with them, beyond the 40 ms that each is shown:
 // seconds as people feel them. A click or burst begins at each second of the clip.
 struct Apart {
@@ -104,11 +111,7 @@ TEST(Page, PictureFollowsTheSoundThatIsHeard) {
   std::vector<std::size_t> starts;
   for (std::size_t second = 1; second < kSeconds; ++second) starts.push_back(second * 48000);
   const media::Pcm clicks = make_clicks(48000, std::size_t(kSeconds) * 48000, starts);
-  media::MuxInput input;
-  input.audio = &clicks;
-  ASSERT_TRUE(media::write_mp4(dir.file("sound.mp4"), input));
-  const viewer::Sound sound{read_bytes(dir.file("sound.mp4")), "audio/mp4"};
-  const std::string html = make({{moving_clip(), 0, "clip"}}, sound);
+  const std::string html = make({{moving_clip(), 0, "clip"}}, sound_of(clicks, dir));
   EXPECT_LE(html.size(), 3'000'000u);
   const Json report = report_of("sound", html, dir);
   ASSERT_TRUE(report.contains("clicks"));
@@ -136,11 +139,8 @@ TEST(Page, OtherSpeedsKeepThePitchAndTheTime) {
           float(0.5 * std::sin(2 * std::numbers::pi * 440 * double(i) / 48000));
     }
   }
-  media::MuxInput input;
-  input.audio = &tones;
-  ASSERT_TRUE(media::write_mp4(dir.file("sound.mp4"), input));
-  const viewer::Sound sound{read_bytes(dir.file("sound.mp4")), "audio/mp4"};
-  const Json report = report_of("speeds", make({{moving_clip(), 0, "clip"}}, sound), dir);
+  const Json report =
+      report_of("speeds", make({{moving_clip(), 0, "clip"}}, sound_of(tones, dir)), dir);
   EXPECT_EQ(said(report), std::vector<std::string>());
   for (const auto& [name, speed] : {std::pair("0.5", 0.5), std::pair("2", 2.0)}) {
     ASSERT_TRUE(report.contains(name));
@@ -213,8 +213,9 @@ TEST(Page, FitsTheScreen) {
   fap::Sequence other = moving_clip();
   other.frames[2].set(48, 100);
   const std::string long_name = "a rather long name of a file that somebody gave to a clip.fap";
+  const viewer::Sound sound = sound_of({48000, std::vector<float>(48000)}, dir);
   const Json report = report_of(
-      "screens", make({{moving_clip(), 0, "a.fap"}, {other, 0, long_name}}, {}, script), dir);
+      "screens", make({{moving_clip(), 0, "a.fap"}, {other, 0, long_name}}, sound, script), dir);
   ASSERT_TRUE(report.contains("messages"));
   EXPECT_EQ(said(report), std::vector<std::string>());
   int screens = 0;
