@@ -12,11 +12,12 @@ namespace {
 
 constexpr int kMostSweeps = 5000;
 constexpr int kPriceSteps = 30;
-constexpr double kStill = 1e-6;   // a weight that changes less has arrived
-constexpr double kLidsCount = 3;  // the opening of the eye is short and everybody looks at it
+constexpr double kStill = 1e-6;      // a weight that changes less has arrived
+constexpr double kAngleUnit = 1e-5;  // rad
+constexpr double kLidsCount = 3;     // the opening of the eye is short and everybody looks at it
 
 // Lengths of the FAPUs of ICT-FaceKit's head, in its units (about 2 cm).
-double length_of(Unit unit) {
+double length_of(Unit unit, double radian) {
   switch (unit) {
     case Unit::irisd:
       return 0.993 * kLidsCount;
@@ -29,23 +30,19 @@ double length_of(Unit unit) {
     case Unit::mw:
       return 5.070;
     case Unit::angle:
+      return radian * kAngleUnit * 1024;
     case Unit::none:
       return 0;
   }
   return 0;
 }
 
-FapValues fap_lengths() {
+FapValues fap_lengths(double radian) {
   FapValues lengths{};
   for (int fap = kFirstLowLevel; fap <= kFapCount; ++fap) {
-    lengths[std::size_t(fap)] = length_of(info(fap).unit) / 1024;
+    lengths[std::size_t(fap)] = length_of(info(fap).unit, radian) / 1024;
   }
   return lengths;
-}
-
-const FapValues& lengths() {
-  static const FapValues all = fap_lengths();
-  return all;
 }
 
 }  // namespace
@@ -59,11 +56,12 @@ FapValues target_of(const Frame& frame) {
 }
 
 BoundedFit::BoundedFit(std::vector<std::vector<ShapeWeight>> shapes, double ridge,
-                       double steadiness, double most)
+                       double steadiness, double most, double radian)
     : shapes_(std::move(shapes)),
       ridge_(std::clamp(ridge, 0.0, 1.0)),
       steadiness_(std::clamp(steadiness, 0.0, 1.0)),
       most_(most),
+      lengths_(fap_lengths(radian)),
       weights_(shapes_.size(), 0.0) {}
 
 void BoundedFit::set_mask(const Mask& wanted) {
@@ -76,7 +74,7 @@ void BoundedFit::set_mask(const Mask& wanted) {
     columns[i].fill(0);
     for (const ShapeWeight& weight : shapes_[i]) {
       const std::size_t fap = std::size_t(weight.fap);
-      if (mask_[fap]) columns[i][fap] = weight.value * lengths()[fap];
+      if (mask_[fap]) columns[i][fap] = weight.value * lengths_[fap];
     }
   }
   gram_.assign(n * n, 0.0);
@@ -96,7 +94,7 @@ std::vector<double> BoundedFit::projections(const FapValues& target) const {
     for (const ShapeWeight& weight : shapes_[i]) {
       const std::size_t fap = std::size_t(weight.fap);
       if (!mask_[fap]) continue;
-      sums[i] += weight.value * lengths()[fap] * target[fap] * lengths()[fap];
+      sums[i] += weight.value * lengths_[fap] * target[fap] * lengths_[fap];
     }
   }
   return sums;
@@ -136,6 +134,11 @@ void BoundedFit::keep_within_limit(const std::vector<double>& wanted, double ste
   descend(wanted, steadiness, high);
   const double over = sum() / most_;  // what the last digits of the price leave
   for (double& weight : weights_) weight /= std::max(1.0, over);
+}
+
+void BoundedFit::restart() {
+  std::fill(weights_.begin(), weights_.end(), 0.0);
+  is_first_ = true;
 }
 
 const std::vector<double>& BoundedFit::fit(const Mask& mask, const FapValues& target) {

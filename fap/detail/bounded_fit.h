@@ -24,18 +24,22 @@ FapValues target_of(const Frame& frame);
 
 /// Frame by frame: weights from 0 to 1 that make the sum of squares smallest, over the FAPs of a
 /// mask, in lengths on a face of usual proportions (lids count three times, so that closed eyes are
-/// closed). FAPs that are angles do not count. By coordinate descent from the weights of the frame
-/// before, in the order of the shapes: the same input gives the same weights everywhere.
+/// closed). By coordinate descent from the weights of the frame before, in the order of the shapes:
+/// the same input gives the same weights everywhere.
 class BoundedFit {
  public:
   /// `ridge`: what it costs to use a shape, as a share of what it does to the face. `steadiness`:
   /// what it costs to change a weight, likewise. Both are clamped to 0..1. `most` > 0: what all
-  /// weights together may be; the nearest face within that limit is found then.
+  /// weights together may be; the nearest face within that limit is found then. `radian`: length
+  /// that stands for one, in units of ICT-FaceKit's head; at 0 FAPs that are angles do not count.
   BoundedFit(std::vector<std::vector<ShapeWeight>> shapes, double ridge, double steadiness,
-             double most = std::numeric_limits<double>::infinity());
+             double most = std::numeric_limits<double>::infinity(), double radian = 0);
 
   /// By shape; good until the next call. Shapes without any FAP of `mask` keep their weight.
   const std::vector<double>& fit(const Mask& mask, const FapValues& target);
+
+  /// Forgets the frame before.
+  void restart();
 
  private:
   void set_mask(const Mask& wanted);
@@ -47,6 +51,7 @@ class BoundedFit {
   double ridge_;
   double steadiness_;
   double most_;
+  FapValues lengths_;            // of one unit of each FAP
   std::vector<double> gram_;  // shapes x shapes, for mask_
   Mask mask_;
   bool has_gram_ = false;

@@ -1,9 +1,10 @@
 // A head by code: no file, no foreign licence, the same bytes on each call.
 //
-//     animeme::head::Head head =
-//     animeme::head::make_head(*animeme::head::head_parameters("woman")); animeme::head::Rig rig =
-//     animeme::head::make_rig(head);        // rig.h animeme::head::Pose pose =
-//     animeme::head::pose(rig, frame);
+//     animeme::head::Head head = *animeme::head::make_head();
+//     animeme::head::Rig rig = animeme::head::make_rig(head);  // rig.h
+//     animeme::head::Pose pose = animeme::head::pose(rig, frame);
+//
+// Heads of others: see own_head.h.
 //
 // Lengths are centimetres. Axes as everywhere in Animeme: +X to the person's left, +Y up, +Z
 // forward. The origin lies between the centres of the eyes, at the depth of the ears.
@@ -11,12 +12,14 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "fap/fapu.h"
+#include "fap/frame.h"
 #include "fap/head/vector.h"
 #include "fap/result.h"
 
@@ -88,6 +91,36 @@ struct Seams {
   std::vector<float> jaw_weights;
   /// For each skin vertex: 1 is free to move, 0 is held, as below hair. Empty: all are free.
   std::vector<float> freedom;
+  /// For each skin vertex: 1 turns with the head, 0 stays with the body. Empty: by its height.
+  std::vector<float> neck_weights;
+};
+
+/// A shape that somebody modelled, such as ARKit's "jawOpen", and the FAPs that show the same at
+/// weight 1. A head with shapes is moved by the weights whose FAPs come nearest to those wanted.
+struct ShapeControl {
+  std::string name;
+  fap::Frame faps;
+};
+
+/// Target::control of the first shape of a head; smaller numbers are FAPs.
+inline constexpr int kFirstShape = fap::kFapCount + 1;
+/// Value of a control at which a shape is fully shown.
+inline constexpr float kFullShape = 1024;
+
+/// What one unit of a control does to the vertices of a part.
+struct Target {
+  int control = 0;  ///< number of a FAP (3..68), or kFirstShape + index of a shape
+  Part part = Part::skin;
+  std::vector<std::uint32_t> vertices;  ///< ascending
+  std::vector<Vec3> deltas;             ///< cm for one unit; as many as vertices
+  /// Values between which it moves: it counts clamp(value, low, high) - clamp(0, low, high) units.
+  /// Several targets make a curve of straight pieces.
+  float low = -std::numeric_limits<float>::infinity();
+  float high = std::numeric_limits<float>::infinity();
+
+  float units(float value) const {
+    return std::clamp(value, low, high) - std::clamp(0.0f, low, high);
+  }
 };
 
 struct Head {
@@ -102,6 +135,10 @@ struct Head {
   Vec3 neck_pivot;  ///< the head turns about this point: 7.1, top of the spine
   Seams seams;
   std::vector<std::uint32_t> lash_anchors;  ///< skin vertex at the root of each vertex of lashes
+  /// Empty: FAPs move it.
+  std::vector<ShapeControl> shapes;
+  /// How it moves, as its maker says. Empty: make_rig() finds it from the feature points.
+  std::vector<Target> targets;
 
   Mesh& part(Part p) { return parts[std::size_t(p)]; }
   const Mesh& part(Part p) const { return parts[std::size_t(p)]; }

@@ -2,25 +2,14 @@
 #include "fap/head/detail/targets.h"
 #include "fap/head/rig.h"
 #include "fap/head/shapes.h"
+#include "fap/shape_fit.h"
 
 namespace animeme::head {
 namespace {
 
-using Values = std::array<float, fap::kFapCount + 1>;
-
-constexpr Part kDeforming[] = {Part::skin, Part::left_eye, Part::right_eye, Part::tongue,
-                               Part::brows};
+using Values = ControlValues;
 
 std::size_t index(Part part) { return std::size_t(part); }
-
-Values values_of(const fap::Frame& frame) {
-  const fap::Frame low = low_level(frame);
-  Values values{};
-  for (std::size_t f = fap::kFirstLowLevel; f < values.size(); ++f) {
-    values[f] = low.mask[f] ? float(low.value[f]) : 0;
-  }
-  return values;
-}
 
 // Two FAPs that would make their points pass each other let them meet half way instead. `room` is
 // how far they may come together.
@@ -53,13 +42,13 @@ void stop_at_contact(Values& v) {
   share(v[20], v[22], 1024);
 }
 
-bool is_lid(int fap) { return fap >= 19 && fap <= 22; }
+bool is_lid(int control) { return control >= 19 && control <= 22; }
 
 // Lids only, or everything but the lids.
 void apply_targets(const Rig& rig, const Values& values, bool lids, Pose& out) {
   for (const Target& target : rig.targets) {
-    const float value = values[std::size_t(target.fap)];
-    if (value == 0 || is_lid(target.fap) != lids) continue;
+    const float value = target.units(values[std::size_t(target.control)]);
+    if (value == 0 || is_lid(target.control) != lids) continue;
     Vec3* places = out.positions[index(target.part)].data();
     const std::uint32_t* vertices = target.vertices.data();
     const Vec3* deltas = target.deltas.data();
@@ -117,8 +106,8 @@ void close_pairs(const std::vector<ContactPair>& pairs, float soft, std::vector<
 void turn_lashes(const Rig& rig, const std::vector<Vec3>& skin, std::vector<Vec3>& lashes) {
   const auto& neutral_skin = rig.parts[index(Part::skin)].positions;
   const auto& neutral = rig.parts[index(Part::lashes)].positions;
+  if (rig.lash_anchors.empty()) return;
   lashes = neutral;
-  if (rig.lash_anchors.size() != neutral.size()) return;
   for (std::size_t i = 0; i < neutral.size(); ++i) {
     const std::uint32_t anchor = rig.lash_anchors[i];
     if (skin[anchor] == neutral_skin[anchor]) continue;
@@ -151,6 +140,11 @@ Transform eye_transform(const Rig& rig, std::size_t side, const Values& v) {
   return turn;
 }
 
+// Parts whose shapes were modelled turn with the head alone: their shapes show all else.
+bool moves_by_shapes(const Rig& rig, Part part) {
+  return !rig.shapes.empty() && rig.deforms[index(part)];
+}
+
 void set_transforms(const Rig& rig, const Values& v, Pose& out) {
   constexpr float kRad = 1e-5f;
   out.head = rotation_about(rig.neck_pivot, v[48] * kRad, v[49] * kRad, v[50] * kRad);
@@ -165,17 +159,37 @@ void set_transforms(const Rig& rig, const Values& v, Pose& out) {
   }
   out.transforms[index(Part::left_eye)] = compose(out.head, eye_transform(rig, 0, v));
   out.transforms[index(Part::right_eye)] = compose(out.head, eye_transform(rig, 1, v));
+  for (const Part part : {Part::lower_teeth, Part::tongue, Part::left_eye, Part::right_eye}) {
+    if (moves_by_shapes(rig, part)) out.transforms[index(part)] = out.head;
+  }
   out.transforms[index(Part::skin)] = {};
   out.transforms[index(Part::body)] = {};
 }
 
 }  // namespace
 
+ControlValues control_values(const Rig& rig, const fap::Frame& frame) {
+  const fap::Frame low = low_level(frame);
+  ControlValues values(kFirstShape + rig.shapes.size());
+  for (std::size_t f = fap::kFirstLowLevel; f <= fap::kFapCount; ++f) {
+    values[f] = low.mask[f] ? float(low.value[f]) : 0;
+  }
+  if (rig.shapes.empty()) return values;
+  std::vector<fap::Frame> shapes;
+  for (const ShapeControl& shape : rig.shapes) shapes.push_back(shape.faps);
+  fap::ShapeFitter fitter(shapes);
+  const std::vector<double>& weights = fitter.fit(low);
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    values[kFirstShape + i] = float(weights[i]) * kFullShape;
+  }
+  return values;
+}
+
 void pose(const Rig& rig, const fap::Frame& frame, Pose& out, const PoseOptions& options) {
-  Values values = values_of(frame);
+  Values values = control_values(rig, frame);
   if (options.contact) stop_at_contact(values);
-  for (const Part part : kDeforming) {
-    out.positions[index(part)] = rig.parts[index(part)].positions;
+  for (std::size_t part = 0; part < rig.parts.size(); ++part) {
+    if (rig.deforms[part]) out.positions[part] = rig.parts[part].positions;
   }
   std::vector<Vec3>& skin = out.positions[index(Part::skin)];
   apply_targets(rig, values, true, out);
@@ -190,13 +204,10 @@ void pose(const Rig& rig, const fap::Frame& frame, Pose& out, const PoseOptions&
   turn_lashes(rig, skin, out.positions[index(Part::lashes)]);
   set_transforms(rig, values, out);
   turn_neck(rig, out.head, skin);
-  for (const Part part : kDeforming) {
-    detail::smooth_normals(out.positions[index(part)], rig.parts[index(part)].triangles,
-                           out.normals[index(part)]);
+  for (std::size_t part = 0; part < rig.parts.size(); ++part) {
+    if (!rig.deforms[part]) continue;
+    detail::smooth_normals(out.positions[part], rig.parts[part].triangles, out.normals[part]);
   }
-  detail::smooth_normals(out.positions[index(Part::lashes)],
-                         rig.parts[index(Part::lashes)].triangles,
-                         out.normals[index(Part::lashes)]);
 }
 
 Pose pose(const Rig& rig, const fap::Frame& frame, const PoseOptions& options) {

@@ -11,8 +11,8 @@ std::array<std::vector<std::uint32_t>, 2> sliding_vertices(const Rig& rig) {
   std::array<std::vector<std::uint32_t>, 2> sliding;
   const auto& places = rig.parts[std::size_t(Part::skin)].positions;
   for (const Target& target : rig.targets) {
-    if (target.fap < 19 || target.fap > 22) continue;
-    const std::size_t side = target.fap % 2 == 1 ? 0 : 1;
+    if (target.control < 19 || target.control > 22 || target.part != Part::skin) continue;
+    const std::size_t side = target.control % 2 == 1 ? 0 : 1;
     const Eye& eye = rig.eyes[side];
     for (const std::uint32_t v : target.vertices) {
       const Vec3 d = places[v] - eye.centre;
@@ -36,6 +36,14 @@ std::vector<std::uint32_t> skin_before(const Rig& rig, const Eye& eye) {
     if (distance > eye.radius && distance < 2 * eye.radius && d.z > 0) found.push_back(v);
   }
   return found;
+}
+
+std::array<bool, kPartCount> deforming(const Rig& rig) {
+  std::array<bool, kPartCount> deforms{};
+  deforms[std::size_t(Part::skin)] = true;  // turns with the neck
+  deforms[std::size_t(Part::lashes)] = !rig.lash_anchors.empty();
+  for (const Target& target : rig.targets) deforms[std::size_t(target.part)] = true;
+  return deforms;
 }
 
 // 1 for the head, 0 at the end of the neck.
@@ -68,11 +76,19 @@ Rig make_rig(const Head& head) {
   rig.chin = head.at("2.1");
   rig.lips = head.seams.lips;
   rig.lids = head.seams.lids;
-  rig.lash_anchors = head.lash_anchors;
-  rig.targets = detail::make_targets(head);
+  if (head.lash_anchors.size() == head.part(Part::lashes).positions.size()) {
+    rig.lash_anchors = head.lash_anchors;
+  }
+  rig.shapes = head.shapes;
+  rig.targets = head.targets.empty() ? detail::make_targets(head) : head.targets;
+  rig.deforms = deforming(rig);
   rig.lid_vertices = sliding_vertices(rig);
-  for (std::size_t i = 0; i < 2; ++i) rig.eye_skin[i] = skin_before(rig, rig.eyes[i]);
-  rig.neck_weights = neck_weights(rig);
+  // What an artist has modelled is not put right.
+  for (std::size_t i = 0; i < 2 && rig.shapes.empty(); ++i) {
+    rig.eye_skin[i] = skin_before(rig, rig.eyes[i]);
+  }
+  const bool given = head.seams.neck_weights.size() == head.part(Part::skin).positions.size();
+  rig.neck_weights = given ? head.seams.neck_weights : neck_weights(rig);
   return rig;
 }
 

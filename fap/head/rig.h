@@ -12,8 +12,10 @@
 // morph target of glTF is. On top of it come lids that slide over the eyeball, lips and lids that
 // touch and do not pass through each other, eyeballs, the jaw and the turn of the head.
 //
-// Your own head: fill a Head with your mesh as Part::skin, the feature points that you know (leave
-// the others at kMissing), its FAPU and eyes. All other parts and the seams may stay empty.
+// Your own head: own_head.h makes a Head of your meshes. By hand: your mesh as Part::skin, the
+// feature points that you know (leave the others at kMissing), its FAPU and eyes. All other parts
+// and the seams may stay empty. A head with targets of its own (Head::targets) moves by them alone.
+// Where they are those of shapes (Head::shapes), each frame is fitted: see control_values().
 #pragma once
 
 #include <array>
@@ -25,14 +27,6 @@
 
 namespace animeme::head {
 
-/// What one FAP unit does to the vertices of a part.
-struct Target {
-  int fap = 0;
-  Part part = Part::skin;
-  std::vector<std::uint32_t> vertices;  ///< ascending
-  std::vector<Vec3> deltas;             ///< cm for one FAP unit; as many as vertices
-};
-
 /// A head that is ready to move.
 struct Rig {
   struct Shape {
@@ -40,8 +34,10 @@ struct Rig {
     std::vector<Vec3> normals;  ///< length 1
     std::vector<Triangle> triangles;
   };
-  std::array<Shape, kPartCount> parts;  ///< neutral
-  std::vector<Target> targets;          ///< by FAP, then by part
+  std::array<Shape, kPartCount> parts;        ///< neutral
+  std::vector<Target> targets;                ///< by control, then by part
+  std::vector<ShapeControl> shapes;           ///< of heads that have them
+  std::array<bool, kPartCount> deforms = {};  ///< which parts have a target, or lashes that turn
   fap::Fapu fapu;
   std::array<Eye, 2> eyes;
   Vec3 jaw_axis;
@@ -61,6 +57,14 @@ struct Rig {
 /// separated by the slit between them. Feature points that the head does not have move nothing.
 Rig make_rig(const Head& head);
 
+/// Values by control: FAPs 3..68, then the shapes of a rig.
+using ControlValues = std::vector<float>;
+
+/// The values of a frame: low_level() of shapes.h, absent FAPs 0; for a rig with shapes also their
+/// weights, times kFullShape, whose FAPs come nearest to the frame (fap::ShapeFitter). Each frame
+/// stands for itself, so any frame may be asked for in any order.
+ControlValues control_values(const Rig& rig, const fap::Frame& frame);
+
 struct PoseOptions {
   /// Lips and lids stop where they touch. Without it every feature point is where its FAPs say.
   bool contact = true;
@@ -68,7 +72,7 @@ struct PoseOptions {
 
 /// A head at one instant.
 struct Pose {
-  /// Vertices of the parts that deform: skin, eyes, tongue, brows, lashes. Empty: as in Rig::parts.
+  /// Vertices of the parts that deform. Empty: as in Rig::parts.
   std::array<std::vector<Vec3>, kPartCount> positions;
   std::array<std::vector<Vec3>, kPartCount> normals;
   /// To be applied to positions and normals of each part. Identity for skin and body.

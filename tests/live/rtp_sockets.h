@@ -12,30 +12,11 @@
 #include <vector>
 
 #include "tests/support/random_clip.h"
+#include "tests/support/temp_dir.h"
 #include "tools/media/live/sdp.h"
 #include "tools/media/live/udp_socket.h"
 
 namespace animeme::test {
-
-/// A folder that disappears with the object.
-class TempDir {
- public:
-  TempDir() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "animeme-XXXXXX").string();
-    path_ = mkdtemp(pattern.data());
-  }
-  ~TempDir() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TempDir(const TempDir&) = delete;
-  TempDir& operator=(const TempDir&) = delete;
-
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// The first of four ports in a row that are free just now, even, from `least` on. Programs that
 /// run at the same time begin at different places.

@@ -85,10 +85,13 @@ Json write_target(const head::Target& target, Bytes& out) {
       out.u16(std::uint32_t(std::lround(axis(d, k) / step)) & 0xFFFF);
     }
   }
-  return Json{{"fap", target.fap},
-              {"part", int(target.part)},
-              {"count", target.vertices.size()},
-              {"steps", steps}};
+  Json info{{"control", target.control},
+            {"part", int(target.part)},
+            {"count", target.vertices.size()},
+            {"steps", steps}};
+  if (std::isfinite(target.low)) info["low"] = target.low;
+  if (std::isfinite(target.high)) info["high"] = target.high;
+  return info;
 }
 
 void write_pairs(const std::vector<head::ContactPair>& pairs, Bytes& out) {
@@ -179,10 +182,12 @@ std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig
   for (const std::uint32_t vertex : rig.lash_anchors) data.varint(vertex);
   for (const float weight : rig.neck_weights) data.u16(rounded(weight * 65535, 65535));
   const Json header{
-      {"version", 1},
+      {"version", 2},
       {"name", head.name},
       {"parts", parts},
       {"targets", targets},
+      {"deforms", rig.deforms},
+      {"shapes", rig.shapes.size()},
       {"lips", rig.lips.size()},
       {"lids", {rig.lids[0].size(), rig.lids[1].size()}},
       {"sliding", {rig.lid_vertices[0].size(), rig.lid_vertices[1].size()}},

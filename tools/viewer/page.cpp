@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "fap/head/shapes.h"
 #include "fap/tables.h"
 #include "tools/viewer/detail/bytes.h"
 #include "tools/viewer/detail/parts.h"
@@ -53,28 +52,31 @@ std::string packed(const std::vector<std::uint8_t>& bytes) {
   return detail::base64(detail::deflated(bytes));
 }
 
-// The columns of a clip: for each FAP that moves, differences from frame to frame.
-std::string pack_clip(const Clip& clip) {
-  std::vector<fap::Frame> frames;
+// The columns of a clip: for each control that moves, differences from frame to frame.
+std::string pack_clip(const Clip& clip, const head::Rig& rig) {
+  std::vector<head::ControlValues> frames;
   frames.reserve(clip.motion.frames.size());
-  for (const fap::Frame& frame : clip.motion.frames) frames.push_back(head::low_level(frame));
-  Json faps = Json::array();
+  for (const fap::Frame& frame : clip.motion.frames) {
+    frames.push_back(head::control_values(rig, frame));
+  }
+  Json controls = Json::array();
   Bytes data;
-  for (std::size_t f = fap::kFirstLowLevel; f <= fap::kFapCount; ++f) {
+  for (std::size_t c = fap::kFirstLowLevel; c < frames.front().size(); ++c) {
+    const auto value = [c](const head::ControlValues& frame) { return std::lround(frame[c]); };
     const bool moves = std::any_of(frames.begin(), frames.end(),
-                                   [f](const fap::Frame& frame) { return frame.value[f] != 0; });
+                                   [&](const auto& frame) { return value(frame) != 0; });
     if (!moves) continue;
-    faps.push_back(f);
+    controls.push_back(c);
     std::int64_t last = 0;
-    for (const fap::Frame& frame : frames) {
-      data.zigzag(frame.value[f] - last);
-      last = frame.value[f];
+    for (const head::ControlValues& frame : frames) {
+      data.zigzag(value(frame) - last);
+      last = value(frame);
     }
   }
   const fap::Rate rate = clip.motion.rate;
   const Json header{{"name", clip.name},       {"rate", {rate.num, rate.den}},
-                    {"start", clip.start},     {"first", frames.front().number},
-                    {"frames", frames.size()}, {"faps", faps}};
+                    {"start", clip.start},     {"first", clip.motion.frames.front().number},
+                    {"frames", frames.size()}, {"controls", controls}};
   return packed(
       detail::with_header(header.dump(-1, ' ', true, Json::error_handler_t::replace), data).take());
 }
@@ -116,7 +118,7 @@ std::string data_elements(const Page& page) {
                     script_text(facts_of(page)) + "</script>\n" +
                     data_element("model", packed(pack_head(*page.head, *page.rig)));
   for (std::size_t i = 0; i < page.clips.size(); ++i) {
-    out += data_element("clip" + std::to_string(i), pack_clip(page.clips[i]));
+    out += data_element("clip" + std::to_string(i), pack_clip(page.clips[i], *page.rig));
   }
   if (page.sound) out += data_element("sound", detail::base64(page.sound->file));
   return out;

@@ -79,7 +79,7 @@ class Maker {
     add_tongue();
     add_pupils();
     std::stable_sort(targets_.begin(), targets_.end(),
-                     [](const Target& a, const Target& b) { return a.fap < b.fap; });
+                     [](const Target& a, const Target& b) { return a.control < b.control; });
     return std::move(targets_);
   }
 
@@ -150,7 +150,7 @@ class Maker {
 
   void add(int fap, Part part, const std::vector<Vec3>& deltas) {
     const float least = kLeast * float(fap::step_size(fap, head_.fapu));
-    Target target{fap, part, {}, {}};
+    Target target{.control = fap, .part = part, .vertices = {}, .deltas = {}};
     for (std::size_t v = 0; v < deltas.size(); ++v) {
       if (dot(deltas[v], deltas[v]) <= least * least) continue;
       target.vertices.push_back(std::uint32_t(v));

@@ -4,7 +4,7 @@ const MOST = 24;  // rows that are chosen at once
 
 /** FAPs that move most in a clip, in rows of one kind: left sides stand for both. */
 export function mostMoving(clip, count) {
-  const moves = Object.keys(clip.columns).map(Number).map((fap) => {
+  const moves = Object.keys(clip.columns).map(Number).filter((n) => n <= 68).map((fap) => {
     const column = clip.columns[fap];
     let path = 0;
     for (let i = 1; i < column.length; ++i) path += Math.abs(column[i] - column[i - 1]);

@@ -5,20 +5,21 @@ import {ByteReader} from './bytes.js';
 export class Clip {
   constructor(bytes) {
     const reader = new ByteReader(bytes);
-    const {name, rate, start, first, frames, faps} = reader.header;
+    const {name, rate, start, first, frames, controls} = reader.header;
     this.name = name;
     this.rate = rate[0] / rate[1];
     this.frames = frames;
     this.start = start + first / this.rate;
     this.end = this.start + frames / this.rate;
-    /** Values by FAP number; FAPs that never move are missing. */
+    /** Values by FAP number, then weights of shapes; what never moves is missing. */
     this.columns = {};
-    for (const fap of faps) {
+    for (const control of controls) {
       const column = new Int32Array(frames);
       let value = 0;
       for (let i = 0; i < frames; ++i) column[i] = value += reader.zigzag();
-      this.columns[fap] = column;
+      this.columns[control] = column;
     }
+    this.size = Math.max(68, ...controls) + 1;
   }
 
   /** The frame that is shown at a time: the last one that has begun. */
@@ -36,15 +37,15 @@ export class Clip {
     return column ? column[frame] : 0;
   }
 
-  /** All values at a time, index = FAP number; `between`: a mixture of two frames. */
+  /** All values at a time by control; `between`: a mixture of two frames. */
   values(time, between) {
-    const out = new Float64Array(69);
+    const out = new Float64Array(this.size);
     const frame = this.frameAt(time);
     const next = Math.min(frame + 1, this.frames - 1);
     const share = between ? Math.min(Math.max((time - this.timeOf(frame)) * this.rate, 0), 1) : 0;
-    for (const fap of Object.keys(this.columns)) {
-      const column = this.columns[fap];
-      out[fap] = column[frame] + (column[next] - column[frame]) * share;
+    for (const control of Object.keys(this.columns)) {
+      const column = this.columns[control];
+      out[control] = column[frame] + (column[next] - column[frame]) * share;
     }
     return out;
   }

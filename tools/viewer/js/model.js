@@ -23,7 +23,7 @@ function readPart(reader, info) {
   return {name: info.name, material: info.material, positions, normals, paint, triangles};
 }
 
-function readTarget(reader, {fap, part, count, steps}) {
+function readTarget(reader, {control, part, count, steps, low = -Infinity, high = Infinity}) {
   const vertices = new Uint32Array(count);
   let vertex = -1;
   for (let i = 0; i < count; ++i) vertices[i] = (vertex += reader.varint() + 1) * 3;
@@ -31,7 +31,8 @@ function readTarget(reader, {fap, part, count, steps}) {
   steps.forEach((step, axis) => {
     if (step > 0) axes.push({axis, step, deltas: reader.i16(count)});
   });
-  return {fap, part, vertices, axes};
+  const rest = Math.min(Math.max(0, low), high);
+  return {control, part, vertices, axes, low, high, rest};
 }
 
 /** {name, parts: [{name, material, positions, normals, paint, triangles}], targets, lips, lids,
@@ -40,7 +41,7 @@ function readTarget(reader, {fap, part, count, steps}) {
 export function readModel(bytes) {
   const reader = new ByteReader(bytes);
   const {header} = reader;
-  if (header.version !== 1) throw new Error(`a head of version ${header.version} is not known`);
+  if (header.version !== 2) throw new Error(`a head of version ${header.version} is not known`);
   const parts = header.parts.map((info) => readPart(reader, info));
   const targets = header.targets.map((info) => readTarget(reader, info));
   const lips = reader.varints(header.lips * 2);

@@ -3,6 +3,8 @@ import {IDENTITY, compose, moved, movedPoints, rotationAbout, smoothNormals, smo
   './vector.js';
 
 export const FAP_COUNT = 68;
+/** Number of the first shape of a head that has shapes; smaller ones are FAPs. */
+export const FIRST_SHAPE = FAP_COUNT + 1;
 const RADIANS = 1e-5;  // one unit of an angle
 const EYE_SKIN = 1.07;  // of the radius of an eyeball: skin comes no nearer to its centre
 const CONTACT = 0.06;  // lips and lids feel each other at this share of the mouth-nose distance
@@ -41,20 +43,19 @@ export class Rig {
     this.transforms = model.parts.map(() => IDENTITY);
     this.head = IDENTITY;
     /** Parts whose vertices move. */
-    this.deforming = ['skin', 'left_eye', 'right_eye', 'tongue', 'brows', 'lashes']
-        .map((name) => this.index[name]);
+    this.deforming = names.map((_, i) => i).filter((i) => model.deforms[i]);
     for (const i of this.deforming) {
       this.positions[i] = Float32Array.from(model.parts[i].positions);
       this.normals[i] = Float32Array.from(model.parts[i].normals);
     }
-    this.values = new Float64Array(FAP_COUNT + 1);
+    this.values = new Float64Array(FIRST_SHAPE + model.shapes);
   }
 
-  /** FAP values, index = FAP number, any array of 69 numbers; low-level FAPs alone. */
+  /** Values by control: low-level FAPs by number, then the weights of shapes. */
   pose(values) {
     const {model, positions, index} = this;
     const v = this.values;
-    for (let f = 3; f <= FAP_COUNT; ++f) v[f] = values[f] || 0;
+    for (let f = 3; f < v.length; ++f) v[f] = values[f] || 0;
     for (const [upper, lower] of [[4, 5], [8, 10], [9, 11]]) meet(v, upper, lower);
     share(v, 19, 21, 1024);
     share(v, 20, 22, 1024);
@@ -80,11 +81,12 @@ export class Rig {
   }
 
   applyTargets(v, lids) {
-    for (const {fap, part, vertices, axes} of this.model.targets) {
-      if (v[fap] === 0 || (fap >= 19 && fap <= 22) !== lids) continue;
+    for (const {control, part, vertices, axes, low, high, rest} of this.model.targets) {
+      const value = Math.min(Math.max(v[control], low), high) - rest;
+      if (value === 0 || (control >= 19 && control <= 22) !== lids) continue;
       const places = this.positions[part];
       for (const {axis, step, deltas} of axes) {
-        const scale = v[fap] * step;
+        const scale = value * step;
         for (let i = 0; i < vertices.length; ++i) places[vertices[i] + axis] += deltas[i] * scale;
       }
     }
@@ -131,6 +133,7 @@ export class Rig {
   // Lashes turn with the rim that carries them, about the centre of the eye.
   turnLashes(skin, lashes) {
     const {anchors, eyes} = this.model;
+    if (anchors.length === 0) return;
     const neutral = this.model.parts[this.index.skin].positions;
     const rest = this.model.parts[this.index.lashes].positions;
     for (let k = 0; k < anchors.length; ++k) {
@@ -177,6 +180,11 @@ export class Rig {
     for (const name of ['lower_teeth', 'tongue']) set(name, inJaw);
     set('left_eye', compose(this.head, this.eyeTransform(0, v)));
     set('right_eye', compose(this.head, this.eyeTransform(1, v)));
+    if (this.model.shapes === 0) return;
+    // Modelled shapes show all but the turn of the head.
+    for (const name of ['lower_teeth', 'tongue', 'left_eye', 'right_eye']) {
+      if (this.model.deforms[this.index[name]]) set(name, this.head);
+    }
   }
 
   turnNeck(skin) {

@@ -1,0 +1,41 @@
+#include "fap/shape_fit.h"
+
+#include "fap/detail/bounded_fit.h"
+
+namespace animeme::fap {
+namespace {
+
+// Of the eyeball, in the units of the fit: a gaze that is off is seen as lips that are off are.
+constexpr double kEyeRadius = 1.2;
+
+std::vector<std::vector<internal::ShapeWeight>> weights_of(std::span<const Frame> shapes) {
+  std::vector<std::vector<internal::ShapeWeight>> weights;
+  for (const Frame& shape : shapes) {
+    std::vector<internal::ShapeWeight>& out = weights.emplace_back();
+    for (int fap = kFirstLowLevel; fap <= kFapCount; ++fap) {
+      const auto f = std::size_t(fap);
+      if (shape.mask[f] && shape.value[f] != 0) out.push_back({fap, shape.value[f]});
+    }
+  }
+  return weights;
+}
+
+}  // namespace
+
+struct ShapeFitter::Impl {
+  internal::BoundedFit fit;
+};
+
+ShapeFitter::ShapeFitter(std::span<const Frame> shapes, double ridge)
+    : impl_(new Impl{
+          {weights_of(shapes), ridge, 0, std::numeric_limits<double>::infinity(), kEyeRadius}}) {}
+ShapeFitter::ShapeFitter(ShapeFitter&&) noexcept = default;
+ShapeFitter& ShapeFitter::operator=(ShapeFitter&&) noexcept = default;
+ShapeFitter::~ShapeFitter() = default;
+
+const std::vector<double>& ShapeFitter::fit(const Frame& frame) {
+  impl_->fit.restart();
+  return impl_->fit.fit(frame.mask, internal::target_of(frame));
+}
+
+}  // namespace animeme::fap
