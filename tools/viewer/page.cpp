@@ -87,6 +87,7 @@ Json fap_table() {
     table.push_back({{"number", info.number},
                      {"name", info.name},
                      {"group", info.group},
+                     {"unit", fap::unit_name(info.unit)},
                      {"point", info.feature_point}});
   }
   return table;
