@@ -76,7 +76,12 @@ void slide_lids(const Rig& rig, std::vector<Vec3>& skin) {
       const Vec3 was = neutral[v] - centre;
       const Vec3 is = skin[v] - centre;
       const float square = dot(was, was) - is.x * is.x - is.y * is.y;
-      skin[v].z = centre.z + std::sqrt(std::max(square, 0.04f * dot(was, was)));
+      const float slid = std::sqrt(std::max(square, 0.04f * dot(was, was)));
+      // Not at the sides of the eye nor far from it, where it would push skin to the front.
+      const float size = length(was);
+      const float share = smooth_step(0.15f, 0.4f, was.z / size) *
+                          smooth_step(2.0f, 1.4f, size / rig.eyes[side].radius);
+      skin[v].z += (slid - is.z) * share;
     }
   }
 }

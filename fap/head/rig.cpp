@@ -82,7 +82,7 @@ Rig make_rig(const Head& head) {
   rig.eyes = head.eyes;
   rig.jaw_axis = head.jaw_axis;
   rig.neck_pivot = head.neck_pivot;
-  rig.chin = head.at("2.1");
+  rig.chin = chin_of(head);
   rig.lips = head.seams.lips;
   rig.lids = head.seams.lids;
   if (head.lash_anchors.size() == head.part(Part::lashes).positions.size()) {

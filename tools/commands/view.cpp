@@ -6,6 +6,7 @@
 #include "fap/fill.h"
 #include "fap/head/rig.h"
 #include "tools/commands/common.h"
+#include "tools/commands/head_file.h"
 #include "tools/commands/view_sound.h"
 #include "tools/media/container.h"
 #include "tools/viewer/viewer.h"
@@ -20,7 +21,7 @@ struct Options {
   std::string output;
   std::string audio;
   std::string script;
-  std::string head = "woman";
+  HeadChoice head;
 };
 
 struct Shown {
@@ -75,8 +76,11 @@ Result<dam::Script> read_script(const std::string& path) {
 }
 
 Result<int> run(const Options& options) {
-  const auto parameters = head::head_parameters(options.head);
-  if (!parameters) return usage_error("--head is woman, man or child");
+  if (const std::string problem = problem_of(options.head); !problem.empty()) {
+    return usage_error(problem);
+  }
+  const Result<head::Head> head = load_head_and_tell(options.head);
+  if (!head) return head.error();
   viewer::Page page;
   bool container = false;
   for (const std::string& path : {options.first, options.second}) {
@@ -92,8 +96,6 @@ Result<int> run(const Options& options) {
   Result<dam::Script> script = read_script(options.script);
   if (!script) return script.error();
   page.script = std::move(*script);
-  const Result<head::Head> head = head::make_head(*parameters);
-  if (!head) return head.error();
   const head::Rig rig = head::make_rig(*head);
   page.head = &*head;
   page.rig = &rig;
@@ -119,7 +121,7 @@ Action add(CLI::App& app) {
                  "Sound in any format that FFmpeg reads; by default that of the container");
   app.add_option("--script", options->script,
                  "Phoneme script (table or TextGrid) to show with the curves");
-  app.add_option("--head", options->head, "woman, man or child")->capture_default_str();
+  add_head_options(app, options->head);
   return [options] { return run(*options); };
 }
 

@@ -8,6 +8,7 @@
 namespace animeme::head::detail {
 namespace {
 
+constexpr float kSteepest = 1.5f;  // of a forehead on which brows slide
 constexpr float kLeast = 0.002f;    // smaller weights are nothing
 constexpr float kChinBack = 0.42f;  // the chin goes back by this share of its drop
 constexpr float kJawShare = 0.8f;   // drop of the teeth against that of the chin
@@ -83,6 +84,7 @@ class Maker {
         deltas[v] = step * column_[v];
         if (fap == 3) deltas[v].z += step.y * kChinBack * column_[v];
       }
+      if (fap >= 31 && fap <= 36) slide_on_bone(deltas);
       slide_below_hair(fap, deltas);
       add_mouth_floor(fap, step, deltas);
       add(fap, Part::skin, deltas);
@@ -113,6 +115,14 @@ class Maker {
       }
     }
     return any;
+  }
+
+  // Brows slide on the forehead, which leans back: moved up alone, its skin would stand off.
+  void slide_on_bone(std::vector<Vec3>& deltas) const {
+    for (std::size_t v = 0; v < deltas.size(); ++v) {
+      const Vec3 n = normals_[v];
+      if (n.z > 0 && n.y > 0) deltas[v].z -= deltas[v].y * std::min(n.y / n.z, kSteepest);
+    }
   }
 
   bool fill_lid(int fap) {

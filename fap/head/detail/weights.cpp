@@ -1,6 +1,7 @@
 #include "fap/head/detail/weights.h"
 
 #include <limits>
+#include <tuple>
 #include <utility>
 
 namespace animeme::head::detail {
@@ -29,14 +30,29 @@ constexpr std::array kControls = {
     ControlInfo{"10.4", 3.0f, 0.5f, ""},
 };
 
-// What holds still.
+// What holds still. Lists of landmarks seldom have these points: where they are on usual heads, in
+// distances of the pupils from between the eyes. No place: such a list has it, or it is not missed.
 constexpr struct {
   std::string_view id;
   float reach;
-} kAnchors[] = {{"3.7", 2.5f},  {"3.8", 2.5f},  {"3.11", 2.5f}, {"3.12", 2.5f},  {"9.6", 2.5f},
-                {"9.7", 2.5f},  {"9.12", 2.5f}, {"9.13", 2.5f}, {"9.14", 2.5f},  {"9.15", 2.0f},
-                {"10.7", 3.0f}, {"10.8", 3.0f}, {"10.9", 3.0f}, {"10.10", 3.0f}, {"11.1", 4.0f},
-                {"11.2", 4.0f}, {"11.3", 4.0f}};
+  Vec3 usual = {};
+} kAnchors[] = {{"3.7", 2.5f},
+                {"3.8", 2.5f},
+                {"3.11", 2.5f},
+                {"3.12", 2.5f},
+                {"9.6", 2.5f},
+                {"9.7", 2.5f},
+                {"9.12", 2.5f, {0, -0.20f, 1.45f}},
+                {"9.13", 2.5f, {0.16f, -0.23f, 1.39f}},
+                {"9.14", 2.5f, {-0.16f, -0.23f, 1.39f}},
+                {"9.15", 2.0f},
+                {"10.7", 3.0f, {0.94f, -0.48f, 0.10f}},
+                {"10.8", 3.0f, {-0.94f, -0.48f, 0.10f}},
+                {"10.9", 3.0f, {1.00f, 0.21f, 0}},
+                {"10.10", 3.0f, {-1.00f, 0.21f, 0}},
+                {"11.1", 4.0f, {0, 1.35f, 1.0f}},
+                {"11.2", 4.0f, {-0.75f, 1.15f, 0.8f}},
+                {"11.3", 4.0f, {0.75f, 1.15f, 0.8f}}};
 
 constexpr float kBackground = 0.02f;
 constexpr float kCore = 0.3f;  // of anchors
@@ -59,7 +75,13 @@ class Builder {
     for (std::size_t c = 0; c < kControls.size(); ++c) {
       add(vertex_of(kControls[c].id), kControls[c].reach, kControls[c].core, int(c), 1);
     }
-    for (const auto& anchor : kAnchors) add(vertex_of(anchor.id), anchor.reach, kCore, -1, 1);
+    for (const auto& anchor : kAnchors) {
+      std::uint32_t vertex = vertex_of(anchor.id);
+      if (vertex == kMissing && anchor.usual != Vec3{}) {
+        vertex = nearest(anchor.usual * float(head_.fapu.es));
+      }
+      add(vertex, anchor.reach, kCore, -1, 1);
+    }
     add_jaw_line();
     add_brow_line();
     for (std::size_t v = 0; v < weights_.vertices(); ++v) {
@@ -94,7 +116,7 @@ class Builder {
   }
 
   std::uint32_t nearest(Vec3 place) const {
-    std::uint32_t best = 0;
+    std::uint32_t best = kMissing;
     float least = std::numeric_limits<float>::max();
     for (std::uint32_t v = 0; v < mesh_.positions.size(); ++v) {
       const Vec3 d = mesh_.positions[v] - place;
@@ -106,20 +128,25 @@ class Builder {
     return best;
   }
 
+  Vec3 place_of(std::string_view id, Vec3 usual) const {
+    return vertex_of(id) == kMissing ? usual : head_.at(id);
+  }
+
   // The jaw is wider than its point: helpers along the bone go along, less and less to the back.
   void add_jaw_line() {
-    for (const auto& [chin, corner] : {std::pair("2.11", "2.13"), std::pair("2.12", "2.14")}) {
-      if (vertex_of(chin) == kMissing) continue;
-      add(vertex_of(chin), 4.5f, 0.7f, 0, 0.92f);
-      if (vertex_of(corner) == kMissing) continue;
-      const Vec3 a = head_.at(chin);
-      const Vec3 b = head_.at(corner);
-      add(nearest(mix(a, b, 0.33f)), 4.5f, 0.7f, 0, 0.74f);
-      add(nearest(mix(a, b, 0.66f)), 4.5f, 0.7f, 0, 0.42f);
-      add(vertex_of(corner), 4.5f, 0.7f, 0, 0.10f);
-    }
     if (vertex_of("2.1") == kMissing) return;
     const Vec3 chin = head_.at("2.1");
+    const float es = float(head_.fapu.es);
+    for (const auto& [near, corner, side] :
+         {std::tuple("2.11", "2.13", 1.0f), std::tuple("2.12", "2.14", -1.0f)}) {
+      // Lists of landmarks seldom have the jaw line: it is where it is on usual heads then.
+      const Vec3 a = place_of(near, chin + Vec3{0.34f * side, 0.14f, -0.02f} * es);
+      const Vec3 b = place_of(corner, chin + Vec3{0.82f * side, 0.52f, -0.88f} * es);
+      add(nearest(a), 4.5f, 0.7f, 0, 0.92f);
+      add(nearest(mix(a, b, 0.33f)), 4.5f, 0.7f, 0, 0.74f);
+      add(nearest(mix(a, b, 0.66f)), 4.5f, 0.7f, 0, 0.42f);
+      add(nearest(b), 4.5f, 0.7f, 0, 0.10f);
+    }
     const float depth = chin.z - head_.neck_pivot.z;
     add(nearest(chin + Vec3{0, 0, -0.28f * depth}), 4.0f, 0.7f, 0, 0.72f);
     add(nearest(chin + Vec3{0, -0.05f * depth, -0.5f * depth}), 4.0f, 0.7f, 0, 0.25f);

@@ -101,7 +101,7 @@ export class Rig {
   slideLids(skin) {
     const neutral = this.model.parts[this.index.skin].positions;
     this.model.sliding.forEach((vertices, side) => {
-      const [cx, cy, cz] = this.model.eyes[side].centre;
+      const {centre: [cx, cy, cz], radius} = this.model.eyes[side];
       for (const vertex of vertices) {
         const i = vertex * 3;
         if (skin[i] === neutral[i] && skin[i + 1] === neutral[i + 1] &&
@@ -109,7 +109,12 @@ export class Rig {
         const was = (neutral[i] - cx) ** 2 + (neutral[i + 1] - cy) ** 2 +
             (neutral[i + 2] - cz) ** 2;
         const square = was - (skin[i] - cx) ** 2 - (skin[i + 1] - cy) ** 2;
-        skin[i + 2] = cz + Math.sqrt(Math.max(square, 0.04 * was));
+        const slid = Math.sqrt(Math.max(square, 0.04 * was));
+        // Not at the sides of the eye nor far from it.
+        const size = Math.sqrt(was);
+        const share = smoothStep(0.15, 0.4, (neutral[i + 2] - cz) / size) *
+            smoothStep(2, 1.4, size / radius);
+        skin[i + 2] += (slid - (skin[i + 2] - cz)) * share;
       }
     });
   }
