@@ -249,12 +249,12 @@ TEST(Page, HeadTakesValuesFromElsewhere) {
       "view.camera.listen(view.canvas);\n"
       "const at = () => view.model.points.map(({part, vertex}) =>\n"
       "    [...view.rigs[0].placed(part).slice(vertex * 3, vertex * 3 + 3)]);\n"
-      "view.show({1: {select1: 10, select2: 0, blend: 40}, 3: 100});\n"
+      "view.show({1: {select1: 10, select2: 0, blend: 40}, 3: 100, 25: 20000});\n"
       "window.result = at();</script>";
   const Json report = report_of("live", html, dir);
   ASSERT_TRUE(report.contains("result"));
   EXPECT_EQ(said(report), std::vector<std::string>());
-  fap::Frame frame = frame_of({{3, 100}});
+  fap::Frame frame = frame_of({{3, 100}, {25, 20000}});
   frame.mask.set(1);
   frame.viseme = {.select1 = 10, .select2 = 0, .blend = 40};
   const head::Pose pose = head::pose(test_head().rig, frame);

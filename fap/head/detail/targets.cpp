@@ -8,7 +8,7 @@
 namespace animeme::head::detail {
 namespace {
 
-constexpr float kSteepest = 1.5f;  // of a forehead on which brows slide
+constexpr float kSteepest = 1.5f;   // of a forehead on which brows slide
 constexpr float kLeast = 0.002f;    // smaller weights are nothing
 constexpr float kChinBack = 0.42f;  // the chin goes back by this share of its drop
 constexpr float kJawShare = 0.8f;   // drop of the teeth against that of the chin
