@@ -15,6 +15,11 @@ FeaturePoint Head::point(std::string_view id) const {
   return {};
 }
 
+Vec3 chin_of(const Head& head) {
+  if (head.point("2.1").exists()) return head.at("2.1");
+  return Vec3{0, -1.75f, 1.1f} * float(head.fapu.es);  // on usual heads
+}
+
 Vec3 Head::at(std::string_view id) const {
   if (id == "7.1") return neck_pivot;
   const FeaturePoint found = point(id);

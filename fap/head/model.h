@@ -148,6 +148,9 @@ struct Head {
   Vec3 at(std::string_view id) const;
 };
 
+/// The chin: 2.1, or about where it is if the head does not have the point.
+Vec3 chin_of(const Head& head);
+
 enum class HairStyle : std::uint8_t { bob, short_cut, fringe };
 
 /// Sizes in cm and colours (sRGB, 0xRRGGBB) of a head. Sizes may be changed within about a

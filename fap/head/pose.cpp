@@ -34,12 +34,20 @@ void share(float& a, float& b, float room) {
   }
 }
 
-void stop_at_contact(Values& v) {
+constexpr float kLidRise = -400;  // upper lids rise by this at most
+
+void stop_at_contact(const Rig& rig, Values& v) {
   for (const auto& [upper, lower] : {std::pair(4, 5), {8, 10}, {9, 11}}) {
     meet(v[std::size_t(upper)], v[std::size_t(lower)], 0);
   }
   share(v[19], v[21], 1024);
   share(v[20], v[22], 1024);
+  for (const std::size_t lid : {19u, 20u}) v[lid] = std::max(v[lid], kLidRise);
+  share(v[37], v[38], rig.brow_room);
+  const float chin = std::min(v[18] - std::max(v[3], 0.0f), 0.0f);
+  for (const std::size_t lip : {5u, 10u, 11u, 52u, 57u, 58u}) {
+    v[lip] = std::max(v[lip], chin - rig.chin_room);
+  }
 }
 
 bool is_lid(int control) { return control >= 19 && control <= 22; }
@@ -68,7 +76,12 @@ void slide_lids(const Rig& rig, std::vector<Vec3>& skin) {
       const Vec3 was = neutral[v] - centre;
       const Vec3 is = skin[v] - centre;
       const float square = dot(was, was) - is.x * is.x - is.y * is.y;
-      skin[v].z = centre.z + std::sqrt(std::max(square, 0.04f * dot(was, was)));
+      const float slid = std::sqrt(std::max(square, 0.04f * dot(was, was)));
+      // Not at the sides of the eye nor far from it, where it would push skin to the front.
+      const float size = length(was);
+      const float share = smooth_step(0.15f, 0.4f, was.z / size) *
+                          smooth_step(2.0f, 1.4f, size / rig.eyes[side].radius);
+      skin[v].z += (slid - is.z) * share;
     }
   }
 }
@@ -187,7 +200,7 @@ ControlValues control_values(const Rig& rig, const fap::Frame& frame) {
 
 void pose(const Rig& rig, const fap::Frame& frame, Pose& out, const PoseOptions& options) {
   Values values = control_values(rig, frame);
-  if (options.contact) stop_at_contact(values);
+  if (options.contact) stop_at_contact(rig, values);
   for (std::size_t part = 0; part < rig.parts.size(); ++part) {
     if (rig.deforms[part]) out.positions[part] = rig.parts[part].positions;
   }

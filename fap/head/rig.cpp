@@ -1,5 +1,7 @@
 #include "fap/head/rig.h"
 
+#include <limits>
+
 #include "fap/head/detail/normals.h"
 #include "fap/head/detail/targets.h"
 
@@ -59,6 +61,13 @@ std::vector<float> neck_weights(const Rig& rig) {
   return weights;
 }
 
+// How far two points may come together: a share of their distance, in units of a FAP.
+float room(const Head& head, std::string_view a, std::string_view b, float share, int fap) {
+  const float unit = float(fap::step_size(fap, head.fapu));
+  const bool known = head.point(a).exists() && head.point(b).exists() && unit > 0;
+  return known ? share * length(head.at(a) - head.at(b)) / unit : std::numeric_limits<float>::max();
+}
+
 }  // namespace
 
 Rig make_rig(const Head& head) {
@@ -73,7 +82,7 @@ Rig make_rig(const Head& head) {
   rig.eyes = head.eyes;
   rig.jaw_axis = head.jaw_axis;
   rig.neck_pivot = head.neck_pivot;
-  rig.chin = head.at("2.1");
+  rig.chin = chin_of(head);
   rig.lips = head.seams.lips;
   rig.lids = head.seams.lids;
   if (head.lash_anchors.size() == head.part(Part::lashes).positions.size()) {
@@ -87,6 +96,8 @@ Rig make_rig(const Head& head) {
   for (std::size_t i = 0; i < 2 && rig.shapes.empty(); ++i) {
     rig.eye_skin[i] = skin_before(rig, rig.eyes[i]);
   }
+  rig.brow_room = room(head, "4.1", "4.2", 0.5f, 37);
+  rig.chin_room = room(head, "8.2", "2.10", 0.5f, 5);
   const bool given = head.seams.neck_weights.size() == head.part(Part::skin).positions.size();
   rig.neck_weights = given ? head.seams.neck_weights : neck_weights(rig);
   return rig;

@@ -48,6 +48,8 @@ struct Rig {
   std::array<std::vector<std::uint32_t>, 2> lid_vertices;  ///< that slide, left and right eye
   std::array<std::vector<std::uint32_t>, 2> eye_skin;      ///< before the left and right eye
   std::vector<std::uint32_t> lash_anchors;                 ///< see Head
+  float brow_room = 0;  ///< most of FAP 37 and 38 together: half of the distance of the brows
+  float chin_room = 0;  ///< how much nearer the lower lip may come to the chin, in units of FAP 5
   std::vector<float> neck_weights;  ///< of the skin: 1 turns with the head, 0 stays
 };
 
@@ -66,7 +68,8 @@ using ControlValues = std::vector<float>;
 ControlValues control_values(const Rig& rig, const fap::Frame& frame);
 
 struct PoseOptions {
-  /// Lips and lids stop where they touch. Without it every feature point is where its FAPs say.
+  /// Lips and lids stop where they touch, brows half way to each other, the lower lip above the
+  /// chin, wide eyes at 0.4 IRISD. Without it every feature point is where its FAPs say.
   bool contact = true;
 };
 

@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "fap/fill.h"
-#include "fap/head/model.h"
 #include "fap/rate_text.h"
 #include "tools/commands/arkit_export.h"
 #include "tools/commands/common.h"
@@ -166,6 +165,10 @@ Result<int> run(const Options& options) {
                         "its visemes")
           .in_file(options.input);
     }
+    if (const std::string problem = problem_of(options.glb.head);
+        what == "head" && !problem.empty()) {
+      return usage_error(problem);
+    }
     return what == "head" ? write_head(options, std::move(*bytes))
                           : write_arkit(options, std::move(*bytes));
   }
@@ -174,11 +177,8 @@ Result<int> run(const Options& options) {
   return write_visemes(options, what, std::move(*track));
 }
 
-void add_head_options(CLI::App& app, GlbExport& glb) {
-  app.add_option("--head", glb.head, "glb: woman, man or child")
-      ->check(
-          CLI::IsMember(std::vector<std::string>(head::kHeadNames.begin(), head::kHeadNames.end())))
-      ->capture_default_str();
+void add_glb_options(CLI::App& app, GlbExport& glb) {
+  add_head_options(app, glb.head);
   app.add_option("--morphs", glb.morphs,
                  "glb: morph targets by the names of ARKit (jawOpen ...) or of FAPs (open_jaw ...)")
       ->check(CLI::IsMember({"arkit", "fap"}))
@@ -214,7 +214,7 @@ Action add(CLI::App& app) {
                  "Seconds that one viseme of a script takes to fade into the next, at most")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1.0));
-  add_head_options(app, options->glb);
+  add_glb_options(app, options->glb);
   return [options] { return run(*options); };
 }
 

@@ -8,9 +8,7 @@ namespace animeme::tools {
 
 Result<void> export_glb(const std::string& path, const fap::Sequence& filled,
                         const GlbExport& options) {
-  const auto parameters = head::head_parameters(options.head);
-  if (!parameters) return make_error(Code::not_found, "there is no head " + options.head);
-  Result<head::Head> head = head::make_head(*parameters);
+  const Result<head::Head> head = load_head_and_tell(options.head);
   if (!head) return head.error();
   ProgressLine progress("exporting");
   gltf::GlbOptions settings;
@@ -24,9 +22,8 @@ Result<void> export_glb(const std::string& path, const fap::Sequence& filled,
   if (!file) return file.error();
   if (auto written = write_file(path, *file); !written) return written;
   progress.clear();
-  say(path + ": head \"" + options.head + "\", " + std::to_string(filled.frames.size()) +
-      " keys, " + fap::format_rate(filled.rate) + " a second, " +
-      std::to_string(file->size() / 1000) + " kB");
+  say(path + ": head \"" + head->name + "\", " + std::to_string(filled.frames.size()) + " keys, " +
+      fap::format_rate(filled.rate) + " a second, " + std::to_string(file->size() / 1000) + " kB");
   return {};
 }
 

@@ -5,11 +5,12 @@
 
 #include "fap/frame.h"
 #include "fap/result.h"
+#include "tools/commands/head_file.h"
 
 namespace animeme::tools {
 
 struct GlbExport {
-  std::string head = "woman";
+  HeadChoice head;
   std::string morphs = "arkit";  ///< or "fap"
   std::string audio;             ///< name to mention; may be empty
   bool normals = false;

@@ -27,12 +27,7 @@ HeadView& HeadView::operator=(HeadView&&) noexcept = default;
 HeadView::~HeadView() = default;
 
 Result<HeadView> HeadView::make(const HeadLook& look) {
-  const auto parameters = head::head_parameters(look.head);
-  if (!parameters) {
-    return make_error(Code::not_found,
-                      "there is no head " + look.head + "; take woman, man or child");
-  }
-  Result<head::Head> made = head::make_head(*parameters);
+  Result<head::Head> made = load_head_and_tell(look.head);
   if (!made) return made.error();
   return HeadView(std::make_unique<State>(std::move(*made), look));
 }

@@ -6,24 +6,25 @@
 
 #include "fap/frame.h"
 #include "fap/result.h"
+#include "tools/commands/head_file.h"
 #include "tools/render/image.h"
 
 namespace animeme::tools {
 
 /// How a head is looked at.
 struct HeadLook {
-  std::string head = "woman";  ///< one of head::kHeadNames
-  double degrees = 0;          ///< to the person's left
-  double up = 0;               ///< degrees from above
-  double zoom = 1;             ///< 1: head and shoulders
-  int width = 640;             ///< pixels
+  HeadChoice head;
+  double degrees = 0;  ///< to the person's left
+  double up = 0;       ///< degrees from above
+  double zoom = 1;     ///< 1: head and shoulders
+  int width = 640;     ///< pixels
   int height = 640;
 };
 
 /// Movable, not copyable.
 class HeadView {
  public:
-  /// Errors: not_found (no such head).
+  /// Errors: those of load_head(). What it notes goes to standard error.
   static Result<HeadView> make(const HeadLook& look);
   HeadView(HeadView&&) noexcept;
   HeadView& operator=(HeadView&&) noexcept;

@@ -3,7 +3,6 @@
 
 #include "dam/script.h"
 #include "fap/fill.h"
-#include "fap/head/model.h"
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
 #include "tools/commands/fap_names.h"
@@ -27,7 +26,7 @@ struct Options {
   std::int64_t frame = -1;
   std::vector<double> times;
   std::string sheet;
-  std::string head = "woman";
+  HeadChoice head;
   std::string view = "front";
   double up = 0;
   double zoom = 1;
@@ -88,8 +87,8 @@ Result<Plan> make_plan(const Options& options) {
     return make_error(Code::invalid_argument,
                       "--view is front, three-quarter, side or degrees to the left");
   }
-  if (!head::head_parameters(options.head)) {
-    return make_error(Code::invalid_argument, "--head is woman, man or child");
+  if (std::string problem = problem_of(options.head); !problem.empty()) {
+    return make_error(Code::invalid_argument, std::move(problem));
   }
   plan.look = {options.head, *degrees, options.up, options.zoom, plan.size.x, plan.size.y};
   return plan;
@@ -210,7 +209,7 @@ Action add(CLI::App& app) {
                                "Contact sheet, COLUMNSxROWS: frames evenly over the clip");
   frame->excludes(time)->excludes(shapes)->excludes(sheet);
   time->excludes(shapes);
-  app.add_option("--head", options->head, "woman, man or child")->capture_default_str();
+  add_head_options(app, options->head);
   app.add_option("--view", options->view,
                  "front, three-quarter, side, or degrees to the person's left")
       ->capture_default_str();

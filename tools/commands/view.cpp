@@ -9,6 +9,7 @@
 #include "fap/head/rig.h"
 #include "tools/commands/common.h"
 #include "tools/commands/face_stream.h"
+#include "tools/commands/head_file.h"
 #include "tools/commands/view_sound.h"
 #include "tools/commands/voice_input.h"
 #include "tools/media/container.h"
@@ -30,7 +31,7 @@ struct Options {
   std::string audio;
   SoundSettings sound;
   std::string script;
-  std::string head = "woman";
+  HeadChoice head;
 };
 
 struct Shown {
@@ -108,14 +109,17 @@ void warn_of_size(const viewer::Page& page, std::size_t size, double seconds) {
     text += ": --audio-codec opus --audio-bitrate " +
             std::to_string(std::min(kilobits, kMostKilobits)) + "000 makes it small enough";
   } else {
-    text += "; show a shorter clip";
+    text += "; show a shorter clip or a head with fewer vertices";
   }
   warn(text);
 }
 
 Result<int> run(const Options& options) {
-  const auto parameters = head::head_parameters(options.head);
-  if (!parameters) return usage_error("--head is woman, man or child");
+  if (const std::string problem = problem_of(options.head); !problem.empty()) {
+    return usage_error(problem);
+  }
+  const Result<head::Head> head = load_head_and_tell(options.head);
+  if (!head) return head.error();
   viewer::Page page;
   bool container = false;
   for (const std::string& path : {options.first, options.second}) {
@@ -134,8 +138,6 @@ Result<int> run(const Options& options) {
     if (!script) return script.error();
     page.script = std::move(*script);
   }
-  const Result<head::Head> head = head::make_head(*parameters);
-  if (!head) return head.error();
   const head::Rig rig = head::make_rig(*head);
   page.head = &*head;
   page.rig = &rig;
@@ -162,8 +164,8 @@ Action add(CLI::App& app) {
                  "Opus stay as they are unless one of the options below is given");
   app.add_option("--script", options->script,
                  "Phoneme script (table or TextGrid) to show with the curves");
-  app.add_option("--head", options->head, "woman, man or child")->capture_default_str();
   add_sound_options(app, options->sound, false);
+  add_head_options(app, options->head);
   return [options] { return run(*options); };
 }
 

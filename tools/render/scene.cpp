@@ -1,10 +1,25 @@
 #include "tools/render/scene.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
 
 namespace animeme::render {
+namespace {
+
+double crown_of(const head::Head& head) {
+  if (head.point("11.4").exists()) return head.at("11.4").y;
+  // Not higher than a head is, if the mesh is a whole figure with a hat.
+  const float most = 2.2f * float(head.fapu.es);
+  float top = 0;
+  for (const head::Part part : {head::Part::skin, head::Part::hair}) {
+    for (const head::Vec3& p : head.part(part).positions) top = std::max(top, p.y);
+  }
+  return double(std::min(top, most));
+}
+
+}  // namespace
 
 Scene scene_of(const head::Head& head, const head::Rig& rig, const head::Pose& pose) {
   Scene scene;
@@ -27,11 +42,12 @@ Camera look_at(const head::Head& head, double left_degrees, double up_degrees, d
   const double left = left_degrees * std::numbers::pi / 180;
   const double up = up_degrees * std::numbers::pi / 180;
   // Crown to chin fills about two thirds of the picture.
-  const double top = head.at("11.4").y + 1.0;
-  const double chin = head.at("2.1").y;
+  const double top = crown_of(head) + 1.0;
+  const double chin = head::chin_of(head).y;
   const double height = top - chin;
   // Nearer pictures have the face in their middle.
-  const double face = 0.5 * (double(head.at("4.1").y) + chin);
+  const double brow = head.point("4.1").exists() ? head.at("4.1").y : 0.35 * head.fapu.es;
+  const double face = 0.5 * (brow + chin);
   const double near = head::smooth_step(1.0, 1.8, zoom);
   const double middle = (chin + height * 0.44) * (1 - near) + face * near;
   const double depth = height * (0.16 + 0.16 * near);

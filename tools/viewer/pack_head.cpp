@@ -196,6 +196,7 @@ std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig
       {"fapu", {{"es", rig.fapu.es}, {"mns", rig.fapu.mns}}},
       {"eyes", eyes_of(rig)},
       {"jaw", jaw_of(rig)},
+      {"rooms", {{"brows", rig.brow_room}, {"chin", rig.chin_room}}},
       {"neck", json_of(rig.neck_pivot)},
       {"points", points_of(head)},
       {"visemes", shapes_of(int(fap::kVisemes.size()), head::viseme_shape)},

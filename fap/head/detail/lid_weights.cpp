@@ -30,7 +30,7 @@ void weigh_lids(const Shape& shape, Skin& skin, std::size_t vertices) {
     for (int i = l.eye_inner; i <= l.eye_outer; ++i) {
       const double x = skin.places[skin.at(l.upper_lid, i)].x;
       const double share = share_of_opening(shape, x);
-      const double width = shape.crease(x) - shape.upper_lid(x) + 0.45;
+      const double width = shape.crease(x) - shape.upper_lid(x) + 0.75;
       for (int row = l.brow; row <= l.upper_lid; ++row) {
         const std::uint32_t id = skin.at(row, side * i);
         upper[id] = float(share * follow(skin.places[id].y - shape.upper_lid(x), width));

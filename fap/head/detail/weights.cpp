@@ -1,6 +1,8 @@
 #include "fap/head/detail/weights.h"
 
 #include <limits>
+#include <tuple>
+#include <utility>
 
 namespace animeme::head::detail {
 namespace {
@@ -28,18 +30,36 @@ constexpr std::array kControls = {
     ControlInfo{"10.4", 3.0f, 0.5f, ""},
 };
 
-// What holds still.
+// What holds still. Lists of landmarks seldom have these points: where they are on usual heads, in
+// distances of the pupils from between the eyes. No place: such a list has it, or it is not missed.
 constexpr struct {
   std::string_view id;
   float reach;
-} kAnchors[] = {{"3.7", 2.5f},  {"3.8", 2.5f},  {"3.11", 2.5f}, {"3.12", 2.5f},  {"9.6", 2.5f},
-                {"9.7", 2.5f},  {"9.12", 2.5f}, {"9.13", 2.5f}, {"9.14", 2.5f},  {"9.15", 2.0f},
-                {"10.7", 3.0f}, {"10.8", 3.0f}, {"10.9", 3.0f}, {"10.10", 3.0f}, {"11.1", 4.0f},
-                {"11.2", 4.0f}, {"11.3", 4.0f}};
+  Vec3 usual = {};
+} kAnchors[] = {{"3.7", 2.5f},
+                {"3.8", 2.5f},
+                {"3.11", 2.5f},
+                {"3.12", 2.5f},
+                {"9.6", 2.5f},
+                {"9.7", 2.5f},
+                {"9.12", 2.5f, {0, -0.20f, 1.45f}},
+                {"9.13", 2.5f, {0.16f, -0.23f, 1.39f}},
+                {"9.14", 2.5f, {-0.16f, -0.23f, 1.39f}},
+                {"9.15", 2.0f},
+                {"10.7", 3.0f, {0.94f, -0.48f, 0.10f}},
+                {"10.8", 3.0f, {-0.94f, -0.48f, 0.10f}},
+                {"10.9", 3.0f, {1.00f, 0.21f, 0}},
+                {"10.10", 3.0f, {-1.00f, 0.21f, 0}},
+                {"11.1", 4.0f, {0, 1.35f, 1.0f}},
+                {"11.2", 4.0f, {-0.75f, 1.15f, 0.8f}},
+                {"11.3", 4.0f, {0.75f, 1.15f, 0.8f}}};
 
 constexpr float kBackground = 0.02f;
 constexpr float kCore = 0.3f;  // of anchors
-constexpr int kSmoothings = 7;
+constexpr int kSmoothings = 2;
+constexpr int kRounds = 30;           // of each smoothing
+constexpr float kSmoothLips = 0.16f;  // cm: as far as values run into each other at the lips ...
+constexpr float kSmoothSkin = 0.75f;  // ... and away from them
 
 class Builder {
  public:
@@ -55,17 +75,23 @@ class Builder {
     for (std::size_t c = 0; c < kControls.size(); ++c) {
       add(vertex_of(kControls[c].id), kControls[c].reach, kControls[c].core, int(c), 1);
     }
-    for (const auto& anchor : kAnchors) add(vertex_of(anchor.id), anchor.reach, kCore, -1, 1);
+    for (const auto& anchor : kAnchors) {
+      std::uint32_t vertex = vertex_of(anchor.id);
+      if (vertex == kMissing && anchor.usual != Vec3{}) {
+        vertex = nearest(anchor.usual * float(head_.fapu.es));
+      }
+      add(vertex, anchor.reach, kCore, -1, 1);
+    }
     add_jaw_line();
     add_brow_line();
     for (std::size_t v = 0; v < weights_.vertices(); ++v) {
       for (float& w : weights_.row(v)) w /= sum_[v];
     }
-    for (int i = 0; i < kSmoothings; ++i) smooth();
+    const std::vector<float> radii = smooth_radii();
+    for (int i = 0; i < kSmoothings; ++i) smooth(radii);
     hold_lids();
     make_exact();
     match_lips();
-    hold_hair();
     return std::move(weights_);
   }
 
@@ -90,7 +116,7 @@ class Builder {
   }
 
   std::uint32_t nearest(Vec3 place) const {
-    std::uint32_t best = 0;
+    std::uint32_t best = kMissing;
     float least = std::numeric_limits<float>::max();
     for (std::uint32_t v = 0; v < mesh_.positions.size(); ++v) {
       const Vec3 d = mesh_.positions[v] - place;
@@ -102,20 +128,25 @@ class Builder {
     return best;
   }
 
+  Vec3 place_of(std::string_view id, Vec3 usual) const {
+    return vertex_of(id) == kMissing ? usual : head_.at(id);
+  }
+
   // The jaw is wider than its point: helpers along the bone go along, less and less to the back.
   void add_jaw_line() {
-    for (const auto& [chin, corner] : {std::pair("2.11", "2.13"), std::pair("2.12", "2.14")}) {
-      if (vertex_of(chin) == kMissing) continue;
-      add(vertex_of(chin), 4.5f, 0.7f, 0, 0.92f);
-      if (vertex_of(corner) == kMissing) continue;
-      const Vec3 a = head_.at(chin);
-      const Vec3 b = head_.at(corner);
-      add(nearest(mix(a, b, 0.33f)), 4.5f, 0.7f, 0, 0.74f);
-      add(nearest(mix(a, b, 0.66f)), 4.5f, 0.7f, 0, 0.42f);
-      add(vertex_of(corner), 4.5f, 0.7f, 0, 0.10f);
-    }
     if (vertex_of("2.1") == kMissing) return;
     const Vec3 chin = head_.at("2.1");
+    const float es = float(head_.fapu.es);
+    for (const auto& [near, corner, side] :
+         {std::tuple("2.11", "2.13", 1.0f), std::tuple("2.12", "2.14", -1.0f)}) {
+      // Lists of landmarks seldom have the jaw line: it is where it is on usual heads then.
+      const Vec3 a = place_of(near, chin + Vec3{0.34f * side, 0.14f, -0.02f} * es);
+      const Vec3 b = place_of(corner, chin + Vec3{0.82f * side, 0.52f, -0.88f} * es);
+      add(nearest(a), 4.5f, 0.7f, 0, 0.92f);
+      add(nearest(mix(a, b, 0.33f)), 4.5f, 0.7f, 0, 0.74f);
+      add(nearest(mix(a, b, 0.66f)), 4.5f, 0.7f, 0, 0.42f);
+      add(nearest(b), 4.5f, 0.7f, 0, 0.10f);
+    }
     const float depth = chin.z - head_.neck_pivot.z;
     add(nearest(chin + Vec3{0, 0, -0.28f * depth}), 4.0f, 0.7f, 0, 0.72f);
     add(nearest(chin + Vec3{0, -0.05f * depth, -0.5f * depth}), 4.0f, 0.7f, 0, 0.25f);
@@ -134,13 +165,14 @@ class Builder {
   // The rims of the lids and what is near go along with nothing but their own FAPs.
   void hold_lids() {
     std::vector<float> held(weights_.vertices(), 1);
-    const float reach = 1.3f * scale_;
+    const float reach = 1.5f * scale_;
     std::vector<std::uint32_t> rims;
     for (const auto& lids : head_.seams.lids) {
       for (const ContactPair& pair : lids) rims.insert(rims.end(), {pair.upper, pair.lower});
     }
     for (const Reached& r : walk(mesh_.positions, neighbours_, rims, reach)) {
-      held[r.vertex] = smooth_step(0.0f, reach, r.distance);
+      const float t = r.distance / reach;
+      held[r.vertex] = 0.65f * t + 0.35f * smooth_step(0.0f, 1.0f, t);
     }
     for (std::size_t v = 0; v < weights_.vertices(); ++v) {
       for (std::size_t c = 0; c < kControls.size(); ++c) {
@@ -149,29 +181,45 @@ class Builder {
     }
   }
 
-  void hold_hair() {
-    const std::size_t known = std::min(head_.seams.freedom.size(), weights_.vertices());
-    for (std::size_t v = 0; v < known; ++v) {
-      for (std::size_t c = 0; c < kControls.size(); ++c) {
-        if (!kControls[c].id.starts_with("10.")) weights_.row(v)[c] *= head_.seams.freedom[v];
-      }
+  // How far weights run into each other, cm: little at lips and lids, much where points are far
+  // apart.
+  std::vector<float> smooth_radii() const {
+    std::vector<std::uint32_t> seams;
+    for (const ContactPair& pair : head_.seams.lips)
+      seams.insert(seams.end(), {pair.upper, pair.lower});
+    for (const auto& lids : head_.seams.lids) {
+      for (const ContactPair& pair : lids) seams.insert(seams.end(), {pair.upper, pair.lower});
     }
+    std::vector<float> radii(weights_.vertices(), kSmoothSkin * scale_);
+    const float reach = 2.6f * scale_;
+    for (const Reached& r : walk(mesh_.positions, neighbours_, seams, reach)) {
+      const float far = smooth_step(0.5f * scale_, reach, r.distance);
+      radii[r.vertex] = (kSmoothLips + (kSmoothSkin - kSmoothLips) * far) * scale_;
+    }
+    return radii;
   }
 
-  void smooth() {
+  // One implicit step of heat flow, by Jacobi's rounds: fixed order, left and right alike.
+  void smooth(const std::vector<float>& radii) {
+    const Weights start = weights_;
     Weights next(weights_.vertices(), weights_.controls());
-    for (std::size_t v = 0; v < weights_.vertices(); ++v) {
-      const std::span<float> out = next.row(v);
-      const auto around = neighbours_.of(v);
-      for (const std::uint32_t n : around) {
-        const std::span<const float> in = weights_.row(n);
-        for (std::size_t c = 0; c < out.size(); ++c) out[c] += in[c];
+    for (int round = 0; round < kRounds; ++round) {
+      for (std::size_t v = 0; v < weights_.vertices(); ++v) {
+        const std::span<float> out = next.row(v);
+        const std::span<const float> own = start.row(v);
+        std::copy(own.begin(), own.end(), out.begin());
+        float sum = 1;
+        for (const std::uint32_t n : neighbours_.of(std::uint32_t(v))) {
+          const Vec3 d = mesh_.positions[n] - mesh_.positions[v];
+          const float share = radii[v] * radii[v] / std::max(dot(d, d), 1e-4f) * 0.5f;
+          const std::span<const float> in = std::as_const(weights_).row(n);
+          for (std::size_t c = 0; c < out.size(); ++c) out[c] += share * in[c];
+          sum += share;
+        }
+        for (float& w : out) w /= sum;
       }
-      const float share = around.empty() ? 0 : 0.5f / float(around.size());
-      const std::span<const float> own = weights_.row(v);
-      for (std::size_t c = 0; c < out.size(); ++c) out[c] = 0.5f * own[c] + share * out[c];
+      std::swap(weights_, next);
     }
-    std::swap(weights_, next);
   }
 
   // Multiplies the table by the inverse of its rows at the controls.

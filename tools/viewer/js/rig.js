@@ -7,6 +7,7 @@ export const FAP_COUNT = 68;
 export const FIRST_SHAPE = FAP_COUNT + 1;
 const RADIANS = 1e-5;  // one unit of an angle
 const EYE_SKIN = 1.07;  // of the radius of an eyeball: skin comes no nearer to its centre
+const LID_RISE = -400;  // upper lids rise by this at most
 const CONTACT = 0.06;  // lips and lids feel each other at this share of the mouth-nose distance
 
 // Two FAPs whose points would pass each other let them meet half way.
@@ -59,6 +60,10 @@ export class Rig {
     for (const [upper, lower] of [[4, 5], [8, 10], [9, 11]]) meet(v, upper, lower);
     share(v, 19, 21, 1024);
     share(v, 20, 22, 1024);
+    for (const lid of [19, 20]) v[lid] = Math.max(v[lid], LID_RISE);
+    share(v, 37, 38, model.rooms.brows);
+    const chin = Math.min(v[18] - Math.max(v[3], 0), 0);
+    for (const lip of [5, 10, 11, 52, 57, 58]) v[lip] = Math.max(v[lip], chin - model.rooms.chin);
     for (const i of this.deforming) positions[i].set(model.parts[i].positions);
     const skin = positions[index.skin];
     this.applyTargets(v, true);
@@ -96,7 +101,7 @@ export class Rig {
   slideLids(skin) {
     const neutral = this.model.parts[this.index.skin].positions;
     this.model.sliding.forEach((vertices, side) => {
-      const [cx, cy, cz] = this.model.eyes[side].centre;
+      const {centre: [cx, cy, cz], radius} = this.model.eyes[side];
       for (const vertex of vertices) {
         const i = vertex * 3;
         if (skin[i] === neutral[i] && skin[i + 1] === neutral[i + 1] &&
@@ -104,7 +109,12 @@ export class Rig {
         const was = (neutral[i] - cx) ** 2 + (neutral[i + 1] - cy) ** 2 +
             (neutral[i + 2] - cz) ** 2;
         const square = was - (skin[i] - cx) ** 2 - (skin[i + 1] - cy) ** 2;
-        skin[i + 2] = cz + Math.sqrt(Math.max(square, 0.04 * was));
+        const slid = Math.sqrt(Math.max(square, 0.04 * was));
+        // Not at the sides of the eye nor far from it.
+        const size = Math.sqrt(was);
+        const share = smoothStep(0.15, 0.4, (neutral[i + 2] - cz) / size) *
+            smoothStep(2, 1.4, size / radius);
+        skin[i + 2] += (slid - (skin[i + 2] - cz)) * share;
       }
     });
   }

@@ -1,0 +1,33 @@
+// Wavefront OBJ: the meshes of a head, as every 3D package writes them.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fap/head/own_head.h"
+#include "fap/result.h"
+
+namespace animeme::head {
+
+struct ObjFile {
+  /// A piece for each part that the names of objects, groups and materials tell (part_by_name()),
+  /// with the names of its first group, so that vertices that parts share stay connected. Meshes
+  /// that should not be shown are left out. Colours are those of the vertices ("v x y z r g b",
+  /// linear, 0..1) if all have them, else colour_by_name().
+  std::vector<Piece> pieces;
+  struct Place {
+    std::size_t piece = 0;
+    std::uint32_t vertex = kMissing;
+  };
+  /// For each vertex of the file, counted from 0: its place. Not in any shown face: missing.
+  std::vector<Place> vertices;
+};
+
+/// Reads v, f, o, g, usemtl; all else (texture places, normals, curves) is passed over. Polygons
+/// are cut into triangles around their first corner. Negative vertex numbers count from the end.
+/// Errors: syntax with line:column (a number that is none, a face with less than three
+/// corners or with a vertex that does not exist yet), invalid_argument if there is no face.
+Result<ObjFile> read_obj(std::string_view text);
+
+}  // namespace animeme::head

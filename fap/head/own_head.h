@@ -1,0 +1,97 @@
+// A head that somebody else made: meshes, feature points and shapes of a file become a Head.
+//
+//     animeme::head::Source source;
+//     source.pieces.push_back({.name = "face", .mesh = mesh});
+//     source.points.push_back({"2.1", 0, 966});         // the chin is vertex 966 of piece 0
+//     ...
+//     std::vector<std::string> notes;
+//     animeme::head::Head head = *animeme::head::assemble(std::move(source), &notes);
+//     animeme::head::Rig rig = animeme::head::make_rig(head);
+//
+// Readers of files (fap/xml, tools/gltf, obj.h) fill a Source; assemble() does what they have in
+// common: it sorts the pieces into parts by their names, turns the head upright, brings it to
+// centimetres and to the origin, and finds eyes, jaw, neck and FAPU.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fap/head/model.h"
+
+namespace animeme::head {
+
+/// Stands for a colour that is not known; assemble() chooses one.
+inline constexpr Vec3 kNoColour = {-1, -1, -1};
+
+/// A mesh of a file. Any axes and any unit, the same for all pieces of a head.
+struct Piece {
+  std::string name;      ///< of the object or group; may be empty
+  std::string material;  ///< its name; may be empty
+  Mesh mesh;             ///< colours and occlusion may be empty, colours also kNoColour
+  /// For each vertex: 1 turns with the head, 0 stays with the body. Empty: by height.
+  std::vector<float> neck_weights;
+};
+
+/// Where a feature point is: a vertex of a piece.
+struct PiecePoint {
+  std::string id;  ///< "2.1"
+  std::size_t piece = 0;
+  std::uint32_t vertex = 0;
+};
+
+/// As Target, for a piece.
+struct PieceTarget {
+  int control = 0;  ///< see Target
+  std::size_t piece = 0;
+  std::vector<std::uint32_t> vertices;  ///< ascending
+  std::vector<Vec3> deltas;             ///< units of the file for one unit of the control
+  float low = -std::numeric_limits<float>::infinity();
+  float high = std::numeric_limits<float>::infinity();
+};
+
+/// What a file tells of a head. All but the pieces may be empty.
+struct Source {
+  std::string name;
+  std::vector<Piece> pieces;
+  std::vector<PiecePoint> points;
+  std::optional<fap::Fapu> fapu;            ///< in units of the file; else measured on the points
+  std::vector<ShapeControl> shapes;         ///< see Head::shapes
+  std::vector<PieceTarget> targets;         ///< see Head::targets
+  std::array<std::optional<Vec3>, 2> eyes;  ///< centres, left and right
+  std::optional<Vec3> jaw_axis;
+  std::optional<Vec3> neck_pivot;
+  /// Centimetres of one unit of the file. 0: found from the distance of the eyes, which is taken
+  /// for metres, centimetres, millimetres or inches if it is that of a head then; if it is not, the
+  /// head becomes as large as usual.
+  double centimetres = 0;
+  /// The axes of the file are those of Head; else they are found from the feature points.
+  bool upright = false;
+  /// What the reader wants the user to know; assemble() passes it on.
+  std::vector<std::string> notes;
+};
+
+/// The part that a piece is, by the words in its names ("Wolf3D_Teeth", "M_ScleraLeft",
+/// "eyelashes"): eyes, teeth and gums, tongue, hair (also hats and glasses), brows, lashes, body
+/// (clothes); anything else is skin. Nothing: it should not be shown, such as the wet layer of an
+/// eye (cornea, occlusion, tear line), which hides what is behind it unless it is transparent.
+/// Left and right eye, upper and lower teeth that the name does not tell apart are the left_eye
+/// and the lower_teeth here; assemble() looks where their vertices are.
+std::optional<Part> part_by_name(std::string_view name, std::string_view material);
+
+/// The colour that a mesh of this name has if nothing is known but its part; kNoColour for parts
+/// of one colour. Linear RGB.
+Vec3 colour_by_name(std::string_view name, std::string_view material);
+
+/// Makes a head. `notes`, if given, gets those of the source, then a sentence for each thing that
+/// was guessed or is missing and that a user may want to know, in a fixed order.
+///
+/// Errors: invalid_argument if there is no triangle of skin, a triangle or point names a vertex
+/// that does not exist, a length is not finite, two points have one id, or measure_fapu() refuses
+/// the points (with its sentence); not_found for ids that are no feature point, or if neither
+/// `fapu` nor enough points to measure it nor the eyes are given (which are missing is named).
+/// With shapes, FAPU may be missing: they are taken from usual proportions then.
+Result<Head> assemble(Source source, std::vector<std::string>* notes = nullptr);
+
+}  // namespace animeme::head

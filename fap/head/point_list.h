@@ -1,0 +1,47 @@
+// A list of landmarks: which vertex of a mesh is which feature point.
+//
+//     feature_point,vertex          2.1 966            feature_point,x,y,z
+//     2.1,966                       8.3 6213           2.1,0.0,-7.57,10.43
+//     8.3,6213                      # left corner      8.3,2.53,-3.52,10.19
+//
+// The left form has a heading and may have further columns, the middle one has none. Vertices are
+// counted from 0 in the order of the file, as Blender shows them. Places are in the axes and units
+// of the file: the nearest vertex is taken.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fap/head/obj.h"
+#include "fap/head/own_head.h"
+#include "fap/result.h"
+
+namespace animeme::head {
+
+struct PointRow {
+  std::string id;    ///< "2.1"; not checked
+  std::string mesh;  ///< name of the object it is on; empty: any
+  std::optional<std::uint32_t> vertex;
+  std::optional<Vec3> place;
+  std::int64_t line = 0;
+};
+
+/// Reads a list: comma, semicolon, tab or blanks between fields; # begins a comment. Headings, in
+/// any case: a column whose name has "point" or is "id"; one whose name has "vertex" or "index";
+/// "mesh" or "object"; and those that begin with x, y and z.
+/// Errors: syntax with line (a field that is no number, a row with neither vertex nor place),
+/// invalid_argument if no row is there.
+Result<std::vector<PointRow>> read_points(std::string_view text);
+
+/// The points on the pieces of an OBJ file. Errors: not_found with the line if a vertex does not
+/// exist or is in no face that is shown.
+Result<std::vector<PiecePoint>> points_on(const ObjFile& file, const std::vector<PointRow>& rows);
+
+/// The points on the pieces of any file: vertices are counted through all pieces named `mesh`, or
+/// through the first piece of skin where no name is given. Errors: not_found with the line.
+Result<std::vector<PiecePoint>> points_on(const std::vector<Piece>& pieces,
+                                          const std::vector<PointRow>& rows);
+
+}  // namespace animeme::head
