@@ -221,7 +221,15 @@ async function start() {
     });
   }
   app.draw();
-  if (flag('play')) player.play();
+  if (flag('play')) playUnasked(player);
+}
+
+// Browsers may let no page sound that nobody has touched: then it waits for the button.
+function playUnasked(player) {
+  player.play();
+  setTimeout(() => {
+    if (player.context && player.context.state === 'suspended') player.pause();
+  }, 300);
 }
 
 window.animeme = {};
