@@ -122,15 +122,14 @@ void keep_off_eyes(const Rig& rig, const Values& values, std::vector<Vec3>& skin
   }
 }
 
-// Pairs that have passed each other meet in the middle; near contact their depths agree.
+// Pairs that have passed each other meet in the middle, and so do those that nearly touch: lips and
+// lids are soft.
 void close_pairs(const std::vector<ContactPair>& pairs, float soft, std::vector<Vec3>& skin) {
   for (const ContactPair& pair : pairs) {
     Vec3& upper = skin[pair.upper];
     Vec3& lower = skin[pair.lower];
-    const float gap = upper.y - lower.y;
-    if (gap < 0) upper.y = lower.y = 0.5f * (upper.y + lower.y);
-    const float touch = smooth_step(soft, 0.0f, gap) * 0.5f;
-    const Vec3 apart{lower.x - upper.x, 0, lower.z - upper.z};
+    const float touch = smooth_step(soft, soft / 3, upper.y - lower.y) * 0.5f;
+    const Vec3 apart = lower - upper;
     upper += apart * touch;
     lower -= apart * touch;
   }

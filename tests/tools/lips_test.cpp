@@ -29,7 +29,7 @@ TEST(Lips, OfTheHeadMeetInEveryPBM) {
   const TempDir dir;
   const auto made =
       animeme({"speak", "--text", "My baby mumbles about a purple apple pie, and Pam may hum.",
-               "-o", dir / "talk.fap", "--save-script", dir / "talk.TextGrid"});
+               "--rate", "50", "-o", dir / "talk.fap", "--save-script", dir / "talk.TextGrid"});
   ASSERT_EQ(made.exit_code, 0) << made.err;
   const auto clip = fap::read_text(test::slurp(dir / "talk.fap"));
   const auto script = dam::read_script(test::slurp(dir / "talk.TextGrid"));

@@ -182,7 +182,7 @@ TEST(Page, TextsStayTexts) {
   EXPECT_EQ(texts["now"], "</title> · </script><script>window.hacked=2</script>");
   EXPECT_EQ(texts["images"], 0);
   EXPECT_EQ(texts["scripts"], 5);  // facts, model, two clips, the program
-  EXPECT_THAT(texts["readout"].get<std::string>(), testing::StartsWith("13.1 FAP units RMS"));
+  EXPECT_THAT(texts["readout"].get<std::string>(), testing::StartsWith("13.2 FAP units RMS"));
   for (const char* mode : {"first", "second", "side", "ghost", "heat"}) {
     EXPECT_EQ(report["modes"][mode], mode);
   }

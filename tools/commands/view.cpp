@@ -58,9 +58,8 @@ Result<Shown> read_shown(const std::string& path) {
   Result<MotionInput> input = parse_motion(std::move(*bytes), path);
   if (!input) return input.error();
   if (auto ok = require_face(*input, path); !ok) return ok.error();
-  Result<fap::Sequence> filled = input->stream.empty()
-                                     ? fap::fill(input->face)
-                                     : fba::fill(input->decoded, {.complete = true});
+  Result<fap::Sequence> filled =
+      input->stream.empty() ? fap::fill(input->face) : fba::fill(input->decoded);
   if (!filled) return filled.error().in_file(path);
   shown.clip.motion = std::move(*filled);
   return shown;
