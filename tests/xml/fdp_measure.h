@@ -38,10 +38,10 @@ struct FdpMeasure {
   std::size_t lost = 0;             ///< influences beyond the eighth of a vertex
 };
 
-/// Moves of every FAP that Xface can show, at this value, as the file says and as the rig does them
-/// without contact. `scale`: units of the file for one cm.
+/// Moves of every FAP that Xface can show, at a value of 300 (eyes come out by 50), as the file
+/// says and as the rig does them without contact. `scale`: units of the file for one cm.
 inline Result<FdpMeasure> measure_fdp(const head::Rig& rig, const head::FdpFiles& files,
-                                      double scale, int value = 512) {
+                                      double scale) {
   const auto file = head::detail::load_fdp(
       files.fdp, [&](const std::string&) -> Result<std::string> { return files.wrl; });
   if (!file) return file.error();
@@ -73,6 +73,7 @@ inline Result<FdpMeasure> measure_fdp(const head::Rig& rig, const head::FdpFiles
   for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
     const double step = head::detail::xface_step(fap, file->fapu);
     if (step == 0) continue;
+    const int value = fap == 27 || fap == 28 ? 50 : 300;
     FdpError& group = measure.groups[std::size_t(fap::info(fap).group - 1)];
     const auto ours = head::detail::moves_between(rig, fap, 0, value);
     for (std::size_t m = 0; m < meshes.size(); ++m) {

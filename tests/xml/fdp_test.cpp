@@ -116,7 +116,7 @@ TEST_P(FdpHead, RaisedCosinesComeNearToOurRig) {
   ASSERT_TRUE(measure) << measure.error().describe();
   EXPECT_EQ(measure->lost, 0u);
   EXPECT_LE(measure->most_influences, 8u);
-  EXPECT_GT(measure->all.move, 0.5);
+  EXPECT_GT(measure->all.move, 0.3);
   EXPECT_LT(measure->all.rms, 0.15 * measure->all.move);
   EXPECT_LT(measure->groups[7].rms, 0.15 * measure->groups[7].move);  // outer lip
 }

@@ -66,8 +66,11 @@ class Planner {
       const int value = is_lid(fap) ? kHalfClosed : kTried;
       const auto moves = moves_between(rig_, fap, one_way ? 0 : -value, value);
       for (std::size_t m = 0; m < plan_.parts.size(); ++m) {
-        const auto& of_part = moves[std::size_t(plan_.parts[m])];
-        if (of_part.empty()) continue;
+        const Part part = plan_.parts[m];
+        const auto& of_part = moves[std::size_t(part)];
+        // Our rig pushes lids away from an eye that comes out, which is no straight move.
+        const bool eye = part == Part::left_eye || part == Part::right_eye;
+        if (of_part.empty() || ((fap == 27 || fap == 28) && !eye)) continue;
         Column column{fap, false, wanted_factors(fap, head_.fapu, of_part)};
         float most = 0;
         float least = std::numeric_limits<float>::max();
