@@ -3,6 +3,7 @@
 #include <set>
 
 #include "fap/xml/detail/fdp_file.h"
+#include "fap/xml/detail/left_to_rig.h"
 
 namespace animeme::head {
 namespace {
@@ -14,14 +15,6 @@ using detail::XfaceItem;
 bool is_feature_point(std::string_view id) {
   return std::any_of(fap::kFeaturePoints.begin(), fap::kFeaturePoints.end(),
                      [&](const fap::FeaturePointInfo& info) { return info.id == id; });
-}
-
-// What the rig moves by itself: jaw and eyeballs.
-bool left_to_rig(const Piece& piece, int fap) {
-  const std::optional<Part> part = part_by_name(piece.name, piece.material);
-  const bool eye = part == Part::left_eye || part == Part::right_eye;
-  const bool jaw = part == Part::lower_teeth || part == Part::tongue;
-  return (jaw && (fap == 3 || fap == 14 || fap == 15)) || (eye && fap >= 23 && fap <= 28);
 }
 
 class Converter {
@@ -108,7 +101,7 @@ class Converter {
       by_piece[place.piece].push_back({place.vertex, unit * factors[v]});
     }
     for (auto& [piece, moves] : by_piece) {
-      if (left_to_rig(source_.pieces[piece], fap)) continue;
+      if (detail::left_to_rig(source_.pieces[piece], fap)) continue;
       std::sort(moves.begin(), moves.end(),
                 [](const auto& a, const auto& b) { return a.first < b.first; });
       PieceTarget target{.control = fap, .piece = piece, .vertices = {}, .deltas = {}};

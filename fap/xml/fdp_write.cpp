@@ -3,6 +3,7 @@
 #include "fap/detail/number_text.h"
 #include "fap/head/wrl.h"
 #include "fap/xml/detail/fdp_plan.h"
+#include "fap/xml/detail/writable.h"
 #include "fap/xml/fdp.h"
 
 namespace animeme::head {
@@ -29,23 +30,8 @@ Result<void> check(const Head& head, const Rig& rig, const FdpOptions& options) 
   }
   if (!(options.scale > 0 && options.scale <= 1e6)) return refuse("the scale has to be in 0..1e6");
   if (options.regions < 1 || options.regions > 100) return refuse("regions have to be in 1..100");
-  bool any = false;
-  for (const FeaturePoint& point : head.feature_points) {
-    any = any || (point.exists() && point.part == Part::skin);
-  }
-  if (!any) {
-    return refuse(
-        "the head has no feature points, around which an .fdp file moves the face; name some, or "
-        "write another format");
-  }
-  const fap::Fapu& f = head.fapu;
-  if (!(f.es > 0 && f.irisd > 0 && f.ens > 0 && f.mns > 0 && f.mw > 0)) {
-    return refuse("the head has no FAPU");
-  }
+  if (auto good = detail::check_writable(head, rig); !good) return good;
   for (std::size_t p = 0; p < head.parts.size(); ++p) {
-    if (rig.parts[p].positions.size() != head.parts[p].positions.size()) {
-      return refuse("the rig is that of another head");
-    }
     if (head.parts[p].positions.size() > detail::kXfaceMostVertices) {
       return make_error(Code::out_of_range, "the " + std::string(kPartNames[p]) +
                                                 " has more than 65536 vertices, more than Xface "

@@ -6,6 +6,7 @@
 
 #include "fap/xml/fdp.h"
 #include "tests/support/files.h"
+#include "tests/xml/deltas.h"
 
 namespace animeme::test {
 namespace {
@@ -21,14 +22,6 @@ Result<std::string> load_data(const std::string& name) {
   return make_error(Code::not_found, "there is no file " + name);
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  EXPECT_NE(text.find(from), std::string::npos) << from;
-  for (std::size_t i = 0; (i = text.find(from, i)) != std::string::npos; i += to.size()) {
-    text.replace(i, from.size(), to);
-  }
-  return text;
-}
-
 Source source_of(const std::string& text) {
   auto source = head::read_fdp(text, load_data);
   EXPECT_TRUE(source) << source.error().describe();
@@ -38,19 +31,7 @@ Source mask() { return source_of(data_file("heads/mask.fdp")); }
 
 // What one unit of a FAP does to a vertex of a piece.
 Vec3 delta(const Source& source, int fap, std::uint32_t vertex, std::size_t piece = 0) {
-  Vec3 sum;
-  for (const head::PieceTarget& target : source.targets) {
-    if (target.control != fap || target.piece != piece) continue;
-    for (std::size_t k = 0; k < target.vertices.size(); ++k) {
-      if (target.vertices[k] == vertex) sum += target.deltas[k];
-    }
-  }
-  return sum;
-}
-
-void expect_near(Vec3 a, Vec3 b) {
-  EXPECT_LT(length(a - b), 1e-5f) << a.x << " " << a.y << " " << a.z << " not " << b.x << " " << b.y
-                                  << " " << b.z;
+  return moved(source, fap, 1, vertex, piece);
 }
 
 float bell(double d, double farthest) { return float(std::cos(M_PI * d / farthest) + 1); }
@@ -149,14 +130,6 @@ TEST(FdpRead, TheNinthInfluenceOnAVertexIsLost) {
   expect_near(delta(source, 4, 7), {0, -0.8f * 30 / 1024, 0});
   EXPECT_THAT(source.notes, Contains(HasSubstr("1 influences beyond the eighth")));
 }
-
-struct Damage {
-  const char* from;
-  const char* to;
-  Code code;
-  std::int64_t line;
-  const char* message;
-};
 
 class FdpErrors : public ::testing::TestWithParam<Damage> {};
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kMostVertices = 4'000'000;
 constexpr std::size_t kMostNodes = 200'000;  // reached, each use counts
-constexpr Vec3 kPlain{0.8f, 0.8f, 0.8f};  // default of Material, sRGB
+constexpr Vec3 kPlain{0.8f, 0.8f, 0.8f};     // default of Material, sRGB
 
 // The row vectors of a rotation about an axis.
 Transform rotation(const std::array<double, 4>& r) {
@@ -35,7 +35,7 @@ bool mirrors(const Transform& t) { return dot(cross(t.row_x, t.row_y), t.row_z) 
 Error outside(Position where, std::string_view what, std::int64_t index, std::size_t count) {
   return {Code::out_of_range,
           std::string(what) + " " + std::to_string(index) + " is named, but there are " +
-              std::to_string(count),
+              std::to_string(count) + ", counted from 0",
           std::move(where)};
 }
 
