@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kHalfClosed = 512;   // lids
 constexpr int kTried = 200;        // FAP value at which the rig is asked
-constexpr float kLeast = 0.02f;    // smaller factors are nothing
+constexpr float kLeast = 0.01f;    // smaller factors are nothing
 constexpr float kAsAWhole = 0.2f;  // parts whose vertices all move at least this share
 
 // How much a FAP counts where a vertex has no room for all: those that recordings hardly use make
@@ -22,6 +22,13 @@ float worth(int fap) {
 }
 
 bool is_lid(int fap) { return fap >= 19 && fap <= 22; }
+
+// 0 where the size of a factor is at most `least`, itself where it is much larger, and no step in
+// between, which would be seen as a crease.
+float faded(float factor, float least) {
+  const float share = least / std::max(std::abs(factor), least);
+  return std::abs(factor) <= least ? 0 : factor * (1 - share * share * share * share);
+}
 
 // One FAP on one part.
 struct Column {
@@ -79,38 +86,46 @@ class Planner {
           least = std::min(least, std::abs(f));
         }
         if (most < 1e-3f) continue;
-        for (float& f : column.factors) f = std::abs(f) < kLeast * most ? 0 : f;
+        for (float& f : column.factors) f = faded(f, kLeast * most);
         column.waves = least > kAsAWhole * most;
         columns_[m].push_back(std::move(column));
       }
     }
   }
 
-  // Leaves the strongest influences of each vertex and sets the others to 0.
+  // Leaves the strongest influences of each vertex. Those that are hardly stronger than what has to
+  // go are faded, so that there is no border where they end.
   void choose(std::size_t m) {
     std::vector<std::pair<float, std::size_t>> order;  // strength, column
     for (std::size_t v = 0; v < positions(m).size(); ++v) {
       order.clear();
       for (std::size_t c = 0; c < columns_[m].size(); ++c) {
-        const Column& column = columns_[m][c];
-        if (column.factors[v] == 0) continue;
-        const float size =
-            std::abs(column.factors[v]) *
-            float(xface_step(column.fap, head_.fapu) / fap::step_size(column.fap, head_.fapu));
-        order.push_back({size * worth(column.fap), c});
+        const float size = std::abs(columns_[m][c].factors[v]);
+        if (size > 0) order.push_back({size * strength(columns_[m][c].fap), c});
       }
       std::stable_sort(order.begin(), order.end(),
                        [](const auto& a, const auto& b) { return a.first > b.first; });
       std::size_t used = 0;
-      for (const auto& [strength, c] : order) {
-        if (used + columns_[m][c].cost() > kXfaceSlots) {
-          columns_[m][c].factors[v] = 0;
-          ++plan_.left_out;
-        } else {
-          used += columns_[m][c].cost();
-        }
+      std::size_t kept = 0;
+      while (kept < order.size() && used + columns_[m][order[kept].second].cost() <= kXfaceSlots) {
+        used += columns_[m][order[kept++].second].cost();
+      }
+      if (kept == order.size()) continue;
+      const float least = order[kept].first;
+      for (const auto& [size, c] : order) {
+        float& factor = columns_[m][c].factors[v];
+        factor = faded(factor, least / strength(columns_[m][c].fap));
+      }
+      for (; kept < order.size(); ++kept) {
+        columns_[m][order[kept].second].factors[v] = 0;
+        ++plan_.left_out;
       }
     }
+  }
+
+  // What a factor of 1 counts.
+  float strength(int fap) const {
+    return worth(fap) * float(xface_step(fap, head_.fapu) / fap::step_size(fap, head_.fapu));
   }
 
   std::uint32_t nearest(std::size_t m, Vec3 place) const {

@@ -7,14 +7,23 @@ namespace animeme::head::detail {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kGoodEnough = 0.01;  // error of a factor
-constexpr int kWidths = 40;           // tried for each band
+constexpr double kGoodEnough = 0.002;  // error of a factor
+constexpr int kWidths = 40;            // tried
+constexpr float kLeastBell = 0.15f;    // of 2, at the border of a region that is cut into bands
 
-// Vertices of like factors, and the cosine that fits them best.
+// A vertex, and the weight with which the cosine would be right for it.
+struct Fit {
+  std::uint32_t vertex = 0;
+  double bell = 0;
+  double wanted = 0;
+
+  double weight() const { return wanted / bell; }
+};
+
+// Vertices that like one weight.
 struct Band {
-  std::vector<Wanted> wanted;  // by factor, ascending
+  std::vector<Fit> fits;  // by weight, ascending
   double weight = 0;
-  std::uint32_t far = 0;  // sets the width
   double worst = 0;
 };
 
@@ -30,101 +39,118 @@ class Fitter {
                      [&](std::uint32_t a, std::uint32_t b) { return distance_[a] < distance_[b]; });
   }
 
+  /// The vertex that sets the width.
+  std::uint32_t far() const { return far_; }
+
   std::vector<Band> run() {
+    far_ = best_width();
     std::vector<Band> bands;
-    // Vertices that go the other way are bands of their own.
-    for (const bool negative : {false, true}) {
-      Band band;
-      for (const Wanted& w : task_.wanted) {
-        if (w.factor != 0 && (w.factor < 0) == negative) band.wanted.push_back(w);
-      }
-      std::stable_sort(band.wanted.begin(), band.wanted.end(),
-                       [](const Wanted& a, const Wanted& b) { return a.factor < b.factor; });
-      if (negative && task_.most == 1 && !bands.empty()) break;
-      if (!band.wanted.empty()) bands.push_back(fitted(std::move(band)));
+    Band all;
+    for (const Wanted& w : task_.wanted) {
+      const double b = bell(w.vertex, distance_[far_]);
+      if (b > 0 && w.factor != 0) all.fits.push_back({w.vertex, b, w.factor});
     }
+    if (all.fits.empty()) return bands;
+    std::stable_sort(all.fits.begin(), all.fits.end(),
+                     [](const Fit& a, const Fit& b) { return a.weight() < b.weight(); });
+    bands.push_back(fitted(std::move(all)));
     while (int(bands.size()) < task_.most) {
-      std::size_t worst = bands.size();
-      for (std::size_t i = 0; i < bands.size(); ++i) {
-        if (bands[i].worst <= kGoodEnough || bands[i].wanted.size() < 2) continue;
-        if (worst == bands.size() || bands[i].worst > bands[worst].worst) worst = i;
-      }
-      if (worst == bands.size()) break;
-      cut(bands, worst);
+      const auto worst =
+          std::max_element(bands.begin(), bands.end(),
+                           [](const Band& a, const Band& b) { return a.worst < b.worst; });
+      if (worst->worst <= kGoodEnough || worst->fits.size() < 2) break;
+      cut(bands, std::size_t(worst - bands.begin()));
     }
     return bands;
   }
 
  private:
-  bool holds_pivot(const Band& band) const {
-    return std::any_of(band.wanted.begin(), band.wanted.end(),
-                       [&](const Wanted& w) { return w.vertex == task_.pivot; });
-  }
-
   // The cosine without its weight; nothing beyond the width.
   double bell(std::uint32_t vertex, double width) const {
     const double d = distance_[vertex];
     return d < width ? std::cos(kPi * d / width) + 1 : 0;
   }
 
-  // Weight and error for one width.
-  void try_width(Band& band, double width, bool fixed, double& least, std::uint32_t far) const {
-    double weight = 0;
+  // Weight of the whole as one region, and the sum of its squared errors.
+  double error_of(double width) const {
     double above = 0;
     double below = 0;
-    for (const Wanted& w : band.wanted) {
+    for (const Wanted& w : task_.wanted) {
       const double b = bell(w.vertex, width);
       above += b * w.factor;
       below += b * b;
-      if (fixed && w.vertex == task_.pivot) weight = w.factor / 2;
     }
-    if (!fixed) weight = below > 0 ? above / below : 0;
-    double worst = 0;
+    double weight = below > 0 ? above / below : 0;
+    for (const Wanted& w : task_.wanted) {
+      if (task_.exact_at_pivot && w.vertex == task_.pivot) weight = w.factor / 2;
+    }
     double squares = 0;
-    for (const Wanted& w : band.wanted) {
-      const double error = std::abs(weight * bell(w.vertex, width) - w.factor);
-      worst = std::max(worst, error);
+    for (const Wanted& w : task_.wanted) {
+      const double error = weight * bell(w.vertex, width) - w.factor;
       squares += error * error;
     }
-    if (squares >= least) return;
-    least = squares;
-    band.weight = weight;
-    band.far = far;
-    band.worst = worst;
+    return squares;
   }
 
-  // The best width: from that of the vertex nearest to the pivot to the far end of the mesh. What
-  // lies beyond it stays.
-  Band fitted(Band band) const {
-    const bool fixed = task_.exact_at_pivot && holds_pivot(band);
-    double least = std::numeric_limits<double>::infinity();
+  // The width that fits best as one region. One that is to be cut has to reach all vertices, and
+  // be high enough at the farthest.
+  std::uint32_t best_width() const {
+    float reach = 0;
     float near = std::numeric_limits<float>::max();
-    for (const Wanted& w : band.wanted) {
-      if (distance_[w.vertex] > 0) near = std::min(near, distance_[w.vertex]);
+    for (const Wanted& w : task_.wanted) {
+      const float d = distance_[w.vertex];
+      reach = std::max(reach, d);
+      if (d > 0) near = std::min(near, d);
     }
     const float end = distance_[by_distance_.back()];
+    // cos(pi * reach / width) + 1 = kLeastBell
+    if (task_.most > 1) near = reach * float(kPi) / std::acos(kLeastBell - 1);
     near = std::clamp(near, 0.01f * end, end);
-    for (int i = 1; i <= kWidths; ++i) {
+    double least = std::numeric_limits<double>::infinity();
+    std::uint32_t best = by_distance_.back();
+    for (int i = 0; i <= kWidths; ++i) {
       const float width = near * std::pow(end / near, float(i) / kWidths);
       const auto at = std::lower_bound(by_distance_.begin(), by_distance_.end() - 1, width,
                                        [&](std::uint32_t v, float w) { return distance_[v] < w; });
-      if (distance_[*at] > 0) try_width(band, distance_[*at], fixed, least, *at);
+      if (distance_[*at] <= 0) continue;
+      const double error = error_of(distance_[*at]);
+      if (error >= least) continue;
+      least = error;
+      best = *at;
+    }
+    return best;
+  }
+
+  Band fitted(Band band) const {
+    double above = 0;
+    double below = 0;
+    for (const Fit& f : band.fits) {
+      above += f.bell * f.wanted;
+      below += f.bell * f.bell;
+    }
+    band.weight = above / below;
+    for (const Fit& f : band.fits) {
+      if (task_.exact_at_pivot && f.vertex == task_.pivot) band.weight = f.weight();
+    }
+    band.worst = 0;
+    for (const Fit& f : band.fits) {
+      band.worst = std::max(band.worst, std::abs(band.weight * f.bell - f.wanted));
     }
     return band;
   }
 
-  // Where the halves differ most from each other: at the middle of the factors.
+  // At the middle of the weights.
   void cut(std::vector<Band>& bands, std::size_t i) const {
     Band lower = std::move(bands[i]);
     Band upper;
-    const float middle = (lower.wanted.front().factor + lower.wanted.back().factor) / 2;
-    auto at = std::upper_bound(lower.wanted.begin(), lower.wanted.end(), middle,
-                               [](float m, const Wanted& w) { return m < w.factor; });
-    if (at == lower.wanted.begin() || at == lower.wanted.end()) {
-      at = lower.wanted.begin() + std::ptrdiff_t(lower.wanted.size() / 2);
+    const double middle = (lower.fits.front().weight() + lower.fits.back().weight()) / 2;
+    auto at = std::upper_bound(lower.fits.begin(), lower.fits.end(), middle,
+                               [](double m, const Fit& f) { return m < f.weight(); });
+    if (at == lower.fits.begin() || at == lower.fits.end()) {
+      at = lower.fits.begin() + std::ptrdiff_t(lower.fits.size() / 2);
     }
-    upper.wanted.assign(at, lower.wanted.end());
-    lower.wanted.erase(at, lower.wanted.end());
+    upper.fits.assign(at, lower.fits.end());
+    lower.fits.erase(at, lower.fits.end());
     bands[i] = fitted(std::move(lower));
     bands.push_back(fitted(std::move(upper)));
   }
@@ -133,15 +159,17 @@ class Fitter {
   const RegionTask& task_;
   std::vector<float> distance_;
   std::vector<std::uint32_t> by_distance_;
+  std::uint32_t far_ = 0;
 };
 
-XfaceItem item_of(const RegionTask& task, const std::vector<Wanted>& wanted, std::uint32_t pivot,
+template <class List>
+XfaceItem item_of(const RegionTask& task, const List& vertices, std::uint32_t pivot,
                   XfaceInfluence influence) {
   XfaceItem item;
   item.pivot = pivot;
   influence.fap = task.fap;
   item.influences.push_back(influence);
-  for (const Wanted& w : wanted) item.region.push_back(w.vertex);
+  for (const auto& v : vertices) item.region.push_back(v.vertex);
   return item;
 }
 
@@ -168,18 +196,13 @@ RegionMesh region_mesh(std::span<const Vec3> positions) {
 }
 
 std::vector<XfaceItem> fit_regions(const RegionMesh& mesh, const RegionTask& task) {
+  Fitter fitter(mesh, task);
   std::vector<XfaceItem> items;
-  for (const Band& band : Fitter(mesh, task).run()) {
+  for (const Band& band : fitter.run()) {
     if (band.weight == 0) continue;
-    XfaceItem item = item_of(task, band.wanted, task.pivot,
-                             {.reach = Reach::sphere, .weight = float(band.weight)});
-    const Vec3 pivot = mesh.positions[task.pivot];
-    const float width = xface_distance(Reach::sphere, pivot, mesh.positions[band.far]);
-    std::erase_if(item.region, [&](std::uint32_t v) {
-      return xface_distance(Reach::sphere, pivot, mesh.positions[v]) >= width;
-    });
-    add_to_region(item, band.far);
-    items.push_back(std::move(item));
+    items.push_back(item_of(task, band.fits, task.pivot,
+                            {.reach = Reach::sphere, .weight = float(band.weight)}));
+    add_to_region(items.back(), fitter.far());
   }
   return items;
 }
@@ -198,7 +221,7 @@ std::vector<XfaceItem> fit_waves(const RegionMesh& mesh, const RegionTask& task)
   if (sorted.empty() || extent(axis) <= 0) return items;
   const float least = sorted.front().factor;
   const float range = sorted.back().factor - least;
-  const int bands = range <= 2 * float(kGoodEnough) ? 1 : std::max(1, task.most);
+  const int bands = range <= 0.02f ? 1 : std::max(1, task.most);
   auto at = sorted.begin();
   for (int b = 0; b < bands; ++b) {
     const float border = least + range * float(b + 1) / float(bands);

@@ -27,9 +27,8 @@ struct RegionTask {
   std::vector<Wanted> wanted;  ///< by vertex, ascending
 };
 
-/// Regions whose factors come near to those wanted. The vertices are cut into bands of like
-/// factors; each band is a region around the pivot with a vertex far away in it, which sets how
-/// flat the cosine is and moves by nothing itself. Bands are cut where the error is largest.
+/// Regions whose factors come near to those wanted: one wide cosine around the pivot, with a vertex
+/// in it that is far away and sets its width, cut into bands of vertices that like the same weight.
 std::vector<XfaceItem> fit_regions(const RegionMesh& mesh, const RegionTask& task);
 
 /// The same for small parts that move as a whole, where no vertex is far away: two waves from both
