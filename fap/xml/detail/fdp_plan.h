@@ -1,0 +1,22 @@
+// Which regions a head gets in an .fdp file.
+#pragma once
+
+#include "fap/xml/detail/xface.h"
+#include "fap/xml/fdp.h"
+
+namespace animeme::head::detail {
+
+struct FdpPlan {
+  std::vector<Part> parts;  ///< submeshes, in their order
+  /// XfaceItem::mesh counts in `parts`. Each feature point comes first with its own name.
+  std::vector<XfaceItem> items;
+  std::size_t left_out = 0;  ///< moves of vertices beyond eight influences
+};
+
+/// Plans. At most kXfaceSlots influences a vertex; of more, the strongest stay.
+FdpPlan plan_fdp(const Head& head, const Rig& rig, int regions);
+
+/// How far each vertex should go with a FAP, in units of xface_direction() and xface_step().
+std::vector<float> wanted_factors(int fap, const fap::Fapu& fapu, std::span<const Vec3> moves);
+
+}  // namespace animeme::head::detail

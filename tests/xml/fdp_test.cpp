@@ -1,0 +1,170 @@
+// Xface files: our heads written and read again, files by hand, and what is refused.
+#include "fap/xml/fdp.h"
+
+#include <gmock/gmock.h>
+
+#include "fap/head/obj.h"
+#include "tests/head/head_support.h"
+#include "tests/support/files.h"
+#include "tests/xml/fdp_measure.h"
+
+namespace animeme::test {
+namespace {
+
+using head::FdpFiles;
+using head::Head;
+using head::LoadMeshFile;
+using head::Part;
+using head::Rig;
+using head::Source;
+using head::Vec3;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+const FdpFiles& files_of(const std::string& name) {
+  static std::map<std::string, FdpFiles> made;
+  auto found = made.find(name);
+  if (found == made.end()) {
+    auto files = head::write_fdp(head_of(name), rig_of(name), {.name = name});
+    EXPECT_TRUE(files) << files.error().describe();
+    found = made.emplace(name, std::move(*files)).first;
+  }
+  return found->second;
+}
+
+LoadMeshFile only(const std::string& name, const std::string& content) {
+  return [=](const std::string& wanted) -> Result<std::string> {
+    if (wanted != name) return make_error(Code::not_found, "there is no file " + wanted);
+    return content;
+  };
+}
+
+class FdpHead : public ::testing::TestWithParam<std::string> {
+ protected:
+  const Head& head() const { return head_of(GetParam()); }
+  const Rig& rig() const { return rig_of(GetParam()); }
+  Head again(std::vector<std::string>* notes = nullptr) const {
+    const FdpFiles& files = files_of(GetParam());
+    auto source = head::read_fdp(files.fdp, only(GetParam() + ".wrl", files.wrl));
+    EXPECT_TRUE(source) << source.error().describe();
+    auto made = head::assemble(std::move(*source), notes);
+    EXPECT_TRUE(made) << made.error().describe();
+    return std::move(*made);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Heads, FdpHead, ::testing::Values("woman", "man", "child"));
+
+TEST_P(FdpHead, MeshesComeBack) {
+  const Head back = again();
+  // The origin of another head is found from its eyes; ours may be a little elsewhere.
+  const Vec3 shift = back.part(Part::skin).positions[0] - head().part(Part::skin).positions[0];
+  EXPECT_LT(length(shift), 1);
+  for (std::size_t p = 0; p < head::kPartCount; ++p) {
+    const head::Mesh& was = head().parts[p];
+    const head::Mesh& is = back.parts[p];
+    ASSERT_EQ(is.positions.size(), was.positions.size()) << head::kPartNames[p];
+    EXPECT_EQ(is.triangles, was.triangles) << head::kPartNames[p];
+    for (std::size_t v = 0; v < is.positions.size(); ++v) {
+      ASSERT_LT(length(is.positions[v] - was.positions[v] - shift), 1e-4f) << head::kPartNames[p];
+    }
+  }
+  for (std::size_t side = 0; side < 2; ++side) {
+    EXPECT_LT(length(back.eyes[side].centre - head().eyes[side].centre - shift), 1e-4f);
+  }
+  EXPECT_NEAR(back.fapu.mns, head().fapu.mns, 1e-5);
+  EXPECT_NEAR(back.fapu.irisd, head().fapu.irisd, 1e-5);
+}
+
+TEST_P(FdpHead, FeaturePointsComeBack) {
+  const Head back = again();
+  for (std::size_t i = 0; i < fap::kFeaturePoints.size(); ++i) {
+    EXPECT_EQ(back.feature_points[i].exists(), head().feature_points[i].exists())
+        << fap::kFeaturePoints[i].id;
+    EXPECT_EQ(back.feature_points[i].vertex, head().feature_points[i].vertex)
+        << fap::kFeaturePoints[i].id;
+    EXPECT_EQ(back.feature_points[i].part, head().feature_points[i].part)
+        << fap::kFeaturePoints[i].id;
+  }
+}
+
+TEST_P(FdpHead, EachFapMovesItsPointAsFarAsTheTableSays) {
+  const Head back = again();
+  const Rig moved = head::make_rig(back);
+  int checked = 0;
+  for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+    const fap::Move move = fap::move_of(fap);
+    const std::string_view id = fap::info(fap).feature_point;
+    if (move.kind != fap::MoveKind::translate || id.empty()) continue;
+    for (const int value : {400, -300}) {
+      fap::Frame frame;
+      frame.set(fap, value);
+      const Vec3 d =
+          posed(back, moved, head::pose(moved, frame, {.contact = false}), id) - back.at(id);
+      const double wanted = fap::displacement(fap, value, back.fapu);
+      const double along = move.axis[0] * d.x + move.axis[1] * d.y + move.axis[2] * d.z;
+      EXPECT_NEAR(along, wanted, 0.03 * std::abs(wanted)) << "FAP " << fap << " on " << id;
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 100);
+}
+
+// What the README says of the default number of regions.
+TEST_P(FdpHead, RaisedCosinesComeNearToOurRig) {
+  const auto measure = measure_fdp(rig(), files_of(GetParam()), head::FdpOptions().scale);
+  ASSERT_TRUE(measure) << measure.error().describe();
+  EXPECT_EQ(measure->lost, 0u);
+  EXPECT_LE(measure->most_influences, 8u);
+  EXPECT_GT(measure->all.move, 0.3);
+  EXPECT_LT(measure->all.rms, 0.15 * measure->all.move);
+  EXPECT_LT(measure->groups[7].rms, 0.15 * measure->groups[7].move);  // outer lip
+}
+
+// The lower lip stays where it is when the upper one moves, and the other way round.
+TEST_P(FdpHead, LipsStayApart) {
+  const Head back = again();
+  const Rig moved = head::make_rig(back);
+  for (const auto& [fap, other] : {std::pair(4, "2.3"), {5, "2.2"}, {51, "8.2"}, {52, "8.1"}}) {
+    fap::Frame frame;
+    frame.set(fap, 500);
+    const Vec3 d =
+        posed(back, moved, head::pose(moved, frame, {.contact = false}), other) - back.at(other);
+    EXPECT_LT(length(d), 0.02 * fap::displacement(fap, 500, back.fapu)) << "FAP " << fap;
+  }
+}
+
+TEST(FdpWrite, OneRegionForEachFapIsPossible) {
+  const auto files = head::write_fdp(head_of("man"), rig_of("man"), {.name = "m", .regions = 1});
+  ASSERT_TRUE(files);
+  const auto measure = measure_fdp(rig_of("man"), *files, 10);
+  ASSERT_TRUE(measure) << measure.error().describe();
+  EXPECT_LT(measure->regions, 130u);
+  EXPECT_LT(measure->all.rms, 0.35 * measure->all.move);
+}
+
+TEST(FdpWrite, SameBytesEachTime) {
+  const auto again = head::write_fdp(head_of("child"), rig_of("child"), {.name = "child"});
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->fdp, files_of("child").fdp);
+  EXPECT_EQ(again->wrl, files_of("child").wrl);
+}
+
+TEST(FdpWrite, SaysWhyItCannot) {
+  Head bare = head_of("child");
+  bare.feature_points.fill({});
+  const auto no_points = head::write_fdp(bare, rig_of("child"));
+  ASSERT_FALSE(no_points);
+  EXPECT_THAT(no_points.error().message, HasSubstr("no feature points"));
+  EXPECT_FALSE(head::write_fdp(head_of("child"), rig_of("man")));
+  EXPECT_FALSE(head::write_fdp(head_of("child"), rig_of("child"), {.name = "../x"}));
+  EXPECT_FALSE(head::write_fdp(head_of("child"), rig_of("child"), {.scale = 0}));
+  Head fine = head_of("child");
+  fine.part(Part::hair).positions.resize(70000);
+  Rig rig = rig_of("child");
+  rig.parts[std::size_t(Part::hair)].positions.resize(70000);
+  EXPECT_EQ(head::write_fdp(fine, rig).error().code, Code::out_of_range);
+}
+
+}  // namespace
+}  // namespace animeme::test
