@@ -6,6 +6,7 @@
 #include "fap/head/own_head.h"
 #include "fap/head/point_list.h"
 #include "tools/commands/common.h"
+#include "tools/gltf/read_head.h"
 
 namespace animeme::tools {
 namespace {
@@ -35,13 +36,22 @@ Result<head::Source> read_obj_head(const HeadChoice& choice) {
   return source;
 }
 
-Result<head::Source> read_source(const HeadChoice& choice) { return read_obj_head(choice); }
+bool is_gltf(const std::string& kind) {
+  return kind == ".glb" || kind == ".gltf" || kind == ".vrm";
+}
+
+Result<head::Source> read_source(const HeadChoice& choice) {
+  if (is_gltf(extension_of(choice.head))) return gltf::read_head_file(choice.head);
+  return read_obj_head(choice);
+}
 
 }  // namespace
 
 void add_head_options(CLI::App& app, HeadChoice& choice) {
   app.add_option("--head", choice.head,
-                 std::string(kOurs) + ", or a head of your own: .obj with --points")
+                 std::string(kOurs) +
+                     ", or a head of your own: .glb, .gltf or .vrm with "
+                     "ARKit's shapes or visemes, .obj with --points")
       ->capture_default_str();
   app.add_option("--points", choice.points,
                  "Which vertex of your head is which feature point: lines such as 2.1,966");
@@ -57,8 +67,13 @@ std::string problem_of(const HeadChoice& choice) {
            "\"";
   }
   const std::string kind = extension_of(choice.head);
+  if (is_gltf(kind)) {
+    if (choice.points.empty()) return "";
+    return "--points is for .obj files; the shapes of a glTF file move it";
+  }
   if (kind != ".obj") {
-    return "--head " + choice.head + ": a head of your own is an .obj file with --points";
+    return "--head " + choice.head +
+           ": a head of your own is a .glb, .gltf or .vrm file, or an .obj with --points";
   }
   if (kind == ".obj" && choice.points.empty()) {
     return "an .obj does not tell where its face is: add --points LIST, a text with lines such as "

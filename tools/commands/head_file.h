@@ -27,7 +27,7 @@ struct LoadedHead {
 /// file that is not read, --points missing or not wanted. Empty: nothing.
 std::string problem_of(const HeadChoice& choice);
 
-/// Makes or reads a head. Files: .obj (with --points).
+/// Makes or reads a head. Files: .glb, .gltf, .vrm (gltf::read_head_file()), .obj (with --points).
 /// Errors: invalid_argument with problem_of(), and those of the readers, with the file.
 Result<LoadedHead> load_head(const HeadChoice& choice);
 
