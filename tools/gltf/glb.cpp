@@ -25,7 +25,10 @@ struct Carrier {
   Bone which = Bone::neck;
 };
 
-Carrier carrier_of(Part part) {
+Carrier carrier_of(const head::Rig& rig, Part part) {
+  const bool on_neck =
+      part != Part::skin && part != Part::body && rig.shown_by_shapes[std::size_t(part)];
+  if (on_neck) return {true, Bone::neck};
   switch (part) {
     case Part::skin:
     case Part::body:
@@ -77,7 +80,7 @@ class Writer {
   Result<std::vector<std::uint8_t>> write() {
     morphs_ = make_morphs(rig_, options_);
     report(0.3);
-    weights_ = morph_weights(clip_, morphs_, options_.morphs);
+    weights_ = morph_weights(rig_, clip_, morphs_, options_.morphs);
     report(0.6);
     add_bones();
     for (std::size_t part = 0; part < head_.parts.size(); ++part) add_part(part);
@@ -135,7 +138,7 @@ class Writer {
     const Part part = Part(number);
     const head::Mesh& mesh = head_.parts[number];
     if (mesh.positions.empty() || mesh.triangles.empty()) return;
-    const Carrier carrier = carrier_of(part);
+    const Carrier carrier = carrier_of(rig_, part);
     const Vec3 origin = carrier.bone ? pivot_of(rig_, carrier.which) : Vec3{};
     std::vector<Vec3> places;
     for (const Vec3& v : rig_.parts[number].positions) places.push_back((v - origin) * kMetres);

@@ -230,10 +230,9 @@ export class Rig {
     for (const name of ['lower_teeth', 'tongue']) set(name, inJaw);
     set('left_eye', compose(this.head, this.eyeTransform(0, v)));
     set('right_eye', compose(this.head, this.eyeTransform(1, v)));
-    if (this.model.shapes === 0) return;
     // Modelled shapes show all but the turn of the head.
     for (const name of ['lower_teeth', 'tongue', 'left_eye', 'right_eye']) {
-      if (this.model.deforms[this.index[name]]) set(name, this.head);
+      if (this.model.shown_by_shapes[this.index[name]]) set(name, this.head);
     }
   }
 
