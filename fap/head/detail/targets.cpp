@@ -71,6 +71,7 @@ class Maker {
       : head_(head), weights_(skin_weights(head)), column_(head.part(Part::skin).positions.size()) {
     const Mesh& skin = head.part(Part::skin);
     smooth_normals(skin.positions, skin.triangles, normals_);
+    broad_normals_ = broad_normals(normals_, skin.triangles);
     find_ears();
     bind(Part::brows);
   }
@@ -120,7 +121,7 @@ class Maker {
   // Brows slide on the forehead, which leans back: moved up alone, its skin would stand off.
   void slide_on_bone(std::vector<Vec3>& deltas) const {
     for (std::size_t v = 0; v < deltas.size(); ++v) {
-      const Vec3 n = normals_[v];
+      const Vec3 n = broad_normals_[v];
       if (n.z > 0 && n.y > 0) deltas[v].z -= deltas[v].y * std::min(n.y / n.z, kSteepest);
     }
   }
@@ -281,7 +282,8 @@ class Maker {
   const Head& head_;
   Weights weights_;
   std::vector<float> column_;
-  std::vector<Vec3> normals_;  // of the neutral skin
+  std::vector<Vec3> normals_;        // of the neutral skin
+  std::vector<Vec3> broad_normals_;  // the same without creases
   std::array<std::vector<std::uint32_t>, 2> ears_;
   std::vector<Binding> bound_;
   std::vector<Target> targets_;
