@@ -3,9 +3,13 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "fap/head/obj.h"
 #include "fap/head/rig.h"
+#include "fap/xml/fdp.h"
+#include "fap/xml/xmt.h"
 #include "tools/commands/common.h"
 #include "tools/commands/head_file.h"
+#include "tools/gltf/glb.h"
 
 namespace animeme::tools {
 
@@ -15,6 +19,7 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   HeadChoice head;
+  std::string output;
   bool json = false;
 };
 
@@ -113,13 +118,61 @@ void print_text(const Json& info) {
   }
 }
 
+// Two files that belong together, or one.
+Result<void> write_head(const std::string& path, const head::Head& head, const head::Rig& rig) {
+  const std::filesystem::path file(path);
+  const std::string kind = extension_of(path);
+  const std::string name = file.stem().string();
+  if (kind == ".obj") {
+    const std::string obj = head::write_obj(head);
+    const std::string points = head::points_of(head);
+    const std::string list = (file.parent_path() / (name + ".points.csv")).string();
+    const OutputText files[] = {{path, obj}, {list, points}};
+    if (auto ok = write_files(files); !ok) return ok;
+    say(path + " and its feature points " + list);
+    return {};
+  }
+  if (kind == ".fdp") {
+    const Result<head::FdpFiles> made = head::write_fdp(head, rig, {.name = name});
+    if (!made) return made.error();
+    const std::string mesh = (file.parent_path() / (name + ".wrl")).string();
+    const OutputText files[] = {{path, made->fdp}, {mesh, made->wrl}};
+    if (auto ok = write_files(files); !ok) return ok;
+    say(path + " and its mesh " + mesh);
+    return {};
+  }
+  if (kind == ".glb") {
+    fap::Sequence rest;
+    rest.rate = {25, 1};
+    rest.frames.resize(1);
+    const Result<std::vector<std::uint8_t>> glb = gltf::make_glb(head, rig, rest);
+    if (!glb) return glb.error();
+    return write_file(path, *glb);
+  }
+  const Result<std::string> scene = head::write_xmt(head, rig);
+  if (!scene) return scene.error();
+  return write_file(path, *scene);
+}
+
 Result<int> run(const Options& options) {
   if (const std::string problem = problem_of(options.head); !problem.empty()) {
     return usage_error(problem);
   }
+  const std::string kind = extension_of(options.output);
+  const bool known =
+      kind == ".obj" || kind == ".fdp" || kind == ".glb" || kind == ".xmt" || kind == ".xmta";
+  if (!options.output.empty() && !known) {
+    return usage_error("the output " + options.output + " has to end in .fdp, .xmt, .glb or .obj");
+  }
   const Result<LoadedHead> loaded = load_head(options.head);
   if (!loaded) return loaded.error();
-  const Json info = describe(*loaded, head::make_rig(loaded->head));
+  const head::Rig rig = head::make_rig(loaded->head);
+  if (!options.output.empty()) {
+    for (const std::string& note : loaded->notes) say(options.head.head + ": " + note);
+    if (auto ok = write_head(options.output, loaded->head, rig); !ok) return ok.error();
+    if (!options.json) return kOk;
+  }
+  const Json info = describe(*loaded, rig);
   if (options.json) {
     std::printf("%s\n", info.dump(2).c_str());
   } else {
@@ -132,6 +185,10 @@ Action add(CLI::App& app) {
   auto options = std::make_shared<Options>();
   app.add_option("head", options->head.head, kHeadHelp)->capture_default_str();
   app.add_option("--points", options->head.points, kPointsHelp);
+  app.add_option(
+      "-o,--output", options->output,
+      "Write the head: .fdp (Xface; with its mesh, .wrl), .xmt (MPEG-4 scene with an FDP), "
+      ".glb (with morph targets), .obj (with a list of feature points)");
   app.add_flag("--json", options->json, "The same for scripts");
   return [options] { return run(*options); };
 }
@@ -139,9 +196,13 @@ Action add(CLI::App& app) {
 }  // namespace
 
 const Command kHead{
-    "head", "What a head of yours has: parts, feature points, FAPs that move it",
-    "  animeme head woman\n"
+    "head",
+    "What a head has, ours or yours, and which FAPs move it; write it for Xface, "
+    "Blender, MPEG-4",
+    "  animeme head me.glb\n"
     "  animeme head me.obj --points landmarks.csv\n"
+    "  animeme head woman -o woman.fdp     # for XfacePlayer\n"
+    "  animeme head child -o child.obj     # to edit; child.points.csv is beside it\n"
     "\n"
     "A list of landmarks is a text: 2.1,966 in a line makes vertex 966 (from 0) the\n"
     "chin. The mouth needs 2.2-2.9 and 8.1-8.8, lids 3.1-3.4, brows 4.1-4.6, the\n"
