@@ -52,6 +52,20 @@ std::string noise(int seconds) {
          number(16, 2) + "data" + number(std::uint32_t(data.size()), 4) + data;
 }
 
+TEST(ViewCommand, TakesTheSoundOfAnyContainer) {
+  const TempDir dir;
+  const std::string curves = kData + "grid_s1_sample/fap/prac8p.csv";
+  spill(dir / "a.wav", noise(3));
+  const auto second =
+      animeme({"view", curves, kData + "containers/std_aac.mp4", "-o", dir / "a.html"});
+  EXPECT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_THAT(second.err, HasSubstr("with sound"));
+  ASSERT_EQ(animeme({"mux", curves, dir / "a.wav", "-o", dir / "a.m3u8"}).exit_code, 0);
+  const auto segments = animeme({"view", dir / "a.m3u8", "-o", dir / "b.html"});
+  EXPECT_EQ(segments.exit_code, 0) << segments.err;
+  EXPECT_THAT(segments.err, HasSubstr("with sound"));
+}
+
 TEST(ViewCommand, SaysWhatMakesALargePageSmall) {
   const TempDir dir;
   spill(dir / "a.wav", noise(240));

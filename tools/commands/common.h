@@ -117,6 +117,7 @@ struct MotionInput {
   fba::BodySequence body;            ///< no frames: there is no body
   std::vector<std::uint8_t> stream;  ///< the raw FBA stream; empty for text
   fba::DecodedStream decoded;        ///< of the stream; no planes for text
+  double start = 0;                  ///< of frame 0, seconds on the clock of a container's sound
 };
 /// Frame numbers of FAP text start at 0 unless they are to be kept.
 enum class FrameNumbers : std::uint8_t { from_zero, keep };
@@ -130,6 +131,7 @@ Result<MotionInput> parse_motion(std::vector<std::uint8_t> bytes, const std::str
 struct FaceInput {
   fap::Sequence clip;
   std::vector<std::uint8_t> stream;  ///< the raw FBA stream; empty for text
+  double start = 0;                  ///< as MotionInput::start
 };
 /// As read_motion(). A stream or text with a body but no face is not_found.
 Result<FaceInput> read_face(const std::string& path);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kPhones = 22;  // height of their row
 constexpr double kLegend = 14;
-constexpr const char* kColours[] = {"#7fb2ff", "#ff8f9c", "#7fe0a2"};
+constexpr const char* kColours[] = {"#63b9f2", "#f0a030", "#dd93c4"};
 
 }  // namespace
 

@@ -25,10 +25,19 @@ struct Options {
   double to = -1;
 };
 
-PlotPoints points_of(int fap, const fap::Sequence& clip) {
+// A filled clip, and when its frame 0 is shown.
+struct Shown {
+  fap::Sequence clip;
+  double start = 0;
+
+  double end() const { return start + clip.duration(); }
+};
+
+PlotPoints points_of(int fap, const Shown& shown) {
   PlotPoints points;
-  for (const fap::Frame& frame : clip.frames) {
-    points.emplace_back(clip.rate.seconds(double(frame.number)), frame.value[std::size_t(fap)]);
+  for (const fap::Frame& frame : shown.clip.frames) {
+    points.emplace_back(shown.start + shown.clip.rate.seconds(double(frame.number)),
+                        frame.value[std::size_t(fap)]);
   }
   return points;
 }
@@ -39,14 +48,14 @@ std::string unit_of(int fap) {
   return "1/1024 " + std::string(fap::unit_name(unit));
 }
 
-PlotRow row_of(int fap, const std::vector<fap::Sequence>& clips) {
+PlotRow row_of(int fap, const std::vector<Shown>& clips) {
   PlotRow row{"FAP " + std::to_string(fap), std::string(fap::info(fap).name), unit_of(fap), {}};
-  for (const fap::Sequence& clip : clips) row.curves.push_back(points_of(fap, clip));
+  for (const Shown& clip : clips) row.curves.push_back(points_of(fap, clip));
   return row;
 }
 
 // b less a at the times of a; what b shows at a time is its last frame so far.
-PlotRow difference_of(int fap, const fap::Sequence& a, const fap::Sequence& b) {
+PlotRow difference_of(int fap, const Shown& a, const Shown& b) {
   PlotRow row{"FAP " + std::to_string(fap), "difference", unit_of(fap), {{}}, 2};
   const PlotPoints shown = points_of(fap, b);
   std::size_t at = 0;
@@ -69,7 +78,7 @@ Result<int> run(const Options& options) {
   if (options.difference && options.b.empty()) {
     return usage_error("--difference needs two clips");
   }
-  std::vector<fap::Sequence> clips;
+  std::vector<Shown> clips;
   std::vector<std::string> names;
   for (const std::string& path : {options.a, options.b}) {
     if (path.empty()) continue;
@@ -79,11 +88,11 @@ Result<int> run(const Options& options) {
     if (!filled) return filled.error().in_file(path);
     // FAP 1 and 2 as the built-in head shows them.
     for (fap::Frame& frame : filled->frames) frame = head::low_level(frame);
-    clips.push_back(std::move(*filled));
+    clips.push_back({std::move(*filled), input->start});
     names.push_back(std::filesystem::path(path).filename().string());
   }
   PlotPanel panel;
-  for (const fap::Sequence& clip : clips) panel.seconds = std::max(panel.seconds, clip.duration());
+  for (const Shown& clip : clips) panel.seconds = std::max(panel.seconds, clip.end());
   if (options.from >= panel.seconds) {
     return usage_error("--from lies behind the end of the clip");
   }

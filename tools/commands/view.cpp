@@ -12,7 +12,6 @@
 #include "tools/commands/head_file.h"
 #include "tools/commands/view_sound.h"
 #include "tools/commands/voice_input.h"
-#include "tools/media/container.h"
 #include "tools/viewer/viewer.h"
 
 namespace animeme::tools {
@@ -34,35 +33,21 @@ struct Options {
   HeadChoice head;
 };
 
+// A clip, and whether it came with a container that may hold sound.
 struct Shown {
   viewer::Clip clip;
   bool container = false;
 };
 
 Result<Shown> read_shown(const std::string& path) {
-  Result<std::vector<std::uint8_t>> bytes = read_file(path);
-  if (!bytes) return bytes.error();
-  Shown shown;
-  shown.clip.name = std::filesystem::path(path).filename().string();
-  if (kind_of(*bytes) == FileKind::media) {
-    // The stream alone does not tell when its face begins against the sound.
-    const Result<media::Container> container =
-        media::read_container(std::span<const std::uint8_t>(*bytes));
-    if (!container) return container.error().in_file(path);
-    const fba::AccessUnits& face = container->face;
-    if (!face.units.empty()) {
-      shown.clip.start = double(face.units.front().time) / face.timescale;
-    }
-    shown.container = true;
-  }
-  Result<MotionInput> input = parse_motion(std::move(*bytes), path);
+  Result<MotionInput> input = read_motion(path);
   if (!input) return input.error();
   if (auto ok = require_face(*input, path); !ok) return ok.error();
   Result<fap::Sequence> filled =
       input->stream.empty() ? fap::fill(input->face) : fba::fill(input->decoded);
   if (!filled) return filled.error().in_file(path);
-  shown.clip.motion = std::move(*filled);
-  return shown;
+  const std::string name = std::filesystem::path(path).filename().string();
+  return Shown{{std::move(*filled), input->start, name}, input->kind == FileKind::media};
 }
 
 std::string megabytes(double bytes) {
@@ -71,16 +56,16 @@ std::string megabytes(double bytes) {
   return text;
 }
 
-// Nothing where the face has no sound beside it.
-Result<std::optional<PageSound>> sound_of(const Options& options, bool container) {
-  if (options.audio.empty() && !container) return std::optional<PageSound>();
-  Result<PageSound> sound =
-      page_sound(options.audio.empty() ? options.first : options.audio, options.sound);
-  if (sound) return std::optional(std::move(*sound));
-  if (options.audio.empty() && sound.error().code == Code::not_found) {
-    return std::optional<PageSound>();
+// The sound that was asked for, else that of the first container that has one; nothing if none has.
+Result<std::optional<PageSound>> sound_of(const Options& options,
+                                          const std::vector<std::string>& containers) {
+  const bool asked = !options.audio.empty();
+  for (const std::string& path : asked ? std::vector{options.audio} : containers) {
+    Result<PageSound> sound = page_sound(path, options.sound);
+    if (sound) return std::optional(std::move(*sound));
+    if (asked || sound.error().code != Code::not_found) return sound.error();
   }
-  return sound.error();
+  return std::optional<PageSound>();
 }
 
 // What belongs together lasts about equally long.
@@ -120,15 +105,17 @@ Result<int> run(const Options& options) {
   const Result<head::Head> head = load_head_and_tell(options.head);
   if (!head) return head.error();
   viewer::Page page;
-  bool container = false;
+  std::vector<std::string> containers;
   for (const std::string& path : {options.first, options.second}) {
     if (path.empty()) continue;
     Result<Shown> shown = read_shown(path);
     if (!shown) return shown.error();
-    if (page.clips.empty()) container = shown->container;
+    if (shown->container && path == "-")
+      warn("the sound of standard input is not read; give --audio");
+    if (shown->container && path != "-") containers.push_back(path);
     page.clips.push_back(std::move(shown->clip));
   }
-  Result<std::optional<PageSound>> sound = sound_of(options, container);
+  Result<std::optional<PageSound>> sound = sound_of(options, containers);
   if (!sound) return sound.error();
   const double seconds = *sound ? (*sound)->seconds : 0;
   if (*sound) page.sound = std::move((*sound)->sound);
@@ -159,7 +146,7 @@ Action add(CLI::App& app) {
   app.add_option("-o,--output", options->output, "HTML file to write, - for standard output")
       ->required();
   app.add_option("--audio", options->audio,
-                 "Sound in any format that FFmpeg reads; default: that of the container. AAC and "
+                 "Sound in any format that FFmpeg reads; default: that of a container. AAC and "
                  "Opus stay as they are unless one of the options below is given");
   app.add_option("--script", options->script,
                  "Phoneme script (table or TextGrid) to show with the curves");
