@@ -32,7 +32,8 @@ using LoadMeshFile = std::function<Result<std::string>(const std::string& name)>
 ///
 /// Not used: other entities (visemes and expressions as whole meshes: FAP 1 and 2 are shown by the
 /// shapes of shapes.h), textures, translation and rotation (those of the camera of Xface), and
-/// influences of FAPs that move no vertex (turns, pupils, FAP 1 and 2). Source::notes says so.
+/// influences of FAPs that move no vertex (turns of the head, pupils, FAP 1 and 2). Source::notes
+/// says so.
 ///
 /// Errors, with the line: syntax (no XML, or no <xfdp>; a number that is none), out_of_range (a
 /// vertex that the mesh does not have, a FAP beyond 68, limits of size), not_found (no entity Rest;
@@ -44,8 +45,8 @@ struct FdpOptions {
   std::string name = "head";  ///< of the files; letters, digits, '-' and '_'
   /// Units of the file for one centimetre; Xface's own heads count millimetres.
   double scale = 10;
-  /// Most regions that one FAP gets on a mesh, 1..100. With 1 each FAP has one region, easily edited
-  /// in XfaceEd; more come nearer to our rig and leave fewer creases.
+  /// Most regions that one FAP gets on a mesh, 1..100. With 1 each FAP has one region, easily
+  /// edited in XfaceEd; more come nearer to our rig and leave fewer creases.
   int regions = 64;
 };
 

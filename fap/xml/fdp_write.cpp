@@ -162,7 +162,7 @@ std::string meshes_of(const Head& head, const FdpPlan& plan, float scale) {
 
 Result<FdpFiles> write_fdp(const Head& head, const Rig& rig, const FdpOptions& options) {
   if (auto good = check(head, rig, options); !good) return good.error();
-  const FdpPlan plan = detail::plan_fdp(head, rig, options.regions);
+  const FdpPlan plan = detail::plan_fdp(head, rig, options);
   return FdpFiles{Writer(head, plan, options).write(), meshes_of(head, plan, float(options.scale))};
 }
 

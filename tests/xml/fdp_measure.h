@@ -38,7 +38,7 @@ struct FdpMeasure {
   std::size_t lost = 0;             ///< influences beyond the eighth of a vertex
 };
 
-/// Moves of every FAP that Xface can show, at a value of 300 (eyes come out by 50), as the file
+/// Moves of every FAP that shifts vertices, at a value of 300 (eyes come out by 50), as the file
 /// says and as the rig does them without contact. `scale`: units of the file for one cm.
 inline Result<FdpMeasure> measure_fdp(const head::Rig& rig, const head::FdpFiles& files,
                                       double scale) {
@@ -72,7 +72,7 @@ inline Result<FdpMeasure> measure_fdp(const head::Rig& rig, const head::FdpFiles
   for (const auto& mesh : meshes) measure.lost += mesh.lost();
   for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
     const double step = head::detail::xface_step(fap, file->fapu);
-    if (step == 0) continue;
+    if (step == 0 || fap::move_of(fap).kind != fap::MoveKind::translate) continue;
     const int value = fap == 27 || fap == 28 ? 50 : 300;
     FdpError& group = measure.groups[std::size_t(fap::info(fap).group - 1)];
     const auto ours = head::detail::moves_between(rig, fap, 0, value);

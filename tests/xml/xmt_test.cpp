@@ -135,18 +135,23 @@ class XmtHead : public ::testing::TestWithParam<std::string> {
     }
     return found->second;
   }
-  Head again() const {
-    auto source = head::read_xmt(text());
-    EXPECT_TRUE(source) << source.error().describe();
-    auto made = head::assemble(std::move(*source));
-    EXPECT_TRUE(made) << made.error().describe();
-    return std::move(*made);
+  const Head& again() const {
+    static std::map<std::string, Head> heads;
+    auto found = heads.find(GetParam());
+    if (found == heads.end()) {
+      auto source = head::read_xmt(text());
+      EXPECT_TRUE(source) << source.error().describe();
+      auto made = head::assemble(std::move(*source));
+      EXPECT_TRUE(made) << made.error().describe();
+      found = heads.emplace(GetParam(), std::move(*made)).first;
+    }
+    return found->second;
   }
 };
-INSTANTIATE_TEST_SUITE_P(Heads, XmtHead, ::testing::Values("woman", "child"));
+INSTANTIATE_TEST_SUITE_P(Heads, XmtHead, ::testing::Values("woman"));
 
 TEST_P(XmtHead, MeshesAndPointsComeBack) {
-  const Head back = again();
+  const Head& back = again();
   const Vec3 shift = back.part(Part::skin).positions[0] - head().part(Part::skin).positions[0];
   EXPECT_LT(length(shift), 1);
   for (std::size_t p = 0; p < head::kPartCount; ++p) {
@@ -171,7 +176,7 @@ TEST_P(XmtHead, MeshesAndPointsComeBack) {
 }
 
 TEST_P(XmtHead, EachFapMovesItsPointAsFarAsTheTableSays) {
-  const Head back = again();
+  const Head& back = again();
   const Rig moving = head::make_rig(back);
   int checked = 0;
   for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
@@ -194,7 +199,7 @@ TEST_P(XmtHead, EachFapMovesItsPointAsFarAsTheTableSays) {
 
 // A whole face moves as before, all FAPs at once.
 TEST_P(XmtHead, TheFaceMovesAsBefore) {
-  const Head back = again();
+  const Head& back = again();
   const Rig moving = head::make_rig(back);
   fap::Frame frame;
   for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {

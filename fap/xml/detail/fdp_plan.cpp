@@ -10,6 +10,7 @@ namespace animeme::head::detail {
 namespace {
 
 constexpr int kHalfClosed = 512;   // lids
+constexpr int kSmallTurn = 5000;   // 0.05 rad
 constexpr int kTried = 200;        // FAP value at which the rig is asked
 constexpr float kLeast = 0.01f;    // smaller factors are nothing
 constexpr float kAsAWhole = 0.2f;  // parts whose vertices all move at least this share
@@ -22,6 +23,14 @@ float worth(int fap) {
 }
 
 bool is_lid(int fap) { return fap >= 19 && fap <= 22; }
+
+bool is_turn(int fap) { return fap::move_of(fap).kind == fap::MoveKind::rotate; }
+
+// The table names no point for eyeballs; their pupils are at the front.
+std::string_view point_of(int fap) {
+  if (fap >= 23 && fap <= 28) return fap % 2 == 1 ? "3.5" : "3.6";
+  return fap::info(fap).feature_point;
+}
 
 // 0 where the size of a factor is at most `least`, itself where it is much larger, and no step in
 // between, which would be seen as a crease.
@@ -41,8 +50,8 @@ struct Column {
 
 class Planner {
  public:
-  Planner(const Head& head, const Rig& rig, int regions)
-      : head_(head), rig_(rig), regions_(regions) {}
+  Planner(const Head& head, const Rig& rig, const FdpOptions& options)
+      : head_(head), rig_(rig), options_(options) {}
 
   FdpPlan plan() {
     for (std::size_t p = 0; p < head_.parts.size(); ++p) {
@@ -67,10 +76,10 @@ class Planner {
   void find_columns() {
     columns_.resize(plan_.parts.size());
     for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
-      if (xface_step(fap, head_.fapu) == 0) continue;
+      if (step(fap) == 0) continue;
       // Openings of jaw and lids have one direction, the others go both ways.
       const bool one_way = fap == 3 || is_lid(fap);
-      const int value = is_lid(fap) ? kHalfClosed : kTried;
+      const int value = is_lid(fap) ? kHalfClosed : is_turn(fap) ? kSmallTurn : kTried;
       const auto moves = moves_between(rig_, fap, one_way ? 0 : -value, value);
       for (std::size_t m = 0; m < plan_.parts.size(); ++m) {
         const Part part = plan_.parts[m];
@@ -78,7 +87,7 @@ class Planner {
         // Our rig pushes lids away from an eye that comes out, which is no straight move.
         const bool eye = part == Part::left_eye || part == Part::right_eye;
         if (of_part.empty() || ((fap == 27 || fap == 28) && !eye)) continue;
-        Column column{fap, false, wanted_factors(fap, head_.fapu, of_part)};
+        Column column{fap, false, factors_of(fap, of_part)};
         float most = 0;
         float least = std::numeric_limits<float>::max();
         for (const float f : column.factors) {
@@ -125,7 +134,25 @@ class Planner {
 
   // What a factor of 1 counts.
   float strength(int fap) const {
-    return worth(fap) * float(xface_step(fap, head_.fapu) / fap::step_size(fap, head_.fapu));
+    return worth(fap) * float(step(fap) / fap::step_size(fap, head_.fapu));
+  }
+
+  // In cm; turns do not grow with the units of the file.
+  double step(int fap) const {
+    return xface_step(fap, head_.fapu) / (is_turn(fap) ? options_.scale : 1);
+  }
+
+  // How far vertices should go with a FAP, in units of its direction and step.
+  std::vector<float> factors_of(int fap, std::span<const Vec3> moves) const {
+    const Vec3 direction = xface_direction(fap);
+    std::vector<float> factors;
+    for (const Vec3& move : moves) {
+      // Lids go as far down or up as they should, whatever comes forward.
+      const float along =
+          is_lid(fap) ? move.y / direction.y : dot(move, direction) / dot(direction, direction);
+      factors.push_back(along / float(step(fap)));
+    }
+    return factors;
   }
 
   std::uint32_t nearest(std::size_t m, Vec3 place) const {
@@ -139,17 +166,18 @@ class Planner {
   void fit(std::size_t m) {
     const RegionMesh mesh = region_mesh(positions(m));
     for (const Column& column : columns_[m]) {
-      RegionTask task{.fap = column.fap, .most = regions_, .wanted = {}};
+      RegionTask task{.fap = column.fap, .most = options_.regions, .wanted = {}};
       for (std::uint32_t v = 0; v < column.factors.size(); ++v) {
         if (column.factors[v] != 0) task.wanted.push_back({v, column.factors[v]});
       }
       if (task.wanted.empty()) continue;
-      const std::string_view id = fap::info(column.fap).feature_point;
+      const std::string_view id = point_of(column.fap);
       const FeaturePoint point = head_.point(id);
-      task.exact_at_pivot = point.exists() && point.part == plan_.parts[m];
-      if (task.exact_at_pivot) {
+      const bool own = point.exists() && point.part == plan_.parts[m];
+      task.exact_at_pivot = own && !is_turn(column.fap);
+      if (own) {
         task.pivot = point.vertex;
-        set_exact(task);
+        if (task.exact_at_pivot) set_exact(task);
       } else if (point.exists()) {
         task.pivot = nearest(m, head_.at(id));
       } else {
@@ -171,7 +199,7 @@ class Planner {
   void set_exact(RegionTask& task) const {
     for (Wanted& w : task.wanted) {
       if (w.vertex != task.pivot) continue;
-      w.factor = float(fap::step_size(task.fap, head_.fapu) / xface_step(task.fap, head_.fapu));
+      w.factor = float(fap::step_size(task.fap, head_.fapu) / step(task.fap));
     }
   }
 
@@ -211,7 +239,7 @@ class Planner {
 
   const Head& head_;
   const Rig& rig_;
-  int regions_;
+  const FdpOptions& options_;
   FdpPlan plan_;
   std::array<std::size_t, kPartCount> mesh_of_ = {};
   std::vector<std::vector<Column>> columns_;  // by mesh
@@ -220,21 +248,8 @@ class Planner {
 
 }  // namespace
 
-std::vector<float> wanted_factors(int fap, const fap::Fapu& fapu, std::span<const Vec3> moves) {
-  const Vec3 direction = xface_direction(fap);
-  const float step = float(xface_step(fap, fapu));
-  std::vector<float> factors;
-  for (const Vec3& move : moves) {
-    // Lids go as far down or up as they should, whatever comes forward.
-    const float along =
-        is_lid(fap) ? move.y / direction.y : dot(move, direction) / dot(direction, direction);
-    factors.push_back(along / step);
-  }
-  return factors;
-}
-
-FdpPlan plan_fdp(const Head& head, const Rig& rig, int regions) {
-  return Planner(head, rig, regions).plan();
+FdpPlan plan_fdp(const Head& head, const Rig& rig, const FdpOptions& options) {
+  return Planner(head, rig, options).plan();
 }
 
 }  // namespace animeme::head::detail

@@ -14,9 +14,6 @@ struct FdpPlan {
 };
 
 /// Plans. At most kXfaceSlots influences a vertex; of more, the strongest stay.
-FdpPlan plan_fdp(const Head& head, const Rig& rig, int regions);
-
-/// How far each vertex should go with a FAP, in units of xface_direction() and xface_step().
-std::vector<float> wanted_factors(int fap, const fap::Fapu& fapu, std::span<const Vec3> moves);
+FdpPlan plan_fdp(const Head& head, const Rig& rig, const FdpOptions& options);
 
 }  // namespace animeme::head::detail

@@ -11,6 +11,9 @@ constexpr double kGoodEnough = 0.002;  // error of a factor
 constexpr int kWidths = 40;            // tried
 constexpr float kLeastBell = 0.15f;    // of 2, at the border of a region that is cut into bands
 
+constexpr double kFlat = 0.02;  // where the cosine is lower, nothing can be moved
+constexpr float kAlone = 0.1f;  // least factor in the only region of a FAP
+
 // A vertex, and the weight with which the cosine would be right for it.
 struct Fit {
   std::uint32_t vertex = 0;
@@ -29,7 +32,13 @@ struct Band {
 
 class Fitter {
  public:
-  Fitter(const RegionMesh& mesh, const RegionTask& task) : mesh_(mesh), task_(task) {
+  Fitter(const RegionMesh& mesh, const RegionTask& task) : task_(task), wanted_(task.wanted) {
+    // One region cannot go two ways, and what hardly goes along would set its size.
+    float most = 0;
+    for (const Wanted& w : wanted_) most = std::max(most, w.factor);
+    if (task.most == 1 && most > 0) {
+      std::erase_if(wanted_, [&](const Wanted& w) { return w.factor < kAlone * most; });
+    }
     const Vec3 pivot = mesh.positions[task.pivot];
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
       distance_.push_back(xface_distance(Reach::sphere, pivot, mesh.positions[v]));
@@ -46,9 +55,9 @@ class Fitter {
     far_ = best_width();
     std::vector<Band> bands;
     Band all;
-    for (const Wanted& w : task_.wanted) {
+    for (const Wanted& w : wanted_) {
       const double b = bell(w.vertex, distance_[far_]);
-      if (b > 0 && w.factor != 0) all.fits.push_back({w.vertex, b, w.factor});
+      if (b > kFlat && w.factor != 0) all.fits.push_back({w.vertex, b, w.factor});
     }
     if (all.fits.empty()) return bands;
     std::stable_sort(all.fits.begin(), all.fits.end(),
@@ -75,17 +84,17 @@ class Fitter {
   double error_of(double width) const {
     double above = 0;
     double below = 0;
-    for (const Wanted& w : task_.wanted) {
+    for (const Wanted& w : wanted_) {
       const double b = bell(w.vertex, width);
       above += b * w.factor;
       below += b * b;
     }
     double weight = below > 0 ? above / below : 0;
-    for (const Wanted& w : task_.wanted) {
+    for (const Wanted& w : wanted_) {
       if (task_.exact_at_pivot && w.vertex == task_.pivot) weight = w.factor / 2;
     }
     double squares = 0;
-    for (const Wanted& w : task_.wanted) {
+    for (const Wanted& w : wanted_) {
       const double error = weight * bell(w.vertex, width) - w.factor;
       squares += error * error;
     }
@@ -97,7 +106,7 @@ class Fitter {
   std::uint32_t best_width() const {
     float reach = 0;
     float near = std::numeric_limits<float>::max();
-    for (const Wanted& w : task_.wanted) {
+    for (const Wanted& w : wanted_) {
       const float d = distance_[w.vertex];
       reach = std::max(reach, d);
       if (d > 0) near = std::min(near, d);
@@ -155,8 +164,8 @@ class Fitter {
     bands.push_back(fitted(std::move(upper)));
   }
 
-  const RegionMesh& mesh_;
   const RegionTask& task_;
+  std::vector<Wanted> wanted_;
   std::vector<float> distance_;
   std::vector<std::uint32_t> by_distance_;
   std::uint32_t far_ = 0;

@@ -2,7 +2,15 @@
 
 namespace animeme::head::detail {
 
+namespace {
+
+// Yaw and pitch of the eyeballs.
+bool turns_eye(int fap) { return fap >= 23 && fap <= 26; }
+
+}  // namespace
+
 Vec3 xface_direction(int fap) {
+  if (turns_eye(fap)) return fap <= 24 ? Vec3{1, 0, 0} : Vec3{0, -1, 0};
   const fap::Move move = fap::move_of(fap);
   if (move.kind != fap::MoveKind::translate) return {};
   Vec3 direction(Vec3d{move.axis[0], move.axis[1], move.axis[2]});
@@ -12,7 +20,8 @@ Vec3 xface_direction(int fap) {
 
 double xface_step(int fap, const fap::Fapu& fapu) {
   if (fap == 19) return fapu.mns / 1024;
-  return fap::move_of(fap).kind == fap::MoveKind::translate ? fap::step_size(fap, fapu) : 0;
+  const bool moves = turns_eye(fap) || fap::move_of(fap).kind == fap::MoveKind::translate;
+  return moves ? fap::step_size(fap, fapu) : 0;
 }
 
 float xface_distance(Reach reach, Vec3 a, Vec3 b) {

@@ -39,11 +39,12 @@ inline constexpr std::size_t kXfaceSlots = 8;
 inline constexpr std::size_t kXfaceMostVertices = 65536;
 
 /// Direction of positive values: that of the table, but upper lids also come forward by half as
-/// much. Zero for FAPs by which Xface moves no vertex (high-level ones, turns, pupils).
+/// much, and turns of the eyeballs are shifts: yaw to the left, pitch down. Zero for FAPs by which
+/// Xface moves no vertex as it should (high-level ones, the head, pupils, the rolled tongue).
 Vec3 xface_direction(int fap);
 
-/// Model units of one step, or 0: that of the table, but FAP 19 counts in MNS, a slip of the
-/// player that its files allow for.
+/// Model units of one step at weight 0.5, or 0: that of the table, but FAP 19 counts in MNS, a slip
+/// of the player that its files allow for. 1e-5 for turns of the eyeballs.
 double xface_step(int fap, const fap::Fapu& fapu);
 
 /// Distance of two points.
