@@ -1,6 +1,7 @@
 // A PNG of RGBA pixels for tests, not compressed.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -34,7 +35,7 @@ inline void chunk(Bytes& file, std::string_view type, const Bytes& data) {
 
 }  // namespace png
 
-/// `rgba`: rows from the top, at most 65 000 bytes with one more for each row.
+/// `rgba`: rows from the top.
 inline std::vector<std::uint8_t> png_of(const std::vector<std::uint8_t>& rgba, int width) {
   const std::size_t row = std::size_t(width) * 4;
   png::Bytes rows;
@@ -43,13 +44,18 @@ inline std::vector<std::uint8_t> png_of(const std::vector<std::uint8_t>& rgba, i
     rows.insert(rows.end(), rgba.begin() + std::ptrdiff_t(at),
                 rgba.begin() + std::ptrdiff_t(at + row));
   }
-  const auto size = std::uint16_t(rows.size());
-  png::Bytes data = {0x78, 0x01, 1};  // one block, as it is
-  for (const std::uint16_t word : {size, std::uint16_t(~size)}) {
-    data.push_back(std::uint8_t(word));
-    data.push_back(std::uint8_t(word >> 8));
+  png::Bytes data = {0x78, 0x01};
+  constexpr std::size_t kBlock = 65535;  // as they are
+  for (std::size_t at = 0; at < rows.size(); at += kBlock) {
+    const auto size = std::uint16_t(std::min(kBlock, rows.size() - at));
+    data.push_back(at + kBlock >= rows.size() ? 1 : 0);
+    for (const std::uint16_t word : {size, std::uint16_t(~size)}) {
+      data.push_back(std::uint8_t(word));
+      data.push_back(std::uint8_t(word >> 8));
+    }
+    data.insert(data.end(), rows.begin() + std::ptrdiff_t(at),
+                rows.begin() + std::ptrdiff_t(at + size));
   }
-  data.insert(data.end(), rows.begin(), rows.end());
   std::uint32_t a = 1, b = 0;
   for (const std::uint8_t byte : rows) {
     a = (a + byte) % 65521;
