@@ -98,6 +98,17 @@ TEST(ReadHead, WhatIsInNoSceneIsNotShown) {
   EXPECT_EQ(source.pieces[0].name, "shown");
 }
 
+TEST(ReadHead, OfLevelsOfDetailTheFinestIsShown) {
+  Square square;
+  const int mesh = square.file.add("meshes", {{"primitives", {square.primitive}}});
+  for (const char* name : {"head_LOD1", "head_lod0_mesh", "teeth"}) {
+    square.file.add("nodes", {{"mesh", mesh}, {"name", name}});
+  }
+  const head::Source source = read(square.file.glb());
+  ASSERT_EQ(source.pieces.size(), 2u);
+  EXPECT_EQ(source.pieces[0].name, "head_lod0_mesh");
+}
+
 TEST(ReadHead, AMirroredMeshKeepsItsFront) {
   Square square;
   const head::Source source = read(square.glb({{"scale", {-1, 1, 1}}}));
