@@ -10,6 +10,7 @@
 #include "fap/head/own_head.h"
 #include "fap/head/shapes.h"
 #include "fap/tables.h"
+#include "tests/support/gltf_writer.h"
 #include "tools/gltf/glb.h"
 #include "tools/gltf/read_head.h"
 
@@ -258,6 +259,39 @@ TEST(RoundTrip, PointsAndUnitsAreNearThoseOfTheHeads) {
     EXPECT_NEAR(is.ens, was.ens, 0.1 * was.ens);
     EXPECT_NEAR(is.mns, was.mns, 0.35 * was.mns);
     EXPECT_NEAR(is.mw, was.mw, 0.25 * was.mw);
+  }
+}
+
+// The same file with all roots of its scene turned.
+std::vector<std::uint8_t> turned(const std::vector<std::uint8_t>& file,
+                                 const std::vector<double>& quaternion) {
+  const std::uint32_t length =
+      std::uint32_t(file[12]) | std::uint32_t(file[13]) << 8 | std::uint32_t(file[14]) << 16;
+  test::GltfWriter out;
+  out.root = nlohmann::json::parse(file.begin() + 20, file.begin() + 20 + length);
+  out.binary.assign(file.begin() + 28 + length, file.end());
+  for (const auto& root : out.root["scenes"][0]["nodes"]) {
+    out.root["nodes"][root.get<std::size_t>()]["rotation"] = quaternion;
+  }
+  return out.glb();
+}
+
+TEST(RoundTrip, HeadsThatLookElsewhereAreTurned) {
+  const auto file = make_glb(actor().head, actor().rig, still());
+  ASSERT_TRUE(file);
+  const double half = std::sqrt(0.5);
+  for (const std::vector<double>& turn :
+       {std::vector<double>{0, 1, 0, 0}, {half, 0, 0, half}, {0, half, 0, -half}}) {
+    const auto other = turned(*file, turn);
+    const auto source = read_head(other);
+    ASSERT_TRUE(source);
+    ASSERT_EQ(source->notes.size(), 1u);
+    EXPECT_NE(source->notes[0].find("does not look along +Z"), std::string::npos);
+    const Actor copy = read_back(other);
+    EXPECT_LT(compare(copy, shapes_of_arkit(), Part::skin).root_mean_square, 0.1);
+    EXPECT_LT(
+        head::length(copy.head.neck_pivot - shift_of(copy, Part::skin) - actor().head.neck_pivot),
+        0.01f);
   }
 }
 

@@ -122,13 +122,21 @@ class Writer {
             {"WEIGHTS_0", buffer_.floats(weights, 4, BufferUse::vertices)}};
   }
 
+  // All bones are joints, also those that no vertex of the skin follows: Blender makes bones of
+  // joints alone, and loses what hangs on other nodes below them when it exports.
   int skeleton() {
-    const Vec3 pivot = rig_.neck_pivot * kMetres;
-    const std::vector<float> inverse = {
-        1,        0,        0,        0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1,  // root
-        1,        0,        0,        0, 0, 1, 0, 0, 0, 0, 1, 0,              // neck
-        -pivot.x, -pivot.y, -pivot.z, 1};
-    skins_.push_back({{"joints", {0, kNeckNode}},
+    std::vector<float> inverse;
+    json joints = json::array();
+    const auto add = [&](int node, Vec3 pivot) {
+      joints.push_back(node);
+      inverse.insert(inverse.end(), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0});
+      inverse.insert(inverse.end(), {-pivot.x, -pivot.y, -pivot.z, 1});
+    };
+    add(0, {});
+    for (int bone = 0; bone < kBoneCount; ++bone) {
+      add(node_of(Bone(bone)), pivot_of(rig_, Bone(bone)) * kMetres);
+    }
+    skins_.push_back({{"joints", joints},
                       {"skeleton", 0},
                       {"inverseBindMatrices", buffer_.floats(inverse, 16, BufferUse::other)}});
     return int(skins_.size()) - 1;

@@ -62,6 +62,7 @@ class HeadReader {
     turn_upright();
     source_.points = guess_points({pieces_, shapes_, shape_of_name_});
     source_.upright = true;
+    drop_far_joints();
     write_shapes();
     write_pieces();
     return std::move(source_);
@@ -138,7 +139,7 @@ class HeadReader {
   }
 
   void turn_upright() {
-    const auto axes = axes_of({pieces_, shapes_, shape_of_name_});
+    const auto axes = axes_of({pieces_, shapes_, shape_of_name_}, source_.eyes);
     if (!axes || *axes == std::array<Vec3, 3>{Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) return;
     const auto turn = [&](Vec3& v) {
       v = {head::dot((*axes)[0], v), head::dot((*axes)[1], v), head::dot((*axes)[2], v)};
@@ -156,6 +157,35 @@ class HeadReader {
     source_.notes.push_back(
         "the head does not look along +Z with +Y up, as it should in glTF; it "
         "was turned as its shapes say");
+  }
+
+  std::optional<Vec3> place_of(std::string_view id) const {
+    for (const head::PiecePoint& point : source_.points) {
+      if (point.id == id) return pieces_[point.piece].positions[point.vertex];
+    }
+    return std::nullopt;
+  }
+
+  // Not all that is called a head or an eye is a bone in its place: groups of meshes have such
+  // names, too, and stand at the origin.
+  void drop_far_joints() {
+    const std::optional<Vec3> left = place_of("3.1"), right = place_of("3.2");
+    if (!left || !right) return;
+    const float distance = head::length(*left - *right);
+    const auto is_near = [&](std::optional<Vec3>& joint, Vec3 place, float most) {
+      if (joint && head::length(*joint - place) > most * distance) joint.reset();
+    };
+    is_near(source_.eyes[0], *left, 0.7f);
+    is_near(source_.eyes[1], *right, 0.7f);
+    if (!source_.eyes[0] || !source_.eyes[1]) source_.eyes = {};
+    const Vec3 middle = (*left + *right) * 0.5f;
+    is_near(source_.jaw_axis, middle, 1.7f);
+    is_near(source_.neck_pivot, middle, 3.5f);
+    // A head turns about what is below and behind its eyes.
+    if (source_.neck_pivot &&
+        (source_.neck_pivot->y > middle.y || source_.neck_pivot->z > middle.z)) {
+      source_.neck_pivot.reset();
+    }
   }
 
   void write_shapes() {

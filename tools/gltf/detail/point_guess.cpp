@@ -465,9 +465,11 @@ class FaceMap {
 
 }  // namespace
 
-std::optional<std::array<Vec3, 3>> axes_of(const FaceShapes& face) {
+std::optional<std::array<Vec3, 3>> axes_of(const FaceShapes& face,
+                                           const std::array<std::optional<Vec3>, 2>& eyes) {
   const Guesser guess(face);
-  const Sides sides = sides_of(guess);
+  Sides sides = sides_of(guess);
+  if (!sides.left || !sides.right) sides = {eyes[0], eyes[1]};
   const std::size_t jaw = guess.shape_for(kJaw, 150);
   if (!sides.left || !sides.right || jaw == kNone) return std::nullopt;
   const std::optional<Vec3> mouth = guess.centre(jaw);

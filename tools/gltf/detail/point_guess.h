@@ -38,8 +38,10 @@ struct FaceShapes {
 };
 
 /// Signed directions of the axes of the file that are left, up and forward on the face: rows of a
-/// rotation by right angles. Nothing if the shapes do not tell.
-std::optional<std::array<head::Vec3, 3>> axes_of(const FaceShapes& face);
+/// rotation by right angles. Left and right are told by shapes of one side, else by `eyes`
+/// (centres, left and right). Nothing if neither is there, or nothing opens the mouth.
+std::optional<std::array<head::Vec3, 3>> axes_of(
+    const FaceShapes& face, const std::array<std::optional<head::Vec3>, 2>& eyes);
 
 /// Those that can be told, in the order of their ids. The face looks along +Z, +Y is up.
 std::vector<head::PiecePoint> guess_points(const FaceShapes& face);

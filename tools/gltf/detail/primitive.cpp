@@ -4,6 +4,7 @@
 
 #include "tools/gltf/detail/extensions.h"
 #include "tools/gltf/detail/triangles.h"
+#include "tools/gltf/detail/words.h"
 
 namespace animeme::gltf {
 namespace {
@@ -32,6 +33,15 @@ std::vector<Uv> uvs_of(const std::vector<float>& values) {
   return uvs;
 }
 
+// Level of detail, as "head_LOD1" has it; -1: none.
+int level_of(const Node& node) {
+  const std::string name = joined(words_of(node.name));
+  const std::size_t at = name.find("lod");
+  if (at == std::string::npos || at + 3 >= name.size()) return -1;
+  const char digit = name[at + 3];
+  return digit >= '0' && digit <= '9' ? digit - '0' : -1;
+}
+
 // A mirrored mesh shows its back.
 bool mirrors(const Affine& map) {
   const Vec3d x = map.direction({1, 0, 0}), y = map.direction({0, 1, 0});
@@ -58,8 +68,12 @@ std::size_t ShapeNames::index_of(const std::string& name) {
 }
 
 Result<std::vector<RawPiece>> MeshReader::read(ShapeNames& names) {
+  const bool has_levels = std::any_of(nodes_.begin(), nodes_.end(), [](const Node& node) {
+    return node.mesh && level_of(node) == 0;
+  });
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     if (!nodes_[i].shown || !nodes_[i].mesh) continue;
+    if (has_levels && level_of(nodes_[i]) > 0) continue;
     if (auto done = add_node(i, names); !done) return done.error();
   }
   return std::move(pieces_);

@@ -43,7 +43,7 @@ class ShapeNames {
   std::vector<std::string> names_;
 };
 
-/// Reads all meshes of the nodes that are shown.
+/// Reads all meshes of the nodes that are shown; of levels of detail ("head_LOD0") the finest.
 class MeshReader {
  public:
   /// `shares`: see neck_shares().
