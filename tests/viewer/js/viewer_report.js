@@ -4,8 +4,8 @@
 // looks: vertices of the frames 0 .. 7 as 32-bit floats in FOLDER/<part>_<frame>.f32; how much the
 //   mouth and the forehead change between the frames 0 and 1.
 // sound: plays ten seconds; each picture against what is heard then, told by the clicks.
-// speeds: the same for three seconds of the clip at half and at double speed; `pitches` in Hz, of the
-//   first 80 ms of each burst.
+// speeds: the same without a head, three seconds of the clip at half and at double speed; `pitches` in Hz, of
+//   the first 80 ms of each burst.
 // texts: what is shown where names are hostile; the ways to compare; what works without a head.
 // screens: at the sizes of screens, what is to be hit or read: {size: {width (of the page), targets: [{name,
 //   width, height}], outside: [names], overlaps: [pairs of names]}}.
@@ -146,7 +146,7 @@ const sound = (page, file) => hear(page, file, '?mode=first', 10.4);
 async function speeds(page, file) {
   const report = {};
   for (const speed of ['0.5', '2']) {
-    report[speed] = await hear(page, file, `?mode=first&speed=${speed}`, 3.4);
+    report[speed] = await hear(page, file, `?nohead&speed=${speed}`, 3.4);
   }
   return report;
 }

@@ -112,7 +112,10 @@ function best(wanted, around, middle, centre, span, step) {
 }
 
 const PIECE = 0.25;  // seconds that are made at once
-const AHEAD = 1.5;  // seconds that are ready before they are heard; hidden pages wake once a second
+const AHEAD = 3;  // seconds that are ready before they are heard: hidden pages wake once a second
+const FIRST_PIECES = 8;  // made before it begins, so that slow pictures do not interrupt it
+const MOST_PIECES = 8;  // made at once after that, so that it does not interrupt pictures for long
+const PAUSE = 200;  // milliseconds between looks whether more is needed
 
 /** Plays a buffer at another speed: pieces that begin where the last one ends. */
 export class StretchedSource {
@@ -127,10 +130,10 @@ export class StretchedSource {
 
   /** Begins to play `lead` seconds from now; when, on the clock of the context. */
   begin(lead) {
-    const first = this.make();
+    const first = Array.from({length: FIRST_PIECES}, () => this.make());
     this.start = Math.ceil((this.context.currentTime + lead) * this.rate);
     this.count = 0;
-    this.schedule(first);
+    for (const piece of first) this.schedule(piece);
     this.timer = setTimeout(() => this.fill(), 0);
     return this.start / this.rate;
   }
@@ -152,14 +155,19 @@ export class StretchedSource {
     return buffer;
   }
 
+  // When the next piece is to be heard.
+  next() {
+    return (this.start + this.count * this.length) / this.rate;
+  }
+
   fill() {
-    const time = (count) => (this.start + count * this.length) / this.rate;
-    while (time(this.count) < this.context.currentTime + AHEAD) this.schedule(this.make());
-    this.timer = setTimeout(() => this.fill(), 200);
+    const needed = () => this.next() < this.context.currentTime + AHEAD;
+    for (let i = 0; i < MOST_PIECES && needed(); ++i) this.schedule(this.make());
+    this.timer = setTimeout(() => this.fill(), needed() ? 0 : PAUSE);
   }
 
   schedule(buffer) {
-    const when = (this.start + this.count * this.length) / this.rate;
+    const when = this.next();
     ++this.count;
     const late = this.context.currentTime - when;
     if (late >= buffer.duration) return;
