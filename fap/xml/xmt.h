@@ -37,7 +37,7 @@ Result<Source> read_xmt(std::string_view text);
 /// lids, which slide over the eyes, have three. Lengths are cm with four digits, so places are good
 /// to 0.1 mm.
 /// Errors: invalid_argument (a head without a feature point on its skin or without FAPU; a rig of
-/// another head).
+/// another head), and those of fap::measure_fapu(): readers know FAPU from the points alone.
 Result<std::string> write_xmt(const Head& head, const Rig& rig);
 
 }  // namespace animeme::head

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <limits>
 #include <span>
 
 #include "fap/detail/number_text.h"
@@ -15,6 +14,7 @@ using fap::detail::append_significant;
 
 constexpr float kLeast = 0.002f;  // smaller displacements are nothing, in FAPU
 constexpr int kDigits = 4;
+constexpr float kNone = 3.4e38f;  // for places of points that the head does not have
 // Straight moves: one interval from 0. Borders have to be in it; the second says no more.
 constexpr std::array<int, 2> kStraight = {0, 1024};
 // Lids slide over a ball.
@@ -61,7 +61,6 @@ class Writer {
 
   void add_points() {
     text_ += "<featurePointsCoord>\n<Coordinate point=\"";
-    constexpr float kNone = std::numeric_limits<float>::max();
     for (const fap::FeaturePointInfo& info : fap::kFeaturePoints) {
       const bool known = info.id == "7.1" || head_.point(info.id).exists();
       add(known ? head_.at(info.id) : Vec3{kNone, kNone, kNone});
@@ -217,6 +216,12 @@ class Writer {
 
 Result<std::string> write_xmt(const Head& head, const Rig& rig) {
   if (auto good = detail::check_writable(head, rig); !good) return good.error();
+  fap::FeaturePoints places;
+  for (const fap::FeaturePointInfo& info : fap::kFeaturePoints) {
+    const Vec3 p = head.at(info.id);
+    if (head.point(info.id).exists()) places[std::string(info.id)] = {p.x, p.y, p.z};
+  }
+  if (const auto fapu = fap::measure_fapu(places); !fapu) return fapu.error();
   return Writer(head, rig).write();
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "fap/xml/xmt.h"
 #include "tests/head/head_support.h"
 #include "tests/support/files.h"
 #include "tests/xml/fdp_measure.h"
@@ -167,6 +168,40 @@ TEST(FdpWrite, OneRegionForEachFapIsPossible) {
   ASSERT_TRUE(measure) << measure.error().describe();
   EXPECT_LT(measure->regions, 130u);
   EXPECT_LT(measure->all.rms, 0.35 * measure->all.move);
+}
+
+// A face that knows few points and has no eyes is a face, too.
+TEST(FdpWrite, FewPointsAndPartsAreEnough) {
+  Head few = head_of("child");
+  for (std::size_t i = 0; i < fap::kFeaturePoints.size(); ++i) {
+    constexpr std::string_view kKnown[] = {"2.1", "2.2", "2.3", "3.1", "3.2", "8.3", "8.4", "9.15"};
+    const bool known = std::find(std::begin(kKnown), std::end(kKnown), fap::kFeaturePoints[i].id) !=
+                       std::end(kKnown);
+    if (!known) few.feature_points[i] = {};
+  }
+  for (const Part part : {Part::left_eye, Part::right_eye, Part::tongue, Part::brows}) {
+    few.part(part) = {};
+  }
+  const Rig rig = head::make_rig(few);
+  const auto files = head::write_fdp(few, rig, {.name = "few"});
+  ASSERT_TRUE(files) << files.error().describe();
+  const auto source = head::read_fdp(files->fdp, only("few.wrl", files->wrl));
+  ASSERT_TRUE(source) << source.error().describe();
+  EXPECT_THAT(source->points, SizeIs(8));
+  const auto head = head::assemble(*source);
+  ASSERT_TRUE(head) << head.error().describe();
+  // An XMT needs the points for all FAPU; the lower lid is missing.
+  const auto no_scene = head::write_xmt(few, rig);
+  ASSERT_FALSE(no_scene);
+  EXPECT_THAT(no_scene.error().message, HasSubstr("3.3"));
+  for (std::size_t i = 0; i < fap::kFeaturePoints.size(); ++i) {
+    if (fap::kFeaturePoints[i].id == "3.3") few.feature_points[i] = head_of("child").point("3.3");
+  }
+  const auto scene = head::write_xmt(few, rig);
+  ASSERT_TRUE(scene) << scene.error().describe();
+  const auto again = head::read_xmt(*scene);
+  ASSERT_TRUE(again) << again.error().describe();
+  EXPECT_THAT(again->points, SizeIs(9));
 }
 
 TEST(FdpWrite, SameBytesEachTime) {

@@ -88,6 +88,27 @@ TEST(XmtRead, PointsAreTheNearestVertices) {
   EXPECT_TRUE(head) << head.error().describe();
 }
 
+// A large table that is used again and again.
+TEST(XmtRead, BombsAreRefused) {
+  std::string table = "<FaceDefMesh DEF=\"t\" coordIndex=\"";
+  std::string moves;
+  for (int i = 0; i < 20000; ++i) {
+    table += "1 ";
+    moves += "0 0.5 0 ";
+  }
+  table += "\" displacements=\"" + moves +
+           "\"><faceSceneGraphNode><IndexedFaceSet USE=\"face\"/></faceSceneGraphNode>"
+           "</FaceDefMesh>";
+  for (int i = 0; i < 2000; ++i) table += "<FaceDefMesh USE=\"t\"/>";
+  const std::string begin = "<FaceDefTables fapID=\"1\"";
+  const auto source = head::read_xmt(replaced(data_file("heads/mask.xmta"), begin,
+                                              "<FaceDefTables fapID=\"5\"><faceDefMesh>" + table +
+                                                  "</faceDefMesh></FaceDefTables>" + begin));
+  ASSERT_FALSE(source);
+  EXPECT_EQ(source.error().code, Code::out_of_range);
+  EXPECT_THAT(source.error().message, HasSubstr("20 million"));
+}
+
 class XmtErrors : public ::testing::TestWithParam<Damage> {};
 
 TEST_P(XmtErrors, NameThePlaceAndTheRemedy) {

@@ -14,6 +14,7 @@ namespace {
 constexpr std::size_t kMostBytes = 200'000'000;
 constexpr std::size_t kMostElements = 1'000'000;
 constexpr std::size_t kDeepest = 100;
+constexpr std::size_t kMostAttributes = 1000;  // of one element
 
 std::string_view view(const xmlChar* text) {
   return text == nullptr ? std::string_view() : reinterpret_cast<const char*>(text);
@@ -110,6 +111,32 @@ xmlSAXHandler handler() {
   return sax;
 }
 
+// libxml2 compares each attribute of an element with all others, so their number is bounded before
+// it sees them. Line of the first tag with too many; 0: there is none.
+std::int64_t crowded_tag(std::string_view text) {
+  std::int64_t line = 1;
+  std::size_t attributes = 0;
+  char quote = 0;
+  bool in_tag = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    line += c == '\n' ? 1 : 0;
+    if (!in_tag) {
+      // Comments and CDATA begin so; what is in them is no tag.
+      in_tag = c == '<' && text.substr(i, 2) != "<!";
+      attributes = 0;
+    } else if (quote != 0) {
+      if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+      if (++attributes > kMostAttributes) return line;
+    } else if (c == '>') {
+      in_tag = false;
+    }
+  }
+  return 0;
+}
+
 struct FreeContext {
   void operator()(xmlParserCtxtPtr context) const {
     if (context->myDoc != nullptr) xmlFreeDoc(context->myDoc);
@@ -142,6 +169,9 @@ Result<XmlElement> parse_xml(std::string_view text) {
     return make_error(Code::out_of_range, "the XML has more than 200 MB");
   }
   if (text.empty()) return error_at_line(Code::syntax, "the file is empty", 1);
+  if (const std::int64_t line = crowded_tag(text); line > 0) {
+    return error_at_line(Code::out_of_range, "an element has more than 1000 attributes", line);
+  }
   xmlInitParser();
   const std::unique_ptr<xmlParserCtxt, FreeContext> context(
       xmlCreateMemoryParserCtxt(text.data(), int(text.size())));

@@ -32,7 +32,8 @@ struct XmlElement {
 /// Parses a document and returns its root.
 ///
 /// What is refused, whatever libxml2 would do with it: document types with declarations (entities
-/// could multiply the text, or name files), more than 200 MB, a million elements or 100 levels.
+/// could multiply the text, or name files), more than 200 MB, a million elements, 1000
+/// attributes of one, or 100 levels.
 /// Nothing outside the text is read. Predefined entities and character references are resolved.
 /// Errors: syntax with line and column, out_of_range for the limits, unsupported (declarations, or
 /// an encoding that libxml2 does not know).

@@ -1,6 +1,7 @@
 #include "fap/xml/detail/fdp_file.h"
 
 #include <algorithm>
+#include <map>
 
 #include "fap/detail/text_scanner.h"
 #include "fap/xml/detail/numbers.h"
@@ -9,6 +10,8 @@ namespace animeme::head::detail {
 namespace {
 
 using fap::detail::quoted;
+
+constexpr std::size_t kMostInfluences = 20'000'000;
 
 std::string lower(std::string_view text) {
   std::string out(text);
@@ -86,6 +89,9 @@ class Loader {
       if (mesh.name != "mesh") continue;
       if (auto done = load_fdp_meshes(mesh, load_, file_); !done) return done;
     }
+    for (std::size_t m = 0; m < file_.meshes.size(); ++m) {
+      for (const std::string& name : file_.meshes[m].names) mesh_of_.try_emplace(name, m);
+    }
     for (const XmlElement& bind : rest->children) {
       if (bind.name != "bind") continue;
       if (auto done = read_binding(bind); !done) return done;
@@ -104,13 +110,9 @@ class Loader {
   }
 
   FdpMesh* find_mesh(const std::string* name) {
-    for (FdpMesh& mesh : file_.meshes) {
-      if (name != nullptr &&
-          std::find(mesh.names.begin(), mesh.names.end(), *name) != mesh.names.end()) {
-        return &mesh;
-      }
-    }
-    return nullptr;
+    if (name == nullptr) return nullptr;
+    const auto found = mesh_of_.find(*name);
+    return found == mesh_of_.end() ? nullptr : &file_.meshes[found->second];
   }
   std::string mesh_names() const {
     std::string names;
@@ -185,6 +187,10 @@ class Loader {
     }
     std::sort(item.region.begin(), item.region.end());
     item.region.erase(std::unique(item.region.begin(), item.region.end()), item.region.end());
+    influences_ += item.region.size() * item.influences.size();
+    if (influences_ > kMostInfluences) {
+      return element.error(Code::out_of_range, "the file has more than 20 million influences");
+    }
     file_.items.push_back(std::move(item));
     return {};
   }
@@ -248,7 +254,9 @@ class Loader {
   const XmlElement& root_;
   const LoadMeshFile& load_;
   FdpFile file_;
+  std::map<std::string, std::size_t> mesh_of_;  // by name
   std::size_t items_ = 0;
+  std::size_t influences_ = 0;  // on vertices
   std::size_t homeless_ = 0;
 };
 

@@ -84,9 +84,9 @@ class Planner {
       for (std::size_t m = 0; m < plan_.parts.size(); ++m) {
         const Part part = plan_.parts[m];
         const auto& of_part = moves[std::size_t(part)];
-        // Our rig pushes lids away from an eye that comes out, which is no straight move.
+        // What lids do when eyes turn or come out is a matter of our rig, and no straight move.
         const bool eye = part == Part::left_eye || part == Part::right_eye;
-        if (of_part.empty() || ((fap == 27 || fap == 28) && !eye)) continue;
+        if (of_part.empty() || (fap >= 23 && fap <= 28 && !eye)) continue;
         Column column{fap, false, factors_of(fap, of_part)};
         float most = 0;
         float least = std::numeric_limits<float>::max();

@@ -8,7 +8,7 @@
 namespace animeme::head::detail {
 namespace {
 
-constexpr std::size_t kMostMoves = 50'000'000;
+constexpr std::size_t kMostMoves = 20'000'000;
 
 // The numbers of an attribute; none if it is not there.
 Result<std::vector<double>> numbers_of(const XmlElement& element, std::string_view attribute) {
@@ -125,6 +125,9 @@ class TableReader {
   Result<void> read_mesh(const XmlElement& element) {
     const auto node = scene_.node_in(element, "faceSceneGraphNode");
     if (!node) return node.error();
+    const std::string* moves = element.attribute("displacements");
+    const std::size_t size = moves == nullptr ? 0 : moves->size();
+    if (auto done = count_moves(element, size / 6); !done) return done;  // bytes of a vector
     const auto table = read_mesh_table(element);
     if (!table) return table.error();
     const std::vector<std::size_t>& pieces = pieces_below(node->get());
@@ -149,7 +152,7 @@ class TableReader {
   Result<void> count_moves(const XmlElement& element, std::size_t more) {
     moves_ += more + 1;
     if (moves_ <= kMostMoves) return {};
-    return element.error(Code::out_of_range, "the tables have more than 50 million moves");
+    return element.error(Code::out_of_range, "the tables have more than 20 million moves");
   }
 
   Result<void> add_mesh(const XmlElement& element, const MeshTable& table, const ScenePiece& piece,
