@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tools/gltf/detail/joints.h"
+#include "tools/gltf/detail/paint.h"
 #include "tools/gltf/detail/point_guess.h"
 #include "tools/gltf/detail/primitive.h"
 #include "tools/gltf/detail/refine.h"
@@ -54,7 +55,7 @@ class HeadReader {
     join_primitives();
     for (RawPiece& piece : pieces_) weld(piece);
     shapes_ = choose_shapes(names.names(), options_.mouth, source_.notes);
-    shape_of_name_.assign(names.names().size(), ~std::size_t(0));
+    shape_of_name_.assign(names.names().size(), kNone);
     for (std::size_t i = 0; i < shapes_.size(); ++i) {
       for (const std::size_t name : shapes_[i].names) shape_of_name_[name] = i;
     }
@@ -201,7 +202,7 @@ class HeadReader {
       std::set<std::size_t> done;  // two names of one shape in one piece would add up
       for (Morph& morph : pieces_[p].morphs) {
         const std::size_t shape = shape_of_name_[morph.shape];
-        if (shape == ~std::size_t(0) || !done.insert(shape).second) continue;
+        if (shape == kNone || !done.insert(shape).second) continue;
         head::PieceTarget target;
         target.control = head::kFirstShape + int(shape);
         target.piece = p;
