@@ -61,7 +61,7 @@ class SkinShapes {
   void for_moves(std::size_t shape, Visit visit) const {
     for (std::size_t p = 0; p < face_.pieces.size(); ++p) {
       if (!skin_[p] || shape == kNone) continue;
-      for (const Morph& morph : face_.pieces[p].morphs) {
+      for (const PieceMorph& morph : face_.pieces[p].morphs) {
         if (face_.shape_of_name[morph.shape] != shape) continue;
         for (std::size_t i = 0; i < morph.moves.vertices.size(); ++i) {
           visit(Spot{p, morph.moves.vertices[i]}, morph.moves.deltas[i]);

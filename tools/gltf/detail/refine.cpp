@@ -44,7 +44,7 @@ struct Box {
 Box face_of(const std::vector<RawPiece>& pieces) {
   Box box;
   for (const RawPiece& piece : pieces) {
-    for (const Morph& morph : piece.morphs) {
+    for (const PieceMorph& morph : piece.morphs) {
       for (const std::uint32_t v : morph.moves.vertices) box.add(piece.positions[v]);
     }
   }
@@ -158,7 +158,7 @@ class Divider {
     std::vector<Triangle> triangles;
     for (const Triangle& t : piece_.triangles) split(t, triangles);
     piece_.triangles = std::move(triangles);
-    for (Morph& morph : piece_.morphs) extend(morph.moves);
+    for (PieceMorph& morph : piece_.morphs) extend(morph.moves);
   }
 
  private:
