@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tools/gltf/detail/joints.h"
+#include "tools/gltf/detail/paint.h"
 #include "tools/gltf/detail/point_guess.h"
 #include "tools/gltf/detail/primitive.h"
 #include "tools/gltf/detail/refine.h"
@@ -54,7 +55,7 @@ class HeadReader {
     join_primitives();
     for (RawPiece& piece : pieces_) weld(piece);
     shapes_ = choose_shapes(names.names(), options_.mouth, source_.notes);
-    shape_of_name_.assign(names.names().size(), ~std::size_t(0));
+    shape_of_name_.assign(names.names().size(), kNone);
     for (std::size_t i = 0; i < shapes_.size(); ++i) {
       for (const std::size_t name : shapes_[i].names) shape_of_name_[name] = i;
     }
@@ -111,11 +112,11 @@ class HeadReader {
     for (const head::Triangle& t : from.triangles) {
       to.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
     }
-    for (Morph& morph : from.morphs) {
+    for (PieceMorph& morph : from.morphs) {
       auto place = std::find_if(to.morphs.begin(), to.morphs.end(),
-                                [&](const Morph& m) { return m.shape >= morph.shape; });
+                                [&](const PieceMorph& m) { return m.shape >= morph.shape; });
       if (place == to.morphs.end() || place->shape != morph.shape) {
-        place = to.morphs.insert(place, Morph{morph.shape, {}});
+        place = to.morphs.insert(place, PieceMorph{morph.shape, {}});
       }
       for (const std::uint32_t v : morph.moves.vertices) {
         place->moves.vertices.push_back(v + first);
@@ -146,7 +147,7 @@ class HeadReader {
     };
     for (RawPiece& piece : pieces_) {
       for (Vec3& p : piece.positions) turn(p);
-      for (Morph& morph : piece.morphs) {
+      for (PieceMorph& morph : piece.morphs) {
         for (Vec3& d : morph.moves.deltas) turn(d);
       }
     }
@@ -199,9 +200,9 @@ class HeadReader {
     }
     for (std::size_t p = 0; p < pieces_.size(); ++p) {
       std::set<std::size_t> done;  // two names of one shape in one piece would add up
-      for (Morph& morph : pieces_[p].morphs) {
+      for (PieceMorph& morph : pieces_[p].morphs) {
         const std::size_t shape = shape_of_name_[morph.shape];
-        if (shape == ~std::size_t(0) || !done.insert(shape).second) continue;
+        if (shape == kNone || !done.insert(shape).second) continue;
         head::PieceTarget target;
         target.control = head::kFirstShape + int(shape);
         target.piece = p;

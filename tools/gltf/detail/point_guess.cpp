@@ -6,7 +6,6 @@
 #include <functional>
 #include <limits>
 
-#include "fap/arkit.h"
 #include "fap/tables.h"
 
 namespace animeme::gltf {
@@ -16,130 +15,8 @@ using head::Part;
 using head::PiecePoint;
 using head::Vec3;
 
-constexpr std::size_t kNone = ~std::size_t(0);
-
-struct Spot {
-  std::size_t piece = kNone;
-  std::uint32_t vertex = 0;
-
-  bool exists() const { return piece != kNone; }
-  friend bool operator==(const Spot&, const Spot&) = default;
-};
-
-std::optional<Part> part_of(const RawPiece& piece) {
-  return head::part_by_name(piece.name, piece.paint->name);
-}
-
 bool is_eye(std::optional<Part> part) { return part == Part::left_eye || part == Part::right_eye; }
 bool is_brow(std::optional<Part> part) { return part == Part::brows; }
-
-class Guesser {
- public:
-  explicit Guesser(const FaceShapes& face) : face_(face) {
-    for (const RawPiece& piece : face.pieces) skin_.push_back(part_of(piece) == Part::skin);
-  }
-
-  // The shape with the largest value of a FAP; kNone if none reaches `least`.
-  std::size_t shape_for(int fap, int least) const {
-    std::size_t best = kNone;
-    int most = least - 1;
-    for (std::size_t i = 0; i < face_.shapes.size(); ++i) {
-      const int value = face_.shapes[i].meaning.faps.value[std::size_t(fap)];
-      // A shape of ARKit is nearer to one motion than a viseme.
-      const bool better =
-          value > most || (value == most && face_.shapes[i].meaning.set == ShapeSet::arkit);
-      if (!better) continue;
-      best = i;
-      most = value;
-    }
-    return best;
-  }
-
-  Vec3 place(Spot spot) const { return face_.pieces[spot.piece].positions[spot.vertex]; }
-
-  template <class Visit>  // visit(spot, delta)
-  void for_moves(std::size_t shape, Visit visit) const {
-    for (std::size_t p = 0; p < face_.pieces.size(); ++p) {
-      if (!skin_[p]) continue;
-      for (const Morph& morph : face_.pieces[p].morphs) {
-        if (face_.shape_of_name[morph.shape] != shape) continue;
-        for (std::size_t i = 0; i < morph.moves.vertices.size(); ++i) {
-          visit(Spot{p, morph.moves.vertices[i]}, morph.moves.deltas[i]);
-        }
-      }
-    }
-  }
-
-  template <class Visit>  // visit(spot)
-  void for_skin(Visit visit) const {
-    for (std::size_t p = 0; p < face_.pieces.size(); ++p) {
-      for (std::uint32_t v = 0; skin_[p] && v < face_.pieces[p].positions.size(); ++v) {
-        visit(Spot{p, v});
-      }
-    }
-  }
-
-  std::size_t shape_named(std::string_view arkit) const {
-    for (std::size_t i = 0; i < face_.shapes.size(); ++i) {
-      const auto& parts = face_.shapes[i].meaning.parts;
-      if (parts.size() == 1 && fap::kArkitNames[std::size_t(parts[0].channel)] == arkit) return i;
-    }
-    return kNone;
-  }
-
-  // Mean place of what a shape moves, by how far. Nothing if it moves nothing.
-  std::optional<Vec3> centre(std::size_t shape) const {
-    Vec3 sum;
-    float total = 0;
-    for_moves(shape, [&](Spot spot, Vec3 delta) {
-      const float size = head::length(delta);
-      sum += place(spot) * size;
-      total += size;
-    });
-    if (!(total > 0) || !std::isfinite(total)) return std::nullopt;
-    return sum * (1 / total);
-  }
-
-  // Moves of a shape by piece and vertex; 0 where there are none.
-  std::vector<std::vector<Vec3>> field(std::size_t shape) const {
-    std::vector<std::vector<Vec3>> moves;
-    for (const RawPiece& piece : face_.pieces) moves.emplace_back(piece.positions.size());
-    for_moves(shape, [&](Spot spot, Vec3 delta) { moves[spot.piece][spot.vertex] += delta; });
-    return moves;
-  }
-
-  // What a shape moves farthest by a measure of place and move; nothing where it is not positive.
-  Spot farthest(std::size_t shape, const std::function<float(Vec3, Vec3)>& measure) const {
-    Spot best;
-    float most = 0;
-    for_moves(shape, [&](Spot spot, Vec3 delta) {
-      const float value = measure(place(spot), delta);
-      if (!(value > most)) return;
-      most = value;
-      best = spot;
-    });
-    return best;
-  }
-
-  Spot nearest(Vec3 wanted, const std::function<bool(Spot)>& allowed) const {
-    Spot best;
-    float least = std::numeric_limits<float>::infinity();
-    for_skin([&](Spot spot) {
-      const Vec3 d = place(spot) - wanted;
-      const float square = head::dot(d, d);
-      if (!(square < least) || !allowed(spot)) return;
-      least = square;
-      best = spot;
-    });
-    return best;
-  }
-
-  const FaceShapes& face() const { return face_; }
-
- private:
-  const FaceShapes& face_;
-  std::vector<bool> skin_;
-};
 
 // FAPs of what moves: see the table in the header.
 constexpr int kJaw = 3, kBlink[] = {19, 20}, kBrowIn[] = {31, 32}, kBrowOut[] = {35, 36};
@@ -150,7 +27,7 @@ struct Sides {
   std::optional<Vec3> right;
 };
 
-Sides sides_of(const Guesser& guess) {
+Sides sides_of(const SkinShapes& guess) {
   for (const auto& faps : {kBlink, kBrowOut}) {
     const std::size_t left = guess.shape_for(faps[0], 40), right = guess.shape_for(faps[1], 40);
     if (left == kNone || right == kNone || left == right) continue;
@@ -177,7 +54,7 @@ float part(Vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 // The face as it looks from the front, with what it needs to find points.
 class FaceMap {
  public:
-  explicit FaceMap(const Guesser& guess) : guess_(guess) {}
+  explicit FaceMap(const SkinShapes& guess) : guess_(guess) {}
 
   std::vector<PiecePoint> points() {
     add_lids();
@@ -455,7 +332,7 @@ class FaceMap {
     }
   }
 
-  const Guesser& guess_;
+  const SkinShapes& guess_;
   float middle_ = 0;      // x between the eyes
   float between_ = 0;     // distance of the lids' middles
   float eye_height_ = 0;  // of the upper lids
@@ -467,7 +344,7 @@ class FaceMap {
 
 std::optional<std::array<Vec3, 3>> axes_of(const FaceShapes& face,
                                            const std::array<std::optional<Vec3>, 2>& eyes) {
-  const Guesser guess(face);
+  const SkinShapes guess(face);
   Sides sides = sides_of(guess);
   if (!sides.left || !sides.right) sides = {eyes[0], eyes[1]};
   const std::size_t jaw = guess.shape_for(kJaw, 150);
@@ -484,7 +361,7 @@ std::optional<std::array<Vec3, 3>> axes_of(const FaceShapes& face,
 }
 
 std::vector<PiecePoint> guess_points(const FaceShapes& face) {
-  const Guesser guess(face);
+  const SkinShapes guess(face);
   return FaceMap(guess).points();
 }
 

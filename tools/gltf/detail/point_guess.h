@@ -24,18 +24,9 @@
 #include <vector>
 
 #include "fap/head/own_head.h"
-#include "tools/gltf/detail/primitive.h"
-#include "tools/gltf/shape_names.h"
+#include "tools/gltf/detail/face_shapes.h"
 
 namespace animeme::gltf {
-
-/// The shapes of a head over its pieces.
-struct FaceShapes {
-  const std::vector<RawPiece>& pieces;
-  const std::vector<ChosenShape>& shapes;
-  /// For each morph name of the file the index of its shape, ~0: none.
-  const std::vector<std::size_t>& shape_of_name;
-};
 
 /// Signed directions of the axes of the file that are left, up and forward on the face: rows of a
 /// rotation by right angles. Left and right are told by shapes of one side, else by `eyes`

@@ -258,7 +258,7 @@ Result<void> MeshReader::add_morphs(const Json& mesh, const Json& entry,
     piece.morphs.push_back({names.index_of(target_name(file_, mesh, entry, t)), std::move(*moves)});
   }
   std::stable_sort(piece.morphs.begin(), piece.morphs.end(),
-                   [](const Morph& a, const Morph& b) { return a.shape < b.shape; });
+                   [](const PieceMorph& a, const PieceMorph& b) { return a.shape < b.shape; });
   return {};
 }
 

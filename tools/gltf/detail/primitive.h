@@ -14,7 +14,7 @@
 namespace animeme::gltf {
 
 /// What a morph target of a mesh does to a piece, in the world.
-struct Morph {
+struct PieceMorph {
   std::size_t shape = 0;  ///< index of its name, see ShapeNames
   Moves moves;
 };
@@ -29,7 +29,7 @@ struct RawPiece {
   std::vector<Uv> uvs;
   std::vector<Colour> colours;      ///< COLOR_0
   std::vector<float> neck_weights;  ///< see head::Piece
-  std::vector<Morph> morphs;        ///< by shape
+  std::vector<PieceMorph> morphs;   ///< by shape
 };
 
 /// Names of morph targets in the order in which they are met; the same name in two meshes is one

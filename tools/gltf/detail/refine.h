@@ -1,5 +1,5 @@
 // Textures on meshes that show colours of vertices only: triangles are divided where the texture
-// changes, then the vertices take its colours.
+// changes.
 #pragma once
 
 #include <vector>
@@ -14,10 +14,5 @@ namespace animeme::gltf {
 /// edges, and move half as each end does; so the surface stays as it is. Cracks do not open: an
 /// edge is divided in all triangles that share it, also across seams.
 void refine(std::vector<RawPiece>& pieces, std::size_t vertices);
-
-/// Gives each vertex its colour: COLOR_0 times factor times texture, head::kNoColour if the file
-/// says nothing. Takes out the triangles that are more transparent than opaque (less than
-/// alphaCutoff for masks).
-void paint(RawPiece& piece);
 
 }  // namespace animeme::gltf

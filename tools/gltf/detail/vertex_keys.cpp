@@ -33,7 +33,7 @@ std::vector<Key> keys_of(const RawPiece& piece) {
     keys[v].add(piece.positions[v]);
     if (!piece.neck_weights.empty()) keys[v].add(piece.neck_weights[v]);
   }
-  for (const Morph& morph : piece.morphs) {
+  for (const PieceMorph& morph : piece.morphs) {
     for (std::size_t i = 0; i < morph.moves.vertices.size(); ++i) {
       Key& key = keys[morph.moves.vertices[i]];
       key.add(std::uint32_t(morph.shape));
@@ -119,8 +119,8 @@ void weld(RawPiece& piece) {
     if (to[0] != to[1] && to[1] != to[2] && to[2] != to[0]) out.triangles.push_back(to);
   }
   out.morphs = std::move(piece.morphs);
-  for (Morph& morph : out.morphs) renumber(morph.moves, first, numbers);
-  std::erase_if(out.morphs, [](const Morph& morph) { return morph.moves.vertices.empty(); });
+  for (PieceMorph& morph : out.morphs) renumber(morph.moves, first, numbers);
+  std::erase_if(out.morphs, [](const PieceMorph& morph) { return morph.moves.vertices.empty(); });
   piece = std::move(out);
 }
 
