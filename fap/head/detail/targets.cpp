@@ -1,7 +1,9 @@
 #include "fap/head/detail/targets.h"
 
 #include <limits>
+#include <utility>
 
+#include "fap/head/detail/diffuse.h"
 #include "fap/head/detail/normals.h"
 #include "fap/head/detail/weights.h"
 
@@ -71,7 +73,7 @@ class Maker {
       : head_(head), weights_(skin_weights(head)), column_(head.part(Part::skin).positions.size()) {
     const Mesh& skin = head.part(Part::skin);
     smooth_normals(skin.positions, skin.triangles, normals_);
-    broad_normals_ = broad_normals(normals_, skin.triangles);
+    broaden_normals();
     find_ears();
     bind(Part::brows);
   }
@@ -141,6 +143,22 @@ class Maker {
     std::fill(column_.begin(), column_.end(), 0.0f);
     for (const std::uint32_t v : part) column_[v] = 1;
     return true;
+  }
+
+  // Creases and the line between left and right do not count when brows slide.
+  void broaden_normals() {
+    const Mesh& skin = head_.part(Part::skin);
+    Weights table(normals_.size(), 3);
+    for (std::size_t v = 0; v < normals_.size(); ++v) {
+      const Vec3 n = normals_[v];
+      std::copy_n(std::array{n.x, n.y, n.z}.begin(), 3, table.row(v).begin());
+    }
+    const std::vector<float> radii(normals_.size(), 1.2f * float(head_.fapu.es) / 6.3f);
+    diffuse(skin.positions, neighbours_of(normals_.size(), skin.triangles), radii, table);
+    for (std::size_t v = 0; v < normals_.size(); ++v) {
+      const auto n = std::as_const(table).row(v);
+      broad_normals_.push_back(normalised(Vec3{n[0], n[1], n[2]}));
+    }
   }
 
   void find_ears() {
