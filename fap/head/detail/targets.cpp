@@ -1,16 +1,13 @@
 #include "fap/head/detail/targets.h"
 
 #include <limits>
-#include <utility>
 
-#include "fap/head/detail/diffuse.h"
-#include "fap/head/detail/normals.h"
+#include "fap/head/detail/slide.h"
 #include "fap/head/detail/weights.h"
 
 namespace animeme::head::detail {
 namespace {
 
-constexpr float kSteepest = 1.5f;   // of a forehead on which brows slide
 constexpr float kLeast = 0.002f;    // smaller weights are nothing
 constexpr float kChinBack = 0.42f;  // the chin goes back by this share of its drop
 constexpr float kJawShare = 0.8f;   // drop of the teeth against that of the chin
@@ -70,10 +67,10 @@ std::vector<Share> shares_of(int fap) {
 class Maker {
  public:
   explicit Maker(const Head& head)
-      : head_(head), weights_(skin_weights(head)), column_(head.part(Part::skin).positions.size()) {
-    const Mesh& skin = head.part(Part::skin);
-    smooth_normals(skin.positions, skin.triangles, normals_);
-    broaden_normals();
+      : head_(head),
+        weights_(skin_weights(head)),
+        column_(head.part(Part::skin).positions.size()),
+        slide_(head) {
     find_ears();
     bind(Part::brows);
   }
@@ -87,8 +84,8 @@ class Maker {
         deltas[v] = step * column_[v];
         if (fap == 3) deltas[v].z += step.y * kChinBack * column_[v];
       }
-      if (fap >= 31 && fap <= 36) slide_on_bone(deltas);
-      slide_below_hair(fap, deltas);
+      if (fap >= 31 && fap <= 36) slide_.on_bone(deltas);
+      if (fap < 65) slide_.below_hair(deltas);
       add_mouth_floor(fap, step, deltas);
       add(fap, Part::skin, deltas);
       add_bound(fap, deltas);
@@ -120,14 +117,6 @@ class Maker {
     return any;
   }
 
-  // Brows slide on the forehead, which leans back: moved up alone, its skin would stand off.
-  void slide_on_bone(std::vector<Vec3>& deltas) const {
-    for (std::size_t v = 0; v < deltas.size(); ++v) {
-      const Vec3 n = broad_normals_[v];
-      if (n.z > 0 && n.y > 0) deltas[v].z -= deltas[v].y * std::min(n.y / n.z, kSteepest);
-    }
-  }
-
   bool fill_lid(int fap) {
     constexpr std::size_t kOrder[] = {0, 2, 1, 3};  // 19 upper left, 20 upper right ...
     const auto& weights = head_.seams.lid_weights[kOrder[fap - 19]];
@@ -143,22 +132,6 @@ class Maker {
     std::fill(column_.begin(), column_.end(), 0.0f);
     for (const std::uint32_t v : part) column_[v] = 1;
     return true;
-  }
-
-  // Creases and the line between left and right do not count when brows slide.
-  void broaden_normals() {
-    const Mesh& skin = head_.part(Part::skin);
-    Weights table(normals_.size(), 3);
-    for (std::size_t v = 0; v < normals_.size(); ++v) {
-      const Vec3 n = normals_[v];
-      std::copy_n(std::array{n.x, n.y, n.z}.begin(), 3, table.row(v).begin());
-    }
-    const std::vector<float> radii(normals_.size(), 1.2f * float(head_.fapu.es) / 6.3f);
-    diffuse(skin.positions, neighbours_of(normals_.size(), skin.triangles), radii, table);
-    for (std::size_t v = 0; v < normals_.size(); ++v) {
-      const auto n = std::as_const(table).row(v);
-      broad_normals_.push_back(normalised(Vec3{n[0], n[1], n[2]}));
-    }
   }
 
   void find_ears() {
@@ -186,14 +159,6 @@ class Maker {
       const Vec3 r = head_.part(Part::skin).positions[v] - head_.jaw_axis;
       const Vec3 turned = fap == 3 ? Vec3{0, -r.z * angle, r.y * angle} : step;
       deltas[v] = mix(deltas[v], turned, weights[v]);
-    }
-  }
-
-  // Skin that hair covers slides along itself, lest it comes through.
-  void slide_below_hair(int fap, std::vector<Vec3>& deltas) const {
-    const auto& freedom = head_.seams.freedom;
-    for (std::size_t v = 0; v < freedom.size() && v < deltas.size() && fap < 65; ++v) {
-      deltas[v] -= normals_[v] * (dot(normals_[v], deltas[v]) * (1 - freedom[v]));
     }
   }
 
@@ -300,8 +265,7 @@ class Maker {
   const Head& head_;
   Weights weights_;
   std::vector<float> column_;
-  std::vector<Vec3> normals_;        // of the neutral skin
-  std::vector<Vec3> broad_normals_;  // the same without creases
+  Slide slide_;
   std::array<std::vector<std::uint32_t>, 2> ears_;
   std::vector<Binding> bound_;
   std::vector<Target> targets_;
