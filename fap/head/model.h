@@ -89,7 +89,8 @@ struct Seams {
   std::array<std::vector<float>, 4> lid_weights;
   /// For each skin vertex: how far it turns with the jaw, inside the mouth. Empty: nowhere.
   std::vector<float> jaw_weights;
-  /// For each skin vertex: 1 is free to move, 0 is held, as below hair. Empty: all are free.
+  /// For each skin vertex: 1 is free to move, 0 slides along itself, as below hair. Empty:
+  /// all are free.
   std::vector<float> freedom;
   /// For each skin vertex: 1 turns with the head, 0 stays with the body. Empty: by its height.
   std::vector<float> neck_weights;

@@ -7,7 +7,7 @@ namespace animeme::head::detail {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr Vec3 kEnamel{0.86f, 0.83f, 0.76f};
+constexpr Vec3 kEnamel{0.77f, 0.74f, 0.67f};
 constexpr Vec3 kGum{0.55f, 0.17f, 0.16f};
 constexpr Vec3 kTongue{0.60f, 0.19f, 0.18f};
 
@@ -111,7 +111,7 @@ Mesh make_teeth(const Shape& shape, bool upper) {
   const double front = shape.front(0, -shape.p.mouth_drop).z - 0.54;
   // Upper teeth are a little before the lower ones and cover their edges.
   const Arch arch{shape.p.mouth_width * (upper ? 1.09 : 1.05), 3.0, front - (upper ? 0 : 0.13),
-                  -shape.p.mouth_drop - (upper ? 0.24 : 0.17), upper ? 0.16 : 0.12};
+                  -shape.p.mouth_drop - 0.19, upper ? 0.16 : 0.12};
   const double widths[] = {0.45, 0.36, 0.40, 0.37, 0.37, 0.48, 0.48};  // from the middle outwards
   const double heights[] = {1.0, 0.9, 1.0, 0.88, 0.84, 0.8, 0.75};
   Mesh mesh;
