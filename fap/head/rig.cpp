@@ -4,6 +4,7 @@
 
 #include "fap/head/detail/normals.h"
 #include "fap/head/detail/targets.h"
+#include "fap/head/detail/teeth.h"
 
 namespace animeme::head {
 namespace {
@@ -48,6 +49,26 @@ std::array<bool, kPartCount> deforming(const Rig& rig) {
   return deforms;
 }
 
+bool any_of(const fap::Frame& frame, int first, int last) {
+  for (int f = first; f <= last; ++f) {
+    if (frame.value[std::size_t(f)] != 0) return true;
+  }
+  return false;
+}
+
+std::array<bool, kPartCount> shown_by_shapes(const Rig& rig) {
+  std::array<bool, kPartCount> shown{};
+  for (const Target& target : rig.targets) {
+    if (target.control < kFirstShape) continue;
+    const fap::Frame& faps = rig.shapes[std::size_t(target.control - kFirstShape)].faps;
+    const bool eye = target.part == Part::left_eye || target.part == Part::right_eye;
+    const bool jaw = target.part == Part::lower_teeth || target.part == Part::tongue;
+    const bool shows = eye ? any_of(faps, 23, 26) : !jaw || any_of(faps, 3, 3);
+    shown[std::size_t(target.part)] = shown[std::size_t(target.part)] || shows;
+  }
+  return shown;
+}
+
 // 1 for the head, 0 at the end of the neck.
 std::vector<float> neck_weights(const Rig& rig) {
   std::vector<float> weights;
@@ -61,11 +82,27 @@ std::vector<float> neck_weights(const Rig& rig) {
   return weights;
 }
 
-// How far two points may come together: a share of their distance, in units of a FAP.
-float room(const Head& head, std::string_view a, std::string_view b, float share, int fap) {
+// A share of the distance of two points, in units of a FAP.
+float room(const Head& head, std::string_view a, std::string_view b, int fap, float share = 0.5f) {
   const float unit = float(fap::step_size(fap, head.fapu));
   const bool known = head.point(a).exists() && head.point(b).exists() && unit > 0;
   return known ? share * length(head.at(a) - head.at(b)) / unit : std::numeric_limits<float>::max();
+}
+
+// The rim of an upper lid moves over its eyeball by this share of the pitch.
+float lid_follow(const Rig& rig, std::size_t side) {
+  constexpr float kShare = 0.65f;
+  const float unit = float(fap::step_size(19 + int(side), rig.fapu));
+  return unit > 0 ? kShare * 1e-5f * rig.eyes[side].radius / unit : 0;
+}
+
+Rooms rooms_of(const Head& head) {
+  return {.brows = room(head, "4.1", "4.2", 37),
+          .brow_lid = room(head, "4.3", "3.13", 33, 0.4f),
+          .upper_lip = room(head, "8.1", "2.2", 51),
+          .lower_lip = room(head, "8.2", "2.3", 52),
+          .lip_chin = room(head, "8.2", "2.10", 5),
+          .chin = room(head, "2.10", "2.1", 18)};
 }
 
 }  // namespace
@@ -91,13 +128,15 @@ Rig make_rig(const Head& head) {
   rig.shapes = head.shapes;
   rig.targets = head.targets.empty() ? detail::make_targets(head) : head.targets;
   rig.deforms = deforming(rig);
+  rig.shown_by_shapes = shown_by_shapes(rig);
   rig.lid_vertices = sliding_vertices(rig);
   // What an artist has modelled is not put right.
   for (std::size_t i = 0; i < 2 && rig.shapes.empty(); ++i) {
     rig.eye_skin[i] = skin_before(rig, rig.eyes[i]);
+    rig.teeth[i] = detail::dental_arch(rig, i == 0 ? Part::upper_teeth : Part::lower_teeth);
   }
-  rig.brow_room = room(head, "4.1", "4.2", 0.5f, 37);
-  rig.chin_room = room(head, "8.2", "2.10", 0.5f, 5);
+  rig.rooms = rooms_of(head);
+  for (std::size_t i = 0; i < 2; ++i) rig.lid_follow[i] = lid_follow(rig, i);
   const bool given = head.seams.neck_weights.size() == head.part(Part::skin).positions.size();
   rig.neck_weights = given ? head.seams.neck_weights : neck_weights(rig);
   return rig;
