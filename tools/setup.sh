@@ -10,7 +10,7 @@ packages="
   g++ cmake ninja-build pkg-config ca-certificates
   libeigen3-dev libcli11-dev nlohmann-json3-dev libstb-dev
   libavformat-dev libavcodec-dev libavutil-dev libswresample-dev libswscale-dev
-  libwebsockets-dev zlib1g-dev
+  libwebsockets-dev zlib1g-dev libxml2-dev
   libespeak-ng-dev espeak-ng-data
   libpocketsphinx-dev libsphinxbase-dev pocketsphinx-en-us
 "

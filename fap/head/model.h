@@ -89,7 +89,8 @@ struct Seams {
   std::array<std::vector<float>, 4> lid_weights;
   /// For each skin vertex: how far it turns with the jaw, inside the mouth. Empty: nowhere.
   std::vector<float> jaw_weights;
-  /// For each skin vertex: 1 is free to move, 0 is held, as below hair. Empty: all are free.
+  /// For each skin vertex: 1 is free to move, 0 slides along itself, as below hair. Empty:
+  /// all are free.
   std::vector<float> freedom;
   /// For each skin vertex: 1 turns with the head, 0 stays with the body. Empty: by its height.
   std::vector<float> neck_weights;
@@ -188,7 +189,7 @@ struct HeadParameters {
   std::uint32_t skin_colour = 0xE8AC88;
   std::uint32_t lip_colour = 0xC4605C;
   std::uint32_t cheek_colour = 0xDE8468;
-  std::uint32_t iris_colour = 0x56723A;
+  std::uint32_t iris_colour = 0x5F6A42;
   std::uint32_t hair_colour = 0x4A2A1B;
   std::uint32_t brow_colour = 0x3C2418;
   std::uint32_t cloth_colour = 0x3F6F86;

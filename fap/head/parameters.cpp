@@ -36,7 +36,7 @@ HeadParameters man() {
   p.skin_colour = 0xDB9C78;
   p.lip_colour = 0xB76457;
   p.cheek_colour = 0xCE7B60;
-  p.iris_colour = 0x4A6E8A;
+  p.iris_colour = 0x54707F;
   p.hair_colour = 0x2E2019;
   p.brow_colour = 0x261A14;
   p.cloth_colour = 0x4A5568;

@@ -1,5 +1,8 @@
+#include <initializer_list>
+
 #include "fap/head/detail/normals.h"
 #include "fap/head/detail/targets.h"
+#include "fap/head/detail/teeth.h"
 #include "fap/head/rig.h"
 #include "fap/head/shapes.h"
 #include "fap/shape_fit.h"
@@ -34,7 +37,30 @@ void share(float& a, float& b, float room) {
   }
 }
 
-constexpr float kLidRise = -400;  // upper lids rise by this at most
+constexpr float kLidRise = -270;  // upper lids rise by this at most
+constexpr float kJawBack = -250;  // and the jaw goes back by this
+
+void at_least(Values& v, std::initializer_list<std::size_t> faps, float least) {
+  for (const std::size_t f : faps) v[f] = std::max(v[f], least);
+}
+
+// Points that would come too near to each other, so that the skin between them folds over.
+void stop_at_rooms(const Rooms& rooms, Values& v) {
+  at_least(v, {19, 20}, kLidRise);
+  at_least(v, {14}, kJawBack);
+  at_least(v, {18}, -rooms.chin);
+  at_least(v, {31, 32, 33, 34, 35, 36}, -rooms.brow_lid);
+  at_least(v, {37, 38}, -0.5f * rooms.brows);
+  share(v[37], v[38], rooms.brows);
+  const float chin = std::min(v[18] - std::max(v[3], 0.0f), 0.0f);
+  at_least(v, {5, 10, 11, 52, 57, 58}, chin - rooms.lip_chin);
+  for (const auto& [outer, inner] : {std::pair(51u, 4u), {55u, 8u}, {56u, 9u}}) {
+    v[outer] = std::min(v[outer], v[inner] + rooms.upper_lip);
+  }
+  for (const auto& [outer, inner] : {std::pair(52u, 5u), {57u, 10u}, {58u, 11u}}) {
+    v[outer] = std::min(v[outer], v[inner] + rooms.lower_lip);
+  }
+}
 
 void stop_at_contact(const Rig& rig, Values& v) {
   for (const auto& [upper, lower] : {std::pair(4, 5), {8, 10}, {9, 11}}) {
@@ -42,12 +68,7 @@ void stop_at_contact(const Rig& rig, Values& v) {
   }
   share(v[19], v[21], 1024);
   share(v[20], v[22], 1024);
-  for (const std::size_t lid : {19u, 20u}) v[lid] = std::max(v[lid], kLidRise);
-  share(v[37], v[38], rig.brow_room);
-  const float chin = std::min(v[18] - std::max(v[3], 0.0f), 0.0f);
-  for (const std::size_t lip : {5u, 10u, 11u, 52u, 57u, 58u}) {
-    v[lip] = std::max(v[lip], chin - rig.chin_room);
-  }
+  stop_at_rooms(rig.rooms, v);
 }
 
 bool is_lid(int control) { return control >= 19 && control <= 22; }
@@ -101,15 +122,14 @@ void keep_off_eyes(const Rig& rig, const Values& values, std::vector<Vec3>& skin
   }
 }
 
-// Pairs that have passed each other meet in the middle; near contact their depths agree.
+// Pairs that have passed each other meet in the middle, and so do those that nearly touch: lips and
+// lids are soft.
 void close_pairs(const std::vector<ContactPair>& pairs, float soft, std::vector<Vec3>& skin) {
   for (const ContactPair& pair : pairs) {
     Vec3& upper = skin[pair.upper];
     Vec3& lower = skin[pair.lower];
-    const float gap = upper.y - lower.y;
-    if (gap < 0) upper.y = lower.y = 0.5f * (upper.y + lower.y);
-    const float touch = smooth_step(soft, 0.0f, gap) * 0.5f;
-    const Vec3 apart{lower.x - upper.x, 0, lower.z - upper.z};
+    const float touch = smooth_step(soft, soft / 3, upper.y - lower.y) * 0.5f;
+    const Vec3 apart = lower - upper;
     upper += apart * touch;
     lower -= apart * touch;
   }
@@ -189,8 +209,18 @@ fap::Frame wanted_of_shapes(fap::Frame frame) {
 
 }  // namespace
 
-ControlValues control_values(const Rig& rig, const fap::Frame& frame) {
-  const fap::Frame low = low_level(frame);
+void lids_follow_gaze(const Rig& rig, fap::Frame& frame) {
+  for (std::size_t side = 0; side < 2 && rig.shapes.empty(); ++side) {
+    const int lid = 19 + int(side);
+    const std::size_t pitch = 25 + side;
+    if (frame.mask[std::size_t(lid)] || !frame.mask[pitch] || frame.value[pitch] == 0) continue;
+    frame.set(lid, std::int32_t(std::lround(rig.lid_follow[side] * float(frame.value[pitch]))));
+  }
+}
+
+ControlValues control_values(const Rig& rig, const fap::Frame& frame, const PoseOptions& options) {
+  fap::Frame low = low_level(frame);
+  if (options.follow) lids_follow_gaze(rig, low);
   ControlValues values(kFirstShape + rig.shapes.size());
   for (std::size_t f = fap::kFirstLowLevel; f <= fap::kFapCount; ++f) {
     values[f] = low.mask[f] ? float(low.value[f]) : 0;
@@ -207,7 +237,7 @@ ControlValues control_values(const Rig& rig, const fap::Frame& frame) {
 }
 
 void pose(const Rig& rig, const fap::Frame& frame, Pose& out, const PoseOptions& options) {
-  Values values = control_values(rig, frame);
+  Values values = control_values(rig, frame, options);
   if (options.contact) stop_at_contact(rig, values);
   for (std::size_t part = 0; part < rig.parts.size(); ++part) {
     if (rig.deforms[part]) out.positions[part] = rig.parts[part].positions;
@@ -218,6 +248,9 @@ void pose(const Rig& rig, const fap::Frame& frame, Pose& out, const PoseOptions&
   apply_targets(rig, values, false, out);
   keep_off_eyes(rig, values, skin);
   if (options.contact) {
+    detail::keep_off_teeth(rig, rig.teeth[0], {}, skin);
+    detail::keep_off_teeth(rig, rig.teeth[1],
+                           detail::jaw_transform(rig, values[3], values[14], values[15]), skin);
     const float touch = 0.06f * float(rig.fapu.mns);
     close_pairs(rig.lips, touch, skin);
     for (const auto& lids : rig.lids) close_pairs(lids, touch, skin);

@@ -4,6 +4,7 @@
 
 #include "fap/head/detail/normals.h"
 #include "fap/head/detail/targets.h"
+#include "fap/head/detail/teeth.h"
 
 namespace animeme::head {
 namespace {
@@ -81,11 +82,27 @@ std::vector<float> neck_weights(const Rig& rig) {
   return weights;
 }
 
-// How far two points may come together: a share of their distance, in units of a FAP.
-float room(const Head& head, std::string_view a, std::string_view b, float share, int fap) {
+// A share of the distance of two points, in units of a FAP.
+float room(const Head& head, std::string_view a, std::string_view b, int fap, float share = 0.5f) {
   const float unit = float(fap::step_size(fap, head.fapu));
   const bool known = head.point(a).exists() && head.point(b).exists() && unit > 0;
   return known ? share * length(head.at(a) - head.at(b)) / unit : std::numeric_limits<float>::max();
+}
+
+// The rim of an upper lid moves over its eyeball by this share of the pitch.
+float lid_follow(const Rig& rig, std::size_t side) {
+  constexpr float kShare = 0.65f;
+  const float unit = float(fap::step_size(19 + int(side), rig.fapu));
+  return unit > 0 ? kShare * 1e-5f * rig.eyes[side].radius / unit : 0;
+}
+
+Rooms rooms_of(const Head& head) {
+  return {.brows = room(head, "4.1", "4.2", 37),
+          .brow_lid = room(head, "4.3", "3.13", 33, 0.4f),
+          .upper_lip = room(head, "8.1", "2.2", 51),
+          .lower_lip = room(head, "8.2", "2.3", 52),
+          .lip_chin = room(head, "8.2", "2.10", 5),
+          .chin = room(head, "2.10", "2.1", 18)};
 }
 
 }  // namespace
@@ -116,9 +133,10 @@ Rig make_rig(const Head& head) {
   // What an artist has modelled is not put right.
   for (std::size_t i = 0; i < 2 && rig.shapes.empty(); ++i) {
     rig.eye_skin[i] = skin_before(rig, rig.eyes[i]);
+    rig.teeth[i] = detail::dental_arch(rig, i == 0 ? Part::upper_teeth : Part::lower_teeth);
   }
-  rig.brow_room = room(head, "4.1", "4.2", 0.5f, 37);
-  rig.chin_room = room(head, "8.2", "2.10", 0.5f, 5);
+  rig.rooms = rooms_of(head);
+  for (std::size_t i = 0; i < 2; ++i) rig.lid_follow[i] = lid_follow(rig, i);
   const bool given = head.seams.neck_weights.size() == head.part(Part::skin).positions.size();
   rig.neck_weights = given ? head.seams.neck_weights : neck_weights(rig);
   return rig;

@@ -27,6 +27,26 @@
 
 namespace animeme::head {
 
+/// How far points may come together before the skin between them folds over: about half of
+/// their distance at rest, in units of the FAP that moves them. No limit where a point is missing.
+struct Rooms {
+  float brows = 0;      ///< 4.1 and 4.2 to each other: FAP 37 and 38 together; half of it apart
+  float brow_lid = 0;   ///< 4.3 to 3.13, brows to upper lids: FAP 31..36 down
+  float upper_lip = 0;  ///< 8.1 to 2.2: FAP 51, 55 and 56 beyond 4, 8 and 9
+  float lower_lip = 0;  ///< 8.2 to 2.3: FAP 52, 57 and 58 beyond 5, 10 and 11
+  float lip_chin = 0;   ///< 8.2 to 2.10: the FAPs of the lower lip down
+  float chin = 0;       ///< 2.10 to 2.1: FAP 18 down
+};
+
+/// A row of teeth as half an ellipse seen from above: open to the back.
+struct DentalArch {
+  Vec3 middle;                          ///< between its ends, at half of its height
+  float half_width = 0;                 ///< along X
+  float depth = 0;                      ///< along Z, from the ends to the front
+  float half_height = 0;                ///< along Y, with the gums
+  std::vector<std::uint32_t> vertices;  ///< of the skin before it, which must not get into it
+};
+
 /// A head that is ready to move.
 struct Rig {
   struct Shape {
@@ -51,9 +71,10 @@ struct Rig {
   std::array<std::vector<std::uint32_t>, 2> lid_vertices;  ///< that slide, left and right eye
   std::array<std::vector<std::uint32_t>, 2> eye_skin;      ///< before the left and right eye
   std::vector<std::uint32_t> lash_anchors;                 ///< see Head
-  float brow_room = 0;  ///< most of FAP 37 and 38 together: half of the distance of the brows
-  float chin_room = 0;  ///< how much nearer the lower lip may come to the chin, in units of FAP 5
-  std::vector<float> neck_weights;  ///< of the skin: 1 turns with the head, 0 stays
+  Rooms rooms;
+  std::array<DentalArch, 2> teeth;       ///< upper, lower
+  std::array<float, 2> lid_follow = {};  ///< FAP 19 for one unit of FAP 25, and 20 for 26
+  std::vector<float> neck_weights;       ///< of the skin: 1 turns with the head, 0 stays
 };
 
 /// Prepares a head. Deterministic; about half a second for 25 000 vertices.
@@ -62,20 +83,29 @@ struct Rig {
 /// separated by the slit between them. Feature points that the head does not have move nothing.
 Rig make_rig(const Head& head);
 
+struct PoseOptions {
+  /// Lips and lids stop where they touch, other points where Rooms says, upper lids at 0.26 IRISD
+  /// up, a jaw that goes back at 0.25 MNS. Without it every feature point is where its FAPs say.
+  bool contact = true;
+  /// Upper lids go along with eyes that look down or up: see lids_follow_gaze().
+  bool follow = true;
+};
+
 /// Values by control: FAPs 3..68, then the shapes of a rig.
 using ControlValues = std::vector<float>;
 
 /// The values of a frame: low_level() of shapes.h, absent FAPs 0; for a rig with shapes also their
 /// weights, times kFullShape, whose FAPs come nearest to the frame (fap::ShapeFitter); FAP 14 and
 /// 18 at 0 have no say there, as the jaw takes the chin along. Each frame stands for itself, so any
-/// frame may be asked for in any order.
-ControlValues control_values(const Rig& rig, const fap::Frame& frame);
+/// frame may be asked for in any order. With PoseOptions::follow after lids_follow_gaze().
+ControlValues control_values(const Rig& rig, const fap::Frame& frame,
+                             const PoseOptions& options = {});
 
-struct PoseOptions {
-  /// Lips and lids stop where they touch, brows half way to each other, the lower lip above the
-  /// chin, wide eyes at 0.4 IRISD. Without it every feature point is where its FAPs say.
-  bool contact = true;
-};
+/// As real lids do, ours go along with the eyeballs: where a frame of low-level FAPs does not carry
+/// FAP 19 or 20, it gets the one that moves the rim by 0.65 of the pitch of its eye (FAP 25, 26).
+/// The standard says nothing of it. What a frame carries stays, 0 as well; eyes that lack and rigs
+/// with shapes have no such lids.
+void lids_follow_gaze(const Rig& rig, fap::Frame& frame);
 
 /// A head at one instant.
 struct Pose {

@@ -12,6 +12,15 @@ Transform compose(const Transform& outer, const Transform& inner) {
   return {row(outer.row_x), row(outer.row_y), row(outer.row_z), outer(inner.shift)};
 }
 
+Transform inverse(const Transform& t) {
+  Transform back{{t.row_x.x, t.row_y.x, t.row_z.x},
+                 {t.row_x.y, t.row_y.y, t.row_z.y},
+                 {t.row_x.z, t.row_y.z, t.row_z.z},
+                 {}};
+  back.shift = back.turn(t.shift) * -1.0f;
+  return back;
+}
+
 Transform rotation_about(Vec3 pivot, float pitch, float yaw, float roll) {
   const float cp = std::cos(pitch);
   const float sp = std::sin(pitch);

@@ -82,6 +82,9 @@ struct Transform {
 /// First `inner`, then `outer`.
 Transform compose(const Transform& outer, const Transform& inner);
 
+/// Of a rotation and shift.
+Transform inverse(const Transform& t);
+
 /// Right-handed rotation by angles in rad about the axes through `pivot`: roll about Z first, then
 /// pitch about X, then yaw about Y.
 Transform rotation_about(Vec3 pivot, float pitch, float yaw, float roll);

@@ -161,6 +161,25 @@ TEST_P(EachRig, EyesTurnAndPupilsGrow) {
   EXPECT_NEAR(is - was, 0.5 * fap::displacement(29, 200, rig().fapu), 0.1 * (is - was));
 }
 
+// The rim of the upper lid moves as far as 0.65 of the pitch takes it over the eyeball.
+TEST_P(EachRig, UpperLidsFollowTheGazeIfTheFrameDoesNotCarryThem) {
+  fap::Frame frame;
+  frame.set(25, 30000);
+  const double wanted = -0.65 * 0.3 * head().eyes[0].radius;
+  const Pose down = head::pose(rig(), frame);
+  EXPECT_NEAR(moved(down, "3.1").y, wanted, 0.03 * std::abs(wanted));
+  EXPECT_EQ(length(moved(down, "3.2")), 0);
+  EXPECT_EQ(length(moved(head::pose(rig(), frame, {.follow = false}), "3.1")), 0);
+  frame.set(25, -10000);
+  EXPECT_GT(moved(head::pose(rig(), frame), "3.1").y, 0.1f);
+  frame.set(19, 0);  // it says that the lid rests
+  EXPECT_EQ(length(moved(head::pose(rig(), frame), "3.1")), 0);
+  frame.set(19, 200);
+  frame.set(25, 30000);
+  EXPECT_NEAR(moved(head::pose(rig(), frame), "3.1").y, -fap::displacement(19, 200, rig().fapu),
+              0.01);
+}
+
 TEST_P(EachRig, TongueRollsToAU) {
   const Pose pose = posed_at(47, 30000);
   EXPECT_GT(moved(pose, "6.3").y, 0.02);

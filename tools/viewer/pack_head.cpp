@@ -115,6 +115,20 @@ Json jaw_of(const head::Rig& rig) {
               {"shift", turned(15, 512).shift.x / 512}};
 }
 
+Json rooms_of(const head::Rooms& rooms) {
+  return Json{{"brows", rooms.brows},         {"brow_lid", rooms.brow_lid},
+              {"upper_lip", rooms.upper_lip}, {"lower_lip", rooms.lower_lip},
+              {"lip_chin", rooms.lip_chin},   {"chin", rooms.chin}};
+}
+
+Json teeth_of(const head::DentalArch& arch) {
+  return Json{{"middle", json_of(arch.middle)},
+              {"half_width", arch.half_width},
+              {"depth", arch.depth},
+              {"half_height", arch.half_height},
+              {"count", arch.vertices.size()}};
+}
+
 Json points_of(const head::Head& head) {
   Json points = Json::array();
   for (std::size_t i = 0; i < head.feature_points.size(); ++i) {
@@ -179,6 +193,9 @@ std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig
   for (const auto& vertices : rig.eye_skin) {
     for (const std::uint32_t vertex : vertices) data.varint(vertex);
   }
+  for (const head::DentalArch& arch : rig.teeth) {
+    for (const std::uint32_t vertex : arch.vertices) data.varint(vertex);
+  }
   for (const std::uint32_t vertex : rig.lash_anchors) data.varint(vertex);
   for (const float weight : rig.neck_weights) data.u16(rounded(weight * 65535, 65535));
   const Json header{
@@ -197,7 +214,9 @@ std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig
       {"fapu", {{"es", rig.fapu.es}, {"mns", rig.fapu.mns}}},
       {"eyes", eyes_of(rig)},
       {"jaw", jaw_of(rig)},
-      {"rooms", {{"brows", rig.brow_room}, {"chin", rig.chin_room}}},
+      {"rooms", rooms_of(rig.rooms)},
+      {"teeth", {teeth_of(rig.teeth[0]), teeth_of(rig.teeth[1])}},
+      {"lid_follow", rig.lid_follow},
       {"neck", json_of(rig.neck_pivot)},
       {"points", points_of(head)},
       {"visemes", shapes_of(int(fap::kVisemes.size()), head::viseme_shape)},

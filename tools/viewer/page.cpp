@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "fap/head/shapes.h"
 #include "fap/tables.h"
 #include "tools/viewer/detail/bytes.h"
 #include "tools/viewer/detail/parts.h"
 #include "tools/viewer/viewer.h"
+#include "tools/xml.h"
 
 namespace animeme::viewer {
 namespace {
@@ -25,58 +27,46 @@ std::string script_text(const Json& json) {
   return out;
 }
 
-std::string html_text(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
 std::string packed(const std::vector<std::uint8_t>& bytes) {
   return detail::base64(detail::deflated(bytes));
 }
 
-// The columns of a clip: for each control that moves, differences from frame to frame.
+void write_column(const std::vector<head::ControlValues>& frames, std::size_t control, Bytes& out) {
+  std::int64_t last = 0;
+  for (const head::ControlValues& frame : frames) {
+    const std::int64_t value = std::lround(frame[control]);
+    out.zigzag(value - last);
+    last = value;
+  }
+}
+
+// The columns of a clip: for each control that moves, differences from frame to frame; then those
+// that the clip does not carry and that follow from others.
 std::string pack_clip(const Clip& clip, const head::Rig& rig) {
   std::vector<head::ControlValues> frames;
   frames.reserve(clip.motion.frames.size());
+  fap::Mask carried;
   for (const fap::Frame& frame : clip.motion.frames) {
     frames.push_back(head::control_values(rig, frame));
+    carried |= head::low_level(frame).mask;
   }
-  Json controls = Json::array();
-  Bytes data;
+  std::vector<std::size_t> controls;
+  std::vector<std::size_t> derived;
   for (std::size_t c = fap::kFirstLowLevel; c < frames.front().size(); ++c) {
-    const auto value = [c](const head::ControlValues& frame) { return std::lround(frame[c]); };
     const bool moves = std::any_of(frames.begin(), frames.end(),
-                                   [&](const auto& frame) { return value(frame) != 0; });
-    if (!moves) continue;
-    controls.push_back(c);
-    std::int64_t last = 0;
-    for (const head::ControlValues& frame : frames) {
-      data.zigzag(value(frame) - last);
-      last = value(frame);
-    }
+                                   [c](const auto& frame) { return std::lround(frame[c]) != 0; });
+    const bool own = c > std::size_t(fap::kFapCount) || carried[c];
+    if (moves) (own ? controls : derived).push_back(c);
+  }
+  Bytes data;
+  for (const auto* list : {&controls, &derived}) {
+    for (const std::size_t c : *list) write_column(frames, c, data);
   }
   const fap::Rate rate = clip.motion.rate;
   const Json header{{"name", clip.name},       {"rate", {rate.num, rate.den}},
                     {"start", clip.start},     {"first", clip.motion.frames.front().number},
-                    {"frames", frames.size()}, {"controls", controls}};
+                    {"frames", frames.size()}, {"controls", controls},
+                    {"derived", derived}};
   return packed(
       detail::with_header(header.dump(-1, ' ', true, Json::error_handler_t::replace), data).take());
 }
@@ -87,6 +77,7 @@ Json fap_table() {
     table.push_back({{"number", info.number},
                      {"name", info.name},
                      {"group", info.group},
+                     {"unit", fap::unit_name(info.unit)},
                      {"point", info.feature_point}});
   }
   return table;
@@ -168,7 +159,7 @@ Result<std::string> make_page(const Page& page) {
       Json::parse(Json(page.clips[0].name).dump(-1, ' ', true, Json::error_handler_t::replace))
           .get<std::string>();
   const std::string script = std::string(detail::kHeadModules) + std::string(detail::kPageModules);
-  return filled(detail::kTemplate, {{"<!--title-->", html_text(name)},
+  return filled(detail::kTemplate, {{"<!--title-->", tools::escape_xml(name)},
                                     {"/*style*/", std::string(detail::kStyle)},
                                     {"<!--data-->", data_elements(page)},
                                     {"/*script*/", script}});

@@ -19,7 +19,7 @@ void shade_parts(const Shape& shape, const Skin& skin, Head& head);
 /// All 84 points.
 void find_feature_points(const Shape& shape, const Skin& skin, const EarVertices& ears, Head& head);
 
-/// Skin that hair covers is held, lest it comes through: 0 there, 1 where it is seen.
+/// Skin that hair covers is made to slide, lest it comes through: 0 there, 1 where it is seen.
 std::vector<float> freedom_below_hair(const Shape& shape, const Mesh& skin);
 
 /// How far the vertices of the skin go along with the four lids.

@@ -6,9 +6,9 @@ namespace {
 
 // Into the ear's own axes: x outwards, y up, z to the back, in units of its size.
 Vec3d to_ear(const Shape& shape, Vec3d p) {
-  const Vec3d hole{shape.p.skull_width * 0.86, -0.75, -0.3};
-  const Vec3d q = (p - hole) * (1 / shape.p.ear);
-  const double turn = 0.45;  // the back edge stands off
+  Vec3d q = (p - shape.ear) * (1 / shape.p.ear);
+  q.x -= 0.06 + shape.ear_lean * q.y;
+  const double turn = 0.36;  // the back edge stands off
   const double lean = 0.16;  // the top leans back
   const double x = std::cos(turn) * q.x + std::sin(turn) * q.z;
   const double back = -std::cos(turn) * q.z + std::sin(turn) * q.x;
@@ -39,10 +39,9 @@ double ear_field(const Shape& shape, Vec3d p) {
 
 Mesh make_left_ear(const Shape& shape) {
   const double s = shape.p.ear;
-  const Vec3d middle{shape.p.skull_width * 0.86, -0.75, -0.3};
   return surface_nets([&shape](Vec3d p) { return ear_field(shape, p); },
-                      middle - Vec3d{2.4, 3.2, 2.8} * s, middle + Vec3d{2.2, 3.2, 2.8} * s,
-                      0.16 * s / std::sqrt(shape.p.density));
+                      shape.ear - Vec3d{2.4, 3.2, 2.8} * s, shape.ear + Vec3d{2.4, 3.2, 2.8} * s,
+                      0.155 * s / std::sqrt(shape.p.density));
 }
 
 double body_field(const Shape& shape, Vec3d p) {
@@ -63,7 +62,7 @@ double body_field(const Shape& shape, Vec3d p) {
 Mesh make_body(const Shape& shape) {
   const double wide = shape.p.neck * 4.2;
   const auto field = [&shape](Vec3d p) { return std::max(body_field(shape, p), -19.0 - p.y); };
-  Mesh mesh = surface_nets(field, {-wide, -20, -12}, {wide, -8.5, 6}, 0.42);
+  Mesh mesh = surface_nets(field, {-wide, -20, -12}, {wide, -8.5, 6}, 0.5);
   mesh.colours.assign(mesh.positions.size(), linear_colour(shape.p.cloth_colour));
   mesh.material = Material::cloth;
   return mesh;

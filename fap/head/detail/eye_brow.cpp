@@ -2,6 +2,7 @@
 
 #include "fap/head/detail/paint.h"
 #include "fap/head/detail/parts.h"
+#include "fap/head/detail/tube.h"
 
 namespace animeme::head::detail {
 namespace {
@@ -10,7 +11,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kPupil = 1.0 / 3;  // of the iris, as the standard has it, and a little more
 
 struct EyeColours {
-  Vec3 white{0.86f, 0.84f, 0.82f};
+  Vec3 white{0.80f, 0.775f, 0.75f};
   Vec3 iris, dark;
 };
 
@@ -26,35 +27,6 @@ Vec3 eye_colour(const EyeColours& c, double r, double iris, double pupil, double
   Vec3 colour = c.iris * float(0.75 + 0.35 * fibre) * (0.55f + 0.95f * lower);
   colour = mix(c.dark, colour, float(smooth_step(0.0, 0.22, t)));
   return mix(colour, c.dark, float(smooth_step(0.78, 1.0, t)));
-}
-
-// A closed tube along a line of places with oval cross sections; ends are points.
-struct Section {
-  Vec3d place, up, out;  // half axes
-};
-
-void add_tube(const std::vector<Section>& sections, int around, Mesh& mesh) {
-  const auto base = std::uint32_t(mesh.positions.size());
-  for (const Section& s : sections) {
-    for (int k = 0; k < around; ++k) {
-      const double a = 2 * kPi * k / around;
-      mesh.positions.push_back(Vec3(s.place + s.up * std::sin(a) + s.out * std::cos(a)));
-    }
-  }
-  const auto at = [&](std::size_t row, int k) {
-    return base + std::uint32_t(row) * std::uint32_t(around) + std::uint32_t(k % around);
-  };
-  for (std::size_t row = 0; row + 1 < sections.size(); ++row) {
-    for (int k = 0; k < around; ++k) {
-      mesh.triangles.push_back({at(row, k), at(row + 1, k), at(row + 1, k + 1)});
-      mesh.triangles.push_back({at(row, k), at(row + 1, k + 1), at(row, k + 1)});
-    }
-  }
-  const std::size_t last = sections.size() - 1;
-  for (int k = 1; k + 1 < around; ++k) {
-    mesh.triangles.push_back({at(0, 0), at(0, k), at(0, k + 1)});
-    mesh.triangles.push_back({at(last, 0), at(last, k + 1), at(last, k)});
-  }
 }
 
 }  // namespace

@@ -100,7 +100,7 @@ void jaw_cheeks_and_brows(const Shape& shape, Finder& find) {
   find.near_front("4.3", "4.4", shape.brow(0.5).x, shape.brow(0.5).y);
   find.near_front("4.5", "4.6", shape.brow(1).x, shape.brow(1).y);
   find.near_front("5.1", "5.2", 4.0, -p.mouth_drop + 0.6);
-  find.near_front("5.3", "5.4", 4.2, -2.2);
+  find.near_front("5.3", "5.4", 4.3, -2.5);
 }
 
 void eyes(const Layout& l, Finder& find) {

@@ -2,6 +2,7 @@
 
 #include "fap/head/detail/paint.h"
 #include "fap/head/detail/parts.h"
+#include "fap/head/detail/scalp.h"
 
 namespace animeme::head::detail {
 namespace {
@@ -47,57 +48,79 @@ double bob_field(const Shape& shape, const HairLines& lines, Vec3d p) {
   d = smooth_min(d, rolls(lines.right, p, 0.62, 0.2), 0.9);
   const double parting = std::exp(-std::pow((p.x + 1.6) / 0.28, 2)) * smooth_step(6.0, 8.5, p.y) *
                          smooth_step(-3.0, 3.0, p.z);
-  return d + 0.16 * parting + 0.075 * strand(p, 26, 1.0);
+  return d + 0.16 * parting + 0.05 * strand(p, 26, 1.0);
 }
 
-// A cap of hair: the skin, thicker where hair grows. Its lower edge runs around the head at heights
-// over the angle from the front.
-struct Cap {
-  std::array<double, 9> angles;  // rad, 0 = front, rising to pi
-  std::array<double, 9> heights;
-  double sides, top, front;  // thickness, cm
-  double edge;               // from nothing to full thickness, cm
-  double strands;            // depth of the grooves
-};
+using Surface = std::function<double(Vec3d)>;
 
-constexpr Cap kShortCut{{0, 0.45, 0.72, 0.90, 1.05, 1.30, 1.48, 1.85, 3.15},
-                        {6.5, 6.2, 5.2, 3.3, 0.8, -1.4, 1.3, -3.2, -5.4},
-                        0.34,
-                        0.95,
-                        0.45,
-                        1.5,
-                        0.13};
-constexpr Cap kFringe{{0, 0.40, 0.70, 0.95, 1.12, 1.30, 1.48, 1.85, 3.15},
-                      {5.7, 5.5, 4.5, 2.3, -0.3, -1.6, 1.2, -3.0, -4.6},
-                      0.75,
-                      0.95,
-                      0.25,
-                      0.62,
-                      0.10};
+constexpr Vec3d kInside{0, 3.2, -1.1};
 
-double edge_height(const Cap& cap, double angle) {
-  std::size_t i = 0;
-  while (i + 2 < cap.angles.size() && angle > cap.angles[i + 1]) ++i;
-  return cap.heights[i] + (cap.heights[i + 1] - cap.heights[i]) *
-                              smooth_step(cap.angles[i], cap.angles[i + 1], angle);
+Vec3d onto(const Surface& hair, Vec3d from, Vec3d away, double height) {
+  const Vec3d direction = normalised(away);
+  return outer_hit(hair, from, direction, 16) + direction * height;
 }
 
-double cap_field(const Shape& shape, const Cap& cap, double jag, Vec3d p) {
-  const double skin = shape.skin(p);
-  if (skin > 4) return skin - 2;  // far from any hair
-  const double angle = std::atan2(std::abs(p.x), p.z);
-  const double front = smooth_step(1.3, 0.6, angle);
-  const double tips = jag * std::abs(std::sin(p.x * 1.15 + 0.5)) * front;
-  const double inside = (p.y - edge_height(cap, angle) + tips) * 0.8;
-  const double up = smooth_step(2.5, 8.0, p.y);
-  const double quiff = front * smooth_step(4.5, 7.0, p.y) * smooth_step(11.5, 8.0, p.y);
-  const double full = cap.sides + (cap.top - cap.sides) * up + cap.front * quiff;
-  const double grown =
-      full * smooth_step(-0.15, cap.edge, inside) - 0.25 * smooth_step(0.0, -0.3, inside);
-  const double hair =
-      skin - grown + cap.strands * strand(p, 24, 1.6) * smooth_step(0.0, 1.0, inside);
-  // Nothing is left inside of the head below the edge.
-  return smooth_max(hair, -inside - 0.7, 0.2) * 0.8;
+// From the parting over the side to the ends, which turn in. Angle 0 is in front, pi behind.
+Lock curtain(const Surface& hair, double angle, double end, double width) {
+  constexpr int kPlaces = 26;
+  Lock lock;
+  lock.width = width;
+  lock.flatness = 0.34;
+  const Vec3d aside{std::sin(angle), 0, std::cos(angle)};
+  const Vec3d parting{-1.6, 8.0, 4.5 * std::cos(angle)};
+  for (int i = 0; i < kPlaces; ++i) {
+    const double t = double(i) / (kPlaces - 1);
+    const double over = std::min(t / 0.42, 1.0);
+    const double down = std::max((t - 0.42) / 0.58, 0.0);
+    const Vec3d from = kInside + Vec3d{0, (end - kInside.y) * down, 0};
+    const Vec3d away = mix(parting, aside * 8.5, smooth_step(-0.1, 1.0, over));
+    const double height = 0.12 - 0.5 * smooth_step(0.12, 0.0, t) - 0.9 * smooth_step(0.9, 1.0, t);
+    lock.places.push_back(onto(hair, from, away, height));
+    lock.outwards.push_back(normalised(away));
+  }
+  return lock;
+}
+
+// Along the edge of the hair above the face, `above` cm higher.
+Lock fringe(const Surface& hair, const std::vector<Vec3d>& line, double above) {
+  constexpr std::size_t kPlaces = 18;
+  Lock lock;
+  lock.width = 0.8;
+  std::vector<Vec3d> smooth;
+  for (std::size_t i = 0; i < kPlaces; ++i) {
+    const double at = double(i) / (kPlaces - 1) * double(line.size() - 1);
+    const auto k = std::min(std::size_t(at), line.size() - 2);
+    smooth.push_back(mix(line[k], line[k + 1], at - double(k)));
+  }
+  for (int round = 0; round < 4; ++round) {
+    for (std::size_t i = 1; i + 1 < kPlaces; ++i) {
+      smooth[i] = smooth[i] * 0.5 + (smooth[i - 1] + smooth[i + 1]) * 0.25;
+    }
+  }
+  for (std::size_t i = 0; i < kPlaces; ++i) {
+    const double t = double(i) / (kPlaces - 1);
+    const Vec3d away = smooth[i] + Vec3d{0, above * (1 - 0.3 * t), 0} - kInside;
+    lock.places.push_back(onto(hair, kInside, away, 0.18 - 0.4 * smooth_step(0.1, 0.0, t)));
+    lock.outwards.push_back(normalised(away));
+  }
+  return lock;
+}
+
+void add_bob_locks(const Surface& hair, const HairLines& lines, Vec3 colour, Mesh& mesh) {
+  for (int i = 0; i < 17; ++i) {
+    const double angle = 0.92 + (2 * kPi - 1.84) * i / 16;
+    const bool front = i == 0 || i == 16;
+    Lock lock = curtain(hair, angle, -7.1 - 0.35 * (i % 3) + (front ? 0.6 : 0), front ? 1.2 : 1.7);
+    lock.tint = 0.92f + 0.07f * float(i * 5 % 4);
+    add_lock(lock, colour, mesh);
+  }
+  for (int i = 2; i >= 0; --i) {
+    Lock left = fringe(hair, lines.left, 0.15 + 1.0 * i);
+    Lock right = fringe(hair, lines.right, 0.15 + 1.0 * i);
+    left.tint = right.tint = 0.95f + 0.08f * float(i);
+    add_lock(left, colour, mesh);
+    add_lock(right, colour, mesh);
+  }
 }
 
 }  // namespace
@@ -120,28 +143,23 @@ HairLines hair_lines(const Shape& shape) {
 }
 
 double hair_field(const Shape& shape, const HairLines& lines, Vec3d p) {
-  switch (shape.p.hair) {
-    case HairStyle::bob:
-      return bob_field(shape, lines, p);
-    case HairStyle::short_cut:
-      return cap_field(shape, kShortCut, 0, p);
-    case HairStyle::fringe:
-      return cap_field(shape, kFringe, 0.7, p);
-  }
-  return 1;
+  return shape.p.hair == HairStyle::bob ? bob_field(shape, lines, p) : short_hair_field(shape, p);
 }
 
 Mesh make_hair(const Shape& shape) {
+  if (shape.p.hair != HairStyle::bob) return make_short_hair(shape);
   const HairLines lines = hair_lines(shape);
   Mesh mesh =
       surface_nets([&](Vec3d p) { return hair_field(shape, lines, p); }, {-11.2, -10.4, -12.4},
-                   {11.2, 14, 11.2}, 0.4 / std::sqrt(shape.p.density));
+                   {11.2, 14, 11.2}, 0.56 / std::sqrt(shape.p.density));
   const Vec3 colour = linear_colour(shape.p.hair_colour);
   for (const Vec3& v : mesh.positions) {
     const Vec3d p(v);
     const float streak = float(0.6 * strand(p, 41, 1.5) + 0.4 * strand(p, 97, 2.5));
     mesh.colours.push_back(colour * (0.72f + 0.6f * streak));
   }
+  mesh.occlusion.assign(mesh.positions.size(), 1.0f);
+  add_bob_locks([&](Vec3d p) { return bob_field(shape, lines, p); }, lines, colour, mesh);
   mesh.material = Material::hair;
   return mesh;
 }

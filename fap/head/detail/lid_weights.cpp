@@ -27,14 +27,20 @@ void weigh_lids(const Shape& shape, Skin& skin, std::size_t vertices) {
   for (int side : {1, -1}) {
     auto& upper = skin.seams.lid_weights[side > 0 ? 0 : 2];
     auto& lower = skin.seams.lid_weights[side > 0 ? 1 : 3];
-    for (int i = l.eye_inner; i <= l.eye_outer; ++i) {
+    for (int i = l.eye_inner - 4; i <= l.eye_outer + 4; ++i) {
       const double x = skin.places[skin.at(l.upper_lid, i)].x;
       const double share = share_of_opening(shape, x);
-      const double width = shape.crease(x) - shape.upper_lid(x) + 0.75;
+      const double width = shape.crease(x) - shape.upper_lid(x) + 0.85;
+      // Away from the rim less and less of its corners, where skin goes along that is no lid.
+      const double q = (x - shape.eye.x) / (0.62 * shape.p.eye_width);
+      const double even = std::max(1 - q * q, 0.0);
       for (int row = l.brow; row <= l.upper_lid; ++row) {
         const std::uint32_t id = skin.at(row, side * i);
-        upper[id] = float(share * follow(skin.places[id].y - shape.upper_lid(x), width));
+        const double above = skin.places[id].y - shape.upper_lid(x);
+        const double here = share + (even - share) * smooth_step(0.0, 0.8, above);
+        upper[id] = float(here * follow(above, width));
       }
+      if (!l.in_eye(i)) continue;
       for (int row = l.lower_lid; row < l.nose_base; ++row) {
         const std::uint32_t id = skin.at(row, side * i);
         lower[id] = float(share * follow(shape.lower_lid(x) - skin.places[id].y, 0.9));

@@ -7,20 +7,22 @@ namespace animeme::head::detail {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr Vec3 kEnamel{0.86f, 0.83f, 0.76f};
+constexpr Vec3 kEnamel{0.77f, 0.74f, 0.67f};
 constexpr Vec3 kGum{0.55f, 0.17f, 0.16f};
 constexpr Vec3 kTongue{0.60f, 0.19f, 0.18f};
 
-// The arch of the teeth seen from above: a half ellipse open to the back.
+// The arch of the teeth seen from above: flat before, open to the back; its ends rise.
 struct Arch {
-  double half_width, depth, front, height;
+  double half_width, depth, front, height, rise;
   Vec3d place(double t) const {  // t -1..1 from the right end to the left one
     const double a = t * kPi / 2;
-    return {half_width * std::sin(a), height, front - depth * (1 - std::cos(a))};
+    const double aside = std::sin(a);
+    return {half_width * aside, height + rise * aside * aside,
+            front - depth * std::pow(1 - std::cos(a), 1.3)};
   }
   Vec3d outwards(double t) const {
-    const double a = t * kPi / 2;
-    return normalised(Vec3d{depth * std::sin(a), 0, half_width * std::cos(a)});
+    const Vec3d along = place(t + 1e-3) - place(t - 1e-3);
+    return normalised(Vec3d{-along.z, 0, along.x});
   }
 };
 
@@ -105,32 +107,35 @@ void add_gum(const Arch& arch, double offset, double height, Mesh& mesh) {
 }  // namespace
 
 Mesh make_teeth(const Shape& shape, bool upper) {
-  const double front = shape.front(0, -shape.p.mouth_drop).z - 0.62;
-  const double bite = -shape.p.mouth_drop - 0.12;
-  const Arch arch{shape.p.mouth_width * (upper ? 0.86 : 0.82), 2.9, front - (upper ? 0 : 0.14),
-                  bite};
-  const double widths[] = {0.43, 0.36, 0.39, 0.36, 0.37, 0.45};  // from the middle outwards
+  const double size = shape.p.mouth_width / 2.35;
+  const double front = shape.front(0, -shape.p.mouth_drop).z - 0.54;
+  // Upper teeth are a little before the lower ones and cover their edges.
+  const Arch arch{shape.p.mouth_width * (upper ? 1.09 : 1.05), 3.0, front - (upper ? 0 : 0.13),
+                  -shape.p.mouth_drop - 0.19, upper ? 0.16 : 0.12};
+  const double widths[] = {0.45, 0.36, 0.40, 0.37, 0.37, 0.48, 0.48};  // from the middle outwards
+  const double heights[] = {1.0, 0.9, 1.0, 0.88, 0.84, 0.8, 0.75};
   Mesh mesh;
   mesh.material = Material::teeth;
   double t = 0;
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < 7; ++i) {
     const double scale = upper ? 1.0 : (i < 2 ? 0.76 : 0.97);
-    const double width = widths[i] * scale * shape.p.mouth_width / 2.35;
+    const double width = widths[i] * scale * size;
     // Half of the tooth along the arch, in t.
-    const double speed = length(arch.place(t + 0.02) - arch.place(t)) / 0.02;
+    const double speed = length(arch.place(t + 0.04) - arch.place(t)) / 0.04;
     const double middle = t + width / speed;
     t = middle + width / speed;
-    const double half_height = (upper ? 0.52 : 0.44) * (i == 1 ? 0.93 : 1.0) * (i > 3 ? 0.85 : 1.0);
+    const double half_height = (upper ? 0.56 : 0.46) * heights[upper ? i : 0] * (i > 3 ? 0.9 : 1.0);
     for (const double side : {1.0, -1.0}) {
       const Vec3d out = arch.outwards(side * middle);
       const Vec3d along = normalised(cross(Vec3d{0, 1, 0}, out));
-      Tooth tooth{arch.place(side * middle), along, out, width * 1.02, half_height, 0.2,
+      Tooth tooth{arch.place(side * middle), along, out, width * 1.03, half_height, 0.19,
                   upper ? 1.0 : -1.0};
-      tooth.place.y += upper ? half_height : -half_height;
-      add_tooth(tooth, float(1.0 - 0.11 * i), mesh);
+      // Edges of shorter teeth are a little higher.
+      tooth.place.y += upper ? half_height + 0.5 * (0.56 - half_height) : -half_height;
+      add_tooth(tooth, float(1.0 - 0.1 * i), mesh);
     }
   }
-  add_gum(arch, upper ? 1.15 : -1.0, 0.42, mesh);
+  add_gum(arch, upper ? 1.2 : -1.0, 0.42, mesh);
   return mesh;
 }
 

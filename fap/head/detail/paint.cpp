@@ -1,12 +1,11 @@
 #include "fap/head/detail/paint.h"
 
+#include "fap/head/detail/srgb.h"
+
 namespace animeme::head::detail {
 namespace {
 
-float linear(std::uint32_t byte) {
-  const float v = float(byte & 255u) / 255.0f;
-  return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-}
+float linear(std::uint32_t byte) { return linear_of_srgb(float(byte & 255u) / 255.0f); }
 
 float bump(double distance, double width) {
   return float(std::exp(-distance * distance / (width * width)));
@@ -30,7 +29,7 @@ Vec3 face_colour(const Shape& shape, Vec3d p) {
 // 0 outside of the lips, 1 inside of their contour.
 float lip_share(const Layout& l, int row, int column) {
   const int beyond = std::abs(column) - l.mouth_corner;
-  const float side = smooth_step(2.0f, 0.0f, float(beyond));
+  const float side = smooth_step(1.2f, -1.6f, float(beyond));
   const float above = smooth_step(float(l.upper_lip) - 0.5f, float(l.upper_lip) + 1.6f, float(row));
   const float below = smooth_step(float(l.lower_lip) + 0.5f, float(l.lower_lip) - 2.0f, float(row));
   return std::min(above, below) * side;
@@ -52,9 +51,10 @@ void paint_skin(const Shape& shape, Skin& skin) {
     for (int c = -l.back; c < l.back; ++c) {
       const std::uint32_t id = skin.at(row, c);
       Vec3 colour = face_colour(shape, skin.places[id]);
-      colour = mix(colour, lip, 0.9f * lip_share(l, row, c));
+      const float share = lip_share(l, row, c);
+      colour = mix(colour, lip, 0.9f * share);
       const bool contact = row == l.upper_contact || row == l.lower_contact;
-      if (contact && l.in_mouth(std::abs(c))) colour = colour * 0.45f;
+      if (contact && l.in_mouth(std::abs(c))) colour = colour * (0.6f - 0.15f * share);
       const bool rim = row == l.upper_lid || row == l.lower_lid;
       if (rim && l.in_eye(std::abs(c))) {
         colour = row == l.upper_lid ? Vec3{0.10f, 0.045f, 0.035f} : mix(colour, lip, 0.3f);

@@ -16,6 +16,8 @@ struct HairLines {
 HairLines hair_lines(const Shape& shape);
 double hair_field(const Shape& shape, const HairLines& lines, Vec3d p);  ///< distance to the hair
 Mesh make_hair(const Shape& shape);
+double short_hair_field(const Shape& shape, Vec3d p);  ///< the cap alone, without its locks
+Mesh make_short_hair(const Shape& shape);
 double body_field(const Shape& shape, Vec3d p);
 Mesh make_body(const Shape& shape);
 Mesh make_teeth(const Shape& shape, bool upper);  ///< with gums

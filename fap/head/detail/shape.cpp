@@ -9,15 +9,18 @@ constexpr double kEyeDepth = 6.75;
 void add_bones(Form& form, const HeadParameters& p) {
   form.ball({0, 3.4, -0.4}, {p.skull_width, p.skull_height, 9.0}, 0);
   form.ball({0, 3.3, 2.4}, {p.skull_width * 0.84, 5.4, 6.5}, 2.0);
-  form.ball({0, -1.9, 2.5}, {p.face_width, 6.6, 6.2}, 2.0);
-  form.ball({0, -p.chin_drop + 3.4, 3.0}, {p.jaw_width * 1.42, 3.3, 5.0}, 2.6);
+  form.ball({0, -1.9, 2.5}, {p.face_width, 6.6, 6.0}, 2.0);
+  form.ball({0, -p.chin_drop + 3.4, 3.0}, {p.jaw_width * 1.42, 3.3, 4.6}, 2.6);
   form.ball({0, -p.chin_drop + p.chin_size, 7.0}, {p.chin_size * 1.25, p.chin_size, 1.45}, 2.2);
-  form.limb({0, -5, -1.4}, {0, -18, -3.2}, p.neck, p.neck * 1.08, 2.2);
+  // The bone of the jaw, from the chin to below the ear.
+  form.limb({p.chin_size * 0.9, -p.chin_drop + 1.25, 6.4},
+            {p.jaw_width * 1.26, -p.chin_drop + 4.3, 0.9}, 0.9, 0.75, 2.1);
+  form.limb({0, -5, -1.7}, {0, -18, -3.2}, p.neck, p.neck * 1.08, 1.5);
 }
 
 void add_flesh(Form& form, const HeadParameters& p) {
   form.ball({3.55, -2.55, 5.7}, {p.cheek, p.cheek * 0.92, p.cheek}, 1.9);
-  form.ball({0, -p.mouth_drop + 0.15, 6.75}, {2.75, 2.2, 2.0}, 1.9);
+  form.ball({0, -p.mouth_drop + 0.15, 6.6}, {2.25, 2.2, 2.15}, 1.8);
   if (p.brow_ridge > 0) {
     form.limb({0.9, 1.75, 8.0}, {4.6, 1.75, 6.2}, 0.55 + p.brow_ridge, 0.5 + p.brow_ridge, 1.3);
   }
@@ -28,8 +31,8 @@ void add_nose(Form& form, const HeadParameters& p) {
   const double r = p.nose_size;
   form.limb({0, -0.3, 7.75 + p.nose_bridge}, {0, tip + 0.2, 9.5}, 0.40, r * 0.8, 1.5);
   form.ball({0, tip, 9.7}, {r * 0.98, r * 0.88, r}, 0.55);
-  form.ball({r * 1.1, tip - 0.2, 9.05}, {r * 0.6, r * 0.55, r * 0.85}, 0.55);
-  form.hollow({r * 0.52, tip - r * 1.05, 9.5}, {r * 0.3, r * 0.3, r * 0.42}, 0.3);
+  form.ball({r * 1.16, tip - 0.2, 9.05}, {r * 0.58, r * 0.56, r * 0.85}, 0.42);
+  form.hollow({r * 0.66, tip - r * 0.98, 9.42}, {r * 0.27, r * 0.32, r * 0.42}, 0.22);
 }
 
 }  // namespace
@@ -44,6 +47,12 @@ Shape::Shape(const HeadParameters& parameters) : p(parameters) {
   skin.hollow({eye.x + 0.1, 0.2, 9.5}, {2.2, 1.4, 1.6}, 1.7);
   skin.ball(eye, {lid, lid, lid}, 0.75);
   add_nose(skin, p);
+  // Between nose and upper lip.
+  const double groove = 0.5 * (upper_lip(0) - p.nose_length - 0.62);
+  skin.hollow({0, groove, front(0, groove).z + 0.24}, {0.24, 0.62, 0.34}, 0.5);
+  const auto side = [this](double y) { return outer_hit(skin, {0, y, -0.3}, {1, 0, 0}, 14); };
+  ear = side(-0.75);
+  ear_lean = (side(1.0).x - side(-2.5).x) / 3.5;
 }
 
 double Shape::upper_lid(double x) const {

@@ -16,6 +16,8 @@ struct Shape {
   double lid = 0;  ///< radius of the outer side of the lids
   Vec3d jaw_axis;
   Vec3d neck_pivot;
+  Vec3d ear;            ///< where the left ear grows: on the skin
+  double ear_lean = 0;  ///< how much the side of the head goes outwards, by its height
 
   double inner_corner() const { return eye.x - p.eye_width / 2; }
   double outer_corner() const { return eye.x + p.eye_width / 2; }

@@ -54,9 +54,9 @@ void form_lids(const Shape& shape, const Layout& l, std::vector<Vec3d>& grid) {
       if (row >= l.upper_lid) continue;
       const double d = place.y - shape.crease(place.x);
       const double q = (place.x - shape.eye.x) / (shape.p.eye_width / 2);
-      const double fade = smooth_step(1.1, 0.6, std::abs(q));
-      const double fold = -0.11 * std::exp(-std::pow(d / 0.10, 2)) +
-                          0.09 * std::exp(-std::pow((d - 0.28) / 0.2, 2));
+      const double fade = smooth_step(1.0, 0.45, std::abs(q));
+      const double fold = -0.10 * std::exp(-std::pow(d / 0.13, 2)) +
+                          0.08 * std::exp(-std::pow((d - 0.30) / 0.22, 2));
       place += away * (fold * fade);
     }
   }

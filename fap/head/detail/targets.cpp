@@ -2,13 +2,12 @@
 
 #include <limits>
 
-#include "fap/head/detail/normals.h"
+#include "fap/head/detail/slide.h"
 #include "fap/head/detail/weights.h"
 
 namespace animeme::head::detail {
 namespace {
 
-constexpr float kSteepest = 1.5f;  // of a forehead on which brows slide
 constexpr float kLeast = 0.002f;    // smaller weights are nothing
 constexpr float kChinBack = 0.42f;  // the chin goes back by this share of its drop
 constexpr float kJawShare = 0.8f;   // drop of the teeth against that of the chin
@@ -68,9 +67,10 @@ std::vector<Share> shares_of(int fap) {
 class Maker {
  public:
   explicit Maker(const Head& head)
-      : head_(head), weights_(skin_weights(head)), column_(head.part(Part::skin).positions.size()) {
-    const Mesh& skin = head.part(Part::skin);
-    smooth_normals(skin.positions, skin.triangles, normals_);
+      : head_(head),
+        weights_(skin_weights(head)),
+        column_(head.part(Part::skin).positions.size()),
+        slide_(head) {
     find_ears();
     bind(Part::brows);
   }
@@ -84,8 +84,8 @@ class Maker {
         deltas[v] = step * column_[v];
         if (fap == 3) deltas[v].z += step.y * kChinBack * column_[v];
       }
-      if (fap >= 31 && fap <= 36) slide_on_bone(deltas);
-      slide_below_hair(fap, deltas);
+      if (fap >= 31 && fap <= 36) slide_.on_bone(deltas);
+      if (fap < 65) slide_.below_hair(deltas);
       add_mouth_floor(fap, step, deltas);
       add(fap, Part::skin, deltas);
       add_bound(fap, deltas);
@@ -115,14 +115,6 @@ class Maker {
       }
     }
     return any;
-  }
-
-  // Brows slide on the forehead, which leans back: moved up alone, its skin would stand off.
-  void slide_on_bone(std::vector<Vec3>& deltas) const {
-    for (std::size_t v = 0; v < deltas.size(); ++v) {
-      const Vec3 n = normals_[v];
-      if (n.z > 0 && n.y > 0) deltas[v].z -= deltas[v].y * std::min(n.y / n.z, kSteepest);
-    }
   }
 
   bool fill_lid(int fap) {
@@ -167,14 +159,6 @@ class Maker {
       const Vec3 r = head_.part(Part::skin).positions[v] - head_.jaw_axis;
       const Vec3 turned = fap == 3 ? Vec3{0, -r.z * angle, r.y * angle} : step;
       deltas[v] = mix(deltas[v], turned, weights[v]);
-    }
-  }
-
-  // Skin that hair covers slides along itself, lest it comes through.
-  void slide_below_hair(int fap, std::vector<Vec3>& deltas) const {
-    const auto& freedom = head_.seams.freedom;
-    for (std::size_t v = 0; v < freedom.size() && v < deltas.size() && fap < 65; ++v) {
-      deltas[v] -= normals_[v] * (dot(normals_[v], deltas[v]) * (1 - freedom[v]));
     }
   }
 
@@ -281,7 +265,7 @@ class Maker {
   const Head& head_;
   Weights weights_;
   std::vector<float> column_;
-  std::vector<Vec3> normals_;  // of the neutral skin
+  Slide slide_;
   std::array<std::vector<std::uint32_t>, 2> ears_;
   std::vector<Binding> bound_;
   std::vector<Target> targets_;

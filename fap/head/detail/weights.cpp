@@ -4,6 +4,8 @@
 #include <tuple>
 #include <utility>
 
+#include "fap/head/detail/diffuse.h"
+
 namespace animeme::head::detail {
 namespace {
 
@@ -57,9 +59,8 @@ constexpr struct {
 constexpr float kBackground = 0.02f;
 constexpr float kCore = 0.3f;  // of anchors
 constexpr int kSmoothings = 2;
-constexpr int kRounds = 30;           // of each smoothing
-constexpr float kSmoothLips = 0.16f;  // cm: as far as values run into each other at the lips ...
-constexpr float kSmoothSkin = 0.75f;  // ... and away from them
+constexpr float kSmoothLips = 0.2f;   // cm: as far as values run into each other at the lips ...
+constexpr float kSmoothSkin = 0.42f;  // ... and away from them
 
 class Builder {
  public:
@@ -88,7 +89,7 @@ class Builder {
       for (float& w : weights_.row(v)) w /= sum_[v];
     }
     const std::vector<float> radii = smooth_radii();
-    for (int i = 0; i < kSmoothings; ++i) smooth(radii);
+    for (int i = 0; i < kSmoothings; ++i) diffuse(mesh_.positions, neighbours_, radii, weights_);
     hold_lids();
     make_exact();
     match_lips();
@@ -197,29 +198,6 @@ class Builder {
       radii[r.vertex] = (kSmoothLips + (kSmoothSkin - kSmoothLips) * far) * scale_;
     }
     return radii;
-  }
-
-  // One implicit step of heat flow, by Jacobi's rounds: fixed order, left and right alike.
-  void smooth(const std::vector<float>& radii) {
-    const Weights start = weights_;
-    Weights next(weights_.vertices(), weights_.controls());
-    for (int round = 0; round < kRounds; ++round) {
-      for (std::size_t v = 0; v < weights_.vertices(); ++v) {
-        const std::span<float> out = next.row(v);
-        const std::span<const float> own = start.row(v);
-        std::copy(own.begin(), own.end(), out.begin());
-        float sum = 1;
-        for (const std::uint32_t n : neighbours_.of(std::uint32_t(v))) {
-          const Vec3 d = mesh_.positions[n] - mesh_.positions[v];
-          const float share = radii[v] * radii[v] / std::max(dot(d, d), 1e-4f) * 0.5f;
-          const std::span<const float> in = std::as_const(weights_).row(n);
-          for (std::size_t c = 0; c < out.size(); ++c) out[c] += share * in[c];
-          sum += share;
-        }
-        for (float& w : out) w /= sum;
-      }
-      std::swap(weights_, next);
-    }
   }
 
   // Multiplies the table by the inverse of its rows at the controls.

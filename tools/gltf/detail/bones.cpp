@@ -43,15 +43,6 @@ std::array<float, 4> quaternion(const Transform& t) {
   return {float(sign * q[0]), float(sign * q[1]), float(sign * q[2]), float(sign * q[3])};
 }
 
-Transform inverse(const Transform& t) {
-  Transform out;
-  out.row_x = {t.row_x.x, t.row_y.x, t.row_z.x};
-  out.row_y = {t.row_x.y, t.row_y.y, t.row_z.y};
-  out.row_z = {t.row_x.z, t.row_y.z, t.row_z.z};
-  out.shift = out.turn(t.shift) * -1.0f;
-  return out;
-}
-
 // A bone at `pivot` under a parent at `parent` that does what `move` does to points of the head.
 BoneKey key(const Transform& move, Vec3 pivot, Vec3 parent) {
   return {quaternion(move), (move(pivot) - parent) * kMetres};

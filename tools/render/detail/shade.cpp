@@ -149,8 +149,8 @@ float eye_highlight(Vec3 normal, const View& view) {
   const Vec3 n = normalised(normal);
   const float key = std::max(dot(n, normalised(view.key + view.back)), 0.0f);
   const float fill = std::max(dot(n, normalised(view.fill + view.up * 0.8f + view.back)), 0.0f);
-  const float sharp = head::smooth_step(0.962f, 0.976f, key);
-  return 235 * sharp + 30 * power(key, 5) + 150 * head::smooth_step(0.986f, 0.992f, fill);
+  const float sharp = head::smooth_step(0.967f, 0.980f, key);
+  return 235 * sharp + 30 * power(key, 5) + 110 * head::smooth_step(0.987f, 0.993f, fill);
 }
 
 }  // namespace animeme::render::detail

@@ -1,24 +1,31 @@
 // A motion as pack_clip() of page.cpp writes it.
 import {ByteReader} from './bytes.js';
 
+function readColumns(reader, controls, frames) {
+  const columns = {};
+  for (const control of controls) {
+    const column = new Int32Array(frames);
+    let value = 0;
+    for (let i = 0; i < frames; ++i) column[i] = value += reader.zigzag();
+    columns[control] = column;
+  }
+  return columns;
+}
+
 /** Frames at a rate; times are seconds on the clock of the sound. */
 export class Clip {
   constructor(bytes) {
     const reader = new ByteReader(bytes);
-    const {name, rate, start, first, frames, controls} = reader.header;
+    const {name, rate, start, first, frames, controls, derived} = reader.header;
     this.name = name;
     this.rate = rate[0] / rate[1];
     this.frames = frames;
     this.start = start + first / this.rate;
     this.end = this.start + frames / this.rate;
     /** Values by FAP number, then weights of shapes; what never moves is missing. */
-    this.columns = {};
-    for (const control of controls) {
-      const column = new Int32Array(frames);
-      let value = 0;
-      for (let i = 0; i < frames; ++i) column[i] = value += reader.zigzag();
-      this.columns[control] = column;
-    }
+    this.columns = readColumns(reader, controls, frames);
+    /** What the clip does not carry and the head does of itself, such as lids that follow. */
+    this.derived = readColumns(reader, derived, frames);
     this.size = Math.max(68, ...controls) + 1;
   }
 
@@ -43,8 +50,8 @@ export class Clip {
     const frame = this.frameAt(time);
     const next = Math.min(frame + 1, this.frames - 1);
     const share = between ? Math.min(Math.max((time - this.timeOf(frame)) * this.rate, 0), 1) : 0;
-    for (const control of Object.keys(this.columns)) {
-      const column = this.columns[control];
+    for (const [control, column] of
+         [...Object.entries(this.columns), ...Object.entries(this.derived)]) {
       out[control] = column[frame] + (column[next] - column[frame]) * share;
     }
     return out;
@@ -61,9 +68,9 @@ export class Clip {
   }
 }
 
-/** Root mean square of the differences of all FAPs in one frame each, FAP units. */
-export function valueDifference(a, b) {
+/** Root mean square of the differences of the values of some FAPs in one frame each; 0 for none. */
+export function valueDifference(a, b, faps) {
   let square = 0;
-  for (let f = 3; f <= 68; ++f) square += (a[f] - b[f]) ** 2;
-  return Math.sqrt(square / 66);
+  for (const fap of faps) square += (a[fap] - b[fap]) ** 2;
+  return Math.sqrt(square / Math.max(faps.length, 1));
 }

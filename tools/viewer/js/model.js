@@ -36,7 +36,7 @@ function readTarget(reader, {control, part, count, steps, low = -Infinity, high 
 }
 
 /** {name, parts: [{name, material, positions, normals, paint, triangles}], targets, lips, lids,
-    sliding, beforeEyes, anchors, neckWeights, and what the header has}. Vertices of targets are places in the
+    sliding, beforeEyes, teeth, anchors, neckWeights, and what the header has}. Vertices of targets are places in the
     array of positions. */
 export function readModel(bytes) {
   const reader = new ByteReader(bytes);
@@ -48,8 +48,10 @@ export function readModel(bytes) {
   const lids = header.lids.map((count) => reader.varints(count * 2));
   const sliding = header.sliding.map((count) => reader.varints(count));
   const beforeEyes = header.before_eyes.map((count) => reader.varints(count));
+  const teeth = header.teeth.map((arch) => ({...arch, vertices: reader.varints(arch.count)}));
   const anchors = reader.varints(header.anchors);
   const neckWeights = Float32Array.from(reader.u16(parts[0].positions.length / 3),
       (weight) => weight / 65535);
-  return {...header, parts, targets, lips, lids, sliding, beforeEyes, anchors, neckWeights};
+  return {...header, parts, targets, lips, lids, sliding, beforeEyes, teeth, anchors,
+    neckWeights};
 }

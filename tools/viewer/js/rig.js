@@ -1,5 +1,5 @@
 // Moves a head: the same as pose.cpp in fap/head, vertex for vertex.
-import {IDENTITY, compose, moved, movedPoints, rotationAbout, smoothNormals, smoothStep} from
+import {IDENTITY, compose, inverse, moved, movedPoints, rotationAbout, smoothNormals, smoothStep} from
   './vector.js';
 
 export const FAP_COUNT = 68;
@@ -7,7 +7,9 @@ export const FAP_COUNT = 68;
 export const FIRST_SHAPE = FAP_COUNT + 1;
 const RADIANS = 1e-5;  // one unit of an angle
 const EYE_SKIN = 1.07;  // of the radius of an eyeball: skin comes no nearer to its centre
-const LID_RISE = -400;  // upper lids rise by this at most
+const LID_RISE = -270;  // upper lids rise by this at most
+const JAW_BACK = -250;  // and the jaw goes back by this
+const TEETH_SKIN = 1.05;  // of the half axes of a row of teeth, the same
 const CONTACT = 0.06;  // lips and lids feel each other at this share of the mouth-nose distance
 
 // Two FAPs whose points would pass each other let them meet half way.
@@ -30,6 +32,24 @@ function share(v, a, b, room) {
   } else {
     v[b] = room - v[a];
   }
+}
+
+// Points that would come too near to each other, so that the skin between them folds over.
+function stopAtRooms(v, rooms) {
+  const atLeast = (faps, least) => { for (const f of faps) v[f] = Math.max(v[f], least); };
+  const atMost = (faps, room) => {
+    for (const [outer, inner] of faps) v[outer] = Math.min(v[outer], v[inner] + room);
+  };
+  atLeast([19, 20], LID_RISE);
+  atLeast([14], JAW_BACK);
+  atLeast([18], -rooms.chin);
+  atLeast([31, 32, 33, 34, 35, 36], -rooms.brow_lid);
+  atLeast([37, 38], -0.5 * rooms.brows);
+  share(v, 37, 38, rooms.brows);
+  const chin = Math.min(v[18] - Math.max(v[3], 0), 0);
+  atLeast([5, 10, 11, 52, 57, 58], chin - rooms.lip_chin);
+  atMost([[51, 4], [55, 8], [56, 9]], rooms.upper_lip);
+  atMost([[52, 5], [57, 10], [58, 11]], rooms.lower_lip);
 }
 
 /** One head in one pose. */
@@ -60,16 +80,16 @@ export class Rig {
     for (const [upper, lower] of [[4, 5], [8, 10], [9, 11]]) meet(v, upper, lower);
     share(v, 19, 21, 1024);
     share(v, 20, 22, 1024);
-    for (const lid of [19, 20]) v[lid] = Math.max(v[lid], LID_RISE);
-    share(v, 37, 38, model.rooms.brows);
-    const chin = Math.min(v[18] - Math.max(v[3], 0), 0);
-    for (const lip of [5, 10, 11, 52, 57, 58]) v[lip] = Math.max(v[lip], chin - model.rooms.chin);
+    stopAtRooms(v, model.rooms);
     for (const i of this.deforming) positions[i].set(model.parts[i].positions);
     const skin = positions[index.skin];
     this.applyTargets(v, true);
     this.slideLids(skin);
     this.applyTargets(v, false);
     this.keepOffEyes(v, skin);
+    const [upper, lower] = model.teeth;
+    this.keepOffTeeth(upper, IDENTITY, skin);
+    this.keepOffTeeth(lower, this.jawTransform(v), skin);
     const touch = CONTACT * model.fapu.mns;
     for (const pairs of [model.lips, ...model.lids]) closePairs(pairs, touch, skin);
     this.turnLashes(skin, positions[index.lashes]);
@@ -138,6 +158,26 @@ export class Rig {
         skin[i + 2] += z * push;
       }
     });
+  }
+
+  // Skin that was pushed into a row of teeth, which is at `place`, comes out again.
+  keepOffTeeth(arch, place, skin) {
+    const neutral = this.model.parts[this.index.skin].positions;
+    const {middle: [mx, my, mz], half_width: width, depth, half_height: height} = arch;
+    const ratio = (x, z) => Math.hypot((x - mx) / width, (z - mz) / depth);
+    const back = inverse(place);
+    for (const vertex of arch.vertices) {
+      const i = vertex * 3;
+      const [x, y, z] = moved(back, skin[i], skin[i + 1], skin[i + 2]);
+      const is = ratio(x, z);
+      const least = Math.min(TEETH_SKIN, ratio(neutral[i], neutral[i + 2]));
+      if (is >= least || is < 0.5 || z < mz) continue;
+      const push = (least / is - 1) * smoothStep(2.4, 0.8, Math.abs(y - my) / height);
+      const [ox, oz] = [(x - mx) * push, (z - mz) * push];
+      skin[i] += place[0] * ox + place[2] * oz;
+      skin[i + 1] += place[3] * ox + place[5] * oz;
+      skin[i + 2] += place[6] * ox + place[8] * oz;
+    }
   }
 
   // Lashes turn with the rim that carries them, about the centre of the eye.
@@ -210,15 +250,13 @@ export class Rig {
   }
 }
 
-// Pairs that have passed each other meet in the middle; near contact their depths agree.
+// Pairs that have passed each other or nearly touch meet in the middle.
 function closePairs(pairs, soft, skin) {
   for (let k = 0; k < pairs.length; k += 2) {
     const u = pairs[k] * 3;
     const l = pairs[k + 1] * 3;
-    const gap = skin[u + 1] - skin[l + 1];
-    if (gap < 0) skin[u + 1] = skin[l + 1] = 0.5 * (skin[u + 1] + skin[l + 1]);
-    const touch = smoothStep(soft, 0, gap) * 0.5;
-    for (const axis of [0, 2]) {
+    const touch = smoothStep(soft, soft / 3, skin[u + 1] - skin[l + 1]) * 0.5;
+    for (const axis of [0, 1, 2]) {
       const apart = (skin[l + axis] - skin[u + axis]) * touch;
       skin[u + axis] += apart;
       skin[l + axis] -= apart;
@@ -231,8 +269,12 @@ function closePairs(pairs, soft, skin) {
     low_level() in head/shapes.h. */
 export function lowLevel(model, viseme, expression, own = {}) {
   const values = new Float64Array(FAP_COUNT + 1);
+  const given = new Set(Object.keys(own).map(Number));
   const add = (shape, weight) => {
-    for (const [fap, value] of shape || []) values[fap] += weight * value;
+    for (const [fap, value] of shape || []) {
+      values[fap] += weight * value;
+      given.add(fap);
+    }
   };
   if (viseme) {
     add(model.visemes[viseme.select1], viseme.blend / 63);
@@ -243,5 +285,10 @@ export function lowLevel(model, viseme, expression, own = {}) {
     add(model.expressions[expression.select2], expression.intensity2 / 63);
   }
   for (let fap = 3; fap <= FAP_COUNT; ++fap) values[fap] = own[fap] ?? values[fap];
+  // Upper lids that nobody moves go along with the eyes.
+  for (const side of [0, 1]) {
+    if (given.has(19 + side) || model.shapes > 0) continue;
+    values[19 + side] = Math.round(model.lid_follow[side] * values[25 + side]);
+  }
   return values;
 }

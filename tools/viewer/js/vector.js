@@ -25,6 +25,13 @@ export function compose(outer, inner) {
   return out.concat(moved(outer, inner[9], inner[10], inner[11]));
 }
 
+/** Of a rotation and shift. */
+export function inverse(m) {
+  const back = [m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8], 0, 0, 0];
+  const [x, y, z] = moved(back, m[9], m[10], m[11]);
+  return back.slice(0, 9).concat([-x, -y, -z]);
+}
+
 /** Angles in rad about the axes through a point: roll about Z first, then pitch about X, then yaw
     about Y. */
 export function rotationAbout([px, py, pz], pitch, yaw, roll) {

@@ -1,0 +1,19 @@
+// Closed tubes: brows, lashes, locks of hair.
+#pragma once
+
+#include <vector>
+
+#include "fap/head/model.h"
+
+namespace animeme::head::detail {
+
+/// An oval cross section: its half axes are `up` and `out`.
+struct Section {
+  Vec3d place, up, out;
+};
+
+/// Adds a tube of `around` vertices a section, closed by flat ends. Its triangles look outwards if
+/// `up` is cross(out, along) and the tube runs along `along`. Adds no colours.
+void add_tube(const std::vector<Section>& sections, int around, Mesh& mesh);
+
+}  // namespace animeme::head::detail

@@ -1,0 +1,177 @@
+// The skin does not turn over, whatever real captures do to it.
+#include <map>
+#include <sstream>
+
+#include "fap/fill.h"
+#include "fap/head/shapes.h"
+#include "fap/text.h"
+#include "tests/head/head_support.h"
+#include "tests/support/shared.h"
+
+namespace animeme::test {
+namespace {
+
+using head::Head;
+using head::Triangle;
+using head::Vec3;
+
+// Where the outside of the face ends: the contact line of the lips and the rims of the lids.
+std::vector<bool> seam_of(const Head& head) {
+  std::vector<bool> seam(head.part(head::Part::skin).positions.size());
+  const auto add = [&seam](const std::vector<head::ContactPair>& pairs) {
+    for (const head::ContactPair& pair : pairs) seam[pair.upper] = seam[pair.lower] = true;
+  };
+  add(head.seams.lips);
+  for (const auto& lids : head.seams.lids) add(lids);
+  for (const char* corner : {"2.4", "2.5", "3.7", "3.8", "3.11", "3.12"}) {
+    seam[head.point(corner).vertex] = true;
+  }
+  return seam;
+}
+
+// Triangles that can be reached from the chin without crossing a seam, those at a seam left out:
+// there the skin rolls in.
+std::vector<Triangle> outside_of(const Head& head) {
+  const auto& triangles = head.part(head::Part::skin).triangles;
+  const std::vector<bool> seam = seam_of(head);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> by_edge;
+  std::vector<std::size_t> open;
+  std::vector<bool> reached(triangles.size());
+  const std::uint32_t chin = head.point("2.1").vertex;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      by_edge[{triangles[t][k], triangles[t][(k + 1) % 3]}] = t;
+      if (triangles[t][k] == chin) open.push_back(t);
+    }
+  }
+  std::vector<Triangle> outside;
+  while (!open.empty()) {
+    const std::size_t t = open.back();
+    open.pop_back();
+    if (reached[t]) continue;
+    reached[t] = true;
+    const Triangle& corners = triangles[t];
+    if (!seam[corners[0]] && !seam[corners[1]] && !seam[corners[2]]) outside.push_back(corners);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = corners[k];
+      const std::uint32_t b = corners[(k + 1) % 3];
+      const auto next = by_edge.find({b, a});
+      if (next != by_edge.end() && !(seam[a] && seam[b])) open.push_back(next->second);
+    }
+  }
+  return outside;
+}
+
+class EachFace : public ::testing::TestWithParam<std::string> {
+ protected:
+  const head::Rig& rig() const { return rig_of(GetParam()); }
+
+  // How many triangles of the outside have turned by more than 90 degrees against the neutral face.
+  // The turn of the head as a whole is left out.
+  int turned_over(fap::Frame frame) {
+    for (const std::size_t f : {48u, 49u, 50u}) frame.mask.reset(f);
+    head::pose(rig(), frame, pose_);
+    const auto& was = rig().parts[0].positions;
+    const auto& is = pose_.positions[0];
+    const auto normal = [](const std::vector<Vec3>& p, const Triangle& t) {
+      return cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]);
+    };
+    int count = 0;
+    for (const Triangle& t : outside_) count += dot(normal(was, t), normal(is, t)) < 0 ? 1 : 0;
+    return count;
+  }
+
+  void expect_whole(const fap::Sequence& clip, const std::string& name) {
+    for (const fap::Frame& frame : clip.frames) {
+      ASSERT_EQ(turned_over(frame), 0) << name << " frame " << frame.number;
+      ++shown_;
+    }
+  }
+
+  void expect_whole(const std::filesystem::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    const auto text = fap::read_text(std::string{std::istreambuf_iterator<char>(in), {}},
+                                     {.headerless = path.stem() == "headerless"});
+    ASSERT_TRUE(text) << path;
+    const auto filled = fap::fill(*text);
+    ASSERT_TRUE(filled) << path;
+    expect_whole(*filled, path.filename().string());
+  }
+
+  const std::vector<Triangle> outside_ = outside_of(head_of(GetParam()));
+  head::Pose pose_;
+  int shown_ = 0;
+};
+INSTANTIATE_TEST_SUITE_P(Heads, EachFace, ::testing::Values("woman", "man", "child"));
+
+// A table with columns "fap3_open_jaw", "fap4_..." and others.
+fap::Sequence read_table(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  std::string line;
+  std::getline(in, line);
+  std::vector<int> faps;
+  std::stringstream names(line);
+  for (std::string name; std::getline(names, name, ',');) {
+    faps.push_back(name.starts_with("fap") ? std::atoi(name.c_str() + 3) : 0);
+  }
+  fap::Sequence clip;
+  while (std::getline(in, line)) {
+    fap::Frame frame;
+    frame.number = std::int64_t(clip.frames.size());
+    std::stringstream values(line);
+    std::string value;
+    for (const int fap : faps) {
+      if (std::getline(values, value, ',') && fap > 0) frame.set(fap, std::atoi(value.c_str()));
+    }
+    clip.frames.push_back(frame);
+  }
+  return clip;
+}
+
+TEST_P(EachFace, OutsideIsMostOfTheSkin) {
+  const std::size_t all = head_of(GetParam()).part(head::Part::skin).triangles.size();
+  EXPECT_GT(outside_.size(), all * 7 / 10);
+  EXPECT_LT(outside_.size(), all);  // neither the mouth nor the ears, which no FAP bends
+}
+
+TEST_P(EachFace, StaysWholeInRecordedSpeech) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(data_dir() / "grid_s1_sample" / "fap")) {
+    if (entry.path().extension() == ".csv") {
+      expect_whole(read_table(entry.path()), entry.path().filename().string());
+    }
+  }
+  EXPECT_GT(shown_, 700);
+}
+
+TEST_P(EachFace, StaysWholeInSampleTexts) {
+  for (const char* name : {"plain.fap", "quirks.fap", "headerless.fap", "high_level.fap"}) {
+    expect_whole(data_dir() / "fap" / name);
+  }
+  EXPECT_GT(shown_, 5);
+}
+
+TEST_P(EachFace, StaysWholeInVisemesAndExpressions) {
+  for (int viseme = 1; viseme <= 14; ++viseme) {
+    EXPECT_EQ(turned_over(head::viseme_shape(viseme)), 0) << "viseme " << viseme;
+  }
+  for (int expression = 1; expression <= 6; ++expression) {
+    EXPECT_EQ(turned_over(head::expression_shape(expression)), 0) << "expression " << expression;
+  }
+}
+
+// Extreme captures: a jaw thrust of -1242, a chin down by 955, brows that would pass each other.
+TEST_P(EachFace, StaysWholeInCaptures) {
+  const std::filesystem::path folder = shared_dir() / "wild_fap";
+  if (shared_dir().empty() || !std::filesystem::is_directory(folder)) {
+    GTEST_SKIP() << "no reference data: set ANIMEME_SHARED";
+  }
+  for (const char* name : {"jag.fap", "xface_fear.fap", "xface_pride.fap", "surp.fap", "anger.fap",
+                           "joy.fap", "eyes.fap"}) {
+    expect_whole(folder / name);
+  }
+  EXPECT_GT(shown_, 400);
+}
+
+}  // namespace
+}  // namespace animeme::test
