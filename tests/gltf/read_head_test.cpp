@@ -287,6 +287,35 @@ TEST(ReadHead, VrmNamesItsBones) {
   expect_near(*source.eyes[1], {0, 2, 0});
 }
 
+TEST(ReadHead, VrmNamesItsExpressions) {
+  for (const bool old : {true, false}) {
+    Square square;
+    const int moves =
+        square.file.sparse(4, std::vector<std::uint8_t>{1}, std::vector<float>{0, -1, 0}, "VEC3");
+    for (int i = 0; i < 4; ++i) square.primitive["targets"].push_back({{"POSITION", moves}});
+    square.primitive["extras"] = {{"targetNames", {"kuchi1", "me2", "jawOpen", "kuchi3"}}};
+    json& extensions = square.file.root["extensions"];
+    if (old) {
+      extensions["VRM"]["blendShapeMaster"]["blendShapeGroups"] = {
+          {{"presetName", "a"}, {"binds", {{{"mesh", 0}, {"index", 0}, {"weight", 100}}}}},
+          {{"presetName", "blink_l"}, {"binds", {{{"mesh", 0}, {"index", 1}, {"weight", 100}}}}},
+          {{"presetName", "o"}, {"binds", {{{"mesh", 0}, {"index", 2}, {"weight", 100}}}}},
+          {{"presetName", "u"}, {"binds", {{{"mesh", 0}, {"index", 3}, {"weight", 40}}}}}};
+    } else {
+      json& presets = extensions["VRMC_vrm"]["expressions"]["preset"];
+      presets["aa"]["morphTargetBinds"] = {{{"node", 0}, {"index", 0}, {"weight", 1}}};
+      presets["blinkLeft"]["morphTargetBinds"] = {{{"node", 0}, {"index", 1}, {"weight", 1}}};
+      presets["oh"]["morphTargetBinds"] = {{{"node", 0}, {"index", 2}, {"weight", 1}}};
+      presets["ou"]["morphTargetBinds"] = {{{"node", 0}, {"index", 3}, {"weight", 0.4}}};
+    }
+    const head::Source source = read(square.glb());
+    ASSERT_EQ(source.shapes.size(), 3u);
+    EXPECT_EQ(source.shapes[0].name, old ? "a" : "aa");
+    EXPECT_EQ(source.shapes[1].name, old ? "blink_l" : "blinkLeft");
+    EXPECT_EQ(source.shapes[2].name, "jawOpen");
+  }
+}
+
 TEST(ReadHead, ColoursAreVertexTimesFactor) {
   Square square;
   square.primitive["attributes"]["COLOR_0"] = square.file.accessor(

@@ -5,6 +5,7 @@
 #include "tools/gltf/detail/extensions.h"
 #include "tools/gltf/detail/triangles.h"
 #include "tools/gltf/detail/words.h"
+#include "tools/gltf/shape_names.h"
 
 namespace animeme::gltf {
 namespace {
@@ -237,6 +238,15 @@ Result<std::vector<Affine>> MeshReader::skin_maps(const Json& attributes, const 
   return maps;
 }
 
+// Its own name if that is known; else what a VRM file uses it for.
+std::string MeshReader::name_of(const Json& mesh, const Json& entry, std::size_t mesh_number,
+                                std::size_t target) const {
+  std::string name = target_name(file_, mesh, entry, target);
+  const auto expression = expressions_.find({mesh_number, target});
+  if (expression == expressions_.end() || meaning_of(name)) return name;
+  return expression->second;
+}
+
 Result<void> MeshReader::add_morphs(const Json& mesh, const Json& entry,
                                     const std::vector<Affine>& maps, RawPiece& piece,
                                     ShapeNames& names) {
@@ -255,7 +265,8 @@ Result<void> MeshReader::add_morphs(const Json& mesh, const Json& entry,
         return make_error(Code::syntax, "a shape moves beyond all numbers: export the file again");
       }
     }
-    piece.morphs.push_back({names.index_of(target_name(file_, mesh, entry, t)), std::move(*moves)});
+    piece.morphs.push_back(
+        {names.index_of(name_of(mesh, entry, *nodes_[piece.node].mesh, t)), std::move(*moves)});
   }
   std::stable_sort(piece.morphs.begin(), piece.morphs.end(),
                    [](const PieceMorph& a, const PieceMorph& b) { return a.shape < b.shape; });

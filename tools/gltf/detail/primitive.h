@@ -10,6 +10,7 @@
 #include "tools/gltf/detail/accessor.h"
 #include "tools/gltf/detail/nodes.h"
 #include "tools/gltf/detail/texture.h"
+#include "tools/gltf/detail/vrm.h"
 
 namespace animeme::gltf {
 
@@ -49,7 +50,11 @@ class MeshReader {
   /// `shares`: see neck_shares().
   MeshReader(const File& file, const std::vector<Node>& nodes, const std::vector<float>& shares,
              Paints& paints)
-      : file_(file), nodes_(nodes), shares_(shares), paints_(paints) {}
+      : file_(file),
+        nodes_(nodes),
+        shares_(shares),
+        paints_(paints),
+        expressions_(vrm_expressions(file, nodes)) {}
 
   /// Errors: see read_head().
   Result<std::vector<RawPiece>> read(ShapeNames& names);
@@ -63,6 +68,8 @@ class MeshReader {
                               std::vector<Affine>& maps);
   Result<std::vector<Affine>> skin_maps(const Json& attributes, const Skin& skin,
                                         std::size_t vertices, RawPiece& piece);
+  std::string name_of(const Json& mesh, const Json& entry, std::size_t mesh_number,
+                      std::size_t target) const;
   Result<void> add_morphs(const Json& mesh, const Json& entry, const std::vector<Affine>& maps,
                           RawPiece& piece, ShapeNames& names);
 
@@ -70,6 +77,7 @@ class MeshReader {
   const std::vector<Node>& nodes_;
   const std::vector<float>& shares_;
   Paints& paints_;
+  std::map<std::pair<std::size_t, std::size_t>, std::string> expressions_;
   std::vector<RawPiece> pieces_;
   std::size_t vertices_ = 0;
 };
