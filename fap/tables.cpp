@@ -199,6 +199,11 @@ const std::array<FeaturePointInfo, 84> kFeaturePoints = {{
     {"11.6", "back of the skull"},
 }};
 
+std::string_view unit_name(Unit unit) {
+  constexpr std::string_view kNames[] = {"", "IRISD", "ES", "ENS", "MNS", "MW", "AU"};
+  return kNames[std::size_t(unit)];
+}
+
 std::optional<int> find_fap(std::string_view name) {
   for (const FapInfo& fap : kFaps) {
     if (fap.name == name) return fap.number;

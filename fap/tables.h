@@ -15,6 +15,9 @@ namespace animeme::fap {
 /// 1/1024 of it, for `angle` 1e-5 rad. Source: fap_semantics, section 2.
 enum class Unit : std::uint8_t { none, irisd, es, ens, mns, mw, angle };
 
+/// "IRISD", "ES", "ENS", "MNS", "MW", "AU" (angle unit), "" for none.
+std::string_view unit_name(Unit unit);
+
 /// Direction of positive values, seen by the person ("left" is the person's left).
 enum class Motion : std::uint8_t { none, down, up, left, right, forward, growing, concave_upward };
 

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 
 namespace animeme::head {
@@ -191,5 +192,45 @@ class Reader {
 }  // namespace
 
 Result<ObjFile> read_obj(std::string_view text) { return Reader().read(text); }
+
+std::string write_obj(const Head& head) {
+  std::string out = "# " + head.name + "\n";
+  std::size_t first = 1;
+  char line[160];
+  for (std::size_t part = 0; part < head.parts.size(); ++part) {
+    const Mesh& mesh = head.parts[part];
+    if (mesh.positions.empty()) continue;
+    out += "g " + std::string(kPartNames[part]) + "\n";
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+      const Vec3 p = mesh.positions[v];
+      const Vec3 c = mesh.colours[v];
+      std::snprintf(line, sizeof line, "v %.6g %.6g %.6g %.4f %.4f %.4f\n", double(p.x),
+                    double(p.y), double(p.z), double(c.x), double(c.y), double(c.z));
+      out += line;
+    }
+    for (const Triangle& t : mesh.triangles) {
+      std::snprintf(line, sizeof line, "f %zu %zu %zu\n", first + t[0], first + t[1], first + t[2]);
+      out += line;
+    }
+    first += mesh.positions.size();
+  }
+  return out;
+}
+
+std::string points_of(const Head& head) {
+  std::array<std::size_t, kPartCount + 1> first{};
+  for (std::size_t part = 0; part < head.parts.size(); ++part) {
+    first[part + 1] = first[part] + head.parts[part].positions.size();
+  }
+  std::string out = "feature_point,vertex,name\n";
+  for (std::size_t i = 0; i < head.feature_points.size(); ++i) {
+    const FeaturePoint point = head.feature_points[i];
+    if (!point.exists()) continue;
+    out += std::string(fap::kFeaturePoints[i].id) + "," +
+           std::to_string(first[std::size_t(point.part)] + point.vertex) + "," +
+           std::string(fap::kFeaturePoints[i].name) + "\n";
+  }
+  return out;
+}
 
 }  // namespace animeme::head

@@ -30,4 +30,12 @@ struct ObjFile {
 /// corners or with a vertex that does not exist yet), invalid_argument if there is no face.
 Result<ObjFile> read_obj(std::string_view text);
 
+/// Writes a head at rest: a group for each part with the part's name, colours at the vertices,
+/// lengths in cm with six digits. read_obj() and assemble() give the same head back, lashes
+/// included, with points_of() as its list.
+std::string write_obj(const Head& head);
+
+/// The feature points of a head as a list for the vertices of write_obj().
+std::string points_of(const Head& head);
+
 }  // namespace animeme::head

@@ -122,15 +122,14 @@ void keep_off_eyes(const Rig& rig, const Values& values, std::vector<Vec3>& skin
   }
 }
 
-// Pairs that have passed each other meet in the middle; near contact their depths agree.
+// Pairs that have passed each other meet in the middle, and so do those that nearly touch: lips and
+// lids are soft.
 void close_pairs(const std::vector<ContactPair>& pairs, float soft, std::vector<Vec3>& skin) {
   for (const ContactPair& pair : pairs) {
     Vec3& upper = skin[pair.upper];
     Vec3& lower = skin[pair.lower];
-    const float gap = upper.y - lower.y;
-    if (gap < 0) upper.y = lower.y = 0.5f * (upper.y + lower.y);
-    const float touch = smooth_step(soft, 0.0f, gap) * 0.5f;
-    const Vec3 apart{lower.x - upper.x, 0, lower.z - upper.z};
+    const float touch = smooth_step(soft, soft / 3, upper.y - lower.y) * 0.5f;
+    const Vec3 apart = lower - upper;
     upper += apart * touch;
     lower -= apart * touch;
   }
@@ -174,11 +173,6 @@ Transform eye_transform(const Rig& rig, std::size_t side, const Values& v) {
   return turn;
 }
 
-// Parts whose shapes were modelled turn with the head alone: their shapes show all else.
-bool moves_by_shapes(const Rig& rig, Part part) {
-  return !rig.shapes.empty() && rig.deforms[index(part)];
-}
-
 void set_transforms(const Rig& rig, const Values& v, Pose& out) {
   constexpr float kRad = 1e-5f;
   out.head = rotation_about(rig.neck_pivot, v[48] * kRad, v[49] * kRad, v[50] * kRad);
@@ -194,10 +188,23 @@ void set_transforms(const Rig& rig, const Values& v, Pose& out) {
   out.transforms[index(Part::left_eye)] = compose(out.head, eye_transform(rig, 0, v));
   out.transforms[index(Part::right_eye)] = compose(out.head, eye_transform(rig, 1, v));
   for (const Part part : {Part::lower_teeth, Part::tongue, Part::left_eye, Part::right_eye}) {
-    if (moves_by_shapes(rig, part)) out.transforms[index(part)] = out.head;
+    if (rig.shown_by_shapes[index(part)]) out.transforms[index(part)] = out.head;
   }
   out.transforms[index(Part::skin)] = {};
   out.transforms[index(Part::body)] = {};
+}
+
+// What shapes should show: absent FAPs are 0, else a sneer would be taken for the help that it is
+// to the lips. But the chin's own FAPs (thrust, boss) are 0 in most clips because nobody measured
+// them; an opened jaw takes the chin along, and should not be kept from it.
+fap::Frame wanted_of_shapes(fap::Frame frame) {
+  for (int f = fap::kFirstLowLevel; f <= fap::kFapCount; ++f) {
+    if (!frame.mask[std::size_t(f)]) frame.set(f, 0);
+  }
+  for (const std::size_t f : {14, 18}) {
+    if (frame.value[f] == 0) frame.mask.reset(f);
+  }
+  return frame;
 }
 
 }  // namespace
@@ -222,7 +229,7 @@ ControlValues control_values(const Rig& rig, const fap::Frame& frame, const Pose
   std::vector<fap::Frame> shapes;
   for (const ShapeControl& shape : rig.shapes) shapes.push_back(shape.faps);
   fap::ShapeFitter fitter(shapes);
-  const std::vector<double>& weights = fitter.fit(low);
+  const std::vector<double>& weights = fitter.fit(wanted_of_shapes(low));
   for (std::size_t i = 0; i < weights.size(); ++i) {
     values[kFirstShape + i] = float(weights[i]) * kFullShape;
   }

@@ -49,6 +49,26 @@ std::array<bool, kPartCount> deforming(const Rig& rig) {
   return deforms;
 }
 
+bool any_of(const fap::Frame& frame, int first, int last) {
+  for (int f = first; f <= last; ++f) {
+    if (frame.value[std::size_t(f)] != 0) return true;
+  }
+  return false;
+}
+
+std::array<bool, kPartCount> shown_by_shapes(const Rig& rig) {
+  std::array<bool, kPartCount> shown{};
+  for (const Target& target : rig.targets) {
+    if (target.control < kFirstShape) continue;
+    const fap::Frame& faps = rig.shapes[std::size_t(target.control - kFirstShape)].faps;
+    const bool eye = target.part == Part::left_eye || target.part == Part::right_eye;
+    const bool jaw = target.part == Part::lower_teeth || target.part == Part::tongue;
+    const bool shows = eye ? any_of(faps, 23, 26) : !jaw || any_of(faps, 3, 3);
+    shown[std::size_t(target.part)] = shown[std::size_t(target.part)] || shows;
+  }
+  return shown;
+}
+
 // 1 for the head, 0 at the end of the neck.
 std::vector<float> neck_weights(const Rig& rig) {
   std::vector<float> weights;
@@ -108,6 +128,7 @@ Rig make_rig(const Head& head) {
   rig.shapes = head.shapes;
   rig.targets = head.targets.empty() ? detail::make_targets(head) : head.targets;
   rig.deforms = deforming(rig);
+  rig.shown_by_shapes = shown_by_shapes(rig);
   rig.lid_vertices = sliding_vertices(rig);
   // What an artist has modelled is not put right.
   for (std::size_t i = 0; i < 2 && rig.shapes.empty(); ++i) {

@@ -58,6 +58,9 @@ struct Rig {
   std::vector<Target> targets;                ///< by control, then by part
   std::vector<ShapeControl> shapes;           ///< of heads that have them
   std::array<bool, kPartCount> deforms = {};  ///< which parts have a target, or lashes that turn
+  /// Parts whose shapes were modelled with the jaw's motion, or the gaze of eyes: they turn with
+  /// the head alone, their shapes show the rest.
+  std::array<bool, kPartCount> shown_by_shapes = {};
   fap::Fapu fapu;
   std::array<Eye, 2> eyes;
   Vec3 jaw_axis;
@@ -92,9 +95,9 @@ struct PoseOptions {
 using ControlValues = std::vector<float>;
 
 /// The values of a frame: low_level() of shapes.h, absent FAPs 0; for a rig with shapes also their
-/// weights, times kFullShape, whose FAPs come nearest to the frame (fap::ShapeFitter). Each frame
-/// stands for itself, so any frame may be asked for in any order.
-/// With PoseOptions::follow after lids_follow_gaze().
+/// weights, times kFullShape, whose FAPs come nearest to the frame (fap::ShapeFitter); FAP 14 and
+/// 18 at 0 have no say there, as the jaw takes the chin along. Each frame stands for itself, so any
+/// frame may be asked for in any order. With PoseOptions::follow after lids_follow_gaze().
 ControlValues control_values(const Rig& rig, const fap::Frame& frame,
                              const PoseOptions& options = {});
 

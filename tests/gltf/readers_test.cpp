@@ -8,8 +8,10 @@
 #include <string>
 
 #include "fap/arkit.h"
+#include "fap/head/own_head.h"
 #include "tests/support/program.h"
 #include "tools/gltf/glb.h"
+#include "tools/gltf/read_head.h"
 
 namespace animeme::gltf {
 namespace {
@@ -110,6 +112,50 @@ TEST(GlbReaders, BlenderHasTheTargetsAndTheKeys) {
   }
   EXPECT_TRUE(jaw_keys) << report["actions"].dump(1).substr(0, 2000);
   EXPECT_TRUE(bone_keys) << report["actions"].dump(1).substr(0, 2000);
+}
+
+// Blender writes what it has read of our file; that is read as a head of somebody else.
+TEST(GlbReaders, AHeadThatWentThroughBlenderMovesAsBefore) {
+  if (!has("blender")) GTEST_SKIP() << "Blender is not installed (Debian package blender)";
+  const TempDir dir;
+  head::HeadParameters parameters = *head::head_parameters("child");
+  parameters.density = 0.5;
+  const head::Head original = *head::make_head(parameters);
+  const head::Rig rig = head::make_rig(original);
+  fap::Sequence still{{25, 1}, {fap::Frame{}}, "still"};
+  const auto file = make_glb(original, rig, still);
+  ASSERT_TRUE(file);
+  test::spill(dir / "in.glb", std::string(file->begin(), file->end()));
+  const std::string said =
+      output_of("blender --background --factory-startup --python " +
+                quoted((kHere / "blender_again.py").string()) + " -- " + quoted(dir / "in.glb") +
+                " " + quoted(dir / "out.glb") + " 2>&1");
+  ASSERT_TRUE(fs::exists(dir / "out.glb")) << said.substr(0, 2000);
+  auto source = read_head_file(dir / "out.glb");
+  ASSERT_TRUE(source) << source.error().describe();
+  const auto head = head::assemble(std::move(*source));
+  ASSERT_TRUE(head) << head.error().describe();
+  const head::Rig copy = head::make_rig(*head);
+  EXPECT_EQ(copy.shapes.size(), 52u);
+  for (std::size_t part = 0; part < rig.parts.size(); ++part) {
+    EXPECT_EQ(copy.parts[part].positions.size(), rig.parts[part].positions.size())
+        << head::kPartNames[part];
+  }
+  const head::Vec3 shift = copy.eyes[0].centre - rig.eyes[0].centre;
+  double worst = 0;
+  for (const char* name : {"jawOpen", "mouthPucker", "mouthSmileLeft", "eyeBlinkRight"}) {
+    fap::ArkitFrame weights{};
+    weights[std::size_t(*fap::find_arkit(name))] = 0.7;
+    fap::Frame frame = fap::arkit_to_fap(weights, fap::kAllArkit);
+    frame.set(49, 20000);
+    const head::Pose is = head::pose(copy, frame), was = head::pose(rig, frame);
+    for (std::size_t v = 0; v < is.positions[0].size(); ++v) {
+      const head::Vec3 off = is.positions[0][v] - shift - was.positions[0][v];
+      worst = std::max(worst, double(head::length(off)) * 10);
+    }
+  }
+  std::printf("through Blender: off by at most %.2f mm\n", worst);
+  EXPECT_LT(worst, 2.5);  // lids slide, morph targets do not
 }
 
 }  // namespace

@@ -41,35 +41,12 @@ std::string output_of(const std::string& command) {
 
 // A head of ours as the OBJ file and the list that a user would have.
 ObjHead obj_of(const Head& head, const Change& change) {
-  ObjHead out;
-  std::size_t first = 1;
-  std::array<std::size_t, head::kPartCount> starts{};
-  for (std::size_t part = 0; part < head.parts.size(); ++part) {
-    const head::Mesh& mesh = head.parts[part];
-    if (Part(part) == Part::lashes) continue;
-    starts[part] = first - 1;
-    out.obj += "g " + std::string(head::kPartNames[part]) + "\n";
-    for (const Vec3& p : mesh.positions) {
-      const Vec3 q = change(p);
-      char line[80];
-      std::snprintf(line, sizeof line, "v %.6g %.6g %.6g\n", double(q.x), double(q.y), double(q.z));
-      out.obj += line;
-    }
-    for (const head::Triangle& t : mesh.triangles) {
-      out.obj += "f";
-      for (const std::uint32_t v : t) out.obj += " " + std::to_string(first + v) + "//1";
-      out.obj += "\n";
-    }
-    first += mesh.positions.size();
+  Head changed = head;
+  changed.part(Part::lashes) = {};
+  for (head::Mesh& mesh : changed.parts) {
+    for (Vec3& p : mesh.positions) p = change(p);
   }
-  out.points = "feature_point,vertex\n";
-  for (std::size_t i = 0; i < fap::kFeaturePoints.size(); ++i) {
-    const head::FeaturePoint point = head.feature_points[i];
-    if (!point.exists()) continue;
-    out.points += std::string(fap::kFeaturePoints[i].id) + "," +
-                  std::to_string(starts[std::size_t(point.part)] + point.vertex) + "\n";
-  }
-  return out;
+  return {head::write_obj(changed), head::points_of(changed)};
 }
 
 Result<Head> read(const ObjHead& files, std::vector<std::string>* notes = nullptr) {

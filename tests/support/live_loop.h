@@ -103,6 +103,15 @@ inline Presentation live_presentation(int frames, int intra_period, unsigned see
   return presentation(face);
 }
 
+inline std::vector<media::LiveUnit> of_track(const std::vector<media::LiveUnit>& units,
+                                             media::LiveTrack track) {
+  std::vector<media::LiveUnit> found;
+  for (const media::LiveUnit& unit : units) {
+    if (unit.track == track) found.push_back(unit);
+  }
+  return found;
+}
+
 struct Received {
   std::vector<media::LiveInfo> infos;
   std::vector<media::LiveUnit> units;
@@ -110,14 +119,22 @@ struct Received {
   bool ended = false;
   std::string error;
 
-  std::vector<media::LiveUnit> of(media::LiveTrack track) const {
-    std::vector<media::LiveUnit> found;
-    for (const media::LiveUnit& unit : units) {
-      if (unit.track == track) found.push_back(unit);
-    }
-    return found;
-  }
+  std::vector<media::LiveUnit> of(media::LiveTrack track) const { return of_track(units, track); }
 };
+
+/// Transports that do not tell how long a unit lasts give the distance to the next one.
+enum class Durations : std::uint8_t { compared, ignored };
+
+inline void expect_equal(const std::vector<media::LiveUnit>& got,
+                         const std::vector<media::LiveUnit>& want,
+                         Durations durations = Durations::compared) {
+  ASSERT_EQ(got.size(), want.size());
+  for (std::size_t i = 0; i < got.size(); ++i) {
+    media::LiveUnit unit = want[i];
+    if (durations == Durations::ignored) unit.duration = got[i].duration;
+    ASSERT_EQ(got[i], unit) << "unit " << i;
+  }
+}
 
 /// Takes one event. False: nothing came in time, or it is over.
 inline bool receive(media::LiveSource& source, Received& got, double seconds) {

@@ -42,7 +42,7 @@ fap::Sequence talk(fap::Rate rate) {
 }
 
 TEST(Export, LiveLinkFaceComesBackAsTheSameFace) {
-  for (const fap::Rate rate : {fap::Rate{25, 1}, fap::Rate{60, 1}}) {
+  for (const fap::Rate rate : {fap::Rate{10, 1}, fap::Rate{25, 1}, fap::Rate{60, 1}}) {
     const TempDir dir;
     const fap::Sequence clip = talk(rate);
     spill(dir / "talk.fap", fap::write_text(clip));

@@ -203,6 +203,14 @@ TEST(Import, BadTables) {
   EXPECT_EQ(animeme({"import", "/nowhere/a.csv", "-o", "-"}).exit_code, 3);
 }
 
+TEST(Import, TheOutputIsFapText) {
+  const TempDir dir;
+  spill(dir / "take.csv", "time_s,jawOpen,jawLeft\n0,0,0\n0.04,1,0\n");
+  const auto out = animeme({"import", dir / "take.csv", "-o", dir / "take.fba"});
+  EXPECT_EQ(out.exit_code, 2);
+  EXPECT_THAT(out.err, HasSubstr(".fap"));
+}
+
 TEST(Import, HelpHasExamples) {
   const auto result = animeme({"import", "--help"});
   EXPECT_EQ(result.exit_code, 0);

@@ -44,6 +44,43 @@ TEST(Plot, OneRowAFapByNumberOrName) {
   EXPECT_THAT(out.out, HasSubstr("FAP 3"));
   EXPECT_THAT(out.out, HasSubstr("FAP 5"));
   EXPECT_THAT(out.out, HasSubstr(">200<"));  // the scale of the first row
+  EXPECT_THAT(out.out, HasSubstr(">1/1024 MNS<"));
+  const auto range = animeme({"plot", dir / "a.fap", "--faps", "3-5,head_pitch", "-o", "-"});
+  ASSERT_EQ(range.exit_code, 0) << range.err;
+  EXPECT_EQ(count(range.out, "<polyline"), 4);
+  EXPECT_THAT(range.out, HasSubstr(">0.00001 rad<"));
+}
+
+TEST(Plot, ShortClipsFillThePictureAndNarrowPhonesHaveNoName) {
+  const TempDir dir;
+  write_clip(dir / "a.fap", 6, 200);  // 0.24 s
+  spill(dir / "a.tsv", "start_s\tend_s\tphone\n0\t0.002\tEH\n0.002\t0.1\tAA\n0.1\t0.24\tS\n");
+  const auto out =
+      animeme({"plot", dir / "a.fap", "--faps", "3", "--script", dir / "a.tsv", "-o", "-"});
+  ASSERT_EQ(out.exit_code, 0) << out.err;
+  EXPECT_THAT(out.out, HasSubstr("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"784.0\""));
+  EXPECT_THAT(out.out, HasSubstr(">0.05 s<"));
+  EXPECT_THAT(out.out, HasSubstr(">AA<"));
+  EXPECT_THAT(out.out, Not(HasSubstr(">EH<")));
+  EXPECT_EQ(count(out.out, "<rect"), 4);  // ground and three bands
+}
+
+TEST(Plot, HighLevelFapsAreShownAsTheHeadShowsThem) {
+  const auto out = animeme(
+      {"plot", ANIMEME_SOURCE_DIR "/tests/data/fap/high_level.fap", "--faps", "3", "-o", "-"});
+  ASSERT_EQ(out.exit_code, 0) << out.err;
+  EXPECT_THAT(out.out, HasSubstr(">674<"));
+}
+
+TEST(Plot, RefusesWhatItCannotDraw) {
+  const TempDir dir;
+  write_clip(dir / "a.fap", 50, 200);
+  const auto name = animeme({"plot", dir / "a.fap", "-o", dir / "a.jpg"});
+  EXPECT_EQ(name.exit_code, 2);
+  EXPECT_THAT(name.err, HasSubstr(".svg or .png"));
+  const auto part = animeme({"plot", dir / "a.fap", "--from", "1", "--to", "0.5", "-o", "-"});
+  EXPECT_EQ(part.exit_code, 2);
+  EXPECT_THAT(part.err, HasSubstr("--to"));
 }
 
 TEST(Plot, TheDifferenceHasItsOwnRow) {
@@ -86,7 +123,7 @@ TEST(Plot, PngByItsName) {
 TEST(Plot, UnknownFapsAreNamed) {
   const TempDir dir;
   write_clip(dir / "a.fap", 5, 200);
-  for (const char* name : {"open_jaws", "2", "69", "-3", "3x"}) {
+  for (const char* name : {"open_jaws", "2", "69", "-3", "3x", "5-3", "3-", "3-70"}) {
     const auto out = animeme({"plot", dir / "a.fap", "--faps=" + std::string(name), "-o", "-"});
     EXPECT_EQ(out.exit_code, 2) << name;
     EXPECT_THAT(out.err, HasSubstr("is no FAP")) << name;

@@ -7,6 +7,7 @@ namespace animeme::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 const std::string kData = ANIMEME_SOURCE_DIR "/tests/data/";
 
@@ -31,6 +32,57 @@ TEST(ViewCommand, WritesOnePageOfEachKindOfInput) {
       animeme({"view", kData + "containers/iso_reference_fba_only.mp4", "-o", dir / "b.html"});
   EXPECT_EQ(faceless.exit_code, 0) << faceless.err;
   EXPECT_THAT(faceless.err, HasSubstr("silent"));
+}
+
+// Noise, 16 bits, one channel, 16 kHz.
+std::string noise(int seconds) {
+  const auto number = [](std::uint32_t value, int bytes) {
+    std::string text;
+    for (int i = 0; i < bytes; ++i) text += char(value >> (8 * i) & 255);
+    return text;
+  };
+  std::string data;
+  std::uint32_t state = 1;
+  for (int i = 0; i < 16000 * seconds; ++i) {
+    state = state * 1664525u + 1013904223u;
+    data += number(state >> 18, 2);
+  }
+  return "RIFF" + number(std::uint32_t(36 + data.size()), 4) + "WAVEfmt " + number(16, 4) +
+         number(1, 2) + number(1, 2) + number(16000, 4) + number(32000, 4) + number(2, 2) +
+         number(16, 2) + "data" + number(std::uint32_t(data.size()), 4) + data;
+}
+
+TEST(ViewCommand, TakesTheSoundOfAnyContainer) {
+  const TempDir dir;
+  const std::string curves = kData + "grid_s1_sample/fap/prac8p.csv";
+  spill(dir / "a.wav", noise(3));
+  const auto second =
+      animeme({"view", curves, kData + "containers/std_aac.mp4", "-o", dir / "a.html"});
+  EXPECT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_THAT(second.err, HasSubstr("with sound"));
+  ASSERT_EQ(animeme({"mux", curves, dir / "a.wav", "-o", dir / "a.m3u8"}).exit_code, 0);
+  const auto segments = animeme({"view", dir / "a.m3u8", "-o", dir / "b.html"});
+  EXPECT_EQ(segments.exit_code, 0) << segments.err;
+  EXPECT_THAT(segments.err, HasSubstr("with sound"));
+}
+
+TEST(ViewCommand, SaysWhatMakesALargePageSmall) {
+  const TempDir dir;
+  spill(dir / "a.wav", noise(240));
+  const std::string curves = kData + "grid_s1_sample/fap/prac8p.csv";
+  const auto large = animeme({"view", curves, "--audio", dir / "a.wav", "-o", dir / "a.html"});
+  ASSERT_EQ(large.exit_code, 0) << large.err;
+  EXPECT_THAT(large.err, HasSubstr("the face lasts 3.00 s, the sound 240.00 s"));
+  const std::string remedy = "--audio-codec opus --audio-bitrate ";
+  const std::size_t at = large.err.find(remedy);
+  ASSERT_NE(at, std::string::npos) << large.err;
+  const std::string rate = std::to_string(std::stoi(large.err.substr(at + remedy.size())));
+  const auto small = animeme({"view", curves, "--audio", dir / "a.wav", "--audio-codec", "opus",
+                              "--audio-bitrate", rate, "-o", dir / "b.html"});
+  ASSERT_EQ(small.exit_code, 0) << small.err;
+  EXPECT_THAT(small.err, Not(HasSubstr("3 MB")));
+  EXPECT_GT(slurp(dir / "a.html").size(), 3'000'000u);
+  EXPECT_LE(slurp(dir / "b.html").size(), 3'000'000u);
 }
 
 TEST(ViewCommand, SaysWhatIsWrong) {

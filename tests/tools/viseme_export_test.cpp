@@ -162,8 +162,9 @@ TEST(ExportRhubarb, MouthShapesOfAScript) {
   const TempDir dir;
   spill(dir / "words.tsv", kScript);
   ASSERT_EQ(animeme({"export", dir / "words.tsv", "-o", dir / "words.rhubarb.tsv"}).exit_code, 0);
-  EXPECT_EQ(slurp(dir / "words.rhubarb.tsv"),
-            "0.00\tX\n0.20\tA\n0.32\tD\n0.44\tB\n0.56\tC\n0.72\tH\n0.80\tE\n0.90\tF\n1.00\tX\n");
+  EXPECT_EQ(
+      slurp(dir / "words.rhubarb.tsv"),
+      "0.00\tX\n0.20\tA\n0.32\tD\n0.44\tB\n0.56\tC\n0.72\tH\n0.80\tE\n0.90\tF\n1.00\tX\n1.30\tX\n");
   const auto out =
       animeme({"export", dir / "words.tsv", "--audio", "my.wav", "-o", dir / "words.rhubarb.json"});
   ASSERT_EQ(out.exit_code, 0) << out.err;
@@ -184,6 +185,12 @@ TEST(ExportVisemes, WhatCannotBeWrittenIsSaid) {
     const char* what;
   } cases[] = {
       {{dir / "words.tsv", "--what", "arkit", "-o", dir / "a.json"}, 3, "a script has no face"},
+      {{dir / "talk.fap", "--rate", "60", "-o", dir / "a.visemes.json"},
+       2,
+       "--rate is for visemes"},
+      {{dir / "words.tsv", "--head", "man", "-o", dir / "a.visemes.json"},
+       2,
+       "--head is for a head"},
       {{dir / "words.tsv", "-o", dir / "a.fbx"}, 2, ".csv"},
       {{dir / "talk.fap", "--what", "visemes", "-o", dir / "a.tsv"}, 2, ".csv or .json"},
       {{dir / "talk.fap", "--what", "rhubarb", "-o", dir / "a.csv"}, 2, ".tsv or .json"},

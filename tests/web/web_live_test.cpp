@@ -2,8 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/codec/reference_streams.h"
-#include "tests/support/live_loop.h"
+#include "tests/support/live_reference.h"
 #include "tools/web/web.h"
 
 namespace animeme::test {
@@ -15,11 +14,6 @@ using ::testing::HasSubstr;
 using web::make_web_sink;
 using web::make_web_source;
 
-Presentation reference(const std::filesystem::path& base) {
-  const auto units = fba::split_access_units(read_bytes(with(base, ".fba")));
-  return units ? presentation(*units, 60) : Presentation{};
-}
-
 std::unique_ptr<web::WebSink> serve(const Presentation& show, const web::WebOptions& options = {}) {
   auto sink = make_web_sink("http://127.0.0.1:0/", options);
   EXPECT_TRUE(sink);
@@ -28,28 +22,9 @@ std::unique_ptr<web::WebSink> serve(const Presentation& show, const web::WebOpti
   return std::move(*sink);
 }
 
-void expect_equal(const std::vector<LiveUnit>& got, const std::vector<LiveUnit>& want) {
-  ASSERT_EQ(got.size(), want.size());
-  for (std::size_t i = 0; i < got.size(); ++i) ASSERT_EQ(got[i], want[i]) << "unit " << i;
-}
-
-std::vector<LiveUnit> of(const Presentation& show, LiveTrack track) {
-  std::vector<LiveUnit> units;
-  for (const LiveUnit& unit : show.units) {
-    if (unit.track == track) units.push_back(unit);
-  }
-  return units;
-}
-
 TEST(WebLive, EveryReferenceStreamComesBack) {
-  int count = 0;
-  for (const auto& base : reference_streams()) {
-    SCOPED_TRACE(base.filename());
-    Presentation show = reference(base);
-    if (show.units.empty()) continue;
-    if (count % 3 == 1) add_sound(show, aac_format(), unsigned(count));
-    if (count % 3 == 2) add_sound(show, opus_format(), unsigned(count));
-    const auto sink = serve(show, {.packets_per_segment = 1 + count % 5});
+  const int count = for_each_reference([](const Presentation& show, int number) {
+    const auto sink = serve(show, {.packets_per_segment = 1 + number % 5});
     auto source = make_web_source(sink->address());
     ASSERT_TRUE(source) << source.error().describe();
     const Received got = loop(*sink, **source, show);
@@ -58,11 +33,9 @@ TEST(WebLive, EveryReferenceStreamComesBack) {
     EXPECT_TRUE(got.gaps.empty());
     ASSERT_EQ(got.infos.size(), 1u);
     EXPECT_EQ(got.infos[0], show.info);
-    expect_equal(got.of(LiveTrack::face), of(show, LiveTrack::face));
-    expect_equal(got.of(LiveTrack::audio), of(show, LiveTrack::audio));
-    if (HasFatalFailure()) return;
-    ++count;
-  }
+    expect_equal(got.of(LiveTrack::face), of_track(show.units, LiveTrack::face));
+    expect_equal(got.of(LiveTrack::audio), of_track(show.units, LiveTrack::audio));
+  });
   EXPECT_GT(count, 100);
 }
 
@@ -99,7 +72,7 @@ TEST(WebLive, LateJoinersBeginAtAnIntraPlane) {
     while (receive(**source, got, 5)) {
     }
     EXPECT_TRUE(got.ended);
-    const auto face = got.of(LiveTrack::face), sent = of(show, LiveTrack::face);
+    const auto face = got.of(LiveTrack::face), sent = of_track(show.units, LiveTrack::face);
     const std::size_t first = catch_up ? 40 : 60;
     ASSERT_EQ(face.size(), 100 - first);
     for (std::size_t k = 0; k < face.size(); ++k) EXPECT_EQ(face[k], sent[first + k]);

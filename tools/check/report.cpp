@@ -5,6 +5,7 @@
 #include <set>
 
 #include "conformance/features.h"
+#include "tools/xml.h"
 
 namespace animeme::tools {
 namespace {
@@ -116,32 +117,10 @@ Json to_json(const CaseResult& result) {
   return json;
 }
 
-// Text for XML: the five characters, and a mark in place of what XML 1.0 cannot hold.
-std::string xml(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&apos;";
-        break;
-      default:
-        // Output of foreign programs may be anything, so ASCII alone is passed on.
-        out += c >= 0x20 && c < 0x7F ? c : '?';
-    }
-  }
-  return out;
+// Output of foreign programs may be anything, so ASCII alone is passed on.
+std::string xml(std::string text) {
+  for (char& c : text) c = c >= 0x20 && c < 0x7F ? c : '?';
+  return escape_xml(text);
 }
 
 std::string junit_case(const CaseResult& result) {

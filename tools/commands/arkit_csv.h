@@ -27,8 +27,9 @@ bool is_arkit_csv(std::string_view text);
 ///
 /// Times are the column timecode, time_s, time or timestamp, in seconds ("1.0333") or as
 /// hh:mm:ss:ff.fff, where .fff is a fraction of a timecode frame. Timecode frames a second are the
-/// smallest of 24, 25, 30, 48, 50, 60, 100, 120 that no frame number reaches; in a take within one
-/// second, what fits options.rate, else 60 with a warning. The rest are channels (fap/arkit.h, any
+/// smallest of 24, 25, 30, 48, 50, 60, 100, 120 that no frame number reaches, or fewer if rows count
+/// up by one and never get that far; in a take within one second, what fits options.rate, else 60
+/// with a warning. The rest are channels (fap/arkit.h, any
 /// case); missing ones are 0, and an angle that is 0 throughout counts as missing. Columns that are
 /// no channel are left out and named in `warnings`.
 ///

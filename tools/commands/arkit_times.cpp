@@ -77,7 +77,11 @@ int tell_timecode_rate(const std::vector<TimeField>& times, std::optional<fap::R
                        std::vector<std::string>& warnings) {
   double last = 0;
   for (const TimeField& time : times) last = std::max(last, time.frames.value_or(0));
-  if (passes_a_second(times)) return timecode_rate(last);
+  if (passes_a_second(times)) {
+    // Slower than any camera, and no row missing: the second ends where it ends.
+    const bool slow = last < kTimecodeRates[0] - 1 && timecode_step(times) == 1;
+    return slow ? int(last) + 1 : timecode_rate(last);
+  }
   if (rate) return timecode_rate(last, counted_rate(*rate) * std::max(1.0, timecode_step(times)));
   warnings.push_back(
       "the recording is too short to tell how many timecode frames make a second: 60 are assumed; "

@@ -40,7 +40,8 @@ struct Command {
 };
 
 extern const Command kAlign, kCheck, kCompare, kDecode, kDemux, kEncode, kEvaluate, kExport,
-    kFollow, kImport, kInfo, kMux, kPlot, kReceive, kRender, kSpeak, kStats, kStream, kTrain, kView;
+    kFollow, kHead, kImport, kInfo, kMux, kPlot, kReceive, kRender, kSpeak, kStats, kStream, kTrain,
+    kView;
 
 /// Prints a usage error on standard error; returns kUsage for the command to return.
 int usage_error(const std::string& text);
@@ -116,6 +117,7 @@ struct MotionInput {
   fba::BodySequence body;            ///< no frames: there is no body
   std::vector<std::uint8_t> stream;  ///< the raw FBA stream; empty for text
   fba::DecodedStream decoded;        ///< of the stream; no planes for text
+  double start = 0;                  ///< of frame 0, seconds on the clock of a container's sound
 };
 /// Frame numbers of FAP text start at 0 unless they are to be kept.
 enum class FrameNumbers : std::uint8_t { from_zero, keep };
@@ -129,6 +131,7 @@ Result<MotionInput> parse_motion(std::vector<std::uint8_t> bytes, const std::str
 struct FaceInput {
   fap::Sequence clip;
   std::vector<std::uint8_t> stream;  ///< the raw FBA stream; empty for text
+  double start = 0;                  ///< as MotionInput::start
 };
 /// As read_motion(). A stream or text with a body but no face is not_found.
 Result<FaceInput> read_face(const std::string& path);

@@ -6,50 +6,58 @@
 
 #include "tools/commands/common.h"
 #include "tools/media/picture.h"
+#include "tools/xml.h"
 
 namespace animeme::tools {
 
 namespace {
 
 constexpr double kLeft = 150;
-constexpr double kRight = 20;
+constexpr double kRight = 34;
 constexpr double kRow = 110;
 constexpr double kBand = 26;
 constexpr double kHeading = 30;
 constexpr double kAxis = 30;
-constexpr double kPixelsPerSecond = 260;
+constexpr double kLegend = 18;
 constexpr double kLeastPixelsPerSecond = 19;
-// A width that fits a screen; phones need more room to be read.
-constexpr double kWide = 2400;
-constexpr double kWideWithPhones = 8000;
-constexpr const char* kColours[] = {"#1f5fbf", "#d1495b", "#2a8c55"};
+constexpr double kNarrow = 600;
+// How wide a second is, and the most that fits a screen; phones need more room to be read.
+struct Room {
+  double second, most;
+};
+constexpr Room kPlain{260, 2400};
+constexpr Room kWithPhones{320, 8000};
+constexpr double kCharacter = 0.64;  // width against the size of the font; wide fonts, too
+constexpr double kLeastFont = 6.5;
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f", value);
-  return text;
-}
+struct Pen {
+  const char* colour;
+  const char* dashes;
+};
+constexpr Pen kPens[] = {
+    {"#0072b2", ""}, {"#d55e00", " stroke-dasharray=\"7 3\""}, {"#00875f", ""}};
 
 // The time axis that all panels share.
 struct Axis {
   double begin = 0;
   double end = 0;
-  double scale = kPixelsPerSecond;
+  double scale = 1;  // pixels a second
 
   double x(double seconds) const { return kLeft + (seconds - begin) * scale; }
   bool shows(double seconds) const { return seconds >= begin && seconds <= end; }
 };
 
 Axis axis_of(const std::vector<PlotPanel>& panels) {
-  Axis axis{panels.empty() ? 0 : panels.front().begin, 0, kPixelsPerSecond};
-  double wide = kWide;
+  Axis axis{panels.empty() ? 0 : panels.front().begin, 0, 1};
+  Room room = kPlain;
   for (const PlotPanel& panel : panels) {
-    if (panel.script != nullptr) wide = kWideWithPhones;
+    if (panel.script != nullptr) room = kWithPhones;
     axis.begin = std::min(axis.begin, panel.begin);
     axis.end = std::max(axis.end, panel.seconds);
   }
   const double seconds = std::max(axis.end - axis.begin, 0.04);
-  axis.scale = std::clamp(wide / seconds, kLeastPixelsPerSecond, kPixelsPerSecond);
+  const double scale = std::clamp(room.most / seconds, kLeastPixelsPerSecond, room.second);
+  axis.scale = std::max(scale, kNarrow / seconds);
   return axis;
 }
 
@@ -75,27 +83,49 @@ Place place(const PlotPanel& panel, double offset) {
   return at;
 }
 
+// Characters of a text in UTF-8.
+std::int64_t length_of(const std::string& text) {
+  return std::count_if(text.begin(), text.end(),
+                       [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+}
+
 std::string heading(const PlotPanel& panel, const Place& at) {
   if (panel.heading.empty()) return {};
-  return "<text x=\"8\" y=\"" + number(at.begin - 8) + "\" font-size=\"14\" font-weight=\"bold\">" +
+  return "<text x=\"8\" y=\"" + drawn(at.begin - 8) + "\" font-size=\"14\" font-weight=\"bold\">" +
          escape_xml(panel.heading) + "</text>\n";
 }
 
+std::string seconds_of(double time, double step) {
+  char text[32];
+  std::snprintf(text, sizeof text, step < 0.09 ? "%.2f" : "%.1f", time);
+  return text;
+}
+
 std::string time_axis(const PlotPanel& panel, const Axis& axis, const Place& at) {
-  double step = 0.5;
-  for (const double wider : {1.0, 2.0, 5.0}) {
+  double step = 0.01;
+  for (const double wider : {0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0}) {
     if (step * axis.scale < 60) step = wider;
   }
   std::string svg;
   const auto first = std::int64_t(std::ceil(panel.begin / step - 1e-9));
   for (std::int64_t i = first; double(i) * step <= panel.seconds + 1e-9; ++i) {
-    const std::string column = number(axis.x(double(i) * step));
-    svg += "<line x1=\"" + column + "\" x2=\"" + column + "\" y1=\"" + number(at.top) + "\" y2=\"" +
-           number(at.rows_end() + 4) + "\" stroke=\"#dddddd\"/>\n<text x=\"" + column + "\" y=\"" +
-           number(at.end - 10) + "\" text-anchor=\"middle\" fill=\"#555555\">" +
-           number(double(i) * step) + " s</text>\n";
+    const std::string column = drawn(axis.x(double(i) * step));
+    svg += "<line x1=\"" + column + "\" x2=\"" + column + "\" y1=\"" + drawn(at.top) + "\" y2=\"" +
+           drawn(at.rows_end() + 4) + "\" stroke=\"#dddddd\"/>\n<text x=\"" + column + "\" y=\"" +
+           drawn(at.end - 10) + "\" text-anchor=\"middle\" fill=\"#555555\">" +
+           seconds_of(double(i) * step, step) + " s</text>\n";
   }
   return svg;
+}
+
+// The name of a phone in its band, as large as fits; nothing if it could not be read.
+std::string phone_name(const std::string& label, double middle, double width, double y) {
+  const double characters = std::max(1.0, double(length_of(label)));
+  const double size = std::min(width * 0.9 / (kCharacter * characters), 12.0);
+  if (size < kLeastFont) return {};
+  return "<text x=\"" + drawn(middle) + "\" y=\"" + drawn(y) +
+         "\" text-anchor=\"middle\" font-size=\"" + drawn(size) + "\">" + escape_xml(label) +
+         "</text>\n";
 }
 
 // Phones as bands over the whole height; lip closures stand out.
@@ -109,13 +139,26 @@ std::string phones(const PlotPanel& panel, const Axis& axis, const Place& at) {
     const double start = std::max(phone.start, panel.begin);
     const bool closure = phone.label == "P" || phone.label == "B" || phone.label == "M";
     const double width = (std::min(phone.end, panel.seconds) - start) * axis.scale;
-    svg += "<rect x=\"" + number(axis.x(start)) + "\" y=\"" + number(at.begin + 4) + "\" width=\"" +
-           number(width) + "\" height=\"" + number(at.rows_end() - at.begin) + "\" fill=\"" +
-           (closure ? "#ffd9b3" : "#eef3fa") + "\" stroke=\"#ffffff\"/>\n<text x=\"" +
-           number(axis.x(start) + width / 2) + "\" y=\"" + number(at.names) +
-           "\" text-anchor=\"middle\" font-size=\"" + number(std::clamp(width * 0.6, 7.0, 12.0)) +
-           "\">" + escape_xml(phone.label) + "</text>\n";
+    svg += "<rect x=\"" + drawn(axis.x(start)) + "\" y=\"" + drawn(at.begin + 4) + "\" width=\"" +
+           drawn(width) + "\" height=\"" + drawn(at.rows_end() - at.begin) + "\" fill=\"" +
+           (closure ? "#ffd9b3" : "#eef3fa") + "\" stroke=\"#ffffff\"/>\n" +
+           phone_name(phone.label, axis.x(start) + width / 2, width, at.names);
   }
+  return svg;
+}
+
+// What a row shows, to the left of it.
+std::string row_names(const PlotRow& row, double middle) {
+  std::string svg;
+  double y = middle - 4;
+  const auto line = [&](const std::string& text, const char* style) {
+    if (text.empty()) return;
+    svg += "<text x=\"8\" y=\"" + drawn(y) + "\"" + style + ">" + escape_xml(text) + "</text>\n";
+    y += 16;
+  };
+  line(row.title, "");
+  line(row.subtitle, " fill=\"#555555\" font-size=\"11\"");
+  line(row.unit, " fill=\"#555555\" font-size=\"11\"");
   return svg;
 }
 
@@ -133,56 +176,42 @@ std::string row_svg(const PlotRow& row, const Axis& axis, double base, double wi
   const auto y = [&](double value) {
     return base + kRow - 12 - (value - low) / (high - low) * (kRow - 24);
   };
-  std::string svg = "<text x=\"8\" y=\"" + number(base + kRow / 2 - 4) + "\">" +
-                    escape_xml(row.title) + "</text>\n<text x=\"8\" y=\"" +
-                    number(base + kRow / 2 + 12) + "\" fill=\"#555555\" font-size=\"11\">" +
-                    escape_xml(row.subtitle) + "</text>\n<line x1=\"" + number(kLeft) + "\" x2=\"" +
-                    number(width - kRight) + "\" y1=\"" + number(y(0)) + "\" y2=\"" + number(y(0)) +
-                    "\" stroke=\"#888888\"/>\n";
+  std::string svg = row_names(row, base + kRow / 2) + "<line x1=\"" + drawn(kLeft) + "\" x2=\"" +
+                    drawn(width - kRight) + "\" y1=\"" + drawn(y(0)) + "\" y2=\"" + drawn(y(0)) +
+                    "\" stroke=\"#888888\"/>\n<text x=\"" + drawn(width - kRight + 4) + "\" y=\"" +
+                    drawn(y(0) + 4) + "\" fill=\"#555555\" font-size=\"11\">0</text>\n";
   for (const double edge : {low, high}) {
-    svg += "<text x=\"" + number(kLeft - 6) + "\" y=\"" + number(y(edge) + 4) +
+    svg += "<text x=\"" + drawn(kLeft - 6) + "\" y=\"" + drawn(y(edge) + 4) +
            "\" text-anchor=\"end\" fill=\"#555555\" font-size=\"11\">" +
            std::to_string(std::lround(edge)) + "</text>\n";
   }
   for (std::size_t i = 0; i < row.curves.size(); ++i) {
-    svg += std::string("<polyline fill=\"none\" stroke-width=\"2\" stroke=\"") +
-           kColours[row.first_colour + i] + "\" points=\"";
+    const Pen& pen = kPens[row.first_colour + i];
+    svg += std::string(
+               "<polyline fill=\"none\" stroke-width=\"2\" stroke-linejoin=\"round\" stroke=\"") +
+           pen.colour + "\"" + pen.dashes + " points=\"";
     for (const auto& [time, value] : row.curves[i]) {
-      if (axis.shows(time)) svg += number(axis.x(time)) + "," + number(y(value)) + " ";
+      if (axis.shows(time)) svg += drawn(axis.x(time)) + "," + drawn(y(value)) + " ";
     }
     svg += "\"/>\n";
   }
   return svg;
 }
 
-std::string legend_svg(const std::vector<std::string>& names, double bottom) {
+// Lines of the legend one below the other, each with a piece of its curve.
+std::string legend_svg(const std::vector<std::string>& names, double top) {
   std::string svg;
-  double at = 8;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    svg += "<text x=\"" + number(at) + "\" y=\"" + number(bottom + 8) + "\" fill=\"" + kColours[i] +
-           "\">" + escape_xml(names[i]) + "</text>\n";
-    at += 30 + 7.0 * double(names[i].size());
+    const double y = top + kLegend * double(i) + kLegend / 2;
+    const Pen& pen = kPens[i];
+    svg += "<line x1=\"8\" x2=\"38\" y1=\"" + drawn(y) + "\" y2=\"" + drawn(y) +
+           "\" stroke-width=\"2\" stroke=\"" + pen.colour + "\"" + pen.dashes +
+           "/>\n<text x=\"46\" y=\"" + drawn(y + 4) + "\">" + escape_xml(names[i]) + "</text>\n";
   }
   return svg;
 }
 
 }  // namespace
-
-std::string escape_xml(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
 
 std::string curves_svg(const std::vector<PlotPanel>& panels,
                        const std::vector<std::string>& legend) {
@@ -198,10 +227,17 @@ std::string curves_svg(const std::vector<PlotPanel>& panels,
     }
     offset = at.end;
   }
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(width) + "\" height=\"" +
-         number(offset + 20) + "\" font-family=\"sans-serif\" font-size=\"12\">\n" +
+  const std::string size[2] = {drawn(width), drawn(offset + kLegend * double(legend.size()) + 8)};
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + size[0] + "\" height=\"" + size[1] +
+         "\" viewBox=\"0 0 " + size[0] + " " + size[1] +
+         "\" font-family=\"sans-serif\" font-size=\"12\">\n" +
          "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n" + body +
          legend_svg(legend, offset) + "</svg>\n";
+}
+
+bool is_drawing(const std::string& path) {
+  const std::string extension = extension_of(path);
+  return extension == ".svg" || extension == ".png" || path == "-";
 }
 
 Result<void> write_drawing(const std::string& path, const std::string& svg) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -11,9 +10,6 @@
 
 namespace animeme::tools {
 
-/// Text as the content of an element.
-std::string escape_xml(std::string_view text);
-
 /// Seconds and value.
 using PlotPoints = std::vector<std::pair<double, double>>;
 
@@ -21,6 +17,7 @@ using PlotPoints = std::vector<std::pair<double, double>>;
 struct PlotRow {
   std::string title;
   std::string subtitle;
+  std::string unit;                ///< of the values; empty: none is told
   std::vector<PlotPoints> curves;  ///< first_colour + their number: three at most
   std::size_t first_colour = 0;    ///< place in the legend of the first curve
 };
@@ -35,12 +32,17 @@ struct PlotPanel {
   std::vector<PlotRow> rows;
 };
 
-/// The panels one below the other, and whose colour is whose. A second is 260 pixels wide, less
-/// in long clips: they are 2400 pixels wide, with phones 8000, and never less than 19 a second.
+/// The panels one below the other, and whose colour is whose; the colours differ for colour-blind
+/// people, too, and the second curve is dashed. A second is 260 pixels wide, with phones 320; less
+/// in long clips, which are 2400 pixels wide, with phones 8000, and never less than 19 a second;
+/// more in short ones, which are 600 pixels wide. A phone without room for its name has none.
 /// Longer than this should not be drawn.
 inline constexpr double kLongestPlot = 600;  // seconds
 std::string curves_svg(const std::vector<PlotPanel>& panels,
                        const std::vector<std::string>& legend);
+
+/// Whether write_drawing() can write a file of this name: .svg, .png, or "-" (SVG).
+bool is_drawing(const std::string& path);
 
 /// Writes a drawing as .png or, with any other name, as it is. Errors: io, and those of
 /// media::svg_to_png().

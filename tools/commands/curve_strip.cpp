@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 
 #include "fap/tables.h"
-#include "tools/commands/curve_plot.h"
 #include "tools/media/picture.h"
+#include "tools/xml.h"
 
 namespace animeme::tools {
 
@@ -15,13 +14,7 @@ namespace {
 
 constexpr double kPhones = 22;  // height of their row
 constexpr double kLegend = 14;
-constexpr const char* kColours[] = {"#7fb2ff", "#ff8f9c", "#7fe0a2"};
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f", value);
-  return text;
-}
+constexpr const char* kColours[] = {"#63b9f2", "#f0a030", "#dd93c4"};
 
 }  // namespace
 
@@ -41,8 +34,8 @@ std::string CurveStrip::page_svg(double begin) const {
   const double width = options_.width;
   const double height = options_.height;
   const auto x = [&](double seconds) { return (seconds - begin) / options_.page * width; };
-  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(width) +
-                    "\" height=\"" + number(height) +
+  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + drawn(width) +
+                    "\" height=\"" + drawn(height) +
                     "\" font-family=\"sans-serif\">\n<rect width=\"100%\" height=\"100%\" "
                     "fill=\"#14171c\"/>\n";
   double top = 4;
@@ -52,21 +45,21 @@ std::string CurveStrip::page_svg(double begin) const {
       const double left = x(phone.start);
       const double wide = x(phone.end) - left;
       const bool silent = phone.label == dam::kSilence;
-      svg += "<rect x=\"" + number(left) + "\" y=\"0\" width=\"" + number(std::max(wide - 1, 0.5)) +
-             "\" height=\"" + number(kPhones) + "\" fill=\"" + (silent ? "#1d2229" : "#323b47") +
+      svg += "<rect x=\"" + drawn(left) + "\" y=\"0\" width=\"" + drawn(std::max(wide - 1, 0.5)) +
+             "\" height=\"" + drawn(kPhones) + "\" fill=\"" + (silent ? "#1d2229" : "#323b47") +
              "\"/>\n";
       if (silent || wide < 8) continue;
-      svg += "<text x=\"" + number(left + wide / 2) + "\" y=\"" + number(kPhones - 6) +
+      svg += "<text x=\"" + drawn(left + wide / 2) + "\" y=\"" + drawn(kPhones - 6) +
              "\" fill=\"#ffffff\" text-anchor=\"middle\" font-size=\"" +
-             number(std::clamp(wide * 0.5, 7.0, 13.0)) + "\">" + escape_xml(phone.label) +
+             drawn(std::clamp(wide * 0.5, 7.0, 13.0)) + "\">" + escape_xml(phone.label) +
              "</text>\n";
     }
     top += kPhones;
   }
   const double middle = (top + height - kLegend) / 2;
   const double half = (height - kLegend - top) / 2 - 2;
-  svg += "<line x1=\"0\" x2=\"" + number(width) + "\" y1=\"" + number(middle) + "\" y2=\"" +
-         number(middle) + "\" stroke=\"#414b58\"/>\n";
+  svg += "<line x1=\"0\" x2=\"" + drawn(width) + "\" y1=\"" + drawn(middle) + "\" y2=\"" +
+         drawn(middle) + "\" stroke=\"#414b58\"/>\n";
   double legend = 8;
   for (std::size_t i = 0; i < options_.faps.size(); ++i) {
     const auto fap = std::size_t(options_.faps[i]);
@@ -75,10 +68,10 @@ std::string CurveStrip::page_svg(double begin) const {
     for (const fap::Frame& frame : clip_.frames) {
       const double seconds = clip_.rate.seconds(double(frame.number));
       if (seconds < begin - 0.1 || seconds > begin + options_.page + 0.1) continue;
-      svg += number(x(seconds)) + "," + number(middle - frame.value[fap] / scales_[i] * half) + " ";
+      svg += drawn(x(seconds)) + "," + drawn(middle - frame.value[fap] / scales_[i] * half) + " ";
     }
     const std::string name(fap::info(int(fap)).name);
-    svg += "\"/>\n<text x=\"" + number(legend) + "\" y=\"" + number(height - 4) +
+    svg += "\"/>\n<text x=\"" + drawn(legend) + "\" y=\"" + drawn(height - 4) +
            "\" font-size=\"11\" fill=\"" + kColours[i] + "\">" + escape_xml(name) + "</text>\n";
     legend += 18 + 6.5 * double(name.size());
   }
@@ -88,12 +81,12 @@ std::string CurveStrip::page_svg(double begin) const {
 Result<void> CurveStrip::draw(double seconds, int height, std::vector<std::uint8_t>& rgba) {
   const double begin = std::floor(seconds / options_.page) * options_.page;
   if (begin != begin_) {
-    Result<media::Pixels> drawn = media::svg_to_rgba(page_svg(begin));
-    if (!drawn) return drawn.error();
-    if (drawn->width != options_.width || drawn->height != options_.height) {
+    Result<media::Pixels> pixels = media::svg_to_rgba(page_svg(begin));
+    if (!pixels) return pixels.error();
+    if (pixels->width != options_.width || pixels->height != options_.height) {
       return make_error(Code::internal, "the strip has another size than was asked for");
     }
-    page_ = std::move(drawn->rgba);
+    page_ = std::move(pixels->rgba);
     begin_ = begin;
   }
   const std::size_t row = std::size_t(options_.width) * 4;

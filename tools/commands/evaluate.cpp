@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "tools/commands/curve_plot.h"
 #include "tools/commands/evaluate_report.h"
 
 namespace animeme::tools {
@@ -175,8 +176,7 @@ Result<int> run(const Options& options) {
     return usage_error("--tracks takes the place of the model: evaluate --tracks DIR CORPUS");
   }
   if (corpus.folder.empty()) return usage_error("name a model and a corpus folder");
-  const std::string extension = extension_of(options.picture);
-  if (!options.picture.empty() && extension != ".svg" && extension != ".png") {
+  if (!options.picture.empty() && (options.picture == "-" || !is_drawing(options.picture))) {
     return usage_error("--picture must end in .svg or .png, not " + options.picture);
   }
   Result<EvaluateReport> report = evaluate_all(options, corpus, path);

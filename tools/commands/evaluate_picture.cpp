@@ -76,6 +76,7 @@ PlotPanel panel_of(const char* place, const dam::SentencePair& pair, double nrms
   for (const Curve& curve : curves_of(pair)) {
     panel.rows.push_back({curve.title,
                           curve.subtitle,
+                          "",
                           {points(pair.recorded.signal, curve), points(pair.made, curve)}});
   }
   return panel;

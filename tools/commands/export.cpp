@@ -22,7 +22,26 @@ struct Options {
   std::string rate = "25";
   double crossfade = 0.08;
   GlbExport glb;
+  std::vector<const CLI::Option*> of_scripts;  // options that are for visemes of scripts alone
+  std::vector<const CLI::Option*> of_heads;    // for .glb alone
 };
+
+// Options that were given for nothing, in a sentence; empty: there are none.
+std::string idle_options(const Options& options, const std::string& what, bool from_script) {
+  const auto given = [](const std::vector<const CLI::Option*>& list) {
+    for (const CLI::Option* option : list) {
+      if (option->count() > 0) return option->get_name();
+    }
+    return std::string();
+  };
+  if (const std::string name = given(options.of_heads); what != "head" && !name.empty()) {
+    return name + " is for a head (.glb)";
+  }
+  if (const std::string name = given(options.of_scripts); !from_script && !name.empty()) {
+    return name + " is for visemes of a phoneme script; a face has its own times";
+  }
+  return {};
+}
 
 // What a name like talk.visemes.json asks for.
 std::string what_of(const Options& options, bool from_script) {
@@ -155,6 +174,9 @@ Result<int> run(const Options& options) {
   if (!bytes) return bytes.error();
   const bool from_script = kind_of(*bytes) == FileKind::script;
   const std::string what = what_of(options, from_script);
+  if (const std::string idle = idle_options(options, what, from_script); !idle.empty()) {
+    return usage_error(idle);
+  }
   if (what == "arkit" || what == "head") {
     if (!options.script.empty()) {
       return usage_error("--script is for visemes; add --what visemes");
@@ -215,6 +237,12 @@ Action add(CLI::App& app) {
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1.0));
   add_glb_options(app, options->glb);
+  for (const char* name : {"--rate", "--crossfade"}) {
+    options->of_scripts.push_back(app.get_option(name));
+  }
+  for (const char* name : {"--head", "--points", "--morphs", "--normals"}) {
+    options->of_heads.push_back(app.get_option(name));
+  }
   return [options] { return run(*options); };
 }
 

@@ -4,10 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "fap/result.h"
+
 namespace animeme::tools {
 
-/// Numbers 3..68 of FAPs given by number or name ("open_jaw"). A 0 at the end: the last one taken
-/// is not known; the rest is left out.
-std::vector<int> fap_numbers(const std::vector<std::string>& names);
+/// Numbers 3..68 of FAPs given by number, name ("open_jaw") or range ("3-13"), as they come. Error:
+/// invalid_argument, which names the first that is none of these.
+Result<std::vector<int>> fap_numbers(const std::vector<std::string>& names);
 
 }  // namespace animeme::tools

@@ -5,12 +5,27 @@
 #include "fap/head/obj.h"
 #include "fap/head/own_head.h"
 #include "fap/head/point_list.h"
+#include "fap/xml/fdp.h"
+#include "fap/xml/xmt.h"
 #include "tools/commands/common.h"
+#include "tools/gltf/read_head.h"
 
 namespace animeme::tools {
 namespace {
 
 constexpr const char* kOurs = "woman, man or child";
+
+// What a file name says of its format.
+enum class Format : std::uint8_t { none, obj, gltf, fdp, xmt };
+
+Format format_of(const std::string& path) {
+  const std::string kind = extension_of(path);
+  if (kind == ".obj") return Format::obj;
+  if (kind == ".glb" || kind == ".gltf" || kind == ".vrm") return Format::gltf;
+  if (kind == ".fdp") return Format::fdp;
+  if (kind == ".xmt" || kind == ".xmta") return Format::xmt;
+  return Format::none;
+}
 
 Result<std::vector<head::PointRow>> read_point_list(const std::string& path) {
   const Result<std::string> text = read_text_file(path);
@@ -35,16 +50,54 @@ Result<head::Source> read_obj_head(const HeadChoice& choice) {
   return source;
 }
 
-Result<head::Source> read_source(const HeadChoice& choice) { return read_obj_head(choice); }
+Result<head::Source> read_gltf_head(const HeadChoice& choice) {
+  Result<head::Source> source = gltf::read_head_file(choice.head);
+  if (!source || choice.points.empty()) return source;
+  const Result<std::vector<head::PointRow>> rows = read_point_list(choice.points);
+  if (!rows) return rows.error();
+  Result<std::vector<head::PiecePoint>> points = head::points_on(source->pieces, *rows);
+  if (!points) return points.error().in_file(choice.points);
+  // The points move it then, not its shapes.
+  source->points = std::move(*points);
+  source->shapes.clear();
+  source->targets.clear();
+  return source;
+}
+
+Result<head::Source> read_xml_head(const HeadChoice& choice, Format format) {
+  const Result<std::string> text = read_text_file(choice.head);
+  if (!text) return text.error();
+  const std::filesystem::path folder = std::filesystem::path(choice.head).parent_path();
+  const auto load = [&](const std::string& name) {
+    return read_text_file((folder / name).string());
+  };
+  Result<head::Source> source =
+      format == Format::fdp ? head::read_fdp(*text, load) : head::read_xmt(*text);
+  if (!source) {
+    return source.error().where.file.empty() ? source.error().in_file(choice.head) : source.error();
+  }
+  return source;
+}
+
+Result<head::Source> read_source(const HeadChoice& choice) {
+  const Format format = format_of(choice.head);
+  if (format == Format::obj) return read_obj_head(choice);
+  if (format == Format::gltf) return read_gltf_head(choice);
+  return read_xml_head(choice, format);
+}
 
 }  // namespace
 
+const char* const kHeadHelp =
+    "woman, man or child, or a head of your own: .glb, .gltf or .vrm with shapes (ARKit's or "
+    "visemes), .obj with --points, .fdp of Xface, .xmt with an FDP";
+const char* const kPointsHelp =
+    "Which vertex of your .obj or .glb is which feature point: lines such as 2.1,966 (animeme head "
+    "--help)";
+
 void add_head_options(CLI::App& app, HeadChoice& choice) {
-  app.add_option("--head", choice.head,
-                 std::string(kOurs) + ", or a head of your own: .obj with --points")
-      ->capture_default_str();
-  app.add_option("--points", choice.points,
-                 "Which vertex of your head is which feature point: lines such as 2.1,966");
+  app.add_option("--head", choice.head, kHeadHelp)->capture_default_str();
+  app.add_option("--points", choice.points, kPointsHelp);
 }
 
 std::string problem_of(const HeadChoice& choice) {
@@ -56,13 +109,18 @@ std::string problem_of(const HeadChoice& choice) {
     return "--head is " + std::string(kOurs) + ", or a file; there is no file \"" + choice.head +
            "\"";
   }
-  const std::string kind = extension_of(choice.head);
-  if (kind != ".obj") {
-    return "--head " + choice.head + ": a head of your own is an .obj file with --points";
+  const Format format = format_of(choice.head);
+  if (format == Format::none) {
+    return "--head " + choice.head +
+           ": a head of your own is a .glb, .gltf, .vrm, .fdp or .xmt file, or an .obj with "
+           "--points";
   }
-  if (kind == ".obj" && choice.points.empty()) {
+  if (format == Format::obj && choice.points.empty()) {
     return "an .obj does not tell where its face is: add --points LIST, a text with lines such as "
            "2.1,966 (feature point, vertex counted from 0)";
+  }
+  if ((format == Format::fdp || format == Format::xmt) && !choice.points.empty()) {
+    return "--points is for .obj and .glb; " + choice.head + " has its own points";
   }
   return "";
 }

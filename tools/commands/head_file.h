@@ -15,6 +15,10 @@ struct HeadChoice {
   std::string points;          ///< list of feature points; see fap/head/point_list.h
 };
 
+/// What --help says of them.
+extern const char* const kHeadHelp;
+extern const char* const kPointsHelp;
+
 /// Adds --head and --points.
 void add_head_options(CLI::App& app, HeadChoice& choice);
 
@@ -27,7 +31,8 @@ struct LoadedHead {
 /// file that is not read, --points missing or not wanted. Empty: nothing.
 std::string problem_of(const HeadChoice& choice);
 
-/// Makes or reads a head. Files: .obj (with --points).
+/// Makes or reads a head. Files: .glb, .gltf, .vrm (moved by their shapes, or by points if they are
+/// given), .obj (with points), .fdp, .xmt and .xmta.
 /// Errors: invalid_argument with problem_of(), and those of the readers, with the file.
 Result<LoadedHead> load_head(const HeadChoice& choice);
 

@@ -53,6 +53,17 @@ std::optional<PictureSize> parse_size(const std::string& text) {
   return PictureSize{*width, *height};
 }
 
+// Empty if FAP text may have this name: not that of another kind of file.
+std::string wrong_output(const std::string& path) {
+  const std::string extension = extension_of(path);
+  for (const char* other : {".fba", ".mp4", ".mkv", ".ts", ".csv", ".json", ".glb"}) {
+    if (extension != other) continue;
+    return "--output is FAP text and should end in .fap, not " + extension +
+           "; encode, mux and export make other files of it";
+  }
+  return {};
+}
+
 Result<int> run(Options options) {
   std::optional<fap::Rate> given_rate;
   if (!options.rate.empty()) {
@@ -67,6 +78,9 @@ Result<int> run(Options options) {
     if (!options.landmarks.table.size) {
       return usage_error("--size: '" + options.size + "' is no size; write 1280x720");
     }
+  }
+  if (const std::string wrong = wrong_output(options.output); !wrong.empty()) {
+    return usage_error(wrong);
   }
   const Result<std::string> text = read_text_file(options.input);
   if (!text) return text.error();

@@ -8,7 +8,7 @@
 
 #include "codec/live.h"
 #include "tools/commands/face_stream.h"
-#include "tools/media/audio.h"
+#include "tools/commands/voice_input.h"
 #include "tools/media/container.h"
 
 namespace animeme::tools {
@@ -118,14 +118,10 @@ Result<fba::AccessUnits> for_live_use(fba::AccessUnits units, const fba::Decoded
 
 /// Sound from any file, packets as they are where that is possible and wanted.
 Result<media::EncodedAudio> load_sound(const std::string& path, const LiveCoding& coding) {
-  Result<media::EncodedAudio> copied = media::read_encoded_audio(path);
-  if (copied && (!coding.codec_given || copied->format.codec == coding.audio.codec)) {
-    return copied;
-  }
-  if (!copied && copied.error().code != Code::unsupported) return copied.error().in_file(path);
-  Result<media::Pcm> pcm = read_voice(path);
-  if (!pcm) return pcm.error();
-  return media::encode_audio(*pcm, coding.audio);
+  const auto keep = [&](media::AudioCodec codec) {
+    return !coding.codec_given || codec == coding.audio.codec;
+  };
+  return read_coded_sound(path, keep, coding.audio);
 }
 
 }  // namespace

@@ -100,7 +100,11 @@ Result<MotionInput> parse_motion(std::vector<std::uint8_t> bytes, const std::str
                            : media::read_container(std::span<const std::uint8_t>(bytes));
       if (!container) return container.error().in_file(path);
       for (const std::string& text : container->warnings) warn(path + ": " + text);
-      input.stream = fba::join_access_units(container->face);
+      const fba::AccessUnits& face = container->face;
+      if (!face.units.empty()) {
+        input.start = double(face.units.front().time) / face.timescale;
+      }
+      input.stream = fba::join_access_units(face);
       return with_decoded(std::move(input), path);
     }
     case FileKind::fba_stream:
@@ -128,7 +132,7 @@ Result<FaceInput> parse_face(std::vector<std::uint8_t> bytes, const std::string&
 
 Result<FaceInput> face_of(MotionInput input, const std::string& path) {
   if (auto ok = require_face(input, path); !ok) return ok.error();
-  return FaceInput{std::move(input.face), std::move(input.stream)};
+  return FaceInput{std::move(input.face), std::move(input.stream), input.start};
 }
 
 Result<void> require_face(const MotionInput& input, const std::string& path) {

@@ -7,7 +7,7 @@
 #include "tools/commands/common.h"
 #include "tools/commands/face_stream.h"
 #include "tools/commands/preview.h"
-#include "tools/media/audio.h"
+#include "tools/commands/voice_input.h"
 #include "tools/media/container.h"
 
 namespace animeme::tools {
@@ -40,29 +40,16 @@ Result<fba::AccessUnits> read_units(const Options& options) {
   return access_units(*face, options.stream);
 }
 
-struct Sound {
-  std::optional<media::Pcm> samples;
-  std::optional<media::EncodedAudio> coded;
-
-  double seconds() const {
-    return samples ? samples->duration() : double(coded->length) / coded->format.sample_rate;
-  }
-};
-
-Result<Sound> read_sound(const Options& options) {
-  Sound sound;
+Result<SoundInput> sound_of(const Options& options) {
+  SoundInput sound;
   if (options.sound.codec == "copy") {
     Result<media::EncodedAudio> coded = media::read_encoded_audio(options.audio);
-    if (!coded) return coded.error();
+    if (!coded) return coded.error().in_file(options.audio);
     sound.coded = std::move(*coded);
     return sound;
   }
-  std::vector<std::string> warnings;
-  media::ReadAudioOptions read;
-  read.warnings = &warnings;
-  Result<media::Pcm> samples = media::read_audio(options.audio, read);
+  Result<media::Pcm> samples = read_voice(options.audio);
   if (!samples) return samples.error();
-  for (const std::string& text : warnings) warn(options.audio + ": " + text);
   sound.samples = std::move(*samples);
   return sound;
 }
@@ -70,8 +57,8 @@ Result<Sound> read_sound(const Options& options) {
 Result<int> run(Options options) {
   Result<fba::AccessUnits> units = read_units(options);
   if (!units) return units.error().in_file(options.face);
-  Result<Sound> sound = read_sound(options);
-  if (!sound) return sound.error().in_file(options.audio);
+  const Result<SoundInput> sound = sound_of(options);
+  if (!sound) return sound.error();
   const fba::AccessUnit& last = units->units.back();
   const double seconds = double(last.time + last.duration) / units->timescale;
   if (std::abs(sound->seconds() - seconds) > 1.0) {
@@ -80,8 +67,7 @@ Result<int> run(Options options) {
   }
   media::MuxInput input;
   input.face = &*units;
-  if (sound->samples) input.audio = &*sound->samples;
-  if (sound->coded) input.encoded = &*sound->coded;
+  sound->give_to(input);
   options.mux.audio = audio_settings(options.sound, options.output);
   Result<int> written = write_media(options.output, input, options.mux);
   if (!written || *written != kOk || options.preview.empty()) return written;

@@ -3,10 +3,12 @@
 
 #include "dam/script.h"
 #include "fap/fill.h"
+#include "fap/head/shapes.h"
 #include "fap/tables.h"
 #include "tools/commands/common.h"
 #include "tools/commands/curve_plot.h"
 #include "tools/commands/fap_names.h"
+#include "tools/commands/voice_input.h"
 
 namespace animeme::tools {
 
@@ -23,23 +25,38 @@ struct Options {
   double to = -1;
 };
 
-PlotPoints points_of(int fap, const fap::Sequence& clip) {
+// A filled clip, and when its frame 0 is shown.
+struct Shown {
+  fap::Sequence clip;
+  double start = 0;
+
+  double end() const { return start + clip.duration(); }
+};
+
+PlotPoints points_of(int fap, const Shown& shown) {
   PlotPoints points;
-  for (const fap::Frame& frame : clip.frames) {
-    points.emplace_back(clip.rate.seconds(double(frame.number)), frame.value[std::size_t(fap)]);
+  for (const fap::Frame& frame : shown.clip.frames) {
+    points.emplace_back(shown.start + shown.clip.rate.seconds(double(frame.number)),
+                        frame.value[std::size_t(fap)]);
   }
   return points;
 }
 
-PlotRow row_of(int fap, const std::vector<fap::Sequence>& clips) {
-  PlotRow row{"FAP " + std::to_string(fap), std::string(fap::info(fap).name), {}};
-  for (const fap::Sequence& clip : clips) row.curves.push_back(points_of(fap, clip));
+std::string unit_of(int fap) {
+  const fap::Unit unit = fap::info(fap).unit;
+  if (unit == fap::Unit::angle) return "0.00001 rad";
+  return "1/1024 " + std::string(fap::unit_name(unit));
+}
+
+PlotRow row_of(int fap, const std::vector<Shown>& clips) {
+  PlotRow row{"FAP " + std::to_string(fap), std::string(fap::info(fap).name), unit_of(fap), {}};
+  for (const Shown& clip : clips) row.curves.push_back(points_of(fap, clip));
   return row;
 }
 
 // b less a at the times of a; what b shows at a time is its last frame so far.
-PlotRow difference_of(int fap, const fap::Sequence& a, const fap::Sequence& b) {
-  PlotRow row{"", "difference of " + std::to_string(fap), {{}}, 2};
+PlotRow difference_of(int fap, const Shown& a, const Shown& b) {
+  PlotRow row{"FAP " + std::to_string(fap), "difference", unit_of(fap), {{}}, 2};
   const PlotPoints shown = points_of(fap, b);
   std::size_t at = 0;
   for (const auto& [time, value] : points_of(fap, a)) {
@@ -50,15 +67,18 @@ PlotRow difference_of(int fap, const fap::Sequence& a, const fap::Sequence& b) {
 }
 
 Result<int> run(const Options& options) {
-  const std::vector<int> faps = fap_numbers(options.faps);
-  if (!faps.empty() && faps.back() == 0) {
-    return usage_error("--faps: " + options.faps[faps.size() - 1] +
-                       " is no FAP; give numbers 3 to 68 or names like open_jaw");
+  const Result<std::vector<int>> faps = fap_numbers(options.faps);
+  if (!faps) return usage_error("--faps: " + faps.error().message);
+  if (!is_drawing(options.output)) {
+    return usage_error("--output must end in .svg or .png, not " + options.output);
+  }
+  if (options.to > 0 && options.to <= options.from) {
+    return usage_error("--to has to lie behind --from");
   }
   if (options.difference && options.b.empty()) {
     return usage_error("--difference needs two clips");
   }
-  std::vector<fap::Sequence> clips;
+  std::vector<Shown> clips;
   std::vector<std::string> names;
   for (const std::string& path : {options.a, options.b}) {
     if (path.empty()) continue;
@@ -66,16 +86,18 @@ Result<int> run(const Options& options) {
     if (!input) return input.error();
     Result<fap::Sequence> filled = fap::fill(input->clip);
     if (!filled) return filled.error().in_file(path);
-    clips.push_back(std::move(*filled));
+    // FAP 1 and 2 as the built-in head shows them.
+    for (fap::Frame& frame : filled->frames) frame = head::low_level(frame);
+    clips.push_back({std::move(*filled), input->start});
     names.push_back(std::filesystem::path(path).filename().string());
   }
   PlotPanel panel;
-  for (const fap::Sequence& clip : clips) panel.seconds = std::max(panel.seconds, clip.duration());
+  for (const Shown& clip : clips) panel.seconds = std::max(panel.seconds, clip.end());
   if (options.from >= panel.seconds) {
     return usage_error("--from lies behind the end of the clip");
   }
   panel.begin = options.from;
-  if (options.to > options.from) panel.seconds = std::min(panel.seconds, options.to);
+  if (options.to > 0) panel.seconds = std::min(panel.seconds, options.to);
   if (panel.seconds - panel.begin > kLongestPlot) {
     return make_error(
                Code::out_of_range,
@@ -84,18 +106,16 @@ Result<int> run(const Options& options) {
   }
   dam::Script script;
   if (!options.script.empty()) {
-    Result<std::string> text = read_text_file(options.script);
-    if (!text) return text.error();
-    Result<dam::Script> read = dam::read_script(*text);
-    if (!read) return read.error().in_file(options.script);
+    Result<dam::Script> read = read_script(options.script);
+    if (!read) return read.error();
     script = std::move(*read);
     panel.script = &script;
   }
-  for (const int fap : faps) {
+  for (const int fap : *faps) {
     panel.rows.push_back(row_of(fap, clips));
     if (options.difference) panel.rows.push_back(difference_of(fap, clips[0], clips[1]));
   }
-  if (options.difference) names.emplace_back("difference, second less first");
+  if (options.difference) names.emplace_back("difference: second less first");
   if (auto written = write_drawing(options.output, curves_svg({panel}, names)); !written) {
     return written.error();
   }
@@ -104,13 +124,13 @@ Result<int> run(const Options& options) {
 
 Action add(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  app.add_option("a", options->a, "FAP text, FBA stream or container (blue)")->required();
-  app.add_option("b", options->b, "A second one to compare with (red)");
+  app.add_option("a", options->a, "FAP text, FBA stream or container (blue line)")->required();
+  app.add_option("b", options->b, "A second one to compare with (orange, dashed)");
   app.add_option("-o,--output", options->output,
                  "Picture to write: .svg or .png; - is SVG on standard output")
       ->required();
   app.add_option("--script", options->script, "Phoneme script to show behind the curves");
-  app.add_option("--faps", options->faps, "FAPs by number or name, one row each")
+  app.add_option("--faps", options->faps, "FAPs by number, name or range (3-13), one row each")
       ->delimiter(',')
       ->capture_default_str();
   app.add_flag("--difference", options->difference,

@@ -9,8 +9,7 @@
 #include "tools/commands/head_view.h"
 #include "tools/commands/preview.h"
 #include "tools/commands/render_frames.h"
-#include "tools/media/audio.h"
-#include "tools/media/container.h"
+#include "tools/commands/voice_input.h"
 #include "tools/render/scene.h"
 
 namespace animeme::tools {
@@ -118,29 +117,17 @@ Result<void> draw(const Plan& plan, const std::vector<ShownFrame>& frames, Pictu
   return sink.finish();
 }
 
-// The sound of the video, as the file takes it: copied where that can be.
-struct VideoSound {
-  std::optional<media::EncodedAudio> coded;
-  std::optional<media::Pcm> samples;
-};
-
-Result<VideoSound> read_sound(const Options& options) {
-  VideoSound sound;
+// The sound of the video, copied where the file takes it; nothing where the face has none.
+Result<std::optional<SoundInput>> sound_of(const Options& options) {
   const bool own = options.audio.empty();
-  const std::string& path = own ? options.input : options.audio;
-  Result<media::EncodedAudio> coded = media::read_encoded_audio(path);
-  const bool opus = media::usual_codec(options.output) == media::AudioCodec::opus;
-  if (coded && (!opus || coded->format.codec == media::AudioCodec::opus)) {
-    sound.coded = std::move(*coded);
-    return sound;
-  }
-  Result<media::Pcm> samples = media::read_audio(path);
-  if (samples) {
-    sound.samples = std::move(*samples);
-  } else if (!own) {
-    return samples.error().in_file(path);
-  }
-  return sound;
+  const bool only_opus = media::usual_codec(options.output) == media::AudioCodec::opus;
+  Result<SoundInput> sound =
+      read_sound(own ? options.input : options.audio, [only_opus](media::AudioCodec codec) {
+        return !only_opus || codec == media::AudioCodec::opus;
+      });
+  if (sound) return std::optional(std::move(*sound));
+  if (!own) return sound.error();
+  return std::optional<SoundInput>();
 }
 
 Result<int> render_video(const Options& options, const Plan& plan) {
@@ -151,28 +138,24 @@ Result<int> render_video(const Options& options, const Plan& plan) {
     if (!rate || !rate->valid()) return usage_error("--rate is a number such as 25 or 29.97");
     preview.rate = *rate;
   }
-  preview.faps = fap_numbers(options.curves);
-  if (!preview.faps.empty() && preview.faps.back() == 0) {
-    return usage_error("--curves: " + options.curves[preview.faps.size() - 1] +
-                       " is no FAP; give numbers 3 to 68 or names like open_jaw");
-  }
+  Result<std::vector<int>> faps = fap_numbers(options.curves);
+  if (!faps) return usage_error("--curves: " + faps.error().message);
+  if (faps->size() > 3) return usage_error("--curves shows three FAPs at most");
+  preview.faps = std::move(*faps);
   Result<FaceInput> input = read_face(options.input);
   if (!input) return input.error();
   const Result<fap::Sequence> clip = fap::fill(input->clip, {.interpolate = true});
   if (!clip) return clip.error().in_file(options.input);
   Result<dam::Script> script = dam::Script{};
   if (!options.script.empty()) {
-    const Result<std::string> text = read_text_file(options.script);
-    if (!text) return text.error();
-    script = dam::read_script(*text);
-    if (!script) return script.error().in_file(options.script);
+    script = read_script(options.script);
+    if (!script) return script.error();
     preview.script = &*script;
   }
-  const Result<VideoSound> sound = read_sound(options);
+  const Result<std::optional<SoundInput>> sound = sound_of(options);
   if (!sound) return sound.error();
   media::MuxInput tracks;
-  if (sound->coded) tracks.encoded = &*sound->coded;
-  if (sound->samples) tracks.audio = &*sound->samples;
+  if (*sound) (*sound)->give_to(tracks);
   return write_preview(options.output, *clip, tracks, preview);
 }
 

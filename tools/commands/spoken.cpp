@@ -1,6 +1,7 @@
 #include "tools/commands/spoken.h"
 
-#include "tools/media/audio.h"
+#include "tools/commands/common.h"
+#include "tools/commands/voice_input.h"
 #include "tools/voice/align.h"
 #include "tools/voice/voice.h"
 
@@ -19,10 +20,8 @@ Result<Spoken> speak(const SpokenOptions& options, const std::string& text) {
 }
 
 Result<Spoken> follow_script(const SpokenOptions& options) {
-  Result<std::string> text = read_text_file(options.script);
-  if (!text) return text.error();
-  Result<dam::Script> script = dam::read_script(*text);
-  if (!script) return script.error().in_file(options.script);
+  Result<dam::Script> script = read_script(options.script);
+  if (!script) return script.error();
   Spoken spoken{std::move(*script), std::nullopt, {}};
   if (options.audio.empty()) return spoken;
   Result<media::Pcm> audio = read_voice(options.audio);
@@ -69,17 +68,6 @@ void add_spoken_options(CLI::App& app, SpokenOptions& options) {
   app.add_option("--pitch", options.pitch, "Pitch of the synthetic voice")
       ->check(CLI::Range(0, 100))
       ->capture_default_str();
-}
-
-Result<media::Pcm> read_voice(const std::string& path, int sample_rate) {
-  std::vector<std::string> warnings;
-  media::ReadAudioOptions options;
-  options.sample_rate = sample_rate;
-  options.warnings = &warnings;
-  Result<media::Pcm> audio = media::read_audio(path, options);
-  if (!audio) return audio.error().in_file(path);
-  for (const std::string& text : warnings) warn(path + ": " + text);
-  return audio;
 }
 
 Result<dam::Script> align_file(const std::string& audio, const std::string& transcript,

@@ -43,7 +43,4 @@ Result<Spoken> get_spoken(const SpokenOptions& options);
 Result<dam::Script> align_file(const std::string& audio, const std::string& transcript,
                                const std::string& language);
 
-/// A recording; warnings are printed.
-Result<media::Pcm> read_voice(const std::string& path, int sample_rate = 0);
-
 }  // namespace animeme::tools

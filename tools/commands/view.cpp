@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -6,73 +8,94 @@
 #include "fap/fill.h"
 #include "fap/head/rig.h"
 #include "tools/commands/common.h"
+#include "tools/commands/face_stream.h"
 #include "tools/commands/head_file.h"
 #include "tools/commands/view_sound.h"
-#include "tools/media/container.h"
+#include "tools/commands/voice_input.h"
 #include "tools/viewer/viewer.h"
 
 namespace animeme::tools {
 
 namespace {
 
+constexpr double kAboutEqual = 1;         // seconds
+constexpr double kLargePage = 3'000'000;  // bytes
+constexpr int kLeastKilobits = 12;        // a second; Opus is not worth hearing with less,
+constexpr int kMostKilobits = 40;         // and with more not better
+
 struct Options {
   std::string first;
   std::string second;
   std::string output;
   std::string audio;
+  SoundSettings sound;
   std::string script;
   HeadChoice head;
 };
 
+// A clip, and whether it came with a container that may hold sound.
 struct Shown {
   viewer::Clip clip;
   bool container = false;
 };
 
 Result<Shown> read_shown(const std::string& path) {
-  Result<std::vector<std::uint8_t>> bytes = read_file(path);
-  if (!bytes) return bytes.error();
-  Shown shown;
-  shown.clip.name = std::filesystem::path(path).filename().string();
-  if (kind_of(*bytes) == FileKind::media) {
-    // The stream alone does not tell when its face begins against the sound.
-    const Result<media::Container> container =
-        media::read_container(std::span<const std::uint8_t>(*bytes));
-    if (!container) return container.error().in_file(path);
-    const fba::AccessUnits& face = container->face;
-    if (!face.units.empty()) {
-      shown.clip.start = double(face.units.front().time) / face.timescale;
-    }
-    shown.container = true;
-  }
-  Result<MotionInput> input = parse_motion(std::move(*bytes), path);
+  Result<MotionInput> input = read_motion(path);
   if (!input) return input.error();
   if (auto ok = require_face(*input, path); !ok) return ok.error();
-  Result<fap::Sequence> filled = input->stream.empty()
-                                     ? fap::fill(input->face)
-                                     : fba::fill(input->decoded, {.complete = true});
+  Result<fap::Sequence> filled =
+      input->stream.empty() ? fap::fill(input->face) : fba::fill(input->decoded);
   if (!filled) return filled.error().in_file(path);
-  shown.clip.motion = std::move(*filled);
-  return shown;
+  const std::string name = std::filesystem::path(path).filename().string();
+  return Shown{{std::move(*filled), input->start, name}, input->kind == FileKind::media};
 }
 
-Result<std::optional<viewer::Sound>> read_sound(const Options& options, bool container) {
-  if (options.audio.empty() && !container) return std::optional<viewer::Sound>();
-  const std::string& path = options.audio.empty() ? options.first : options.audio;
-  Result<viewer::Sound> sound = page_sound(path);
-  if (sound) return std::optional(std::move(*sound));
-  const bool silent = options.audio.empty() && sound.error().code == Code::not_found;
-  if (silent) return std::optional<viewer::Sound>();
-  return sound.error().in_file(path);
+std::string megabytes(double bytes) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f MB", bytes / 1e6);
+  return text;
 }
 
-Result<dam::Script> read_script(const std::string& path) {
-  if (path.empty()) return dam::Script();
-  const Result<std::string> text = read_text_file(path);
-  if (!text) return text.error();
-  Result<dam::Script> script = dam::read_script(*text);
-  if (!script) return script.error().in_file(path);
-  return script;
+// The sound that was asked for, else that of the first container that has one; nothing if none has.
+Result<std::optional<PageSound>> sound_of(const Options& options,
+                                          const std::vector<std::string>& containers) {
+  const bool asked = !options.audio.empty();
+  for (const std::string& path : asked ? std::vector{options.audio} : containers) {
+    Result<PageSound> sound = page_sound(path, options.sound);
+    if (sound) return std::optional(std::move(*sound));
+    if (asked || sound.error().code != Code::not_found) return sound.error();
+  }
+  return std::optional<PageSound>();
+}
+
+// What belongs together lasts about equally long.
+void warn_of_lengths(const viewer::Page& page, const Options& options, double sound) {
+  const double face = page.clips.front().motion.duration();
+  const auto check = [face](const std::string& what, double seconds) {
+    if (std::abs(seconds - face) <= kAboutEqual) return;
+    warn("the face lasts " + seconds_text(face) + ", " + what + " " + seconds_text(seconds));
+  };
+  if (page.clips.size() > 1) check(options.second, page.clips[1].motion.duration());
+  if (page.sound) check("the sound", sound);
+  if (!page.script.phones.empty()) check(options.script, page.script.duration());
+}
+
+// A page that is too large for mail and phones, and what makes it smaller.
+void warn_of_size(const viewer::Page& page, std::size_t size, double seconds) {
+  if (double(size) <= kLargePage) return;
+  const double sound = page.sound ? double(page.sound->file.size()) * 4 / 3 : 0;
+  std::string text = "the page has more than 3 MB, which is much for mail and phones";
+  if (page.sound) text += "; " + megabytes(sound) + " of it are sound";
+  // What is left for the sound, in base64 and with what an mp4 needs besides.
+  const double left = kLargePage - (double(size) - sound);
+  const int kilobits = left > 0 && page.sound ? int(left * 3 / 4 * 8 / seconds * 0.9 / 1000) : 0;
+  if (kilobits >= kLeastKilobits) {
+    text += ": --audio-codec opus --audio-bitrate " +
+            std::to_string(std::min(kilobits, kMostKilobits)) + "000 makes it small enough";
+  } else {
+    text += "; show a shorter clip or a head with fewer vertices";
+  }
+  warn(text);
 }
 
 Result<int> run(const Options& options) {
@@ -82,30 +105,35 @@ Result<int> run(const Options& options) {
   const Result<head::Head> head = load_head_and_tell(options.head);
   if (!head) return head.error();
   viewer::Page page;
-  bool container = false;
+  std::vector<std::string> containers;
   for (const std::string& path : {options.first, options.second}) {
     if (path.empty()) continue;
     Result<Shown> shown = read_shown(path);
     if (!shown) return shown.error();
-    if (page.clips.empty()) container = shown->container;
+    if (shown->container && path == "-")
+      warn("the sound of standard input is not read; give --audio");
+    if (shown->container && path != "-") containers.push_back(path);
     page.clips.push_back(std::move(shown->clip));
   }
-  Result<std::optional<viewer::Sound>> sound = read_sound(options, container);
+  Result<std::optional<PageSound>> sound = sound_of(options, containers);
   if (!sound) return sound.error();
-  page.sound = std::move(*sound);
-  Result<dam::Script> script = read_script(options.script);
-  if (!script) return script.error();
-  page.script = std::move(*script);
+  const double seconds = *sound ? (*sound)->seconds : 0;
+  if (*sound) page.sound = std::move((*sound)->sound);
+  if (!options.script.empty()) {
+    Result<dam::Script> script = read_script(options.script);
+    if (!script) return script.error();
+    page.script = std::move(*script);
+  }
   const head::Rig rig = head::make_rig(*head);
   page.head = &*head;
   page.rig = &rig;
   const Result<std::string> html = viewer::make_page(page);
   if (!html) return html.error();
   if (auto written = write_file(options.output, *html); !written) return written.error();
-  char size[32];
-  std::snprintf(size, sizeof size, "%.2f MB", double(html->size()) / 1e6);
-  say(name_of_output(options.output) + ": " + size + (page.sound ? ", with sound" : ", silent") +
-      "; open it in a browser");
+  say(name_of_output(options.output) + ": " + megabytes(double(html->size())) +
+      (page.sound ? ", with sound" : ", silent") + "; open it in a browser");
+  warn_of_lengths(page, options, seconds);
+  warn_of_size(page, html->size(), seconds);
   return kOk;
 }
 
@@ -118,21 +146,25 @@ Action add(CLI::App& app) {
   app.add_option("-o,--output", options->output, "HTML file to write, - for standard output")
       ->required();
   app.add_option("--audio", options->audio,
-                 "Sound in any format that FFmpeg reads; by default that of the container");
+                 "Sound in any format that FFmpeg reads; default: that of a container. AAC and "
+                 "Opus stay as they are unless one of the options below is given");
   app.add_option("--script", options->script,
                  "Phoneme script (table or TextGrid) to show with the curves");
+  add_sound_options(app, options->sound, false);
   add_head_options(app, options->head);
   return [options] { return run(*options); };
 }
 
 }  // namespace
 
-const Command kView{"view", "A page that shows the talking head: one HTML file for any browser",
-                    "  animeme view talk.mp4 -o talk.html\n"
-                    "  animeme view talk.fap --audio voice.wav --script voice.TextGrid --head man "
-                    "-o talk.html\n"
-                    "  animeme view original.fap coded.fba --audio voice.wav -o loss.html\n"
-                    "The page needs no network; ? shows its keys.",
-                    add};
+const Command kView{
+    "view", "A page that shows the talking head: one HTML file for any browser",
+    "  animeme view talk.mp4 -o talk.html\n"
+    "  animeme view talk.fap --audio voice.wav --script voice.TextGrid --head man "
+    "-o talk.html\n"
+    "  animeme view original.fap coded.fba --audio voice.wav -o loss.html\n"
+    "  animeme view lecture.mp4 --audio-codec opus --audio-bitrate 20000 -o lecture.html\n"
+    "The page needs no network; ? shows its keys.",
+    add};
 
 }  // namespace animeme::tools

@@ -5,8 +5,7 @@
 #include <filesystem>
 
 #include "tools/commands/common.h"
-#include "tools/media/audio.h"
-#include "tools/media/container.h"
+#include "tools/commands/voice_input.h"
 #include "tools/media/mux.h"
 
 namespace animeme::tools {
@@ -35,34 +34,26 @@ class WorkFolder {
   std::string path_;
 };
 
-Result<media::EncodedAudio> coded_sound(const std::string& path) {
-  Result<media::EncodedAudio> coded = media::read_encoded_audio(path);
-  if (coded || coded.error().code != Code::unsupported) return coded;
-  std::vector<std::string> warnings;
-  media::ReadAudioOptions read;
-  read.warnings = &warnings;
-  const Result<media::Pcm> samples = media::read_audio(path, read);
-  if (!samples) return samples.error();
-  for (const std::string& text : warnings) warn(path + ": " + text);
-  return media::encode_audio(*samples);
-}
-
 }  // namespace
 
-Result<viewer::Sound> page_sound(const std::string& path) {
-  const Result<media::EncodedAudio> coded = coded_sound(path);
+Result<PageSound> page_sound(const std::string& path, const SoundSettings& settings) {
+  const bool as_it_is = settings.codec.empty() && settings.bit_rate == 0;
+  Result<media::EncodedAudio> coded = read_coded_sound(
+      path, [as_it_is](media::AudioCodec) { return as_it_is; },
+      audio_settings(settings, "sound.mp4"));
   if (!coded) return coded.error();
+  const SoundInput sound{std::move(*coded), {}};
   const WorkFolder folder;
   if (folder.path().empty()) {
     return make_error(Code::io, "there is no folder for temporary files: set TMPDIR to one");
   }
   media::MuxInput input;
-  input.encoded = &*coded;
+  sound.give_to(input);
   const std::string file = folder.path() + "/sound.mp4";
   if (const auto written = media::write_mp4(file, input); !written) return written.error();
   Result<std::vector<std::uint8_t>> bytes = read_file(file);
   if (!bytes) return bytes.error();
-  return viewer::Sound{std::move(*bytes), "audio/mp4"};
+  return PageSound{{std::move(*bytes), "audio/mp4"}, sound.seconds()};
 }
 
 }  // namespace animeme::tools

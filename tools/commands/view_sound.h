@@ -4,13 +4,19 @@
 #include <string>
 
 #include "fap/result.h"
+#include "tools/commands/face_stream.h"
 #include "tools/viewer/viewer.h"
 
 namespace animeme::tools {
 
-/// The sound of a file in an mp4 of its own: AAC and Opus packet by packet as they are, anything
-/// else coded as AAC. Errors: those of media::read_encoded_audio(), read_audio(), encode_audio()
-/// and write_mp4(); not_found: no file, or no sound in it.
-Result<viewer::Sound> page_sound(const std::string& path);
+struct PageSound {
+  viewer::Sound sound;
+  double seconds = 0;
+};
+
+/// The sound of a file in an mp4 of its own. AAC and Opus stay packet by packet as they are, unless
+/// `settings` ask for something; anything else is coded, as AAC if nothing is asked for. Errors:
+/// those of read_coded_sound() and media::write_mp4().
+Result<PageSound> page_sound(const std::string& path, const SoundSettings& settings);
 
 }  // namespace animeme::tools

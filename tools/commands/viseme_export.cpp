@@ -108,7 +108,7 @@ std::string rhubarb_tsv(const VisemeTrack& track) {
   std::string text;
   const std::vector<Cue> cues = cues_of(track);
   for (const Cue& cue : cues) text += decimals(cue.start, 2) + "\t" + cue.shape + "\n";
-  if (!cues.empty() && cues.back().shape != 'X') text += decimals(cues.back().end, 2) + "\tX\n";
+  if (!cues.empty()) text += decimals(cues.back().end, 2) + "\tX\n";
   return text;
 }
 

@@ -25,7 +25,10 @@ struct Carrier {
   Bone which = Bone::neck;
 };
 
-Carrier carrier_of(Part part) {
+Carrier carrier_of(const head::Rig& rig, Part part) {
+  const bool on_neck =
+      part != Part::skin && part != Part::body && rig.shown_by_shapes[std::size_t(part)];
+  if (on_neck) return {true, Bone::neck};
   switch (part) {
     case Part::skin:
     case Part::body:
@@ -77,7 +80,7 @@ class Writer {
   Result<std::vector<std::uint8_t>> write() {
     morphs_ = make_morphs(rig_, options_);
     report(0.3);
-    weights_ = morph_weights(clip_, morphs_, options_.morphs);
+    weights_ = morph_weights(rig_, clip_, morphs_, options_.morphs);
     report(0.6);
     add_bones();
     for (std::size_t part = 0; part < head_.parts.size(); ++part) add_part(part);
@@ -119,13 +122,21 @@ class Writer {
             {"WEIGHTS_0", buffer_.floats(weights, 4, BufferUse::vertices)}};
   }
 
+  // All bones are joints, also those that no vertex of the skin follows: Blender makes bones of
+  // joints alone, and loses what hangs on other nodes below them when it exports.
   int skeleton() {
-    const Vec3 pivot = rig_.neck_pivot * kMetres;
-    const std::vector<float> inverse = {
-        1,        0,        0,        0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1,  // root
-        1,        0,        0,        0, 0, 1, 0, 0, 0, 0, 1, 0,              // neck
-        -pivot.x, -pivot.y, -pivot.z, 1};
-    skins_.push_back({{"joints", {0, kNeckNode}},
+    std::vector<float> inverse;
+    json joints = json::array();
+    const auto add = [&](int node, Vec3 pivot) {
+      joints.push_back(node);
+      inverse.insert(inverse.end(), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0});
+      inverse.insert(inverse.end(), {-pivot.x, -pivot.y, -pivot.z, 1});
+    };
+    add(0, {});
+    for (int bone = 0; bone < kBoneCount; ++bone) {
+      add(node_of(Bone(bone)), pivot_of(rig_, Bone(bone)) * kMetres);
+    }
+    skins_.push_back({{"joints", joints},
                       {"skeleton", 0},
                       {"inverseBindMatrices", buffer_.floats(inverse, 16, BufferUse::other)}});
     return int(skins_.size()) - 1;
@@ -135,7 +146,7 @@ class Writer {
     const Part part = Part(number);
     const head::Mesh& mesh = head_.parts[number];
     if (mesh.positions.empty() || mesh.triangles.empty()) return;
-    const Carrier carrier = carrier_of(part);
+    const Carrier carrier = carrier_of(rig_, part);
     const Vec3 origin = carrier.bone ? pivot_of(rig_, carrier.which) : Vec3{};
     std::vector<Vec3> places;
     for (const Vec3& v : rig_.parts[number].positions) places.push_back((v - origin) * kMetres);

@@ -205,6 +205,7 @@ std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig
       {"targets", targets},
       {"deforms", rig.deforms},
       {"shapes", rig.shapes.size()},
+      {"shown_by_shapes", rig.shown_by_shapes},
       {"lips", rig.lips.size()},
       {"lids", {rig.lids[0].size(), rig.lids[1].size()}},
       {"sliding", {rig.lid_vertices[0].size(), rig.lid_vertices[1].size()}},

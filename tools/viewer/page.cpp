@@ -6,6 +6,7 @@
 #include "tools/viewer/detail/bytes.h"
 #include "tools/viewer/detail/parts.h"
 #include "tools/viewer/viewer.h"
+#include "tools/xml.h"
 
 namespace animeme::viewer {
 namespace {
@@ -21,29 +22,6 @@ std::string script_text(const Json& json) {
       out += "\\u003c";
     } else {
       out += c;
-    }
-  }
-  return out;
-}
-
-std::string html_text(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
     }
   }
   return out;
@@ -99,6 +77,7 @@ Json fap_table() {
     table.push_back({{"number", info.number},
                      {"name", info.name},
                      {"group", info.group},
+                     {"unit", fap::unit_name(info.unit)},
                      {"point", info.feature_point}});
   }
   return table;
@@ -180,7 +159,7 @@ Result<std::string> make_page(const Page& page) {
       Json::parse(Json(page.clips[0].name).dump(-1, ' ', true, Json::error_handler_t::replace))
           .get<std::string>();
   const std::string script = std::string(detail::kHeadModules) + std::string(detail::kPageModules);
-  return filled(detail::kTemplate, {{"<!--title-->", html_text(name)},
+  return filled(detail::kTemplate, {{"<!--title-->", tools::escape_xml(name)},
                                     {"/*style*/", std::string(detail::kStyle)},
                                     {"<!--data-->", data_elements(page)},
                                     {"/*script*/", script}});

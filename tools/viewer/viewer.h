@@ -52,7 +52,7 @@ struct Page {
 /// not one clip or two; a clip without frames).
 Result<std::string> make_page(const Page& page);
 
-/// A head for the browser, as model.js reads it: about 1.2 MB. The format stands in README.md.
+/// A head for the browser, as model.js reads it: about 1.8 MB. The format stands in README.md.
 std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig);
 
 /// The modules that draw a head, as one script without imports and exports: class HeadView and what

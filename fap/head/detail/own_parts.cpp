@@ -24,7 +24,7 @@ bool has_any(std::string_view text, std::initializer_list<std::string_view> word
 std::optional<int> part_by_word(const std::string& name) {
   if (has_any(name, {"occlusion", "lacrimal", "cornea", "tear", "eyeblend", "eyeshadow", "eyewet"}))
     return kPartCount;
-  if (has_any(name, {"lash"})) return int(Part::lashes);
+  if (has_any(name, {"lash", "eyeline"})) return int(Part::lashes);
   if (has_any(name, {"brow"})) return int(Part::brows);
   if (has_any(name, {"eyelid", "eyesocket", "eye_socket"})) return int(Part::skin);
   // "eyewear" and "glasses" sit on the head.
@@ -52,6 +52,11 @@ std::optional<int> part_by_word(const std::string& name) {
 }  // namespace
 
 std::optional<Part> part_by_name(std::string_view name, std::string_view material) {
+  // Brows and lashes often share the material of the hair.
+  const std::optional<int> hairs = part_by_word(lower(name));
+  if (hairs == int(Part::brows) || hairs == int(Part::lashes)) {
+    if (part_by_word(lower(material)) == int(Part::hair)) return Part(*hairs);
+  }
   // The material is the finer division: one object often has the skin and the eyes.
   for (const std::string& text : {lower(material), lower(name)}) {
     const std::optional<int> found = part_by_word(text);

@@ -1,12 +1,11 @@
 #include "fap/head/detail/paint.h"
 
+#include "fap/head/detail/srgb.h"
+
 namespace animeme::head::detail {
 namespace {
 
-float linear(std::uint32_t byte) {
-  const float v = float(byte & 255u) / 255.0f;
-  return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-}
+float linear(std::uint32_t byte) { return linear_of_srgb(float(byte & 255u) / 255.0f); }
 
 float bump(double distance, double width) {
   return float(std::exp(-distance * distance / (width * width)));

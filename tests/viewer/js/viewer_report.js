@@ -1,9 +1,14 @@
-// node viewer_report.js looks|sound|texts|live PAGE.html FOLDER: what Chromium makes of a page, as JSON.
+// node viewer_report.js looks|sound|speeds|texts|screens|live PAGE.html FOLDER: what Chromium makes of a page, as
+// JSON.
 //
 // looks: vertices of the frames 0 .. 7 as 32-bit floats in FOLDER/<part>_<frame>.f32; how much the
 //   mouth and the forehead change between the frames 0 and 1.
 // sound: plays ten seconds; each picture against what is heard then, told by the clicks.
+// speeds: the same without a head, three seconds of the clip at half and at double speed; `pitches` in Hz, of
+//   the first 80 ms of each burst.
 // texts: what is shown where names are hostile; the ways to compare; what works without a head.
+// screens: at the sizes of screens, what is to be hit or read: {size: {width (of the page), targets: [{name,
+//   width, height}], outside: [names], overlaps: [pairs of names]}}.
 // live: `result` of a page with values of its own.
 // All have `messages`: what the console said.
 'use strict';
@@ -87,16 +92,22 @@ const TAP = `registerProcessor('tap', class extends AudioWorkletProcessor {
   process([[samples]]) {
     for (let i = 0; samples && i < samples.length; ++i) {
       const time = currentTime + i / sampleRate;
+      if (this.burst && time >= this.burst.time + 0.08) {
+        this.port.postMessage(this.burst);
+        this.burst = null;
+      }
+      if (this.burst && this.last < 0 && samples[i] >= 0) ++this.burst.periods;
+      this.last = samples[i];
       if (Math.abs(samples[i]) < 0.15 || time < (this.quiet || 0)) continue;
-      this.quiet = time + 0.5;
-      this.port.postMessage(time);
+      this.quiet = time + 0.45;
+      this.burst = {time, periods: 0};
     }
     return true;
   }
 })`;
 
 // Runs in the page: when clicks leave the player, and which frame is drawn at which time.
-async function listen(tap) {
+async function listen(tap, seconds) {
   const {animeme} = window;
   animeme.play();
   const context = animeme.context();
@@ -104,28 +115,40 @@ async function listen(tap) {
   animeme.pause();
   animeme.seek(0);
   const node = new AudioWorkletNode(context, 'tap');
-  const clicks = [];
+  const bursts = [];
   const pictures = new Map();
-  node.port.onmessage = (event) => clicks.push(event.data);
+  node.port.onmessage = (event) => bursts.push(event.data);
   animeme.output().connect(node);
   animeme.play();
   const end = performance.now() + 60000;
-  while (animeme.state().position < 10.4 && performance.now() < end) {
+  while (animeme.state().position < seconds && performance.now() < end) {
     await new Promise((next) => setTimeout(next, 5));
     const {playing, frame, clock} = animeme.state();
     if (playing) pictures.set(clock, {frame, clock});
   }
   animeme.pause();
   await new Promise((next) => setTimeout(next, 300));
-  return {clicks, pictures: [...pictures.values()], latency: context.outputLatency,
-    state: animeme.state()};
+  return {
+    clicks: bursts.map((burst) => burst.time), pitches: bursts.map((burst) => burst.periods / 0.08),
+    pictures: [...pictures.values()], latency: context.outputLatency, state: animeme.state(),
+  };
 }
 
-async function sound(page, file) {
+async function hear(page, file, query, seconds) {
   await page.resize(240, 480);
   await page.send('Page.setBypassCSP', {enabled: true});
-  await open(page, file, '?mode=first');
-  return page.evaluate(listen, TAP);
+  await open(page, file, query);
+  return page.evaluate(listen, TAP, seconds);
+}
+
+const sound = (page, file) => hear(page, file, '?mode=first', 10.4);
+
+async function speeds(page, file) {
+  const report = {};
+  for (const speed of ['0.5', '2']) {
+    report[speed] = await hear(page, file, `?nohead&speed=${speed}`, 3.4);
+  }
+  return report;
 }
 
 const LOOK_AT_TEXTS = `(() => ({
@@ -165,6 +188,51 @@ async function texts(page, file, folder) {
   return report;
 }
 
+const SCREENS = [
+  {width: 1280, height: 800}, {width: 700, height: 620},
+  {width: 390, height: 844, touch: true}, {width: 320, height: 568, touch: true},
+  {width: 844, height: 390, touch: true}, {width: 667, height: 375, touch: true},
+];
+
+// Runs in the page.
+function measure() {
+  const shown = (element) => element.getClientRects().length > 0;
+  const named = [...document.querySelectorAll(
+      'main button, main select, main #slider, main #search, main label, .clock, .name, #readout, #now')]
+      .filter((element) => shown(element) && !element.matches('label.speed'));
+  const found = named.map((element) => ({
+    name: element.id || element.textContent.trim(), box: element.getBoundingClientRect(),
+    target: element.matches('button, select, input, label'),
+    listed: Boolean(element.closest('#list')),
+  }));
+  const names = ({name}) => name;
+  const meet = (a, b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 0.5 &&
+      Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 0.5;
+  const placed = found.filter(({listed}) => !listed);
+  const overlaps = placed.flatMap((a, i) => placed.slice(i + 1)
+      .filter((b) => meet(a.box, b.box)).map((b) => [a.name, b.name]));
+  return {
+    width: document.documentElement.scrollWidth, overlaps,
+    outside: found.filter(({box}) => box.left < -0.5 || box.right > innerWidth + 0.5).map(names),
+    targets: found.filter(({target}) => target).map(
+        ({name, box}) => ({name, width: box.width, height: box.height})),
+  };
+}
+
+async function screens(page, file, folder) {
+  const report = {};
+  for (const {width, height, touch = false} of SCREENS) {
+    await page.send('Emulation.setTouchEmulationEnabled', {enabled: touch, maxTouchPoints: 5});
+    await page.send('Emulation.setDeviceMetricsOverride',
+        {width, height, deviceScaleFactor: 1, mobile: touch});
+    await open(page, file, '?t=0.1&loop=0.2-0.4&faps=3,48');
+    await page.evaluate('window.animeme.draw()');
+    await page.screenshot(path.join(folder, `${width}x${height}.png`));
+    report[`${width}x${height}`] = {touch, ...await page.evaluate(measure)};
+  }
+  return report;
+}
+
 async function live(page, file) {
   await page.resize(300, 300);
   await page.goto(pathToFileURL(file).href);
@@ -175,7 +243,7 @@ async function main([kind, file, folder]) {
   const browser = await launch({flags: FLAGS});
   try {
     const page = await browser.open();
-    const report = await {looks, sound, texts, live}[kind](page, path.resolve(file), folder);
+    const report = await {looks, sound, speeds, texts, screens, live}[kind](page, path.resolve(file), folder);
     report.messages = page.messages;
     process.stdout.write(JSON.stringify(report) + '\n');
   } finally {

@@ -1,6 +1,9 @@
 #include "tools/gltf/detail/morphs.h"
 
+#include <algorithm>
+
 #include "fap/arkit.h"
+#include "fap/head/detail/normals.h"
 #include "fap/head/shapes.h"
 #include "fap/tables.h"
 
@@ -43,8 +46,55 @@ bool moves_anything(const Morph& morph) {
   return false;
 }
 
+// The shapes that a head was modelled with, as they are.
+std::vector<Morph> own_shapes(const head::Rig& rig, const GlbOptions& options) {
+  std::vector<Morph> morphs;
+  for (const head::ShapeControl& shape : rig.shapes) morphs.push_back({shape.name, {}});
+  for (const head::Target& target : rig.targets) {
+    if (target.control < head::kFirstShape) continue;
+    Morph& morph = morphs[std::size_t(target.control - head::kFirstShape)];
+    const auto part = std::size_t(target.part);
+    PartMove& move = morph.parts[part];
+    std::vector<Vec3> moved = rig.parts[part].positions;
+    for (std::size_t k = 0; k < target.vertices.size(); ++k) {
+      const Vec3 step = target.deltas[k] * target.units(head::kFullShape);
+      moved[target.vertices[k]] += step;
+      if (head::length(step) < options.smallest_move) continue;
+      move.vertices.push_back(target.vertices[k]);
+      move.moves.push_back(step);
+    }
+    if (!options.normals) continue;
+    std::vector<Vec3> normals;
+    head::detail::smooth_normals(moved, rig.parts[part].triangles, normals);
+    for (const std::uint32_t v : move.vertices) {
+      move.turns.push_back(normals[v] - rig.parts[part].normals[v]);
+    }
+  }
+  return morphs;
+}
+
 // A bone does it: gaze and the turn of the head.
 bool is_bone(int fap) { return (fap >= 23 && fap <= 28) || (fap >= 48 && fap <= 50); }
+
+std::vector<std::vector<float>> own_weights(const head::Rig& rig, const fap::Sequence& clip,
+                                            const std::vector<Morph>& morphs) {
+  std::vector<std::size_t> controls;
+  for (const Morph& morph : morphs) {
+    const auto shape =
+        std::find_if(rig.shapes.begin(), rig.shapes.end(),
+                     [&](const head::ShapeControl& known) { return known.name == morph.name; });
+    controls.push_back(head::kFirstShape + std::size_t(shape - rig.shapes.begin()));
+  }
+  std::vector<std::vector<float>> rows;
+  for (const fap::Frame& frame : clip.frames) {
+    const head::ControlValues values = head::control_values(rig, frame);
+    rows.emplace_back();
+    for (const std::size_t control : controls) {
+      rows.back().push_back(values[control] / head::kFullShape);
+    }
+  }
+  return rows;
+}
 
 }  // namespace
 
@@ -53,6 +103,10 @@ std::vector<Morph> make_morphs(const head::Rig& rig, const GlbOptions& options) 
   const auto add = [&](Morph morph) {
     if (moves_anything(morph)) morphs.push_back(std::move(morph));
   };
+  if (!rig.shapes.empty()) {
+    for (Morph& morph : own_shapes(rig, options)) add(std::move(morph));
+    return morphs;
+  }
   const head::Pose rest = head::pose(rig, {});
   if (options.morphs == MorphNames::arkit) {
     for (std::size_t shape = 0; shape < std::size_t(fap::kArkitShapeCount); ++shape) {
@@ -77,9 +131,10 @@ std::vector<Morph> make_morphs(const head::Rig& rig, const GlbOptions& options) 
   return morphs;
 }
 
-std::vector<std::vector<float>> morph_weights(const fap::Sequence& clip,
+std::vector<std::vector<float>> morph_weights(const head::Rig& rig, const fap::Sequence& clip,
                                               const std::vector<Morph>& morphs, MorphNames names) {
   std::vector<std::vector<float>> rows;
+  if (!rig.shapes.empty()) return own_weights(rig, clip, morphs);
   fap::ArkitFitter fitter;
   for (const fap::Frame& frame : clip.frames) {
     const fap::Frame low = head::low_level(frame);

@@ -22,11 +22,11 @@ struct Morph {
   std::array<PartMove, head::kPartCount> parts;
 };
 
-/// All targets that move anything beside bones.
+/// All targets that move anything beside bones. Of a rig with shapes: these, by their names.
 std::vector<Morph> make_morphs(const head::Rig& rig, const GlbOptions& options);
 
 /// Weights of the targets for each frame of the clip, frame by frame.
-std::vector<std::vector<float>> morph_weights(const fap::Sequence& clip,
+std::vector<std::vector<float>> morph_weights(const head::Rig& rig, const fap::Sequence& clip,
                                               const std::vector<Morph>& morphs, MorphNames names);
 
 }  // namespace animeme::gltf

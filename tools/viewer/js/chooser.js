@@ -58,7 +58,8 @@ export class Chooser {
     name.textContent = fap.name;
     row.append(box, number, name);
     row.classList.toggle('still', !clips.some((clip) => clip.columns[fap.number]));
-    row.title = fap.point ? `feature point ${fap.point}` : '';
+    row.title = [fap.point && `feature point ${fap.point}`, `unit ${fap.unit}`].filter(Boolean)
+        .join(', ');
     return row;
   }
 

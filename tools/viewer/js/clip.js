@@ -68,9 +68,9 @@ export class Clip {
   }
 }
 
-/** Root mean square of the differences of all FAPs in one frame each, FAP units. */
-export function valueDifference(a, b) {
+/** Root mean square of the differences of the values of some FAPs in one frame each; 0 for none. */
+export function valueDifference(a, b, faps) {
   let square = 0;
-  for (let f = 3; f <= 68; ++f) square += (a[f] - b[f]) ** 2;
-  return Math.sqrt(square / 66);
+  for (const fap of faps) square += (a[fap] - b[fap]) ** 2;
+  return Math.sqrt(square / Math.max(faps.length, 1));
 }

@@ -18,6 +18,8 @@ export class Controls {
     click('forward', () => app.step(1));
     click('loop', () => player.setLooping(!player.looping));
     click('unmark', () => app.mark(null));
+    click('markFrom', () => app.markFrom());
+    click('markTo', () => app.markTo());
     click('mute', () => app.mute());
     click('reset', () => app.resetView());
     click('help', () => app.help());
@@ -35,6 +37,7 @@ export class Controls {
       radio.addEventListener('change', () => app.set('mode', radio.value));
     }
     byId('modes').hidden = app.clips.length < 2;
+    byId('full').hidden = !document.fullscreenEnabled;
   }
 
   press(id, on) {

@@ -1,11 +1,19 @@
 // Curves of the chosen FAPs over time, phones and words above them, and a head that moves along.
 import {listenToDrags} from './axis.js';
 
-const ROW = 48;
+const ROW = 52;
+const HEADING = 20;  // of a row, for its name
 // Fingers need larger buttons, which stand in the ruler.
-const RULER = matchMedia('(max-width: 760px)').matches ? 32 : 20;
+const RULER = matchMedia('(pointer: coarse)').matches ? 40 : 22;
 const TRACK = 20;
 const SILENCE = 'SIL';
+
+const RADIAN = 1e-5;  // of an angle unit
+
+/** A value as people read it: angles in degrees, too. */
+export function valueText(value, unit) {
+  return unit === 'AU' ? `${value} = ${(value * RADIAN * 180 / Math.PI).toFixed(1)}°` : String(value);
+}
 
 /** `facts`: faps (the table) and phones of the page; `app`: clips, player. */
 export class Curves {
@@ -38,8 +46,11 @@ export class Curves {
     const label = document.createElement('div');
     label.className = 'label';
     const name = document.createElement('b');
-    name.textContent = `${fap} ${this.table[fap - 1].name}`;
-    label.append(name, ...this.app.clips.map((_, i) => {
+    const {name: text, unit} = this.table[fap - 1];
+    name.textContent = `${fap} ${text}`;
+    const small = document.createElement('i');
+    small.textContent = unit;
+    label.append(name, small, ...this.app.clips.map((_, i) => {
       const value = document.createElement('span');
       value.className = `value clip${i}`;
       return value;
@@ -114,6 +125,7 @@ export class Curves {
       pen.fillRect(this.x(loop[0]), 0, this.x(loop[1]) - this.x(loop[0]), height);
     }
     const step = this.axis.step(width / 70);
+    const free = this.buttons.offsetLeft - 48;  // no mark of time stands below the buttons
     const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
     pen.fillStyle = colour('soft');
     pen.strokeStyle = colour('line');
@@ -124,7 +136,7 @@ export class Curves {
       pen.moveTo(x, 4);
       pen.lineTo(x, height);
       pen.stroke();
-      if (x > width - 110) continue;  // buttons stand there
+      if (x > free) continue;
       pen.fillText(`${(k * step).toFixed(digits)} s`, x + 4, RULER / 2);
     }
   }
@@ -148,7 +160,7 @@ export class Curves {
   drawRow(fap, top) {
     const {pen, width, colour} = this.paper;
     const [low, high] = this.ranges[fap];
-    const y = (value) => top + 18 + (ROW - 24) * (high - value) / (high - low || 1);
+    const y = (value) => top + HEADING + (ROW - HEADING - 6) * (high - value) / (high - low || 1);
     pen.strokeStyle = colour('line');
     pen.lineWidth = 1;
     for (const level of [top + 0.5, Math.round(y(0)) + 0.5]) {
@@ -167,6 +179,23 @@ export class Curves {
       pen.stroke();
     }
     pen.globalAlpha = 1;
+    this.drawRange(low, high, y);
+  }
+
+  // The least and the largest value at the right edge.
+  drawRange(low, high, y) {
+    const {pen, width, colour} = this.paper;
+    if (low === high) return;
+    pen.textAlign = 'right';
+    pen.strokeStyle = colour('panel');
+    pen.lineWidth = 3;
+    pen.fillStyle = colour('soft');
+    for (const value of [low, high]) {
+      const place = [String(value), width - 4, value === high ? y(high) - 3 : y(low) - 2];
+      pen.strokeText(...place);
+      pen.fillText(...place);
+    }
+    pen.textAlign = 'left';
   }
 
   // One point a frame, or where frames are denser than pixels the extremes of each pixel.
@@ -202,8 +231,8 @@ export class Curves {
     const rows = this.labels.children;
     this.faps.forEach((fap, row) => {
       this.app.clips.forEach((clip, i) => {
-        const text = String(clip.value(fap, clip.frameAt(time)));
-        const cell = rows[row].children[i + 1];
+        const text = valueText(clip.value(fap, clip.frameAt(time)), this.table[fap - 1].unit);
+        const cell = rows[row].querySelector(`.clip${i}`);
         if (cell.textContent !== text) cell.textContent = text;
       });
     });

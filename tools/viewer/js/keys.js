@@ -8,9 +8,6 @@ export function keyTable(app) {
     const at = speeds.findIndex((speed) => speed >= player.rate - 1e-6);
     player.setRate(speeds[Math.min(Math.max(at + by, 0), speeds.length - 1)]);
   };
-  const markFrom = () => app.mark([app.time(), Math.max((player.region || [])[1] || 0,
-      app.time() + 0.1)]);
-  const markTo = () => app.mark([Math.min((player.region || [0])[0], app.time() - 0.1), app.time()]);
   return [
     ['Space K', [' ', 'k'], 'play or pause', () => player.toggle()],
     ['← →', ['ArrowLeft', 'ArrowRight'], 'one frame; with Shift ten frames',
@@ -22,8 +19,8 @@ export function keyTable(app) {
     ['Home End', ['Home', 'End'], 'to the beginning or the end',
       (event) => app.seek(event.key === 'Home' ? 0 : player.duration)],
     ['[ ]', ['[', ']'], 'the loop begins or ends here',
-      (event) => (event.key === '[' ? markFrom() : markTo())],
-    ['\\', ['\\'], 'no part is marked', () => app.mark(null)],
+      (event) => (event.key === '[' ? app.markFrom() : app.markTo())],
+    ['\\', ['\\'], 'mark nothing', () => app.mark(null)],
     ['O', ['o'], 'loop on or off', () => player.setLooping(!player.looping)],
     ['M', ['m'], 'sound on or off', () => app.mute()],
     ['I', ['i'], 'smooth motion between frames', () => app.set('between', !app.options.between)],

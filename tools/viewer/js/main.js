@@ -15,6 +15,7 @@ const byId = (id) => document.getElementById(id);
 const coded = (id) => fromBase64(byId(id).textContent);
 const data = (id) => (byId(id) ? inflate(coded(id)) : null);
 const asked = new URLSearchParams(location.search);
+const SHORTEST_MARK = 0.1;  // seconds
 const flag = (name) => asked.has(name) && asked.get(name) !== '0';
 
 /** What the page does; controls and keys call it. */
@@ -32,10 +33,10 @@ class App {
     this.stage = new Stage({
       element: byId('stage'), canvas: byId('picture'), overlay: byId('overlay'), tip: byId('tip'),
       message: byId('message'), readout: byId('readout'), names: [byId('name0'), byId('name1')],
-    }, model && readModel(model), this.clips);
+    }, model && readModel(model), this.clips, facts.faps);
     this.curves = new Curves({
       area: byId('area'), canvas: byId('curves'), labels: byId('labels'), head: byId('head'),
-      now: byId('now'),
+      now: byId('now'), buttons: byId('zoom'),
     }, this, this.axis, facts);
     this.controls = new Controls(byId, this);
     this.chooser = new Chooser({search: byId('search'), list: byId('list'), count: byId('count')},
@@ -115,6 +116,19 @@ class App {
     this.player.setLooping(Boolean(inside), inside);
   }
 
+  /** The marked part begins or ends at the time that is shown. */
+  markFrom() {
+    const [, to] = this.player.region || [0, this.player.duration];
+    const time = Math.min(this.time(), this.player.duration - SHORTEST_MARK);
+    this.mark([time, to > time ? to : this.player.duration]);
+  }
+
+  markTo() {
+    const [from] = this.player.region || [0];
+    const time = Math.max(this.time(), SHORTEST_MARK);
+    this.mark([from < time ? from : 0, time]);
+  }
+
   mute() {
     this.player.setVolume(this.player.volume > 0 ? 0 : 1);
   }
@@ -153,7 +167,7 @@ function obey(app) {
     if (view) view.camera.reset(number('left') || 0, number('up') || 0, number('zoom') || undefined);
   }
   // So much time at first that phones can be read.
-  app.axis.show(0, byId('area').clientWidth / 160);
+  app.axis.show(0, byId('area').clientWidth / 200);
   const [from, to] = (asked.get('loop') || '').split('-').map(Number);
   if (to > from) app.mark([from, to]);
   const faps = (asked.get('faps') || '').split(',').map(Number).filter((f) => f >= 3 && f <= 68);
@@ -207,7 +221,15 @@ async function start() {
     });
   }
   app.draw();
-  if (flag('play')) player.play();
+  if (flag('play')) playUnasked(player);
+}
+
+// Browsers may let no page sound that nobody has touched: then it waits for the button.
+function playUnasked(player) {
+  player.play();
+  setTimeout(() => {
+    if (player.context && player.context.state === 'suspended') player.pause();
+  }, 300);
 }
 
 window.animeme = {};

@@ -1,5 +1,6 @@
 // The clock of the page. With sound it is what is heard: the time of the audio context less the
 // delay of its output. Pictures ask for position() when they are drawn; nothing counts pictures.
+import {StretchedSource} from './stretch.js';
 
 const LEAD = 0.02;  // seconds between a decision to play and the first sample
 const JUMP = 0.03;  // the steps of the audio clock are smoothed up to this many seconds
@@ -109,7 +110,7 @@ export class Player {
     this.onChange();
   }
 
-  /** 0.25 to 2; the pitch goes along. */
+  /** 0.25 to 2; the pitch stays. */
   setRate(rate) {
     this.change(() => { this.rate = Math.min(Math.max(rate || 1, 0.25), 2); });
   }
@@ -144,7 +145,9 @@ export class Player {
   /** The context of the sound; made when it is first played, as browsers want it. */
   open() {
     if (this.context) return;
-    this.context = new AudioContext({latencyHint: 'interactive'});
+    // The rate of the buffer, so that pieces of sound join to the sample.
+    this.context = new AudioContext(
+        {latencyHint: 'interactive', sampleRate: this.buffer.sampleRate});
     this.gain = this.context.createGain();
     this.gain.gain.value = this.volume;
     this.gain.connect(this.context.destination);
@@ -154,7 +157,6 @@ export class Player {
   restart() {
     if (this.source) {
       this.source.stop();
-      this.source.disconnect();
       this.source = null;
     }
     if (!this.playing) return;
@@ -162,18 +164,33 @@ export class Player {
     if (!this.buffer) return;
     this.open();
     if (this.context.state !== 'running') this.context.resume();
+    this.last = null;
+    this.source = this.rate === 1 ? this.wholeSource() :
+        new StretchedSource(this.context, this.buffer, this.gain,
+            {rate: this.rate, from: this.at, loop: this.loop()});
+    this.began = this.source.begin(LEAD);
+  }
+
+  // The sound as it is, in the terms of StretchedSource.
+  wholeSource() {
     const source = this.context.createBufferSource();
     source.buffer = this.buffer;
-    source.playbackRate.value = this.rate;
     const loop = this.loop();
     if (loop) {
       source.loop = true;
       [source.loopStart, source.loopEnd] = loop;
     }
     source.connect(this.gain);
-    this.last = null;
-    this.began = this.context.currentTime + LEAD;
-    source.start(this.began, this.at);
-    this.source = source;
+    return {
+      begin: (lead) => {
+        const when = this.context.currentTime + lead;
+        source.start(when, this.at);
+        return when;
+      },
+      stop: () => {
+        source.stop();
+        source.disconnect();
+      },
+    };
   }
 }

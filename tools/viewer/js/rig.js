@@ -233,10 +233,9 @@ export class Rig {
     for (const name of ['lower_teeth', 'tongue']) set(name, inJaw);
     set('left_eye', compose(this.head, this.eyeTransform(0, v)));
     set('right_eye', compose(this.head, this.eyeTransform(1, v)));
-    if (this.model.shapes === 0) return;
     // Modelled shapes show all but the turn of the head.
     for (const name of ['lower_teeth', 'tongue', 'left_eye', 'right_eye']) {
-      if (this.model.deforms[this.index[name]]) set(name, this.head);
+      if (this.model.shown_by_shapes[this.index[name]]) set(name, this.head);
     }
   }
 
@@ -254,15 +253,13 @@ export class Rig {
   }
 }
 
-// Pairs that have passed each other meet in the middle; near contact their depths agree.
+// Pairs that have passed each other or nearly touch meet in the middle.
 function closePairs(pairs, soft, skin) {
   for (let k = 0; k < pairs.length; k += 2) {
     const u = pairs[k] * 3;
     const l = pairs[k + 1] * 3;
-    const gap = skin[u + 1] - skin[l + 1];
-    if (gap < 0) skin[u + 1] = skin[l + 1] = 0.5 * (skin[u + 1] + skin[l + 1]);
-    const touch = smoothStep(soft, 0, gap) * 0.5;
-    for (const axis of [0, 2]) {
+    const touch = smoothStep(soft, soft / 3, skin[u + 1] - skin[l + 1]) * 0.5;
+    for (const axis of [0, 1, 2]) {
       const apart = (skin[l + axis] - skin[u + axis]) * touch;
       skin[u + axis] += apart;
       skin[l + axis] -= apart;

@@ -6,9 +6,14 @@ import {PointOverlay} from './points.js';
 export const MODES = ['first', 'second', 'side', 'ghost', 'heat'];
 
 export class Stage {
-  /** `model` null: without a head. */
-  constructor(elements, model, clips) {
+  /** `model` null: without a head; `table`: the FAPs of the page. */
+  constructor(elements, model, clips, table) {
     Object.assign(this, {...elements, clips});
+    const moving = table.filter(({number}) => clips.some((clip) => clip.columns[number]));
+    const numbers = (isAngle) => moving.filter(({unit}) => (unit === 'AU') === isAngle)
+        .map(({number}) => number);
+    this.distances = numbers(false);
+    this.angles = numbers(true);
     this.view = null;
     this.last = [];
     this.element.classList.toggle('headless', !model);
@@ -62,11 +67,16 @@ export class Stage {
     if (values.length > 1) this.tellDifference(values);
   }
 
+  // Distances and angles each have their unit; FAPs that never move say nothing.
   tellDifference([a, b]) {
-    const parts = [`${valueDifference(a, b).toFixed(1)} FAP units RMS`];
+    const parts = [`${valueDifference(a, b, this.distances).toFixed(1)} FAP units RMS`];
+    if (this.angles.length) {
+      const degrees = valueDifference(a, b, this.angles) * 1e-5 * 180 / Math.PI;
+      parts.push(`angles ${degrees.toFixed(2)}°`);
+    }
     if (this.view) {
       const {largest, mean} = this.view.difference();
-      parts.push(`skin ${(mean * 10).toFixed(2)} mm mean, ${(largest * 10).toFixed(2)} mm at most`);
+      parts.push(`skin ${(mean * 10).toFixed(2)} mm, at most ${(largest * 10).toFixed(2)} mm`);
     }
     const text = parts.join(' · ');
     if (this.readout.textContent !== text) this.readout.textContent = text;

@@ -15,26 +15,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* name_of(fap::Unit unit) {
-  switch (unit) {
-    case fap::Unit::irisd:
-      return "IRISD";
-    case fap::Unit::es:
-      return "ES";
-    case fap::Unit::ens:
-      return "ENS";
-    case fap::Unit::mns:
-      return "MNS";
-    case fap::Unit::mw:
-      return "MW";
-    case fap::Unit::angle:
-      return "AU";
-    case fap::Unit::none:
-      break;
-  }
-  return "";
-}
-
 /// What a receiver shows after `coded`, if it showed `before`: all low-level FAPs, and of FAP 1 and
 /// 2 those that were ever sent.
 fap::Frame resolve(const fap::Frame& before, const fap::Frame& coded,
@@ -58,7 +38,7 @@ std::string values_hello() {
   Json hello{{"version", 1}};
   Json& faps = hello["faps"];
   for (const fap::FapInfo& info : fap::kFaps) {
-    faps[std::to_string(info.number)] = {{"name", info.name}, {"unit", name_of(info.unit)}};
+    faps[std::to_string(info.number)] = {{"name", info.name}, {"unit", fap::unit_name(info.unit)}};
   }
   return hello.dump();
 }

@@ -1,0 +1,102 @@
+#include "fap/head/wrl.h"
+
+#include "fap/detail/number_text.h"
+#include "fap/head/detail/srgb.h"
+#include "fap/head/detail/wrl_scene.h"
+
+namespace animeme::head {
+namespace {
+
+using fap::detail::append_shortest;
+using fap::detail::append_significant;
+
+std::string word(std::string_view name) {
+  std::string text;
+  for (const char c : name) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '-' ||
+                       (c >= '0' && c <= '9' && !text.empty());
+    text += plain ? c : '_';
+  }
+  return text;
+}
+
+void append(std::string& text, Vec3 v) {
+  append_shortest(text, v.x);
+  text += ' ';
+  append_shortest(text, v.y);
+  text += ' ';
+  append_shortest(text, v.z);
+}
+
+Vec3 mean(std::span<const Vec3> colours) {
+  Vec3 sum;
+  for (const Vec3& c : colours) sum += c;
+  return colours.empty() ? sum : sum * (1 / float(colours.size()));
+}
+
+void append_colour(std::string& text, Vec3 linear) {
+  const Vec3 c = detail::srgb_of_linear(linear);
+  for (const float x : {c.x, c.y, c.z}) {
+    append_significant(text, std::round(x * 1000) / 1000, 4);
+    text += ' ';
+  }
+}
+
+void append_shape(std::string& text, const Piece& piece) {
+  const Mesh& mesh = piece.mesh;
+  if (!piece.name.empty()) text += "DEF " + word(piece.name) + " ";
+  text += "Shape {\n";
+  if (!mesh.colours.empty()) {
+    text += "  appearance Appearance { material ";
+    if (!piece.material.empty()) text += "DEF " + word(piece.material) + " ";
+    text += "Material { diffuseColor ";
+    append_colour(text, mean(mesh.colours));
+    text += "} }\n";
+  }
+  text += "  geometry IndexedFaceSet {\n    coord Coordinate { point [\n";
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    if (i > 0) text += ",\n";
+    append(text, mesh.positions[i]);
+  }
+  text += " ] }\n";
+  if (!mesh.colours.empty()) {
+    text += "    color Color { color [\n";
+    for (const Vec3& c : mesh.colours) {
+      append_colour(text, c);
+      text += ",\n";
+    }
+    text += " ] }\n";
+  }
+  text += "    coordIndex [\n";
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (i > 0) text += ",\n";
+    for (const std::uint32_t v : mesh.triangles[i]) text += std::to_string(v) + ", ";
+    text += "-1";
+  }
+  text += " ]\n    creaseAngle 3.14\n  }\n}\n";
+}
+
+}  // namespace
+
+Result<std::vector<Piece>> read_wrl(std::string_view text, std::vector<std::string>* notes) {
+  const auto scene = detail::wrl_scene(text, notes);
+  if (!scene) return scene.error();
+  auto flat = detail::scene_pieces(*scene);
+  if (!flat) return flat.error();
+  std::vector<Piece> pieces;
+  for (detail::ScenePiece& piece : *flat) {
+    if (!piece.piece.mesh.triangles.empty()) pieces.push_back(std::move(piece.piece));
+  }
+  if (pieces.empty()) {
+    return make_error(Code::not_found, "no Shape with an IndexedFaceSet is in this VRML file");
+  }
+  return pieces;
+}
+
+std::string write_wrl(std::span<const Piece> pieces) {
+  std::string text = "#VRML V2.0 utf8\n";
+  for (const Piece& piece : pieces) append_shape(text, piece);
+  return text;
+}
+
+}  // namespace animeme::head

@@ -1,0 +1,169 @@
+#include <algorithm>
+
+#include "fap/detail/number_text.h"
+#include "fap/head/wrl.h"
+#include "fap/xml/detail/fdp_plan.h"
+#include "fap/xml/detail/writable.h"
+#include "fap/xml/fdp.h"
+
+namespace animeme::head {
+namespace {
+
+using detail::FdpPlan;
+using detail::XfaceItem;
+using fap::detail::append_shortest;
+
+bool is_file_name(std::string_view name) {
+  return !name.empty() && name.size() <= 200 && name.front() != '-' &&
+         std::all_of(name.begin(), name.end(), [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                  c == '-' || c == '_';
+         });
+}
+
+Result<void> check(const Head& head, const Rig& rig, const FdpOptions& options) {
+  const auto refuse = [](std::string message) {
+    return make_error(Code::invalid_argument, std::move(message));
+  };
+  if (!is_file_name(options.name)) {
+    return refuse("the name of an .fdp file has letters, digits, '-' and '_'");
+  }
+  if (!(options.scale > 0 && options.scale <= 1e6)) return refuse("the scale has to be in 0..1e6");
+  if (options.regions < 1 || options.regions > 100) return refuse("regions have to be in 1..100");
+  if (auto good = detail::check_writable(head, rig); !good) return good;
+  for (std::size_t p = 0; p < head.parts.size(); ++p) {
+    if (head.parts[p].positions.size() > detail::kXfaceMostVertices) {
+      return make_error(Code::out_of_range, "the " + std::string(kPartNames[p]) +
+                                                " has more than 65536 vertices, more than Xface "
+                                                "can count; make the mesh coarser");
+    }
+  }
+  return {};
+}
+
+std::string_view binding_of(Part part) {
+  switch (part) {
+    case Part::hair:
+      return "Hair";
+    case Part::left_eye:
+      return "LeftEye";
+    case Part::right_eye:
+      return "RightEye";
+    case Part::lower_teeth:
+      return "LowerTeeth";
+    case Part::upper_teeth:
+      return "UpperTeeth";
+    case Part::tongue:
+      return "Tongue";
+    default:
+      return "";
+  }
+}
+
+class Writer {
+ public:
+  Writer(const Head& head, const FdpPlan& plan, const FdpOptions& options)
+      : head_(head), plan_(plan), options_(options), scale_(float(options.scale)) {}
+
+  std::string write() {
+    text_ = "<?xml version=\"1.0\" encoding=\"UTF-8\" standalone=\"no\" ?>\n<xfdp>\n";
+    add_header();
+    add_source();
+    for (const XfaceItem& item : plan_.items) add_item(item);
+    text_ += "</xfdp>\n";
+    return std::move(text_);
+  }
+
+ private:
+  void add(std::string_view name, double value) {
+    text_ += " " + std::string(name) + "=\"";
+    append_shortest(text_, float(value));
+    text_ += "\"";
+  }
+  std::string submesh(std::size_t mesh) const {
+    return options_.name + ".wrl_" + std::to_string(mesh);
+  }
+
+  void add_header() {
+    text_ += "  <head>\n    <file version=\"0.2\"/>\n    <fapu";
+    const fap::Fapu& f = head_.fapu;
+    add("ENS0", f.ens * options_.scale);
+    add("ES0", f.es * options_.scale);
+    add("IRISD0", f.irisd * options_.scale);
+    add("MNS0", f.mns * options_.scale);
+    add("MW0", f.mw * options_.scale);
+    // Where Xface puts the head before its camera: as far away as its own heads.
+    text_ += "/>\n    <translation";
+    add("x", 0);
+    add("y", 0.5 * f.es * options_.scale);
+    add("z", -9.5 * f.es * options_.scale);
+    text_ +=
+        "/>\n    <rotation axis_angle=\"0\" axis_x=\"0\" axis_y=\"1\" axis_z=\"0\"/>\n  </head>\n";
+  }
+
+  void add_source() {
+    text_ +=
+        "  <source>\n    <entity alias=\"Rest\" category=\"Expression\">\n      <mesh file=\"" +
+        options_.name + ".wrl\" format=\"wrl\"/>\n";
+    for (std::size_t m = 0; m < plan_.parts.size(); ++m) {
+      const Part part = plan_.parts[m];
+      if (binding_of(part).empty()) continue;
+      text_ += "      <bind item=\"" + std::string(binding_of(part)) + "\"";
+      if (part == Part::left_eye || part == Part::right_eye) {
+        // Xface shifts by the pivot to come back from the centre.
+        const Vec3 c = head_.eyes[part == Part::left_eye ? 0 : 1].centre * -scale_;
+        add("pivotX", c.x);
+        add("pivotY", c.y);
+        add("pivotZ", c.z);
+      }
+      text_ += " submesh=\"" + submesh(m) + "\"/>\n";
+    }
+    text_ += "    </entity>\n  </source>\n";
+  }
+
+  void add_item(const XfaceItem& item) {
+    text_ += "  <fdp affects=\"" + submesh(item.mesh) + "\" index=\"" + std::to_string(item.pivot) +
+             "\" name=\"" + item.name + "\">\n";
+    if (!item.region.empty()) {
+      text_ += "    <indices>";
+      for (const std::uint32_t v : item.region) text_ += std::to_string(v) + " ";
+      text_ += "</indices>\n";
+    }
+    for (const detail::XfaceInfluence& influence : item.influences) {
+      text_ += "    <influence fap=\"" + std::to_string(influence.fap - 1) + "\" type=\"" +
+               std::string(detail::kReachNames[std::size_t(influence.reach)]) + "\"";
+      add("weight", influence.weight);
+      text_ += "/>\n";
+    }
+    text_ += "  </fdp>\n";
+  }
+
+  const Head& head_;
+  const FdpPlan& plan_;
+  const FdpOptions& options_;
+  float scale_;
+  std::string text_;
+};
+
+std::string meshes_of(const Head& head, const FdpPlan& plan, float scale) {
+  std::vector<Piece> pieces;
+  for (const Part part : plan.parts) {
+    Piece piece{.name = std::string(kPartNames[std::size_t(part)]),
+                .material = {},
+                .mesh = head.part(part),
+                .neck_weights = {}};
+    for (Vec3& p : piece.mesh.positions) p *= scale;
+    pieces.push_back(std::move(piece));
+  }
+  return write_wrl(pieces);
+}
+
+}  // namespace
+
+Result<FdpFiles> write_fdp(const Head& head, const Rig& rig, const FdpOptions& options) {
+  if (auto good = check(head, rig, options); !good) return good.error();
+  const FdpPlan plan = detail::plan_fdp(head, rig, options);
+  return FdpFiles{Writer(head, plan, options).write(), meshes_of(head, plan, float(options.scale))};
+}
+
+}  // namespace animeme::head

@@ -1,0 +1,95 @@
+// Any bytes as a glTF file; what is accepted must be whole, and a head or an error. Each input is
+// tried as it is and, cut at its first zero byte into JSON and buffer, as a .glb whose lengths are
+// right, else hardly any would get beyond these.
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+#include <vector>
+
+#include "fap/head/own_head.h"
+#include "fap/head/rig.h"
+#include "tools/gltf/read_head.h"
+
+namespace {
+
+using animeme::head::Source;
+using animeme::head::Vec3;
+
+void require(bool fine) {
+  if (!fine) std::abort();
+}
+
+bool finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+void check(const Source& source) {
+  for (const auto& piece : source.pieces) {
+    const std::size_t count = piece.mesh.positions.size();
+    for (const Vec3& p : piece.mesh.positions) require(finite(p));
+    for (const auto& t : piece.mesh.triangles) {
+      for (const std::uint32_t v : t) require(v < count);
+    }
+    require(piece.mesh.colours.empty() || piece.mesh.colours.size() == count);
+    require(piece.neck_weights.empty() || piece.neck_weights.size() == count);
+  }
+  for (const auto& point : source.points) {
+    require(point.piece < source.pieces.size());
+    require(point.vertex < source.pieces[point.piece].mesh.positions.size());
+  }
+  for (const auto& target : source.targets) {
+    require(target.piece < source.pieces.size());
+    require(target.vertices.size() == target.deltas.size());
+    require(target.control >= animeme::head::kFirstShape);
+    require(std::size_t(target.control - animeme::head::kFirstShape) < source.shapes.size());
+    for (std::size_t i = 0; i < target.vertices.size(); ++i) {
+      require(target.vertices[i] < source.pieces[target.piece].mesh.positions.size());
+      require(i == 0 || target.vertices[i] > target.vertices[i - 1]);
+      require(finite(target.deltas[i]));
+    }
+  }
+}
+
+void try_file(std::span<const std::uint8_t> bytes) {
+  auto source = animeme::gltf::read_head(bytes, {.vertices = 500});
+  if (!source) return;
+  check(*source);
+  std::size_t vertices = 0;
+  for (const auto& piece : source->pieces) vertices += piece.mesh.positions.size();
+  if (vertices > 5000) return;
+  const bool shapes = !source->shapes.empty();
+  const auto head = animeme::head::assemble(std::move(*source));
+  if (!head || !shapes) return;
+  animeme::fap::Frame frame;
+  frame.set(3, 500);
+  (void)animeme::head::pose(animeme::head::make_rig(*head), frame);
+}
+
+void put(std::vector<std::uint8_t>& file, std::uint32_t word) {
+  for (int i = 0; i < 4; ++i) file.push_back(std::uint8_t(word >> (8 * i)));
+}
+
+std::vector<std::uint8_t> sealed(std::span<const std::uint8_t> bytes) {
+  std::size_t end = 0;
+  while (end < bytes.size() && bytes[end] != 0) ++end;
+  const auto json = bytes.first(end);
+  const auto binary = bytes.subspan(std::min(end + 1, bytes.size()));
+  std::vector<std::uint8_t> file;
+  put(file, 0x46546C67);
+  put(file, 2);
+  put(file, std::uint32_t(28 + json.size() + binary.size()));
+  put(file, std::uint32_t(json.size()));
+  put(file, 0x4E4F534A);
+  file.insert(file.end(), json.begin(), json.end());
+  put(file, std::uint32_t(binary.size()));
+  put(file, 0x004E4942);
+  file.insert(file.end(), binary.begin(), binary.end());
+  return file;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try_file({data, size});
+  try_file(sealed({data, size}));
+  return 0;
+}

@@ -1,0 +1,232 @@
+// Names of morph targets, and heads that have visemes alone.
+#include "tools/gltf/shape_names.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "fap/arkit.h"
+#include "fap/head/rig.h"
+#include "fap/head/shapes.h"
+#include "fap/tables.h"
+#include "tests/support/gltf_writer.h"
+
+namespace animeme::gltf {
+namespace {
+
+using head::Part;
+using head::Vec3;
+using nlohmann::json;
+using test::GltfWriter;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::string arkit_of(std::string_view name) {
+  const auto meaning = meaning_of(name);
+  if (!meaning) return "unknown";
+  if (meaning->set == ShapeSet::viseme) {
+    return "viseme " + std::string(fap::kVisemes[std::size_t(meaning->viseme)].name);
+  }
+  std::string text;
+  for (const ArkitPart& part : meaning->parts) {
+    text += text.empty() ? "" : "+";
+    text += std::string(fap::kArkitNames[std::size_t(part.channel)]);
+    if (part.sides != 3) text += part.sides == 1 ? "(left half)" : "(right half)";
+  }
+  return text;
+}
+
+TEST(ShapeNames, ArkitInAnySpelling) {
+  for (const char* name : {"eyeBlinkLeft", "EyeBlinkLeft", "eyeBlink_L", "eye_blink_left",
+                           "Eye_Blink_L", "blendShape1.eyeBlinkLeft", "A14_Eye_Blink_Left",
+                           "AK_01_eyeBlinkLeft", "head_mesh:eyeBlinkLeft", "EYEBLINKLEFT",
+                           "Eye Blink Left", "eyeBlink.L", "Face.eyeBlink_L"}) {
+    EXPECT_EQ(arkit_of(name), "eyeBlinkLeft") << name;
+  }
+  for (int shape = 0; shape < fap::kArkitShapeCount; ++shape) {
+    const std::string name(fap::kArkitNames[std::size_t(shape)]);
+    EXPECT_EQ(arkit_of(name), name);
+  }
+  EXPECT_EQ(arkit_of("browInnerUp_L"), "browInnerUp(left half)");
+  EXPECT_EQ(arkit_of("cheekPuff_R"), "cheekPuff(right half)");
+  EXPECT_EQ(arkit_of("headYaw"), "unknown");
+}
+
+TEST(ShapeNames, Visemes) {
+  for (const fap::VisemeInfo& row : fap::kVisemes) {
+    EXPECT_EQ(arkit_of(row.morph), "viseme " + std::string(row.name));
+  }
+  for (const char* name :
+       {"PP", "v_PP", "vrc.v_pp", "V_PP", "visemePP", "Viseme_PP", "blendShape.viseme_PP"}) {
+    EXPECT_EQ(arkit_of(name), "viseme PP") << name;
+  }
+  EXPECT_EQ(arkit_of("vrc.v_oh"), "viseme oh");
+  EXPECT_EQ(arkit_of("Face.M_F00_000_00_Fcl_MTH_A"), "viseme aa");
+  EXPECT_EQ(arkit_of("Fcl_MTH_U"), "viseme ou");
+  EXPECT_EQ(arkit_of("う"), "viseme ou");
+  EXPECT_EQ(arkit_of("ee"), "viseme E");
+}
+
+TEST(ShapeNames, OtherUsualNames) {
+  EXPECT_EQ(arkit_of("eyesClosed"), "eyeBlinkLeft+eyeBlinkRight");
+  EXPECT_EQ(arkit_of("Blink"), "eyeBlinkLeft+eyeBlinkRight");
+  EXPECT_EQ(arkit_of("Fcl_EYE_Close_R"), "eyeBlinkRight");
+  EXPECT_EQ(arkit_of("まばたき"), "eyeBlinkLeft+eyeBlinkRight");
+  EXPECT_EQ(arkit_of("mouthOpen"), "jawOpen");
+  EXPECT_EQ(arkit_of("mouthSmile"), "mouthSmileLeft+mouthSmileRight");
+  EXPECT_EQ(arkit_of("eyesLookUp"), "eyeLookUpLeft+eyeLookUpRight");
+  EXPECT_EQ(arkit_of("eyesLookLeft"), "eyeLookOutLeft+eyeLookInRight");
+  for (const char* name : {"", "_", "target 3", "mouth", "jaw", "thirdEye", "x.y.z", "Basis"}) {
+    EXPECT_EQ(arkit_of(name), "unknown") << name;
+  }
+}
+
+TEST(ShapeNames, HalvesAreOneWhole) {
+  const auto left = meaning_of("browInnerUp_L"), right = meaning_of("browInnerUp_R");
+  const auto whole = meaning_of("browInnerUp");
+  ASSERT_TRUE(left && right && whole);
+  for (std::size_t fap = 3; fap <= 68; ++fap) {
+    EXPECT_NEAR(left->faps.value[fap] + right->faps.value[fap], whole->faps.value[fap], 1) << fap;
+  }
+  EXPECT_EQ(left->faps.value[32], 0);
+  EXPECT_GT(left->faps.value[31], 0);
+}
+
+std::vector<std::string> chosen(const std::vector<std::string>& names, MouthShapes mouth,
+                                std::vector<std::string>* notes = nullptr) {
+  std::vector<std::string> said;
+  std::vector<std::string> out;
+  for (const ChosenShape& shape : choose_shapes(names, mouth, said)) out.push_back(shape.name);
+  if (notes != nullptr) *notes = said;
+  return out;
+}
+
+const std::vector<std::string> kBoth = {
+    "jawOpen",         "mouthClose",     "mouthFunnel",   "mouthPucker", "mouthSmileLeft",
+    "mouthSmileRight", "mouthRollLower", "viseme_sil",    "viseme_aa",   "viseme_O",
+    "eyesClosed",      "eyeBlinkLeft",   "eyeBlinkRight", "mouthOpen",   "tail"};
+
+TEST(ShapeNames, ArkitGoesBeforeVisemesAndOtherNames) {
+  std::vector<std::string> notes;
+  EXPECT_THAT(chosen(kBoth, MouthShapes::automatic, &notes),
+              ElementsAre("jawOpen", "mouthClose", "mouthFunnel", "mouthPucker", "mouthSmileLeft",
+                          "mouthSmileRight", "mouthRollLower", "eyeBlinkLeft", "eyeBlinkRight"));
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_THAT(notes[0], HasSubstr("viseme_aa"));
+  EXPECT_THAT(notes[0], HasSubstr("eyesClosed"));
+  EXPECT_THAT(notes[1], HasSubstr("tail"));
+}
+
+TEST(ShapeNames, VisemesWhenWantedOrAlone) {
+  EXPECT_THAT(chosen(kBoth, MouthShapes::visemes),
+              ElementsAre("mouthSmileLeft", "mouthSmileRight", "viseme_aa", "viseme_O",
+                          "eyeBlinkLeft", "eyeBlinkRight"));
+  EXPECT_THAT(chosen({"A", "I", "eyesClosed", "mouthSmile"}, MouthShapes::automatic),
+              ElementsAre("A", "I", "eyesClosed", "mouthSmile"));
+}
+
+TEST(ShapeNames, TwoNamesOfOneShapeAreOne) {
+  std::vector<std::string> notes;
+  const auto shapes =
+      choose_shapes({"jawOpen", "Jaw_Open", "tongueOut"}, MouthShapes::automatic, notes);
+  ASSERT_EQ(shapes.size(), 2u);
+  EXPECT_THAT(shapes[0].names, ElementsAre(0u, 1u));
+  EXPECT_TRUE(notes.empty());
+}
+
+// The woman with shapes that are poses of hers.
+std::vector<std::uint8_t> viseme_head(const head::Rig& rig) {
+  GltfWriter file;
+  const auto floats = [](const std::vector<Vec3>& values) {
+    std::vector<float> out;
+    for (const Vec3& v : values) out.insert(out.end(), {v.x, v.y, v.z});
+    return out;
+  };
+  json nodes = json::array();
+  for (const Part part : {Part::skin, Part::left_eye, Part::right_eye}) {
+    const head::Rig::Shape& shape = rig.parts[std::size_t(part)];
+    std::vector<std::uint32_t> corners;
+    for (const head::Triangle& t : shape.triangles)
+      corners.insert(corners.end(), t.begin(), t.end());
+    json primitive = {
+        {"attributes", {{"POSITION", file.accessor(floats(shape.positions), "VEC3")}}},
+        {"indices", file.accessor(corners, "SCALAR")}};
+    json mesh = {{"name", head::kPartNames[std::size_t(part)]}};
+    const auto add = [&](const std::string& name, const fap::Frame& frame) {
+      const head::Pose pose = head::pose(rig, frame);
+      std::vector<Vec3> moves = pose.positions[0];
+      for (std::size_t v = 0; v < moves.size(); ++v) moves[v] -= shape.positions[v];
+      primitive["targets"].push_back({{"POSITION", file.accessor(floats(moves), "VEC3")}});
+      mesh["extras"]["targetNames"].push_back(name);
+    };
+    if (part == Part::skin) {
+      for (int viseme = 0; viseme < 15; ++viseme) {
+        add(std::string(fap::kVisemes[std::size_t(viseme)].morph), head::viseme_shape(viseme));
+      }
+      fap::Frame closed;
+      for (int fap = 19; fap <= 22; ++fap) closed.set(fap, fap < 21 ? 995 : 29);
+      add("eyesClosed", closed);
+    }
+    mesh["primitives"] = {primitive};
+    nodes.push_back(file.add("nodes", {{"mesh", file.add("meshes", mesh)}}));
+  }
+  file.add("scenes", {{"nodes", nodes}});
+  return file.glb();
+}
+
+TEST(VisemeHead, Fap1ShowsItsOwnShapes) {
+  head::HeadParameters parameters = *head::head_parameters("woman");
+  parameters.density = 0.5;
+  const head::Rig original = head::make_rig(*head::make_head(parameters));
+  auto source = read_head(viseme_head(original));
+  ASSERT_TRUE(source) << source.error().describe();
+  EXPECT_EQ(source->shapes.size(), 15u);  // without silence, with closed eyes
+  const auto head = head::assemble(std::move(*source));
+  ASSERT_TRUE(head) << head.error().describe();
+  EXPECT_TRUE(head->point("2.1").exists());
+  EXPECT_TRUE(head->point("3.1").exists());
+  const head::Rig rig = head::make_rig(*head);
+  const float scale = head::length(rig.eyes[0].centre - rig.eyes[1].centre) /
+                      head::length(original.eyes[0].centre - original.eyes[1].centre);
+  double squares = 0, motion = 0;
+  for (int viseme = 1; viseme < 15; ++viseme) {
+    fap::Frame frame;
+    frame.mask.set(1);
+    frame.viseme = {viseme, 0, 63, false};
+    const head::Pose is = head::pose(rig, frame), was = head::pose(original, frame);
+    for (std::size_t v = 0; v < is.positions[0].size(); ++v) {
+      const Vec3 wanted = (was.positions[0][v] - original.parts[0].positions[v]) * scale;
+      const Vec3 off = is.positions[0][v] - rig.parts[0].positions[v] - wanted;
+      squares += double(head::dot(off, off));
+      motion += double(head::dot(wanted, wanted));
+    }
+    const head::ControlValues values = head::control_values(rig, frame);
+    const std::string name(fap::kVisemes[std::size_t(viseme)].morph);
+    for (std::size_t i = 0; i < rig.shapes.size(); ++i) {
+      if (rig.shapes[i].name != name) continue;
+      EXPECT_GT(values[head::kFirstShape + i] / head::kFullShape, 0.5f) << name;
+    }
+  }
+  std::printf("visemes: %.1f %% of the motion is missing\n", 100 * std::sqrt(squares / motion));
+  EXPECT_LT(std::sqrt(squares / motion), 0.1);
+}
+
+TEST(VisemeHead, ItBlinks) {
+  head::HeadParameters parameters = *head::head_parameters("woman");
+  parameters.density = 0.5;
+  auto source = read_head(viseme_head(head::make_rig(*head::make_head(parameters))));
+  ASSERT_TRUE(source);
+  const auto head = head::assemble(std::move(*source));
+  ASSERT_TRUE(head) << head.error().describe();
+  const head::Rig rig = head::make_rig(*head);
+  fap::Frame frame;
+  for (const int fap : {19, 20}) frame.set(fap, 1024);
+  const head::Pose closed = head::pose(rig, frame);
+  const head::FeaturePoint lid = head->point("3.1");
+  EXPECT_LT(closed.positions[0][lid.vertex].y - rig.parts[0].positions[lid.vertex].y,
+            -0.8f * float(head->fapu.irisd));
+}
+
+}  // namespace
+}  // namespace animeme::gltf

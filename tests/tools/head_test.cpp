@@ -1,0 +1,114 @@
+// `animeme head`, and heads of users in the other commands.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/program.h"
+#include "tests/support/shared.h"
+
+namespace animeme {
+namespace {
+
+using test::animeme;
+using test::TempDir;
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+Json described(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), {"head"});
+  arguments.push_back("--json");
+  const auto result = animeme(arguments);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  return Json::parse(result.out, nullptr, false);
+}
+
+// A head of ours, written and read as each kind of file that users have.
+TEST(HeadCommand, WritesHeadsThatItReadsAgain) {
+  const TempDir dir;
+  const Json man = described({"man"});
+  EXPECT_EQ(man["moved_by"], "feature_points");
+  EXPECT_EQ(man["feature_points_cm"].size(), 83u);
+  EXPECT_TRUE(man["missing_feature_points"].empty());
+  const struct {
+    std::string name;
+    std::vector<std::string> more;
+    const char* moved_by;
+  } cases[] = {{"man.fdp", {}, "targets"},
+               {"man.xmt", {}, "targets"},
+               {"man.obj", {"--points", dir / "man.points.csv"}, "feature_points"},
+               {"man.glb", {}, "shapes"}};
+  for (const auto& test : cases) {
+    const auto made = animeme({"head", "man", "-o", dir / test.name});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    std::vector<std::string> arguments = {dir / test.name};
+    arguments.insert(arguments.end(), test.more.begin(), test.more.end());
+    const Json head = described(arguments);
+    EXPECT_EQ(head["moved_by"], test.moved_by) << test.name;
+    EXPECT_NEAR(head["fapu_cm"]["ES"].get<double>(), man["fapu_cm"]["ES"].get<double>(), 0.1);
+    for (const char* part : {"left_eye", "upper_teeth", "tongue", "hair"}) {
+      const double wanted = man["parts"][part]["triangles"].get<double>();
+      // Readers of glTF drop triangles without area.
+      EXPECT_NEAR(head["parts"][part]["triangles"].get<double>(), wanted, 0.03 * wanted)
+          << test.name << " " << part;
+    }
+    const Json& chin = head["feature_points_cm"]["2.1"];
+    for (std::size_t axis = 0; axis < 3 && test.name != "man.glb"; ++axis) {
+      EXPECT_NEAR(chin[axis].get<double>(), man["feature_points_cm"]["2.1"][axis].get<double>(),
+                  0.02)
+          << test.name;
+    }
+  }
+}
+
+TEST(HeadCommand, HeadsOfUsersAreDrawnShownAndExported) {
+  const TempDir dir;
+  ASSERT_EQ(animeme({"head", "child", "-o", dir / "me.obj"}).exit_code, 0);
+  const std::string clip = (test::data_dir() / "grid_s1_sample/fap/prac8p.csv").string();
+  const std::vector<std::string> own = {"--head", dir / "me.obj", "--points",
+                                        dir / "me.points.csv"};
+  const auto run = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), own.begin(), own.end());
+    const auto result = animeme(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+  };
+  run({"render", clip, "--time", "0.9", "--size", "80x80", "-o", dir / "me.png"});
+  run({"view", clip, "-o", dir / "me.html"});
+  run({"export", clip, "-o", dir / "me.glb"});
+  EXPECT_GT(std::filesystem::file_size(dir / "me.png"), 2000u);
+  EXPECT_GT(std::filesystem::file_size(dir / "me.html"), 300'000u);
+  // What was exported moves by the shapes that it was given.
+  const Json exported = described({dir / "me.glb"});
+  EXPECT_EQ(exported["moved_by"], "shapes");
+  EXPECT_THAT(exported["shapes"], testing::Contains("jawOpen"));
+  const auto own_picture = test::slurp(dir / "me.png");
+  run({"render", clip, "--time", "0", "--size", "80x80", "-o", dir / "rest.png"});
+  EXPECT_NE(own_picture, test::slurp(dir / "rest.png"));
+}
+
+TEST(HeadCommand, SaysWhatIsWrong) {
+  const TempDir dir;
+  const auto expect = [&](const std::vector<std::string>& arguments, int code, const char* text) {
+    const auto result = animeme(arguments);
+    EXPECT_EQ(result.exit_code, code) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(text));
+  };
+  std::ofstream(dir / "cube.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  std::ofstream(dir / "points.csv") << "2.1,0\n8.3,7\n";
+  std::ofstream(dir / "head.fdp") << "<xfdp><head>";
+  std::ofstream(dir / "head.stl") << "solid\n";
+  expect({"head", "dragon"}, 2, "woman, man or child");
+  expect({"head", "man", "--points", dir / "points.csv"}, 2, "a head of your own");
+  expect({"head", dir / "cube.obj"}, 2, "add --points");
+  expect({"head", dir / "head.stl"}, 2, ".glb, .gltf, .vrm, .fdp or .xmt");
+  expect({"head", dir / "head.fdp", "--points", dir / "points.csv"}, 2, "has its own points");
+  expect({"head", "man", "-o", dir / "man.stl"}, 2, ".fdp, .xmt, .glb or .obj");
+  expect({"head", dir / "cube.obj", "--points", dir / "points.csv"}, 3, "points.csv:2: point 8.3");
+  expect({"head", dir / "cube.obj", "--points", dir / "none.csv"}, 3, "none.csv");
+  expect({"head", dir / "head.fdp"}, 3, "head.fdp:1");
+}
+
+}  // namespace
+}  // namespace animeme

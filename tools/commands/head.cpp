@@ -1,0 +1,214 @@
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "fap/head/obj.h"
+#include "fap/head/rig.h"
+#include "fap/xml/fdp.h"
+#include "fap/xml/xmt.h"
+#include "tools/commands/common.h"
+#include "tools/commands/head_file.h"
+#include "tools/gltf/glb.h"
+
+namespace animeme::tools {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  HeadChoice head;
+  std::string output;
+  bool json = false;
+};
+
+// FAPs that show nothing on this head.
+std::vector<std::string> still_faps(const head::Head& head, const head::Rig& rig) {
+  std::set<int> moved;
+  for (const head::Target& target : rig.targets) {
+    if (target.control < head::kFirstShape) moved.insert(target.control);
+  }
+  for (const head::ShapeControl& shape : rig.shapes) {
+    for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+      const auto f = std::size_t(fap);
+      if (shape.faps.mask[f] && shape.faps.value[f] != 0) moved.insert(fap);
+    }
+  }
+  for (const int fap : {23, 25, 27}) {
+    if (!head.part(head::Part::left_eye).positions.empty()) moved.insert(fap);
+    if (!head.part(head::Part::right_eye).positions.empty()) moved.insert(fap + 1);
+  }
+  for (const int fap : {48, 49, 50}) moved.insert(fap);
+  std::vector<std::string> still;
+  for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+    if (!moved.contains(fap)) still.emplace_back(fap::info(fap).name);
+  }
+  return still;
+}
+
+Json describe(const LoadedHead& loaded, const head::Rig& rig) {
+  const head::Head& head = loaded.head;
+  Json parts = Json::object();
+  for (std::size_t i = 0; i < head.parts.size(); ++i) {
+    const head::Mesh& mesh = head.parts[i];
+    if (mesh.positions.empty()) continue;
+    parts[std::string(head::kPartNames[i])] = {{"vertices", mesh.positions.size()},
+                                               {"triangles", mesh.triangles.size()}};
+  }
+  Json points = Json::object();
+  Json missing = Json::array();
+  for (std::size_t i = 0; i < head.feature_points.size(); ++i) {
+    const std::string id(fap::kFeaturePoints[i].id);
+    if (!head.feature_points[i].exists()) {
+      if (id != "7.1") missing.push_back(id);
+      continue;
+    }
+    const head::Vec3 p = head.at(id);
+    points[id] = {p.x, p.y, p.z};
+  }
+  Json shapes = Json::array();
+  for (const head::ShapeControl& shape : head.shapes) shapes.push_back(shape.name);
+  return {{"name", head.name},
+          {"parts", parts},
+          {"fapu_cm",
+           {{"IRISD", head.fapu.irisd},
+            {"ES", head.fapu.es},
+            {"ENS", head.fapu.ens},
+            {"MNS", head.fapu.mns},
+            {"MW", head.fapu.mw}}},
+          {"moved_by", !head.shapes.empty()    ? "shapes"
+                       : !head.targets.empty() ? "targets"
+                                               : "feature_points"},
+          {"shapes", shapes},
+          {"feature_points_cm", points},
+          {"missing_feature_points", missing},
+          {"still_faps", still_faps(head, rig)},
+          {"notes", loaded.notes}};
+}
+
+std::string list(const Json& names) {
+  std::string text;
+  for (const Json& name : names) text += (text.empty() ? "" : ", ") + name.get<std::string>();
+  return text;
+}
+
+void print_text(const Json& info) {
+  std::printf("%s\n", info["name"].get<std::string>().c_str());
+  for (const auto& [name, part] : info["parts"].items()) {
+    std::printf("  %-12s %6zu vertices %6zu triangles\n", name.c_str(),
+                part["vertices"].get<std::size_t>(), part["triangles"].get<std::size_t>());
+  }
+  std::printf("FAP units (cm):");
+  for (const auto& [name, cm] : info["fapu_cm"].items()) {
+    std::printf(" %s %.2f", name.c_str(), cm.get<double>());
+  }
+  std::printf("\nfeature points: %zu of 84\n", info["feature_points_cm"].size());
+  const std::string by = info["moved_by"];
+  if (by == "shapes") {
+    std::printf("moved by %zu shapes: %s\n", info["shapes"].size(), list(info["shapes"]).c_str());
+  } else {
+    std::printf("moved by %s\n", by == "targets" ? "what its file says" : "its feature points");
+  }
+  if (!info["still_faps"].empty()) {
+    std::printf("FAPs that show nothing: %s\n", list(info["still_faps"]).c_str());
+  }
+  for (const Json& note : info["notes"]) {
+    std::printf("note: %s\n", note.get<std::string>().c_str());
+  }
+}
+
+// Two files that belong together, or one.
+Result<void> write_head(const std::string& path, const head::Head& head, const head::Rig& rig) {
+  const std::filesystem::path file(path);
+  const std::string kind = extension_of(path);
+  const std::string name = file.stem().string();
+  if (kind == ".obj") {
+    const std::string obj = head::write_obj(head);
+    const std::string points = head::points_of(head);
+    const std::string list = (file.parent_path() / (name + ".points.csv")).string();
+    const OutputText files[] = {{path, obj}, {list, points}};
+    if (auto ok = write_files(files); !ok) return ok;
+    say(path + " and its feature points " + list);
+    return {};
+  }
+  if (kind == ".fdp") {
+    const Result<head::FdpFiles> made = head::write_fdp(head, rig, {.name = name});
+    if (!made) return made.error();
+    const std::string mesh = (file.parent_path() / (name + ".wrl")).string();
+    const OutputText files[] = {{path, made->fdp}, {mesh, made->wrl}};
+    if (auto ok = write_files(files); !ok) return ok;
+    say(path + " and its mesh " + mesh);
+    return {};
+  }
+  if (kind == ".glb") {
+    fap::Sequence rest;
+    rest.rate = {25, 1};
+    rest.frames.resize(1);
+    const Result<std::vector<std::uint8_t>> glb = gltf::make_glb(head, rig, rest);
+    if (!glb) return glb.error();
+    return write_file(path, *glb);
+  }
+  const Result<std::string> scene = head::write_xmt(head, rig);
+  if (!scene) return scene.error();
+  return write_file(path, *scene);
+}
+
+Result<int> run(const Options& options) {
+  if (const std::string problem = problem_of(options.head); !problem.empty()) {
+    return usage_error(problem);
+  }
+  const std::string kind = extension_of(options.output);
+  const bool known =
+      kind == ".obj" || kind == ".fdp" || kind == ".glb" || kind == ".xmt" || kind == ".xmta";
+  if (!options.output.empty() && !known) {
+    return usage_error("the output " + options.output + " has to end in .fdp, .xmt, .glb or .obj");
+  }
+  const Result<LoadedHead> loaded = load_head(options.head);
+  if (!loaded) return loaded.error();
+  const head::Rig rig = head::make_rig(loaded->head);
+  if (!options.output.empty()) {
+    for (const std::string& note : loaded->notes) say(options.head.head + ": " + note);
+    if (auto ok = write_head(options.output, loaded->head, rig); !ok) return ok.error();
+    if (!options.json) return kOk;
+  }
+  const Json info = describe(*loaded, rig);
+  if (options.json) {
+    std::printf("%s\n", info.dump(2).c_str());
+  } else {
+    print_text(info);
+  }
+  return kOk;
+}
+
+Action add(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  app.add_option("head", options->head.head, kHeadHelp)->capture_default_str();
+  app.add_option("--points", options->head.points, kPointsHelp);
+  app.add_option(
+      "-o,--output", options->output,
+      "Write the head: .fdp (Xface; with its mesh, .wrl), .xmt (MPEG-4 scene with an FDP), "
+      ".glb (with morph targets), .obj (with a list of feature points)");
+  app.add_flag("--json", options->json, "The same for scripts");
+  return [options] { return run(*options); };
+}
+
+}  // namespace
+
+const Command kHead{
+    "head",
+    "What a head has, ours or yours, and which FAPs move it; write it for Xface, "
+    "Blender, MPEG-4",
+    "  animeme head me.glb\n"
+    "  animeme head me.obj --points landmarks.csv\n"
+    "  animeme head woman -o woman.fdp     # for XfacePlayer\n"
+    "  animeme head child -o child.obj     # to edit; child.points.csv is beside it\n"
+    "\n"
+    "A list of landmarks is a text: 2.1,966 in a line makes vertex 966 (from 0) the\n"
+    "chin. The mouth needs 2.2-2.9 and 8.1-8.8, lids 3.1-3.4, brows 4.1-4.6, the\n"
+    "chin 2.1 and 2.10, the nose 9.1-9.3 and 9.15, cheeks 5.1-5.4; further points\n"
+    "make it better. Show the head with --head me.obj --points landmarks.csv in\n"
+    "render, view and export.",
+    add};
+
+}  // namespace animeme::tools

@@ -1,0 +1,16 @@
+// Colours of vertices from factors and textures.
+#pragma once
+
+#include "tools/gltf/detail/primitive.h"
+
+namespace animeme::gltf {
+
+/// True if the piece has a texture and places in it.
+bool has_texture(const RawPiece& piece);
+
+/// Gives each vertex its colour: COLOR_0 times factor times texture, head::kNoColour if the file
+/// says nothing. Takes out the triangles that are more transparent than opaque (less than
+/// alphaCutoff for masks).
+void paint(RawPiece& piece);
+
+}  // namespace animeme::gltf

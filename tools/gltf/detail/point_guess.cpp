@@ -1,0 +1,368 @@
+#include "tools/gltf/detail/point_guess.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "fap/tables.h"
+
+namespace animeme::gltf {
+namespace {
+
+using head::Part;
+using head::PiecePoint;
+using head::Vec3;
+
+bool is_eye(std::optional<Part> part) { return part == Part::left_eye || part == Part::right_eye; }
+bool is_brow(std::optional<Part> part) { return part == Part::brows; }
+
+// FAPs of what moves: see the table in the header.
+constexpr int kJaw = 3, kBlink[] = {19, 20}, kBrowIn[] = {31, 32}, kBrowOut[] = {35, 36};
+
+// How far shapes of one side tell left from right.
+struct Sides {
+  std::optional<Vec3> left;
+  std::optional<Vec3> right;
+};
+
+Sides sides_of(const SkinShapes& guess) {
+  for (const auto& faps : {kBlink, kBrowOut}) {
+    const std::size_t left = guess.shape_for(faps[0], 40), right = guess.shape_for(faps[1], 40);
+    if (left == kNone || right == kNone || left == right) continue;
+    return {guess.centre(left), guess.centre(right)};
+  }
+  return {};
+}
+
+int largest(Vec3 v, int except = -1) {
+  const std::array<float, 3> size = {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
+  int best = except == 0 ? 1 : 0;
+  for (int i = 0; i < 3; ++i) {
+    if (i != except && size[std::size_t(i)] > size[std::size_t(best)]) best = i;
+  }
+  return best;
+}
+
+Vec3 unit(int axis, float sign) {
+  return {axis == 0 ? sign : 0, axis == 1 ? sign : 0, axis == 2 ? sign : 0};
+}
+
+float part(Vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+// The face as it looks from the front, with what it needs to find points.
+class FaceMap {
+ public:
+  explicit FaceMap(const SkinShapes& guess) : guess_(guess) {}
+
+  std::vector<PiecePoint> points() {
+    add_lids();
+    add_eyes();
+    add_brows_and_cheeks();
+    add_mouth();
+    std::vector<PiecePoint> out;
+    for (const fap::FeaturePointInfo& info : fap::kFeaturePoints) {
+      const auto found = std::find_if(spots_.begin(), spots_.end(),
+                                      [&](const auto& entry) { return entry.first == info.id; });
+      if (found == spots_.end()) continue;
+      out.push_back({std::string(info.id), found->second.piece, found->second.vertex});
+    }
+    return out;
+  }
+
+ private:
+  void set(std::string_view id, Spot spot) {
+    if (spot.exists()) spots_.emplace_back(id, spot);
+  }
+  Spot at(std::string_view id) const {
+    for (const auto& [known, spot] : spots_) {
+      if (known == id) return spot;
+    }
+    return {};
+  }
+  Vec3 place(Spot spot) const { return guess_.place(spot); }
+
+  void add_lids() {
+    const Sides sides = sides_of(guess_);
+    if (sides.left && sides.right) middle_ = (sides.left->x + sides.right->x) / 2;
+    for (int side = 0; side < 2; ++side) {
+      const std::size_t shape = guess_.shape_for(kBlink[side], 300);
+      if (shape == kNone) continue;
+      const Spot upper =
+          guess_.farthest(shape, [&](Vec3 p, Vec3 d) { return on_side(p, side) ? -d.y : 0.0f; });
+      if (!upper.exists()) continue;
+      const auto moves = guess_.field(shape);
+      const Vec3 from = place(upper);
+      const Vec3 down = moves[upper.piece][upper.vertex];
+      const float most = -down.y;
+      const Spot lower = guess_.nearest(from + down, [&](Spot spot) {
+        return -moves[spot.piece][spot.vertex].y < 0.3f * most && place(spot).y < from.y;
+      });
+      set(side == 0 ? "3.1" : "3.2", upper);
+      set(side == 0 ? "3.3" : "3.4", lower);
+    }
+    if (at("3.1").exists() && at("3.2").exists()) {
+      const Vec3 left = place(at("3.1")), right = place(at("3.2"));
+      middle_ = (left.x + right.x) / 2;
+      between_ = left.x - right.x;
+      eye_height_ = (left.y + right.y) / 2;
+    }
+  }
+
+  bool on_side(Vec3 p, int side) const { return side == 0 ? p.x > middle_ : p.x < middle_; }
+
+  // The best vertex of one side of the pieces that are a part.
+  Spot of_parts(bool (*wanted)(std::optional<Part>), int side,
+                const std::function<float(Vec3)>& measure) const {
+    Spot found;
+    float most = -std::numeric_limits<float>::infinity();
+    const auto& pieces = guess_.face().pieces;
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+      if (!wanted(part_of(pieces[p]))) continue;
+      for (std::uint32_t v = 0; v < pieces[p].positions.size(); ++v) {
+        const Vec3 place = pieces[p].positions[v];
+        if (!on_side(place, side) || !(measure(place) > most)) continue;
+        most = measure(place);
+        found = {p, v};
+      }
+    }
+    return found;
+  }
+
+  void add_eyes() {
+    if (!(between_ > 0)) return;
+    for (int side = 0; side < 2; ++side) {
+      const Spot best = of_parts(is_eye, side, [](Vec3 p) { return p.z; });
+      set(side == 0 ? "3.5" : "3.6", best);
+    }
+  }
+
+  // Of what a shape moves nearly farthest, what is nearest to the midline.
+  Spot innermost(std::size_t shape, const std::function<float(Vec3, Vec3)>& measure) const {
+    const Spot most = guess_.farthest(shape, measure);
+    if (!most.exists()) return most;
+    const auto moves = guess_.field(shape);
+    const float enough = 0.8f * measure(place(most), moves[most.piece][most.vertex]);
+    return guess_.farthest(shape, [&](Vec3 p, Vec3 d) {
+      return measure(p, d) >= enough ? 1 / (1 + std::abs(p.x - middle_) / between_) : 0.0f;
+    });
+  }
+
+  void add_brows_and_cheeks() {
+    if (!(between_ > 0)) return;
+    for (int side = 0; side < 2; ++side) {
+      const auto up = [&](Vec3 p, Vec3 d) { return on_side(p, side) ? d.y : 0.0f; };
+      const auto out = [&](Vec3 p, Vec3 d) {
+        return on_side(p, side) ? (side == 0 ? d.x : -d.x) : 0.0f;
+      };
+      const auto sideways = [&](Vec3 p) { return side == 0 ? p.x : -p.x; };
+      const Spot hairs = of_parts(is_brow, side, [&](Vec3 p) { return -sideways(p); });
+      if (hairs.exists()) {
+        set(side == 0 ? "4.1" : "4.2", hairs);
+        set(side == 0 ? "4.3" : "4.4", of_parts(is_brow, side, [](Vec3 p) { return p.y; }));
+        set(side == 0 ? "4.5" : "4.6", of_parts(is_brow, side, sideways));
+      }
+      set(side == 0 ? "5.1" : "5.2", guess_.farthest(guess_.shape_named("cheekPuff"), out));
+      if (hairs.exists()) continue;
+      const Spot inner = innermost(guess_.shape_for(kBrowIn[side], 40), up);
+      const Spot outer = guess_.farthest(guess_.shape_for(kBrowOut[side], 40), up);
+      set(side == 0 ? "4.1" : "4.2", inner);
+      set(side == 0 ? "4.5" : "4.6", outer);
+      if (!inner.exists() || !outer.exists()) continue;
+      set(side == 0 ? "4.3" : "4.4",
+          guess_.nearest((place(inner) + place(outer)) * 0.5f, [](Spot) { return true; }));
+    }
+  }
+
+  // Vertices near the midline with nothing of the skin before them, from above.
+  void find_midline() {
+    std::vector<Spot> strip;
+    guess_.for_skin([&](Spot spot) {
+      const Vec3 p = place(spot);
+      if (std::abs(p.x - middle_) < 0.05f * between_ && p.y < eye_height_ &&
+          p.y > eye_height_ - 2.4f * between_) {
+        strip.push_back(spot);
+      }
+    });
+    std::stable_sort(strip.begin(), strip.end(),
+                     [&](Spot a, Spot b) { return place(a).y > place(b).y; });
+    const float near = 0.03f * between_, behind = 0.06f * between_;
+    for (std::size_t i = 0; i < strip.size(); ++i) {
+      const Vec3 p = place(strip[i]);
+      bool seen = true;
+      const auto hides = [&](std::size_t k) { seen = seen && place(strip[k]).z < p.z + behind; };
+      for (std::size_t k = i; k-- > 0 && place(strip[k]).y - p.y < near;) hides(k);
+      for (std::size_t k = i + 1; k < strip.size() && p.y - place(strip[k]).y < near; ++k) hides(k);
+      if (seen) midline_.push_back(strip[i]);
+    }
+  }
+
+  // The best of the midline between two heights.
+  Spot best(float top, float bottom, const std::function<float(Vec3)>& measure) const {
+    Spot found;
+    float most = -std::numeric_limits<float>::infinity();
+    for (const Spot spot : midline_) {
+      const Vec3 p = place(spot);
+      const float value = measure(p) - 0.5f * std::abs(p.x - middle_);
+      if (p.y > top || p.y < bottom || !(value > most)) continue;
+      most = value;
+      found = spot;
+    }
+    return found;
+  }
+  Spot at_height(float y) const {
+    return best(y + between_, y - between_, [&](Vec3 p) { return -std::abs(p.y - y); });
+  }
+
+  // Of what is as high on the midline strip, the nearest to the middle.
+  Spot nearest_middle(Spot spot, const std::function<bool(Spot)>& allowed) const {
+    const float y = place(spot).y;
+    for (const Spot other : midline_) {
+      const bool as_high = std::abs(place(other).y - y) < 0.02f * between_ && allowed(other);
+      const float x = std::abs(place(other).x - middle_);
+      if (as_high && x < std::abs(place(spot).x - middle_)) spot = other;
+    }
+    return spot;
+  }
+
+  void add_mouth() {
+    if (!(between_ > 0)) return;
+    const std::size_t jaw = guess_.shape_for(kJaw, 150);
+    if (jaw == kNone) return;
+    find_midline();
+    const auto moves = guess_.field(jaw);
+    const auto down = [&](Spot spot) { return -moves[spot.piece][spot.vertex].y; };
+    float most = 0;
+    for (const Spot spot : midline_) most = std::max(most, down(spot));
+    if (!(most > 0)) return;
+    Spot upper, lower;
+    for (const Spot spot : midline_) {  // from above
+      const float y = place(spot).y;
+      if (down(spot) > 0.5f * most && y < eye_height_ - 0.5f * between_) {
+        lower = spot;
+        break;
+      }
+      if (down(spot) < 0.3f * most) upper = spot;
+    }
+    if (upper.exists() && lower.exists()) {
+      upper = nearest_middle(upper, [&](Spot spot) { return down(spot) < 0.3f * most; });
+      lower = nearest_middle(lower, [&](Spot spot) { return down(spot) > 0.5f * most; });
+    }
+    set("2.2", upper);
+    set("2.3", lower);
+    if (!upper.exists() || !lower.exists()) return;
+    add_nose_and_chin(place(upper), place(lower));
+    add_corners(place(lower), most, down);
+  }
+
+  void add_nose_and_chin(Vec3 upper, Vec3 lower) {
+    const float high = eye_height_ - 0.25f * between_;
+    const Spot tip = best(high, upper.y + 0.1f * between_, [](Vec3 p) { return p.z; });
+    set("9.3", tip);
+    const Spot chin =
+        best(lower.y - 0.3f * between_, lower.y - 0.75f * between_, [](Vec3 p) { return p.z; });
+    set("2.10", chin);
+    if (chin.exists()) {
+      // Where the chin has turned to below.
+      set("2.1",
+          best(place(chin).y, place(chin).y - 0.6f * between_, [](Vec3 p) { return p.z - p.y; }));
+    }
+    if (!tip.exists()) return;
+    const Vec3 nose = place(tip);
+    const Spot foremost = best(upper.y + 0.15f * between_, upper.y, [](Vec3 p) { return p.z; });
+    const Vec3 lip = foremost.exists() ? place(foremost) : upper;
+    const float slope = (lip.z - nose.z) / (lip.y - nose.y);
+    const Spot base =
+        best(nose.y, lip.y, [&](Vec3 p) { return nose.z + (p.y - nose.y) * slope - p.z; });
+    set("9.15", base);
+    if (!base.exists()) return;
+    const float mns = place(base).y - upper.y;
+    set("8.1", at_height(upper.y + 0.40f * mns));
+    set("8.2", at_height(lower.y - 0.46f * mns));
+  }
+
+  // Skin around the mouth, from above.
+  std::vector<Spot> around_mouth(Vec3 lip) const {
+    std::vector<Spot> spots;
+    guess_.for_skin([&](Spot spot) {
+      const Vec3 d = place(spot) - lip;
+      if (std::abs(d.x) < 0.7f * between_ && std::abs(d.y) < 0.25f * between_ &&
+          d.z > -0.45f * between_) {
+        spots.push_back(spot);
+      }
+    });
+    std::stable_sort(spots.begin(), spots.end(),
+                     [&](Spot a, Spot b) { return place(a).y > place(b).y; });
+    return spots;
+  }
+
+  template <class Down>
+  void add_corners(Vec3 lip, float most, Down down) {
+    const std::vector<Spot> spots = around_mouth(lip);
+    const float near = 0.03f * between_;
+    std::array<Spot, 2> ends;
+    std::vector<Spot> slit;
+    for (std::size_t i = 0; i < spots.size(); ++i) {
+      const Vec3 p = place(spots[i]);
+      bool at_slit = false;
+      for (std::size_t k = i + 1; k < spots.size() && p.y - place(spots[k]).y < near; ++k) {
+        const Vec3 d = place(spots[k]) - p;
+        at_slit = at_slit ||
+                  (head::dot(d, d) < near * near && down(spots[k]) - down(spots[i]) > 0.09f * most);
+      }
+      if (!at_slit) continue;
+      slit.push_back(spots[i]);
+      for (int side = 0; side < 2; ++side) {
+        Spot& end = ends[std::size_t(side)];
+        const float out = side == 0 ? p.x : -p.x;
+        const float known = !end.exists() ? -INFINITY : side == 0 ? place(end).x : -place(end).x;
+        if (out > known) end = spots[i];
+      }
+    }
+    for (int side = 0; side < 2; ++side) {
+      const Spot end = ends[std::size_t(side)];
+      if (!end.exists()) continue;
+      set(side == 0 ? "8.3" : "8.4", end);
+      const float in = 0.05f * between_ * (side == 0 ? -1.0f : 1.0f);
+      const Vec3 wanted = place(end) + Vec3{in, 0, 0};
+      set(side == 0 ? "2.4" : "2.5", guess_.nearest(wanted, [&](Spot spot) {
+        return std::find(slit.begin(), slit.end(), spot) != slit.end();
+      }));
+    }
+  }
+
+  const SkinShapes& guess_;
+  float middle_ = 0;      // x between the eyes
+  float between_ = 0;     // distance of the lids' middles
+  float eye_height_ = 0;  // of the upper lids
+  std::vector<std::pair<std::string_view, Spot>> spots_;
+  std::vector<Spot> midline_;
+};
+
+}  // namespace
+
+std::optional<std::array<Vec3, 3>> axes_of(const FaceShapes& face,
+                                           const std::array<std::optional<Vec3>, 2>& eyes) {
+  const SkinShapes guess(face);
+  Sides sides = sides_of(guess);
+  if (!sides.left || !sides.right) sides = {eyes[0], eyes[1]};
+  const std::size_t jaw = guess.shape_for(kJaw, 150);
+  if (!sides.left || !sides.right || jaw == kNone) return std::nullopt;
+  const std::optional<Vec3> mouth = guess.centre(jaw);
+  if (!mouth) return std::nullopt;
+  const Vec3 left = *sides.left - *sides.right;
+  const Vec3 up = (*sides.left + *sides.right) * 0.5f - *mouth;
+  const int x = largest(left), y = largest(up, x);
+  if (part(left, x) == 0 || part(up, y) == 0) return std::nullopt;
+  const Vec3 to_left = unit(x, part(left, x) > 0 ? 1.0f : -1.0f);
+  const Vec3 to_top = unit(y, part(up, y) > 0 ? 1.0f : -1.0f);
+  return std::array<Vec3, 3>{to_left, to_top, head::cross(to_left, to_top)};
+}
+
+std::vector<PiecePoint> guess_points(const FaceShapes& face) {
+  const SkinShapes guess(face);
+  return FaceMap(guess).points();
+}
+
+}  // namespace animeme::gltf

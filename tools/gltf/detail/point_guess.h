@@ -1,0 +1,40 @@
+// Feature points of a head that has shapes, from what the shapes move. All are estimates.
+//
+// - 3.1, 3.2: what a blink moves down most, the middle of the upper lid's rim.
+// - 3.3, 3.4: nearest to where that comes down, among what the blink leaves: the lower lid's.
+// - 3.5, 3.6: the foremost vertex of an eyeball.
+// - 2.3, 2.2: on the front of the midline, the highest that goes down with the jaw, and the lowest
+//   above it that stays.
+// - 9.3, 9.15: the foremost above the mouth; the farthest behind the line from there to the
+//   foremost of the upper lip.
+// - 8.1, 8.2: on the midline 0.40 of MNS above 2.2, 0.46 below 2.3.
+// - 2.10, 2.1: the foremost of the chin; where below it the skin has turned to below.
+// - 8.3, 8.4: the ends of the slit between what goes down with the jaw and what stays.
+// - 2.4, 2.5: in that slit, 5 % of the distance of the eyes further in.
+// - 4.1 to 4.6: the ends of the brows' meshes and their highest vertices. Without such meshes, of
+//   what the inner brow's shape moves up nearly most the innermost, what the outer brow's shape
+//   moves up most, and the middle of both.
+// - 5.1, 5.2: what puffed cheeks move most to the side.
+//
+// A shape stands for "the jaw" and so on if it has the largest value of its FAP; visemes do if no
+// shape of ARKit is there.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "fap/head/own_head.h"
+#include "tools/gltf/detail/face_shapes.h"
+
+namespace animeme::gltf {
+
+/// Signed directions of the axes of the file that are left, up and forward on the face: rows of a
+/// rotation by right angles. Left and right are told by shapes of one side, else by `eyes`
+/// (centres, left and right). Nothing if neither is there, or nothing opens the mouth.
+std::optional<std::array<head::Vec3, 3>> axes_of(
+    const FaceShapes& face, const std::array<std::optional<head::Vec3>, 2>& eyes);
+
+/// Those that can be told, in the order of their ids. The face looks along +Z, +Y is up.
+std::vector<head::PiecePoint> guess_points(const FaceShapes& face);
+
+}  // namespace animeme::gltf

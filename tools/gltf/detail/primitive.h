@@ -1,0 +1,77 @@
+// Meshes of a file as triangles in the world at rest, with what moves them.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fap/head/model.h"
+#include "tools/gltf/detail/accessor.h"
+#include "tools/gltf/detail/nodes.h"
+#include "tools/gltf/detail/texture.h"
+
+namespace animeme::gltf {
+
+/// What a morph target of a mesh does to a piece, in the world.
+struct PieceMorph {
+  std::size_t shape = 0;  ///< index of its name, see ShapeNames
+  Moves moves;
+};
+
+/// One primitive of a node's mesh. Vectors of vertices have the length of `positions`, or none.
+struct RawPiece {
+  std::size_t node = 0;
+  std::string name;  ///< of the node and the mesh
+  const Paint* paint = nullptr;
+  std::vector<head::Vec3> positions;
+  std::vector<head::Triangle> triangles;
+  std::vector<Uv> uvs;
+  std::vector<Colour> colours;      ///< COLOR_0
+  std::vector<float> neck_weights;  ///< see head::Piece
+  std::vector<PieceMorph> morphs;   ///< by shape
+};
+
+/// Names of morph targets in the order in which they are met; the same name in two meshes is one
+/// shape.
+class ShapeNames {
+ public:
+  std::size_t index_of(const std::string& name);
+  const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  std::vector<std::string> names_;
+};
+
+/// Reads all meshes of the nodes that are shown; of levels of detail ("head_LOD0") the finest.
+class MeshReader {
+ public:
+  /// `shares`: see neck_shares().
+  MeshReader(const File& file, const std::vector<Node>& nodes, const std::vector<float>& shares,
+             Paints& paints)
+      : file_(file), nodes_(nodes), shares_(shares), paints_(paints) {}
+
+  /// Errors: see read_head().
+  Result<std::vector<RawPiece>> read(ShapeNames& names);
+
+ private:
+  struct Place;
+  Result<void> add_node(std::size_t node, ShapeNames& names);
+  Result<RawPiece> primitive(const Json& mesh, const Json& entry, const Place& place,
+                             ShapeNames& names);
+  Result<void> add_attributes(const Json& attributes, const Place& place, RawPiece& piece,
+                              std::vector<Affine>& maps);
+  Result<std::vector<Affine>> skin_maps(const Json& attributes, const Skin& skin,
+                                        std::size_t vertices, RawPiece& piece);
+  Result<void> add_morphs(const Json& mesh, const Json& entry, const std::vector<Affine>& maps,
+                          RawPiece& piece, ShapeNames& names);
+
+  const File& file_;
+  const std::vector<Node>& nodes_;
+  const std::vector<float>& shares_;
+  Paints& paints_;
+  std::vector<RawPiece> pieces_;
+  std::size_t vertices_ = 0;
+};
+
+}  // namespace animeme::gltf

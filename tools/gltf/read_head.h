@@ -1,0 +1,74 @@
+// Heads from glTF 2.0 files (.glb, .gltf, .vrm): Blender, Unity, Unreal, VRoid, Ready Player Me and
+// others write them.
+//
+//     Result<head::Source> source = gltf::read_head_file("anna.glb");
+//     if (!source) return source.error();
+//     head::Head head = *head::assemble(std::move(*source));
+//
+// What is read: all triangles of all scenes as they stand at rest (skins in their bind pose),
+// colours at the vertices, from COLOR_0 or the base colour and its texture; morph targets whose
+// names are known (shape_names.h); bones of head, neck, eyes and jaw. Lights, cameras, animations,
+// normals and all other textures are not.
+//
+// Vertices that were doubled at seams of a texture are welded where place, shapes and bones agree;
+// so the lips stay apart. Triangles in which the texture changes are divided until the colours at
+// the vertices show it (brows, lips and irises are often painted), up to ReadOptions::vertices.
+//
+// Feature points are estimates from the shapes, for the camera, the units and the overlay of
+// points; see detail/point_guess.h for each rule and the README for how far they are off.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fap/head/own_head.h"
+#include "fap/result.h"
+
+namespace animeme::gltf {
+
+/// Which shapes move the mouth if a file has several sets of them.
+enum class MouthShapes : std::uint8_t {
+  automatic,  ///< ARKit's if the jaw and six shapes of the mouth are there, else visemes
+  arkit,
+  visemes,
+};
+
+/// Gives the bytes of a file that a .gltf names, by its URI with %20 and the like resolved
+/// ("textures/face.png"). An error of `load` for a buffer is one of read_head(); textures that it
+/// does not give are left out with a note.
+using LoadFile = std::function<Result<std::vector<std::uint8_t>>(const std::string& uri)>;
+
+/// Loads files that lie in `folder` or below. Errors: not_found if there is no such file;
+/// unsupported for addresses of the web and for paths that leave the folder.
+LoadFile files_of(std::string folder);
+
+struct ReadOptions {
+  LoadFile load = {};  ///< empty: only files without others beside them can be read
+  MouthShapes mouth = MouthShapes::automatic;
+  /// Triangles are divided for the sake of their texture until there are as many vertices. 0: not.
+  std::size_t vertices = 60000;
+};
+
+/// Reads a head. `bytes`: a .glb (also .vrm), or the text of a .gltf. Deterministic.
+///
+/// The result has pieces (a mesh of each node and part), shapes and targets, eyes, jaw_axis and
+/// neck_pivot where there are bones of that name, estimated points where shapes tell them; +Y is up
+/// and the face looks along +Z (`upright`; a head that was modelled otherwise is turned if the
+/// places of its shapes say so). `centimetres` stays 0. `notes` tells what was left out or guessed.
+///
+/// Errors: syntax (no glTF; an index, a length or an enumeration that cannot be), truncated (the
+/// file ends too early), unsupported (glTF 1.0; Draco or meshopt compression and other required
+/// extensions: the sentence says what to export instead), not_found (a buffer that `load` does not
+/// give; no triangle), out_of_range (more than four million vertices). A head without any shape
+/// that is known is no error: the caller has to know its feature points.
+Result<head::Source> read_head(std::span<const std::uint8_t> bytes,
+                               const ReadOptions& options = {});
+
+/// The same from a file, with files_of() its folder if `options.load` is empty, and its name as
+/// that of the head. Errors: those of read_head(), io; with the path.
+Result<head::Source> read_head_file(const std::string& path, ReadOptions options = {});
+
+}  // namespace animeme::gltf

@@ -1,0 +1,60 @@
+// What the names of morph targets mean in FAPs.
+//
+//     meaning_of("eyeBlink_L")       // ARKit, in any usual spelling
+//     meaning_of("viseme_PP")        // Oculus and Meta; also "PP", "v_PP", "vrc.v_pp"
+//     meaning_of("eyesClosed")       // both lids: other usual names
+//     meaning_of("Face.M_F00_000_00_Fcl_MTH_A")  // VRoid
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fap/frame.h"
+#include "tools/gltf/read_head.h"
+
+namespace animeme::gltf {
+
+enum class ShapeSet : std::uint8_t { arkit, viseme, other };
+
+/// A part of a shape of ARKit.
+struct ArkitPart {
+  int channel = 0;  ///< see fap::kArkitNames
+  int sides = 3;    ///< 1 the left half, 2 the right half, 3 all of it
+
+  friend auto operator<=>(const ArkitPart&, const ArkitPart&) = default;
+};
+
+struct ShapeMeaning {
+  ShapeSet set = ShapeSet::other;
+  int viseme = -1;               ///< of a viseme
+  std::vector<ArkitPart> parts;  ///< of the others, ascending
+  /// At weight 1: sums of what fap::arkit_to_fap() says of the parts; head::viseme_shape() of a
+  /// viseme, so that FAP 1 at full strength is weight 1.
+  fap::Frame faps;
+};
+
+/// Meaning of a name; nothing for unknown ones.
+///
+/// Upper and lower case, spaces, dots and underscores do not matter, nor do a prefix such as
+/// "blendShape1." or "A14_" and the spelling of the side ("_L", "Left"). A shape of ARKit with two
+/// sides may be split ("browInnerUp_L"); one with sides may come without ("mouthSmile"): both
+/// together. Other names: blink and eyesClosed, winks, mouthOpen, smile, gaze up, down, left,
+/// right, brows up and down; the vowels A I U E O of VRM, VRoid and MMD are visemes.
+std::optional<ShapeMeaning> meaning_of(std::string_view name);
+
+/// A shape that a head uses.
+struct ChosenShape {
+  std::string name;  ///< the first of its names
+  ShapeMeaning meaning;
+  std::vector<std::size_t> names;  ///< all its names, as indices of the list given
+};
+
+/// Sorts out which shapes move a head: those of ARKit first. Visemes only if ARKit's jaw and mouth
+/// are not complete (see MouthShapes); other names only for what no shape of ARKit does. What is
+/// unknown or not used is noted.
+std::vector<ChosenShape> choose_shapes(const std::vector<std::string>& names, MouthShapes mouth,
+                                       std::vector<std::string>& notes);
+
+}  // namespace animeme::gltf
