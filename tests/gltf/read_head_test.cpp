@@ -202,6 +202,43 @@ TEST(ReadHead, SeamsAreWeldedAndLipsAreNot) {
   EXPECT_EQ(source.targets.at(0).vertices, std::vector<std::uint32_t>{mesh.triangles[1][2]});
 }
 
+TEST(ReadHead, VerticesAreFoundByTheirNumbersInTheFile) {
+  GltfWriter file;
+  // Vertex 2 has no triangle; 3 is vertex 1 once more, at a seam. Numbers: 0, 1, -, 2, 3, 4.
+  json first, second;
+  first["attributes"]["POSITION"] = file.accessor(
+      std::vector<float>{0, 0, 0, 1, 0, 0, 9, 9, 9, 1, 0, 0, 0, 1, 0, 1, 1, 0}, "VEC3");
+  first["indices"] = file.accessor(std::vector<std::uint8_t>{0, 1, 4, 3, 5, 4}, "SCALAR");
+  second["attributes"]["POSITION"] =
+      file.accessor(std::vector<float>{0, 1, 0, 1, 1, 0, 0, 2, 0}, "VEC3");
+  file.add("meshes", {{"primitives", {first, second}}, {"name", "mesh"}});
+  file.add("nodes", {{"mesh", 0}, {"name", "Anna"}});
+  const auto read = read_head_and_vertices(file.glb());
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->meshes.size(), 1u);
+  EXPECT_EQ(read->meshes[0].name, "Anna mesh");
+  EXPECT_TRUE(read->meshes[0].skin);
+  ASSERT_EQ(read->meshes[0].vertices.size(), 8u);
+  const std::vector<head::PointRow> rows = {{"2.1", "", 2, {}, 1},
+                                            {"2.2", "Anna", 4, {}, 2},
+                                            {"2.3", "", {}, Vec3{0, 2, 0}, 3},
+                                            {"2.4", "", 7, {}, 4}};
+  const auto points = points_on(*read, rows);
+  ASSERT_TRUE(points) << points.error().describe();
+  const auto place = [&](std::size_t i) {
+    const head::PiecePoint& point = (*points)[i];
+    return read->source.pieces[point.piece].mesh.positions[point.vertex];
+  };
+  expect_near(place(0), {1, 0, 0});
+  expect_near(place(1), {1, 1, 0});
+  expect_near(place(2), {0, 2, 0});
+  expect_near(place(3), {0, 2, 0});
+  const auto missing = points_on(*read, {{"2.1", "", 8, {}, 5}});
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().code, Code::not_found);
+  EXPECT_EQ(missing.error().where.line, 5);
+}
+
 TEST(ReadHead, SkinsStandInTheirBindPose) {
   Square square;
   auto& attributes = square.primitive["attributes"];

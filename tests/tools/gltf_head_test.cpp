@@ -67,10 +67,11 @@ TEST(GltfHead, IsSeenInAPage) {
 TEST(GltfHead, MistakesAreNamed) {
   const TempDir dir;
   const std::string head = child(dir);
-  const auto points =
-      animeme({"render", clip(), "--head", head, "--points", clip(), "-o", dir / "x.png"});
-  EXPECT_NE(points.exit_code, 0);
-  EXPECT_THAT(points.err, HasSubstr("--points is for .obj"));
+  test::spill(dir / "points.csv", "feature_point,vertex\n2.1,99999999\n");
+  const auto points = animeme(
+      {"render", clip(), "--head", head, "--points", dir / "points.csv", "-o", dir / "x.png"});
+  EXPECT_EQ(points.exit_code, 3) << points.err;
+  EXPECT_THAT(points.err, HasSubstr("points.csv:2: point 2.1: there is no vertex 99999999"));
   const std::string whole = slurp(head);
   test::spill(dir / "cut.glb", whole.substr(0, whole.size() / 2));
   const auto cut = animeme({"render", clip(), "--head", dir / "cut.glb", "-o", dir / "x.png"});

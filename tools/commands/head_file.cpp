@@ -51,17 +51,18 @@ Result<head::Source> read_obj_head(const HeadChoice& choice) {
 }
 
 Result<head::Source> read_gltf_head(const HeadChoice& choice) {
-  Result<head::Source> source = gltf::read_head_file(choice.head);
-  if (!source || choice.points.empty()) return source;
+  Result<gltf::HeadFile> file = gltf::read_head_and_vertices(choice.head);
+  if (!file) return file.error();
+  if (choice.points.empty()) return std::move(file->source);
   const Result<std::vector<head::PointRow>> rows = read_point_list(choice.points);
   if (!rows) return rows.error();
-  Result<std::vector<head::PiecePoint>> points = head::points_on(source->pieces, *rows);
+  Result<std::vector<head::PiecePoint>> points = gltf::points_on(*file, *rows);
   if (!points) return points.error().in_file(choice.points);
   // The points move it then, not its shapes.
-  source->points = std::move(*points);
-  source->shapes.clear();
-  source->targets.clear();
-  return source;
+  file->source.points = std::move(*points);
+  file->source.shapes.clear();
+  file->source.targets.clear();
+  return std::move(file->source);
 }
 
 Result<head::Source> read_xml_head(const HeadChoice& choice, Format format) {

@@ -37,7 +37,7 @@ class HeadReader {
  public:
   HeadReader(const File& file, const ReadOptions& options) : file_(file), options_(options) {}
 
-  Result<head::Source> read() {
+  Result<HeadFile> read() {
     auto nodes = read_nodes(file_);
     if (!nodes) return nodes.error();
     const HeadJoints joints = find_joints(file_, *nodes);
@@ -66,7 +66,7 @@ class HeadReader {
     drop_far_joints();
     write_shapes();
     write_pieces();
-    return std::move(source_);
+    return HeadFile{std::move(source_), std::move(meshes_)};
   }
 
  private:
@@ -107,6 +107,7 @@ class HeadReader {
     const auto first = std::uint32_t(to.positions.size());
     to.positions.insert(to.positions.end(), from.positions.begin(), from.positions.end());
     to.colours.insert(to.colours.end(), from.colours.begin(), from.colours.end());
+    to.numbers.insert(to.numbers.end(), from.numbers.begin(), from.numbers.end());
     to.neck_weights.insert(to.neck_weights.end(), from.neck_weights.begin(),
                            from.neck_weights.end());
     for (const head::Triangle& t : from.triangles) {
@@ -219,7 +220,19 @@ class HeadReader {
   }
 
   void write_pieces() {
+    std::vector<std::size_t> nodes;  // by mesh
     for (RawPiece& piece : pieces_) {
+      auto mesh = std::size_t(std::find(nodes.begin(), nodes.end(), piece.node) - nodes.begin());
+      if (mesh == nodes.size()) {
+        nodes.push_back(piece.node);
+        meshes_.push_back({piece.name, false, {}});
+      }
+      MeshVertices& vertices = meshes_[mesh];
+      vertices.skin = vertices.skin || part_of(piece) == head::Part::skin;
+      for (const FileVertex& v : piece.file_vertices) {
+        if (v.number >= vertices.vertices.size()) vertices.vertices.resize(v.number + 1);
+        vertices.vertices[v.number] = {source_.pieces.size(), v.vertex};
+      }
       head::Piece out;
       out.name = std::move(piece.name);
       out.material = piece.paint->name;
@@ -244,6 +257,7 @@ class HeadReader {
   std::vector<RawPiece> pieces_;
   std::vector<ChosenShape> shapes_;
   std::vector<std::size_t> shape_of_name_;
+  std::vector<MeshVertices> meshes_;
 };
 
 }  // namespace
@@ -263,20 +277,63 @@ LoadFile files_of(std::string folder) {
   };
 }
 
-Result<head::Source> read_head(std::span<const std::uint8_t> bytes, const ReadOptions& options) {
+Result<HeadFile> read_head_and_vertices(std::span<const std::uint8_t> bytes,
+                                        const ReadOptions& options) {
   Result<File> file = open_file(bytes, options.load);
   if (!file) return file.error();
   return HeadReader(*file, options).read();
 }
 
-Result<head::Source> read_head_file(const std::string& path, ReadOptions options) {
+Result<HeadFile> read_head_and_vertices(const std::string& path, ReadOptions options) {
   Result<Bytes> bytes = bytes_of(path);
   if (!bytes) return std::move(bytes.error()).in_file(path);
   if (!options.load) options.load = files_of(fs::path(path).parent_path().string());
-  Result<head::Source> source = read_head(*bytes, options);
-  if (!source) return std::move(source.error()).in_file(path);
-  source->name = fs::path(path).stem().string();
-  return source;
+  Result<HeadFile> file = read_head_and_vertices(*bytes, options);
+  if (!file) return std::move(file.error()).in_file(path);
+  file->source.name = fs::path(path).stem().string();
+  return file;
+}
+
+Result<head::Source> read_head(std::span<const std::uint8_t> bytes, const ReadOptions& options) {
+  Result<HeadFile> file = read_head_and_vertices(bytes, options);
+  if (!file) return file.error();
+  return std::move(file->source);
+}
+
+Result<head::Source> read_head_file(const std::string& path, ReadOptions options) {
+  Result<HeadFile> file = read_head_and_vertices(path, std::move(options));
+  if (!file) return file.error();
+  return std::move(file->source);
+}
+
+Result<std::vector<head::PiecePoint>> points_on(const HeadFile& file,
+                                                const std::vector<head::PointRow>& rows) {
+  std::vector<head::PiecePoint> points;
+  for (const head::PointRow& row : rows) {
+    if (!row.vertex) {
+      auto nearest = head::points_on(file.source.pieces, {row});
+      if (!nearest) return nearest;
+      points.push_back(std::move(nearest->front()));
+      continue;
+    }
+    const auto mesh = std::find_if(file.meshes.begin(), file.meshes.end(), [&](const auto& m) {
+      return row.mesh.empty()
+                 ? m.skin
+                 : (" " + m.name + " ").find(" " + row.mesh + " ") != std::string::npos;
+    });
+    const bool found = mesh != file.meshes.end() && *row.vertex < mesh->vertices.size() &&
+                       mesh->vertices[*row.vertex].vertex != head::kMissing;
+    if (!found) {
+      return error_at_line(Code::not_found,
+                           "point " + row.id + ": there is no vertex " +
+                               std::to_string(*row.vertex) + " that is shown" +
+                               (row.mesh.empty() ? "" : " in mesh " + row.mesh),
+                           row.line);
+    }
+    const PieceVertex place = mesh->vertices[*row.vertex];
+    points.push_back({row.id, place.piece, place.vertex});
+  }
+  return points;
 }
 
 }  // namespace animeme::gltf

@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "fap/head/own_head.h"
+#include "fap/head/point_list.h"
 #include "fap/result.h"
 
 namespace animeme::gltf {
@@ -67,7 +68,38 @@ struct ReadOptions {
 Result<head::Source> read_head(std::span<const std::uint8_t> bytes,
                                const ReadOptions& options = {});
 
-/// The same from a file, with files_of() its folder if `options.load` is empty, and its name as
+/// A vertex of a piece of the head.
+struct PieceVertex {
+  std::size_t piece = 0;
+  std::uint32_t vertex = head::kMissing;  ///< kMissing: it is not shown
+};
+
+/// Where the vertices of a mesh of the file went. Several may have become one.
+struct MeshVertices {
+  std::string name;   ///< of its node and mesh, as Piece::name
+  bool skin = false;  ///< some of it is
+  /// By their numbers in the file: of one primitive after the other those that have a triangle, as
+  /// Blender shows them.
+  std::vector<PieceVertex> vertices;
+};
+
+struct HeadFile {
+  head::Source source;
+  std::vector<MeshVertices> meshes;  ///< of nodes that are shown, in their order
+};
+
+/// read_head() with the numbers that vertices have in the file.
+Result<HeadFile> read_head_and_vertices(std::span<const std::uint8_t> bytes,
+                                        const ReadOptions& options = {});
+Result<HeadFile> read_head_and_vertices(const std::string& path, ReadOptions options = {});
+
+/// A list of landmarks on such a head. Vertices are counted in the mesh whose name has the word
+/// `mesh` of the row, or is all of it; else in the first that is skin. Places: the nearest vertex.
+/// Errors: not_found with the line.
+Result<std::vector<head::PiecePoint>> points_on(const HeadFile& file,
+                                                const std::vector<head::PointRow>& rows);
+
+/// read_head() of a file, with files_of() its folder if `options.load` is empty, and its name as
 /// that of the head. Errors: those of read_head(), io; with the path.
 Result<head::Source> read_head_file(const std::string& path, ReadOptions options = {});
 

@@ -270,11 +270,17 @@ class FaceMap {
     }
     if (!tip.exists()) return;
     const Vec3 nose = place(tip);
-    const Spot foremost = best(upper.y + 0.15f * between_, upper.y, [](Vec3 p) { return p.z; });
+    const Spot foremost = best(upper.y + 0.08f * between_, upper.y, [](Vec3 p) { return p.z; });
     const Vec3 lip = foremost.exists() ? place(foremost) : upper;
     const float slope = (lip.z - nose.z) / (lip.y - nose.y);
-    const Spot base =
-        best(nose.y, lip.y, [&](Vec3 p) { return nose.z + (p.y - nose.y) * slope - p.z; });
+    const auto depth = [&](Vec3 p) { return nose.z + (p.y - nose.y) * slope - p.z; };
+    const Spot deepest = best(nose.y, lip.y, depth);
+    if (!deepest.exists()) return;
+    // Where nose and lip meet there may be no corner: of what is nearly as deep, the highest.
+    const float enough = 0.75f * depth(place(deepest));
+    const Spot base = best(nose.y, lip.y, [&](Vec3 p) {
+      return depth(p) >= enough ? p.y : -std::numeric_limits<float>::infinity();
+    });
     set("9.15", base);
     if (!base.exists()) return;
     const float mns = place(base).y - upper.y;

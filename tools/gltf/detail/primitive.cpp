@@ -93,6 +93,7 @@ Result<void> MeshReader::add_node(std::size_t index, ShapeNames& names) {
     if (!read) return read.error();
     skin = std::move(*read);
   }
+  next_number_ = 0;
   Place place{index, &node, skin ? &*skin : nullptr, {}};
   if (!skin && !shares_.empty() && shares_[index] > 0) place.share = shares_[index];
   for (const Json& entry : list(mesh, "primitives")) {
@@ -139,6 +140,13 @@ Result<RawPiece> MeshReader::primitive(const Json& mesh, const Json& entry, cons
       triangles_of(indices, piece.positions.size(), whole_or(member(entry, "mode"), kTriangles));
   if (!triangles) return triangles.error();
   piece.triangles = std::move(*triangles);
+  piece.numbers.assign(piece.positions.size(), kNewVertex);
+  for (const head::Triangle& t : piece.triangles) {
+    for (const std::uint32_t v : t) piece.numbers[v] = 0;
+  }
+  for (std::uint32_t& number : piece.numbers) {
+    if (number == 0) number = next_number_++;
+  }
   if (!maps.empty() && mirrors(maps[0])) {
     for (head::Triangle& t : piece.triangles) std::swap(t[1], t[2]);
   }

@@ -20,6 +20,14 @@ struct PieceMorph {
   Moves moves;
 };
 
+inline constexpr std::uint32_t kNewVertex = ~0u;
+
+/// Where a vertex of the file is.
+struct FileVertex {
+  std::uint32_t number = 0;
+  std::uint32_t vertex = 0;  ///< of the piece
+};
+
 /// One primitive of a node's mesh. Vectors of vertices have the length of `positions`, or none.
 struct RawPiece {
   std::size_t node = 0;
@@ -31,6 +39,10 @@ struct RawPiece {
   std::vector<Colour> colours;      ///< COLOR_0
   std::vector<float> neck_weights;  ///< see head::Piece
   std::vector<PieceMorph> morphs;   ///< by shape
+  /// Numbers in the file: through the primitives of the node's mesh, of each the vertices that have
+  /// a triangle, as Blender counts them. kNewVertex: divided triangles made it.
+  std::vector<std::uint32_t> numbers;
+  std::vector<FileVertex> file_vertices;  ///< after weld(), in place of `numbers`; by number
 };
 
 /// Names of morph targets in the order in which they are met; the same name in two meshes is one
@@ -80,6 +92,7 @@ class MeshReader {
   std::map<std::pair<std::size_t, std::size_t>, std::string> expressions_;
   std::vector<RawPiece> pieces_;
   std::size_t vertices_ = 0;
+  std::uint32_t next_number_ = 0;  // of the node at hand
 };
 
 }  // namespace animeme::gltf

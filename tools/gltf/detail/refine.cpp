@@ -177,6 +177,7 @@ class Divider {
     if (!piece_.neck_weights.empty()) {
       piece_.neck_weights.push_back((piece_.neck_weights[low] + piece_.neck_weights[high]) / 2);
     }
+    piece_.numbers.push_back(kNewVertex);
     made_.push_back(edge);
     return place->second;
   }

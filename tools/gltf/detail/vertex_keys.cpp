@@ -118,6 +118,14 @@ void weld(RawPiece& piece) {
     const head::Triangle to = {numbers[first[t[0]]], numbers[first[t[1]]], numbers[first[t[2]]]};
     if (to[0] != to[1] && to[1] != to[2] && to[2] != to[0]) out.triangles.push_back(to);
   }
+  for (std::size_t v = 0; v < piece.numbers.size(); ++v) {
+    const std::uint32_t to = numbers[first[v]];
+    if (piece.numbers[v] != kNewVertex && to != ~0u) {
+      out.file_vertices.push_back({piece.numbers[v], to});
+    }
+  }
+  std::sort(out.file_vertices.begin(), out.file_vertices.end(),
+            [](const FileVertex& a, const FileVertex& b) { return a.number < b.number; });
   out.morphs = std::move(piece.morphs);
   for (PieceMorph& morph : out.morphs) renumber(morph.moves, first, numbers);
   std::erase_if(out.morphs, [](const PieceMorph& morph) { return morph.moves.vertices.empty(); });
