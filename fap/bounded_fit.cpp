@@ -16,6 +16,16 @@ constexpr double kStill = 1e-6;      // a weight that changes less has arrived
 constexpr double kAngleUnit = 1e-5;  // rad
 constexpr double kLidsCount = 3;     // the opening of the eye is short and everybody looks at it
 
+// FAPs of one place on the upper and lower lip: together they close it.
+constexpr std::pair<std::size_t, std::size_t> kLips[] = {{4, 5}, {8, 10}, {9, 11}};
+static_assert(std::size(kLips) <= std::size_t(kFirstLowLevel));
+
+double product(const FapValues& a, const FapValues& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
 // Lengths of the FAPUs of ICT-FaceKit's head, in its units (about 2 cm).
 double length_of(Unit unit, double radian) {
   switch (unit) {
@@ -56,11 +66,12 @@ FapValues target_of(const Frame& frame) {
 }
 
 BoundedFit::BoundedFit(std::vector<std::vector<ShapeWeight>> shapes, double ridge,
-                       double steadiness, double most, double radian)
+                       double steadiness, double most, double radian, double lips)
     : shapes_(std::move(shapes)),
       ridge_(std::clamp(ridge, 0.0, 1.0)),
       steadiness_(std::clamp(steadiness, 0.0, 1.0)),
       most_(most),
+      lips_(lips),
       lengths_(fap_lengths(radian)),
       weights_(shapes_.size(), 0.0) {}
 
@@ -69,34 +80,42 @@ void BoundedFit::set_mask(const Mask& wanted) {
   mask_ = wanted;
   has_gram_ = true;
   const std::size_t n = shapes_.size();
-  std::vector<FapValues> columns(n);
+  columns_.assign(n, {});
   for (std::size_t i = 0; i < n; ++i) {
-    columns[i].fill(0);
     for (const ShapeWeight& weight : shapes_[i]) {
-      const std::size_t fap = std::size_t(weight.fap);
-      if (mask_[fap]) columns[i][fap] = weight.value * lengths_[fap];
+      columns_[i][std::size_t(weight.fap)] = weight.value;
     }
+    columns_[i] = weighed(columns_[i]);
   }
   gram_.assign(n * n, 0.0);
+  costs_.assign(n, 0.0);
+  FapValues lips{};
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) {
-      for (std::size_t fap = kFirstLowLevel; fap <= kFapCount; ++fap) {
-        gram_[i * n + j] += columns[i][fap] * columns[j][fap];
-      }
-    }
+    for (std::size_t j = 0; j < n; ++j) gram_[i * n + j] = product(columns_[i], columns_[j]);
+    for (std::size_t k = 0; k < std::size(kLips); ++k) lips[k] = columns_[i][k];
+    costs_[i] = gram_[i * n + i] - product(lips, lips);
   }
+}
+
+// Lengths that count, 0 for FAPs that the mask does not have; the lips' distances stand in front of
+// the low-level FAPs.
+FapValues BoundedFit::weighed(const FapValues& values) const {
+  FapValues out{};
+  for (std::size_t fap = kFirstLowLevel; fap <= kFapCount; ++fap) {
+    if (mask_[fap]) out[fap] = values[fap] * lengths_[fap];
+  }
+  for (std::size_t k = 0; k < std::size(kLips); ++k) {
+    const auto& [upper, lower] = kLips[k];
+    if (mask_[upper] && mask_[lower]) out[k] = lips_ * (out[upper] + out[lower]);
+  }
+  return out;
 }
 
 // What each shape would explain of the target.
 std::vector<double> BoundedFit::projections(const FapValues& target) const {
-  std::vector<double> sums(shapes_.size(), 0.0);
-  for (std::size_t i = 0; i < shapes_.size(); ++i) {
-    for (const ShapeWeight& weight : shapes_[i]) {
-      const std::size_t fap = std::size_t(weight.fap);
-      if (!mask_[fap]) continue;
-      sums[i] += weight.value * lengths_[fap] * target[fap] * lengths_[fap];
-    }
-  }
+  const FapValues wanted = weighed(target);
+  std::vector<double> sums;
+  for (const FapValues& column : columns_) sums.push_back(product(column, wanted));
   return sums;
 }
 
@@ -112,7 +131,7 @@ void BoundedFit::descend(const std::vector<double>& wanted, double steadiness, d
       for (std::size_t j = 0; j < n; ++j) {
         if (j != i) left -= gram_[i * n + j] * weights_[j];
       }
-      const double best = std::clamp(left / (own * (1 + ridge_ + steadiness)), 0.0, 1.0);
+      const double best = std::clamp(left / (own + costs_[i] * (ridge_ + steadiness)), 0.0, 1.0);
       largest = std::max(largest, std::abs(best - weights_[i]));
       weights_[i] = best;
     }
@@ -147,7 +166,7 @@ const std::vector<double>& BoundedFit::fit(const Mask& mask, const FapValues& ta
   const double steadiness = is_first_ ? 0 : steadiness_;
   is_first_ = false;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    wanted[i] += steadiness * gram_[i * wanted.size() + i] * weights_[i];
+    wanted[i] += steadiness * costs_[i] * weights_[i];
   }
   descend(wanted, steadiness, 0);
   keep_within_limit(wanted, steadiness);

@@ -7,6 +7,8 @@ namespace {
 
 // Of the eyeball, in the units of the fit: a gaze that is off is seen as lips that are off are.
 constexpr double kEyeRadius = 1.2;
+// Teeth that show in a P are seen at once; chosen by eye on heads with ARKit's shapes.
+constexpr double kLipsCount = 3;
 
 std::vector<std::vector<internal::ShapeWeight>> weights_of(std::span<const Frame> shapes) {
   std::vector<std::vector<internal::ShapeWeight>> weights;
@@ -27,8 +29,8 @@ struct ShapeFitter::Impl {
 };
 
 ShapeFitter::ShapeFitter(std::span<const Frame> shapes, double ridge)
-    : impl_(new Impl{
-          {weights_of(shapes), ridge, 0, std::numeric_limits<double>::infinity(), kEyeRadius}}) {}
+    : impl_(new Impl{{weights_of(shapes), ridge, 0, std::numeric_limits<double>::infinity(),
+                      kEyeRadius, kLipsCount}}) {}
 ShapeFitter::ShapeFitter(ShapeFitter&&) noexcept = default;
 ShapeFitter& ShapeFitter::operator=(ShapeFitter&&) noexcept = default;
 ShapeFitter::~ShapeFitter() = default;

@@ -26,8 +26,9 @@ class ShapeFitter {
   ~ShapeFitter();
 
   /// Weights from 0 to 1 whose FAPs come nearest to those of `frame`: least squares over the FAPs
-  /// of its mask, in lengths on a face of usual proportions; lids count three times, angles are
-  /// lengths on the eyeball. Frames do not depend on each other. Good until the next call.
+  /// of its mask, in lengths on a face of usual proportions; lids count three times, so
+  /// does the distance of the lips; angles are lengths on the eyeball. Frames do not depend on each
+  /// other. Good until the next call.
   const std::vector<double>& fit(const Frame& frame);
 
  private:

@@ -32,8 +32,11 @@ class BoundedFit {
   /// what it costs to change a weight, likewise. Both are clamped to 0..1. `most` > 0: what all
   /// weights together may be; the nearest face within that limit is found then. `radian`: length
   /// that stands for one, in units of ICT-FaceKit's head; at 0 FAPs that are angles do not count.
+  /// `lips`: how much more than a FAP the distance of the lips counts (FAP 4 and 5, 8 and 10, 9 and
+  /// 11 together), so that a shut mouth is shut.
   BoundedFit(std::vector<std::vector<ShapeWeight>> shapes, double ridge, double steadiness,
-             double most = std::numeric_limits<double>::infinity(), double radian = 0);
+             double most = std::numeric_limits<double>::infinity(), double radian = 0,
+             double lips = 0);
 
   /// By shape; good until the next call. Shapes without any FAP of `mask` keep their weight.
   const std::vector<double>& fit(const Mask& mask, const FapValues& target);
@@ -43,6 +46,7 @@ class BoundedFit {
 
  private:
   void set_mask(const Mask& wanted);
+  FapValues weighed(const FapValues& values) const;
   std::vector<double> projections(const FapValues& target) const;
   void descend(const std::vector<double>& wanted, double steadiness, double toll);
   void keep_within_limit(const std::vector<double>& wanted, double steadiness);
@@ -51,8 +55,12 @@ class BoundedFit {
   double ridge_;
   double steadiness_;
   double most_;
-  FapValues lengths_;         // of one unit of each FAP
-  std::vector<double> gram_;  // shapes x shapes, for mask_
+  double lips_;
+  FapValues lengths_;               // of one unit of each FAP
+  std::vector<FapValues> columns_;  // what each shape does, weighed, for mask_
+  std::vector<double> gram_;        // shapes x shapes, for mask_
+  std::vector<double> costs_;       // of shapes: what they do, lips not counted
+
   Mask mask_;
   bool has_gram_ = false;
   std::vector<double> weights_;  // of the frame before

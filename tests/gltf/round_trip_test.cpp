@@ -107,6 +107,9 @@ std::vector<fap::Frame> shapes_of_arkit() {
   for (std::size_t shape = 0; shape < std::size_t(fap::kArkitShapeCount); ++shape) {
     fap::ArkitFrame weights{};
     weights[shape] = 0.8;
+    // Which closes the lips of an open jaw and shows nothing without.
+    if (fap::kArkitNames[shape] == "mouthClose")
+      weights[std::size_t(*fap::find_arkit("jawOpen"))] = 0.8;
     frames.push_back(fap::arkit_to_fap(weights, fap::kAllArkit));
   }
   return frames;

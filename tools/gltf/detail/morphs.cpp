@@ -111,9 +111,14 @@ std::vector<Morph> make_morphs(const head::Rig& rig, const GlbOptions& options) 
   if (options.morphs == MorphNames::arkit) {
     for (std::size_t shape = 0; shape < std::size_t(fap::kArkitShapeCount); ++shape) {
       fap::ArkitFrame weights{};
+      // Lips that are shut cannot show mouthClose: it brings those of an open jaw together.
+      const bool closes = fap::kArkitNames[shape] == "mouthClose";
+      if (closes) weights[std::size_t(*fap::find_arkit("jawOpen"))] = 1;
+      const head::Pose before =
+          closes ? head::pose(rig, fap::arkit_to_fap(weights, fap::kAllArkit)) : rest;
       weights[shape] = 1;
       const fap::Frame frame = fap::arkit_to_fap(weights, fap::kAllArkit);
-      add(difference(rig, rest, head::pose(rig, frame), 1, options,
+      add(difference(rig, before, head::pose(rig, frame), 1, options,
                      std::string(fap::kArkitNames[shape])));
     }
     return morphs;
