@@ -155,7 +155,7 @@ TEST(GlbReaders, AHeadThatWentThroughBlenderMovesAsBefore) {
     }
   }
   std::printf("through Blender: off by at most %.2f mm\n", worst);
-  EXPECT_LT(worst, 2.5);  // lids slide, morph targets do not
+  EXPECT_LT(worst, 4);  // lids slide, cheeks rest on teeth, morph targets do not
 }
 
 }  // namespace
