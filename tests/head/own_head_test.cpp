@@ -146,7 +146,13 @@ TEST(OwnHead, EyesAndTeethInOneMeshAreToldApartByTheirPlace) {
   Head mixed = head_of("child");
   const auto join = [&](Part from, Part to) {
     const auto first = std::uint32_t(mixed.part(to).positions.size());
-    for (const Vec3& p : mixed.part(from).positions) mixed.part(to).positions.push_back(p);
+    const head::Mesh& parting = mixed.part(from);
+    head::Mesh& growing = mixed.part(to);
+    for (std::size_t v = 0; v < parting.positions.size(); ++v) {
+      growing.positions.push_back(parting.positions[v]);
+      growing.colours.push_back(parting.colours[v]);
+      growing.occlusion.push_back(parting.occlusion[v]);
+    }
     for (head::Triangle t : mixed.part(from).triangles) {
       for (std::uint32_t& v : t) v += first;
       mixed.part(to).triangles.push_back(t);

@@ -62,7 +62,7 @@ Vec3d onto(const Surface& hair, Vec3d from, Vec3d away, double height) {
 
 // From the parting over the side to the ends, which turn in. Angle 0 is in front, pi behind.
 Lock curtain(const Surface& hair, double angle, double end, double width) {
-  constexpr int kPlaces = 26;
+  constexpr int kPlaces = 22;
   Lock lock;
   lock.width = width;
   lock.flatness = 0.34;
@@ -152,7 +152,7 @@ Mesh make_hair(const Shape& shape) {
   const auto field = [&](Vec3d p) { return bob_field(shape, lines, p); };
   const Vec3 colour = linear_colour(shape.p.hair_colour);
   Mesh bob = surface_nets(field, {-11.2, -10.4, -12.4}, {11.2, 14, 11.2},
-                          0.56 / std::sqrt(shape.p.density));
+                          0.64 / std::sqrt(shape.p.density));
   for (const Vec3& v : bob.positions) {
     const Vec3d p(v);
     const float streak = float(0.6 * strand(p, 41, 1.5) + 0.4 * strand(p, 97, 2.5));

@@ -63,10 +63,9 @@ void add_cap(const Scalp& scalp, const std::vector<double>& edges, const Thickne
       const double phi = 2 * kPi * c / columns;
       const double t = std::min(double(row) / kCapRows, 1.0);
       const double eased = t * (1.25 - 0.25 * t);  // rows are closer at the edge
-      const double below = row == rows ? 1.4 : row > kCapRows ? 0.55 : 0;
       const double grown = thickness(1 - eased, phi);
-      mesh.positions.push_back(
-          Vec3(scalp.place(eased * edges[c], phi, below > 0 ? grown * (1 - below) - 0.05 : grown)));
+      const double height = row == rows ? -0.35 : row > kCapRows ? -0.05 : grown;
+      mesh.positions.push_back(Vec3(scalp.place(eased * edges[c], phi, height)));
     }
   }
   mesh.positions.push_back(Vec3(kMiddle));
