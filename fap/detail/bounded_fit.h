@@ -51,7 +51,7 @@ class BoundedFit {
   double ridge_;
   double steadiness_;
   double most_;
-  FapValues lengths_;            // of one unit of each FAP
+  FapValues lengths_;         // of one unit of each FAP
   std::vector<double> gram_;  // shapes x shapes, for mask_
   Mask mask_;
   bool has_gram_ = false;

@@ -80,7 +80,7 @@ TEST(ViewCommand, SaysWhatMakesALargePageSmall) {
   const auto small = animeme({"view", curves, "--audio", dir / "a.wav", "--audio-codec", "opus",
                               "--audio-bitrate", rate, "-o", dir / "b.html"});
   ASSERT_EQ(small.exit_code, 0) << small.err;
-  EXPECT_THAT(small.err, Not(HasSubstr("3 MB")));
+  EXPECT_THAT(small.err, Not(HasSubstr("--audio-bitrate")));
   EXPECT_GT(slurp(dir / "a.html").size(), 3'000'000u);
   EXPECT_LE(slurp(dir / "b.html").size(), 3'000'000u);
 }

@@ -27,11 +27,11 @@ bool is_arkit_csv(std::string_view text);
 ///
 /// Times are the column timecode, time_s, time or timestamp, in seconds ("1.0333") or as
 /// hh:mm:ss:ff.fff, where .fff is a fraction of a timecode frame. Timecode frames a second are the
-/// smallest of 24, 25, 30, 48, 50, 60, 100, 120 that no frame number reaches, or fewer if rows count
-/// up by one and never get that far; in a take within one second, what fits options.rate, else 60
-/// with a warning. The rest are channels (fap/arkit.h, any
-/// case); missing ones are 0, and an angle that is 0 throughout counts as missing. Columns that are
-/// no channel are left out and named in `warnings`.
+/// smallest of 24, 25, 30, 48, 50, 60, 100, 120 that no frame number reaches, or fewer if rows
+/// count up by one and never get that far; in a take within one second, what fits options.rate,
+/// else 60 with a warning. The rest are channels (fap/arkit.h, any case); missing ones are 0, and
+/// an angle that is 0 throughout counts as missing. Columns that are no channel are left out and
+/// named in `warnings`.
 ///
 /// The rate is that of the median step, snapped to a rate in common use (10 to 120, NTSC ones
 /// included) within 1 %, else to one that FBA can code (k/16). Timecodes count whole frames,

@@ -1,6 +1,7 @@
 #include "tools/render/raster.h"
 
 #include <algorithm>
+#include <atomic>
 #include <barrier>
 #include <thread>
 
@@ -47,6 +48,7 @@ struct Renderer::State {
   std::vector<std::vector<ScreenVertex>> vertices;  // by surface
   std::vector<Bins> bins;                           // by thread
   std::vector<detail::Tile> tiles;                  // by thread
+  std::atomic<int> next_tile = 0;                   // that no thread has taken yet
 
   void shade_part(const Scene& scene, const detail::View& view, int thread);
   void bin_part(const Scene& scene, int thread);
@@ -100,7 +102,7 @@ void Renderer::State::bin_triangle(const Surface& surface, Entry entry, Bins& ou
 
 void Renderer::State::draw_part(const Scene& scene, const detail::View& view, int thread) {
   detail::Tile& tile = tiles[std::size_t(thread)];
-  for (int index = thread; index < tiles_x * tiles_y; index += threads) {
+  for (int index = next_tile++; index < tiles_x * tiles_y; index = next_tile++) {
     tile.start(index % tiles_x * kTile, index / tiles_x * kTile, options);
     for (const Bins& found : bins) {
       for (const Entry& entry : found[std::size_t(index)]) {
@@ -142,6 +144,7 @@ const Image& Renderer::render(const Scene& scene, const Camera& camera) {
   for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
     s.vertices[i].resize(scene.surfaces[i].positions.size());
   }
+  s.next_tile = 0;
   std::barrier step(s.threads);
   const auto work = [&](int thread) {
     s.shade_part(scene, view, thread);

@@ -26,7 +26,7 @@ Scene scene_of(const head::Head& head, const head::Rig& rig, const head::Pose& p
   // First what covers much, so that the rest is seen to be hidden at once.
   using head::Part;
   for (const Part part :
-       {Part::hair, Part::body, Part::skin, Part::left_eye, Part::right_eye, Part::upper_teeth,
+       {Part::skin, Part::hair, Part::body, Part::left_eye, Part::right_eye, Part::upper_teeth,
         Part::lower_teeth, Part::tongue, Part::brows, Part::lashes}) {
     const auto i = std::size_t(part);
     const head::Mesh& mesh = head.parts[i];

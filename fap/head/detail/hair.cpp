@@ -149,17 +149,20 @@ double hair_field(const Shape& shape, const HairLines& lines, Vec3d p) {
 Mesh make_hair(const Shape& shape) {
   if (shape.p.hair != HairStyle::bob) return make_short_hair(shape);
   const HairLines lines = hair_lines(shape);
-  Mesh mesh =
-      surface_nets([&](Vec3d p) { return hair_field(shape, lines, p); }, {-11.2, -10.4, -12.4},
-                   {11.2, 14, 11.2}, 0.56 / std::sqrt(shape.p.density));
+  const auto field = [&](Vec3d p) { return bob_field(shape, lines, p); };
   const Vec3 colour = linear_colour(shape.p.hair_colour);
-  for (const Vec3& v : mesh.positions) {
+  Mesh bob = surface_nets(field, {-11.2, -10.4, -12.4}, {11.2, 14, 11.2},
+                          0.56 / std::sqrt(shape.p.density));
+  for (const Vec3& v : bob.positions) {
     const Vec3d p(v);
     const float streak = float(0.6 * strand(p, 41, 1.5) + 0.4 * strand(p, 97, 2.5));
-    mesh.colours.push_back(colour * (0.72f + 0.6f * streak));
+    bob.colours.push_back(colour * (0.72f + 0.6f * streak));
   }
-  mesh.occlusion.assign(mesh.positions.size(), 1.0f);
-  add_bob_locks([&](Vec3d p) { return bob_field(shape, lines, p); }, lines, colour, mesh);
+  bob.occlusion.assign(bob.positions.size(), 1.0f);
+  // What lies below comes last: renderers need not paint it then.
+  Mesh mesh;
+  add_bob_locks(field, lines, colour, mesh);
+  append(mesh, bob);
   mesh.material = Material::hair;
   return mesh;
 }

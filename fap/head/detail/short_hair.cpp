@@ -164,12 +164,13 @@ Mesh make_short_hair(const Shape& shape) {
   };
   const Vec3 colour = linear_colour(shape.p.hair_colour);
   Mesh mesh;
-  add_cap(scalp, edges, thickness, colour * 0.9f, mesh);
   if (shape.p.hair == HairStyle::fringe) {
     add_mop(scalp, cap, colour, mesh);
   } else {
     add_quiff(scalp, cap, edges, colour, mesh);
   }
+  // What lies below comes last: renderers need not paint it then.
+  add_cap(scalp, edges, thickness, colour * 0.9f, mesh);
   mesh.material = Material::hair;
   return mesh;
 }

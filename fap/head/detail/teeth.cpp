@@ -3,7 +3,8 @@
 namespace animeme::head::detail {
 namespace {
 
-constexpr float kClear = 1.05f;  // skin comes no nearer to the middle of the arch, its edge is 1
+constexpr float kClear = 1.07f;  // skin comes no nearer to the middle of the arch, its edge is 1
+constexpr float kSoft = 0.05f;   // the push begins gently, over this
 constexpr float kReach = 1.9f;   // skin further out is never near
 
 // Where a place is in the arch seen from above: 1 on its outer edge.
@@ -56,7 +57,8 @@ void keep_off_teeth(const Rig& rig, const DentalArch& arch, const Transform& pla
     if (r >= least || r < 0.5f || p.z < arch.middle.z) continue;
     // Nothing above and below the row.
     const float here = smooth_step(2.4f, 0.8f, std::abs(p.y - arch.middle.y) / arch.half_height);
-    const float push = (least / r - 1) * here;
+    const float inside = least - r;
+    const float push = inside * inside / (inside + kSoft) / r * here;
     const Vec3 out{(p.x - arch.middle.x) * push, 0, (p.z - arch.middle.z) * push};
     skin[v] += place.turn(out);
   }

@@ -36,6 +36,9 @@ constexpr std::array<Middle, 16> make_middles() {
 }
 constexpr std::array<Middle, 16> kMiddles = make_middles();
 
+constexpr int kWide = 7;        // pixels
+constexpr int kLookEvery = 48;  // triangles
+
 F4 splat(float v) { return F4{v, v, v, v}; }
 I4 splat(std::int32_t v) { return I4{v, v, v, v}; }
 
@@ -75,6 +78,47 @@ Side make_side(const ScreenVertex& p, const ScreenVertex& q, std::int32_t x0, st
   constexpr std::int64_t kLarge = 1 << 30;  // no change of sign within a tile
   return {step_x, step_y, std::int32_t(std::clamp(start, -kLarge, kLarge))};
 }
+
+// Which pixels of a row can have a sample inside of all sides. Careful by a pixel, as it reckons in
+// floating point; the samples are decided by the sides themselves.
+class Reach {
+ public:
+  struct Span {
+    int first, last;  // from the first pixel of the row
+  };
+
+  Reach() = default;
+  explicit Reach(const Side (&sides)[3]) {
+    for (int s = 0; s < 3; ++s) {
+      const std::int32_t step = sides[s].step_x * kSubpixels;
+      scale_[s] = step == 0 ? 0 : -1 / float(step);
+      rises_[s] = step > 0;
+    }
+  }
+
+  Span of(const I4 (&edges)[3], int last) const {
+    float from = 0;
+    float to = float(last);
+    for (int s = 0; s < 3; ++s) {
+      // The sample that is farthest in.
+      const std::int32_t most =
+          std::max(std::max(edges[s][0], edges[s][1]), std::max(edges[s][2], edges[s][3]));
+      const float border = float(most) * scale_[s];  // here it would be on the side
+      if (scale_[s] == 0) {
+        if (most < 0) to = -1;
+      } else if (rises_[s]) {
+        from = std::max(from, border - 1);
+      } else {
+        to = std::min(to, border + 1);
+      }
+    }
+    return {int(from), int(std::max(to, -1.0f))};
+  }
+
+ private:
+  float scale_[3] = {};
+  bool rises_[3] = {};
+};
 
 // value = at + dx * x + dy * y, pixels from the first corner; four values at once.
 struct Plane {
@@ -137,12 +181,39 @@ void Tile::start(int x, int y, const RenderOptions& options) {
   width_ = std::min(kTile, options.width - x);
   height_ = std::min(kTile, options.height - y);
   nearness_.fill(splat(0.0f));
+  farthest_.fill(0);
+  drawn_ = 0;
   const Vec3 top = unpack(options.background_top);
   const Vec3 bottom = unpack(options.background_bottom);
   for (int row = 0; row < kTile; ++row) {
     const Vec3 c = head::mix(top, bottom, (float(y + row) + 0.5f) / float(options.height));
     std::fill_n(colour_.begin() + row * kTile, kTile, splat(pack(as_vector(c))));
   }
+}
+
+void Tile::look_how_near() {
+  drawn_ = 0;
+  for (int block = 0; block < kBlocks * kBlocks; ++block) {
+    const int first = block / kBlocks * kBlock * kTile + block % kBlocks * kBlock;
+    F4 least = nearness_[std::size_t(first)];
+    for (int y = 0; y < kBlock; ++y) {
+      for (int x = 0; x < kBlock; ++x) {
+        const F4 here = nearness_[std::size_t(first + y * kTile + x)];
+        least = here < least ? here : least;
+      }
+    }
+    farthest_[std::size_t(block)] =
+        std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
+  }
+}
+
+bool Tile::is_hidden(float nearest, int x0, int y0, int x1, int y1) const {
+  for (int y = y0 / kBlock; y <= y1 / kBlock; ++y) {
+    for (int x = x0 / kBlock; x <= x1 / kBlock; ++x) {
+      if (nearest > farthest_[std::size_t(y * kBlocks + x)]) return false;
+    }
+  }
+  return true;
 }
 
 void Tile::draw(const Corners& corners, bool eye, const View& view) {
@@ -155,6 +226,10 @@ void Tile::draw(const Corners& corners, bool eye, const View& view) {
   const int x1 = std::min((std::max({a.x, b.x, c.x}) >> 4) - x_, width_ - 1);
   const int y1 = std::min((std::max({a.y, b.y, c.y}) >> 4) - y_, height_ - 1);
   if (x0 > x1 || y0 > y1) return;
+  // Between the corners nothing is nearer than the nearest of them, but for the last digits.
+  const float nearest = std::max({a.nearness, b.nearness, c.nearness}) * 1.00001f;
+  if (is_hidden(nearest, x0, y0, x1, y1)) return;
+  if (++drawn_ == kLookEvery) look_how_near();
   const std::int32_t left = (x_ + x0) * kSubpixels;
   const std::int32_t top = (y_ + y0) * kSubpixels;
   // On the screen, with y down, corners that were counterclockwise have a negative area.
@@ -173,12 +248,16 @@ void Tile::draw(const Corners& corners, bool eye, const View& view) {
       (to_float(kSampleX) * near.dx + to_float(kSampleY) * near.dy) * splat(1.0f / kSubpixels);
   const float ax = float(a.x) / kSubpixels;
   const float ay = float(a.y) / kSubpixels;
+  // For short rows it is quicker to look at each pixel.
+  const bool is_wide = x1 - x0 >= kWide;
+  const Reach reach = is_wide ? Reach(sides) : Reach();
   for (int y = y0; y <= y1; ++y) {
-    I4 e0 = row_edge[0];
-    I4 e1 = row_edge[1];
-    I4 e2 = row_edge[2];
+    const Reach::Span span = is_wide ? reach.of(row_edge, x1 - x0) : Reach::Span{0, x1 - x0};
+    I4 e0 = row_edge[0] + sides[0].step_x * kSubpixels * span.first;
+    I4 e1 = row_edge[1] + sides[1].step_x * kSubpixels * span.first;
+    I4 e2 = row_edge[2] + sides[2].step_x * kSubpixels * span.first;
     const float py = float(y_ + y) - ay;
-    for (int x = x0; x <= x1; ++x) {
+    for (int x = x0 + span.first; x <= x0 + span.last; ++x) {
       const I4 inside = (e0 | e1 | e2) >= 0;
       if (lanes(inside) != 0) {
         const float px = float(x_ + x) - ax;

@@ -8,7 +8,8 @@
 
 namespace animeme::render::detail {
 
-inline constexpr int kTile = 32;    ///< pixels a side
+inline constexpr int kTile = 64;    ///< pixels a side
+inline constexpr int kBlock = 8;    ///< pixels a side of the squares that are known to be covered
 inline constexpr int kSamples = 4;  ///< a pixel
 
 /// Vectors of the four samples of a pixel, by an extension that g++ and clang++ share.
@@ -35,6 +36,14 @@ class Tile {
   void draw_pixel(int index, const I4& inside, const F4& nearness, Planes& planes, float x, float y,
                   const View& view);
 
+  void look_how_near();
+  bool is_hidden(float nearest, int x0, int y0, int x1, int y1) const;
+
+  static constexpr int kBlocks = kTile / kBlock;
+  /// For each square of the tile: nothing in it is farther away than this. Looked up now and then,
+  /// so it may be too careful.
+  std::array<float, kBlocks * kBlocks> farthest_;
+  int drawn_ = 0;  // triangles since then
   int x_ = 0;
   int y_ = 0;
   int width_ = 0;

@@ -9,7 +9,8 @@ const RADIANS = 1e-5;  // one unit of an angle
 const EYE_SKIN = 1.07;  // of the radius of an eyeball: skin comes no nearer to its centre
 const LID_RISE = -270;  // upper lids rise by this at most
 const JAW_BACK = -250;  // and the jaw goes back by this
-const TEETH_SKIN = 1.05;  // of the half axes of a row of teeth, the same
+const TEETH_SKIN = 1.07;  // of the half axes of a row of teeth, the same
+const TEETH_SOFT = 0.05;  // the push begins gently, over this
 const CONTACT = 0.06;  // lips and lids feel each other at this share of the mouth-nose distance
 
 // Two FAPs whose points would pass each other let them meet half way.
@@ -172,7 +173,9 @@ export class Rig {
       const is = ratio(x, z);
       const least = Math.min(TEETH_SKIN, ratio(neutral[i], neutral[i + 2]));
       if (is >= least || is < 0.5 || z < mz) continue;
-      const push = (least / is - 1) * smoothStep(2.4, 0.8, Math.abs(y - my) / height);
+      const inside = least - is;
+      const push = inside * inside / (inside + TEETH_SOFT) / is *
+          smoothStep(2.4, 0.8, Math.abs(y - my) / height);
       const [ox, oz] = [(x - mx) * push, (z - mz) * push];
       skin[i] += place[0] * ox + place[2] * oz;
       skin[i + 1] += place[3] * ox + place[5] * oz;
