@@ -54,7 +54,11 @@ void try_file(std::span<const std::uint8_t> bytes) {
   if (!source) return;
   check(*source);
   std::size_t vertices = 0;
-  for (const auto& piece : source->pieces) vertices += piece.mesh.positions.size();
+  for (auto& piece : source->pieces) {
+    vertices += piece.mesh.positions.size();
+    // Looking for shadows would take most of the time.
+    piece.mesh.occlusion.assign(piece.mesh.positions.size(), 1);
+  }
   if (vertices > 5000) return;
   const bool shapes = !source->shapes.empty();
   const auto head = animeme::head::assemble(std::move(*source));
