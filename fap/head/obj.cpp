@@ -201,12 +201,17 @@ std::string write_obj(const Head& head) {
     const Mesh& mesh = head.parts[part];
     if (mesh.positions.empty()) continue;
     out += "g " + std::string(kPartNames[part]) + "\n";
+    const bool coloured = mesh.colours.size() == mesh.positions.size();
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
       const Vec3 p = mesh.positions[v];
-      const Vec3 c = mesh.colours[v];
-      std::snprintf(line, sizeof line, "v %.6g %.6g %.6g %.4f %.4f %.4f\n", double(p.x),
-                    double(p.y), double(p.z), double(c.x), double(c.y), double(c.z));
+      std::snprintf(line, sizeof line, "v %.6g %.6g %.6g", double(p.x), double(p.y), double(p.z));
       out += line;
+      if (coloured) {
+        const Vec3 c = mesh.colours[v];
+        std::snprintf(line, sizeof line, " %.4f %.4f %.4f", double(c.x), double(c.y), double(c.z));
+        out += line;
+      }
+      out += '\n';
     }
     for (const Triangle& t : mesh.triangles) {
       std::snprintf(line, sizeof line, "f %zu %zu %zu\n", first + t[0], first + t[1], first + t[2]);
