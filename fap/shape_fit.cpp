@@ -7,7 +7,9 @@ namespace {
 
 // Of the eyeball, in the units of the fit: a gaze that is off is seen as lips that are off are.
 constexpr double kEyeRadius = 1.2;
-// Teeth that show in a P are seen at once; chosen by eye on heads with ARKit's shapes.
+// Teeth that show in a P are seen at once. On the built-in woman with ARKit's shapes the lips of
+// one sentence stay apart in closures by 1.4 mm at 0, 1.0 at 3, 0.8 at 6, where a head that has
+// visemes alone shows some of them at less than half their weight.
 constexpr double kLipsCount = 3;
 
 std::vector<std::vector<internal::ShapeWeight>> weights_of(std::span<const Frame> shapes) {
