@@ -3,7 +3,7 @@
 namespace animeme::head::detail {
 namespace {
 
-constexpr int kRounds = 24;
+constexpr int kRounds = 40;
 
 // The matrix of the step: unit and the flow between neighbours; symmetric.
 class Flow {

@@ -49,7 +49,7 @@ Shape::Shape(const HeadParameters& parameters) : p(parameters) {
   add_nose(skin, p);
   // Between nose and upper lip.
   const double groove = 0.5 * (upper_lip(0) - p.nose_length - 0.62);
-  skin.hollow({0, groove, front(0, groove).z + 0.30}, {0.24, 0.5, 0.34}, 0.35);
+  skin.hollow({0, groove, front(0, groove).z + 0.30}, {0.26, 0.62, 0.36}, 0.45);
   const auto side = [this](double y) { return outer_hit(skin, {0, y, -0.3}, {1, 0, 0}, 14); };
   ear = side(-0.75);
   ear_lean = (side(1.0).x - side(-2.5).x) / 3.5;
