@@ -4,8 +4,13 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstdio>
+#include <fstream>
 #include <future>
+#include <sstream>
 #include <thread>
 
 #include "tests/readers/readers_support.h"
@@ -44,11 +49,20 @@ int free_port() {
   return 0;
 }
 
-// Waits until somebody listens on a port.
+// Waits until somebody listens on a port, by the kernel's table: a trial to bind it would, for a
+// moment, keep the receiver from it.
 bool listened_to(int port) {
+  std::array<char, 8> wanted{};
+  std::snprintf(wanted.data(), wanted.size(), ":%04X", unsigned(port));
   for (int i = 0; i < 1000; ++i) {
-    int ignored = 0;
-    if (!bind_udp(port, ignored)) return true;
+    for (const char* table : {"/proc/net/udp", "/proc/net/udp6"}) {
+      std::ifstream rows(table);
+      for (std::string row; std::getline(rows, row);) {
+        std::string number, local;  // "12:", "0100007F:1388"
+        std::istringstream(row) >> number >> local;
+        if (local.ends_with(wanted.data())) return true;
+      }
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   return false;
@@ -72,8 +86,15 @@ class Live : public testing::Test {
 
   // What ffprobe printed has every unit, a plane time apart.
   void expect_units(const std::string& said) const {
-    const Json report = Json::parse(said, nullptr, false);
+    Json report = Json::parse(said, nullptr, false);
     ASSERT_TRUE(report.contains("packets")) << said;
+    // It takes a copy right behind its original for a further packet. One comes at the end, and,
+    // if the machine holds the sender up, in between.
+    Json& packets = report["packets"];
+    const auto copies = [](const Json& a, const Json& b) {
+      return a["pts"] == b["pts"] && a["data"] == b["data"];
+    };
+    packets.erase(std::unique(packets.begin(), packets.end(), copies), packets.end());
     const std::vector<Bytes> units = units_of(talk_, true);
     ASSERT_EQ(report["packets"].size(), units.size());
     const std::int64_t first = report["packets"][0]["pts"];

@@ -25,7 +25,8 @@ struct RtpOptions {
   /// packet of the face, the next copy by two, so a burst that swallows both has to last a plane.
   /// Planes are smaller than the headers around them, and a lost one spoils the face up to the
   /// next intra plane, hence 2. Receivers that do not drop duplicates want 1 (a bare
-  /// `rtpmp4vdepay` of GStreamer without `rtpjitterbuffer`).
+  /// `rtpmp4vdepay` of GStreamer without `rtpjitterbuffer`; FFmpeg drops all but copies right
+  /// behind their original, which come where no plane follows for 0.2 s and at the end).
   int repeat = 2;
   /// Planes a packet, 1..16. More save headers and cost delay. Their sizes and times go into an RTP
   /// header extension that the session description announces; receivers that do not know it see
