@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "fap/arkit.h"
 #include "fap/head/rig.h"
 #include "tools/render/scene.h"
 
@@ -56,6 +57,20 @@ void pose(benchmark::State& state) {
   state.counters["vertices"] = double(ready().head.part(head::Part::skin).positions.size());
 }
 
+// What a head with ARKit's 52 shapes costs beyond its targets: the weights that fit a frame.
+void shape_weights(benchmark::State& state) {
+  head::Rig rig;
+  rig.fapu = ready().rig.fapu;
+  for (std::size_t shape = 0; shape < fap::kArkitShapeCount; ++shape) {
+    fap::ArkitFrame weights{};
+    weights[shape] = 1;
+    rig.shapes.push_back(
+        {std::string(fap::kArkitNames[shape]), fap::arkit_to_fap(weights, fap::kAllArkit)});
+  }
+  int i = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(head::control_values(rig, speaking(i++)));
+}
+
 void frame(benchmark::State& state) {
   const Ready& r = ready();
   render::Renderer renderer({.width = 640, .height = 640, .threads = int(state.range(0))});
@@ -76,6 +91,7 @@ void frame(benchmark::State& state) {
 BENCHMARK(make)->Unit(benchmark::kMillisecond);
 BENCHMARK(rig)->Unit(benchmark::kMillisecond);
 BENCHMARK(pose)->Unit(benchmark::kMillisecond);
+BENCHMARK(shape_weights)->Unit(benchmark::kMillisecond);
 BENCHMARK(frame)
     ->Arg(1)
     ->Arg(2)

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "fap/arkit.h"
+#include "tests/gltf/actor.h"
 
 namespace animeme::gltf {
 namespace {
@@ -64,22 +65,6 @@ Glb parse(const std::vector<std::uint8_t>& file) {
   glb.binary.assign(file.begin() + 28 + length, file.end());
   EXPECT_EQ(word(file, 20 + length), glb.binary.size());
   return glb;
-}
-
-struct Actor {
-  head::Head head;
-  head::Rig rig;
-};
-
-const Actor& actor() {
-  static const Actor made = [] {
-    head::HeadParameters parameters = *head::head_parameters("woman");
-    parameters.density = 0.5;
-    Actor out{*head::make_head(parameters), {}};
-    out.rig = head::make_rig(out.head);
-    return out;
-  }();
-  return made;
 }
 
 // Mouth opens in three frames, the head turns left by 0.3 rad, the eyes right.

@@ -10,6 +10,7 @@
 #include "fap/head/own_head.h"
 #include "fap/head/shapes.h"
 #include "fap/tables.h"
+#include "tests/gltf/actor.h"
 #include "tests/support/gltf_writer.h"
 #include "tools/gltf/glb.h"
 #include "tools/gltf/read_head.h"
@@ -19,22 +20,6 @@ namespace {
 
 using head::Part;
 using head::Vec3;
-
-struct Actor {
-  head::Head head;
-  head::Rig rig;
-};
-
-const Actor& actor() {
-  static const Actor made = [] {
-    head::HeadParameters parameters = *head::head_parameters("woman");
-    parameters.density = 0.5;
-    Actor out{*head::make_head(parameters), {}};
-    out.rig = head::make_rig(out.head);
-    return out;
-  }();
-  return made;
-}
 
 fap::Sequence still() {
   fap::Sequence clip{{25, 1}, {}, "still"};

@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "fap/head/rig.h"
@@ -36,6 +39,32 @@ inline head::Vec3 posed(const head::Head& head, const head::Rig& rig, const head
   const auto part = std::size_t(point.part);
   const auto& moved = pose.positions[part];
   return pose.transforms[part]((moved.empty() ? rig.parts[part].positions : moved)[point.vertex]);
+}
+
+/// Each FAP moves its feature point by value * FAPU/1024 along its axis, within 3 %. Points that
+/// the head lacks, and those of parts other than `only`, if given, are left out. Returns the number
+/// of moves that were compared.
+inline int expect_table_moves(const head::Head& head, const head::Rig& rig,
+                              std::initializer_list<int> values,
+                              std::optional<head::Part> only = {}) {
+  int compared = 0;
+  for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+    const fap::Move move = fap::move_of(fap);
+    const std::string_view id = fap::info(fap).feature_point;
+    if (move.kind != fap::MoveKind::translate || !head.point(id).exists()) continue;
+    if (only && head.point(id).part != *only) continue;
+    for (const int value : values) {
+      fap::Frame frame;
+      frame.set(fap, value);
+      const head::Vec3 d =
+          posed(head, rig, head::pose(rig, frame, {.contact = false}), id) - head.at(id);
+      const double wanted = fap::displacement(fap, value, rig.fapu);
+      const double along = move.axis[0] * d.x + move.axis[1] * d.y + move.axis[2] * d.z;
+      EXPECT_NEAR(along, wanted, 0.03 * std::abs(wanted)) << "FAP " << fap << " on " << id;
+      ++compared;
+    }
+  }
+  return compared;
 }
 
 /// Triangles of the skin that look inwards: against the mean normal of their corners.

@@ -1,7 +1,7 @@
 // What the targets of a source do, and files with something changed in them.
 #pragma once
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <string>
 
@@ -46,5 +46,13 @@ struct Damage {
   std::int64_t line;
   const char* message;
 };
+
+/// What came of a changed file: its error has the code, the line and a part of the sentence.
+inline void expect_refused(const Result<head::Source>& read, const Damage& damage) {
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().code, damage.code) << read.error().describe();
+  EXPECT_EQ(read.error().where.line, damage.line) << read.error().describe();
+  EXPECT_THAT(read.error().message, ::testing::HasSubstr(damage.message));
+}
 
 }  // namespace animeme::test

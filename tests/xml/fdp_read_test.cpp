@@ -136,10 +136,7 @@ class FdpErrors : public ::testing::TestWithParam<Damage> {};
 TEST_P(FdpErrors, NameThePlaceAndTheRemedy) {
   const auto source = head::read_fdp(
       replaced(data_file("heads/mask.fdp"), GetParam().from, GetParam().to), load_data);
-  ASSERT_FALSE(source);
-  EXPECT_EQ(source.error().code, GetParam().code) << source.error().describe();
-  EXPECT_EQ(source.error().where.line, GetParam().line) << source.error().describe();
-  EXPECT_THAT(source.error().message, HasSubstr(GetParam().message));
+  expect_refused(source, GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(
