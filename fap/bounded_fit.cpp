@@ -122,18 +122,25 @@ std::vector<double> BoundedFit::projections(const FapValues& target) const {
 // `wanted` has the pull of the frame before in it; `toll` is what any weight costs.
 void BoundedFit::descend(const std::vector<double>& wanted, double steadiness, double toll) {
   const std::size_t n = shapes_.size();
+  // What each shape could still explain; kept up with every weight that changes, and most do not.
+  left_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) left_[i] = wanted[i] - toll;
+  const auto take = [&](std::size_t i, double weight) {
+    for (std::size_t j = 0; j < n; ++j) left_[j] -= gram_[i * n + j] * weight;
+  };
+  for (std::size_t i = 0; i < n; ++i) take(i, weights_[i]);
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     double largest = 0;
     for (std::size_t i = 0; i < n; ++i) {
       const double own = gram_[i * n + i];
       if (own <= 0) continue;  // the frame has none of its FAPs: it stays as it is
-      double left = wanted[i] - toll;
-      for (std::size_t j = 0; j < n; ++j) {
-        if (j != i) left -= gram_[i * n + j] * weights_[j];
-      }
-      const double best = std::clamp(left / (own + costs_[i] * (ridge_ + steadiness)), 0.0, 1.0);
-      largest = std::max(largest, std::abs(best - weights_[i]));
+      const double alone = left_[i] + own * weights_[i];
+      const double best = std::clamp(alone / (own + costs_[i] * (ridge_ + steadiness)), 0.0, 1.0);
+      const double change = best - weights_[i];
+      if (change == 0) continue;
+      largest = std::max(largest, std::abs(change));
       weights_[i] = best;
+      take(i, change);
     }
     if (largest < kStill) return;
   }

@@ -60,6 +60,7 @@ class BoundedFit {
   std::vector<FapValues> columns_;  // what each shape does, weighed, for mask_
   std::vector<double> gram_;        // shapes x shapes, for mask_
   std::vector<double> costs_;       // of shapes: what they do, lips not counted
+  std::vector<double> left_;        // of the descent
 
   Mask mask_;
   bool has_gram_ = false;
