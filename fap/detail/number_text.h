@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -26,9 +27,10 @@ inline void append_significant(std::string& text, float number, int digits) {
 }
 
 /// The whole of `token` as a finite number; a '+' may stand before it.
-inline std::optional<double> finite_number(std::string_view token) {
+template <std::floating_point T = double>
+std::optional<T> finite_number(std::string_view token) {
   if (token.starts_with('+')) token.remove_prefix(1);
-  double value = 0;
+  T value = 0;
   const auto [end, code] = std::from_chars(token.data(), token.data() + token.size(), value);
   if (end != token.data() + token.size() || code != std::errc() || !std::isfinite(value)) return {};
   return value;

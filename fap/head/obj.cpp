@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <optional>
 
+#include "fap/detail/number_text.h"
+
 namespace animeme::head {
 namespace {
 
@@ -42,14 +44,6 @@ class Line {
   std::size_t at_ = 0;
   std::size_t start_ = 0;
 };
-
-std::optional<float> number(std::string_view word) {
-  float value = 0;
-  if (word.starts_with('+')) word.remove_prefix(1);
-  const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
-  const bool good = code == std::errc() && end == word.data() + word.size() && std::isfinite(value);
-  return good ? std::optional(value) : std::nullopt;
-}
 
 class Reader {
  public:
@@ -92,7 +86,7 @@ class Reader {
   std::optional<Error> read_vertex(Line& line) {
     std::vector<float> values;
     for (std::string_view word = line.word(); !word.empty(); word = line.word()) {
-      const std::optional<float> value = number(word);
+      const std::optional<float> value = fap::detail::finite_number<float>(word);
       if (!value) return line.bad("\"" + std::string(word) + "\" is no number");
       values.push_back(*value);
     }

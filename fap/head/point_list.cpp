@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fap/detail/number_text.h"
+
 namespace animeme::head {
 namespace {
 
@@ -25,9 +27,8 @@ std::vector<std::string> fields_of(std::string_view line) {
   return fields;
 }
 
-template <class T>
-std::optional<T> parse(const std::string& field) {
-  T value{};
+std::optional<std::uint32_t> index_of(const std::string& field) {
+  std::uint32_t value = 0;
   const auto [end, code] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (code != std::errc() || end != field.data() + field.size()) return std::nullopt;
   return value;
@@ -96,11 +97,13 @@ class Rows {
     PointRow row{.id = field(columns_.id), .mesh = field(columns_.mesh), .line = number};
     const std::string vertex = field(columns_.vertex);
     if (!vertex.empty()) {
-      row.vertex = parse<std::uint32_t>(vertex);
+      row.vertex = index_of(vertex);
       if (!row.vertex) return bad("\"" + vertex + "\" is no vertex number", number);
     }
     std::array<std::optional<float>, 3> place;
-    for (std::size_t k = 0; k < 3; ++k) place[k] = parse<float>(field(columns_.place[k]));
+    for (std::size_t k = 0; k < 3; ++k) {
+      place[k] = fap::detail::finite_number<float>(field(columns_.place[k]));
+    }
     if (place[0] && place[1] && place[2]) row.place = Vec3{*place[0], *place[1], *place[2]};
     if (!row.vertex && !row.place) {
       return bad("point " + row.id + " needs a vertex number, or x, y and z", number);

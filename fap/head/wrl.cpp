@@ -1,8 +1,8 @@
 #include "fap/head/wrl.h"
 
 #include "fap/detail/number_text.h"
-#include "fap/head/detail/srgb.h"
 #include "fap/head/detail/wrl_scene.h"
+#include "fap/head/srgb.h"
 
 namespace animeme::head {
 namespace {
@@ -35,7 +35,7 @@ Vec3 mean(std::span<const Vec3> colours) {
 }
 
 void append_colour(std::string& text, Vec3 linear) {
-  const Vec3 c = detail::srgb_of_linear(linear);
+  const Vec3 c = srgb_of_linear(linear);
   for (const float x : {c.x, c.y, c.z}) {
     append_significant(text, std::round(x * 1000) / 1000, 4);
     text += ' ';

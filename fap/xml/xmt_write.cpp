@@ -2,7 +2,7 @@
 #include <span>
 
 #include "fap/detail/number_text.h"
-#include "fap/head/detail/srgb.h"
+#include "fap/head/srgb.h"
 #include "fap/xml/detail/moves.h"
 #include "fap/xml/detail/writable.h"
 #include "fap/xml/xmt.h"
@@ -51,7 +51,7 @@ class Writer {
     add(v.z);
   }
   void add_colour(Vec3 linear) {
-    const Vec3 c = detail::srgb_of_linear(linear);
+    const Vec3 c = srgb_of_linear(linear);
     for (const float x : {c.x, c.y, c.z}) {
       append_significant(text_, x, 3);
       text_ += ' ';

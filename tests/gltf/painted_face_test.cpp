@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "fap/head/srgb.h"
 #include "tests/support/gltf_writer.h"
 #include "tests/support/png_writer.h"
 #include "tools/gltf/read_head.h"
@@ -77,10 +78,6 @@ std::vector<std::uint8_t> face_file() {
   return file.glb();
 }
 
-float srgb(float linear) {
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-}
-
 // Draws the colours of the vertices over the plane and compares: root mean square of 255 steps.
 double error_of(const head::Mesh& mesh) {
   constexpr int kPixels = 512;
@@ -103,7 +100,7 @@ double error_of(const head::Mesh& mesh) {
         const Vec3 is =
             mesh.colours[t[0]] * a + mesh.colours[t[1]] * b + mesh.colours[t[2]] * (1 - a - b);
         const Vec3 wanted = painted(q.x / (kPixels / 2) - 1, q.y / (kPixels / 2) - 1);
-        const Vec3 off = Vec3{srgb(is.x), srgb(is.y), srgb(is.z)} - wanted;
+        const Vec3 off = head::srgb_of_linear(is) - wanted;
         sum += double(head::dot(off, off)) / 3;
         ++count;
       }

@@ -259,6 +259,7 @@ TEST(PointList, TakesTheUsualForms) {
   };
   expect_error("\n# nothing\n", "has no point");
   expect_error("2.1,966\n2.2,x\n", "line 2: \"x\" is no vertex number");
+  expect_error("2.1,1,nan,3\n", "line 1: point 2.1 needs a vertex number, or x, y and z");
   expect_error("2.1\n", "needs a vertex number");
   expect_error("vertex,x\n1,2\n", "no column feature_point");
 }

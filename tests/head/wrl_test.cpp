@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "fap/head/detail/srgb.h"
+#include "fap/head/srgb.h"
 #include "tests/head/head_support.h"
 #include "tests/support/files.h"
 
@@ -46,7 +46,7 @@ TEST(Wrl, UseOrderAndColoursOfFaces) {
   EXPECT_THAT(lid.mesh.triangles, ElementsAre(Triangle{0, 2, 1}, Triangle{0, 3, 2}));
   expect_near(lid.mesh.colours[1], {1, 1, 1});
   expect_near(lid.mesh.colours[3], {0, 0, 0});
-  const float grey = head::detail::linear_of_srgb(0.5f);  // of two faces
+  const float grey = head::linear_of_srgb(0.5f);  // of two faces
   expect_near(lid.mesh.colours[0], {grey, grey, grey});
 }
 

@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -118,50 +121,67 @@ void print_text(const Json& info) {
   }
 }
 
-// Two files that belong together, or one.
-Result<void> write_head(const std::string& path, const head::Head& head, const head::Rig& rig) {
-  const std::filesystem::path file(path);
-  const std::string kind = extension_of(path);
-  const std::string name = file.stem().string();
-  if (kind == ".obj") {
-    const std::string obj = head::write_obj(head);
-    const std::string points = head::points_of(head);
-    const std::string list = (file.parent_path() / (name + ".points.csv")).string();
-    const OutputText files[] = {{path, obj}, {list, points}};
-    if (auto ok = write_files(files); !ok) return ok;
-    say(path + " and its feature points " + list);
-    return {};
+struct Output {
+  const std::string& path;
+  const head::Head& head;
+  const head::Rig& rig;
+
+  std::string name() const { return std::filesystem::path(path).stem().string(); }
+  std::string beside(const char* ending) const {
+    return (std::filesystem::path(path).parent_path() / (name() + ending)).string();
   }
-  if (kind == ".fdp") {
-    const Result<head::FdpFiles> made = head::write_fdp(head, rig, {.name = name});
-    if (!made) return made.error();
-    const std::string mesh = (file.parent_path() / (name + ".wrl")).string();
-    const OutputText files[] = {{path, made->fdp}, {mesh, made->wrl}};
-    if (auto ok = write_files(files); !ok) return ok;
-    say(path + " and its mesh " + mesh);
-    return {};
-  }
-  if (kind == ".glb") {
-    fap::Sequence rest;
-    rest.rate = {25, 1};
-    rest.frames.resize(1);
-    const Result<std::vector<std::uint8_t>> glb = gltf::make_glb(head, rig, rest);
-    if (!glb) return glb.error();
-    return write_file(path, *glb);
-  }
-  const Result<std::string> scene = head::write_xmt(head, rig);
-  if (!scene) return scene.error();
-  return write_file(path, *scene);
+};
+
+// Two files that belong together: none is written without the other.
+Result<void> write_pair(const Output& out, const std::string& text, const OutputText& second,
+                        const std::string& what) {
+  const OutputText files[] = {{out.path, text}, second};
+  if (auto ok = write_files(files); !ok) return ok;
+  say(out.path + " and its " + what + " " + second.path);
+  return {};
 }
+
+Result<void> write_obj(const Output& out) {
+  return write_pair(out, head::write_obj(out.head),
+                    {out.beside(".points.csv"), head::points_of(out.head)}, "feature points");
+}
+
+Result<void> write_fdp(const Output& out) {
+  const Result<head::FdpFiles> made = head::write_fdp(out.head, out.rig, {.name = out.name()});
+  if (!made) return made.error();
+  return write_pair(out, made->fdp, {out.beside(".wrl"), made->wrl}, "mesh");
+}
+
+Result<void> write_glb(const Output& out) {
+  const fap::Sequence rest{{25, 1}, {fap::Frame{}}, ""};
+  const Result<std::vector<std::uint8_t>> glb = gltf::make_glb(out.head, out.rig, rest);
+  if (!glb) return glb.error();
+  return write_file(out.path, *glb);
+}
+
+Result<void> write_xmt(const Output& out) {
+  const Result<std::string> scene = head::write_xmt(out.head, out.rig);
+  if (!scene) return scene.error();
+  return write_file(out.path, *scene);
+}
+
+constexpr struct Writer {
+  std::string_view extension;
+  Result<void> (*write)(const Output&);
+} kWriters[] = {{".fdp", write_fdp},
+                {".xmt", write_xmt},
+                {".xmta", write_xmt},
+                {".glb", write_glb},
+                {".obj", write_obj}};
 
 Result<int> run(const Options& options) {
   if (const std::string problem = problem_of(options.head); !problem.empty()) {
     return usage_error(problem);
   }
-  const std::string kind = extension_of(options.output);
-  const bool known =
-      kind == ".obj" || kind == ".fdp" || kind == ".glb" || kind == ".xmt" || kind == ".xmta";
-  if (!options.output.empty() && !known) {
+  const Writer* const writer = std::find_if(
+      std::begin(kWriters), std::end(kWriters),
+      [kind = extension_of(options.output)](const Writer& each) { return each.extension == kind; });
+  if (!options.output.empty() && writer == std::end(kWriters)) {
     return usage_error("the output " + options.output + " has to end in .fdp, .xmt, .glb or .obj");
   }
   const Result<LoadedHead> loaded = load_head(options.head);
@@ -169,7 +189,7 @@ Result<int> run(const Options& options) {
   const head::Rig rig = head::make_rig(loaded->head);
   if (!options.output.empty()) {
     for (const std::string& note : loaded->notes) say(options.head.head + ": " + note);
-    if (auto ok = write_head(options.output, loaded->head, rig); !ok) return ok.error();
+    if (auto ok = writer->write({options.output, loaded->head, rig}); !ok) return ok.error();
     if (!options.json) return kOk;
   }
   const Json info = describe(*loaded, rig);

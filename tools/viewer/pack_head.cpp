@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fap/head/shapes.h"
+#include "fap/head/srgb.h"
 #include "fap/tables.h"
 #include "tools/render/scene.h"
 #include "tools/viewer/detail/bytes.h"
@@ -28,8 +29,7 @@ std::uint32_t rounded(float value, float top) {
 // 0..255, as sRGB.
 std::uint32_t shown(float light) {
   const double v = std::clamp(double(light), 0.0, 1.0);
-  return std::uint32_t(
-      std::lround(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055)));
+  return std::uint32_t(std::lround(255 * head::srgb_of_linear(v)));
 }
 
 Json write_places(const std::vector<Vec3>& places, Bytes& out) {

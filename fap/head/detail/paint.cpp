@@ -1,6 +1,6 @@
 #include "fap/head/detail/paint.h"
 
-#include "fap/head/detail/srgb.h"
+#include "fap/head/srgb.h"
 
 namespace animeme::head::detail {
 namespace {

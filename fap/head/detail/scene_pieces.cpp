@@ -2,7 +2,7 @@
 #include <set>
 
 #include "fap/head/detail/scene.h"
-#include "fap/head/detail/srgb.h"
+#include "fap/head/srgb.h"
 
 namespace animeme::head::detail {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fap/head/srgb.h"
 #include "tools/gltf/detail/picture_decoder.h"
 
 namespace animeme::gltf {
@@ -13,8 +14,7 @@ float linear(std::uint8_t value) {
   static const std::array<float, 256> table = [] {
     std::array<float, 256> all;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const double s = double(i) / 255;
-      all[i] = float(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
+      all[i] = float(head::linear_of_srgb(double(i) / 255));
     }
     return all;
   }();

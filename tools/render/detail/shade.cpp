@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fap/head/srgb.h"
+
 namespace animeme::render::detail {
 namespace {
 
@@ -18,8 +20,7 @@ const std::array<float, kShownSteps + 2>& shown_table() {
     std::array<float, kShownSteps + 2> t{};
     for (int i = 0; i < kShownSteps + 2; ++i) {
       const double v = std::min(double(i) / kShownSteps, 1.0);
-      t[std::size_t(i)] =
-          float(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055));
+      t[std::size_t(i)] = float(255 * head::srgb_of_linear(v));
     }
     return t;
   }();
