@@ -211,10 +211,11 @@ TEST(RoundTrip, HeadsOfFapTargetsHaveNoShapesThatAreKnown) {
   EXPECT_NE(source->notes[0].find("open_jaw"), std::string::npos) << source->notes[0];
 }
 
-// How far estimates may be off, mm. The bottom of the chin is a matter of taste.
+// How far estimates may be off, mm. The bottom of the chin and the middle of a cheek are matters
+// of taste.
 double most_off(std::string_view id) {
-  if (id == "2.1") return 15;
-  return id.starts_with("3.") ? 0.5 : id.starts_with("4.") ? 3 : 12;
+  if (id == "2.1" || id.starts_with("5.")) return 15;
+  return id.starts_with("3.") ? 0.5 : id.starts_with("4.") ? 3 : 6;
 }
 
 TEST(RoundTrip, PointsAndUnitsAreNearThoseOfTheHeads) {
@@ -244,9 +245,9 @@ TEST(RoundTrip, PointsAndUnitsAreNearThoseOfTheHeads) {
         100 * (is.mw / was.mw - 1));
     EXPECT_NEAR(is.irisd, was.irisd, 0.01 * was.irisd);
     EXPECT_NEAR(is.es, was.es, 0.01 * was.es);
-    EXPECT_NEAR(is.ens, was.ens, 0.15 * was.ens);
-    EXPECT_NEAR(is.mns, was.mns, 0.35 * was.mns);
-    EXPECT_NEAR(is.mw, was.mw, 0.25 * was.mw);
+    EXPECT_NEAR(is.ens, was.ens, 0.05 * was.ens);
+    EXPECT_NEAR(is.mns, was.mns, 0.1 * was.mns);
+    EXPECT_NEAR(is.mw, was.mw, 0.2 * was.mw);
   }
 }
 

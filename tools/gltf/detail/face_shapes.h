@@ -79,6 +79,17 @@ class SkinShapes {
     }
   }
 
+  template <class Visit>  // visit(corners)
+  void for_skin_triangles(Visit visit) const {
+    for (std::size_t p = 0; p < face_.pieces.size(); ++p) {
+      if (!skin_[p]) continue;
+      const std::vector<head::Vec3>& places = face_.pieces[p].positions;
+      for (const head::Triangle& t : face_.pieces[p].triangles) {
+        visit(std::array{places[t[0]], places[t[1]], places[t[2]]});
+      }
+    }
+  }
+
  private:
   const FaceShapes& face_;
   std::vector<bool> skin_;

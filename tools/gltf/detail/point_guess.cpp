@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "fap/tables.h"
+#include "tools/gltf/detail/midline.h"
 
 namespace animeme::gltf {
 namespace {
@@ -175,69 +176,18 @@ class FaceMap {
     }
   }
 
-  // Vertices near the midline with nothing of the skin before them, from above.
-  void find_midline() {
-    std::vector<Spot> strip;
-    guess_.for_skin([&](Spot spot) {
-      const Vec3 p = place(spot);
-      if (std::abs(p.x - middle_) < 0.05f * between_ && p.y < eye_height_ &&
-          p.y > eye_height_ - 2.4f * between_) {
-        strip.push_back(spot);
-      }
-    });
-    std::stable_sort(strip.begin(), strip.end(),
-                     [&](Spot a, Spot b) { return place(a).y > place(b).y; });
-    const float near = 0.03f * between_, behind = 0.06f * between_;
-    for (std::size_t i = 0; i < strip.size(); ++i) {
-      const Vec3 p = place(strip[i]);
-      bool seen = true;
-      const auto hides = [&](std::size_t k) { seen = seen && place(strip[k]).z < p.z + behind; };
-      for (std::size_t k = i; k-- > 0 && place(strip[k]).y - p.y < near;) hides(k);
-      for (std::size_t k = i + 1; k < strip.size() && p.y - place(strip[k]).y < near; ++k) hides(k);
-      if (seen) midline_.push_back(strip[i]);
-    }
-  }
-
-  // The best of the midline between two heights.
-  Spot best(float top, float bottom, const std::function<float(Vec3)>& measure) const {
-    Spot found;
-    float most = -std::numeric_limits<float>::infinity();
-    for (const Spot spot : midline_) {
-      const Vec3 p = place(spot);
-      const float value = measure(p) - 0.5f * std::abs(p.x - middle_);
-      if (p.y > top || p.y < bottom || !(value > most)) continue;
-      most = value;
-      found = spot;
-    }
-    return found;
-  }
-  Spot at_height(float y) const {
-    return best(y + between_, y - between_, [&](Vec3 p) { return -std::abs(p.y - y); });
-  }
-
-  // Of what is as high on the midline strip, the nearest to the middle.
-  Spot nearest_middle(Spot spot, const std::function<bool(Spot)>& allowed) const {
-    const float y = place(spot).y;
-    for (const Spot other : midline_) {
-      const bool as_high = std::abs(place(other).y - y) < 0.02f * between_ && allowed(other);
-      const float x = std::abs(place(other).x - middle_);
-      if (as_high && x < std::abs(place(spot).x - middle_)) spot = other;
-    }
-    return spot;
-  }
-
   void add_mouth() {
     if (!(between_ > 0)) return;
     const std::size_t jaw = guess_.shape_for(kJaw, 150);
     if (jaw == kNone) return;
-    find_midline();
+    const Midline midline(guess_, middle_, between_, eye_height_);
     const auto moves = guess_.field(jaw);
     const auto down = [&](Spot spot) { return -moves[spot.piece][spot.vertex].y; };
     float most = 0;
-    for (const Spot spot : midline_) most = std::max(most, down(spot));
+    for (const Spot spot : midline.spots()) most = std::max(most, down(spot));
     if (!(most > 0)) return;
     Spot upper, lower;
-    for (const Spot spot : midline_) {  // from above
+    for (const Spot spot : midline.spots()) {  // from above
       const float y = place(spot).y;
       if (down(spot) > 0.5f * most && y < eye_height_ - 0.5f * between_) {
         lower = spot;
@@ -246,46 +196,36 @@ class FaceMap {
       if (down(spot) < 0.3f * most) upper = spot;
     }
     if (upper.exists() && lower.exists()) {
-      upper = nearest_middle(upper, [&](Spot spot) { return down(spot) < 0.3f * most; });
-      lower = nearest_middle(lower, [&](Spot spot) { return down(spot) > 0.5f * most; });
+      upper = midline.nearest_middle(upper, [&](Spot spot) { return down(spot) < 0.3f * most; });
+      lower = midline.nearest_middle(lower, [&](Spot spot) { return down(spot) > 0.5f * most; });
     }
     set("2.2", upper);
     set("2.3", lower);
     if (!upper.exists() || !lower.exists()) return;
-    add_nose_and_chin(place(upper), place(lower));
+    add_nose_and_chin(midline, place(upper), place(lower));
     add_corners(place(lower), most, down);
   }
 
-  void add_nose_and_chin(Vec3 upper, Vec3 lower) {
+  void add_nose_and_chin(const Midline& midline, Vec3 upper, Vec3 lower) {
     const float high = eye_height_ - 0.25f * between_;
-    const Spot tip = best(high, upper.y + 0.1f * between_, [](Vec3 p) { return p.z; });
+    const Spot tip = midline.best(high, upper.y + 0.1f * between_, [](Vec3 p) { return p.z; });
     set("9.3", tip);
-    const Spot chin =
-        best(lower.y - 0.3f * between_, lower.y - 0.75f * between_, [](Vec3 p) { return p.z; });
+    const Spot chin = midline.best(lower.y - 0.3f * between_, lower.y - 0.75f * between_,
+                                   [](Vec3 p) { return p.z; });
     set("2.10", chin);
     if (chin.exists()) {
       // Where the chin has turned to below.
-      set("2.1",
-          best(place(chin).y, place(chin).y - 0.6f * between_, [](Vec3 p) { return p.z - p.y; }));
+      set("2.1", midline.best(place(chin).y, place(chin).y - 0.6f * between_,
+                              [](Vec3 p) { return p.z - p.y; }));
     }
     if (!tip.exists()) return;
     const Vec3 nose = place(tip);
-    const Spot foremost = best(upper.y + 0.08f * between_, upper.y, [](Vec3 p) { return p.z; });
-    const Vec3 lip = foremost.exists() ? place(foremost) : upper;
-    const float slope = (lip.z - nose.z) / (lip.y - nose.y);
-    const auto depth = [&](Vec3 p) { return nose.z + (p.y - nose.y) * slope - p.z; };
-    const Spot deepest = best(nose.y, lip.y, depth);
-    if (!deepest.exists()) return;
-    // Where nose and lip meet there may be no corner: of what is nearly as deep, the highest.
-    const float enough = 0.75f * depth(place(deepest));
-    const Spot base = best(nose.y, lip.y, [&](Vec3 p) {
-      return depth(p) >= enough ? p.y : -std::numeric_limits<float>::infinity();
-    });
+    const Spot base = midline.corner(nose.y, upper.y + 0.08f * between_);
     set("9.15", base);
     if (!base.exists()) return;
     const float mns = place(base).y - upper.y;
-    set("8.1", at_height(upper.y + 0.40f * mns));
-    set("8.2", at_height(lower.y - 0.46f * mns));
+    set("8.1", midline.at_height(upper.y + 0.40f * mns));
+    set("8.2", midline.at_height(lower.y - 0.46f * mns));
   }
 
   // Skin around the mouth, from above.
@@ -343,7 +283,6 @@ class FaceMap {
   float between_ = 0;     // distance of the lids' middles
   float eye_height_ = 0;  // of the upper lids
   std::vector<std::pair<std::string_view, Spot>> spots_;
-  std::vector<Spot> midline_;
 };
 
 }  // namespace

@@ -5,8 +5,8 @@
 // - 3.5, 3.6: the foremost vertex of an eyeball.
 // - 2.3, 2.2: on the front of the midline, the highest that goes down with the jaw, and the lowest
 //   above it that stays.
-// - 9.3, 9.15: the foremost above the mouth; the highest that is nearly as far as any behind the
-//   line from there to the foremost of the upper lip.
+// - 9.3, 9.15: the foremost above the mouth; where the profile between it and the lip bends inwards
+//   most sharply.
 // - 8.1, 8.2: on the midline 0.40 of MNS above 2.2, 0.46 below 2.3.
 // - 2.10, 2.1: the foremost of the chin; where below it the skin has turned to below.
 // - 8.3, 8.4: the ends of the slit between what goes down with the jaw and what stays.
