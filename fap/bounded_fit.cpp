@@ -17,8 +17,18 @@ constexpr double kAngleUnit = 1e-5;  // rad
 constexpr double kLidsCount = 3;     // the opening of the eye is short and everybody looks at it
 
 // FAPs of one place on the upper and lower lip: together they close it.
-constexpr std::pair<std::size_t, std::size_t> kLips[] = {{4, 5}, {8, 10}, {9, 11}};
-static_assert(std::size(kLips) <= std::size_t(kFirstLowLevel));
+constexpr std::pair<std::size_t, std::size_t> kLips[kLipPairs] = {{4, 5}, {8, 10}, {9, 11}};
+static_assert(kLipPairs <= std::size_t(kFirstLowLevel));
+constexpr double kOpen = 100;         // so far apart, FAP units of MNS, lips need not meet
+constexpr double kMeetingCounts = 3;  // measured lips against what FAPs say of them
+constexpr int kMeetingRounds = 8;
+
+// Lips that nearly touch are shut, as head::pose() has it. FAP units of MNS; negative: apart.
+double soft(double closing) {
+  constexpr double kTouch = 0.06 * 1024;
+  const double near = std::clamp((kTouch + closing) / (kTouch * 2 / 3), 0.0, 1.0);
+  return closing < 0 ? closing * (1 - near * near * (3 - 2 * near)) : closing;
+}
 
 double product(const FapValues& a, const FapValues& b) {
   double sum = 0;
@@ -66,14 +76,21 @@ FapValues target_of(const Frame& frame) {
 }
 
 BoundedFit::BoundedFit(std::vector<std::vector<ShapeWeight>> shapes, double ridge,
-                       double steadiness, double most, double radian, double lips)
+                       double steadiness, double most, double radian, Lips lips)
     : shapes_(std::move(shapes)),
       ridge_(std::clamp(ridge, 0.0, 1.0)),
       steadiness_(std::clamp(steadiness, 0.0, 1.0)),
       most_(most),
-      lips_(lips),
+      lips_(std::move(lips)),
       lengths_(fap_lengths(radian)),
-      weights_(shapes_.size(), 0.0) {}
+      weights_(shapes_.size(), 0.0) {
+  if (!lips_.closing.empty()) lips_.closing.resize(shapes_.size());
+  for (std::size_t k = 0; k < kLipPairs; ++k) {
+    const double length = lengths_[kLips[k].first];
+    lips_.at_rest[k] *= length;
+    for (LipValues& values : lips_.closing) values[k] *= length;
+  }
+}
 
 void BoundedFit::set_mask(const Mask& wanted) {
   if (has_gram_ && wanted == mask_) return;
@@ -92,7 +109,7 @@ void BoundedFit::set_mask(const Mask& wanted) {
   FapValues lips{};
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) gram_[i * n + j] = product(columns_[i], columns_[j]);
-    for (std::size_t k = 0; k < std::size(kLips); ++k) lips[k] = columns_[i][k];
+    for (std::size_t k = 0; k < kLipPairs; ++k) lips[k] = columns_[i][k];
     costs_[i] = gram_[i * n + i] - product(lips, lips);
   }
 }
@@ -104,9 +121,9 @@ FapValues BoundedFit::weighed(const FapValues& values) const {
   for (std::size_t fap = kFirstLowLevel; fap <= kFapCount; ++fap) {
     if (mask_[fap]) out[fap] = values[fap] * lengths_[fap];
   }
-  for (std::size_t k = 0; k < std::size(kLips); ++k) {
+  for (std::size_t k = 0; k < kLipPairs; ++k) {
     const auto& [upper, lower] = kLips[k];
-    if (mask_[upper] && mask_[lower]) out[k] = lips_ * (out[upper] + out[lower]);
+    if (mask_[upper] && mask_[lower]) out[k] = lips_.weight * (out[upper] + out[lower]);
   }
   return out;
 }
@@ -146,6 +163,45 @@ void BoundedFit::descend(const std::vector<double>& wanted, double steadiness, d
   }
 }
 
+// Where measured lips do not meet as they should, their distances join the sum of squares; one that
+// is there pulls towards meeting only, so lips that press each other already stay as they are.
+void BoundedFit::close_lips(const std::vector<double>& wanted, const FapValues& target,
+                            double steadiness) {
+  const std::size_t n = shapes_.size();
+  LipValues goal{}, pull{};  // closing, and its weight, squared
+  for (std::size_t k = 0; k < kLipPairs; ++k) {
+    const auto& [upper, lower] = kLips[k];
+    if (!mask_[upper] || !mask_[lower]) continue;
+    const double closing = target[upper] + target[lower];
+    const double weight = kMeetingCounts * lips_.weight * std::clamp(1 + closing / kOpen, 0.0, 1.0);
+    goal[k] = std::min(soft(closing) * lengths_[upper], lips_.at_rest[k]);
+    pull[k] = weight * weight;
+  }
+  std::array<bool, kLipPairs> joined{};
+  fap_gram_ = gram_;
+  for (int round = 0; round < kMeetingRounds; ++round) {
+    std::array<bool, kLipPairs> apart{};
+    for (std::size_t k = 0; k < kLipPairs; ++k) {
+      double closing = 0;
+      for (std::size_t i = 0; i < n; ++i) closing += weights_[i] * lips_.closing[i][k];
+      apart[k] = pull[k] > 0 && closing < goal[k];
+    }
+    if (apart == joined) break;
+    joined = apart;
+    gram_ = fap_gram_;
+    std::vector<double> sums = wanted;
+    for (std::size_t k = 0; k < kLipPairs; ++k) {
+      for (std::size_t i = 0; i < n && joined[k]; ++i) {
+        const double share = pull[k] * lips_.closing[i][k];
+        for (std::size_t j = 0; j < n; ++j) gram_[i * n + j] += share * lips_.closing[j][k];
+        sums[i] += share * goal[k];
+      }
+    }
+    descend(sums, steadiness, 0);
+  }
+  gram_.swap(fap_gram_);
+}
+
 // The limit of the sum as a price on all weights: the lowest one that keeps it.
 void BoundedFit::keep_within_limit(const std::vector<double>& wanted, double steadiness) {
   const auto sum = [this] { return std::accumulate(weights_.begin(), weights_.end(), 0.0); };
@@ -176,6 +232,7 @@ const std::vector<double>& BoundedFit::fit(const Mask& mask, const FapValues& ta
     wanted[i] += steadiness * costs_[i] * weights_[i];
   }
   descend(wanted, steadiness, 0);
+  if (!lips_.closing.empty()) close_lips(wanted, target, steadiness);
   keep_within_limit(wanted, steadiness);
   return weights_;
 }

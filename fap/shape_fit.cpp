@@ -1,5 +1,7 @@
 #include "fap/shape_fit.h"
 
+#include <algorithm>
+
 #include "fap/detail/bounded_fit.h"
 
 namespace animeme::fap {
@@ -24,15 +26,22 @@ std::vector<std::vector<internal::ShapeWeight>> weights_of(std::span<const Frame
   return weights;
 }
 
+internal::Lips lips_of(const LipMeasures& measures) {
+  internal::Lips lips{kLipsCount, {}, {}};
+  std::copy(measures.at_rest.begin(), measures.at_rest.end(), lips.at_rest.begin());
+  for (const LipDistances& c : measures.closing) lips.closing.push_back({c[0], c[1], c[2]});
+  return lips;
+}
+
 }  // namespace
 
 struct ShapeFitter::Impl {
   internal::BoundedFit fit;
 };
 
-ShapeFitter::ShapeFitter(std::span<const Frame> shapes, double ridge)
+ShapeFitter::ShapeFitter(std::span<const Frame> shapes, const LipMeasures& lips, double ridge)
     : impl_(new Impl{{weights_of(shapes), ridge, 0, std::numeric_limits<double>::infinity(),
-                      kEyeRadius, kLipsCount}}) {}
+                      kEyeRadius, lips_of(lips)}}) {}
 ShapeFitter::ShapeFitter(ShapeFitter&&) noexcept = default;
 ShapeFitter& ShapeFitter::operator=(ShapeFitter&&) noexcept = default;
 ShapeFitter::~ShapeFitter() = default;

@@ -6,6 +6,7 @@
 // fap::ArkitFitter and fap::VisemeFitter do the same for complete, well-known sets.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -14,13 +15,26 @@
 
 namespace animeme::fap {
 
+/// Distances between the lips at their middle (2.2 to 2.3), left (2.6 to 2.8) and right of it (2.7
+/// to 2.9), in units of FAP 4 (MNS/1024).
+using LipDistances = std::array<float, 3>;
+
+/// How a face closes its lips, as measured on it.
+struct LipMeasures {
+  LipDistances at_rest = {};          ///< of lips that do not quite meet in the neutral face
+  std::vector<LipDistances> closing;  ///< by how much less each shape makes them at weight 1
+};
+
 /// Movable, not copyable.
 class ShapeFitter {
  public:
-  /// The low-level FAPs of each shape at weight 1; FAPs outside the mask are 0. `ridge`: what it
-  /// costs to use a shape, as a share of what it does to the face, 0..1; it keeps shapes from
-  /// working against each other.
-  explicit ShapeFitter(std::span<const Frame> shapes, double ridge = 0.001);
+  /// The low-level FAPs of each shape at weight 1; FAPs outside the mask are 0. `lips`: with
+  /// distances for all shapes, or for none. What FAPs say of them is rough, and a mouth that should
+  /// be shut shows it; lips that should be apart are left to the FAPs. `ridge`: what it costs to
+  /// use a shape, as a share of what it does to the face, 0..1; it keeps shapes from working
+  /// against each other.
+  explicit ShapeFitter(std::span<const Frame> shapes, const LipMeasures& lips = {},
+                       double ridge = 0.001);
   ShapeFitter(ShapeFitter&&) noexcept;
   ShapeFitter& operator=(ShapeFitter&&) noexcept;
   ~ShapeFitter();

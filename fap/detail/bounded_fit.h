@@ -16,6 +16,17 @@ struct ShapeWeight {
   std::int32_t value;
 };
 
+/// The lips close at their middle, left and right of it: FAP 4 and 5, 8 and 10, 9 and 11 together.
+inline constexpr std::size_t kLipPairs = 3;
+using LipValues = std::array<double, kLipPairs>;
+
+/// What the distance of the lips counts.
+struct Lips {
+  double weight = 0;               ///< how much more than a FAP
+  LipValues at_rest = {};          ///< distances of the neutral face, FAP units of MNS
+  std::vector<LipValues> closing;  ///< by how much each shape really makes them less; may be empty
+};
+
 /// Low-level FAPs by number.
 using FapValues = std::array<double, kFapCount + 1>;
 
@@ -32,11 +43,11 @@ class BoundedFit {
   /// what it costs to change a weight, likewise. Both are clamped to 0..1. `most` > 0: what all
   /// weights together may be; the nearest face within that limit is found then. `radian`: length
   /// that stands for one, in units of ICT-FaceKit's head; at 0 FAPs that are angles do not count.
-  /// `lips`: how much more than a FAP the distance of the lips counts (FAP 4 and 5, 8 and 10, 9 and
-  /// 11 together), so that a shut mouth is shut.
+  /// `lips`: a shut mouth should be shut. What their FAPs say of it always counts; what was
+  /// measured does where the lips would stay apart that should meet.
   BoundedFit(std::vector<std::vector<ShapeWeight>> shapes, double ridge, double steadiness,
              double most = std::numeric_limits<double>::infinity(), double radian = 0,
-             double lips = 0);
+             Lips lips = {});
 
   /// By shape; good until the next call. Shapes without any FAP of `mask` keep their weight.
   const std::vector<double>& fit(const Mask& mask, const FapValues& target);
@@ -49,16 +60,18 @@ class BoundedFit {
   FapValues weighed(const FapValues& values) const;
   std::vector<double> projections(const FapValues& target) const;
   void descend(const std::vector<double>& wanted, double steadiness, double toll);
+  void close_lips(const std::vector<double>& wanted, const FapValues& target, double steadiness);
   void keep_within_limit(const std::vector<double>& wanted, double steadiness);
 
   std::vector<std::vector<ShapeWeight>> shapes_;
   double ridge_;
   double steadiness_;
   double most_;
-  double lips_;
+  Lips lips_;                       // in lengths
   FapValues lengths_;               // of one unit of each FAP
   std::vector<FapValues> columns_;  // what each shape does, weighed, for mask_
   std::vector<double> gram_;        // shapes x shapes, for mask_
+  std::vector<double> fap_gram_;    // of close_lips(): what gram_ is without measured lips
   std::vector<double> costs_;       // of shapes: what they do, lips not counted
   std::vector<double> left_;        // of the descent
 

@@ -228,7 +228,7 @@ ControlValues control_values(const Rig& rig, const fap::Frame& frame, const Pose
   if (rig.shapes.empty()) return values;
   std::vector<fap::Frame> shapes;
   for (const ShapeControl& shape : rig.shapes) shapes.push_back(shape.faps);
-  fap::ShapeFitter fitter(shapes);
+  fap::ShapeFitter fitter(shapes, rig.lip_measures);
   const std::vector<double>& weights = fitter.fit(wanted_of_shapes(low));
   for (std::size_t i = 0; i < weights.size(); ++i) {
     values[kFirstShape + i] = float(weights[i]) * kFullShape;

@@ -89,6 +89,47 @@ float room(const Head& head, std::string_view a, std::string_view b, int fap, fl
   return known ? share * length(head.at(a) - head.at(b)) / unit : std::numeric_limits<float>::max();
 }
 
+float down_by(const Target& target, FeaturePoint point) {
+  if (target.part != point.part) return 0;
+  const auto& vertices = target.vertices;
+  const auto at = std::lower_bound(vertices.begin(), vertices.end(), point.vertex);
+  const bool moves = at != vertices.end() && *at == point.vertex;
+  return moves ? -target.deltas[std::size_t(at - vertices.begin())].y * kFullShape : 0;
+}
+
+// How shapes close the lips: measured where the head has the feature points, else as their FAPs
+// say.
+fap::LipMeasures lip_measures(const Head& head, const Rig& rig) {
+  // Points farther apart at rest, in shares of MNS, are not where the lips meet.
+  constexpr float kMostAtRest = 0.15f * 1024;
+  constexpr struct {
+    std::string_view upper, lower;
+    std::size_t fap, other;
+  } kPairs[] = {{"2.2", "2.3", 4, 5}, {"2.6", "2.8", 8, 10}, {"2.7", "2.9", 9, 11}};
+  fap::LipMeasures measures;
+  measures.closing.resize(rig.shapes.size());
+  const float unit = float(fap::step_size(4, rig.fapu));
+  for (std::size_t k = 0; k < std::size(kPairs); ++k) {
+    const auto& [upper_id, lower_id, fap, other] = kPairs[k];
+    const FeaturePoint upper = head.point(upper_id), lower = head.point(lower_id);
+    if (!upper.exists() || !lower.exists() || !(unit > 0)) {
+      for (std::size_t i = 0; i < rig.shapes.size(); ++i) {
+        const auto& value = rig.shapes[i].faps.value;
+        measures.closing[i][k] = float(value[fap] + value[other]);
+      }
+      continue;
+    }
+    measures.at_rest[k] =
+        std::clamp((head.at(upper_id).y - head.at(lower_id).y) / unit, 0.0f, kMostAtRest);
+    for (const Target& target : rig.targets) {
+      if (target.control < kFirstShape) continue;
+      measures.closing[std::size_t(target.control - kFirstShape)][k] +=
+          (down_by(target, upper) - down_by(target, lower)) / unit;
+    }
+  }
+  return measures;
+}
+
 // The rim of an upper lid moves over its eyeball by this share of the pitch.
 float lid_follow(const Rig& rig, std::size_t side) {
   constexpr float kShare = 0.65f;
@@ -127,6 +168,7 @@ Rig make_rig(const Head& head) {
   }
   rig.shapes = head.shapes;
   rig.targets = head.targets.empty() ? detail::make_targets(head) : head.targets;
+  rig.lip_measures = lip_measures(head, rig);
   rig.deforms = deforming(rig);
   rig.shown_by_shapes = shown_by_shapes(rig);
   rig.lid_vertices = sliding_vertices(rig);

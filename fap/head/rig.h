@@ -24,6 +24,7 @@
 
 #include "fap/frame.h"
 #include "fap/head/model.h"
+#include "fap/shape_fit.h"
 
 namespace animeme::head {
 
@@ -57,6 +58,7 @@ struct Rig {
   std::array<Shape, kPartCount> parts;        ///< neutral
   std::vector<Target> targets;                ///< by control, then by part
   std::vector<ShapeControl> shapes;           ///< of heads that have them
+  fap::LipMeasures lip_measures;              ///< of the shapes
   std::array<bool, kPartCount> deforms = {};  ///< which parts have a target, or lashes that turn
   /// Parts whose shapes were modelled with the jaw's motion, or the gaze of eyes: they turn with
   /// the head alone, their shapes show the rest.

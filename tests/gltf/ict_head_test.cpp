@@ -124,7 +124,7 @@ TEST(IctHead, PointsOfShapesAreNearThoseOfTheList) {
   const auto source = read_head(ict_glb(folder));
   ASSERT_TRUE(source) << source.error().describe();
   const std::map<std::string, Vec3> listed = listed_points(folder);
-  EXPECT_EQ(source->points.size(), 20u);
+  EXPECT_EQ(source->points.size(), 24u);
   double squares = 0;
   for (const head::PiecePoint& point : source->points) {
     ASSERT_TRUE(listed.count(point.id)) << point.id;

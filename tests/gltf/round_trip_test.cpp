@@ -235,7 +235,7 @@ TEST(RoundTrip, PointsAndUnitsAreNearThoseOfTheHeads) {
       squares += off * off;
       ++count;
     }
-    EXPECT_EQ(count, 26);
+    EXPECT_EQ(count, 30);
     const fap::Fapu& is = copy.head.fapu;
     const fap::Fapu& was = original.fapu;
     std::printf(

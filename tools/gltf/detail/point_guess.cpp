@@ -8,6 +8,7 @@
 
 #include "fap/tables.h"
 #include "tools/gltf/detail/midline.h"
+#include "tools/gltf/detail/slit.h"
 
 namespace animeme::gltf {
 namespace {
@@ -199,11 +200,10 @@ class FaceMap {
       upper = midline.nearest_middle(upper, [&](Spot spot) { return down(spot) < 0.3f * most; });
       lower = midline.nearest_middle(lower, [&](Spot spot) { return down(spot) > 0.5f * most; });
     }
-    set("2.2", upper);
-    set("2.3", lower);
     if (!upper.exists() || !lower.exists()) return;
+    add_lips(Slit(guess_, moves, most, place(lower), between_));
+    if (at("2.2").exists()) upper = at("2.2");
     add_nose_and_chin(midline, place(upper), place(lower));
-    add_corners(place(lower), most, down);
   }
 
   void add_nose_and_chin(const Midline& midline, Vec3 upper, Vec3 lower) {
@@ -220,7 +220,8 @@ class FaceMap {
     }
     if (!tip.exists()) return;
     const Vec3 nose = place(tip);
-    const Spot base = midline.corner(nose.y, upper.y + 0.08f * between_);
+    // Above the border of the lip, where the profile bends, too.
+    const Spot base = midline.corner(nose.y, upper.y + 0.4f * (nose.y - upper.y));
     set("9.15", base);
     if (!base.exists()) return;
     const float mns = place(base).y - upper.y;
@@ -228,53 +229,20 @@ class FaceMap {
     set("8.2", midline.at_height(lower.y - 0.46f * mns));
   }
 
-  // Skin around the mouth, from above.
-  std::vector<Spot> around_mouth(Vec3 lip) const {
-    std::vector<Spot> spots;
-    guess_.for_skin([&](Spot spot) {
-      const Vec3 d = place(spot) - lip;
-      if (std::abs(d.x) < 0.7f * between_ && std::abs(d.y) < 0.25f * between_ &&
-          d.z > -0.45f * between_) {
-        spots.push_back(spot);
-      }
-    });
-    std::stable_sort(spots.begin(), spots.end(),
-                     [&](Spot a, Spot b) { return place(a).y > place(b).y; });
-    return spots;
-  }
-
-  template <class Down>
-  void add_corners(Vec3 lip, float most, Down down) {
-    const std::vector<Spot> spots = around_mouth(lip);
-    const float near = 0.03f * between_;
-    std::array<Spot, 2> ends;
-    std::vector<Spot> slit;
-    for (std::size_t i = 0; i < spots.size(); ++i) {
-      const Vec3 p = place(spots[i]);
-      bool at_slit = false;
-      for (std::size_t k = i + 1; k < spots.size() && p.y - place(spots[k]).y < near; ++k) {
-        const Vec3 d = place(spots[k]) - p;
-        at_slit = at_slit ||
-                  (head::dot(d, d) < near * near && down(spots[k]) - down(spots[i]) > 0.09f * most);
-      }
-      if (!at_slit) continue;
-      slit.push_back(spots[i]);
-      for (int side = 0; side < 2; ++side) {
-        Spot& end = ends[std::size_t(side)];
-        const float out = side == 0 ? p.x : -p.x;
-        const float known = !end.exists() ? -INFINITY : side == 0 ? place(end).x : -place(end).x;
-        if (out > known) end = spots[i];
-      }
-    }
+  void add_lips(const Slit& slit) {
+    const Slit::Pair middle = slit.contact(middle_);
+    set("2.2", middle.upper);
+    set("2.3", middle.lower);
     for (int side = 0; side < 2; ++side) {
-      const Spot end = ends[std::size_t(side)];
+      const float sign = side == 0 ? 1.0f : -1.0f;
+      const Slit::Pair end = slit.end(sign);
       if (!end.exists()) continue;
-      set(side == 0 ? "8.3" : "8.4", end);
-      const float in = 0.05f * between_ * (side == 0 ? -1.0f : 1.0f);
-      const Vec3 wanted = place(end) + Vec3{in, 0, 0};
-      set(side == 0 ? "2.4" : "2.5", guess_.nearest(wanted, [&](Spot spot) {
-        return std::find(slit.begin(), slit.end(), spot) != slit.end();
-      }));
+      set(side == 0 ? "8.3" : "8.4", end.upper);
+      const Vec3 corner = place(end.upper) - Vec3{0.05f * between_ * sign, 0, 0};
+      set(side == 0 ? "2.4" : "2.5", slit.nearest(corner).upper);
+      const Slit::Pair half = slit.contact((corner.x + middle_) / 2);
+      set(side == 0 ? "2.6" : "2.7", half.upper);
+      set(side == 0 ? "2.8" : "2.9", half.lower);
     }
   }
 

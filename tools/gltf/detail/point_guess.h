@@ -3,14 +3,14 @@
 // - 3.1, 3.2: what a blink moves down most, the middle of the upper lid's rim.
 // - 3.3, 3.4: nearest to where that comes down, among what the blink leaves: the lower lid's.
 // - 3.5, 3.6: the foremost vertex of an eyeball.
-// - 2.3, 2.2: on the front of the midline, the highest that goes down with the jaw, and the lowest
-//   above it that stays.
-// - 9.3, 9.15: the foremost above the mouth; where the profile between it and the lip bends inwards
-//   most sharply.
+// - 2.2, 2.3: near the midline, where what stays and what goes down with the jaw are closest.
+// - 9.3, 9.15: the foremost above the mouth; where the profile bends inwards most sharply, above
+//   0.4 of the height from the lip to there.
 // - 8.1, 8.2: on the midline 0.40 of MNS above 2.2, 0.46 below 2.3.
 // - 2.10, 2.1: the foremost of the chin; where below it the skin has turned to below.
 // - 8.3, 8.4: the ends of the slit between what goes down with the jaw and what stays.
 // - 2.4, 2.5: in that slit, 5 % of the distance of the eyes further in.
+// - 2.6 to 2.9: as 2.2 and 2.3, half way from there to the midline.
 // - 4.1 to 4.6: the ends of the brows' meshes and their highest vertices. Without such meshes, of
 //   what the inner brow's shape moves up nearly most the innermost, what the outer brow's shape
 //   moves up most, and the middle of both.
