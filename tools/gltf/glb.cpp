@@ -5,6 +5,7 @@
 
 #include "tools/gltf/detail/bones.h"
 #include "tools/gltf/detail/glb_buffer.h"
+#include "tools/gltf/detail/glb_file.h"
 #include "tools/gltf/detail/morphs.h"
 
 namespace animeme::gltf {
@@ -269,30 +270,7 @@ class Writer {
                  {"accessors", std::move(buffer_.accessors)},
                  {"bufferViews", std::move(buffer_.views)}};
     if (skins_.empty()) root.erase("skins");
-    std::vector<std::uint8_t> binary = buffer_.bytes();
-    while (binary.size() % 4 != 0) binary.push_back(0);
-    root["buffers"] = {{{"byteLength", binary.size()}}};
-    std::string text = root.dump(-1, ' ', false, json::error_handler_t::replace);
-    while (text.size() % 4 != 0) text += ' ';
-    const std::uint64_t total = 12 + 8 + text.size() + 8 + binary.size();
-    if (total > UINT32_MAX) {
-      return make_error(Code::out_of_range, "the file would be larger than 4 GB");
-    }
-    std::vector<std::uint8_t> file;
-    file.reserve(total);
-    const auto put = [&](std::uint32_t value) {
-      for (int byte = 0; byte < 4; ++byte) file.push_back(std::uint8_t(value >> (8 * byte)));
-    };
-    put(0x46546C67);  // "glTF"
-    put(2);
-    put(std::uint32_t(total));
-    put(std::uint32_t(text.size()));
-    put(0x4E4F534A);  // "JSON"
-    file.insert(file.end(), text.begin(), text.end());
-    put(std::uint32_t(binary.size()));
-    put(0x004E4942);  // "BIN"
-    file.insert(file.end(), binary.begin(), binary.end());
-    return file;
+    return glb_file(std::move(root), buffer_.bytes());
   }
 
   const head::Head& head_;

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include "tools/gltf/detail/joints.h"
+#include "tools/gltf/detail/load_file.h"
 #include "tools/gltf/detail/paint.h"
 #include "tools/gltf/detail/point_guess.h"
 #include "tools/gltf/detail/primitive.h"
@@ -17,20 +16,7 @@
 namespace animeme::gltf {
 namespace {
 
-namespace fs = std::filesystem;
 using head::Vec3;
-
-Result<Bytes> bytes_of(const fs::path& path) {
-  std::error_code code;
-  if (fs::is_directory(path, code)) {
-    return make_error(Code::not_found, path.string() + " is a folder");
-  }
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return make_error(Code::not_found, "there is no file " + path.string());
-  Bytes bytes{std::istreambuf_iterator<char>(in), {}};
-  if (in.bad()) return make_error(Code::io, "cannot read " + path.string());
-  return bytes;
-}
 
 // What the steps of reading hand on.
 class HeadReader {
@@ -262,21 +248,6 @@ class HeadReader {
 
 }  // namespace
 
-LoadFile files_of(std::string folder) {
-  return [folder = std::move(folder)](const std::string& uri) -> Result<Bytes> {
-    if (uri.find("://") != std::string::npos) {
-      return make_error(Code::unsupported,
-                        "files of the web are not loaded: save " + uri + " beside the .gltf");
-    }
-    const fs::path path = fs::path(uri).lexically_normal();
-    if (path.is_absolute() || path.empty() || *path.begin() == "..") {
-      return make_error(Code::unsupported,
-                        "\"" + uri + "\" lies outside of the folder of the .gltf: move it there");
-    }
-    return bytes_of(fs::path(folder) / path);
-  };
-}
-
 Result<HeadFile> read_head_and_vertices(std::span<const std::uint8_t> bytes,
                                         const ReadOptions& options) {
   Result<File> file = open_file(bytes, options.load);
@@ -287,10 +258,10 @@ Result<HeadFile> read_head_and_vertices(std::span<const std::uint8_t> bytes,
 Result<HeadFile> read_head_and_vertices(const std::string& path, ReadOptions options) {
   Result<Bytes> bytes = bytes_of(path);
   if (!bytes) return std::move(bytes.error()).in_file(path);
-  if (!options.load) options.load = files_of(fs::path(path).parent_path().string());
+  if (!options.load) options.load = files_of(std::filesystem::path(path).parent_path().string());
   Result<HeadFile> file = read_head_and_vertices(*bytes, options);
   if (!file) return std::move(file.error()).in_file(path);
-  file->source.name = fs::path(path).stem().string();
+  file->source.name = std::filesystem::path(path).stem().string();
   return file;
 }
 
@@ -304,36 +275,6 @@ Result<head::Source> read_head_file(const std::string& path, ReadOptions options
   Result<HeadFile> file = read_head_and_vertices(path, std::move(options));
   if (!file) return file.error();
   return std::move(file->source);
-}
-
-Result<std::vector<head::PiecePoint>> points_on(const HeadFile& file,
-                                                const std::vector<head::PointRow>& rows) {
-  std::vector<head::PiecePoint> points;
-  for (const head::PointRow& row : rows) {
-    if (!row.vertex) {
-      auto nearest = head::points_on(file.source.pieces, {row});
-      if (!nearest) return nearest;
-      points.push_back(std::move(nearest->front()));
-      continue;
-    }
-    const auto mesh = std::find_if(file.meshes.begin(), file.meshes.end(), [&](const auto& m) {
-      return row.mesh.empty()
-                 ? m.skin
-                 : (" " + m.name + " ").find(" " + row.mesh + " ") != std::string::npos;
-    });
-    const bool found = mesh != file.meshes.end() && *row.vertex < mesh->vertices.size() &&
-                       mesh->vertices[*row.vertex].vertex != head::kMissing;
-    if (!found) {
-      return error_at_line(Code::not_found,
-                           "point " + row.id + ": there is no vertex " +
-                               std::to_string(*row.vertex) + " that is shown" +
-                               (row.mesh.empty() ? "" : " in mesh " + row.mesh),
-                           row.line);
-    }
-    const PieceVertex place = mesh->vertices[*row.vertex];
-    points.push_back({row.id, place.piece, place.vertex});
-  }
-  return points;
 }
 
 }  // namespace animeme::gltf
