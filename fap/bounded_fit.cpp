@@ -192,6 +192,7 @@ void BoundedFit::close_lips(const std::vector<double>& wanted, const FapValues& 
     std::vector<double> sums = wanted;
     for (std::size_t k = 0; k < kLipPairs; ++k) {
       for (std::size_t i = 0; i < n && joined[k]; ++i) {
+        if (fap_gram_[i * n + i] <= 0) continue;  // it would cost nothing
         const double share = pull[k] * lips_.closing[i][k];
         for (std::size_t j = 0; j < n; ++j) gram_[i * n + j] += share * lips_.closing[j][k];
         sums[i] += share * goal[k];

@@ -78,6 +78,19 @@ TEST(ShapeFitter, WeightsChangeSteadily) {
   }
 }
 
+// A shape whose FAPs are not known is not used, even if it would close the lips.
+TEST(ShapeFitter, WhatSaysNothingIsNotUsed) {
+  std::vector<Frame> shapes = kMouth;
+  shapes.push_back(frame_of({}));
+  LipMeasures lips = kLips;
+  lips.closing.push_back({300, 300, 300});
+  ShapeFitter measured(kMouth, kLips), more(shapes, lips);
+  const Frame shut = frame_of({{3, 300}});
+  auto without = measured.fit(shut);
+  without.push_back(0);
+  EXPECT_EQ(more.fit(shut), without);
+}
+
 // Lips that are apart in the neutral face meet where a frame presses them; those that meet anyway
 // are left alone.
 TEST(ShapeFitter, PressedLipsMeetIfTheyDoNotYet) {
