@@ -14,6 +14,8 @@ using Values = ControlValues;
 
 std::size_t index(Part part) { return std::size_t(part); }
 
+constexpr float kTouch = 0.06f;  // of MNS: lips and lids so near are shut
+
 // Two FAPs that would make their points pass each other let them meet half way instead. `room` is
 // how far they may come together.
 void meet(float& a, float& b, float room) {
@@ -23,7 +25,16 @@ void meet(float& a, float& b, float room) {
   b -= over;
 }
 
-// The same where the meeting place follows from the shares of both.
+// Lips that nearly touch are shut: for heads of which no pairs are known, see close_pairs().
+void close_nearly(float& a, float& b) {
+  const float apart = -(a + b);
+  if (apart <= 0) return;
+  const float closer = apart * smooth_step(kTouch * 1024, kTouch * 1024 / 3, apart) / 2;
+  a += closer;
+  b += closer;
+}
+
+// As meet(), where the meeting place follows from the shares of both.
 void share(float& a, float& b, float room) {
   if (a + b <= room) return;
   const float scale = a > 0 && b > 0 ? room / (a + b) : 0;
@@ -65,6 +76,7 @@ void stop_at_rooms(const Rooms& rooms, Values& v) {
 void stop_at_contact(const Rig& rig, Values& v) {
   for (const auto& [upper, lower] : {std::pair(4, 5), {8, 10}, {9, 11}}) {
     meet(v[std::size_t(upper)], v[std::size_t(lower)], 0);
+    if (rig.lips.empty()) close_nearly(v[std::size_t(upper)], v[std::size_t(lower)]);
   }
   share(v[19], v[21], 1024);
   share(v[20], v[22], 1024);
@@ -251,7 +263,7 @@ void pose(const Rig& rig, const fap::Frame& frame, Pose& out, const PoseOptions&
     detail::keep_off_teeth(rig, rig.teeth[0], {}, skin);
     detail::keep_off_teeth(rig, rig.teeth[1],
                            detail::jaw_transform(rig, values[3], values[14], values[15]), skin);
-    const float touch = 0.06f * float(rig.fapu.mns);
+    const float touch = kTouch * float(rig.fapu.mns);
     close_pairs(rig.lips, touch, skin);
     for (const auto& lids : rig.lids) close_pairs(lids, touch, skin);
   }

@@ -86,7 +86,8 @@ struct Rig {
 Rig make_rig(const Head& head);
 
 struct PoseOptions {
-  /// Lips and lids stop where they touch, other points where Rooms says, upper lids at 0.26 IRISD
+  /// Lips and lids stop where they touch, and are shut where they nearly do (0.06 MNS; lids only if
+  /// their Seams are known), other points stop where Rooms says, upper lids at 0.26 IRISD
   /// up, a jaw that goes back at 0.25 MNS. Without it every feature point is where its FAPs say.
   bool contact = true;
   /// Upper lids go along with eyes that look down or up: see lids_follow_gaze().

@@ -86,6 +86,30 @@ TEST_P(EachRig, JawTakesTeethAndTongueAlong) {
   EXPECT_LT(length(moved(pose, "2.3")), 0.02 * drop);  // lips have FAPs of their own
 }
 
+// Heads of others: nobody knows which vertices of the lips touch each other.
+TEST_P(EachRig, LipsOfHeadsWithoutSeamsMeetWhereTheyNearlyDo) {
+  Head bare = head();
+  bare.seams.lips.clear();
+  const Rig rig = head::make_rig(bare);
+  const auto apart = [&](int upper, int lower, bool contact = true) {
+    fap::Frame frame;
+    for (const int fap : {4, 8, 9}) frame.set(fap, upper);
+    for (const int fap : {5, 10, 11}) frame.set(fap, lower);
+    const Pose pose = head::pose(rig, frame, {.contact = contact});
+    float most = 0;
+    for (const auto& [u, l] : {std::pair("2.2", "2.3"), {"2.6", "2.8"}, {"2.7", "2.9"}}) {
+      most = std::max(most, std::abs(posed(bare, rig, pose, u).y - posed(bare, rig, pose, l).y));
+    }
+    return most;
+  };
+  EXPECT_LT(apart(60, -70), 1e-3f);
+  EXPECT_LT(apart(-10, -10), 1e-3f);
+  EXPECT_LT(apart(150, 150), 1e-3f);  // they would pass each other
+  EXPECT_GT(apart(60, -70, false), 0.01f);
+  const float unit = float(fap::displacement(4, 1, rig.fapu));
+  EXPECT_NEAR(apart(-100, -100), 200 * unit, 6 * unit);
+}
+
 TEST_P(EachRig, ClosedLidsMeetAndCoverTheEye) {
   for (const auto& [upper, lower] : {std::pair(1024, 0), {700, 324}, {1080, 600}, {0, 1024}}) {
     fap::Frame frame;

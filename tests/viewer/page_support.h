@@ -97,10 +97,21 @@ inline const TestHead& test_head() {
   return made;
 }
 
+// As a head of somebody else: nobody knows which vertices touch each other.
+inline const TestHead& foreign_head() {
+  static const TestHead made = [] {
+    TestHead out = test_head();
+    out.head.seams = {};
+    out.rig = head::make_rig(out.head);
+    return out;
+  }();
+  return made;
+}
+
 inline std::string make(const std::vector<viewer::Clip>& clips,
-                        std::optional<viewer::Sound> sound = {}, dam::Script script = {}) {
-  const viewer::Page page{&test_head().head, &test_head().rig, clips, std::move(sound),
-                          std::move(script)};
+                        std::optional<viewer::Sound> sound = {}, dam::Script script = {},
+                        const TestHead& head = test_head()) {
+  const viewer::Page page{&head.head, &head.rig, clips, std::move(sound), std::move(script)};
   const auto html = viewer::make_page(page);
   EXPECT_TRUE(html) << html.error().describe();
   return html ? *html : std::string();

@@ -21,8 +21,8 @@ std::vector<head::Vec3> read_vertices(const std::string& path) {
 }
 
 // The largest distance of the page's vertices from those of C++, cm.
-double parity(const fap::Frame& frame, std::size_t number, const TempDir& dir) {
-  const head::Rig& rig = test_head().rig;
+double parity(const fap::Frame& frame, std::size_t number, const TempDir& dir,
+              const head::Rig& rig = test_head().rig) {
   const head::Pose pose = head::pose(rig, frame);
   double largest = 0;
   for (std::size_t i = 0; i < head::kPartCount; ++i) {
@@ -102,6 +102,21 @@ TEST(Page, MovesTheHeadAsTheRigDoes) {
     const double apart = parity(clip.frames[i], i, dir);
     EXPECT_LT(apart, 0.02) << "frame " << i;
     RecordProperty("parity_" + std::to_string(i), std::to_string(apart));
+  }
+}
+
+TEST(Page, MovesAHeadWithoutSeamsAsTheRigDoes) {
+  NEEDS_BROWSER();
+  const TempDir dir;
+  fap::Sequence clip = moving_clip();
+  const std::size_t shut = 3;
+  clip.frames[shut] = frame_of({{4, 10}, {5, -30}, {8, -20}, {10, 5}, {9, 0}, {11, -45}, {12, 80}});
+  clip.frames[shut].number = shut;
+  const Json report = report_of("looks", make({{clip, 0, "clip"}}, {}, {}, foreign_head()), dir);
+  ASSERT_TRUE(report.contains("state"));
+  EXPECT_EQ(said(report), std::vector<std::string>());
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_LT(parity(clip.frames[i], i, dir, foreign_head().rig), 0.02) << "frame " << i;
   }
 }
 

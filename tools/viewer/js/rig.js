@@ -1,4 +1,5 @@
 // Moves a head: the same as pose.cpp in fap/head, vertex for vertex.
+import {closeContacts, stopAtContact} from './contact.js';
 import {IDENTITY, compose, inverse, moved, movedPoints, rotationAbout, smoothNormals, smoothStep} from
   './vector.js';
 
@@ -7,51 +8,8 @@ export const FAP_COUNT = 68;
 export const FIRST_SHAPE = FAP_COUNT + 1;
 const RADIANS = 1e-5;  // one unit of an angle
 const EYE_SKIN = 1.07;  // of the radius of an eyeball: skin comes no nearer to its centre
-const LID_RISE = -270;  // upper lids rise by this at most
-const JAW_BACK = -250;  // and the jaw goes back by this
 const TEETH_SKIN = 1.07;  // of the half axes of a row of teeth, the same
 const TEETH_SOFT = 0.05;  // the push begins gently, over this
-const CONTACT = 0.06;  // lips and lids feel each other at this share of the mouth-nose distance
-
-// Two FAPs whose points would pass each other let them meet half way.
-function meet(v, a, b) {
-  const over = (v[a] + v[b]) / 2;
-  if (over <= 0) return;
-  v[a] -= over;
-  v[b] -= over;
-}
-
-// The same where the meeting place follows from the shares of both.
-function share(v, a, b, room) {
-  const sum = v[a] + v[b];
-  if (sum <= room) return;
-  if (v[a] > 0 && v[b] > 0) {
-    v[a] *= room / sum;
-    v[b] *= room / sum;
-  } else if (v[a] > v[b]) {
-    v[a] = room - v[b];
-  } else {
-    v[b] = room - v[a];
-  }
-}
-
-// Points that would come too near to each other, so that the skin between them folds over.
-function stopAtRooms(v, rooms) {
-  const atLeast = (faps, least) => { for (const f of faps) v[f] = Math.max(v[f], least); };
-  const atMost = (faps, room) => {
-    for (const [outer, inner] of faps) v[outer] = Math.min(v[outer], v[inner] + room);
-  };
-  atLeast([19, 20], LID_RISE);
-  atLeast([14], JAW_BACK);
-  atLeast([18], -rooms.chin);
-  atLeast([31, 32, 33, 34, 35, 36], -rooms.brow_lid);
-  atLeast([37, 38], -0.5 * rooms.brows);
-  share(v, 37, 38, rooms.brows);
-  const chin = Math.min(v[18] - Math.max(v[3], 0), 0);
-  atLeast([5, 10, 11, 52, 57, 58], chin - rooms.lip_chin);
-  atMost([[51, 4], [55, 8], [56, 9]], rooms.upper_lip);
-  atMost([[52, 5], [57, 10], [58, 11]], rooms.lower_lip);
-}
 
 /** One head in one pose. */
 export class Rig {
@@ -78,10 +36,7 @@ export class Rig {
     const {model, positions, index} = this;
     const v = this.values;
     for (let f = 3; f < v.length; ++f) v[f] = values[f] || 0;
-    for (const [upper, lower] of [[4, 5], [8, 10], [9, 11]]) meet(v, upper, lower);
-    share(v, 19, 21, 1024);
-    share(v, 20, 22, 1024);
-    stopAtRooms(v, model.rooms);
+    stopAtContact(model, v);
     for (const i of this.deforming) positions[i].set(model.parts[i].positions);
     const skin = positions[index.skin];
     this.applyTargets(v, true);
@@ -91,8 +46,7 @@ export class Rig {
     const [upper, lower] = model.teeth;
     this.keepOffTeeth(upper, IDENTITY, skin);
     this.keepOffTeeth(lower, this.jawTransform(v), skin);
-    const touch = CONTACT * model.fapu.mns;
-    for (const pairs of [model.lips, ...model.lids]) closePairs(pairs, touch, skin);
+    closeContacts(model, skin);
     this.turnLashes(skin, positions[index.lashes]);
     this.setTransforms(v);
     this.turnNeck(skin);
@@ -249,20 +203,6 @@ export class Rig {
       skin[i] += (x - skin[i]) * weight;
       skin[i + 1] += (y - skin[i + 1]) * weight;
       skin[i + 2] += (z - skin[i + 2]) * weight;
-    }
-  }
-}
-
-// Pairs that have passed each other or nearly touch meet in the middle.
-function closePairs(pairs, soft, skin) {
-  for (let k = 0; k < pairs.length; k += 2) {
-    const u = pairs[k] * 3;
-    const l = pairs[k + 1] * 3;
-    const touch = smoothStep(soft, soft / 3, skin[u + 1] - skin[l + 1]) * 0.5;
-    for (const axis of [0, 1, 2]) {
-      const apart = (skin[l + axis] - skin[u + axis]) * touch;
-      skin[u + axis] += apart;
-      skin[l + axis] -= apart;
     }
   }
 }

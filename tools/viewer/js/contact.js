@@ -1,0 +1,87 @@
+// What a face does not do whatever its FAPs say: the same as stop_at_contact() and close_pairs() of
+// pose.cpp in fap/head.
+import {smoothStep} from './vector.js';
+
+const LID_RISE = -270;  // upper lids rise by this at most
+const JAW_BACK = -250;  // and the jaw goes back by this
+const CONTACT = 0.06;  // of MNS: lips and lids so near are shut
+
+// Two FAPs whose points would pass each other let them meet half way.
+function meet(v, a, b) {
+  const over = (v[a] + v[b]) / 2;
+  if (over <= 0) return;
+  v[a] -= over;
+  v[b] -= over;
+}
+
+// Lips that nearly touch are shut: for heads of which no pairs are known, see closePairs().
+function closeNearly(v, a, b) {
+  const apart = -(v[a] + v[b]);
+  if (apart <= 0) return;
+  const closer = apart * smoothStep(CONTACT * 1024, CONTACT * 1024 / 3, apart) / 2;
+  v[a] += closer;
+  v[b] += closer;
+}
+
+// As meet(), where the meeting place follows from the shares of both.
+function share(v, a, b, room) {
+  const sum = v[a] + v[b];
+  if (sum <= room) return;
+  if (v[a] > 0 && v[b] > 0) {
+    v[a] *= room / sum;
+    v[b] *= room / sum;
+  } else if (v[a] > v[b]) {
+    v[a] = room - v[b];
+  } else {
+    v[b] = room - v[a];
+  }
+}
+
+// Points that would come too near to each other, so that the skin between them folds over.
+function stopAtRooms(v, rooms) {
+  const atLeast = (faps, least) => { for (const f of faps) v[f] = Math.max(v[f], least); };
+  const atMost = (faps, room) => {
+    for (const [outer, inner] of faps) v[outer] = Math.min(v[outer], v[inner] + room);
+  };
+  atLeast([19, 20], LID_RISE);
+  atLeast([14], JAW_BACK);
+  atLeast([18], -rooms.chin);
+  atLeast([31, 32, 33, 34, 35, 36], -rooms.brow_lid);
+  atLeast([37, 38], -0.5 * rooms.brows);
+  share(v, 37, 38, rooms.brows);
+  const chin = Math.min(v[18] - Math.max(v[3], 0), 0);
+  atLeast([5, 10, 11, 52, 57, 58], chin - rooms.lip_chin);
+  atMost([[51, 4], [55, 8], [56, 9]], rooms.upper_lip);
+  atMost([[52, 5], [57, 10], [58, 11]], rooms.lower_lip);
+}
+
+/** Changes values by control, low-level FAPs by number, to what the face can do. */
+export function stopAtContact(model, v) {
+  for (const [upper, lower] of [[4, 5], [8, 10], [9, 11]]) {
+    meet(v, upper, lower);
+    if (model.lips.length === 0) closeNearly(v, upper, lower);
+  }
+  share(v, 19, 21, 1024);
+  share(v, 20, 22, 1024);
+  stopAtRooms(v, model.rooms);
+}
+
+// Pairs that have passed each other or nearly touch meet in the middle.
+function closePairs(pairs, soft, skin) {
+  for (let k = 0; k < pairs.length; k += 2) {
+    const u = pairs[k] * 3;
+    const l = pairs[k + 1] * 3;
+    const touch = smoothStep(soft, soft / 3, skin[u + 1] - skin[l + 1]) * 0.5;
+    for (const axis of [0, 1, 2]) {
+      const apart = (skin[l + axis] - skin[u + axis]) * touch;
+      skin[u + axis] += apart;
+      skin[l + axis] -= apart;
+    }
+  }
+}
+
+/** Closes lips and lids of which the pairs are known. */
+export function closeContacts(model, skin) {
+  const touch = CONTACT * model.fapu.mns;
+  for (const pairs of [model.lips, ...model.lids]) closePairs(pairs, touch, skin);
+}
