@@ -13,7 +13,6 @@ using head::Vec3;
 constexpr float kHalfWidth = 0.05f;
 constexpr float kLength = 2.4f;
 constexpr float kAsHigh = 0.02f;
-constexpr float kProfile = 0.015f;  // from the middle: between the nostrils
 constexpr float kArm = 0.07f;
 constexpr float kFlat = 2.9f;          // rad: what bends less is no corner
 constexpr float kOwnSurface = 0.005f;  // nearer hits of a ray are the surface that it starts from
