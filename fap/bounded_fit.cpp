@@ -16,19 +16,10 @@ constexpr double kStill = 1e-6;      // a weight that changes less has arrived
 constexpr double kAngleUnit = 1e-5;  // rad
 constexpr double kLidsCount = 3;     // the opening of the eye is short and everybody looks at it
 
-// FAPs of one place on the upper and lower lip: together they close it.
-constexpr std::pair<std::size_t, std::size_t> kLips[kLipPairs] = {{4, 5}, {8, 10}, {9, 11}};
 static_assert(kLipPairs <= std::size_t(kFirstLowLevel));
 constexpr double kOpen = 100;         // so far apart, FAP units of MNS, lips need not meet
 constexpr double kMeetingCounts = 3;  // measured lips against what FAPs say of them
 constexpr int kMeetingRounds = 8;
-
-// Lips that nearly touch are shut, as head::pose() has it. FAP units of MNS; negative: apart.
-double soft(double closing) {
-  constexpr double kTouch = 0.06 * 1024;
-  const double near = std::clamp((kTouch + closing) / (kTouch * 2 / 3), 0.0, 1.0);
-  return closing < 0 ? closing * (1 - near * near * (3 - 2 * near)) : closing;
-}
 
 double product(const FapValues& a, const FapValues& b) {
   double sum = 0;
@@ -86,7 +77,7 @@ BoundedFit::BoundedFit(std::vector<std::vector<ShapeWeight>> shapes, double ridg
       weights_(shapes_.size(), 0.0) {
   if (!lips_.closing.empty()) lips_.closing.resize(shapes_.size());
   for (std::size_t k = 0; k < kLipPairs; ++k) {
-    const double length = lengths_[kLips[k].first];
+    const double length = lengths_[std::size_t(kLips[k].upper)];
     lips_.at_rest[k] *= length;
     for (LipValues& values : lips_.closing) values[k] *= length;
   }
@@ -122,7 +113,7 @@ FapValues BoundedFit::weighed(const FapValues& values) const {
     if (mask_[fap]) out[fap] = values[fap] * lengths_[fap];
   }
   for (std::size_t k = 0; k < kLipPairs; ++k) {
-    const auto& [upper, lower] = kLips[k];
+    const auto upper = std::size_t(kLips[k].upper), lower = std::size_t(kLips[k].lower);
     if (mask_[upper] && mask_[lower]) out[k] = lips_.weight * (out[upper] + out[lower]);
   }
   return out;
@@ -170,15 +161,14 @@ void BoundedFit::close_lips(const std::vector<double>& wanted, const FapValues& 
   const std::size_t n = shapes_.size();
   LipValues goal{}, pull{};  // closing, and its weight, squared
   for (std::size_t k = 0; k < kLipPairs; ++k) {
-    const auto& [upper, lower] = kLips[k];
+    const auto upper = std::size_t(kLips[k].upper), lower = std::size_t(kLips[k].lower);
     if (!mask_[upper] || !mask_[lower]) continue;
     const double closing = target[upper] + target[lower];
     const double weight = kMeetingCounts * lips_.weight * std::clamp(1 + closing / kOpen, 0.0, 1.0);
-    goal[k] = std::min(soft(closing) * lengths_[upper], lips_.at_rest[k]);
+    goal[k] = std::min(soft_closing(closing) * lengths_[upper], lips_.at_rest[k]);
     pull[k] = weight * weight;
   }
   std::array<bool, kLipPairs> joined{};
-  fap_gram_ = gram_;
   for (int round = 0; round < kMeetingRounds; ++round) {
     std::array<bool, kLipPairs> apart{};
     for (std::size_t k = 0; k < kLipPairs; ++k) {
@@ -188,6 +178,7 @@ void BoundedFit::close_lips(const std::vector<double>& wanted, const FapValues& 
     }
     if (apart == joined) break;
     joined = apart;
+    if (round == 0) fap_gram_ = gram_;
     gram_ = fap_gram_;
     std::vector<double> sums = wanted;
     for (std::size_t k = 0; k < kLipPairs; ++k) {
@@ -200,7 +191,8 @@ void BoundedFit::close_lips(const std::vector<double>& wanted, const FapValues& 
     }
     descend(sums, steadiness, 0);
   }
-  gram_.swap(fap_gram_);
+  if (!fap_gram_.empty()) gram_.swap(fap_gram_);
+  fap_gram_.clear();
 }
 
 // The limit of the sum as a price on all weights: the lowest one that keeps it.

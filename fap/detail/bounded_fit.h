@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "fap/detail/lips.h"
 #include "fap/frame.h"
 
 namespace animeme::fap::internal {
@@ -16,8 +17,7 @@ struct ShapeWeight {
   std::int32_t value;
 };
 
-/// The lips close at their middle, left and right of it: FAP 4 and 5, 8 and 10, 9 and 11 together.
-inline constexpr std::size_t kLipPairs = 3;
+/// By pair of kLips.
 using LipValues = std::array<double, kLipPairs>;
 
 /// What the distance of the lips counts.

@@ -1,5 +1,6 @@
 #include <initializer_list>
 
+#include "fap/detail/lips.h"
 #include "fap/head/detail/normals.h"
 #include "fap/head/detail/targets.h"
 #include "fap/head/detail/teeth.h"
@@ -14,8 +15,6 @@ using Values = ControlValues;
 
 std::size_t index(Part part) { return std::size_t(part); }
 
-constexpr float kTouch = 0.06f;  // of MNS: lips and lids so near are shut
-
 // Two FAPs that would make their points pass each other let them meet half way instead. `room` is
 // how far they may come together.
 void meet(float& a, float& b, float room) {
@@ -27,9 +26,8 @@ void meet(float& a, float& b, float room) {
 
 // Lips that nearly touch are shut: for heads of which no pairs are known, see close_pairs().
 void close_nearly(float& a, float& b) {
-  const float apart = -(a + b);
-  if (apart <= 0) return;
-  const float closer = apart * smooth_step(kTouch * 1024, kTouch * 1024 / 3, apart) / 2;
+  const double closing = double(a) + double(b);
+  const auto closer = float((fap::internal::soft_closing(closing) - closing) / 2);
   a += closer;
   b += closer;
 }
@@ -74,7 +72,7 @@ void stop_at_rooms(const Rooms& rooms, Values& v) {
 }
 
 void stop_at_contact(const Rig& rig, Values& v) {
-  for (const auto& [upper, lower] : {std::pair(4, 5), {8, 10}, {9, 11}}) {
+  for (const auto& [upper, lower] : fap::internal::kLips) {
     meet(v[std::size_t(upper)], v[std::size_t(lower)], 0);
     if (rig.lips.empty()) close_nearly(v[std::size_t(upper)], v[std::size_t(lower)]);
   }
@@ -263,7 +261,7 @@ void pose(const Rig& rig, const fap::Frame& frame, Pose& out, const PoseOptions&
     detail::keep_off_teeth(rig, rig.teeth[0], {}, skin);
     detail::keep_off_teeth(rig, rig.teeth[1],
                            detail::jaw_transform(rig, values[3], values[14], values[15]), skin);
-    const float touch = kTouch * float(rig.fapu.mns);
+    const float touch = float(fap::internal::kTouch * rig.fapu.mns);
     close_pairs(rig.lips, touch, skin);
     for (const auto& lids : rig.lids) close_pairs(lids, touch, skin);
   }

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "fap/detail/lips.h"
 #include "fap/head/detail/normals.h"
 #include "fap/head/detail/targets.h"
 #include "fap/head/detail/teeth.h"
@@ -102,20 +103,18 @@ float down_by(const Target& target, FeaturePoint point) {
 fap::LipMeasures lip_measures(const Head& head, const Rig& rig) {
   // Points farther apart at rest, in shares of MNS, are not where the lips meet.
   constexpr float kMostAtRest = 0.15f * 1024;
-  constexpr struct {
-    std::string_view upper, lower;
-    std::size_t fap, other;
-  } kPairs[] = {{"2.2", "2.3", 4, 5}, {"2.6", "2.8", 8, 10}, {"2.7", "2.9", 9, 11}};
   fap::LipMeasures measures;
   measures.closing.resize(rig.shapes.size());
   const float unit = float(fap::step_size(4, rig.fapu));
-  for (std::size_t k = 0; k < std::size(kPairs); ++k) {
-    const auto& [upper_id, lower_id, fap, other] = kPairs[k];
+  for (std::size_t k = 0; k < fap::internal::kLipPairs; ++k) {
+    const auto& [up, low] = fap::internal::kLips[k];
+    const std::string_view upper_id = fap::info(up).feature_point;
+    const std::string_view lower_id = fap::info(low).feature_point;
     const FeaturePoint upper = head.point(upper_id), lower = head.point(lower_id);
     if (!upper.exists() || !lower.exists() || !(unit > 0)) {
       for (std::size_t i = 0; i < rig.shapes.size(); ++i) {
         const auto& value = rig.shapes[i].faps.value;
-        measures.closing[i][k] = float(value[fap] + value[other]);
+        measures.closing[i][k] = float(value[std::size_t(up)] + value[std::size_t(low)]);
       }
       continue;
     }
