@@ -137,10 +137,9 @@ TEST(GlbReaders, AHeadThatWentThroughBlenderMovesAsBefore) {
   ASSERT_TRUE(head) << head.error().describe();
   const head::Rig copy = head::make_rig(*head);
   EXPECT_EQ(copy.shapes.size(), 52u);
-  for (const head::Part part : {head::Part::skin, head::Part::left_eye, head::Part::tongue}) {
-    ASSERT_EQ(copy.parts[std::size_t(part)].positions.size(),
-              rig.parts[std::size_t(part)].positions.size())
-        << head::kPartNames[std::size_t(part)];
+  for (std::size_t part = 0; part < rig.parts.size(); ++part) {
+    EXPECT_EQ(copy.parts[part].positions.size(), rig.parts[part].positions.size())
+        << head::kPartNames[part];
   }
   const head::Vec3 shift = copy.eyes[0].centre - rig.eyes[0].centre;
   double worst = 0;
