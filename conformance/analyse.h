@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "codec/decoder.h"
+#include "codec/decode/decoder.h"
 #include "conformance/stream_writer.h"
 
 namespace animeme::conformance {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "codec/bap_text.h"
+#include "codec/text/bap_text.h"
 #include "conformance/analyse.h"
 #include "conformance/epf_writer.h"
 #include "conformance/features.h"

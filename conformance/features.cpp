@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "codec/body_tables.h"
+#include "codec/syntax/body_tables.h"
 #include "fap/tables.h"
 
 namespace animeme::conformance {

@@ -14,8 +14,8 @@
 #include <iostream>
 #include <iterator>
 
-#include "codec/bap_text.h"
-#include "codec/epf.h"
+#include "codec/text/bap_text.h"
+#include "codec/text/epf.h"
 #include "conformance/analyse.h"
 #include "conformance/case_builder.h"
 #include "conformance/describe.h"

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "codec/plane.h"
+#include "codec/syntax/plane.h"
 #include "conformance/segment_writer.h"
 #include "fap/frame.h"
 

@@ -1,6 +1,6 @@
 #include "conformance/trial.h"
 
-#include "codec/epf.h"
+#include "codec/text/epf.h"
 #include "fap/text.h"
 
 namespace animeme::conformance {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "codec/bap_text.h"
+#include "codec/text/bap_text.h"
 #include "conformance/case_file.h"
 #include "fap/frame.h"
 #include "fap/result.h"

@@ -10,9 +10,9 @@
 #include <map>
 #include <string>
 
-#include "codec/decoder.h"
-#include "codec/encode.h"
-#include "codec/live.h"
+#include "codec/decode/decoder.h"
+#include "codec/encode/encode.h"
+#include "codec/encode/live.h"
 #include "fap/text.h"
 #include "tests/bench/bench_material.h"
 

@@ -4,11 +4,11 @@
 
 #include <string>
 
-#include "dam/builtin.h"
-#include "dam/corpus.h"
-#include "dam/stream.h"
-#include "dam/synthesise.h"
-#include "dam/train.h"
+#include "dam/corpus/corpus.h"
+#include "dam/model/builtin.h"
+#include "dam/speaking/stream.h"
+#include "dam/speaking/synthesise.h"
+#include "dam/training/train.h"
 #include "tests/bench/speech_material.h"
 
 namespace animeme {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "codec/decoder.h"
+#include "codec/decode/decoder.h"
 
 namespace animeme::bench {
 

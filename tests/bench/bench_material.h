@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "codec/encoder.h"
+#include "codec/encode/encoder.h"
 #include "fap/frame.h"
 #include "tests/bench/textbook_coder.h"
 

@@ -23,10 +23,10 @@
 #include <string>
 #include <vector>
 
-#include "dam/corpus.h"
-#include "dam/evaluate.h"
-#include "dam/evaluate_bootstrap.h"
-#include "dam/train.h"
+#include "dam/corpus/corpus.h"
+#include "dam/evaluation/evaluate.h"
+#include "dam/evaluation/evaluate_bootstrap.h"
+#include "dam/training/train.h"
 #include "tests/bench/rank_variants.h"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dam/train.h"
+#include "dam/training/train.h"
 
 namespace animeme::bench {
 

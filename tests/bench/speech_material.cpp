@@ -5,8 +5,8 @@
 #include <random>
 #include <string>
 
-#include "dam/builtin.h"
-#include "dam/synthesise.h"
+#include "dam/model/builtin.h"
+#include "dam/speaking/synthesise.h"
 
 namespace animeme::bench {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "dam/corpus.h"
+#include "dam/corpus/corpus.h"
 
 namespace animeme::bench {
 

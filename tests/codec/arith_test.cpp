@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "codec/arith.h"
+#include "codec/syntax/arith.h"
 #include "tests/bench/textbook_coder.h"
 #include "tests/support/random_clip.h"
 

@@ -1,11 +1,11 @@
 // BAP text: what is written reads back, what real programs write is understood, damage is an error
 // with a place, and the reference files read like a plain reader reads them.
-#include "codec/bap_text.h"
+#include "codec/text/bap_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "codec/decoder.h"
+#include "codec/decode/decoder.h"
 #include "tests/codec/reference_streams.h"
 #include "tests/support/body_frame.h"
 #include "tests/support/random_clip.h"

@@ -1,13 +1,13 @@
 // Coding clips with a body: what comes back is within half a step, frames and gaps are kept.
-#include "codec/encode.h"
+#include "codec/encode/encode.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
-#include "codec/bap_text.h"
-#include "codec/decoder.h"
+#include "codec/decode/decoder.h"
+#include "codec/text/bap_text.h"
 #include "tests/support/random_clip.h"
 
 namespace animeme::fba {

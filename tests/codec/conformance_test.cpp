@@ -2,10 +2,10 @@
 // its encoder parameter file.
 #include <gtest/gtest.h>
 
-#include "codec/access_unit.h"
-#include "codec/bap_text.h"
-#include "codec/decoder.h"
-#include "codec/epf.h"
+#include "codec/decode/access_unit.h"
+#include "codec/decode/decoder.h"
+#include "codec/text/bap_text.h"
+#include "codec/text/epf.h"
 #include "fap/text.h"
 #include "tests/codec/reference_streams.h"
 

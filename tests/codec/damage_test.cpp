@@ -5,7 +5,7 @@
 
 #include <cstdlib>
 
-#include "codec/decoder.h"
+#include "codec/decode/decoder.h"
 #include "tests/codec/reference_streams.h"
 
 namespace animeme {

@@ -4,9 +4,9 @@
 
 #include <limits>
 
-#include "codec/decoder.h"
-#include "codec/encode.h"
-#include "codec/live.h"
+#include "codec/decode/decoder.h"
+#include "codec/encode/encode.h"
+#include "codec/encode/live.h"
 
 namespace animeme {
 namespace {

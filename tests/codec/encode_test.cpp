@@ -1,13 +1,13 @@
 // encode(): the file preset, the error and rate limits, and the traps it avoids.
-#include "codec/encode.h"
+#include "codec/encode/encode.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "codec/decoder.h"
-#include "codec/fill.h"
-#include "codec/live.h"
+#include "codec/decode/decoder.h"
+#include "codec/decode/fill.h"
+#include "codec/encode/live.h"
 #include "fap/compare.h"
 #include "tests/support/random_clip.h"
 

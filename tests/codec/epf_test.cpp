@@ -1,10 +1,10 @@
 // Encoder parameter files: what the reader refuses, and how frames are found and held.
-#include "codec/epf.h"
+#include "codec/text/epf.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "codec/bap_text.h"
+#include "codec/text/bap_text.h"
 #include "tests/support/body_frame.h"
 
 namespace animeme::fba {

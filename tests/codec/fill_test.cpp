@@ -1,9 +1,9 @@
 // Filling a decoded stream: what becomes of FAPs that are not coded is said by the mask types.
-#include "codec/fill.h"
+#include "codec/decode/fill.h"
 
 #include <gtest/gtest.h>
 
-#include "codec/encoder.h"
+#include "codec/encode/encoder.h"
 #include "tests/codec/reference_streams.h"
 
 namespace animeme::fba {

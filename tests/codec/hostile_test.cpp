@@ -1,9 +1,9 @@
 // Damaged streams end in a result or a clear error, and the decoder finds its way back.
 #include <gtest/gtest.h>
 
-#include "codec/decoder.h"
-#include "codec/encode.h"
-#include "codec/epf.h"
+#include "codec/decode/decoder.h"
+#include "codec/encode/encode.h"
+#include "codec/text/epf.h"
 #include "tests/codec/reference_streams.h"
 #include "tests/support/random_clip.h"
 

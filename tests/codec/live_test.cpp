@@ -1,9 +1,9 @@
 // LiveEncoder: one frame in, one unit out.
-#include "codec/live.h"
+#include "codec/encode/live.h"
 
 #include <gtest/gtest.h>
 
-#include "codec/decoder.h"
+#include "codec/decode/decoder.h"
 #include "tests/support/random_clip.h"
 
 namespace animeme {

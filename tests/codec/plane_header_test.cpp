@@ -1,9 +1,9 @@
-#include "codec/plane_header.h"
+#include "codec/decode/plane_header.h"
 
 #include <gtest/gtest.h>
 
-#include "codec/access_unit.h"
-#include "codec/decoder.h"
+#include "codec/decode/access_unit.h"
+#include "codec/decode/decoder.h"
 #include "tests/codec/reference_streams.h"
 
 namespace animeme::fba {

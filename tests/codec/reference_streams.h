@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "codec/plane.h"
+#include "codec/syntax/plane.h"
 #include "tests/support/shared.h"
 
 namespace animeme::test {

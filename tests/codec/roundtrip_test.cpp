@@ -1,9 +1,9 @@
 // Properties: whatever encode() takes comes back, within the quantiser and exactly at quantiser 0.
 #include <gtest/gtest.h>
 
-#include "codec/access_unit.h"
-#include "codec/decoder.h"
-#include "codec/encode.h"
+#include "codec/decode/access_unit.h"
+#include "codec/decode/decoder.h"
+#include "codec/encode/encode.h"
 #include "tests/support/random_clip.h"
 
 namespace animeme {

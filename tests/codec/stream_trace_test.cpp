@@ -1,16 +1,16 @@
 // Traps: bits that are legal and lead other decoders astray. First where they are found, then
 // that encode() and LiveEncoder go around them.
-#include "codec/stream_trace_internal.h"
+#include "codec/encode/stream_trace_internal.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <string>
 
-#include "codec/decoder.h"
-#include "codec/encode.h"
-#include "codec/encoder.h"
-#include "codec/live.h"
+#include "codec/decode/decoder.h"
+#include "codec/encode/encode.h"
+#include "codec/encode/encoder.h"
+#include "codec/encode/live.h"
 #include "tests/support/random_clip.h"
 
 namespace animeme {

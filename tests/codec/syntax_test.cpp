@@ -3,10 +3,10 @@
 // and 12).
 #include <gtest/gtest.h>
 
-#include "codec/arith.h"
-#include "codec/bits.h"
-#include "codec/decoder.h"
-#include "codec/encoder.h"
+#include "codec/decode/decoder.h"
+#include "codec/encode/encoder.h"
+#include "codec/syntax/arith.h"
+#include "codec/syntax/bits.h"
 
 namespace animeme {
 namespace {

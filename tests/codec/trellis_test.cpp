@@ -1,12 +1,12 @@
 // The search for levels, and the code lengths it goes by.
-#include "codec/trellis_internal.h"
+#include "codec/encode/trellis_internal.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "codec/clip_internal.h"
-#include "codec/encode.h"
+#include "codec/encode/clip_internal.h"
+#include "codec/encode/encode.h"
 #include "tests/support/random_clip.h"
 
 namespace animeme {

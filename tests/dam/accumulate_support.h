@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "dam/accumulate.h"
+#include "dam/training/accumulate.h"
 #include "dam_support.h"
 
 namespace animeme::test {

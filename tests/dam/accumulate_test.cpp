@@ -1,5 +1,5 @@
 // Training in parts: the same model as in one go, every sentence once.
-#include "dam/accumulate.h"
+#include "dam/training/accumulate.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "accumulate_support.h"
-#include "dam/corpus.h"
+#include "dam/corpus/corpus.h"
 #include "tests/support/shared.h"
 
 namespace animeme::dam {

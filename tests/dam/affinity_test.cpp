@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "dam/detail/spline.h"
+#include "dam/maths/spline.h"
 
 namespace animeme::dam {
 namespace {

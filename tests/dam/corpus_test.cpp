@@ -1,5 +1,5 @@
 // Reading corpora, good and hostile.
-#include "dam/corpus.h"
+#include "dam/corpus/corpus.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

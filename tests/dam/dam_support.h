@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "dam/animeme.h"
-#include "dam/corpus.h"
-#include "dam/detail/timeline.h"
+#include "dam/corpus/corpus.h"
+#include "dam/model/animeme.h"
+#include "dam/script/timeline_internal.h"
 
 namespace animeme::test {
 

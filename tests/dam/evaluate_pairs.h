@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "dam/evaluate.h"
+#include "dam/evaluation/evaluate.h"
 
 namespace animeme::dam::test {
 

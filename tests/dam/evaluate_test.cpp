@@ -1,4 +1,4 @@
-#include "dam/evaluate.h"
+#include "dam/evaluation/evaluate.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "dam/train.h"
+#include "dam/training/train.h"
 #include "tests/support/shared.h"
 
 namespace animeme::dam {

@@ -1,8 +1,8 @@
 // Lag and misalignment of motion that was moved by a known time, and the bootstrap.
 #include <gtest/gtest.h>
 
-#include "dam/evaluate_bootstrap.h"
-#include "dam/phones.h"
+#include "dam/evaluation/evaluate_bootstrap.h"
+#include "dam/script/phones.h"
 #include "tests/dam/evaluate_pairs.h"
 
 namespace animeme::dam {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dam/animeme.h"
+#include "dam/model/animeme.h"
 #include "dam_support.h"
 
 namespace animeme::dam {

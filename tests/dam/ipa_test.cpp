@@ -1,4 +1,4 @@
-#include "dam/ipa.h"
+#include "dam/script/ipa.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "dam/phones.h"
+#include "dam/script/phones.h"
 #include "tests/support/shared.h"
 
 namespace animeme::dam {

@@ -1,5 +1,5 @@
 // What every kind of model owes its users, whatever it is made of.
-#include "dam/kinds/kind.h"
+#include "dam/model/kind_internal.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dam/evaluate.h"
+#include "dam/evaluation/evaluate.h"
 #include "dam_support.h"
 #include "tests/support/shared.h"
 

@@ -1,10 +1,10 @@
-#include "dam/life.h"
+#include "dam/speaking/life.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "dam/fap_signal.h"
+#include "dam/signal/fap_signal.h"
 
 namespace animeme::dam {
 namespace {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "dam/model.h"
-#include "dam/synthesise.h"
+#include "dam/model/model.h"
+#include "dam/speaking/synthesise.h"
 #include "tests/support/sealed_model.h"
 
 namespace animeme::dam {

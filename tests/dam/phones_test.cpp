@@ -1,4 +1,4 @@
-#include "dam/phones.h"
+#include "dam/script/phones.h"
 
 #include <gtest/gtest.h>
 

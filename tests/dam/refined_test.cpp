@@ -7,12 +7,12 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "dam/detail/cholesky.h"
 #include "dam/kinds/refined/curves_fit.h"
 #include "dam/kinds/refined/dominance.h"
 #include "dam/kinds/refined/fit.h"
-#include "dam/synthesise.h"
-#include "dam/train.h"
+#include "dam/maths/cholesky.h"
+#include "dam/speaking/synthesise.h"
+#include "dam/training/train.h"
 #include "tests/dam/dam_support.h"
 
 namespace animeme::dam {

@@ -1,4 +1,4 @@
-#include "dam/script.h"
+#include "dam/script/script.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <random>
 #include <sstream>
 
-#include "dam/phones.h"
-#include "dam/textgrid.h"
+#include "dam/script/phones.h"
+#include "dam/script/textgrid.h"
 #include "tests/support/shared.h"
 
 namespace animeme::dam {

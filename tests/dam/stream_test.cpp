@@ -1,4 +1,4 @@
-#include "dam/stream.h"
+#include "dam/speaking/stream.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <span>
 
-#include "dam/closure.h"
-#include "dam/train.h"
+#include "dam/signal/closure.h"
+#include "dam/training/train.h"
 #include "tests/dam/dam_support.h"
 #include "tests/support/shared.h"
 

@@ -1,4 +1,4 @@
-#include "dam/synthesise.h"
+#include "dam/speaking/synthesise.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <set>
 
-#include "dam/closure.h"
-#include "dam/fap_signal.h"
-#include "dam/train.h"
+#include "dam/signal/closure.h"
+#include "dam/signal/fap_signal.h"
+#include "dam/training/train.h"
 #include "tests/support/shared.h"
 
 namespace animeme::dam {

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "dam/kinds/kind.h"
 #include "dam/kinds/table/contexts.h"
 #include "dam/kinds/table/viseme_weights.h"
+#include "dam/model/kind_internal.h"
 #include "dam_support.h"
 
 namespace animeme::dam {

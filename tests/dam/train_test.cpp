@@ -1,4 +1,4 @@
-#include "dam/train.h"
+#include "dam/training/train.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "dam/synthesise.h"
+#include "dam/speaking/synthesise.h"
 #include "dam_support.h"
 #include "tests/support/shared.h"
 

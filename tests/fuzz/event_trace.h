@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "codec/decoder.h"
+#include "codec/decode/decoder.h"
 
 namespace animeme::test {
 

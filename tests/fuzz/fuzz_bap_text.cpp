@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "codec/bap_text.h"
+#include "codec/text/bap_text.h"
 
 namespace {
 

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "codec/access_unit.h"
+#include "codec/decode/access_unit.h"
 #include "tests/fuzz/event_trace.h"
 
 namespace {

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "codec/decoder.h"
-#include "codec/encode.h"
-#include "codec/fill.h"
-#include "codec/live.h"
+#include "codec/decode/decoder.h"
+#include "codec/decode/fill.h"
+#include "codec/encode/encode.h"
+#include "codec/encode/live.h"
 
 namespace {
 

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "codec/epf.h"
+#include "codec/text/epf.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto planes = animeme::fba::read_epf({reinterpret_cast<const char*>(data), size});

@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <vector>
 
-#include "codec/bits.h"
-#include "codec/decoder.h"
-#include "codec/encoder.h"
+#include "codec/decode/decoder.h"
+#include "codec/encode/encoder.h"
+#include "codec/syntax/bits.h"
 
 namespace {
 

@@ -1,11 +1,11 @@
 // Feeds arbitrary bytes to the script reader. What it accepts must keep the promises of
-// dam/script.h and read back equal from both writers.
+// dam/script/script.h and read back equal from both writers.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
 
-#include "dam/script.h"
+#include "dam/script/script.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "dam/accumulate.h"
+#include "dam/training/accumulate.h"
 #include "tests/support/sealed_model.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

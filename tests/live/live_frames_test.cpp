@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "codec/fill.h"
-#include "codec/live.h"
+#include "codec/decode/fill.h"
+#include "codec/encode/live.h"
 #include "fap/text.h"
 #include "tests/support/random_clip.h"
 

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "codec/access_unit.h"
-#include "codec/decoder.h"
-#include "codec/live.h"
+#include "codec/decode/access_unit.h"
+#include "codec/decode/decoder.h"
+#include "codec/encode/live.h"
 #include "tests/support/random_clip.h"
 #include "tools/media/live/recovery.h"
 #include "tools/media/live/rtp_receiver.h"

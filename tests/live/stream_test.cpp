@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "codec/decoder.h"
+#include "codec/decode/decoder.h"
 #include "fap/text.h"
 #include "tests/live/stream_support.h"
 #include "tools/media/audio.h"

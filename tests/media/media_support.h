@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "codec/access_unit.h"
+#include "codec/decode/access_unit.h"
 #include "tests/support/shared.h"
 #include "tests/support/temp_dir.h"
 #include "tools/media/pcm.h"

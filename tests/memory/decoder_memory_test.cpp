@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <new>
 
-#include "codec/bits.h"
-#include "codec/decoder.h"
-#include "codec/encode.h"
+#include "codec/decode/decoder.h"
+#include "codec/encode/encode.h"
+#include "codec/syntax/bits.h"
 #include "tests/support/random_clip.h"
 
 namespace {

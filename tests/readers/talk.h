@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "codec/encode.h"
+#include "codec/encode/encode.h"
 #include "tests/media/media_support.h"
 #include "tests/support/random_clip.h"
 #include "tools/media/mux.h"

@@ -6,10 +6,10 @@
 
 #include <cmath>
 
-#include "codec/access_unit.h"
-#include "codec/decoder.h"
-#include "dam/builtin.h"
-#include "dam/fap_signal.h"
+#include "codec/decode/access_unit.h"
+#include "codec/decode/decoder.h"
+#include "dam/model/builtin.h"
+#include "dam/signal/fap_signal.h"
 
 namespace animeme::speech {
 namespace {

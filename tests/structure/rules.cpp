@@ -18,7 +18,7 @@ bool is_header(std::string_view path) { return path.ends_with(".h") || path.ends
 // Not installed for others (only .h files are), so it may show what it is made of.
 bool is_internal(std::string_view path) {
   return path.ends_with("_internal.h") || path.ends_with(".hpp") || contains(path, "/detail/") ||
-         contains(path, "/kinds/");
+         contains(path, "/kinds/") || contains(path, "/maths/");
 }
 
 // <vector>, but neither <zlib.h> nor <Eigen/Dense>.

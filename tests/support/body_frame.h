@@ -5,7 +5,7 @@
 #include <initializer_list>
 #include <utility>
 
-#include "codec/plane.h"
+#include "codec/syntax/plane.h"
 
 namespace animeme::test {
 

@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "codec/access_unit.h"
-#include "codec/live.h"
+#include "codec/decode/access_unit.h"
+#include "codec/encode/live.h"
 #include "tools/media/live/live.h"
 
 namespace animeme::test {

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "dam/corpus.h"
+#include "dam/corpus/corpus.h"
 #include "tests/support/program.h"
 #include "tests/support/shared.h"
 

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "dam/corpus.h"
-#include "dam/detail/table_text.h"
-#include "dam/fap_signal.h"
+#include "dam/corpus/corpus.h"
+#include "dam/script/table_text_internal.h"
+#include "dam/signal/fap_signal.h"
 #include "tests/support/landmark_tables.h"
 #include "tests/support/shared.h"
 

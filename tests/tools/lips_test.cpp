@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "dam/phones.h"
-#include "dam/script.h"
+#include "dam/script/phones.h"
+#include "dam/script/script.h"
 #include "fap/fill.h"
 #include "fap/head/own_head.h"
 #include "fap/head/rig.h"

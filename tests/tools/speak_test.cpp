@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
-#include "dam/phones.h"
-#include "dam/script.h"
+#include "dam/script/phones.h"
+#include "dam/script/script.h"
 #include "fap/tables.h"
 #include "fap/text.h"
 #include "tests/support/program.h"

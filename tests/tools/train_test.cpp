@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "dam/model.h"
+#include "dam/model/model.h"
 #include "tests/support/program.h"
 #include "tests/support/shared.h"
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "dam/corpus.h"
-#include "dam/fap_signal.h"
-#include "dam/phones.h"
-#include "dam/train.h"
+#include "dam/corpus/corpus.h"
+#include "dam/script/phones.h"
+#include "dam/signal/fap_signal.h"
+#include "dam/training/train.h"
 #include "fap/tables.h"
 #include "fap/viseme.h"
 #include "tests/support/shared.h"

@@ -8,7 +8,7 @@
 #include <set>
 #include <thread>
 
-#include "dam/phones.h"
+#include "dam/script/phones.h"
 
 namespace animeme::voice {
 namespace {

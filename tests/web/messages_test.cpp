@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "codec/decoder.h"
-#include "codec/fill.h"
+#include "codec/decode/decoder.h"
+#include "codec/decode/fill.h"
 #include "tests/codec/reference_streams.h"
 #include "tests/support/live_loop.h"
 #include "tools/media/live/audio_segments.h"

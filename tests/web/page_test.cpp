@@ -9,7 +9,7 @@
 #include <numbers>
 #include <thread>
 
-#include "codec/live.h"
+#include "codec/encode/live.h"
 #include "fap/head/model.h"
 #include "fap/head/rig.h"
 #include "tests/web/chromium.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "codec/bap_text.h"
+#include "codec/text/bap_text.h"
 #include "fap/frame.h"
 
 namespace animeme::tools {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "codec/bap_text.h"
+#include "codec/text/bap_text.h"
 #include "conformance/trial.h"
 #include "fap/rate_text.h"
 #include "fap/text.h"

@@ -1,6 +1,6 @@
 #include <memory>
 
-#include "dam/script.h"
+#include "dam/script/script.h"
 #include "tools/commands/spoken.h"
 
 namespace animeme::tools {

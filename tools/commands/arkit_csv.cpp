@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "dam/detail/table_text.h"
+#include "dam/script/table_text_internal.h"
 #include "fap/arkit.h"
 #include "tools/commands/curve_table.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include "dam/detail/table_text.h"
+#include "dam/script/table_text_internal.h"
 
 namespace animeme::tools {
 

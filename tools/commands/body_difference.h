@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "codec/bap_text.h"
+#include "codec/text/bap_text.h"
 
 namespace animeme::tools {
 

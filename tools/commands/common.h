@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "codec/bap_text.h"
-#include "codec/decoder.h"
+#include "codec/decode/decoder.h"
+#include "codec/text/bap_text.h"
 #include "fap/frame.h"
 #include "fap/result.h"
 

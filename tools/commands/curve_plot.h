@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "dam/script.h"
+#include "dam/script/script.h"
 #include "fap/result.h"
 
 namespace animeme::tools {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dam/script.h"
+#include "dam/script/script.h"
 #include "fap/frame.h"
 #include "fap/result.h"
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "dam/signal.h"
+#include "dam/signal/signal.h"
 
 namespace animeme::tools {
 

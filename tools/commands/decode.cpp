@@ -1,6 +1,6 @@
 #include <memory>
 
-#include "codec/fill.h"
+#include "codec/decode/fill.h"
 #include "fap/fill.h"
 #include "fap/text.h"
 #include "tools/commands/common.h"

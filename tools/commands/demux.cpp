@@ -2,7 +2,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "codec/access_unit.h"
+#include "codec/decode/access_unit.h"
 #include "tools/commands/common.h"
 #include "tools/media/container.h"
 

@@ -1,4 +1,4 @@
-#include "codec/encode.h"
+#include "codec/encode/encode.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "codec/epf.h"
-#include "codec/live.h"
+#include "codec/encode/live.h"
+#include "codec/text/epf.h"
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
 

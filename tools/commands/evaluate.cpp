@@ -1,4 +1,4 @@
-#include "dam/evaluate.h"
+#include "dam/evaluation/evaluate.h"
 
 #include <algorithm>
 #include <cstdio>

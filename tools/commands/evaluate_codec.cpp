@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "codec/decoder.h"
-#include "codec/fill.h"
-#include "dam/fap_signal.h"
+#include "codec/decode/decoder.h"
+#include "codec/decode/fill.h"
+#include "dam/signal/fap_signal.h"
 #include "fap/tables.h"
 #include "tools/commands/evaluate_report.h"
 

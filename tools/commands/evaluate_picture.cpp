@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <numeric>
 
-#include "dam/fap_signal.h"
+#include "dam/signal/fap_signal.h"
 #include "tools/commands/curve_plot.h"
 #include "tools/commands/evaluate_report.h"
 

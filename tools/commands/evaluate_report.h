@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "dam/evaluate.h"
-#include "dam/evaluate_bootstrap.h"
+#include "dam/evaluation/evaluate.h"
+#include "dam/evaluation/evaluate_bootstrap.h"
 #include "tools/commands/face_stream.h"
 #include "tools/commands/model_input.h"
 

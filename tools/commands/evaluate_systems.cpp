@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dam/synthesise.h"
+#include "dam/speaking/synthesise.h"
 #include "tools/commands/evaluate_report.h"
 
 namespace animeme::tools {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "codec/encode.h"
+#include "codec/encode/encode.h"
 #include "tools/commands/interrupt.h"
 #include "tools/media/mux.h"
 

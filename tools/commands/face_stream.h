@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "codec/access_unit.h"
-#include "codec/encode.h"
+#include "codec/decode/access_unit.h"
+#include "codec/encode/encode.h"
 #include "tools/commands/common.h"
 #include "tools/media/mux.h"
 

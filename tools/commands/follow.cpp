@@ -4,8 +4,8 @@
 #include <memory>
 #include <sstream>
 
-#include "dam/phones.h"
-#include "dam/stream.h"
+#include "dam/script/phones.h"
+#include "dam/speaking/stream.h"
 #include "fap/rate_text.h"
 #include "tools/commands/curve_text.h"
 #include "tools/commands/model_input.h"

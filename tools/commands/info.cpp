@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "codec/decoder.h"
-#include "dam/model.h"
-#include "dam/script.h"
+#include "codec/decode/decoder.h"
+#include "dam/model/model.h"
+#include "dam/script/script.h"
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
 #include "tools/commands/info_stream.h"

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 
-#include "codec/bap_text.h"
-#include "codec/decoder.h"
+#include "codec/decode/decoder.h"
+#include "codec/text/bap_text.h"
 #include "fap/frame.h"
 
 namespace animeme::tools {

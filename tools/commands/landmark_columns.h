@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "dam/detail/table_text.h"
+#include "dam/script/table_text_internal.h"
 #include "fap/landmarks.h"
 #include "fap/result.h"
 

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "codec/live.h"
+#include "codec/encode/live.h"
 #include "tools/commands/face_stream.h"
 #include "tools/commands/voice_input.h"
 #include "tools/media/container.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "codec/access_unit.h"
+#include "codec/decode/access_unit.h"
 #include "tools/commands/common.h"
 #include "tools/commands/spoken.h"
 #include "tools/media/encoded_audio.h"

@@ -2,8 +2,8 @@
 
 #include <charconv>
 
-#include "dam/builtin.h"
-#include "dam/fap_signal.h"
+#include "dam/model/builtin.h"
+#include "dam/signal/fap_signal.h"
 
 namespace animeme::tools {
 

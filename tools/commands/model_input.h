@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "dam/corpus.h"
-#include "dam/model.h"
+#include "dam/corpus/corpus.h"
+#include "dam/model/model.h"
 #include "tools/commands/common.h"
 
 namespace animeme::tools {

@@ -2,9 +2,9 @@
 #include <filesystem>
 #include <utility>
 
-#include "codec/access_unit.h"
-#include "dam/corpus.h"
-#include "dam/fap_signal.h"
+#include "codec/decode/access_unit.h"
+#include "dam/corpus/corpus.h"
+#include "dam/signal/fap_signal.h"
 #include "fap/text.h"
 #include "tools/commands/arkit_csv.h"
 #include "tools/commands/common.h"

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "dam/script.h"
+#include "dam/script/script.h"
 #include "fap/fill.h"
 #include "fap/head/shapes.h"
 #include "fap/tables.h"

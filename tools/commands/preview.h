@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "codec/access_unit.h"
-#include "dam/script.h"
+#include "codec/decode/access_unit.h"
+#include "dam/script/script.h"
 #include "fap/frame.h"
 #include "fap/result.h"
 #include "tools/commands/common.h"

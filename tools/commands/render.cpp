@@ -1,7 +1,7 @@
 #include <charconv>
 #include <memory>
 
-#include "dam/script.h"
+#include "dam/script/script.h"
 #include "fap/fill.h"
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"

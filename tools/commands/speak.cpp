@@ -2,11 +2,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "codec/encode.h"
-#include "dam/fap_signal.h"
-#include "dam/life.h"
-#include "dam/script.h"
-#include "dam/synthesise.h"
+#include "codec/encode/encode.h"
+#include "dam/script/script.h"
+#include "dam/signal/fap_signal.h"
+#include "dam/speaking/life.h"
+#include "dam/speaking/synthesise.h"
 #include "fap/rate_text.h"
 #include "fap/text.h"
 #include "tools/commands/curve_text.h"

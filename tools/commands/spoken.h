@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "dam/script.h"
+#include "dam/script/script.h"
 #include "tools/commands/common.h"
 #include "tools/media/pcm.h"
 

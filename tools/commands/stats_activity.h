@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "codec/bap_text.h"
+#include "codec/text/bap_text.h"
 #include "fap/frame.h"
 
 namespace animeme::tools {

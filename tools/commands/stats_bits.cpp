@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include "codec/arith.h"
+#include "codec/syntax/arith.h"
 #include "tools/commands/body_difference.h"
 
 namespace animeme::tools {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "codec/decoder.h"
+#include "codec/decode/decoder.h"
 
 namespace animeme::tools {
 

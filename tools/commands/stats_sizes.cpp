@@ -6,9 +6,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "codec/decoder.h"
-#include "codec/encode.h"
-#include "codec/fill.h"
+#include "codec/decode/decoder.h"
+#include "codec/decode/fill.h"
+#include "codec/encode/encode.h"
 #include "fap/tables.h"
 #include "tools/commands/common.h"
 

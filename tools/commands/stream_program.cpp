@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "dam/fap_signal.h"
-#include "dam/life.h"
+#include "dam/signal/fap_signal.h"
+#include "dam/speaking/life.h"
 #include "tools/commands/model_input.h"
 
 namespace animeme::tools {

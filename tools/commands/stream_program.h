@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "dam/model.h"
+#include "dam/model/model.h"
 #include "fap/rate.h"
 #include "tools/commands/live_address.h"
 #include "tools/commands/live_clip.h"

@@ -1,4 +1,4 @@
-#include "dam/train.h"
+#include "dam/training/train.h"
 
 #include <cstdio>
 #include <memory>

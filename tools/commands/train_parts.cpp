@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "dam/accumulate.h"
+#include "dam/training/accumulate.h"
 #include "tools/commands/train_report.h"
 
 namespace animeme::tools {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "dam/train.h"
+#include "dam/training/train.h"
 #include "tools/commands/model_input.h"
 
 namespace animeme::tools {

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "dam/model.h"
-#include "dam/train.h"
+#include "dam/model/model.h"
+#include "dam/training/train.h"
 
 namespace animeme::tools {
 

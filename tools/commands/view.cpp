@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <memory>
 
-#include "codec/fill.h"
-#include "dam/script.h"
+#include "codec/decode/fill.h"
+#include "dam/script/script.h"
 #include "fap/fill.h"
 #include "fap/head/rig.h"
 #include "tools/commands/common.h"

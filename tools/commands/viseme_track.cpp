@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dam/detail/raised_cosine.h"
-#include "dam/phones.h"
+#include "dam/maths/raised_cosine.h"
+#include "dam/script/phones.h"
 
 namespace animeme::tools {
 

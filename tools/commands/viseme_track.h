@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "dam/script.h"
+#include "dam/script/script.h"
 #include "fap/frame.h"
 #include "fap/rate.h"
 #include "fap/viseme.h"
@@ -27,8 +27,8 @@ struct VisemeTrack {
   std::vector<fap::VisemeWeights> frames;  ///< from time 0
 };
 
-/// The visemes of dam/phones.h. A diphthong is two events of half its time; HH takes the viseme of
-/// the sound behind it.
+/// The visemes of dam/script/phones.h. A diphthong is two events of half its time; HH takes the
+/// viseme of the sound behind it.
 std::vector<VisemeEvent> script_events(const dam::Script& script);
 
 /// Weights of the events at `rate`, as many frames as cover them. One viseme fades into the next

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "dam/script.h"
+#include "dam/script/script.h"
 #include "fap/result.h"
 #include "tools/media/encoded_audio.h"
 #include "tools/media/mux.h"

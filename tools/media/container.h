@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "codec/access_unit.h"
+#include "codec/decode/access_unit.h"
 #include "fap/result.h"
 #include "tools/media/encoded_audio.h"
 

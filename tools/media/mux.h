@@ -14,7 +14,7 @@
 #include <functional>
 #include <string>
 
-#include "codec/access_unit.h"
+#include "codec/decode/access_unit.h"
 #include "fap/result.h"
 #include "tools/media/encoded_audio.h"
 #include "tools/media/pcm.h"

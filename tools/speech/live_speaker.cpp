@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "codec/access_unit.h"
+#include "codec/decode/access_unit.h"
 #include "tools/media/audio.h"
 #include "tools/speech/live_sound.h"
 

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "codec/live.h"
+#include "codec/encode/live.h"
 #include "tools/media/live/presentation.h"
 #include "tools/speech/lines.h"
 #include "tools/speech/talking_face.h"

@@ -4,9 +4,9 @@
 #include <string>
 #include <utility>
 
-#include "dam/detail/raised_cosine.h"
-#include "dam/fap_signal.h"
-#include "dam/life.h"
+#include "dam/maths/raised_cosine.h"
+#include "dam/signal/fap_signal.h"
+#include "dam/speaking/life.h"
 
 namespace animeme::speech {
 

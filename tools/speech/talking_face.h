@@ -14,10 +14,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "dam/model.h"
-#include "dam/script.h"
-#include "dam/signal.h"
-#include "dam/synthesise.h"
+#include "dam/model/model.h"
+#include "dam/script/script.h"
+#include "dam/signal/signal.h"
+#include "dam/speaking/synthesise.h"
 #include "fap/frame.h"
 #include "fap/result.h"
 
@@ -25,7 +25,7 @@ namespace animeme::speech {
 
 struct FaceOptions {
   dam::SynthesisOptions synthesis;  ///< `frames` and `tail` are not used
-  bool life = false;                ///< blinks, brows, head: see dam/life.h
+  bool life = false;                ///< blinks, brows, head: see dam/speaking/life.h
   std::uint64_t seed = 1;           ///< of life
 };
 

@@ -16,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-#include "dam/script.h"
+#include "dam/script/script.h"
 #include "fap/frame.h"
 #include "fap/head/rig.h"
 #include "fap/result.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "dam/phones.h"
+#include "dam/script/phones.h"
 #include "tools/voice/pronunciation.h"
 #include "tools/voice/recogniser.h"
 #include "tools/voice/transcript.h"

@@ -5,8 +5,8 @@
 #include <map>
 #include <set>
 
-#include "dam/detail/script_text.h"
-#include "dam/phones.h"
+#include "dam/script/phones.h"
+#include "dam/script/script_text_internal.h"
 #include "tools/voice/voice.h"
 
 namespace animeme::voice {

@@ -8,7 +8,7 @@
 #include <memory>
 #include <mutex>
 
-#include "dam/phones.h"
+#include "dam/script/phones.h"
 
 namespace animeme::voice {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "dam/detail/script_text.h"
+#include "dam/script/script_text_internal.h"
 
 namespace animeme::voice {
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 #include <mutex>
 
-#include "dam/detail/script_text.h"
+#include "dam/script/script_text_internal.h"
 #include "tools/voice/espeak_process.h"
 #include "tools/voice/voice_choice.h"
 #include "tools/voice/voice_events.h"

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "dam/script.h"
+#include "dam/script/script.h"
 #include "fap/result.h"
 #include "tools/media/pcm.h"
 

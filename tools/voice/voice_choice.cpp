@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "dam/detail/script_text.h"
+#include "dam/script/script_text_internal.h"
 
 namespace animeme::voice {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "dam/detail/script_text.h"
-#include "dam/ipa.h"
+#include "dam/script/ipa.h"
+#include "dam/script/script_text_internal.h"
 #include "tools/voice/transcript.h"
 
 namespace animeme::voice {

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "dam/script.h"
+#include "dam/script/script.h"
 #include "tools/voice/espeak_process.h"
 
 namespace animeme::voice {

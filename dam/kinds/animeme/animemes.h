@@ -2,7 +2,7 @@
 // cohen-massaro. See kind.h for what each has to do.
 #pragma once
 
-#include "dam/kinds/kind.h"
+#include "dam/model/kind_internal.h"
 
 namespace animeme::dam {
 

@@ -1,8 +1,9 @@
 #include "dam/kinds/animeme/choose_modes.h"
 
-#include "dam/animeme.h"
 #include "dam/kinds/animeme/contexts.h"
 #include "dam/kinds/animeme/mode_graph.h"
+#include "dam/model/animeme.h"
+#include "dam/speaking/synthesise.h"
 
 namespace animeme::dam {
 namespace {

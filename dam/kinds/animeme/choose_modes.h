@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "dam/kinds/kind.h"
+#include "dam/model/kind_internal.h"
 
 namespace animeme::dam {
 

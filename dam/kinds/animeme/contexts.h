@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "dam/model.h"
+#include "dam/model/model.h"
 
 namespace animeme::dam {
 

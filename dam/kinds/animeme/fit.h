@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "dam/detail/speech_data.h"
+#include "dam/corpus/speech_data_internal.h"
 
 namespace animeme::dam {
 
@@ -57,8 +57,6 @@ struct Design {
     return {parts.data() + begin[i], begin[i + 1] - begin[i]};
   }
 };
-
-inline constexpr int kMaxOrder = 8;
 
 /// Frames [begin, end) of a sentence.
 struct FrameRange {

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "dam/corpus/training_set_internal.h"
 #include "dam/kinds/animeme/animemes.h"
 #include "dam/kinds/animeme/contexts.h"
 #include "dam/kinds/animeme/fit.h"

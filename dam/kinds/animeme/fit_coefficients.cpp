@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dam/detail/parallel.h"
 #include "dam/kinds/animeme/fit.h"
 #include "dam/kinds/animeme/fit_normal.h"
+#include "dam/maths/parallel.h"
 
 namespace animeme::dam {
 namespace {

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dam/animeme.h"
 #include "dam/kinds/animeme/fit.h"
+#include "dam/model/animeme.h"
 
 namespace animeme::dam {
 

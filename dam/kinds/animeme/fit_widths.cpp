@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dam/detail/parallel.h"
 #include "dam/kinds/animeme/fit.h"
 #include "dam/kinds/animeme/fit_normal.h"
 #include "dam/kinds/projection.h"
+#include "dam/maths/parallel.h"
 
 namespace animeme::dam {
 namespace {

@@ -5,9 +5,9 @@
 #include <map>
 #include <tuple>
 
-#include "dam/detail/parallel.h"
-#include "dam/detail/spline.h"
 #include "dam/kinds/animeme/affinity.h"
+#include "dam/maths/parallel.h"
+#include "dam/maths/spline.h"
 
 namespace animeme::dam {
 namespace {

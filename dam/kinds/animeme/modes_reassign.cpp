@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dam/animeme.h"
 #include "dam/kinds/animeme/contexts.h"
 #include "dam/kinds/animeme/modes.h"
+#include "dam/model/animeme.h"
 
 namespace animeme::dam {
 namespace {

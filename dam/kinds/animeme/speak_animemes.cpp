@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dam/animeme.h"
 #include "dam/kinds/animeme/animemes.h"
 #include "dam/kinds/animeme/choose_modes.h"
+#include "dam/model/animeme.h"
+#include "dam/speaking/synthesise.h"
 
 namespace animeme::dam {
 namespace {

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "dam/detail/parallel.h"
 #include "dam/kinds/refined/fit.h"
+#include "dam/maths/parallel.h"
 
 namespace animeme::dam {
 

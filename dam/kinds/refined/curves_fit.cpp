@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <set>
 
-#include "dam/detail/cholesky.h"
-#include "dam/detail/parallel.h"
+#include "dam/maths/cholesky.h"
+#include "dam/maths/parallel.h"
 
 namespace animeme::dam {
 namespace {

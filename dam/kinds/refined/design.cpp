@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dam/corpus/training_set_internal.h"
 #include "dam/kinds/refined/dominance.h"
 #include "dam/kinds/refined/fit.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dam/model.h"
+#include "dam/model/model.h"
 
 namespace animeme::dam {
 

@@ -13,9 +13,9 @@
 #include <span>
 #include <vector>
 
-#include "dam/detail/speech_data.h"
+#include "dam/corpus/speech_data_internal.h"
 #include "dam/kinds/refined/terms.h"
-#include "dam/model.h"
+#include "dam/model/model.h"
 
 namespace animeme::dam {
 

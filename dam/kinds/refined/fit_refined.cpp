@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dam/detail/parallel.h"
-#include "dam/detail/train_notes.h"
+#include "dam/corpus/training_set_internal.h"
 #include "dam/kinds/refined/curves_fit.h"
 #include "dam/kinds/refined/fit.h"
 #include "dam/kinds/refined/refined.h"
 #include "dam/kinds/refined/solve.h"
+#include "dam/maths/parallel.h"
 
 namespace animeme::dam {
 namespace {

@@ -1,7 +1,7 @@
 // Refined dominated animemes: the entry points of the kind dam. See kind.h for what each has to do.
 #pragma once
 
-#include "dam/kinds/kind.h"
+#include "dam/model/kind_internal.h"
 
 namespace animeme::dam {
 

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "dam/corpus/train_options.h"
 #include "dam/kinds/refined/curves_fit.h"
-#include "dam/model.h"
-#include "dam/train.h"
+#include "dam/model/model.h"
 
 namespace animeme::dam {
 

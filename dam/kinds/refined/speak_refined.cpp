@@ -4,6 +4,7 @@
 #include "dam/kinds/refined/dominance.h"
 #include "dam/kinds/refined/refined.h"
 #include "dam/kinds/refined/terms.h"
+#include "dam/speaking/synthesise.h"
 
 namespace animeme::dam {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dam/phones.h"
+#include "dam/script/phones.h"
 
 namespace animeme::dam {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-#include "dam/model.h"
+#include "dam/model/model.h"
 
 namespace animeme::dam {
 

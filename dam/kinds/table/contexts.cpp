@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "dam/detail/raised_cosine.h"
+#include "dam/maths/raised_cosine.h"
 
 namespace animeme::dam {
 

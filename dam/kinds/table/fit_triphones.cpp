@@ -3,10 +3,11 @@
 #include <cmath>
 #include <map>
 
-#include "dam/detail/parallel.h"
-#include "dam/detail/spline.h"
+#include "dam/corpus/training_set_internal.h"
 #include "dam/kinds/table/contexts.h"
 #include "dam/kinds/table/table.h"
+#include "dam/maths/parallel.h"
+#include "dam/maths/spline.h"
 
 namespace animeme::dam {
 namespace {

@@ -2,6 +2,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
+#include "dam/corpus/training_set_internal.h"
 #include "dam/kinds/table/table.h"
 #include "dam/kinds/table/viseme_weights.h"
 

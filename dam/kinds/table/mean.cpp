@@ -1,5 +1,7 @@
 // The kind mean: the mean pose of the training speech, whatever is said. It has no parameters.
+#include "dam/corpus/training_set_internal.h"
 #include "dam/kinds/table/table.h"
+#include "dam/speaking/synthesise.h"
 
 namespace animeme::dam {
 

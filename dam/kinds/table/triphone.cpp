@@ -4,6 +4,7 @@
 
 #include "dam/kinds/table/contexts.h"
 #include "dam/kinds/table/table.h"
+#include "dam/speaking/synthesise.h"
 
 namespace animeme::dam {
 namespace {

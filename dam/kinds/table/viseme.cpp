@@ -3,6 +3,7 @@
 
 #include "dam/kinds/table/table.h"
 #include "dam/kinds/table/viseme_weights.h"
+#include "dam/speaking/synthesise.h"
 
 namespace animeme::dam {
 

@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dam/detail/parallel.h"
+#include "dam/corpus/training_set_internal.h"
 #include "dam/kinds/trajectory/fit_control.h"
 #include "dam/kinds/trajectory/trajectory.h"
+#include "dam/maths/parallel.h"
 
 namespace animeme::dam {
 namespace {

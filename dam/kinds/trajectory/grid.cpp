@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dam/script.h"
+#include "dam/script/script.h"
 
 namespace animeme::dam {
 namespace {

@@ -3,6 +3,7 @@
 
 #include "dam/kinds/trajectory/fit_control.h"
 #include "dam/kinds/trajectory/trajectory.h"
+#include "dam/speaking/synthesise.h"
 
 namespace animeme::dam {
 namespace {

@@ -1,8 +1,8 @@
 // Compiles against the headers of dam and links its library, both without Eigen.
 #include <cstdio>
 
-#include "dam/script.h"
-#include "dam/signal.h"
+#include "dam/script/script.h"
+#include "dam/signal/signal.h"
 #include "fap/text.h"
 
 int main() {

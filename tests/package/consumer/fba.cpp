@@ -1,7 +1,7 @@
 // Uses the text reader of fap and a function of codec, so both libraries have to link.
 #include <cstdio>
 
-#include "codec/access_unit.h"
+#include "codec/decode/access_unit.h"
 #include "fap/text.h"
 
 int main() {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "codec/access_unit.h"
+#include "codec/decode/access_unit.h"
 #include "tools/media/detail/muxer.h"
 #include "tools/media/detail/sound_source.h"
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "codec/access_unit.h"
+#include "codec/decode/access_unit.h"
 #include "tools/media/detail/ffmpeg.h"
 #include "tools/media/detail/output_stream.h"
 #include "tools/media/encoded_audio.h"

@@ -2,7 +2,7 @@
 // section 1.5.
 #pragma once
 
-#include "codec/access_unit.h"
+#include "codec/decode/access_unit.h"
 #include "tools/media/detail/mp4_file.h"
 #include "tools/media/encoded_audio.h"
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "codec/access_unit.h"
+#include "codec/decode/access_unit.h"
 
 namespace animeme::media {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "codec/fill.h"
+#include "codec/decode/fill.h"
 #include "fap/fill.h"
 #include "fap/text.h"
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "codec/decoder.h"
+#include "codec/decode/decoder.h"
 #include "fap/frame.h"
 #include "tools/media/live/live.h"
 

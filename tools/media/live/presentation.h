@@ -16,7 +16,7 @@
 #include <optional>
 #include <vector>
 
-#include "codec/access_unit.h"
+#include "codec/decode/access_unit.h"
 #include "fap/result.h"
 #include "tools/media/encoded_audio.h"
 #include "tools/media/live/live.h"

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "codec/access_unit.h"
+#include "codec/decode/access_unit.h"
 #include "tools/media/encoded_audio.h"
 #include "tools/media/live/live.h"
 #include "tools/media/live/recovery.h"

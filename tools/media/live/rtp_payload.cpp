@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "codec/bits.h"
+#include "codec/syntax/bits.h"
 #include "tools/media/live/wire_internal.h"
 
 namespace animeme::media {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "codec/plane_header.h"
+#include "codec/decode/plane_header.h"
 #include "tools/media/detail/face_header.h"
 
 namespace animeme::media {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "codec/bits.h"
+#include "codec/syntax/bits.h"
 #include "tools/media/live/sdp_internal.h"
 
 namespace animeme::media {

@@ -5,8 +5,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "codec/fill.h"
-#include "codec/plane.h"
+#include "codec/decode/fill.h"
+#include "codec/syntax/plane.h"
 #include "fap/fill.h"
 #include "fap/tables.h"
 

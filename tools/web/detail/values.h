@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "codec/decoder.h"
+#include "codec/decode/decoder.h"
 #include "fap/frame.h"
 
 namespace animeme::web {
@@ -18,8 +18,8 @@ std::string values_hello();
 class Values {
  public:
   /// The face after this access unit, all of it: FAPs that the plane does not code have the value
-  /// that a receiver shows (codec/fill.h); those that are not in the mask are 0. nullopt: the unit
-  /// has no face that can be decoded.
+  /// that a receiver shows (codec/decode/fill.h); those that are not in the mask are 0. nullopt:
+  /// the unit has no face that can be decoded.
   std::optional<fap::Frame> push(std::span<const std::uint8_t> unit);
 
  private:

@@ -1,0 +1,64 @@
+// A clip as an encoder sees it: one row of values for each parameter. Not installed API.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "codec/syntax/plane.h"
+#include "codec/syntax/quantise_internal.h"
+#include "fap/frame.h"
+#include "fap/result.h"
+
+namespace animeme::fba::internal {
+
+/// One low-level FAP or BAP over all planes.
+struct Channel {
+  bool body = false;
+  bool given = true;         // false: no frame of the clip has it
+  bool distance = true;      // a FAP that is no angle
+  int number = 0;            // FAP or BAP number
+  std::int32_t step = 1;     // quantiser step at quantiser 1
+  double unit = 1;           // size of an error that counts as 1
+  std::ptrdiff_t left = -1;  // index of the left side if this is the right side of a pair
+  std::vector<std::int32_t> value;
+};
+
+/// Planes in order; every parameter that occurs is present in each of them.
+struct ClipData {
+  CodedRate rate;
+  bool has_face = false;
+  bool has_body = false;
+  bool has_viseme = false;
+  bool has_expression = false;
+  std::vector<std::int64_t> number;  // of the planes, ascending
+  std::vector<fap::Viseme> viseme;   // a row each if present
+  std::vector<fap::Expression> expression;
+  std::vector<Channel> channels;  // FAPs ascending, then BAPs in coding order
+
+  std::size_t planes() const { return number.size(); }
+};
+
+/// Merges face and body by frame numbers and holds what a frame leaves out. `all_faps`: a face gets
+/// channels, at 0, of the low-level FAPs that it does not have, too. Errors as encode().
+Result<ClipData> gather(const fap::Sequence& face, std::span<const BodyFrame> body, bool all_faps);
+
+/// Quantiser step of a channel at fap_quant or the body quantiser index.
+inline std::int32_t step_at(const Channel& channel, int quant) {
+  return step_at(channel.body, channel.step, quant);
+}
+
+/// Does it stay where it begins?
+inline bool is_still(std::span<const std::int32_t> row) {
+  return std::all_of(row.begin(), row.end(), [&](std::int32_t v) { return v == row.front(); });
+}
+/// Does it rest at 0?
+inline bool is_zero(std::span<const std::int32_t> row) { return row.front() == 0 && is_still(row); }
+
+/// What the plain quantiser makes of a row: levels of the reconstruction, that is values divided
+/// by `step`, each within half a step and nearest to the one before.
+void quantise_row(std::span<const std::int32_t> value, std::int32_t step,
+                  std::vector<std::int32_t>& levels);
+
+}  // namespace animeme::fba::internal

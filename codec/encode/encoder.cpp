@@ -1,0 +1,285 @@
+#include "codec/encode/encoder.h"
+
+#include "codec/decode/plane_reader_internal.h"
+#include "codec/encode/header_writer_internal.h"
+#include "codec/encode/plane_levels_internal.h"
+#include "codec/encode/stream_trace_internal.h"
+#include "codec/syntax/bits.h"
+
+namespace animeme::fba {
+
+using internal::HighLevelState;
+using internal::SlotCoding;
+using internal::SlotState;
+
+namespace {
+
+// One family's part of a plane, worked out before anything is written.
+struct PendingSlots {
+  explicit PendingSlots(const internal::SlotTable& table) : coding(table) {}
+  SlotCoding coding;  // intra planes only
+  internal::SlotLevels levels;
+};
+
+}  // namespace
+
+struct Encoder::Impl {
+  StreamOptions options;
+  BitWriter out;
+  std::int64_t taken_bits = 0;
+  internal::StreamState state;
+  fap::Frame reconstruction;
+  bool started = false;         // the object start code is written
+  bool unit_ended = false;      // stuffing to the byte border is written
+  internal::StreamTrace trace;  // of the bytes not taken yet
+
+  // The plane that is being written; here so that nothing is allocated plane by plane.
+  PendingSlots pending_face{internal::face_slots()};
+  PendingSlots pending_body{internal::body_slots()};
+  internal::HighLevels high_levels{};
+
+  Result<void> check(const PlaneInput& plane) const {
+    const auto invalid = [](const char* message) {
+      return make_error(Code::invalid_argument, message);
+    };
+    if (unit_ended && !has_start_code(plane)) {
+      return invalid("behind end_unit() a plane needs a start code, see StreamOptions");
+    }
+    if (!plane.intra && ((has_face(plane.object_mask) && !state.face.coding.valid) ||
+                         (has_body(plane.object_mask) && !state.body.coding.valid))) {
+      return invalid("a predictive plane needs an intra plane of its kind before it");
+    }
+    return internal::check_input(plane);
+  }
+
+  void write_high(bool intra, int first, int last) {
+    HighLevelState& high = state.high;
+    const auto& levels = high_levels;
+    const std::size_t begin = out.position();
+    SegmentEncoder segment(out);
+    for (int which = first; which <= last; ++which) {
+      const std::size_t index = std::size_t(which);
+      const std::int32_t max = high.max_level(which);
+      const std::int32_t base = intra ? 0 : high.value[index];
+      if (intra) {
+        segment.encode(flat_interval(std::uint32_t(levels[index]), std::uint32_t(max + 1)));
+      } else {
+        const std::uint32_t symbol = std::uint32_t(levels[index] + max);
+        segment.encode(high.model[index].interval(symbol));
+        high.model[index].update(symbol);
+      }
+      high.value[index] = base + levels[index] * high.step_of(which);
+    }
+    segment.flush();
+    trace.segments.push_back({begin, out.position()});
+  }
+
+  void write_slots(SlotState& slots, bool intra, const internal::SlotLevels& levels) {
+    const std::size_t begin = out.position();
+    SegmentEncoder segment(out);
+    const SlotCoding& coding = slots.coding;
+    for (std::size_t i = 0; i < coding.coded.size(); ++i) {
+      const std::size_t slot = coding.coded[i];
+      const std::uint32_t symbol =
+          std::uint32_t(levels.level[i] - coding.lowest_level(intra, slot));
+      if (intra) {
+        segment.encode(flat_interval(symbol, coding.alphabet(true, slot)));
+      } else {
+        segment.encode(slots.model[slot].interval(symbol));
+        slots.model[slot].update(symbol);
+      }
+      slots.value[slot] = levels.rec[i];
+    }
+    segment.flush();
+    trace.segments.push_back({begin, out.position()});
+  }
+
+  // First everything that can fail, then the bits.
+  Result<void> write(const PlaneInput& plane) {
+    if (auto ok = check(plane); !ok) return ok;
+    if (has_face(plane.object_mask)) {
+      if (auto ok = quantise_face(plane); !ok) return ok;
+    }
+    if (has_body(plane.object_mask)) {
+      if (auto ok = quantise_body(plane); !ok) return ok;
+    }
+    begin_plane(plane);
+    if (has_face(plane.object_mask)) write_face(plane);
+    if (has_body(plane.object_mask)) write_body(plane);
+    return {};
+  }
+
+  Result<void> quantise_face(const PlaneInput& plane) {
+    const FaceSettings& settings = plane.intra ? *plane.face_settings : state.face_settings;
+    if (plane.intra) internal::apply_settings(state.face.coding, settings, pending_face.coding);
+    const auto values = internal::high_level_values(*plane.face);
+    const auto quantise_high = [&](int first, int last) {
+      return internal::quantise_high(state.high, settings.fap_quant, plane.intra, first, last,
+                                     values, high_levels);
+    };
+    if (settings.mask[1]) {
+      auto ok = quantise_high(internal::kVisemeSelect1, internal::kVisemeBlend);
+      if (!ok) return ok;
+    }
+    if (settings.mask[2]) {
+      auto ok = quantise_high(internal::kExpressionSelect1, internal::kExpressionIntensity2);
+      if (!ok) return ok;
+    }
+    return internal::quantise_slots(state.face,
+                                    plane.intra ? pending_face.coding : state.face.coding,
+                                    plane.intra, plane.face->value, "FAP", pending_face.levels);
+  }
+
+  Result<void> quantise_body(const PlaneInput& plane) {
+    if (plane.intra) {
+      internal::apply_settings(state.body.coding, *plane.body_settings, pending_body.coding);
+    }
+    return internal::quantise_slots(state.body,
+                                    plane.intra ? pending_body.coding : state.body.coding,
+                                    plane.intra, plane.body->value, "BAP", pending_body.levels);
+  }
+
+  void start_code(std::uint32_t code) {
+    trace.start_codes.push_back(out.position());
+    out.start_code(code);
+  }
+
+  void stuff() {
+    if (!unit_ended) out.stuff();
+    unit_ended = false;
+  }
+
+  bool has_start_code(const PlaneInput& plane) const {
+    const PlaneStartCodes where = options.plane_start_codes;
+    return where == PlaneStartCodes::all || (where == PlaneStartCodes::intra && plane.intra);
+  }
+
+  void begin_plane(const PlaneInput& plane) {
+    if (!started) start_code(kObjectStart);
+    started = true;
+    if (has_start_code(plane)) {
+      stuff();
+      start_code(options.old_codes ? kOldPlaneStart : kPlaneStart);
+    }
+    out.bit(plane.intra);
+    out.bits(std::uint32_t(plane.object_mask), 2);
+    if (plane.object_mask != ObjectMask::nothing)
+      internal::write_temporal(out, plane.intra, plane.temporal);
+  }
+
+  void write_face(const PlaneInput& plane) {
+    if (plane.intra) {
+      state.face_settings = *plane.face_settings;
+      std::swap(state.face.coding, pending_face.coding);
+      state.face.reset_models();
+      state.high.fap_quant = state.face_settings.fap_quant;
+      state.high.reset_models();
+      internal::write_face_settings(out, state.face_settings);
+    }
+    const fap::Mask& mask = state.face_settings.mask;
+    reconstruction = {};
+    reconstruction.number = plane.face->number;
+    reconstruction.mask = mask;
+    if (mask[1]) {
+      write_high(plane.intra, internal::kVisemeSelect1, internal::kVisemeBlend);
+      out.bit(plane.face->viseme.def);
+      reconstruction.viseme.def = plane.face->viseme.def;
+    }
+    if (mask[2]) {
+      write_high(plane.intra, internal::kExpressionSelect1, internal::kExpressionIntensity2);
+      out.bit(plane.face->expression.init_face);
+      out.bit(plane.face->expression.def);
+      reconstruction.expression.init_face = plane.face->expression.init_face;
+      reconstruction.expression.def = plane.face->expression.def;
+    }
+    internal::set_high_level_values(state.high.value, reconstruction);
+    write_slots(state.face, plane.intra, pending_face.levels);
+    for (const std::uint16_t slot : state.face.coding.coded) {
+      reconstruction.value[state.face.coding.table->number[slot]] = state.face.value[slot];
+    }
+  }
+
+  void write_body(const PlaneInput& plane) {
+    if (plane.intra) {
+      state.body_settings = *plane.body_settings;
+      std::swap(state.body.coding, pending_body.coding);
+      state.body.reset_models();
+      internal::write_body_settings(out, state.body_settings);
+    }
+    write_slots(state.body, plane.intra, pending_body.levels);
+  }
+};
+
+Encoder::Encoder(const StreamOptions& options) : impl_(std::make_unique<Impl>()) {
+  impl_->options = options;
+}
+Encoder::Encoder(Encoder&&) noexcept = default;
+Encoder& Encoder::operator=(Encoder&&) noexcept = default;
+Encoder::~Encoder() = default;
+
+Result<void> Encoder::write(const PlaneInput& plane) { return impl_->write(plane); }
+const fap::Frame& Encoder::reconstruction() const { return impl_->reconstruction; }
+BodyFrame Encoder::body_reconstruction() const {
+  BodyFrame frame;
+  const SlotState& body = impl_->state.body;
+  for (const std::uint16_t slot : body.coding.coded) {
+    frame.mask.set(kBapOrder[slot]);
+    frame.value[kBapOrder[slot]] = body.value[slot];
+  }
+  return frame;
+}
+std::int64_t Encoder::bits() const {
+  return impl_->taken_bits + std::int64_t(impl_->out.position());
+}
+
+void Encoder::end_unit() {
+  impl_->stuff();
+  impl_->unit_ended = true;
+}
+
+std::optional<std::string> Encoder::trap() const {
+  const auto traps = internal::find_traps(impl_->out.bytes(), impl_->trace);
+  if (traps.empty()) return std::nullopt;
+  return (traps.front().kind == internal::Trap::Kind::start_code
+              ? "the bits of a plane look like a start code at bit "
+              : "22 zeros reach past a segment at bit ") +
+         std::to_string(impl_->taken_bits + std::int64_t(traps.front().bit));
+}
+
+std::vector<std::int64_t> Encoder::trap_bits() const {
+  std::vector<std::int64_t> bits;
+  for (const internal::Trap& trap : internal::find_traps(impl_->out.bytes(), impl_->trace)) {
+    bits.push_back(impl_->taken_bits + std::int64_t(trap.bit));
+  }
+  return bits;
+}
+
+void Encoder::drop() {
+  impl_->out = {};
+  impl_->trace.clear();
+  impl_->started = impl_->taken_bits != 0;
+  impl_->unit_ended = impl_->started;
+  impl_->state.face.coding.valid = false;
+  impl_->state.body.coding.valid = false;
+}
+
+std::vector<std::uint8_t> Encoder::take() {
+  std::vector<std::uint8_t> bytes = impl_->out.take();
+  impl_->taken_bits += std::int64_t(bytes.size()) * 8;
+  impl_->trace.clear();
+  return bytes;
+}
+
+void Encoder::end() {
+  if (!impl_->started) impl_->start_code(kObjectStart);
+  impl_->started = true;
+  impl_->stuff();
+  impl_->start_code(kSequenceEnd);
+}
+
+std::vector<std::uint8_t> Encoder::finish() {
+  end();
+  return take();
+}
+
+}  // namespace animeme::fba

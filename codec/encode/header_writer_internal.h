@@ -1,0 +1,17 @@
+// Writing what a plane says before its segments. Not installed API. Source: fba_bitstream,
+// sections 2, 3 and 7.
+#pragma once
+
+#include "codec/syntax/bits.h"
+#include "codec/syntax/plane.h"
+
+namespace animeme::fba::internal {
+
+/// Temporal header; rate and time code only if `intra`.
+void write_temporal(BitWriter& out, bool intra, const TemporalHeader& temporal);
+
+/// Quantiser, masks, gender, coding type and ranges of an intra plane.
+void write_face_settings(BitWriter& out, const FaceSettings& settings);
+void write_body_settings(BitWriter& out, const BodySettings& settings);
+
+}  // namespace animeme::fba::internal

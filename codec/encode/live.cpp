@@ -1,0 +1,170 @@
+#include "codec/encode/live.h"
+
+#include <algorithm>
+#include <deque>
+
+#include "codec/decode/decoder.h"
+#include "codec/encode/encoder.h"
+#include "codec/encode/live_settings_internal.h"
+#include "codec/syntax/settings_internal.h"
+
+namespace animeme::fba {
+
+namespace {
+
+constexpr int kMaxDetours = 40;
+constexpr int kWarmUp = 40;  // planes: what was seen says enough only after a second or two
+
+// What a frame changes, and what is put back if it cannot be coded.
+struct Memory {
+  internal::HeldFrame held;
+  internal::Motion motion;
+  bool last_intra = false;
+};
+
+}  // namespace
+
+struct LiveEncoder::Impl : Memory {
+  LiveOptions options;
+  std::optional<CodedRate> rate;
+  Encoder encoder;
+  Decoder decoder;
+  std::deque<internal::Shown> expected;  // written, not yet seen from the decoder
+  internal::Shown last;
+
+  FaceSettings face;  // of the intra plane in force
+  BodySettings body;
+  std::int64_t since_intra = -1;  // planes; -1: no intra plane yet
+  std::int64_t planes = 0;
+
+  explicit Impl(const LiveOptions& given)
+      : options(given), encoder(StreamOptions{PlaneStartCodes::all, given.old_codes}) {
+    rate = code_rate(options.rate);
+  }
+
+  Result<void> check() const {
+    const auto invalid = [](const char* message) {
+      return make_error(Code::invalid_argument, message);
+    };
+    if (!rate) return invalid("the stream cannot express this frame rate, see code_rate()");
+    for (const auto& ok : {internal::check_fap_quant(options.fap_quant),
+                           internal::check_bap_quant(options.bap_quant),
+                           internal::check_intra_period(options.intra_period)}) {
+      if (!ok) return ok;
+    }
+    if (options.ranges && *std::max_element(options.ranges->begin(), options.ranges->end()) > 31) {
+      return invalid("ranges must be 0..31");
+    }
+    return {};
+  }
+
+  // Bounds of FAP 1 and 2, where they are coded.
+  Result<void> check(const fap::Frame& frame) const {
+    if (!options.faps) return internal::check_high_level(frame);
+    fap::Frame coded = frame;
+    coded.mask &= *options.faps;
+    return internal::check_high_level(coded);
+  }
+
+  Result<void> write_plane(bool intra, std::uint32_t skip) {
+    PlaneInput plane;
+    plane.intra = intra;
+    plane.object_mask = held.has_body ? ObjectMask::face_and_body : ObjectMask::face;
+    if (intra) plane.temporal.rate = rate;
+    if (skip > 0) plane.temporal.skip = skip;
+    plane.face = &held.face;
+    plane.body = &held.body;
+    plane.face_settings = &face;
+    plane.body_settings = &body;
+    auto ok = encoder.write(plane);
+    if (ok) encoder.end_unit();
+    return ok;
+  }
+
+  // Predictive if it can be; intra planes in other ranges until their bits hold no trap.
+  Result<void> write_best(std::uint32_t skip) {
+    const bool due = since_intra < 0 || held.face.mask != face.mask ||
+                     (held.has_body && held.body.mask != body.mask) ||
+                     (options.intra_period > 0 && since_intra >= options.intra_period);
+    if (!due) {
+      if (write_plane(false, skip)) {
+        last_intra = false;
+        if (!encoder.trap()) return {};
+        encoder.drop();
+      }
+    }
+    last_intra = true;
+    for (int detour = 0;; ++detour) {
+      const bool young = planes < kWarmUp;
+      face = internal::settle_face(held, motion, options, young, detour);
+      if (held.has_body) body = internal::settle_body(held, motion, options, young, detour);
+      if (auto ok = write_plane(true, skip); !ok) return ok;
+      if (!encoder.trap() || detour == kMaxDetours) break;
+      encoder.drop();
+    }
+    motion.next_period();
+    return {};
+  }
+
+  Result<std::vector<std::uint8_t>> write(const fap::Frame& frame, std::uint32_t skip,
+                                          const BodyFrame* given_body) {
+    if (auto ok = check(); !ok) return ok.error();
+    if (auto ok = check(frame); !ok) return ok.error();
+    const Memory before = *this;
+    held.take_in(frame, given_body, options);
+    if (since_intra >= 0) motion.see(held, last, options);
+    if (auto ok = write_best(skip); !ok) {
+      static_cast<Memory&>(*this) = before;
+      since_intra = -1;  // the plane to come has to be complete in itself
+      return ok.error();
+    }
+    since_intra = last_intra ? 1 : since_intra + 1;
+    ++planes;
+    last = {encoder.reconstruction(), encoder.body_reconstruction()};
+    std::vector<std::uint8_t> unit = encoder.take();
+    if (options.verify) {
+      if (auto ok = verify(unit); !ok) return ok.error();
+    }
+    return unit;
+  }
+
+  bool agrees(const Plane& plane) const {
+    internal::Shown want = expected.front();
+    want.face.number = plane.face.number;
+    if (plane.face != want.face) return false;
+    if (!plane.body) return want.body.mask.none();
+    want.body.number = plane.body->number;
+    return *plane.body == want.body;
+  }
+
+  // The decoder may want to look past a unit before it gives the plane away.
+  Result<void> verify(const std::vector<std::uint8_t>& unit) {
+    expected.push_back(last);
+    decoder.push(unit);
+    for (;;) {
+      Result<Event> event = decoder.next();
+      if (!event && event.error().code == Code::need_data) return {};
+      if (event && event->kind == Event::Kind::info) continue;
+      if (!event || event->kind != Event::Kind::plane || !agrees(event->plane)) {
+        return make_error(Code::internal, "a unit does not decode to what was coded");
+      }
+      expected.pop_front();
+    }
+  }
+};
+
+LiveEncoder::LiveEncoder(const LiveOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+LiveEncoder::LiveEncoder(LiveEncoder&&) noexcept = default;
+LiveEncoder& LiveEncoder::operator=(LiveEncoder&&) noexcept = default;
+LiveEncoder::~LiveEncoder() = default;
+
+Result<std::vector<std::uint8_t>> LiveEncoder::write(const fap::Frame& frame, std::uint32_t skip,
+                                                     const BodyFrame* body) {
+  return impl_->write(frame, skip, body);
+}
+
+std::vector<std::uint8_t> LiveEncoder::finish() { return impl_->encoder.finish(); }
+const fap::Frame& LiveEncoder::reconstruction() const { return impl_->last.face; }
+bool LiveEncoder::intra() const { return impl_->last_intra; }
+
+}  // namespace animeme::fba

@@ -1,0 +1,136 @@
+#include "codec/encode/live_settings_internal.h"
+
+#include "codec/syntax/quantise_internal.h"
+#include "codec/syntax/settings_internal.h"
+
+namespace animeme::fba::internal {
+
+namespace {
+
+std::int32_t face_step(std::size_t fap, const LiveOptions& options) {
+  return step_at(false, fap::info(int(fap)).quant_step, options.fap_quant);
+}
+std::int32_t body_step(std::size_t slot, const LiveOptions& options) {
+  return step_at(true, kBapSteps[slot], options.bap_quant);
+}
+
+// For the largest change that was seen and half as much again.
+std::uint8_t predictive_range(std::int64_t largest, int scale) {
+  return std::uint8_t(std::clamp(range_number(largest + largest / 2, scale), 1, kMaxRange));
+}
+
+std::uint8_t face_range(std::size_t fap, const Motion& motion, const LiveOptions& options,
+                        bool young) {
+  if (options.ranges) return (*options.ranges)[fap];
+  const std::uint8_t seen =
+      predictive_range(motion.face.largest(fap), scale_at(false, options.fap_quant));
+  if (!young) return seen;
+  const int usual = range_number(fap::info(int(fap)).default_p_range, 1);
+  return std::max(seen, std::uint8_t(std::clamp(usual, 1, kMaxRange)));
+}
+
+// The tightest range, and `wider` more on its upper side, or its lower one where that is full.
+template <class Settings>
+void set_intra_range(Settings& settings, std::size_t number, std::int64_t level, int scale,
+                     int wider) {
+  const auto reach = [&](std::int64_t most) {
+    return std::min(range_number(std::max<std::int64_t>(most, 0), scale), kMaxRange);
+  };
+  const int up = reach(level);
+  const int down = reach(-level);
+  const int more = std::min(wider, kMaxRange - up);
+  settings.range[kIntraMax][number] = std::uint8_t(up + more);
+  settings.range[kIntraMin][number] = std::uint8_t(std::min(down + wider - more, kMaxRange));
+}
+
+// By how much so many detours widen the parameter whose turn this is.
+int wider(const HeldFrame& held, std::size_t turn, int detour) {
+  const std::size_t coded = held.low_level_count() + held.body_count();
+  return int((std::size_t(detour * detour) + coded - 1 - turn) / coded);
+}
+
+}  // namespace
+
+void HeldFrame::take_in(const fap::Frame& frame, const BodyFrame* given_body,
+                        const LiveOptions& options) {
+  fap::Mask mask = frame.mask;
+  if (options.faps) mask &= *options.faps;
+  face.mask |= mask;
+  if (options.faps) face.mask = *options.faps;
+  face.mask.reset(0);  // no FAP
+  if (mask[1]) face.viseme = frame.viseme;
+  if (mask[2]) face.expression = frame.expression;
+  keep_legal(face.viseme, face.expression, options.fap_quant);
+  if (!mask[1]) face.viseme.def = false;
+  if (!mask[2]) face.expression.def = face.expression.init_face = false;
+  for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+    if (mask[fap]) face.value[fap] = frame.value[fap];
+  }
+  if (given_body == nullptr) return;
+  has_body = true;
+  body.mask |= given_body->mask;
+  body.mask.reset(0);
+  guard_last_group(body.mask);
+  for (std::size_t bap = 1; bap <= std::size_t(kBapCount); ++bap) {
+    if (given_body->mask[bap]) body.value[bap] = given_body->value[bap];
+  }
+}
+
+void Motion::see(const HeldFrame& held, const Shown& last, const LiveOptions& options) {
+  for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+    if (!last.face.mask[fap]) continue;
+    const std::int64_t change = std::int64_t(held.face.value[fap]) - last.face.value[fap];
+    face.see(fap, quantise(change, face_step(fap, options)));
+  }
+  for (std::size_t slot = 0; slot < kBapOrder.size(); ++slot) {
+    const std::size_t bap = kBapOrder[slot];
+    if (!last.body.mask[bap]) continue;
+    const std::int64_t change = std::int64_t(held.body.value[bap]) - last.body.value[bap];
+    body.see(bap, quantise(change, body_step(slot, options)));
+  }
+}
+
+FaceSettings settle_face(const HeldFrame& held, const Motion& motion, const LiveOptions& options,
+                         bool young, int detour) {
+  FaceSettings face;
+  face.fap_quant = options.fap_quant;
+  face.send_range = {true, true, true, true};
+  face.mask = held.face.mask;
+  set_mask_types(face);
+  std::size_t turn = held.low_level_count();
+  for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+    if (!face.mask[fap]) continue;
+    --turn;
+    set_intra_range(face, fap, quantise(held.face.value[fap], face_step(fap, options)),
+                    scale_at(false, options.fap_quant), wider(held, turn, detour));
+    std::uint8_t range = face_range(fap, motion, options, young);
+    // Zeros of the very last range may reach into the values behind it.
+    if (turn == 0 && detour > 0 && range == 0) range = 1;
+    face.range[kPredictiveMax][fap] = face.range[kPredictiveMin][fap] = range;
+  }
+  guard_fap4(face);
+  return face;
+}
+
+BodySettings settle_body(const HeldFrame& held, const Motion& motion, const LiveOptions& options,
+                         bool young, int detour) {
+  BodySettings body;
+  body.bap_quant = options.bap_quant;
+  body.send_range = {true, true, true, true};
+  body.mask = held.body.mask;
+  set_mask_types(body);
+  std::size_t turn = held.low_level_count();
+  for (std::size_t slot = 0; slot < kBapOrder.size(); ++slot) {
+    const std::size_t bap = kBapOrder[slot];
+    if (!body.mask[bap]) continue;
+    const int scale = scale_at(true, options.bap_quant);
+    set_intra_range(body, bap, quantise(held.body.value[bap], body_step(slot, options)), scale,
+                    wider(held, turn++, detour));
+    const std::uint8_t range =
+        young ? std::uint8_t(kMaxRange) : predictive_range(motion.body.largest(bap), scale);
+    body.range[kPredictiveMax][bap] = body.range[kPredictiveMin][bap] = range;
+  }
+  return body;
+}
+
+}  // namespace animeme::fba::internal

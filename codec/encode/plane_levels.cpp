@@ -1,0 +1,151 @@
+#include "codec/encode/plane_levels_internal.h"
+
+#include <string>
+
+#include "codec/syntax/quantise_internal.h"
+#include "codec/syntax/settings_internal.h"
+
+namespace animeme::fba::internal {
+
+namespace {
+
+Error value_error(const char* what, int number, std::int64_t value, std::int64_t level,
+                  std::int64_t low, std::int64_t high) {
+  return make_error(Code::out_of_range, std::string(what) + " " + std::to_string(number) + " = " +
+                                            std::to_string(value) + " needs level " +
+                                            std::to_string(level) + ", outside the range " +
+                                            std::to_string(low) + ".." + std::to_string(high) +
+                                            " in force; widen the range or code an intra plane");
+}
+
+Error too_large_error(const char* what, int number, std::int64_t value) {
+  return make_error(Code::out_of_range,
+                    std::string(what) + " " + std::to_string(number) + " = " +
+                        std::to_string(value) +
+                        " would be rounded to a number of more than 32 bits; use a smaller value");
+}
+
+template <class Settings>
+bool ranges_legal(const Settings& settings) {
+  for (const auto& set : settings.range) {
+    for (const std::uint8_t m : set) {
+      if (m > 31) return false;
+    }
+  }
+  return true;
+}
+
+Error invalid(std::string message) {
+  return make_error(Code::invalid_argument, std::move(message));
+}
+
+// `name`: FAP or BAP, `part`: face or body.
+template <class Settings>
+Result<void> check_settings(const Settings* settings, const char* name, const char* part) {
+  if (!mask_agrees(*settings)) return invalid(std::string(name) + " mask and mask types disagree");
+  if (!ranges_legal(*settings)) return invalid(std::string(part) + " ranges must be 0..31");
+  return {};
+}
+
+Result<void> check_intra(const PlaneInput& plane) {
+  if (plane.temporal.rate && !plane.temporal.rate->rate().valid()) {
+    return invalid("the frame rate is 0");
+  }
+  if (const FaceSettings* settings = plane.face_settings; has_face(plane.object_mask)) {
+    if (settings == nullptr) return invalid("an intra plane needs face settings");
+    if (auto ok = check_fap_quant(settings->fap_quant); !ok) return ok;
+    if (auto ok = check_settings(settings, "FAP", "face"); !ok) return ok;
+  }
+  if (const BodySettings* settings = plane.body_settings; has_body(plane.object_mask)) {
+    if (settings == nullptr) return invalid("an intra plane needs body settings");
+    if (auto ok = check_bap_quant(settings->bap_quant); !ok) return ok;
+    if (auto ok = check_settings(settings, "BAP", "body"); !ok) return ok;
+  }
+  return {};
+}
+
+template <class Settings>
+void apply(const SlotCoding& before, const Settings& settings, int quant, int scale,
+           SlotCoding& coding) {
+  coding = before;
+  coding.valid = true;
+  coding.scale = scale;
+  coding.quantised = quant != 0;
+  coding.coded.clear();
+  coding.set_default_ranges();
+  for (std::size_t slot = 0; slot < coding.table->number.size(); ++slot) {
+    const std::size_t number = coding.table->number[slot];
+    if (!settings.mask[number]) continue;
+    coding.coded.push_back(std::uint16_t(slot));
+    for (std::size_t kind = 0; kind < 4; ++kind) {
+      if (!settings.send_range[kind]) continue;
+      coding.range[kind][slot] = level_range(settings.range[kind][number], scale);
+    }
+  }
+}
+
+}  // namespace
+
+Result<void> check_input(const PlaneInput& plane) {
+  if ((has_face(plane.object_mask) && plane.face == nullptr) ||
+      (has_body(plane.object_mask) && plane.body == nullptr)) {
+    return invalid("a plane needs the values of what its object mask names");
+  }
+  if (plane.temporal.skip.value_or(0) > kMaxSkip) {
+    return invalid("more than a million frames in a row cannot be skipped");
+  }
+  if (plane.intra) return check_intra(plane);
+  if (plane.temporal.rate || plane.temporal.time_code) {
+    return invalid("frame rate and time code belong into intra planes");
+  }
+  return {};
+}
+
+void apply_settings(const SlotCoding& before, const FaceSettings& settings, SlotCoding& coding) {
+  apply(before, settings, settings.fap_quant, fap_scale(settings.fap_quant), coding);
+}
+void apply_settings(const SlotCoding& before, const BodySettings& settings, SlotCoding& coding) {
+  apply(before, settings, settings.bap_quant, bap_scale(settings.bap_quant), coding);
+}
+
+Result<void> quantise_slots(const SlotState& state, const SlotCoding& coding, bool intra,
+                            std::span<const std::int32_t> values, const char* what,
+                            SlotLevels& out) {
+  out.level.resize(coding.coded.size());
+  out.rec.resize(coding.coded.size());
+  for (std::size_t i = 0; i < coding.coded.size(); ++i) {
+    const std::uint16_t slot = coding.coded[i];
+    const int number = coding.table->number[slot];
+    const std::int64_t value = values[std::size_t(number)];
+    const std::int64_t base = intra ? 0 : state.value[slot];
+    const std::int32_t step = coding.step_of(slot);
+    const std::int64_t level = quantise(value - base, step);
+    const std::int64_t low = coding.lowest_level(intra, slot);
+    const std::int64_t high = coding.highest_level(intra, slot);
+    if (level < low || level > high) return value_error(what, number, value, level, low, high);
+    const std::int64_t rec = base + level * step;
+    if (rec != std::int32_t(rec)) return too_large_error(what, number, value);
+    out.level[i] = std::int32_t(level);
+    out.rec[i] = std::int32_t(rec);
+  }
+  return {};
+}
+
+Result<void> quantise_high(const HighLevelState& state, int fap_quant, bool intra, int first,
+                           int last, const HighLevels& values, HighLevels& levels) {
+  for (int which = first; which <= last; ++which) {
+    const std::size_t index = std::size_t(which);
+    const std::int64_t base = intra ? 0 : state.value[index];
+    const std::int64_t level =
+        quantise(std::int64_t(values[index]) - base, high_level_step(which, fap_quant));
+    const std::int64_t max = high_level_max(which, fap_quant);
+    if (level > max || level < (intra ? 0 : -max)) {
+      return value_error("high-level FAP", which <= kVisemeBlend ? 1 : 2, values[index], level,
+                         intra ? 0 : -max, max);
+    }
+    levels[index] = std::int32_t(level);
+  }
+  return {};
+}
+
+}  // namespace animeme::fba::internal

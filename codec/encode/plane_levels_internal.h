@@ -1,0 +1,41 @@
+// The first half of coding a plane: checked settings, and the level of every value. Nothing is
+// written here and no state changes. Not installed API.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "codec/encode/encoder.h"
+#include "codec/syntax/state_internal.h"
+
+namespace animeme::fba::internal {
+
+/// Levels of one family's coded slots, and what they reconstruct to.
+struct SlotLevels {
+  std::vector<std::int32_t> level;
+  std::vector<std::int32_t> rec;
+};
+
+using HighLevels = std::array<std::int32_t, kHighLevelCount>;
+
+/// What a plane asks for that no state has to be known for. Error invalid_argument as
+/// Encoder::write().
+Result<void> check_input(const PlaneInput& plane);
+
+/// What the settings of an intra plane make of the coding parameters `before` it.
+void apply_settings(const SlotCoding& before, const FaceSettings& settings, SlotCoding& coding);
+void apply_settings(const SlotCoding& before, const BodySettings& settings, SlotCoding& coding);
+
+/// Levels of the coded slots; `values` by FAP or BAP number, `what` names the family. Error
+/// out_of_range as Encoder::write().
+Result<void> quantise_slots(const SlotState& state, const SlotCoding& coding, bool intra,
+                            std::span<const std::int32_t> values, const char* what,
+                            SlotLevels& out);
+
+/// The same of the high-level values `first` to `last`, at the fap_quant in force.
+Result<void> quantise_high(const HighLevelState& state, int fap_quant, bool intra, int first,
+                           int last, const HighLevels& values, HighLevels& levels);
+
+}  // namespace animeme::fba::internal

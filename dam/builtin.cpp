@@ -1,7 +1,0 @@
-#include "dam/builtin.h"
-
-namespace animeme::dam {
-
-Result<Model> builtin_model() { return read_model(builtin_model_bytes()); }
-
-}  // namespace animeme::dam

@@ -1,0 +1,250 @@
+#include "dam/corpus/corpus.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "dam/script/table_text_internal.h"
+#include "dam/signal/fap_signal.h"
+#include "fap/text.h"
+
+namespace animeme::dam {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kLongestMismatch = 0.5;  // seconds between the ends of script and signal
+
+Error error_in(const fs::path& file, Code code, std::string message, std::size_t line = 0) {
+  return {code, std::move(message), {file.string(), std::int64_t(line), 0, -1}};
+}
+
+constexpr const char* kWantedByRow =
+    "cannot open this file, which its row in utterances.tsv asks for";
+
+/// `missing`: the sentence for a file that cannot be opened.
+Result<std::string> read_file(const fs::path& path, const char* missing = kWantedByRow) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return error_in(path, Code::not_found, missing);
+  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (in.bad()) return error_in(path, Code::io, "cannot read this file");
+  return text;
+}
+
+bool is_file(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+/// An identifier becomes part of a path, so it must not lead elsewhere.
+bool safe_id(std::string_view id) {
+  return !id.empty() && id != "." && id != ".." &&
+         id.find_first_of(std::string_view("/\\:\0", 4)) == std::string_view::npos;
+}
+
+Result<std::vector<Utterance>> read_rows(const fs::path& path, const CorpusOptions& options) {
+  const auto text = read_file(path, "cannot open this table; a corpus is a folder that holds it");
+  if (!text) return text.error();
+  const auto lines = table_lines(*text);
+  if (lines.empty()) return error_in(path, Code::truncated, "the table is empty");
+  const auto header = split_fields(lines[0].text, '\t');
+  const auto id = find_column(header, "id");
+  const auto words = find_column(header, "text");
+  const auto split = find_column(header, options.split_column);
+  if (!id) return error_in(path, Code::not_found, "the header has no column 'id'; add one", 1);
+  if (!options.split_value.empty() && !split)
+    return error_in(path, Code::not_found,
+                    "the header has no column '" + options.split_column +
+                        "'; choose another split column or read all rows",
+                    1);
+  std::vector<Utterance> rows;
+  std::set<std::string> seen;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const auto fields = split_fields(lines[i].text, '\t');
+    if (fields.size() != header.size())
+      return error_in(path, Code::syntax,
+                      std::to_string(fields.size()) +
+                          " fields where the "
+                          "header has " +
+                          std::to_string(header.size()) + "; complete the line",
+                      lines[i].number);
+    Utterance u;
+    u.id = trimmed(fields[*id]);
+    if (!safe_id(u.id) || !seen.insert(u.id).second)
+      return error_in(path, Code::syntax,
+                      "the id '" + u.id +
+                          "' is empty, used twice or not "
+                          "usable as a file name; change it",
+                      lines[i].number);
+    if (words) u.text = fields[*words];
+    for (std::size_t f = 0; f < fields.size(); ++f) u.fields.emplace_back(header[f], fields[f]);
+    if (options.split_value.empty() || trimmed(fields[*split]) == options.split_value)
+      rows.push_back(std::move(u));
+  }
+  if (rows.empty())
+    return error_in(path, Code::not_found,
+                    options.split_value.empty() ? "the table has no rows"
+                                                : "no row has '" + options.split_value +
+                                                      "' in column '" + options.split_column + "'");
+  return rows;
+}
+
+Result<Script> read_phonemes(const fs::path& folder, const std::string& id) {
+  fs::path path = folder / "phonemes" / (id + ".tsv");
+  if (!is_file(path) && is_file(folder / "phonemes" / (id + ".TextGrid")))
+    path.replace_extension(".TextGrid");
+  const auto text = read_file(path);
+  if (!text) return text.error();
+  auto script = read_script(*text);
+  if (!script) return std::move(script).error().in_file(path.string());
+  return script;
+}
+
+Result<Signal> read_controls(const fs::path& csv, const fs::path& fap_text) {
+  const bool is_fap = !is_file(csv) && is_file(fap_text);
+  const fs::path& path = is_fap ? fap_text : csv;
+  const auto text = read_file(path);
+  if (!text) return text.error();
+  if (!is_fap) {
+    auto signal = read_curves(*text);
+    if (!signal) return std::move(signal).error().in_file(path.string());
+    return signal;
+  }
+  const auto clip = fap::read_text(*text);
+  if (!clip) return Error(clip.error()).in_file(path.string());
+  auto signal = to_signal(*clip);
+  if (!signal) return std::move(signal).error().in_file(path.string());
+  return signal;
+}
+
+Result<Signal> keep_controls(Signal signal, const std::vector<std::string>& names) {
+  if (names.empty() || names == signal.names) return signal;
+  Signal kept;
+  kept.rate = signal.rate;
+  kept.names = names;
+  kept.measured = signal.measured;
+  std::vector<std::size_t> from;
+  for (const std::string& name : names) {
+    const auto at = std::find(signal.names.begin(), signal.names.end(), name);
+    if (at == signal.names.end())
+      return make_error(Code::not_found, "there is no control '" + name + "'");
+    from.push_back(std::size_t(at - signal.names.begin()));
+  }
+  kept.values.reserve(signal.frames() * names.size());
+  for (std::size_t i = 0; i < signal.frames(); ++i)
+    for (const std::size_t c : from) kept.values.push_back(signal.at(i, c));
+  return kept;
+}
+
+/// Reads the files of rows; the first sentence sets controls and rate.
+class CorpusReader {
+ public:
+  CorpusReader(const fs::path& folder, const CorpusOptions& options)
+      : folder_(folder), options_(options), names_(options.controls) {}
+
+  bool has_controls(const std::string& id) const {
+    return is_file(curves(id, ".csv")) || is_file(curves(id, ".fap"));
+  }
+
+  Result<void> read(Utterance& u) {
+    const fs::path csv = curves(u.id, ".csv"), fap_text = curves(u.id, ".fap");
+    const fs::path path = !is_file(csv) && is_file(fap_text) ? fap_text : csv;
+    auto script = read_phonemes(folder_, u.id);
+    if (!script) return script.error();
+    auto signal = read_controls(csv, fap_text);
+    if (!signal) return signal.error();
+    if (names_.empty()) names_ = signal->names;
+    signal = keep_controls(std::move(*signal), names_);
+    if (!signal) return std::move(signal).error().in_file(path.string());
+    u.script = std::move(*script);
+    u.signal = std::move(*signal);
+    return check(u, path);
+  }
+
+ private:
+  fs::path curves(const std::string& id, const char* extension) const {
+    return folder_ / options_.controls_folder / (id + extension);
+  }
+
+  Result<void> check(const Utterance& u, const fs::path& path) {
+    const double length = u.signal.rate.seconds(double(u.signal.frames()));
+    const double gap = u.script.duration() - length;
+    if (!options_.any_length && std::abs(gap) > kLongestMismatch)
+      return error_in(path, Code::out_of_range,
+                      "the signal lasts " + std::to_string(length) + " s but its phonemes " +
+                          std::to_string(u.script.duration()) +
+                          " s; correct the times or allow any length");
+    if (first_.empty()) {
+      first_ = u.id;
+      rate_ = u.signal.rate;
+    }
+    if (!(u.signal.rate == rate_))
+      return error_in(path, Code::out_of_range,
+                      "the frame rate differs from that of sentence '" + first_ + "'; resample it");
+    return {};
+  }
+
+  const fs::path& folder_;
+  const CorpusOptions& options_;
+  std::vector<std::string> names_;
+  std::string first_;
+  fap::Rate rate_;
+};
+
+}  // namespace
+
+std::size_t Corpus::frames() const {
+  std::size_t n = 0;
+  for (const Utterance& u : utterances) n += u.signal.frames();
+  return n;
+}
+
+double Corpus::duration() const {
+  return utterances.empty() ? 0.0 : utterances[0].signal.rate.seconds(double(frames()));
+}
+
+Result<Corpus> read_corpus(const fs::path& folder, const CorpusOptions& options) {
+  Corpus corpus;
+  const auto skipped =
+      visit_corpus(folder, options, [&](Utterance u, std::size_t, std::size_t) -> Result<void> {
+        corpus.utterances.push_back(std::move(u));
+        return {};
+      });
+  if (!skipped) return skipped.error();
+  corpus.skipped = *skipped;
+  return corpus;
+}
+
+Result<std::size_t> visit_corpus(const fs::path& folder, const CorpusOptions& options,
+                                 const SentenceVisitor& visit) {
+  auto rows = read_rows(folder / "utterances.tsv", options);
+  if (!rows) return rows.error();
+  CorpusReader reader(folder, options);
+  std::size_t skipped = 0;
+  for (std::size_t row = 0; row < rows->size(); ++row) {
+    Utterance& u = (*rows)[row];
+    if (options.skip_missing && !reader.has_controls(u.id)) {
+      ++skipped;
+      continue;
+    }
+    if (auto ok = reader.read(u); !ok) return ok.error();
+    if (auto ok = visit(std::move(u), row, rows->size()); !ok) return ok.error();
+  }
+  if (skipped == rows->size())
+    return error_in(folder / options.controls_folder, Code::not_found,
+                    "no row has a control file in this folder");
+  return skipped;
+}
+
+std::vector<Utterance> select(const Corpus& corpus, std::string_view column,
+                              std::string_view value) {
+  std::vector<Utterance> chosen;
+  for (const Utterance& u : corpus.utterances)
+    for (const auto& [name, field] : u.fields)
+      if (name == column && field == value) chosen.push_back(u);
+  return chosen;
+}
+
+}  // namespace animeme::dam

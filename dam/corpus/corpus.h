@@ -1,0 +1,72 @@
+// Training data: sentences with their phoneme scripts and measured control signals.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dam/script/script.h"
+#include "dam/signal/signal.h"
+#include "fap/result.h"
+
+namespace animeme::dam {
+
+/// One recorded sentence.
+struct Utterance {
+  std::string id;
+  std::string text;  ///< empty: unknown
+  Script script;
+  Signal signal;
+  /// All columns of its row in utterances.tsv, as they stand there.
+  std::vector<std::pair<std::string, std::string>> fields;
+};
+
+/// Sentences with the same controls in the same order, all at the same rate.
+struct Corpus {
+  std::vector<Utterance> utterances;
+  std::size_t skipped = 0;  ///< rows of the split left out for want of a control file
+
+  std::size_t frames() const;
+  /// Seconds of signal.
+  double duration() const;
+};
+
+struct CorpusOptions {
+  std::string split_column =
+      "split";              ///< column of utterances.tsv that `split_value` is looked up in
+  std::string split_value;  ///< only rows with this value; empty: all rows
+  std::string controls_folder = "fap";  ///< folder with ID.csv or ID.fap
+  std::vector<std::string>
+      controls;               ///< names to keep, in this order; empty: all of the first file
+  bool skip_missing = false;  ///< leave out rows without a control file instead of failing
+  bool any_length = false;    ///< accept a script and a signal that differ by more than 0.5 s
+};
+
+/// Reads a corpus folder:
+///   utterances.tsv    tab separated with a header; `id` is needed, `text` and `split` are known
+///   phonemes/ID.tsv   start_s, end_s, phone, optional word; or ID.TextGrid
+///   fap/ID.csv        time_s, one column a control, optional `measured` (0: interpolated frame)
+/// The rate is taken from time_s, which must be regular and start at 0.
+/// Errors name file, line and remedy: not_found (a file, a column, a control, no row of the
+/// split), syntax (fields, numbers, NaN), out_of_range (irregular times, lengths that differ by
+/// more than 0.5 s, different rates), io.
+Result<Corpus> read_corpus(const std::filesystem::path& folder, const CorpusOptions& options = {});
+
+/// The same, one sentence at a time, for corpora larger than memory: `visit` gets each sentence
+/// with its number among the rows (from 0) and the count of rows; an error it returns ends the
+/// reading and is returned. Returns the number of rows left out (Corpus::skipped).
+using SentenceVisitor =
+    std::function<Result<void>(Utterance sentence, std::size_t row, std::size_t rows)>;
+Result<std::size_t> visit_corpus(const std::filesystem::path& folder, const CorpusOptions& options,
+                                 const SentenceVisitor& visit);
+
+/// One table of curves as in fap/ID.csv, from memory. Also used by importers.
+Result<Signal> read_curves(std::string_view text);
+
+/// The rows of `corpus` whose field `column` is `value`.
+std::vector<Utterance> select(const Corpus& corpus, std::string_view column,
+                              std::string_view value);
+
+}  // namespace animeme::dam

@@ -1,0 +1,61 @@
+// What training data look like: the resting mouth, the spread of every control, closed lips.
+// Internal to training and evaluation.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "dam/corpus/corpus.h"
+#include "dam/model/model.h"
+
+namespace animeme::dam {
+
+/// Seconds around the speech that count as speech in statistics and scores.
+inline constexpr double kSpeechMargin = 0.2;
+
+/// False for frames that the signal marks as interpolated.
+inline bool is_measured(const Signal& signal, std::size_t frame) {
+  return frame >= signal.measured.size() || signal.measured[frame];
+}
+
+/// Per frame: within kSpeechMargin of speech and measured.
+std::vector<bool> speech_frames(const Utterance& utterance);
+
+/// What a frame tells of: the speaking mouth, the resting mouth (further than `pause_edge` from the
+/// speech), or neither (also where nothing was measured).
+enum class FramePlace : std::uint8_t { neither, speech, rest };
+std::vector<FramePlace> frame_places(const Utterance& utterance, double pause_edge);
+
+/// Sets what moments over the speech do not tell by themselves: a deviation that is no motion
+/// becomes 0, rest gets closed lips (some silences are breaths and smiles; the mean of all would
+/// rest with the lips a little apart).
+void settle_controls(std::vector<Control>& controls);
+
+/// Names, mean and deviation over the speech, rest over the silences further than `pause_edge` from
+/// it (with closed lips; the mean of the speech if there is no silence). All sentences must have
+/// the controls of the first. Interpolated frames do not count.
+std::vector<Control> control_statistics(std::span<const Utterance* const> sentences,
+                                        double pause_edge);
+
+/// The least measured inner gap near each P, B and M of a sentence, and the least -FAP 5 near each
+/// F and V. Nothing without lip FAPs.
+void add_closures(const Utterance& utterance, std::vector<double>& gaps);
+void add_lip_tooth_contacts(const Utterance& utterance, std::vector<double>& lows);
+/// Fewer contacts tell nothing.
+inline constexpr std::size_t kFewContacts = 5;
+/// Model::closure_gap for the median gap, none: not known.
+double closure_gap_of(std::optional<double> median);
+
+/// Median over all P, B and M of the least measured inner gap near the phone, in FAP units, between
+/// 0 and 25; 25 if there are no lip FAPs or fewer than five such phones. Source: lipsync,
+/// section 5.6.
+double measured_closure_gap(std::span<const Utterance* const> sentences);
+
+/// Median over all F and V of the highest measured place of the inner lower lip (FAP 5) near the
+/// phone; none with fewer than five such phones or without lip FAPs.
+std::optional<double> measured_lip_tooth_raise(std::span<const Utterance* const> sentences);
+
+}  // namespace animeme::dam

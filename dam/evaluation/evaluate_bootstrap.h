@@ -1,0 +1,40 @@
+// Is one system better than another, or were the sentences kind to it? Paired bootstrap over
+// sentences. Source: lipsync, section 8, item 7.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "dam/evaluation/evaluate.h"
+#include "fap/result.h"
+
+namespace animeme::dam {
+
+struct BootstrapOptions {
+  int draws = 1000;        ///< 1..1000000
+  std::uint64_t seed = 1;  ///< of a generator of our own: the same on every machine
+  double coverage = 0.95;  ///< of the interval: 0.5..0.999
+};
+
+/// One error of two systems, over all sentences. Negative differences: a is better.
+struct ErrorDifference {
+  double a = 0, b = 0;
+  double difference = 0;     ///< a - b
+  double low = 0, high = 0;  ///< percentiles of the difference over the draws
+  double below = 0;          ///< share of draws in which a has less error than b, 0..1
+};
+
+struct PairedDifference {
+  std::size_t sentences = 0;
+  int draws = 0;
+  ErrorDifference nrmse, l2;
+  ErrorDifference gap_rmse;  ///< FAP units; zeros without an inner gap
+};
+
+/// Draws as many sentences as there are, with replacement and the same for both, computes both
+/// errors over the frames drawn, and so on. Both must be scores of the same recordings on the same
+/// scale. Error: invalid_argument (options; sentences, frames or controls that differ).
+Result<PairedDifference> paired_difference(const Evaluation& a, const Evaluation& b,
+                                           const BootstrapOptions& options = {});
+
+}  // namespace animeme::dam

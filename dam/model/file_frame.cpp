@@ -1,0 +1,116 @@
+#include "dam/model/file_frame_internal.h"
+
+#include <array>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "dam/model/bytes_internal.h"
+
+namespace animeme::dam {
+namespace {
+
+constexpr std::size_t kMagic = 8, kHeader = kMagic + 2 + 2 + 8, kChecksum = 4;
+
+constexpr std::array<std::uint32_t, 256> make_crc_table() {
+  std::array<std::uint32_t, 256> table{};
+  for (std::uint32_t i = 0; i < 256; ++i) {
+    std::uint32_t c = i;
+    for (int bit = 0; bit < 8; ++bit) c = (c >> 1) ^ ((c & 1) != 0 ? 0xEDB88320u : 0u);
+    table[i] = c;
+  }
+  return table;
+}
+constexpr auto kCrcTable = make_crc_table();
+
+/// CRC-32 as in zip and PNG.
+std::uint32_t crc32(std::span<const std::uint8_t> bytes) {
+  std::uint32_t c = 0xFFFFFFFFu;
+  for (const std::uint8_t b : bytes) c = kCrcTable[(c ^ b) & 0xFF] ^ (c >> 8);
+  return ~c;
+}
+
+std::string the(const FileFormat& format) { return "the " + std::string(format.what); }
+
+}  // namespace
+
+Error damaged_file(const FileFormat& format, const std::string& how) {
+  return make_error(Code::syntax, the(format) + " is damaged (" + how + "); get it again or " +
+                                      std::string(format.remedy));
+}
+
+std::vector<std::uint8_t> frame_file(const FileFormat& format, std::span<const std::uint8_t> body) {
+  ByteWriter file;
+  file.bytes.reserve(kHeader + body.size() + kChecksum);
+  file.bytes.assign(format.magic.begin(), format.magic.end());
+  file.number(format.major);
+  file.number(format.minor);
+  file.number(std::uint64_t(body.size()));
+  file.bytes.insert(file.bytes.end(), body.begin(), body.end());
+  file.number(crc32(file.bytes));
+  return std::move(file.bytes);
+}
+
+Result<FileBody> open_frame(const FileFormat& format, std::span<const std::uint8_t> file) {
+  if (file.size() < kMagic || std::memcmp(file.data(), format.magic.data(), kMagic) != 0)
+    return make_error(Code::syntax, "this is not a " + std::string(format.what) + " of Animeme");
+  if (file.size() < kHeader + kChecksum)
+    return make_error(Code::truncated, the(format) + " ends within its header");
+  ByteReader header(file.subspan(kMagic));
+  const auto major = header.number<std::uint16_t>(), minor = header.number<std::uint16_t>();
+  const auto size = header.number<std::uint64_t>();
+  if (major != format.major)
+    return make_error(Code::unsupported, the(format) + " has version " + std::to_string(major) +
+                                             "." + std::to_string(minor) + ", this program reads " +
+                                             std::to_string(format.major) + ".x; use a " +
+                                             (major > format.major ? "newer" : "matching") +
+                                             " version of Animeme or " +
+                                             std::string(format.remedy));
+  const std::size_t there = file.size() - kHeader - kChecksum;
+  if (size > there) return make_error(Code::truncated, the(format) + " is cut off");
+  if (size < there) return damaged_file(format, "bytes behind its end");
+  ByteReader checksum(file.last(kChecksum));
+  if (crc32(file.first(file.size() - kChecksum)) != checksum.number<std::uint32_t>())
+    return damaged_file(format, "its checksum does not match");
+  return FileBody{file.subspan(kHeader, there), minor > format.minor};
+}
+
+Result<std::vector<std::uint8_t>> load_file(const FileFormat& format,
+                                            const std::filesystem::path& path) {
+  const auto at = [&](Code code, const char* what) {
+    return Error{code, what + the(format), {path.string(), 0, 0, -1}};
+  };
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return at(Code::not_found, "cannot open ");
+  std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(in), {}};
+  if (in.bad()) return at(Code::io, "cannot read ");
+  return bytes;
+}
+
+Result<void> save_file(const FileFormat& format, std::span<const std::uint8_t> bytes,
+                       const std::filesystem::path& path) {
+  const auto fail = [&] {
+    return Error{Code::io,
+                 "cannot write " + the(format) + "; check the folder and the free space",
+                 {path.string(), 0, 0, -1}};
+  };
+  std::filesystem::path temporary = path;
+  temporary += ".part";
+  std::error_code error;
+  {
+    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+    out.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    out.close();
+    if (!out) {
+      std::filesystem::remove(temporary, error);
+      return fail();
+    }
+  }
+  std::filesystem::rename(temporary, path, error);
+  if (!error) return {};
+  std::error_code ignored;
+  std::filesystem::remove(temporary, ignored);
+  return fail();
+}
+
+}  // namespace animeme::dam

@@ -1,0 +1,50 @@
+#include "dam/model/model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dam/model/kind_internal.h"
+#include "fap/rate.h"
+
+namespace animeme::dam {
+
+std::int32_t Model::find_phone(std::string_view label) const {
+  const auto at = std::lower_bound(
+      phones.begin(), phones.end(), label,
+      [](const PhoneModel& p, std::string_view l) { return std::string_view(p.label) < l; });
+  return at != phones.end() && at->label == label ? std::int32_t(at - phones.begin()) : -1;
+}
+
+std::int32_t Model::find_control(std::string_view name) const {
+  for (std::size_t c = 0; c < controls.size(); ++c)
+    if (controls[c].name == name) return std::int32_t(c);
+  return -1;
+}
+
+Result<void> validate(const Model& model) {
+  if (method_name(model.method).empty()) return invalid_model("its method is unknown");
+  if (!(model.pause_edge > 0) || !(model.pause_edge <= 5))
+    return invalid_model("its pause edge is out of range");
+  if (!std::isfinite(model.closure_gap)) return invalid_model("its closure gap is not a number");
+  if (model.lip_tooth_raise && !std::isfinite(*model.lip_tooth_raise))
+    return invalid_model("its lip-tooth contact is not a number");
+  if (!model.rate.valid()) return invalid_model("its frame rate is zero");
+  if (model.controls.empty()) return invalid_model("it has no control");
+  for (const Control& c : model.controls)
+    if (c.name.empty() || !std::isfinite(c.rest) || !std::isfinite(c.mean) ||
+        !std::isfinite(c.sd) || c.sd < 0)
+      return invalid_model("control '" + c.name + "' has no name or no finite statistics");
+  if (model.phones.empty()) return invalid_model("it has no phone");
+  for (std::size_t p = 0; p < model.phones.size(); ++p) {
+    if (p > 0 && !(model.phones[p - 1].label < model.phones[p].label))
+      return invalid_model("its phones are not sorted");
+    const PhoneModel& phone = model.phones[p];
+    if (phone.label.empty()) return invalid_model("a phone has no label");
+    if (!(phone.duration > 0) || !(phone.longest > 0) || !std::isfinite(phone.duration) ||
+        !std::isfinite(phone.longest))
+      return invalid_model("phone " + phone.label + " has no duration");
+  }
+  return kind_of(model.method).validate(model);
+}
+
+}  // namespace animeme::dam

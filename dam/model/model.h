@@ -1,0 +1,270 @@
+// A trained model: everything that synthesis and evaluation need, as plain data.
+//
+//     C*(t) = rest + sd * S(t)
+//
+// `rest` and `sd` are per control; S(t), in units of the training standard deviation and measured
+// from the pose of silence, is what the kinds of models differ in:
+//
+//   method         parameters            S(t)
+//   dam            RefinedParameters     blend of curves with corrections by context
+//   dam-paper      AnimemeParameters     blend of D_j(u_j) A_j(u_j), u_j = (t - s_j) / d_j (Eq. 2)
+//   cohen-massaro  AnimemeParameters     the same with constants for A: one target a phone
+//   mmm            TrajectoryParameters  smooth curve near the means of the phones' states
+//   mean           MeanParameters        the mean pose of the training speech
+//   viseme         VisemeParameters      straight lines between the poses of the phones
+//   triphone       TriphoneParameters    mean curves of phones in context, overlapped and added
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "fap/rate.h"
+#include "fap/result.h"
+
+namespace animeme::dam {
+
+/// How a model was made and has to be evaluated. Numbers are part of the file format.
+enum class Method : std::uint8_t {
+  dam_paper = 1,      ///< dominated animeme models as in the paper
+  dam = 2,            ///< refined dominated animeme models
+  cohen_massaro = 3,  ///< one target a phone, blended by dominance (M = 0)
+  mmm = 4,            ///< smooth trajectories through Gaussians, after Ezzat
+  mean = 5,           ///< the mean pose, whatever is said
+  viseme = 6,         ///< linear interpolation of one pose a phone
+  triphone = 7,       ///< mean curves of phones in their context
+};
+
+/// "dam", "dam-paper", "cohen-massaro", "mmm", "triphone", "viseme", "mean". Empty for values
+/// outside the enumeration.
+std::string_view method_name(Method method);
+/// The method of that name.
+std::optional<Method> find_method(std::string_view name);
+/// All methods, in the order in which they are listed for people.
+std::span<const Method> methods();
+
+/// One animation control, in its own units (FAP units for FAPs).
+struct Control {
+  std::string name;
+  double rest = 0;  ///< value of the resting mouth, from the silences
+  double mean = 0;  ///< over speech +-0.2 s of the training rows
+  double sd = 0;    ///< standard deviation over the same frames, 0: constant control
+
+  friend bool operator==(const Control&, const Control&) = default;
+};
+
+/// A phone that the model has learned.
+struct PhoneModel {
+  std::string label;                ///< upper-case ARPAbet or "SIL"
+  std::uint32_t examples = 0;       ///< occurrences in the training rows
+  std::uint32_t context_class = 0;  ///< phones of one class stand in for each other as context
+  double duration = 0.08;           ///< seconds, geometric mean of the training rows, > 0
+  double longest = 0.3;             ///< seconds: what lasts longer (singing) holds its middle
+
+  friend bool operator==(const PhoneModel&, const PhoneModel&) = default;
+};
+
+/// One way of saying a phone (section V-A of the paper).
+struct Mode {
+  double sigma = 1;                  ///< width of the dominance in local time, > 0
+  std::vector<double> coefficients;  ///< a^m of control c is at [m * controls + c]
+
+  friend bool operator==(const Mode&, const Mode&) = default;
+};
+
+/// How often a mode was seen between two phones; left and right index Model::phones,
+/// kRestContext stands for the resting mouth and for the end of the clip.
+struct ContextCount {
+  std::int32_t left = 0;
+  std::int32_t right = 0;
+  std::uint32_t mode = 0;
+  std::uint32_t count = 0;
+
+  friend bool operator==(const ContextCount&, const ContextCount&) = default;
+};
+inline constexpr std::int32_t kRestContext = -1;
+
+/// The modes of one phone.
+struct AnimemePhone {
+  std::vector<Mode> modes;             ///< at least one
+  std::vector<ContextCount> contexts;  ///< sorted by left, right, mode
+
+  friend bool operator==(const AnimemePhone&, const AnimemePhone&) = default;
+};
+
+/// Largest degree of the polynomials of AnimemeParameters.
+inline constexpr int kMaxOrder = 8;
+
+/// Dominated animemes as the paper has them.
+struct AnimemeParameters {
+  std::uint32_t order = 4;           ///< M, degree of the polynomials
+  bool normalised = true;            ///< blend by D / sum of D; false: plain sum
+  double time_margin = 0.5;          ///< see clamp_local_time(); infinity: free extrapolation
+  std::vector<AnimemePhone> phones;  ///< one for each of Model::phones
+
+  friend bool operator==(const AnimemeParameters&, const AnimemeParameters&) = default;
+};
+
+// ---- method dam: lipsync, section 5.2; dam/README.md has what was added ----
+//
+//     S(t) = sum_j w_j(t) A_j(u_j),   w_j = D_j / sum_i D_i,
+//     D_j = strength_p (d_j / usual_p)^e exp(-(before / left_p)^2 - (after / right_p)^2),
+//     A_j(u) = sum over terms of sum_m a_m P_m(2 u - 1),   P_m the Legendre polynomials,
+//
+// u clamped to [-time_margin, 1 + time_margin], e the duration exponent.
+
+/// Seconds in which the dominance of a phone falls off, and how strong it is beside others.
+struct PhoneDominance {
+  double left = 0.08;   ///< seconds, > 0
+  double right = 0.08;  ///< seconds, > 0
+  double strength = 1;  ///< > 0
+
+  friend bool operator==(const PhoneDominance&, const PhoneDominance&) = default;
+};
+
+/// What the curve of a phone is a sum of. The numbers are part of the file format.
+enum class RefinedTerm : std::uint8_t {
+  phone = 0,          ///< by phone
+  class_left = 1,     ///< by class and class of the phone before
+  class_right = 2,    ///< by class and class of the phone behind
+  phone_left = 3,     ///< by phone and class of the phone before
+  phone_right = 4,    ///< by phone and class of the phone behind
+  duration = 5,       ///< by phone, times ln(duration / usual duration), limited to +-1
+  class_left_2 = 6,   ///< by class and class of the phone but one before
+  class_right_2 = 7,  ///< by class and class of the phone but one behind
+  phone_class = 8,    ///< by class: what a rare phone leans on
+};
+/// Largest number of Legendre coefficients of a term.
+inline constexpr std::size_t kRefinedOrders = 5;
+
+/// All learned terms of one kind.
+struct TermTable {
+  RefinedTerm term = RefinedTerm::phone;
+  std::uint32_t orders = 0;         ///< 1..kRefinedOrders
+  std::vector<std::uint32_t> keys;  ///< ascending: phone, class, or own * 256 + class of neighbour
+  std::vector<float> values;  ///< a_m of control c of row r at [(r * orders + m) * controls + c]
+
+  friend bool operator==(const TermTable&, const TermTable&) = default;
+};
+
+struct RefinedParameters {
+  double time_margin = 0.3;               ///< >= 0
+  double duration_exponent = 0.3;         ///< 0..2
+  std::vector<PhoneDominance> dominance;  ///< one for each of Model::phones
+  std::vector<TermTable> tables;          ///< ascending by term
+
+  friend bool operator==(const RefinedParameters&, const RefinedParameters&) = default;
+};
+
+/// Trajectories through Gaussians. A phone has `states` equal parts in time. S(t) of a control
+/// minimises the integral of (S - mean)^2 / variance, of the state at t, plus
+/// smoothness^(2 * order) times that of the squared derivative of that order.
+struct TrajectoryParameters {
+  std::uint32_t states = 3;        ///< a phone: 1..8
+  std::uint32_t order = 2;         ///< of the derivative: 1..4
+  std::vector<double> smoothness;  ///< seconds, per control: 0.001..0.5
+  std::vector<double> mean;        ///< [(phone * states + state) * controls + control]
+  std::vector<double> variance;    ///< likewise: 1e-4..1e4
+
+  friend bool operator==(const TrajectoryParameters&, const TrajectoryParameters&) = default;
+};
+
+/// Nothing: S(t) is the mean of Control, measured from rest.
+struct MeanParameters {
+  friend bool operator==(const MeanParameters&, const MeanParameters&) = default;
+};
+
+/// One pose a phone, held for a part of it, with straight lines between.
+struct VisemeParameters {
+  double place = 0.5;         ///< middle of the hold, in local time: 0..1
+  double plateau = 0;         ///< length of the hold, in local time, cut to the phone: 0..1
+  std::vector<double> poses;  ///< [phone * controls + control]
+
+  friend bool operator==(const VisemeParameters&, const VisemeParameters&) = default;
+};
+
+/// What a curve is the mean of, coarse to fine. Numbers are part of the file format.
+enum class CurveLevel : std::uint8_t {
+  phone = 0,        ///< all occurrences of a phone
+  left_class = 1,   ///< those after a phone of one class (PhoneModel::context_class)
+  right_class = 2,  ///< those before a phone of one class
+  left = 3,         ///< those after one phone
+  right = 4,        ///< those before one phone
+  classes = 5,      ///< those between two classes
+  triphone = 6,     ///< those between two phones
+};
+inline constexpr std::size_t kCurveLevels = 7;
+inline constexpr std::int32_t kAnyContext = -2;
+
+/// A mean curve, less those of the coarser levels that fit the same context.
+struct ContextCurve {
+  std::int32_t phone = 0;  ///< index of Model::phones
+  CurveLevel level = CurveLevel::phone;
+  std::int32_t left = kAnyContext;  ///< phone, class, kRestContext or kAnyContext, as of `level`
+  std::int32_t right = kAnyContext;
+  std::uint32_t count = 0;    ///< occurrences, at least 1
+  std::vector<float> values;  ///< [point * controls + control]
+
+  friend bool operator==(const ContextCurve&, const ContextCurve&) = default;
+};
+
+/// Mean curves of phones in context. The curve of an occurrence is the sum of those of all levels
+/// that the table has; S(t) is their overlap-add.
+struct TriphoneParameters {
+  std::uint32_t points = 9;          ///< of a curve, equally spaced: 2..64
+  double reach = 0.5;                ///< a curve is over local time -reach..1 + reach: 0.01..0.5
+  std::vector<ContextCurve> curves;  ///< sorted by phone, level, left, right
+
+  friend bool operator==(const TriphoneParameters&, const TriphoneParameters&) = default;
+};
+
+/// One alternative for each family of methods.
+using Parameters = std::variant<AnimemeParameters, RefinedParameters, TrajectoryParameters,
+                                MeanParameters, VisemeParameters, TriphoneParameters>;
+
+struct Model {
+  Method method = Method::dam_paper;
+  double pause_edge = 0.3;  ///< seconds: the part of a pause that belongs to the speech beside it
+  double closure_gap = 25;  ///< FAP units: inner lip gap to which P, B, M close
+  /// FAP units: how far F and V raise the inner lower lip (FAP 5) towards the teeth; none: unknown.
+  std::optional<double> lip_tooth_raise;
+  fap::Rate rate;  ///< of the training signal
+  std::vector<Control> controls;
+  std::vector<PhoneModel> phones;  ///< sorted by label
+  Parameters parameters;           ///< the alternative that the method needs
+  std::string attribution;         ///< who has to be named when the model is passed on
+  std::string provenance;          ///< how the model was made, free text
+
+  /// Index of a phone by label, -1 if the model does not know it.
+  std::int32_t find_phone(std::string_view label) const;
+  /// Index of a control by name, -1 if there is none.
+  std::int32_t find_control(std::string_view name) const;
+
+  friend bool operator==(const Model&, const Model&) = default;
+};
+
+/// Checks every statement above (sizes, ranges, finite numbers, indices). Code::invalid_argument
+/// with a sentence that names the first fault. read_model() returns only models that pass.
+Result<void> validate(const Model& model);
+
+/// The model file: magic "ANIMEDAM", version 2.0, little endian, CRC-32 of everything.
+/// dam/README.md has the layout. The same model gives the same bytes.
+std::vector<std::uint8_t> write_model(const Model& model);
+
+/// Safe on any input: sizes are checked against the bytes that are there before anything is
+/// allocated. Errors: syntax (not a model file, damaged), truncated, unsupported (made by a newer
+/// major version, or a method this build does not know).
+Result<Model> read_model(std::span<const std::uint8_t> bytes);
+
+/// The same from and to a path. Errors also: not_found, io. Saving goes to a temporary file in
+/// the same folder that is renamed when complete.
+Result<Model> load_model(const std::filesystem::path& path);
+Result<void> save_model(const Model& model, const std::filesystem::path& path);
+
+}  // namespace animeme::dam

@@ -1,0 +1,127 @@
+// The sounds that models know: ARPAbet, their MPEG-4 visemes, their place on the lips, and who
+// stands in for whom.
+//
+// The set is the 39 phones of the CMU pronouncing dictionary, AX (the unstressed vowel of
+// "sofa") and SIL (silence): 41 labels. Labels of other alphabets are mapped to it by
+// dam/script/ipa.h. Source: the ARPAbet table of the phoneme specification; the classes are those
+// of the lip-sync specification, section 5.2.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace animeme::dam {
+
+/// Phones that push the lips of their neighbours in the same way. The numbers are part of the
+/// model file format: never reorder, only append.
+enum class PhoneClass : std::uint8_t {
+  silence = 0,         ///< SIL
+  bilabial = 1,        ///< P B M
+  labiodental = 2,     ///< F V
+  dental = 3,          ///< TH DH
+  alveolar = 4,        ///< T D N L S Z
+  velar = 5,           ///< K G NG HH Y: no lip gesture of their own
+  postalveolar = 6,    ///< CH JH SH ZH
+  rounded_glide = 7,   ///< R ER W
+  open_vowel = 8,      ///< AA AO AH AY AW
+  mid_vowel = 9,       ///< EH AE EY AX
+  close_front = 10,    ///< IH IY
+  rounded_vowel = 11,  ///< UH UW OW OY
+};
+
+inline constexpr std::size_t kPhoneClassCount = 12;
+inline constexpr std::size_t kPhoneCount = 41;
+
+/// What is fixed about one phone. All views point to static storage.
+struct PhoneInfo {
+  std::string_view label;     ///< upper-case ARPAbet, "SIL" for silence
+  std::string_view ipa;       ///< UTF-8; empty for SIL
+  std::uint8_t viseme_start;  ///< MPEG-4 viseme 0..14 at the start of the phone
+  std::uint8_t viseme_end;    ///< and at its end; differs for diphthongs only
+  PhoneClass phone_class;
+  bool vowel;        ///< can carry a syllable, ER and diphthongs included
+  bool bilabial;     ///< both lips must touch: P B M
+  bool labiodental;  ///< the lower lip must touch the upper teeth: F V
+  bool rounded;      ///< the lips protrude at some point of the phone
+};
+
+/// All phones; SIL first, then by alphabet. The order is stable.
+std::span<const PhoneInfo, kPhoneCount> phones();
+
+/// The phone with exactly this label (as in PhoneInfo), nullptr if there is none.
+const PhoneInfo* find_phone(std::string_view label);
+
+/// "bilabial" etc.: one word for people and files. Empty for values outside the enumeration.
+std::string_view phone_class_name(PhoneClass phone_class);
+
+/// The ARPAbet label that an aligner's spelling stands for, empty if it is none.
+///
+/// Upper or lower case; a stress digit 0..3 at the end of a vowel is dropped; AXR IX UX DX NX EL
+/// EM EN ENG HV (TIMIT) become the nearest of the 41. Every usual way to write a pause gives
+/// SIL: "" sil silence sp spn nsn pau h# # _ __ epi brth <sil> <eps> <p:> and the like.
+/// IPA and X-SAMPA are not looked at; see dam/script/ipa.h.
+std::string_view arpabet_label(std::string_view spelling);
+
+/// True for the pauses listed at arpabet_label().
+bool is_silence_spelling(std::string_view spelling);
+
+/// The known label that looks most like `spelling`, for error messages; never empty.
+std::string_view nearest_label(std::string_view spelling);
+
+// ---------------------------------------------------------------------------------------------
+// Relatives: what to say instead of a phone that a model has never seen. Small corpora lack
+// phones (the GRID sentences have no ER HH NG OY SH UH ZH), so this is the normal case.
+//
+// Each label has an ordered list of alternatives, nearest first; take the first one all of whose
+// parts the model knows. An alternative is one phone for the whole duration, or two phones one
+// after the other with their shares of it. The lips decide, not the ear:
+//
+//   SIL  M | B | P                                    lips together, no gesture
+//   AA   AH | AE | AO | AY            AE   EH | AA | AH | EY        AH   AX | AA | EH | AE
+//   AX   AH | EH | IH | UH            EH   AE | EY | AX | IH        IH   IY | EH | Y | AX
+//   IY   IH | Y | EY | EH             AO   OW | AA+UW | AA | UH     UH   UW | OW | W | AX
+//   UW   UH | W | OW | AO             ER   AX+R | AH+R | R | UH | AH | EH
+//   AW   AA+UW | AA+UH | AH+UW | AE+UW | AA+W | OW | AA | AH
+//   AY   AA+IY | AA+IH | AH+IY | AE+IY | AH+IH | AE | AA | EY
+//   EY   EH+IY | EH+IH | AE+IY | AE+IH | EH | IH | IY
+//   OW   AO+UW | AO+UH | AH+UW | AO+W | AO | UW | UH
+//   OY   AO+IY | AO+IH | OW+IY | OW+IH | AO+EY | UW+IY | AO | OW
+//   P    B | M | F | V                B    P | M | V | F            M    B | P | V | F
+//   F    V | TH | P | B               V    F | DH | B | P
+//   TH   DH | T | S | L | D           DH   TH | D | L | Z | T
+//   T    D | N | S | L                D    T | N | Z | L            N    D | T | L | NG
+//   L    N | D | T | DH               S    Z | T | D | N            Z    S | D | T | N
+//   K    G | NG | HH | N | T          G    K | NG | HH | N | D      NG   G | K | N | D
+//   HH   next vowel | AX | AH | EH | K | G            Y    IY | IH | EY | G | K
+//   CH   JH | T+SH | SH | ZH | T+R | S                JH   CH | D+ZH | ZH | SH | D+R | Z
+//   SH   CH | JH | ZH | S+R | S | Z                   ZH   JH | SH | CH | Z+R | Z | S
+//   R    ER | W | UH | L              W    UW | UH | OW | R
+//
+// A model that knows none of a list has to fall back on the mean of its class or on rest.
+// ---------------------------------------------------------------------------------------------
+
+/// Instead of a label in RelativePart: the phone has no mouth shape of its own and takes that of
+/// the next vowel of the script (none before the next silence: skip this alternative).
+inline constexpr std::string_view kNextVowel = "<next vowel>";
+
+/// One piece of an alternative.
+struct RelativePart {
+  std::string_view label;  ///< one of the 41, or kNextVowel
+  double share = 1;        ///< of the duration of the phone that is replaced, 0..1
+};
+
+/// An alternative: `count` parts in time order, whose shares add up to 1.
+struct Relative {
+  std::array<RelativePart, 2> part;
+  std::size_t count = 1;  ///< 1 or 2
+
+  std::span<const RelativePart> parts() const { return {part.data(), count}; }
+};
+
+/// The alternatives for `label`, nearest first; empty only for unknown labels.
+std::span<const Relative> phone_relatives(std::string_view label);
+
+}  // namespace animeme::dam

@@ -1,0 +1,125 @@
+// The corpus format: tab separated, columns named by a header line.
+#include <optional>
+
+#include "dam/script/script_text_internal.h"
+#include "dam/script/script_timeline_internal.h"
+
+namespace animeme::dam {
+namespace {
+
+constexpr std::size_t kMaxColumns = 64;
+constexpr std::size_t kAbsent = kMaxColumns;
+
+struct Columns {
+  std::size_t start = kAbsent, end = kAbsent, duration = kAbsent, phone = kAbsent, word = kAbsent;
+};
+
+std::vector<std::string_view> split_tabs(std::string_view line) {
+  std::vector<std::string_view> fields;
+  while (fields.size() < kMaxColumns) {
+    const std::size_t tab = line.find('\t');
+    fields.push_back(trim(line.substr(0, tab)));
+    if (tab == std::string_view::npos) break;
+    line.remove_prefix(tab + 1);
+  }
+  return fields;
+}
+
+Columns name_columns(std::string_view header) {
+  Columns columns;
+  const auto fields = split_tabs(header);
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const std::string name = lower_case(fields[i]);
+    if (name == "start_s" || name == "start") columns.start = i;
+    if (name == "end_s" || name == "end") columns.end = i;
+    if (name == "duration_s" || name == "duration") columns.duration = i;
+    if (name == "phone" || name == "phoneme" || name == "label") columns.phone = i;
+    if (name == "word") columns.word = i;
+  }
+  return columns;
+}
+
+bool next_content_line(LineReader& reader, Line& line) {
+  while (reader.next(line)) {
+    if (!trim(line.text).empty() && line.text[0] != '#') return true;
+  }
+  return false;
+}
+
+// A field that the line is too short to have is empty.
+std::string_view field_at(const std::vector<std::string_view>& fields, std::size_t column) {
+  return column < fields.size() ? fields[column] : std::string_view();
+}
+
+Result<RawPhone> read_row(const Line& line, const Columns& columns) {
+  const auto fields = split_tabs(line.text);
+  RawPhone phone;
+  phone.line = line.number;
+  const auto start = parse_seconds(field_at(fields, columns.start), line.number, "start");
+  if (!start) return start.error();
+  phone.start = *start;
+  const bool has_end = columns.end != kAbsent;
+  const auto second = parse_seconds(field_at(fields, has_end ? columns.end : columns.duration),
+                                    line.number, has_end ? "end" : "duration");
+  if (!second) return second.error();
+  phone.end = has_end ? *second : *start + *second;
+  // An empty label is silence; one that is not there at all is a damaged line.
+  if (columns.phone >= fields.size()) {
+    return error_at_line(Code::syntax,
+                         "the line has " + std::to_string(fields.size()) +
+                             " fields and lacks the phone; fields are separated by tabs",
+                         line.number);
+  }
+  phone.label = field_at(fields, columns.phone);
+  phone.word = field_at(fields, columns.word);
+  return phone;
+}
+
+std::optional<Error> check_columns(const Columns& columns, std::int64_t line) {
+  if (columns.start != kAbsent && columns.phone != kAbsent &&
+      (columns.end != kAbsent || columns.duration != kAbsent)) {
+    return std::nullopt;
+  }
+  return error_at_line(Code::syntax,
+                       "the header line must name the columns start_s, end_s (or duration_s) and "
+                       "phone, separated by tabs",
+                       line);
+}
+
+}  // namespace
+
+bool looks_like_tsv(std::string_view text) {
+  LineReader reader(text);
+  Line line;
+  if (!next_content_line(reader, line)) return false;
+  const Columns columns = name_columns(line.text);
+  return columns.start != kAbsent || columns.phone != kAbsent;
+}
+
+Result<Script> read_tsv(std::string_view text, const ScriptOptions& options) {
+  LineReader reader(text);
+  Line line;
+  if (!next_content_line(reader, line)) return make_script({}, options.alphabet);
+  const Columns columns = name_columns(line.text);
+  if (const auto error = check_columns(columns, line.number)) return *error;
+  std::vector<RawPhone> raw;
+  while (next_content_line(reader, line)) {
+    auto phone = read_row(line, columns);
+    if (!phone) return phone.error();
+    raw.push_back(*std::move(phone));
+  }
+  return make_script(raw, options.alphabet);
+}
+
+std::string write_script_tsv(const Script& script) {
+  std::string out = "start_s\tend_s\tphone\tword\n";
+  for (const Phone& phone : script.phones) {
+    out += format_seconds(phone.start) + '\t' + format_seconds(phone.end) + '\t' + phone.label;
+    out += '\t';
+    for (const char c : phone.word) out += c == '\t' || c == '\n' || c == '\r' ? ' ' : c;
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace animeme::dam

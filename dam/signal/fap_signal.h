@@ -1,0 +1,32 @@
+// Between control signals and FAP clips.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "dam/signal/signal.h"
+#include "fap/frame.h"
+#include "fap/result.h"
+
+namespace animeme::dam {
+
+/// "fap3_open_jaw" for 3; `fap` is 1..68.
+std::string fap_channel(int fap);
+
+/// FAP number (1..68) of a channel called "fapN" or "fapN_anything", 0 for any other name.
+int fap_of_channel(std::string_view name);
+
+/// The FAP channels of a signal (3..68; other names are left out) as a clip, frame i numbered i.
+/// Values are rounded, halves away from zero, and clipped to the range that the standard's default
+/// tables can code: default_i_range * quant_step of fap/tables.h.
+/// Error: not_found if no channel is a low-level FAP; invalid_argument for a value that is not
+/// finite or two channels for one FAP.
+Result<fap::Sequence> to_sequence(const Signal& signal);
+
+/// All low-level FAPs that some frame of the clip has, by number. A FAP that a frame lacks keeps
+/// its last value (0 before the first); numbers left out repeat the frame before and are marked as
+/// not measured. Frames before the first number are filled likewise.
+/// Error: out_of_range if the numbers span more than 10 million frames or go below 0.
+Result<Signal> to_signal(const fap::Sequence& sequence);
+
+}  // namespace animeme::dam

@@ -1,0 +1,75 @@
+// Speaking while the script is still being made: phones go in one by one, frames come out as soon
+// as no later phone can change them.
+//
+//     SpeechStream stream(model, {});
+//     for (const Phone& phone : phones_as_they_come) {
+//       if (auto ok = stream.push(phone); !ok) ...
+//       auto frames = stream.pull();               // often none, sometimes several
+//     }
+//     auto rest = stream.finish();
+//
+// With the look-ahead that the model asks for (exact_look_ahead()) the frames are those of
+// synthesise(), bit by bit, for the methods whose phones reach a bounded time (dam,
+// cohen-massaro). With less, what is not known yet counts as silence; when it becomes known, the
+// motion is led over to the better one, without a jump, within `cross_fade` seconds.
+// Source: lipsync, section 5.6.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "dam/model/model.h"
+#include "dam/script/script.h"
+#include "dam/signal/signal.h"
+#include "dam/speaking/synthesise.h"
+#include "fap/result.h"
+
+namespace animeme::dam {
+
+struct StreamOptions {
+  /// `frames` is not used; `tail` and the rest at the end come with finish().
+  SynthesisOptions synthesis;
+  /// Seconds of script that have to be known beyond a frame, 0..60; none: exact_look_ahead().
+  std::optional<double> look_ahead;
+  double cross_fade = 0.08;  ///< seconds, 0..1
+};
+
+/// Seconds of script beyond a frame that can still change it: as far as the widest phone of the
+/// model reaches, and what closures and their search need (for sounds up to 0.15 s). Besides, the
+/// two phones behind have to be known.
+double exact_look_ahead(const Model& model);
+
+/// Memory and the cost of a frame do not grow with the length of the stream.
+class SpeechStream {
+ public:
+  /// `model` must pass validate() and outlive the stream.
+  SpeechStream(const Model& model, const StreamOptions& options);
+
+  /// The next phone. Gaps are silence. Errors: invalid_argument (options out of range; a phone that
+  /// begins before the last one ends, lasts no time, or has an unknown label; after finish()).
+  Result<void> push(const Phone& phone);
+
+  /// The frames that became final since the last call, in order; often none. Signal::first_frame is
+  /// the number of the first. Errors: those of synthesise().
+  Result<Signal> pull();
+
+  /// Ends the script: all frames that are left, `tail` included.
+  Result<Signal> finish();
+
+ private:
+  Result<Signal> make(std::size_t end, double last_frame);
+  Result<Signal> piece(std::size_t first, std::size_t end, double last_frame) const;
+  void lead_over(Signal& signal) const;
+  void forget();
+
+  const Model* model_;
+  StreamOptions options_;
+  double reach_;
+  std::vector<Phone> phones_;  ///< recent ones
+  std::size_t next_ = 0;       ///< number of the next frame
+  std::vector<double> last_;   ///< the frame before it, as it was given out
+  bool finished_ = false;
+};
+
+}  // namespace animeme::dam

@@ -1,0 +1,127 @@
+#include "dam/speaking/synthesise.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dam/model/kind_internal.h"
+#include "dam/script/timeline_internal.h"
+#include "dam/signal/closure.h"
+#include "dam/speaking/frames_internal.h"
+#include "dam/speaking/rest_gate_internal.h"
+
+namespace animeme::dam {
+namespace {
+
+constexpr double kMaxFrames = 1e7;
+
+void to_control_units(const Model& model, const RestGate& gate, double style, Signal& signal) {
+  const std::size_t controls = model.controls.size();
+  for (std::size_t i = 0; i < signal.frames(); ++i) {
+    const double shown = style * gate(signal.time(i));
+    for (std::size_t c = 0; c < controls; ++c) {
+      double& value = signal.values[i * controls + c];
+      value = model.controls[c].rest + model.controls[c].sd * shown * value;
+    }
+  }
+}
+
+/// The outer contour follows the inner one as far as the two move together in the training data.
+ClosureOptions closure_options(const Model& model) {
+  const auto share = [&](std::string_view outer, std::string_view inner, double otherwise) {
+    const auto o = model.find_control(outer), i = model.find_control(inner);
+    if (o < 0 || i < 0 || !(model.controls[std::size_t(i)].sd > 0)) return otherwise;
+    return std::clamp(model.controls[std::size_t(o)].sd / model.controls[std::size_t(i)].sd, 0.0,
+                      1.0);
+  };
+  ClosureOptions options;
+  options.target = model.closure_gap;
+  options.upper_follow =
+      share("fap51_lower_t_midlip_o", "fap4_lower_t_midlip", options.upper_follow);
+  options.lower_follow =
+      share("fap52_raise_b_midlip_o", "fap5_raise_b_midlip", options.lower_follow);
+  return options;
+}
+
+/// Phones that the model knows, in time order, with pauses cut and drawn-out sounds held.
+std::vector<Occurrence> timeline_of(const Model& model, const Script& spoken) {
+  auto timeline = make_timeline(spoken, model.pause_edge);
+  // A model may lack silence only if it was made by hand; the mouth then rests in pauses.
+  std::erase_if(timeline, [&](const Occurrence& o) { return model.find_phone(o.label) < 0; });
+  hold_drawn_out(timeline, [&](const std::string& label) {
+    return model.phones[std::size_t(model.find_phone(label))].longest;
+  });
+  return timeline;
+}
+
+void touch(const Model& model, const Script& script, const SynthesisOptions& options,
+           Signal& signal, SynthesisReport& report) {
+  if (!options.closure) return;
+  const ClosureOptions closure = closure_options(model);
+  if (model.lip_tooth_raise)
+    report.lip_tooth_contacts =
+        apply_lip_tooth_contact(signal, script, *model.lip_tooth_raise, closure);
+  report.closures = apply_closure(signal, script, closure);
+  apply_contact(signal, closure);
+}
+
+}  // namespace
+
+Result<void> validate(const SynthesisOptions& options) {
+  const auto range = [](const char* what) {
+    return make_error(Code::invalid_argument, std::string("synthesis option ") + what);
+  };
+  if (!options.rate.valid() || !(options.rate.frames_per_second() <= 1000))
+    return range("rate must be above 0 and at most 1000 frames a second");
+  if (!(options.tail >= 0 && options.tail <= 60)) return range("tail must lie between 0 and 60 s");
+  if (!(options.style >= 0 && options.style <= kMostStyle))
+    return range("style must lie between 0 and 1.5");
+  if (!(options.context_weight >= 0 && options.context_weight <= 1e12))
+    return range("context_weight must not be negative");
+  if (!(options.smoothness_weight >= 0 && options.smoothness_weight <= 1e12))
+    return range("smoothness_weight must not be negative");
+  return {};
+}
+
+Result<Signal> synthesise_frames(const Model& model, const Script& script,
+                                 const SynthesisOptions& options, const FramePlan& plan,
+                                 SynthesisReport& report) {
+  const auto spoken = replace_unknown_phones(model, script, &report);
+  if (!spoken) return spoken.error();
+  const auto timeline = timeline_of(model, *spoken);
+  std::vector<std::int32_t> phone;
+  for (const Occurrence& o : timeline) phone.push_back(model.find_phone(o.label));
+  report.phones = timeline.size();
+  Signal signal;
+  signal.rate = options.rate;
+  signal.first_frame = plan.first;
+  for (const Control& control : model.controls) signal.names.push_back(control.name);
+  signal.values.assign(plan.count * model.controls.size(), 0.0);
+  kind_of(model.method)
+      .speak({model, timeline, phone, options, options.rate, plan.first, plan.count}, signal.values,
+             report);
+  const RestGate gate(*spoken, model.pause_edge, options.rest_at_ends, plan.last_frame);
+  to_control_units(model, gate, options.style, signal);
+  touch(model, script, options, signal, report);
+  return signal;
+}
+
+Result<Signal> synthesise(const Model& model, const Script& script, const SynthesisOptions& options,
+                          SynthesisReport* report) {
+  if (auto ok = check_script(script); !ok) return ok.error();
+  if (auto ok = validate(options); !ok) return ok.error();
+  const double seconds = script.duration() + options.tail;
+  const double frames = options.frames > 0
+                            ? double(options.frames)
+                            : std::ceil(seconds * options.rate.frames_per_second() - 1e-6);
+  if (!(frames <= kMaxFrames))
+    return make_error(Code::out_of_range,
+                      "the clip has more than 10 million frames; cut the script");
+  SynthesisReport own;
+  SynthesisReport& out = report != nullptr ? *report : own;
+  out = {};
+  const auto count = std::size_t(std::max(0.0, frames));
+  const double last = options.rate.seconds(double(count) - 1);
+  return synthesise_frames(model, script, options, {0, count, last}, out);
+}
+
+}  // namespace animeme::dam

@@ -1,0 +1,63 @@
+// From a phoneme script to a control signal: section VI of the paper.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dam/model/model.h"
+#include "dam/script/script.h"
+#include "dam/signal/signal.h"
+#include "fap/result.h"
+
+namespace animeme::dam {
+
+struct SynthesisOptions {
+  fap::Rate rate = {25, 1};  ///< of the signal to make; at most 1000 frames a second
+  std::size_t frames = 0;    ///< 0: as many as cover the script (and `tail`)
+  double tail = 0;           ///< seconds added after the script: 0..60
+  bool closure = true;       ///< P, B and M close the lips, F and V reach the teeth and lips never
+                             ///< overlap (closure.h), if the FAPs are there
+  /// Intensity: how much of the deviation from rest is shown. 0 keeps the mouth at rest, 1 is as
+  /// learned, 1.5 speaks with exaggeration; P, B and M close at any. 0..kMostStyle.
+  double style = 1;
+  bool rest_at_ends = true;      ///< first and last frame are the resting mouth
+  double context_weight = 1000;  ///< w_c of Eq. 10, >= 0
+  double smoothness_weight = 1;  ///< w_s of Eq. 10, >= 0
+};
+
+inline constexpr double kMostStyle = 1.5;
+
+/// Code::invalid_argument with the name and the range of the first bad option.
+Result<void> validate(const SynthesisOptions& options);
+
+/// What was done with phones that the model does not know, and which modes were chosen.
+struct SynthesisReport {
+  /// "OY" -> "AO IY": every kind of replacement once, in order of appearance.
+  std::vector<std::pair<std::string, std::string>> replaced;
+  std::size_t replaced_phones = 0;     ///< how many phones of the script that were
+  std::size_t phones = 0;              ///< occurrences spoken, pauses included
+  std::size_t closures = 0;            ///< P, B, M that the constraint had to close
+  std::size_t lip_tooth_contacts = 0;  ///< F, V that it had to bring to the teeth
+  std::vector<std::size_t> modes;  ///< dam-paper: chosen mode of every occurrence, pauses included
+};
+
+/// Makes the signal of all controls of the model for a script. The model must pass validate(), as
+/// those of train() and read_model() do. Deterministic. A frame costs as much as there are phones
+/// near it, whatever the length of the script.
+///
+/// Sounds longer than `PhoneModel::longest` (singing) hold their middle. Long pauses come to rest
+/// `Model::pause_edge` seconds from the speech, and so do, with rest_at_ends, the first and the
+/// last frame. A script of silence alone gives the resting mouth. Phones that the model does not
+/// know are replaced by their relatives (dam/script/phones.h). Errors: invalid_argument (options, a
+/// script that check_script() refuses), out_of_range (more than 10 million frames), not_found (a
+/// phone that has no relative in the model; the sentence names it and its time).
+Result<Signal> synthesise(const Model& model, const Script& script,
+                          const SynthesisOptions& options = {}, SynthesisReport* report = nullptr);
+
+/// The script with all unknown phones replaced, as synthesise() does it.
+Result<Script> replace_unknown_phones(const Model& model, const Script& script,
+                                      SynthesisReport* report = nullptr);
+
+}  // namespace animeme::dam

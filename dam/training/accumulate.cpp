@@ -1,0 +1,210 @@
+#include "dam/training/accumulate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dam/corpus/statistics_internal.h"
+#include "dam/corpus/training_set_internal.h"
+#include "dam/kinds/refined/solve.h"
+#include "dam/model/bytes_internal.h"
+#include "dam/model/digest_internal.h"
+#include "dam/training/training_sums_internal.h"
+
+namespace animeme::dam {
+namespace {
+
+Error refused(const std::string& what) { return make_error(Code::invalid_argument, what); }
+
+/// Of all that is learned from: identifier, phones, curves.
+std::uint64_t sentence_digest(const Utterance& u) {
+  ByteWriter out;
+  out.bytes.reserve(9 * u.signal.values.size() + 64 * u.script.phones.size() + 1024);
+  out.text(u.id);
+  out.number(u.signal.rate.num);
+  out.number(u.signal.rate.den);
+  for (const std::string& name : u.signal.names) out.text(name);
+  for (const double value : u.signal.values) out.real(value);
+  for (std::size_t i = 0; i < u.signal.frames(); ++i)
+    out.number(std::uint8_t(is_measured(u.signal, i) ? 1 : 0));
+  for (const Phone& phone : u.script.phones) {
+    out.real(phone.start);
+    out.real(phone.end);
+    out.text(phone.label);
+  }
+  return digest_of(out.bytes);
+}
+
+bool same_controls(const SumsState& state, const std::vector<std::string>& names) {
+  return std::equal(state.controls.begin(), state.controls.end(), names.begin(), names.end(),
+                    [](const ControlSums& c, const std::string& name) { return c.name == name; });
+}
+
+void set_controls(SumsState& state, const std::vector<std::string>& names, fap::Rate rate) {
+  for (const std::string& name : names) {
+    state.controls.emplace_back();
+    state.controls.back().name = name;
+  }
+  state.rate = rate;
+}
+
+void add_moments(const Utterance& u, SumsState& state) {
+  const auto places = frame_places(u, state.base.pause_edge);
+  const std::size_t k = state.controls.size();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i] == FramePlace::neither) continue;
+    const bool speech = places[i] == FramePlace::speech;
+    ++(speech ? state.speech_frames : state.rest_frames);
+    for (std::size_t c = 0; c < k; ++c) {
+      const double value = u.signal.values[i * k + c];
+      ControlSums& sums = state.controls[c];
+      (speech ? sums.sum : sums.rest_sum) += value;
+      if (!speech) continue;
+      sums.squares += value * value;
+      sums.low = std::min(sums.low, value);
+      sums.high = std::max(sums.high, value);
+    }
+  }
+}
+
+void add_phones(const std::vector<Occurrence>& timeline, SumsState& state) {
+  for (const Occurrence& o : timeline) {
+    PhoneSums& sums = state.phones[std::size_t(index_of(state.base.phones, o.label))];
+    ++sums.examples;
+    sums.log_duration += std::log(o.duration);
+    sums.longest = std::max(sums.longest, o.duration);
+  }
+}
+
+void add_contacts(const Utterance& u, SumsState& state) {
+  std::vector<double> gaps, lows;
+  add_closures(u, gaps);
+  add_lip_tooth_contacts(u, lows);
+  for (const double gap : gaps) state.closures.add(gap);
+  for (const double low : lows) state.lip_tooth.add(low);
+}
+
+/// The normal equations of one sentence. Controls with rest 0 and deviation 1 keep its units.
+FitSums sums_of(const Utterance& u, const std::vector<Occurrence>& timeline, const SumsBase& base,
+                TermSpace& space) {
+  TrainingSet set;
+  for (const std::string& name : u.signal.names) set.controls.push_back({name, 0, 0, 1});
+  set.phones = base.phones;
+  set.data.controls = set.controls.size();
+  set.data.rate = u.signal.rate.frames_per_second();
+  add_sentence(u, timeline, base.pause_edge, set);
+  const std::size_t k = set.data.controls;
+  RefinedData data;
+  data.speech = &set.data;
+  data.phones = set.phones;
+  data.controls = data.prior_controls = k + 1;
+  data.around = neighbourhoods(set.data);
+  data.time_margin = base.refined.time_margin;
+  data.duration_exponent = base.refined.duration_exponent;
+  data.offset_frames = base.offset_frames;
+  data.threads = 1;
+  std::vector<double> sum(k, 0.0);
+  double frames = 0;
+  for (std::size_t i = 0; i < set.data.use.size(); ++i) {
+    const double* row = &set.data.target[i * k];
+    data.target.insert(data.target.end(), row, row + k);
+    data.target.push_back(1);
+    if (set.data.use[i] == 0) continue;
+    frames += 1;
+    for (std::size_t c = 0; c < k; ++c) sum[c] += row[c];
+  }
+  space = term_space(data);
+  FitSums fit;
+  fit.sentences = 1;
+  fit.curves = sum_curves(data, space, base.refined.dominance, {true});
+  for (const double s : sum) fit.level.push_back(s * (1 - frames / (frames + base.offset_frames)));
+  return fit;
+}
+
+}  // namespace
+
+TrainingSums::TrainingSums(std::unique_ptr<SumsState> state) : state_(std::move(state)) {}
+TrainingSums::TrainingSums(TrainingSums&&) noexcept = default;
+TrainingSums& TrainingSums::operator=(TrainingSums&&) noexcept = default;
+TrainingSums::~TrainingSums() = default;
+
+std::unique_ptr<SumsState> TrainingSums::release() && { return std::move(state_); }
+
+std::size_t TrainingSums::sentences() const { return state_->sentences.size(); }
+std::size_t TrainingSums::frames() const {
+  return state_->kept.curves.frames + state_->held.curves.frames;
+}
+fap::Rate TrainingSums::rate() const { return state_->rate; }
+std::uint64_t TrainingSums::digest() const { return digest_of(write_training_sums(*this)); }
+
+std::vector<std::string> TrainingSums::controls() const {
+  std::vector<std::string> names;
+  for (const ControlSums& control : state_->controls) names.push_back(control.name);
+  return names;
+}
+
+Result<TrainingSums> TrainingSums::start(const TrainOptions& options, const Model* base) {
+  if (auto ok = validate(options); !ok) return ok.error();
+  auto state = std::make_unique<SumsState>();
+  SumsBase& own = state->base;
+  own = start_base();
+  own.pause_edge = options.pause_edge;
+  own.offset_frames = options.refined.offset_frames;
+  own.refined.time_margin = options.refined.time_margin;
+  own.refined.duration_exponent = options.refined.duration_exponent;
+  state->phones.resize(own.phones.size());
+  if (base == nullptr) return TrainingSums(std::move(state));
+  const auto* refined = std::get_if<RefinedParameters>(&base->parameters);
+  if (refined == nullptr || base->method != Method::dam)
+    return refused("the model for the dominance is of the method " +
+                   std::string(method_name(base->method)) + "; take one of the method dam");
+  if (auto ok = validate(*base); !ok) return ok.error();
+  own.pause_edge = base->pause_edge;
+  own.refined.time_margin = refined->time_margin;
+  own.refined.duration_exponent = refined->duration_exponent;
+  for (std::size_t p = 0; p < own.phones.size(); ++p) {
+    const std::int32_t at = base->find_phone(own.phones[p].label);
+    if (at < 0) continue;
+    own.phones[p].duration = base->phones[std::size_t(at)].duration;
+    own.refined.dominance[p] = refined->dominance[std::size_t(at)];
+  }
+  return TrainingSums(std::move(state));
+}
+
+Result<bool> TrainingSums::add(const Utterance& u) {
+  SumsState& state = *state_;
+  const bool first = state.controls.empty();
+  const std::string sentence = "sentence '" + u.id + "': ";
+  if (!first && !same_controls(state, u.signal.names))
+    return refused(sentence + "its controls are not those of the sums (" +
+                   std::to_string(state.controls.size()) +
+                   " controls); choose the same controls or begin other sums");
+  if (!first && !(u.signal.rate == state.rate))
+    return refused(sentence + "its frame rate is not that of the sums; resample it");
+  if (auto ok = check_sentence(u, u.signal.names, u.signal.rate); !ok) return ok.error();
+  const std::uint64_t digest = sentence_digest(u);
+  const auto same_id = state.sentences.lower_bound({u.id, 0});
+  if (same_id != state.sentences.end() && same_id->first == u.id) {
+    if (state.sentences.contains({u.id, digest})) return false;
+    return refused(sentence +
+                   "it has changed since it was added; sums cannot forget, so begin them anew, or "
+                   "give the sentence another id if it is another one");
+  }
+  if (first) set_controls(state, u.signal.names, u.signal.rate);
+  const auto timeline = make_timeline(u.script, state.base.pause_edge);
+  TermSpace space;
+  if (!timeline.empty()) {
+    const FitSums fit = sums_of(u, timeline, state.base, space);
+    widen(state, space);
+    FitSums& set = digest % kHeldOut == 0 ? state.held : state.kept;
+    add_fit(fit, space, set, state.space, state.controls.size() + 1);
+  } else {
+    widen(state, space);
+  }
+  add_moments(u, state);
+  add_phones(timeline, state);
+  add_contacts(u, state);
+  state.sentences.insert({u.id, digest});
+  return true;
+}
+
+}  // namespace animeme::dam

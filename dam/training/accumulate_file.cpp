@@ -1,0 +1,288 @@
+// The file of sums. Layout: dam/README.md.
+#include <algorithm>
+#include <cmath>
+
+#include "dam/kinds/refined/terms.h"
+#include "dam/model/bytes_internal.h"
+#include "dam/model/file_frame_internal.h"
+#include "dam/training/accumulate.h"
+#include "dam/training/training_sums_internal.h"
+
+namespace animeme::dam {
+namespace {
+
+constexpr FileFormat kFormat{"ANIMESUM", 1, 0, "file of sums", "accumulate its sentences anew"};
+
+Error damaged(const std::string& how) { return damaged_file(kFormat, how); }
+
+void write_base(const SumsState& state, ByteWriter& out) {
+  const SumsBase& base = state.base;
+  out.real(base.pause_edge);
+  out.real(base.refined.time_margin);
+  out.real(base.refined.duration_exponent);
+  out.real(base.offset_frames);
+  out.number(std::uint32_t(base.phones.size()));
+  for (std::size_t p = 0; p < base.phones.size(); ++p) {
+    out.text(base.phones[p].label);
+    out.number(base.phones[p].context_class);
+    out.real(base.phones[p].duration);
+    out.real(base.refined.dominance[p].left);
+    out.real(base.refined.dominance[p].right);
+    out.real(base.refined.dominance[p].strength);
+    out.number(state.phones[p].examples);
+    out.real(state.phones[p].log_duration);
+    out.real(state.phones[p].longest);
+  }
+}
+
+void write_histogram(const Histogram& histogram, ByteWriter& out) {
+  out.number(std::uint32_t(histogram.counts.size()));
+  for (const auto& [bin, count] : histogram.counts) {
+    out.number(std::uint32_t(bin));
+    out.number(count);
+  }
+}
+
+void write_statistics(const SumsState& state, ByteWriter& out) {
+  out.number(state.rate.num);
+  out.number(state.rate.den);
+  out.number(state.speech_frames);
+  out.number(state.rest_frames);
+  out.number(std::uint32_t(state.controls.size()));
+  for (const ControlSums& c : state.controls) {
+    out.text(c.name);
+    for (const double x : {c.low, c.high, c.sum, c.squares, c.rest_sum}) out.real(x);
+  }
+  write_histogram(state.closures, out);
+  write_histogram(state.lip_tooth, out);
+  out.number(std::uint32_t(state.sentences.size()));
+  for (const auto& [id, digest] : state.sentences) {
+    out.text(id);
+    out.number(digest);
+  }
+}
+
+void write_fit(const FitSums& fit, std::size_t n, ByteWriter& out) {
+  out.number(fit.sentences);
+  out.number(std::uint64_t(fit.curves.frames));
+  for (const double x : fit.curves.energy) out.real(x);
+  for (const double x : fit.level) out.real(x);
+  for (const double x : fit.curves.right) out.real(x);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i; j < n; ++j) out.real(fit.curves.gram[i * n + j]);
+}
+
+// ---- reading ----
+
+/// A problem in words, empty: none.
+using Problem = std::string;
+
+bool all_finite(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
+
+bool between(double x, double low, double high) { return x >= low && x <= high; }
+
+/// The phones of the file by label; `number` gets the place of each among those of this version.
+Problem read_phones(ByteReader& in, SumsState& state, std::vector<std::uint32_t>& number) {
+  const auto& known = state.base.phones;
+  std::size_t next = 0;
+  for (std::size_t left = in.count(4 + 4 + 4 * 8 + 8 + 2 * 8); left > 0; --left) {
+    const std::string label = in.text();
+    while (next < known.size() && known[next].label != label) ++next;
+    if (next == known.size()) return "phone '" + label + "' is not known or out of order";
+    const auto group = in.number<std::uint32_t>();
+    PhoneModel& phone = state.base.phones[next];
+    PhoneDominance& d = state.base.refined.dominance[next];
+    PhoneSums& sums = state.phones[next];
+    phone.duration = in.real();
+    d.left = in.real();
+    d.right = in.real();
+    d.strength = in.real();
+    sums.examples = in.number<std::uint64_t>();
+    sums.log_duration = in.real();
+    sums.longest = in.real();
+    const bool fine = between(phone.duration, 1e-6, 1e6) && between(d.left, 1e-9, 10) &&
+                      between(d.right, 1e-9, 10) && between(d.strength, 1e-9, 1e6) &&
+                      std::isfinite(sums.log_duration) && between(sums.longest, 0, 1e6);
+    if (!fine || group != phone.context_class) return "phone " + label + " is out of range";
+    number.push_back(std::uint32_t(next++));
+  }
+  return {};
+}
+
+Problem read_base(ByteReader& in, SumsState& state, std::vector<std::uint32_t>& number) {
+  SumsBase& base = state.base;
+  base.pause_edge = in.real();
+  base.refined.time_margin = in.real();
+  base.refined.duration_exponent = in.real();
+  base.offset_frames = in.real();
+  if (!between(base.pause_edge, 0, 1e6) || !between(base.refined.time_margin, 0, 100) ||
+      !between(base.refined.duration_exponent, 0, 2) || !between(base.offset_frames, 0.01, 1e9))
+    return "a setting is out of range";
+  return read_phones(in, state, number);
+}
+
+Problem read_histogram(ByteReader& in, Histogram& histogram) {
+  for (std::size_t left = in.count(4 + 8); left > 0; --left) {
+    const auto bin = std::int32_t(in.number<std::uint32_t>());
+    const auto count = in.number<std::uint64_t>();
+    const bool ascending = histogram.counts.empty() || bin > histogram.counts.rbegin()->first;
+    if (!ascending || std::abs(double(bin)) > Histogram::kLastBin || count == 0 ||
+        count > (std::uint64_t(1) << 48))
+      return "a count is out of range";
+    histogram.counts[bin] = count;
+  }
+  return {};
+}
+
+Problem read_controls(ByteReader& in, SumsState& state) {
+  state.controls.resize(in.count(4 + 5 * 8));
+  for (ControlSums& c : state.controls) {
+    c.name = in.text();
+    for (double* x : {&c.low, &c.high, &c.sum, &c.squares, &c.rest_sum}) *x = in.real();
+    const bool range =
+        state.speech_frames == 0 ? c.low > c.high : c.low <= c.high && all_finite({c.low, c.high});
+    if (c.name.empty() || !range || !all_finite({c.sum, c.squares, c.rest_sum}) || c.squares < 0)
+      return "control '" + c.name + "' is out of range";
+  }
+  return {};
+}
+
+Problem read_statistics(ByteReader& in, SumsState& state) {
+  state.rate.num = in.number<std::uint32_t>();
+  state.rate.den = in.number<std::uint32_t>();
+  state.speech_frames = in.number<std::uint64_t>();
+  state.rest_frames = in.number<std::uint64_t>();
+  if (Problem p = read_controls(in, state); !p.empty()) return p;
+  if (Problem p = read_histogram(in, state.closures); !p.empty()) return p;
+  if (Problem p = read_histogram(in, state.lip_tooth); !p.empty()) return p;
+  for (std::size_t left = in.count(4 + 8); left > 0; --left) {
+    std::pair<std::string, std::uint64_t> sentence{in.text(), 0};
+    sentence.second = in.number<std::uint64_t>();
+    if (!state.sentences.empty() && sentence <= *state.sentences.rbegin())
+      return "its sentences are not ascending";
+    state.sentences.insert(state.sentences.end(), std::move(sentence));
+  }
+  const bool begun = !state.controls.empty();
+  if (begun != !state.sentences.empty() || (begun && !state.rate.valid()))
+    return "its controls, rate and sentences do not belong together";
+  return {};
+}
+
+Problem read_space(ByteReader& in, const std::vector<std::uint32_t>& number, SumsState& state) {
+  for (std::size_t t = 0; t < kTermCount; ++t) {
+    const RefinedTerm term = kTermInfo[t].term;
+    if (in.number<std::uint8_t>() != std::uint8_t(term) ||
+        in.number<std::uint32_t>() != kTermInfo[t].orders)
+      return "a term is unknown";
+    auto& keys = state.space.tables[t].keys;
+    keys.resize(in.count(4));
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      const auto key = in.number<std::uint32_t>();
+      keys[i] = key;
+      if (const auto phone = phone_of_key(term, key)) {
+        if (*phone >= number.size() || state.phones[number[*phone]].examples == 0)
+          return "a term belongs to no phone";
+        keys[i] = key_with_phone(term, key, number[*phone]);
+      } else if (key > largest_key(term, number.size())) {
+        return "a term belongs to no class";
+      }
+      if (i > 0 && keys[i] <= keys[i - 1]) return "its terms are not ascending";
+    }
+  }
+  std::vector<std::uint32_t> heard;
+  for (std::size_t p = 0; p < state.phones.size(); ++p)
+    if (state.phones[p].examples > 0) heard.push_back(std::uint32_t(p));
+  if (heard != state.space.tables[std::size_t(RefinedTerm::phone)].keys)
+    return "its phones and their terms do not belong together";
+  state.space.number();
+  if (state.controls.empty() && state.space.size > 0) return "there are terms but no controls";
+  return {};
+}
+
+/// True if so many numbers were there.
+bool read_reals(ByteReader& in, std::size_t count, std::vector<double>& values) {
+  values.resize(in.limited(count, 8));
+  for (double& value : values) value = in.real();
+  return values.size() == count;
+}
+
+Problem read_fit(ByteReader& in, std::size_t n, std::size_t k, FitSums& fit) {
+  fit.sentences = in.number<std::uint64_t>();
+  fit.curves.frames = std::size_t(in.number<std::uint64_t>());
+  std::vector<double> triangle;
+  if (!read_reals(in, k + 1, fit.curves.energy) || !read_reals(in, k, fit.level) ||
+      !read_reals(in, n * (k + 1), fit.curves.right) || !read_reals(in, n * (n + 1) / 2, triangle))
+    return "its parts are larger than the file";
+  if (!all_finite(fit.curves.energy) || !all_finite(fit.level) || !all_finite(fit.curves.right) ||
+      !all_finite(triangle))
+    return "a sum has no value";
+  fit.curves.gram.assign(n * n, 0.0);
+  auto from = triangle.begin();
+  for (std::size_t i = 0; i < n; ++i, from += std::ptrdiff_t(n - i + 1))
+    std::copy(from, from + std::ptrdiff_t(n - i),
+              fit.curves.gram.begin() + std::ptrdiff_t(i * n + i));
+  return {};
+}
+
+Problem read_payload(ByteReader& in, bool newer_minor, SumsState& state) {
+  state.base = start_base();
+  state.phones.resize(state.base.phones.size());
+  std::vector<std::uint32_t> number;
+  if (Problem p = read_base(in, state, number); !p.empty()) return p;
+  if (Problem p = read_statistics(in, state); !p.empty()) return p;
+  if (Problem p = read_space(in, number, state); !p.empty()) return p;
+  if (!state.controls.empty())
+    for (FitSums* fit : {&state.kept, &state.held})
+      if (Problem p = read_fit(in, state.space.size, state.controls.size(), *fit); !p.empty())
+        return p;
+  if (in.failed()) return "its parts are larger than the file";
+  if (!in.at_end() && !newer_minor) return "something follows the sums";
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> write_training_sums(const TrainingSums& sums) {
+  const SumsState& state = sums.state();
+  const std::size_t n = state.space.size;
+  ByteWriter body;
+  body.bytes.reserve(8 * n * (n + 1) + 16 * n * (state.controls.size() + 1) + 65536);
+  write_base(state, body);
+  write_statistics(state, body);
+  for (std::size_t t = 0; t < kTermCount; ++t) {
+    body.number(std::uint8_t(kTermInfo[t].term));
+    body.number(kTermInfo[t].orders);
+    body.number(std::uint32_t(state.space.tables[t].keys.size()));
+    for (const std::uint32_t key : state.space.tables[t].keys) body.number(key);
+  }
+  if (!state.controls.empty())
+    for (const FitSums* fit : {&state.kept, &state.held}) write_fit(*fit, n, body);
+  return frame_file(kFormat, body.bytes);
+}
+
+Result<TrainingSums> read_training_sums(std::span<const std::uint8_t> bytes) {
+  const auto body = open_frame(kFormat, bytes);
+  if (!body) return body.error();
+  ByteReader in(body->bytes);
+  auto state = std::make_unique<SumsState>();
+  if (const Problem problem = read_payload(in, body->newer_minor, *state);
+      in.failed() || !problem.empty())
+    return damaged(in.failed() ? "its parts are larger than the file" : problem);
+  return TrainingSums(std::move(state));
+}
+
+Result<TrainingSums> load_training_sums(const std::filesystem::path& path) {
+  const auto bytes = load_file(kFormat, path);
+  if (!bytes) return bytes.error();
+  auto sums = read_training_sums(*bytes);
+  if (!sums) return std::move(sums).error().in_file(path.string());
+  return sums;
+}
+
+Result<void> save_training_sums(const TrainingSums& sums, const std::filesystem::path& path) {
+  return save_file(kFormat, write_training_sums(sums), path);
+}
+
+}  // namespace animeme::dam

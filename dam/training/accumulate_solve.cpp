@@ -1,0 +1,168 @@
+// From sums to a model.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "dam/corpus/statistics_internal.h"
+#include "dam/corpus/training_set_internal.h"
+#include "dam/kinds/refined/solve.h"
+#include "dam/training/accumulate.h"
+#include "dam/training/train_notes_internal.h"
+#include "dam/training/training_sums_internal.h"
+
+namespace animeme::dam {
+namespace {
+
+constexpr double kConstantRange = 1e-9;  // values closer together do not move
+constexpr double kOtherPace = 1.5;       // usual durations further off than this factor
+constexpr std::uint64_t kEnoughExamples = 30;
+
+std::vector<Control> controls_of(const SumsState& state) {
+  std::vector<Control> controls;
+  const double speech = std::max(1.0, double(state.speech_frames));
+  for (const ControlSums& sums : state.controls) {
+    Control c{sums.name, 0, 0, 0};
+    c.mean = sums.sum / speech;
+    const bool moves = sums.high - sums.low > kConstantRange * (1 + std::abs(c.mean));
+    if (moves) c.sd = std::sqrt(std::max(0.0, sums.squares / speech - c.mean * c.mean));
+    c.rest = state.rest_frames > 0 ? sums.rest_sum / double(state.rest_frames) : c.mean;
+    controls.push_back(c);
+  }
+  settle_controls(controls);
+  return controls;
+}
+
+/// Phones that occurred, with their keys in `space` renumbered; dominance likewise.
+std::vector<PhoneModel> phones_of(const SumsState& state, std::vector<PhoneDominance>& dominance,
+                                  TermSpace& space) {
+  std::vector<PhoneModel> phones;
+  std::vector<std::uint32_t> number(state.phones.size(), 0);
+  for (std::size_t p = 0; p < state.phones.size(); ++p) {
+    const PhoneSums& sums = state.phones[p];
+    if (sums.examples == 0) continue;
+    number[p] = std::uint32_t(phones.size());
+    phones.push_back(state.base.phones[p]);
+    phones.back().examples = std::uint32_t(std::min<std::uint64_t>(sums.examples, 0xFFFFFFFFu));
+    phones.back().longest = std::max(kLongestAnyway, sums.longest);
+    dominance.push_back(state.base.refined.dominance[p]);
+  }
+  for (std::size_t t = 0; t < kTermCount; ++t)
+    for (std::uint32_t& key : space.tables[t].keys)
+      if (const auto phone = phone_of_key(kTermInfo[t].term, key))
+        key = key_with_phone(kTermInfo[t].term, key, number[*phone]);
+  return phones;
+}
+
+/// Measured from the mean in standard deviations; the column of ones is used up.
+CurveSums standardised(FitSums fit, std::span<const Control> controls) {
+  const std::size_t k = controls.size(), n = fit.curves.right.size() / (k + 1);
+  CurveSums out;
+  out.gram = std::move(fit.curves.gram);
+  out.frames = fit.curves.frames;
+  out.right.assign(n * k, 0.0);
+  out.energy.assign(k, 0.0);
+  for (std::size_t c = 0; c < k; ++c) {
+    const double mean = controls[c].mean, sd = controls[c].sd;
+    if (sd == 0) continue;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double* row = &fit.curves.right[i * (k + 1)];
+      out.right[i * k + c] = (row[c] - mean * row[k]) / sd;
+    }
+    const double energy =
+        fit.curves.energy[c] - 2 * mean * fit.level[c] + mean * mean * fit.curves.energy[k];
+    out.energy[c] = std::max(0.0, energy) / (sd * sd);
+  }
+  return out;
+}
+
+void warn_of_pace(const SumsState& state, TrainSummary& summary) {
+  std::string labels;
+  for (std::size_t p = 0; p < state.phones.size(); ++p) {
+    const PhoneSums& sums = state.phones[p];
+    if (sums.examples < kEnoughExamples || state.base.phones[p].label == kSilence) continue;
+    const double usual = std::exp(sums.log_duration / double(sums.examples));
+    const double ratio = usual / state.base.phones[p].duration;
+    if (ratio > kOtherPace || ratio < 1 / kOtherPace) labels += " " + state.base.phones[p].label;
+  }
+  if (!labels.empty())
+    summary.warnings.push_back(
+        "phones that last 1.5 times as long as the base of the sums has them, or as short:" +
+        labels + "; a base that was trained on a part of these sentences suits better");
+}
+
+void warn_of_versions(const SumsState& state, TrainSummary& summary) {
+  for (auto a = state.sentences.begin(); a != state.sentences.end(); ++a)
+    if (const auto b = std::next(a); b != state.sentences.end() && a->first == b->first)
+      summary.warnings.push_back("sentence '" + a->first +
+                                 "' is there with different contents; both count");
+}
+
+void summarise(const SumsState& state, const Model& model, TrainSummary& summary) {
+  summary.utterances = state.sentences.size();
+  summary.frames = state.kept.curves.frames + state.held.curves.frames;
+  for (const PhoneSums& sums : state.phones) summary.occurrences += std::size_t(sums.examples);
+  note_phones(model, summary);
+  add_warnings(summary);
+  warn_of_pace(state, summary);
+  warn_of_versions(state, summary);
+}
+
+Model start_model(const SumsState& state, const TrainOptions& options) {
+  Model model;
+  model.method = Method::dam;
+  model.pause_edge = state.base.pause_edge;
+  model.closure_gap = closure_gap_of(state.closures.median());
+  if (const auto low = state.lip_tooth.median()) model.lip_tooth_raise = -*low;
+  model.rate = state.rate;
+  model.attribution = options.attribution;
+  model.provenance = options.provenance;
+  model.controls = controls_of(state);
+  return model;
+}
+
+}  // namespace
+
+Result<Model> train_from_sums(TrainingSums sums, const TrainOptions& options,
+                              TrainSummary* summary) {
+  const auto begin = std::chrono::steady_clock::now();
+  if (auto ok = validate(options); !ok) return ok.error();
+  if (options.method != Method::dam)
+    return make_error(Code::invalid_argument, "only the method dam can be trained from sums");
+  TrainSummary own;
+  TrainSummary& out = summary != nullptr ? *summary : own;
+  out = {};
+  const std::unique_ptr<SumsState> state = std::move(sums).release();
+  if (state->sentences.empty())
+    return make_error(Code::invalid_argument, "there is no sentence in the sums");
+  Model model = start_model(*state, options);
+  std::vector<PhoneDominance> dominance;
+  TermSpace space = state->space;
+  model.phones = phones_of(*state, dominance, space);
+  if (model.phones.empty())
+    return make_error(Code::invalid_argument, "no sentence has a phone other than silence");
+  const std::size_t k = model.controls.size();
+  const bool choose = state->sentences.size() >= kLeastToChoose && state->kept.sentences > 0 &&
+                      state->held.sentences > 0;
+  CurveSums all = standardised(std::move(state->kept), model.controls);
+  const CurveSums held = standardised(std::move(state->held), model.controls);
+  RidgeChoice choice{options.refined.ridge > 0 ? options.refined.ridge : 1.0, {}};
+  if (choose) choice = choose_ridge(all, held, space, k, options.refined.ridge, options.threads);
+  all.add(held);
+  const auto curves = solve_curves(all, space, k, choice.factor, options.threads);
+  note_explained(model.controls,
+                 choose ? choice.explained : explained_by(all, errors_of(all, curves, k)), choose,
+                 out);
+  RefinedOptions refined;
+  refined.time_margin = state->base.refined.time_margin;
+  refined.duration_exponent = state->base.refined.duration_exponent;
+  model.parameters = refined_parameters(space, curves, means_from_rest(model.controls), refined,
+                                        std::move(dominance));
+  if (auto ok = validate(model); !ok)
+    return make_error(Code::invalid_argument, "the sums have no solution: " + ok.error().message);
+  out.ridge = choice.factor;
+  summarise(*state, model, out);
+  out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return model;
+}
+
+}  // namespace animeme::dam

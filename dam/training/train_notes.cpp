@@ -1,0 +1,109 @@
+#include "dam/training/train_notes_internal.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "dam/script/phones.h"
+#include "dam/speaking/synthesise.h"
+
+namespace animeme::dam {
+namespace {
+
+constexpr std::size_t kFewExamples = 12;
+constexpr double kNotableLag = 0.050;  // seconds
+
+std::string joined(const std::vector<std::string>& items, const char* between) {
+  std::string text;
+  for (const std::string& item : items) text += (text.empty() ? "" : between) + item;
+  return text;
+}
+
+/// Adds "start item, item" if there are items.
+void warn_of(const char* start, const std::vector<std::string>& items, const char* between,
+             TrainSummary& summary) {
+  if (!items.empty()) summary.warnings.push_back(start + joined(items, between));
+}
+
+std::string spoken_instead(const Model& model, std::string_view label) {
+  const auto relatives = phone_relatives(label);
+  if (!relatives.empty() && relatives[0].part[0].label == kNextVowel) return "the next vowel";
+  Script script;
+  script.phones = {{0, 1, std::string(label), ""}};
+  SynthesisReport report;
+  if (!replace_unknown_phones(model, script, &report) || report.replaced.empty()) return {};
+  return report.replaced[0].second;
+}
+
+std::vector<std::string> classmates(const Model& model, const PhoneModel& phone) {
+  std::vector<std::string> labels;
+  for (const PhoneModel& other : model.phones)
+    if (other.context_class == phone.context_class && other.label != phone.label)
+      labels.push_back(other.label);
+  return labels;
+}
+
+void warn_of_controls(TrainSummary& summary) {
+  std::vector<std::string> noise;
+  for (const ControlNote& control : summary.controls) {
+    if (control.constant)
+      summary.warnings.push_back("control '" + control.name +
+                                 "' never moves and is kept as a constant");
+    else if (control.explained < kNoise)
+      noise.push_back(control.name);
+  }
+  warn_of(
+      "controls that do not follow the phones (under 2 % of the motion explained), so they "
+      "may be noise: ",
+      noise, ", ", summary);
+}
+
+void warn_of_phones(TrainSummary& summary) {
+  std::vector<std::string> few, silent;
+  for (const RarePhone& phone : summary.rare)
+    few.push_back(
+        phone.label + " " + std::to_string(phone.examples) +
+        (phone.leans_on.empty() ? "" : " (leans on " + joined(phone.leans_on, " ") + ")"));
+  warn_of("phones with few examples, whose shapes are uncertain: ", few, ", ", summary);
+  for (const UnknownPhone& phone : summary.unknown)
+    if (phone.spoken_as.empty()) silent.push_back(phone.label);
+  warn_of("phones that nothing in the data can stand in for, so scripts with them are refused: ",
+          silent, " ", summary);
+}
+
+void warn_of_sentences(TrainSummary& summary) {
+  std::vector<std::string> standing;
+  for (const SentenceNote& s : summary.standing) {
+    char text[120];
+    if (s.offset > kStandsOut)
+      std::snprintf(text, sizeof text, " (off as a whole, %.1f times the usual)", s.offset);
+    else
+      std::snprintf(text, sizeof text, " (its error is %.1f times the median)", s.error);
+    standing.push_back(s.id + text);
+  }
+  warn_of("sentences that stand out; look at their labels and curves: ", standing, ", ", summary);
+}
+
+}  // namespace
+
+void note_phones(const Model& model, TrainSummary& summary) {
+  for (const PhoneModel& phone : model.phones) {
+    if (phone.examples >= kFewExamples) continue;
+    summary.rare.push_back({phone.label, phone.examples, {}});
+    if (model.method == Method::dam) summary.rare.back().leans_on = classmates(model, phone);
+  }
+  for (const PhoneInfo& info : phones())
+    if (info.label != kSilence && model.find_phone(info.label) < 0)
+      summary.unknown.push_back({std::string(info.label), spoken_instead(model, info.label)});
+}
+
+void add_warnings(TrainSummary& summary) {
+  warn_of_controls(summary);
+  warn_of_phones(summary);
+  warn_of_sentences(summary);
+  if (std::abs(summary.lag) > kNotableLag)
+    summary.warnings.push_back("the signal comes about " +
+                               std::to_string(std::lround(summary.lag * 1000)) +
+                               " ms after the phonemes; check the alignment of the corpus");
+}
+
+}  // namespace animeme::dam

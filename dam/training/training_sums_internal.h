@@ -1,0 +1,88 @@
+// What is inside TrainingSums. Internal. See dam/training/accumulate.h for what the sums are for.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dam/kinds/refined/curves_fit.h"
+#include "dam/model/model.h"
+
+namespace animeme::dam {
+
+/// What must not change while sums are taken. Phones are all of phones.h, by label; of PhoneModel,
+/// label, class and (usual) duration count.
+struct SumsBase {
+  double pause_edge = 0.3;
+  RefinedParameters refined;  ///< margin, exponent and dominance; no tables
+  double offset_frames = 10;
+  std::vector<PhoneModel> phones;
+
+  friend bool operator==(const SumsBase&, const SumsBase&) = default;
+};
+
+/// One control: over the frames of speech, and over those of rest.
+struct ControlSums {
+  std::string name;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  double sum = 0, squares = 0, rest_sum = 0;
+};
+
+struct PhoneSums {
+  std::uint64_t examples = 0;
+  double log_duration = 0;
+  double longest = 0;
+};
+
+/// How often values fell into bins of kBin units; bounded, so that parts add up.
+class Histogram {
+ public:
+  static constexpr double kBin = 0.5, kMost = 1024;
+  static constexpr std::int32_t kLastBin = std::int32_t(kMost / kBin);
+
+  void add(double value);
+  void add(const Histogram& other);
+  /// The bin of the upper median; none with fewer than kFewContacts values.
+  std::optional<double> median() const;
+
+  std::map<std::int32_t, std::uint64_t> counts;  ///< number of the bin: value / kBin, rounded
+};
+
+/// Normal equations in the units of the controls. Behind the controls there is one more column, of
+/// ones: its right side is what a change of all targets by a constant adds.
+struct FitSums {
+  std::uint64_t sentences = 0;
+  CurveSums curves;           ///< for controls + 1 columns
+  std::vector<double> level;  ///< per control: product with the column of ones
+};
+
+struct SumsState {
+  SumsBase base;
+  fap::Rate rate;
+  std::uint64_t speech_frames = 0, rest_frames = 0;
+  std::vector<ControlSums> controls;
+  std::vector<PhoneSums> phones;  ///< as base.phones
+  Histogram closures, lip_tooth;
+  /// Identifier and digest of every sentence. Merged parts may have two contents under one id.
+  std::set<std::pair<std::string, std::uint64_t>> sentences;
+  TermSpace space;  ///< of both sets
+  FitSums kept, held;
+};
+
+/// Every phone of phones.h, sorted by label, with start values.
+SumsBase start_base();
+
+/// Makes room for more unknowns: the union of both spaces.
+void widen(SumsState& state, const TermSpace& space);
+
+/// Adds sums over some unknowns of `to`, which `space` must have.
+void add_fit(const FitSums& from, const TermSpace& from_space, FitSums& to,
+             const TermSpace& to_space, std::size_t columns);
+
+}  // namespace animeme::dam
