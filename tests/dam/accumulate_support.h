@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "dam/training/accumulate.h"
-#include "dam_support.h"
+#include "tests/dam/dam_support.h"
 
 namespace animeme::test {
 

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "accumulate_support.h"
 #include "dam/corpus/corpus.h"
+#include "tests/dam/accumulate_support.h"
 #include "tests/support/shared.h"
 
 namespace animeme::dam {

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "dam/model/animeme.h"
-#include "dam_support.h"
+#include "tests/dam/dam_support.h"
 
 namespace animeme::dam {
 namespace {

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "dam/evaluation/evaluate.h"
-#include "dam_support.h"
+#include "tests/dam/dam_support.h"
 #include "tests/support/shared.h"
 
 namespace animeme::dam {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "dam/kinds/animeme/contexts.h"
-#include "dam_support.h"
+#include "tests/dam/dam_support.h"
 
 namespace animeme::dam {
 namespace {

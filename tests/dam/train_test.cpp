@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "dam/speaking/synthesise.h"
-#include "dam_support.h"
+#include "tests/dam/dam_support.h"
 #include "tests/support/shared.h"
 
 namespace animeme::dam {

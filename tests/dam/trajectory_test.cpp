@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "dam/kinds/trajectory/fit_control.h"
-#include "dam_support.h"
+#include "tests/dam/dam_support.h"
 
 namespace animeme::dam {
 namespace {
