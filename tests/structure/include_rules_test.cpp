@@ -12,7 +12,7 @@
 #include "tests/structure/rules.h"
 
 namespace animeme::test {
-namespace {
+namespace include_rules_test {
 
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
@@ -213,5 +213,5 @@ TEST(StructureRules, PathsFire) {
   EXPECT_THAT(path_violations("tests/support/shared.h", "../shared"), IsEmpty());
 }
 
-}  // namespace
+}  // namespace include_rules_test
 }  // namespace animeme::test
