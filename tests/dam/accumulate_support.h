@@ -16,7 +16,7 @@ namespace animeme::test {
 inline std::vector<dam::Utterance> planted(std::size_t count, std::uint32_t seed = 5,
                                            std::vector<std::string> labels = {"SIL", "AA", "B",
                                                                               "IY"}) {
-  Random random(seed);
+  Uniform random(seed);
   const auto truth = plant(random, std::move(labels), 2, 2);
   return planted_sentences(random, truth, count);
 }

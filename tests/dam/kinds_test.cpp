@@ -30,7 +30,7 @@ class EveryKind : public testing::TestWithParam<Method> {
     return corpus ? corpus->utterances : std::vector<Utterance>{};
   }
   static std::vector<Utterance> planted(std::size_t count) {
-    test::Random random(5);
+    test::Uniform random(5);
     const auto truth = test::plant(random, {"SIL", "AA", "B", "IY"}, 2, 2);
     return test::planted_sentences(random, truth, count);
   }

@@ -29,7 +29,7 @@ void search(const ModeGraph& graph, std::vector<std::size_t>& path, double cost,
 }
 
 TEST(CheapestPath, AgreesWithExhaustiveSearch) {
-  test::Random random(11);
+  test::Uniform random(11);
   for (int round = 0; round < 200; ++round) {
     ModeGraph graph;
     const std::size_t layers = 1 + random.below(6);

@@ -53,7 +53,7 @@ TEST(Viseme, HoldsAndStraightLines) {
 }
 
 TEST(Viseme, TrainingFindsPosesAndTheirPlace) {
-  test::Random random(3);
+  test::Uniform random(3);
   const std::vector<double> poses = {1, -2, 0.5, 0};
   TrainingSet set;
   set.data.controls = 1;

@@ -2,73 +2,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
 
 #include "tests/structure/rooms.h"
 #include "tests/structure/rules.h"
+#include "tests/structure/tree.h"
 
 namespace animeme::test {
 namespace include_rules_test {
 
-namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 using Check = std::vector<std::string>(std::string_view, std::string_view);
-
-struct SourceFile {
-  std::string path;  // relative to the root
-  std::string text;
-};
-
-bool has_extension(const fs::path& path, std::initializer_list<std::string_view> extensions) {
-  return std::find(extensions.begin(), extensions.end(), path.extension().string()) !=
-         extensions.end();
-}
-
-bool is_text(const fs::path& path) {
-  return path.filename() == "run" || path.filename() == "LICENSE" ||
-         has_extension(path, {".h", ".hpp", ".cpp", ".txt", ".cmake", ".in", ".md", ".json", ".js",
-                              ".mjs", ".html", ".py", ".sh", ".yml", ".1"});
-}
-
-SourceFile load(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  EXPECT_TRUE(file) << path;
-  return {path.lexically_relative(ANIMEME_SOURCE_DIR).generic_string(),
-          {std::istreambuf_iterator<char>(file), {}}};
-}
-
-// All files of ours: the folders by name, so that build folders inside the tree do not count.
-const std::vector<SourceFile>& tree() {
-  static const std::vector<SourceFile> files = [] {
-    std::vector<fs::path> paths;
-    const fs::path root = ANIMEME_SOURCE_DIR;
-    for (const auto& entry : fs::directory_iterator(root)) {
-      if (entry.is_regular_file() && is_text(entry.path())) paths.push_back(entry.path());
-    }
-    for (const char* folder : {"fap", "codec", "dam", "tools", "conformance", "tests", ".ci"}) {
-      if (!fs::is_directory(root / folder)) continue;
-      for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
-        if (entry.is_regular_file() && is_text(entry.path())) paths.push_back(entry.path());
-      }
-    }
-    std::sort(paths.begin(), paths.end());
-    std::vector<SourceFile> loaded;
-    for (const fs::path& path : paths) loaded.push_back(load(path));
-    return loaded;
-  }();
-  return files;
-}
-
-bool is_code(std::string_view path) {
-  return path.ends_with(".h") || path.ends_with(".hpp") || path.ends_with(".cpp");
-}
 
 std::vector<std::string> violations(Check check, const std::function<bool(std::string_view)>& of) {
   std::vector<std::string> all;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "tests/structure/rooms.h"
+#include "tests/structure/tree.h"
 
 namespace animeme::test {
 namespace {
@@ -19,8 +20,6 @@ bool contains(std::string_view text, std::string_view part) {
 }
 
 bool is_header(std::string_view path) { return path.ends_with(".h") || path.ends_with(".hpp"); }
-
-bool is_code(std::string_view path) { return is_header(path) || path.ends_with(".cpp"); }
 
 // Not installed for others (only .h files are), so it may show what it is made of.
 bool is_internal(std::string_view path) {
