@@ -1,13 +1,14 @@
-// Session descriptions: where the packets of a presentation come from and what is in them.
-// Source: RFC 8866, 6416, 3640, 7587, 5576 (ssrc), 7273 (media clock), 8285 (extmap); containers,
-// section 4.1.
-//
-//     m=video 5004 RTP/AVP 96
-//     a=rtpmap:96 MP4V-ES/90000
-//     a=fmtp:96 profile-level-id=97; config=000001B061000001B58947
-//     a=ssrc:305419896 cname:animeme
-//     a=mediaclk:direct=2271560481       RTP time of time 0
-//     a=x-animeme:timescale=25000        ours; others pass over it
+/// @file
+/// Session descriptions: where the packets of a presentation come from and what is in them.
+/// Source: RFC 8866, 6416, 3640, 7587, 5576 (ssrc), 7273 (media clock), 8285 (extmap); containers,
+/// section 4.1.
+///
+///     m=video 5004 RTP/AVP 96
+///     a=rtpmap:96 MP4V-ES/90000
+///     a=fmtp:96 profile-level-id=97; config=000001B061000001B58947
+///     a=ssrc:305419896 cname:animeme
+///     a=mediaclk:direct=2271560481       RTP time of time 0
+///     a=x-animeme:timescale=25000        ours; others pass over it
 #pragma once
 
 #include <cstdint>
