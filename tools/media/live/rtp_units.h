@@ -48,7 +48,7 @@ class FaceAssembler {
 /// Packets of sound.
 class AudioAssembler {
  public:
-  explicit AudioAssembler(const AudioTrack& track);
+  explicit AudioAssembler(const RtpAudioTrack& track);
 
   RtpUnits add(const RtpPacket& packet, std::int64_t time);
   void gap() { joiner_.gap(); }

@@ -41,27 +41,27 @@ struct RtpTrack {
   friend bool operator==(const RtpTrack&, const RtpTrack&) = default;
 };
 
-struct FaceTrack : RtpTrack {
+struct RtpFaceTrack : RtpTrack {
   std::vector<std::uint8_t> config;  ///< empty: comes in band
   std::uint8_t visual_profile = 0x61;
   std::uint32_t timescale = 0;  ///< of the sender; 0: not said
   int bundle_id = 0;            ///< number of the extension kBundleExtension; 0: not used
 
-  friend bool operator==(const FaceTrack&, const FaceTrack&) = default;
+  friend bool operator==(const RtpFaceTrack&, const RtpFaceTrack&) = default;
 };
 
-struct AudioTrack : RtpTrack {
+struct RtpAudioTrack : RtpTrack {
   AudioFormat format;
   AacFields fields;
 
-  friend bool operator==(const AudioTrack&, const AudioTrack&) = default;
+  friend bool operator==(const RtpAudioTrack&, const RtpAudioTrack&) = default;
 };
 
 struct RtpSession {
   std::string name = "animeme";
   std::string cname = "animeme";
-  std::optional<FaceTrack> face;
-  std::optional<AudioTrack> audio;
+  std::optional<RtpFaceTrack> face;
+  std::optional<RtpAudioTrack> audio;
   /// Media that are not for us, a sentence each.
   std::vector<std::string> ignored;
 
