@@ -1,4 +1,5 @@
-// What a stream exercises, told by decoding it and by writing it again.
+/// @file
+/// What a stream exercises, told by decoding it and by writing it again.
 #pragma once
 
 #include <cstdint>

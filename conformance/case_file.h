@@ -1,4 +1,5 @@
-// case.json: what one conformance case is about, as data.
+/// @file
+/// case.json: what one conformance case is about, as data.
 #pragma once
 
 #include <cstdint>

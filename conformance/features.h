@@ -1,4 +1,5 @@
-// The fixed vocabulary of features that cases exercise: what a coverage table counts.
+/// @file
+/// The fixed vocabulary of features that cases exercise: what a coverage table counts.
 #pragma once
 
 #include <span>

@@ -1,5 +1,6 @@
-// The random numbers of the case generator: a defined sequence, the same on every machine (the
-// distributions of the C++ library are not).
+/// @file
+/// The random numbers of the case generator: a defined sequence, the same on every machine (the
+/// distributions of the C++ library are not).
 #pragma once
 
 #include <cstdint>

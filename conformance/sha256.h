@@ -1,4 +1,5 @@
-// SHA-256 of a file's bytes. Source: FIPS 180-4.
+/// @file
+/// SHA-256 of a file's bytes. Source: FIPS 180-4.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
-// FBA streams written a second time, straight from the description: levels in, bits and the
-// values that a decoder must give out. It can also write what is not allowed.
-// Source: fba_bitstream, sections 1 to 7.
+/// @file
+/// FBA streams written a second time, straight from the description: levels in, bits and the
+/// values that a decoder must give out. It can also write what is not allowed.
+/// Source: fba_bitstream, sections 1 to 7.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// A stream decoded to the end, errors included: what the codec makes of a case.
+/// @file
+/// A stream decoded to the end, errors included: what the codec makes of a case.
 #pragma once
 
 #include <cstdint>

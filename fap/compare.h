@@ -1,4 +1,5 @@
-// How far apart two clips are, FAP by FAP.
+/// @file
+/// How far apart two clips are, FAP by FAP.
 #pragma once
 
 #include <array>

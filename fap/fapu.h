@@ -1,5 +1,6 @@
-// FAP units: how far a FAP value moves a point of a given face. Source: fap_semantics, sections
-// 1 and 2.
+/// @file
+/// FAP units: how far a FAP value moves a point of a given face. Source: fap_semantics, sections
+/// 1 and 2.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// From coded frames, whose masks have gaps, to complete ones that any player can show.
+/// @file
+/// From coded frames, whose masks have gaps, to complete ones that any player can show.
 #pragma once
 
 #include <array>

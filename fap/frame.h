@@ -1,4 +1,5 @@
-// The data model: one coded instant (Frame) and a clip of them (Sequence).
+/// @file
+/// The data model: one coded instant (Frame) and a clip of them (Sequence).
 #pragma once
 
 #include <array>

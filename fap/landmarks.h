@@ -1,12 +1,15 @@
-// From tracked points of a face, as OpenFace, MediaPipe and the like find them in a video, to FAPs.
-//
-//     animeme::fap::LandmarkTrack track{{30, 1}, {"2.1", "2.2", ...}, false, frames};
-//     auto face = animeme::fap::landmarks_to_fap(track);
-//     if (face) write(face->clip);
-//
-// A FAP is how far a feature point has moved on the head, in units of the neutral face. So the head
-// is found in each frame (its place, size and turn), taken off, and what is left of the distance to
-// the neutral face is measured along the axis of the FAP: value = distance / FAPU * 1024.
+/// @file
+/// From tracked points of a face, as OpenFace, MediaPipe and the like find them in a video, to
+/// FAPs.
+///
+///     animeme::fap::LandmarkTrack track{{30, 1}, {"2.1", "2.2", ...}, false, frames};
+///     auto face = animeme::fap::landmarks_to_fap(track);
+///     if (face) write(face->clip);
+///
+/// A FAP is how far a feature point has moved on the head, in units of the neutral face. So the
+/// head is found in each frame (its place, size and turn), taken off, and what is left of the
+/// distance to the neutral face is measured along the axis of the FAP: value = distance / FAPU *
+/// 1024.
 #pragma once
 
 #include <array>

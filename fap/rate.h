@@ -1,4 +1,5 @@
-// Frame rates as exact fractions. 29.97 frames a second is 30000/1001, never a float.
+/// @file
+/// Frame rates as exact fractions. 29.97 frames a second is 30000/1001, never a float.
 #pragma once
 
 #include <cstdint>

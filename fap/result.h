@@ -1,14 +1,15 @@
-// Result<T>: the one way in which Animeme reports failure.
-//
-// Every function that can fail returns a Result. It holds either a value or an Error: a code for
-// programs, a sentence for people, and the place in the input where things went wrong. No
-// exception crosses a public border of the libraries and no input makes them abort.
-//
-//     animeme::Result<animeme::fap::Sequence> clip = animeme::fap::read_text(text);
-//     if (!clip) return clip.error();          // an Error converts to any Result
-//     use(*clip);
-//
-// The member names are those of std::expected (C++23), which may replace this class later.
+/// @file
+/// Result<T>: the one way in which Animeme reports failure.
+///
+/// Every function that can fail returns a Result. It holds either a value or an Error: a code for
+/// programs, a sentence for people, and the place in the input where things went wrong. No
+/// exception crosses a public border of the libraries and no input makes them abort.
+///
+///     animeme::Result<animeme::fap::Sequence> clip = animeme::fap::read_text(text);
+///     if (!clip) return clip.error();          // an Error converts to any Result
+///     use(*clip);
+///
+/// The member names are those of std::expected (C++23), which may replace this class later.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
-// The tables of the standard: what each FAP is, its unit, group, feature point and
-// quantiser step. Data only; the clause of the specification stands beside each table.
+/// @file
+/// The tables of the standard: what each FAP is, its unit, group, feature point and
+/// quantiser step. Data only; the clause of the specification stands beside each table.
 #pragma once
 
 #include <array>

@@ -1,21 +1,22 @@
-// FAP text: the ASCII .fap file that MPEG-4 face players exchange. Grammar and the quirks of
-// real programs: fap_text_format, sections 1 to 3.
-//
-//     # a comment
-//     2.1 my_clip 25 2                         version, name, frames a second, number of frames
-//     0 0 1 0 0 ...                            68 mask values: which of FAP 1..68 follow
-//     0 341                                    frame number, one value per FAP of the mask
-//     0 0 1 0 0 ...
-//     1 356
-//
-// FAP 1 (viseme) has 4 values and FAP 2 (expression) 6, see Viseme and Expression in frame.h.
-// Values are plain FAP values, whatever the version says: nothing is scaled in files of
-// version 2.0 either.
-//
-//     std::vector<std::string> warnings;
-//     auto clip = animeme::fap::read_text(text, {}, &warnings);
-//     if (!clip) return clip.error();
-//     std::string again = animeme::fap::write_text(*clip);
+/// @file
+/// FAP text: the ASCII .fap file that MPEG-4 face players exchange. Grammar and the quirks of
+/// real programs: fap_text_format, sections 1 to 3.
+///
+///     # a comment
+///     2.1 my_clip 25 2                         version, name, frames a second, number of frames
+///     0 0 1 0 0 ...                            68 mask values: which of FAP 1..68 follow
+///     0 341                                    frame number, one value per FAP of the mask
+///     0 0 1 0 0 ...
+///     1 356
+///
+/// FAP 1 (viseme) has 4 values and FAP 2 (expression) 6, see Viseme and Expression in frame.h.
+/// Values are plain FAP values, whatever the version says: nothing is scaled in files of
+/// version 2.0 either.
+///
+///     std::vector<std::string> warnings;
+///     auto clip = animeme::fap::read_text(text, {}, &warnings);
+///     if (!clip) return clip.error();
+///     std::string again = animeme::fap::write_text(*clip);
 #pragma once
 
 #include <cstdint>

@@ -1,24 +1,25 @@
-// The FBA decoder: push bytes, pull planes.
-//
-//     animeme::fba::Decoder decoder;
-//     decoder.push(bytes);                       // any split, as often as bytes arrive
-//     decoder.finish();                          // no more bytes will come
-//     for (;;) {
-//       animeme::Result<animeme::fba::Event> event = decoder.next();
-//       if (!event) {
-//         if (event.error().code == animeme::Code::need_data) break;      // push more
-//         if (event.error().code == animeme::Code::end_of_stream) break;  // all done
-//         report(event.error().describe());      // then go on: the decoder resynchronises
-//         continue;
-//       }
-//       if (event->kind == animeme::fba::Event::Kind::plane) show(event->plane.face);
-//       // others: info, once before the planes of an object, and warning
-//     }
-//
-// Safe on any input: every read is bounded. A decoder takes less than 2 MB whatever comes in (all
-// 66 FAPs and 296 BAPs at ranges of +-1860, every symbol seen: 1.6 MB), besides bytes that were
-// pushed and not yet read, which are at most a plane once next() asks for more. Time is linear in
-// the bits pushed, whatever the pieces: a plane that is still arriving goes on where it stopped.
+/// @file
+/// The FBA decoder: push bytes, pull planes.
+///
+///     animeme::fba::Decoder decoder;
+///     decoder.push(bytes);                       // any split, as often as bytes arrive
+///     decoder.finish();                          // no more bytes will come
+///     for (;;) {
+///       animeme::Result<animeme::fba::Event> event = decoder.next();
+///       if (!event) {
+///         if (event.error().code == animeme::Code::need_data) break;      // push more
+///         if (event.error().code == animeme::Code::end_of_stream) break;  // all done
+///         report(event.error().describe());      // then go on: the decoder resynchronises
+///         continue;
+///       }
+///       if (event->kind == animeme::fba::Event::Kind::plane) show(event->plane.face);
+///       // others: info, once before the planes of an object, and warning
+///     }
+///
+/// Safe on any input: every read is bounded. A decoder takes less than 2 MB whatever comes in (all
+/// 66 FAPs and 296 BAPs at ranges of +-1860, every symbol seen: 1.6 MB), besides bytes that were
+/// pushed and not yet read, which are at most a plane once next() asks for more. Time is linear in
+/// the bits pushed, whatever the pieces: a plane that is still arriving goes on where it stopped.
 #pragma once
 
 #include <cstddef>

@@ -1,12 +1,13 @@
-// Clips to streams: the decisions of an encoder, made in two passes over the whole clip.
-//
-//     auto stream = animeme::fba::encode(clip);                              // all that is there
-//     auto small = animeme::fba::encode(clip, animeme::fba::file_options()); // the same values
-//     animeme::fba::EncodeOptions options = animeme::fba::file_options();
-//     options.max_rms = 2;                                                   // not visible
-//     auto tiny = animeme::fba::encode(clip, options);
-//
-// For streams that are made while they are sent see live.h, for full control encoder.h and epf.h.
+/// @file
+/// Clips to streams: the decisions of an encoder, made in two passes over the whole clip.
+///
+///     auto stream = animeme::fba::encode(clip);                              // all that is there
+///     auto small = animeme::fba::encode(clip, animeme::fba::file_options()); // the same values
+///     animeme::fba::EncodeOptions options = animeme::fba::file_options();
+///     options.max_rms = 2;                                                   // not visible
+///     auto tiny = animeme::fba::encode(clip, options);
+///
+/// For streams that are made while they are sent see live.h, for full control encoder.h and epf.h.
 #pragma once
 
 #include <cstdint>

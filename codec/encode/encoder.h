@@ -1,5 +1,6 @@
-// The FBA encoder that writes plane after plane exactly as it is told. What makes the decisions
-// (masks, ranges, intra planes) is in encode.h for clips and in live.h for streams.
+/// @file
+/// The FBA encoder that writes plane after plane exactly as it is told. What makes the decisions
+/// (masks, ranges, intra planes) is in encode.h for clips and in live.h for streams.
 #pragma once
 
 #include <cstdint>

@@ -1,11 +1,12 @@
-// The encoder for streams that are made while they are sent: one frame in, one access unit out.
-//
-//     animeme::fba::LiveEncoder encoder({.fap_quant = 2});
-//     for (;;) {
-//       auto unit = encoder.write(next_frame());      // bytes of one plane, byte aligned
-//       if (!unit) return unit.error();
-//       send(*unit);
-//     }
+/// @file
+/// The encoder for streams that are made while they are sent: one frame in, one access unit out.
+///
+///     animeme::fba::LiveEncoder encoder({.fap_quant = 2});
+///     for (;;) {
+///       auto unit = encoder.write(next_frame());      // bytes of one plane, byte aligned
+///       if (!unit) return unit.error();
+///       send(*unit);
+///     }
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// Adaptive symbol frequencies of the arithmetic coder. Source: fba_bitstream, section 4.
+/// @file
+/// Adaptive symbol frequencies of the arithmetic coder. Source: fba_bitstream, section 4.
 #pragma once
 
 #include <cstdint>

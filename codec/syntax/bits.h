@@ -1,6 +1,7 @@
-// Reading and writing bits, most significant bit first. The reader never touches memory outside
-// its span: past the end it returns zeros and remembers that it did (sticky), so that a whole
-// header can be read and checked once.
+/// @file
+/// Reading and writing bits, most significant bit first. The reader never touches memory outside
+/// its span: past the end it returns zeros and remembers that it did (sticky), so that a whole
+/// header can be read and checked once.
 #pragma once
 
 #include <array>

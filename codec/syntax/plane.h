@@ -1,5 +1,6 @@
-// One FBA object plane as data: its headers, masks, ranges and decoded values.
-// Source: fba_bitstream, sections 2, 3 and 7.
+/// @file
+/// One FBA object plane as data: its headers, masks, ranges and decoded values.
+/// Source: fba_bitstream, sections 2, 3 and 7.
 #pragma once
 
 #include <array>

@@ -1,15 +1,16 @@
-// BAP text: the ASCII .bap file with body animation parameters. The grammar is that of FAP text
-// (fap/text.h) with other versions and longer masks; fap_text_format, section 1, and
-// fba_bitstream, section 11.
-//
-//     3.2 my_clip 25 2                         version, name, frames a second, number of frames
-//     0 0 1 0 0 ...                            mask values: which BAPs follow
-//     0 341                                    frame number, one value per BAP of the mask
-//     0 0 1 0 0 ...
-//     1 356
-//
-// Version 3.1 has 186 mask values a frame (the BAPs of the standard), version 3.2 has 296 (with
-// the extension BAPs). Values are 1e-5 rad, millimetres for BAP 181..183.
+/// @file
+/// BAP text: the ASCII .bap file with body animation parameters. The grammar is that of FAP text
+/// (fap/text.h) with other versions and longer masks; fap_text_format, section 1, and
+/// fba_bitstream, section 11.
+///
+///     3.2 my_clip 25 2                         version, name, frames a second, number of frames
+///     0 0 1 0 0 ...                            mask values: which BAPs follow
+///     0 341                                    frame number, one value per BAP of the mask
+///     0 0 1 0 0 ...
+///     1 356
+///
+/// Version 3.1 has 186 mask values a frame (the BAPs of the standard), version 3.2 has 296 (with
+/// the extension BAPs). Values are 1e-5 rad, millimetres for BAP 181..183.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-// Training data: sentences with their phoneme scripts and measured control signals.
+/// @file
+/// Training data: sentences with their phoneme scripts and measured control signals.
 #pragma once
 
 #include <filesystem>

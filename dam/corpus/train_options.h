@@ -1,5 +1,6 @@
-// What training can be told, and what it tells: options, progress, summary. Below the kinds of
-// models, which all read them. Source: the paper, section V; lipsync, section 5.
+/// @file
+/// What training can be told, and what it tells: options, progress, summary. Below the kinds of
+/// models, which all read them. Source: the paper, section V; lipsync, section 5.
 #pragma once
 
 #include <cstdint>

@@ -1,10 +1,11 @@
-// How far synthesis is from recorded motion. Source: lipsync, section 8.
-//
-//     auto result = animeme::dam::evaluate(model, utterances);       // synthesise and score
-//     auto pairs = animeme::dam::synthesise_pairs(model, utterances);
-//     auto same = animeme::dam::score(*pairs, {.scale = model.controls});
-//
-// score() takes motion from anywhere: other people's systems, decoded streams.
+/// @file
+/// How far synthesis is from recorded motion. Source: lipsync, section 8.
+///
+///     auto result = animeme::dam::evaluate(model, utterances);       // synthesise and score
+///     auto pairs = animeme::dam::synthesise_pairs(model, utterances);
+///     auto same = animeme::dam::score(*pairs, {.scale = model.controls});
+///
+/// score() takes motion from anywhere: other people's systems, decoded streams.
 #pragma once
 
 #include <span>

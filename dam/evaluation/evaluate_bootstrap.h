@@ -1,5 +1,6 @@
-// Is one system better than another, or were the sentences kind to it? Paired bootstrap over
-// sentences. Source: lipsync, section 8, item 7.
+/// @file
+/// Is one system better than another, or were the sentences kind to it? Paired bootstrap over
+/// sentences. Source: lipsync, section 8, item 7.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
-// One dominated animeme: the dominance of Eq. 1 times a polynomial. Plain functions of the local
-// time u = (t - start) / duration, so u is 0 where the phone starts and 1 where it ends.
-// Source: the paper, sections III and V.
+/// @file
+/// One dominated animeme: the dominance of Eq. 1 times a polynomial. Plain functions of the local
+/// time u = (t - start) / duration, so u is 0 where the phone starts and 1 where it ends.
+/// Source: the paper, sections III and V.
 #pragma once
 
 #include <algorithm>

@@ -1,18 +1,19 @@
-// A trained model: everything that synthesis and evaluation need, as plain data.
-//
-//     C*(t) = rest + sd * S(t)
-//
-// `rest` and `sd` are per control; S(t), in units of the training standard deviation and measured
-// from the pose of silence, is what the kinds of models differ in:
-//
-//   method         parameters            S(t)
-//   dam            RefinedParameters     blend of curves with corrections by context
-//   dam-paper      AnimemeParameters     blend of D_j(u_j) A_j(u_j), u_j = (t - s_j) / d_j (Eq. 2)
-//   cohen-massaro  AnimemeParameters     the same with constants for A: one target a phone
-//   mmm            TrajectoryParameters  smooth curve near the means of the phones' states
-//   mean           MeanParameters        the mean pose of the training speech
-//   viseme         VisemeParameters      straight lines between the poses of the phones
-//   triphone       TriphoneParameters    mean curves of phones in context, overlapped and added
+/// @file
+/// A trained model: everything that synthesis and evaluation need, as plain data.
+///
+///     C*(t) = rest + sd * S(t)
+///
+/// `rest` and `sd` are per control; S(t), in units of the training standard deviation and measured
+/// from the pose of silence, is what the kinds of models differ in:
+///
+///     method         parameters            S(t)
+///     dam            RefinedParameters     blend of curves with corrections by context
+///     dam-paper      AnimemeParameters     blend of D_j(u_j) A_j(u_j), u_j = (t - s_j) / d_j (Eq.
+///     2) cohen-massaro  AnimemeParameters     the same with constants for A: one target a phone
+///     mmm            TrajectoryParameters  smooth curve near the means of the phones' states
+///     mean           MeanParameters        the mean pose of the training speech
+///     viseme         VisemeParameters      straight lines between the poses of the phones
+///     triphone       TriphoneParameters    mean curves of phones in context, overlapped and added
 #pragma once
 
 #include <cstdint>

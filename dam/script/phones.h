@@ -1,10 +1,11 @@
-// The sounds that models know: ARPAbet, their MPEG-4 visemes, their place on the lips, and who
-// stands in for whom.
-//
-// The set is the 39 phones of the CMU pronouncing dictionary, AX (the unstressed vowel of
-// "sofa") and SIL (silence): 41 labels. Labels of other alphabets are mapped to it by
-// dam/script/ipa.h. Source: the ARPAbet table of the phoneme specification; the classes are those
-// of the lip-sync specification, section 5.2.
+/// @file
+/// The sounds that models know: ARPAbet, their MPEG-4 visemes, their place on the lips, and who
+/// stands in for whom.
+///
+/// The set is the 39 phones of the CMU pronouncing dictionary, AX (the unstressed vowel of
+/// "sofa") and SIL (silence): 41 labels. Labels of other alphabets are mapped to it by
+/// dam/script/ipa.h. Source: the ARPAbet table of the phoneme specification; the classes are those
+/// of the lip-sync specification, section 5.2.
 #pragma once
 
 #include <array>

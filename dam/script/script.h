@@ -1,22 +1,26 @@
-// A phoneme script: which sound is spoken when. What aligners and voices make, what training
-// and synthesis take.
-//
-//     auto script = animeme::dam::read_script(text);
-//     if (!script) std::cerr << std::move(script).error().in_file(path).describe();
-//
-// Formats read, told apart by their content:
-//
-//   TSV       Tab separated, a header line that names the columns in any order:
-//             start_s (or start), end_s (or end) or duration_s (or duration), phone (or phoneme,
-//             label), optionally word. Other columns are ignored, lines that begin with # too.
-//                 start_s	end_s	phone	word
-//                 0	0.21	SIL
-//                 0.21	0.25	B	bin
-//   TextGrid  Praat's text form, long or short, UTF-8 or UTF-16 with a byte order mark. The tier
-//             named phones, phone, phonemes or "NAME - phones" (any case) gives the phones; the
-//             tier words, word or "NAME - words", if there is one, the words.
-//
-// Source: phoneme script specification, sections 3 and 4.
+/// @file
+/// A phoneme script: which sound is spoken when. What aligners and voices make, what training
+/// and synthesis take.
+///
+///     auto script = animeme::dam::read_script(text);
+///     if (!script) std::cerr << std::move(script).error().in_file(path).describe();
+///
+/// Formats read, told apart by their content:
+///
+/// - TSV: tab separated, a header line that names the columns in any order: start_s (or start),
+/// end_s
+///   (or end) or duration_s (or duration), phone (or phoneme, label), optionally word. Other
+///   columns are ignored, lines that begin with # too.
+///
+///       start_s	end_s	phone	word
+///       0	0.21	SIL
+///       0.21	0.25	B	bin
+///
+/// - TextGrid: Praat's text form, long or short, UTF-8 or UTF-16 with a byte order mark. The tier
+///   named phones, phone, phonemes or "NAME - phones" (any case) gives the phones; the tier words,
+///   word or "NAME - words", if there is one, the words.
+///
+/// Source: phoneme script specification, sections 3 and 4.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,9 @@
-// Praat TextGrid files: tiers of labelled intervals and points, text form only.
-//
-// Praat writes a long form with names ("xmin = 0.5") and a short one without ("0.5"). Both
-// follow one rule, which is the reader's too: only free-standing numbers, "strings" and <flags>
-// count, all other words and everything behind an exclamation mark are for people.
+/// @file
+/// Praat TextGrid files: tiers of labelled intervals and points, text form only.
+///
+/// Praat writes a long form with names ("xmin = 0.5") and a short one without ("0.5"). Both
+/// follow one rule, which is the reader's too: only free-standing numbers, "strings" and <flags>
+/// count, all other words and everything behind an exclamation mark are for people.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
-// A control signal: named channels sampled at a constant rate. FAPs, ARKit coefficients or a
-// rig's own channels; the model does not care.
+/// @file
+/// A control signal: named channels sampled at a constant rate. FAPs, ARKit coefficients or a
+/// rig's own channels; the model does not care.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-// From a phoneme script to a control signal: section VI of the paper.
+/// @file
+/// From a phoneme script to a control signal: section VI of the paper.
 #pragma once
 
 #include <cstddef>

@@ -1,13 +1,14 @@
-// A head by code: no file, no foreign licence, the same bytes on each call.
-//
-//     animeme::head::Head head = *animeme::head::make_head();
-//     animeme::head::Rig rig = animeme::head::make_rig(head);  // rig.h
-//     animeme::head::Pose pose = animeme::head::pose(rig, frame);
-//
-// Heads of others: see own_head.h.
-//
-// Lengths are centimetres. Axes as everywhere in Animeme: +X to the person's left, +Y up, +Z
-// forward. The origin lies between the centres of the eyes, at the depth of the ears.
+/// @file
+/// A head by code: no file, no foreign licence, the same bytes on each call.
+///
+///     animeme::head::Head head = *animeme::head::make_head();
+///     animeme::head::Rig rig = animeme::head::make_rig(head);  // rig.h
+///     animeme::head::Pose pose = animeme::head::pose(rig, frame);
+///
+/// Heads of others: see own_head.h.
+///
+/// Lengths are centimetres. Axes as everywhere in Animeme: +X to the person's left, +Y up, +Z
+/// forward. The origin lies between the centres of the eyes, at the depth of the ears.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// Wavefront OBJ: the meshes of a head, as every 3D package writes them.
+/// @file
+/// Wavefront OBJ: the meshes of a head, as every 3D package writes them.
 #pragma once
 
 #include <string>

@@ -1,16 +1,17 @@
-// A head that somebody else made: meshes, feature points and shapes of a file become a Head.
-//
-//     animeme::head::Source source;
-//     source.pieces.push_back({.name = "face", .mesh = mesh});
-//     source.points.push_back({"2.1", 0, 966});         // the chin is vertex 966 of piece 0
-//     ...
-//     std::vector<std::string> notes;
-//     animeme::head::Head head = *animeme::head::assemble(std::move(source), &notes);
-//     animeme::head::Rig rig = animeme::head::make_rig(head);
-//
-// Readers of files (fap/xml, tools/gltf, obj.h) fill a Source; assemble() does what they have in
-// common: it sorts the pieces into parts by their names, turns the head upright, brings it to
-// centimetres and to the origin, and finds eyes, jaw, neck and FAPU.
+/// @file
+/// A head that somebody else made: meshes, feature points and shapes of a file become a Head.
+///
+///     animeme::head::Source source;
+///     source.pieces.push_back({.name = "face", .mesh = mesh});
+///     source.points.push_back({"2.1", 0, 966});         // the chin is vertex 966 of piece 0
+///     ...
+///     std::vector<std::string> notes;
+///     animeme::head::Head head = *animeme::head::assemble(std::move(source), &notes);
+///     animeme::head::Rig rig = animeme::head::make_rig(head);
+///
+/// Readers of files (fap/xml, tools/gltf, obj.h) fill a Source; assemble() does what they have in
+/// common: it sorts the pieces into parts by their names, turns the head upright, brings it to
+/// centimetres and to the origin, and finds eyes, jaw, neck and FAPU.
 #pragma once
 
 #include <optional>

@@ -1,12 +1,13 @@
-// A list of landmarks: which vertex of a mesh is which feature point.
-//
-//     feature_point,vertex          2.1 966            feature_point,x,y,z
-//     2.1,966                       8.3 6213           2.1,0.0,-7.57,10.43
-//     8.3,6213                      # left corner      8.3,2.53,-3.52,10.19
-//
-// The left form has a heading and may have further columns, the middle one has none. Vertices are
-// counted from 0 in the order of the file, as Blender shows them. Places are in the axes and units
-// of the file: the nearest vertex is taken.
+/// @file
+/// A list of landmarks: which vertex of a mesh is which feature point.
+///
+///     feature_point,vertex          2.1 966            feature_point,x,y,z
+///     2.1,966                       8.3 6213           2.1,0.0,-7.57,10.43
+///     8.3,6213                      # left corner      8.3,2.53,-3.52,10.19
+///
+/// The left form has a heading and may have further columns, the middle one has none. Vertices are
+/// counted from 0 in the order of the file, as Blender shows them. Places are in the axes and units
+/// of the file: the nearest vertex is taken.
 #pragma once
 
 #include <optional>

@@ -1,21 +1,23 @@
-// From FAPs to a moving face.
-//
-//     animeme::head::Rig rig = animeme::head::make_rig(head);
-//     animeme::head::Pose pose;
-//     for (const fap::Frame& frame : clip.frames) {
-//       animeme::head::pose(rig, frame, pose);
-//       draw(pose);
-//     }
-//
-// Each FAP moves its feature point by value * FAPU/1024 along its axis, and what lies around along
-// with it. That part is linear: one list of small moves for each FAP (Target), which is also what a
-// morph target of glTF is. On top of it come lids that slide over the eyeball, lips and lids that
-// touch and do not pass through each other, eyeballs, the jaw and the turn of the head.
-//
-// Your own head: own_head.h makes a Head of your meshes. By hand: your mesh as Part::skin, the
-// feature points that you know (leave the others at kMissing), its FAPU and eyes. All other parts
-// and the seams may stay empty. A head with targets of its own (Head::targets) moves by them alone.
-// Where they are those of shapes (Head::shapes), each frame is fitted: see control_values().
+/// @file
+/// From FAPs to a moving face.
+///
+///     animeme::head::Rig rig = animeme::head::make_rig(head);
+///     animeme::head::Pose pose;
+///     for (const fap::Frame& frame : clip.frames) {
+///       animeme::head::pose(rig, frame, pose);
+///       draw(pose);
+///     }
+///
+/// Each FAP moves its feature point by value * FAPU/1024 along its axis, and what lies around along
+/// with it. That part is linear: one list of small moves for each FAP (Target), which is also what
+/// a morph target of glTF is. On top of it come lids that slide over the eyeball, lips and lids
+/// that touch and do not pass through each other, eyeballs, the jaw and the turn of the head.
+///
+/// Your own head: own_head.h makes a Head of your meshes. By hand: your mesh as Part::skin, the
+/// feature points that you know (leave the others at kMissing), its FAPU and eyes. All other parts
+/// and the seams may stay empty. A head with targets of its own (Head::targets) moves by them
+/// alone. Where they are those of shapes (Head::shapes), each frame is fitted: see
+/// control_values().
 #pragma once
 
 #include <array>

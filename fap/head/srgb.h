@@ -1,4 +1,5 @@
-// sRGB, the colours of files and screens, and linear light, the colours of meshes.
+/// @file
+/// sRGB, the colours of files and screens, and linear light, the colours of meshes.
 #pragma once
 
 #include <cmath>

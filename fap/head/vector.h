@@ -1,4 +1,5 @@
-// Small vectors and rotations of the head model.
+/// @file
+/// Small vectors and rotations of the head model.
 #pragma once
 
 #include <algorithm>

@@ -1,15 +1,16 @@
-// Xface's .fdp files: a face that MPEG-4 FAPs move, as XML beside its meshes.
-//
-//     auto load = [&](const std::string& name) { return read_whole_file(folder / name); };
-//     animeme::Result<animeme::head::Source> source = animeme::head::read_fdp(text, load);
-//     animeme::head::Head head = *animeme::head::assemble(std::move(*source));  // own_head.h
-//
-//     animeme::head::FdpFiles files = *animeme::head::write_fdp(head, rig, {.name = "me"});
-//     // files.fdp into me.fdp, files.wrl into me.wrl, both in one folder: ready for XfacePlayer
-//
-// The file names meshes, FAPU, and for each feature point a vertex, a region around it and the FAPs
-// that move the region by raised cosines. Its README says what Xface makes of it, and how near
-// write_fdp() comes to our own rig.
+/// @file
+/// Xface's .fdp files: a face that MPEG-4 FAPs move, as XML beside its meshes.
+///
+///     auto load = [&](const std::string& name) { return read_whole_file(folder / name); };
+///     animeme::Result<animeme::head::Source> source = animeme::head::read_fdp(text, load);
+///     animeme::head::Head head = *animeme::head::assemble(std::move(*source));  // own_head.h
+///
+///     animeme::head::FdpFiles files = *animeme::head::write_fdp(head, rig, {.name = "me"});
+///     // files.fdp into me.fdp, files.wrl into me.wrl, both in one folder: ready for XfacePlayer
+///
+/// The file names meshes, FAPU, and for each feature point a vertex, a region around it and the
+/// FAPs that move the region by raised cosines. Its README says what Xface makes of it, and how
+/// near write_fdp() comes to our own rig.
 #pragma once
 
 #include <functional>

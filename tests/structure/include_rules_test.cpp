@@ -145,9 +145,17 @@ TEST(StructureRules, FoldersAndPagesFire) {
 }
 
 TEST(StructureRules, HeadersFire) {
-  EXPECT_THAT(header_violations("fap/x.h", "// Text.\n#pragma once\n"), IsEmpty());
+  EXPECT_THAT(header_violations("fap/x.h", "/// @file\n/// Text.\n#pragma once\n"), IsEmpty());
+  EXPECT_THAT(header_violations("fap/x.h", "// Text.\n#pragma once\n"),
+              ElementsAre(HasSubstr("@file")));
+  EXPECT_THAT(header_violations("fap/x.h", "/// @file\n#pragma once\n"),
+              ElementsAre(HasSubstr("@file")));
+  for (const char* internal : {"fap/detail/x.h", "fap/x_internal.h", "tests/support/x.h"}) {
+    EXPECT_THAT(header_violations(internal, "// Text.\n#pragma once\n"), IsEmpty());
+    EXPECT_THAT(header_violations(internal, "\n#pragma once\n"), ::testing::SizeIs(1));
+  }
   EXPECT_THAT(header_violations("fap/x.h", "#pragma once\n"), ::testing::SizeIs(2));
-  EXPECT_THAT(header_violations("fap/x.h", "// Text.\n#ifndef X\n"),
+  EXPECT_THAT(header_violations("fap/x.h", "/// @file\n/// Text.\n#ifndef X\n"),
               ElementsAre(HasSubstr("#pragma once")));
   EXPECT_THAT(header_violations("fap/x.cpp", ""), IsEmpty());
 }

@@ -27,6 +27,11 @@ bool is_internal(std::string_view path) {
          contains(path, "/kinds/") || contains(path, "/maths/");
 }
 
+// Part of the manual that Doxygen makes.
+bool is_public(std::string_view path) {
+  return path.ends_with(".h") && !is_internal(path) && !starts_with(path, "tests/");
+}
+
 // Calls visit with each of the words of a text, until it returns true; if it did.
 template <class Visit>
 bool any_word(std::string_view text, Visit visit) {
@@ -159,7 +164,11 @@ std::vector<std::string> include_violations(std::string_view path, std::string_v
 std::vector<std::string> header_violations(std::string_view path, std::string_view text) {
   std::vector<std::string> result;
   if (!is_header(path)) return result;
-  if (!starts_with(text, "//") && !starts_with(text, "/*")) {
+  if (is_public(path)) {
+    if (!starts_with(text, "/// @file\n/// ")) {
+      result.push_back(at(path, 1, "a public header starts with /// @file and what it is for"));
+    }
+  } else if (!starts_with(text, "//") && !starts_with(text, "/*")) {
     result.push_back(at(path, 1, "a header starts with a comment that says what it is for"));
   }
   if (!contains(text, "\n#pragma once\n")) {

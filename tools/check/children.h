@@ -1,5 +1,6 @@
-// Child processes that run side by side, each with its own time limit: programs, or functions of
-// ours in a forked copy, so that nothing a child does can end the parent.
+/// @file
+/// Child processes that run side by side, each with its own time limit: programs, or functions of
+/// ours in a forked copy, so that nothing a child does can end the parent.
 #pragma once
 
 #include <sys/types.h>

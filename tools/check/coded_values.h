@@ -1,4 +1,5 @@
-// The coded values of a clip, face or body alike, and how two clips of them compare.
+/// @file
+/// The coded values of a clip, face or body alike, and how two clips of them compare.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// A foreign program given as a command line with places for files.
+/// @file
+/// A foreign program given as a command line with places for files.
 #pragma once
 
 #include <map>

@@ -1,4 +1,5 @@
-// The results of a run, for people and for programs.
+/// @file
+/// The results of a run, for people and for programs.
 #pragma once
 
 #include <map>

@@ -1,4 +1,5 @@
-// Runs a suite of cases against this decoder or a foreign one.
+/// @file
+/// Runs a suite of cases against this decoder or a foreign one.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,5 @@
-// A folder of conformance cases.
+/// @file
+/// A folder of conformance cases.
 #pragma once
 
 #include <filesystem>

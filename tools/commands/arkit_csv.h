@@ -1,4 +1,5 @@
-// Tables of ARKit blend shapes: Live Link Face recordings and corpus curves.
+/// @file
+/// Tables of ARKit blend shapes: Live Link Face recordings and corpus curves.
 #pragma once
 
 #include <optional>

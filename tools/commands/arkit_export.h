@@ -1,4 +1,5 @@
-// ARKit curves as other programs read them.
+/// @file
+/// ARKit curves as other programs read them.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-// Times of a recording: frame rate and frame numbers from what its rows say.
+/// @file
+/// Times of a recording: frame rate and frame numbers from what its rows say.
 #pragma once
 
 #include <cstdint>

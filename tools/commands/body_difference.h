@@ -1,4 +1,5 @@
-// How far apart two body animations are, BAP by BAP: what fap/compare.h is for faces.
+/// @file
+/// How far apart two body animations are, BAP by BAP: what fap/compare.h is for faces.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// What the commands of the program share: files, exit codes, errors, progress.
+/// @file
+/// What the commands of the program share: files, exit codes, errors, progress.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,5 @@
-// Curves over time as SVG, with the phones that are spoken.
+/// @file
+/// Curves over time as SVG, with the phones that are spoken.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-// The strip below a rendered face: curves, phones and where we are.
+/// @file
+/// The strip below a rendered face: curves, phones and where we are.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-// What tables of curves from other programs have in common: names, separators, times of rows.
+/// @file
+/// What tables of curves from other programs have in common: names, separators, times of rows.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-// The parts of `animeme evaluate`: systems to compare, the codec's share, and what is printed.
+/// @file
+/// The parts of `animeme evaluate`: systems to compare, the codec's share, and what is printed.
 #pragma once
 
 #include <optional>

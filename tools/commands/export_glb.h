@@ -1,4 +1,5 @@
-// `animeme export` to glTF: a head that plays the clip.
+/// @file
+/// `animeme export` to glTF: a head that plays the clip.
 #pragma once
 
 #include <string>

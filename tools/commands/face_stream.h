@@ -1,4 +1,5 @@
-// From a clip or stream to access units and media files, for speak and mux.
+/// @file
+/// From a clip or stream to access units and media files, for speak and mux.
 #pragma once
 
 #include <string>

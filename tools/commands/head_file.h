@@ -1,4 +1,5 @@
-// The head that a command shows: one of ours, or a file of the user's.
+/// @file
+/// The head that a command shows: one of ours, or a file of the user's.
 #pragma once
 
 #include <CLI/CLI.hpp>

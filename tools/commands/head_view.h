@@ -1,4 +1,5 @@
-// A head, a camera and a renderer: frames in, pictures out.
+/// @file
+/// A head, a camera and a renderer: frames in, pictures out.
 #pragma once
 
 #include <memory>

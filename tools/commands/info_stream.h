@@ -1,4 +1,5 @@
-// What info says about motion: clips, bodies, streams and their planes.
+/// @file
+/// What info says about motion: clips, bodies, streams and their planes.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-// The header line of a table of landmarks: which column is which coordinate of which point.
+/// @file
+/// The header line of a table of landmarks: which column is which coordinate of which point.
 #pragma once
 
 #include <array>

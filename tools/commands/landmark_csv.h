@@ -1,4 +1,5 @@
-// Tables of tracked landmarks of a face: OpenFace, dlib, MediaPipe, feature points.
+/// @file
+/// Tables of tracked landmarks of a face: OpenFace, dlib, MediaPipe, feature points.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,5 @@
-// Tracked landmarks as a clip, with what `animeme import` lets the user say.
+/// @file
+/// Tracked landmarks as a clip, with what `animeme import` lets the user say.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-// The rows of a table of landmarks.
+/// @file
+/// The rows of a table of landmarks.
 #pragma once
 
 #include <cstddef>

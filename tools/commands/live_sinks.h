@@ -1,4 +1,5 @@
-// Several live addresses as one.
+/// @file
+/// Several live addresses as one.
 #pragma once
 
 #include <memory>

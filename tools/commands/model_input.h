@@ -1,4 +1,5 @@
-// Models and corpora for the commands that need them.
+/// @file
+/// Models and corpora for the commands that need them.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-// Rendered video of a face: what any player shows.
+/// @file
+/// Rendered video of a face: what any player shows.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,5 @@
-// What `animeme receive` writes: text while it comes, files at the end.
+/// @file
+/// What `animeme receive` writes: text while it comes, files at the end.
 #pragma once
 
 #include <string>

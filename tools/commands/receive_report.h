@@ -1,4 +1,5 @@
-// What `animeme receive` tells of what came and what did not.
+/// @file
+/// What `animeme receive` tells of what came and what did not.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

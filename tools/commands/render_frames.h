@@ -1,4 +1,5 @@
-// What `animeme render` shows: which frames of a clip, and where their pictures go.
+/// @file
+/// What `animeme render` shows: which frames of a clip, and where their pictures go.
 #pragma once
 
 #include <memory>

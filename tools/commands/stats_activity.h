@@ -1,4 +1,5 @@
-// How much each parameter of a clip moves.
+/// @file
+/// How much each parameter of a clip moves.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-// Where the bits of a stream go.
+/// @file
+/// Where the bits of a stream go.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// How small a clip gets: the form that is common in the wild beside the preset `file`.
+/// @file
+/// How small a clip gets: the form that is common in the wild beside the preset `file`.
 #pragma once
 
 #include <string>

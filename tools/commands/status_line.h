@@ -1,4 +1,5 @@
-// How a live command says how it goes.
+/// @file
+/// How a live command says how it goes.
 #pragma once
 
 #include <string>

@@ -1,4 +1,6 @@
-// What `animeme stream` sends: a clip that is there as a whole, or a head that speaks line by line.
+/// @file
+/// What `animeme stream` sends: a clip that is there as a whole, or a head that speaks line by
+/// line.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// What a stream tells while it runs and when it is over.
+/// @file
+/// What a stream tells while it runs and when it is over.
 #pragma once
 
 #include <cstdint>

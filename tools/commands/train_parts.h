@@ -1,4 +1,5 @@
-// `train --accumulate` and `train --merge`.
+/// @file
+/// `train --accumulate` and `train --merge`.
 #pragma once
 
 #include <cstddef>

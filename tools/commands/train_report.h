@@ -1,4 +1,5 @@
-// What `train` prints of a training, as text and JSON.
+/// @file
+/// What `train` prints of a training, as text and JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>

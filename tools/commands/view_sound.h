@@ -1,4 +1,5 @@
-// The sound of a page, as browsers take it.
+/// @file
+/// The sound of a page, as browsers take it.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-// When which viseme is shown: from a phoneme script, or from a face.
+/// @file
+/// When which viseme is shown: from a phoneme script, or from a face.
 #pragma once
 
 #include <string>

@@ -1,4 +1,6 @@
-// Scripts and sounds as the commands read them: each warning is printed, each error names its file.
+/// @file
+/// Scripts and sounds as the commands read them: each warning is printed, each error names its
+/// file.
 #pragma once
 
 #include <functional>

@@ -1,21 +1,22 @@
-// Heads from glTF 2.0 files (.glb, .gltf, .vrm): Blender, Unity, Unreal, VRoid, Ready Player Me and
-// others write them.
-//
-//     Result<head::Source> source = gltf::read_head_file("anna.glb");
-//     if (!source) return source.error();
-//     head::Head head = *head::assemble(std::move(*source));
-//
-// What is read: all triangles of all scenes as they stand at rest (skins in their bind pose),
-// colours at the vertices, from COLOR_0 or the base colour and its texture; morph targets whose
-// names are known (shape_names.h); bones of head, neck, eyes and jaw. Lights, cameras, animations,
-// normals and all other textures are not.
-//
-// Vertices that were doubled at seams of a texture are welded where place, shapes and bones agree;
-// so the lips stay apart. Triangles in which the texture changes are divided until the colours at
-// the vertices show it (brows, lips and irises are often painted), up to ReadOptions::vertices.
-//
-// Feature points are estimates from the shapes, for the camera, the units and the overlay of
-// points; see detail/point_guess.h for each rule and the README for how far they are off.
+/// @file
+/// Heads from glTF 2.0 files (.glb, .gltf, .vrm): Blender, Unity, Unreal, VRoid, Ready Player Me
+/// and others write them.
+///
+///     Result<head::Source> source = gltf::read_head_file("anna.glb");
+///     if (!source) return source.error();
+///     head::Head head = *head::assemble(std::move(*source));
+///
+/// What is read: all triangles of all scenes as they stand at rest (skins in their bind pose),
+/// colours at the vertices, from COLOR_0 or the base colour and its texture; morph targets whose
+/// names are known (shape_names.h); bones of head, neck, eyes and jaw. Lights, cameras, animations,
+/// normals and all other textures are not.
+///
+/// Vertices that were doubled at seams of a texture are welded where place, shapes and bones agree;
+/// so the lips stay apart. Triangles in which the texture changes are divided until the colours at
+/// the vertices show it (brows, lips and irises are often painted), up to ReadOptions::vertices.
+///
+/// Feature points are estimates from the shapes, for the camera, the units and the overlay of
+/// points; see detail/point_guess.h for each rule and the README for how far they are off.
 #pragma once
 
 #include <cstdint>

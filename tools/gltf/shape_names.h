@@ -1,9 +1,10 @@
-// What the names of morph targets mean in FAPs.
-//
-//     meaning_of("eyeBlink_L")       // ARKit, in any usual spelling
-//     meaning_of("viseme_PP")        // Oculus and Meta; also "PP", "v_PP", "vrc.v_pp"
-//     meaning_of("eyesClosed")       // both lids: other usual names
-//     meaning_of("Face.M_F00_000_00_Fcl_MTH_A")  // VRoid
+/// @file
+/// What the names of morph targets mean in FAPs.
+///
+///     meaning_of("eyeBlink_L")       // ARKit, in any usual spelling
+///     meaning_of("viseme_PP")        // Oculus and Meta; also "PP", "v_PP", "vrc.v_pp"
+///     meaning_of("eyesClosed")       // both lids: other usual names
+///     meaning_of("Face.M_F00_000_00_Fcl_MTH_A")  // VRoid
 #pragma once
 
 #include <optional>

@@ -1,12 +1,13 @@
-// Sound files in and out.
-//
-//     Result<Pcm> voice = read_audio("voice.mp3", {.sample_rate = 16000});
-//     if (!voice) return voice.error();
-//     Result<void> written = write_wav("voice.wav", *voice);
-//
-// Safe for untrusted input: no other file or address than the given one is opened, and memory
-// and time stay bounded. Not for several threads on one object; different calls may run in
-// different threads. Source: containers, section 5.4.
+/// @file
+/// Sound files in and out.
+///
+///     Result<Pcm> voice = read_audio("voice.mp3", {.sample_rate = 16000});
+///     if (!voice) return voice.error();
+///     Result<void> written = write_wav("voice.wav", *voice);
+///
+/// Safe for untrusted input: no other file or address than the given one is opened, and memory
+/// and time stay bounded. Not for several threads on one object; different calls may run in
+/// different threads. Source: containers, section 5.4.
 #pragma once
 
 #include <cstdint>

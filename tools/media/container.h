@@ -1,15 +1,16 @@
-// Reading faces back from containers, and looking at what a file holds.
-//
-//     Result<Container> talk = read_container("talk.mp4");
-//     if (!talk) return talk.error();
-//     fba::join_access_units(talk->face);       // the raw stream
-//
-// The kind of a file is told by its content. mp4 (also fragmented, mov), Matroska, MPEG-TS
-// (stream type 0x10, and 0x06 that begins with an FBA code) and NUT can carry a face.
-// A name that ends in .m3u8 or .mpd is a playlist of segments (HLS, DASH), which are read, too:
-// only ordinary files in its folder or below, 1 GB in all.
-// Safe for untrusted input: no other file or address is opened, memory and time stay bounded.
-// Source: containers, sections 1.2, 1.3, 2.3, 3.
+/// @file
+/// Reading faces back from containers, and looking at what a file holds.
+///
+///     Result<Container> talk = read_container("talk.mp4");
+///     if (!talk) return talk.error();
+///     fba::join_access_units(talk->face);       // the raw stream
+///
+/// The kind of a file is told by its content. mp4 (also fragmented, mov), Matroska, MPEG-TS
+/// (stream type 0x10, and 0x06 that begins with an FBA code) and NUT can carry a face.
+/// A name that ends in .m3u8 or .mpd is a playlist of segments (HLS, DASH), which are read, too:
+/// only ordinary files in its folder or below, 1 GB in all.
+/// Safe for untrusted input: no other file or address is opened, memory and time stay bounded.
+/// Source: containers, sections 1.2, 1.3, 2.3, 3.
 #pragma once
 
 #include <cstdint>

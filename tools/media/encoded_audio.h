@@ -1,9 +1,10 @@
-// Coded sound: the form in which every container and every live transport carries it.
-//
-//     Result<EncodedAudio> sound = encode_audio(voice, {.codec = AudioCodec::opus});
-//     Result<Pcm> heard = decode_audio(*sound);     // as long as `voice`, sample 0 at sample 0
-//
-// Source: containers, sections 5.1 and 5.2.
+/// @file
+/// Coded sound: the form in which every container and every live transport carries it.
+///
+///     Result<EncodedAudio> sound = encode_audio(voice, {.codec = AudioCodec::opus});
+///     Result<Pcm> heard = decode_audio(*sound);     // as long as `voice`, sample 0 at sample 0
+///
+/// Source: containers, sections 5.1 and 5.2.
 #pragma once
 
 #include <cstddef>

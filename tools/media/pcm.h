@@ -1,4 +1,5 @@
-// Sound in memory. No dependency, so that voices and aligners need not know FFmpeg.
+/// @file
+/// Sound in memory. No dependency, so that voices and aligners need not know FFmpeg.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-// Drawings as pixels.
+/// @file
+/// Drawings as pixels.
 #pragma once
 
 #include <cstdint>

@@ -1,13 +1,14 @@
-// Pictures in, coded video out: the rendered preview of a face that any player shows.
-//
-//     Result<VideoEncoder> encoder = VideoEncoder::open({.width = 640, .height = 640});
-//     for (const Picture& picture : pictures) {
-//       if (auto ok = encoder->push(picture.rgba); !ok) return ok.error();
-//     }
-//     Result<EncodedVideo> video = encoder->finish();
-//
-// The coded video stays in memory (a talking head of 640 x 640 takes about 2 MB a minute).
-// Source: containers, section 6.
+/// @file
+/// Pictures in, coded video out: the rendered preview of a face that any player shows.
+///
+///     Result<VideoEncoder> encoder = VideoEncoder::open({.width = 640, .height = 640});
+///     for (const Picture& picture : pictures) {
+///       if (auto ok = encoder->push(picture.rgba); !ok) return ok.error();
+///     }
+///     Result<EncodedVideo> video = encoder->finish();
+///
+/// The coded video stays in memory (a talking head of 640 x 640 takes about 2 MB a minute).
+/// Source: containers, section 6.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Pictures in memory.
+/// @file
+/// Pictures in memory.
 #pragma once
 
 #include <cstdint>

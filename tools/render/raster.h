@@ -1,11 +1,12 @@
-// A software renderer for heads: no GPU, the same pixels with any number of threads.
-//
-//     animeme::render::Renderer renderer({.width = 640, .height = 640});
-//     const animeme::render::Image& image = renderer.render(scene, camera);
-//
-// Four samples a pixel for edges, one for colour; light is computed at the vertices, highlights of
-// eyes at the pixels. Lights stand beside the camera: a warm key from the upper right with a red
-// terminator (light inside of skin), a cool fill from the left, a weak rim from behind.
+/// @file
+/// A software renderer for heads: no GPU, the same pixels with any number of threads.
+///
+///     animeme::render::Renderer renderer({.width = 640, .height = 640});
+///     const animeme::render::Image& image = renderer.render(scene, camera);
+///
+/// Four samples a pixel for edges, one for colour; light is computed at the vertices, highlights of
+/// eyes at the pixels. Lights stand beside the camera: a warm key from the upper right with a red
+/// terminator (light inside of skin), a cool fill from the left, a weak rim from behind.
 #pragma once
 
 #include <cstdint>

@@ -1,10 +1,11 @@
-// Lines of text that become speech while they arrive.
-//
-//     auto lines = VoiceLines::open(STDIN_FILENO, {}, media::steady_clock());
-//     for (;;) for (SpokenLine& line : (*lines)->take()) ...      // never waits
-//
-// Reading and the voice run in a thread of their own, so that the clock of a presentation never
-// stands still for them.
+/// @file
+/// Lines of text that become speech while they arrive.
+///
+///     auto lines = VoiceLines::open(STDIN_FILENO, {}, media::steady_clock());
+///     for (;;) for (SpokenLine& line : (*lines)->take()) ...      // never waits
+///
+/// Reading and the voice run in a thread of their own, so that the clock of a presentation never
+/// stands still for them.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,5 @@
-// Coded sound without an end: silence into which pieces of sound are laid while it is made.
+/// @file
+/// Coded sound without an end: silence into which pieces of sound are laid while it is made.
 #pragma once
 
 #include <cstddef>

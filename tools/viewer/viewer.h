@@ -1,13 +1,14 @@
-// A face as one HTML file: the head, the motion, the sound and the program that plays them.
-//
-//     head::Head head = *head::make_head();
-//     head::Rig rig = head::make_rig(head);
-//     viewer::Page page{.head = &head, .rig = &rig};
-//     page.clips.push_back({.motion = filled, .name = "talk.fba"});
-//     std::string html = viewer::make_page(page);
-//
-// The file needs a browser with WebGL2 and nothing else: it opens from disk and loads nothing.
-// What it can do, and how its parts serve other pages, stands in README.md of this folder.
+/// @file
+/// A face as one HTML file: the head, the motion, the sound and the program that plays them.
+///
+///     head::Head head = *head::make_head();
+///     head::Rig rig = head::make_rig(head);
+///     viewer::Page page{.head = &head, .rig = &rig};
+///     page.clips.push_back({.motion = filled, .name = "talk.fba"});
+///     std::string html = viewer::make_page(page);
+///
+/// The file needs a browser with WebGL2 and nothing else: it opens from disk and loads nothing.
+/// What it can do, and how its parts serve other pages, stands in README.md of this folder.
 #pragma once
 
 #include <cstdint>

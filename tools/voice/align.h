@@ -1,11 +1,12 @@
-// Forced alignment: when is each sound of a known text spoken in a recording.
-//
-// The recogniser is pocketsphinx with its US English model (Debian packages libpocketsphinx-dev
-// to build, pocketsphinx-en-us to run; BSD-style licences), an optional part of the build
-// (ANIMEME_WITH_ALIGNER). English words are looked up in its dictionary; words that are not there
-// and all words of other languages get their phones from espeak-ng (see voice.h), and the English
-// model then aligns them: less exact, but lips forgive more than ears.
-// Source: phoneme script specification, section 2.1.
+/// @file
+/// Forced alignment: when is each sound of a known text spoken in a recording.
+///
+/// The recogniser is pocketsphinx with its US English model (Debian packages libpocketsphinx-dev
+/// to build, pocketsphinx-en-us to run; BSD-style licences), an optional part of the build
+/// (ANIMEME_WITH_ALIGNER). English words are looked up in its dictionary; words that are not there
+/// and all words of other languages get their phones from espeak-ng (see voice.h), and the English
+/// model then aligns them: less exact, but lips forgive more than ears.
+/// Source: phoneme script specification, section 2.1.
 #pragma once
 
 #include <string>

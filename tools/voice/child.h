@@ -1,4 +1,5 @@
-// A function in a forked child process that sends messages to its parent. Internal.
+/// @file
+/// A function in a forked child process that sends messages to its parent. Internal.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// espeak-ng in a child process. Internal: voice.h is the interface.
+/// @file
+/// espeak-ng in a child process. Internal: voice.h is the interface.
 #pragma once
 
 #include <cstdint>

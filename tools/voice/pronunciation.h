@@ -1,4 +1,5 @@
-// From words to the phones that the recogniser knows. Internal.
+/// @file
+/// From words to the phones that the recogniser knows. Internal.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-// The search of the recogniser. Internal.
+/// @file
+/// The search of the recogniser. Internal.
 #pragma once
 
 #include <cstddef>

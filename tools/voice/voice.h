@@ -1,14 +1,15 @@
-// Text to speech with timed phones: the sound and the script that describes it, from one source.
-//
-// The voices are those of espeak-ng (about 130 languages and dialects). Its library is an
-// optional part of the build (ANIMEME_WITH_ESPEAK, Debian package libespeak-ng-dev) and licensed
-// under GPL-3: a program that links this part with it has to respect that licence. Without it the
-// functions exist and return Code::unsupported.
-//
-// espeak-ng keeps state from one call to the next, so that the same text would sound different
-// the second time. It is therefore run in a forked child process: every call is independent of
-// all others, gives the same samples every time, may be made from several threads at once, and
-// cannot take the program down. Source: phoneme script specification, section 2.2.
+/// @file
+/// Text to speech with timed phones: the sound and the script that describes it, from one source.
+///
+/// The voices are those of espeak-ng (about 130 languages and dialects). Its library is an
+/// optional part of the build (ANIMEME_WITH_ESPEAK, Debian package libespeak-ng-dev) and licensed
+/// under GPL-3: a program that links this part with it has to respect that licence. Without it the
+/// functions exist and return Code::unsupported.
+///
+/// espeak-ng keeps state from one call to the next, so that the same text would sound different
+/// the second time. It is therefore run in a forked child process: every call is independent of
+/// all others, gives the same samples every time, may be made from several threads at once, and
+/// cannot take the program down. Source: phoneme script specification, section 2.2.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-// Which voice a user means. Internal.
+/// @file
+/// Which voice a user means. Internal.
 #pragma once
 
 #include <string>

@@ -1,17 +1,18 @@
-// A face and its sound for browsers: a small web server as a live transport, and a client of it.
-//
-//     auto sink = make_web_sink("http://127.0.0.1:8080/");
-//     (*sink)->start(info);                       // now http://127.0.0.1:8080/ shows the page
-//     auto source = make_web_source("ws://127.0.0.1:8080/");
-//
-// What the server offers, and each byte of it, stands in tools/web/README.md: the page `/`,
-// `/face` (access units), `/faps` (decoded values), `/audio` (segments for MediaSource), all three
-// as WebSockets, `/talk.mp4` (endless mp4 of the sound) and `/info.json`. Nothing is read from
-// disk. No encryption: put a proxy in front of it where that is wanted.
-//
-// The clock that browsers see is that of the sound segments. It runs one second ahead of LiveUnit
-// times (kWebTimeZero), so that the priming of the sound has a place; the source takes it off.
-// Source: containers, section 4.4.
+/// @file
+/// A face and its sound for browsers: a small web server as a live transport, and a client of it.
+///
+///     auto sink = make_web_sink("http://127.0.0.1:8080/");
+///     (*sink)->start(info);                       // now http://127.0.0.1:8080/ shows the page
+///     auto source = make_web_source("ws://127.0.0.1:8080/");
+///
+/// What the server offers, and each byte of it, stands in tools/web/README.md: the page `/`,
+/// `/face` (access units), `/faps` (decoded values), `/audio` (segments for MediaSource), all three
+/// as WebSockets, `/talk.mp4` (endless mp4 of the sound) and `/info.json`. Nothing is read from
+/// disk. No encryption: put a proxy in front of it where that is wanted.
+///
+/// The clock that browsers see is that of the sound segments. It runs one second ahead of LiveUnit
+/// times (kWebTimeZero), so that the priming of the sound has a place; the source takes it off.
+/// Source: containers, section 4.4.
 #pragma once
 
 #include <cstddef>

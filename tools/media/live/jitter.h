@@ -1,5 +1,6 @@
-// Packets that overtake each other, come twice or not at all, put in order. Knows nothing of
-// sockets and clocks; the caller says what time it is. Source: RFC 3550 appendix A.1 and A.8.
+/// @file
+/// Packets that overtake each other, come twice or not at all, put in order. Knows nothing of
+/// sockets and clocks; the caller says what time it is. Source: RFC 3550 appendix A.1 and A.8.
 #pragma once
 
 #include <array>

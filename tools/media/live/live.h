@@ -1,16 +1,17 @@
-// A face and its sound while they are being made: what all live transports have in common.
-//
-//     auto sink = open_sink("rtp://192.0.2.7:5004", {});
-//     if (auto ok = (*sink)->start(info); !ok) return ok.error();
-//     for (const LiveUnit& unit : units) (*sink)->send(unit);     // when it is due
-//     (*sink)->finish();
-//
-//     auto source = open_source("talk.sdp", {});
-//     while (auto event = (*source)->next(1.0)) { ... }
-//
-// Sinks send at once what they are given; pacing is the caller's (see pacer.h). Sources give out
-// what came, with its losses marked; recovery.h decides what of it can be used.
-// Source: containers, section 4.
+/// @file
+/// A face and its sound while they are being made: what all live transports have in common.
+///
+///     auto sink = open_sink("rtp://192.0.2.7:5004", {});
+///     if (auto ok = (*sink)->start(info); !ok) return ok.error();
+///     for (const LiveUnit& unit : units) (*sink)->send(unit);     // when it is due
+///     (*sink)->finish();
+///
+///     auto source = open_source("talk.sdp", {});
+///     while (auto event = (*source)->next(1.0)) { ... }
+///
+/// Sinks send at once what they are given; pacing is the caller's (see pacer.h). Sources give out
+/// what came, with its losses marked; recovery.h decides what of it can be used.
+/// Source: containers, section 4.
 #pragma once
 
 #include <cstdint>

@@ -1,10 +1,11 @@
-// FAP frames out of planes as they are received, and as text.
-//
-//     LiveFrames frames(GapRule::hold, true);
-//     if (auto unit = recorder.accept(event); unit && unit->track == LiveTrack::face) {
-//       auto shown = frames.push(*unit, recorder.info()->timescale, recorder.after_gap());
-//       for (const fap::Frame& frame : *shown) text += fap_lines(frame, frames.rate());
-//     }
+/// @file
+/// FAP frames out of planes as they are received, and as text.
+///
+///     LiveFrames frames(GapRule::hold, true);
+///     if (auto unit = recorder.accept(event); unit && unit->track == LiveTrack::face) {
+///       auto shown = frames.push(*unit, recorder.info()->timescale, recorder.after_gap());
+///       for (const fap::Frame& frame : *shown) text += fap_lines(frame, frames.rate());
+///     }
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
-// A sink and a source that are joined in memory, with losses where they are wanted: for tests of
-// what stands before a sink and behind a source.
+/// @file
+/// A sink and a source that are joined in memory, with losses where they are wanted: for tests of
+/// what stands before a sink and behind a source.
 #pragma once
 
 #include <cstdint>

@@ -1,15 +1,16 @@
-// When to send: a clock that can be replaced, and a pacer that holds units to it.
-//
-//     Pacer pacer(steady_clock());
-//     while (auto due = input.next_due()) {
-//       while (!pacer.wait_until(*due)) sink.poll();     // returns at least every 50 ms
-//       for (LiveUnit& unit : input.take(*due)) sink.send(unit);
-//       pacer.sent(*due);
-//     }
-//
-// Instants are absolute: that of a unit is the start of the presentation plus its own time, never
-// the instant of the unit before plus a distance. So errors of one wait do not add up, and the
-// sender keeps the speed of the machine's steady clock for days.
+/// @file
+/// When to send: a clock that can be replaced, and a pacer that holds units to it.
+///
+///     Pacer pacer(steady_clock());
+///     while (auto due = input.next_due()) {
+///       while (!pacer.wait_until(*due)) sink.poll();     // returns at least every 50 ms
+///       for (LiveUnit& unit : input.take(*due)) sink.send(unit);
+///       pacer.sent(*due);
+///     }
+///
+/// Instants are absolute: that of a unit is the start of the presentation plus its own time, never
+/// the instant of the unit before plus a distance. So errors of one wait do not add up, and the
+/// sender keeps the speed of the machine's steady clock for days.
 #pragma once
 
 #include <array>

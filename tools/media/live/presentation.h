@@ -1,14 +1,15 @@
-// A face and its sound on one clock, in the order in which they are to be sent.
-//
-//     ClipInput input(info, units, sound, {.loop = true});
-//     while (auto due = input.next_due()) {
-//       auto units = input.take(*due);             // sound a little ahead of the face
-//       ...
-//     }
-//
-// Presentation time 0 is time 0 of face and sound. A unit is due when its time comes, sound
-// `audio_ahead` seconds before, so that it is there when the face is. The first packets of a
-// sound are due before 0 (priming).
+/// @file
+/// A face and its sound on one clock, in the order in which they are to be sent.
+///
+///     ClipInput input(info, units, sound, {.loop = true});
+///     while (auto due = input.next_due()) {
+///       auto units = input.take(*due);             // sound a little ahead of the face
+///       ...
+///     }
+///
+/// Presentation time 0 is time 0 of face and sound. A unit is due when its time comes, sound
+/// `audio_ahead` seconds before, so that it is there when the face is. The first packets of a
+/// sound are due before 0 (priming).
 #pragma once
 
 #include <cstdint>

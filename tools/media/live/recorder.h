@@ -1,16 +1,17 @@
-// What a source gives out, kept: a face and its sound as they can be written into a file.
-//
-//     Recorder recorder;
-//     while (!recorder.ended()) {
-//       auto event = source->next(0.1);
-//       if (!event) break;
-//       if (auto unit = recorder.accept(std::move(*event))) show(*unit);
-//     }
-//     Recording talk = recorder.recording();
-//
-// Planes and packets keep their bytes and their distances. After a loss the plane before it is
-// held (it lasts longer) until the next plane that can be decoded; missing sound is a gap in the
-// packets' times. Who joins in the middle begins with the first intra plane.
+/// @file
+/// What a source gives out, kept: a face and its sound as they can be written into a file.
+///
+///     Recorder recorder;
+///     while (!recorder.ended()) {
+///       auto event = source->next(0.1);
+///       if (!event) break;
+///       if (auto unit = recorder.accept(std::move(*event))) show(*unit);
+///     }
+///     Recording talk = recorder.recording();
+///
+/// Planes and packets keep their bytes and their distances. After a loss the plane before it is
+/// held (it lasts longer) until the next plane that can be decoded; missing sound is a gap in the
+/// packets' times. Who joins in the middle begins with the first intra plane.
 #pragma once
 
 #include <cstddef>

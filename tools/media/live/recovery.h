@@ -1,12 +1,13 @@
-// What of a received face can be shown. A predictive plane holds differences to the plane before
-// it, so after a loss everything up to the next intra plane is wrong and is left out here.
-//
-//     FaceRecovery recovery;
-//     while (auto event = source->next(1.0)) {
-//       if (auto unit = recovery.accept(*event)) play(*unit);
-//     }
-//
-// For all transports. Source: containers, section 4.2.
+/// @file
+/// What of a received face can be shown. A predictive plane holds differences to the plane before
+/// it, so after a loss everything up to the next intra plane is wrong and is left out here.
+///
+///     FaceRecovery recovery;
+///     while (auto event = source->next(1.0)) {
+///       if (auto unit = recovery.accept(*event)) play(*unit);
+///     }
+///
+/// For all transports. Source: containers, section 4.2.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
-// RTCP: sender reports tie RTP times to a wall clock, so that face and sound can be brought
-// together; receiver reports tell the sender what was lost. Source: RFC 3550 section 6.
+/// @file
+/// RTCP: sender reports tie RTP times to a wall clock, so that face and sound can be brought
+/// together; receiver reports tell the sender what was lost. Source: RFC 3550 section 6.
 #pragma once
 
 #include <cstdint>

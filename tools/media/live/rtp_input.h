@@ -1,5 +1,6 @@
-// The packets of one medium as they come in: who sends them, in which order, and what there is to
-// report back about it. Source: RFC 3550 sections 6.4, 8.2 and appendix A.
+/// @file
+/// The packets of one medium as they come in: who sends them, in which order, and what there is to
+/// report back about it. Source: RFC 3550 sections 6.4, 8.2 and appendix A.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Who listens to a sender, by the reports that come back.
+/// @file
+/// Who listens to a sender, by the reports that come back.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
-// One RTP packet: its header, its payload, and the header extension that says where the planes of
-// a bundle begin. Source: RFC 3550 section 5.1, RFC 8285 section 4.3.
+/// @file
+/// One RTP packet: its header, its payload, and the header extension that says where the planes of
+/// a bundle begin. Source: RFC 3550 section 5.1, RFC 8285 section 4.3.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// The units of one track into its RTP packets: numbers, time stamps, pieces and bundles.
+/// @file
+/// The units of one track into its RTP packets: numbers, time stamps, pieces and bundles.
 #pragma once
 
 #include <cstdint>

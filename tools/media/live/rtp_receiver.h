@@ -1,12 +1,13 @@
-// What RTP and RTCP packets say, without sockets: a caller hands in datagrams and the time, and
-// takes out events and reports.
-//
-//     RtpReceiver receiver(*read_sdp(text), {}, 1);
-//     receiver.rtp(LiveTrack::face, datagram, seconds);
-//     while (auto event = receiver.next(seconds)) { ... }
-//
-// Safe for whatever comes in. At most 8 MB wait in it, besides `reorder_packets` datagrams a track;
-// when the caller does not take them out, further units are dropped and reported as a gap.
+/// @file
+/// What RTP and RTCP packets say, without sockets: a caller hands in datagrams and the time, and
+/// takes out events and reports.
+///
+///     RtpReceiver receiver(*read_sdp(text), {}, 1);
+///     receiver.rtp(LiveTrack::face, datagram, seconds);
+///     while (auto event = receiver.next(seconds)) { ... }
+///
+/// Safe for whatever comes in. At most 8 MB wait in it, besides `reorder_packets` datagrams a
+/// track; when the caller does not take them out, further units are dropped and reported as a gap.
 #pragma once
 
 #include <cstdint>

@@ -81,7 +81,7 @@ RtpSender::RtpSender(const LiveInfo& info, const RtpOptions& options, const std:
   // Nobody else should have it, RFC 7022.
   session_.cname = "animeme-" + std::to_string(seed);
   if (!info.face_config.empty()) {
-    FaceTrack& face = session_.face.emplace();
+    RtpFaceTrack& face = session_.face.emplace();
     describe(face, port);
     face.config = info.face_config;
     face.visual_profile = info.visual_profile;
@@ -90,7 +90,7 @@ RtpSender::RtpSender(const LiveInfo& info, const RtpOptions& options, const std:
     add_track(LiveTrack::face, face, identity());
   }
   if (info.audio) {
-    AudioTrack& audio = session_.audio.emplace();
+    RtpAudioTrack& audio = session_.audio.emplace();
     describe(audio, port + 2);
     audio.format = *info.audio;
     RtpIdentity other = identity();

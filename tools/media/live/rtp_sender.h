@@ -1,5 +1,6 @@
-// What a presentation looks like as RTP and RTCP packets, without sockets: a caller hands in units
-// and the time, and sends the datagrams that come out.
+/// @file
+/// What a presentation looks like as RTP and RTCP packets, without sockets: a caller hands in units
+/// and the time, and sends the datagrams that come out.
 #pragma once
 
 #include <cstdint>

@@ -130,7 +130,7 @@ Result<RtpSession> session_at(const std::string& url) {
     return make_error(Code::invalid_argument, "RTP wants a port from 1 to 65534");
   }
   RtpSession session;
-  FaceTrack& face = session.face.emplace();
+  RtpFaceTrack& face = session.face.emplace();
   face.address = where->host.empty() ? "0.0.0.0" : where->host;
   face.port = where->port;
   face.rtcp_port = where->port + 1;

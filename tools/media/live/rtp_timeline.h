@@ -1,5 +1,6 @@
-// One clock for face and sound, whose RTP times begin at random numbers each.
-// Source: RFC 3550 section 6.4.1 (sender reports), RFC 7273 (media clock in the description).
+/// @file
+/// One clock for face and sound, whose RTP times begin at random numbers each.
+/// Source: RFC 3550 section 6.4.1 (sender reports), RFC 7273 (media clock in the description).
 #pragma once
 
 #include <array>

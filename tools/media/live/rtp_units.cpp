@@ -75,7 +75,7 @@ bool FaceAssembler::add_plane(RtpUnit plane, RtpUnits& out) {
   return true;
 }
 
-AudioAssembler::AudioAssembler(const AudioTrack& track)
+AudioAssembler::AudioAssembler(const RtpAudioTrack& track)
     : format_(track.format), joiner_(track.fields, track.format.frame_samples) {}
 
 RtpUnits AudioAssembler::add(const RtpPacket& packet, std::int64_t time) {

@@ -1,5 +1,6 @@
-// From packets in order to units of the face and the sound; times stay those of RTP.
-// Source: containers, sections 1.3 and 4.1.
+/// @file
+/// From packets in order to units of the face and the sound; times stay those of RTP.
+/// Source: containers, sections 1.3 and 4.1.
 #pragma once
 
 #include <cstdint>
@@ -48,7 +49,7 @@ class FaceAssembler {
 /// Packets of sound.
 class AudioAssembler {
  public:
-  explicit AudioAssembler(const AudioTrack& track);
+  explicit AudioAssembler(const RtpAudioTrack& track);
 
   RtpUnits add(const RtpPacket& packet, std::int64_t time);
   void gap() { joiner_.gap(); }

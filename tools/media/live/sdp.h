@@ -1,13 +1,14 @@
-// Session descriptions: where the packets of a presentation come from and what is in them.
-// Source: RFC 8866, 6416, 3640, 7587, 5576 (ssrc), 7273 (media clock), 8285 (extmap); containers,
-// section 4.1.
-//
-//     m=video 5004 RTP/AVP 96
-//     a=rtpmap:96 MP4V-ES/90000
-//     a=fmtp:96 profile-level-id=97; config=000001B061000001B58947
-//     a=ssrc:305419896 cname:animeme
-//     a=mediaclk:direct=2271560481       RTP time of time 0
-//     a=x-animeme:timescale=25000        ours; others pass over it
+/// @file
+/// Session descriptions: where the packets of a presentation come from and what is in them.
+/// Source: RFC 8866, 6416, 3640, 7587, 5576 (ssrc), 7273 (media clock), 8285 (extmap); containers,
+/// section 4.1.
+///
+///     m=video 5004 RTP/AVP 96
+///     a=rtpmap:96 MP4V-ES/90000
+///     a=fmtp:96 profile-level-id=97; config=000001B061000001B58947
+///     a=ssrc:305419896 cname:animeme
+///     a=mediaclk:direct=2271560481       RTP time of time 0
+///     a=x-animeme:timescale=25000        ours; others pass over it
 #pragma once
 
 #include <cstdint>
@@ -41,27 +42,27 @@ struct RtpTrack {
   friend bool operator==(const RtpTrack&, const RtpTrack&) = default;
 };
 
-struct FaceTrack : RtpTrack {
+struct RtpFaceTrack : RtpTrack {
   std::vector<std::uint8_t> config;  ///< empty: comes in band
   std::uint8_t visual_profile = 0x61;
   std::uint32_t timescale = 0;  ///< of the sender; 0: not said
   int bundle_id = 0;            ///< number of the extension kBundleExtension; 0: not used
 
-  friend bool operator==(const FaceTrack&, const FaceTrack&) = default;
+  friend bool operator==(const RtpFaceTrack&, const RtpFaceTrack&) = default;
 };
 
-struct AudioTrack : RtpTrack {
+struct RtpAudioTrack : RtpTrack {
   AudioFormat format;
   AacFields fields;
 
-  friend bool operator==(const AudioTrack&, const AudioTrack&) = default;
+  friend bool operator==(const RtpAudioTrack&, const RtpAudioTrack&) = default;
 };
 
 struct RtpSession {
   std::string name = "animeme";
   std::string cname = "animeme";
-  std::optional<FaceTrack> face;
-  std::optional<AudioTrack> audio;
+  std::optional<RtpFaceTrack> face;
+  std::optional<RtpAudioTrack> audio;
   /// Media that are not for us, a sentence each.
   std::vector<std::string> ignored;
 

@@ -147,7 +147,7 @@ void common(const SdpMedium& medium, RtpTrack& track) {
 std::string take_face(const SdpMedium& medium, RtpSession& session) {
   if (medium.encoding != "mp4v-es") return "its coding '" + medium.encoding + "' is not MP4V-ES";
   if (medium.clock != kFaceClock) return "its clock is not 90000";
-  FaceTrack face;
+  RtpFaceTrack face;
   common(medium, face);
   face.config = bytes_of(medium.format, "config");
   const VisualHeaders headers = read_visual_headers(face.config);
@@ -163,7 +163,7 @@ std::string take_face(const SdpMedium& medium, RtpSession& session) {
   return {};
 }
 
-std::string aac_format(const SdpMedium& medium, AudioTrack& audio) {
+std::string aac_format(const SdpMedium& medium, RtpAudioTrack& audio) {
   const auto mode = medium.format.find("mode");
   const std::string name = mode == medium.format.end() ? "" : lower(mode->second);
   if (name != "aac-hbr" && name != "aac-lbr") return "its mode is neither AAC-hbr nor AAC-lbr";
@@ -186,7 +186,7 @@ std::string aac_format(const SdpMedium& medium, AudioTrack& audio) {
   return {};
 }
 
-std::string opus_format(const SdpMedium& medium, AudioTrack& audio) {
+std::string opus_format(const SdpMedium& medium, RtpAudioTrack& audio) {
   if (medium.clock != 48000) return "its clock is not 48000";
   audio.format.codec = AudioCodec::opus;
   audio.format.frame_samples = 0;
@@ -199,7 +199,7 @@ std::string opus_format(const SdpMedium& medium, AudioTrack& audio) {
 }
 
 std::string take_audio(const SdpMedium& medium, RtpSession& session) {
-  AudioTrack audio;
+  RtpAudioTrack audio;
   common(medium, audio);
   audio.format.sample_rate = int(medium.clock);
   std::string reason = "its coding '" + medium.encoding + "' is neither mpeg4-generic nor opus";

@@ -1,7 +1,8 @@
-// Datagrams over IPv4 and IPv6, to one host or a multicast group.
-//
-//     auto in = UdpSocket::bind("127.0.0.1", 5004);
-//     auto got = in->receive(buffer);
+/// @file
+/// Datagrams over IPv4 and IPv6, to one host or a multicast group.
+///
+///     auto in = UdpSocket::bind("127.0.0.1", 5004);
+///     auto got = in->receive(buffer);
 #pragma once
 
 #include <cstdint>
