@@ -32,6 +32,9 @@ const Family* family_of(std::string_view feature);
 std::vector<std::string> sections_of(std::span<const std::string> features);
 char certainty_of(std::span<const std::string> features);
 
+/// A number 0..99 as ids have it: "07".
+inline std::string two_digits(int n) { return (n < 10 ? "0" : "") + std::to_string(n); }
+
 /// Sorts ids into the order of the vocabulary and drops repeated ones.
 void sort_features(std::vector<std::string>& features);
 

@@ -24,6 +24,8 @@
 namespace animeme::media {
 
 inline constexpr std::uint32_t kFaceClock = 90000;
+inline constexpr int kRtpPort = 5004;            ///< of a face whose address names none
+inline constexpr std::size_t kMaxConfig = 1024;  ///< bytes of a face's configuration
 /// Largest LiveInfo::timescale; that of the fastest stream of 14496-2 is 4095000.
 inline constexpr std::uint32_t kMaxTimescale = 10000000;
 
