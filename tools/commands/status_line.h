@@ -11,6 +11,7 @@ class StatusLine {
  public:
   StatusLine();
   ~StatusLine();
+  /// Replaces the line on a terminal, else prints a further one.
   void show(const std::string& text);
   /// Takes it away from a terminal, so that something else can be printed.
   void clear();
