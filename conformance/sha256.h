@@ -11,6 +11,7 @@ namespace animeme::conformance {
 
 /// 64 lower-case hexadecimal digits, as sha256sum prints them.
 std::string sha256(std::span<const std::uint8_t> bytes);
+/// Likewise, of a text.
 inline std::string sha256(std::string_view text) {
   return sha256(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
 }

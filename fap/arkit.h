@@ -48,6 +48,7 @@ using ArkitFrame = std::array<double, kArkitChannelCount>;
 
 /// Which channels a source has.
 using ArkitChannels = std::bitset<kArkitChannelCount>;
+/// The channels of a source that has all of them.
 inline constexpr ArkitChannels kAllArkit{(1ULL << kArkitChannelCount) - 1};
 
 /// The FAPs that the channels reach: the mask of their frames. All but viseme, expression, eyeball
@@ -72,6 +73,7 @@ Mask arkit_faps(const ArkitChannels& channels);
 /// - Values that an FBA stream cannot carry at fap_quant 1 are clipped: +-1860 quantiser steps.
 Frame arkit_to_fap(const ArkitFrame& frame, const ArkitChannels& channels);
 
+/// How ArkitFitter weighs.
 struct ArkitFitOptions {
   /// What it costs to use a shape, as a share of what it does to the face; 0..1. It keeps shapes
   /// from working against each other.
@@ -93,8 +95,8 @@ struct ArkitFitOptions {
 ///   at 1. The same frames give the same weights on every machine.
 class ArkitFitter {
  public:
-  explicit ArkitFitter(const ArkitFitOptions& options = {});
-  ArkitFitter(ArkitFitter&&) noexcept;
+  explicit ArkitFitter(const ArkitFitOptions& options = {});  ///< options as they are, unchecked
+  ArkitFitter(ArkitFitter&&) noexcept;                        ///< movable
   ArkitFitter& operator=(ArkitFitter&&) noexcept;
   ~ArkitFitter();
 

@@ -36,7 +36,7 @@ class ShapeFitter {
   /// against each other.
   explicit ShapeFitter(std::span<const Frame> shapes, const LipMeasures& lips = {},
                        double ridge = 0.001);
-  ShapeFitter(ShapeFitter&&) noexcept;
+  ShapeFitter(ShapeFitter&&) noexcept;  ///< movable
   ShapeFitter& operator=(ShapeFitter&&) noexcept;
   ~ShapeFitter();
 

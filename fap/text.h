@@ -30,6 +30,7 @@
 
 namespace animeme::fap {
 
+/// What read_text() is told of a file.
 struct ReadTextOptions {
   /// The text has no header line, as on a message bus: it starts with a mask, or with one line
   /// that holds a start time. Without this flag such a text is still taken if it shows clearly
@@ -78,6 +79,7 @@ struct ReadTextOptions {
 Result<Sequence> read_text(std::string_view text, const ReadTextOptions& options = {},
                            std::vector<std::string>* warnings = nullptr);
 
+/// How write_text() writes.
 struct WriteTextOptions {
   bool renumber = false;  ///< number the frames 0, 1, 2 ...; false: their own numbers, with gaps
   bool integer_rate = false;  ///< round the rate to a whole number >= 1, as some players demand

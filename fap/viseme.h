@@ -16,7 +16,7 @@
 
 namespace animeme::fap {
 
-inline constexpr int kVisemeCount = 15;
+inline constexpr int kVisemeCount = 15;  ///< shapes of FAP 1, silence included
 
 /// One instant, by viseme number: 0 to 1 each, and 1 together. Number 0 is silence: what the others
 /// leave.
@@ -36,6 +36,7 @@ VisemeWeights coded_viseme(const Viseme& viseme);
 /// speaker goes. FAP 14, 16 and 17 are left out, which are guesses in that corpus, and 15 and 18.
 const Frame& viseme_shape(int viseme);
 
+/// How VisemeFitter weighs.
 struct VisemeFitOptions {
   double ridge = 0.03;       ///< see ArkitFitOptions; visemes are more alike than shapes of a face
   double steadiness = 0.03;  ///< likewise
@@ -44,8 +45,8 @@ struct VisemeFitOptions {
 /// Faces to visemes, frame by frame. Movable, not copyable.
 class VisemeFitter {
  public:
-  explicit VisemeFitter(const VisemeFitOptions& options = {});
-  VisemeFitter(VisemeFitter&&) noexcept;
+  explicit VisemeFitter(const VisemeFitOptions& options = {});  ///< options as they are, unchecked
+  VisemeFitter(VisemeFitter&&) noexcept;                        ///< movable
   VisemeFitter& operator=(VisemeFitter&&) noexcept;
   ~VisemeFitter();
 

@@ -40,9 +40,9 @@ struct DecodedStream;
 
 /// One decoded plane.
 struct Plane {
-  bool intra = false;
-  ObjectMask object_mask = ObjectMask::nothing;
-  TemporalHeader temporal;
+  bool intra = false;                            ///< nothing before it is needed to decode it
+  ObjectMask object_mask = ObjectMask::nothing;  ///< which of the two below were coded
+  TemporalHeader temporal;                       ///< rate and time code in intra planes only
   /// Running number at the stream's rate: 0 for the first plane, plus 1 and the skipped frames
   /// for each further one.
   std::int64_t number = 0;
@@ -68,13 +68,15 @@ struct StreamInfo {
   friend bool operator==(const StreamInfo&, const StreamInfo&) = default;
 };
 
+/// What next() gives out: one of three kinds, each with its own member.
 struct Event {
+  /// What happened.
   enum class Kind : std::uint8_t { info, plane, warning };
-  Kind kind = Kind::plane;
-  StreamInfo info;       ///< kind info: once for each object, before its first plane
-  Plane plane;           ///< kind plane
-  std::string text;      ///< kind warning: one sentence
-  std::int64_t bit = 0;  ///< where the event arose
+  Kind kind = Kind::plane;  ///< which of the members below counts
+  StreamInfo info;          ///< kind info: once for each object, before its first plane
+  Plane plane;              ///< kind plane
+  std::string text;         ///< kind warning: one sentence
+  std::int64_t bit = 0;     ///< where the event arose
 };
 
 /// Decoder of one FBA stream. Not thread safe (use one per stream). A copy has all that the
@@ -82,9 +84,9 @@ struct Event {
 class Decoder {
  public:
   Decoder();
-  Decoder(const Decoder& other);
+  Decoder(const Decoder& other);  ///< goes on at the same place of the stream
   Decoder& operator=(const Decoder& other);
-  Decoder(Decoder&&) noexcept;
+  Decoder(Decoder&&) noexcept;  ///< movable
   Decoder& operator=(Decoder&&) noexcept;
   ~Decoder();
 
@@ -116,8 +118,8 @@ class Decoder {
 
 /// A whole stream at once.
 struct DecodedStream {
-  StreamInfo info;  ///< of the first object
-  std::vector<Plane> planes;
+  StreamInfo info;                    ///< of the first object
+  std::vector<Plane> planes;          ///< those that could be decoded
   fap::Rate rate;                     ///< of the first plane
   std::vector<std::string> warnings;  ///< "bit N: sentence"
 };

@@ -11,10 +11,11 @@
 
 namespace animeme::fba {
 
+/// What a plane says of itself before its settings.
 struct PlaneHeader {
-  bool intra = false;
-  ObjectMask object_mask = ObjectMask::nothing;
-  TemporalHeader temporal;
+  bool intra = false;                            ///< nothing before it is needed to decode it
+  ObjectMask object_mask = ObjectMask::nothing;  ///< what it codes
+  TemporalHeader temporal;                       ///< rate and time code in intra planes only
 };
 
 /// Reads the header of the plane in an access unit (AccessUnit::bytes; old start codes will do).

@@ -22,8 +22,8 @@ inline constexpr int kStuffingRun = 22;  ///< zeros after which a 1 is stuffed
 /// Writes one segment: encode() every symbol, then flush().
 class SegmentEncoder {
  public:
-  explicit SegmentEncoder(BitWriter& out) : out_(out) {}
-  void encode(const SymbolInterval& symbol);
+  explicit SegmentEncoder(BitWriter& out) : out_(out) {}  ///< `out` is borrowed
+  void encode(const SymbolInterval& symbol);              ///< writes one symbol
   /// Ends the segment (an empty one is the two bits 01).
   void flush();
 

@@ -27,9 +27,9 @@ namespace animeme::fba {
 /// Body animation. Frame numbers ascend strictly; they are those of the face clip beside it, so
 /// the first one need not be 0.
 struct BodySequence {
-  fap::Rate rate{25, 1};
-  std::vector<BodyFrame> frames;
-  std::string name;  ///< free text for people; written as one word
+  fap::Rate rate{25, 1};          ///< frames a second
+  std::vector<BodyFrame> frames;  ///< by ascending number
+  std::string name;               ///< free text for people; written as one word
 
   friend bool operator==(const BodySequence&, const BodySequence&) = default;
 };

@@ -52,11 +52,13 @@ inline double polynomial(std::span<const double> a, double u) {
   for (std::size_t m = a.size(); m-- > 0;) value = value * u + a[m];
   return value;
 }
+/// Its first derivative.
 inline double polynomial_slope(std::span<const double> a, double u) {
   double value = 0;
   for (std::size_t m = a.size(); m-- > 1;) value = value * u + double(m) * a[m];
   return value;
 }
+/// Its second derivative.
 inline double polynomial_curvature(std::span<const double> a, double u) {
   double value = 0;
   for (std::size_t m = a.size(); m-- > 2;) value = value * u + double(m * (m - 1)) * a[m];

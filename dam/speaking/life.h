@@ -24,14 +24,16 @@
 
 namespace animeme::dam {
 
+/// How lively a face is made.
 struct LifeOptions {
   double amount = 1;       ///< scales brows and head, 0..2; lids always close
   std::uint64_t seed = 1;  ///< another seed, other times of blinks and another drift
 };
 
+/// What add_life() added.
 struct LifeReport {
-  std::size_t blinks = 0;
-  std::size_t accents = 0;
+  std::size_t blinks = 0;   ///< lids that closed
+  std::size_t accents = 0;  ///< vowels with a gesture
 };
 
 /// Adds channels for FAP 19 to 22 (lids), 31 to 36 (brows) and 48 to 50 (head) to a signal of FAPs,

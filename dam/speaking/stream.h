@@ -28,6 +28,7 @@
 
 namespace animeme::dam {
 
+/// All settings of SpeechStream.
 struct StreamOptions {
   /// `frames` is not used; `tail` and the rest at the end come with finish().
   SynthesisOptions synthesis;

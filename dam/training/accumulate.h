@@ -67,10 +67,10 @@ class TrainingSums {
   /// or another rate; NaN; a broken script).
   Result<bool> add(const Utterance& sentence);
 
-  std::size_t sentences() const;
-  std::size_t frames() const;  ///< that count in the fit
-  std::vector<std::string> controls() const;
-  fap::Rate rate() const;
+  std::size_t sentences() const;              ///< that count, held-out ones included
+  std::size_t frames() const;                 ///< that count in the fit
+  std::vector<std::string> controls() const;  ///< names, in the order of the sums
+  fap::Rate rate() const;                     ///< of the signals
   /// A number for everything in here; sums with equal digests are equal.
   std::uint64_t digest() const;
 
@@ -82,14 +82,14 @@ class TrainingSums {
   /// other controls, another rate; a sentence that both have).
   Result<void> merge(const TrainingSums& other);
 
-  TrainingSums(TrainingSums&&) noexcept;
+  TrainingSums(TrainingSums&&) noexcept;  ///< movable
   TrainingSums& operator=(TrainingSums&&) noexcept;
   ~TrainingSums();
 
   /// For the functions below.
   explicit TrainingSums(std::unique_ptr<SumsState> state);
-  const SumsState& state() const { return *state_; }
-  std::unique_ptr<SumsState> release() &&;
+  const SumsState& state() const { return *state_; }  ///< for this library
+  std::unique_ptr<SumsState> release() &&;            ///< for this library; leaves nothing behind
 
  private:
   std::unique_ptr<SumsState> state_;
@@ -107,6 +107,7 @@ Result<TrainingSums> read_training_sums(std::span<const std::uint8_t> bytes);
 /// The same from and to a path. Errors also: not_found, io. Saving goes to a temporary file in the
 /// same folder that is renamed when complete, so an interrupted run leaves the file as it was.
 Result<TrainingSums> load_training_sums(const std::filesystem::path& path);
+/// Whole or not at all.
 Result<void> save_training_sums(const TrainingSums& sums, const std::filesystem::path& path);
 
 /// Adds up files in the order of their digests, so the order of `paths` does not matter to a single

@@ -21,12 +21,13 @@
 
 namespace animeme::head {
 
+/// One line of a list: a feature point and where it is, by vertex or by place.
 struct PointRow {
-  std::string id;    ///< "2.1"; not checked
-  std::string mesh;  ///< name of the object it is on; empty: any
-  std::optional<std::uint32_t> vertex;
-  std::optional<Vec3> place;
-  std::int64_t line = 0;
+  std::string id;                       ///< "2.1"; not checked
+  std::string mesh;                     ///< name of the object it is on; empty: any
+  std::optional<std::uint32_t> vertex;  ///< nothing: told by place
+  std::optional<Vec3> place;            ///< nothing: told by vertex
+  std::int64_t line = 0;                ///< of the text, from 1
 };
 
 /// Reads a list: comma, semicolon, tab or blanks between fields; # begins a comment. Headings, in

@@ -13,6 +13,7 @@
 
 namespace animeme::tools {
 
+/// What the user says of a table.
 struct ArkitCsvOptions {
   std::optional<fap::Rate> rate;  ///< nothing: told from the times
   bool degrees = false;           ///< the angles of head and eyes are degrees, not radians

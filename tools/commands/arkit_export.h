@@ -13,8 +13,8 @@ namespace animeme::tools {
 
 /// One frame after the other, from time 0.
 struct ArkitCurves {
-  fap::Rate rate;
-  std::vector<fap::ArkitFrame> frames;
+  fap::Rate rate;                       ///< frames a second
+  std::vector<fap::ArkitFrame> frames;  ///< one after the other
 };
 
 /// The table that Live Link Face writes: Timecode (hh:mm:ss:ff.fff, frames of the next whole

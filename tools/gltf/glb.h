@@ -26,13 +26,15 @@
 
 namespace animeme::gltf {
 
+/// Which morph targets a file has.
 enum class MorphNames : std::uint8_t {
   arkit,  ///< the 52 shapes of ARKit ("jawOpen"), fitted to the clip; the eyes turn by bones
   fap,    ///< one a FAP ("open_jaw"); weight 1 is 1024 units
 };
 
+/// What make_glb() writes.
 struct GlbOptions {
-  MorphNames morphs = MorphNames::arkit;
+  MorphNames morphs = MorphNames::arkit;  ///< ignored for heads with shapes of their own
   std::string audio;  ///< name of the sound beside it, for scene.extras.audio; empty: none
   std::string name;   ///< of the animation; empty: "talk"
   /// Moves of vertices below this are left out, cm.

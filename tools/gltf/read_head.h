@@ -47,8 +47,10 @@ using LoadFile = std::function<Result<std::vector<std::uint8_t>>(const std::stri
 /// unsupported for addresses of the web and for paths that leave the folder.
 LoadFile files_of(std::string folder);
 
+/// What read_head() is told.
 struct ReadOptions {
   LoadFile load = {};  ///< empty: only files without others beside them can be read
+  /// Which shapes move the mouth if there are several sets.
   MouthShapes mouth = MouthShapes::automatic;
   /// Triangles are divided for the sake of their texture until there are as many vertices. 0: not.
   std::size_t vertices = 60000;
@@ -71,7 +73,7 @@ Result<head::Source> read_head(std::span<const std::uint8_t> bytes,
 
 /// A vertex of a piece of the head.
 struct PieceVertex {
-  std::size_t piece = 0;
+  std::size_t piece = 0;                  ///< index of Source::pieces
   std::uint32_t vertex = head::kMissing;  ///< kMissing: it is not shown
 };
 
@@ -84,14 +86,16 @@ struct MeshVertices {
   std::vector<PieceVertex> vertices;
 };
 
+/// A head and where the vertices of the file went.
 struct HeadFile {
-  head::Source source;
+  head::Source source;               ///< as from read_head()
   std::vector<MeshVertices> meshes;  ///< of nodes that are shown, in their order
 };
 
 /// read_head() with the numbers that vertices have in the file.
 Result<HeadFile> read_head_and_vertices(std::span<const std::uint8_t> bytes,
                                         const ReadOptions& options = {});
+/// Likewise, from a path.
 Result<HeadFile> read_head_and_vertices(const std::string& path, ReadOptions options = {});
 
 /// A list of landmarks on such a head. Vertices are counted in the mesh whose name has the word

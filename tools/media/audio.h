@@ -20,6 +20,7 @@
 
 namespace animeme::media {
 
+/// What read_audio() makes of a file, and where it stops.
 struct ReadAudioOptions {
   int sample_rate = 0;  ///< Hz of the result, 1000..384000; 0: the file's own rate
   /// Longer sound is refused. Whatever is set here, 2^29 samples (3.1 hours at 48 kHz, 2 GiB)

@@ -51,6 +51,7 @@ struct Container {
   std::vector<std::string> warnings;
 };
 
+/// Where reading stops.
 struct ReadOptions {
   /// More face data than this is refused (an index can name the same bytes over and over).
   std::size_t max_bytes = std::size_t(1) << 28;
@@ -78,6 +79,7 @@ Result<EncodedAudio> read_encoded_audio(const std::string& path);
 /// The same from memory.
 Result<EncodedAudio> read_encoded_audio(std::span<const std::uint8_t> file);
 
+/// What a track holds.
 enum class TrackKind : std::uint8_t { face, audio, video, other };
 
 /// "face", "audio", "video" or "other".
@@ -85,20 +87,20 @@ const char* name_of(TrackKind kind);
 
 /// One track, from headers.
 struct TrackInfo {
-  TrackKind kind = TrackKind::other;
-  std::string codec;                ///< "fba" for a face, else FFmpeg's name
-  std::string tag;                  ///< four characters of mp4 and its like; may be empty
-  std::uint32_t timescale = 0;      ///< ticks a second; 0: the clock is no whole number of them
-  double start = 0;                 ///< seconds
-  double duration = 0;              ///< seconds; 0: not stated
-  std::int64_t bit_rate = 0;        ///< bits a second; 0: not stated
-  std::int64_t samples = 0;         ///< access units or packets; 0: not stated
-  int sample_rate = 0;              ///< audio
-  int channels = 0;                 ///< audio
-  int width = 0;                    ///< video
-  int height = 0;                   ///< video
-  double frame_rate = 0;            ///< video and face, frames a second; 0: not stated
-  std::uint8_t visual_profile = 0;  ///< face; 0: not given
+  TrackKind kind = TrackKind::other;  ///< told by content
+  std::string codec;                  ///< "fba" for a face, else FFmpeg's name
+  std::string tag;                    ///< four characters of mp4 and its like; may be empty
+  std::uint32_t timescale = 0;        ///< ticks a second; 0: the clock is no whole number of them
+  double start = 0;                   ///< seconds
+  double duration = 0;                ///< seconds; 0: not stated
+  std::int64_t bit_rate = 0;          ///< bits a second; 0: not stated
+  std::int64_t samples = 0;           ///< access units or packets; 0: not stated
+  int sample_rate = 0;                ///< audio
+  int channels = 0;                   ///< audio
+  int width = 0;                      ///< video
+  int height = 0;                     ///< video
+  double frame_rate = 0;              ///< video and face, frames a second; 0: not stated
+  std::uint8_t visual_profile = 0;    ///< face; 0: not given
   std::vector<std::uint8_t> face_config;  ///< face; empty: in band
 };
 
@@ -107,8 +109,8 @@ struct ContainerInfo {
   std::string format;       ///< as in Container, or any other name of FFmpeg: "wav", "mp3" ...
   double duration = 0;      ///< seconds; 0: unknown
   std::int64_t bytes = -1;  ///< of the file; -1: unknown
-  std::vector<TrackInfo> tracks;
-  std::vector<std::string> warnings;
+  std::vector<TrackInfo> tracks;      ///< in the order of the file
+  std::vector<std::string> warnings;  ///< one sentence each
 
   /// The first track of a kind, nullptr: there is none.
   const TrackInfo* first(TrackKind kind) const {

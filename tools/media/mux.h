@@ -38,6 +38,7 @@ struct MuxInput {
   std::uint8_t visual_profile = 0;
 };
 
+/// How a container is written.
 struct MuxOptions {
   AudioSettings audio;  ///< how MuxInput::audio is coded
   /// mp4: contents before data, so that a player can begin while it loads.

@@ -24,6 +24,7 @@
 
 namespace animeme::speech {
 
+/// How a face speaks and idles.
 struct FaceOptions {
   dam::SynthesisOptions synthesis;  ///< `frames` and `tail` are not used
   bool life = false;                ///< blinks, brows, head: see dam/speaking/life.h

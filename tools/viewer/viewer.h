@@ -35,17 +35,17 @@ struct Clip {
 
 /// Coded sound in a file that browsers read.
 struct Sound {
-  std::vector<std::uint8_t> file;
-  std::string type;  ///< "audio/mp4"
+  std::vector<std::uint8_t> file;  ///< the whole file
+  std::string type;                ///< "audio/mp4"
 };
 
 /// What goes into a page; the head and the rig are borrowed.
 struct Page {
-  const head::Head* head = nullptr;
-  const head::Rig* rig = nullptr;
-  std::vector<Clip> clips;     ///< one, or two to compare
-  std::optional<Sound> sound;  ///< nothing: the page is silent
-  dam::Script script;          ///< phones below the curves; empty: none
+  const head::Head* head = nullptr;  ///< borrowed
+  const head::Rig* rig = nullptr;    ///< borrowed
+  std::vector<Clip> clips;           ///< one, or two to compare
+  std::optional<Sound> sound;        ///< nothing: the page is silent
+  dam::Script script;                ///< phones below the curves; empty: none
 };
 
 /// The page. The same input gives the same bytes with the same zlib. Texts from outside (names,

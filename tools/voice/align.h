@@ -19,6 +19,7 @@
 
 namespace animeme::voice {
 
+/// Language and data of the recogniser.
 struct AlignOptions {
   std::string language = "en";  ///< of the transcript, as in VoiceOptions::language
   /// Folder of the acoustic model (with mdef, means ...).
@@ -28,6 +29,7 @@ struct AlignOptions {
   std::string dictionary_path = "/usr/share/pocketsphinx/model/en-us/cmudict-en-us.dict";
 };
 
+/// What align() found.
 struct Alignment {
   /// Covers the audio exactly; labels are ARPAbet, words as the transcript spells them.
   dam::Script script;

@@ -22,6 +22,7 @@
 
 namespace animeme::voice {
 
+/// Who speaks, and how.
 struct VoiceOptions {
   /// A language ("en", "de", "pt-br"), an espeak-ng voice name ("English (Scotland)") or
   /// identifier ("gmw/en-US"), in any case; "+f3" and the like select a variant. "en" is "en-us".
@@ -40,9 +41,9 @@ struct VoiceOptions {
 /// What speak_text() makes. The script begins at 0 and ends with the audio; its first and last
 /// phones are SIL (unless a silence of 0 was asked for). Phone::word is filled.
 struct Speech {
-  media::Pcm audio;  ///< 22050 Hz with the voices of espeak-ng 1.51
-  dam::Script script;
-  std::string voice;  ///< name of the voice that spoke, "English (America)"
+  media::Pcm audio;    ///< 22050 Hz with the voices of espeak-ng 1.51
+  dam::Script script;  ///< phones and words of the sound
+  std::string voice;   ///< name of the voice that spoke, "English (America)"
 };
 
 /// Speaks UTF-8 text (plain text: no SSML, no phoneme codes).
@@ -56,6 +57,7 @@ struct Speech {
 /// data).
 Result<Speech> speak_text(std::string_view text, const VoiceOptions& options = {});
 
+/// An installed voice.
 struct VoiceInfo {
   std::string name;                          ///< "English (America)"
   std::string language;                      ///< "en-us"

@@ -10,6 +10,7 @@
 
 namespace animeme::voice {
 
+/// What a name stands for.
 struct ChosenVoice {
   std::string identifier;  ///< for espeak-ng, with variant: "gmw/en-US+f3"
   std::string name;        ///< "English (America)"

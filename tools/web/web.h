@@ -29,6 +29,7 @@ namespace animeme::web {
 /// Seconds on the clock of the segments at time 0.
 inline constexpr int kWebTimeZero = 1;
 
+/// For both directions.
 struct WebOptions {
   /// WebSockets and /talk.mp4 at the same time, 1..1000; whoever comes then gets 503.
   int max_clients = 64;
@@ -49,7 +50,7 @@ struct WebOptions {
   /// viewer::pack_head(), which the server then has as /head.bin. Both or none. Browsers without
   /// WebGL2 keep the schematic face.
   std::string head_script;
-  std::vector<std::uint8_t> head_model;
+  std::vector<std::uint8_t> head_model;  ///< see head_script
   /// Source: bytes that may wait for next(); the network waits when they are full.
   std::size_t queue_bytes = std::size_t(4) << 20;
 };

@@ -60,6 +60,6 @@ class LiveFrames {
 /// FAP text by the frame: its first line, which cannot know their number and says 0, and the two
 /// lines of a frame.
 std::string fap_header(fap::Rate rate, const std::string& name);
-std::string fap_lines(const fap::Frame& frame, fap::Rate rate);
+std::string fap_lines(const fap::Frame& frame, fap::Rate rate);  ///< `frame` is numbered at `rate`
 
 }  // namespace animeme::media

@@ -23,12 +23,13 @@ namespace animeme::media {
 
 /// Each transport reads its own part.
 struct SinkOptions {
-  RtpOptions rtp;
-  TsOptions ts;
+  RtpOptions rtp;  ///< for rtp://
+  TsOptions ts;    ///< for udp:// and srt://
 };
+/// Each transport reads its own part.
 struct SourceOptions {
-  RtpReceiveOptions rtp;
-  TsOptions ts;
+  RtpReceiveOptions rtp;  ///< for RTP
+  TsOptions ts;           ///< for udp:// and srt://
 };
 
 /// A sink for `url`, not yet started. Errors: invalid_argument (no address of ours; the message

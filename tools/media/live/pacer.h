@@ -22,7 +22,7 @@ namespace animeme::media {
 class Clock {
  public:
   virtual ~Clock() = default;
-  virtual double now() = 0;
+  virtual double now() = 0;  ///< seconds, never less than before
   /// Returns at `instant` or a little later, at once if that is over.
   virtual void sleep_until(double instant) = 0;
 };
@@ -33,7 +33,7 @@ Clock& steady_clock();
 /// A clock that jumps to where one sleeps: presentations run as fast as they are made.
 class JumpingClock : public Clock {
  public:
-  double now() override { return now_; }
+  double now() override { return now_; }  ///< where it jumped to
   void sleep_until(double instant) override {
     if (instant > now_) now_ = instant;
   }
@@ -45,10 +45,11 @@ class JumpingClock : public Clock {
 /// How late things were, in seconds; memory does not grow. Negative values count as 0.
 class LatenessMeter {
  public:
-  void add(double seconds);
-  std::int64_t count() const { return count_; }
+  void add(double seconds);                      ///< one more, seconds
+  std::int64_t count() const { return count_; }  ///< values added
+  /// Seconds; 0 if nothing was added.
   double mean() const { return count_ == 0 ? 0 : sum_ / double(count_); }
-  double worst() const { return worst_; }
+  double worst() const { return worst_; }  ///< seconds; 0 if nothing was added
   /// The value that a share of `part` (0..1) does not exceed: exact to 0.1 ms below 0.2 s, to 5 %
   /// above; 0 if nothing was added.
   double percentile(double part) const;
@@ -77,7 +78,7 @@ class Pacer {
   bool wait_until(double due);
   /// Notes that what was due at `due` has just been sent.
   void sent(double due);
-  const LatenessMeter& lateness() const { return lateness_; }
+  const LatenessMeter& lateness() const { return lateness_; }  ///< of everything sent
 
  private:
   Clock* clock_;

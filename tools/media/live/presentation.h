@@ -50,6 +50,7 @@ class LiveInput {
 /// Presentation time at which a unit of `input` is due.
 double due_of(const LiveInput& input, const LiveUnit& unit);
 
+/// How a clip is presented.
 struct ClipOptions {
   double audio_ahead = 0.05;  ///< seconds, 0..1
   bool loop = false;          ///< begin again at the end; times go on

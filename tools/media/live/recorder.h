@@ -27,6 +27,7 @@
 
 namespace animeme::media {
 
+/// When a recording ends by itself.
 struct RecorderOptions {
   /// Seconds of presentation after which it ends; 0: never.
   double duration = 0;
@@ -45,8 +46,10 @@ struct Recording {
   EncodedAudio sound;     ///< no packets: silent. `length`: to the end of the last packet
 };
 
+/// Collects what a source gives out, for a file.
 class Recorder {
  public:
+  /// Options as they are, unchecked.
   explicit Recorder(const RecorderOptions& options = {}) : options_(options) {}
 
   /// Keeps what can be used of an event. Gives back the unit that was kept, for whoever shows it
@@ -57,13 +60,14 @@ class Recorder {
   bool ended() const { return ended_; }
   /// Was a plane lost or left out between the last two planes that were kept?
   bool after_gap() const { return after_gap_; }
+  /// Nothing: the source has not said yet.
   const std::optional<LiveInfo>& info() const { return info_; }
-  const RecoveryStats& recovery() const { return recovery_.stats(); }
+  const RecoveryStats& recovery() const { return recovery_.stats(); }  ///< totals
   /// Intra intervals that are complete; each is given once.
   std::vector<IntraInterval> take_intervals() { return recovery_.take_intervals(); }
   /// Seconds of face and of sound that were received.
   double face_seconds() const;
-  double sound_seconds() const;
+  double sound_seconds() const;  ///< likewise
 
   /// All that was kept so far. Both tracks may be empty.
   Recording recording() const;

@@ -44,6 +44,7 @@ struct RecoveryStats {
   }
 };
 
+/// Passes on the planes that can be decoded, and keeps count.
 class FaceRecovery {
  public:
   /// Takes the events of a source in their order. Gives back sound as it is, and planes that can be
@@ -53,7 +54,7 @@ class FaceRecovery {
 
   /// Is the face wrong or unknown since the last gap?
   bool waiting() const { return waiting_; }
-  const RecoveryStats& stats() const { return stats_; }
+  const RecoveryStats& stats() const { return stats_; }  ///< totals
   /// Intervals that are complete (LiveEnd completes the last), oldest first; each is given once. Of
   /// those that nobody takes the last 4096 are kept.
   std::vector<IntraInterval> take_intervals();

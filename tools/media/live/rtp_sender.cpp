@@ -1,4 +1,5 @@
 #include "tools/media/live/rtp_sender.h"
+#include "tools/media/detail/invalid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,8 +28,6 @@ class Dice {
  private:
   std::uint64_t state_;
 };
-
-Error invalid(const char* message) { return make_error(Code::invalid_argument, message); }
 
 // Ticks as NTP, 2^-32 s; floor.
 std::uint64_t ntp_span(std::int64_t ticks, std::uint32_t clock) {

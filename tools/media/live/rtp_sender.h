@@ -21,6 +21,7 @@ namespace animeme::media {
 /// of 0 or above kMaxTimescale; a sample rate of 0).
 Result<void> check(const LiveInfo& info, const RtpOptions& options);
 
+/// Both media of a session on their way out.
 class RtpSender {
  public:
   /// `address` and `port` go into the session description. `seed`: as RtpOptions::seed. `ntp`: the
@@ -31,7 +32,7 @@ class RtpSender {
   /// For write_sdp().
   const RtpSession& session() const { return session_; }
 
-  using Datagrams = std::vector<RtpDatagram>;
+  using Datagrams = std::vector<RtpDatagram>;  ///< In the order in which they are to be sent.
   /// Appends what is to be sent now. Times ("now") are seconds and ascend. Errors:
   /// invalid_argument (RtpPacketizer::check(), or a track that the presentation does not have).
   Result<void> send(const LiveUnit& unit, double now, Datagrams& out);

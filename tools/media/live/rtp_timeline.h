@@ -31,7 +31,7 @@ class RtpTimeline {
 
   /// A packet came; returns its time without wraps.
   std::int64_t add(LiveTrack track, std::uint32_t timestamp, double now);
-  void add_report(LiveTrack track, const SenderInfo& report);
+  void add_report(LiveTrack track, const SenderInfo& report);  ///< times of a sender report
   /// RTP time at time 0 as the description has it; nothing: it is that of another sender. Counts if
   /// all tracks have it.
   void describe(LiveTrack track, std::optional<std::uint32_t> offset);
@@ -42,7 +42,7 @@ class RtpTimeline {
   bool settle(double now);
   /// When settle() will say yes by itself; nothing: it does, or no packet came yet.
   std::optional<double> deadline() const;
-  RtpSync sync() const { return sync_; }
+  RtpSync sync() const { return sync_; }  ///< what the clock rests on
   /// Ticks of the track's clock since time 0, of a time from add(). Only when settled. A report
   /// that contradicts the clock in force by more than 20 ms moves the sound from then on; one that
   /// comes after a guess by arrival moves it in any case.

@@ -10,7 +10,6 @@
 namespace animeme::media {
 namespace {
 
-constexpr std::size_t kMaxConfig = 1024;
 constexpr fap::Rate kUnknownRate{30, 1};  // what a decoder assumes until the stream tells
 
 // a * b / c to the nearest, halves up; c > 0. Wide enough for times of centuries.

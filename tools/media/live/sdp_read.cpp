@@ -9,7 +9,6 @@ namespace {
 
 constexpr std::size_t kMaxText = 1 << 16;
 constexpr std::size_t kMaxMedia = 32;
-constexpr std::size_t kMaxConfig = 1024;
 constexpr std::uint32_t kMaxPort = 65534;
 constexpr std::uint32_t kMaxRate = 1000000;
 
@@ -206,9 +205,9 @@ std::string take_audio(const SdpMedium& medium, RtpSession& session) {
   if (medium.encoding == "mpeg4-generic") reason = aac_format(medium, audio);
   if (medium.encoding == "opus") reason = opus_format(medium, audio);
   if (!reason.empty()) return reason;
-  constexpr std::uint32_t kLongest = 1 << 20;
-  audio.format.priming = int(number_of(medium.own, "priming", kLongest).value_or(0));
-  const auto frame = number_of(medium.own, "frame", kLongest);
+  constexpr std::uint32_t kMostSamples = 1 << 20;
+  audio.format.priming = int(number_of(medium.own, "priming", kMostSamples).value_or(0));
+  const auto frame = number_of(medium.own, "frame", kMostSamples);
   if (frame && audio.format.codec == AudioCodec::opus) audio.format.frame_samples = int(*frame);
   session.audio = std::move(audio);
   return {};

@@ -33,6 +33,7 @@ namespace animeme::media {
 /// Stamp (90 kHz) of time 0: one second, so that the priming of the sound has stamps, too.
 inline constexpr std::int64_t kTsTimeZero = 90000;
 
+/// For both directions.
 struct TsOptions {
   /// Payload of a datagram or SRT message at most, rounded down to whole packets of 188 bytes;
   /// 188..1456. Smaller ones are sent as soon as a unit is complete.
