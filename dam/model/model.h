@@ -257,7 +257,7 @@ struct Model {
 Result<void> validate(const Model& model);
 
 /// The model file: magic "ANIMEDAM", version 2.0, little endian, CRC-32 of everything.
-/// dam/README.md has the layout. The same model gives the same bytes.
+/// dam/model/README.md has the layout. The same model gives the same bytes.
 std::vector<std::uint8_t> write_model(const Model& model);
 
 /// Safe on any input: sizes are checked against the bytes that are there before anything is

@@ -96,7 +96,7 @@ class TrainingSums {
 };
 
 /// The file of sums: magic "ANIMESUM", version 1.0, little endian, CRC-32 of everything;
-/// dam/README.md has the layout. The same sums give the same bytes.
+/// dam/training/README.md has the layout. The same sums give the same bytes.
 std::vector<std::uint8_t> write_training_sums(const TrainingSums& sums);
 
 /// Safe on any input: sizes are checked against the bytes that are there before anything is
