@@ -33,6 +33,9 @@ std::vector<std::string> sections_of(std::span<const std::string> features);
 /// The least of all of them, in the order C S M T ?.
 char certainty_of(std::span<const std::string> features);
 
+/// A number 0..99 as ids have it: "07".
+inline std::string two_digits(int n) { return (n < 10 ? "0" : "") + std::to_string(n); }
+
 /// Sorts ids into the order of the vocabulary and drops repeated ones.
 void sort_features(std::vector<std::string>& features);
 

@@ -11,7 +11,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme::dam {
-namespace {
+namespace accumulate_test {
 
 using test::planted;
 using test::sums_of;
@@ -243,5 +243,5 @@ TEST(Accumulate, TheBaseMustHaveTheMethod) {
   EXPECT_FALSE(train_from_sums(sums_of(planted(4)), options));
 }
 
-}  // namespace
+}  // namespace accumulate_test
 }  // namespace animeme::dam

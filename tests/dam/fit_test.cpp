@@ -11,7 +11,7 @@
 #include "dam_support.h"
 
 namespace animeme::dam {
-namespace {
+namespace fit_test {
 
 using test::Planted;
 using test::Random;
@@ -221,5 +221,5 @@ TEST_P(Blend, RecoversPlantedPolynomialsAndWidths) {
   }
 }
 
-}  // namespace
+}  // namespace fit_test
 }  // namespace animeme::dam

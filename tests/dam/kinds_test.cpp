@@ -12,7 +12,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme::dam {
-namespace {
+namespace kinds_test {
 
 using testing::HasSubstr;
 
@@ -204,5 +204,5 @@ TEST_P(EveryKind, IdenticalSentencesAndNoPrior) {
   expect_usable(sentences, options);
 }
 
-}  // namespace
+}  // namespace kinds_test
 }  // namespace animeme::dam

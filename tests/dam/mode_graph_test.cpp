@@ -7,7 +7,7 @@
 #include "dam_support.h"
 
 namespace animeme::dam {
-namespace {
+namespace mode_graph_test {
 
 struct Exhaustive {
   double cost = 1e300;
@@ -97,5 +97,5 @@ TEST(ModeCosts, LeavingOneOutMakesItLessLikely) {
   EXPECT_GT(without[1], with[1]);
 }
 
-}  // namespace
+}  // namespace mode_graph_test
 }  // namespace animeme::dam

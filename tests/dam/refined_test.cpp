@@ -16,7 +16,7 @@
 #include "tests/dam/dam_support.h"
 
 namespace animeme::dam {
-namespace {
+namespace refined_test {
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -376,5 +376,5 @@ TEST(Refined, ChoosesStrongerRidgesWhenThereIsNothingToLearn) {
   EXPECT_GT(noisy.ridge, clear.ridge);
 }
 
-}  // namespace
+}  // namespace refined_test
 }  // namespace animeme::dam

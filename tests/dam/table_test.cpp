@@ -3,13 +3,14 @@
 
 #include <cmath>
 
+#include "dam/corpus/training_set_internal.h"
 #include "dam/kinds/table/contexts.h"
 #include "dam/kinds/table/viseme_weights.h"
 #include "dam/model/kind_internal.h"
 #include "dam_support.h"
 
 namespace animeme::dam {
-namespace {
+namespace table_test {
 
 Model model_of(Method method, Parameters parameters) {
   Model model;
@@ -168,5 +169,5 @@ TEST(Triphone, TrainingGivesMeansLessWhatIsKnown) {
   for (const ContextCurve& c : std::get<TriphoneParameters>(*poor).curves) EXPECT_GE(c.count, 7u);
 }
 
-}  // namespace
+}  // namespace table_test
 }  // namespace animeme::dam

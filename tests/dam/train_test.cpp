@@ -11,7 +11,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme::dam {
-namespace {
+namespace train_test {
 
 using testing::HasSubstr;
 
@@ -227,5 +227,5 @@ TEST(TrainHostile, OneSentenceIsWarnedOf) {
   EXPECT_FALSE(summary.warnings.empty());
 }
 
-}  // namespace
+}  // namespace train_test
 }  // namespace animeme::dam

@@ -7,7 +7,7 @@
 #include "dam_support.h"
 
 namespace animeme::dam {
-namespace {
+namespace trajectory_test {
 
 using test::Random;
 constexpr Window kEverything{-1e9, 1e9};
@@ -161,5 +161,5 @@ TEST(Trajectory, TrainingFindsThePlantedMeans) {
   }
 }
 
-}  // namespace
+}  // namespace trajectory_test
 }  // namespace animeme::dam

@@ -10,7 +10,7 @@
 #include "tools/media/live/open.h"
 
 namespace animeme::media {
-namespace {
+namespace rtp_loopback_test {
 
 using test::Talk;
 using ::testing::HasSubstr;
@@ -200,5 +200,5 @@ TEST(RtpLoopback, ADescriptionThatCannotBeWrittenIsAnError) {
   EXPECT_EQ((*sink)->start(test::random_talk(1).info).error().code, Code::io);
 }
 
-}  // namespace
+}  // namespace rtp_loopback_test
 }  // namespace animeme::media

@@ -4,7 +4,7 @@
 #include "tests/live/rtp_support.h"
 
 namespace animeme::media {
-namespace {
+namespace rtp_loss_test {
 
 using test::BadNetwork;
 using test::random_talk;
@@ -97,5 +97,5 @@ TEST(Loss, PiecesAndBundlesAreRightToo) {
   }
 }
 
-}  // namespace
+}  // namespace rtp_loss_test
 }  // namespace animeme::media

@@ -12,7 +12,7 @@
 #include "tools/media/live/open.h"
 
 namespace animeme::media {
-namespace {
+namespace rtp_readers_test {
 
 using test::Bytes;
 using test::Talk;
@@ -216,5 +216,5 @@ TEST(RtpReaders, WhatFfmpegSendsIsReceived) {
   EXPECT_NEAR(double(sound[0].time), -1024, 24000);
 }
 
-}  // namespace
+}  // namespace rtp_readers_test
 }  // namespace animeme::media

@@ -5,7 +5,7 @@
 #include "tests/live/rtp_support.h"
 
 namespace animeme::media {
-namespace {
+namespace rtp_session_test {
 
 using test::BadNetwork;
 using test::random_talk;
@@ -282,5 +282,5 @@ TEST(RtpSession, OptionsHaveBounds) {
   EXPECT_FALSE(check(LiveInfo{{1}, 0, 0x61, std::nullopt}, {}));
 }
 
-}  // namespace
+}  // namespace rtp_session_test
 }  // namespace animeme::media

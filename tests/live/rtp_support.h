@@ -12,6 +12,7 @@
 #include "codec/decode/access_unit.h"
 #include "codec/decode/decoder.h"
 #include "codec/encode/live.h"
+#include "tests/support/audio_formats.h"
 #include "tests/support/random_clip.h"
 #include "tools/media/live/recovery.h"
 #include "tools/media/live/rtp_receiver.h"
@@ -58,10 +59,6 @@ inline Talk random_talk(int planes, int period = 25, fap::Rate rate = {25, 1}) {
   const auto units = fba::split_access_units(stream);
   EXPECT_TRUE(units) << units.error().describe();
   return units ? talk_of(*units) : Talk();
-}
-
-inline media::AudioFormat aac_format() {
-  return {media::AudioCodec::aac, 48000, 1, 1024, 1024, {0x11, 0x88}};
 }
 
 /// Puts packets of noise between the planes, up to the end of the face.

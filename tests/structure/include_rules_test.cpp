@@ -11,7 +11,7 @@
 #include "tests/structure/rules.h"
 
 namespace animeme::test {
-namespace {
+namespace include_rules_test {
 
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
@@ -179,5 +179,5 @@ TEST(StructureRules, PathsFire) {
   EXPECT_THAT(path_violations("tests/support/shared.h", "../shared"), IsEmpty());
 }
 
-}  // namespace
+}  // namespace include_rules_test
 }  // namespace animeme::test

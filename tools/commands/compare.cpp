@@ -13,7 +13,7 @@ namespace animeme::tools {
 
 namespace {
 
-struct Options {
+struct CompareOptions {
   std::string a;
   std::string b;
   bool json = false;
@@ -153,7 +153,7 @@ Result<void> check_half(const MotionInput& text, const MotionInput& other,
       .in_file(other_path);
 }
 
-Result<int> run(const Options& options) {
+Result<int> run(const CompareOptions& options) {
   Result<MotionInput> a = read_motion(options.a);
   if (!a) return a.error();
   Result<MotionInput> b = read_motion(options.b);
@@ -184,8 +184,8 @@ Result<int> run(const Options& options) {
   return accepted(face) && (!body || accepted(*body)) ? kOk : kCheckFailed;
 }
 
-Action add(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+Action add_compare(CLI::App& app) {
+  auto options = std::make_shared<CompareOptions>();
   app.add_option("a", options->a, "FAP or BAP text, FBA stream or container")->required();
   app.add_option("b", options->b, "The same or another form")->required();
   app.add_option("--max-rms", options->max_rms,
@@ -202,6 +202,6 @@ const Command kCompare{
     "  animeme compare talk.fap talk.fba\n"
     "  animeme compare body.bap dance.fba\n"
     "  animeme compare before.fap after.fap --max-rms 0.5 --json",
-    add};
+    add_compare};
 
 }  // namespace animeme::tools

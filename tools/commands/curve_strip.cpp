@@ -13,7 +13,7 @@ namespace animeme::tools {
 namespace {
 
 constexpr double kPhones = 22;  // height of their row
-constexpr double kLegend = 14;
+constexpr double kLegendHeight = 14;
 constexpr const char* kColours[] = {"#63b9f2", "#f0a030", "#dd93c4"};
 
 }  // namespace
@@ -56,8 +56,8 @@ std::string CurveStrip::page_svg(double begin) const {
     }
     top += kPhones;
   }
-  const double middle = (top + height - kLegend) / 2;
-  const double half = (height - kLegend - top) / 2 - 2;
+  const double middle = (top + height - kLegendHeight) / 2;
+  const double half = (height - kLegendHeight - top) / 2 - 2;
   svg += "<line x1=\"0\" x2=\"" + drawn(width) + "\" y1=\"" + drawn(middle) + "\" y2=\"" +
          drawn(middle) + "\" stroke=\"#414b58\"/>\n";
   double legend = 8;

@@ -15,7 +15,7 @@ namespace animeme::tools {
 
 namespace {
 
-struct Options {
+struct InfoOptions {
   std::string input;
   bool json = false;
   bool planes = false;
@@ -27,7 +27,7 @@ struct Description {
   std::optional<fba::DecodedStream> stream;
 };
 
-Result<Json> describe_coded(const Options& options, std::span<const std::uint8_t> bytes,
+Result<Json> describe_coded(const InfoOptions& options, std::span<const std::uint8_t> bytes,
                             Description& out) {
   Result<fba::DecodedStream> decoded = fba::decode(bytes);
   if (!decoded) return decoded.error();
@@ -59,7 +59,7 @@ Json describe_track(const media::TrackInfo& track) {
   return json;
 }
 
-Result<Json> describe_media(const Options& options, std::span<const std::uint8_t> bytes,
+Result<Json> describe_media(const InfoOptions& options, std::span<const std::uint8_t> bytes,
                             Description& out) {
   const bool playlist = is_playlist(bytes);
   Result<media::ContainerInfo> info = playlist ? media::probe(options.input) : media::probe(bytes);
@@ -118,7 +118,7 @@ Result<Json> describe_script(std::span<const std::uint8_t> bytes) {
       {"kind", "script"}, {"phones", script->phones.size()}, {"seconds", script->duration()}};
 }
 
-Result<Json> describe_text(const Options& options, std::vector<std::uint8_t> bytes) {
+Result<Json> describe_text(const InfoOptions& options, std::vector<std::uint8_t> bytes) {
   Result<MotionInput> motion = parse_motion(std::move(bytes), options.input);
   if (!motion) return motion.error();
   const bool bap = motion->kind == FileKind::bap_text;
@@ -127,7 +127,7 @@ Result<Json> describe_text(const Options& options, std::vector<std::uint8_t> byt
   return json;
 }
 
-Result<Description> describe(const Options& options) {
+Result<Description> describe(const InfoOptions& options) {
   Result<std::vector<std::uint8_t>> bytes = read_file(options.input);
   if (!bytes) return bytes.error();
   if (bytes->empty()) return make_error(Code::truncated, "the file is empty");
@@ -155,7 +155,7 @@ Result<Description> describe(const Options& options) {
   return out;
 }
 
-std::string text_of(const Json& value) {
+std::string shown_value(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (!value.is_number_float()) return value.dump();
   char text[40];
@@ -175,21 +175,21 @@ void print(const Json& json, int indent) {
       for (const Json& item : value) {
         std::string line;
         for (const auto& [name, field] : item.items()) {
-          line += (line.empty() ? "" : "  ") + name + " " + text_of(field);
+          line += (line.empty() ? "" : "  ") + name + " " + shown_value(field);
         }
         std::printf("%s  %s\n", pad.c_str(), line.c_str());
       }
     } else if (value.is_array()) {
       std::string line;
-      for (const Json& item : value) line += (line.empty() ? "" : ", ") + text_of(item);
+      for (const Json& item : value) line += (line.empty() ? "" : ", ") + shown_value(item);
       if (!line.empty()) std::printf("%s%s: %s\n", pad.c_str(), key.c_str(), line.c_str());
-    } else if (const std::string text = text_of(value); !text.empty()) {
+    } else if (const std::string text = shown_value(value); !text.empty()) {
       std::printf("%s%s: %s\n", pad.c_str(), key.c_str(), text.c_str());
     }
   }
 }
 
-Result<int> run(const Options& options) {
+Result<int> run(const InfoOptions& options) {
   Result<Description> found = describe(options);
   if (!found) return found.error().in_file(options.input);
   if (options.json) {
@@ -201,8 +201,8 @@ Result<int> run(const Options& options) {
   return kOk;
 }
 
-Action add(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+Action add_info(CLI::App& app) {
+  auto options = std::make_shared<InfoOptions>();
   app.add_option("file", options->input,
                  "FAP or BAP text, FBA stream, container, sound, model or phoneme script")
       ->required();
@@ -218,6 +218,6 @@ Action add(CLI::App& app) {
 const Command kInfo{"info", "What a file holds",
                     "  animeme info talk.mp4\n"
                     "  animeme info talk.fba --planes --json",
-                    add};
+                    add_info};
 
 }  // namespace animeme::tools

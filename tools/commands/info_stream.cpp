@@ -6,6 +6,7 @@
 
 #include "fap/rate_text.h"
 #include "fap/tables.h"
+#include "tools/commands/stats_activity.h"
 
 namespace animeme::tools {
 
@@ -44,13 +45,6 @@ ValueRange range_of(const std::vector<Frame>& frames, std::size_t number) {
     first = false;
   }
   return range;
-}
-
-template <class Frame>
-auto used_mask(const std::vector<Frame>& frames) {
-  decltype(Frame().mask) used;
-  for (const Frame& frame : frames) used |= frame.mask;
-  return used;
 }
 
 constexpr const char* kRangeNames[4] = {"i_max", "i_min", "p_max", "p_min"};

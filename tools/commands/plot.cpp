@@ -14,7 +14,7 @@ namespace animeme::tools {
 
 namespace {
 
-struct Options {
+struct PlotOptions {
   std::string a;
   std::string b;
   std::string output;
@@ -26,14 +26,14 @@ struct Options {
 };
 
 // A filled clip, and when its frame 0 is shown.
-struct Shown {
+struct PlottedClip {
   fap::Sequence clip;
   double start = 0;
 
   double end() const { return start + clip.duration(); }
 };
 
-PlotPoints points_of(int fap, const Shown& shown) {
+PlotPoints points_of(int fap, const PlottedClip& shown) {
   PlotPoints points;
   for (const fap::Frame& frame : shown.clip.frames) {
     points.emplace_back(shown.start + shown.clip.rate.seconds(double(frame.number)),
@@ -48,14 +48,14 @@ std::string unit_of(int fap) {
   return "1/1024 " + std::string(fap::unit_name(unit));
 }
 
-PlotRow row_of(int fap, const std::vector<Shown>& clips) {
+PlotRow row_of(int fap, const std::vector<PlottedClip>& clips) {
   PlotRow row{"FAP " + std::to_string(fap), std::string(fap::info(fap).name), unit_of(fap), {}};
-  for (const Shown& clip : clips) row.curves.push_back(points_of(fap, clip));
+  for (const PlottedClip& clip : clips) row.curves.push_back(points_of(fap, clip));
   return row;
 }
 
 // b less a at the times of a; what b shows at a time is its last frame so far.
-PlotRow difference_of(int fap, const Shown& a, const Shown& b) {
+PlotRow difference_of(int fap, const PlottedClip& a, const PlottedClip& b) {
   PlotRow row{"FAP " + std::to_string(fap), "difference", unit_of(fap), {{}}, 2};
   const PlotPoints shown = points_of(fap, b);
   std::size_t at = 0;
@@ -66,7 +66,7 @@ PlotRow difference_of(int fap, const Shown& a, const Shown& b) {
   return row;
 }
 
-Result<int> run(const Options& options) {
+Result<int> run(const PlotOptions& options) {
   const Result<std::vector<int>> faps = fap_numbers(options.faps);
   if (!faps) return usage_error("--faps: " + faps.error().message);
   if (!is_drawing(options.output)) {
@@ -78,7 +78,7 @@ Result<int> run(const Options& options) {
   if (options.difference && options.b.empty()) {
     return usage_error("--difference needs two clips");
   }
-  std::vector<Shown> clips;
+  std::vector<PlottedClip> clips;
   std::vector<std::string> names;
   for (const std::string& path : {options.a, options.b}) {
     if (path.empty()) continue;
@@ -92,7 +92,7 @@ Result<int> run(const Options& options) {
     names.push_back(std::filesystem::path(path).filename().string());
   }
   PlotPanel panel;
-  for (const Shown& clip : clips) panel.seconds = std::max(panel.seconds, clip.end());
+  for (const PlottedClip& clip : clips) panel.seconds = std::max(panel.seconds, clip.end());
   if (options.from >= panel.seconds) {
     return usage_error("--from lies behind the end of the clip");
   }
@@ -122,8 +122,8 @@ Result<int> run(const Options& options) {
   return kOk;
 }
 
-Action add(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+Action add_plot(CLI::App& app) {
+  auto options = std::make_shared<PlotOptions>();
   app.add_option("a", options->a, "FAP text, FBA stream or container (blue line)")->required();
   app.add_option("b", options->b, "A second one to compare with (orange, dashed)");
   app.add_option("-o,--output", options->output,
@@ -149,6 +149,6 @@ const Command kPlot{"plot", "Curves of one clip or two as a picture",
                     "-o curves.svg\n"
                     "  animeme plot talk.fap talk.fba --difference --faps open_jaw,raise_b_midlip "
                     "-o loss.png",
-                    add};
+                    add_plot};
 
 }  // namespace animeme::tools

@@ -19,7 +19,7 @@ namespace animeme::tools {
 
 namespace {
 
-struct Options {
+struct SpeakOptions {
   SpokenOptions spoken;
   std::string output;
   std::string preview;
@@ -65,7 +65,8 @@ Result<fap::Sequence> to_clip(const dam::Signal& signal) {
       "the controls of this model are no FAPs; write them as curves with -o NAME.csv");
 }
 
-Result<int> write_result(const Options& options, const fap::Sequence& clip, const Spoken& spoken) {
+Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
+                         const Spoken& spoken) {
   const std::string extension = extension_of(options.output);
   if (extension == ".fap") {
     if (auto done = write_file(options.output, fap::write_text(clip)); !done) return done.error();
@@ -96,7 +97,7 @@ Result<int> write_result(const Options& options, const fap::Sequence& clip, cons
   return write_preview(options.preview, *units, input);
 }
 
-void report(const Options& options, const Spoken& spoken, const dam::Signal& signal,
+void report(const SpeakOptions& options, const Spoken& spoken, const dam::Signal& signal,
             const dam::SynthesisReport& synthesis) {
   for (const auto& [label, by] : synthesis.replaced) {
     if (!options.json) say("the model has no " + label + ", spoken as " + by);
@@ -116,7 +117,7 @@ void report(const Options& options, const Spoken& spoken, const dam::Signal& sig
   std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
 }
 
-Result<int> run(const Options& options) {
+Result<int> run(const SpeakOptions& options) {
   if (!is_output(options.output)) {
     return usage_error(
         "--output must end in .mp4, .mkv, .ts, .m3u8, .mpd, .fba, .fap or .csv, not " +
@@ -167,8 +168,8 @@ Result<int> run(const Options& options) {
   return written;
 }
 
-Action add(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+Action add_speak(CLI::App& app) {
+  auto options = std::make_shared<SpeakOptions>();
   add_spoken_options(app, options->spoken);
   app.add_option(
          "-o,--output", options->output,
@@ -205,6 +206,6 @@ const Command kSpeak{
     "  animeme speak --text \"Guten Tag\" --lang de --rate 30 -o tag.mp4\n"
     "  animeme speak --audio voice.wav --transcript \"what she said\" -o talk.mp4\n"
     "  animeme speak --script voice.TextGrid --audio voice.wav --model me.dam -o talk.fba",
-    add};
+    add_speak};
 
 }  // namespace animeme::tools

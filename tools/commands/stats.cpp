@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct StatsOptions {
   std::vector<std::string> inputs;
   bool json = false;
   bool sizes = false;
@@ -205,7 +205,7 @@ void print(const Statistics& s) {
   print(s.baps, false, bap_bits(s), seconds);
 }
 
-Result<int> run(const Options& options) {
+Result<int> run(const StatsOptions& options) {
   if (options.sizes) return print_sizes(options.inputs, options.rms, options.json);
   if (options.inputs.size() != 1)
     return usage_error("several files can be given with --sizes only");
@@ -219,8 +219,8 @@ Result<int> run(const Options& options) {
   return kOk;
 }
 
-Action add(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+Action add_stats(CLI::App& app) {
+  auto options = std::make_shared<StatsOptions>();
   app.add_option("file", options->inputs, "FBA stream, container, FAP or BAP text, curves")
       ->required();
   CLI::Option* sizes = app.add_flag(
@@ -240,6 +240,6 @@ const Command kStats{"stats", "Bit rate of a stream, activity of each FAP and BA
                      "  animeme stats talk.fba\n"
                      "  animeme stats talk.fap --json\n"
                      "  animeme stats --sizes clips/*.fap",
-                     add};
+                     add_stats};
 
 }  // namespace animeme::tools

@@ -66,13 +66,6 @@ bool equal_throughout(const fap::Sequence& clip, int a, int b) {
   return present;
 }
 
-template <class Frame>
-auto used_mask(const std::vector<Frame>& frames) {
-  decltype(Frame().mask) used;
-  for (const Frame& frame : frames) used |= frame.mask;
-  return used;
-}
-
 }  // namespace
 
 std::vector<Activity> measure_activity(const fap::Sequence& clip) {

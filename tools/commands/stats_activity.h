@@ -11,6 +11,14 @@
 
 namespace animeme::tools {
 
+/// The parameters that occur at all.
+template <class Frame>
+auto used_mask(const std::vector<Frame>& frames) {
+  decltype(Frame().mask) used;
+  for (const Frame& frame : frames) used |= frame.mask;
+  return used;
+}
+
 /// One FAP or BAP as a receiver sees it: a value that a frame leaves out stays.
 struct Activity {
   int number = 0;             ///< of the FAP or BAP
@@ -26,7 +34,7 @@ struct Activity {
   bool never_moves() const { return distinct <= 1; }  ///< one value throughout
 };
 
-/// Those that occur at all, by number.
+/// Those of used_mask(), by number.
 std::vector<Activity> measure_activity(const fap::Sequence& clip);
 std::vector<Activity> measure_activity(const fba::BodySequence& body);  ///< likewise, of BAPs
 

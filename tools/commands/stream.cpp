@@ -191,7 +191,7 @@ void add_coding_options(CLI::App& app, StreamOptions& options) {
       ->check(CLI::Range(6000, 320000));
 }
 
-Action add(CLI::App& app) {
+Action add_stream(CLI::App& app) {
   auto options = std::make_shared<StreamOptions>();
   add_source_options(app, *options);
   app.add_option(
@@ -231,6 +231,6 @@ const Command kStream{
     "  my_chat_bot | animeme stream --say - --life --to rtp://192.0.2.7:5004 --sdp bot.sdp "
     "--stats\n"
     "Ctrl-C ends it in good order: receivers are told, the summary is printed; exit code 130.",
-    add};
+    add_stream};
 
 }  // namespace animeme::tools

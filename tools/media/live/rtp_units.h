@@ -1,6 +1,6 @@
 /// @file
 /// From packets in order to units of the face and the sound; times stay those of RTP.
-/// Source: containers, sections 1.3 and 4.1.
+/// Source: tools/media/containers.md, sections 1.3 and 4.1.
 #pragma once
 
 #include <cstdint>
@@ -50,7 +50,7 @@ class FaceAssembler {
 /// Packets of sound.
 class AudioAssembler {
  public:
-  explicit AudioAssembler(const AudioTrack& track);  ///< `track` as described
+  explicit AudioAssembler(const RtpAudioTrack& track);  ///< `track` as described
 
   RtpUnits add(const RtpPacket& packet, std::int64_t time);  ///< units that are complete now
   void gap() { joiner_.gap(); }  ///< packets are missing; a piece that waits is dropped

@@ -1,7 +1,7 @@
 /// @file
 /// Session descriptions: where the packets of a presentation come from and what is in them.
-/// Source: RFC 8866, 6416, 3640, 7587, 5576 (ssrc), 7273 (media clock), 8285 (extmap); containers,
-/// section 4.1.
+/// Source: RFC 8866, 6416, 3640, 7587, 5576 (ssrc), 7273 (media clock), 8285 (extmap);
+/// tools/media/containers.md, section 4.1.
 ///
 ///     m=video 5004 RTP/AVP 96
 ///     a=rtpmap:96 MP4V-ES/90000
@@ -24,6 +24,8 @@
 namespace animeme::media {
 
 inline constexpr std::uint32_t kFaceClock = 90000;  ///< ticks a second, of MP4V-ES
+inline constexpr int kRtpPort = 5004;               ///< of a face whose address names none
+inline constexpr std::size_t kMaxConfig = 1024;     ///< bytes of a face's configuration
 /// Largest LiveInfo::timescale; that of the fastest stream of 14496-2 is 4095000.
 inline constexpr std::uint32_t kMaxTimescale = 10000000;
 
@@ -43,29 +45,29 @@ struct RtpTrack {
 };
 
 /// The face, as a description has it.
-struct FaceTrack : RtpTrack {
+struct RtpFaceTrack : RtpTrack {
   std::vector<std::uint8_t> config;    ///< empty: comes in band
   std::uint8_t visual_profile = 0x61;  ///< profile-level-id
   std::uint32_t timescale = 0;         ///< of the sender; 0: not said
   int bundle_id = 0;                   ///< number of the extension kBundleExtension; 0: not used
 
-  friend bool operator==(const FaceTrack&, const FaceTrack&) = default;
+  friend bool operator==(const RtpFaceTrack&, const RtpFaceTrack&) = default;
 };
 
 /// The sound, as a description has it.
-struct AudioTrack : RtpTrack {
+struct RtpAudioTrack : RtpTrack {
   AudioFormat format;  ///< codec, rate, channels
   AacFields fields;    ///< of mpeg4-generic
 
-  friend bool operator==(const AudioTrack&, const AudioTrack&) = default;
+  friend bool operator==(const RtpAudioTrack&, const RtpAudioTrack&) = default;
 };
 
 /// What a description says, or is to say.
 struct RtpSession {
-  std::string name = "animeme";     ///< s=
-  std::string cname = "animeme";    ///< of both media, so that they are known to belong together
-  std::optional<FaceTrack> face;    ///< nothing: no face
-  std::optional<AudioTrack> audio;  ///< nothing: no sound
+  std::string name = "animeme";        ///< s=
+  std::string cname = "animeme";       ///< of both media, so that they are known to belong together
+  std::optional<RtpFaceTrack> face;    ///< nothing: no face
+  std::optional<RtpAudioTrack> audio;  ///< nothing: no sound
   /// Media that are not for us, a sentence each.
   std::vector<std::string> ignored;
 
