@@ -1,7 +1,7 @@
 /// @file
 /// The arithmetic coder written a second time, word for word after the description and with no
 /// thought of speed, so that the generated streams do not rest on the codec that they test.
-/// Source: fba_bitstream, section 4.
+/// Source: codec/bitstream.md, section 4.
 #pragma once
 
 #include <cstddef>

@@ -112,7 +112,7 @@ struct AnimemeParameters {
   friend bool operator==(const AnimemeParameters&, const AnimemeParameters&) = default;
 };
 
-// ---- method dam: lipsync, section 5.2; dam/README.md has what was added ----
+// ---- method dam: dam/lipsync.md, section 2; dam/README.md has what was added ----
 //
 //     S(t) = sum_j w_j(t) A_j(u_j),   w_j = D_j / sum_i D_i,
 //     D_j = strength_p (d_j / usual_p)^e exp(-(before / left_p)^2 - (after / right_p)^2),

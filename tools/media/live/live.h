@@ -11,7 +11,7 @@
 ///
 /// Sinks send at once what they are given; pacing is the caller's (see pacer.h). Sources give out
 /// what came, with its losses marked; recovery.h decides what of it can be used.
-/// Source: containers, section 4.
+/// Source: tools/media/containers.md, section 4.
 #pragma once
 
 #include <cstdint>
