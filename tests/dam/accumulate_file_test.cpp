@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "accumulate_support.h"
+#include "tests/dam/accumulate_support.h"
 #include "tests/support/sealed_model.h"
 
 namespace animeme::dam {

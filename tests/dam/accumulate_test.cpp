@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "accumulate_support.h"
 #include "dam/corpus/corpus.h"
+#include "tests/dam/accumulate_support.h"
 #include "tests/support/shared.h"
 
 namespace animeme::dam {
@@ -118,7 +118,7 @@ TEST(Accumulate, ChoosesTheRidgeBySentencesHeldOut) {
   auto sentences = planted(40);
   TrainSummary clear, noisy;
   ASSERT_TRUE(train_from_sums(sums_of(sentences), {}, &clear));
-  test::Random random(8);
+  test::Uniform random(8);
   for (Utterance& u : sentences)
     for (double& v : u.signal.values) v = random(-1, 1);
   ASSERT_TRUE(train_from_sums(sums_of(sentences), {}, &noisy));

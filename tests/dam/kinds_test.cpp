@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "dam/evaluation/evaluate.h"
-#include "dam_support.h"
+#include "tests/dam/dam_support.h"
 #include "tests/support/shared.h"
 
 namespace animeme::dam {
@@ -30,7 +30,7 @@ class EveryKind : public testing::TestWithParam<Method> {
     return corpus ? corpus->utterances : std::vector<Utterance>{};
   }
   static std::vector<Utterance> planted(std::size_t count) {
-    test::Random random(5);
+    test::Uniform random(5);
     const auto truth = test::plant(random, {"SIL", "AA", "B", "IY"}, 2, 2);
     return test::planted_sentences(random, truth, count);
   }

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "dam/kinds/animeme/contexts.h"
-#include "dam_support.h"
+#include "tests/dam/dam_support.h"
 
 namespace animeme::dam {
 namespace mode_graph_test {
@@ -29,7 +29,7 @@ void search(const ModeGraph& graph, std::vector<std::size_t>& path, double cost,
 }
 
 TEST(CheapestPath, AgreesWithExhaustiveSearch) {
-  test::Random random(11);
+  test::Uniform random(11);
   for (int round = 0; round < 200; ++round) {
     ModeGraph graph;
     const std::size_t layers = 1 + random.below(6);

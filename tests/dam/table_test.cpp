@@ -7,7 +7,7 @@
 #include "dam/kinds/table/contexts.h"
 #include "dam/kinds/table/viseme_weights.h"
 #include "dam/model/kind_internal.h"
-#include "dam_support.h"
+#include "tests/dam/dam_support.h"
 
 namespace animeme::dam {
 namespace table_test {
@@ -53,7 +53,7 @@ TEST(Viseme, HoldsAndStraightLines) {
 }
 
 TEST(Viseme, TrainingFindsPosesAndTheirPlace) {
-  test::Random random(3);
+  test::Uniform random(3);
   const std::vector<double> poses = {1, -2, 0.5, 0};
   TrainingSet set;
   set.data.controls = 1;

@@ -2,12 +2,15 @@
 /// The head that a command shows: one of ours, or a file of the user's.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 #include "fap/head/model.h"
 #include "fap/result.h"
+
+namespace CLI {
+class App;
+}
 
 namespace animeme::tools {
 
