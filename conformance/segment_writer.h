@@ -37,7 +37,7 @@ struct Frequencies {
     count.assign(std::size_t(n), 1);
     halved = false;
   }
-  void update(std::size_t symbol);  ///< counts a symbol, as section 4 of codec/bitstream.md has it
+  void update(std::size_t symbol);  ///< counts a symbol, see codec/bitstream.md, section 4
 };
 
 /// What happened while a stream was written: traps that a decoder may fall into.

@@ -154,7 +154,7 @@ struct TermTable {
   friend bool operator==(const TermTable&, const TermTable&) = default;
 };
 
-/// Parameters of method dam; see dam/lipsync.md, section 5.2.
+/// Parameters of method dam; see dam/lipsync.md, section 2.
 struct RefinedParameters {
   double time_margin = 0.3;               ///< >= 0
   double duration_exponent = 0.3;         ///< 0..2
