@@ -10,6 +10,7 @@
 
 #include "fap/rate.h"
 
+/// Facial animation parameters: data, tables, text.
 namespace animeme::fap {
 
 inline constexpr int kFapCount = 68;       ///< FAPs are numbered 1..68

@@ -34,6 +34,7 @@
 #include "fap/frame.h"
 #include "fap/result.h"
 
+/// The FBA bitstream: decoder, encoders, texts around them.
 namespace animeme::fba {
 
 struct DecodedStream;

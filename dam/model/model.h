@@ -29,6 +29,7 @@
 #include "fap/rate.h"
 #include "fap/result.h"
 
+/// Dominated animeme models: scripts, training, speaking, evaluation.
 namespace animeme::dam {
 
 /// How a model was made and has to be evaluated. Numbers are part of the file format.

@@ -14,7 +14,7 @@ namespace animeme::tools {
 
 /// All bytes of a file, or of standard input for "-". Errors: not_found, io.
 Result<std::vector<std::uint8_t>> read_file(const std::string& path);
-Result<std::string> read_text_file(const std::string& path);
+Result<std::string> read_text_file(const std::string& path);  ///< likewise, as text
 
 /// Writes a file whole or not at all (temporary file beside it, then rename); "-" is standard
 /// output. Errors: io.

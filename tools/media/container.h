@@ -23,6 +23,7 @@
 #include "fap/result.h"
 #include "tools/media/encoded_audio.h"
 
+/// Sound, containers and live transports.
 namespace animeme::media {
 
 /// A sound track as its header describes it.

@@ -21,6 +21,7 @@
 #include "tools/speech/lines.h"
 #include "tools/speech/talking_face.h"
 
+/// A talking head while it is being made.
 namespace animeme::speech {
 
 /// All settings of LiveSpeaker.

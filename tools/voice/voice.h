@@ -20,6 +20,7 @@
 #include "fap/result.h"
 #include "tools/media/pcm.h"
 
+/// Text to speech and forced alignment.
 namespace animeme::voice {
 
 /// Who speaks, and how.

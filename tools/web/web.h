@@ -24,6 +24,7 @@
 #include "fap/result.h"
 #include "tools/media/live/live.h"
 
+/// A web server and its client as live transports.
 namespace animeme::web {
 
 /// Seconds on the clock of the segments at time 0.
