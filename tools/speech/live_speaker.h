@@ -48,7 +48,7 @@ struct LineTrace {
   double face_coded = 0;   ///< ... its end
   double face_sent = 0;    ///< that frame has been sent
   double sound_begun = 0;  ///< the first packet with sound of it: coding ...
-  double sound_coded = 0;  ///< ... its last packet
+  double sound_coded = 0;  ///< ... its end
   double sound_sent = 0;   ///< that packet has been sent
 };
 
