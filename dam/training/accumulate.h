@@ -67,7 +67,7 @@ class TrainingSums {
   /// or another rate; NaN; a broken script).
   Result<bool> add(const Utterance& sentence);
 
-  std::size_t sentences() const;              ///< that count, held-out ones included
+  std::size_t sentences() const;              ///< added, held-out ones included
   std::size_t frames() const;                 ///< that count in the fit
   std::vector<std::string> controls() const;  ///< names, in the order of the sums
   fap::Rate rate() const;                     ///< of the signals
