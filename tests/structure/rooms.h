@@ -44,6 +44,7 @@ inline constexpr Room kRooms[] = {
     {"conformance", "codec/text", false},
 
     {"tools/xml.h", "", false},
+    {"tools/exchange", "dam/corpus codec/text"},
     {"tools/render", "fap/head"},
     {"tools/gltf", "fap/head"},
     {"tools/media tools/media/live", "codec/decode"},
@@ -52,8 +53,8 @@ inline constexpr Room kRooms[] = {
     {"tools/viewer", "dam/script tools/render tools/xml.h"},
     {"tools/web", "tools/media"},
     {"tools/check tools/commands",
-     "fap/xml dam/evaluation dam/training conformance tools/gltf tools/speech tools/viewer "
-     "tools/web",
+     "fap/xml dam/evaluation dam/training conformance tools/exchange tools/gltf tools/speech "
+     "tools/viewer tools/web",
      false},
     {"tools", "tools/commands", false},
 
