@@ -45,6 +45,7 @@ inline constexpr Room kRooms[] = {
 
     {"tools/xml.h", "", false},
     {"tools/files", "fap", false},
+    {"tools/exchange", "dam/corpus codec/text"},
     {"tools/render", "fap/head"},
     {"tools/gltf", "fap/head"},
     {"tools/media tools/media/live", "codec/decode"},
@@ -54,7 +55,8 @@ inline constexpr Room kRooms[] = {
     {"tools/web", "tools/media"},
     {"tools/check", "conformance tools/files tools/xml.h", false},
     {"tools/commands",
-     "fap/xml dam/evaluation dam/training tools/check tools/gltf tools/speech tools/viewer "
+     "fap/xml dam/evaluation dam/training tools/check tools/exchange tools/gltf tools/speech "
+     "tools/viewer "
      "tools/web",
      false},
     {"tools", "tools/commands", false},
