@@ -44,7 +44,7 @@ inline constexpr Room kRooms[] = {
     {"conformance", "codec/text", false},
 
     {"tools/xml.h tools/text.h tools/exit_code.h", "fap", false},
-    {"tools/files", "fap"},
+    {"tools/files", "fap", false},
     {"tools/exchange", "codec/text dam/corpus"},
     {"tools/render", "fap/head"},
     {"tools/gltf", "fap/head"},
