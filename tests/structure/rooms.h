@@ -56,8 +56,7 @@ inline constexpr Room kRooms[] = {
     {"tools/check", "conformance tools/files tools/xml.h", false},
     {"tools/commands",
      "fap/xml dam/evaluation dam/training tools/check tools/exchange tools/gltf tools/speech "
-     "tools/viewer "
-     "tools/web",
+     "tools/viewer tools/web",
      false},
     {"tools", "tools/commands", false},
 
