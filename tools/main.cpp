@@ -1,4 +1,5 @@
 // The program `animeme`: one command for each task, see commands/.
+#include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
 #include <string>

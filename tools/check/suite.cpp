@@ -7,7 +7,7 @@
 
 #include "conformance/sha256.h"
 #include "tools/check/children.h"
-#include "tools/commands/common.h"
+#include "tools/files/files.h"
 
 namespace animeme::tools {
 namespace {

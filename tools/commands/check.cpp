@@ -1,4 +1,5 @@
 #include <fnmatch.h>
+#include <CLI/CLI.hpp>
 
 #include <memory>
 #include <thread>

@@ -1,4 +1,5 @@
-// Curves over time as SVG, with the phones that are spoken.
+/// @file
+/// Curves over time as SVG, with the phones that are spoken.
 #pragma once
 
 #include <string>
@@ -15,8 +16,8 @@ using PlotPoints = std::vector<std::pair<double, double>>;
 
 /// One curve a colour, in the order of the legend; together they share a scale.
 struct PlotRow {
-  std::string title;
-  std::string subtitle;
+  std::string title;               ///< beside the curves
+  std::string subtitle;            ///< below it, smaller
   std::string unit;                ///< of the values; empty: none is told
   std::vector<PlotPoints> curves;  ///< first_colour + their number: three at most
   std::size_t first_colour = 0;    ///< place in the legend of the first curve
@@ -29,7 +30,7 @@ struct PlotPanel {
   double seconds = 0;                   ///< where it ends
   const dam::Script* script = nullptr;  ///< phones behind the rows; nullptr: none
   bool names_below = false;             ///< the phones' names stand below the rows, not above
-  std::vector<PlotRow> rows;
+  std::vector<PlotRow> rows;            ///< from the top
 };
 
 /// The panels one below the other, and whose colour is whose; the colours differ for colour-blind
@@ -38,6 +39,7 @@ struct PlotPanel {
 /// more in short ones, which are 600 pixels wide. A phone without room for its name has none.
 /// Longer than this should not be drawn.
 inline constexpr double kLongestPlot = 600;  // seconds
+/// See PlotPanel.
 std::string curves_svg(const std::vector<PlotPanel>& panels,
                        const std::vector<std::string>& legend);
 

@@ -1,5 +1,6 @@
 #include "codec/encode/encode.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -1,5 +1,6 @@
 #include "dam/evaluation/evaluate.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>

@@ -1,4 +1,5 @@
-// The parts of `animeme evaluate`: systems to compare, the codec's share, and what is printed.
+/// @file
+/// The parts of `animeme evaluate`: systems to compare, the codec's share, and what is printed.
 #pragma once
 
 #include <optional>
@@ -14,7 +15,7 @@ namespace animeme::tools {
 
 /// A model, or somebody's tracks: ID.csv or ID.fap in a folder.
 struct System {
-  std::string path;
+  std::string path;                 ///< file or folder
   std::optional<dam::Model> model;  ///< none: tracks
 };
 
@@ -35,8 +36,8 @@ Result<std::vector<dam::Control>> scale_of(const System& system,
 
 /// What coding does to the motion.
 struct CodecScore {
-  std::size_t bytes = 0;
-  double kbps = 0;
+  std::size_t bytes = 0;  ///< of all streams
+  double kbps = 0;        ///< kbit/s
   dam::Evaluation error;  ///< decoded against the motion before coding
   dam::Evaluation total;  ///< decoded against the recordings
 };
@@ -47,13 +48,13 @@ Result<CodecScore> score_codec(const std::vector<dam::SentencePair>& pairs,
 
 /// Everything that was found out.
 struct EvaluateReport {
-  std::string system;
-  dam::Evaluation evaluation;
-  double closed_gap = 45;
-  std::string against;
-  std::optional<dam::PairedDifference> difference;
-  std::size_t compared_controls = 0;  ///< scored ones that both systems have
-  std::optional<CodecScore> codec;
+  std::string system;                               ///< its path
+  dam::Evaluation evaluation;                       ///< against the recordings
+  double closed_gap = 45;                           ///< see dam::ScoreOptions
+  std::string against;                              ///< path of the other system; empty: none
+  std::optional<dam::PairedDifference> difference;  ///< nothing: no other system
+  std::size_t compared_controls = 0;                ///< scored ones that both systems have
+  std::optional<CodecScore> codec;                  ///< nothing: not asked for
 };
 
 /// The report as JSON text.

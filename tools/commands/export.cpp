@@ -1,4 +1,5 @@
 // Motion for other programs: what they know are ARKit's shapes, visemes, mouth shapes or glTF.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 

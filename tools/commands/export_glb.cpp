@@ -1,5 +1,7 @@
 #include "tools/commands/export_glb.h"
 
+#include <filesystem>
+
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
 #include "tools/gltf/glb.h"

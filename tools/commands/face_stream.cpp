@@ -1,5 +1,6 @@
 #include "tools/commands/face_stream.h"
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 

@@ -1,4 +1,5 @@
 // A face that follows a voice which is still being made.
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
 #include <memory>

@@ -1,5 +1,6 @@
 #include "tools/commands/head_file.h"
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 
 #include "fap/head/obj.h"

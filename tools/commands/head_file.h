@@ -1,15 +1,20 @@
-// The head that a command shows: one of ours, or a file of the user's.
+/// @file
+/// The head that a command shows: one of ours, or a file of the user's.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 #include "fap/head/model.h"
 #include "fap/result.h"
 
+namespace CLI {
+class App;
+}
+
 namespace animeme::tools {
 
+/// --head and --points.
 struct HeadChoice {
   std::string head = "woman";  ///< one of head::kHeadNames, or a file
   std::string points;          ///< list of feature points; see fap/head/point_list.h
@@ -17,13 +22,14 @@ struct HeadChoice {
 
 /// What --help says of them.
 extern const char* const kHeadHelp;
-extern const char* const kPointsHelp;
+extern const char* const kPointsHelp;  ///< of --points
 
 /// Adds --head and --points.
 void add_head_options(CLI::App& app, HeadChoice& choice);
 
+/// A head that is ready to be shown.
 struct LoadedHead {
-  head::Head head;
+  head::Head head;                 ///< see fap/head/model.h
   std::vector<std::string> notes;  ///< what was guessed or is missing, a sentence each
 };
 

@@ -1,4 +1,5 @@
-// A head, a camera and a renderer: frames in, pictures out.
+/// @file
+/// A head, a camera and a renderer: frames in, pictures out.
 #pragma once
 
 #include <memory>
@@ -13,12 +14,12 @@ namespace animeme::tools {
 
 /// How a head is looked at.
 struct HeadLook {
-  HeadChoice head;
+  HeadChoice head;     ///< whose head
   double degrees = 0;  ///< to the person's left
   double up = 0;       ///< degrees from above
   double zoom = 1;     ///< 1: head and shoulders
   int width = 640;     ///< pixels
-  int height = 640;
+  int height = 640;    ///< pixels
 };
 
 /// Movable, not copyable.
@@ -26,7 +27,7 @@ class HeadView {
  public:
   /// Errors: those of load_head(). What it notes goes to standard error.
   static Result<HeadView> make(const HeadLook& look);
-  HeadView(HeadView&&) noexcept;
+  HeadView(HeadView&&) noexcept;  ///< movable
   HeadView& operator=(HeadView&&) noexcept;
   ~HeadView();
 

@@ -1,4 +1,5 @@
 // Motion captured by other programs: shapes of a phone, points of a tracker.
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 

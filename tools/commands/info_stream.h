@@ -1,8 +1,9 @@
-// What info says about motion: clips, bodies, streams and their planes.
+/// @file
+/// What info says about motion: clips, bodies, streams and their planes.
 #pragma once
 
 #include <cstddef>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "codec/decode/decoder.h"
 #include "codec/text/bap_text.h"
@@ -10,11 +11,11 @@
 
 namespace animeme::tools {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;  ///< keeps the order of its members
 
 /// Frames, rate, and the range of values of each parameter.
 Json describe_clip(const fap::Sequence& clip);
-Json describe_body(const fba::BodySequence& body);
+Json describe_body(const fba::BodySequence& body);  ///< the same of a body
 
 /// A whole stream of `bytes` bytes, without its planes.
 Json describe_stream(const fba::DecodedStream& stream, std::size_t bytes);

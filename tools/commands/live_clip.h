@@ -1,4 +1,5 @@
-// What is there as a whole before it is streamed: a face and its sound, coded.
+/// @file
+/// What is there as a whole before it is streamed: a face and its sound, coded.
 #pragma once
 
 #include <string>
@@ -12,16 +13,17 @@ namespace animeme::tools {
 
 /// How face and sound are coded where they are not yet.
 struct LiveCoding {
-  int quant = 1;
-  double intra_seconds = 1;  ///< coded streams with longer distances are coded again
-  bool copy = false;         ///< coded streams stay as they are, whatever is asked for
-  bool sound = true;
-  media::AudioSettings audio;
-  bool codec_given = false;  ///< coded sound of another codec is coded again
+  int quant = 1;               ///< fap_quant
+  double intra_seconds = 1;    ///< coded streams with longer distances are coded again
+  bool copy = false;           ///< coded streams stay as they are, whatever is asked for
+  bool sound = true;           ///< false: the face alone
+  media::AudioSettings audio;  ///< if it is to be coded
+  bool codec_given = false;    ///< coded sound of another codec is coded again
 };
 
+/// A clip that is ready to be sent.
 struct LiveClip {
-  fba::AccessUnits face;
+  fba::AccessUnits face;      ///< may have no units
   media::EncodedAudio sound;  ///< no packets: silent
 };
 

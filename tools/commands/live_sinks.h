@@ -1,4 +1,5 @@
-// Several live addresses as one.
+/// @file
+/// Several live addresses as one.
 #pragma once
 
 #include <memory>
@@ -12,9 +13,9 @@ namespace animeme::tools {
 
 /// What is sent to one address, and how that goes.
 struct LiveAddress {
-  std::string url;
-  std::unique_ptr<media::LiveSink> sink;
-  bool broken = false;
+  std::string url;                        ///< as given
+  std::unique_ptr<media::LiveSink> sink;  ///< never null
+  bool broken = false;                    ///< left behind after an error
 };
 
 /// All addresses of a stream. One that breaks while it runs is left behind with a warning as long
@@ -31,11 +32,11 @@ class LiveSinks {
   Result<void> start(const media::LiveInfo& info);
   /// Errors: when the last address breaks.
   Result<void> send(const media::LiveUnit& unit);
-  Result<void> poll();
+  Result<void> poll();  ///< as LiveSink::poll(), everywhere
   /// Says goodbye everywhere; the first error.
   Result<void> finish();
 
-  const std::vector<LiveAddress>& addresses() const { return addresses_; }
+  const std::vector<LiveAddress>& addresses() const { return addresses_; }  ///< in the order given
   /// Of all addresses: receivers are added up, the largest loss counts.
   media::SendStats stats() const;
 

@@ -1,5 +1,6 @@
 #include "tools/commands/model_input.h"
 
+#include <CLI/CLI.hpp>
 #include <charconv>
 
 #include "dam/model/builtin.h"

@@ -1,5 +1,6 @@
 #include "tools/media/mux.h"
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
 #include <optional>

@@ -1,5 +1,6 @@
 #include "tools/commands/preview.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,5 @@
-// Rendered video of a face: what any player shows.
+/// @file
+/// Rendered video of a face: what any player shows.
 #pragma once
 
 #include <optional>
@@ -15,8 +16,9 @@
 
 namespace animeme::tools {
 
+/// How the video looks.
 struct PreviewOptions {
-  HeadLook look;
+  HeadLook look;                        ///< head and camera
   std::optional<fap::Rate> rate;        ///< pictures a second; nothing: one a frame of the clip
   int quality = 20;                     ///< as VideoSettings::quality
   const dam::Script* script = nullptr;  ///< phones to show below; nullptr: none

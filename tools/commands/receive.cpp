@@ -1,4 +1,5 @@
 // Recording or printing a face and its sound while they come in.
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -9,7 +10,6 @@
 #include "tools/commands/live_address.h"
 #include "tools/commands/receive_output.h"
 #include "tools/commands/receive_report.h"
-#include "tools/commands/status_line.h"
 #include "tools/media/live/pacer.h"
 #include "tools/media/live/recorder.h"
 

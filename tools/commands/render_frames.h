@@ -1,4 +1,5 @@
-// What `animeme render` shows: which frames of a clip, and where their pictures go.
+/// @file
+/// What `animeme render` shows: which frames of a clip, and where their pictures go.
 #pragma once
 
 #include <memory>
@@ -13,8 +14,8 @@ namespace animeme::tools {
 
 /// A frame and when it is shown.
 struct ShownFrame {
-  fap::Frame frame;
-  double seconds = 0;
+  fap::Frame frame;    ///< filled
+  double seconds = 0;  ///< in the clip
 };
 
 /// The frames at these times (the last one that has begun); `clip` is filled. Errors: out_of_range
@@ -35,7 +36,7 @@ Result<std::vector<ShownFrame>> shape_frames(const std::string& what);
 class PictureSink {
  public:
   virtual ~PictureSink() = default;
-  virtual Result<void> add(const render::Image& image) = 0;
+  virtual Result<void> add(const render::Image& image) = 0;  ///< takes one picture
   /// Once, after the last one.
   virtual Result<void> finish() = 0;
 };

@@ -1,5 +1,7 @@
 #include "tools/commands/spoken.h"
 
+#include <CLI/CLI.hpp>
+
 #include "tools/commands/common.h"
 #include "tools/commands/voice_input.h"
 #include "tools/voice/align.h"

@@ -1,5 +1,6 @@
-// What is said and when: from text (a synthetic voice), from an aligned script, or from a
-// recorded voice and its text.
+/// @file
+/// What is said and when: from text (a synthetic voice), from an aligned script, or from a
+/// recorded voice and its text.
 #pragma once
 
 #include <optional>
@@ -11,23 +12,25 @@
 
 namespace animeme::tools {
 
+/// The options of speech, as the user gave them.
 struct SpokenOptions {
-  std::string text;
-  bool has_text = false;
-  std::string text_file;
-  std::string script;
-  std::string audio;
-  std::string transcript;
-  bool has_transcript = false;
-  std::string language = "en";
-  int words_per_minute = 175;
-  int pitch = 50;
+  std::string text;             ///< --text
+  bool has_text = false;        ///< --text was given, be it empty
+  std::string text_file;        ///< --text-file
+  std::string script;           ///< --script
+  std::string audio;            ///< --audio
+  std::string transcript;       ///< --transcript
+  bool has_transcript = false;  ///< --transcript was given, be it empty
+  std::string language = "en";  ///< --lang
+  int words_per_minute = 175;   ///< --speed
+  int pitch = 50;               ///< --pitch, 0..100
 };
 
+/// What is said, and its sound.
 struct Spoken {
-  dam::Script script;
-  std::optional<media::Pcm> audio;
-  std::string voice;  ///< of synthetic speech
+  dam::Script script;               ///< phones and words
+  std::optional<media::Pcm> audio;  ///< nothing: no sound was given or made
+  std::string voice;                ///< of synthetic speech
 };
 
 /// Adds --text, --text-file, --script, --audio, --transcript, --lang, --speed, --pitch.

@@ -1,4 +1,5 @@
 // Sending a face and its sound while time passes.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -7,7 +8,6 @@
 
 #include "fap/rate_text.h"
 #include "tools/commands/interrupt.h"
-#include "tools/commands/status_line.h"
 #include "tools/commands/stream_program.h"
 #include "tools/commands/stream_report.h"
 

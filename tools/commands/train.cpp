@@ -1,7 +1,9 @@
 #include "dam/training/train.h"
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "tools/commands/train_parts.h"
 #include "tools/commands/train_report.h"

@@ -1,7 +1,8 @@
-// What `train` prints of a training, as text and JSON.
+/// @file
+/// What `train` prints of a training, as text and JSON.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "dam/model/model.h"

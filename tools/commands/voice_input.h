@@ -1,4 +1,6 @@
-// Scripts and sounds as the commands read them: each warning is printed, each error names its file.
+/// @file
+/// Scripts and sounds as the commands read them: each warning is printed, each error names its
+/// file.
 #pragma once
 
 #include <functional>
@@ -23,10 +25,10 @@ Result<media::Pcm> read_voice(const std::string& path, int sample_rate = 0);
 /// A sound that goes into a file: coded already (with packets), or samples to be coded; one of
 /// them.
 struct SoundInput {
-  std::optional<media::EncodedAudio> coded;
-  std::optional<media::Pcm> samples;
+  std::optional<media::EncodedAudio> coded;  ///< nothing: `samples`
+  std::optional<media::Pcm> samples;         ///< nothing: `coded`
 
-  double seconds() const;
+  double seconds() const;  ///< length of whichever there is
   /// Names it in `input`, which borrows it.
   void give_to(media::MuxInput& input) const;
 };

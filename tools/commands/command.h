@@ -1,0 +1,45 @@
+// A command of the program: its name, its options, what it runs and how it ends.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "fap/result.h"
+
+namespace CLI {
+class App;
+}
+
+namespace animeme::tools {
+
+/// Exit codes of the program.
+enum ExitCode : int {
+  kOk = 0,
+  kCheckFailed = 1,
+  kUsage = 2,
+  kBadInput = 3,
+  kInternal = 4,
+  kInterrupted = 130,  ///< Ctrl-C; what was written is complete as far as it goes
+};
+
+/// A command puts its options into `app` and returns what is to run when it was chosen: the exit
+/// code, or an error that main() prints (exit code 3).
+using Action = std::function<Result<int>()>;
+
+/// One command: its name, one line of help, and the function that sets it up. `examples` ends
+/// its --help.
+struct Command {
+  const char* name;
+  const char* summary;
+  const char* examples;
+  Action (*add)(CLI::App& app);
+};
+
+extern const Command kAlign, kCheck, kCompare, kDecode, kDemux, kEncode, kEvaluate, kExport,
+    kFollow, kHead, kImport, kInfo, kMux, kPlot, kReceive, kRender, kSpeak, kStats, kStream, kTrain,
+    kView;
+
+/// Prints a usage error on standard error; returns kUsage for the command to return.
+int usage_error(const std::string& text);
+
+}  // namespace animeme::tools
