@@ -15,6 +15,7 @@
 #include "tools/commands/terminal.h"
 #include "tools/files/files.h"
 
+/// The commands of the program and what they share.
 namespace animeme::tools {
 
 /// What a file holds, told by its content.

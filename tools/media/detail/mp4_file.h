@@ -1,6 +1,6 @@
 // A plain MPEG-4 file of tracks in memory: contents first, one sample a chunk, samples of all
 // tracks in the order of their times; or its contents alone, in front of fragments. Source:
-// containers, section 1.5.
+// tools/media/containers.md, section 1.5.
 #pragma once
 
 #include <cstdint>
