@@ -43,12 +43,12 @@ inline constexpr Room kRooms[] = {
 
     {"conformance", "codec/text", false},
 
-    {"tools/xml.h", "", false},
+    {"tools/xml.h tools/json.h", "", false},
     {"tools/files", "fap", false},
     {"tools/exchange", "dam/corpus codec/text"},
     {"tools/render", "fap/head"},
     {"tools/gltf", "fap/head"},
-    {"tools/media tools/media/live", "codec/decode"},
+    {"tools/media tools/media/live", "codec/decode fap/xml"},
     {"tools/voice", "dam/script tools/media"},
     {"tools/speech", "dam/speaking codec/encode tools/voice"},
     {"tools/viewer", "dam/script tools/render tools/xml.h"},

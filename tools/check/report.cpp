@@ -1,18 +1,16 @@
 #include "tools/check/report.h"
 
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "conformance/features.h"
+#include "tools/json.h"
 #include "tools/xml.h"
 
 namespace animeme::tools {
 namespace {
 
 using conformance::Family;
-using Json = nlohmann::ordered_json;
-
 // How often a feature occurs, and in how many cases that are right.
 struct Count {
   std::size_t cases = 0, right = 0;

@@ -1,12 +1,10 @@
-#include <nlohmann/json.hpp>
 
 #include "tools/commands/evaluate_report.h"
+#include "tools/json.h"
 
 namespace animeme::tools {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json series_json(const dam::SeriesScore& one) {
   return {{"name", one.name},   {"scored", one.scored}, {"rmse", one.rmse},

@@ -247,10 +247,10 @@ void print_planes(const fba::DecodedStream& stream) {
   std::printf("%8s %10s %10s %7s  %-4s %s\n", "number", "seconds", "bit", "bits", "type",
               "of    says");
   for (const fba::Plane& plane : stream.planes) {
-    constexpr const char* kParts[4] = {"-", "face", "body", "both"};
+    constexpr const char* kObjects[4] = {"-", "face", "body", "both"};
     std::printf("%8lld %10.3f %10lld %7lld  %-4s %-4s%s\n", (long long)plane.number, plane.seconds,
                 (long long)plane.bit_begin, (long long)(plane.bit_end - plane.bit_begin),
-                plane.intra ? "I" : "P", kParts[std::size_t(plane.object_mask)],
+                plane.intra ? "I" : "P", kObjects[std::size_t(plane.object_mask)],
                 details(plane).c_str());
   }
 }

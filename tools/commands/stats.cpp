@@ -1,7 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "fap/rate_text.h"
@@ -10,12 +9,11 @@
 #include "tools/commands/stats_activity.h"
 #include "tools/commands/stats_bits.h"
 #include "tools/commands/stats_sizes.h"
+#include "tools/json.h"
 
 namespace animeme::tools {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct StatsOptions {
   std::vector<std::string> inputs;

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "tools/commands/common.h"
+#include "tools/json.h"
 
 namespace animeme::tools {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 template <class... Values>
 std::string text(const char* format, Values... values) {
