@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "fap/tables.h"
-#include "tools/commands/body_difference.h"
 #include "tools/commands/common.h"
+#include "tools/inspect/body_difference.h"
 
 namespace animeme::tools {
 
@@ -79,13 +79,13 @@ void print_rows(const fap::Difference& difference) {
   }
 }
 
-nlohmann::ordered_json to_json(const BodyDifference& difference) {
+nlohmann::ordered_json to_json(const inspect::BodyDifference& difference) {
   nlohmann::ordered_json json = summary_json(difference);
   nlohmann::ordered_json baps = nlohmann::ordered_json::array();
   for (int number = 1; number <= fba::kBapCount; ++number) {
-    const BapDifference& one = difference.bap[std::size_t(number)];
+    const inspect::BapDifference& one = difference.bap[std::size_t(number)];
     if (one.frames + one.only_a + one.only_b == 0) continue;
-    const double step = bap_step(number);
+    const double step = inspect::bap_step(number);
     baps.push_back({{"bap", number},
                     {"frames", one.frames},
                     {"only_a", one.only_a},
@@ -100,12 +100,12 @@ nlohmann::ordered_json to_json(const BodyDifference& difference) {
   return json;
 }
 
-void print_rows(const BodyDifference& difference) {
+void print_rows(const inspect::BodyDifference& difference) {
   std::printf("%4s %8s %8s %8s %10s %10s\n", "BAP", "rms", "max", "frame", "rms/step", "max/step");
   for (int number = 1; number <= fba::kBapCount; ++number) {
-    const BapDifference& one = difference.bap[std::size_t(number)];
+    const inspect::BapDifference& one = difference.bap[std::size_t(number)];
     if (one.differing + one.only_a + one.only_b == 0) continue;
-    const double step = bap_step(number);
+    const double step = inspect::bap_step(number);
     std::printf("%4d %8.2f %8lld %8lld %10.3f %10.2f", number, one.rms(), (long long)one.max,
                 (long long)one.max_frame, one.rms() / step, double(one.max) / step);
     print_only(one);
@@ -163,9 +163,9 @@ Result<int> run(const Options& options) {
   if (auto ok = check_half(*b, *a, options.a); !ok) return ok.error();
   const Common common = in_common(*a, *b);
   fap::Difference face;
-  std::optional<BodyDifference> body;
+  std::optional<inspect::BodyDifference> body;
   if (common.face) face = fap::compare(a->face, b->face);
-  if (common.body) body = compare_bodies(a->body, b->body);
+  if (common.body) body = inspect::compare_bodies(a->body, b->body);
   const bool equal = face.equal() && (!body || body->equal());
   if (options.json) {
     nlohmann::ordered_json json = to_json(face);

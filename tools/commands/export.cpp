@@ -8,6 +8,7 @@
 #include "tools/commands/arkit_export.h"
 #include "tools/commands/common.h"
 #include "tools/commands/export_glb.h"
+#include "tools/commands/head_options.h"
 #include "tools/commands/viseme_export.h"
 
 namespace animeme::tools {
@@ -188,7 +189,7 @@ Result<int> run(const Options& options) {
                         "its visemes")
           .in_file(options.input);
     }
-    if (const std::string problem = problem_of(options.glb.head);
+    if (const std::string problem = studio::problem_of(options.glb.head);
         what == "head" && !problem.empty()) {
       return usage_error(problem);
     }

@@ -5,12 +5,12 @@
 
 #include "fap/frame.h"
 #include "fap/result.h"
-#include "tools/commands/head_file.h"
+#include "tools/studio/head_file.h"
 
 namespace animeme::tools {
 
 struct GlbExport {
-  HeadChoice head;
+  studio::HeadChoice head;
   std::string morphs = "arkit";  ///< or "fap"
   std::string audio;             ///< name to mention; may be empty
   bool normals = false;

@@ -9,12 +9,14 @@
 #include "dam/script/script.h"
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
-#include "tools/commands/info_stream.h"
+#include "tools/inspect/stream.h"
 #include "tools/media/container.h"
 
 namespace animeme::tools {
 
 namespace {
+
+using inspect::Json;
 
 struct Options {
   std::string input;
@@ -32,8 +34,8 @@ Result<Json> describe_coded(const Options& options, std::span<const std::uint8_t
                             Description& out) {
   Result<fba::DecodedStream> decoded = fba::decode(bytes);
   if (!decoded) return decoded.error();
-  Json json = describe_stream(*decoded, bytes.size());
-  if (options.planes && options.json) json["plane_list"] = describe_planes(*decoded);
+  Json json = inspect::describe_stream(*decoded, bytes.size());
+  if (options.planes && options.json) json["plane_list"] = inspect::describe_planes(*decoded);
   if (options.planes) out.stream = std::move(*decoded);
   return json;
 }
@@ -124,7 +126,7 @@ Result<Json> describe_text(const Options& options, std::vector<std::uint8_t> byt
   if (!motion) return motion.error();
   const bool bap = motion->kind == FileKind::bap_text;
   Json json = {{"kind", bap ? "bap" : "fap"}};
-  json.update(bap ? describe_body(motion->body) : describe_clip(motion->face));
+  json.update(bap ? inspect::describe_body(motion->body) : inspect::describe_clip(motion->face));
   return json;
 }
 
@@ -198,7 +200,7 @@ Result<int> run(const Options& options) {
     return kOk;
   }
   print(found->json, 0);
-  if (found->stream) print_planes(*found->stream);
+  if (found->stream) std::fputs(inspect::planes_text(*found->stream).c_str(), stdout);
   return kOk;
 }
 

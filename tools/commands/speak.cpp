@@ -10,18 +10,19 @@
 #include "dam/speaking/synthesise.h"
 #include "fap/rate_text.h"
 #include "fap/text.h"
+#include "tools/commands/common.h"
+#include "tools/commands/corpus.h"
 #include "tools/commands/curve_text.h"
 #include "tools/commands/face_stream.h"
-#include "tools/commands/model_input.h"
 #include "tools/commands/preview.h"
-#include "tools/commands/spoken.h"
+#include "tools/commands/spoken_options.h"
 
 namespace animeme::tools {
 
 namespace {
 
 struct Options {
-  SpokenOptions spoken;
+  speech::SpokenOptions spoken;
   std::string output;
   std::string preview;
   std::string model;
@@ -66,7 +67,8 @@ Result<fap::Sequence> to_clip(const dam::Signal& signal) {
       "the controls of this model are no FAPs; write them as curves with -o NAME.csv");
 }
 
-Result<int> write_result(const Options& options, const fap::Sequence& clip, const Spoken& spoken) {
+Result<int> write_result(const Options& options, const fap::Sequence& clip,
+                         const speech::Spoken& spoken) {
   const std::string extension = extension_of(options.output);
   if (extension == ".fap") {
     if (auto done = write_file(options.output, fap::write_text(clip)); !done) return done.error();
@@ -97,7 +99,7 @@ Result<int> write_result(const Options& options, const fap::Sequence& clip, cons
   return write_preview(options.preview, *units, input);
 }
 
-void report(const Options& options, const Spoken& spoken, const dam::Signal& signal,
+void report(const Options& options, const speech::Spoken& spoken, const dam::Signal& signal,
             const dam::SynthesisReport& synthesis) {
   for (const auto& [label, by] : synthesis.replaced) {
     if (!options.json) say("the model has no " + label + ", spoken as " + by);
@@ -128,9 +130,9 @@ Result<int> run(const Options& options) {
   }
   Result<fap::Rate> rate = fap::parse_rate(options.rate);
   if (!rate) return usage_error("--rate " + options.rate + ": " + rate.error().message);
-  Result<dam::Model> model = read_model_or_builtin(options.model);
+  Result<dam::Model> model = speech::read_model(options.model);
   if (!model) return model.error();
-  Result<Spoken> spoken = get_spoken(options.spoken);
+  Result<speech::Spoken> spoken = speech::get_spoken(options.spoken, talk());
   if (!spoken) return spoken.error();
 
   dam::SynthesisOptions settings;

@@ -1,5 +1,7 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -7,9 +9,9 @@
 #include "fap/rate_text.h"
 #include "fap/tables.h"
 #include "tools/commands/common.h"
-#include "tools/commands/stats_activity.h"
-#include "tools/commands/stats_bits.h"
-#include "tools/commands/stats_sizes.h"
+#include "tools/inspect/activity.h"
+#include "tools/inspect/bits.h"
+#include "tools/inspect/sizes.h"
 
 namespace animeme::tools {
 
@@ -27,18 +29,19 @@ struct Options {
 // What was measured; each part has a describe() for --json and a print() for people.
 struct Statistics {
   MotionInput input;
-  std::optional<BitStatistics> bits;  // streams only
-  std::vector<Activity> faps;
-  std::vector<Activity> baps;
+  std::optional<inspect::BitStatistics> bits;  // streams only
+  std::vector<inspect::Activity> faps;
+  std::vector<inspect::Activity> baps;
 };
 
 Result<Statistics> measure(const std::string& path) {
   Result<MotionInput> input = read_motion(path);
   if (!input) return input.error();
   Statistics out;
-  if (!input->stream.empty()) out.bits = measure_bits(input->decoded, input->stream.size());
-  out.faps = measure_activity(input->face);
-  out.baps = measure_activity(input->body);
+  if (!input->stream.empty())
+    out.bits = inspect::measure_bits(input->decoded, input->stream.size());
+  out.faps = inspect::measure_activity(input->face);
+  out.baps = inspect::measure_activity(input->body);
   out.input = std::move(*input);
   return out;
 }
@@ -71,14 +74,14 @@ fap::Rate rate_of(const Statistics& s) {
 
 // --- the stream as a whole
 
-Json describe(const PlaneBits& bits) {
+Json describe(const inspect::PlaneBits& bits) {
   return {{"planes", bits.planes},
           {"mean", bits.mean},
           {"median", bits.median},
           {"largest", bits.largest}};
 }
 
-void describe(const BitStatistics& bits, Json& json) {
+void describe(const inspect::BitStatistics& bits, Json& json) {
   const double total = double(bits.framing_bits + bits.header_bits + bits.value_bits);
   json["planes"] = bits.intra.planes + bits.predictive.planes;
   json["intra_planes"] = bits.intra.planes;
@@ -94,13 +97,13 @@ void describe(const BitStatistics& bits, Json& json) {
                     {"ideal_bits", bits.ideal_bits()}};
 }
 
-void print(const char* name, const PlaneBits& bits) {
+void print(const char* name, const inspect::PlaneBits& bits) {
   if (bits.planes == 0) return;
   std::printf("%s %zu, bits a plane: mean %.1f, median %.1f, largest %lld\n", name, bits.planes,
               bits.mean, bits.median, (long long)bits.largest);
 }
 
-void print(const BitStatistics& bits) {
+void print(const inspect::BitStatistics& bits) {
   const double total = double(bits.framing_bits + bits.header_bits + bits.value_bits);
   const auto percent = [total](std::int64_t part) { return 100 * double(part) / total; };
   std::printf("bit rate: %.3f kbit/s, %.3f in the costliest second\n", bits.kbit_per_s,
@@ -117,10 +120,10 @@ void print(const BitStatistics& bits) {
 
 // --- the parameters
 
-Json describe(const std::vector<Activity>& list, const char* kind, const double* ideal_bits,
-              double seconds) {
+Json describe(const std::vector<inspect::Activity>& list, const char* kind,
+              const double* ideal_bits, double seconds) {
   Json out = Json::array();
-  for (const Activity& one : list) {
+  for (const inspect::Activity& one : list) {
     Json json = {{kind, one.number}};
     if (kind == std::string_view("fap")) {
       json["name"] = fap::info(one.number).name;
@@ -142,7 +145,7 @@ Json describe(const std::vector<Activity>& list, const char* kind, const double*
   return out;
 }
 
-std::string remark(const Activity& one) {
+std::string remark(const inspect::Activity& one) {
   std::string text = one.never_moves() ? "never moves" : "";
   for (const int other : one.equal_to) {
     text += (text.empty() ? "= " : ", = ") + std::to_string(other);
@@ -150,12 +153,13 @@ std::string remark(const Activity& one) {
   return text;
 }
 
-void print(const std::vector<Activity>& list, bool face, const double* ideal_bits, double seconds) {
+void print(const std::vector<inspect::Activity>& list, bool face, const double* ideal_bits,
+           double seconds) {
   if (list.empty()) return;
   std::printf("\n%s%-*s %8s %8s %8s %10s %7s", face ? "FAP " : "BAP ", face ? 25 : 0,
               face ? "name" : "", "min", "max", "distinct", "rms/s", "moves");
   std::printf(ideal_bits != nullptr ? " %12s\n" : "\n", "ideal bit/s");
-  for (const Activity& one : list) {
+  for (const inspect::Activity& one : list) {
     std::printf("%3d ", one.number);
     if (face) std::printf("%-25s", std::string(fap::info(one.number).name).c_str());
     if (one.is_amount) {
@@ -206,8 +210,32 @@ void print(const Statistics& s) {
   print(s.baps, false, bap_bits(s), seconds);
 }
 
+// Row by row: a clip takes its time.
+Result<int> print_sizes(const Options& options) {
+  std::vector<inspect::ClipSizes> clips;
+  const auto print = [&](const std::string& text) {
+    if (!options.json) std::fputs(text.c_str(), stdout);
+    std::fflush(stdout);
+  };
+  print(inspect::sizes_heading());
+  for (const std::string& file : options.inputs) {
+    Result<FaceInput> input = read_face(file);
+    if (!input) return input.error();
+    const std::string name = std::filesystem::path(file).stem().string();
+    Result<inspect::ClipSizes> clip = inspect::measure_sizes(name, input->clip, options.rms);
+    if (!clip) return clip.error().in_file(file);
+    print(inspect::sizes_row(*clip));
+    clips.push_back(std::move(*clip));
+  }
+  print(inspect::sizes_means(clips, options.rms));
+  if (options.json) std::printf("%s\n", inspect::sizes_json(clips, options.rms).c_str());
+  const bool same = std::all_of(clips.begin(), clips.end(),
+                                [](const inspect::ClipSizes& clip) { return clip.same_values; });
+  return same ? kOk : kCheckFailed;
+}
+
 Result<int> run(const Options& options) {
-  if (options.sizes) return print_sizes(options.inputs, options.rms, options.json);
+  if (options.sizes) return print_sizes(options);
   if (options.inputs.size() != 1)
     return usage_error("several files can be given with --sizes only");
   Result<Statistics> statistics = measure(options.inputs.front());

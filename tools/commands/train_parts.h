@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "dam/training/train.h"
-#include "tools/commands/model_input.h"
+#include "tools/commands/corpus.h"
+#include "tools/inspect/training.h"
 
 namespace animeme::tools {
 
@@ -16,6 +17,10 @@ struct PartSettings {
   std::size_t save_every = 200;
   std::vector<std::string> merge;  ///< files of sums
 };
+
+/// Says, or prints as JSON, what a training has found.
+void tell_training(const std::string& output, const dam::Model& model,
+                   const dam::TrainSummary& summary, const inspect::TrainingData& data, bool json);
 
 Result<int> accumulate(const PartSettings& parts, const CorpusSettings& corpus,
                        const dam::TrainOptions& train, bool json);

@@ -10,9 +10,9 @@
 #include "fap/head/rig.h"
 #include "tools/commands/common.h"
 #include "tools/commands/face_stream.h"
-#include "tools/commands/head_file.h"
+#include "tools/commands/head_options.h"
 #include "tools/commands/view_sound.h"
-#include "tools/commands/voice_input.h"
+#include "tools/speech/voice_file.h"
 #include "tools/viewer/viewer.h"
 
 namespace animeme::tools {
@@ -31,7 +31,7 @@ struct Options {
   std::string audio;
   SoundSettings sound;
   std::string script;
-  HeadChoice head;
+  studio::HeadChoice head;
 };
 
 // A clip, and whether it came with a container that may hold sound.
@@ -100,10 +100,10 @@ void warn_of_size(const viewer::Page& page, std::size_t size, double seconds) {
 }
 
 Result<int> run(const Options& options) {
-  if (const std::string problem = problem_of(options.head); !problem.empty()) {
+  if (const std::string problem = studio::problem_of(options.head); !problem.empty()) {
     return usage_error(problem);
   }
-  const Result<head::Head> head = load_head_and_tell(options.head);
+  const Result<head::Head> head = studio::load_head(options.head, talk());
   if (!head) return head.error();
   viewer::Page page;
   std::vector<std::string> containers;
@@ -121,7 +121,7 @@ Result<int> run(const Options& options) {
   const double seconds = *sound ? (*sound)->seconds : 0;
   if (*sound) page.sound = std::move((*sound)->sound);
   if (!options.script.empty()) {
-    Result<dam::Script> script = read_script(options.script);
+    Result<dam::Script> script = speech::read_script(options.script);
     if (!script) return script.error();
     page.script = std::move(*script);
   }
