@@ -9,8 +9,6 @@
 namespace animeme::conformance {
 namespace {
 
-std::string two_digits(int n) { return (n < 10 ? "0" : "") + std::to_string(n); }
-
 std::uint32_t code_at(std::span<const std::uint8_t> bytes, std::int64_t bit) {
   const std::size_t at = std::size_t(bit / 8);
   if (bit < 0 || bit % 8 != 0 || at + 4 > bytes.size()) return 0;

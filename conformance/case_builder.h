@@ -1,5 +1,6 @@
-// Builds one generated case plane by plane. The expected values come from StreamWriter, that is
-// from the levels and the formula of fba_bitstream, section 5, and never from a decoder.
+/// @file
+/// Builds one generated case plane by plane. The expected values come from StreamWriter, that is
+/// from the levels and the formula of fba_bitstream, section 5, and never from a decoder.
 #pragma once
 
 #include <map>
@@ -14,8 +15,8 @@ namespace animeme::conformance {
 
 /// A case with the content of its files, by role.
 struct MadeCase {
-  Case info;
-  std::map<std::string, std::string> content;
+  Case info;                                   ///< what case.json will say
+  std::map<std::string, std::string> content;  ///< bytes by role, see CaseFile
 };
 
 /// How levels are chosen within their ranges.
@@ -27,14 +28,16 @@ enum class Levels : std::uint8_t {
   lowest,
 };
 
+/// One case in the making: planes go in, files and expected values come out.
 class CaseBuilder {
  public:
+  /// `note`: what to watch out for, may be empty.
   CaseBuilder(std::uint64_t seed, std::string name, std::string title, std::string note = {},
               std::uint32_t object_code = fba::kObjectStart);
 
-  Random& random() { return random_; }
-  StreamWriter& writer() { return writer_; }
-  int planes() const { return int(planes_.size()); }
+  Random& random() { return random_; }                ///< of this case's own seed
+  StreamWriter& writer() { return writer_; }          ///< for what add() cannot say
+  int planes() const { return int(planes_.size()); }  ///< added so far
   /// Widest step of Levels::random.
   int spread = 40;
 
@@ -47,6 +50,7 @@ class CaseBuilder {
   void add_group(const fba::FaceSettings& face, int predictive, Levels levels = Levels::random);
   /// Levels that lead to these values (blend and intensities in steps of fap_quant).
   void set_viseme(PlaneSpec& plane, int select1, int select2, int blend, bool def) const;
+  /// Likewise; selections 0..6, intensities as levels.
   void set_expression(PlaneSpec& plane, int select1, int intensity1, int select2, int intensity2,
                       bool init_face, bool def) const;
 
@@ -65,6 +69,7 @@ class CaseBuilder {
                           bool ignored = false);
   /// The indices first..last-1 (empty if first >= last).
   static std::vector<int> indices(int first, int last);
+  /// What a decoder must have, plane by plane.
   const std::vector<Expected>& expected() const { return expected_; }
 
  private:
@@ -85,15 +90,20 @@ class CaseBuilder {
 
 /// Settings of an intra plane. All of them send the four range sets; m is the range in 60 levels.
 fba::FaceSettings all_faps(int fap_quant, int m = 4);
+/// Likewise, for single FAPs by number.
 fba::FaceSettings some_faps(std::initializer_list<int> faps, int fap_quant, int m = 4);
+/// Likewise, for groups of BAPs, from 1.
 fba::BodySettings some_body_groups(std::initializer_list<int> groups, int bap_quant, int m = 4);
 /// Gives a group (from 1) a mask type; bits of types 1 and 2 are drawn, not all of them the same.
 void set_type(fba::FaceSettings& face, int group, int type, Random& random);
+/// Likewise, for a body.
 void set_type(fba::BodySettings& body, int group, int type, Random& random);
 
-PlaneSpec intra_face(const fba::FaceSettings& face);
-PlaneSpec intra_body(const fba::BodySettings& body);
+PlaneSpec intra_face(const fba::FaceSettings& face);  ///< an intra plane with a face alone
+PlaneSpec intra_body(const fba::BodySettings& body);  ///< an intra plane with a body alone
+/// An intra plane with both.
 PlaneSpec intra_both(const fba::FaceSettings& face, const fba::BodySettings& body);
+/// A predictive plane without levels.
 PlaneSpec predictive(fba::ObjectMask object = fba::ObjectMask::face);
 
 /// Every generated case, in the order of names. The same seed gives the same bytes anywhere.
@@ -101,10 +111,14 @@ std::vector<MadeCase> make_all_cases(std::uint64_t seed);
 
 /// The parts of it.
 void make_face_cases(std::uint64_t seed, std::vector<MadeCase>& out);
+/// Likewise: FAP 1 and 2.
 void make_high_level_cases(std::uint64_t seed, std::vector<MadeCase>& out);
+/// Likewise: what an arithmetic decoder can trip over.
 void make_coder_cases(std::uint64_t seed, std::vector<MadeCase>& out);
+/// Likewise: headers, start codes, rates, time codes.
 void make_stream_cases(std::uint64_t seed, std::vector<MadeCase>& out);
-void make_body_cases(std::uint64_t seed, std::vector<MadeCase>& out);
+void make_body_cases(std::uint64_t seed, std::vector<MadeCase>& out);  ///< likewise: BAPs
+/// Likewise: streams with errors.
 void make_damaged_cases(std::uint64_t seed, std::vector<MadeCase>& out);
 
 }  // namespace animeme::conformance

@@ -1,10 +1,9 @@
 // Generated cases: the body, alone and with a face.
 #include "conformance/case_builder.h"
+#include "conformance/features.h"
 
 namespace animeme::conformance {
 namespace {
-
-std::string two_digits(int n) { return (n < 10 ? "0" : "") + std::to_string(n); }
 
 void group_cases(std::uint64_t seed, std::vector<MadeCase>& out) {
   for (int first = 1; first <= fba::kBodyGroupCount; first += 4) {

@@ -1,11 +1,10 @@
 // Generated cases: masks, quantisers and ranges of the face.
 #include "conformance/case_builder.h"
+#include "conformance/features.h"
 #include "fap/tables.h"
 
 namespace animeme::conformance {
 namespace {
-
-std::string two_digits(int n) { return (n < 10 ? "0" : "") + std::to_string(n); }
 
 void set_range(fba::FaceSettings& face, int i_max, int i_min, int p_max, int p_min) {
   face.range[fba::kIntraMax].fill(std::uint8_t(i_max));

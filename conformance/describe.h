@@ -1,4 +1,5 @@
-// Fills the computed part of a case: features, limits, sums; and proves what can be proved.
+/// @file
+/// Fills the computed part of a case: features, limits, sums; and proves what can be proved.
 #pragma once
 
 #include "conformance/case_builder.h"

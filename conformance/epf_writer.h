@@ -1,4 +1,5 @@
-// Encoder parameter files of generated cases.
+/// @file
+/// Encoder parameter files of generated cases.
 #pragma once
 
 #include <string>

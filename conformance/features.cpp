@@ -9,8 +9,6 @@
 namespace animeme::conformance {
 namespace {
 
-std::string two_digits(int n) { return (n < 10 ? "0" : "") + std::to_string(n); }
-
 std::vector<std::string> numbers(int first, int last) {
   std::vector<std::string> out;
   for (int n = first; n <= last; ++n) out.push_back(std::to_string(n));

@@ -1,4 +1,5 @@
-// The fixed vocabulary of features that cases exercise: what a coverage table counts.
+/// @file
+/// The fixed vocabulary of features that cases exercise: what a coverage table counts.
 #pragma once
 
 #include <span>
@@ -11,14 +12,14 @@ namespace animeme::conformance {
 /// Features of one kind: "quant.0" .. "quant.31". The ids are the family's name, a dot, and a
 /// member.
 struct Family {
-  std::string_view name;
-  std::string_view title;
+  std::string_view name;     ///< first part of the ids
+  std::string_view title;    ///< for people
   std::string_view section;  ///< of fba_bitstream
   /// How certain the description is: 'C' proven on real streams and two codecs, 'S' read in the
   /// sources and proven on synthetic streams, 'M' from memory of the standard, 'T' tolerance that
   /// the standard does not ask for, '?' the standard's intention is unknown.
   char certainty;
-  std::vector<std::string> members;
+  std::vector<std::string> members;  ///< second parts of the ids
 };
 
 /// All families, in the order of tables.
@@ -29,7 +30,11 @@ const Family* family_of(std::string_view feature);
 
 /// Sections and the least certainty of some features.
 std::vector<std::string> sections_of(std::span<const std::string> features);
+/// The least of all of them, in the order C S M T ?.
 char certainty_of(std::span<const std::string> features);
+
+/// A number 0..99 as ids have it: "07".
+inline std::string two_digits(int n) { return (n < 10 ? "0" : "") + std::to_string(n); }
 
 /// Sorts ids into the order of the vocabulary and drops repeated ones.
 void sort_features(std::vector<std::string>& features);

@@ -5,8 +5,6 @@
 namespace animeme::conformance {
 namespace {
 
-int one_if_zero(int n) { return n == 0 ? 1 : n; }
-
 class Leveller {
  public:
   PlaneSpec plane(std::span<const std::uint8_t> bytes, const fba::Plane& plane) {
@@ -35,7 +33,7 @@ class Leveller {
     for (std::size_t which = 0; which < kHighCount; ++which) {
       if (!now.mask[which <= kBlend ? 1 : 2]) continue;
       const bool scaled = which == kBlend || which == kIntensity1 || which == kIntensity2;
-      const std::int32_t step = scaled ? one_if_zero(settings.fap_quant) : 1;
+      const std::int32_t step = scaled && settings.fap_quant != 0 ? settings.fap_quant : 1;
       spec.high[which] = (high[which] - (plane.intra ? 0 : high_[which])) / step;
       high_[which] = high[which];
     }

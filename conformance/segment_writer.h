@@ -1,6 +1,7 @@
-// The arithmetic coder written a second time, word for word after the description and with no
-// thought of speed, so that the generated streams do not rest on the codec that they test.
-// Source: fba_bitstream, section 4.
+/// @file
+/// The arithmetic coder written a second time, word for word after the description and with no
+/// thought of speed, so that the generated streams do not rest on the codec that they test.
+/// Source: fba_bitstream, section 4.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +12,9 @@ namespace animeme::conformance {
 
 /// The bits of a stream, one a byte, most significant first.
 struct Bits {
-  std::vector<std::uint8_t> bit;
+  std::vector<std::uint8_t> bit;  ///< 0 or 1 each
 
+  /// The low `count` bits, highest first.
   void put(std::uint32_t value, int count) {
     for (int i = count - 1; i >= 0; --i) bit.push_back(std::uint8_t((value >> i) & 1U));
   }
@@ -27,14 +29,15 @@ struct Bits {
 
 /// Frequencies of an alphabet 0..n-1.
 struct Frequencies {
-  std::vector<std::uint32_t> count;
-  bool halved = false;  ///< the total has been at 16383
+  std::vector<std::uint32_t> count;  ///< by symbol, at least 1 each
+  bool halved = false;               ///< the total has been at 16383
 
+  /// A flat table of n symbols.
   void reset(int n) {
     count.assign(std::size_t(n), 1);
     halved = false;
   }
-  void update(std::size_t symbol);
+  void update(std::size_t symbol);  ///< counts a symbol, as section 4 of codec/bitstream.md has it
 };
 
 /// What happened while a stream was written: traps that a decoder may fall into.
@@ -53,8 +56,9 @@ class SegmentWriter {
   /// `bad_stuffing`: the first stuffed bit is written as 0; it is cleared when that was done.
   SegmentWriter(Bits& out, CoderTrace& trace, bool& bad_stuffing)
       : out_(out), trace_(trace), bad_stuffing_(bad_stuffing) {}
+  /// Codes one symbol; the model is not changed.
   void encode(const Frequencies& model, std::size_t symbol);
-  void flush();
+  void flush();  ///< ends the segment
 
  private:
   void emit(int bit);

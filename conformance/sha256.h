@@ -1,4 +1,5 @@
-// SHA-256 of a file's bytes. Source: FIPS 180-4.
+/// @file
+/// SHA-256 of a file's bytes. Source: FIPS 180-4.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +11,7 @@ namespace animeme::conformance {
 
 /// 64 lower-case hexadecimal digits, as sha256sum prints them.
 std::string sha256(std::span<const std::uint8_t> bytes);
+/// Likewise, of a text.
 inline std::string sha256(std::string_view text) {
   return sha256(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
 }

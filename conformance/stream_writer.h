@@ -1,6 +1,7 @@
-// FBA streams written a second time, straight from the description: levels in, bits and the
-// values that a decoder must give out. It can also write what is not allowed.
-// Source: fba_bitstream, sections 1 to 7.
+/// @file
+/// FBA streams written a second time, straight from the description: levels in, bits and the
+/// values that a decoder must give out. It can also write what is not allowed.
+/// Source: fba_bitstream, sections 1 to 7.
 #pragma once
 
 #include <array>
@@ -25,6 +26,7 @@ enum High : std::uint8_t {
   kHighCount
 };
 
+/// The start code in front of a plane, if any.
 enum class StartCode : std::uint8_t { none, plane, old_plane };
 
 /// What is wrong with a plane.
@@ -40,29 +42,32 @@ enum class Damage : std::uint8_t {
 
 /// A plane as it is coded: levels, not values.
 struct PlaneSpec {
-  bool intra = false;
-  fba::ObjectMask object_mask = fba::ObjectMask::face;
-  StartCode start_code = StartCode::none;
-  fba::TemporalHeader temporal;
-  fba::FaceSettings face;  ///< intra planes with a face
-  fba::BodySettings body;  ///< intra planes with a body
+  bool intra = false;                                   ///< is_intra
+  fba::ObjectMask object_mask = fba::ObjectMask::face;  ///< fba_object_mask
+  StartCode start_code = StartCode::none;               ///< what stands in front
+  fba::TemporalHeader temporal;                         ///< rate, time code, skipped frames
+  fba::FaceSettings face;                               ///< intra planes with a face
+  fba::BodySettings body;                               ///< intra planes with a body
   /// Levels: the value in steps in an intra plane, else the difference in steps. Selections have
   /// step 1.
   std::array<std::int32_t, kHighCount> high{};
-  std::array<std::int32_t, fap::kFapCount + 1> fap{};
-  std::array<std::int32_t, fba::kBapCount + 1> bap{};
-  bool viseme_def = false, init_face = false, expression_def = false;
-  Damage damage = Damage::none;
-  int damage_at = 0;
+  std::array<std::int32_t, fap::kFapCount + 1> fap{};  ///< levels by FAP number
+  std::array<std::int32_t, fba::kBapCount + 1> bap{};  ///< levels by BAP number
+  bool viseme_def = false,                             ///< one bit each, sent with FAP 1
+      init_face = false,                               ///< sent with FAP 2
+      expression_def = false;                          ///< sent with FAP 2
+  Damage damage = Damage::none;                        ///< none: the plane is right
+  int damage_at = 0;  ///< which of several places, where there are several
 };
 
 /// What a decoder has after a plane: coded values only.
 struct Expected {
-  bool intra = false;
-  fba::ObjectMask object_mask = fba::ObjectMask::nothing;
-  fap::Frame face;
-  fba::BodyFrame body;
-  std::size_t bit_begin = 0, bit_end = 0;  ///< the plane from its header on
+  bool intra = false;                                      ///< is_intra
+  fba::ObjectMask object_mask = fba::ObjectMask::nothing;  ///< fba_object_mask
+  fap::Frame face;                                         ///< coded FAPs
+  fba::BodyFrame body;                                     ///< coded BAPs
+  std::size_t bit_begin = 0,                               ///< first bit of the header
+      bit_end = 0;                                         ///< behind the last bit
 };
 
 /// True if 23 zeros stand where the next start code would be if the object ended before this plane:
@@ -73,6 +78,7 @@ bool looks_like_the_end(const std::vector<std::uint8_t>& bit, std::size_t plane_
 /// Writes planes behind an object start code.
 class StreamWriter {
  public:
+  /// Writes the object start code.
   explicit StreamWriter(std::uint32_t object_code = fba::kObjectStart);
 
   /// Levels have to lie in the ranges in force (fba_bitstream, 3.2); see levels().
@@ -80,20 +86,23 @@ class StreamWriter {
   /// Range of the level of a FAP or BAP in force for a plane: as after write() of `plane`'s
   /// settings. First lowest, second highest.
   struct Range {
-    int low, high;
+    int low,   ///< lowest level
+        high;  ///< highest level
   };
-  Range fap_range(const PlaneSpec& plane, std::size_t fap) const;
-  Range bap_range(const PlaneSpec& plane, std::size_t bap) const;
+  Range fap_range(const PlaneSpec& plane, std::size_t fap) const;  ///< FAP 3..68
+  Range bap_range(const PlaneSpec& plane, std::size_t bap) const;  ///< BAP 1..296
   /// Largest level of a high-level value in an intra plane.
   int high_range(const PlaneSpec& plane, int which) const;
   /// Last values.
   std::int32_t high_value(int which) const { return high_.value[std::size_t(which)]; }
-  std::int32_t fap_value(std::size_t fap) const { return face_.value[fap]; }
+  std::int32_t fap_value(std::size_t fap) const { return face_.value[fap]; }  ///< FAP 3..68
+  /// Those of the last intra plane.
   const fba::FaceSettings& face_settings() const { return face_settings_; }
+  /// Those of the last intra plane.
   const fba::BodySettings& body_settings() const { return body_settings_; }
 
-  Bits& bits() { return bits_; }
-  const CoderTrace& trace() const { return trace_; }
+  Bits& bits() { return bits_; }                      ///< what was written so far
+  const CoderTrace& trace() const { return trace_; }  ///< traps on the way
   /// Stuffing and the end code are put behind the planes.
   std::vector<std::uint8_t> finish();
 

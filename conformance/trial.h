@@ -1,4 +1,5 @@
-// A stream decoded to the end, errors included: what the codec makes of a case.
+/// @file
+/// A stream decoded to the end, errors included: what the codec makes of a case.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +16,10 @@ namespace animeme::conformance {
 
 /// Everything that could be decoded, and all errors on the way.
 struct Trial {
-  fba::DecodedStream stream;
-  std::vector<Error> errors;
+  fba::DecodedStream stream;  ///< planes, warnings, headers
+  std::vector<Error> errors;  ///< in the order of the stream
 };
+/// Never fails: what cannot be decoded is an error in the result.
 Trial decode_all(std::span<const std::uint8_t> bytes);
 
 /// The name of an error's kind in case.json: "syntax", "truncated", "unsupported", "out_of_range".

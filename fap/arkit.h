@@ -1,21 +1,22 @@
-// From ARKit blend shapes, as phones capture faces, to FAPs and back.
-//
-//     animeme::fap::ArkitFrame weights{};               // all shapes at rest
-//     weights[*animeme::fap::find_arkit("jawOpen")] = 0.4;
-//     animeme::fap::Frame frame = animeme::fap::arkit_to_fap(weights, animeme::fap::kAllArkit);
-//
-// A weight moves a whole shape, a FAP one point of the face: jawOpen alone moves the chin, the
-// lower lip, its corners and more. The map is linear, weight times the FAPs of the full shape,
-// summed over the shapes. What the FAPs of each shape are was measured on the head model
-// ICT-FaceKit (University of Southern California, MIT licence), which has ARKit's shapes: how far
-// each feature point moves along the axis of its FAP, in units of that face (users_ask_for,
-// section 2). See arkit_table.cpp for the numbers and what is not from there.
-//
-// The way back is a fit, since 66 FAPs show faces that 52 shapes do not and several sets of shapes
-// give one face:
-//
-//     animeme::fap::ArkitFitter fitter;
-//     for (const Frame& frame : filled.frames) rows.push_back(fitter.fit(frame));
+/// @file
+/// From ARKit blend shapes, as phones capture faces, to FAPs and back.
+///
+///     animeme::fap::ArkitFrame weights{};               // all shapes at rest
+///     weights[*animeme::fap::find_arkit("jawOpen")] = 0.4;
+///     animeme::fap::Frame frame = animeme::fap::arkit_to_fap(weights, animeme::fap::kAllArkit);
+///
+/// A weight moves a whole shape, a FAP one point of the face: jawOpen alone moves the chin, the
+/// lower lip, its corners and more. The map is linear, weight times the FAPs of the full shape,
+/// summed over the shapes. What the FAPs of each shape are was measured on the head model
+/// ICT-FaceKit (University of Southern California, MIT licence), which has ARKit's shapes: how far
+/// each feature point moves along the axis of its FAP, in units of that face (users_ask_for,
+/// section 2). See arkit_table.cpp for the numbers and what is not from there.
+///
+/// The way back is a fit, since 66 FAPs show faces that 52 shapes do not and several sets of shapes
+/// give one face:
+///
+///     animeme::fap::ArkitFitter fitter;
+///     for (const Frame& frame : filled.frames) rows.push_back(fitter.fit(frame));
 #pragma once
 
 #include <array>
@@ -47,6 +48,7 @@ using ArkitFrame = std::array<double, kArkitChannelCount>;
 
 /// Which channels a source has.
 using ArkitChannels = std::bitset<kArkitChannelCount>;
+/// The channels of a source that has all of them.
 inline constexpr ArkitChannels kAllArkit{(1ULL << kArkitChannelCount) - 1};
 
 /// The FAPs that the channels reach: the mask of their frames. All but viseme, expression, eyeball
@@ -71,6 +73,7 @@ Mask arkit_faps(const ArkitChannels& channels);
 /// - Values that an FBA stream cannot carry at fap_quant 1 are clipped: +-1860 quantiser steps.
 Frame arkit_to_fap(const ArkitFrame& frame, const ArkitChannels& channels);
 
+/// How ArkitFitter weighs.
 struct ArkitFitOptions {
   /// What it costs to use a shape, as a share of what it does to the face; 0..1. It keeps shapes
   /// from working against each other.
@@ -92,8 +95,8 @@ struct ArkitFitOptions {
 ///   at 1. The same frames give the same weights on every machine.
 class ArkitFitter {
  public:
-  explicit ArkitFitter(const ArkitFitOptions& options = {});
-  ArkitFitter(ArkitFitter&&) noexcept;
+  explicit ArkitFitter(const ArkitFitOptions& options = {});  ///< options as they are, unchecked
+  ArkitFitter(ArkitFitter&&) noexcept;                        ///< movable
   ArkitFitter& operator=(ArkitFitter&&) noexcept;
   ~ArkitFitter();
 

@@ -1,4 +1,5 @@
-// How far apart two clips are, FAP by FAP.
+/// @file
+/// How far apart two clips are, FAP by FAP.
 #pragma once
 
 #include <array>
@@ -19,22 +20,22 @@ struct FapDifference {
   std::int64_t max = 0;        ///< largest |a - b|, FAP units
   std::int64_t max_frame = 0;  ///< number of the first frame with it
   double rms_steps = 0;        ///< rms in quantiser steps (FapInfo::quant_step)
-  double max_steps = 0;
+  double max_steps = 0;        ///< largest, in quantiser steps
 
   friend bool operator==(const FapDifference&, const FapDifference&) = default;
 };
 
 /// Comparison of clip a with clip b. Frames are matched by their numbers.
 struct Difference {
-  std::int64_t frames_a = 0;
-  std::int64_t frames_b = 0;
-  std::int64_t frames_both = 0;  ///< numbers that both clips have
-  bool same_rate = true;
+  std::int64_t frames_a = 0;           ///< frames of a
+  std::int64_t frames_b = 0;           ///< frames of b
+  std::int64_t frames_both = 0;        ///< numbers that both clips have
+  bool same_rate = true;               ///< frames a second are equal
   std::int64_t mask_differences = 0;   ///< sum of only_a and only_b over all FAPs
   std::int64_t value_differences = 0;  ///< sum of differing over all FAPs
   double rms_steps =
       0;  ///< over all low-level values in quantiser steps, so that FAPs can be added
-  double max_steps = 0;
+  double max_steps = 0;                ///< largest of all FAPs
   int max_fap = 0;                     ///< FAP with max_steps, 0: no difference
   std::int64_t first_difference = -1;  ///< number of the first frame that differs or that only one
                                        ///< clip has; -1: none

@@ -1,5 +1,6 @@
-// FAP units: how far a FAP value moves a point of a given face. Source: fap_semantics, sections
-// 1 and 2.
+/// @file
+/// FAP units: how far a FAP value moves a point of a given face. Source: fap_semantics, sections
+/// 1 and 2.
 #pragma once
 
 #include <array>
@@ -49,9 +50,10 @@ enum class MoveKind : std::uint8_t {
   roll,       ///< tongue into a U, in rad; no axis
 };
 
+/// How a FAP moves its feature point for positive values.
 struct Move {
-  MoveKind kind = MoveKind::none;
-  Point axis = {0, 0, 0};  ///< unit vector; zero if the kind has none
+  MoveKind kind = MoveKind::none;  ///< shift, turn or other change
+  Point axis = {0, 0, 0};          ///< unit vector; zero if the kind has none
 };
 
 /// Kind and axis of positive values of FAP 1..68. Rotations (eyeballs and head): pitch down is

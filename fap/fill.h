@@ -1,4 +1,5 @@
-// From coded frames, whose masks have gaps, to complete ones that any player can show.
+/// @file
+/// From coded frames, whose masks have gaps, to complete ones that any player can show.
 #pragma once
 
 #include <array>
@@ -22,6 +23,7 @@ enum class GroupRule : std::uint8_t {
 /// The rules of one frame; index = group number - 1. All unknown by default.
 using GroupRules = std::array<GroupRule, kGroupCount>;
 
+/// Which of the rules of the standard fill() follows.
 struct FillOptions {
   /// A side that was never sent takes the value of the other side (23 left/right pairs). Positive
   /// directions are mirrored by definition, so this is a copy.

@@ -1,4 +1,5 @@
-// The data model: one coded instant (Frame) and a clip of them (Sequence).
+/// @file
+/// The data model: one coded instant (Frame) and a clip of them (Sequence).
 #pragma once
 
 #include <array>
@@ -48,7 +49,7 @@ struct Expression {
 /// (or is interpolated by it), so an absent FAP is not the same as a FAP of value 0.
 struct Frame {
   std::int64_t number = 0;  ///< running number at the sequence's rate; gaps are skipped frames
-  Mask mask;
+  Mask mask;                ///< the FAPs that it has
   /// value[n] is FAP n in FAP units: 1/1024 of its FAPU, or 1e-5 rad for angles.
   /// Index 0..2 are not used. Values of absent FAPs are 0 in frames made by Animeme.
   std::array<std::int32_t, kFapCount + 1> value{};
@@ -66,9 +67,9 @@ struct Frame {
 
 /// A clip. Frame numbers ascend strictly; frame k is shown at frames[k].number / rate seconds.
 struct Sequence {
-  Rate rate;
-  std::vector<Frame> frames;
-  std::string name;  ///< free text for people; written as one word
+  Rate rate;                  ///< frames a second
+  std::vector<Frame> frames;  ///< by ascending number
+  std::string name;           ///< free text for people; written as one word
 
   /// Seconds from the start of frame number 0 to the end of the last frame.
   double duration() const {

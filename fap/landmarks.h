@@ -1,12 +1,15 @@
-// From tracked points of a face, as OpenFace, MediaPipe and the like find them in a video, to FAPs.
-//
-//     animeme::fap::LandmarkTrack track{{30, 1}, {"2.1", "2.2", ...}, false, frames};
-//     auto face = animeme::fap::landmarks_to_fap(track);
-//     if (face) write(face->clip);
-//
-// A FAP is how far a feature point has moved on the head, in units of the neutral face. So the head
-// is found in each frame (its place, size and turn), taken off, and what is left of the distance to
-// the neutral face is measured along the axis of the FAP: value = distance / FAPU * 1024.
+/// @file
+/// From tracked points of a face, as OpenFace, MediaPipe and the like find them in a video, to
+/// FAPs.
+///
+///     animeme::fap::LandmarkTrack track{{30, 1}, {"2.1", "2.2", ...}, false, frames};
+///     auto face = animeme::fap::landmarks_to_fap(track);
+///     if (face) write(face->clip);
+///
+/// A FAP is how far a feature point has moved on the head, in units of the neutral face. So the
+/// head is found in each frame (its place, size and turn), taken off, and what is left of the
+/// distance to the neutral face is measured along the axis of the FAP: value = distance / FAPU *
+/// 1024.
 #pragma once
 
 #include <array>
@@ -47,9 +50,9 @@ std::span<const LandmarkSource> landmark_sources(LandmarkLayout layout);
 /// Angles of a head in rad as FAP 48, 49 and 50 have them: down, to the left, to the right are
 /// positive; yaw is outermost, then pitch, then roll, as Greta turns heads (fap_semantics, 1).
 struct HeadPose {
-  double pitch = 0;
-  double yaw = 0;
-  double roll = 0;
+  double pitch = 0;  ///< rad, down
+  double yaw = 0;    ///< rad, to the person's left
+  double roll = 0;   ///< rad, to the person's right
 };
 
 /// One instant of a recording.
@@ -70,12 +73,13 @@ struct LandmarkFrame {
 /// the mouth, the left eye is on the left, the nose stands out. Points are those of the person:
 /// the left eye of the person is on the right of a picture that is not mirrored.
 struct LandmarkTrack {
-  Rate rate;
-  std::vector<std::string> points;  ///< ids: kFeaturePoints or kNasion
-  bool depth = false;               ///< z is known
-  std::vector<LandmarkFrame> frames;
+  Rate rate;                          ///< of the recording
+  std::vector<std::string> points;    ///< ids: kFeaturePoints or kNasion
+  bool depth = false;                 ///< z is known
+  std::vector<LandmarkFrame> frames;  ///< by ascending number
 };
 
+/// What landmarks_to_fap() is told of a recording.
 struct LandmarkOptions {
   /// Frames (their indices) of the neutral face: eyes open, mouth closed, looking at the camera.
   /// The medians of their points count. Empty: they are found, see landmarks_to_fap().
@@ -88,6 +92,7 @@ struct LandmarkOptions {
   bool mirrored = false;  ///< the picture was mirrored, as selfie cameras do: swap left and right
 };
 
+/// What landmarks_to_fap() found.
 struct LandmarkFace {
   Sequence clip;                             ///< frames of the track whose head was found
   Fapu fapu;                                 ///< in units of the track, at neutral

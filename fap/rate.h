@@ -1,4 +1,5 @@
-// Frame rates as exact fractions. 29.97 frames a second is 30000/1001, never a float.
+/// @file
+/// Frame rates as exact fractions. 29.97 frames a second is 30000/1001, never a float.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +10,11 @@ namespace animeme::fap {
 /// Frames per second = num / den, always in lowest terms when made by make_rate().
 /// A rate is valid when both parts are positive.
 struct Rate {
-  std::uint32_t num = 25;
-  std::uint32_t den = 1;
+  std::uint32_t num = 25;  ///< frames in `den` seconds
+  std::uint32_t den = 1;   ///< seconds
 
-  bool valid() const { return num > 0 && den > 0; }
-  double frames_per_second() const { return double(num) / double(den); }
+  bool valid() const { return num > 0 && den > 0; }  ///< both parts are positive
+  double frames_per_second() const { return double(num) / double(den); }  ///< num / den
   /// Seconds from frame 0 to `frame`.
   double seconds(double frame) const { return frame * double(den) / double(num); }
 

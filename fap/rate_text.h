@@ -1,4 +1,5 @@
-// Frame rates as people write them: "25", "12.5", "29.97", "30000/1001".
+/// @file
+/// Frame rates as people write them: "25", "12.5", "29.97", "30000/1001".
 #pragma once
 
 #include <string>

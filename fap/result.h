@@ -1,14 +1,15 @@
-// Result<T>: the one way in which Animeme reports failure.
-//
-// Every function that can fail returns a Result. It holds either a value or an Error: a code for
-// programs, a sentence for people, and the place in the input where things went wrong. No
-// exception crosses a public border of the libraries and no input makes them abort.
-//
-//     animeme::Result<animeme::fap::Sequence> clip = animeme::fap::read_text(text);
-//     if (!clip) return clip.error();          // an Error converts to any Result
-//     use(*clip);
-//
-// The member names are those of std::expected (C++23), which may replace this class later.
+/// @file
+/// Result<T>: the one way in which Animeme reports failure.
+///
+/// Every function that can fail returns a Result. It holds either a value or an Error: a code for
+/// programs, a sentence for people, and the place in the input where things went wrong. No
+/// exception crosses a public border of the libraries and no input makes them abort.
+///
+///     animeme::Result<animeme::fap::Sequence> clip = animeme::fap::read_text(text);
+///     if (!clip) return clip.error();          // an Error converts to any Result
+///     use(*clip);
+///
+/// The member names are those of std::expected (C++23), which may replace this class later.
 #pragma once
 
 #include <cstdint>
@@ -43,9 +44,9 @@ struct Position {
 /// A failure. `message` is one sentence without a full stop that names the remedy where
 /// there is one.
 struct Error {
-  Code code = Code::internal;
-  std::string message;
-  Position where;
+  Code code = Code::internal;  ///< what kind of failure
+  std::string message;         ///< one sentence without a full stop
+  Position where;              ///< file, line or bit, as far as known
 
   /// "file:line:column: message" or "file: bit N: message", whatever is known.
   std::string describe() const {
@@ -66,6 +67,7 @@ struct Error {
     if (where.file.empty()) where.file = std::move(file);
     return std::move(*this);
   }
+  /// The same from an error that is still needed.
   Error in_file(std::string file) const& { return Error(*this).in_file(std::move(file)); }
 };
 
@@ -88,24 +90,28 @@ inline Error error_at_bit(Code code, std::string message, std::int64_t bit) {
 template <class T>
 class [[nodiscard]] Result {
  public:
-  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}      // NOLINT: implicit
+  /// A value.
+  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}  // NOLINT: implicit
+  /// A failure.
   Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}  // NOLINT: implicit
 
-  bool has_value() const { return state_.index() == 0; }
-  explicit operator bool() const { return has_value(); }
+  bool has_value() const { return state_.index() == 0; }  ///< true: value() may be called
+  explicit operator bool() const { return has_value(); }  ///< has_value()
 
+  /// The value; throws std::bad_variant_access if there is none.
   T& value() & { return std::get<0>(state_); }
-  const T& value() const& { return std::get<0>(state_); }
-  T&& value() && { return std::get<0>(std::move(state_)); }
+  const T& value() const& { return std::get<0>(state_); }    ///< the value, likewise
+  T&& value() && { return std::get<0>(std::move(state_)); }  ///< the value, moved out, likewise
   T& operator*() & { return *std::get_if<0>(&state_); }
   const T& operator*() const& { return *std::get_if<0>(&state_); }
   T&& operator*() && { return std::move(*std::get_if<0>(&state_)); }
   T* operator->() { return std::get_if<0>(&state_); }
   const T* operator->() const { return std::get_if<0>(&state_); }
 
+  /// The error; throws std::bad_variant_access if there is none.
   Error& error() & { return std::get<1>(state_); }
-  const Error& error() const& { return std::get<1>(state_); }
-  Error&& error() && { return std::get<1>(std::move(state_)); }
+  const Error& error() const& { return std::get<1>(state_); }    ///< the error, likewise
+  Error&& error() && { return std::get<1>(std::move(state_)); }  ///< the error, moved out, likewise
 
  private:
   std::variant<T, Error> state_;
@@ -116,13 +122,15 @@ template <>
 class [[nodiscard]] Result<void> {
  public:
   Result() = default;
+  /// A failure.
   Result(Error error) : error_(std::in_place_index<1>, std::move(error)) {}  // NOLINT: implicit
 
-  bool has_value() const { return error_.index() == 0; }
-  explicit operator bool() const { return has_value(); }
+  bool has_value() const { return error_.index() == 0; }  ///< true: it went well
+  explicit operator bool() const { return has_value(); }  ///< has_value()
+  /// The error; throws std::bad_variant_access if there is none.
   Error& error() & { return std::get<1>(error_); }
-  const Error& error() const& { return std::get<1>(error_); }
-  Error&& error() && { return std::get<1>(std::move(error_)); }
+  const Error& error() const& { return std::get<1>(error_); }    ///< the error, likewise
+  Error&& error() && { return std::get<1>(std::move(error_)); }  ///< the error, moved out, likewise
 
  private:
   std::variant<std::monostate, Error> error_;

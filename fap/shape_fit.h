@@ -1,9 +1,10 @@
-// A face as weights of shapes, whatever shapes a head has: ARKit's, visemes, an artist's own.
-//
-//     animeme::fap::ShapeFitter fitter({jaw_open, smile_left, blink_left});  // their FAPs
-//     std::vector<double> weights = fitter.fit(frame);
-//
-// fap::ArkitFitter and fap::VisemeFitter do the same for complete, well-known sets.
+/// @file
+/// A face as weights of shapes, whatever shapes a head has: ARKit's, visemes, an artist's own.
+///
+///     animeme::fap::ShapeFitter fitter({jaw_open, smile_left, blink_left});  // their FAPs
+///     std::vector<double> weights = fitter.fit(frame);
+///
+/// fap::ArkitFitter and fap::VisemeFitter do the same for complete, well-known sets.
 #pragma once
 
 #include <array>
@@ -35,7 +36,7 @@ class ShapeFitter {
   /// against each other.
   explicit ShapeFitter(std::span<const Frame> shapes, const LipMeasures& lips = {},
                        double ridge = 0.001);
-  ShapeFitter(ShapeFitter&&) noexcept;
+  ShapeFitter(ShapeFitter&&) noexcept;  ///< movable
   ShapeFitter& operator=(ShapeFitter&&) noexcept;
   ~ShapeFitter();
 

@@ -1,5 +1,6 @@
-// The tables of the standard: what each FAP is, its unit, group, feature point and
-// quantiser step. Data only; the clause of the specification stands beside each table.
+/// @file
+/// The tables of the standard: what each FAP is, its unit, group, feature point and
+/// quantiser step. Data only; the clause of the specification stands beside each table.
 #pragma once
 
 #include <array>
@@ -39,12 +40,12 @@ struct FapInfo {
 
 /// One FAP group: FAPs first .. first + size - 1.
 struct GroupInfo {
-  int first;
-  int size;
-  std::string_view name;
+  int first;              ///< number of its first FAP
+  int size;               ///< number of FAPs
+  std::string_view name;  ///< for people
 };
 
-inline constexpr int kGroupCount = 10;
+inline constexpr int kGroupCount = 10;                    ///< groups of a mask
 extern const std::array<GroupInfo, kGroupCount> kGroups;  ///< index = group number - 1
 extern const std::array<FapInfo, kFapCount> kFaps;        ///< index = FAP number - 1
 
@@ -56,20 +57,20 @@ std::optional<int> find_fap(std::string_view name);
 
 /// The 15 visemes of FAP 1 by number. `morph` is the Oculus / Ready Player Me target name.
 struct VisemeInfo {
-  std::string_view name;
+  std::string_view name;      ///< "PP", "aa" ...
   std::string_view phonemes;  ///< SAMPA
-  std::string_view morph;
+  std::string_view morph;     ///< "viseme_PP" ...
 };
-extern const std::array<VisemeInfo, 15> kVisemes;
+extern const std::array<VisemeInfo, 15> kVisemes;  ///< index = viseme number
 
 /// The expressions of FAP 2 by number; 0 is neutral.
 extern const std::array<std::string_view, 7> kExpressions;
 
 /// One of the 84 feature points, e.g. {"2.1", "bottom of the chin"}.
 struct FeaturePointInfo {
-  std::string_view id;
-  std::string_view name;
+  std::string_view id;    ///< "2.1"
+  std::string_view name;  ///< what is there on a face
 };
-extern const std::array<FeaturePointInfo, 84> kFeaturePoints;
+extern const std::array<FeaturePointInfo, 84> kFeaturePoints;  ///< by group, then by number
 
 }  // namespace animeme::fap

@@ -1,21 +1,22 @@
-// FAP text: the ASCII .fap file that MPEG-4 face players exchange. Grammar and the quirks of
-// real programs: fap_text_format, sections 1 to 3.
-//
-//     # a comment
-//     2.1 my_clip 25 2                         version, name, frames a second, number of frames
-//     0 0 1 0 0 ...                            68 mask values: which of FAP 1..68 follow
-//     0 341                                    frame number, one value per FAP of the mask
-//     0 0 1 0 0 ...
-//     1 356
-//
-// FAP 1 (viseme) has 4 values and FAP 2 (expression) 6, see Viseme and Expression in frame.h.
-// Values are plain FAP values, whatever the version says: nothing is scaled in files of
-// version 2.0 either.
-//
-//     std::vector<std::string> warnings;
-//     auto clip = animeme::fap::read_text(text, {}, &warnings);
-//     if (!clip) return clip.error();
-//     std::string again = animeme::fap::write_text(*clip);
+/// @file
+/// FAP text: the ASCII .fap file that MPEG-4 face players exchange. Grammar and the quirks of
+/// real programs: fap_text_format, sections 1 to 3.
+///
+///     # a comment
+///     2.1 my_clip 25 2                         version, name, frames a second, number of frames
+///     0 0 1 0 0 ...                            68 mask values: which of FAP 1..68 follow
+///     0 341                                    frame number, one value per FAP of the mask
+///     0 0 1 0 0 ...
+///     1 356
+///
+/// FAP 1 (viseme) has 4 values and FAP 2 (expression) 6, see Viseme and Expression in frame.h.
+/// Values are plain FAP values, whatever the version says: nothing is scaled in files of
+/// version 2.0 either.
+///
+///     std::vector<std::string> warnings;
+///     auto clip = animeme::fap::read_text(text, {}, &warnings);
+///     if (!clip) return clip.error();
+///     std::string again = animeme::fap::write_text(*clip);
 #pragma once
 
 #include <cstdint>
@@ -29,6 +30,7 @@
 
 namespace animeme::fap {
 
+/// What read_text() is told of a file.
 struct ReadTextOptions {
   /// The text has no header line, as on a message bus: it starts with a mask, or with one line
   /// that holds a start time. Without this flag such a text is still taken if it shows clearly
@@ -77,6 +79,7 @@ struct ReadTextOptions {
 Result<Sequence> read_text(std::string_view text, const ReadTextOptions& options = {},
                            std::vector<std::string>* warnings = nullptr);
 
+/// How write_text() writes.
 struct WriteTextOptions {
   bool renumber = false;  ///< number the frames 0, 1, 2 ...; false: their own numbers, with gaps
   bool integer_rate = false;  ///< round the rate to a whole number >= 1, as some players demand

@@ -108,7 +108,7 @@ void check_version(std::string_view version, std::int64_t line, const TextDialec
                    TextNotes& notes) {
   if (TextDialect::has(dialect.known, version)) return;
   notes.add(Quirk::version, line, [&] {
-    return "version " + quoted(version) + " is not known, the file is read like " +
+    return "version " + in_quotes(version) + " is not known, the file is read like " +
            std::string(dialect.known_as);
   });
 }
@@ -158,7 +158,7 @@ Result<TextHeader> parse_header(const Words& w, Place place, const TextDialect& 
   };
   if (w.words.empty() || !number(w.words.front())) {
     const std::string_view word = w.words.empty() ? w.line.substr(0, 0) : w.words.front();
-    return refuse(std::string(kForm) + ", but it starts with " + quoted(word), word);
+    return refuse(std::string(kForm) + ", but it starts with " + in_quotes(word), word);
   }
   TextHeader header;
   header.line = place.line;

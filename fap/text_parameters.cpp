@@ -41,8 +41,8 @@ bool ParameterReader::read_mask(std::span<std::uint8_t> mask) {
     } else {
       return fail_at_token(Code::syntax, "a mask value has to be 0 or 1, but " +
                                              std::string(dialect_.parameter) + " " +
-                                             std::to_string(flags + 1) + " has " + quoted(token) +
-                                             "; every frame starts with " +
+                                             std::to_string(flags + 1) + " has " +
+                                             in_quotes(token) + "; every frame starts with " +
                                              std::to_string(dialect_.flags) + " mask values");
     }
   }
@@ -72,7 +72,7 @@ bool ParameterReader::find_values(const Needs& needs) {
     const std::string_view extra = scan_.token();
     if (extra != "0" && extra != "1") {
       return fail_at_token(Code::syntax, "a mask has " + std::to_string(dialect_.flags) +
-                                             " values, but " + quoted(extra) +
+                                             " values, but " + in_quotes(extra) +
                                              " follows in the same line");
     }
     notes_.add(Quirk::extra_flag, line, [&] {
@@ -165,7 +165,7 @@ bool ParameterReader::value(std::int32_t& out) {
   if (number < std::numeric_limits<std::int32_t>::min() ||
       number > std::numeric_limits<std::int32_t>::max()) {
     return fail_at_token(Code::out_of_range,
-                         "the value " + quoted(token) + " does not fit 32 bits");
+                         "the value " + in_quotes(token) + " does not fit 32 bits");
   }
   out = std::int32_t(number);
   return true;
@@ -177,7 +177,7 @@ bool ParameterReader::frame_number(std::int64_t& out) {
   if (!real(token, number)) return false;
   if (std::abs(number) > double(kLargestNumber)) {
     return fail_at_token(Code::out_of_range,
-                         "the frame number " + quoted(token) + " is beyond 10^15");
+                         "the frame number " + in_quotes(token) + " is beyond 10^15");
   }
   out = std::int64_t(number);  // exact: far below 2^53
   number_line_ = scan_.line();
@@ -193,12 +193,12 @@ bool ParameterReader::real(std::string_view token, double& out) {
   if (code == std::errc::result_out_of_range && stop == end) {
     out = 1e300;  // or tiny: both are no FAP values
   } else if (code != std::errc() || stop != end || !std::isfinite(out)) {
-    return fail_at_token(Code::syntax, quoted(token) + " is not a number");
+    return fail_at_token(Code::syntax, in_quotes(token) + " is not a number");
   }
   const double rounded = std::round(out);
   if (rounded != out) {
     notes_.add(Quirk::rounded, scan_.line(),
-               [&] { return "the value " + quoted(token) + " is rounded to an integer"; });
+               [&] { return "the value " + in_quotes(token) + " is rounded to an integer"; });
   }
   out = rounded;
   return true;

@@ -46,7 +46,7 @@ std::array<Frame, kVisemeCount> all_shapes() {
 }
 
 // Of all visemes but silence, which is what is left.
-std::vector<std::vector<internal::ShapeWeight>> fitted_shapes() {
+std::vector<std::vector<internal::ShapeWeight>> viseme_shapes() {
   std::vector<std::vector<internal::ShapeWeight>> shapes;
   for (int viseme = 1; viseme < kVisemeCount; ++viseme) {
     shapes.emplace_back();
@@ -82,7 +82,7 @@ struct VisemeFitter::Impl {
 };
 
 VisemeFitter::VisemeFitter(const VisemeFitOptions& options)
-    : impl_(new Impl{{fitted_shapes(), options.ridge, options.steadiness, 1.0}}) {}
+    : impl_(new Impl{{viseme_shapes(), options.ridge, options.steadiness, 1.0}}) {}
 VisemeFitter::VisemeFitter(VisemeFitter&&) noexcept = default;
 VisemeFitter& VisemeFitter::operator=(VisemeFitter&&) noexcept = default;
 VisemeFitter::~VisemeFitter() = default;

@@ -1,10 +1,11 @@
-// Weights of the 15 visemes, as Oculus lip-sync and Ready Player Me avatars have them.
-//
-//     animeme::fap::VisemeFitter fitter;
-//     for (const Frame& frame : filled.frames) rows.push_back(fitter.fit(frame));
-//
-// The 15 shapes of that set are the visemes of FAP 1, one for one (fap_semantics, section 4): the
-// order is that of kVisemes in tables.h, whose `morph` is the name of the morph target.
+/// @file
+/// Weights of the 15 visemes, as Oculus lip-sync and Ready Player Me avatars have them.
+///
+///     animeme::fap::VisemeFitter fitter;
+///     for (const Frame& frame : filled.frames) rows.push_back(fitter.fit(frame));
+///
+/// The 15 shapes of that set are the visemes of FAP 1, one for one (fap_semantics, section 4): the
+/// order is that of kVisemes in tables.h, whose `morph` is the name of the morph target.
 #pragma once
 
 #include <array>
@@ -15,7 +16,7 @@
 
 namespace animeme::fap {
 
-inline constexpr int kVisemeCount = 15;
+inline constexpr int kVisemeCount = 15;  ///< shapes of FAP 1, silence included
 
 /// One instant, by viseme number: 0 to 1 each, and 1 together. Number 0 is silence: what the others
 /// leave.
@@ -35,6 +36,7 @@ VisemeWeights coded_viseme(const Viseme& viseme);
 /// speaker goes. FAP 14, 16 and 17 are left out, which are guesses in that corpus, and 15 and 18.
 const Frame& viseme_shape(int viseme);
 
+/// How VisemeFitter weighs.
 struct VisemeFitOptions {
   double ridge = 0.03;       ///< see ArkitFitOptions; visemes are more alike than shapes of a face
   double steadiness = 0.03;  ///< likewise
@@ -43,8 +45,8 @@ struct VisemeFitOptions {
 /// Faces to visemes, frame by frame. Movable, not copyable.
 class VisemeFitter {
  public:
-  explicit VisemeFitter(const VisemeFitOptions& options = {});
-  VisemeFitter(VisemeFitter&&) noexcept;
+  explicit VisemeFitter(const VisemeFitOptions& options = {});  ///< options as they are, unchecked
+  VisemeFitter(VisemeFitter&&) noexcept;                        ///< movable
   VisemeFitter& operator=(VisemeFitter&&) noexcept;
   ~VisemeFitter();
 

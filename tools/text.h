@@ -1,4 +1,5 @@
-// Sentences and tables as text: printf into a string.
+/// @file
+/// Sentences and tables as text: printf into a string.
 #pragma once
 
 #include <cstdarg>

@@ -1,4 +1,5 @@
-// Small texts of XML, SVG and HTML.
+/// @file
+/// Small texts of XML, SVG and HTML.
 #pragma once
 
 #include <cstdio>

@@ -1,5 +1,6 @@
-// Access units: an FBA stream cut into planes that each start byte aligned behind a plane start
-// code, as containers and packets carry them. Source: containers, section 1.3.
+/// @file
+/// Access units: an FBA stream cut into planes that each start byte aligned behind a plane start
+/// code, as containers and packets carry them. Source: containers, section 1.3.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +13,10 @@ namespace animeme::fba {
 
 /// One plane with its start code, ready to be a container sample or a packet.
 struct AccessUnit {
-  std::vector<std::uint8_t> bytes;
-  bool intra = false;
-  std::int64_t time = 0;      ///< presentation (= decoding) time, in units of 1/timescale s
-  std::int64_t duration = 0;  ///< > 0, same units
+  std::vector<std::uint8_t> bytes;  ///< start code, plane, stuffing to the byte border
+  bool intra = false;               ///< a receiver can begin here
+  std::int64_t time = 0;            ///< presentation (= decoding) time, in units of 1/timescale s
+  std::int64_t duration = 0;        ///< > 0, same units
 
   friend bool operator==(const AccessUnit&, const AccessUnit&) = default;
 };
@@ -25,7 +26,7 @@ struct AccessUnits {
   /// Decoder configuration: visual object sequence and visual object header, 11 bytes as a rule.
   std::vector<std::uint8_t> config;
   std::uint32_t timescale = 25000;  ///< ticks a second, exact for the stream's plane rate
-  std::vector<AccessUnit> units;
+  std::vector<AccessUnit> units;    ///< one a plane, in order
 
   friend bool operator==(const AccessUnits&, const AccessUnits&) = default;
 };

@@ -1,24 +1,25 @@
-// The FBA decoder: push bytes, pull planes.
-//
-//     animeme::fba::Decoder decoder;
-//     decoder.push(bytes);                       // any split, as often as bytes arrive
-//     decoder.finish();                          // no more bytes will come
-//     for (;;) {
-//       animeme::Result<animeme::fba::Event> event = decoder.next();
-//       if (!event) {
-//         if (event.error().code == animeme::Code::need_data) break;      // push more
-//         if (event.error().code == animeme::Code::end_of_stream) break;  // all done
-//         report(event.error().describe());      // then go on: the decoder resynchronises
-//         continue;
-//       }
-//       if (event->kind == animeme::fba::Event::Kind::plane) show(event->plane.face);
-//       // others: info, once before the planes of an object, and warning
-//     }
-//
-// Safe on any input: every read is bounded. A decoder takes less than 2 MB whatever comes in (all
-// 66 FAPs and 296 BAPs at ranges of +-1860, every symbol seen: 1.6 MB), besides bytes that were
-// pushed and not yet read, which are at most a plane once next() asks for more. Time is linear in
-// the bits pushed, whatever the pieces: a plane that is still arriving goes on where it stopped.
+/// @file
+/// The FBA decoder: push bytes, pull planes.
+///
+///     animeme::fba::Decoder decoder;
+///     decoder.push(bytes);                       // any split, as often as bytes arrive
+///     decoder.finish();                          // no more bytes will come
+///     for (;;) {
+///       animeme::Result<animeme::fba::Event> event = decoder.next();
+///       if (!event) {
+///         if (event.error().code == animeme::Code::need_data) break;      // push more
+///         if (event.error().code == animeme::Code::end_of_stream) break;  // all done
+///         report(event.error().describe());      // then go on: the decoder resynchronises
+///         continue;
+///       }
+///       if (event->kind == animeme::fba::Event::Kind::plane) show(event->plane.face);
+///       // others: info, once before the planes of an object, and warning
+///     }
+///
+/// Safe on any input: every read is bounded. A decoder takes less than 2 MB whatever comes in (all
+/// 66 FAPs and 296 BAPs at ranges of +-1860, every symbol seen: 1.6 MB), besides bytes that were
+/// pushed and not yet read, which are at most a plane once next() asks for more. Time is linear in
+/// the bits pushed, whatever the pieces: a plane that is still arriving goes on where it stopped.
 #pragma once
 
 #include <cstddef>
@@ -39,9 +40,9 @@ struct DecodedStream;
 
 /// One decoded plane.
 struct Plane {
-  bool intra = false;
-  ObjectMask object_mask = ObjectMask::nothing;
-  TemporalHeader temporal;
+  bool intra = false;                            ///< nothing before it is needed to decode it
+  ObjectMask object_mask = ObjectMask::nothing;  ///< which of the two below were coded
+  TemporalHeader temporal;                       ///< rate and time code in intra planes only
   /// Running number at the stream's rate: 0 for the first plane, plus 1 and the skipped frames
   /// for each further one.
   std::int64_t number = 0;
@@ -67,13 +68,15 @@ struct StreamInfo {
   friend bool operator==(const StreamInfo&, const StreamInfo&) = default;
 };
 
+/// What next() gives out: one of three kinds, each with its own member.
 struct Event {
+  /// What happened.
   enum class Kind : std::uint8_t { info, plane, warning };
-  Kind kind = Kind::plane;
-  StreamInfo info;       ///< kind info: once for each object, before its first plane
-  Plane plane;           ///< kind plane
-  std::string text;      ///< kind warning: one sentence
-  std::int64_t bit = 0;  ///< where the event arose
+  Kind kind = Kind::plane;  ///< which of the members below counts
+  StreamInfo info;          ///< kind info: once for each object, before its first plane
+  Plane plane;              ///< kind plane
+  std::string text;         ///< kind warning: one sentence
+  std::int64_t bit = 0;     ///< where the event arose
 };
 
 /// Decoder of one FBA stream. Not thread safe (use one per stream). A copy has all that the
@@ -81,9 +84,9 @@ struct Event {
 class Decoder {
  public:
   Decoder();
-  Decoder(const Decoder& other);
+  Decoder(const Decoder& other);  ///< goes on at the same place of the stream
   Decoder& operator=(const Decoder& other);
-  Decoder(Decoder&&) noexcept;
+  Decoder(Decoder&&) noexcept;  ///< movable
   Decoder& operator=(Decoder&&) noexcept;
   ~Decoder();
 
@@ -115,8 +118,8 @@ class Decoder {
 
 /// A whole stream at once.
 struct DecodedStream {
-  StreamInfo info;  ///< of the first object
-  std::vector<Plane> planes;
+  StreamInfo info;                    ///< of the first object
+  std::vector<Plane> planes;          ///< those that could be decoded
   fap::Rate rate;                     ///< of the first plane
   std::vector<std::string> warnings;  ///< "bit N: sentence"
 };

@@ -1,4 +1,5 @@
-// From a decoded stream to complete frames: what a receiver shows.
+/// @file
+/// From a decoded stream to complete frames: what a receiver shows.
 #pragma once
 
 #include "codec/decode/decoder.h"

@@ -1,5 +1,6 @@
-// What stands at the begin of an access unit: kind of plane, rate and skipped frames, without
-// decoding it. Source: fba_bitstream, sections 1 and 2.
+/// @file
+/// What stands at the begin of an access unit: kind of plane, rate and skipped frames, without
+/// decoding it. Source: fba_bitstream, sections 1 and 2.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +11,11 @@
 
 namespace animeme::fba {
 
+/// What a plane says of itself before its settings.
 struct PlaneHeader {
-  bool intra = false;
-  ObjectMask object_mask = ObjectMask::nothing;
-  TemporalHeader temporal;
+  bool intra = false;                            ///< nothing before it is needed to decode it
+  ObjectMask object_mask = ObjectMask::nothing;  ///< what it codes
+  TemporalHeader temporal;                       ///< rate and time code in intra planes only
 };
 
 /// Reads the header of the plane in an access unit (AccessUnit::bytes; old start codes will do).

@@ -1,12 +1,13 @@
-// Clips to streams: the decisions of an encoder, made in two passes over the whole clip.
-//
-//     auto stream = animeme::fba::encode(clip);                              // all that is there
-//     auto small = animeme::fba::encode(clip, animeme::fba::file_options()); // the same values
-//     animeme::fba::EncodeOptions options = animeme::fba::file_options();
-//     options.max_rms = 2;                                                   // not visible
-//     auto tiny = animeme::fba::encode(clip, options);
-//
-// For streams that are made while they are sent see live.h, for full control encoder.h and epf.h.
+/// @file
+/// Clips to streams: the decisions of an encoder, made in two passes over the whole clip.
+///
+///     auto stream = animeme::fba::encode(clip);                              // all that is there
+///     auto small = animeme::fba::encode(clip, animeme::fba::file_options()); // the same values
+///     animeme::fba::EncodeOptions options = animeme::fba::file_options();
+///     options.max_rms = 2;                                                   // not visible
+///     auto tiny = animeme::fba::encode(clip, options);
+///
+/// For streams that are made while they are sent see live.h, for full control encoder.h and epf.h.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +28,7 @@ struct EncodeOptions {
   int fap_quant = 1;     ///< 0..31; 1: the standard's steps, 0: lossless for values up to +-1860
   int bap_quant = 1;     ///< 0..31, index into kBapScale
   int intra_period = 0;  ///< intra plane at least every so many planes; 0: only where needed
-  StreamOptions stream;
+  StreamOptions stream;  ///< start codes
 
   /// Parameters that stay at 0 are not coded, and right sides that equal their left sides in every
   /// plane are left to the decoder (mask type 2). The values after fill() are the same; they are
@@ -62,18 +63,18 @@ EncodeOptions file_options();
 
 /// What encode() chose.
 struct EncodeReport {
-  int fap_quant = 0;
-  int bap_quant = 0;
-  std::size_t planes = 0;
-  std::size_t intra_planes = 0;
-  std::size_t skipped = 0;   ///< frames of the clip not sent because nothing moved
-  std::size_t coded = 0;     ///< parameters coded, with zeros that a decoder would overwrite
-  std::size_t mirrored = 0;  ///< right sides left to the decoder
-  std::size_t left_out = 0;  ///< parameters that stay at 0, not coded
-  std::size_t stilled = 0;   ///< parameters that moved in the clip and do not in the stream
-  double rms = 0;            ///< error of the moving FAPs that are no angles, FAP units
-  double rms_other = 0;      ///< error of moving angles and BAPs, half quantiser steps
-  std::size_t retries = 0;   ///< how often the ranges were changed to avoid a trap (Encoder::trap)
+  int fap_quant = 0;             ///< of the stream: as asked for, or as found for a limit of error
+  int bap_quant = 0;             ///< likewise
+  std::size_t planes = 0;        ///< all, intra planes included
+  std::size_t intra_planes = 0;  ///< of them
+  std::size_t skipped = 0;       ///< frames of the clip not sent because nothing moved
+  std::size_t coded = 0;         ///< parameters coded, with zeros that a decoder would overwrite
+  std::size_t mirrored = 0;      ///< right sides left to the decoder
+  std::size_t left_out = 0;      ///< parameters that stay at 0, not coded
+  std::size_t stilled = 0;       ///< parameters that moved in the clip and do not in the stream
+  double rms = 0;                ///< error of the moving FAPs that are no angles, FAP units
+  double rms_other = 0;          ///< error of moving angles and BAPs, half quantiser steps
+  std::size_t retries = 0;  ///< how often the ranges were changed to avoid a trap (Encoder::trap)
   /// Traps that are left when 40 plans have been tried: 0 as a rule; FAP 1 and 2 alone can make one
   /// that no range changes.
   std::size_t traps = 0;

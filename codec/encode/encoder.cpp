@@ -12,18 +12,14 @@ using internal::HighLevelState;
 using internal::SlotCoding;
 using internal::SlotState;
 
-namespace {
-
-// One family's part of a plane, worked out before anything is written.
-struct PendingSlots {
-  explicit PendingSlots(const internal::SlotTable& table) : coding(table) {}
-  SlotCoding coding;  // intra planes only
-  internal::SlotLevels levels;
-};
-
-}  // namespace
-
 struct Encoder::Impl {
+  // One family's part of a plane, worked out before anything is written.
+  struct PendingSlots {
+    explicit PendingSlots(const internal::SlotTable& table) : coding(table) {}
+    SlotCoding coding;  // intra planes only
+    internal::SlotLevels levels;
+  };
+
   StreamOptions options;
   BitWriter out;
   std::int64_t taken_bits = 0;

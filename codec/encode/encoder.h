@@ -1,5 +1,6 @@
-// The FBA encoder that writes plane after plane exactly as it is told. What makes the decisions
-// (masks, ranges, intra planes) is in encode.h for clips and in live.h for streams.
+/// @file
+/// The FBA encoder that writes plane after plane exactly as it is told. What makes the decisions
+/// (masks, ranges, intra planes) is in encode.h for clips and in live.h for streams.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +18,17 @@ namespace animeme::fba {
 /// Before which planes a plane start code (and byte alignment) is written.
 enum class PlaneStartCodes : std::uint8_t { none, intra, all };
 
+/// What stands between planes.
 struct StreamOptions {
+  /// None: planes follow each other bit by bit.
   PlaneStartCodes plane_start_codes = PlaneStartCodes::none;
   bool old_codes = false;  ///< write 00000103 in place of 000001BB before planes
 };
 
 /// One plane to be coded. Pointers are borrowed for the call.
 struct PlaneInput {
-  bool intra = false;
-  ObjectMask object_mask = ObjectMask::face;
+  bool intra = false;                           ///< carries settings, and a decoder can begin here
+  ObjectMask object_mask = ObjectMask::face;    ///< what is coded of the values given
   TemporalHeader temporal;                      ///< rate and time code in intra planes only
   const FaceSettings* face_settings = nullptr;  ///< intra planes with a face
   const BodySettings* body_settings = nullptr;  ///< intra planes with a body
@@ -37,8 +40,9 @@ struct PlaneInput {
 /// bit after bit (or behind start codes), stuffing, end code. Source: fba_bitstream, 1 to 7.
 class Encoder {
  public:
+  /// An encoder at the begin of a stream.
   explicit Encoder(const StreamOptions& options = {});
-  Encoder(Encoder&&) noexcept;
+  Encoder(Encoder&&) noexcept;  ///< movable
   Encoder& operator=(Encoder&&) noexcept;
   ~Encoder();
 

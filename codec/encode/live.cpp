@@ -15,16 +15,18 @@ namespace {
 constexpr int kMaxDetours = 40;
 constexpr int kWarmUp = 40;  // planes: what was seen says enough only after a second or two
 
-// What a frame changes, and what is put back if it cannot be coded.
-struct Memory {
-  internal::HeldFrame held;
-  internal::Motion motion;
-  bool last_intra = false;
-};
-
 }  // namespace
 
-struct LiveEncoder::Impl : Memory {
+namespace internal {
+// What a frame changes, and what is put back if it cannot be coded.
+struct LiveMemory {
+  HeldFrame held;
+  Motion motion;
+  bool last_intra = false;
+};
+}  // namespace internal
+
+struct LiveEncoder::Impl : internal::LiveMemory {
   LiveOptions options;
   std::optional<CodedRate> rate;
   Encoder encoder;
@@ -110,11 +112,11 @@ struct LiveEncoder::Impl : Memory {
                                           const BodyFrame* given_body) {
     if (auto ok = check(); !ok) return ok.error();
     if (auto ok = check(frame); !ok) return ok.error();
-    const Memory before = *this;
+    const LiveMemory before = *this;
     held.take_in(frame, given_body, options);
     if (since_intra >= 0) motion.see(held, last, options);
     if (auto ok = write_best(skip); !ok) {
-      static_cast<Memory&>(*this) = before;
+      static_cast<LiveMemory&>(*this) = before;
       since_intra = -1;  // the plane to come has to be complete in itself
       return ok.error();
     }

@@ -1,11 +1,12 @@
-// The encoder for streams that are made while they are sent: one frame in, one access unit out.
-//
-//     animeme::fba::LiveEncoder encoder({.fap_quant = 2});
-//     for (;;) {
-//       auto unit = encoder.write(next_frame());      // bytes of one plane, byte aligned
-//       if (!unit) return unit.error();
-//       send(*unit);
-//     }
+/// @file
+/// The encoder for streams that are made while they are sent: one frame in, one access unit out.
+///
+///     animeme::fba::LiveEncoder encoder({.fap_quant = 2});
+///     for (;;) {
+///       auto unit = encoder.write(next_frame());      // bytes of one plane, byte aligned
+///       if (!unit) return unit.error();
+///       send(*unit);
+///     }
 #pragma once
 
 #include <array>
@@ -23,10 +24,11 @@ namespace animeme::fba {
 /// Predictive ranges by FAP number: the 5-bit number m of the stream, m * 60 / fap_quant levels.
 using PredictiveRanges = std::array<std::uint8_t, fap::kFapCount + 1>;
 
+/// All settings of LiveEncoder.
 struct LiveOptions {
-  fap::Rate rate{25, 1};
-  int fap_quant = 1;  ///< 0..31
-  int bap_quant = 1;  ///< 0..31, index into kBapScale
+  fap::Rate rate{25, 1};  ///< planes a second, in every intra plane
+  int fap_quant = 1;      ///< 0..31
+  int bap_quant = 1;      ///< 0..31, index into kBapScale
   /// An intra plane, where a receiver can join in, every so many planes; 0: only where needed.
   int intra_period = 50;
   /// FAPs to be coded; others are ignored. Nothing: those that have occurred so far, so that a
@@ -43,8 +45,8 @@ struct LiveOptions {
 /// depends on the frames given so far. Memory does not grow with the stream.
 class LiveEncoder {
  public:
-  explicit LiveEncoder(const LiveOptions& options = {});
-  LiveEncoder(LiveEncoder&&) noexcept;
+  explicit LiveEncoder(const LiveOptions& options = {});  ///< checked with the first frame
+  LiveEncoder(LiveEncoder&&) noexcept;                    ///< movable
   LiveEncoder& operator=(LiveEncoder&&) noexcept;
   ~LiveEncoder();
 

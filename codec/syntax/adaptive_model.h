@@ -1,4 +1,5 @@
-// Adaptive symbol frequencies of the arithmetic coder. Source: fba_bitstream, section 4.
+/// @file
+/// Adaptive symbol frequencies of the arithmetic coder. Source: fba_bitstream, section 4.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +12,9 @@ inline constexpr std::uint32_t kMaxTotal = 16383;  ///< a model is halved when i
 /// The part of the unit interval that a symbol owns: `low` to `high` of `total`, as cumulative
 /// counts from the low end.
 struct SymbolInterval {
-  std::uint32_t low = 0;
-  std::uint32_t high = 1;
-  std::uint32_t total = 1;
+  std::uint32_t low = 0;    ///< first count of the symbol
+  std::uint32_t high = 1;   ///< behind its last one, > low
+  std::uint32_t total = 1;  ///< of all symbols, 1..16383
 };
 
 /// Where symbol k of a flat model of n symbols lies. Higher symbols lie at the low end.
@@ -39,8 +40,8 @@ class AdaptiveModel {
     total_ = n;
     fresh_ = true;
   }
-  std::uint32_t size() const { return n_; }
-  std::uint32_t total() const { return total_; }
+  std::uint32_t size() const { return n_; }       ///< symbols of the alphabet
+  std::uint32_t total() const { return total_; }  ///< sum of all frequencies
 
   /// Interval of symbol k (0..n-1).
   SymbolInterval interval(std::uint32_t k) const;

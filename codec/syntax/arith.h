@@ -1,9 +1,10 @@
-// The arithmetic coder of the FBA stream: 16-bit registers, binary renormalisation, a stuffed 1
-// after 22 zeros. Source: fba_bitstream, section 4.
-//
-// The description renormalises bit by bit. Here all shifts of a symbol are done at once: the
-// leading bits that the registers share (n of them) leave, then the m bits behind the first in
-// which low is 01.. and high is 10... The bits written and read are the same.
+/// @file
+/// The arithmetic coder of the FBA stream: 16-bit registers, binary renormalisation, a stuffed 1
+/// after 22 zeros. Source: fba_bitstream, section 4.
+///
+/// The description renormalises bit by bit. Here all shifts of a symbol are done at once: the
+/// leading bits that the registers share (n of them) leave, then the m bits behind the first in
+/// which low is 01.. and high is 10... The bits written and read are the same.
 #pragma once
 
 #include <array>
@@ -21,8 +22,8 @@ inline constexpr int kStuffingRun = 22;  ///< zeros after which a 1 is stuffed
 /// Writes one segment: encode() every symbol, then flush().
 class SegmentEncoder {
  public:
-  explicit SegmentEncoder(BitWriter& out) : out_(out) {}
-  void encode(const SymbolInterval& symbol);
+  explicit SegmentEncoder(BitWriter& out) : out_(out) {}  ///< `out` is borrowed
+  void encode(const SymbolInterval& symbol);              ///< writes one symbol
   /// Ends the segment (an empty one is the two bits 01).
   void flush();
 

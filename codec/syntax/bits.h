@@ -1,6 +1,7 @@
-// Reading and writing bits, most significant bit first. The reader never touches memory outside
-// its span: past the end it returns zeros and remembers that it did (sticky), so that a whole
-// header can be read and checked once.
+/// @file
+/// Reading and writing bits, most significant bit first. The reader never touches memory outside
+/// its span: past the end it returns zeros and remembers that it did (sticky), so that a whole
+/// header can be read and checked once.
 #pragma once
 
 #include <array>
@@ -15,15 +16,16 @@ namespace animeme::fba {
 /// Reads bits of a byte span. Copyable; positions are bits from the start of the span.
 class BitReader {
  public:
+  /// Begins at bit `bit`; the bytes are borrowed.
   explicit BitReader(std::span<const std::uint8_t> bytes, std::size_t bit = 0)
       : bytes_(bytes), bit_(bit) {}
 
-  std::size_t position() const { return bit_; }
-  std::size_t size() const { return bytes_.size() * 8; }
-  std::span<const std::uint8_t> bytes() const { return bytes_; }
+  std::size_t position() const { return bit_; }                   ///< of the next bit
+  std::size_t size() const { return bytes_.size() * 8; }          ///< in bits
+  std::span<const std::uint8_t> bytes() const { return bytes_; }  ///< all of them, read or not
   /// True once a read went past the end; stays true.
   bool overrun() const { return bit_ > size(); }
-  void seek(std::size_t bit) { bit_ = bit; }
+  void seek(std::size_t bit) { bit_ = bit; }  ///< any place, also beyond the end
 
   /// One bit; 0 past the end.
   std::uint32_t bit() {
@@ -65,7 +67,7 @@ class BitReader {
 /// Appends bits to a byte vector.
 class BitWriter {
  public:
-  void bit(std::uint32_t value) { bits(value & 1U, 1); }
+  void bit(std::uint32_t value) { bits(value & 1U, 1); }  ///< the lowest bit of `value`
   /// The low `count` (0..32) bits of `value`.
   void bits(std::uint32_t value, int count) {
     const std::uint64_t mask = (std::uint64_t(1) << count) - 1;
@@ -82,7 +84,8 @@ class BitWriter {
   /// A 32-bit start code; call at a byte border.
   void start_code(std::uint32_t code) { bits(code, 32); }
 
-  bool aligned() const { return pending_ % 8 == 0; }
+  bool aligned() const { return pending_ % 8 == 0; }  ///< at a byte border
+  /// Bits written so far.
   std::size_t position() const { return bytes_.size() * 8 + std::size_t(pending_); }
   /// The complete bytes so far.
   const std::vector<std::uint8_t>& bytes() {

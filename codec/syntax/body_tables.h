@@ -1,4 +1,5 @@
-// Tables of the body part of an FBA stream. Source: fba_bitstream, section 7.
+/// @file
+/// Tables of the body part of an FBA stream. Source: fba_bitstream, section 7.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
-// One FBA object plane as data: its headers, masks, ranges and decoded values.
-// Source: fba_bitstream, sections 2, 3 and 7.
+/// @file
+/// One FBA object plane as data: its headers, masks, ranges and decoded values.
+/// Source: fba_bitstream, sections 2, 3 and 7.
 #pragma once
 
 #include <array>
@@ -14,19 +15,21 @@
 namespace animeme::fba {
 
 // Start codes (section 1).
-inline constexpr std::uint32_t kSequenceStart = 0x000001B0;  ///< followed by the profile byte
-inline constexpr std::uint32_t kSequenceEnd = 0x000001B1;
-inline constexpr std::uint32_t kUserData = 0x000001B2;
-inline constexpr std::uint32_t kVisualObject = 0x000001B5;
-inline constexpr std::uint32_t kObjectStart = 0x000001BA;
-inline constexpr std::uint32_t kPlaneStart = 0x000001BB;
-inline constexpr std::uint32_t kOldObjectStart = 0x00000101;
-inline constexpr std::uint32_t kOldPlaneStart = 0x00000103;
+inline constexpr std::uint32_t kSequenceStart = 0x000001B0;   ///< followed by the profile byte
+inline constexpr std::uint32_t kSequenceEnd = 0x000001B1;     ///< ends a raw stream
+inline constexpr std::uint32_t kUserData = 0x000001B2;        ///< to be passed over
+inline constexpr std::uint32_t kVisualObject = 0x000001B5;    ///< visual object header
+inline constexpr std::uint32_t kObjectStart = 0x000001BA;     ///< fba_object_start_code
+inline constexpr std::uint32_t kPlaneStart = 0x000001BB;      ///< in front of any plane, optional
+inline constexpr std::uint32_t kOldObjectStart = 0x00000101;  ///< of drafts, still read
+inline constexpr std::uint32_t kOldPlaneStart = 0x00000103;   ///< of drafts, still read
 
 /// fba_object_mask: what a plane codes.
 enum class ObjectMask : std::uint8_t { nothing = 0, face = 1, body = 2, face_and_body = 3 };
 
+/// Face or face_and_body.
 inline bool has_face(ObjectMask mask) { return (std::uint8_t(mask) & 1) != 0; }
+/// Body or face_and_body.
 inline bool has_body(ObjectMask mask) { return (std::uint8_t(mask) & 2) != 0; }
 
 /// Mask type of a group (section 3.1): what happens to the parameters that are not coded.
@@ -90,17 +93,18 @@ struct FaceSettings {
 struct BodySettings {
   int bap_quant = 1;                                  ///< 0..31, index into kBapScale
   std::array<MaskType, kBodyGroupCount> mask_type{};  ///< interpolate is not allowed
-  std::bitset<kBapCount + 1> mask;
-  bool male = false;
-  std::array<bool, 4> send_range{};
+  std::bitset<kBapCount + 1> mask;                    ///< by BAP number; bit 0 is not used
+  bool male = false;                                  ///< fba_suggested_gender
+  std::array<bool, 4> send_range{};                   ///< as FaceSettings::send_range
+  /// As FaceSettings::range, by BAP number.
   std::array<std::array<std::uint8_t, kBapCount + 1>, 4> range{};
 };
 
 /// Decoded body parameters: 1e-5 rad, millimetres for BAP 181..183.
 struct BodyFrame {
   std::int64_t number = 0;  ///< running number at the stream's rate; gaps are skipped frames
-  std::bitset<kBapCount + 1> mask;
-  std::array<std::int32_t, kBapCount + 1> value{};
+  std::bitset<kBapCount + 1> mask;                  ///< which BAPs were coded, by number
+  std::array<std::int32_t, kBapCount + 1> value{};  ///< by BAP number; 0 where not coded
   friend bool operator==(const BodyFrame&, const BodyFrame&) = default;
 };
 

@@ -52,7 +52,7 @@ int mask_length(const TextHeader& header, TextScanner& scanner, TextNotes& notes
   if (*seen != by_version && !header.version.empty()) {
     notes.add(Quirk::mask_length, scanner.line(), [&] {
       return "a mask has " + std::to_string(*seen) + " values, version " +
-             fap::detail::quoted(header.version) + " should have " + std::to_string(by_version);
+             fap::detail::in_quotes(header.version) + " should have " + std::to_string(by_version);
     });
   }
   return *seen;

@@ -1,15 +1,16 @@
-// BAP text: the ASCII .bap file with body animation parameters. The grammar is that of FAP text
-// (fap/text.h) with other versions and longer masks; fap_text_format, section 1, and
-// fba_bitstream, section 11.
-//
-//     3.2 my_clip 25 2                         version, name, frames a second, number of frames
-//     0 0 1 0 0 ...                            mask values: which BAPs follow
-//     0 341                                    frame number, one value per BAP of the mask
-//     0 0 1 0 0 ...
-//     1 356
-//
-// Version 3.1 has 186 mask values a frame (the BAPs of the standard), version 3.2 has 296 (with
-// the extension BAPs). Values are 1e-5 rad, millimetres for BAP 181..183.
+/// @file
+/// BAP text: the ASCII .bap file with body animation parameters. The grammar is that of FAP text
+/// (fap/text.h) with other versions and longer masks; fap_text_format, section 1, and
+/// fba_bitstream, section 11.
+///
+///     3.2 my_clip 25 2                         version, name, frames a second, number of frames
+///     0 0 1 0 0 ...                            mask values: which BAPs follow
+///     0 341                                    frame number, one value per BAP of the mask
+///     0 0 1 0 0 ...
+///     1 356
+///
+/// Version 3.1 has 186 mask values a frame (the BAPs of the standard), version 3.2 has 296 (with
+/// the extension BAPs). Values are 1e-5 rad, millimetres for BAP 181..183.
 #pragma once
 
 #include <string>
@@ -26,9 +27,9 @@ namespace animeme::fba {
 /// Body animation. Frame numbers ascend strictly; they are those of the face clip beside it, so
 /// the first one need not be 0.
 struct BodySequence {
-  fap::Rate rate{25, 1};
-  std::vector<BodyFrame> frames;
-  std::string name;  ///< free text for people; written as one word
+  fap::Rate rate{25, 1};          ///< frames a second
+  std::vector<BodyFrame> frames;  ///< by ascending number
+  std::string name;               ///< free text for people; written as one word
 
   friend bool operator==(const BodySequence&, const BodySequence&) = default;
 };

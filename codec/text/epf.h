@@ -1,5 +1,6 @@
-// Encoder parameter files (.epf): every coding decision of a stream as text, one tag a line.
-// With one, the bytes of a stream are fully determined. Source: fba_bitstream, section 11.
+/// @file
+/// Encoder parameter files (.epf): every coding decision of a stream as text, one tag a line.
+/// With one, the bytes of a stream are fully determined. Source: fba_bitstream, section 11.
 #pragma once
 
 #include <string_view>
@@ -12,13 +13,13 @@ namespace animeme::fba {
 
 /// One plane of an EPF. Ranges are already the 5-bit numbers of the stream.
 struct EpfPlane {
-  bool intra = false;
-  ObjectMask object_mask = ObjectMask::face;
-  std::int64_t face_frame = 0;  ///< FFR: number of the frame in the .fap file
-  std::int64_t body_frame = 0;  ///< BFR: number of the frame in the .bap file
-  TemporalHeader temporal;
-  FaceSettings face;
-  BodySettings body;
+  bool intra = false;                         ///< ISI
+  ObjectMask object_mask = ObjectMask::face;  ///< FBM
+  std::int64_t face_frame = 0;                ///< FFR: number of the frame in the .fap file
+  std::int64_t body_frame = 0;                ///< BFR: number of the frame in the .bap file
+  TemporalHeader temporal;                    ///< FRR, TC, SKN and their BAP twins
+  FaceSettings face;                          ///< FMT, FQU, FIX..., intra planes
+  BodySettings body;                          ///< BMT, BQU, BIX..., intra planes
 };
 
 /// Reads an EPF. Blank lines and # comments may stand anywhere; CRLF is accepted. An intra plane

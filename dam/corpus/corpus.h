@@ -1,4 +1,5 @@
-// Training data: sentences with their phoneme scripts and measured control signals.
+/// @file
+/// Training data: sentences with their phoneme scripts and measured control signals.
 #pragma once
 
 #include <filesystem>
@@ -15,24 +16,25 @@ namespace animeme::dam {
 
 /// One recorded sentence.
 struct Utterance {
-  std::string id;
+  std::string id;    ///< name, unique in a corpus
   std::string text;  ///< empty: unknown
-  Script script;
-  Signal signal;
+  Script script;     ///< what is spoken when
+  Signal signal;     ///< what was measured
   /// All columns of its row in utterances.tsv, as they stand there.
   std::vector<std::pair<std::string, std::string>> fields;
 };
 
 /// Sentences with the same controls in the same order, all at the same rate.
 struct Corpus {
-  std::vector<Utterance> utterances;
-  std::size_t skipped = 0;  ///< rows of the split left out for want of a control file
+  std::vector<Utterance> utterances;  ///< in the order of the table
+  std::size_t skipped = 0;            ///< rows of the split left out for want of a control file
 
-  std::size_t frames() const;
+  std::size_t frames() const;  ///< of all signals
   /// Seconds of signal.
   double duration() const;
 };
 
+/// Which rows and columns of a corpus are read.
 struct CorpusOptions {
   std::string split_column =
       "split";              ///< column of utterances.tsv that `split_value` is looked up in
@@ -59,6 +61,7 @@ Result<Corpus> read_corpus(const std::filesystem::path& folder, const CorpusOpti
 /// reading and is returned. Returns the number of rows left out (Corpus::skipped).
 using SentenceVisitor =
     std::function<Result<void>(Utterance sentence, std::size_t row, std::size_t rows)>;
+/// `row` of `rows` begins at 0; an error of the visitor ends the visit.
 Result<std::size_t> visit_corpus(const std::filesystem::path& folder, const CorpusOptions& options,
                                  const SentenceVisitor& visit);
 

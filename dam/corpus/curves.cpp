@@ -40,15 +40,15 @@ double rounding_of(std::string_view field) {
   return std::min(0.0051, std::max(kTimeError, 0.51 * std::pow(10.0, -double(decimals))));
 }
 
-struct Columns {
+struct CurveColumns {
   std::size_t time = 0, count = 0;
   std::ptrdiff_t measured = -1;
   std::vector<std::size_t> controls;
 };
 
-Result<Columns> read_header(const TableLine& line, Signal& signal) {
+Result<CurveColumns> read_header(const TableLine& line, Signal& signal) {
   const auto header = split_fields(line.text, ',');
-  Columns columns;
+  CurveColumns columns;
   columns.count = header.size();
   const auto time = find_column(header, "time_s");
   if (!time)

@@ -1,5 +1,6 @@
-// What training can be told, and what it tells: options, progress, summary. Below the kinds of
-// models, which all read them. Source: the paper, section V; lipsync, section 5.
+/// @file
+/// What training can be told, and what it tells: options, progress, summary. Below the kinds of
+/// models, which all read them. Source: the paper, section V; lipsync, section 5.
 #pragma once
 
 #include <cstdint>
@@ -74,7 +75,7 @@ struct TableOptions {
 /// All settings of training. The defaults are those of the shipped model; how they were chosen
 /// stands in dam/README.md.
 struct TrainOptions {
-  Method method = Method::dam;
+  Method method = Method::dam;   ///< which kind of model
   RefinedOptions refined;        ///< for dam
   AnimemeOptions animeme;        ///< for dam-paper and cohen-massaro
   TrajectoryOptions trajectory;  ///< for mmm
@@ -94,8 +95,8 @@ Result<void> validate(const TrainOptions& options);
 
 /// A phone with so few examples that its shape is uncertain.
 struct RarePhone {
-  std::string label;
-  std::size_t examples = 0;
+  std::string label;         ///< the phone
+  std::size_t examples = 0;  ///< occurrences in the data
   /// Method dam: the other learned phones of its class, whose common curve it leans on; nothing
   /// there: it leans on the mean.
   std::vector<std::string> leans_on;
@@ -104,14 +105,14 @@ struct RarePhone {
 /// A phone that was not in the data, and what synthesis will say instead ("AO IH": both, one after
 /// the other); empty: nothing, so scripts with it will be refused.
 struct UnknownPhone {
-  std::string label;
-  std::string spoken_as;
+  std::string label;      ///< the phone
+  std::string spoken_as;  ///< labels with blanks between; empty: refused
 };
 
 /// How much of a control the curves explain.
 struct ControlNote {
-  std::string name;
-  bool constant = false;
+  std::string name;       ///< the control
+  bool constant = false;  ///< it does not move in the data
   /// Which part of the variance within sentences the curves explain, at most 1; below 0: worse than
   /// the mean. 0 for a constant control.
   double explained = 0;
@@ -119,7 +120,7 @@ struct ControlNote {
 
 /// How a sentence stands out; either may be why.
 struct SentenceNote {
-  std::string id;
+  std::string id;     ///< the sentence
   double offset = 0;  ///< what it is off as a whole, in usual offsets of sentences
   double error = 0;   ///< the rest of its error, divided by the median of the sentences
 };
@@ -131,9 +132,9 @@ struct TrainSummary {
   int iterations = 0;             ///< accepted steps
   std::vector<std::size_t>
       moved;  ///< dam-paper: occurrences that changed their mode, per round before that
-  bool converged = false;  ///< false: stopped by max_iterations
-  double seconds = 0;      ///< wall clock
-  std::size_t utterances = 0;
+  bool converged = false;       ///< false: stopped by max_iterations
+  double seconds = 0;           ///< wall clock
+  std::size_t utterances = 0;   ///< sentences used
   std::size_t frames = 0;       ///< frames fitted
   std::size_t occurrences = 0;  ///< phones fitted
   std::size_t modes = 0;        ///< of all phones; 0: the method has none
@@ -154,10 +155,12 @@ struct TrainSummary {
 /// The usual offset is 1.48 times the median over sentences, per control and at least a tenth of
 /// its deviation; of a sentence the root mean square over controls counts. With fewer than 8
 /// sentences nothing is usual.
-inline constexpr double kStandsOut = 3, kErrorStandsOut = 2;
+inline constexpr double kStandsOut = 3,  ///< usual offsets from which on a sentence is named
+    kErrorStandsOut = 2;                 ///< the same for the rest of its error
 /// A control is said to move only by noise if less than this share is explained.
 inline constexpr double kNoise = 0.02;
 
+/// How far training is, for whoever waits.
 struct Progress {
   const char* stage = "";  ///< "modes", "fit"
   double done = 0;         ///< 0..1 of the stage, a guess

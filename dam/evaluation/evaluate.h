@@ -1,10 +1,11 @@
-// How far synthesis is from recorded motion. Source: lipsync, section 8.
-//
-//     auto result = animeme::dam::evaluate(model, utterances);       // synthesise and score
-//     auto pairs = animeme::dam::synthesise_pairs(model, utterances);
-//     auto same = animeme::dam::score(*pairs, {.scale = model.controls});
-//
-// score() takes motion from anywhere: other people's systems, decoded streams.
+/// @file
+/// How far synthesis is from recorded motion. Source: lipsync, section 8.
+///
+///     auto result = animeme::dam::evaluate(model, utterances);       // synthesise and score
+///     auto pairs = animeme::dam::synthesise_pairs(model, utterances);
+///     auto same = animeme::dam::score(*pairs, {.scale = model.controls});
+///
+/// score() takes motion from anywhere: other people's systems, decoded streams.
 #pragma once
 
 #include <span>
@@ -23,12 +24,15 @@ namespace animeme::dam {
 /// Phone contexts and words of some scripts, sorted, each once.
 struct SeenContexts {
   std::vector<std::string> triphones;  ///< "left phone right"; the end of a script is SIL
-  std::vector<std::string> words;
+  std::vector<std::string> words;      ///< as written in the scripts
 
+  /// False: nothing is counted as seen or unseen.
   bool known() const { return !triphones.empty(); }
 };
+/// Those of the sentences that a model was trained on, for instance.
 SeenContexts seen_contexts(std::span<const Utterance> utterances);
 
+/// How score() counts.
 struct ScoreOptions {
   double closed_gap = 45;     ///< FAP units: inner gap below which lips count as closed
   double contact_slack = 45;  ///< FAP units: see ContactScore::level
@@ -39,6 +43,7 @@ struct ScoreOptions {
   int threads = 0;    ///< 0: as the machine has; the result does not depend on it
 };
 
+/// How evaluate() makes and counts.
 struct EvaluateOptions {
   SynthesisOptions synthesis;  ///< rate and frames are those of each recording
   ScoreOptions score;          ///< an empty scale is that of the model
@@ -46,24 +51,24 @@ struct EvaluateOptions {
 
 /// A recording and what was made for its script.
 struct SentencePair {
-  Utterance recorded;
-  Signal made;  ///< same rate and number of frames; channels are found by name
+  Utterance recorded;  ///< script and measured signal
+  Signal made;         ///< same rate and number of frames; channels are found by name
 };
 
 /// Scored are measured frames within 0.2 s of speech, of the FAPs 3 to 13 and 51 to 60; of all
 /// controls that move, if the scale has none of these.
 struct Evaluation : RegionScore {  ///< the speech
   std::size_t utterances = 0;
-  double seconds = 0;   ///< of scored frames
-  RegionScore silence;  ///< measured frames further from speech; may be empty
-  ClosureScore closure;
-  ContactScore contact;
-  RoundingScore rounding;
-  TimingScore timing;
-  DynamicsScore dynamics;                      ///< mean over scored controls that move
+  double seconds = 0;      ///< of scored frames
+  RegionScore silence;     ///< measured frames further from speech; may be empty
+  ClosureScore closure;    ///< P, B, M
+  ContactScore contact;    ///< F, V
+  RoundingScore rounding;  ///< rounded vowels and W
+  TimingScore timing;      ///< lags
+  DynamicsScore dynamics;  ///< mean over scored controls that move
   std::vector<DynamicsScore> series_dynamics;  ///< of `controls`, then of `measures`
-  Breakdown breakdown;
-  std::vector<UtteranceScore> per_utterance;
+  Breakdown breakdown;                         ///< by phone, viseme and what training saw
+  std::vector<UtteranceScore> per_utterance;   ///< in the order given
   /// Mean of UtteranceScore::gap_correlation: how alike the motion is, however large a speaker
   /// makes it. The measure for speakers that the model does not know.
   double gap_correlation = 0;

@@ -1,5 +1,6 @@
-// Is one system better than another, or were the sentences kind to it? Paired bootstrap over
-// sentences. Source: lipsync, section 8, item 7.
+/// @file
+/// Is one system better than another, or were the sentences kind to it? Paired bootstrap over
+/// sentences. Source: lipsync, section 8, item 7.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +11,7 @@
 
 namespace animeme::dam {
 
+/// How the draws are made.
 struct BootstrapOptions {
   int draws = 1000;        ///< 1..1000000
   std::uint64_t seed = 1;  ///< of a generator of our own: the same on every machine
@@ -18,17 +20,21 @@ struct BootstrapOptions {
 
 /// One error of two systems, over all sentences. Negative differences: a is better.
 struct ErrorDifference {
-  double a = 0, b = 0;
-  double difference = 0;     ///< a - b
-  double low = 0, high = 0;  ///< percentiles of the difference over the draws
-  double below = 0;          ///< share of draws in which a has less error than b, 0..1
+  double a = 0,           ///< error of the first system
+      b = 0;              ///< of the second
+  double difference = 0;  ///< a - b
+  double low = 0,         ///< lower end of the interval
+      high = 0;           ///< upper end
+  double below = 0;       ///< share of draws in which a has less error than b, 0..1
 };
 
+/// Two systems on the same sentences.
 struct PairedDifference {
-  std::size_t sentences = 0;
-  int draws = 0;
-  ErrorDifference nrmse, l2;
-  ErrorDifference gap_rmse;  ///< FAP units; zeros without an inner gap
+  std::size_t sentences = 0;  ///< with frames in both
+  int draws = 0;              ///< as asked for
+  ErrorDifference nrmse,      ///< mean over scored controls
+      l2;                     ///< norm over controls, see RegionScore
+  ErrorDifference gap_rmse;   ///< FAP units; zeros without an inner gap
 };
 
 /// Draws as many sentences as there are, with replacement and the same for both, computes both

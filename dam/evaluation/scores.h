@@ -1,6 +1,7 @@
-// What evaluate() measures, as plain data. Errors are "made minus recorded"; controls are in their
-// own units (FAP units for FAPs), times in ms, shares 0..1. Definitions: dam/README.md, "What
-// evaluate measures". Source: lipsync, section 8.
+/// @file
+/// What evaluate() measures, as plain data. Errors are "made minus recorded"; controls are in their
+/// own units (FAP units for FAPs), times in ms, shares 0..1. Definitions: dam/README.md, "What
+/// evaluate measures". Source: lipsync, section 8.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +14,9 @@ namespace animeme::dam {
 
 /// Errors of one control or derived measure over the frames of a region, in its units.
 struct SeriesScore {
-  std::string name;
-  bool scored = false;  ///< part of the means; FAP 14, 16, 17 ... are reported only
-  double rmse = 0;
+  std::string name;        ///< of the control or measure
+  bool scored = false;     ///< part of the means; FAP 14, 16, 17 ... are reported only
+  double rmse = 0;         ///< root mean square error
   double nrmse = 0;        ///< rmse / standard deviation: of the scale for a control, of the
                            ///< recordings in this region for a measure; 0 if that is 0
   double largest = 0;      ///< largest absolute error
@@ -24,7 +25,7 @@ struct SeriesScore {
 
 /// All frames of one kind: speech (within 0.2 s of it) or silence (the rest). Only measured frames.
 struct RegionScore {
-  std::size_t frames = 0;
+  std::size_t frames = 0;  ///< scored frames of this kind
   double nrmse = 0;        ///< mean over scored controls
   double still_nrmse = 0;  ///< the same for a face that keeps the mean pose of the scale
   double l2 = 0;  ///< mean over frames of the Euclidean norm of the error in standard deviations
@@ -37,44 +38,45 @@ struct RegionScore {
 
 /// Mean and standard deviation of times, ms; positive: made later than recorded.
 struct TimeSpread {
-  std::size_t count = 0;
-  double mean = 0;
-  double sd = 0;
+  std::size_t count = 0;  ///< phones or frames that count
+  double mean = 0;        ///< ms
+  double sd = 0;          ///< ms
 };
 
 /// P, B and M: is there a frame from 40 ms before to 40 ms after the phone with the lips closed?
 /// All zero without FAP 4 and 5.
 struct ClosureScore {
-  std::size_t phones = 0;
-  double measured = 0;  ///< share of them, 0..1
-  double predicted = 0;
+  std::size_t phones = 0;          ///< P, B and M that lie in measured frames
+  double measured = 0;             ///< share of them, 0..1
+  double predicted = 0;            ///< the same share of the motion that was made
   std::size_t false_closures = 0;  ///< runs of frames in speech away from P, B, M and silence
                                    ///< (60 ms), predicted closed and nowhere measured so
   double false_per_minute = 0;     ///< of scored time, as all "per minute"
   std::size_t stray_measured = 0;  ///< such runs that are measured closed, whatever is predicted
-  double stray_measured_per_minute = 0;
-  std::size_t stray_predicted = 0;  ///< predicted closed, whatever is measured
-  double stray_predicted_per_minute = 0;
+  double stray_measured_per_minute = 0;   ///< a minute of scored time
+  std::size_t stray_predicted = 0;        ///< predicted closed, whatever is measured
+  double stray_predicted_per_minute = 0;  ///< a minute of scored time
   /// The gap passes the threshold, by linear interpolation, at most 0.2 s before (onset) or after
   /// (release) its least frame. Of phones that both close, where both have such an instant.
-  TimeSpread onset, release;
+  TimeSpread onset,  ///< when the gap closes
+      release;       ///< when it opens
 };
 
 /// F and V: the lower lip has to reach the upper teeth. FAP 5 (inner lower lip, upwards) tells it.
 struct ContactScore {
-  std::size_t phones = 0;
-  double level = 0;     ///< FAP 5 that counts as contact: median over F and V of the highest
-                        ///< recorded value near the phone, less ScoreOptions::contact_slack
-  double measured = 0;  ///< share of phones that reach it, 0..1
-  double predicted = 0;
-  double difference = 0;  ///< mean difference of the highest values, FAP units
+  std::size_t phones = 0;  ///< F and V that lie in measured frames
+  double level = 0;        ///< FAP 5 that counts as contact: median over F and V of the highest
+                           ///< recorded value near the phone, less ScoreOptions::contact_slack
+  double measured = 0;     ///< share of phones that reach it, 0..1
+  double predicted = 0;    ///< the same share of the motion that was made
+  double difference = 0;   ///< mean difference of the highest values, FAP units
 };
 
 /// Rounded sounds (PhoneInfo::rounded): how much narrower than on average is the mouth?
 struct RoundingScore {
-  std::size_t phones = 0;
-  double measured = 0;  ///< mean of: recorded mean width in speech - least width, FAP units
-  double predicted = 0;
+  std::size_t phones = 0;  ///< rounded phones that count
+  double measured = 0;     ///< mean of: recorded mean width in speech - least width, FAP units
+  double predicted = 0;    ///< the same of the motion that was made
   double rmse = 0;         ///< of the least width, FAP units
   double correlation = 0;  ///< of the least widths, over phones
 };
@@ -95,9 +97,10 @@ enum class Sync : std::uint8_t {
   face_early,  ///< beyond -125 ms: the sound comes late
 };
 
+/// How far the face is from the sound in time.
 struct TimingScore {
-  LagScore all;
-  Sync sync = Sync::unknown;
+  LagScore all;                   ///< over all scored controls
+  Sync sync = Sync::unknown;      ///< what viewers would say
   std::vector<LagScore> classes;  ///< in the order of PhoneClass; only classes with frames
   std::size_t extremes = 0;       ///< extremes of recorded velocity, all scored controls
   double misalignment = 0;        ///< ms: mean distance in time to where time warping puts them
@@ -106,46 +109,47 @@ struct TimingScore {
 
 /// Made over recorded; 1 is as lively as the recording. 0 where the recording does not move.
 struct DynamicsScore {
-  std::string name;
-  bool scored = false;
-  double velocity = 0;  ///< ratio of standard deviations
-  double acceleration = 0;
-  double jerk = 0;
+  std::string name;                 ///< of the control or measure
+  bool scored = false;              ///< part of the mean
+  double velocity = 0;              ///< ratio of standard deviations
+  double acceleration = 0;          ///< likewise
+  double jerk = 0;                  ///< likewise, of the third derivative
   double range = 0;                 ///< ratio of the distances from the 5th to the 95th percentile
   double velocity_correlation = 0;  ///< Pearson
 };
 
 /// Sums over frames that means are made of; those of several sentences add up.
 struct ErrorSums {
-  std::size_t frames = 0;
+  std::size_t frames = 0;       ///< scored
   std::vector<double> squared;  ///< one a scored control: squared errors in standard deviations
   double l2 = 0;                ///< norms of the error in standard deviations
   double gap_squared = 0;       ///< squared errors of the inner gap, FAP units
 
-  void add(const ErrorSums& other);
-  double nrmse() const;  ///< mean over scored controls; this and the next two are 0 if empty
-  double mean_l2() const;
-  double gap_rmse() const;
+  void add(const ErrorSums& other);  ///< adds those of another sentence
+  double nrmse() const;     ///< mean over scored controls; this and the next two are 0 if empty
+  double mean_l2() const;   ///< mean norm of the error
+  double gap_rmse() const;  ///< FAP units, root mean square
 };
 
+/// One sentence.
 struct UtteranceScore {
-  std::string id;
-  std::size_t frames = 0;  ///< scored
-  double nrmse = 0;        ///< mean over scored controls
-  double l2 = 0;
-  double gap_rmse = 0;
+  std::string id;              ///< of the utterance
+  std::size_t frames = 0;      ///< scored
+  double nrmse = 0;            ///< mean over scored controls
+  double l2 = 0;               ///< mean norm of the error
+  double gap_rmse = 0;         ///< FAP units; 0 without an inner gap
   double gap_correlation = 0;  ///< Pearson, of the inner gap in this sentence
-  ErrorSums sums;
+  ErrorSums sums;              ///< what the means were made of
 };
 
 /// Part of the scored frames.
 struct GroupScore {
-  std::string name;
+  std::string name;        ///< phone, viseme, "seen" or "unseen"
   std::size_t phones = 0;  ///< occurrences with a scored frame
-  std::size_t frames = 0;
-  double nrmse = 0;
-  double l2 = 0;
-  double gap_rmse = 0;
+  std::size_t frames = 0;  ///< scored frames in it
+  double nrmse = 0;        ///< mean over scored controls
+  double l2 = 0;           ///< mean norm of the error
+  double gap_rmse = 0;     ///< FAP units; 0 without an inner gap
 };
 
 /// Where the errors are. A frame belongs to the phone that is spoken at its time.
@@ -155,7 +159,7 @@ struct Breakdown {
   /// "seen" and "unseen": phone with both neighbours, phone's word, in what training saw. Empty if
   /// that is not known. Silence does not count.
   std::vector<GroupScore> triphones;
-  std::vector<GroupScore> words;
+  std::vector<GroupScore> words;  ///< likewise, by word
 };
 
 /// "in sync", "face late (sound early)" ...

@@ -10,6 +10,8 @@
 namespace animeme::dam {
 namespace {
 
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 constexpr Eigen::Index kTile = 192;
 constexpr Eigen::Index kColumns = 16;  // right sides solved by one task
 
@@ -51,7 +53,6 @@ bool cholesky_in_place(std::span<double> matrix, std::size_t n, int threads) {
 
 void cholesky_solve(std::span<const double> factor, std::size_t n, std::span<double> right,
                     std::size_t columns, int threads) {
-  using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const auto size = Eigen::Index(n), width = Eigen::Index(columns);
   const Eigen::Map<const Eigen::MatrixXd> l(factor.data(), size, size);
   Eigen::Map<RowMatrix> x(right.data(), size, width);

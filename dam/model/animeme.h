@@ -1,6 +1,7 @@
-// One dominated animeme: the dominance of Eq. 1 times a polynomial. Plain functions of the local
-// time u = (t - start) / duration, so u is 0 where the phone starts and 1 where it ends.
-// Source: the paper, sections III and V.
+/// @file
+/// One dominated animeme: the dominance of Eq. 1 times a polynomial. Plain functions of the local
+/// time u = (t - start) / duration, so u is 0 where the phone starts and 1 where it ends.
+/// Source: the paper, sections III and V.
 #pragma once
 
 #include <algorithm>
@@ -51,11 +52,13 @@ inline double polynomial(std::span<const double> a, double u) {
   for (std::size_t m = a.size(); m-- > 0;) value = value * u + a[m];
   return value;
 }
+/// Its first derivative.
 inline double polynomial_slope(std::span<const double> a, double u) {
   double value = 0;
   for (std::size_t m = a.size(); m-- > 1;) value = value * u + double(m) * a[m];
   return value;
 }
+/// Its second derivative.
 inline double polynomial_curvature(std::span<const double> a, double u) {
   double value = 0;
   for (std::size_t m = a.size(); m-- > 2;) value = value * u + double(m * (m - 1)) * a[m];

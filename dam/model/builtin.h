@@ -1,4 +1,5 @@
-// The model that comes with the library, so that a face can talk without any file.
+/// @file
+/// The model that comes with the library, so that a face can talk without any file.
 #pragma once
 
 #include <cstdint>

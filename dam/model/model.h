@@ -1,18 +1,19 @@
-// A trained model: everything that synthesis and evaluation need, as plain data.
-//
-//     C*(t) = rest + sd * S(t)
-//
-// `rest` and `sd` are per control; S(t), in units of the training standard deviation and measured
-// from the pose of silence, is what the kinds of models differ in:
-//
-//   method         parameters            S(t)
-//   dam            RefinedParameters     blend of curves with corrections by context
-//   dam-paper      AnimemeParameters     blend of D_j(u_j) A_j(u_j), u_j = (t - s_j) / d_j (Eq. 2)
-//   cohen-massaro  AnimemeParameters     the same with constants for A: one target a phone
-//   mmm            TrajectoryParameters  smooth curve near the means of the phones' states
-//   mean           MeanParameters        the mean pose of the training speech
-//   viseme         VisemeParameters      straight lines between the poses of the phones
-//   triphone       TriphoneParameters    mean curves of phones in context, overlapped and added
+/// @file
+/// A trained model: everything that synthesis and evaluation need, as plain data.
+///
+///     C*(t) = rest + sd * S(t)
+///
+/// `rest` and `sd` are per control; S(t), in units of the training standard deviation and measured
+/// from the pose of silence, is what the kinds of models differ in:
+///
+///     method         parameters            S(t)
+///     dam            RefinedParameters     blend of curves with corrections by context
+///     dam-paper      AnimemeParameters     blend of D_j(u_j) A_j(u_j), u_j = (t - s_j) / d_j (Eq.
+///     2) cohen-massaro  AnimemeParameters     the same with constants for A: one target a phone
+///     mmm            TrajectoryParameters  smooth curve near the means of the phones' states
+///     mean           MeanParameters        the mean pose of the training speech
+///     viseme         VisemeParameters      straight lines between the poses of the phones
+///     triphone       TriphoneParameters    mean curves of phones in context, overlapped and added
 #pragma once
 
 #include <cstdint>
@@ -51,10 +52,10 @@ std::span<const Method> methods();
 
 /// One animation control, in its own units (FAP units for FAPs).
 struct Control {
-  std::string name;
-  double rest = 0;  ///< value of the resting mouth, from the silences
-  double mean = 0;  ///< over speech +-0.2 s of the training rows
-  double sd = 0;    ///< standard deviation over the same frames, 0: constant control
+  std::string name;  ///< "fap3_open_jaw", "jawOpen" ...
+  double rest = 0;   ///< value of the resting mouth, from the silences
+  double mean = 0;   ///< over speech +-0.2 s of the training rows
+  double sd = 0;     ///< standard deviation over the same frames, 0: constant control
 
   friend bool operator==(const Control&, const Control&) = default;
 };
@@ -81,14 +82,14 @@ struct Mode {
 /// How often a mode was seen between two phones; left and right index Model::phones,
 /// kRestContext stands for the resting mouth and for the end of the clip.
 struct ContextCount {
-  std::int32_t left = 0;
-  std::int32_t right = 0;
-  std::uint32_t mode = 0;
-  std::uint32_t count = 0;
+  std::int32_t left = 0;    ///< phone before
+  std::int32_t right = 0;   ///< phone behind
+  std::uint32_t mode = 0;   ///< index of AnimemePhone's modes
+  std::uint32_t count = 0;  ///< times, at least 1
 
   friend bool operator==(const ContextCount&, const ContextCount&) = default;
 };
-inline constexpr std::int32_t kRestContext = -1;
+inline constexpr std::int32_t kRestContext = -1;  ///< the resting mouth, in place of a phone
 
 /// The modes of one phone.
 struct AnimemePhone {
@@ -145,14 +146,15 @@ inline constexpr std::size_t kRefinedOrders = 5;
 
 /// All learned terms of one kind.
 struct TermTable {
-  RefinedTerm term = RefinedTerm::phone;
-  std::uint32_t orders = 0;         ///< 1..kRefinedOrders
+  RefinedTerm term = RefinedTerm::phone;  ///< which kind
+  std::uint32_t orders = 0;               ///< 1..kRefinedOrders
   std::vector<std::uint32_t> keys;  ///< ascending: phone, class, or own * 256 + class of neighbour
   std::vector<float> values;  ///< a_m of control c of row r at [(r * orders + m) * controls + c]
 
   friend bool operator==(const TermTable&, const TermTable&) = default;
 };
 
+/// Parameters of method dam; see dam/lipsync.md, section 5.2.
 struct RefinedParameters {
   double time_margin = 0.3;               ///< >= 0
   double duration_exponent = 0.3;         ///< 0..2
@@ -199,17 +201,17 @@ enum class CurveLevel : std::uint8_t {
   classes = 5,      ///< those between two classes
   triphone = 6,     ///< those between two phones
 };
-inline constexpr std::size_t kCurveLevels = 7;
-inline constexpr std::int32_t kAnyContext = -2;
+inline constexpr std::size_t kCurveLevels = 7;   ///< values of CurveLevel
+inline constexpr std::int32_t kAnyContext = -2;  ///< stands for every neighbour
 
 /// A mean curve, less those of the coarser levels that fit the same context.
 struct ContextCurve {
-  std::int32_t phone = 0;  ///< index of Model::phones
-  CurveLevel level = CurveLevel::phone;
-  std::int32_t left = kAnyContext;  ///< phone, class, kRestContext or kAnyContext, as of `level`
-  std::int32_t right = kAnyContext;
-  std::uint32_t count = 0;    ///< occurrences, at least 1
-  std::vector<float> values;  ///< [point * controls + control]
+  std::int32_t phone = 0;                ///< index of Model::phones
+  CurveLevel level = CurveLevel::phone;  ///< how narrow its context is
+  std::int32_t left = kAnyContext;   ///< phone, class, kRestContext or kAnyContext, as of `level`
+  std::int32_t right = kAnyContext;  ///< likewise
+  std::uint32_t count = 0;           ///< occurrences, at least 1
+  std::vector<float> values;         ///< [point * controls + control]
 
   friend bool operator==(const ContextCurve&, const ContextCurve&) = default;
 };
@@ -228,14 +230,15 @@ struct TriphoneParameters {
 using Parameters = std::variant<AnimemeParameters, RefinedParameters, TrajectoryParameters,
                                 MeanParameters, VisemeParameters, TriphoneParameters>;
 
+/// A model and what its training knew; plain data that may be changed.
 struct Model {
-  Method method = Method::dam_paper;
+  Method method = Method::dam_paper;  ///< how the parameters are to be read
   double pause_edge = 0.3;  ///< seconds: the part of a pause that belongs to the speech beside it
   double closure_gap = 25;  ///< FAP units: inner lip gap to which P, B, M close
   /// FAP units: how far F and V raise the inner lower lip (FAP 5) towards the teeth; none: unknown.
   std::optional<double> lip_tooth_raise;
-  fap::Rate rate;  ///< of the training signal
-  std::vector<Control> controls;
+  fap::Rate rate;                  ///< of the training signal
+  std::vector<Control> controls;   ///< what it animates; all parameters are in this order
   std::vector<PhoneModel> phones;  ///< sorted by label
   Parameters parameters;           ///< the alternative that the method needs
   std::string attribution;         ///< who has to be named when the model is passed on
@@ -265,6 +268,7 @@ Result<Model> read_model(std::span<const std::uint8_t> bytes);
 /// The same from and to a path. Errors also: not_found, io. Saving goes to a temporary file in
 /// the same folder that is renamed when complete.
 Result<Model> load_model(const std::filesystem::path& path);
+/// Whole or not at all.
 Result<void> save_model(const Model& model, const std::filesystem::path& path);
 
 }  // namespace animeme::dam

@@ -7,9 +7,9 @@
 namespace animeme::dam {
 namespace {
 
-constexpr FileFormat kFormat{"ANIMEDAM", 2, 0, "model file", "train the model anew"};
+constexpr FileFormat kModelFormat{"ANIMEDAM", 2, 0, "model file", "train the model anew"};
 
-Error damaged(const std::string& how) { return damaged_file(kFormat, how); }
+Error damaged_model(const std::string& how) { return damaged_file(kModelFormat, how); }
 
 Result<Model> read_payload(ByteReader& in, bool newer_minor) {
   Model model;
@@ -22,7 +22,7 @@ Result<Model> read_payload(ByteReader& in, bool newer_minor) {
   model.closure_gap = in.real();
   const auto has_raise = in.number<std::uint8_t>();
   const double raise = in.real();
-  if (has_raise > 1) return damaged("unknown flag");
+  if (has_raise > 1) return damaged_model("unknown flag");
   if (has_raise == 1) model.lip_tooth_raise = raise;
   model.rate.num = in.number<std::uint32_t>();
   model.rate.den = in.number<std::uint32_t>();
@@ -43,9 +43,10 @@ Result<Model> read_payload(ByteReader& in, bool newer_minor) {
     p.duration = in.real();
     p.longest = in.real();
   }
-  if (auto ok = kind_of(model.method).read(in, model); !ok) return damaged(ok.error().message);
-  if (in.failed()) return damaged("its parts are larger than the file");
-  if (!in.at_end() && !newer_minor) return damaged("something follows the model");
+  if (auto ok = kind_of(model.method).read(in, model); !ok)
+    return damaged_model(ok.error().message);
+  if (in.failed()) return damaged_model("its parts are larger than the file");
+  if (!in.at_end() && !newer_minor) return damaged_model("something follows the model");
   if (auto ok = validate(model); !ok) return make_error(Code::syntax, ok.error().message);
   return model;
 }
@@ -79,18 +80,18 @@ std::vector<std::uint8_t> write_model(const Model& model) {
     body.real(phone.longest);
   }
   kind_of(model.method).write(model, body);
-  return frame_file(kFormat, body.bytes);
+  return frame_file(kModelFormat, body.bytes);
 }
 
 Result<Model> read_model(std::span<const std::uint8_t> bytes) {
-  const auto body = open_frame(kFormat, bytes);
+  const auto body = open_frame(kModelFormat, bytes);
   if (!body) return body.error();
   ByteReader in(body->bytes);
   return read_payload(in, body->newer_minor);
 }
 
 Result<Model> load_model(const std::filesystem::path& path) {
-  const auto bytes = load_file(kFormat, path);
+  const auto bytes = load_file(kModelFormat, path);
   if (!bytes) return bytes.error();
   auto model = read_model(*bytes);
   if (!model) return std::move(model).error().in_file(path.string());
@@ -99,7 +100,7 @@ Result<Model> load_model(const std::filesystem::path& path) {
 
 Result<void> save_model(const Model& model, const std::filesystem::path& path) {
   if (auto ok = validate(model); !ok) return ok;
-  return save_file(kFormat, write_model(model), path);
+  return save_file(kModelFormat, write_model(model), path);
 }
 
 }  // namespace animeme::dam

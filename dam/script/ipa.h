@@ -1,15 +1,16 @@
-// From the International Phonetic Alphabet to the 41 phones that models know.
-//
-// What counts is what the lips do: place, manner and rounding, in this order. Front rounded
-// vowels become rounded ones (y -> UW), the uvular r of French and German has no lip gesture
-// (-> G, not R), bilabial fricatives close like stops (β -> B), glottals and pharyngeals follow
-// the vowel (-> HH). Where ARPAbet has one phone for an affricate or a diphthong (tʃ -> CH,
-// aɪ -> AY) it is used, else there are two phones (ts -> T S).
-//
-// X-SAMPA is accepted in the same strings (its lower-case letters are those of IPA, and IPA has
-// no upper-case ones), and so are the spellings of espeak-ng and of the Montreal aligner's IPA
-// dictionaries (aw, ej, tʃʰ). Source: ipa_to_mpeg4.csv and ipa_modifiers.csv of the phoneme
-// specification.
+/// @file
+/// From the International Phonetic Alphabet to the 41 phones that models know.
+///
+/// What counts is what the lips do: place, manner and rounding, in this order. Front rounded
+/// vowels become rounded ones (y -> UW), the uvular r of French and German has no lip gesture
+/// (-> G, not R), bilabial fricatives close like stops (β -> B), glottals and pharyngeals follow
+/// the vowel (-> HH). Where ARPAbet has one phone for an affricate or a diphthong (tʃ -> CH,
+/// aɪ -> AY) it is used, else there are two phones (ts -> T S).
+///
+/// X-SAMPA is accepted in the same strings (its lower-case letters are those of IPA, and IPA has
+/// no upper-case ones), and so are the spellings of espeak-ng and of the Montreal aligner's IPA
+/// dictionaries (aw, ej, tʃʰ). Source: ipa_to_mpeg4.csv and ipa_modifiers.csv of the phoneme
+/// specification.
 #pragma once
 
 #include <string_view>

@@ -1,10 +1,11 @@
-// The sounds that models know: ARPAbet, their MPEG-4 visemes, their place on the lips, and who
-// stands in for whom.
-//
-// The set is the 39 phones of the CMU pronouncing dictionary, AX (the unstressed vowel of
-// "sofa") and SIL (silence): 41 labels. Labels of other alphabets are mapped to it by
-// dam/script/ipa.h. Source: the ARPAbet table of the phoneme specification; the classes are those
-// of the lip-sync specification, section 5.2.
+/// @file
+/// The sounds that models know: ARPAbet, their MPEG-4 visemes, their place on the lips, and who
+/// stands in for whom.
+///
+/// The set is the 39 phones of the CMU pronouncing dictionary, AX (the unstressed vowel of
+/// "sofa") and SIL (silence): 41 labels. Labels of other alphabets are mapped to it by
+/// dam/script/ipa.h. Source: the ARPAbet table of the phoneme specification; the classes are those
+/// of the lip-sync specification, section 5.2.
 #pragma once
 
 #include <array>
@@ -32,8 +33,8 @@ enum class PhoneClass : std::uint8_t {
   rounded_vowel = 11,  ///< UH UW OW OY
 };
 
-inline constexpr std::size_t kPhoneClassCount = 12;
-inline constexpr std::size_t kPhoneCount = 41;
+inline constexpr std::size_t kPhoneClassCount = 12;  ///< values of PhoneClass
+inline constexpr std::size_t kPhoneCount = 41;       ///< labels, SIL included
 
 /// What is fixed about one phone. All views point to static storage.
 struct PhoneInfo {
@@ -41,11 +42,11 @@ struct PhoneInfo {
   std::string_view ipa;       ///< UTF-8; empty for SIL
   std::uint8_t viseme_start;  ///< MPEG-4 viseme 0..14 at the start of the phone
   std::uint8_t viseme_end;    ///< and at its end; differs for diphthongs only
-  PhoneClass phone_class;
-  bool vowel;        ///< can carry a syllable, ER and diphthongs included
-  bool bilabial;     ///< both lips must touch: P B M
-  bool labiodental;  ///< the lower lip must touch the upper teeth: F V
-  bool rounded;      ///< the lips protrude at some point of the phone
+  PhoneClass phone_class;     ///< what its neighbours see of it
+  bool vowel;                 ///< can carry a syllable, ER and diphthongs included
+  bool bilabial;              ///< both lips must touch: P B M
+  bool labiodental;           ///< the lower lip must touch the upper teeth: F V
+  bool rounded;               ///< the lips protrude at some point of the phone
 };
 
 /// All phones; SIL first, then by alphabet. The order is stable.
@@ -61,7 +62,7 @@ std::string_view phone_class_name(PhoneClass phone_class);
 ///
 /// Upper or lower case; a stress digit 0..3 at the end of a vowel is dropped; AXR IX UX DX NX EL
 /// EM EN ENG HV (TIMIT) become the nearest of the 41. Every usual way to write a pause gives
-/// SIL: "" sil silence sp spn nsn pau h# # _ __ epi brth <sil> <eps> <p:> and the like.
+/// SIL: nothing, `sil silence sp spn nsn pau h# # _ __ epi brth <sil> <eps> <p:>` and the like.
 /// IPA and X-SAMPA are not looked at; see dam/script/ipa.h.
 std::string_view arpabet_label(std::string_view spelling);
 
@@ -115,9 +116,10 @@ struct RelativePart {
 
 /// An alternative: `count` parts in time order, whose shares add up to 1.
 struct Relative {
-  std::array<RelativePart, 2> part;
-  std::size_t count = 1;  ///< 1 or 2
+  std::array<RelativePart, 2> part;  ///< the first `count` count
+  std::size_t count = 1;             ///< 1 or 2
 
+  /// Those that count.
   std::span<const RelativePart> parts() const { return {part.data(), count}; }
 };
 

@@ -8,7 +8,7 @@
 namespace animeme::dam {
 namespace {
 
-struct Row {
+struct RelativesRow {
   std::string_view label;
   std::span<const Relative> alternatives;
 };
@@ -140,7 +140,7 @@ constexpr Relative kZ[] = {one("S"), one("D"), one("T"), one("N")};
 constexpr Relative kZh[] = {one("JH"),          one("SH"), one("CH"),
                             two("Z", 0.5, "R"), one("Z"),  one("S")};
 
-constexpr Row kRows[] = {
+constexpr RelativesRow kRows[] = {
     {"SIL", kSil}, {"AA", kAa}, {"AE", kAe}, {"AH", kAh}, {"AO", kAo}, {"AW", kAw}, {"AX", kAx},
     {"AY", kAy},   {"B", kB},   {"CH", kCh}, {"D", kD},   {"DH", kDh}, {"EH", kEh}, {"ER", kEr},
     {"EY", kEy},   {"F", kF},   {"G", kG},   {"HH", kHh}, {"IH", kIh}, {"IY", kIy}, {"JH", kJh},
@@ -152,8 +152,9 @@ constexpr Row kRows[] = {
 }  // namespace
 
 std::span<const Relative> phone_relatives(std::string_view label) {
-  const auto row = std::find_if(std::begin(kRows), std::end(kRows),
-                                [&](const Row& candidate) { return candidate.label == label; });
+  const auto row =
+      std::find_if(std::begin(kRows), std::end(kRows),
+                   [&](const RelativesRow& candidate) { return candidate.label == label; });
   return row == std::end(kRows) ? std::span<const Relative>() : row->alternatives;
 }
 

@@ -49,7 +49,7 @@ Result<void> check_script(const Script& script) {
   double reached = 0;
   for (std::size_t i = 0; i < script.phones.size(); ++i) {
     const Phone& phone = script.phones[i];
-    const std::string name = "phone " + std::to_string(i + 1) + " " + quoted(phone.label);
+    const std::string name = "phone " + std::to_string(i + 1) + " " + in_quotes(phone.label);
     const auto refuse = [&](const std::string& what) {
       return make_error(Code::invalid_argument, name + " " + what);
     };

@@ -1,22 +1,26 @@
-// A phoneme script: which sound is spoken when. What aligners and voices make, what training
-// and synthesis take.
-//
-//     auto script = animeme::dam::read_script(text);
-//     if (!script) std::cerr << std::move(script).error().in_file(path).describe();
-//
-// Formats read, told apart by their content:
-//
-//   TSV       Tab separated, a header line that names the columns in any order:
-//             start_s (or start), end_s (or end) or duration_s (or duration), phone (or phoneme,
-//             label), optionally word. Other columns are ignored, lines that begin with # too.
-//                 start_s	end_s	phone	word
-//                 0	0.21	SIL
-//                 0.21	0.25	B	bin
-//   TextGrid  Praat's text form, long or short, UTF-8 or UTF-16 with a byte order mark. The tier
-//             named phones, phone, phonemes or "NAME - phones" (any case) gives the phones; the
-//             tier words, word or "NAME - words", if there is one, the words.
-//
-// Source: phoneme script specification, sections 3 and 4.
+/// @file
+/// A phoneme script: which sound is spoken when. What aligners and voices make, what training
+/// and synthesis take.
+///
+///     auto script = animeme::dam::read_script(text);
+///     if (!script) std::cerr << std::move(script).error().in_file(path).describe();
+///
+/// Formats read, told apart by their content:
+///
+/// - TSV: tab separated, a header line that names the columns in any order: start_s (or start),
+/// end_s
+///   (or end) or duration_s (or duration), phone (or phoneme, label), optionally word. Other
+///   columns are ignored, lines that begin with # too.
+///
+///       start_s	end_s	phone	word
+///       0	0.21	SIL
+///       0.21	0.25	B	bin
+///
+/// - TextGrid: Praat's text form, long or short, UTF-8 or UTF-16 with a byte order mark. The tier
+///   named phones, phone, phonemes or "NAME - phones" (any case) gives the phones; the tier words,
+///   word or "NAME - words", if there is one, the words.
+///
+/// Source: phoneme script specification, sections 3 and 4.
 #pragma once
 
 #include <cstdint>
@@ -30,25 +34,25 @@ namespace animeme::dam {
 
 /// One spoken sound. `label` is upper-case ARPAbet without stress digits ("AA", "P") or "SIL".
 struct Phone {
-  double start = 0;  ///< seconds from the start of the audio
-  double end = 0;    ///< seconds, > start
-  std::string label;
-  std::string word;  ///< the word it belongs to; empty: unknown or silence
+  double start = 0;   ///< seconds from the start of the audio
+  double end = 0;     ///< seconds, > start
+  std::string label;  ///< ARPAbet without stress, or SIL
+  std::string word;   ///< the word it belongs to; empty: unknown or silence
 
-  double duration() const { return end - start; }
+  double duration() const { return end - start; }  ///< seconds, > 0
   friend bool operator==(const Phone&, const Phone&) = default;
 };
 
 /// Phones in time order without overlap. Gaps are silence.
 struct Script {
-  std::vector<Phone> phones;
+  std::vector<Phone> phones;  ///< ascending
 
   /// End of the last phone in seconds, 0 if there is none.
   double duration() const { return phones.empty() ? 0.0 : phones.back().end; }
   friend bool operator==(const Script&, const Script&) = default;
 };
 
-inline constexpr std::string_view kSilence = "SIL";
+inline constexpr std::string_view kSilence = "SIL";  ///< the label of silence
 
 /// Phones may overlap or leave a gap by this much (seconds): files round their times.
 inline constexpr double kTimeTolerance = 0.001;
@@ -62,8 +66,9 @@ enum class Alphabet : std::uint8_t {
   ipa,        ///< IPA or X-SAMPA, see dam/script/ipa.h
 };
 
+/// What read_script() is told of a file.
 struct ScriptOptions {
-  Alphabet alphabet = Alphabet::automatic;
+  Alphabet alphabet = Alphabet::automatic;  ///< of the labels
   /// TextGrid: the exact name of the tier to read. Empty: chosen by the names above.
   std::string tier;
 };

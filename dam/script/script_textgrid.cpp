@@ -29,7 +29,7 @@ std::string tier_list(const TextGrid& grid) {
   std::string names;
   for (const TextGridTier& tier : grid.tiers) {
     if (names.size() > 300) return "its tiers are " + names + ", ...";
-    names += (names.empty() ? "" : ", ") + quoted(tier.name);
+    names += (names.empty() ? "" : ", ") + in_quotes(tier.name);
   }
   return "its tiers are " + names;
 }
@@ -39,7 +39,7 @@ Result<const TextGridTier*> choose_named(const TextGrid& grid, const std::string
     if (tier.name == name) return &tier;
   }
   return make_error(Code::not_found,
-                    "the TextGrid has no tier " + quoted(name) + "; " + tier_list(grid));
+                    "the TextGrid has no tier " + in_quotes(name) + "; " + tier_list(grid));
 }
 
 Result<const TextGridTier*> choose_phones(const TextGrid& grid) {
@@ -96,7 +96,7 @@ Result<Script> read_textgrid(std::string_view text, const ScriptOptions& options
   if (!tier) return tier.error();
   if ((*tier)->points) {
     return make_error(Code::unsupported,
-                      "tier " + quoted((*tier)->name) + " holds points; phones need intervals");
+                      "tier " + in_quotes((*tier)->name) + " holds points; phones need intervals");
   }
   std::vector<RawPhone> raw;
   for (const TextGridItem& item : (*tier)->items) {

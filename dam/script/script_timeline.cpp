@@ -36,7 +36,7 @@ Alphabet guess_alphabet(const std::map<std::string_view, std::int64_t>& labels) 
 }
 
 Error unknown_label(std::string_view label, std::int64_t line, Alphabet alphabet) {
-  std::string message = "unknown phone label " + quoted(label);
+  std::string message = "unknown phone label " + in_quotes(label);
   if (alphabet == Alphabet::arpabet) {
     message += "; the nearest ARPAbet label is " + std::string(nearest_label(label));
   } else {
@@ -64,7 +64,7 @@ std::optional<Labels> map_label(std::string_view label, Alphabet alphabet) {
 std::string seconds_text(double seconds) { return format_seconds(seconds) + " s"; }
 
 std::optional<Error> check_times(const RawPhone& phone) {
-  const std::string name = "phone " + quoted(phone.label);
+  const std::string name = "phone " + in_quotes(phone.label);
   if (!std::isfinite(phone.start) || !std::isfinite(phone.end)) {
     return error_at_line(Code::out_of_range, name + " has a time that is not a finite number",
                          phone.line);
@@ -93,8 +93,8 @@ std::optional<Error> check_times(const RawPhone& phone) {
 }
 
 std::optional<Error> check_order(const RawPhone& before, const RawPhone& phone) {
-  const std::string names = "phone " + quoted(phone.label) + " starts at " +
-                            seconds_text(phone.start) + ", before " + quoted(before.label);
+  const std::string names = "phone " + in_quotes(phone.label) + " starts at " +
+                            seconds_text(phone.start) + ", before " + in_quotes(before.label);
   if (phone.start <= before.start) {
     return error_at_line(
         Code::syntax,
@@ -158,7 +158,7 @@ void append(std::vector<Phone>& phones, const RawPhone& raw, double start, const
 
 }  // namespace
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t kShown = 40;
   std::string out = "\"";
   for (const char c : text.substr(0, kShown)) {
@@ -181,12 +181,12 @@ Result<double> parse_seconds(std::string_view field, std::int64_t line, std::str
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::result_out_of_range || (error == std::errc() && !std::isfinite(value))) {
     return error_at_line(Code::out_of_range,
-                         "the " + std::string(what) + " time " + quoted(field) +
+                         "the " + std::string(what) + " time " + in_quotes(field) +
                              " is not a finite number of seconds",
                          line);
   }
   if (error != std::errc() || end != digits.data() + digits.size()) {
-    std::string message = "the " + std::string(what) + " time " + quoted(field) +
+    std::string message = "the " + std::string(what) + " time " + in_quotes(field) +
                           " is not a number; write seconds with a decimal point, like 0.25";
     return error_at_line(Code::syntax, message, line);
   }

@@ -28,7 +28,7 @@ Result<Script> make_script(const std::vector<RawPhone>& raw, Alphabet alphabet);
 Result<double> parse_seconds(std::string_view field, std::int64_t line, std::string_view what);
 
 /// `text` in quotes, fit to be shown: cut to 40 bytes, control characters replaced.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 /// Shortest text that reads back as the same number.
 std::string format_seconds(double seconds);

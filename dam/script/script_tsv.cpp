@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kMaxColumns = 64;
 constexpr std::size_t kAbsent = kMaxColumns;
 
-struct Columns {
+struct TsvColumns {
   std::size_t start = kAbsent, end = kAbsent, duration = kAbsent, phone = kAbsent, word = kAbsent;
 };
 
@@ -25,8 +25,8 @@ std::vector<std::string_view> split_tabs(std::string_view line) {
   return fields;
 }
 
-Columns name_columns(std::string_view header) {
-  Columns columns;
+TsvColumns name_columns(std::string_view header) {
+  TsvColumns columns;
   const auto fields = split_tabs(header);
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const std::string name = lower_case(fields[i]);
@@ -51,7 +51,7 @@ std::string_view field_at(const std::vector<std::string_view>& fields, std::size
   return column < fields.size() ? fields[column] : std::string_view();
 }
 
-Result<RawPhone> read_row(const Line& line, const Columns& columns) {
+Result<RawPhone> read_row(const Line& line, const TsvColumns& columns) {
   const auto fields = split_tabs(line.text);
   RawPhone phone;
   phone.line = line.number;
@@ -75,7 +75,7 @@ Result<RawPhone> read_row(const Line& line, const Columns& columns) {
   return phone;
 }
 
-std::optional<Error> check_columns(const Columns& columns, std::int64_t line) {
+std::optional<Error> check_columns(const TsvColumns& columns, std::int64_t line) {
   if (columns.start != kAbsent && columns.phone != kAbsent &&
       (columns.end != kAbsent || columns.duration != kAbsent)) {
     return std::nullopt;
@@ -92,7 +92,7 @@ bool looks_like_tsv(std::string_view text) {
   LineReader reader(text);
   Line line;
   if (!next_content_line(reader, line)) return false;
-  const Columns columns = name_columns(line.text);
+  const TsvColumns columns = name_columns(line.text);
   return columns.start != kAbsent || columns.phone != kAbsent;
 }
 
@@ -100,7 +100,7 @@ Result<Script> read_tsv(std::string_view text, const ScriptOptions& options) {
   LineReader reader(text);
   Line line;
   if (!next_content_line(reader, line)) return make_script({}, options.alphabet);
-  const Columns columns = name_columns(line.text);
+  const TsvColumns columns = name_columns(line.text);
   if (const auto error = check_columns(columns, line.number)) return *error;
   std::vector<RawPhone> raw;
   while (next_content_line(reader, line)) {

@@ -9,10 +9,10 @@
 namespace animeme::dam {
 namespace {
 
-enum class Kind : std::uint8_t { number, string, flag, end };
+enum class TokenKind : std::uint8_t { number, string, flag, end };
 
 struct Token {
-  Kind kind = Kind::end;
+  TokenKind kind = TokenKind::end;
   double number = 0;
   std::string text;
   std::int64_t line = 0;
@@ -33,7 +33,7 @@ class Tokens {
         advance(std::min(rest_.find_first_of("\r\n"), rest_.size()));
       } else if (c == '<') {
         const std::string_view flag = advance(std::min(rest_.find('>'), rest_.size() - 1) + 1);
-        return Token{Kind::flag, 0, std::string(flag), line};
+        return Token{TokenKind::flag, 0, std::string(flag), line};
       } else {
         const std::string_view word =
             advance(std::min(rest_.find_first_of(" \t\r\n"), rest_.size()));
@@ -43,13 +43,13 @@ class Tokens {
         if (error != std::errc::invalid_argument && whole && starts_number(word)) {
           if (error != std::errc() || !std::isfinite(number)) {
             return error_at_line(Code::out_of_range,
-                                 quoted(word) + " is not a finite number of seconds", line);
+                                 in_quotes(word) + " is not a finite number of seconds", line);
           }
-          return Token{Kind::number, number, {}, line};
+          return Token{TokenKind::number, number, {}, line};
         }
       }
     }
-    return Token{Kind::end, 0, {}, line_};
+    return Token{TokenKind::end, 0, {}, line_};
   }
 
  private:
@@ -73,7 +73,7 @@ class Tokens {
   }
 
   Result<Token> string() {
-    Token token{Kind::string, 0, {}, line_};
+    Token token{TokenKind::string, 0, {}, line_};
     std::size_t at = 1;
     for (;; ++at) {
       if (at >= rest_.size()) {
@@ -100,12 +100,12 @@ class Parser {
  public:
   explicit Parser(std::string_view text) : tokens_(text) {}
 
-  Token take(Kind kind, std::string_view what) {
+  Token take(TokenKind kind, std::string_view what) {
     if (failed_) return {};
     auto token = tokens_.next();
     if (!token) {
       fail(token.error());
-    } else if (token->kind == Kind::end) {
+    } else if (token->kind == TokenKind::end) {
       fail(error_at_line(
           Code::truncated,
           "the TextGrid ends where " + std::string(what) + " should follow; save it again",
@@ -118,7 +118,7 @@ class Parser {
     return failed_ ? Token{} : *std::move(token);
   }
 
-  double number(std::string_view what) { return take(Kind::number, what).number; }
+  double number(std::string_view what) { return take(TokenKind::number, what).number; }
 
   void fail(Error error) {
     if (!failed_) error_ = std::move(error);
@@ -139,26 +139,26 @@ bool is_count(double value) { return value >= 0 && value <= 1e9 && value == std:
 
 TextGridTier read_tier(Parser& parser) {
   TextGridTier tier;
-  const Token type = parser.take(Kind::string, "the type of a tier (\"IntervalTier\")");
+  const Token type = parser.take(TokenKind::string, "the type of a tier (\"IntervalTier\")");
   tier.points = type.text == "TextTier";
   if (!parser.failed() && !tier.points && type.text != "IntervalTier") {
     parser.fail(error_at_line(
-        Code::syntax, "a tier is an \"IntervalTier\" or a \"TextTier\", not " + quoted(type.text),
-        type.line));
+        Code::syntax,
+        "a tier is an \"IntervalTier\" or a \"TextTier\", not " + in_quotes(type.text), type.line));
   }
-  tier.name = parser.take(Kind::string, "the name of a tier").text;
+  tier.name = parser.take(TokenKind::string, "the name of a tier").text;
   parser.number("the start of a tier");
   parser.number("the end of a tier");
   const double count = parser.number("the number of intervals");
   if (!is_count(count)) {
-    parser.fail(make_error(Code::syntax, "the number of intervals of tier " + quoted(tier.name) +
+    parser.fail(make_error(Code::syntax, "the number of intervals of tier " + in_quotes(tier.name) +
                                              " is not a whole number"));
   }
   for (double i = 0; i < count && !parser.failed(); ++i) {
     TextGridItem item;
     item.start = parser.number("a time");
     item.end = tier.points ? item.start : parser.number("the end of an interval");
-    Token text = parser.take(Kind::string, "the text of an interval");
+    Token text = parser.take(TokenKind::string, "the text of an interval");
     item.text = std::move(text.text);
     item.line = text.line;
     if (!parser.failed()) tier.items.push_back(std::move(item));
@@ -167,16 +167,17 @@ TextGridTier read_tier(Parser& parser) {
 }
 
 void check_header(Parser& parser) {
-  const Token type = parser.take(Kind::string, "the file type \"ooTextFile\"");
+  const Token type = parser.take(TokenKind::string, "the file type \"ooTextFile\"");
   // Old versions wrote "ooTextFile short".
   if (!parser.failed() && !type.text.starts_with("ooTextFile")) {
-    parser.fail(error_at_line(
-        Code::syntax, "file type " + quoted(type.text) + " instead of \"ooTextFile\"", type.line));
+    parser.fail(error_at_line(Code::syntax,
+                              "file type " + in_quotes(type.text) + " instead of \"ooTextFile\"",
+                              type.line));
   }
-  const Token object = parser.take(Kind::string, "the object class \"TextGrid\"");
+  const Token object = parser.take(TokenKind::string, "the object class \"TextGrid\"");
   if (!parser.failed() && object.text != "TextGrid") {
     parser.fail(error_at_line(Code::unsupported,
-                              "this Praat file holds a " + quoted(object.text) +
+                              "this Praat file holds a " + in_quotes(object.text) +
                                   "; select the TextGrid in Praat and save that one",
                               object.line));
   }
@@ -210,7 +211,7 @@ Result<TextGrid> parse_textgrid(std::string_view utf8) {
   TextGrid grid;
   grid.start = parser.number("the start time");
   grid.end = parser.number("the end time");
-  const Token flag = parser.take(Kind::flag, "<exists>");
+  const Token flag = parser.take(TokenKind::flag, "<exists>");
   if (!parser.failed() && flag.text == "<absent>") return grid;
   const double count = parser.number("the number of tiers");
   if (!is_count(count)) parser.fail(make_error(Code::syntax, "the number of tiers is no count"));

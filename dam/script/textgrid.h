@@ -1,8 +1,9 @@
-// Praat TextGrid files: tiers of labelled intervals and points, text form only.
-//
-// Praat writes a long form with names ("xmin = 0.5") and a short one without ("0.5"). Both
-// follow one rule, which is the reader's too: only free-standing numbers, "strings" and <flags>
-// count, all other words and everything behind an exclamation mark are for people.
+/// @file
+/// Praat TextGrid files: tiers of labelled intervals and points, text form only.
+///
+/// Praat writes a long form with names ("xmin = 0.5") and a short one without ("0.5"). Both
+/// follow one rule, which is the reader's too: only free-standing numbers, "strings" and `<flags>`
+/// count, all other words and everything behind an exclamation mark are for people.
 #pragma once
 
 #include <cstdint>
@@ -22,16 +23,18 @@ struct TextGridItem {
   std::int64_t line = 0;  ///< of the text in the file, from 1; 0: not from a file
 };
 
+/// One tier: intervals without gaps, or points.
 struct TextGridTier {
-  std::string name;
-  bool points = false;  ///< a TextTier (points in time) instead of an IntervalTier
-  std::vector<TextGridItem> items;
+  std::string name;                 ///< as in the file
+  bool points = false;              ///< a TextTier (points in time) instead of an IntervalTier
+  std::vector<TextGridItem> items;  ///< ascending
 };
 
+/// A whole file.
 struct TextGrid {
-  double start = 0;  ///< seconds
-  double end = 0;    ///< seconds
-  std::vector<TextGridTier> tiers;
+  double start = 0;                 ///< seconds
+  double end = 0;                   ///< seconds
+  std::vector<TextGridTier> tiers;  ///< in the order of the file
 };
 
 /// Reads the text form from UTF-8 (see to_utf8() for other encodings). Times are taken as they

@@ -6,16 +6,16 @@
 namespace animeme::dam {
 namespace {
 
-Occurrence silence(double start, double duration) {
+Occurrence silent(double start, double duration) {
   return {std::string(kSilence), start, std::max(duration, kShortestPhone), {}, {}, 0};
 }
 
 void add_pause(std::vector<Occurrence>& out, double start, double end, double edge) {
   if (end - start > 2 * edge) {
-    out.push_back(silence(start, edge));
-    out.push_back(silence(end - edge, edge));
+    out.push_back(silent(start, edge));
+    out.push_back(silent(end - edge, edge));
   } else if (end - start > kTimeTolerance) {
-    out.push_back(silence(start, end - start));
+    out.push_back(silent(start, end - start));
   }
 }
 
@@ -48,14 +48,14 @@ std::vector<Occurrence> make_timeline(const Script& script, double pause_edge) {
   for (const Phone& phone : script.phones) {
     if (phone.label == kSilence) continue;
     if (out.empty())
-      out.push_back(silence(phone.start - pause_edge, pause_edge));
+      out.push_back(silent(phone.start - pause_edge, pause_edge));
     else
       add_pause(out, spoken_until, phone.start, pause_edge);
     out.push_back(
         {phone.label, phone.start, std::max(phone.duration(), kShortestPhone), {}, {}, 0});
     spoken_until = phone.end;
   }
-  if (!out.empty()) out.push_back(silence(spoken_until, pause_edge));
+  if (!out.empty()) out.push_back(silent(spoken_until, pause_edge));
   link(out);
   return out;
 }

@@ -1,6 +1,7 @@
-// P, B and M close the lips, F and V bring the lower lip to the upper teeth. Sums of smooth
-// functions undershoot short contacts, and viewers notice nothing as readily, so synthesis repairs
-// them. Source: lipsync, section 5.6.
+/// @file
+/// P, B and M close the lips, F and V bring the lower lip to the upper teeth. Sums of smooth
+/// functions undershoot short contacts, and viewers notice nothing as readily, so synthesis repairs
+/// them. Source: lipsync, section 5.6.
 #pragma once
 
 #include <cstddef>
@@ -16,6 +17,7 @@ namespace animeme::dam {
 /// Seconds beside the phone in which a closure may lie.
 inline constexpr double kClosureSearch = 0.040;
 
+/// What counts as closed, and how a closure is made.
 struct ClosureOptions {
   double least = -15;  ///< FAP units: lips pressed together; they cannot pass through each other
   double target = 25;  ///< FAP units: largest inner gap that counts as closed
@@ -37,6 +39,7 @@ std::size_t apply_closure(Signal& signal, const Script& script, const ClosureOpt
 /// the same way; its sides (10, 11) and the outer contour (52, 57, 58) follow. The lips stay apart:
 /// the inner gap never falls below kLeastOpen for this. Returns the number of phones repaired.
 inline constexpr double kLeastOpen = 50;
+/// As apply_closure(); `raise` in FAP units, Model::lip_tooth_raise.
 std::size_t apply_lip_tooth_contact(Signal& signal, const Script& script, double raise,
                                     const ClosureOptions& options = {});
 
@@ -52,8 +55,10 @@ void close_pose(std::span<const std::string> names, std::span<double> pose,
 
 /// Channel indices of FAP 4 and 5.
 struct LipChannels {
-  std::size_t upper = 0, lower = 0;
+  std::size_t upper = 0,  ///< FAP 4
+      lower = 0;          ///< FAP 5
 };
+/// The channels of a signal by their names; nothing: one of them is missing.
 std::optional<LipChannels> inner_lip_channels(std::span<const std::string> names);
 
 /// -(FAP 4 + FAP 5) in FAP units: 0 and less is closed.
@@ -64,8 +69,10 @@ inline double inner_gap(const Signal& signal, std::size_t frame, const LipChanne
 /// Frames [first, last) of the signal within `margin` seconds of a phone; at least the nearest
 /// frame, as long as the phone begins before the signal ends.
 struct FrameSpan {
-  std::size_t first = 0, last = 0;
+  std::size_t first = 0,  ///< first frame
+      last = 0;           ///< behind the last
 };
+/// See FrameSpan; `margin` >= 0 seconds.
 FrameSpan frames_near(const Signal& signal, const Phone& phone, double margin);
 
 /// True for P, B, M.

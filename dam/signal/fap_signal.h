@@ -1,4 +1,5 @@
-// Between control signals and FAP clips.
+/// @file
+/// Between control signals and FAP clips.
 #pragma once
 
 #include <string>

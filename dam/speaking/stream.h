@@ -1,18 +1,19 @@
-// Speaking while the script is still being made: phones go in one by one, frames come out as soon
-// as no later phone can change them.
-//
-//     SpeechStream stream(model, {});
-//     for (const Phone& phone : phones_as_they_come) {
-//       if (auto ok = stream.push(phone); !ok) ...
-//       auto frames = stream.pull();               // often none, sometimes several
-//     }
-//     auto rest = stream.finish();
-//
-// With the look-ahead that the model asks for (exact_look_ahead()) the frames are those of
-// synthesise(), bit by bit, for the methods whose phones reach a bounded time (dam,
-// cohen-massaro). With less, what is not known yet counts as silence; when it becomes known, the
-// motion is led over to the better one, without a jump, within `cross_fade` seconds.
-// Source: lipsync, section 5.6.
+/// @file
+/// Speaking while the script is still being made: phones go in one by one, frames come out as soon
+/// as no later phone can change them.
+///
+///     SpeechStream stream(model, {});
+///     for (const Phone& phone : phones_as_they_come) {
+///       if (auto ok = stream.push(phone); !ok) ...
+///       auto frames = stream.pull();               // often none, sometimes several
+///     }
+///     auto rest = stream.finish();
+///
+/// With the look-ahead that the model asks for (exact_look_ahead()) the frames are those of
+/// synthesise(), bit by bit, for the methods whose phones reach a bounded time (dam,
+/// cohen-massaro). With less, what is not known yet counts as silence; when it becomes known, the
+/// motion is led over to the better one, without a jump, within `cross_fade` seconds.
+/// Source: lipsync, section 5.6.
 #pragma once
 
 #include <cstddef>
@@ -27,6 +28,7 @@
 
 namespace animeme::dam {
 
+/// All settings of SpeechStream.
 struct StreamOptions {
   /// `frames` is not used; `tail` and the rest at the end come with finish().
   SynthesisOptions synthesis;

@@ -12,7 +12,7 @@
 namespace animeme::dam {
 namespace {
 
-constexpr double kMaxFrames = 1e7;
+constexpr double kMostFrames = 1e7;
 
 void to_control_units(const Model& model, const RestGate& gate, double style, Signal& signal) {
   const std::size_t controls = model.controls.size();
@@ -113,7 +113,7 @@ Result<Signal> synthesise(const Model& model, const Script& script, const Synthe
   const double frames = options.frames > 0
                             ? double(options.frames)
                             : std::ceil(seconds * options.rate.frames_per_second() - 1e-6);
-  if (!(frames <= kMaxFrames))
+  if (!(frames <= kMostFrames))
     return make_error(Code::out_of_range,
                       "the clip has more than 10 million frames; cut the script");
   SynthesisReport own;

@@ -1,4 +1,5 @@
-// From a phoneme script to a control signal: section VI of the paper.
+/// @file
+/// From a phoneme script to a control signal: section VI of the paper.
 #pragma once
 
 #include <cstddef>
@@ -13,6 +14,7 @@
 
 namespace animeme::dam {
 
+/// All settings of synthesise().
 struct SynthesisOptions {
   fap::Rate rate = {25, 1};  ///< of the signal to make; at most 1000 frames a second
   std::size_t frames = 0;    ///< 0: as many as cover the script (and `tail`)
@@ -27,7 +29,7 @@ struct SynthesisOptions {
   double smoothness_weight = 1;  ///< w_s of Eq. 10, >= 0
 };
 
-inline constexpr double kMostStyle = 1.5;
+inline constexpr double kMostStyle = 1.5;  ///< largest SynthesisOptions::style
 
 /// Code::invalid_argument with the name and the range of the first bad option.
 Result<void> validate(const SynthesisOptions& options);

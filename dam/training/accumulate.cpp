@@ -13,8 +13,6 @@
 namespace animeme::dam {
 namespace {
 
-Error refused(const std::string& what) { return make_error(Code::invalid_argument, what); }
-
 /// Of all that is learned from: identifier, phones, curves.
 std::uint64_t sentence_digest(const Utterance& u) {
   ByteWriter out;

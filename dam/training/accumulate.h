@@ -1,37 +1,39 @@
-// Training of method dam in parts: for corpora larger than memory, or spread over machines.
-//
-// For a given dominance all that training takes from a corpus are sums. They can be taken sentence
-// by sentence, kept in a file, continued, and added to the sums of other sentences taken elsewhere:
-//
-//     auto sums = TrainingSums::start(options, &base);       // base: a model, for its dominance
-//     for (...) sums->add(utterance);                        // one at a time; memory as the sums
-//     save_training_sums(*sums, "part.stats");
-//     ...
-//     auto all = merge_training_sums(paths);                 // any order, the same bytes
-//     auto model = train_from_sums(std::move(*all), options, &summary);
-//
-// What is fixed beforehand (the base) and the same in all parts that are merged:
-//   - the dominance of every phone (widths, strength) and its usual duration, which the terms for
-//     long and short phones compare with: those of the base model; 80 ms, strength 1 and 80 ms for
-//     phones that the base does not know, and for all if there is no base;
-//   - pause edge, time margin and duration exponent: those of the base, or of the options;
-//   - the prior weight of sentence offsets: of the options.
-// The dominance is not improved here: that would need the curves of all controls at every step.
-// Take the base from `train` on as many sentences as memory holds; the dominance is a few numbers a
-// phone and soon known.
-//
-// What is summed, so that parts simply add up:
-//   - normal equations of all terms, in the units of the controls, apart for sentences that are
-//     held out (one of eight, by the digest of id and content, so the same wherever it is summed);
-//     means and deviations are applied when the sums are solved;
-//   - per control: count, sum, sum of squares, least and largest value in the speech; sum in rest;
-//   - per phone: count, sum of log durations, longest duration;
-//   - counts of the least lip gaps of P B M and of the lower lip's heights in F V in bins of 0.5
-//     units from -1024 to 1024 (medians of train() that are not sums; here within 0.25 units).
-//
-// Memory: 16 n^2 bytes, n the unknowns, and twice the file while it is saved; file: 8 n^2 bytes.
-// All 41 phones in every surrounding have n = 4800 (file 185 MB), the sentences of one speaker
-// 2000.
+/// @file
+/// Training of method dam in parts: for corpora larger than memory, or spread over machines.
+///
+/// For a given dominance all that training takes from a corpus are sums. They can be taken sentence
+/// by sentence, kept in a file, continued, and added to the sums of other sentences taken
+/// elsewhere:
+///
+///     auto sums = TrainingSums::start(options, &base);       // base: a model, for its dominance
+///     for (...) sums->add(utterance);                        // one at a time; memory as the sums
+///     save_training_sums(*sums, "part.stats");
+///     ...
+///     auto all = merge_training_sums(paths);                 // any order, the same bytes
+///     auto model = train_from_sums(std::move(*all), options, &summary);
+///
+/// What is fixed beforehand (the base) and the same in all parts that are merged:
+///   - the dominance of every phone (widths, strength) and its usual duration, which the terms for
+///     long and short phones compare with: those of the base model; 80 ms, strength 1 and 80 ms for
+///     phones that the base does not know, and for all if there is no base;
+///   - pause edge, time margin and duration exponent: those of the base, or of the options;
+///   - the prior weight of sentence offsets: of the options.
+/// The dominance is not improved here: that would need the curves of all controls at every step.
+/// Take the base from `train` on as many sentences as memory holds; the dominance is a few numbers
+/// a phone and soon known.
+///
+/// What is summed, so that parts simply add up:
+///   - normal equations of all terms, in the units of the controls, apart for sentences that are
+///     held out (one of eight, by the digest of id and content, so the same wherever it is summed);
+///     means and deviations are applied when the sums are solved;
+///   - per control: count, sum, sum of squares, least and largest value in the speech; sum in rest;
+///   - per phone: count, sum of log durations, longest duration;
+///   - counts of the least lip gaps of P B M and of the lower lip's heights in F V in bins of 0.5
+///     units from -1024 to 1024 (medians of train() that are not sums; here within 0.25 units).
+///
+/// Memory: 16 n^2 bytes, n the unknowns, and twice the file while it is saved; file: 8 n^2 bytes.
+/// All 41 phones in every surrounding have n = 4800 (file 185 MB), the sentences of one speaker
+/// 2000.
 #pragma once
 
 #include <cstddef>
@@ -65,10 +67,10 @@ class TrainingSums {
   /// or another rate; NaN; a broken script).
   Result<bool> add(const Utterance& sentence);
 
-  std::size_t sentences() const;
-  std::size_t frames() const;  ///< that count in the fit
-  std::vector<std::string> controls() const;
-  fap::Rate rate() const;
+  std::size_t sentences() const;              ///< that count, held-out ones included
+  std::size_t frames() const;                 ///< that count in the fit
+  std::vector<std::string> controls() const;  ///< names, in the order of the sums
+  fap::Rate rate() const;                     ///< of the signals
   /// A number for everything in here; sums with equal digests are equal.
   std::uint64_t digest() const;
 
@@ -80,14 +82,14 @@ class TrainingSums {
   /// other controls, another rate; a sentence that both have).
   Result<void> merge(const TrainingSums& other);
 
-  TrainingSums(TrainingSums&&) noexcept;
+  TrainingSums(TrainingSums&&) noexcept;  ///< movable
   TrainingSums& operator=(TrainingSums&&) noexcept;
   ~TrainingSums();
 
   /// For the functions below.
   explicit TrainingSums(std::unique_ptr<SumsState> state);
-  const SumsState& state() const { return *state_; }
-  std::unique_ptr<SumsState> release() &&;
+  const SumsState& state() const { return *state_; }  ///< for this library
+  std::unique_ptr<SumsState> release() &&;            ///< for this library; leaves nothing behind
 
  private:
   std::unique_ptr<SumsState> state_;
@@ -105,6 +107,7 @@ Result<TrainingSums> read_training_sums(std::span<const std::uint8_t> bytes);
 /// The same from and to a path. Errors also: not_found, io. Saving goes to a temporary file in the
 /// same folder that is renamed when complete, so an interrupted run leaves the file as it was.
 Result<TrainingSums> load_training_sums(const std::filesystem::path& path);
+/// Whole or not at all.
 Result<void> save_training_sums(const TrainingSums& sums, const std::filesystem::path& path);
 
 /// Adds up files in the order of their digests, so the order of `paths` does not matter to a single

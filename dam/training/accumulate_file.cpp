@@ -11,9 +11,9 @@
 namespace animeme::dam {
 namespace {
 
-constexpr FileFormat kFormat{"ANIMESUM", 1, 0, "file of sums", "accumulate its sentences anew"};
+constexpr FileFormat kSumsFormat{"ANIMESUM", 1, 0, "file of sums", "accumulate its sentences anew"};
 
-Error damaged(const std::string& how) { return damaged_file(kFormat, how); }
+Error damaged_sums(const std::string& how) { return damaged_file(kSumsFormat, how); }
 
 void write_base(const SumsState& state, ByteWriter& out) {
   const SumsBase& base = state.base;
@@ -259,22 +259,22 @@ std::vector<std::uint8_t> write_training_sums(const TrainingSums& sums) {
   }
   if (!state.controls.empty())
     for (const FitSums* fit : {&state.kept, &state.held}) write_fit(*fit, n, body);
-  return frame_file(kFormat, body.bytes);
+  return frame_file(kSumsFormat, body.bytes);
 }
 
 Result<TrainingSums> read_training_sums(std::span<const std::uint8_t> bytes) {
-  const auto body = open_frame(kFormat, bytes);
+  const auto body = open_frame(kSumsFormat, bytes);
   if (!body) return body.error();
   ByteReader in(body->bytes);
   auto state = std::make_unique<SumsState>();
   if (const Problem problem = read_payload(in, body->newer_minor, *state);
       in.failed() || !problem.empty())
-    return damaged(in.failed() ? "its parts are larger than the file" : problem);
+    return damaged_sums(in.failed() ? "its parts are larger than the file" : problem);
   return TrainingSums(std::move(state));
 }
 
 Result<TrainingSums> load_training_sums(const std::filesystem::path& path) {
-  const auto bytes = load_file(kFormat, path);
+  const auto bytes = load_file(kSumsFormat, path);
   if (!bytes) return bytes.error();
   auto sums = read_training_sums(*bytes);
   if (!sums) return std::move(sums).error().in_file(path.string());
@@ -282,7 +282,7 @@ Result<TrainingSums> load_training_sums(const std::filesystem::path& path) {
 }
 
 Result<void> save_training_sums(const TrainingSums& sums, const std::filesystem::path& path) {
-  return save_file(kFormat, write_training_sums(sums), path);
+  return save_file(kSumsFormat, write_training_sums(sums), path);
 }
 
 }  // namespace animeme::dam

@@ -8,8 +8,6 @@
 namespace animeme::dam {
 namespace {
 
-Error refused(const std::string& what) { return make_error(Code::invalid_argument, what); }
-
 /// What differs between two bases, in words; empty if nothing does.
 std::string difference(const SumsBase& a, const SumsBase& b) {
   if (a == b) return {};

@@ -1,4 +1,5 @@
-// Learning a model from recorded sentences. Source: the paper, section V; lipsync, section 5.
+/// @file
+/// Learning a model from recorded sentences. Source: the paper, section V; lipsync, section 5.
 #pragma once
 
 #include <span>

@@ -75,6 +75,9 @@ struct SumsState {
   FitSums kept, held;
 };
 
+/// What adding and merging refuse.
+inline Error refused(const std::string& what) { return make_error(Code::invalid_argument, what); }
+
 /// Every phone of phones.h, sorted by label, with start values.
 SumsBase start_base();
 

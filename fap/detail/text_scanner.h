@@ -86,7 +86,7 @@ class TextScanner {
 };
 
 /// `token` in quotes for a message: unprintable bytes become '?', long ones are cut.
-inline std::string quoted(std::string_view token) {
+inline std::string in_quotes(std::string_view token) {
   constexpr std::size_t longest = 32;
   std::string text = "'";
   for (const char c : token.substr(0, longest)) text += c < ' ' || c > '~' ? '?' : c;

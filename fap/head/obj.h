@@ -1,4 +1,5 @@
-// Wavefront OBJ: the meshes of a head, as every 3D package writes them.
+/// @file
+/// Wavefront OBJ: the meshes of a head, as every 3D package writes them.
 #pragma once
 
 #include <string>
@@ -10,15 +11,17 @@
 
 namespace animeme::head {
 
+/// A file of meshes, sorted by the parts of a head.
 struct ObjFile {
   /// A piece for each part that the names of objects, groups and materials tell (part_by_name()),
   /// with the names of its first group, so that vertices that parts share stay connected. Meshes
   /// that should not be shown are left out. Colours are those of the vertices ("v x y z r g b",
   /// linear, 0..1) if all have them, else colour_by_name().
   std::vector<Piece> pieces;
+  /// Where a vertex of the file went.
   struct Place {
-    std::size_t piece = 0;
-    std::uint32_t vertex = kMissing;
+    std::size_t piece = 0;            ///< index of `pieces`
+    std::uint32_t vertex = kMissing;  ///< index within the piece
   };
   /// For each vertex of the file, counted from 0: its place. Not in any shown face: missing.
   std::vector<Place> vertices;

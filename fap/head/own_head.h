@@ -1,16 +1,17 @@
-// A head that somebody else made: meshes, feature points and shapes of a file become a Head.
-//
-//     animeme::head::Source source;
-//     source.pieces.push_back({.name = "face", .mesh = mesh});
-//     source.points.push_back({"2.1", 0, 966});         // the chin is vertex 966 of piece 0
-//     ...
-//     std::vector<std::string> notes;
-//     animeme::head::Head head = *animeme::head::assemble(std::move(source), &notes);
-//     animeme::head::Rig rig = animeme::head::make_rig(head);
-//
-// Readers of files (fap/xml, tools/gltf, obj.h) fill a Source; assemble() does what they have in
-// common: it sorts the pieces into parts by their names, turns the head upright, brings it to
-// centimetres and to the origin, and finds eyes, jaw, neck and FAPU.
+/// @file
+/// A head that somebody else made: meshes, feature points and shapes of a file become a Head.
+///
+///     animeme::head::Source source;
+///     source.pieces.push_back({.name = "face", .mesh = mesh});
+///     source.points.push_back({"2.1", 0, 966});         // the chin is vertex 966 of piece 0
+///     ...
+///     std::vector<std::string> notes;
+///     animeme::head::Head head = *animeme::head::assemble(std::move(source), &notes);
+///     animeme::head::Rig rig = animeme::head::make_rig(head);
+///
+/// Readers of files (fap/xml, tools/gltf, obj.h) fill a Source; assemble() does what they have in
+/// common: it sorts the pieces into parts by their names, turns the head upright, brings it to
+/// centimetres and to the origin, and finds eyes, jaw, neck and FAPU.
 #pragma once
 
 #include <optional>
@@ -36,32 +37,32 @@ struct Piece {
 
 /// Where a feature point is: a vertex of a piece.
 struct PiecePoint {
-  std::string id;  ///< "2.1"
-  std::size_t piece = 0;
-  std::uint32_t vertex = 0;
+  std::string id;            ///< "2.1"
+  std::size_t piece = 0;     ///< index of Source::pieces
+  std::uint32_t vertex = 0;  ///< index within the piece
 };
 
 /// As Target, for a piece.
 struct PieceTarget {
-  int control = 0;  ///< see Target
-  std::size_t piece = 0;
+  int control = 0;                      ///< see Target
+  std::size_t piece = 0;                ///< index of Source::pieces
   std::vector<std::uint32_t> vertices;  ///< ascending
   std::vector<Vec3> deltas;             ///< units of the file for one unit of the control
-  float low = -std::numeric_limits<float>::infinity();
-  float high = std::numeric_limits<float>::infinity();
+  float low = -std::numeric_limits<float>::infinity();  ///< see Target
+  float high = std::numeric_limits<float>::infinity();  ///< see Target
 };
 
 /// What a file tells of a head. All but the pieces may be empty.
 struct Source {
-  std::string name;
-  std::vector<Piece> pieces;
-  std::vector<PiecePoint> points;
+  std::string name;                         ///< becomes Head::name
+  std::vector<Piece> pieces;                ///< at least one
+  std::vector<PiecePoint> points;           ///< feature points that the file names
   std::optional<fap::Fapu> fapu;            ///< in units of the file; else measured on the points
   std::vector<ShapeControl> shapes;         ///< see Head::shapes
   std::vector<PieceTarget> targets;         ///< see Head::targets
   std::array<std::optional<Vec3>, 2> eyes;  ///< centres, left and right
-  std::optional<Vec3> jaw_axis;
-  std::optional<Vec3> neck_pivot;
+  std::optional<Vec3> jaw_axis;             ///< a point on it, units of the file
+  std::optional<Vec3> neck_pivot;           ///< units of the file
   /// Centimetres of one unit of the file. 0: found from the distance of the eyes, which is taken
   /// for metres, centimetres, millimetres or inches if it is that of a head then; if it is not, the
   /// head becomes as large as usual.

@@ -35,17 +35,17 @@ std::optional<std::uint32_t> index_of(const std::string& field) {
 }
 
 // Numbers of the columns; -1: not there.
-struct Columns {
+struct PointColumns {
   int id = 0, vertex = 1, mesh = -1;
   std::array<int, 3> place = {-1, -1, -1};
 };
 
-std::optional<Columns> heading_of(const std::vector<std::string>& fields) {
+std::optional<PointColumns> heading_of(const std::vector<std::string>& fields) {
   if (fields.empty() ||
       (!fields[0].empty() && std::isdigit(static_cast<unsigned char>(fields[0][0])))) {
     return std::nullopt;
   }
-  Columns columns{.id = -1, .vertex = -1};
+  PointColumns columns{.id = -1, .vertex = -1};
   for (int i = 0; i < int(fields.size()); ++i) {
     std::string name = fields[std::size_t(i)];
     for (char& c : name) c = char(std::tolower(static_cast<unsigned char>(c)));
@@ -112,7 +112,7 @@ class Rows {
     return std::nullopt;
   }
 
-  Columns columns_;
+  PointColumns columns_;
   bool first_ = true;
 };
 

@@ -1,12 +1,13 @@
-// A list of landmarks: which vertex of a mesh is which feature point.
-//
-//     feature_point,vertex          2.1 966            feature_point,x,y,z
-//     2.1,966                       8.3 6213           2.1,0.0,-7.57,10.43
-//     8.3,6213                      # left corner      8.3,2.53,-3.52,10.19
-//
-// The left form has a heading and may have further columns, the middle one has none. Vertices are
-// counted from 0 in the order of the file, as Blender shows them. Places are in the axes and units
-// of the file: the nearest vertex is taken.
+/// @file
+/// A list of landmarks: which vertex of a mesh is which feature point.
+///
+///     feature_point,vertex          2.1 966            feature_point,x,y,z
+///     2.1,966                       8.3 6213           2.1,0.0,-7.57,10.43
+///     8.3,6213                      # left corner      8.3,2.53,-3.52,10.19
+///
+/// The left form has a heading and may have further columns, the middle one has none. Vertices are
+/// counted from 0 in the order of the file, as Blender shows them. Places are in the axes and units
+/// of the file: the nearest vertex is taken.
 #pragma once
 
 #include <optional>
@@ -20,12 +21,13 @@
 
 namespace animeme::head {
 
+/// One line of a list: a feature point and where it is, by vertex or by place.
 struct PointRow {
-  std::string id;    ///< "2.1"; not checked
-  std::string mesh;  ///< name of the object it is on; empty: any
-  std::optional<std::uint32_t> vertex;
-  std::optional<Vec3> place;
-  std::int64_t line = 0;
+  std::string id;                       ///< "2.1"; not checked
+  std::string mesh;                     ///< name of the object it is on; empty: any
+  std::optional<std::uint32_t> vertex;  ///< nothing: told by place
+  std::optional<Vec3> place;            ///< nothing: told by vertex
+  std::int64_t line = 0;                ///< of the text, from 1
 };
 
 /// Reads a list: comma, semicolon, tab or blanks between fields; # begins a comment. Headings, in

@@ -1,21 +1,23 @@
-// From FAPs to a moving face.
-//
-//     animeme::head::Rig rig = animeme::head::make_rig(head);
-//     animeme::head::Pose pose;
-//     for (const fap::Frame& frame : clip.frames) {
-//       animeme::head::pose(rig, frame, pose);
-//       draw(pose);
-//     }
-//
-// Each FAP moves its feature point by value * FAPU/1024 along its axis, and what lies around along
-// with it. That part is linear: one list of small moves for each FAP (Target), which is also what a
-// morph target of glTF is. On top of it come lids that slide over the eyeball, lips and lids that
-// touch and do not pass through each other, eyeballs, the jaw and the turn of the head.
-//
-// Your own head: own_head.h makes a Head of your meshes. By hand: your mesh as Part::skin, the
-// feature points that you know (leave the others at kMissing), its FAPU and eyes. All other parts
-// and the seams may stay empty. A head with targets of its own (Head::targets) moves by them alone.
-// Where they are those of shapes (Head::shapes), each frame is fitted: see control_values().
+/// @file
+/// From FAPs to a moving face.
+///
+///     animeme::head::Rig rig = animeme::head::make_rig(head);
+///     animeme::head::Pose pose;
+///     for (const fap::Frame& frame : clip.frames) {
+///       animeme::head::pose(rig, frame, pose);
+///       draw(pose);
+///     }
+///
+/// Each FAP moves its feature point by value * FAPU/1024 along its axis, and what lies around along
+/// with it. That part is linear: one list of small moves for each FAP (Target), which is also what
+/// a morph target of glTF is. On top of it come lids that slide over the eyeball, lips and lids
+/// that touch and do not pass through each other, eyeballs, the jaw and the turn of the head.
+///
+/// Your own head: own_head.h makes a Head of your meshes. By hand: your mesh as Part::skin, the
+/// feature points that you know (leave the others at kMissing), its FAPU and eyes. All other parts
+/// and the seams may stay empty. A head with targets of its own (Head::targets) moves by them
+/// alone. Where they are those of shapes (Head::shapes), each frame is fitted: see
+/// control_values().
 #pragma once
 
 #include <array>
@@ -50,10 +52,11 @@ struct DentalArch {
 
 /// A head that is ready to move.
 struct Rig {
+  /// A part at rest.
   struct Shape {
-    std::vector<Vec3> positions;
-    std::vector<Vec3> normals;  ///< length 1
-    std::vector<Triangle> triangles;
+    std::vector<Vec3> positions;      ///< cm
+    std::vector<Vec3> normals;        ///< length 1
+    std::vector<Triangle> triangles;  ///< as in the mesh
   };
   std::array<Shape, kPartCount> parts;        ///< neutral
   std::vector<Target> targets;                ///< by control, then by part
@@ -63,18 +66,18 @@ struct Rig {
   /// Parts whose shapes were modelled with the jaw's motion, or the gaze of eyes: they turn with
   /// the head alone, their shapes show the rest.
   std::array<bool, kPartCount> shown_by_shapes = {};
-  fap::Fapu fapu;
-  std::array<Eye, 2> eyes;
-  Vec3 jaw_axis;
-  Vec3 neck_pivot;
-  Vec3 chin;                      ///< 2.1, neutral
-  std::vector<ContactPair> lips;  ///< see Seams
-  std::array<std::vector<ContactPair>, 2> lids;
+  fap::Fapu fapu;                                ///< units of the neutral face, cm
+  std::array<Eye, 2> eyes;                       ///< left, right
+  Vec3 jaw_axis;                                 ///< see Head
+  Vec3 neck_pivot;                               ///< see Head
+  Vec3 chin;                                     ///< 2.1, neutral
+  std::vector<ContactPair> lips;                 ///< see Seams
+  std::array<std::vector<ContactPair>, 2> lids;  ///< upper with lower rim, left and right eye
   std::array<std::vector<std::uint32_t>, 2> lid_vertices;  ///< that slide, left and right eye
   std::array<std::vector<std::uint32_t>, 2> eye_skin;      ///< before the left and right eye
   std::vector<std::uint32_t> lash_anchors;                 ///< see Head
-  Rooms rooms;
-  std::array<DentalArch, 2> teeth;       ///< upper, lower
+  Rooms rooms;                                             ///< how far points may go
+  std::array<DentalArch, 2> teeth;                         ///< upper, lower
   std::array<float, 2> lid_follow = {};  ///< FAP 19 for one unit of FAP 25, and 20 for 26
   std::vector<float> neck_weights;       ///< of the skin: 1 turns with the head, 0 stays
 };
@@ -85,6 +88,7 @@ struct Rig {
 /// separated by the slit between them. Feature points that the head does not have move nothing.
 Rig make_rig(const Head& head);
 
+/// What a pose does beyond the tables of the standard.
 struct PoseOptions {
   /// Lips and lids stop where they touch, and are shut where they nearly do (0.06 MNS; lids only if
   /// their Seams are known), other points stop where Rooms says, upper lids at 0.26 IRISD
@@ -114,7 +118,7 @@ void lids_follow_gaze(const Rig& rig, fap::Frame& frame);
 struct Pose {
   /// Vertices of the parts that deform. Empty: as in Rig::parts.
   std::array<std::vector<Vec3>, kPartCount> positions;
-  std::array<std::vector<Vec3>, kPartCount> normals;
+  std::array<std::vector<Vec3>, kPartCount> normals;  ///< as many as positions, length 1
   /// To be applied to positions and normals of each part. Identity for skin and body.
   std::array<Transform, kPartCount> transforms;
   Transform head;  ///< the turn of the head about the neck

@@ -1,7 +1,8 @@
-// What the 14 visemes of FAP 1 and the 6 expressions of FAP 2 look like: tables of low-level FAPs.
-//
-// The standard names the shapes and leaves their form to the player; these are ours, chosen by eye
-// on the heads of this folder.
+/// @file
+/// What the 14 visemes of FAP 1 and the 6 expressions of FAP 2 look like: tables of low-level FAPs.
+///
+/// The standard names the shapes and leaves their form to the player; these are ours, chosen by eye
+/// on the heads of this folder.
 #pragma once
 
 #include "fap/frame.h"

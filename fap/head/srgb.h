@@ -1,4 +1,5 @@
-// sRGB, the colours of files and screens, and linear light, the colours of meshes.
+/// @file
+/// sRGB, the colours of files and screens, and linear light, the colours of meshes.
 #pragma once
 
 #include <cmath>
@@ -13,6 +14,7 @@ template <std::floating_point T>
 T linear_of_srgb(T value) {
   return value <= T(0.04045) ? value / T(12.92) : std::pow((value + T(0.055)) / T(1.055), T(2.4));
 }
+/// One channel, 0..1, from linear light.
 template <std::floating_point T>
 T srgb_of_linear(T value) {
   return value <= T(0.0031308) ? value * T(12.92)
@@ -23,6 +25,7 @@ T srgb_of_linear(T value) {
 inline Vec3 linear_of_srgb(Vec3 c) {
   return {linear_of_srgb(c.x), linear_of_srgb(c.y), linear_of_srgb(c.z)};
 }
+/// A colour, 0..1, from linear light.
 inline Vec3 srgb_of_linear(Vec3 c) {
   return {srgb_of_linear(c.x), srgb_of_linear(c.y), srgb_of_linear(c.z)};
 }

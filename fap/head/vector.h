@@ -1,4 +1,5 @@
-// Small vectors and rotations of the head model.
+/// @file
+/// Small vectors and rotations of the head model.
 #pragma once
 
 #include <algorithm>
@@ -9,9 +10,9 @@ namespace animeme::head {
 /// A point or direction. Right-handed: +X to the person's left, +Y up, +Z forward (gaze).
 template <class T>
 struct Vector {
-  T x = 0;
-  T y = 0;
-  T z = 0;
+  T x = 0;  ///< to the person's left
+  T y = 0;  ///< up
+  T z = 0;  ///< forward
 
   friend Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
   friend Vector operator-(Vector a, Vector b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
@@ -24,6 +25,7 @@ struct Vector {
   Vector& operator*=(T s) { return *this = *this * s; }
   friend bool operator==(const Vector&, const Vector&) = default;
 
+  /// To another precision.
   template <class U>
   explicit operator Vector<U>() const {
     return {U(x), U(y), U(z)};
@@ -33,16 +35,19 @@ struct Vector {
 using Vec3 = Vector<float>;    ///< in meshes and colours (linear RGB, 0..1)
 using Vec3d = Vector<double>;  ///< while a head is made
 
+/// Inner product.
 template <class T>
 T dot(Vector<T> a, Vector<T> b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+/// Cross product, right-handed.
 template <class T>
 Vector<T> cross(Vector<T> a, Vector<T> b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// Euclidean length.
 template <class T>
 T length(Vector<T> a) {
   return std::sqrt(dot(a, a));
@@ -55,6 +60,7 @@ Vector<T> normalised(Vector<T> a) {
   return l > 0 ? a * (T(1) / l) : a;
 }
 
+/// `a` at t = 0, `b` at t = 1.
 template <class T>
 Vector<T> mix(Vector<T> a, Vector<T> b, T t) {
   return a + (b - a) * t;
@@ -69,13 +75,14 @@ T smooth_step(T a, T b, T x) {
 
 /// Rotation and shift: p becomes rows * p + shift.
 struct Transform {
-  Vec3 row_x = {1, 0, 0};
-  Vec3 row_y = {0, 1, 0};
-  Vec3 row_z = {0, 0, 1};
-  Vec3 shift = {0, 0, 0};
+  Vec3 row_x = {1, 0, 0};  ///< gives x
+  Vec3 row_y = {0, 1, 0};  ///< gives y
+  Vec3 row_z = {0, 0, 1};  ///< gives z
+  Vec3 shift = {0, 0, 0};  ///< added last
 
+  /// Without the shift: for directions.
   Vec3 turn(Vec3 p) const { return {dot(row_x, p), dot(row_y, p), dot(row_z, p)}; }
-  Vec3 operator()(Vec3 p) const { return turn(p) + shift; }
+  Vec3 operator()(Vec3 p) const { return turn(p) + shift; }  ///< rotates and shifts a point
   friend bool operator==(const Transform&, const Transform&) = default;
 };
 

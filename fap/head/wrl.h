@@ -1,10 +1,11 @@
-// Meshes of VRML97 files (.wrl), such as those of Xface and of older tools for faces.
-//
-//     animeme::Result<std::vector<animeme::head::Piece>> pieces = animeme::head::read_wrl(text);
-//
-// What is read: Group, Transform and other grouping nodes, Shape, IndexedFaceSet with Coordinate
-// and Color, Appearance with the diffuseColor of its Material, DEF and USE. All other nodes and
-// fields are passed over (lights, textures, scripts, PROTO). Source: ISO/IEC 14772-1.
+/// @file
+/// Meshes of VRML97 files (.wrl), such as those of Xface and of older tools for faces.
+///
+///     animeme::Result<std::vector<animeme::head::Piece>> pieces = animeme::head::read_wrl(text);
+///
+/// What is read: Group, Transform and other grouping nodes, Shape, IndexedFaceSet with Coordinate
+/// and Color, Appearance with the diffuseColor of its Material, DEF and USE. All other nodes and
+/// fields are passed over (lights, textures, scripts, PROTO). Source: ISO/IEC 14772-1.
 #pragma once
 
 #include <span>

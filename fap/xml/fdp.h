@@ -1,15 +1,16 @@
-// Xface's .fdp files: a face that MPEG-4 FAPs move, as XML beside its meshes.
-//
-//     auto load = [&](const std::string& name) { return read_whole_file(folder / name); };
-//     animeme::Result<animeme::head::Source> source = animeme::head::read_fdp(text, load);
-//     animeme::head::Head head = *animeme::head::assemble(std::move(*source));  // own_head.h
-//
-//     animeme::head::FdpFiles files = *animeme::head::write_fdp(head, rig, {.name = "me"});
-//     // files.fdp into me.fdp, files.wrl into me.wrl, both in one folder: ready for XfacePlayer
-//
-// The file names meshes, FAPU, and for each feature point a vertex, a region around it and the FAPs
-// that move the region by raised cosines. Its README says what Xface makes of it, and how near
-// write_fdp() comes to our own rig.
+/// @file
+/// Xface's .fdp files: a face that MPEG-4 FAPs move, as XML beside its meshes.
+///
+///     auto load = [&](const std::string& name) { return read_whole_file(folder / name); };
+///     animeme::Result<animeme::head::Source> source = animeme::head::read_fdp(text, load);
+///     animeme::head::Head head = *animeme::head::assemble(std::move(*source));  // own_head.h
+///
+///     animeme::head::FdpFiles files = *animeme::head::write_fdp(head, rig, {.name = "me"});
+///     // files.fdp into me.fdp, files.wrl into me.wrl, both in one folder: ready for XfacePlayer
+///
+/// The file names meshes, FAPU, and for each feature point a vertex, a region around it and the
+/// FAPs that move the region by raised cosines. Its README says what Xface makes of it, and how
+/// near write_fdp() comes to our own rig.
 #pragma once
 
 #include <functional>
@@ -25,7 +26,7 @@ using LoadMeshFile = std::function<Result<std::string>(const std::string& name)>
 /// Reads a head as Xface would show it. Meshes are those of the entity "Rest", VRML97 or OBJ.
 ///
 /// Source::targets are the influences of the file: raised cosines, several on one vertex add up,
-/// the first eight on a vertex count. FAPU are those of the file, points the <fdp> elements whose
+/// the first eight on a vertex count. FAPU are those of the file, points the `fdp` elements whose
 /// names are feature points (the first of each), eyes the pivots of the bindings LeftEye and
 /// RightEye (Xface notes them with opposite signs; either way is understood). Lower teeth, tongue
 /// and eyes that are bound or named as such are left to our rig, which turns them.
@@ -35,12 +36,13 @@ using LoadMeshFile = std::function<Result<std::string>(const std::string& name)>
 /// influences of FAPs that move no vertex (turns of the head, pupils, FAP 1 and 2). Source::notes
 /// says so.
 ///
-/// Errors, with the line: syntax (no XML, or no <xfdp>; a number that is none), out_of_range (a
+/// Errors, with the line: syntax (no XML, or no `xfdp`; a number that is none), out_of_range (a
 /// vertex that the mesh does not have, a FAP beyond 68, limits of size), not_found (no entity Rest;
-/// no <fdp> that fits a mesh), invalid_argument (a mesh outside the folder), unsupported (entities
+/// no `fdp` that fits a mesh), invalid_argument (a mesh outside the folder), unsupported (entities
 /// of XML, a mesh of another format), and those of `load` and of the mesh readers, with the file.
 Result<Source> read_fdp(std::string_view text, const LoadMeshFile& load);
 
+/// How write_fdp() writes.
 struct FdpOptions {
   std::string name = "head";  ///< of the files; letters, digits, '-' and '_'
   /// Units of the file for one centimetre; Xface's own heads count millimetres.
@@ -50,6 +52,7 @@ struct FdpOptions {
   int regions = 64;
 };
 
+/// The two files of a face, as text.
 struct FdpFiles {
   std::string fdp;  ///< NAME.fdp
   std::string wrl;  ///< NAME.wrl, named in it

@@ -60,9 +60,9 @@ std::string_view binding_of(Part part) {
   }
 }
 
-class Writer {
+class FdpWriter {
  public:
-  Writer(const Head& head, const FdpPlan& plan, const FdpOptions& options)
+  FdpWriter(const Head& head, const FdpPlan& plan, const FdpOptions& options)
       : head_(head), plan_(plan), options_(options), scale_(float(options.scale)) {}
 
   std::string write() {
@@ -163,7 +163,8 @@ std::string meshes_of(const Head& head, const FdpPlan& plan, float scale) {
 Result<FdpFiles> write_fdp(const Head& head, const Rig& rig, const FdpOptions& options) {
   if (auto good = check(head, rig, options); !good) return good.error();
   const FdpPlan plan = detail::plan_fdp(head, rig, options);
-  return FdpFiles{Writer(head, plan, options).write(), meshes_of(head, plan, float(options.scale))};
+  return FdpFiles{FdpWriter(head, plan, options).write(),
+                  meshes_of(head, plan, float(options.scale))};
 }
 
 }  // namespace animeme::head

@@ -1,14 +1,15 @@
-// Faces in XMT-A, the XML form of MPEG-4 scenes: feature points, meshes, and tables of what each
-// FAP does to them (FDP with faceSceneGraph and faceDefTables).
-//
-//     animeme::Result<animeme::head::Source> source = animeme::head::read_xmt(text);
-//     animeme::head::Head head = *animeme::head::assemble(std::move(*source));  // own_head.h
-//
-//     std::string text = *animeme::head::write_xmt(head, rig);
-//
-// Source: ISO/IEC 14496-1 (nodes and their fields), fap_semantics, section 7. What their numbers
-// mean is told in the README, with what of it could not be checked against the text of the
-// standard.
+/// @file
+/// Faces in XMT-A, the XML form of MPEG-4 scenes: feature points, meshes, and tables of what each
+/// FAP does to them (FDP with faceSceneGraph and faceDefTables).
+///
+///     animeme::Result<animeme::head::Source> source = animeme::head::read_xmt(text);
+///     animeme::head::Head head = *animeme::head::assemble(std::move(*source));  // own_head.h
+///
+///     std::string text = *animeme::head::write_xmt(head, rig);
+///
+/// Source: ISO/IEC 14496-1 (nodes and their fields), fap_semantics, section 7. What their numbers
+/// mean is told in the README, with what of it could not be checked against the text of the
+/// standard.
 #pragma once
 
 #include "fap/head/own_head.h"

@@ -20,9 +20,9 @@ constexpr std::array<int, 2> kStraight = {0, 1024};
 // Lids slide over a ball.
 constexpr std::array<int, 4> kSliding = {-512, 0, 512, 1024};
 
-class Writer {
+class XmtWriter {
  public:
-  Writer(const Head& head, const Rig& rig) : head_(head), rig_(rig) {}
+  XmtWriter(const Head& head, const Rig& rig) : head_(head), rig_(rig) {}
 
   std::string write() {
     text_ =
@@ -222,7 +222,7 @@ Result<std::string> write_xmt(const Head& head, const Rig& rig) {
     if (head.point(info.id).exists()) places[std::string(info.id)] = {p.x, p.y, p.z};
   }
   if (const auto fapu = fap::measure_fapu(places); !fapu) return fapu.error();
-  return Writer(head, rig).write();
+  return XmtWriter(head, rig).write();
 }
 
 }  // namespace animeme::head

@@ -9,7 +9,7 @@
 #include "tests/support/random_clip.h"
 
 namespace animeme {
-namespace {
+namespace arith_test {
 
 using test::Random;
 
@@ -213,5 +213,5 @@ TEST(Coder, AMissingStuffedBitIsFoundInsideTheSegmentOnly) {
   EXPECT_EQ(read().bad_stuffing(), 22U);
 }
 
-}  // namespace
+}  // namespace arith_test
 }  // namespace animeme

@@ -11,7 +11,7 @@
 #include "tests/support/random_clip.h"
 
 namespace animeme::fba {
-namespace {
+namespace bap_text_test {
 
 using test::body_frame;
 using testing::ElementsAre;
@@ -220,5 +220,5 @@ TEST(BapText, BodyOfAStream) {
   }
 }
 
-}  // namespace
+}  // namespace bap_text_test
 }  // namespace animeme::fba

@@ -11,7 +11,7 @@
 #include "tests/support/random_clip.h"
 
 namespace animeme::fba {
-namespace {
+namespace body_encode_test {
 
 using testing::HasSubstr;
 
@@ -143,5 +143,5 @@ TEST(EncodeWithBody, Refuses) {
   says({}, body, {}, Code::invalid_argument, "ascend");
 }
 
-}  // namespace
+}  // namespace body_encode_test
 }  // namespace animeme::fba

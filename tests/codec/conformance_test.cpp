@@ -10,7 +10,7 @@
 #include "tests/codec/reference_streams.h"
 
 namespace animeme {
-namespace {
+namespace conformance_test {
 
 using test::read_bytes;
 using test::read_file;
@@ -152,5 +152,5 @@ INSTANTIATE_TEST_SUITE_P(Streams, ReferenceStream, testing::ValuesIn(test::refer
                            return param_info.param.filename().string();
                          });
 
-}  // namespace
+}  // namespace conformance_test
 }  // namespace animeme

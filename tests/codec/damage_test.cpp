@@ -9,7 +9,7 @@
 #include "tests/codec/reference_streams.h"
 
 namespace animeme {
-namespace {
+namespace damage_test {
 
 constexpr std::size_t kFlippedBytes = 200;
 
@@ -109,5 +109,5 @@ INSTANTIATE_TEST_SUITE_P(Streams, Damage, testing::ValuesIn(test::reference_stre
                            return param_info.param.filename().string();
                          });
 
-}  // namespace
+}  // namespace damage_test
 }  // namespace animeme

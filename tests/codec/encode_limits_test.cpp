@@ -9,7 +9,7 @@
 #include "codec/encode/live.h"
 
 namespace animeme {
-namespace {
+namespace encode_limits_test {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -271,5 +271,5 @@ TEST(LiveLimits, BitZeroOfAMaskIsNoFap) {
   EXPECT_TRUE(next) << next.error().describe();
 }
 
-}  // namespace
+}  // namespace encode_limits_test
 }  // namespace animeme

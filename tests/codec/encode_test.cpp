@@ -12,7 +12,7 @@
 #include "tests/support/random_clip.h"
 
 namespace animeme {
-namespace {
+namespace encode_test {
 
 // A face that talks: few FAPs move, some sides are equal, some FAPs rest at 0 or elsewhere.
 fap::Sequence talking_clip(std::uint64_t seed, int frames) {
@@ -383,5 +383,5 @@ TEST(Encode, SaysWhatIsWrong) {
   EXPECT_EQ(fba::encode(clip, {.max_bits_per_second = NAN}).error().code, Code::invalid_argument);
 }
 
-}  // namespace
+}  // namespace encode_test
 }  // namespace animeme

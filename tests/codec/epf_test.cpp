@@ -8,7 +8,7 @@
 #include "tests/support/body_frame.h"
 
 namespace animeme::fba {
-namespace {
+namespace epf_test {
 
 using test::body_frame;
 using testing::ElementsAre;
@@ -99,5 +99,5 @@ TEST(Epf, WhatTheReaderRefuses) {
   says("BFR 1\n", Code::syntax, "a plane begins with FBM");
 }
 
-}  // namespace
+}  // namespace epf_test
 }  // namespace animeme::fba

@@ -7,7 +7,7 @@
 #include "tests/codec/reference_streams.h"
 
 namespace animeme::fba {
-namespace {
+namespace fill_test {
 
 /// An intra plane: mask types of some groups, and the values that are coded.
 struct Coded {
@@ -189,5 +189,5 @@ TEST(FillStream, AgreesWithTextThatPrefersPartners) {
   EXPECT_EQ(filled(stream), *text);
 }
 
-}  // namespace
+}  // namespace fill_test
 }  // namespace animeme::fba

@@ -8,7 +8,7 @@
 #include "tests/support/random_clip.h"
 
 namespace animeme {
-namespace {
+namespace hostile_test {
 
 // Pulls everything; returns the number of planes. Fails the test if the decoder does not end.
 std::size_t drain(std::span<const std::uint8_t> stream) {
@@ -162,5 +162,5 @@ TEST(Hostile, EpfErrorsNameTheLine) {
   EXPECT_TRUE(fba::read_epf("# comment\r\nFBM 1\r\n\r\nISI 1\r\nFQU 1\r\n"));
 }
 
-}  // namespace
+}  // namespace hostile_test
 }  // namespace animeme

@@ -7,7 +7,7 @@
 #include "tests/support/random_clip.h"
 
 namespace animeme {
-namespace {
+namespace live_test {
 
 struct Sent {
   std::vector<std::vector<std::uint8_t>> units;
@@ -204,5 +204,5 @@ TEST(LiveEncoder, RefusesOptionsOutOfBounds) {
   EXPECT_EQ(fba::LiveEncoder({.rate = {10, 3}}).write(frame).error().code, Code::invalid_argument);
 }
 
-}  // namespace
+}  // namespace live_test
 }  // namespace animeme

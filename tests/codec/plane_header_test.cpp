@@ -7,7 +7,7 @@
 #include "tests/codec/reference_streams.h"
 
 namespace animeme::fba {
-namespace {
+namespace plane_header_test {
 
 TEST(PlaneHeader, IsThatOfTheDecodedPlaneInAllReferenceStreams) {
   int planes = 0;
@@ -45,5 +45,5 @@ TEST(PlaneHeader, NeedsStartCodeAndWholeHeader) {
   EXPECT_FALSE(old->temporal.skip);
 }
 
-}  // namespace
+}  // namespace plane_header_test
 }  // namespace animeme::fba

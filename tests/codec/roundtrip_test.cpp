@@ -7,7 +7,7 @@
 #include "tests/support/random_clip.h"
 
 namespace animeme {
-namespace {
+namespace roundtrip_test {
 
 // The clip as a receiver holds it: values that a frame leaves out stay.
 fap::Sequence held(const fap::Sequence& clip) {
@@ -159,5 +159,5 @@ TEST(Encode, LargeStepsBecomeIntraPlanes) {
   }
 }
 
-}  // namespace
+}  // namespace roundtrip_test
 }  // namespace animeme

@@ -14,7 +14,7 @@
 #include "tests/support/random_clip.h"
 
 namespace animeme {
-namespace {
+namespace stream_trace_test {
 
 using fba::internal::find_traps;
 using fba::internal::StreamTrace;
@@ -295,5 +295,5 @@ TEST(Traps, ADroppedPlaneLeavesNothing) {
   EXPECT_EQ(twice.finish(), once.finish());
 }
 
-}  // namespace
+}  // namespace stream_trace_test
 }  // namespace animeme

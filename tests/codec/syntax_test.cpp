@@ -9,7 +9,7 @@
 #include "codec/syntax/bits.h"
 
 namespace animeme {
-namespace {
+namespace syntax_test {
 
 // Object mask and temporal header of a plane without rate, time code and skipped frames.
 void header(fba::BitWriter& out, bool intra, fba::ObjectMask mask) {
@@ -380,5 +380,5 @@ TEST(Syntax, ACopyOfADecoderGoesItsOwnWay) {
   EXPECT_EQ(first.next().error().code, Code::end_of_stream);
 }
 
-}  // namespace
+}  // namespace syntax_test
 }  // namespace animeme

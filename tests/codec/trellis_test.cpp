@@ -10,7 +10,7 @@
 #include "tests/support/random_clip.h"
 
 namespace animeme {
-namespace {
+namespace trellis_test {
 
 using fba::internal::kOneBit;
 using fba::internal::TrellisProblem;
@@ -128,5 +128,5 @@ TEST_P(Trellis, FindsTheBestOfAShortRow) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Trellis, testing::Range(1, 13));
 
-}  // namespace
+}  // namespace trellis_test
 }  // namespace animeme

@@ -8,7 +8,7 @@
 #include "codec/syntax/bits.h"
 
 namespace animeme {
-namespace {
+namespace vectors_test {
 
 std::vector<std::uint8_t> from_hex(std::string_view hex) {
   std::vector<std::uint8_t> out;
@@ -203,5 +203,5 @@ TEST(Rates, AreCodedExactlyOrNotAtAll) {
   }
 }
 
-}  // namespace
+}  // namespace vectors_test
 }  // namespace animeme

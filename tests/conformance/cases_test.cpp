@@ -13,7 +13,7 @@
 #include "tests/support/program.h"
 
 namespace animeme::conformance {
-namespace {
+namespace cases_test {
 
 namespace fs = std::filesystem;
 using test::slurp;
@@ -199,5 +199,5 @@ TEST(Features, AreOneListWithoutRepetition) {
   EXPECT_EQ(certainty_of(std::vector<std::string>{"range_rescaled.face", "object.face"}), '?');
 }
 
-}  // namespace
+}  // namespace cases_test
 }  // namespace animeme::conformance

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace animeme::conformance {
-namespace {
+namespace sha256_test {
 
 TEST(Sha256, GivesTheSumsOfTheStandardsExamples) {
   EXPECT_EQ(sha256(std::string_view()),
@@ -26,5 +26,5 @@ TEST(Sha256, PadsEveryLength) {
             "7ce100971f64e7001e8fe5a51973ecdfe1ced42befe7ee8d5fd6219506b5393c");
 }
 
-}  // namespace
+}  // namespace sha256_test
 }  // namespace animeme::conformance

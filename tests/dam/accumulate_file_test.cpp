@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "accumulate_support.h"
+#include "tests/dam/accumulate_support.h"
 #include "tests/support/sealed_model.h"
 
 namespace animeme::dam {
-namespace {
+namespace accumulate_file_test {
 
 using test::planted;
 using test::sums_of;
@@ -131,5 +131,5 @@ TEST(AccumulateFile, SealedNonsenseIsRefusedWithoutHarm) {
   EXPECT_GT(refused, 100);
 }
 
-}  // namespace
+}  // namespace accumulate_file_test
 }  // namespace animeme::dam

@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "dam/training/accumulate.h"
-#include "dam_support.h"
+#include "tests/dam/dam_support.h"
 
 namespace animeme::test {
 
 inline std::vector<dam::Utterance> planted(std::size_t count, std::uint32_t seed = 5,
                                            std::vector<std::string> labels = {"SIL", "AA", "B",
                                                                               "IY"}) {
-  Random random(seed);
+  Uniform random(seed);
   const auto truth = plant(random, std::move(labels), 2, 2);
   return planted_sentences(random, truth, count);
 }

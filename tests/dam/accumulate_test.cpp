@@ -6,12 +6,12 @@
 
 #include <cmath>
 
-#include "accumulate_support.h"
 #include "dam/corpus/corpus.h"
+#include "tests/dam/accumulate_support.h"
 #include "tests/support/shared.h"
 
 namespace animeme::dam {
-namespace {
+namespace accumulate_test {
 
 using test::planted;
 using test::sums_of;
@@ -118,7 +118,7 @@ TEST(Accumulate, ChoosesTheRidgeBySentencesHeldOut) {
   auto sentences = planted(40);
   TrainSummary clear, noisy;
   ASSERT_TRUE(train_from_sums(sums_of(sentences), {}, &clear));
-  test::Random random(8);
+  test::Uniform random(8);
   for (Utterance& u : sentences)
     for (double& v : u.signal.values) v = random(-1, 1);
   ASSERT_TRUE(train_from_sums(sums_of(sentences), {}, &noisy));
@@ -243,5 +243,5 @@ TEST(Accumulate, TheBaseMustHaveTheMethod) {
   EXPECT_FALSE(train_from_sums(sums_of(planted(4)), options));
 }
 
-}  // namespace
+}  // namespace accumulate_test
 }  // namespace animeme::dam

@@ -8,7 +8,7 @@
 #include "dam/maths/spline.h"
 
 namespace animeme::dam {
-namespace {
+namespace affinity_test {
 
 using testing::Each;
 using testing::ElementsAre;
@@ -98,5 +98,5 @@ TEST(Spline, PassesThroughItsSamplesAndLines) {
   EXPECT_NEAR(Spline({4, 6})(0.5), 5, 1e-12);
 }
 
-}  // namespace
+}  // namespace affinity_test
 }  // namespace animeme::dam

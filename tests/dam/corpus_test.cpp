@@ -10,7 +10,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme::dam {
-namespace {
+namespace corpus_test {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -194,5 +194,5 @@ TEST(Corpus, TheSampleThatShips) {
   EXPECT_EQ(select(*corpus, "split", "test").size(), 6u);
 }
 
-}  // namespace
+}  // namespace corpus_test
 }  // namespace animeme::dam

@@ -15,9 +15,9 @@
 namespace animeme::test {
 
 /// Uniform numbers that are the same with every standard library.
-class Random {
+class Uniform {
  public:
-  explicit Random(std::uint32_t seed) : engine_(seed) {}
+  explicit Uniform(std::uint32_t seed) : engine_(seed) {}
   double operator()(double low, double high) {
     return low + (high - low) * (double(engine_()) / 4294967296.0);
   }
@@ -28,7 +28,7 @@ class Random {
 };
 
 /// SIL, then phones of the alphabet at random with random durations, then SIL.
-inline dam::Script random_script(Random& random, const std::vector<std::string>& alphabet,
+inline dam::Script random_script(Uniform& random, const std::vector<std::string>& alphabet,
                                  std::size_t phones) {
   dam::Script script;
   double t = random(0.5, 0.9);
@@ -50,7 +50,7 @@ struct Planted {
   std::vector<std::vector<std::vector<double>>> coefficients;
 };
 
-inline Planted plant(Random& random, std::vector<std::string> labels, std::size_t controls,
+inline Planted plant(Uniform& random, std::vector<std::string> labels, std::size_t controls,
                      std::size_t terms) {
   Planted planted{std::move(labels), {}, {}};
   for (std::size_t p = 0; p < planted.labels.size(); ++p) {
@@ -92,7 +92,7 @@ inline dam::Signal planted_signal(const Planted& planted, const dam::Script& scr
 }
 
 /// `count` sentences whose signal is exactly Eq. 2.
-inline std::vector<dam::Utterance> planted_sentences(Random& random, const Planted& planted,
+inline std::vector<dam::Utterance> planted_sentences(Uniform& random, const Planted& planted,
                                                      std::size_t count, double time_margin = 0.5,
                                                      bool normalised = true) {
   std::vector<std::string> spoken;

@@ -6,15 +6,15 @@
 #include "tests/dam/evaluate_pairs.h"
 
 namespace animeme::dam {
-namespace {
+namespace evaluate_closures_test {
 
-using test::kFrames;
-using test::pair_of;
-using test::scale_of;
-using test::score_one;
-using test::score_with;
-using test::script_of;
-using test::with_bilabial;
+using sentence_pairs::kFrames;
+using sentence_pairs::pair_of;
+using sentence_pairs::scale_of;
+using sentence_pairs::score_one;
+using sentence_pairs::score_with;
+using sentence_pairs::script_of;
+using sentence_pairs::with_bilabial;
 
 /// Both lips: half of the gap each, the lower one upwards.
 double lips(int fap, double gap) { return fap == 4 || fap == 5 ? -gap / 2 : 0; }
@@ -110,5 +110,5 @@ TEST(Lips, RoundedSoundsAreNarrower) {
   EXPECT_NEAR(e.rounding.correlation, 1, 1e-9);
 }
 
-}  // namespace
+}  // namespace evaluate_closures_test
 }  // namespace animeme::dam

@@ -5,17 +5,17 @@
 #include "tests/dam/evaluate_pairs.h"
 
 namespace animeme::dam {
-namespace {
+namespace evaluate_measures_test {
 
-using test::kFrames;
-using test::pair_of;
-using test::scale_of;
-using test::score_one;
-using test::score_with;
-using test::script_of;
-using test::vowels;
-using test::wave;
-using test::with_bilabial;
+using sentence_pairs::kFrames;
+using sentence_pairs::pair_of;
+using sentence_pairs::scale_of;
+using sentence_pairs::score_one;
+using sentence_pairs::score_with;
+using sentence_pairs::script_of;
+using sentence_pairs::vowels;
+using sentence_pairs::wave;
+using sentence_pairs::with_bilabial;
 
 TEST(Measures, IdenticalMotionHasNoError) {
   const std::vector<int> faps = {3, 4, 5, 6, 7, 12, 13};
@@ -222,5 +222,5 @@ TEST(Score, ThreadsDoNotMatter) {
   EXPECT_GT(a->nrmse, 0);
 }
 
-}  // namespace
+}  // namespace evaluate_measures_test
 }  // namespace animeme::dam

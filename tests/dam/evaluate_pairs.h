@@ -10,7 +10,7 @@
 
 #include "dam/evaluation/evaluate.h"
 
-namespace animeme::dam::test {
+namespace animeme::dam::sentence_pairs {
 
 inline constexpr int kFrames = 100;  // 4 s at 25 Hz
 
@@ -76,4 +76,4 @@ inline Evaluation score_one(const SentencePair& pair, const std::vector<int>& fa
   return score_with(pair, {.scale = scale_of(faps)});
 }
 
-}  // namespace animeme::dam::test
+}  // namespace animeme::dam::sentence_pairs

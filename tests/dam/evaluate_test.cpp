@@ -10,7 +10,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme::dam {
-namespace {
+namespace evaluate_test {
 
 struct Split {
   std::vector<Utterance> train, test;
@@ -121,5 +121,5 @@ TEST(EvaluateFullCorpus, ReachesTheTargetsOnBothSplits) {
   }
 }
 
-}  // namespace
+}  // namespace evaluate_test
 }  // namespace animeme::dam

@@ -6,12 +6,12 @@
 #include "tests/dam/evaluate_pairs.h"
 
 namespace animeme::dam {
-namespace {
+namespace evaluate_timing_test {
 
-using test::pair_of;
-using test::scale_of;
-using test::vowels;
-using test::wave;
+using sentence_pairs::pair_of;
+using sentence_pairs::scale_of;
+using sentence_pairs::vowels;
+using sentence_pairs::wave;
 
 Evaluation moved_by(double frames) {
   const auto pair = pair_of(
@@ -45,7 +45,7 @@ TEST(Timing, ClassesHaveLagsOfTheirOwn) {
   for (std::size_t i = 18; i < 36; ++i) labels[i] = "S";
   const auto recorded = [](int, int i) { return wave(i); };
   const auto made = [](int, int i) { return i < 50 ? wave(i) : wave(i - 2); };
-  const auto pair = pair_of({3}, test::script_of(labels), recorded, made);
+  const auto pair = pair_of({3}, sentence_pairs::script_of(labels), recorded, made);
   const auto e = score({&pair, 1}, {.scale = scale_of({3})});
   ASSERT_TRUE(e);
   const auto lag_of = [&](PhoneClass c) {
@@ -138,5 +138,5 @@ TEST(Bootstrap, RefusesWhatIsNotPaired) {
   EXPECT_FALSE(paired_difference({}, {}));
 }
 
-}  // namespace
+}  // namespace evaluate_timing_test
 }  // namespace animeme::dam

@@ -8,16 +8,16 @@
 #include <cmath>
 
 #include "dam/model/animeme.h"
-#include "dam_support.h"
+#include "tests/dam/dam_support.h"
 
 namespace animeme::dam {
-namespace {
+namespace fit_test {
 
 using test::Planted;
-using test::Random;
+using test::Uniform;
 
 /// A small problem: one mode a phone, random target.
-FitData random_problem(Random& random, std::size_t controls, int order, bool normalised) {
+FitData random_problem(Uniform& random, std::size_t controls, int order, bool normalised) {
   FitData data;
   data.normalised = normalised;
   data.controls = controls;
@@ -86,7 +86,7 @@ class Blend : public testing::TestWithParam<bool> {};
 INSTANTIATE_TEST_SUITE_P(Both, Blend, testing::Bool());
 
 TEST_P(Blend, EStepIsAMinimum) {
-  Random random(3);
+  Uniform random(3);
   const FitData data = random_problem(random, 3, 2, GetParam());
   FitWeights weights{0, 0, 1};
   FitState state;
@@ -102,7 +102,7 @@ TEST_P(Blend, EStepIsAMinimum) {
 }
 
 TEST_P(Blend, GradientAndJacobianMatchFiniteDifferences) {
-  Random random(4);
+  Uniform random(4);
   const FitData data =
       random_problem(random, 11, 3, GetParam());  // more than one block of controls
   FitWeights weights{1, 0, 1};
@@ -139,7 +139,7 @@ TEST_P(Blend, GradientAndJacobianMatchFiniteDifferences) {
 }
 
 TEST_P(Blend, ProjectionLowersTheHessianAndKeepsTheGradient) {
-  Random random(5);
+  Uniform random(5);
   const FitData data = random_problem(random, 3, 2, GetParam());
   FitWeights weights{1, 0, 1};
   FitState state;
@@ -155,7 +155,7 @@ TEST_P(Blend, ProjectionLowersTheHessianAndKeepsTheGradient) {
 }
 
 TEST_P(Blend, ObjectiveNeverRises) {
-  Random random(6);
+  Uniform random(6);
   const FitData data = random_problem(random, 2, 4, GetParam());
   const FitWeights weights{1, 1, 1};
   FitState state;
@@ -172,7 +172,7 @@ TEST_P(Blend, ObjectiveNeverRises) {
 }
 
 /// The planted signal as a problem of the fit, one mode a phone.
-FitData planted_problem(Random& random, const Planted& planted, std::size_t count,
+FitData planted_problem(Uniform& random, const Planted& planted, std::size_t count,
                         bool normalised) {
   FitData data;
   data.normalised = normalised;
@@ -199,7 +199,7 @@ FitData planted_problem(Random& random, const Planted& planted, std::size_t coun
 }
 
 TEST_P(Blend, RecoversPlantedPolynomialsAndWidths) {
-  Random random(7);
+  Uniform random(7);
   const Planted planted = test::plant(random, {"SIL", "AA", "B", "IY", "S"}, 3, 3);
   const FitData data = planted_problem(random, planted, 40, GetParam());
   FitWeights weights{0, 0, 1};
@@ -221,5 +221,5 @@ TEST_P(Blend, RecoversPlantedPolynomialsAndWidths) {
   }
 }
 
-}  // namespace
+}  // namespace fit_test
 }  // namespace animeme::dam

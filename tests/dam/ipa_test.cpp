@@ -12,7 +12,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme::dam {
-namespace {
+namespace ipa_test {
 
 std::string labels(std::string_view ipa) {
   const auto parsed = parse_ipa(ipa);
@@ -208,5 +208,5 @@ TEST(Ipa, EverythingThatEspeakSaysIsKnown) {
   EXPECT_EQ(rows, 3155);
 }
 
-}  // namespace
+}  // namespace ipa_test
 }  // namespace animeme::dam

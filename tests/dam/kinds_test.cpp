@@ -8,11 +8,11 @@
 #include <cmath>
 
 #include "dam/evaluation/evaluate.h"
-#include "dam_support.h"
+#include "tests/dam/dam_support.h"
 #include "tests/support/shared.h"
 
 namespace animeme::dam {
-namespace {
+namespace kinds_test {
 
 using testing::HasSubstr;
 
@@ -30,7 +30,7 @@ class EveryKind : public testing::TestWithParam<Method> {
     return corpus ? corpus->utterances : std::vector<Utterance>{};
   }
   static std::vector<Utterance> planted(std::size_t count) {
-    test::Random random(5);
+    test::Uniform random(5);
     const auto truth = test::plant(random, {"SIL", "AA", "B", "IY"}, 2, 2);
     return test::planted_sentences(random, truth, count);
   }
@@ -204,5 +204,5 @@ TEST_P(EveryKind, IdenticalSentencesAndNoPrior) {
   expect_usable(sentences, options);
 }
 
-}  // namespace
+}  // namespace kinds_test
 }  // namespace animeme::dam

@@ -7,7 +7,7 @@
 #include "dam/signal/fap_signal.h"
 
 namespace animeme::dam {
-namespace {
+namespace life_test {
 
 Signal mouth(std::size_t frames, std::vector<std::string> names = {"fap3_open_jaw"}) {
   Signal signal;
@@ -119,5 +119,5 @@ TEST(Life, ChecksWhatItGets) {
   EXPECT_TRUE(add_life(still, {{{0, 2, "SIL", ""}}}));  // silence blinks, too
 }
 
-}  // namespace
+}  // namespace life_test
 }  // namespace animeme::dam

@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "dam/kinds/animeme/contexts.h"
-#include "dam_support.h"
+#include "tests/dam/dam_support.h"
 
 namespace animeme::dam {
-namespace {
+namespace mode_graph_test {
 
 struct Exhaustive {
   double cost = 1e300;
@@ -29,7 +29,7 @@ void search(const ModeGraph& graph, std::vector<std::size_t>& path, double cost,
 }
 
 TEST(CheapestPath, AgreesWithExhaustiveSearch) {
-  test::Random random(11);
+  test::Uniform random(11);
   for (int round = 0; round < 200; ++round) {
     ModeGraph graph;
     const std::size_t layers = 1 + random.below(6);
@@ -97,5 +97,5 @@ TEST(ModeCosts, LeavingOneOutMakesItLessLikely) {
   EXPECT_GT(without[1], with[1]);
 }
 
-}  // namespace
+}  // namespace mode_graph_test
 }  // namespace animeme::dam

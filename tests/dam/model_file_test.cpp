@@ -9,7 +9,7 @@
 #include "tests/support/sealed_model.h"
 
 namespace animeme::dam {
-namespace {
+namespace model_file_test {
 
 AnimemeParameters& animemes(Model& model) { return std::get<AnimemeParameters>(model.parameters); }
 
@@ -216,5 +216,5 @@ TEST(ModelFile, OnDisk) {
   EXPECT_EQ(save_model(small_model(), path / "no" / "folder").error().code, Code::io);
 }
 
-}  // namespace
+}  // namespace model_file_test
 }  // namespace animeme::dam

@@ -13,7 +13,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme::dam {
-namespace {
+namespace phones_test {
 
 TEST(Phones, LabelsAreUniqueAndFound) {
   std::set<std::string_view> labels;
@@ -167,5 +167,5 @@ TEST(PhoneRelatives, AGridLikeModelKnowsAnAlternativeForEveryPhone) {
   }
 }
 
-}  // namespace
+}  // namespace phones_test
 }  // namespace animeme::dam

@@ -16,12 +16,12 @@
 #include "tests/dam/dam_support.h"
 
 namespace animeme::dam {
-namespace {
+namespace refined_test {
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 TEST(Cholesky, TiledFactorsSolveForAnyThreads) {
-  test::Random random(3);
+  test::Uniform random(3);
   for (const int n : {1, 7, 192, 193, 450}) {
     Eigen::MatrixXd a(n, n);
     for (Eigen::Index i = 0; i < a.size(); ++i) a.data()[i] = random(-1, 1);
@@ -42,13 +42,13 @@ TEST(Cholesky, TiledFactorsSolveForAnyThreads) {
   EXPECT_FALSE(cholesky_in_place(bad, 2, 1));
 }
 
-/// Random sentences of five phones with everything a fit needs.
+/// Uniform sentences of five phones with everything a fit needs.
 struct Problem {
   std::vector<PhoneModel> phones;
   SpeechData speech;
   RefinedData data;
 
-  Problem(test::Random& random, std::size_t controls, std::size_t sentences = 3) {
+  Problem(test::Uniform& random, std::size_t controls, std::size_t sentences = 3) {
     const std::uint32_t classes[] = {0, 1, 8, 10, 1};
     for (std::uint32_t p = 0; p < 5; ++p)
       phones.push_back({std::string(1, char('A' + p)), 10, classes[p], random(0.06, 0.12), 1});
@@ -64,7 +64,7 @@ struct Problem {
     data.around = neighbourhoods(speech);
   }
 
-  void add_sentence(test::Random& random) {
+  void add_sentence(test::Uniform& random) {
     FitSentence sentence{speech.use.size(), 60, speech.occurrences.size(), 9};
     double t = 0.1;
     for (std::size_t j = 0; j < 9; ++j) {
@@ -83,7 +83,7 @@ struct Problem {
   }
 };
 
-std::vector<PhoneDominance> random_dominance(test::Random& random, std::size_t phones) {
+std::vector<PhoneDominance> random_dominance(test::Uniform& random, std::size_t phones) {
   std::vector<PhoneDominance> list;
   for (std::size_t p = 0; p < phones; ++p)
     list.push_back({random(0.05, 0.12), random(0.05, 0.12), random(0.5, 2)});
@@ -133,7 +133,7 @@ Dense dense_problem(const Problem& problem, const TermSpace& space,
 }
 
 TEST(RefinedCurves, SumsAreThoseOfTheWholeDesignWithOffsets) {
-  test::Random random(11);
+  test::Uniform random(11);
   const Problem problem(random, 2);
   const auto dominance = random_dominance(random, 5);
   const TermSpace space = term_space(problem.data);
@@ -158,7 +158,7 @@ TEST(RefinedCurves, SumsAreThoseOfTheWholeDesignWithOffsets) {
 }
 
 TEST(RefinedCurves, PartsOfACorpusAddUp) {
-  test::Random random(12);
+  test::Uniform random(12);
   const Problem problem(random, 2, 6);
   const auto dominance = random_dominance(random, 5);
   const TermSpace space = term_space(problem.data);
@@ -211,7 +211,7 @@ double objective_with(const Problem& problem, const DominanceOptions& options, D
 }
 
 TEST(RefinedDominance, GradientIsThatOfFiniteDifferences) {
-  test::Random random(21);
+  test::Uniform random(21);
   const Problem problem(random, 2);
   DominanceOptions options;
   const DominanceFit fit = start_dominance(problem.data, options, random_dominance(random, 5));
@@ -226,7 +226,7 @@ TEST(RefinedDominance, GradientIsThatOfFiniteDifferences) {
 }
 
 TEST(RefinedDominance, ProjectionLowersTheMatrixAndItStaysSymmetric) {
-  test::Random random(22);
+  test::Uniform random(22);
   const Problem problem(random, 3);
   DominanceOptions options;
   const DominanceFit fit = start_dominance(problem.data, options, random_dominance(random, 5));
@@ -242,7 +242,7 @@ TEST(RefinedDominance, ProjectionLowersTheMatrixAndItStaysSymmetric) {
 }
 
 TEST(RefinedDominance, ObjectiveNeverRisesAndThreadsDoNotMatter) {
-  test::Random random(23);
+  test::Uniform random(23);
   Problem problem(random, 2, 5);
   DominanceOptions options;
   options.prior = 1;
@@ -264,7 +264,7 @@ TEST(RefinedDominance, ObjectiveNeverRisesAndThreadsDoNotMatter) {
 }
 
 TEST(RefinedDominance, RecoversTheDominanceThatMadeTheData) {
-  test::Random random(24);
+  test::Uniform random(24);
   Problem problem(random, 4, 40);
   const auto truth = random_dominance(random, 5);
   std::vector<double> base(5 * kRefinedOrders * 4);
@@ -299,7 +299,7 @@ TEST(RefinedDominance, RecoversTheDominanceThatMadeTheData) {
 // ---- the method as a whole ----
 
 std::vector<Utterance> planted(std::size_t count) {
-  test::Random random(5);
+  test::Uniform random(5);
   const auto truth = test::plant(random, {"SIL", "AA", "B", "IY"}, 2, 2);
   return test::planted_sentences(random, truth, count);
 }
@@ -369,12 +369,12 @@ TEST(Refined, ChoosesStrongerRidgesWhenThereIsNothingToLearn) {
   auto sentences = planted(40);
   TrainSummary clear, noisy;
   ASSERT_TRUE(train(sentences, {}, &clear));
-  test::Random random(8);
+  test::Uniform random(8);
   for (Utterance& u : sentences)
     for (double& v : u.signal.values) v = random(-1, 1);
   ASSERT_TRUE(train(sentences, {}, &noisy));
   EXPECT_GT(noisy.ridge, clear.ridge);
 }
 
-}  // namespace
+}  // namespace refined_test
 }  // namespace animeme::dam

@@ -15,7 +15,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme::dam {
-namespace {
+namespace script_test {
 
 using testing::HasSubstr;
 
@@ -334,5 +334,5 @@ TEST(ScriptCorpus, AllSharedScriptsAreRead) {
   EXPECT_GE(files, 800u);
 }
 
-}  // namespace
+}  // namespace script_test
 }  // namespace animeme::dam

@@ -12,7 +12,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme::dam {
-namespace {
+namespace stream_test {
 
 using testing::HasSubstr;
 
@@ -156,5 +156,5 @@ TEST(Stream, WithoutPhonesThereIsNothing) {
   EXPECT_EQ(stream.finish()->frames(), 0u);
 }
 
-}  // namespace
+}  // namespace stream_test
 }  // namespace animeme::dam

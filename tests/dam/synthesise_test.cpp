@@ -13,7 +13,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme::dam {
-namespace {
+namespace synthesise_test {
 
 using testing::HasSubstr;
 
@@ -385,5 +385,5 @@ TEST(LipTooth, RaisesTheLowerLipButKeepsTheLipsApart) {
   for (std::size_t i = 0; i < 60; ++i) EXPECT_GE(-(far.at(i, 0) + far.at(i, 1)), kLeastOpen - 1e-9);
 }
 
-}  // namespace
+}  // namespace synthesise_test
 }  // namespace animeme::dam

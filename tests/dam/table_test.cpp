@@ -3,13 +3,14 @@
 
 #include <cmath>
 
+#include "dam/corpus/training_set_internal.h"
 #include "dam/kinds/table/contexts.h"
 #include "dam/kinds/table/viseme_weights.h"
 #include "dam/model/kind_internal.h"
-#include "dam_support.h"
+#include "tests/dam/dam_support.h"
 
 namespace animeme::dam {
-namespace {
+namespace table_test {
 
 Model model_of(Method method, Parameters parameters) {
   Model model;
@@ -52,7 +53,7 @@ TEST(Viseme, HoldsAndStraightLines) {
 }
 
 TEST(Viseme, TrainingFindsPosesAndTheirPlace) {
-  test::Random random(3);
+  test::Uniform random(3);
   const std::vector<double> poses = {1, -2, 0.5, 0};
   TrainingSet set;
   set.data.controls = 1;
@@ -168,5 +169,5 @@ TEST(Triphone, TrainingGivesMeansLessWhatIsKnown) {
   for (const ContextCurve& c : std::get<TriphoneParameters>(*poor).curves) EXPECT_GE(c.count, 7u);
 }
 
-}  // namespace
+}  // namespace table_test
 }  // namespace animeme::dam

@@ -7,11 +7,11 @@
 #include <limits>
 
 #include "dam/speaking/synthesise.h"
-#include "dam_support.h"
+#include "tests/dam/dam_support.h"
 #include "tests/support/shared.h"
 
 namespace animeme::dam {
-namespace {
+namespace train_test {
 
 using testing::HasSubstr;
 
@@ -77,7 +77,7 @@ TEST(Train, CanBeCancelled) {
 }
 
 TEST(Train, NoticesWhenSoundAndFaceAreApart) {
-  test::Random random(9);
+  test::Uniform random(9);
   const auto truth = test::plant(random, {"SIL", "AA", "B", "IY", "S"}, 3, 3);
   auto sentences = test::planted_sentences(random, truth, 30);
   TrainSummary summary;
@@ -119,14 +119,14 @@ TEST(TrainNotes, PhonesLeanOnTheirClassAndOnRelatives) {
 
 /// Sentences that a model of method dam fits well.
 std::vector<Utterance> clean(std::size_t count) {
-  test::Random random(9);
+  test::Uniform random(9);
   const auto truth = test::plant(random, {"SIL", "AA", "B", "IY", "S"}, 3, 3);
   return test::planted_sentences(random, truth, count);
 }
 
 TEST(TrainNotes, AControlOfNoiseIsNamed) {
   auto sentences = clean(32);
-  test::Random random(4);
+  test::Uniform random(4);
   for (Utterance& u : sentences)
     for (std::size_t i = 0; i < u.signal.frames(); ++i) u.signal.at(i, 1) = random(-1, 1);
   TrainSummary summary;
@@ -184,7 +184,7 @@ TEST(Train, OptionsAreChecked) {
 // ---- hostile training data ----
 
 std::vector<Utterance> planted(std::size_t count) {
-  test::Random random(5);
+  test::Uniform random(5);
   const auto truth = test::plant(random, {"SIL", "AA", "B", "IY"}, 2, 2);
   return test::planted_sentences(random, truth, count);
 }
@@ -227,5 +227,5 @@ TEST(TrainHostile, OneSentenceIsWarnedOf) {
   EXPECT_FALSE(summary.warnings.empty());
 }
 
-}  // namespace
+}  // namespace train_test
 }  // namespace animeme::dam

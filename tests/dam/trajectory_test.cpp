@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "dam/kinds/trajectory/fit_control.h"
-#include "dam_support.h"
+#include "tests/dam/dam_support.h"
 
 namespace animeme::dam {
-namespace {
+namespace trajectory_test {
 
-using test::Random;
+using test::Uniform;
 constexpr Window kEverything{-1e9, 1e9};
 
 /// diag(precision) + weight * D^T D, row by row, from repeated differences of unit vectors.
@@ -36,7 +36,7 @@ std::vector<double> dense(const std::vector<double>& precision, double weight, s
 }
 
 TEST(Band, SolvesWhatTheDenseMatrixSays) {
-  Random random(1);
+  Uniform random(1);
   for (std::size_t order = 1; order <= kMaxDifference; ++order)
     for (const std::size_t n : {1u, 2u, 3u, 5u, 6u, 40u}) {
       std::vector<double> precision(n), right(n);
@@ -102,7 +102,7 @@ TEST(Grid, PausesPartTheRuns) {
 }
 
 /// Sentences of four phones at random, read at 40 frames a second.
-TrajectoryData random_data(Random& random, std::size_t states) {
+TrajectoryData random_data(Uniform& random, std::size_t states) {
   TrajectoryData data;
   data.frames.assign(4 * states, 100.0);
   for (int sentence = 0; sentence < 12; ++sentence) {
@@ -120,7 +120,7 @@ TrajectoryData random_data(Random& random, std::size_t states) {
   return data;
 }
 
-Gaussians random_gaussians(Random& random, std::size_t states) {
+Gaussians random_gaussians(Uniform& random, std::size_t states) {
   Gaussians g;
   for (std::size_t s = 0; s < states; ++s) {
     g.mean.push_back(random(-2, 2));
@@ -139,7 +139,7 @@ TEST(Trajectory, IsTheMeanWhereOneStateLasts) {
 }
 
 TEST(Trajectory, TrainingFindsThePlantedMeans) {
-  Random random(2);
+  Uniform random(2);
   for (const std::size_t states : {1u, 3u}) {
     const TrajectoryData data = random_data(random, states);
     const Gaussians truth = random_gaussians(random, 4 * states);
@@ -161,5 +161,5 @@ TEST(Trajectory, TrainingFindsThePlantedMeans) {
   }
 }
 
-}  // namespace
+}  // namespace trajectory_test
 }  // namespace animeme::dam

@@ -13,7 +13,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme::fap {
-namespace {
+namespace arkit_fit_test {
 
 std::size_t channel(std::string_view name) {
   const std::optional<int> found = find_arkit(name);
@@ -193,5 +193,5 @@ TEST(ArkitFit, FacesOfOthersComeBack) {
   }
 }
 
-}  // namespace
+}  // namespace arkit_fit_test
 }  // namespace animeme::fap

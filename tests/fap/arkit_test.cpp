@@ -10,7 +10,7 @@
 #include "tests/fap/make.h"
 
 namespace animeme::fap {
-namespace {
+namespace arkit_test {
 
 std::size_t channel(std::string_view name) {
   const std::optional<int> found = find_arkit(name);
@@ -201,7 +201,7 @@ TEST(Arkit, HeadAnglesAreHundredThousandthsOfARadian) {
 }
 
 TEST(Arkit, AnyNumberIsSafeAndCodable) {
-  test::Random random(3);
+  made::Random random(3);
   const double odd[] = {0,
                         1,
                         -1,
@@ -222,5 +222,5 @@ TEST(Arkit, AnyNumberIsSafeAndCodable) {
   EXPECT_EQ(shown({{"jawOpen", std::nan("")}}), shown({}));
 }
 
-}  // namespace
+}  // namespace arkit_test
 }  // namespace animeme::fap

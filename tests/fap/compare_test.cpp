@@ -7,17 +7,17 @@
 #include "tests/fap/make.h"
 
 namespace animeme::fap {
-namespace {
+namespace compare_test {
 
-using test::make_frame;
+using made::make_frame;
 
 Sequence clip_of(std::vector<Frame> frames, Rate rate = {25, 1}) {
   return {rate, std::move(frames), ""};
 }
 
 TEST(Compare, EqualClips) {
-  test::Random random(3);
-  const Sequence clip = test::random_sequence(random, 20);
+  made::Random random(3);
+  const Sequence clip = made::random_sequence(random, 20);
   Sequence renamed = clip;
   renamed.name = "other";
   const Difference d = compare(clip, renamed);
@@ -112,5 +112,5 @@ TEST(Compare, IgnoresValuesOfAbsentFaps) {
   EXPECT_TRUE(compare(a, b).equal());
 }
 
-}  // namespace
+}  // namespace compare_test
 }  // namespace animeme::fap

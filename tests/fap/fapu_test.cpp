@@ -11,7 +11,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme::fap {
-namespace {
+namespace fapu_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -170,5 +170,5 @@ TEST(Fapu, MeasuresTheIctHead) {
   EXPECT_NEAR(fapu.mw, expected("MW0"), 1.01e-4);
 }
 
-}  // namespace
+}  // namespace fapu_test
 }  // namespace animeme::fap

@@ -7,9 +7,9 @@
 #include "tests/fap/make.h"
 
 namespace animeme::fap {
-namespace {
+namespace fill_test {
 
-using test::make_frame;
+using made::make_frame;
 
 Sequence filled(const Sequence& clip, const FillOptions& options = {}) {
   Result<Sequence> result = fill(clip, options);
@@ -151,9 +151,9 @@ TEST(Fill, HighLevelFapsOnlyAlone) {
 }
 
 TEST(Fill, ResultIsCompleteAndStable) {
-  test::Random random(11);
+  made::Random random(11);
   for (int round = 0; round < 50; ++round) {
-    const Sequence clip = test::random_sequence(random, 10);
+    const Sequence clip = made::random_sequence(random, 10);
     for (const bool prefer : {false, true}) {
       const FillOptions options{.prefer_partner = prefer, .keep_high_level = true};
       const Sequence f = filled(clip, options);
@@ -266,9 +266,9 @@ std::int32_t expected_value(const Frame& coded, const Frame& before, int fap, Gr
 }
 
 TEST(FillByRule, RandomMasksAndRules) {
-  test::Random random(12);
+  made::Random random(12);
   for (int round = 0; round < 60; ++round) {
-    const Sequence clip = test::random_sequence(random, 10);
+    const Sequence clip = made::random_sequence(random, 10);
     std::vector<GroupRules> rules(clip.frames.size());
     for (GroupRules& frame : rules) {
       for (GroupRule& rule : frame) {
@@ -299,9 +299,9 @@ TEST(FillByRule, RandomMasksAndRules) {
 }
 
 TEST(FillByRule, FillingAgainChangesNothing) {
-  test::Random random(13);
+  made::Random random(13);
   for (int round = 0; round < 60; ++round) {
-    const Sequence clip = test::random_sequence(random, 10);
+    const Sequence clip = made::random_sequence(random, 10);
     GroupRules rules;
     for (GroupRule& rule : rules) {
       rule = random.chance(50) ? GroupRule::hold : GroupRule::interpolate;
@@ -315,9 +315,9 @@ TEST(FillByRule, FillingAgainChangesNothing) {
 }
 
 TEST(FillByRule, UnknownRulesAreThoseOfText) {
-  test::Random random(14);
+  made::Random random(14);
   for (int round = 0; round < 40; ++round) {
-    const Sequence clip = test::random_sequence(random, 10);
+    const Sequence clip = made::random_sequence(random, 10);
     const FillOptions options{.mirror = random.chance(70),
                               .lips = random.chance(70),
                               .prefer_partner = random.chance(50)};
@@ -353,5 +353,5 @@ TEST(Fill, Errors) {
   EXPECT_EQ(filled(clip_of({make_frame(9, {})}), {.max_frames = 10}).frames.size(), 10u);
 }
 
-}  // namespace
+}  // namespace fill_test
 }  // namespace animeme::fap

@@ -9,12 +9,12 @@
 #include "tests/support/made_up_face.h"
 
 namespace animeme::fap {
-namespace {
+namespace landmarks_noise_test {
 
 using animeme::test::Camera;
 using animeme::test::made_up_face;
 using animeme::test::moved_face;
-using test::Random;
+using made::Random;
 
 // Near enough to a normal distribution: mean 0, variance 1.
 double noise(Random& random) {
@@ -281,5 +281,5 @@ TEST(Landmarks, SmoothingKeepsLinesAndCountsTimeNotFrames) {
   EXPECT_NEAR(found->clip.frames[19].value[3], 390, 25);
 }
 
-}  // namespace
+}  // namespace landmarks_noise_test
 }  // namespace animeme::fap

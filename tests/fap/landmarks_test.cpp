@@ -11,13 +11,13 @@
 #include "tests/support/made_up_face.h"
 
 namespace animeme::fap {
-namespace {
+namespace landmarks_test {
 
 using animeme::test::Camera;
 using animeme::test::made_up_face;
 using animeme::test::moved_face;
 using animeme::test::shows_in_points;
-using test::Random;
+using made::Random;
 using testing::HasSubstr;
 
 constexpr double kNotSeen = std::numeric_limits<double>::quiet_NaN();
@@ -293,5 +293,5 @@ TEST(Landmarks, Errors) {
   EXPECT_THAT(message(bad, {{0}, 0, false}), HasSubstr("head cannot be found"));
 }
 
-}  // namespace
+}  // namespace landmarks_test
 }  // namespace animeme::fap

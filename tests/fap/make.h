@@ -9,7 +9,7 @@
 
 #include "fap/frame.h"
 
-namespace animeme::fap::test {
+namespace animeme::fap::made {
 
 inline Frame make_frame(std::int64_t number,
                         std::initializer_list<std::pair<int, std::int32_t>> values) {
@@ -78,4 +78,4 @@ inline Sequence random_sequence(Random& random, int frames) {
   return clip;
 }
 
-}  // namespace animeme::fap::test
+}  // namespace animeme::fap::made

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace animeme::fap {
-namespace {
+namespace rate_text_test {
 
 Rate read(std::string_view text) {
   const Result<Rate> rate = parse_rate(text);
@@ -86,5 +86,5 @@ TEST(RateText, ReadsBackWhatItWrites) {
   }
 }
 
-}  // namespace
+}  // namespace rate_text_test
 }  // namespace animeme::fap

@@ -7,7 +7,7 @@
 #include <utility>
 
 namespace animeme::fap {
-namespace {
+namespace shape_fit_test {
 
 Frame frame_of(std::initializer_list<std::pair<int, int>> values) {
   Frame frame;
@@ -107,5 +107,5 @@ TEST(ShapeFitter, PressedLipsMeetIfTheyDoNotYet) {
   }
 }
 
-}  // namespace
+}  // namespace shape_fit_test
 }  // namespace animeme::fap

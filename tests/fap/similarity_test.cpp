@@ -6,9 +6,9 @@
 #include "tests/fap/make.h"
 
 namespace animeme::fap {
-namespace {
+namespace similarity_test {
 
-using test::Random;
+using made::Random;
 
 TEST(Similarity, WhatIsOpenIsNotAnswered) {
   using internal::fit_similarity;
@@ -34,5 +34,5 @@ TEST(Similarity, AnglesComeBack) {
   }
 }
 
-}  // namespace
+}  // namespace similarity_test
 }  // namespace animeme::fap

@@ -12,7 +12,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme::fap {
-namespace {
+namespace tables_test {
 
 TEST(Tables, GroupsCoverAllFapsInOrder) {
   const int sizes[kGroupCount] = {2, 16, 12, 8, 4, 5, 3, 10, 4, 4};
@@ -246,5 +246,5 @@ TEST_F(SpecTables, VisemesAndExpressionsEqualTheSpecification) {
   }
 }
 
-}  // namespace
+}  // namespace tables_test
 }  // namespace animeme::fap

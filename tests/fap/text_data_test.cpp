@@ -10,9 +10,9 @@
 #include "tests/support/shared.h"
 
 namespace animeme::fap {
-namespace {
+namespace text_data_test {
 
-using test::make_frame;
+using made::make_frame;
 using ::testing::ElementsAre;
 using ::testing::StartsWith;
 
@@ -67,5 +67,5 @@ TEST(TextData, Headerless) {
   EXPECT_EQ(warnings.size(), 2u);
 }
 
-}  // namespace
+}  // namespace text_data_test
 }  // namespace animeme::fap

@@ -5,7 +5,7 @@
 #include "tests/fap/make.h"
 
 namespace animeme::fap {
-namespace {
+namespace text_hostile_test {
 
 // Reads; on success checks what the header promises of every result.
 void survive(const std::string& text) {
@@ -31,8 +31,8 @@ void survive(const std::string& text) {
 }
 
 std::string good_text() {
-  test::Random random(7);
-  return "# comment\n" + write_text(test::random_sequence(random, 3));
+  made::Random random(7);
+  return "# comment\n" + write_text(made::random_sequence(random, 3));
 }
 
 TEST(HostileText, TruncatedAtEveryByte) {
@@ -62,7 +62,7 @@ TEST(HostileText, EveryLineRemovedOrDoubled) {
 }
 
 TEST(HostileText, RandomBytes) {
-  test::Random random(99);
+  made::Random random(99);
   const std::string alphabet = "01 0 1 0 \n\t\r#.-+e25/\\x\xef\xbb\xbf";
   for (int round = 0; round < 3000; ++round) {
     std::string text = random.chance(50) ? "2.1 x 25 3\n" : "";
@@ -77,7 +77,7 @@ TEST(HostileText, RandomBytes) {
 }
 
 TEST(HostileText, RandomTokens) {
-  test::Random random(5);
+  made::Random random(5);
   const char* tokens[] = {"1e999", "-", "nan", "2147483648", "69", "1.5", "\n", "#", "1", "0"};
   for (int round = 0; round < 2000; ++round) {
     std::string text = "2.1 x 25 2000000000\n";
@@ -100,15 +100,15 @@ TEST(HostileText, LongLinesAndTokens) {
   survive("2.1 x " + million + " 1\n");
   survive("2.1 x 25 " + million + "\n");
   survive("2.1 " + million + " 25 0\n");
-  survive("2.1 x 25 1\n" + test::mask_line({3}) + "\n0 " + million + "\n");
-  survive("2.1 x 25 1\n" + test::mask_line({3}) + "\n" + million + " 0\n");
+  survive("2.1 x 25 1\n" + made::mask_line({3}) + "\n0 " + million + "\n");
+  survive("2.1 x 25 1\n" + made::mask_line({3}) + "\n" + million + " 0\n");
   survive("2.1 x 25 1\n" + std::string(1'000'000, '#') + "\n" + std::string(1'000'000, ' '));
   std::string zeros;
   for (int i = 0; i < 500'000; ++i) zeros += "0 ";
   survive(zeros);
   survive("2.1 x 25 1\n" + zeros);
-  survive("2.1 x 25 1\n" + test::mask_line({3}) + "\n" + zeros);
+  survive("2.1 x 25 1\n" + made::mask_line({3}) + "\n" + zeros);
 }
 
-}  // namespace
+}  // namespace text_hostile_test
 }  // namespace animeme::fap

@@ -8,10 +8,10 @@
 #include "tests/fap/make.h"
 
 namespace animeme::fap {
-namespace {
+namespace text_read_test {
 
-using test::make_frame;
-using test::mask_line;
+using made::make_frame;
+using made::mask_line;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -376,5 +376,5 @@ TEST(ReadText, RefusesABadDefaultRate) {
   EXPECT_EQ(error_of(kTwoFrames, {.default_rate = {0, 1}}).code, Code::invalid_argument);
 }
 
-}  // namespace
+}  // namespace text_read_test
 }  // namespace animeme::fap

@@ -5,10 +5,10 @@
 #include "tests/fap/make.h"
 
 namespace animeme::fap {
-namespace {
+namespace text_write_test {
 
-using test::make_frame;
-using test::mask_line;
+using made::make_frame;
+using made::mask_line;
 
 TEST(WriteText, SafeForm) {
   Sequence clip{{25, 1}, {make_frame(0, {{3, 100}, {68, -7}}), make_frame(2, {})}, "a clip"};
@@ -40,9 +40,9 @@ TEST(WriteText, NamesAreOneWord) {
 }
 
 TEST(WriteText, ReadsBackEqual) {
-  test::Random random(20260101);
+  made::Random random(20260101);
   for (int round = 0; round < 200; ++round) {
-    const Sequence clip = test::random_sequence(random, int(random.in(0, 40)));
+    const Sequence clip = made::random_sequence(random, int(random.in(0, 40)));
     const std::string text = write_text(clip);
     std::vector<std::string> warnings;
     const Result<Sequence> again = read_text(text, {}, &warnings);
@@ -53,5 +53,5 @@ TEST(WriteText, ReadsBackEqual) {
   }
 }
 
-}  // namespace
+}  // namespace text_write_test
 }  // namespace animeme::fap

@@ -11,12 +11,12 @@
 #include "tests/fap/make.h"
 
 namespace animeme::fap {
-namespace {
+namespace viseme_test {
 
 using internal::BoundedFit;
 using internal::FapValues;
 using internal::ShapeWeight;
-using test::Random;
+using made::Random;
 
 double sum_of(const VisemeWeights& weights) {
   return std::accumulate(weights.begin(), weights.end(), 0.0);
@@ -162,5 +162,5 @@ TEST(BoundedFit, NothingElseIsNearer) {
   }
 }
 
-}  // namespace
+}  // namespace viseme_test
 }  // namespace animeme::fap

@@ -10,7 +10,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme::fap {
-namespace {
+namespace wild_fap_test {
 
 std::string contents(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -87,5 +87,5 @@ TEST_F(WildFap, ConformanceTexts) {
   }
 }
 
-}  // namespace
+}  // namespace wild_fap_test
 }  // namespace animeme::fap

@@ -43,12 +43,12 @@ void read_reports(Bytes datagram) {
 
 RtpSession session_of(std::uint8_t flags) {
   RtpSession session;
-  FaceTrack& face = session.face.emplace();
+  RtpFaceTrack& face = session.face.emplace();
   face.clock = kFaceClock;
   face.bundle_id = kBundleExtensionId;
   face.timescale = 30000;
   if ((flags & 2) == 0) face.config = {0, 0, 1, 0xB0, 0x61, 0, 0, 1, 0xB5, 0x89, 0x47};
-  AudioTrack& audio = session.audio.emplace();
+  RtpAudioTrack& audio = session.audio.emplace();
   audio.payload_type = 97;
   audio.clock = 48000;
   audio.format.codec = (flags & 1) != 0 ? AudioCodec::opus : AudioCodec::aac;

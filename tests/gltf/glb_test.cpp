@@ -13,7 +13,7 @@
 #include "tests/gltf/actor.h"
 
 namespace animeme::gltf {
-namespace {
+namespace glb_test {
 
 using nlohmann::json;
 
@@ -161,5 +161,5 @@ TEST(Glb, SameBytesEachTime) {
             *make_glb(actor().head, actor().rig, clip()));
 }
 
-}  // namespace
+}  // namespace glb_test
 }  // namespace animeme::gltf

@@ -4,7 +4,7 @@
 #include "tests/gltf/square.h"
 
 namespace animeme::gltf {
-namespace {
+namespace head_bones_test {
 
 using nlohmann::json;
 
@@ -122,5 +122,5 @@ TEST(ReadHead, VrmNamesItsExpressions) {
   }
 }
 
-}  // namespace
+}  // namespace head_bones_test
 }  // namespace animeme::gltf

@@ -4,7 +4,7 @@
 #include "tests/gltf/square.h"
 
 namespace animeme::gltf {
-namespace {
+namespace head_colours_test {
 
 using head::Vec3;
 using test::GltfWriter;
@@ -129,5 +129,5 @@ TEST(ReadHead, ATextureThatCannotBeReadIsNoted) {
   EXPECT_THAT(source.notes.at(0), HasSubstr("neither PNG nor JPEG"));
 }
 
-}  // namespace
+}  // namespace head_colours_test
 }  // namespace animeme::gltf

@@ -14,7 +14,7 @@
 #include "tools/gltf/read_head.h"
 
 namespace animeme::gltf {
-namespace {
+namespace ict_head_test {
 
 using head::Vec3;
 namespace fs = std::filesystem;
@@ -185,5 +185,5 @@ TEST(IctHead, ItSpeaks) {
   EXPECT_NEAR(move("3.1"), 0.0f, 0.1f);
 }
 
-}  // namespace
+}  // namespace ict_head_test
 }  // namespace animeme::gltf

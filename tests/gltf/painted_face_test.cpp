@@ -11,7 +11,7 @@
 #include "tools/gltf/read_head.h"
 
 namespace animeme::gltf {
-namespace {
+namespace painted_face_test {
 
 using head::Vec3;
 
@@ -126,5 +126,5 @@ TEST(PaintedFace, DividedTrianglesShowTheTexture) {
   EXPECT_LE(errors[4], errors[2]);
 }
 
-}  // namespace
+}  // namespace painted_face_test
 }  // namespace animeme::gltf

@@ -9,7 +9,7 @@
 #include "tests/support/program.h"
 
 namespace animeme::gltf {
-namespace {
+namespace read_head_test {
 
 using head::Vec3;
 using nlohmann::json;
@@ -273,5 +273,5 @@ TEST(ReadHeadErrors, DamagedNumbers) {
   EXPECT_EQ(with("/nodes/0/children", {1}), Code::syntax);
 }
 
-}  // namespace
+}  // namespace read_head_test
 }  // namespace animeme::gltf

@@ -14,7 +14,7 @@
 #include "tools/gltf/read_head.h"
 
 namespace animeme::gltf {
-namespace {
+namespace readers_test {
 
 using nlohmann::json;
 using test::quoted;
@@ -158,5 +158,5 @@ TEST(GlbReaders, AHeadThatWentThroughBlenderMovesAsBefore) {
   EXPECT_LT(worst, 4);  // lids slide, morph targets do not
 }
 
-}  // namespace
+}  // namespace readers_test
 }  // namespace animeme::gltf

@@ -16,7 +16,7 @@
 #include "tools/gltf/read_head.h"
 
 namespace animeme::gltf {
-namespace {
+namespace round_trip_test {
 
 using head::Part;
 using head::Vec3;
@@ -297,5 +297,5 @@ TEST(RoundTrip, SameSourceEachTime) {
   }
 }
 
-}  // namespace
+}  // namespace round_trip_test
 }  // namespace animeme::gltf

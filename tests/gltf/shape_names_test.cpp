@@ -13,7 +13,7 @@
 #include "tests/support/gltf_writer.h"
 
 namespace animeme::gltf {
-namespace {
+namespace shape_names_test {
 
 using head::Part;
 using head::Vec3;
@@ -228,5 +228,5 @@ TEST(VisemeHead, ItBlinks) {
             -0.8f * float(head->fapu.irisd));
 }
 
-}  // namespace
+}  // namespace shape_names_test
 }  // namespace animeme::gltf

@@ -9,7 +9,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme::test {
-namespace {
+namespace fold_test {
 
 using head::Head;
 using head::Triangle;
@@ -173,5 +173,5 @@ TEST_P(EachFace, StaysWholeInCaptures) {
   EXPECT_GT(shown_, 400);
 }
 
-}  // namespace
+}  // namespace fold_test
 }  // namespace animeme::test

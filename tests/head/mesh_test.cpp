@@ -6,7 +6,7 @@
 #include "tests/head/head_support.h"
 
 namespace animeme::test {
-namespace {
+namespace mesh_test {
 
 using head::Head;
 using head::Mesh;
@@ -205,5 +205,5 @@ TEST(MakeHead, RefusesSizesThatAreNone) {
   EXPECT_FALSE(head::head_parameters("dragon"));
 }
 
-}  // namespace
+}  // namespace mesh_test
 }  // namespace animeme::test

@@ -12,7 +12,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme::test {
-namespace {
+namespace own_head_test {
 
 using head::Head;
 using head::Part;
@@ -282,5 +282,5 @@ TEST(OwnHead, OfIctFaceKitMovesAsTheTableSays) {
   EXPECT_GT(expect_table_moves(*head, head::make_rig(*head), {300}, Part::skin), 40);
 }
 
-}  // namespace
+}  // namespace own_head_test
 }  // namespace animeme::test

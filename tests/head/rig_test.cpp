@@ -5,7 +5,7 @@
 #include "tests/head/head_support.h"
 
 namespace animeme::test {
-namespace {
+namespace rig_test {
 
 using head::Head;
 using head::Part;
@@ -242,5 +242,5 @@ TEST(MakeRig, TakesAHeadThatLacksMost) {
   EXPECT_EQ(head::pose(head::make_rig(Head{}), all).positions[0].size(), 0u);
 }
 
-}  // namespace
+}  // namespace rig_test
 }  // namespace animeme::test

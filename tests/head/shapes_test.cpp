@@ -7,7 +7,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme::test {
-namespace {
+namespace shapes_test {
 
 using head::Part;
 using head::Pose;
@@ -187,5 +187,5 @@ TEST(Extremes, ReferenceStreamsStayFinite) {
   EXPECT_GT(shown, 20);
 }
 
-}  // namespace
+}  // namespace shapes_test
 }  // namespace animeme::test

@@ -8,7 +8,7 @@
 #include "tests/support/files.h"
 
 namespace animeme::test {
-namespace {
+namespace wrl_test {
 
 using head::Piece;
 using head::read_wrl;
@@ -132,5 +132,5 @@ TEST(Wrl, WrittenPiecesComeBack) {
   }
 }
 
-}  // namespace
+}  // namespace wrl_test
 }  // namespace animeme::test

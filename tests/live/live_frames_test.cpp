@@ -9,7 +9,7 @@
 #include "tests/support/random_clip.h"
 
 namespace animeme::media {
-namespace {
+namespace live_frames_test {
 
 struct Coded {
   std::vector<LiveUnit> units;
@@ -165,5 +165,5 @@ TEST(LiveFrames, TextByTheFrameIsATextThatIsReadAgain) {
   EXPECT_EQ(read->rate, clip.rate);
 }
 
-}  // namespace
+}  // namespace live_frames_test
 }  // namespace animeme::media

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace animeme::media {
-namespace {
+namespace pacer_test {
 
 // Sleeps too long by a fixed time, as real machines do.
 class TardyClock : public Clock {
@@ -107,5 +107,5 @@ TEST(LatenessMeter, LongDelaysAreKnownToFivePercentAndNegativeOnesAreNone) {
   EXPECT_EQ(meter.percentile(1.0 / 6), 1e-4);
 }
 
-}  // namespace
+}  // namespace pacer_test
 }  // namespace animeme::media

@@ -7,7 +7,7 @@
 #include "tools/media/live/loopback.h"
 
 namespace animeme::media {
-namespace {
+namespace presentation_test {
 
 EncodedAudio make_sound(int packets, int rate = 48000, int frame = 1024, int priming = 1024) {
   EncodedAudio sound;
@@ -165,5 +165,5 @@ TEST(Loopback, LosesTheShareAskedForAndSaysSo) {
   EXPECT_EQ(joined.source->stats().lost, 2000 - came);
 }
 
-}  // namespace
+}  // namespace presentation_test
 }  // namespace animeme::media

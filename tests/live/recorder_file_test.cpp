@@ -12,7 +12,7 @@
 #include "tools/media/mux.h"
 
 namespace animeme::media {
-namespace {
+namespace recorder_file_test {
 
 constexpr double kClick = 2.5;  // seconds of the presentation; plane 62 or so begins at 2.48
 
@@ -87,5 +87,5 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{1.0, 1.7, AudioCodec::aac}, Case{-1, -1, AudioCodec::opus},
                     Case{1.5, 1.2, AudioCodec::opus}, Case{1.0, 1.7, AudioCodec::opus}));
 
-}  // namespace
+}  // namespace recorder_file_test
 }  // namespace animeme::media

@@ -8,7 +8,7 @@
 #include "tools/media/live/presentation.h"
 
 namespace animeme::media {
-namespace {
+namespace recorder_test {
 
 EncodedAudio make_sound(int packets, int rate = 48000, int frame = 960, int priming = 312) {
   EncodedAudio sound;
@@ -185,5 +185,5 @@ TEST(Recorder, NothingReceivedIsAnEmptyRecording) {
   EXPECT_EQ(recorder.face_seconds(), 0);
 }
 
-}  // namespace
+}  // namespace recorder_test
 }  // namespace animeme::media

@@ -6,7 +6,7 @@
 #include "tests/live/rtp_support.h"
 
 namespace animeme::media {
-namespace {
+namespace recovery_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -97,5 +97,5 @@ TEST(FaceRecovery, KeepsTheLastIntervals) {
   EXPECT_EQ(intervals.back().begin, 4998 * kTick);
 }
 
-}  // namespace
+}  // namespace recovery_test
 }  // namespace animeme::media

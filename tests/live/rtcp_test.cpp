@@ -5,7 +5,7 @@
 #include "tests/live/rtp_support.h"
 
 namespace animeme::media {
-namespace {
+namespace rtcp_test {
 
 using test::Bytes;
 
@@ -72,5 +72,5 @@ TEST(Rtcp, NtpCountsFrom1900) {
   EXPECT_NE(random_number(), random_number());
 }
 
-}  // namespace
+}  // namespace rtcp_test
 }  // namespace animeme::media

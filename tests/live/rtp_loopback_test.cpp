@@ -10,9 +10,9 @@
 #include "tools/media/live/open.h"
 
 namespace animeme::media {
-namespace {
+namespace rtp_loopback_test {
 
-using test::Talk;
+using test::LiveTalk;
 using ::testing::HasSubstr;
 
 struct Heard {
@@ -41,7 +41,7 @@ void hear(LiveSource& source, double seconds, Heard& heard) {
 }
 
 // Sends without pauses; the receiver reads after each unit, so that no buffer overflows.
-Heard over_sockets(const Talk& talk, RtpOptions options = {}) {
+Heard over_sockets(const LiveTalk& talk, RtpOptions options = {}) {
   const test::TempDir dir;
   options.sdp_path = dir.file("talk.sdp");
   Heard heard;
@@ -68,7 +68,7 @@ TEST(RtpLoopback, EveryReferenceStreamComesBackByteForByte) {
   for (const auto& base : test::reference_streams()) {
     const auto face = fba::split_access_units(test::read_bytes(test::with(base, ".fba")));
     if (!face) continue;
-    const Talk talk = test::talk_of(*face);
+    const LiveTalk talk = test::talk_of(*face);
     const Heard heard = over_sockets(talk, {.seed = std::uint64_t(++streams)});
     SCOPED_TRACE(base.filename());
     EXPECT_EQ(heard.info, talk.info);
@@ -92,7 +92,7 @@ TEST(RtpLoopback, FaceAndSoundOfBothCodecs) {
   AudioFormat opus{AudioCodec::opus, 48000, 1, 960, 312, {}};
   opus.config = {'O', 'p', 'u', 's', 'H', 'e', 'a', 'd', 1, 1, 56, 1, 0x80, 0xBB, 0, 0, 0, 0, 0};
   for (const AudioFormat& format : {test::aac_format(), opus}) {
-    Talk talk = test::random_talk(50);
+    LiveTalk talk = test::random_talk(50);
     test::add_sound(talk, format);
     const Heard heard = over_sockets(talk);
     EXPECT_EQ(heard.info, talk.info);
@@ -104,7 +104,7 @@ TEST(RtpLoopback, FaceAndSoundOfBothCodecs) {
 
 TEST(RtpLoopback, BetweenIpv6Addresses) {
   if (!UdpSocket::bind("::1", 0)) GTEST_SKIP() << "this machine has no IPv6";
-  const Talk talk = test::random_talk(10);
+  const LiveTalk talk = test::random_talk(10);
   const int port = test::free_ports();
   auto source = open_source("rtp://[::1]:" + std::to_string(port));
   ASSERT_TRUE(source) << source.error().describe();
@@ -126,7 +126,7 @@ TEST(RtpLoopback, OverMulticast) {
   const int port = test::free_ports();
   const Multicast on_loopback{1, "127.0.0.1"};
   if (!UdpSocket::bind(group, port, on_loopback)) GTEST_SKIP() << "no multicast here";
-  const Talk talk = test::random_talk(10);
+  const LiveTalk talk = test::random_talk(10);
   const std::string url = "rtp://" + group + ":" + std::to_string(port);
   auto source = open_source(url, {.rtp = {.interface = "127.0.0.1"}});
   ASSERT_TRUE(source) << source.error().describe();
@@ -140,7 +140,7 @@ TEST(RtpLoopback, OverMulticast) {
 }
 
 TEST(RtpLoopback, ALossyRelayBetweenThem) {
-  Talk talk = test::random_talk(400, 25);
+  LiveTalk talk = test::random_talk(400, 25);
   test::add_sound(talk, test::aac_format());
   const test::TempDir dir;
   const int front = test::free_ports();
@@ -200,5 +200,5 @@ TEST(RtpLoopback, ADescriptionThatCannotBeWrittenIsAnError) {
   EXPECT_EQ((*sink)->start(test::random_talk(1).info).error().code, Code::io);
 }
 
-}  // namespace
+}  // namespace rtp_loopback_test
 }  // namespace animeme::media

@@ -4,11 +4,11 @@
 #include "tests/live/rtp_support.h"
 
 namespace animeme::media {
-namespace {
+namespace rtp_loss_test {
 
 using test::BadNetwork;
+using test::LiveTalk;
 using test::random_talk;
-using test::Talk;
 using test::Trouble;
 
 struct Outcome {
@@ -17,7 +17,7 @@ struct Outcome {
   std::vector<IntraInterval> intervals;
 };
 
-Outcome run(const Talk& talk, const RtpOptions& options, const Trouble& trouble,
+Outcome run(const LiveTalk& talk, const RtpOptions& options, const Trouble& trouble,
             std::uint64_t seed) {
   Outcome outcome;
   FaceRecovery recovery;
@@ -31,7 +31,7 @@ Outcome run(const Talk& talk, const RtpOptions& options, const Trouble& trouble,
 class Loss : public ::testing::TestWithParam<int> {};
 
 TEST_P(Loss, EveryPlaneThatIsGivenOutIsRight) {
-  const Talk talk = random_talk(500, 25);
+  const LiveTalk talk = random_talk(500, 25);
   for (const int repeat : {1, 2}) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
       const Trouble trouble{GetParam(), 5, 5};
@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(Percent, Loss, ::testing::Values(0, 1, 5, 10));
 TEST(Loss, FromTheNextIntraPlaneOnAllIsThereUntilTheNextLoss) {
   // With one packet a plane and no repetition, exactly the planes between a loss and the next
   // intra plane are missing.
-  const Talk talk = random_talk(300, 20);
+  const LiveTalk talk = random_talk(300, 20);
   RtpSender sender(talk.info, {.mtu = 60000, .repeat = 1}, "192.0.2.1", 5004, 1, ntp_now());
   RtpReceiver receiver(*read_sdp(write_sdp(sender.session())), {}, 1);
   BadNetwork network(1, {});
@@ -81,7 +81,7 @@ TEST(Loss, FromTheNextIntraPlaneOnAllIsThereUntilTheNextLoss) {
 }
 
 TEST(Loss, RepetitionHelps) {
-  const Talk talk = random_talk(1000, 25);
+  const LiveTalk talk = random_talk(1000, 25);
   const double once = run(talk, {.repeat = 1}, {.loss = 5}, 4).stats.share();
   const double twice = run(talk, {.repeat = 2}, {.loss = 5}, 4).stats.share();
   EXPECT_LT(once, 0.8);
@@ -89,7 +89,7 @@ TEST(Loss, RepetitionHelps) {
 }
 
 TEST(Loss, PiecesAndBundlesAreRightToo) {
-  const Talk talk = random_talk(300, 25);
+  const LiveTalk talk = random_talk(300, 25);
   for (const RtpOptions& options : {RtpOptions{.mtu = 256, .repeat = 2}, RtpOptions{.bundle = 4}}) {
     const Outcome outcome = run(talk, options, {.loss = 3, .reorder = 10}, 8);
     test::expect_right(talk, outcome.units);
@@ -97,5 +97,5 @@ TEST(Loss, PiecesAndBundlesAreRightToo) {
   }
 }
 
-}  // namespace
+}  // namespace rtp_loss_test
 }  // namespace animeme::media

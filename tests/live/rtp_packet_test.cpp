@@ -7,7 +7,7 @@
 #include "tools/media/live/rtp_payload.h"
 
 namespace animeme::media {
-namespace {
+namespace rtp_packet_test {
 
 using test::Bytes;
 using ::testing::ElementsAre;
@@ -239,5 +239,5 @@ TEST(Opus, DurationsAreThoseOfTheRfc) {
   EXPECT_EQ(opus_duration(Bytes{0xFB, 0x3F}), 0);  // over 120 ms
 }
 
-}  // namespace
+}  // namespace rtp_packet_test
 }  // namespace animeme::media

@@ -12,10 +12,10 @@
 #include "tools/media/live/open.h"
 
 namespace animeme::media {
-namespace {
+namespace rtp_readers_test {
 
 using test::Bytes;
-using test::Talk;
+using test::LiveTalk;
 
 bool has_program(const std::string& name) {
   return std::system(("command -v " + name + " >/dev/null 2>&1").c_str()) == 0;
@@ -36,7 +36,7 @@ bool wait_for_listener(int port) {
 }
 
 // Starts a program, sends a talk in ten times its own speed and waits for the program's end.
-void play_to(const std::string& program, const Talk& talk, LiveSink& sink, int port) {
+void play_to(const std::string& program, const LiveTalk& talk, LiveSink& sink, int port) {
   std::FILE* pipe = popen(program.c_str(), "r");
   ASSERT_NE(pipe, nullptr);
   ASSERT_TRUE(wait_for_listener(port)) << program;
@@ -74,7 +74,7 @@ std::vector<std::string> read_packets(const std::string& path) {
 }
 
 // The elementary stream of the planes, with the configuration in front of intra planes.
-Bytes face_stream(const Talk& talk) {
+Bytes face_stream(const LiveTalk& talk) {
   Bytes stream;
   for (const LiveUnit& unit : test::only(talk.units, LiveTrack::face)) {
     if (unit.intra) {
@@ -86,7 +86,7 @@ Bytes face_stream(const Talk& talk) {
 }
 
 // Of the face, copies included.
-std::int64_t count_packets(const Talk& talk, const RtpOptions& options) {
+std::int64_t count_packets(const LiveTalk& talk, const RtpOptions& options) {
   RtpSender sender(talk.info, options, "127.0.0.1", 5004, 1, 0);
   RtpSender::Datagrams packets;
   for (const LiveUnit& unit : talk.units) EXPECT_TRUE(sender.send(unit, 0, packets));
@@ -97,7 +97,7 @@ std::int64_t count_packets(const Talk& talk, const RtpOptions& options) {
 
 TEST(RtpReaders, GstreamerGetsTheElementaryStream) {
   if (!has_program("gst-launch-1.0")) GTEST_SKIP() << "gst-launch-1.0 is not there";
-  const Talk talk = test::random_talk(60, 20);
+  const LiveTalk talk = test::random_talk(60, 20);
   const test::TempDir dir;
   const int port = test::free_ports();
   for (const RtpOptions& options :
@@ -117,7 +117,7 @@ TEST(RtpReaders, GstreamerGetsTheElementaryStream) {
 
 TEST(RtpReaders, FfprobeGetsFaceAndSoundByTheDescription) {
   if (!has_program("ffprobe")) GTEST_SKIP() << "ffprobe is not there";
-  Talk talk = test::random_talk(60, 20);
+  LiveTalk talk = test::random_talk(60, 20);
   test::add_sound(talk, test::aac_format());
   // Its parser for films glues planes together; sound comes packet by packet.
   std::vector<std::string> expected = {"video " + crc32(face_stream(talk))};
@@ -216,5 +216,5 @@ TEST(RtpReaders, WhatFfmpegSendsIsReceived) {
   EXPECT_NEAR(double(sound[0].time), -1024, 24000);
 }
 
-}  // namespace
+}  // namespace rtp_readers_test
 }  // namespace animeme::media

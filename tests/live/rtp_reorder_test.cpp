@@ -5,7 +5,7 @@
 #include "tools/media/live/jitter.h"
 
 namespace animeme::media {
-namespace {
+namespace rtp_reorder_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -163,5 +163,5 @@ TEST(Unwrapper, GoesOnOverTheWrapBothWays) {
   EXPECT_EQ(unwrapper.add(0xFFFFFFF8) - first, 8);
 }
 
-}  // namespace
+}  // namespace rtp_reorder_test
 }  // namespace animeme::media

@@ -5,11 +5,11 @@
 #include "tests/live/rtp_support.h"
 
 namespace animeme::media {
-namespace {
+namespace rtp_session_test {
 
 using test::BadNetwork;
+using test::LiveTalk;
 using test::random_talk;
-using test::Talk;
 using test::transfer;
 using test::units_in;
 
@@ -24,7 +24,7 @@ void expect_same(const std::vector<LiveUnit>& got, const std::vector<LiveUnit>& 
   for (std::size_t i = 0; i < got.size(); ++i) ASSERT_EQ(got[i], sent[i]) << "unit " << i;
 }
 
-void expect_all(const Talk& talk, const std::vector<LiveEvent>& events) {
+void expect_all(const LiveTalk& talk, const std::vector<LiveEvent>& events) {
   ASSERT_FALSE(events.empty());
   ASSERT_TRUE(std::holds_alternative<LiveInfo>(events.front()));
   EXPECT_EQ(std::get<LiveInfo>(events.front()), talk.info);
@@ -43,14 +43,14 @@ AudioFormat opus() {
 
 TEST(RtpSession, FaceAndSoundComeBackWithTheirTimes) {
   for (const AudioFormat& format : {test::aac_format(), opus()}) {
-    Talk talk = random_talk(60);
+    LiveTalk talk = random_talk(60);
     test::add_sound(talk, format);
     expect_all(talk, transfer(talk));
   }
 }
 
 TEST(RtpSession, AllSettingsGiveTheSameUnits) {
-  Talk talk = random_talk(60, 20);
+  LiveTalk talk = random_talk(60, 20);
   test::add_sound(talk, test::aac_format());
   for (const RtpOptions& options :
        {RtpOptions{.mtu = 256, .repeat = 1}, RtpOptions{.repeat = 4}, RtpOptions{.bundle = 5},
@@ -63,13 +63,13 @@ TEST(RtpSession, AllSettingsGiveTheSameUnits) {
 TEST(RtpSession, ExactRates) {
   for (const fap::Rate rate : {fap::make_rate(30000, 1001), fap::make_rate(479, 16),
                                fap::make_rate(25, 2), fap::make_rate(24000, 1001)}) {
-    const Talk talk = random_talk(40, 20, rate);
+    const LiveTalk talk = random_talk(40, 20, rate);
     expect_all(talk, transfer(talk));
   }
 }
 
 TEST(RtpSession, BundlesSaveHeaders) {
-  const Talk talk = random_talk(100);
+  const LiveTalk talk = random_talk(100);
   const auto packets = [&talk](const RtpOptions& options) {
     RtpSender sender(talk.info, options, "192.0.2.1", 5004, 1, 0);
     RtpReceiver receiver(*read_sdp(write_sdp(sender.session())), {}, 1);
@@ -82,7 +82,7 @@ TEST(RtpSession, BundlesSaveHeaders) {
 }
 
 TEST(RtpSession, RepeatedPacketsFollowTheirPlaneByOneAndAreDropped) {
-  const Talk talk = random_talk(4);
+  const LiveTalk talk = random_talk(4);
   RtpSender sender(talk.info, {.mtu = 60000, .repeat = 2}, "192.0.2.1", 5004, 1, 0);
   std::vector<std::uint16_t> sequence;
   RtpSender::Datagrams out;
@@ -100,7 +100,7 @@ TEST(RtpSession, RepeatedPacketsFollowTheirPlaneByOneAndAreDropped) {
 }
 
 TEST(RtpSession, APauseDoesNotHoldRepetitionsAndBundlesBack) {
-  const Talk talk = random_talk(2);
+  const LiveTalk talk = random_talk(2);
   RtpSender sender(talk.info, {.bundle = 4}, "192.0.2.1", 5004, 1, 0);
   RtpSender::Datagrams out;
   ASSERT_TRUE(sender.send(talk.units[0], 0, out));
@@ -115,7 +115,7 @@ TEST(RtpSession, APauseDoesNotHoldRepetitionsAndBundlesBack) {
 }
 
 TEST(RtpSession, SameSeedSameBytes) {
-  Talk talk = random_talk(10);
+  LiveTalk talk = random_talk(10);
   test::add_sound(talk, test::aac_format());
   const auto bytes = [&talk](std::uint64_t seed) {
     RtpSender sender(talk.info, {}, "192.0.2.1", 5004, seed, 0);
@@ -129,13 +129,13 @@ TEST(RtpSession, SameSeedSameBytes) {
 }
 
 TEST(RtpSession, ReorderingAndDuplicatesAreMended) {
-  Talk talk = random_talk(300);
+  LiveTalk talk = random_talk(300);
   test::add_sound(talk, test::aac_format());
   expect_all(talk, transfer(talk, {}, {.duplicate = 20, .reorder = 20}, 3));
 }
 
 TEST(RtpSession, WithTheSyncOfReportsFaceAndSoundStayTogether) {
-  Talk talk = random_talk(100);
+  LiveTalk talk = random_talk(100);
   test::add_sound(talk, test::aac_format());
   RtpSender sender(talk.info, {}, "192.0.2.1", 5004, 9, ntp_now());
   RtpSession foreign = *read_sdp(write_sdp(sender.session()));
@@ -159,7 +159,7 @@ TEST(RtpSession, WithTheSyncOfReportsFaceAndSoundStayTogether) {
 }
 
 TEST(RtpSession, JoiningInTheMiddleWorksWithAndWithoutADescription) {
-  const Talk talk = random_talk(100, 25);
+  const LiveTalk talk = random_talk(100, 25);
   for (const bool described : {true, false}) {
     RtpSender sender(talk.info, {}, "192.0.2.1", 5004, 4, ntp_now());
     RtpSession session = *read_sdp(write_sdp(sender.session()));
@@ -191,7 +191,7 @@ TEST(RtpSession, JoiningInTheMiddleWorksWithAndWithoutADescription) {
 }
 
 TEST(RtpSession, ASenderThatBeginsAnewIsFollowed) {
-  const Talk talk = random_talk(50);
+  const LiveTalk talk = random_talk(50);
   RtpSender first(talk.info, {}, "192.0.2.1", 5004, 1, ntp_now());
   RtpSender second(talk.info, {}, "192.0.2.1", 5004, 2, ntp_now());
   RtpReceiver receiver(*read_sdp(write_sdp(first.session())), {}, 1);
@@ -217,7 +217,7 @@ TEST(RtpSession, ASenderThatBeginsAnewIsFollowed) {
 }
 
 TEST(RtpSession, AStrayPacketOfAnotherSenderChangesNothing) {
-  const Talk talk = random_talk(10);
+  const LiveTalk talk = random_talk(10);
   RtpSender sender(talk.info, {.repeat = 1}, "192.0.2.1", 5004, 1, ntp_now());
   RtpReceiver receiver(*read_sdp(write_sdp(sender.session())), {}, 1);
   BadNetwork network(1, {});
@@ -237,7 +237,7 @@ TEST(RtpSession, AStrayPacketOfAnotherSenderChangesNothing) {
 }
 
 TEST(RtpSession, ReportsComeBack) {
-  Talk talk = random_talk(500);
+  LiveTalk talk = random_talk(500);
   RtpSender sender(talk.info, {.repeat = 1}, "192.0.2.1", 5004, 1, ntp_now());
   RtpReceiver receiver(*read_sdp(write_sdp(sender.session())), {}, 77);
   BadNetwork network(5, {.loss = 20});
@@ -257,13 +257,13 @@ TEST(RtpSession, ReportsComeBack) {
 }
 
 TEST(RtpSession, UnitsThatCannotBeSentAreRefused) {
-  const Talk talk = random_talk(1);
+  const LiveTalk talk = random_talk(1);
   RtpSender sender(talk.info, {}, "192.0.2.1", 5004, 1, 0);
   RtpSender::Datagrams out;
   EXPECT_EQ(sender.send({}, 0, out).error().code, Code::invalid_argument);
   EXPECT_FALSE(sender.send({LiveTrack::audio, {1}, false, 0, 1024}, 0, out));
   EXPECT_TRUE(out.empty());
-  Talk sound = random_talk(1);
+  LiveTalk sound = random_talk(1);
   test::add_sound(sound, opus());
   RtpSender other(sound.info, {}, "192.0.2.1", 5004, 1, 0);
   EXPECT_FALSE(other.send({LiveTrack::audio, test::Bytes(1390), false, 0, 960}, 0, out));
@@ -282,5 +282,5 @@ TEST(RtpSession, OptionsHaveBounds) {
   EXPECT_FALSE(check(LiveInfo{{1}, 0, 0x61, std::nullopt}, {}));
 }
 
-}  // namespace
+}  // namespace rtp_session_test
 }  // namespace animeme::media

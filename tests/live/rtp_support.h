@@ -12,6 +12,7 @@
 #include "codec/decode/access_unit.h"
 #include "codec/decode/decoder.h"
 #include "codec/encode/live.h"
+#include "tests/support/audio_formats.h"
 #include "tests/support/random_clip.h"
 #include "tools/media/live/recovery.h"
 #include "tools/media/live/rtp_receiver.h"
@@ -22,13 +23,13 @@ namespace animeme::test {
 using Bytes = std::vector<std::uint8_t>;
 
 /// A presentation as it is sent.
-struct Talk {
+struct LiveTalk {
   media::LiveInfo info;
   std::vector<media::LiveUnit> units;  // in order of time
 };
 
-inline Talk talk_of(const fba::AccessUnits& face) {
-  Talk talk;
+inline LiveTalk talk_of(const fba::AccessUnits& face) {
+  LiveTalk talk;
   talk.info.face_config = face.config;
   talk.info.timescale = face.timescale;
   talk.info.visual_profile = face.config.at(4);
@@ -40,7 +41,7 @@ inline Talk talk_of(const fba::AccessUnits& face) {
 }
 
 /// A face that walks at random, with an intra plane every `period` planes.
-inline Talk random_talk(int planes, int period = 25, fap::Rate rate = {25, 1}) {
+inline LiveTalk random_talk(int planes, int period = 25, fap::Rate rate = {25, 1}) {
   Random random(7);
   fba::LiveEncoder encoder({.rate = rate, .fap_quant = 4, .intra_period = period});
   Bytes stream;
@@ -57,15 +58,11 @@ inline Talk random_talk(int planes, int period = 25, fap::Rate rate = {25, 1}) {
   stream.insert(stream.end(), end.begin(), end.end());
   const auto units = fba::split_access_units(stream);
   EXPECT_TRUE(units) << units.error().describe();
-  return units ? talk_of(*units) : Talk();
-}
-
-inline media::AudioFormat aac_format() {
-  return {media::AudioCodec::aac, 48000, 1, 1024, 1024, {0x11, 0x88}};
+  return units ? talk_of(*units) : LiveTalk();
 }
 
 /// Puts packets of noise between the planes, up to the end of the face.
-inline void add_sound(Talk& talk, const media::AudioFormat& format) {
+inline void add_sound(LiveTalk& talk, const media::AudioFormat& format) {
   talk.info.audio = format;
   Random random(11);
   const double end =
@@ -86,7 +83,7 @@ inline void add_sound(Talk& talk, const media::AudioFormat& format) {
                    [&](const auto& a, const auto& b) { return seconds(a) < seconds(b); });
 }
 
-inline double seconds_of(const Talk& talk, const media::LiveUnit& unit) {
+inline double seconds_of(const LiveTalk& talk, const media::LiveUnit& unit) {
   const bool face = unit.track == media::LiveTrack::face;
   return double(unit.time) /
          (face ? double(talk.info.timescale) : double(talk.info.audio->sample_rate));
@@ -154,7 +151,7 @@ inline void deliver(BadNetwork& network, media::RtpReceiver& receiver, double no
 }
 
 /// Sends a talk in its own time (which costs none here) and returns the events.
-inline std::vector<media::LiveEvent> transfer(const Talk& talk, BadNetwork& network,
+inline std::vector<media::LiveEvent> transfer(const LiveTalk& talk, BadNetwork& network,
                                               media::RtpReceiver& receiver,
                                               media::RtpSender& sender) {
   std::vector<media::LiveEvent> events;
@@ -175,7 +172,7 @@ inline std::vector<media::LiveEvent> transfer(const Talk& talk, BadNetwork& netw
   return events;
 }
 
-inline std::vector<media::LiveEvent> transfer(const Talk& talk,
+inline std::vector<media::LiveEvent> transfer(const LiveTalk& talk,
                                               const media::RtpOptions& options = {},
                                               const Trouble& trouble = {}, std::uint64_t seed = 1) {
   media::RtpSender sender(talk.info, options, "127.0.0.1", 5004, seed, media::ntp_now());
@@ -232,7 +229,7 @@ inline bool same_values(const fba::Plane& a, const fba::Plane& b) {
 }
 
 /// Do these units, some of `all`, decode to what they are in the whole?
-inline void expect_right(const Talk& all, const std::vector<media::LiveUnit>& units) {
+inline void expect_right(const LiveTalk& all, const std::vector<media::LiveUnit>& units) {
   const auto face = only(all.units, media::LiveTrack::face);
   const std::vector<fba::Plane> whole = decode_units(all.info.face_config, face);
   const std::vector<fba::Plane> part = decode_units(all.info.face_config, units);

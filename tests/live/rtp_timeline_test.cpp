@@ -6,7 +6,7 @@
 #include "tools/media/live/rtp_units.h"
 
 namespace animeme::media {
-namespace {
+namespace rtp_timeline_test {
 
 constexpr std::uint32_t kFace = 90000;
 constexpr std::uint32_t kSound = 48000;
@@ -111,5 +111,5 @@ TEST(Timescale, FinerTimesComeBackOnTheGridOfPlanes) {
   EXPECT_EQ(to_timescale(3000, 479000, std::nullopt), 15967);
 }
 
-}  // namespace
+}  // namespace rtp_timeline_test
 }  // namespace animeme::media

@@ -10,7 +10,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme::media {
-namespace {
+namespace sdp_test {
 
 using test::Bytes;
 using ::testing::HasSubstr;
@@ -190,5 +190,5 @@ TEST(Sdp, DamagedTextIsReadOrRefusedAndNothingElse) {
   EXPECT_GT(readable, 100);
 }
 
-}  // namespace
+}  // namespace sdp_test
 }  // namespace animeme::media

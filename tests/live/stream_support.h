@@ -15,22 +15,11 @@
 #include <vector>
 
 #include "tests/live/ports.h"
+#include "tests/live/rtp_sockets.h"
 #include "tests/support/program.h"
 #include "tools/media/container.h"
 
 namespace animeme::test {
-
-/// The first of four UDP ports in a row that nobody uses now; even, as RTP wants it.
-inline int free_ports() {
-  for (int port = 20000 + ::getpid() * 16 % 20000; port < 60000; port += 8) {
-    try {
-      const UdpSocket a(port), b(port + 1), c(port + 2), d(port + 3);
-      return port;
-    } catch (const std::runtime_error&) {
-    }
-  }
-  return 5004;
-}
 
 /// The program running beside the test; ended with it.
 class Running {

@@ -10,7 +10,7 @@
 #include "tools/media/audio.h"
 
 namespace animeme {
-namespace {
+namespace stream_test {
 
 using test::animeme;
 using test::container;
@@ -174,5 +174,5 @@ TEST_F(Streams, AStreamThatCannotBeJoinedIsCodedAgain) {
   EXPECT_GT(intra({"--intra-seconds", "0.2"}).first, 8);
 }
 
-}  // namespace
+}  // namespace stream_test
 }  // namespace animeme

@@ -7,7 +7,7 @@
 #include "tests/support/random_clip.h"
 
 namespace animeme {
-namespace {
+namespace stream_transports_test {
 
 using test::animeme;
 using test::container;
@@ -112,5 +112,5 @@ TEST(Receive, WhatIsWrongIsSaidInASentence) {
   EXPECT_THAT(taken.err, HasSubstr("in use"));
 }
 
-}  // namespace
+}  // namespace stream_transports_test
 }  // namespace animeme

@@ -12,7 +12,7 @@
 #include "tests/support/live_reference.h"
 
 namespace animeme::test {
-namespace {
+namespace ts_live_test {
 
 using media::LiveGap;
 using media::LiveTrack;
@@ -198,5 +198,5 @@ TEST(TsLive, ASourceWaitsNoLongerThanItIsTold) {
   }
 }
 
-}  // namespace
+}  // namespace ts_live_test
 }  // namespace animeme::test

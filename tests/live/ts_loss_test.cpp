@@ -14,7 +14,7 @@
 #include "tools/media/live/ts_live.h"
 
 namespace animeme::test {
-namespace {
+namespace ts_loss_test {
 
 using media::LiveGap;
 using media::LiveTrack;
@@ -287,5 +287,5 @@ TEST(TsLoss, NoiseIsRefusedInTheEnd) {
   EXPECT_TRUE(got.units.empty());
 }
 
-}  // namespace
+}  // namespace ts_loss_test
 }  // namespace animeme::test

@@ -6,7 +6,7 @@
 #include "tests/media/media_support.h"
 
 namespace animeme::media {
-namespace {
+namespace audio_test {
 
 using test::Bytes;
 
@@ -190,5 +190,5 @@ TEST(ReadAudio, NoOtherFileIsOpened) {
   EXPECT_FALSE(read_audio("concat:" + dir.file("a.wav")));
 }
 
-}  // namespace
+}  // namespace audio_test
 }  // namespace animeme::media

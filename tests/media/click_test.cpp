@@ -6,7 +6,7 @@
 #include "tests/media/click_measure.h"
 
 namespace animeme::media {
-namespace {
+namespace click_test {
 
 class Click : public testing::TestWithParam<std::tuple<test::ClickPath, int>> {};
 
@@ -67,5 +67,5 @@ TEST(ClickMp4, FfmpegHearsTheBurstsInPlace) {
   }
 }
 
-}  // namespace
+}  // namespace click_test
 }  // namespace animeme::media

@@ -9,7 +9,7 @@
 #include "tests/media/media_support.h"
 
 namespace animeme::media {
-namespace {
+namespace encoded_audio_test {
 
 struct Rate {
   AudioCodec codec;
@@ -223,5 +223,5 @@ TEST(EncodedAudio, RefusalsNameTheReason) {
   refused(decode_audio(junk), Code::syntax, "can be decoded");
 }
 
-}  // namespace
+}  // namespace encoded_audio_test
 }  // namespace animeme::media

@@ -7,7 +7,7 @@
 #include "tools/media/mux.h"
 
 namespace animeme::media {
-namespace {
+namespace extract_audio_test {
 
 class ExtractAudio : public testing::Test {
  protected:
@@ -107,5 +107,5 @@ TEST_F(ExtractAudio, SameInputGivesSameBytes) {
   EXPECT_EQ(test::read_bytes(dir_.file("a.m4a")), test::read_bytes(dir_.file("b.m4a")));
 }
 
-}  // namespace
+}  // namespace extract_audio_test
 }  // namespace animeme::media

@@ -5,7 +5,7 @@
 #include "tools/media/detail/mp4_fix.h"
 
 namespace animeme::media {
-namespace {
+namespace face_header_test {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -121,5 +121,5 @@ TEST(EsIds, BrokenBoxesArePassedOver) {
   }
 }
 
-}  // namespace
+}  // namespace face_header_test
 }  // namespace animeme::media

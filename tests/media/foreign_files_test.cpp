@@ -8,7 +8,7 @@
 #include "tools/media/mux.h"
 
 namespace animeme::media {
-namespace {
+namespace foreign_files_test {
 
 using test::Bytes;
 
@@ -228,5 +228,5 @@ TEST(ForeignTs, ALostPartLosesTheUnitUpToTheNextIntraPlane) {
   EXPECT_EQ(back->face.units[13].bytes, face.units[20].bytes);
 }
 
-}  // namespace
+}  // namespace foreign_files_test
 }  // namespace animeme::media

@@ -10,7 +10,7 @@
 #include "tools/media/mux.h"
 
 namespace animeme::media {
-namespace {
+namespace hostile_test {
 
 using test::Bytes;
 
@@ -241,5 +241,5 @@ TEST_P(HostileSegments, OneSegmentNamedOverAndOverIsRefusedInTime) {
 INSTANTIATE_TEST_SUITE_P(Kinds, HostileSegments, testing::Values(".m3u8", ".mpd"),
                          [](const auto& kind) { return std::string(kind.param + 1); });
 
-}  // namespace
+}  // namespace hostile_test
 }  // namespace animeme::media

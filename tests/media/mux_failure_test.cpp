@@ -9,7 +9,7 @@
 #include "tools/media/mux.h"
 
 namespace animeme::media {
-namespace {
+namespace mux_failure_test {
 
 class MuxFailure : public testing::Test {
  protected:
@@ -208,5 +208,5 @@ TEST_F(MuxFailure, NonsenseSamplesDoNotStopTheEncoder) {
   EXPECT_TRUE(written) << written.error().describe();
 }
 
-}  // namespace
+}  // namespace mux_failure_test
 }  // namespace animeme::media

@@ -7,7 +7,7 @@
 #include "tools/media/mux.h"
 
 namespace animeme::media {
-namespace {
+namespace mux_mp4_test {
 
 using test::Bytes;
 
@@ -236,5 +236,5 @@ TEST_F(MuxMp4, FfprobeSeesTheSame) {
   EXPECT_EQ(packets, expected);
 }
 
-}  // namespace
+}  // namespace mux_mp4_test
 }  // namespace animeme::media

@@ -7,7 +7,7 @@
 #include "tools/media/mux.h"
 
 namespace animeme::media {
-namespace {
+namespace mux_sound_test {
 
 struct Copy {
   const char* name;
@@ -162,5 +162,5 @@ TEST(MuxStop, StoppedAtOnceStillGivesAFileThatCanBeRead) {
   }
 }
 
-}  // namespace
+}  // namespace mux_sound_test
 }  // namespace animeme::media

@@ -6,7 +6,7 @@
 #include <string>
 
 namespace animeme::media {
-namespace {
+namespace picture_test {
 
 constexpr const char* kDrawing =
     "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"40\" height=\"24\">"
@@ -43,5 +43,5 @@ TEST(Picture, RefusesWhatIsNone) {
   EXPECT_FALSE(svg_to_png(std::string(kDrawing).substr(0, 100)));
 }
 
-}  // namespace
+}  // namespace picture_test
 }  // namespace animeme::media

@@ -7,7 +7,7 @@
 #include "tools/media/detail/xml_tags.h"
 
 namespace animeme::media {
-namespace {
+namespace playlist_text_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -200,5 +200,5 @@ TEST(Playlists, References) {
   }
 }
 
-}  // namespace
+}  // namespace playlist_text_test
 }  // namespace animeme::media

@@ -8,7 +8,7 @@
 #include "tools/media/mux.h"
 
 namespace animeme::media {
-namespace {
+namespace read_container_test {
 
 using test::Bytes;
 
@@ -297,5 +297,5 @@ TEST(Probe, InBandFace) {
   EXPECT_EQ(track->visual_profile, 0x61);
 }
 
-}  // namespace
+}  // namespace read_container_test
 }  // namespace animeme::media

@@ -8,7 +8,7 @@
 #include "tools/media/mux.h"
 
 namespace animeme::media {
-namespace {
+namespace round_trip_test {
 
 struct Way {
   const char* extension;
@@ -138,5 +138,5 @@ TEST_F(RoundTrip, FacesWithoutSound) {
   }
 }
 
-}  // namespace
+}  // namespace round_trip_test
 }  // namespace animeme::media

@@ -8,7 +8,7 @@
 #include "tools/media/mux.h"
 
 namespace animeme::media {
-namespace {
+namespace segments_test {
 
 namespace fs = std::filesystem;
 
@@ -235,5 +235,5 @@ TEST(SegmentsOfOthers, ThoseOfLibavformat) {
   }
 }
 
-}  // namespace
+}  // namespace segments_test
 }  // namespace animeme::media

@@ -10,7 +10,7 @@
 #include "tools/media/mux.h"
 
 namespace animeme::media {
-namespace {
+namespace systems_test {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -118,5 +118,5 @@ TEST_F(Systems, FfprobeSeesFourTracks) {
   EXPECT_THAT(said, testing::HasSubstr("LC,mp4a"));
 }
 
-}  // namespace
+}  // namespace systems_test
 }  // namespace animeme::media

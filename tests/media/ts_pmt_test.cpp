@@ -11,7 +11,7 @@
 #include "tools/media/mux.h"
 
 namespace animeme::media {
-namespace {
+namespace ts_pmt_test {
 
 using test::Bytes;
 
@@ -132,5 +132,5 @@ TEST(ProgramMap, OurFilesHaveIt) {
   EXPECT_EQ(back->face.units.size(), face.units.size());
 }
 
-}  // namespace
+}  // namespace ts_pmt_test
 }  // namespace animeme::media

@@ -13,7 +13,7 @@ extern "C" {
 #include <string>
 
 namespace animeme::media {
-namespace {
+namespace video_test {
 
 constexpr int kWidth = 96;
 constexpr int kHeight = 64;
@@ -171,5 +171,5 @@ TEST(VideoCodecFor, ExtensionsThatHoldVideo) {
   EXPECT_EQ(video_codec_for(".ts").error().code, Code::unsupported);
 }
 
-}  // namespace
+}  // namespace video_test
 }  // namespace animeme::media

@@ -4,7 +4,7 @@
 #include "tests/readers/movie_checks.h"
 
 namespace animeme::test {
-namespace {
+namespace boxes_test {
 
 using testing::Contains;
 using testing::HasSubstr;
@@ -90,5 +90,5 @@ TEST_F(BoxesFire, OnBoxesThatDoNotFit) {
   EXPECT_THAT(read_movie(BoxFile({})).errors, Contains("ftyp is not first"));
 }
 
-}  // namespace
+}  // namespace boxes_test
 }  // namespace animeme::test

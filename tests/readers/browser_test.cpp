@@ -5,7 +5,7 @@
 #include "tests/readers/talk.h"
 
 namespace animeme::test {
-namespace {
+namespace browser_test {
 
 // Chromium cuts the priming of Opus off twice where an edit list tells it, too (of any writer's
 // files, Ogg included); without, as in fragments, it is right.
@@ -95,5 +95,5 @@ TEST(Browser, PlaysTheSoundAndReadsTheFace) {
   }
 }
 
-}  // namespace
+}  // namespace browser_test
 }  // namespace animeme::test

@@ -3,7 +3,7 @@
 #include "tests/readers/talk.h"
 
 namespace animeme::test {
-namespace {
+namespace describe_test {
 
 // The first track of a type ("Video", "Audio"), null: there is none.
 Json track_of(const Json& report, const std::string& type) {
@@ -85,5 +85,5 @@ TEST_P(Describe, Mkvmerge) {
 INSTANTIATE_TEST_SUITE_P(Layouts, Describe, testing::ValuesIn(names_of(layouts())),
                          [](const auto& value) { return value.param; });
 
-}  // namespace
+}  // namespace describe_test
 }  // namespace animeme::test

@@ -2,7 +2,7 @@
 #include "tests/readers/ffprobe.h"
 
 namespace animeme::test {
-namespace {
+namespace ffprobe_test {
 
 class Ffprobe : public testing::TestWithParam<std::string> {
  protected:
@@ -42,5 +42,5 @@ TEST_P(Ffprobe, NamesTheProfile) {
 INSTANTIATE_TEST_SUITE_P(Layouts, Ffprobe, testing::ValuesIn(names_of(layouts())),
                          [](const auto& value) { return value.param; });
 
-}  // namespace
+}  // namespace ffprobe_test
 }  // namespace animeme::test

@@ -3,7 +3,7 @@
 #include "tests/readers/talk.h"
 
 namespace animeme::test {
-namespace {
+namespace gstreamer_test {
 
 struct Route {
   std::string layout;
@@ -118,5 +118,5 @@ std::vector<Route> routes() {
 INSTANTIATE_TEST_SUITE_P(Routes, GStreamer, testing::ValuesIn(routes()),
                          [](const auto& value) { return value.param.layout; });
 
-}  // namespace
+}  // namespace gstreamer_test
 }  // namespace animeme::test

@@ -17,7 +17,7 @@
 #include "tests/readers/talk.h"
 
 namespace animeme::test {
-namespace {
+namespace live_test {
 
 const std::string kProgram = "'" ANIMEME_BINARY_DIR "/bin/animeme'";
 constexpr int kRepeat = 2;  // copies of each packet, as the program sends them by itself
@@ -158,5 +158,5 @@ TEST_F(Live, TransportStreamToFfprobeGivesTheUnitsInTime) {
               port, "udp"));
 }
 
-}  // namespace
+}  // namespace live_test
 }  // namespace animeme::test

@@ -4,7 +4,7 @@
 #include "tests/readers/talk.h"
 
 namespace animeme::test {
-namespace {
+namespace player_test {
 
 class Player : public testing::TestWithParam<std::string> {
  protected:
@@ -68,5 +68,5 @@ TEST_P(SoundPlayer, Playbin) {
 INSTANTIATE_TEST_SUITE_P(SoundAlone, SoundPlayer, testing::ValuesIn(names_of(sound_layouts())),
                          [](const auto& value) { return value.param; });
 
-}  // namespace
+}  // namespace player_test
 }  // namespace animeme::test

@@ -4,7 +4,7 @@
 #include "tests/readers/talk.h"
 
 namespace animeme::test {
-namespace {
+namespace script_test {
 
 // Containers, section 1.4; bufferSizeDB and the two bit rates depend on the data.
 const std::string kFaceEsdsStart =
@@ -201,5 +201,5 @@ TEST(ScriptMp4, StartCodesInsideUnitsDoNoHarm) {
   }
 }
 
-}  // namespace
+}  // namespace script_test
 }  // namespace animeme::test

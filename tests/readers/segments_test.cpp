@@ -6,7 +6,7 @@
 #include "tests/readers/movie_checks.h"
 
 namespace animeme::test {
-namespace {
+namespace segments_test {
 
 class Segments : public testing::TestWithParam<std::string> {
  protected:
@@ -92,5 +92,5 @@ TEST_P(Segments, FfmpegPlaysTheSound) {
 INSTANTIATE_TEST_SUITE_P(Layouts, Segments, testing::ValuesIn(names_of(segment_layouts())),
                          [](const auto& value) { return value.param; });
 
-}  // namespace
+}  // namespace segments_test
 }  // namespace animeme::test

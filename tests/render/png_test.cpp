@@ -5,7 +5,7 @@
 #include "tests/support/png_reader.h"
 
 namespace animeme::test {
-namespace {
+namespace png_test {
 
 using render::Image;
 
@@ -63,5 +63,5 @@ TEST(ContactSheet, PutsPicturesSideBySide) {
   EXPECT_FALSE(render::contact_sheet(pictures, 2));
 }
 
-}  // namespace
+}  // namespace png_test
 }  // namespace animeme::test

@@ -8,7 +8,7 @@
 #include "tools/render/scene.h"
 
 namespace animeme::test {
-namespace {
+namespace raster_test {
 
 using head::Triangle;
 using head::Vec3;
@@ -153,5 +153,5 @@ TEST(Views, HaveNames) {
   EXPECT_FALSE(render::view_degrees(""));
 }
 
-}  // namespace
+}  // namespace raster_test
 }  // namespace animeme::test

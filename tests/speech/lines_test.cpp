@@ -8,7 +8,7 @@
 #include <thread>
 
 namespace animeme::speech {
-namespace {
+namespace lines_test {
 
 class Lines : public testing::Test {
  protected:
@@ -123,5 +123,5 @@ TEST(VoiceLinesOpen, AVoiceThatIsMissingIsKnownAtOnce) {
   EXPECT_THAT(opened.error().code, testing::AnyOf(Code::not_found, Code::unsupported));
 }
 
-}  // namespace
+}  // namespace lines_test
 }  // namespace animeme::speech

@@ -12,7 +12,7 @@
 #include "dam/signal/fap_signal.h"
 
 namespace animeme::speech {
-namespace {
+namespace speaker_test {
 
 using media::LiveTrack;
 using media::LiveUnit;
@@ -247,5 +247,5 @@ TEST_F(Speaker, SameLinesAtTheSameTimesGiveTheSameBytes) {
   EXPECT_EQ(first, planes);
 }
 
-}  // namespace
+}  // namespace speaker_test
 }  // namespace animeme::speech

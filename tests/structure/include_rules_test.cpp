@@ -2,72 +2,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
 
+#include "tests/structure/rooms.h"
 #include "tests/structure/rules.h"
+#include "tests/structure/tree.h"
 
 namespace animeme::test {
-namespace {
+namespace include_rules_test {
 
-namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 using Check = std::vector<std::string>(std::string_view, std::string_view);
-
-struct SourceFile {
-  std::string path;  // relative to the root
-  std::string text;
-};
-
-bool has_extension(const fs::path& path, std::initializer_list<std::string_view> extensions) {
-  return std::find(extensions.begin(), extensions.end(), path.extension().string()) !=
-         extensions.end();
-}
-
-bool is_text(const fs::path& path) {
-  return path.filename() == "run" || path.filename() == "LICENSE" ||
-         has_extension(path, {".h", ".hpp", ".cpp", ".txt", ".cmake", ".in", ".md", ".json", ".js",
-                              ".html", ".py", ".sh", ".yml", ".1"});
-}
-
-SourceFile load(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  EXPECT_TRUE(file) << path;
-  return {path.lexically_relative(ANIMEME_SOURCE_DIR).generic_string(),
-          {std::istreambuf_iterator<char>(file), {}}};
-}
-
-// All files of ours: the folders by name, so that build folders inside the tree do not count.
-const std::vector<SourceFile>& tree() {
-  static const std::vector<SourceFile> files = [] {
-    std::vector<fs::path> paths;
-    const fs::path root = ANIMEME_SOURCE_DIR;
-    for (const auto& entry : fs::directory_iterator(root)) {
-      if (entry.is_regular_file() && is_text(entry.path())) paths.push_back(entry.path());
-    }
-    for (const char* folder : {"fap", "codec", "dam", "tools", "conformance", "tests", ".ci"}) {
-      if (!fs::is_directory(root / folder)) continue;
-      for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
-        if (entry.is_regular_file() && is_text(entry.path())) paths.push_back(entry.path());
-      }
-    }
-    std::sort(paths.begin(), paths.end());
-    std::vector<SourceFile> loaded;
-    for (const fs::path& path : paths) loaded.push_back(load(path));
-    return loaded;
-  }();
-  return files;
-}
-
-bool is_code(std::string_view path) {
-  return path.ends_with(".h") || path.ends_with(".hpp") || path.ends_with(".cpp");
-}
 
 std::vector<std::string> violations(Check check, const std::function<bool(std::string_view)>& of) {
   std::vector<std::string> all;
@@ -121,6 +69,7 @@ TEST(StructureRules, LayersFire) {
   EXPECT_TRUE(broken("fap/text.cpp", "\"frame.h\""));
   EXPECT_TRUE(broken("fap/text.cpp", "\"codec/syntax/bits.h\""));
   EXPECT_TRUE(broken("fap/text.cpp", "<zlib.h>"));
+  EXPECT_TRUE(broken("fap/text.cpp", "<unistd.h>"));
   EXPECT_TRUE(broken("fap/text.cpp", "\"fap/head/model.h\""));
   EXPECT_FALSE(broken("fap/head/rig.cpp", "\"fap/head/model.h\""));
   EXPECT_FALSE(broken("fap/head/rig.cpp", "\"fap/frame.h\""));
@@ -131,16 +80,22 @@ TEST(StructureRules, LayersFire) {
   EXPECT_FALSE(broken("fap/xml/detail/document.cpp", "<libxml/parser.h>"));
   EXPECT_FALSE(broken("fap/xml/fdp.h", "\"fap/head/rig.h\""));
   EXPECT_TRUE(broken("fap/head/own_head.cpp", "\"fap/xml/fdp.h\""));
-  EXPECT_FALSE(broken("codec/bits.cpp", "\"fap/frame.h\""));
-  EXPECT_TRUE(broken("codec/bits.cpp", "\"dam/signal/signal.h\""));
-  EXPECT_TRUE(broken("codec/bits.cpp", "<Eigen/Dense>"));
+  EXPECT_FALSE(broken("codec/syntax/bits.cpp", "\"fap/frame.h\""));
+  EXPECT_TRUE(broken("codec/syntax/bits.cpp", "\"codec/decode/decoder.h\""));
+  EXPECT_FALSE(broken("codec/text/epf.cpp", "\"codec/syntax/bits.h\""));
+  EXPECT_TRUE(broken("codec/syntax/bits.cpp", "\"dam/signal/signal.h\""));
+  EXPECT_TRUE(broken("codec/syntax/bits.cpp", "<Eigen/Dense>"));
   EXPECT_FALSE(broken("dam/training/train.cpp", "<Eigen/Dense>"));
-  EXPECT_FALSE(broken("dam/solve_internal.h", "<Eigen/Dense>"));
-  EXPECT_FALSE(broken("dam/detail/solve.h", "<Eigen/Dense>"));
+  EXPECT_FALSE(broken("dam/training/solve_internal.h", "<Eigen/Dense>"));
+  EXPECT_FALSE(broken("dam/training/detail/solve.h", "<Eigen/Dense>"));
   EXPECT_TRUE(broken("dam/training/train.h", "<Eigen/Dense>"));
+  EXPECT_TRUE(broken("dam/training/train.h", "\"dam/maths/matrix.h\""));
   EXPECT_TRUE(broken("dam/training/train.cpp", "\"codec/syntax/bits.h\""));
   EXPECT_TRUE(broken("dam/training/train.cpp", "\"tools/media/pcm.h\""));
+  EXPECT_FALSE(broken("dam/training/train.cpp", "\"dam/kinds/animeme/fit.h\""));
+  EXPECT_TRUE(broken("dam/kinds/animeme/fit.cpp", "\"dam/kinds/table/table.h\""));
   EXPECT_FALSE(broken("tools/media/mux.cpp", "<libavformat/avformat.h>"));
+  EXPECT_TRUE(broken("tools/media/mux.h", "<libavformat/avformat.h>"));
   EXPECT_TRUE(broken("tools/main.cpp", "<libavformat/avformat.h>"));
   EXPECT_TRUE(broken("tools/main.cpp", "<libswscale/swscale.h>"));
   EXPECT_TRUE(broken("tools/web/web.h", "<libwebsockets.h>"));
@@ -149,16 +104,58 @@ TEST(StructureRules, LayersFire) {
   EXPECT_TRUE(broken("tools/media/speak.cpp", "<espeak-ng/speak_lib.h>"));
   EXPECT_TRUE(broken("tools/main.cpp", "<pocketsphinx.h>"));
   EXPECT_TRUE(broken("tools/main.cpp", "<Eigen/Core>"));
+  EXPECT_TRUE(broken("tools/media/mux.cpp", "<CLI/CLI.hpp>"));
+  EXPECT_TRUE(broken("codec/text/epf.cpp", "<nlohmann/json.hpp>"));
   EXPECT_TRUE(broken("tools/main.cpp", "\"tests/support/shared.h\""));
   EXPECT_FALSE(broken("conformance/run.cpp", "\"codec/decode/decoder.h\""));
   EXPECT_TRUE(broken("conformance/run.cpp", "\"dam/training/train.h\""));
   EXPECT_FALSE(broken("tests/codec/x_test.cpp", "\"dam/training/train.h\""));
+  EXPECT_TRUE(broken("tools/unheard_of/x.cpp", "\"fap/frame.h\""));
+}
+
+TEST(StructureRules, NoRowGoesRoundInCircles) {
+  // "a/b.h" for the first folder of each row; a row may be that of a file.
+  std::vector<std::string> headers;
+  for (const Room& room : kRooms) {
+    std::string first(room.folders.substr(0, room.folders.find(' ')));
+    if (first.ends_with("/*")) first.back() = 'x';
+    headers.push_back(first.ends_with(".h") ? first : first + "/x.h");
+  }
+  for (std::size_t i = 0; i < headers.size(); ++i) {
+    EXPECT_TRUE(may_include(headers[i], headers[i]));
+    for (std::size_t j = i + 1; j < headers.size(); ++j) {
+      EXPECT_FALSE(may_include(headers[i], headers[j])) << headers[i] << ' ' << headers[j];
+    }
+  }
+}
+
+TEST(StructureRules, FoldersAndPagesFire) {
+  const std::vector<std::string> tidy = {"fap/README.md", "fap/text.h", "tests/data/a.js"};
+  EXPECT_THAT(folder_violations(tidy), IsEmpty());
+  EXPECT_THAT(folder_violations({"fap/text.h", "fap/text.cpp"}),
+              ElementsAre("fap: has no README.md"));
+  EXPECT_THAT(folder_violations({"tools/viewer/js/a.js"}), ::testing::SizeIs(1));
+  EXPECT_THAT(folder_violations({"tools/unheard_of/README.md", "tools/unheard_of/a.cpp"}),
+              ElementsAre(HasSubstr("has no row")));
+  std::string page = "# fap\n\n| a | b |\n\n```\ncode\n```\n";
+  for (int line = 1; line < 60; ++line) page += "Prose.\n";
+  EXPECT_THAT(page_violations("fap/README.md", page), IsEmpty());
+  EXPECT_THAT(page_violations("fap/README.md", page + "More.\n"), ::testing::SizeIs(1));
+  EXPECT_THAT(page_violations("fap/semantics.md", page + "More.\n"), IsEmpty());
 }
 
 TEST(StructureRules, HeadersFire) {
-  EXPECT_THAT(header_violations("fap/x.h", "// Text.\n#pragma once\n"), IsEmpty());
+  EXPECT_THAT(header_violations("fap/x.h", "/// @file\n/// Text.\n#pragma once\n"), IsEmpty());
+  EXPECT_THAT(header_violations("fap/x.h", "// Text.\n#pragma once\n"),
+              ElementsAre(HasSubstr("@file")));
+  EXPECT_THAT(header_violations("fap/x.h", "/// @file\n#pragma once\n"),
+              ElementsAre(HasSubstr("@file")));
+  for (const char* internal : {"fap/detail/x.h", "fap/x_internal.h", "tests/support/x.h"}) {
+    EXPECT_THAT(header_violations(internal, "// Text.\n#pragma once\n"), IsEmpty());
+    EXPECT_THAT(header_violations(internal, "\n#pragma once\n"), ::testing::SizeIs(1));
+  }
   EXPECT_THAT(header_violations("fap/x.h", "#pragma once\n"), ::testing::SizeIs(2));
-  EXPECT_THAT(header_violations("fap/x.h", "// Text.\n#ifndef X\n"),
+  EXPECT_THAT(header_violations("fap/x.h", "/// @file\n/// Text.\n#ifndef X\n"),
               ElementsAre(HasSubstr("#pragma once")));
   EXPECT_THAT(header_violations("fap/x.cpp", ""), IsEmpty());
 }
@@ -171,5 +168,5 @@ TEST(StructureRules, PathsFire) {
   EXPECT_THAT(path_violations("tests/support/shared.h", "../shared"), IsEmpty());
 }
 
-}  // namespace
+}  // namespace include_rules_test
 }  // namespace animeme::test

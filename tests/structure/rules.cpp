@@ -1,6 +1,12 @@
 #include "tests/structure/rules.h"
 
+#include <algorithm>
 #include <cctype>
+#include <iterator>
+#include <set>
+
+#include "tests/structure/rooms.h"
+#include "tests/structure/tree.h"
 
 namespace animeme::test {
 namespace {
@@ -21,88 +27,79 @@ bool is_internal(std::string_view path) {
          contains(path, "/kinds/") || contains(path, "/maths/");
 }
 
-// <vector>, but neither <zlib.h> nor <Eigen/Dense>.
-bool is_standard(const Include& include) {
-  return !include.quoted && include.name.find_first_of("./") == std::string::npos;
+// Part of the manual that Doxygen makes.
+bool is_public(std::string_view path) {
+  return path.ends_with(".h") && !is_internal(path) && !starts_with(path, "tests/");
 }
 
-bool is_ffmpeg(std::string_view name) {
-  return starts_with(name, "libav") || starts_with(name, "libsw") || starts_with(name, "libpost");
-}
-
-bool is_voice(std::string_view name) {
-  return starts_with(name, "espeak") || starts_with(name, "speak_lib") ||
-         starts_with(name, "pocketsphinx") || starts_with(name, "sphinxbase");
-}
-
-bool is_web(std::string_view name) { return starts_with(name, "libwebsockets"); }
-
-bool is_libxml(std::string_view name) { return starts_with(name, "libxml/"); }
-
-bool is_eigen(std::string_view name) {
-  return starts_with(name, "Eigen/") || starts_with(name, "unsupported/Eigen/");
-}
-
-bool in_any(std::string_view path, std::initializer_list<std::string_view> folders) {
-  for (const std::string_view folder : folders) {
-    if (starts_with(path, folder)) return true;
+// Calls visit with each of the words of a text, until it returns true; if it did.
+template <class Visit>
+bool any_word(std::string_view text, Visit visit) {
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    if (end > 0 && visit(text.substr(0, end))) return true;
+    text.remove_prefix(std::min(end + 1, text.size()));
   }
   return false;
 }
 
-// Libraries that have one home each, whoever asks.
-std::string library_rule(std::string_view path, const Include& include) {
-  if (is_ffmpeg(include.name) && !in_any(path, {"tools/media/", "tests/media/"})) {
-    return "FFmpeg belongs to tools/media";
-  }
-  if (is_voice(include.name) && !in_any(path, {"tools/voice/", "tests/voice/"})) {
-    return "espeak and pocketsphinx belong to tools/voice";
-  }
-  if (is_web(include.name) && !in_any(path, {"tools/web/detail/"})) {
-    return "libwebsockets belongs to tools/web/detail";
-  }
-  if (is_libxml(include.name)) {
-    if (!in_any(path, {"fap/xml/"})) return "libxml2 belongs to fap/xml";
-    if (is_header(path)) return "libxml2 must not show in a header";
-  }
-  if (is_eigen(include.name)) {
-    if (!in_any(path, {"dam/", "tests/dam/", "tests/bench/"})) return "Eigen belongs to dam";
-    if (starts_with(path, "dam/") && is_header(path) && !is_internal(path)) {
-      return "Eigen must not show in a header that is installed";
+// `pattern` is a name, or "x/*".
+bool fits(std::string_view name, std::string_view pattern) {
+  return pattern.ends_with("/*") ? starts_with(name, pattern.substr(0, pattern.size() - 1))
+                                 : name == pattern;
+}
+
+const Room* room_of(std::string_view path) {
+  std::string_view folder = path.substr(0, std::min(path.rfind('/'), path.size()));
+  if (folder.ends_with("/detail")) folder.remove_suffix(7);
+  for (const Room& room : kRooms) {
+    if (any_word(room.folders, [&](std::string_view f) { return fits(folder, f) || path == f; })) {
+      return &room;
     }
   }
+  return nullptr;
+}
+
+bool reaches(const Room& room, const Room& below) {
+  if (&room == &below) return true;
+  return any_word(room.stands_on, [&](std::string_view pattern) {
+    return std::any_of(std::begin(kRooms), std::end(kRooms), [&](const Room& next) {
+      return any_word(next.folders, [&](std::string_view f) { return fits(f, pattern); }) &&
+             reaches(next, below);
+    });
+  });
+}
+
+bool is_installed(std::string_view path) {
+  const Room* room = room_of(path);
+  return is_header(path) && !is_internal(path) && room != nullptr && room->installed;
+}
+
+std::string own_rule(std::string_view path, std::string_view header) {
+  const Room* room = room_of(path);
+  if (room == nullptr) return "this folder has no row in tests/structure/rooms.h";
+  if (room_of(header) == nullptr) return "no room has this header; paths start at the root";
+  if (!may_include(path, header)) return "the room does not stand on that of";
+  if (is_installed(path) && is_internal(header)) return "an installed header shows an internal one";
   return {};
 }
 
-std::string library_folder_rule(std::string_view path, const Include& include) {
-  if (starts_with(path, "fap/")) {
-    const bool heads = in_any(path, {"fap/head/", "fap/xml/"});
-    if (!heads && starts_with(include.name, "fap/head/")) {
-      return "fap does not know its heads";
+std::string library_rule(std::string_view path, std::string_view header) {
+  if (header.find_first_of("./") == std::string::npos) return {};  // <vector>
+  for (const Library& library : kLibraries) {
+    if (!library.headers.empty() &&
+        !any_word(library.headers, [&](std::string_view h) { return starts_with(header, h); })) {
+      continue;
     }
-    if (!starts_with(path, "fap/xml/") && starts_with(include.name, "fap/xml/")) {
-      return "fap does not know its files in XML";
+    const std::string name(library.name);
+    if (!any_word(library.homes, [&](std::string_view home) {
+          return starts_with(path, home) && path.substr(home.size(), 1) == "/";
+        })) {
+      return name + " belongs to " + std::string(library.homes);
     }
-    if (is_standard(include) || (include.quoted && starts_with(include.name, "fap/"))) return {};
-    if (is_libxml(include.name)) return {};  // library_rule() knows where
-    return "fap includes only fap and the C++ library";
-  }
-  if (starts_with(path, "codec/")) {
-    const bool own = include.quoted && in_any(include.name, {"fap/", "codec/"});
-    if (own || is_standard(include)) return {};
-    return "codec includes only fap, codec and the C++ library";
-  }
-  if (starts_with(path, "dam/")) {
-    const bool own = include.quoted && in_any(include.name, {"fap/", "dam/"});
-    if (own || is_standard(include) || is_eigen(include.name)) return {};
-    return "dam includes only fap, dam, Eigen and the C++ library";
-  }
-  if (starts_with(path, "conformance/")) {
-    const bool other = include.quoted && in_any(include.name, {"dam/", "tools/", "tests/"});
-    return other ? "conformance includes only fap and codec of our own" : "";
-  }
-  if (starts_with(path, "tools/") && include.quoted && starts_with(include.name, "tests/")) {
-    return "tools do not include tests";
+    if (is_header(path) && library.sources_only) return name + " must not show in a header";
+    if (is_installed(path)) return name + " must not show in a header that is installed";
+    return {};
   }
   return {};
 }
@@ -149,13 +146,17 @@ std::vector<Include> includes_of(std::string_view text) {
   return result;
 }
 
+bool may_include(std::string_view path, std::string_view header) {
+  const Room *room = room_of(path), *other = room_of(header);
+  return room != nullptr && other != nullptr && reaches(*room, *other);
+}
+
 std::vector<std::string> include_violations(std::string_view path, std::string_view text) {
   std::vector<std::string> result;
   for (const Include& include : includes_of(text)) {
-    for (const std::string& rule :
-         {library_rule(path, include), library_folder_rule(path, include)}) {
-      if (!rule.empty()) result.push_back(at(path, include.line, rule + ": " + include.name));
-    }
+    const std::string rule =
+        include.quoted ? own_rule(path, include.name) : library_rule(path, include.name);
+    if (!rule.empty()) result.push_back(at(path, include.line, rule + ": " + include.name));
   }
   return result;
 }
@@ -163,7 +164,11 @@ std::vector<std::string> include_violations(std::string_view path, std::string_v
 std::vector<std::string> header_violations(std::string_view path, std::string_view text) {
   std::vector<std::string> result;
   if (!is_header(path)) return result;
-  if (!starts_with(text, "//") && !starts_with(text, "/*")) {
+  if (is_public(path)) {
+    if (!starts_with(text, "/// @file\n/// ")) {
+      result.push_back(at(path, 1, "a public header starts with /// @file and what it is for"));
+    }
+  } else if (!starts_with(text, "//") && !starts_with(text, "/*")) {
     result.push_back(at(path, 1, "a header starts with a comment that says what it is for"));
   }
   if (!contains(text, "\n#pragma once\n")) {
@@ -184,6 +189,38 @@ std::vector<std::string> path_violations(std::string_view path, std::string_view
       }
     }
   });
+  return result;
+}
+
+std::vector<std::string> page_violations(std::string_view path, std::string_view text) {
+  constexpr int kPage = 60;
+  if (!path.ends_with("README.md")) return {};
+  int prose = 0;
+  bool code = false;
+  for_each_line(text, [&](int, std::string_view line) {
+    const bool fence = starts_with(line, "```");
+    if (fence) code = !code;
+    prose += !fence && !code && !line.empty() && line[0] != '|' && !starts_with(line, "    ");
+  });
+  if (prose <= kPage) return {};
+  return {at(path, prose, "a README is a page; move what is longer to a page of its own")};
+}
+
+std::vector<std::string> folder_violations(const std::vector<std::string>& paths) {
+  std::vector<std::string> result;
+  std::set<std::string> seen;
+  for (const std::string& path : paths) {
+    const bool script = path.ends_with(".js") || path.ends_with(".mjs");
+    if ((!is_code(path) && !script) || starts_with(path, "tests/data/")) continue;
+    const std::string folder = path.substr(0, path.rfind('/'));
+    if (!seen.insert(folder).second) continue;
+    if (!script && room_of(path) == nullptr) {
+      result.push_back(folder + ": has no row in tests/structure/rooms.h");
+    }
+    if (std::find(paths.begin(), paths.end(), folder + "/README.md") == paths.end()) {
+      result.push_back(folder + ": has no README.md");
+    }
+  }
   return result;
 }
 

@@ -16,6 +16,7 @@
 
 #include "codec/decode/access_unit.h"
 #include "codec/encode/live.h"
+#include "tests/support/audio_formats.h"
 #include "tools/media/live/live.h"
 
 namespace animeme::test {
@@ -24,25 +25,6 @@ struct Presentation {
   media::LiveInfo info;
   std::vector<media::LiveUnit> units;  // in the order of time
 };
-
-inline media::AudioFormat aac_format() {
-  return {.codec = media::AudioCodec::aac,
-          .sample_rate = 48000,
-          .channels = 1,
-          .frame_samples = 1024,
-          .priming = 1024,
-          .config = {0x11, 0x88}};
-}
-
-inline media::AudioFormat opus_format() {
-  return {
-      .codec = media::AudioCodec::opus,
-      .sample_rate = 48000,
-      .channels = 1,
-      .frame_samples = 960,
-      .priming = 312,
-      .config = {'O', 'p', 'u', 's', 'H', 'e', 'a', 'd', 1, 1, 0x38, 1, 0x80, 0xBB, 0, 0, 0, 0, 0}};
-}
 
 /// Packets that nobody could decode, as long as the face. Transports must not care.
 inline void add_sound(Presentation& show, const media::AudioFormat& format, unsigned seed = 1) {

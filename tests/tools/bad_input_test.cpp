@@ -8,7 +8,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme {
-namespace {
+namespace bad_input_test {
 
 using test::animeme;
 using test::spill;
@@ -205,5 +205,5 @@ TEST(Usage, HelpFitsAndHasExamples) {
   EXPECT_THAT(animeme({"--version"}).out, HasSubstr("animeme 0."));
 }
 
-}  // namespace
+}  // namespace bad_input_test
 }  // namespace animeme

@@ -13,7 +13,7 @@
 #include "tests/support/program.h"
 
 namespace animeme {
-namespace {
+namespace check_test {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -439,5 +439,5 @@ TEST(Check, TheReadmeHasTheCoverageTable) {
   EXPECT_THAT(readme, HasSubstr(table)) << "put the table into conformance/README.md";
 }
 
-}  // namespace
+}  // namespace check_test
 }  // namespace animeme

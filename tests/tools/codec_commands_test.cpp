@@ -14,7 +14,7 @@
 #include "tests/support/random_clip.h"
 
 namespace animeme {
-namespace {
+namespace codec_commands_test {
 
 using test::animeme;
 using test::spill;
@@ -513,5 +513,5 @@ TEST(Stats, ActivityOfText) {
               AllOf(HasSubstr("never moves\n"), HasSubstr("= 7\n")));
 }
 
-}  // namespace
+}  // namespace codec_commands_test
 }  // namespace animeme

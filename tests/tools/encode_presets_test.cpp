@@ -11,7 +11,7 @@
 #include "tests/support/program.h"
 
 namespace animeme {
-namespace {
+namespace encode_presets_test {
 
 using test::animeme;
 using test::slurp;
@@ -445,5 +445,5 @@ TEST(EncodeErrors, NameFrameAndParameter) {
   EXPECT_EQ(dir.files().size(), 2U);
 }
 
-}  // namespace
+}  // namespace encode_presets_test
 }  // namespace animeme

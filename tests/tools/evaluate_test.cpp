@@ -9,7 +9,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme {
-namespace {
+namespace evaluate_test {
 
 using nlohmann::json;
 using test::animeme;
@@ -251,5 +251,5 @@ TEST_F(Evaluate, AnyRig) {
   EXPECT_EQ(run({dir / "rig.dam", dir / "rig", "--codec"}).exit_code, 3);
 }
 
-}  // namespace
+}  // namespace evaluate_test
 }  // namespace animeme

@@ -11,7 +11,7 @@
 #include "tests/support/program.h"
 
 namespace animeme {
-namespace {
+namespace export_test {
 
 using test::animeme;
 using test::slurp;
@@ -101,5 +101,5 @@ TEST(Export, WhatCannotBeWrittenIsSaid) {
   EXPECT_THAT(missing.err, HasSubstr("none.fap"));
 }
 
-}  // namespace
+}  // namespace export_test
 }  // namespace animeme

@@ -9,7 +9,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme {
-namespace {
+namespace gltf_head_test {
 
 using test::animeme;
 using test::slurp;
@@ -80,5 +80,5 @@ TEST(GltfHead, MistakesAreNamed) {
   EXPECT_THAT(cut.err, HasSubstr("ends too early"));
 }
 
-}  // namespace
+}  // namespace gltf_head_test
 }  // namespace animeme

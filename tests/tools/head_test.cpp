@@ -10,7 +10,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme {
-namespace {
+namespace head_test {
 
 using test::animeme;
 using test::TempDir;
@@ -110,5 +110,5 @@ TEST(HeadCommand, SaysWhatIsWrong) {
   expect({"head", dir / "head.fdp"}, 3, "head.fdp:1");
 }
 
-}  // namespace
+}  // namespace head_test
 }  // namespace animeme

@@ -7,7 +7,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme {
-namespace {
+namespace import_test {
 
 using test::animeme;
 using test::spill;
@@ -259,5 +259,5 @@ TEST(Import, RealCaptures) {
   EXPECT_EQ(files, 2);
 }
 
-}  // namespace
+}  // namespace import_test
 }  // namespace animeme

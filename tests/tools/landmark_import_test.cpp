@@ -12,7 +12,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme {
-namespace {
+namespace landmark_import_test {
 
 using test::acted;
 using test::animeme;
@@ -223,5 +223,5 @@ TEST(ImportLandmarks, BadTables) {
   }
 }
 
-}  // namespace
+}  // namespace landmark_import_test
 }  // namespace animeme

@@ -15,7 +15,7 @@
 #include "tools/gltf/read_head.h"
 
 namespace animeme {
-namespace {
+namespace lips_test {
 
 using test::animeme;
 using test::TempDir;
@@ -111,5 +111,5 @@ TEST(Lips, OfAHeadWithShapesMeetInEveryPBM) {
   expect_closures(gaps, 0.02f, "woman.glb");
 }
 
-}  // namespace
+}  // namespace lips_test
 }  // namespace animeme

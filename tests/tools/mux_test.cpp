@@ -8,7 +8,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme {
-namespace {
+namespace mux_test {
 
 using test::animeme;
 using test::TempDir;
@@ -135,5 +135,5 @@ TEST(MuxCommand, ASignalEndsTheFileInOrder) {
   }
 }
 
-}  // namespace
+}  // namespace mux_test
 }  // namespace animeme

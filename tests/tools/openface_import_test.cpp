@@ -5,7 +5,7 @@
 #include "tests/support/landmark_tables.h"
 
 namespace animeme {
-namespace {
+namespace openface_import_test {
 
 using test::animeme;
 using test::expect_faps;
@@ -68,5 +68,5 @@ TEST(ImportOpenFace, OtherCommandsReadTheSameTables) {
   EXPECT_EQ(test::slurp(dir / "a.fba"), test::slurp(dir / "b.fba"));
 }
 
-}  // namespace
+}  // namespace openface_import_test
 }  // namespace animeme

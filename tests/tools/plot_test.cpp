@@ -8,7 +8,7 @@
 #include "tests/support/program.h"
 
 namespace animeme {
-namespace {
+namespace plot_test {
 
 using test::animeme;
 using test::slurp;
@@ -130,5 +130,5 @@ TEST(Plot, UnknownFapsAreNamed) {
   }
 }
 
-}  // namespace
+}  // namespace plot_test
 }  // namespace animeme

@@ -9,7 +9,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme {
-namespace {
+namespace render_test {
 
 using test::animeme;
 using test::Bytes;
@@ -136,5 +136,5 @@ TEST(Render, SaysWhatIsWrong) {
   EXPECT_TRUE(dir.files().empty());
 }
 
-}  // namespace
+}  // namespace render_test
 }  // namespace animeme

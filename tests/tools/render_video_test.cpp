@@ -9,7 +9,7 @@
 #include "tests/support/program.h"
 
 namespace animeme {
-namespace {
+namespace render_video_test {
 
 using nlohmann::json;
 using test::animeme;
@@ -134,5 +134,5 @@ TEST(RenderVideo, WhatCannotBeIsSaid) {
   EXPECT_EQ(preview.exit_code, 2);
 }
 
-}  // namespace
+}  // namespace render_video_test
 }  // namespace animeme

@@ -13,7 +13,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme {
-namespace {
+namespace speak_test {
 
 using test::animeme;
 using test::TempDir;
@@ -315,5 +315,5 @@ TEST(Follow, GivesTheCurvesOfTheWholeScript) {
   EXPECT_THAT(bad.err, HasSubstr("QQ"));
 }
 
-}  // namespace
+}  // namespace speak_test
 }  // namespace animeme

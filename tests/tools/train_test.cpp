@@ -10,7 +10,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme {
-namespace {
+namespace train_test {
 
 using nlohmann::json;
 using test::animeme;
@@ -165,5 +165,5 @@ TEST_F(TrainParts, OptionsThatDoNotGoTogether) {
   }
 }
 
-}  // namespace
+}  // namespace train_test
 }  // namespace animeme

@@ -4,7 +4,7 @@
 #include "tests/support/program.h"
 
 namespace animeme::test {
-namespace {
+namespace view_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -98,5 +98,5 @@ TEST(ViewCommand, SaysWhatIsWrong) {
   EXPECT_EQ(dir.files().size(), 0u);
 }
 
-}  // namespace
+}  // namespace view_test
 }  // namespace animeme::test

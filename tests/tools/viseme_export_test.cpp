@@ -12,7 +12,7 @@
 #include "tests/support/program.h"
 
 namespace animeme {
-namespace {
+namespace viseme_export_test {
 
 using nlohmann::json;
 using test::animeme;
@@ -221,5 +221,5 @@ TEST(ExportVisemes, HelpNamesTheAvatars) {
                                 HasSubstr("animeme export words.tsv")));
 }
 
-}  // namespace
+}  // namespace viseme_export_test
 }  // namespace animeme

@@ -15,7 +15,7 @@
 #include "tests/support/shared.h"
 
 namespace animeme {
-namespace {
+namespace viseme_table_test {
 
 // Sums of the poses of the phones of each viseme, by FAP, and the number of their examples.
 struct Sums {
@@ -113,5 +113,5 @@ TEST(VisemeTable, LipsAreRead) {
   }
 }
 
-}  // namespace
+}  // namespace viseme_table_test
 }  // namespace animeme

@@ -11,7 +11,7 @@
 #include "tools/viewer/detail/bytes.h"
 
 namespace animeme::test {
-namespace {
+namespace page_test {
 
 std::vector<head::Vec3> read_vertices(const std::string& path) {
   const Bytes bytes = read_bytes(path);
@@ -286,5 +286,5 @@ TEST(Page, HeadTakesValuesFromElsewhere) {
   EXPECT_EQ(next, report["result"].size());
 }
 
-}  // namespace
+}  // namespace page_test
 }  // namespace animeme::test

@@ -7,7 +7,7 @@
 #include "tests/readers/scripts.h"
 
 namespace animeme::test {
-namespace {
+namespace stretch_test {
 
 TEST(Stretch, KeepsPitchLevelAndPlace) {
   if (!has_node()) GTEST_SKIP() << "node 18 or later is not installed (Debian package nodejs)";
@@ -39,5 +39,5 @@ TEST(Stretch, JoinsTheEndsOfALoop) {
   EXPECT_NEAR(loop["bursts"][1].get<double>(), 3, 0.02);
 }
 
-}  // namespace
+}  // namespace stretch_test
 }  // namespace animeme::test

@@ -16,7 +16,7 @@
 #include "tools/voice/voice.h"
 
 namespace animeme::voice {
-namespace {
+namespace align_test {
 
 using testing::HasSubstr;
 
@@ -248,5 +248,5 @@ TEST(Align, HostileSamples) {
   EXPECT_TRUE(dam::check_script(aligned->script));
 }
 
-}  // namespace
+}  // namespace align_test
 }  // namespace animeme::voice

@@ -6,7 +6,7 @@
 #include "tools/voice/voice_events.h"
 
 namespace animeme::voice {
-namespace {
+namespace events_test {
 
 constexpr int kRate = 1000;  // a sample is a millisecond
 
@@ -109,5 +109,5 @@ TEST(VoiceChoice, NamesTheNearest) {
   EXPECT_FALSE(choose_voice(std::string(100000, '-'), lists));
 }
 
-}  // namespace
+}  // namespace events_test
 }  // namespace animeme::voice

@@ -11,7 +11,7 @@
 #include "dam/script/phones.h"
 
 namespace animeme::voice {
-namespace {
+namespace voice_test {
 
 using testing::HasSubstr;
 
@@ -283,5 +283,5 @@ TEST(Pronounce, WordsOneByOne) {
   EXPECT_THAT((*words)[1], testing::ElementsAre("SH", "UW"));
 }
 
-}  // namespace
+}  // namespace voice_test
 }  // namespace animeme::voice

@@ -16,7 +16,7 @@
 #include "tools/web/web.h"
 
 namespace animeme::test {
-namespace {
+namespace http_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -266,5 +266,5 @@ TEST_F(Http, TheTalkIsAnMp4) {
   }
 }
 
-}  // namespace
+}  // namespace http_test
 }  // namespace animeme::test

@@ -9,7 +9,7 @@
 #include "tools/web/detail/messages.h"
 
 namespace animeme::test {
-namespace {
+namespace hub_test {
 
 using web::Channel;
 using web::Hub;
@@ -110,5 +110,5 @@ TEST(Hub, TheStalledAreFound) {
   EXPECT_EQ(hub.clients(), 0u);
 }
 
-}  // namespace
+}  // namespace hub_test
 }  // namespace animeme::test

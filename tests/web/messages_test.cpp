@@ -14,7 +14,7 @@
 #include "tools/web/detail/values.h"
 
 namespace animeme::test {
-namespace {
+namespace messages_test {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -140,5 +140,5 @@ TEST(AudioSegments, DamageIsFound) {
   }
 }
 
-}  // namespace
+}  // namespace messages_test
 }  // namespace animeme::test

@@ -20,7 +20,7 @@
 #include "tools/web/web.h"
 
 namespace animeme::test {
-namespace {
+namespace page_test {
 
 using Json = nlohmann::json;
 
@@ -273,5 +273,5 @@ TEST_P(PageOnce, ShowsAHead) {
 INSTANTIATE_TEST_SUITE_P(Aac, PageOnce, ::testing::Values(media::AudioCodec::aac),
                          [](const auto& each) { return media::name_of(each.param); });
 
-}  // namespace
+}  // namespace page_test
 }  // namespace animeme::test

@@ -6,7 +6,7 @@
 #include "tools/web/web.h"
 
 namespace animeme::test {
-namespace {
+namespace web_live_test {
 
 using media::LiveTrack;
 using media::LiveUnit;
@@ -179,5 +179,5 @@ TEST(WebLive, TheSinkRefusesWhatItCannotSend) {
   EXPECT_EQ((*sink)->send(show.units[0]).error().code, Code::invalid_argument);
 }
 
-}  // namespace
+}  // namespace web_live_test
 }  // namespace animeme::test

@@ -10,7 +10,7 @@
 #include "tests/head/head_support.h"
 
 namespace animeme::test {
-namespace {
+namespace fdp_player_test {
 
 const head::FdpFiles& child_files() {
   static const head::FdpFiles files =
@@ -112,5 +112,5 @@ TEST(FdpPlayer, TheXmlIsAsItsLoaderWantsIt) {
   }
 }
 
-}  // namespace
+}  // namespace fdp_player_test
 }  // namespace animeme::test

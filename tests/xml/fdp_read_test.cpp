@@ -9,7 +9,7 @@
 #include "tests/xml/deltas.h"
 
 namespace animeme::test {
-namespace {
+namespace fdp_read_test {
 
 using head::Source;
 using head::Vec3;
@@ -187,5 +187,5 @@ TEST(FdpRead, BombsAreRefused) {
   EXPECT_EQ(head::read_fdp(deep, load_data).error().code, Code::out_of_range);
 }
 
-}  // namespace
+}  // namespace fdp_read_test
 }  // namespace animeme::test

@@ -11,7 +11,7 @@
 #include "tests/xml/fdp_measure.h"
 
 namespace animeme::test {
-namespace {
+namespace fdp_test {
 
 using head::FdpFiles;
 using head::Head;
@@ -211,5 +211,5 @@ TEST(FdpWrite, SaysWhyItCannot) {
   EXPECT_EQ(head::write_fdp(fine, rig).error().code, Code::out_of_range);
 }
 
-}  // namespace
+}  // namespace fdp_test
 }  // namespace animeme::test

@@ -10,7 +10,7 @@
 #include "tests/xml/deltas.h"
 
 namespace animeme::test {
-namespace {
+namespace xmt_test {
 
 using head::Head;
 using head::Part;
@@ -239,5 +239,5 @@ TEST(XmtWrite, SaysWhyItCannot) {
   EXPECT_THAT(no_points.error().message, HasSubstr("no feature points"));
 }
 
-}  // namespace
+}  // namespace xmt_test
 }  // namespace animeme::test

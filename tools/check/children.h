@@ -1,5 +1,6 @@
-// Child processes that run side by side, each with its own time limit: programs, or functions of
-// ours in a forked copy, so that nothing a child does can end the parent.
+/// @file
+/// Child processes that run side by side, each with its own time limit: programs, or functions of
+/// ours in a forked copy, so that nothing a child does can end the parent.
 #pragma once
 
 #include <sys/types.h>
@@ -16,22 +17,25 @@ namespace animeme::tools {
 
 /// What a child is to do: run `arguments`, or call `work` if there are none.
 struct ChildJob {
-  std::vector<std::string> arguments;
-  std::function<int()> work;  ///< its value is the exit code
-  std::string out, err;       ///< files for standard output and standard error
+  std::vector<std::string> arguments;  ///< program and arguments; empty: `work`
+  std::function<int()> work;           ///< its value is the exit code
+  std::string out,                     ///< empty: thrown away
+      err;                             ///< likewise
 };
 
 /// How a child ended.
 struct ChildEnd {
+  /// Three ways to end.
   enum class How : std::uint8_t { exited, crashed, timed_out };
-  How how = How::exited;
-  int code = 0;  ///< exit code, or the number of the signal
-  double seconds = 0;
+  How how = How::exited;  ///< which of them
+  int code = 0;           ///< exit code, or the number of the signal
+  double seconds = 0;     ///< wall clock
 };
 
 /// Some children at once. Not thread safe, and no other thread may run: it forks.
 class Children {
  public:
+  /// `timeout_seconds` for each child.
   explicit Children(double timeout_seconds) : timeout_(timeout_seconds) {}
   Children(const Children&) = delete;
   Children& operator=(const Children&) = delete;
@@ -41,11 +45,13 @@ class Children {
   /// Starts one. Its standard input is empty, its files may have 256 MB each, and it leaves no core
   /// file. `id` comes back from wait(). Errors, io: it cannot be started.
   Result<void> start(std::size_t id, const ChildJob& job);
+  /// Started and not yet given out by wait().
   std::size_t running() const { return running_.size(); }
 
+  /// A child that has ended.
   struct Finished {
-    std::size_t id = 0;
-    ChildEnd end;
+    std::size_t id = 0;  ///< as given to start()
+    ChildEnd end;        ///< how
   };
   /// Waits until one has ended or was stopped at its time limit, with all the children that it had
   /// itself. running() must not be 0.

@@ -1,4 +1,5 @@
-// The coded values of a clip, face or body alike, and how two clips of them compare.
+/// @file
+/// The coded values of a clip, face or body alike, and how two clips of them compare.
 #pragma once
 
 #include <cstdint>
@@ -14,30 +15,32 @@ namespace animeme::tools {
 /// One frame: values by key, ascending. The key of FAP or BAP n is 8n, plus the component for FAP 1
 /// and 2, see key_name().
 struct CodedFrame {
-  std::int64_t number = 0;
-  std::vector<std::pair<int, std::int64_t>> values;
+  std::int64_t number = 0;                           ///< running number at the clip's rate
+  std::vector<std::pair<int, std::int64_t>> values;  ///< ascending keys
 };
 
+/// Either kind of motion in one form.
 struct CodedClip {
-  bool body = false;
-  fap::Rate rate;
-  std::vector<CodedFrame> frames;
+  bool body = false;               ///< keys are those of BAPs
+  fap::Rate rate;                  ///< frames a second
+  std::vector<CodedFrame> frames;  ///< ascending numbers
 };
-CodedClip coded_values(const fap::Sequence& clip);
-CodedClip coded_values(const fba::BodySequence& clip);
+CodedClip coded_values(const fap::Sequence& clip);      ///< values of present FAPs
+CodedClip coded_values(const fba::BodySequence& clip);  ///< values of present BAPs
 
 /// "FAP 5 raise_b_midlip", "FAP 1 viseme_blend", "BAP 17".
 std::string key_name(bool body, int key);
 
 /// The first place where a coded value is not right.
 struct FirstDifference {
-  std::int64_t frame = -1;  ///< frame number in the expected clip
-  std::string parameter;    ///< key_name()
-  std::int64_t expected = 0;
-  bool missing = false;  ///< nothing was there instead of the wrong value
-  std::int64_t got = 0;
+  std::int64_t frame = -1;    ///< frame number in the expected clip
+  std::string parameter;      ///< key_name()
+  std::int64_t expected = 0;  ///< value of the case
+  bool missing = false;       ///< nothing was there instead of the wrong value
+  std::int64_t got = 0;       ///< value of the decoder, unless missing
 };
 
+/// How two clips agree.
 struct Comparison {
   bool right = false;  ///< every coded value is there and right
   bool exact = false;  ///< and nothing else: masks, numbers and the rate too

@@ -1,4 +1,5 @@
-// A foreign program given as a command line with places for files.
+/// @file
+/// A foreign program given as a command line with places for files.
 #pragma once
 
 #include <map>
@@ -13,9 +14,9 @@ namespace animeme::tools {
 /// A command line cut into arguments. {in}, {out} and {bap} stand for files, alone or inside an
 /// argument; other braces are left alone.
 struct CommandTemplate {
-  std::vector<std::string> arguments;
-  bool names_out = false;  ///< without {out}, standard output is the FAP text
-  bool names_bap = false;
+  std::vector<std::string> arguments;  ///< program first
+  bool names_out = false;              ///< without {out}, standard output is the FAP text
+  bool names_bap = false;              ///< {bap} occurs
 };
 
 /// Cuts a line at blanks. 'single' and "double" quotes keep blanks together, \ takes the next

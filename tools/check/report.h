@@ -1,4 +1,5 @@
-// The results of a run, for people and for programs.
+/// @file
+/// The results of a run, for people and for programs.
 #pragma once
 
 #include <map>
@@ -11,12 +12,16 @@ namespace animeme::tools {
 
 /// How many cases had each verdict, and so on.
 struct Tally {
-  std::size_t cases = 0, right = 0, skipped = 0, bad_data = 0;
-  std::size_t parameters = 0, encoded_again = 0;  ///< cases with an EPF; written byte for byte
-  std::map<Verdict, std::size_t> verdicts;
-  bool all_right() const { return right + skipped == cases; }
+  std::size_t cases = 0,                                       ///< all
+      right = 0,                                               ///< with a right verdict
+      skipped = 0,                                             ///< not asked
+      bad_data = 0;                                            ///< damaged suite
+  std::size_t parameters = 0,                                  ///< with an EPF
+      encoded_again = 0;                                       ///< written byte for byte
+  std::map<Verdict, std::size_t> verdicts;                     ///< how many of each
+  bool all_right() const { return right + skipped == cases; }  ///< nothing is left that went wrong
 };
-Tally tally(const std::vector<CaseResult>& results);
+Tally tally(const std::vector<CaseResult>& results);  ///< counts the results of a run
 
 /// A table by family of features, the cases that are not right, and a closing line.
 std::string text_report(const std::vector<CaseResult>& results, bool own);

@@ -1,4 +1,5 @@
-// Runs a suite of cases against this decoder or a foreign one.
+/// @file
+/// Runs a suite of cases against this decoder or a foreign one.
 #pragma once
 
 #include <functional>
@@ -13,6 +14,7 @@
 
 namespace animeme::tools {
 
+/// What a decoder made of a case.
 enum class Verdict : std::uint8_t {
   exact,     ///< masks, frame numbers, rate and values
   values,    ///< every coded value, but more than that, or other numbers
@@ -26,24 +28,27 @@ enum class Verdict : std::uint8_t {
   skipped,   ///< it cannot be asked: a body, and the command has no {bap}
   bad_data,  ///< a file of the case is missing or was changed
 };
-const char* verdict_name(Verdict verdict);
+const char* verdict_name(Verdict verdict);  ///< as in reports
 /// exact, values, ignored and stopped.
 bool is_right(Verdict verdict);
 
+/// One case after it was run.
 struct CaseResult {
-  const SuiteCase* one = nullptr;
-  Verdict verdict = Verdict::skipped;
-  std::string detail;  ///< one sentence without a full stop, may be empty
-  FirstDifference difference;
-  bool encoded_again = false;  ///< the byte-exact check of the encoder was made and passed
-  ChildEnd end;
+  const SuiteCase* one = nullptr;      ///< borrowed from the suite
+  Verdict verdict = Verdict::skipped;  ///< what came of it
+  std::string detail;                  ///< one sentence without a full stop, may be empty
+  FirstDifference difference;          ///< if values are wrong
+  bool encoded_again = false;          ///< the byte-exact check of the encoder was made and passed
+  ChildEnd end;                        ///< of the foreign program
 };
 
+/// How a suite is run.
 struct RunOptions {
   std::optional<CommandTemplate> command;  ///< empty: this decoder
   bool encode = true;                      ///< this codec: write the streams again, too
-  double timeout_seconds = 10;
-  std::size_t jobs = 1;  ///< cases at once
+  double timeout_seconds = 10;             ///< for each child
+  std::size_t jobs = 1;                    ///< cases at once
+  /// Called as each case ends.
   std::function<void(std::size_t done, const std::string& name)> progress;
 };
 

@@ -1,4 +1,5 @@
-// A folder of conformance cases.
+/// @file
+/// A folder of conformance cases.
 #pragma once
 
 #include <filesystem>
@@ -17,11 +18,12 @@ class ScratchFolder {
  public:
   /// Errors: io.
   static Result<std::unique_ptr<ScratchFolder>> make();
+  /// Takes over a folder that exists.
   explicit ScratchFolder(std::filesystem::path path) : path_(std::move(path)) {}
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
   ~ScratchFolder();
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const { return path_; }  ///< removed by the destructor
 
  private:
   std::filesystem::path path_;
@@ -29,15 +31,17 @@ class ScratchFolder {
 
 /// A case and where its files are.
 struct SuiteCase {
-  conformance::Case info;
+  conformance::Case info;                             ///< case.json
   std::map<std::string, std::filesystem::path> path;  ///< by role
   std::string problem;    ///< not empty: a file is missing or not the one of case.json
   bool described = true;  ///< false: there is no case.json, the names of the files say it all
 };
 
+/// All cases of a place.
 struct Suite {
-  std::string name;
+  std::string name;              ///< for reports
   std::vector<SuiteCase> cases;  ///< by name
+  /// Folders of archives, as long as the suite lives.
   std::vector<std::unique_ptr<ScratchFolder>> unpacked;
 };
 

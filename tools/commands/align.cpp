@@ -11,14 +11,14 @@ namespace animeme::tools {
 
 namespace {
 
-struct Options {
+struct AlignOptions {
   std::string audio;
   std::string transcript;
   std::string language = "en";
   std::string output;
 };
 
-Result<int> run(const Options& options) {
+Result<int> run(const AlignOptions& options) {
   const std::string extension = extension_of(options.output);
   if (extension != ".textgrid" && extension != ".tsv" && options.output != "-") {
     return usage_error("--output must end in .TextGrid or .tsv, not " + options.output);
@@ -33,8 +33,8 @@ Result<int> run(const Options& options) {
   return kOk;
 }
 
-Action add(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+Action add_align(CLI::App& app) {
+  auto options = std::make_shared<AlignOptions>();
   app.add_option("--audio", options->audio, "Recorded voice in any format that FFmpeg reads")
       ->required();
   app.add_option("--transcript", options->transcript, "What is said in it")->required();
@@ -50,6 +50,6 @@ const Command kAlign{"align", "Find the timed phones of a recording from its tex
                      "  animeme align --audio voice.wav --transcript \"what she said\" "
                      "-o voice.TextGrid\n"
                      "  animeme align --audio voice.mp3 --transcript \"what she said\" -o - -q",
-                     add};
+                     add_align};
 
 }  // namespace animeme::tools

@@ -1,4 +1,5 @@
-// Tables of ARKit blend shapes: Live Link Face recordings and corpus curves.
+/// @file
+/// Tables of ARKit blend shapes: Live Link Face recordings and corpus curves.
 #pragma once
 
 #include <optional>
@@ -12,6 +13,7 @@
 
 namespace animeme::tools {
 
+/// What the user says of a table.
 struct ArkitCsvOptions {
   std::optional<fap::Rate> rate;  ///< nothing: told from the times
   bool degrees = false;           ///< the angles of head and eyes are degrees, not radians

@@ -9,7 +9,7 @@ namespace animeme::tools {
 
 namespace {
 
-std::string number_text(double value) {
+std::string fixed_text(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.6f", value == 0 ? 0.0 : value);  // no "-0"
   return text;
@@ -40,7 +40,7 @@ std::string live_link_csv(const ArkitCurves& curves) {
   text += "\n";
   for (std::size_t i = 0; i < curves.frames.size(); ++i) {
     text += timecode(i, curves.rate) + "," + std::to_string(fap::kArkitChannelCount);
-    for (const double value : curves.frames[i]) text += "," + number_text(value);
+    for (const double value : curves.frames[i]) text += "," + fixed_text(value);
     text += "\n";
   }
   return text;
@@ -60,7 +60,7 @@ std::string arkit_json(const ArkitCurves& curves, std::string_view audio) {
   for (std::size_t i = 0; i < curves.frames.size(); ++i) {
     text += i == 0 ? "\n  [" : ",\n  [";
     for (std::size_t c = 0; c < curves.frames[i].size(); ++c) {
-      text += (c == 0 ? "" : ", ") + number_text(curves.frames[i][c]);
+      text += (c == 0 ? "" : ", ") + fixed_text(curves.frames[i][c]);
     }
     text += "]";
   }

@@ -1,4 +1,5 @@
-// ARKit curves as other programs read them.
+/// @file
+/// ARKit curves as other programs read them.
 #pragma once
 
 #include <string>
@@ -12,8 +13,8 @@ namespace animeme::tools {
 
 /// One frame after the other, from time 0.
 struct ArkitCurves {
-  fap::Rate rate;
-  std::vector<fap::ArkitFrame> frames;
+  fap::Rate rate;                       ///< frames a second
+  std::vector<fap::ArkitFrame> frames;  ///< one after the other
 };
 
 /// The table that Live Link Face writes: Timecode (hh:mm:ss:ff.fff, frames of the next whole

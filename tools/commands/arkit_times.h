@@ -1,4 +1,5 @@
-// Times of a recording: frame rate and frame numbers from what its rows say.
+/// @file
+/// Times of a recording: frame rate and frame numbers from what its rows say.
 #pragma once
 
 #include <cstdint>
@@ -14,17 +15,18 @@ namespace animeme::tools {
 
 /// The time of a row: whole and broken seconds, and timecode frames if it is a timecode.
 struct TimeField {
-  double seconds = 0;
+  double seconds = 0;            ///< whole seconds, or all of the time if `frames` is nothing
   std::optional<double> frames;  ///< 0 <= frames < timecode frames a second
 };
 
 /// "hh:mm:ss:ff", "hh:mm:ss:ff.fff", "hh:mm:ss.mmm" or seconds; nothing if it is none of these.
 std::optional<TimeField> parse_time(std::string_view field);
 
+/// When rows are.
 struct Timing {
-  fap::Rate rate;
-  std::vector<double> positions;  ///< of each row, in frames after the first
-  std::vector<std::string> warnings;
+  fap::Rate rate;                     ///< frames a second of the clip
+  std::vector<double> positions;      ///< of each row, in frames after the first
+  std::vector<std::string> warnings;  ///< one sentence each
 };
 
 /// Rate (see arkit_csv.h) and positions. Timecodes that pass midnight go on. `times` is not empty.

@@ -13,7 +13,7 @@ namespace animeme::tools {
 
 namespace {
 
-struct Options {
+struct CheckOptions {
   std::string place;
   std::string decoder;
   std::string json;
@@ -44,7 +44,7 @@ bool is_chosen(const SuiteCase& one, const std::vector<std::string>& filters) {
   return false;
 }
 
-Result<int> run(const Options& options) {
+Result<int> run(const CheckOptions& options) {
   if (options.json == "-" && options.junit == "-") {
     return usage_error("--json and --junit cannot both go to standard output");
   }
@@ -102,8 +102,8 @@ Result<int> run(const Options& options) {
   return sum.all_right() ? kOk : kCheckFailed;
 }
 
-Action add(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+Action add_check(CLI::App& app) {
+  auto options = std::make_shared<CheckOptions>();
   app.add_option("place", options->place,
                  "Folder of cases (conformance), a .tar.xz of them, or a folder of X.fba with "
                  "X.dec.fap or X.dec.bap")
@@ -138,6 +138,6 @@ const Command kCheck{"check",
                      "  animeme check conformance --decoder \"mydecoder {in} {out} {bap}\"\n"
                      "  animeme check conformance --decoder \"mydecoder --fap {in}\" --filter "
                      "'range*' --json results.json",
-                     add};
+                     add_check};
 
 }  // namespace animeme::tools

@@ -1,4 +1,5 @@
-// What tables of curves from other programs have in common: names, separators, times of rows.
+/// @file
+/// What tables of curves from other programs have in common: names, separators, times of rows.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +15,7 @@
 
 namespace animeme::tools {
 
-std::string lower_case(std::string_view text);
+std::string lower_case(std::string_view text);  ///< of ASCII letters
 
 /// Of comma, semicolon and tab the one that a header line has most of.
 char separator_of(std::string_view header);
@@ -27,7 +28,7 @@ std::string list_of_names(const std::vector<std::string>& names);
 
 /// Where the rows of a table stand in the clip.
 struct PlacedRows {
-  fap::Rate rate;
+  fap::Rate rate;  ///< frames a second of the clip
   /// Frame number of each row; nothing: the next row falls on the same frame and counts instead.
   std::vector<std::optional<std::int64_t>> numbers;
 };

@@ -1,4 +1,5 @@
-// Curves as a table, one column a control: what train reads and speak and follow write.
+/// @file
+/// Curves as a table, one column a control: what train reads and speak and follow write.
 #pragma once
 
 #include <cstddef>

@@ -10,14 +10,14 @@ namespace animeme::tools {
 
 namespace {
 
-struct Options {
+struct DecodeOptions {
   std::string input;
   std::string output;
   std::string bap;
   bool fill = false;
 };
 
-Result<std::string> face_text(MotionInput& input, const Options& options) {
+Result<std::string> face_text(MotionInput& input, const DecodeOptions& options) {
   if (input.face.frames.empty() && !input.body.frames.empty()) {
     const char* remedy = options.bap.empty() ? "write the body with --bap in place of -o"
                                              : "leave out -o, --bap alone writes the body";
@@ -37,7 +37,7 @@ Result<std::string> face_text(MotionInput& input, const Options& options) {
   return fap::write_text(input.face);
 }
 
-Result<std::string> body_text(const MotionInput& input, const Options& options) {
+Result<std::string> body_text(const MotionInput& input, const DecodeOptions& options) {
   if (input.body.frames.empty()) {
     return make_error(Code::not_found, "there is no body in this: leave out --bap")
         .in_file(options.input);
@@ -45,7 +45,7 @@ Result<std::string> body_text(const MotionInput& input, const Options& options) 
   return fba::write_bap_text(input.body);
 }
 
-Result<int> run(const Options& options) {
+Result<int> run(const DecodeOptions& options) {
   if (options.output.empty() && options.bap.empty()) {
     return usage_error("nothing to write: name a FAP text with -o, a BAP text with --bap, or both");
   }
@@ -83,8 +83,8 @@ Result<int> run(const Options& options) {
   return kOk;
 }
 
-Action add(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+Action add_decode(CLI::App& app) {
+  auto options = std::make_shared<DecodeOptions>();
   app.add_option("input", options->input, "FBA stream, or an mp4, mkv or ts file with one")
       ->required();
   app.add_option("-o,--output", options->output, "FAP text to write, - for standard output");
@@ -102,6 +102,6 @@ const Command kDecode{"decode",
                       "  animeme decode talk.mp4 -o talk.fap\n"
                       "  animeme decode dance.fba -o face.fap --bap body.bap\n"
                       "  animeme decode talk.fba --fill -o - | head -4",
-                      add};
+                      add_decode};
 
 }  // namespace animeme::tools

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct DemuxOptions {
   std::string input;
   std::string face;
   std::string audio;
@@ -21,7 +21,7 @@ struct Options {
   bool json = false;
 };
 
-Result<Json> write_face(const Options& options) {
+Result<Json> write_face(const DemuxOptions& options) {
   Result<media::Container> container = media::read_container(options.input);
   if (!container) return container.error().in_file(options.input);
   for (const std::string& text : container->warnings) warn(options.input + ": " + text);
@@ -41,7 +41,7 @@ Result<Json> write_face(const Options& options) {
               {"warnings", container->warnings}};
 }
 
-Result<int> run(const Options& options) {
+Result<int> run(const DemuxOptions& options) {
   if (options.face.empty() && options.audio.empty()) {
     return usage_error("nothing to do: give --face, --audio or both");
   }
@@ -67,8 +67,8 @@ Result<int> run(const Options& options) {
   return kOk;
 }
 
-Action add(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+Action add_demux(CLI::App& app) {
+  auto options = std::make_shared<DemuxOptions>();
   app.add_option("input", options->input, "mp4, mkv, ts, m3u8 or mpd file with a face")->required();
   app.add_option("--face", options->face, "Raw FBA stream to write, - for standard output");
   app.add_option("--audio", options->audio, "Sound to write: .wav, or .m4a and others as it is");
@@ -84,6 +84,6 @@ const Command kDemux{"demux", "Take face and voice out of a file",
                      "  animeme demux talk.mp4 --face talk.fba --audio voice.m4a\n"
                      "  animeme demux talk.m3u8 --audio voice.wav\n"
                      "  animeme demux talk.mkv --face - | animeme decode - -o talk.fap",
-                     add};
+                     add_demux};
 
 }  // namespace animeme::tools

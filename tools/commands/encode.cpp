@@ -12,6 +12,7 @@
 #include "codec/text/epf.h"
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
+#include "tools/text.h"
 
 namespace animeme::tools {
 
@@ -21,7 +22,7 @@ enum class Preset : std::uint8_t { plain, file, live, exact };
 
 constexpr int kLiveIntraPeriod = 50;
 
-struct Options {
+struct EncodeOptions {
   std::string input;
   std::string bap;
   std::string output;
@@ -51,7 +52,7 @@ struct Material {
   fba::BodySequence body;
 };
 
-Result<Material> read_material(const Options& options) {
+Result<Material> read_material(const EncodeOptions& options) {
   Material material;
   if (!options.input.empty()) {
     Result<MotionInput> input = read_motion(options.input, FrameNumbers::keep);
@@ -92,7 +93,7 @@ Result<void> check_material(const Material& material, const std::vector<fba::Epf
   return {};
 }
 
-Result<Bytes> encode_by_epf(const Options& options) {
+Result<Bytes> encode_by_epf(const EncodeOptions& options) {
   Result<std::string> text = read_text_file(options.epf);
   if (!text) return text.error();
   Result<std::vector<fba::EpfPlane>> planes = fba::read_epf(*text);
@@ -107,7 +108,7 @@ Result<Bytes> encode_by_epf(const Options& options) {
 }
 
 // Face and body of one stream have one rate.
-Result<Material> read_clip(const Options& options) {
+Result<Material> read_clip(const EncodeOptions& options) {
   Result<Material> material = read_material(options);
   if (!material) return material;
   if (material->face.frames.empty()) {
@@ -122,7 +123,7 @@ Result<Material> read_clip(const Options& options) {
   return material;
 }
 
-Result<Bytes> encode_clip(const Options& options, fba::EncodeReport& report) {
+Result<Bytes> encode_clip(const EncodeOptions& options, fba::EncodeReport& report) {
   Result<Material> material = read_clip(options);
   if (!material) return material.error();
   fba::EncodeOptions settings;
@@ -140,7 +141,7 @@ Result<Bytes> encode_clip(const Options& options, fba::EncodeReport& report) {
 }
 
 // Frame by frame, as a sender would that does not know what is to come.
-Result<Bytes> encode_live(const Options& options) {
+Result<Bytes> encode_live(const EncodeOptions& options) {
   Result<Material> material = read_clip(options);
   if (!material) return material.error();
   fba::LiveOptions settings;
@@ -200,16 +201,14 @@ Outcome count(const Bytes& bytes) {
   return outcome;
 }
 
-void tell(const Options& options, const Bytes& bytes, const fba::EncodeReport& report) {
+void tell(const EncodeOptions& options, const Bytes& bytes, const fba::EncodeReport& report) {
   const Outcome outcome = count(bytes);
-  char text[240];
-  std::snprintf(text, sizeof text, ": %zu planes, %zu bytes, %.2f kbit/s", outcome.planes,
-                bytes.size(), outcome.kbps);
-  std::string line = name_of_output(options.output) + text;
+  std::string line =
+      name_of_output(options.output) +
+      format(": %zu planes, %zu bytes, %.2f kbit/s", outcome.planes, bytes.size(), outcome.kbps);
   if (report.planes > 0) {
-    std::snprintf(text, sizeof text, "; fap_quant %d, error %.2f FAP units RMS, %zu coded",
-                  report.fap_quant, report.rms, report.coded);
-    line += text;
+    line += format("; fap_quant %d, error %.2f FAP units RMS, %zu coded", report.fap_quant,
+                   report.rms, report.coded);
     const auto add = [&line](std::size_t number, const char* what) {
       if (number > 0) line += ", " + std::to_string(number) + what;
     };
@@ -220,9 +219,8 @@ void tell(const Options& options, const Bytes& bytes, const fba::EncodeReport& r
   }
   say(line);
   if (options.kbps > 0 && outcome.kbps > options.kbps * 1.001) {
-    std::snprintf(text, sizeof text, "%.2f kbit/s is the least that this clip needs, %.2f asked",
-                  outcome.kbps, options.kbps);
-    warn(text);
+    warn(format("%.2f kbit/s is the least that this clip needs, %.2f asked", outcome.kbps,
+                options.kbps));
   }
   if (!options.json) return;
   nlohmann::ordered_json json = {{"planes", outcome.planes},
@@ -243,8 +241,8 @@ void tell(const Options& options, const Bytes& bytes, const fba::EncodeReport& r
   std::printf("%s\n", json.dump(2).c_str());
 }
 
-// Options that the preset has no use for.
-const char* contradiction(const Options& options, Preset preset) {
+// EncodeOptions that the preset has no use for.
+const char* contradiction(const EncodeOptions& options, Preset preset) {
   if (options.input.empty() && options.bap.empty()) {
     return "nothing to code: name a FAP text, or a BAP text with --bap";
   }
@@ -272,8 +270,8 @@ const char* contradiction(const Options& options, Preset preset) {
   return nullptr;
 }
 
-Result<int> run(const Options& given) {
-  Options options = given;
+Result<int> run(const EncodeOptions& given) {
+  EncodeOptions options = given;
   if (!options.preset) options.preset = options.epf.empty() ? Preset::plain : Preset::exact;
   if (const char* text = contradiction(options, *options.preset)) return usage_error(text);
   fba::EncodeReport report;
@@ -289,8 +287,8 @@ Result<int> run(const Options& given) {
   return kOk;
 }
 
-Action add(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+Action add_encode(CLI::App& app) {
+  auto options = std::make_shared<EncodeOptions>();
   app.add_option("input", options->input, "FAP text (also .fba or a container, to code it anew)");
   app.add_option("--bap", options->bap, "BAP text (or a stream) with the body");
   app.add_option("-o,--output", options->output, "FBA stream to write, - for standard output")
@@ -348,6 +346,6 @@ const Command kEncode{
     "  animeme encode talk.fap --quant 4 --intra-period 50 --plane-start-codes intra -o talk.fba\n"
     "  animeme encode talk.fap --epf talk.epf -o talk.fba\n"
     "  animeme encode face.fap --bap body.bap -o both.fba",
-    add};
+    add_encode};
 
 }  // namespace animeme::tools

@@ -19,7 +19,7 @@ namespace animeme::tools {
 
 namespace {
 
-struct Options {
+struct EvaluateOptions {
   std::string system;  // with --tracks alone: the corpus
   std::string tracks;
   CorpusSettings corpus;
@@ -91,7 +91,7 @@ Result<std::vector<dam::Utterance>> read_recordings(const CorpusSettings& corpus
   return std::move(read->utterances);
 }
 
-Result<dam::SeenContexts> read_seen(const Options& options, const CorpusSettings& corpus) {
+Result<dam::SeenContexts> read_seen(const EvaluateOptions& options, const CorpusSettings& corpus) {
   if (options.seen_split.empty()) return dam::SeenContexts();
   CorpusSettings settings = corpus;
   settings.split = options.seen_split;
@@ -114,7 +114,7 @@ std::vector<dam::Control> common_scale(const std::vector<dam::Control>& a,
   return common;
 }
 
-Result<void> compare_systems(const Options& options, const CorpusSettings& corpus,
+Result<void> compare_systems(const EvaluateOptions& options, const CorpusSettings& corpus,
                              const std::vector<dam::SentencePair>& pairs,
                              const dam::EvaluateOptions& evaluate,
                              inspect::EvaluationReport& report) {
@@ -150,7 +150,8 @@ bool has_gap(const dam::Evaluation& result) {
 }
 
 // What the thresholds have to say; each is off below 0. One that cannot be told has failed.
-std::vector<std::string> failed_checks(const Options& options, const dam::Evaluation& result) {
+std::vector<std::string> failed_checks(const EvaluateOptions& options,
+                                       const dam::Evaluation& result) {
   std::vector<std::string> failed;
   const auto fail = [&](const char* pattern, double value, double limit) {
     failed.push_back(tools::format(pattern, value, limit));
@@ -173,7 +174,8 @@ std::vector<std::string> failed_checks(const Options& options, const dam::Evalua
   return failed;
 }
 
-Result<inspect::EvaluationReport> evaluate_all(const Options& options, const CorpusSettings& corpus,
+Result<inspect::EvaluationReport> evaluate_all(const EvaluateOptions& options,
+                                               const CorpusSettings& corpus,
                                                const std::string& path) {
   Result<System> system = open_system(path, !options.tracks.empty());
   if (!system) return system.error();
@@ -216,7 +218,7 @@ Result<inspect::EvaluationReport> evaluate_all(const Options& options, const Cor
   return report;
 }
 
-Result<int> run(const Options& options) {
+Result<int> run(const EvaluateOptions& options) {
   CorpusSettings corpus = options.corpus;
   std::string path = options.system;
   if (!options.tracks.empty() && corpus.folder.empty()) {
@@ -241,7 +243,7 @@ Result<int> run(const Options& options) {
   return failed.empty() ? kOk : kCheckFailed;
 }
 
-void add_thresholds(CLI::App& app, Options& options) {
+void add_thresholds(CLI::App& app, EvaluateOptions& options) {
   app.add_option("--max-nrmse", options.max_nrmse, "Exit code 1 if the mean NRMSE is above this")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--min-closed", options.min_closed,
@@ -252,8 +254,8 @@ void add_thresholds(CLI::App& app, Options& options) {
       ->check(CLI::NonNegativeNumber);
 }
 
-Action add(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+Action add_evaluate(CLI::App& app) {
+  auto options = std::make_shared<EvaluateOptions>();
   app.add_option("model", options->system, "Model file, or 'builtin'")->required();
   app.add_option("corpus", options->corpus.folder, "Corpus folder, see train");
   app.add_option("--tracks", options->tracks,
@@ -291,6 +293,6 @@ const Command kEvaluate{
     "  animeme evaluate a.dam grid_s1 --split test --against b.dam\n"
     "  animeme evaluate --tracks theirs grid_s1 --split test --json\n"
     "  animeme evaluate a.dam grid_s1 --split test --codec --kbps 2 --max-nrmse 0.6",
-    add};
+    add_evaluate};
 
 }  // namespace animeme::tools

@@ -15,7 +15,7 @@ namespace animeme::tools {
 
 namespace {
 
-struct Options {
+struct ExportOptions {
   std::string input;
   std::string output;
   std::string audio;
@@ -28,8 +28,8 @@ struct Options {
   std::vector<const CLI::Option*> of_heads;    // for .glb alone
 };
 
-// Options that were given for nothing, in a sentence; empty: there are none.
-std::string idle_options(const Options& options, const std::string& what, bool from_script) {
+// ExportOptions that were given for nothing, in a sentence; empty: there are none.
+std::string idle_options(const ExportOptions& options, const std::string& what, bool from_script) {
   const auto given = [](const std::vector<const CLI::Option*>& list) {
     for (const CLI::Option* option : list) {
       if (option->count() > 0) return option->get_name();
@@ -46,7 +46,7 @@ std::string idle_options(const Options& options, const std::string& what, bool f
 }
 
 // What a name like talk.visemes.json asks for.
-std::string what_of(const Options& options, bool from_script) {
+std::string what_of(const ExportOptions& options, bool from_script) {
   if (!options.what.empty()) return options.what;
   const std::string extension = extension_of(options.output);
   const std::string inner = extension_of(std::filesystem::path(options.output).stem().string());
@@ -80,7 +80,7 @@ ArkitCurves to_arkit(const fap::Sequence& clip) {
   return curves;
 }
 
-Result<fap::Sequence> read_filled(const Options& options, std::vector<std::uint8_t> bytes,
+Result<fap::Sequence> read_filled(const ExportOptions& options, std::vector<std::uint8_t> bytes,
                                   bool keep_high_level) {
   Result<FaceInput> input = parse_face(std::move(bytes), options.input);
   if (!input) return input.error();
@@ -92,7 +92,7 @@ Result<fap::Sequence> read_filled(const Options& options, std::vector<std::uint8
   return filled;
 }
 
-Result<int> write_arkit(const Options& options, std::vector<std::uint8_t> bytes) {
+Result<int> write_arkit(const ExportOptions& options, std::vector<std::uint8_t> bytes) {
   const Result<fap::Sequence> clip = read_filled(options, std::move(bytes), false);
   if (!clip) return clip.error();
   const ArkitCurves curves = to_arkit(*clip);
@@ -105,7 +105,7 @@ Result<int> write_arkit(const Options& options, std::vector<std::uint8_t> bytes)
   return kOk;
 }
 
-Result<int> write_head(const Options& options, std::vector<std::uint8_t> bytes) {
+Result<int> write_head(const ExportOptions& options, std::vector<std::uint8_t> bytes) {
   const Result<fap::Sequence> clip = read_filled(options, std::move(bytes), false);
   if (!clip) return clip.error();
   GlbExport settings = options.glb;
@@ -123,7 +123,7 @@ Result<std::vector<VisemeEvent>> events_of_script(const std::string& text,
   return script_events(*script);
 }
 
-Result<VisemeTrack> track_of(const Options& options, std::vector<std::uint8_t> bytes,
+Result<VisemeTrack> track_of(const ExportOptions& options, std::vector<std::uint8_t> bytes,
                              bool from_script, const fap::Rate& rate) {
   if (from_script) {
     auto events = events_of_script({bytes.begin(), bytes.end()}, options.input);
@@ -142,7 +142,8 @@ Result<VisemeTrack> track_of(const Options& options, std::vector<std::uint8_t> b
   return track;
 }
 
-Result<int> write_visemes(const Options& options, const std::string& what, VisemeTrack track) {
+Result<int> write_visemes(const ExportOptions& options, const std::string& what,
+                          VisemeTrack track) {
   const std::string sound = std::filesystem::path(options.audio).filename().string();
   const bool json = extension_of(options.output) == ".json";
   std::string text;
@@ -162,7 +163,7 @@ Result<int> write_visemes(const Options& options, const std::string& what, Visem
   return kOk;
 }
 
-Result<int> run(const Options& options) {
+Result<int> run(const ExportOptions& options) {
   const Result<fap::Rate> rate = fap::parse_rate(options.rate);
   if (!rate || !rate->valid()) {
     return usage_error("--rate: '" + options.rate + "' is no frame rate; write 30 or 29.97");
@@ -211,8 +212,8 @@ void add_glb_options(CLI::App& app, GlbExport& glb) {
                "glb: normals of the morph targets, for players that do not compute them");
 }
 
-Action add(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+Action add_export(CLI::App& app) {
+  auto options = std::make_shared<ExportOptions>();
   app.add_option("input", options->input,
                  "FAP text, FBA stream or container; for visemes also a phoneme script (TSV, "
                  "TextGrid)")
@@ -266,6 +267,6 @@ const Command kExport{
     "  const frame = track.frames[Math.min(Math.floor(t * track.fps), track.frames.length - 1)];\n"
     "  track.names.forEach((name, i) =>\n"
     "    mesh.morphTargetInfluences[mesh.morphTargetDictionary[name]] = frame[i]);",
-    add};
+    add_export};
 
 }  // namespace animeme::tools

@@ -1,4 +1,5 @@
-// `animeme export` to glTF: a head that plays the clip.
+/// @file
+/// `animeme export` to glTF: a head that plays the clip.
 #pragma once
 
 #include <string>
@@ -9,11 +10,12 @@
 
 namespace animeme::tools {
 
+/// What the user asks of `export` to .glb.
 struct GlbExport {
   studio::HeadChoice head;
   std::string morphs = "arkit";  ///< or "fap"
   std::string audio;             ///< name to mention; may be empty
-  bool normals = false;
+  bool normals = false;          ///< write normals, too
 };
 
 /// Writes a .glb with progress and says so. Errors: those of gltf::make_glb(); io.

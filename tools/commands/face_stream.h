@@ -1,4 +1,5 @@
-// From a clip or stream to access units and media files, for speak and mux.
+/// @file
+/// From a clip or stream to access units and media files, for speak and mux.
 #pragma once
 
 #include <string>
@@ -12,7 +13,7 @@ namespace animeme::tools {
 
 /// How a face is coded for a container.
 struct StreamSettings {
-  int quant = 1;
+  int quant = 1;             ///< fap_quant
   double rms = 0;            ///< > 0: fewest bits at this error, see fba::EncodeOptions::max_rms
   double kbps = 0;           ///< > 0: smallest error at this rate
   double intra_seconds = 5;  ///< random access points of containers; raw streams have one

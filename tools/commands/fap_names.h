@@ -1,4 +1,5 @@
-// FAPs as people name them on the command line.
+/// @file
+/// FAPs as people name them on the command line.
 #pragma once
 
 #include <string>

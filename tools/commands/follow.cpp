@@ -16,7 +16,7 @@ namespace animeme::tools {
 
 namespace {
 
-struct Options {
+struct FollowOptions {
   std::string model;
   std::string rate = "25";
   double style = 1;
@@ -60,7 +60,7 @@ Error broken() {
   return make_error(Code::io, "the curves cannot be written: nobody reads standard output");
 }
 
-Result<int> run(const Options& options) {
+Result<int> run(const FollowOptions& options) {
   Result<fap::Rate> rate = fap::parse_rate(options.rate);
   if (!rate) return usage_error("--rate " + options.rate + ": " + rate.error().message);
   Result<dam::Model> model = speech::read_model(options.model);
@@ -89,8 +89,8 @@ Result<int> run(const Options& options) {
   return kOk;
 }
 
-Action add(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+Action add_follow(CLI::App& app) {
+  auto options = std::make_shared<FollowOptions>();
   app.add_option("--model", options->model, "Model file of a character; default: the built-in one");
   app.add_option("--rate", options->rate, "Frames a second: 25, 29.97, 60 ...")
       ->capture_default_str();
@@ -110,6 +110,6 @@ const Command kFollow{
     "follow", "Speak while the phones are still coming: timed phones in, curves out, line by line",
     "  my_tts --phones | animeme follow --model me.dam | my_player\n"
     "  printf '0 0.3 SIL\\n0.3 0.42 HH\\n0.42 0.6 AY\\n' | animeme follow --look-ahead 0.1",
-    add};
+    add_follow};
 
 }  // namespace animeme::tools

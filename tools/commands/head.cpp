@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct HeadOptions {
   studio::HeadChoice head;
   std::string output;
   bool json = false;
@@ -175,7 +175,7 @@ constexpr struct Writer {
                 {".glb", write_glb},
                 {".obj", write_obj}};
 
-Result<int> run(const Options& options) {
+Result<int> run(const HeadOptions& options) {
   if (const std::string problem = studio::problem_of(options.head); !problem.empty()) {
     return usage_error(problem);
   }
@@ -202,8 +202,8 @@ Result<int> run(const Options& options) {
   return kOk;
 }
 
-Action add(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+Action add_head(CLI::App& app) {
+  auto options = std::make_shared<HeadOptions>();
   app.add_option("head", options->head.head, kHeadHelp)->capture_default_str();
   app.add_option("--points", options->head.points, kPointsHelp);
   app.add_option(
@@ -230,6 +230,6 @@ const Command kHead{
     "chin 2.1 and 2.10, the nose 9.1-9.3 and 9.15, cheeks 5.1-5.4; further points\n"
     "make it better. Show the head with --head me.obj --points landmarks.csv in\n"
     "render, view and export.",
-    add};
+    add_head};
 
 }  // namespace animeme::tools

@@ -1,4 +1,5 @@
-// The options of commands that show a head.
+/// @file
+/// The options of commands that show a head.
 #pragma once
 
 #include "tools/studio/head_file.h"

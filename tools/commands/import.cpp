@@ -13,7 +13,7 @@ namespace animeme::tools {
 
 namespace {
 
-struct Options {
+struct ImportOptions {
   std::string input;
   std::string output;
   std::string rate;
@@ -25,7 +25,7 @@ struct Options {
   bool for_landmarks = false;  // an option was given that only landmarks know
 };
 
-Result<LandmarkImport> read_table(const Options& options, std::optional<fap::Rate> rate,
+Result<LandmarkImport> read_table(const ImportOptions& options, std::optional<fap::Rate> rate,
                                   const std::string& text, std::vector<std::string>& warnings) {
   if (options.for_landmarks || is_landmark_csv(text)) {
     LandmarkImportOptions settings = options.landmarks;
@@ -65,7 +65,7 @@ std::string wrong_output(const std::string& path) {
   return {};
 }
 
-Result<int> run(Options options) {
+Result<int> run(ImportOptions options) {
   std::optional<fap::Rate> given_rate;
   if (!options.rate.empty()) {
     const Result<fap::Rate> rate = fap::parse_rate(options.rate);
@@ -111,7 +111,7 @@ Result<int> run(Options options) {
   return kOk;
 }
 
-void add_landmark_options(CLI::App& app, Options& options) {
+void add_landmark_options(CLI::App& app, ImportOptions& options) {
   const char* group = "Landmarks";
   const auto seen = [&options](const std::string&) { options.for_landmarks = true; };
   const auto add = [&](CLI::Option* option) { option->group(group)->each(seen); };
@@ -145,8 +145,8 @@ void add_landmark_options(CLI::App& app, Options& options) {
        "The picture was mirrored, as selfie cameras do: swap left and right");
 }
 
-Action add(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+Action add_import(CLI::App& app) {
+  auto options = std::make_shared<ImportOptions>();
   app.add_option("input", options->input,
                  "Table (CSV) of ARKit blend shapes: of Live Link Face, or time_s and one column a "
                  "shape; or of landmarks: of OpenFace, 68 points (x_0, y_0 or landmark_0_x ...), "
@@ -171,6 +171,6 @@ const Command kImport{"import", "Turn a captured face (ARKit curves, landmarks) 
                       "  animeme import openface.csv -o take.fap\n"
                       "  animeme import openface.csv --flat --neutral 0.5-1.2s -o take.fap\n"
                       "  animeme import mediapipe.csv --size 1280x720 --mirrored -o take.fap",
-                      add};
+                      add_import};
 
 }  // namespace animeme::tools

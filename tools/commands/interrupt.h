@@ -1,8 +1,9 @@
-// Ctrl-C while something is being written or sent.
-//
-//     Interrupt interrupt;
-//     while (!Interrupt::requested()) ...
-//     if (Interrupt::requested()) return kInterrupted;
+/// @file
+/// Ctrl-C while something is being written or sent.
+///
+///     Interrupt interrupt;
+///     while (!Interrupt::requested()) ...
+///     if (Interrupt::requested()) return kInterrupted;
 #pragma once
 
 namespace animeme::tools {

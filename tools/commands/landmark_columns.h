@@ -1,4 +1,5 @@
-// The header line of a table of landmarks: which column is which coordinate of which point.
+/// @file
+/// The header line of a table of landmarks: which column is which coordinate of which point.
 #pragma once
 
 #include <array>
@@ -20,22 +21,28 @@ using Fields3 = std::array<Field, 3>;  ///< x, y, z
 
 /// A feature point, as the mean of one or two landmarks.
 struct PointFields {
-  std::string point;  ///< id, see fap/landmarks.h
-  std::vector<Fields3> landmarks;
+  std::string point;               ///< id, see fap/landmarks.h
+  std::vector<Fields3> landmarks;  ///< whose mean it is, one or two
 };
 
+/// Which column is what.
 struct LandmarkColumns {
-  char separator = ',';
-  std::vector<std::string> names;  ///< of all fields
-  std::vector<PointFields> points;
-  bool depth = false;          ///< all of `points` have z
-  bool may_be_shares = false;  ///< x and y may be shares of the picture's size (MediaPipe)
-  Field time, frame, face, confidence, success;
+  char separator = ',';             ///< comma, semicolon or tab
+  std::vector<std::string> names;   ///< of all fields
+  std::vector<PointFields> points;  ///< found in the header
+  bool depth = false;               ///< all of `points` have z
+  bool may_be_shares = false;       ///< x and y may be shares of the picture's size (MediaPipe)
+  Field time,                       ///< s or a timecode
+      frame,                        ///< of the recording
+      face,                         ///< face_id
+      confidence,                   ///< 0..1
+      success;                      ///< 0 or 1
   Fields3 pose;                     ///< OpenFace: pose_Rx, Ry, Rz
   std::array<Fields3, 2> gaze;      ///< OpenFace: gaze_0 (the person's right eye), gaze_1
   std::array<Field, 2> gaze_angle;  ///< OpenFace: gaze_angle_x, gaze_angle_y
 };
 
+/// What the user says of the columns.
 struct LandmarkColumnOptions {
   std::optional<fap::LandmarkLayout> layout;  ///< nothing: told by the number of points
   bool flat = false;                          ///< leave out what is known of depth

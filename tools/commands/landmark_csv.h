@@ -1,4 +1,5 @@
-// Tables of tracked landmarks of a face: OpenFace, dlib, MediaPipe, feature points.
+/// @file
+/// Tables of tracked landmarks of a face: OpenFace, dlib, MediaPipe, feature points.
 #pragma once
 
 #include <optional>
@@ -14,11 +15,13 @@
 
 namespace animeme::tools {
 
+/// Of the video that was tracked.
 struct PictureSize {
-  double width = 0;
-  double height = 0;
+  double width = 0;   ///< pixels
+  double height = 0;  ///< pixels
 };
 
+/// What the user says of a table.
 struct LandmarkCsvOptions {
   std::optional<fap::Rate> rate;    ///< nothing: told from the times
   LandmarkColumnOptions columns;    ///< see landmark_columns.h

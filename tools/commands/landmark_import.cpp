@@ -59,7 +59,7 @@ Result<std::vector<std::size_t>> neutral_frames(const fap::LandmarkTrack& track,
                         std::to_string(track.frames.back().number));
 }
 
-std::string number_text(double value) {
+std::string rounded_text(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.4g", value);
   return text;
@@ -72,9 +72,9 @@ std::string talk_of(const fap::LandmarkTrack& track, const fap::LandmarkFace& fa
       (given ? "given" : "found") + " in " + std::to_string(frames.size()) +
       (frames.size() == 1 ? " frame, " : " frames, ") + std::to_string(frames.front());
   if (frames.size() > 1) text += " to " + std::to_string(frames.back());
-  return text + "; its units: IRISD " + number_text(face.fapu.irisd) + ", ES " +
-         number_text(face.fapu.es) + ", ENS " + number_text(face.fapu.ens) + ", MNS " +
-         number_text(face.fapu.mns) + ", MW " + number_text(face.fapu.mw);
+  return text + "; its units: IRISD " + rounded_text(face.fapu.irisd) + ", ES " +
+         rounded_text(face.fapu.es) + ", ENS " + rounded_text(face.fapu.ens) + ", MNS " +
+         rounded_text(face.fapu.mns) + ", MW " + rounded_text(face.fapu.mw);
 }
 
 }  // namespace
@@ -94,7 +94,7 @@ Result<LandmarkImport> import_landmarks(std::string_view text, const LandmarkImp
   }
   if (face->head_error > kShakyHead) {
     warnings.push_back("points that should keep their place on the head are off by " +
-                       number_text(100 * face->head_error) +
+                       rounded_text(100 * face->head_error) +
                        " % of the distance of the eyes: the tracking is poor, or the head turns in "
                        "a picture without depth");
   }

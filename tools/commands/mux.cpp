@@ -15,7 +15,7 @@ namespace animeme::tools {
 
 namespace {
 
-struct Options {
+struct MuxOptions {
   std::string face;
   std::string audio;
   std::string output;
@@ -26,7 +26,7 @@ struct Options {
 };
 
 // A face out of a container keeps its times, which its planes alone would not tell.
-Result<fba::AccessUnits> read_units(const Options& options) {
+Result<fba::AccessUnits> read_units(const MuxOptions& options) {
   Result<std::vector<std::uint8_t>> bytes = read_file(options.face);
   if (!bytes) return bytes.error();
   if (kind_of(*bytes) == FileKind::media) {
@@ -41,7 +41,7 @@ Result<fba::AccessUnits> read_units(const Options& options) {
   return access_units(*face, options.stream);
 }
 
-Result<speech::SoundInput> sound_of(const Options& options) {
+Result<speech::SoundInput> sound_of(const MuxOptions& options) {
   speech::SoundInput sound;
   if (options.sound.codec == "copy") {
     Result<media::EncodedAudio> coded = media::read_encoded_audio(options.audio);
@@ -55,7 +55,7 @@ Result<speech::SoundInput> sound_of(const Options& options) {
   return sound;
 }
 
-Result<int> run(Options options) {
+Result<int> run(MuxOptions options) {
   Result<fba::AccessUnits> units = read_units(options);
   if (!units) return units.error().in_file(options.face);
   const Result<speech::SoundInput> sound = sound_of(options);
@@ -75,8 +75,8 @@ Result<int> run(Options options) {
   return write_preview(options.preview, *units, input);
 }
 
-Action add(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+Action add_mux(CLI::App& app) {
+  auto options = std::make_shared<MuxOptions>();
   app.add_option("face", options->face, "FAP text, FBA stream, or a container with a face")
       ->required();
   app.add_option("audio", options->audio, "Sound in any format that FFmpeg reads")->required();
@@ -110,6 +110,6 @@ const Command kMux{"mux", "Put a face and a voice into one file",
                    "  animeme mux talk.fba voice.wav --fragment-seconds 4 -o talk.m3u8\n"
                    "  animeme mux talk.fba voice.wav --systems -o scene.mp4\n"
                    "  animeme mux talk.fba voice.wav -o talk.mp4 --preview talk.preview.mp4",
-                   add};
+                   add_mux};
 
 }  // namespace animeme::tools

@@ -14,7 +14,7 @@ namespace animeme::tools {
 
 namespace {
 
-struct Options {
+struct PlotOptions {
   std::string a;
   std::string b;
   std::string output;
@@ -25,7 +25,7 @@ struct Options {
   double to = -1;
 };
 
-Result<int> run(const Options& options) {
+Result<int> run(const PlotOptions& options) {
   const Result<std::vector<int>> faps = fap_numbers(options.faps);
   if (!faps) return usage_error("--faps: " + faps.error().message);
   if (!plot::is_drawing(options.output)) {
@@ -81,8 +81,8 @@ Result<int> run(const Options& options) {
   return kOk;
 }
 
-Action add(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+Action add_plot(CLI::App& app) {
+  auto options = std::make_shared<PlotOptions>();
   app.add_option("a", options->a, "FAP text, FBA stream or container (blue line)")->required();
   app.add_option("b", options->b, "A second one to compare with (orange, dashed)");
   app.add_option("-o,--output", options->output,
@@ -108,6 +108,6 @@ const Command kPlot{"plot", "Curves of one clip or two as a picture",
                     "-o curves.svg\n"
                     "  animeme plot talk.fap talk.fba --difference --faps open_jaw,raise_b_midlip "
                     "-o loss.png",
-                    add};
+                    add_plot};
 
 }  // namespace animeme::tools

@@ -1,4 +1,5 @@
-// Films that commands write: with progress, and a line about each.
+/// @file
+/// Films that commands write: with progress, and a line about each.
 #pragma once
 
 #include <string>

@@ -19,7 +19,7 @@ namespace {
 constexpr double kSlice = 0.1;  // seconds: Ctrl-C and the timers are looked after so often
 constexpr std::size_t kMostIntervals = 100'000;
 
-struct Options {
+struct ReceiveOptions {
   std::string source;
   std::string output;
   live::SourceOptions receive;
@@ -40,7 +40,7 @@ media::GapRule rule_of(const std::string& name) {
 /// One reception from the first packet to the last.
 class Reception {
  public:
-  Reception(const Options& options, media::LiveSource& source)
+  Reception(const ReceiveOptions& options, media::LiveSource& source)
       : options_(options),
         source_(source),
         recorder_({.duration = options.duration, .keep = !live::is_fap_output(options.output)}),
@@ -60,7 +60,7 @@ class Reception {
   Result<void> take(media::LiveEvent event);
   void look(double now);
 
-  const Options& options_;
+  const ReceiveOptions& options_;
   media::LiveSource& source_;
   media::Recorder recorder_;
   live::FapOutput text_;
@@ -129,7 +129,7 @@ void Reception::report() {
   std::printf("%s\n", live::receive_json(recorder_, source_.stats(), intervals_).c_str());
 }
 
-Error nothing_came(const Options& options, const Reception& reception) {
+Error nothing_came(const ReceiveOptions& options, const Reception& reception) {
   if (!reception.heard()) {
     return make_error(Code::not_found,
                       "nothing came: is the sender running, and are address and port the same?")
@@ -141,7 +141,7 @@ Error nothing_came(const Options& options, const Reception& reception) {
       .in_file(options.source);
 }
 
-Result<int> run(const Options& options) {
+Result<int> run(const ReceiveOptions& options) {
   if (!live::is_fap_output(options.output) && !live::is_container_output(options.output) &&
       extension_of(options.output) != ".fba") {
     return usage_error("--output must end in .fap, .fba, .mp4, .mkv or .ts, or be -, not " +
@@ -173,8 +173,8 @@ Result<int> run(const Options& options) {
   return Interrupt::requested() ? kInterrupted : kOk;
 }
 
-Action add(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+Action add_receive(CLI::App& app) {
+  auto options = std::make_shared<ReceiveOptions>();
   app.add_option("source", options->source,
                  "Session description (.sdp) or address: rtp://host:port, udp://host:port, "
                  "srt://host:port, ws://host:port")
@@ -219,6 +219,6 @@ const Command kReceive{
     "  animeme receive talk.sdp -o - --fill | my_avatar\n"
     "Ends when the sender says goodbye, at --duration, after --timeout, or at Ctrl-C (exit code "
     "130);\nwhat was received till then is written whole.",
-    add};
+    add_receive};
 
 }  // namespace animeme::tools

@@ -22,7 +22,7 @@ namespace {
 constexpr int kLargestPicture = 8192;  // pixels a side, a whole sheet
 constexpr int kMostPictures = 400;
 
-struct Options {
+struct RenderOptions {
   std::string input;
   std::string output;
   std::string shapes;
@@ -66,7 +66,7 @@ struct Plan {
   studio::HeadLook look;
 };
 
-Result<Plan> make_plan(const Options& options) {
+Result<Plan> make_plan(const RenderOptions& options) {
   Plan plan;
   const auto size = parse_pair(options.size, kLargestPicture);
   if (!size) return make_error(Code::invalid_argument, "--size is WIDTHxHEIGHT, such as 640x640");
@@ -97,7 +97,8 @@ Result<Plan> make_plan(const Options& options) {
   return plan;
 }
 
-Result<std::vector<studio::ShownFrame>> choose_frames(const Options& options, const Plan& plan) {
+Result<std::vector<studio::ShownFrame>> choose_frames(const RenderOptions& options,
+                                                      const Plan& plan) {
   if (!options.shapes.empty()) return studio::shape_frames(options.shapes);
   Result<FaceInput> input = read_face(options.input);
   if (!input) return input.error();
@@ -125,7 +126,7 @@ Result<std::vector<std::uint8_t>> draw(const Plan& plan,
 }
 
 // The sound of the video, copied where the file takes it; nothing where the face has none.
-Result<std::optional<speech::SoundInput>> sound_of(const Options& options) {
+Result<std::optional<speech::SoundInput>> sound_of(const RenderOptions& options) {
   const bool own = options.audio.empty();
   const bool only_opus = media::usual_codec(options.output) == media::AudioCodec::opus;
   Result<speech::SoundInput> sound = speech::read_sound(
@@ -139,7 +140,7 @@ Result<std::optional<speech::SoundInput>> sound_of(const Options& options) {
   return std::optional<speech::SoundInput>();
 }
 
-Result<int> render_video(const Options& options, const Plan& plan) {
+Result<int> render_video(const RenderOptions& options, const Plan& plan) {
   studio::FilmOptions preview{
       .look = plan.look, .quality = options.quality, .audio_bit_rate = options.audio_bit_rate};
   if (!options.rate.empty()) {
@@ -175,7 +176,7 @@ int columns_for(std::size_t pictures) {
   return columns;
 }
 
-Result<int> run(const Options& options) {
+Result<int> run(const RenderOptions& options) {
   if (options.input.empty() == options.shapes.empty()) {
     return usage_error("give a file to show, or --shapes visemes or expressions");
   }
@@ -201,8 +202,8 @@ Result<int> run(const Options& options) {
   return kOk;
 }
 
-Action add(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+Action add_render(CLI::App& app) {
+  auto options = std::make_shared<RenderOptions>();
   app.add_option("input", options->input, "FAP text, FBA stream, container or table of curves");
   app.add_option(
          "-o,--output", options->output,
@@ -257,6 +258,6 @@ const Command kRender{"render", "Videos and pictures of a face",
                       "  animeme render talk.mp4 --sheet 4x3 --head man --view three-quarter "
                       "-o sheet.png\n"
                       "  animeme render --shapes visemes --size 200x200 -o visemes.png",
-                      add};
+                      add_render};
 
 }  // namespace animeme::tools

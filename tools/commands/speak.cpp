@@ -16,12 +16,13 @@
 #include "tools/commands/face_stream.h"
 #include "tools/commands/preview.h"
 #include "tools/commands/spoken_options.h"
+#include "tools/text.h"
 
 namespace animeme::tools {
 
 namespace {
 
-struct Options {
+struct SpeakOptions {
   speech::SpokenOptions spoken;
   std::string output;
   std::string preview;
@@ -67,7 +68,7 @@ Result<fap::Sequence> to_clip(const dam::Signal& signal) {
       "the controls of this model are no FAPs; write them as curves with -o NAME.csv");
 }
 
-Result<int> write_result(const Options& options, const fap::Sequence& clip,
+Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
                          const speech::Spoken& spoken) {
   const std::string extension = extension_of(options.output);
   if (extension == ".fap") {
@@ -80,11 +81,9 @@ Result<int> write_result(const Options& options, const fap::Sequence& clip,
     Result<std::vector<std::uint8_t>> stream = fba::encode(clip, encode_options(options.stream));
     if (!stream) return stream.error();
     if (auto done = write_file(options.output, *stream); !done) return done.error();
-    char rate[40];
-    std::snprintf(rate, sizeof rate, "%.2f kbit/s",
-                  double(stream->size()) * 8e-3 / clip.duration());
     say(options.output + ": " + std::to_string(clip.frames.size()) + " planes, " +
-        std::to_string(stream->size()) + " bytes, " + seconds_text(clip.duration()) + ", " + rate);
+        std::to_string(stream->size()) + " bytes, " + seconds_text(clip.duration()) +
+        format(", %.2f kbit/s", double(stream->size()) * 8e-3 / clip.duration()));
     return kOk;
   }
   Result<fba::AccessUnits> units = access_units({clip, {}}, options.stream);
@@ -99,7 +98,7 @@ Result<int> write_result(const Options& options, const fap::Sequence& clip,
   return write_preview(options.preview, *units, input);
 }
 
-void report(const Options& options, const speech::Spoken& spoken, const dam::Signal& signal,
+void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam::Signal& signal,
             const dam::SynthesisReport& synthesis) {
   for (const auto& [label, by] : synthesis.replaced) {
     if (!options.json) say("the model has no " + label + ", spoken as " + by);
@@ -119,7 +118,7 @@ void report(const Options& options, const speech::Spoken& spoken, const dam::Sig
   std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
 }
 
-Result<int> run(const Options& options) {
+Result<int> run(const SpeakOptions& options) {
   if (!is_output(options.output)) {
     return usage_error(
         "--output must end in .mp4, .mkv, .ts, .m3u8, .mpd, .fba, .fap or .csv, not " +
@@ -170,8 +169,8 @@ Result<int> run(const Options& options) {
   return written;
 }
 
-Action add(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+Action add_speak(CLI::App& app) {
+  auto options = std::make_shared<SpeakOptions>();
   add_spoken_options(app, options->spoken);
   app.add_option(
          "-o,--output", options->output,
@@ -208,6 +207,6 @@ const Command kSpeak{
     "  animeme speak --text \"Guten Tag\" --lang de --rate 30 -o tag.mp4\n"
     "  animeme speak --audio voice.wav --transcript \"what she said\" -o talk.mp4\n"
     "  animeme speak --script voice.TextGrid --audio voice.wav --model me.dam -o talk.fba",
-    add};
+    add_speak};
 
 }  // namespace animeme::tools

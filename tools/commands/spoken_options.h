@@ -1,4 +1,5 @@
-// The options of commands that speak.
+/// @file
+/// The options of commands that speak.
 #pragma once
 
 #include <string>

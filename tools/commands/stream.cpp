@@ -18,7 +18,7 @@ namespace animeme::tools {
 
 namespace {
 
-struct Options {
+struct StreamOptions {
   std::string input;
   std::vector<std::string> to;
   std::vector<std::string> sdp;
@@ -34,7 +34,7 @@ struct Options {
 
 constexpr double kPollSeconds = 0.05;  // sinks are looked after so often
 
-std::string bad_options(const Options& options) {
+std::string bad_options(const StreamOptions& options) {
   const bool spoken = speech::has_source(options.program.spoken);
   const int sources = int(!options.input.empty()) + int(!options.program.say.empty()) + int(spoken);
   if (sources > 1) return "name one thing to stream: a file, --say, or --text and its like";
@@ -59,7 +59,7 @@ std::string bad_options(const Options& options) {
 /// Tells once a second how it goes, and of lines that could not be spoken.
 class Watch {
  public:
-  Watch(const Options& options, live::Program& program, live::StreamReport& report)
+  Watch(const StreamOptions& options, live::Program& program, live::StreamReport& report)
       : options_(options), program_(program), report_(report) {}
 
   void look(const live::Sinks& sinks, const media::Pacer& pacer, double now) {
@@ -77,7 +77,7 @@ class Watch {
     for (const std::string& text : warnings) warn(text);
   }
 
-  const Options& options_;
+  const StreamOptions& options_;
   live::Program& program_;
   live::StreamReport& report_;
   StatusLine status_;
@@ -159,7 +159,7 @@ Result<live::Clip> load_clip(const std::string& path, const std::string& audio,
   return clip;
 }
 
-Result<void> open_program(const Options& options, fap::Rate rate, live::Program& program) {
+Result<void> open_program(const StreamOptions& options, fap::Rate rate, live::Program& program) {
   const live::ProgramOptions& what = options.program;
   if (!what.say.empty()) return live::open_speaker(what, rate, program);
   Result<live::Clip> clip = options.input.empty()
@@ -170,7 +170,7 @@ Result<void> open_program(const Options& options, fap::Rate rate, live::Program&
   return {};
 }
 
-void print_result(const Options& options, const live::StreamReport& report, double seconds,
+void print_result(const StreamOptions& options, const live::StreamReport& report, double seconds,
                   const live::Sinks& sinks, const media::Pacer& pacer,
                   const live::Program& program) {
   const auto traces = program.speaker ? program.speaker->traces() : std::deque<speech::LineTrace>{};
@@ -180,7 +180,7 @@ void print_result(const Options& options, const live::StreamReport& report, doub
   }
 }
 
-Result<int> send(const Options& options, live::Program& program, live::Sinks& sinks) {
+Result<int> send(const StreamOptions& options, live::Program& program, live::Sinks& sinks) {
   media::LiveInput& input = program.input();
   media::JumpingClock jumping;
   media::Clock& clock = options.fast ? static_cast<media::Clock&>(jumping) : media::steady_clock();
@@ -202,7 +202,7 @@ Result<int> send(const Options& options, live::Program& program, live::Sinks& si
   return Interrupt::requested() ? kInterrupted : kOk;
 }
 
-Result<int> run(Options& options) {
+Result<int> run(StreamOptions& options) {
   if (const std::string bad = bad_options(options); !bad.empty()) return usage_error(bad);
   Result<fap::Rate> rate = fap::parse_rate(options.rate);
   if (!rate) return usage_error("--rate " + options.rate + ": " + rate.error().message);
@@ -224,7 +224,7 @@ Result<int> run(Options& options) {
   return send(options, program, *sinks);
 }
 
-void add_source_options(CLI::App& app, Options& options) {
+void add_source_options(CLI::App& app, StreamOptions& options) {
   app.add_option("input", options.input,
                  "File with a face: mp4, mkv, ts (with its sound), .fba, .fap");
   add_spoken_options(app, options.program.spoken);
@@ -249,7 +249,7 @@ void add_source_options(CLI::App& app, Options& options) {
       ->needs("--life");
 }
 
-void add_coding_options(CLI::App& app, Options& options) {
+void add_coding_options(CLI::App& app, StreamOptions& options) {
   app.add_option("--intra-seconds", options.program.coding.intra_seconds,
                  "Seconds between points where receivers can join; streams and containers whose "
                  "own lie farther apart are coded again, all others are sent as they are")
@@ -270,8 +270,8 @@ void add_coding_options(CLI::App& app, Options& options) {
       ->check(CLI::Range(6000, 320000));
 }
 
-Action add(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+Action add_stream(CLI::App& app) {
+  auto options = std::make_shared<StreamOptions>();
   add_source_options(app, *options);
   app.add_option(
          "--to", options->to,
@@ -310,6 +310,6 @@ const Command kStream{
     "  my_chat_bot | animeme stream --say - --life --to rtp://192.0.2.7:5004 --sdp bot.sdp "
     "--stats\n"
     "Ctrl-C ends it in good order: receivers are told, the summary is printed; exit code 130.",
-    add};
+    add_stream};
 
 }  // namespace animeme::tools

@@ -1,4 +1,5 @@
-// What commands say on standard error: talk, warnings, and how far they are.
+/// @file
+/// What commands say on standard error: talk, warnings, and how far they are.
 #pragma once
 
 #include <string>

@@ -10,7 +10,7 @@ namespace animeme::tools {
 
 namespace {
 
-struct Options {
+struct TrainOptions {
   CorpusSettings corpus;
   std::string output;
   std::string method = "dam";
@@ -22,7 +22,7 @@ struct Options {
   bool json = false;
 };
 
-dam::TrainOptions train_options(const Options& options) {
+dam::TrainOptions train_options(const TrainOptions& options) {
   dam::TrainOptions train = options.train;
   train.method = *dam::find_method(options.method);
   train.animeme.modes = !options.single_mode;
@@ -31,7 +31,7 @@ dam::TrainOptions train_options(const Options& options) {
   return train;
 }
 
-Result<int> run_whole(const Options& options) {
+Result<int> run_whole(const TrainOptions& options) {
   Result<dam::Corpus> corpus = read_corpus(options.corpus);
   if (!corpus) return corpus.error();
   dam::TrainOptions train = train_options(options);
@@ -58,7 +58,7 @@ Result<int> run_whole(const Options& options) {
 }
 
 // What does not go together, in a sentence; empty if all is well.
-std::string misuse(const Options& options) {
+std::string misuse(const TrainOptions& options) {
   const bool accumulates = !options.parts.accumulate.empty(), merges = !options.parts.merge.empty();
   if (accumulates && merges) return "--accumulate and --merge are two steps; give one of them";
   if (merges && !options.corpus.folder.empty())
@@ -74,7 +74,7 @@ std::string misuse(const Options& options) {
   return {};
 }
 
-// Options that mean nothing to most methods: said, rather than swallowed.
+// TrainOptions that mean nothing to most methods: said, rather than swallowed.
 std::string misplaced(const CLI::App& app, const std::string& method) {
   const std::pair<const char*, const char*> owners[] = {
       {"--order", "dam-paper"},
@@ -93,7 +93,7 @@ std::string misplaced(const CLI::App& app, const std::string& method) {
   return {};
 }
 
-Result<int> run(const CLI::App& app, const Options& options) {
+Result<int> run(const CLI::App& app, const TrainOptions& options) {
   if (const std::string text = misuse(options); !text.empty()) return usage_error(text);
   if (const std::string text = misplaced(app, options.method); !text.empty()) {
     return usage_error(text);
@@ -125,8 +125,8 @@ void add_part_options(CLI::App& app, PartSettings& parts) {
   app.add_option("--merge", parts.merge, "Train on the sums of these files instead of a corpus");
 }
 
-Action add(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+Action add_train(CLI::App& app) {
+  auto options = std::make_shared<TrainOptions>();
   app.add_option("corpus", options->corpus.folder,
                  "Folder with utterances.tsv, phonemes/ID.tsv and fap/ID.csv");
   app.add_option("-o,--output", options->output, "Model file to write");
@@ -179,6 +179,6 @@ const Command kTrain{
     "  animeme train large/a --accumulate a.stats --dominance base.dam   (here)\n"
     "  animeme train large/b --accumulate b.stats --dominance base.dam   (elsewhere)\n"
     "  animeme train --merge a.stats b.stats -o large.dam",
-    add};
+    add_train};
 
 }  // namespace animeme::tools

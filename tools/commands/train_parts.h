@@ -1,4 +1,5 @@
-// `train --accumulate` and `train --merge`.
+/// @file
+/// `train --accumulate` and `train --merge`.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +12,11 @@
 
 namespace animeme::tools {
 
+/// The options of training in parts.
 struct PartSettings {
-  std::string accumulate;  ///< file of sums to begin or to continue
-  std::string dominance;   ///< model for the dominance; empty: start values
-  std::size_t save_every = 200;
+  std::string accumulate;          ///< file of sums to begin or to continue
+  std::string dominance;           ///< model for the dominance; empty: start values
+  std::size_t save_every = 200;    ///< sentences
   std::vector<std::string> merge;  ///< files of sums
 };
 
@@ -25,6 +27,7 @@ void tell_training(const std::string& output, const dam::Model& model,
 Result<int> accumulate(const PartSettings& parts, const CorpusSettings& corpus,
                        const dam::TrainOptions& train, bool json);
 
+/// `train --merge`; the exit code.
 Result<int> merge(const PartSettings& parts, const std::string& output, dam::TrainOptions train,
                   bool json);
 

@@ -13,6 +13,7 @@
 #include "tools/commands/head_options.h"
 #include "tools/commands/view_sound.h"
 #include "tools/speech/voice_file.h"
+#include "tools/text.h"
 #include "tools/viewer/viewer.h"
 
 namespace animeme::tools {
@@ -24,7 +25,7 @@ constexpr double kLargePage = 3'000'000;  // bytes
 constexpr int kLeastKilobits = 12;        // a second; Opus is not worth hearing with less,
 constexpr int kMostKilobits = 40;         // and with more not better
 
-struct Options {
+struct ViewOptions {
   std::string first;
   std::string second;
   std::string output;
@@ -35,12 +36,12 @@ struct Options {
 };
 
 // A clip, and whether it came with a container that may hold sound.
-struct Shown {
+struct ViewedClip {
   viewer::Clip clip;
   bool container = false;
 };
 
-Result<Shown> read_shown(const std::string& path) {
+Result<ViewedClip> read_shown(const std::string& path) {
   Result<MotionInput> input = read_motion(path);
   if (!input) return input.error();
   if (auto ok = require_face(*input, path); !ok) return ok.error();
@@ -48,17 +49,13 @@ Result<Shown> read_shown(const std::string& path) {
       input->stream.empty() ? fap::fill(input->face) : fba::fill(input->decoded);
   if (!filled) return filled.error().in_file(path);
   const std::string name = std::filesystem::path(path).filename().string();
-  return Shown{{std::move(*filled), input->start, name}, input->kind == FileKind::media};
+  return ViewedClip{{std::move(*filled), input->start, name}, input->kind == FileKind::media};
 }
 
-std::string megabytes(double bytes) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f MB", bytes / 1e6);
-  return text;
-}
+std::string megabytes(double bytes) { return format("%.2f MB", bytes / 1e6); }
 
 // The sound that was asked for, else that of the first container that has one; nothing if none has.
-Result<std::optional<PageSound>> sound_of(const Options& options,
+Result<std::optional<PageSound>> sound_of(const ViewOptions& options,
                                           const std::vector<std::string>& containers) {
   const bool asked = !options.audio.empty();
   for (const std::string& path : asked ? std::vector{options.audio} : containers) {
@@ -70,7 +67,7 @@ Result<std::optional<PageSound>> sound_of(const Options& options,
 }
 
 // What belongs together lasts about equally long.
-void warn_of_lengths(const viewer::Page& page, const Options& options, double sound) {
+void warn_of_lengths(const viewer::Page& page, const ViewOptions& options, double sound) {
   const double face = page.clips.front().motion.duration();
   const auto check = [face](const std::string& what, double seconds) {
     if (std::abs(seconds - face) <= kAboutEqual) return;
@@ -99,7 +96,7 @@ void warn_of_size(const viewer::Page& page, std::size_t size, double seconds) {
   warn(text);
 }
 
-Result<int> run(const Options& options) {
+Result<int> run(const ViewOptions& options) {
   if (const std::string problem = studio::problem_of(options.head); !problem.empty()) {
     return usage_error(problem);
   }
@@ -109,7 +106,7 @@ Result<int> run(const Options& options) {
   std::vector<std::string> containers;
   for (const std::string& path : {options.first, options.second}) {
     if (path.empty()) continue;
-    Result<Shown> shown = read_shown(path);
+    Result<ViewedClip> shown = read_shown(path);
     if (!shown) return shown.error();
     if (shown->container && path == "-")
       warn("the sound of standard input is not read; give --audio");
@@ -138,8 +135,8 @@ Result<int> run(const Options& options) {
   return kOk;
 }
 
-Action add(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+Action add_view(CLI::App& app) {
+  auto options = std::make_shared<ViewOptions>();
   app.add_option("input", options->first,
                  "FAP text, FBA stream, a container with a face, or a table of curves")
       ->required();
@@ -166,6 +163,6 @@ const Command kView{
     "  animeme view original.fap coded.fba --audio voice.wav -o loss.html\n"
     "  animeme view lecture.mp4 --audio-codec opus --audio-bitrate 20000 -o lecture.html\n"
     "The page needs no network; ? shows its keys.",
-    add};
+    add_view};
 
 }  // namespace animeme::tools

@@ -1,4 +1,5 @@
-// The sound of a page, as browsers take it.
+/// @file
+/// The sound of a page, as browsers take it.
 #pragma once
 
 #include <string>
@@ -9,9 +10,10 @@
 
 namespace animeme::tools {
 
+/// The sound of a page.
 struct PageSound {
-  viewer::Sound sound;
-  double seconds = 0;
+  viewer::Sound sound;  ///< ready to be packed in
+  double seconds = 0;   ///< its length
 };
 
 /// The sound of a file in an mp4 of its own. AAC and Opus stay packet by packet as they are, unless

@@ -1,4 +1,5 @@
-// Viseme tracks as other programs read them.
+/// @file
+/// Viseme tracks as other programs read them.
 #pragma once
 
 #include <string>

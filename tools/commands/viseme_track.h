@@ -1,4 +1,5 @@
-// When which viseme is shown: from a phoneme script, or from a face.
+/// @file
+/// When which viseme is shown: from a phoneme script, or from a face.
 #pragma once
 
 #include <string>
@@ -12,6 +13,7 @@
 
 namespace animeme::tools {
 
+/// One viseme as long as it is shown.
 struct VisemeEvent {
   double time = 0;      ///< seconds
   double duration = 0;  ///< seconds, > 0
@@ -21,8 +23,9 @@ struct VisemeEvent {
   friend bool operator==(const VisemeEvent&, const VisemeEvent&) = default;
 };
 
+/// Visemes of a clip, as events and by frame.
 struct VisemeTrack {
-  fap::Rate rate;
+  fap::Rate rate;                          ///< frames a second of `frames`
   std::vector<VisemeEvent> events;         ///< ascending, without gaps
   std::vector<fap::VisemeWeights> frames;  ///< from time 0
 };

@@ -1,4 +1,5 @@
-// Files as the tools read and write them: whole, by path, with "-" for the standard streams.
+/// @file
+/// Files as the tools read and write them: whole, by path, with "-" for the standard streams.
 #pragma once
 
 #include <cstdint>

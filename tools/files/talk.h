@@ -1,4 +1,5 @@
-// What a library wants said while it works. It prints nothing itself.
+/// @file
+/// What a library wants said while it works. It prints nothing itself.
 #pragma once
 
 #include <functional>

@@ -15,7 +15,6 @@ using head::Part;
 using head::Vec3;
 using nlohmann::json;
 
-constexpr float kMetres = 0.01f;
 constexpr int kNeckNode = 1;  // node 0 is the foot of the skeleton
 
 constexpr int node_of(Bone bone) { return kNeckNode + int(bone); }

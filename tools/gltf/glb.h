@@ -1,17 +1,18 @@
-// A head that moves as a glTF 2.0 file: for Blender, Unreal, Unity, Godot and three.js.
-//
-//     GlbOptions options{.morphs = MorphNames::arkit, .audio = "voice.wav"};
-//     Result<std::vector<std::uint8_t>> file = make_glb(head, rig, filled_clip, options);
-//
-// What is in it: a mesh for each part of the head with vertex colours; morph targets with names
-// (mesh.extras.targetNames); bones for the neck, the jaw and the eyes; one animation of weights and
-// bones with a key at each frame. Metres, +Y up, the face looks along +Z.
-//
-// A head that has shapes of its own (read_head.h) gets these as morph targets, by their names,
-// whatever GlbOptions::morphs says; their weights are those of head::control_values().
-//
-// Morph targets are linear, the rig is not quite: the lips of this head do not stop each other in
-// a player, and lids slide exactly at 0 and 1 only. The jaw bone carries lower teeth and tongue.
+/// @file
+/// A head that moves as a glTF 2.0 file: for Blender, Unreal, Unity, Godot and three.js.
+///
+///     GlbOptions options{.morphs = MorphNames::arkit, .audio = "voice.wav"};
+///     Result<std::vector<std::uint8_t>> file = make_glb(head, rig, filled_clip, options);
+///
+/// What is in it: a mesh for each part of the head with vertex colours; morph targets with names
+/// (mesh.extras.targetNames); bones for the neck, the jaw and the eyes; one animation of weights
+/// and bones with a key at each frame. Metres, +Y up, the face looks along +Z.
+///
+/// A head that has shapes of its own (read_head.h) gets these as morph targets, by their names,
+/// whatever GlbOptions::morphs says; their weights are those of head::control_values().
+///
+/// Morph targets are linear, the rig is not quite: the lips of this head do not stop each other in
+/// a player, and lids slide exactly at 0 and 1 only. The jaw bone carries lower teeth and tongue.
 #pragma once
 
 #include <cstdint>
@@ -25,13 +26,15 @@
 
 namespace animeme::gltf {
 
+/// Which morph targets a file has.
 enum class MorphNames : std::uint8_t {
   arkit,  ///< the 52 shapes of ARKit ("jawOpen"), fitted to the clip; the eyes turn by bones
   fap,    ///< one a FAP ("open_jaw"); weight 1 is 1024 units
 };
 
+/// What make_glb() writes.
 struct GlbOptions {
-  MorphNames morphs = MorphNames::arkit;
+  MorphNames morphs = MorphNames::arkit;  ///< ignored for heads with shapes of their own
   std::string audio;  ///< name of the sound beside it, for scene.extras.audio; empty: none
   std::string name;   ///< of the animation; empty: "talk"
   /// Moves of vertices below this are left out, cm.

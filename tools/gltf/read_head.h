@@ -1,21 +1,22 @@
-// Heads from glTF 2.0 files (.glb, .gltf, .vrm): Blender, Unity, Unreal, VRoid, Ready Player Me and
-// others write them.
-//
-//     Result<head::Source> source = gltf::read_head_file("anna.glb");
-//     if (!source) return source.error();
-//     head::Head head = *head::assemble(std::move(*source));
-//
-// What is read: all triangles of all scenes as they stand at rest (skins in their bind pose),
-// colours at the vertices, from COLOR_0 or the base colour and its texture; morph targets whose
-// names are known (shape_names.h); bones of head, neck, eyes and jaw. Lights, cameras, animations,
-// normals and all other textures are not.
-//
-// Vertices that were doubled at seams of a texture are welded where place, shapes and bones agree;
-// so the lips stay apart. Triangles in which the texture changes are divided until the colours at
-// the vertices show it (brows, lips and irises are often painted), up to ReadOptions::vertices.
-//
-// Feature points are estimates from the shapes, for the camera, the units and the overlay of
-// points; see detail/point_guess.h for each rule and the README for how far they are off.
+/// @file
+/// Heads from glTF 2.0 files (.glb, .gltf, .vrm): Blender, Unity, Unreal, VRoid, Ready Player Me
+/// and others write them.
+///
+///     Result<head::Source> source = gltf::read_head_file("anna.glb");
+///     if (!source) return source.error();
+///     head::Head head = *head::assemble(std::move(*source));
+///
+/// What is read: all triangles of all scenes as they stand at rest (skins in their bind pose),
+/// colours at the vertices, from COLOR_0 or the base colour and its texture; morph targets whose
+/// names are known (shape_names.h); bones of head, neck, eyes and jaw. Lights, cameras, animations,
+/// normals and all other textures are not.
+///
+/// Vertices that were doubled at seams of a texture are welded where place, shapes and bones agree;
+/// so the lips stay apart. Triangles in which the texture changes are divided until the colours at
+/// the vertices show it (brows, lips and irises are often painted), up to ReadOptions::vertices.
+///
+/// Feature points are estimates from the shapes, for the camera, the units and the overlay of
+/// points; see detail/point_guess.h for each rule and the README for how far they are off.
 #pragma once
 
 #include <cstdint>
@@ -46,8 +47,10 @@ using LoadFile = std::function<Result<std::vector<std::uint8_t>>(const std::stri
 /// unsupported for addresses of the web and for paths that leave the folder.
 LoadFile files_of(std::string folder);
 
+/// What read_head() is told.
 struct ReadOptions {
   LoadFile load = {};  ///< empty: only files without others beside them can be read
+  /// Which shapes move the mouth if there are several sets.
   MouthShapes mouth = MouthShapes::automatic;
   /// Triangles are divided for the sake of their texture until there are as many vertices. 0: not.
   std::size_t vertices = 60000;
@@ -70,7 +73,7 @@ Result<head::Source> read_head(std::span<const std::uint8_t> bytes,
 
 /// A vertex of a piece of the head.
 struct PieceVertex {
-  std::size_t piece = 0;
+  std::size_t piece = 0;                  ///< index of Source::pieces
   std::uint32_t vertex = head::kMissing;  ///< kMissing: it is not shown
 };
 
@@ -83,14 +86,16 @@ struct MeshVertices {
   std::vector<PieceVertex> vertices;
 };
 
+/// A head and where the vertices of the file went.
 struct HeadFile {
-  head::Source source;
+  head::Source source;               ///< as from read_head()
   std::vector<MeshVertices> meshes;  ///< of nodes that are shown, in their order
 };
 
 /// read_head() with the numbers that vertices have in the file.
 Result<HeadFile> read_head_and_vertices(std::span<const std::uint8_t> bytes,
                                         const ReadOptions& options = {});
+/// Likewise, from a path.
 Result<HeadFile> read_head_and_vertices(const std::string& path, ReadOptions options = {});
 
 /// A list of landmarks on such a head. Vertices are counted in the mesh whose name has the word

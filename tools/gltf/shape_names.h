@@ -1,9 +1,10 @@
-// What the names of morph targets mean in FAPs.
-//
-//     meaning_of("eyeBlink_L")       // ARKit, in any usual spelling
-//     meaning_of("viseme_PP")        // Oculus and Meta; also "PP", "v_PP", "vrc.v_pp"
-//     meaning_of("eyesClosed")       // both lids: other usual names
-//     meaning_of("Face.M_F00_000_00_Fcl_MTH_A")  // VRoid
+/// @file
+/// What the names of morph targets mean in FAPs.
+///
+///     meaning_of("eyeBlink_L")       // ARKit, in any usual spelling
+///     meaning_of("viseme_PP")        // Oculus and Meta; also "PP", "v_PP", "vrc.v_pp"
+///     meaning_of("eyesClosed")       // both lids: other usual names
+///     meaning_of("Face.M_F00_000_00_Fcl_MTH_A")  // VRoid
 #pragma once
 
 #include <optional>
@@ -16,6 +17,7 @@
 
 namespace animeme::gltf {
 
+/// Whose convention a name follows.
 enum class ShapeSet : std::uint8_t { arkit, viseme, other };
 
 /// A part of a shape of ARKit.
@@ -26,10 +28,11 @@ struct ArkitPart {
   friend auto operator<=>(const ArkitPart&, const ArkitPart&) = default;
 };
 
+/// What a name says that its shape does.
 struct ShapeMeaning {
-  ShapeSet set = ShapeSet::other;
-  int viseme = -1;               ///< of a viseme
-  std::vector<ArkitPart> parts;  ///< of the others, ascending
+  ShapeSet set = ShapeSet::other;  ///< whose name it is
+  int viseme = -1;                 ///< of a viseme
+  std::vector<ArkitPart> parts;    ///< of the others, ascending
   /// At weight 1: sums of what fap::arkit_to_fap() says of the parts; head::viseme_shape() of a
   /// viseme, so that FAP 1 at full strength is weight 1.
   fap::Frame faps;
@@ -46,8 +49,8 @@ std::optional<ShapeMeaning> meaning_of(std::string_view name);
 
 /// A shape that a head uses.
 struct ChosenShape {
-  std::string name;  ///< the first of its names
-  ShapeMeaning meaning;
+  std::string name;                ///< the first of its names
+  ShapeMeaning meaning;            ///< what it does
   std::vector<std::size_t> names;  ///< all its names, as indices of the list given
 };
 

@@ -8,7 +8,6 @@
 #include <type_traits>
 
 #include "fap/tables.h"
-#include "tools/inspect/detail/used.h"
 
 namespace animeme::inspect {
 

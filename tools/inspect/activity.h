@@ -1,4 +1,5 @@
-// How much each parameter of a clip moves.
+/// @file
+/// How much each parameter of a clip moves.
 #pragma once
 
 #include <cstddef>
@@ -10,9 +11,17 @@
 
 namespace animeme::inspect {
 
+/// The parameters that occur at all.
+template <class Frame>
+auto used_mask(const std::vector<Frame>& frames) {
+  decltype(Frame().mask) used;
+  for (const Frame& frame : frames) used |= frame.mask;
+  return used;
+}
+
 /// One FAP or BAP as a receiver sees it: a value that a frame leaves out stays.
 struct Activity {
-  int number = 0;
+  int number = 0;             ///< of the FAP or BAP
   std::int64_t frames = 0;    ///< frames that carry it
   bool is_amount = true;      ///< false for FAP 1 and 2, whose values are choices
   std::int32_t min = 0;       ///< amounts only
@@ -22,11 +31,11 @@ struct Activity {
   double moves = 0;           ///< share of the frames behind the first in which it changes, 0..1
   std::vector<int> equal_to;  ///< left/right and inner/outer partners of the same value throughout
 
-  bool never_moves() const { return distinct <= 1; }
+  bool never_moves() const { return distinct <= 1; }  ///< one value throughout
 };
 
-/// Those that occur at all, by number.
+/// Those of used_mask(), by number.
 std::vector<Activity> measure_activity(const fap::Sequence& clip);
-std::vector<Activity> measure_activity(const fba::BodySequence& body);
+std::vector<Activity> measure_activity(const fba::BodySequence& body);  ///< likewise, of BAPs
 
 }  // namespace animeme::inspect

@@ -1,4 +1,6 @@
-// How good a system is: its tracks against recordings, the codec's share, and the report of it all.
+/// @file
+/// How good a system is: its tracks against recordings, the codec's share, and the report of it
+/// all.
 #pragma once
 
 #include <functional>

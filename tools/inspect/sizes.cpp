@@ -62,8 +62,7 @@ Result<bool> same_values(const fap::Sequence& clip, const Bytes& a, const Bytes&
   if (!frames_a) return frames_a.error();
   Result<fap::Sequence> frames_b = shown(b);
   if (!frames_b) return frames_b.error();
-  fap::Mask used;
-  for (const fap::Frame& frame : clip.frames) used |= frame.mask;
+  const fap::Mask used = used_mask(clip.frames);
   if (frames_a->frames.size() != frames_b->frames.size()) return false;
   for (std::size_t i = 0; i < frames_a->frames.size(); ++i) {
     for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {

@@ -1,4 +1,4 @@
-#include "tools/inspect/stream.h"
+#include "tools/inspect/stream_internal.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -6,7 +6,7 @@
 
 #include "fap/rate_text.h"
 #include "fap/tables.h"
-#include "tools/inspect/detail/used.h"
+#include "tools/inspect/activity.h"
 #include "tools/text.h"
 
 namespace animeme::inspect {

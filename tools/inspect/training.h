@@ -1,4 +1,5 @@
-// What a training has found, as text and JSON.
+/// @file
+/// What a training has found, as text and JSON.
 #pragma once
 
 #include <string>

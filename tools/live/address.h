@@ -1,10 +1,11 @@
-// Every live transport by its address: those of tools/media and the web server.
-//
-// | address | transport |
-// |---|---|
-// | rtp://host:port, NAME.sdp | RTP |
-// | udp://host:port, srt://host:port | MPEG transport stream |
-// | http://host:port | a web server with a page that shows the face; its clients use ws:// |
+/// @file
+/// Every live transport by its address: those of tools/media and the web server.
+///
+/// | address | transport |
+/// |---|---|
+/// | rtp://host:port, NAME.sdp | RTP |
+/// | udp://host:port, srt://host:port | MPEG transport stream |
+/// | http://host:port | a web server with a page that shows the face; its clients use ws:// |
 #pragma once
 
 #include <memory>

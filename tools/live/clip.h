@@ -1,4 +1,5 @@
-// What is there as a whole before it is streamed: a face and its sound, coded.
+/// @file
+/// What is there as a whole before it is streamed: a face and its sound, coded.
 #pragma once
 
 #include <string>

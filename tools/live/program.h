@@ -1,4 +1,5 @@
-// What is sent: a clip that is there as a whole, or a head that speaks line by line.
+/// @file
+/// What is sent: a clip that is there as a whole, or a head that speaks line by line.
 #pragma once
 
 #include <cstdint>

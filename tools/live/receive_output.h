@@ -1,4 +1,5 @@
-// What is kept of a reception: text while it comes, files at the end.
+/// @file
+/// What is kept of a reception: text while it comes, files at the end.
 #pragma once
 
 #include <string>
@@ -21,6 +22,7 @@ Result<void> check_folder(const std::string& output);
 /// Frames as text: for standard output as they come, else kept for the file.
 class FapOutput {
  public:
+  /// `output`: path, or "-"; `fill`: give out complete frames.
   FapOutput(const std::string& output, media::GapRule gap, bool fill)
       : output_(output), frames_(gap, fill) {}
 

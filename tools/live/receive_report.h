@@ -1,4 +1,5 @@
-// What a reception tells of what came and what did not.
+/// @file
+/// What a reception tells of what came and what did not.
 #pragma once
 
 #include <string>
@@ -10,9 +11,11 @@ namespace animeme::live {
 
 /// Share of usable planes of the intra intervals.
 struct IntervalShares {
-  double mean = 1, least = 1;
+  double mean = 1,         ///< over all intervals
+      least = 1;           ///< of the worst
   std::size_t spoilt = 0;  ///< intervals with a plane that is missing
 };
+/// 1 and 1 for no intervals.
 IntervalShares shares_of(const std::vector<media::IntraInterval>& intervals);
 
 /// "5 s: 125 planes, 0 lost, ..." for --stats.

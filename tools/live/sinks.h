@@ -1,4 +1,5 @@
-// Several live addresses as one.
+/// @file
+/// Several live addresses as one.
 #pragma once
 
 #include <memory>
@@ -32,7 +33,7 @@ class Sinks {
   Result<void> start(const media::LiveInfo& info);
   /// Errors: when the last address breaks.
   Result<void> send(const media::LiveUnit& unit);
-  Result<void> poll();
+  Result<void> poll();  ///< as LiveSink::poll(), everywhere
   /// Says goodbye everywhere; the first error.
   Result<void> finish();
 

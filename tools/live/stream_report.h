@@ -1,4 +1,5 @@
-// What a stream tells while it runs and when it is over.
+/// @file
+/// What a stream tells while it runs and when it is over.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +12,12 @@
 
 namespace animeme::live {
 
+/// Counts what was sent, for lines on the way and a summary.
 class StreamReport {
  public:
-  explicit StreamReport(const media::LiveInfo& info) : info_(info) {}
+  explicit StreamReport(const media::LiveInfo& info) : info_(info) {}  ///< `info` is kept
 
-  void add(const media::LiveUnit& unit);
+  void add(const media::LiveUnit& unit);  ///< one more unit was sent
   /// "12.0 s: face 25 planes 6.2 kbit/s, ..." of the time since the last call. `now`: seconds
   /// since the begin.
   std::string line(double now, const Sinks& sinks, const media::Pacer& pacer);
@@ -44,10 +46,17 @@ class StreamReport {
 /// Where the milliseconds from a line of text to a sent packet went.
 struct Latency {
   std::size_t lines = 0;  ///< that were not kept waiting by another line
-  double voice = 0, synthesis = 0, coding = 0, sending = 0, waiting = 0;  ///< means, ms
-  double mean = 0, worst = 0;                                             ///< of the whole, ms
+  double voice = 0,       ///< until the voice was done
+      synthesis = 0,      ///< frames
+      coding = 0,         ///< planes and packets
+      sending = 0,        ///< until they were due
+      waiting = 0;        ///< all the rest
+  double mean = 0,        ///< from the line's arrival to its first packet
+      worst = 0;          ///< likewise
 };
+/// What of a line counts: its first moving plane, or its first packet with sound.
 enum class Sign : std::uint8_t { face, sound };
+/// Zeros if no line was spoken.
 Latency latency_of(const std::deque<speech::LineTrace>& traces, Sign sign);
 
 }  // namespace animeme::live

@@ -13,11 +13,9 @@ namespace animeme::media {
 namespace {
 
 // Time stamps of some containers are rounded to milliseconds; only more than this is a gap.
-constexpr int kGapPerSecond = 50;
+constexpr int kSilencePerSecond = 50;
 // A longer gap in a format that may restart its clock (TS) is a restart, not silence.
 constexpr std::int64_t kLongestRestartGap = 10;
-// Encoder padding is at most a frame or two; a stated duration that would cut more is wrong.
-constexpr int kPaddingPerSecond = 4;
 
 // Puts decoded frames one after the other on a time line that begins with the first of them.
 class SoundCollector {
@@ -76,7 +74,7 @@ Result<void> SoundCollector::fill_gap(const AVFrame& frame) {
   if (frame.pts == AV_NOPTS_VALUE || next_ == AV_NOPTS_VALUE) return {};
   const std::int64_t now = av_rescale_q(frame.pts, stream_.time_base, {1, frame.sample_rate});
   const std::int64_t gap = now - next_;
-  if (gap <= frame.sample_rate / kGapPerSecond) return {};
+  if (gap <= frame.sample_rate / kSilencePerSecond) return {};
   const bool restarts = (input_.context()->iformat->flags & AVFMT_TS_DISCONT) != 0;
   if (restarts && gap > kLongestRestartGap * frame.sample_rate) return {};
   const double seconds = double(gap) / double(frame.sample_rate);
@@ -166,7 +164,7 @@ Result<Pcm> decode_all(Input& input, const ReadAudioOptions& options) {
   const auto take = [&](AVFrame& frame) { return sound.add(frame); };
   const av::Packet packet(av_packet_alloc());
   const av::Frame frame(av_frame_alloc());
-  if (!packet || !frame) return make_error(Code::out_of_range, "not enough memory");
+  if (!packet || !frame) return av::no_memory();
   std::int64_t damaged = 0;
   int status = 0;
   while ((status = av_read_frame(&file, packet.get())) >= 0) {

@@ -1,12 +1,13 @@
-// Sound files in and out.
-//
-//     Result<Pcm> voice = read_audio("voice.mp3", {.sample_rate = 16000});
-//     if (!voice) return voice.error();
-//     Result<void> written = write_wav("voice.wav", *voice);
-//
-// Safe for untrusted input: no other file or address than the given one is opened, and memory
-// and time stay bounded. Not for several threads on one object; different calls may run in
-// different threads. Source: containers, section 5.4.
+/// @file
+/// Sound files in and out.
+///
+///     Result<Pcm> voice = read_audio("voice.mp3", {.sample_rate = 16000});
+///     if (!voice) return voice.error();
+///     Result<void> written = write_wav("voice.wav", *voice);
+///
+/// Safe for untrusted input: no other file or address than the given one is opened, and memory
+/// and time stay bounded. Not for several threads on one object; different calls may run in
+/// different threads. Source: containers, section 5.4.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +20,7 @@
 
 namespace animeme::media {
 
+/// What read_audio() makes of a file, and where it stops.
 struct ReadAudioOptions {
   int sample_rate = 0;  ///< Hz of the result, 1000..384000; 0: the file's own rate
   /// Longer sound is refused. Whatever is set here, 2^29 samples (3.1 hours at 48 kHz, 2 GiB)

@@ -1,15 +1,16 @@
-// Reading faces back from containers, and looking at what a file holds.
-//
-//     Result<Container> talk = read_container("talk.mp4");
-//     if (!talk) return talk.error();
-//     fba::join_access_units(talk->face);       // the raw stream
-//
-// The kind of a file is told by its content. mp4 (also fragmented, mov), Matroska, MPEG-TS
-// (stream type 0x10, and 0x06 that begins with an FBA code) and NUT can carry a face.
-// A name that ends in .m3u8 or .mpd is a playlist of segments (HLS, DASH), which are read, too:
-// only ordinary files in its folder or below, 1 GB in all.
-// Safe for untrusted input: no other file or address is opened, memory and time stay bounded.
-// Source: containers, sections 1.2, 1.3, 2.3, 3.
+/// @file
+/// Reading faces back from containers, and looking at what a file holds.
+///
+///     Result<Container> talk = read_container("talk.mp4");
+///     if (!talk) return talk.error();
+///     fba::join_access_units(talk->face);       // the raw stream
+///
+/// The kind of a file is told by its content. mp4 (also fragmented, mov), Matroska, MPEG-TS
+/// (stream type 0x10, and 0x06 that begins with an FBA code) and NUT can carry a face.
+/// A name that ends in .m3u8 or .mpd is a playlist of segments (HLS, DASH), which are read, too:
+/// only ordinary files in its folder or below, 1 GB in all.
+/// Safe for untrusted input: no other file or address is opened, memory and time stay bounded.
+/// Source: containers, sections 1.2, 1.3, 2.3, 3.
 #pragma once
 
 #include <cstdint>
@@ -50,6 +51,7 @@ struct Container {
   std::vector<std::string> warnings;
 };
 
+/// Where reading stops.
 struct ReadOptions {
   /// More face data than this is refused (an index can name the same bytes over and over).
   std::size_t max_bytes = std::size_t(1) << 28;
@@ -77,6 +79,7 @@ Result<EncodedAudio> read_encoded_audio(const std::string& path);
 /// The same from memory.
 Result<EncodedAudio> read_encoded_audio(std::span<const std::uint8_t> file);
 
+/// What a track holds.
 enum class TrackKind : std::uint8_t { face, audio, video, other };
 
 /// "face", "audio", "video" or "other".
@@ -84,20 +87,20 @@ const char* name_of(TrackKind kind);
 
 /// One track, from headers.
 struct TrackInfo {
-  TrackKind kind = TrackKind::other;
-  std::string codec;                ///< "fba" for a face, else FFmpeg's name
-  std::string tag;                  ///< four characters of mp4 and its like; may be empty
-  std::uint32_t timescale = 0;      ///< ticks a second; 0: the clock is no whole number of them
-  double start = 0;                 ///< seconds
-  double duration = 0;              ///< seconds; 0: not stated
-  std::int64_t bit_rate = 0;        ///< bits a second; 0: not stated
-  std::int64_t samples = 0;         ///< access units or packets; 0: not stated
-  int sample_rate = 0;              ///< audio
-  int channels = 0;                 ///< audio
-  int width = 0;                    ///< video
-  int height = 0;                   ///< video
-  double frame_rate = 0;            ///< video and face, frames a second; 0: not stated
-  std::uint8_t visual_profile = 0;  ///< face; 0: not given
+  TrackKind kind = TrackKind::other;  ///< told by content
+  std::string codec;                  ///< "fba" for a face, else FFmpeg's name
+  std::string tag;                    ///< four characters of mp4 and its like; may be empty
+  std::uint32_t timescale = 0;        ///< ticks a second; 0: the clock is no whole number of them
+  double start = 0;                   ///< seconds
+  double duration = 0;                ///< seconds; 0: not stated
+  std::int64_t bit_rate = 0;          ///< bits a second; 0: not stated
+  std::int64_t samples = 0;           ///< access units or packets; 0: not stated
+  int sample_rate = 0;                ///< audio
+  int channels = 0;                   ///< audio
+  int width = 0;                      ///< video
+  int height = 0;                     ///< video
+  double frame_rate = 0;              ///< video and face, frames a second; 0: not stated
+  std::uint8_t visual_profile = 0;    ///< face; 0: not given
   std::vector<std::uint8_t> face_config;  ///< face; empty: in band
 };
 
@@ -106,8 +109,8 @@ struct ContainerInfo {
   std::string format;       ///< as in Container, or any other name of FFmpeg: "wav", "mp3" ...
   double duration = 0;      ///< seconds; 0: unknown
   std::int64_t bytes = -1;  ///< of the file; -1: unknown
-  std::vector<TrackInfo> tracks;
-  std::vector<std::string> warnings;
+  std::vector<TrackInfo> tracks;      ///< in the order of the file
+  std::vector<std::string> warnings;  ///< one sentence each
 
   /// The first track of a kind, nullptr: there is none.
   const TrackInfo* first(TrackKind kind) const {

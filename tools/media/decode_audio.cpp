@@ -13,7 +13,7 @@
 namespace animeme::media {
 namespace {
 
-constexpr std::int64_t kLongest = 3 * 3600;  // seconds
+constexpr std::int64_t kLongestSound = 3 * 3600;  // seconds
 
 // Puts decoded frames at their places on the time line of the packets.
 class Decoding {
@@ -45,7 +45,7 @@ class Decoding {
 };
 
 Result<void> Decoding::open() {
-  if (!packet_ || !frame_) return make_error(Code::out_of_range, "not enough memory");
+  if (!packet_ || !frame_) return av::no_memory();
   Result<av::Parameters> parameters = codec_parameters(audio_.format);
   if (!parameters) return parameters.error();
   // Priming is skipped here, by time.
@@ -102,7 +102,7 @@ Result<void> Decoding::decode(const AudioPacket* packet) {
 
 Result<Pcm> Decoding::run() {
   const av::LogCapture log;
-  if (end_ / audio_.format.sample_rate >= kLongest) {
+  if (end_ / audio_.format.sample_rate >= kLongestSound) {
     return make_error(Code::out_of_range, "the sound is longer than 3 hours; cut it");
   }
   if (auto opened = open(); !opened) return opened.error();

@@ -12,7 +12,7 @@ namespace animeme::media {
 namespace {
 
 // The resampler gets blocks of this size, so that nothing depends on how the sound was cut.
-constexpr std::size_t kBlock = 256;
+constexpr std::size_t kEncoderBlock = 256;
 
 // The encoders refuse NaN and infinity for the whole track, and a resampler would spread them.
 float legal_sample(float sample) {
@@ -49,7 +49,7 @@ Result<av::Codec> open_encoder(AudioCodec codec, int sample_rate, std::int64_t b
                           name_of(codec) + "; choose the other codec");
   }
   av::Codec context(avcodec_alloc_context3(encoder));
-  if (!context) return make_error(Code::out_of_range, "not enough memory");
+  if (!context) return av::no_memory();
   context->sample_fmt = codec == AudioCodec::opus ? AV_SAMPLE_FMT_FLT : AV_SAMPLE_FMT_FLTP;
   context->sample_rate = sample_rate;
   context->time_base = {1, sample_rate};
@@ -75,7 +75,7 @@ struct AudioEncoder::Impl {
   av::Frame frame{av_frame_alloc()};
   av::Packet packet{av_packet_alloc()};
   std::optional<Resampler> resampler;
-  std::vector<float> block;    // for the resampler: less than kBlock samples
+  std::vector<float> block;    // for the resampler: less than kEncoderBlock samples
   std::vector<float> pending;  // for the encoder: less than a frame after each push()
   std::int64_t sent = 0;       // samples
   bool finished = false;
@@ -93,7 +93,7 @@ struct AudioEncoder::Impl {
 };
 
 Result<void> AudioEncoder::Impl::open(int sample_rate, const AudioSettings& settings) {
-  if (!frame || !packet) return make_error(Code::out_of_range, "not enough memory");
+  if (!frame || !packet) return av::no_memory();
   const int rate = coded_sample_rate(settings.codec, sample_rate);
   Result<av::Codec> opened =
       open_encoder(settings.codec, rate, coded_bit_rate(settings, sample_rate));
@@ -123,7 +123,7 @@ Result<void> AudioEncoder::Impl::take(std::span<const float> samples) {
   }
   for (const float sample : samples) {
     block.push_back(legal_sample(sample));
-    if (block.size() < kBlock) continue;
+    if (block.size() < kEncoderBlock) continue;
     Result<void> done = resample_block();
     if (!done) return done;
   }

@@ -55,7 +55,7 @@ Error does_not_fit(std::string_view extension, AVCodecID codec) {
 Result<void> copy_packets(Input& input, int index, Muxer& muxer) {
   AVFormatContext& file = *input.context();
   const av::Packet packet(av_packet_alloc());
-  if (!packet) return make_error(Code::out_of_range, "not enough memory");
+  if (!packet) return av::no_memory();
   const std::optional<std::int64_t> end = end_of_sound(input, *file.streams[index]);
   std::optional<std::int64_t> begin;  // subtracted; priming before 0 stays where it is
   while (av_read_frame(&file, packet.get()) >= 0) {

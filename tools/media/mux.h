@@ -1,13 +1,14 @@
-// Writing a face and its sound into one file.
-//
-//     MuxInput input{.face = &units, .audio = &voice};
-//     Result<MuxResult> written = write_container("talk.mp4", input);
-//
-// Access units and sound stay the caller's; nothing is changed in them. Sound given as samples is
-// coded, mono; sound that is coded already goes in as it is. Time 0 of the face is sample 0 of the
-// sound. Files are written whole or not at all, and the same input gives the same bytes (with the
-// same FFmpeg on the same machine; other versions of its encoders may round differently).
-// Source: containers, sections 2.1, 2.2, 3.1, 3.2.
+/// @file
+/// Writing a face and its sound into one file.
+///
+///     MuxInput input{.face = &units, .audio = &voice};
+///     Result<MuxResult> written = write_container("talk.mp4", input);
+///
+/// Access units and sound stay the caller's; nothing is changed in them. Sound given as samples is
+/// coded, mono; sound that is coded already goes in as it is. Time 0 of the face is sample 0 of the
+/// sound. Files are written whole or not at all, and the same input gives the same bytes (with the
+/// same FFmpeg on the same machine; other versions of its encoders may round differently).
+/// Source: containers, sections 2.1, 2.2, 3.1, 3.2.
 #pragma once
 
 #include <cstdint>
@@ -37,6 +38,7 @@ struct MuxInput {
   std::uint8_t visual_profile = 0;
 };
 
+/// How a container is written.
 struct MuxOptions {
   AudioSettings audio;  ///< how MuxInput::audio is coded
   /// mp4: contents before data, so that a player can begin while it loads.

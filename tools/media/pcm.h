@@ -1,4 +1,5 @@
-// Sound in memory. No dependency, so that voices and aligners need not know FFmpeg.
+/// @file
+/// Sound in memory. No dependency, so that voices and aligners need not know FFmpeg.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +9,10 @@ namespace animeme::media {
 
 /// One channel of sound. Sample k is at k / sample_rate seconds; full scale is +-1.
 struct Pcm {
-  int sample_rate = 48000;  ///< Hz, > 0
-  std::vector<float> samples;
+  int sample_rate = 48000;     ///< Hz, > 0
+  std::vector<float> samples;  ///< +-1 is full scale
 
-  double duration() const { return double(samples.size()) / double(sample_rate); }
+  double duration() const { return double(samples.size()) / double(sample_rate); }  ///< seconds
 };
 
 }  // namespace animeme::media

@@ -16,7 +16,7 @@ Result<av::Codec> open(const AVCodec* codec, const AVFrame* like) {
                       "this FFmpeg cannot draw SVG or write PNG; write the picture as .svg");
   }
   av::Codec context(avcodec_alloc_context3(codec));
-  if (!context) return make_error(Code::out_of_range, "not enough memory");
+  if (!context) return av::no_memory();
   context->thread_count = 1;
   context->time_base = {1, 1};
   if (like != nullptr) {
@@ -35,7 +35,7 @@ Result<av::Frame> draw(std::string_view svg) {
   av::Packet packet(av_packet_alloc());
   av::Frame frame(av_frame_alloc());
   if (!packet || !frame || av_new_packet(packet.get(), int(svg.size())) < 0) {
-    return make_error(Code::out_of_range, "not enough memory");
+    return av::no_memory();
   }
   std::memcpy(packet->data, svg.data(), svg.size());
   int status = avcodec_send_packet(decoder->get(), packet.get());
@@ -53,12 +53,12 @@ Result<av::Frame> to_rgb(const AVFrame& drawn) {
     return make_error(Code::unsupported, "the renderer gives pixels of an unknown kind");
   }
   av::Frame frame(av_frame_alloc());
-  if (!frame) return make_error(Code::out_of_range, "not enough memory");
+  if (!frame) return av::no_memory();
   frame->format = AV_PIX_FMT_RGB24;
   frame->width = drawn.width;
   frame->height = drawn.height;
   if (av_frame_get_buffer(frame.get(), 0) < 0) {
-    return make_error(Code::out_of_range, "not enough memory");
+    return av::no_memory();
   }
   for (int y = 0; y < drawn.height; ++y) {
     const std::uint8_t* from = drawn.data[0] + std::ptrdiff_t(y) * drawn.linesize[0];
@@ -108,7 +108,7 @@ Result<std::vector<std::uint8_t>> svg_to_png(std::string_view svg) {
   Result<av::Codec> encoder = open(avcodec_find_encoder(AV_CODEC_ID_PNG), rgb->get());
   if (!encoder) return encoder.error();
   av::Packet packet(av_packet_alloc());
-  if (!packet) return make_error(Code::out_of_range, "not enough memory");
+  if (!packet) return av::no_memory();
   int status = avcodec_send_frame(encoder->get(), rgb->get());
   if (status >= 0) status = avcodec_receive_packet(encoder->get(), packet.get());
   if (status < 0) return av::make_av_error(status, "the picture cannot be written as PNG");

@@ -1,4 +1,5 @@
-// Drawings as pixels.
+/// @file
+/// Drawings as pixels.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +12,9 @@ namespace animeme::media {
 
 /// Rows from the top, R G B A, A always 255.
 struct Pixels {
-  int width = 0;
-  int height = 0;
-  std::vector<std::uint8_t> rgba;
+  int width = 0;                   ///< pixels
+  int height = 0;                  ///< pixels
+  std::vector<std::uint8_t> rgba;  ///< width x height x 4
 };
 
 /// An SVG drawing as pixels; see svg_to_png(). Errors: as there.

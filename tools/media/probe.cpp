@@ -12,10 +12,6 @@ namespace {
 // Packets to read for the first one of a track that may be a face.
 constexpr int kPacketsToTry = 2000;
 
-double seconds(std::int64_t ticks, AVRational base) {
-  return ticks == AV_NOPTS_VALUE || base.den <= 0 ? 0 : double(ticks) * av_q2d(base);
-}
-
 std::string tag_text(std::uint32_t tag) {
   std::string text;
   for (; tag != 0; tag >>= 8) {
@@ -42,8 +38,8 @@ TrackInfo describe(const AVStream& stream, const FaceTrack& face) {
   track.tag = tag_text(parameters.codec_tag);
   const AVRational base = stream.time_base;
   track.timescale = base.num == 1 && base.den > 0 ? std::uint32_t(base.den) : 0;
-  track.start = seconds(stream.start_time, base);
-  track.duration = seconds(stream.duration, base);
+  track.start = to_seconds(stream.start_time, base);
+  track.duration = to_seconds(stream.duration, base);
   track.bit_rate = parameters.bit_rate;
   track.samples = stream.nb_frames;
   if (track.kind == TrackKind::audio) {
@@ -100,7 +96,7 @@ ContainerInfo look_at(Input& input) {
   for (unsigned i = 0; i < file.nb_streams; ++i) {
     info.tracks.push_back(describe(*file.streams[i], tracks[int(i)]));
   }
-  info.duration = seconds(file.duration, {1, AV_TIME_BASE});
+  info.duration = to_seconds(file.duration, {1, AV_TIME_BASE});
   info.bytes = input.size();
   return info;
 }

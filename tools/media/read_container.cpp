@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kFaceFormats = "mov,matroska,mpegts,nut";
 // Audio packets to try until one decodes: sound that begins later begins where its header says.
-constexpr int kPacketsToTry = 64;
+constexpr int kPacketsToDecide = 64;
 
 // The time at which read_audio()'s sample 0 lies.
 class SoundStart {
@@ -40,7 +40,7 @@ class SoundStart {
       return {};
     };
     (void)decode_packet(*codec_, &packet, *frame_, take);
-    if (time_ || ++tried_ >= kPacketsToTry) give_up();
+    if (time_ || ++tried_ >= kPacketsToDecide) give_up();
   }
 
  private:
@@ -87,9 +87,9 @@ std::optional<OtherSound> look_at_sound(Input& input) {
   return OtherSound{describe_audio(input, *stream), start.time(), stream->time_base};
 }
 
-class Reader {
+class ContainerReader {
  public:
-  Reader(Input& input, const ReadOptions& options)
+  ContainerReader(Input& input, const ReadOptions& options)
       : input_(input), file_(*input.context()), options_(options) {}
 
   /// The sound is not that of `input`.
@@ -127,7 +127,7 @@ std::string describe(const AVCodecParameters& parameters) {
          avcodec_get_name(parameters.codec_id);
 }
 
-Error Reader::no_face() const {
+Error ContainerReader::no_face() const {
   std::string found;
   for (unsigned i = 0; i < file_.nb_streams && i < 8; ++i) {
     found += (i == 0 ? "" : ", ") + describe(*file_.streams[i]->codecpar);
@@ -136,7 +136,7 @@ Error Reader::no_face() const {
                                          (found.empty() ? "" : " (it holds: " + found + ")"));
 }
 
-Result<void> Reader::take(const AVPacket& packet) {
+Result<void> ContainerReader::take(const AVPacket& packet) {
   const int index = packet.stream_index;
   tracks_.decide(packet);
   if (face_ < 0 && tracks_[index].state == FaceTrack::State::yes) {
@@ -147,9 +147,9 @@ Result<void> Reader::take(const AVPacket& packet) {
   return units_->add(packet, file_.streams[index]->time_base);
 }
 
-Result<void> Reader::read_packets(SoundStart& sound) {
+Result<void> ContainerReader::read_packets(SoundStart& sound) {
   const av::Packet packet(av_packet_alloc());
-  if (!packet) return make_error(Code::out_of_range, "not enough memory");
+  if (!packet) return av::no_memory();
   while ((status_ = av_read_frame(&file_, packet.get())) >= 0) {
     tracks_.update(file_);
     Result<void> taken;
@@ -165,7 +165,7 @@ Result<void> Reader::read_packets(SoundStart& sound) {
 }
 
 // Ticks to subtract from the face's times.
-std::int64_t Reader::shift(const SoundStart& sound) const {
+std::int64_t ContainerReader::shift(const SoundStart& sound) const {
   const AVRational base = units_->time_base();
   const std::optional<std::int64_t> time = other_sound_ ? other_sound_->time : sound.time();
   if (time) {
@@ -181,7 +181,7 @@ std::int64_t Reader::shift(const SoundStart& sound) const {
   return arbitrary && !units_->empty() ? units_->first_time() : 0;
 }
 
-void Reader::add_warnings(const av::LogCapture& log) {
+void ContainerReader::add_warnings(const av::LogCapture& log) {
   if (input_.exhausted()) {
     result_.warnings.push_back("the file's index sends the reader in circles; reading was stopped");
   } else if (status_ != AVERROR_EOF) {
@@ -195,7 +195,7 @@ void Reader::add_warnings(const av::LogCapture& log) {
   for (const std::string& line : log.lines()) result_.warnings.push_back("FFmpeg: " + line);
 }
 
-Result<Container> Reader::read(const av::LogCapture& log) {
+Result<Container> ContainerReader::read(const av::LogCapture& log) {
   result_.format = input_.format();
   tracks_.update(file_);
   if (avformat_find_stream_info(&file_, nullptr) < 0) {
@@ -228,7 +228,7 @@ Result<Container> read_from(const Source& source, const ReadOptions& options) {
   const av::LogCapture log;
   Result<std::unique_ptr<Input>> input = Input::open(source, kFaceFormats);
   if (!input) return input.error();
-  return Reader(**input, options).read(log);
+  return ContainerReader(**input, options).read(log);
 }
 
 Result<Container> read_playlist(const std::string& path, const ReadOptions& options) {
@@ -242,7 +242,7 @@ Result<Container> read_playlist(const std::string& path, const ReadOptions& opti
   const av::LogCapture log;
   Result<std::unique_ptr<Input>> input = Input::open(*face, kFaceFormats);
   if (!input) return input.error();
-  Reader reader(**input, options);
+  ContainerReader reader(**input, options);
   if (sound != nullptr && sound != face) {
     Result<std::unique_ptr<Input>> other = Input::open(*sound, nullptr);
     const auto found = other ? look_at_sound(**other) : std::nullopt;

@@ -21,8 +21,6 @@ constexpr std::size_t kMostBytes = std::size_t(1) << 30;
 constexpr int kAacFrame = 1024;
 // Coarse clocks round packet times; only more than this is a gap.
 constexpr int kGapPerSecond = 200;
-// Encoder padding is at most a frame or two; a stated duration that would cut more is wrong.
-constexpr int kPaddingPerSecond = 4;
 
 struct FreeFilter {
   void operator()(AVBSFContext* filter) const { av_bsf_free(&filter); }
@@ -208,7 +206,7 @@ Result<EncodedAudio> read_track(Input& input) {
   PacketCollector sound(input, *file.streams[*index]);
   if (auto opened = sound.open(); !opened) return opened.error();
   const av::Packet packet(av_packet_alloc());
-  if (!packet) return make_error(Code::out_of_range, "not enough memory");
+  if (!packet) return av::no_memory();
   while (av_read_frame(&file, packet.get()) >= 0) {
     Result<void> added;
     if (packet->stream_index == *index) added = sound.add(packet.get());

@@ -6,18 +6,10 @@
 #include <utility>
 
 #include "tools/media/detail/ffmpeg.h"
-
-extern "C" {
-#include <libswscale/swscale.h>
-}
+#include "tools/media/detail/invalid.h"
 
 namespace animeme::media {
 namespace {
-
-struct SwsDeleter {
-  void operator()(SwsContext* context) const { sws_freeContext(context); }
-};
-using Sws = std::unique_ptr<SwsContext, SwsDeleter>;
 
 // Asked for by name: FFmpeg's own choice for H.264 may be hardware that is not there.
 const char* encoder_of(VideoCodec codec) {
@@ -31,10 +23,6 @@ const char* encoder_of(VideoCodec codec) {
   }
   return "mpeg4";
 }
-
-Error no_memory() { return make_error(Code::out_of_range, "not enough memory"); }
-
-Error invalid(const char* what) { return make_error(Code::invalid_argument, what); }
 
 Result<void> check(const VideoSettings& settings) {
   const auto bad = [](int side) { return side < 16 || side > 8192 || side % 2 != 0; };
@@ -80,7 +68,7 @@ Result<av::Codec> open_codec(const VideoSettings& settings) {
                                              name_of(settings.codec));
   }
   av::Codec codec(avcodec_alloc_context3(encoder));
-  if (!codec) return no_memory();
+  if (!codec) return av::no_memory();
   const int num = int(settings.rate.num);
   const int den = int(settings.rate.den);
   codec->width = settings.width;
@@ -106,11 +94,12 @@ Result<av::Codec> open_codec(const VideoSettings& settings) {
   return codec;
 }
 
-Result<Sws> open_scaler(const VideoSettings& settings) {
+Result<av::Sws> open_scaler(const VideoSettings& settings) {
   const int flags = SWS_BILINEAR | SWS_ACCURATE_RND | SWS_BITEXACT | SWS_FULL_CHR_H_INP;
-  Sws sws(sws_getContext(settings.width, settings.height, AV_PIX_FMT_RGBA, settings.width,
-                         settings.height, AV_PIX_FMT_YUV420P, flags, nullptr, nullptr, nullptr));
-  if (!sws) return no_memory();
+  av::Sws sws(sws_getContext(settings.width, settings.height, AV_PIX_FMT_RGBA, settings.width,
+                             settings.height, AV_PIX_FMT_YUV420P, flags, nullptr, nullptr,
+                             nullptr));
+  if (!sws) return av::no_memory();
   const int* matrix = sws_getCoefficients(SWS_CS_ITU709);
   const int one = 1 << 16;
   sws_setColorspaceDetails(sws.get(), matrix, 1, matrix, 0, 0, one, one);
@@ -152,7 +141,7 @@ Result<VideoCodec> video_codec_for(std::string_view extension) {
 struct VideoEncoder::Impl {
   VideoSettings settings;
   av::Codec codec;
-  Sws scaler;
+  av::Sws scaler;
   av::Frame frame;
   av::Packet packet;
   EncodedVideo video;
@@ -180,12 +169,12 @@ Result<VideoEncoder> VideoEncoder::open(const VideoSettings& settings) {
     Result<av::Codec> codec = open_codec(settings);
     if (!codec) return codec.error();
     impl->codec = std::move(*codec);
-    Result<Sws> scaler = open_scaler(settings);
+    Result<av::Sws> scaler = open_scaler(settings);
     if (!scaler) return scaler.error();
     impl->scaler = std::move(*scaler);
     impl->frame.reset(av_frame_alloc());
     impl->packet.reset(av_packet_alloc());
-    if (!impl->frame || !impl->packet) return no_memory();
+    if (!impl->frame || !impl->packet) return av::no_memory();
     const AVCodecContext& context = *impl->codec;
     impl->video = {settings.codec, settings.width, settings.height, settings.rate, {}, {}};
     impl->video.config.assign(context.extradata, context.extradata + context.extradata_size);
@@ -223,7 +212,7 @@ Result<void> VideoEncoder::push(std::span<const std::uint8_t> rgba) {
     frame.format = AV_PIX_FMT_YUV420P;
     frame.width = width;
     frame.height = height;
-    if (av_frame_get_buffer(&frame, 0) < 0) return no_memory();
+    if (av_frame_get_buffer(&frame, 0) < 0) return av::no_memory();
     const std::array<const std::uint8_t*, 4> planes = {rgba.data(), nullptr, nullptr, nullptr};
     const std::array<int, 4> strides = {4 * width, 0, 0, 0};
     sws_scale(impl.scaler.get(), planes.data(), strides.data(), 0, height, frame.data,

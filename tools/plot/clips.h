@@ -1,4 +1,5 @@
-// Rows of a plot that show FAPs of clips.
+/// @file
+/// Rows of a plot that show FAPs of clips.
 #pragma once
 
 #include <vector>

@@ -21,7 +21,7 @@ constexpr double kRow = 110;
 constexpr double kBand = 26;
 constexpr double kHeading = 30;
 constexpr double kAxis = 30;
-constexpr double kLegend = 18;
+constexpr double kLegendLine = 18;
 constexpr double kLeastPixelsPerSecond = 19;
 constexpr double kNarrow = 600;
 // How wide a second is, and the most that fits a screen; phones need more room to be read.
@@ -203,7 +203,7 @@ std::string row_svg(const Row& row, const Axis& axis, double base, double width)
 std::string legend_svg(const std::vector<std::string>& names, double top) {
   std::string svg;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const double y = top + kLegend * double(i) + kLegend / 2;
+    const double y = top + kLegendLine * double(i) + kLegendLine / 2;
     const Pen& pen = kPens[i];
     svg += "<line x1=\"8\" x2=\"38\" y1=\"" + drawn(y) + "\" y2=\"" + drawn(y) +
            "\" stroke-width=\"2\" stroke=\"" + pen.colour + "\"" + pen.dashes +
@@ -227,7 +227,8 @@ std::string curves_svg(const std::vector<Panel>& panels, const std::vector<std::
     }
     offset = at.end;
   }
-  const std::string size[2] = {drawn(width), drawn(offset + kLegend * double(legend.size()) + 8)};
+  const std::string size[2] = {drawn(width),
+                               drawn(offset + kLegendLine * double(legend.size()) + 8)};
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + size[0] + "\" height=\"" + size[1] +
          "\" viewBox=\"0 0 " + size[0] + " " + size[1] +
          "\" font-family=\"sans-serif\" font-size=\"12\">\n" +

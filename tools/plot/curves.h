@@ -1,9 +1,10 @@
-// Curves over time as SVG, with the phones that are spoken.
-//
-//     plot::Panel panel;
-//     panel.seconds = clip.duration();
-//     panel.rows.push_back({"FAP 3", "open_jaw", "1/1024 MNS", {points}});
-//     const std::string svg = plot::curves_svg({panel}, {"measured"});
+/// @file
+/// Curves over time as SVG, with the phones that are spoken.
+///
+///     plot::Panel panel;
+///     panel.seconds = clip.duration();
+///     panel.rows.push_back({"FAP 3", "open_jaw", "1/1024 MNS", {points}});
+///     const std::string svg = plot::curves_svg({panel}, {"measured"});
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Pictures of evaluations: recorded and made motion of a few sentences.
+/// @file
+/// Pictures of evaluations: recorded and made motion of a few sentences.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-// The strip below a rendered face: curves, phones and where we are.
+/// @file
+/// The strip below a rendered face: curves, phones and where we are.
 #pragma once
 
 #include <string>
@@ -10,12 +11,13 @@
 
 namespace animeme::plot {
 
+/// What the strip shows.
 struct StripOptions {
-  int width = 640;  ///< pixels
-  int height = 128;
-  std::vector<int> faps;  ///< one colour each, three at most; may be empty
-  const dam::Script* script = nullptr;
-  double page = 6;  ///< seconds in view, > 0; then the next ones
+  int width = 640;                      ///< pixels
+  int height = 128;                     ///< pixels
+  std::vector<int> faps;                ///< one colour each, three at most; may be empty
+  const dam::Script* script = nullptr;  ///< nullptr: no phones
+  double page = 6;                      ///< seconds in view, > 0; then the next ones
 };
 
 /// Draws strips page by page. Movable, not copyable.

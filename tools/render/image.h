@@ -1,4 +1,5 @@
-// Pictures in memory.
+/// @file
+/// Pictures in memory.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +9,9 @@ namespace animeme::render {
 
 /// Rows from the top, pixels from the left, 4 bytes each: R, G, B (sRGB), A (always 255).
 struct Image {
-  int width = 0;
-  int height = 0;
-  std::vector<std::uint8_t> rgba;
+  int width = 0;                   ///< pixels
+  int height = 0;                  ///< pixels
+  std::vector<std::uint8_t> rgba;  ///< width x height x 4
 
   friend bool operator==(const Image&, const Image&) = default;
 };

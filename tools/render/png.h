@@ -1,4 +1,5 @@
-// Pictures as files.
+/// @file
+/// Pictures as files.
 #pragma once
 
 #include "fap/result.h"

@@ -14,16 +14,6 @@ using detail::kSubpixels;
 using detail::kTile;
 using detail::ScreenVertex;
 
-// A triangle of a tile: which surface, which triangle.
-struct Entry {
-  std::uint32_t surface;
-  std::uint32_t triangle;
-};
-
-// What one thread found for each tile. Threads take neighbouring stretches of all triangles, so
-// their lists one after the other are in the order of the scene.
-using Bins = std::vector<std::vector<Entry>>;
-
 struct Stretch {
   std::size_t first, last;
 };
@@ -40,6 +30,15 @@ std::int64_t screen_area(const ScreenVertex& a, const ScreenVertex& b, const Scr
 }  // namespace
 
 struct Renderer::State {
+  // A triangle of a tile: which surface, which triangle.
+  struct Entry {
+    std::uint32_t surface;
+    std::uint32_t triangle;
+  };
+  // What one thread found for each tile. Threads take neighbouring stretches of all triangles, so
+  // their lists one after the other are in the order of the scene.
+  using Bins = std::vector<std::vector<Entry>>;
+
   RenderOptions options;
   Image image;
   int threads = 1;
@@ -129,7 +128,7 @@ Renderer::Renderer(const RenderOptions& options) : state_(std::make_unique<State
   s.tiles_x = (s.options.width + kTile - 1) / kTile;
   s.tiles_y = (s.options.height + kTile - 1) / kTile;
   s.bins.resize(std::size_t(s.threads));
-  for (Bins& b : s.bins) b.resize(std::size_t(s.tiles_x * s.tiles_y));
+  for (State::Bins& b : s.bins) b.resize(std::size_t(s.tiles_x * s.tiles_y));
   s.tiles.resize(std::size_t(s.threads));
 }
 

@@ -1,4 +1,5 @@
-// Heads as scenes, and cameras that look at them.
+/// @file
+/// Heads as scenes, and cameras that look at them.
 #pragma once
 
 #include <optional>

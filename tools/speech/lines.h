@@ -1,10 +1,11 @@
-// Lines of text that become speech while they arrive.
-//
-//     auto lines = VoiceLines::open(STDIN_FILENO, {}, media::steady_clock());
-//     for (;;) for (SpokenLine& line : (*lines)->take()) ...      // never waits
-//
-// Reading and the voice run in a thread of their own, so that the clock of a presentation never
-// stands still for them.
+/// @file
+/// Lines of text that become speech while they arrive.
+///
+///     auto lines = VoiceLines::open(STDIN_FILENO, {}, media::steady_clock());
+///     for (;;) for (SpokenLine& line : (*lines)->take()) ...      // never waits
+///
+/// Reading and the voice run in a thread of their own, so that the clock of a presentation never
+/// stands still for them.
 #pragma once
 
 #include <memory>
@@ -19,10 +20,10 @@ namespace animeme::speech {
 
 /// A line and what the voice made of it. Instants are those of one media::Clock.
 struct SpokenLine {
-  std::string text;
-  voice::Speech speech;
-  double arrived = 0;  ///< when its last character was read
-  double spoken = 0;   ///< when the voice was done with it
+  std::string text;      ///< as it was typed
+  voice::Speech speech;  ///< sound and phones
+  double arrived = 0;    ///< when its last character was read
+  double spoken = 0;     ///< when the voice was done with it
 };
 
 /// Where lines come from. To be used from one thread.

@@ -1,4 +1,5 @@
-// Coded sound without an end: silence into which pieces of sound are laid while it is made.
+/// @file
+/// Coded sound without an end: silence into which pieces of sound are laid while it is made.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +17,7 @@ class LiveSound {
   /// Pieces will have `sample_rate`. Errors: those of media::AudioEncoder::open().
   static Result<LiveSound> open(int sample_rate, const media::AudioSettings& settings);
 
-  const media::AudioFormat& format() const { return encoder_.format(); }
+  const media::AudioFormat& format() const { return encoder_.format(); }  ///< of the packets
   /// Lays in a piece (full scale +-1) whose first sample is heard at sample `start` of
   /// `sample_rate`. What of it lies before made() is lost.
   void add(std::int64_t start, std::vector<float> samples);

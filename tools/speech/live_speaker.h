@@ -1,10 +1,11 @@
-// A talking head that is live: lines of text in, face and sound on one clock out.
-//
-// The clock never stops. Between lines the face rests (or idles, with life) and the sound is
-// silence; a line begins with the next frame that has not been made, and its sound at the sample of
-// that frame, so face and sound agree to the sample. Lines that come while another is spoken
-// follow it. Nothing is made ahead of time but what the sound's encoder needs, so a line is seen
-// and heard as soon as it can be.
+/// @file
+/// A talking head that is live: lines of text in, face and sound on one clock out.
+///
+/// The clock never stops. Between lines the face rests (or idles, with life) and the sound is
+/// silence; a line begins with the next frame that has not been made, and its sound at the sample
+/// of that frame, so face and sound agree to the sample. Lines that come while another is spoken
+/// follow it. Nothing is made ahead of time but what the sound's encoder needs, so a line is seen
+/// and heard as soon as it can be.
 #pragma once
 
 #include <cstdint>
@@ -22,11 +23,12 @@
 
 namespace animeme::speech {
 
+/// All settings of LiveSpeaker.
 struct SpeakerOptions {
-  FaceOptions face;
-  int fap_quant = 1;
-  double intra_seconds = 1;
-  int voice_rate = 22050;  ///< Hz, of the lines' sound; other rates are converted
+  FaceOptions face;          ///< how the face moves
+  int fap_quant = 1;         ///< 0..31
+  double intra_seconds = 1;  ///< seconds between intra planes
+  int voice_rate = 22050;    ///< Hz, of the lines' sound; other rates are converted
   /// How the sound is coded; nothing: the face alone.
   std::optional<media::AudioSettings> audio = media::AudioSettings{};
   double audio_ahead = 0.02;  ///< seconds that sound is sent before its time, 0..1
@@ -45,8 +47,8 @@ struct LineTrace {
   double face_coded = 0;   ///< ... its end
   double face_sent = 0;    ///< that frame has been sent
   double sound_begun = 0;  ///< the first packet with sound of it: coding ...
-  double sound_coded = 0;
-  double sound_sent = 0;
+  double sound_coded = 0;  ///< ... its last packet
+  double sound_sent = 0;   ///< that packet has been sent
 };
 
 /// Not thread safe.

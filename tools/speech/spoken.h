@@ -1,5 +1,6 @@
-// What is said and when: from text (a synthetic voice), from an aligned script, or from a
-// recorded voice and its text. And who says it.
+/// @file
+/// What is said and when: from text (a synthetic voice), from an aligned script, or from a
+/// recorded voice and its text. And who says it.
 #pragma once
 
 #include <optional>

@@ -1,13 +1,14 @@
-// The frames of a face that speaks when there is something to say and idles when there is not.
-//
-//     auto face = TalkingFace::open(model, {.life = true});
-//     for (;;) {
-//       if (have_line && !face->speaking()) face->say(script);
-//       auto frame = face->next();                   // one every 1/rate seconds, for ever
-//     }
-//
-// What is said begins with the next frame. Between two pieces (a line, idling, another line)
-// nothing jumps: the difference at the joint fades within 0.25 s.
+/// @file
+/// The frames of a face that speaks when there is something to say and idles when there is not.
+///
+///     auto face = TalkingFace::open(model, {.life = true});
+///     for (;;) {
+///       if (have_line && !face->speaking()) face->say(script);
+///       auto frame = face->next();                   // one every 1/rate seconds, for ever
+///     }
+///
+/// What is said begins with the next frame. Between two pieces (a line, idling, another line)
+/// nothing jumps: the difference at the joint fades within 0.25 s.
 #pragma once
 
 #include <cstddef>
@@ -23,6 +24,7 @@
 
 namespace animeme::speech {
 
+/// How a face speaks and idles.
 struct FaceOptions {
   dam::SynthesisOptions synthesis;  ///< `frames` and `tail` are not used
   bool life = false;                ///< blinks, brows, head: see dam/speaking/life.h

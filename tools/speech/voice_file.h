@@ -1,5 +1,6 @@
-// Scripts and sounds from files, or from standard input for "-". Each error names its file, and so
-// does each warning, which goes to talk.warn.
+/// @file
+/// Scripts and sounds from files, or from standard input for "-". Each error names its file, and so
+/// does each warning, which goes to talk.warn.
 #pragma once
 
 #include <functional>
@@ -26,10 +27,10 @@ Result<media::Pcm> read_voice(const std::string& path, const tools::Talk& talk =
 /// A sound that goes into a file: coded already (with packets), or samples to be coded; one of
 /// them.
 struct SoundInput {
-  std::optional<media::EncodedAudio> coded;
-  std::optional<media::Pcm> samples;
+  std::optional<media::EncodedAudio> coded;  ///< nothing: `samples`
+  std::optional<media::Pcm> samples;         ///< nothing: `coded`
 
-  double seconds() const;
+  double seconds() const;  ///< length of whichever there is
   /// Names it in `input`, which borrows it.
   void give_to(media::MuxInput& input) const;
 };

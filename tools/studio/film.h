@@ -1,4 +1,5 @@
-// Films of a face: what any player shows.
+/// @file
+/// Films of a face: what any player shows.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-// Which frames of a clip to show, and which shapes.
+/// @file
+/// Which frames of a clip to show, and which shapes.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +13,8 @@ namespace animeme::studio {
 
 /// A frame and when it is shown.
 struct ShownFrame {
-  fap::Frame frame;
-  double seconds = 0;
+  fap::Frame frame;    ///< filled
+  double seconds = 0;  ///< in the clip
 };
 
 /// The frames at these times (the last one that has begun); `clip` is filled. Errors: out_of_range

@@ -1,4 +1,5 @@
-// Heads by name: one of ours, or a file of any kind.
+/// @file
+/// Heads by name: one of ours, or a file of any kind.
 #pragma once
 
 #include <string>
@@ -10,13 +11,14 @@
 
 namespace animeme::studio {
 
+/// --head and --points.
 struct HeadChoice {
   std::string head = "woman";  ///< one of head::kHeadNames, or a file
   std::string points;          ///< list of feature points; see fap/head/point_list.h
 };
 
 struct LoadedHead {
-  head::Head head;
+  head::Head head;                 ///< see fap/head/model.h
   std::vector<std::string> notes;  ///< what was guessed or is missing, a sentence each
 };
 

@@ -1,4 +1,5 @@
-// A head, a camera and a renderer: frames in, pictures out.
+/// @file
+/// A head, a camera and a renderer: frames in, pictures out.
 #pragma once
 
 #include <memory>
@@ -13,12 +14,12 @@ namespace animeme::studio {
 
 /// How a head is looked at.
 struct HeadLook {
-  HeadChoice head;
+  HeadChoice head;     ///< whose head
   double degrees = 0;  ///< to the person's left
   double up = 0;       ///< degrees from above
   double zoom = 1;     ///< 1: head and shoulders
   int width = 640;     ///< pixels
-  int height = 640;
+  int height = 640;    ///< pixels
 };
 
 /// Movable, not copyable.

@@ -1,13 +1,14 @@
-// A face as one HTML file: the head, the motion, the sound and the program that plays them.
-//
-//     head::Head head = *head::make_head();
-//     head::Rig rig = head::make_rig(head);
-//     viewer::Page page{.head = &head, .rig = &rig};
-//     page.clips.push_back({.motion = filled, .name = "talk.fba"});
-//     std::string html = viewer::make_page(page);
-//
-// The file needs a browser with WebGL2 and nothing else: it opens from disk and loads nothing.
-// What it can do, and how its parts serve other pages, stands in README.md of this folder.
+/// @file
+/// A face as one HTML file: the head, the motion, the sound and the program that plays them.
+///
+///     head::Head head = *head::make_head();
+///     head::Rig rig = head::make_rig(head);
+///     viewer::Page page{.head = &head, .rig = &rig};
+///     page.clips.push_back({.motion = filled, .name = "talk.fba"});
+///     std::string html = viewer::make_page(page);
+///
+/// The file needs a browser with WebGL2 and nothing else: it opens from disk and loads nothing.
+/// What it can do, and how its parts serve other pages, stands in README.md of this folder.
 #pragma once
 
 #include <cstdint>
@@ -34,17 +35,17 @@ struct Clip {
 
 /// Coded sound in a file that browsers read.
 struct Sound {
-  std::vector<std::uint8_t> file;
-  std::string type;  ///< "audio/mp4"
+  std::vector<std::uint8_t> file;  ///< the whole file
+  std::string type;                ///< "audio/mp4"
 };
 
 /// What goes into a page; the head and the rig are borrowed.
 struct Page {
-  const head::Head* head = nullptr;
-  const head::Rig* rig = nullptr;
-  std::vector<Clip> clips;     ///< one, or two to compare
-  std::optional<Sound> sound;  ///< nothing: the page is silent
-  dam::Script script;          ///< phones below the curves; empty: none
+  const head::Head* head = nullptr;  ///< borrowed
+  const head::Rig* rig = nullptr;    ///< borrowed
+  std::vector<Clip> clips;           ///< one, or two to compare
+  std::optional<Sound> sound;        ///< nothing: the page is silent
+  dam::Script script;                ///< phones below the curves; empty: none
 };
 
 /// The page. The same input gives the same bytes with the same zlib. Texts from outside (names,

@@ -1,11 +1,12 @@
-// Forced alignment: when is each sound of a known text spoken in a recording.
-//
-// The recogniser is pocketsphinx with its US English model (Debian packages libpocketsphinx-dev
-// to build, pocketsphinx-en-us to run; BSD-style licences), an optional part of the build
-// (ANIMEME_WITH_ALIGNER). English words are looked up in its dictionary; words that are not there
-// and all words of other languages get their phones from espeak-ng (see voice.h), and the English
-// model then aligns them: less exact, but lips forgive more than ears.
-// Source: phoneme script specification, section 2.1.
+/// @file
+/// Forced alignment: when is each sound of a known text spoken in a recording.
+///
+/// The recogniser is pocketsphinx with its US English model (Debian packages libpocketsphinx-dev
+/// to build, pocketsphinx-en-us to run; BSD-style licences), an optional part of the build
+/// (ANIMEME_WITH_ALIGNER). English words are looked up in its dictionary; words that are not there
+/// and all words of other languages get their phones from espeak-ng (see voice.h), and the English
+/// model then aligns them: less exact, but lips forgive more than ears.
+/// Source: phoneme script specification, section 2.1.
 #pragma once
 
 #include <string>
@@ -18,6 +19,7 @@
 
 namespace animeme::voice {
 
+/// Language and data of the recogniser.
 struct AlignOptions {
   std::string language = "en";  ///< of the transcript, as in VoiceOptions::language
   /// Folder of the acoustic model (with mdef, means ...).
@@ -27,6 +29,7 @@ struct AlignOptions {
   std::string dictionary_path = "/usr/share/pocketsphinx/model/en-us/cmudict-en-us.dict";
 };
 
+/// What align() found.
 struct Alignment {
   /// Covers the audio exactly; labels are ARPAbet, words as the transcript spells them.
   dam::Script script;

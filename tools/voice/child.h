@@ -1,4 +1,5 @@
-// A function in a forked child process that sends messages to its parent. Internal.
+/// @file
+/// A function in a forked child process that sends messages to its parent. Internal.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +14,7 @@ namespace animeme::voice {
 /// The child's end: messages are a tag and bytes.
 class Sender {
  public:
+  /// `descriptor`: of a pipe, stays the caller's.
   explicit Sender(int descriptor) : descriptor_(descriptor) {}
   /// False when the parent no longer listens.
   bool send(std::uint32_t tag, std::string_view bytes);

@@ -1,4 +1,5 @@
-// espeak-ng in a child process. Internal: voice.h is the interface.
+/// @file
+/// espeak-ng in a child process. Internal: voice.h is the interface.
 #pragma once
 
 #include <cstdint>
@@ -10,22 +11,25 @@
 
 namespace animeme::voice {
 
+/// What the voice announces.
 enum class EventKind : std::uint8_t { word, phoneme };
 
 /// What happens at one sample of the sound.
 struct VoiceEvent {
-  EventKind kind = EventKind::phoneme;
-  std::int64_t sample = 0;
-  std::int32_t text_position = 0;  ///< word: first character of it in the text, from 1
-  std::int32_t text_length = 0;    ///< word: in characters
-  std::string ipa;                 ///< phoneme: at most 8 bytes, may end in half a character
+  EventKind kind = EventKind::phoneme;  ///< word or phoneme
+  std::int64_t sample = 0;              ///< when, from the start of the sound
+  std::int32_t text_position = 0;       ///< word: first character of it in the text, from 1
+  std::int32_t text_length = 0;         ///< word: in characters
+  std::string ipa;                      ///< phoneme: at most 8 bytes, may end in half a character
 };
 
+/// Sound and events of one text.
 struct RawSpeech {
-  std::vector<std::int16_t> samples;
-  std::vector<VoiceEvent> events;
+  std::vector<std::int16_t> samples;  ///< mono, full scale +-32768
+  std::vector<VoiceEvent> events;     ///< ascending
 };
 
+/// What the child is to say.
 struct EspeakJob {
   std::string voice;                ///< identifier, with variant
   std::vector<std::string> texts;   ///< UTF-8 without NUL, spoken one after the other
@@ -33,16 +37,18 @@ struct EspeakJob {
   std::int64_t max_seconds = 3600;  ///< of sound, all texts together
 };
 
+/// What the child said.
 struct EspeakResult {
-  int sample_rate = 0;
+  int sample_rate = 0;            ///< Hz
   std::vector<RawSpeech> speech;  ///< one for each text
 };
 
 /// Errors: unsupported, io, out_of_range (more than max_seconds).
 Result<EspeakResult> run_espeak(const EspeakJob& job);
 
+/// What is installed.
 struct VoiceLists {
-  std::vector<VoiceInfo> voices;
+  std::vector<VoiceInfo> voices;      ///< languages and dialects
   std::vector<std::string> variants;  ///< "f3", "croak" ...
 };
 

@@ -1,4 +1,5 @@
-// From words to the phones that the recogniser knows. Internal.
+/// @file
+/// From words to the phones that the recogniser knows. Internal.
 #pragma once
 
 #include <string>
@@ -13,8 +14,8 @@ using Labels = std::vector<std::string>;  ///< the 39 phones of the CMU dictiona
 
 /// A word of the transcript with all ways to say it, at least one, none empty.
 struct SpokenWord {
-  std::string text;
-  std::vector<Labels> variants;
+  std::string text;              ///< as the transcript spells it
+  std::vector<Labels> variants;  ///< ARPAbet
 };
 
 /// Words that a voice says nothing for are left out, with a warning. Errors as align().

@@ -1,4 +1,5 @@
-// The search of the recogniser. Internal.
+/// @file
+/// The search of the recogniser. Internal.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +14,12 @@ namespace animeme::voice {
 
 /// A phone that the search has placed. Segments follow each other without gaps.
 struct Segment {
-  double start = 0;  ///< seconds; the bias of the analysis window is already taken off
-  std::string label;
+  double start = 0;      ///< seconds; the bias of the analysis window is already taken off
+  std::string label;     ///< ARPAbet or SIL
   std::size_t word = 0;  ///< index into the words; kNoWord for silence
 };
 
-inline constexpr std::size_t kNoWord = ~std::size_t(0);
+inline constexpr std::size_t kNoWord = ~std::size_t(0);  ///< no word: silence
 
 /// Is there a recogniser and the model it needs? Errors: unsupported, not_found.
 Result<void> check_recogniser(const AlignOptions& options);

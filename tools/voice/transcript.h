@@ -1,4 +1,5 @@
-// The words of a transcript. Internal.
+/// @file
+/// The words of a transcript. Internal.
 #pragma once
 
 #include <string>

@@ -1,14 +1,15 @@
-// Text to speech with timed phones: the sound and the script that describes it, from one source.
-//
-// The voices are those of espeak-ng (about 130 languages and dialects). Its library is an
-// optional part of the build (ANIMEME_WITH_ESPEAK, Debian package libespeak-ng-dev) and licensed
-// under GPL-3: a program that links this part with it has to respect that licence. Without it the
-// functions exist and return Code::unsupported.
-//
-// espeak-ng keeps state from one call to the next, so that the same text would sound different
-// the second time. It is therefore run in a forked child process: every call is independent of
-// all others, gives the same samples every time, may be made from several threads at once, and
-// cannot take the program down. Source: phoneme script specification, section 2.2.
+/// @file
+/// Text to speech with timed phones: the sound and the script that describes it, from one source.
+///
+/// The voices are those of espeak-ng (about 130 languages and dialects). Its library is an
+/// optional part of the build (ANIMEME_WITH_ESPEAK, Debian package libespeak-ng-dev) and licensed
+/// under GPL-3: a program that links this part with it has to respect that licence. Without it the
+/// functions exist and return Code::unsupported.
+///
+/// espeak-ng keeps state from one call to the next, so that the same text would sound different
+/// the second time. It is therefore run in a forked child process: every call is independent of
+/// all others, gives the same samples every time, may be made from several threads at once, and
+/// cannot take the program down. Source: phoneme script specification, section 2.2.
 #pragma once
 
 #include <string>
@@ -21,6 +22,7 @@
 
 namespace animeme::voice {
 
+/// Who speaks, and how.
 struct VoiceOptions {
   /// A language ("en", "de", "pt-br"), an espeak-ng voice name ("English (Scotland)") or
   /// identifier ("gmw/en-US"), in any case; "+f3" and the like select a variant. "en" is "en-us".
@@ -39,9 +41,9 @@ struct VoiceOptions {
 /// What speak_text() makes. The script begins at 0 and ends with the audio; its first and last
 /// phones are SIL (unless a silence of 0 was asked for). Phone::word is filled.
 struct Speech {
-  media::Pcm audio;  ///< 22050 Hz with the voices of espeak-ng 1.51
-  dam::Script script;
-  std::string voice;  ///< name of the voice that spoke, "English (America)"
+  media::Pcm audio;    ///< 22050 Hz with the voices of espeak-ng 1.51
+  dam::Script script;  ///< phones and words of the sound
+  std::string voice;   ///< name of the voice that spoke, "English (America)"
 };
 
 /// Speaks UTF-8 text (plain text: no SSML, no phoneme codes).
@@ -55,6 +57,7 @@ struct Speech {
 /// data).
 Result<Speech> speak_text(std::string_view text, const VoiceOptions& options = {});
 
+/// An installed voice.
 struct VoiceInfo {
   std::string name;                          ///< "English (America)"
   std::string language;                      ///< "en-us"

@@ -1,4 +1,5 @@
-// Which voice a user means. Internal.
+/// @file
+/// Which voice a user means. Internal.
 #pragma once
 
 #include <string>
@@ -9,6 +10,7 @@
 
 namespace animeme::voice {
 
+/// What a name stands for.
 struct ChosenVoice {
   std::string identifier;  ///< for espeak-ng, with variant: "gmw/en-US+f3"
   std::string name;        ///< "English (America)"

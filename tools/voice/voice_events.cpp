@@ -20,7 +20,7 @@ constexpr double kMaxFirstClosure = 0.08;  // the same after a pause: the rest i
 constexpr double kMinPhone = 0.01;         // seconds that the phone before keeps
 
 // A stretch of sound with its labels. No labels: silence.
-struct Segment {
+struct VoicedSegment {
   std::int64_t start = 0, end = 0;
   std::vector<IpaPhone> labels;
   std::string word;
@@ -80,7 +80,7 @@ class WordFinder {
   std::vector<std::size_t> starts_;
 };
 
-void add_segment(std::vector<Segment>& segments, const RawSpeech& raw, Segment segment,
+void add_segment(std::vector<VoicedSegment>& segments, const RawSpeech& raw, VoicedSegment segment,
                  std::string_view ipa) {
   if (segment.end <= segment.start) return;
   const bool pause = ipa.starts_with('_');
@@ -96,11 +96,11 @@ void add_segment(std::vector<Segment>& segments, const RawSpeech& raw, Segment s
   }
 }
 
-std::vector<Segment> cut(const RawSpeech& raw, std::string_view text) {
+std::vector<VoicedSegment> cut(const RawSpeech& raw, std::string_view text) {
   const WordFinder words(text);
   const auto size = std::int64_t(raw.samples.size());
-  std::vector<Segment> segments;
-  Segment current{0, 0, {}, {}};
+  std::vector<VoicedSegment> segments;
+  VoicedSegment current{0, 0, {}, {}};
   std::string ipa = "_", word;
   for (const VoiceEvent& event : raw.events) {
     if (event.kind == EventKind::word) {
@@ -118,17 +118,17 @@ std::vector<Segment> cut(const RawSpeech& raw, std::string_view text) {
   return segments;
 }
 
-bool begins_with_closure(const Segment& segment) {
+bool begins_with_closure(const VoicedSegment& segment) {
   constexpr std::string_view kStops[] = {"P", "B", "T", "D", "K", "G", "CH", "JH"};
   return !segment.labels.empty() && std::find(std::begin(kStops), std::end(kStops),
                                               segment.labels[0].label) != std::end(kStops);
 }
 
 // The event of a stop is at its burst; the silence before it is the closure and belongs to it.
-void move_stops_to_closure(std::vector<Segment>& segments, const RawSpeech& raw, int rate) {
+void move_stops_to_closure(std::vector<VoicedSegment>& segments, const RawSpeech& raw, int rate) {
   for (std::size_t i = 1; i < segments.size(); ++i) {
     if (!begins_with_closure(segments[i])) continue;
-    Segment& before = segments[i - 1];
+    VoicedSegment& before = segments[i - 1];
     const double reach = before.labels.empty() ? kMaxFirstClosure : kMaxClosure;
     const std::int64_t floor = std::max(segments[i].start - std::int64_t(reach * rate),
                                         before.start + std::int64_t(kMinPhone * rate));
@@ -149,11 +149,11 @@ void append(std::vector<dam::Phone>& phones, dam::Phone phone) {
 }  // namespace
 
 dam::Script make_voice_script(const RawSpeech& raw, int sample_rate, std::string_view text) {
-  std::vector<Segment> segments = cut(raw, text);
+  std::vector<VoicedSegment> segments = cut(raw, text);
   move_stops_to_closure(segments, raw, sample_rate);
   dam::Script script;
   const auto seconds = [&](double sample) { return sample / double(sample_rate); };
-  for (const Segment& segment : segments) {
+  for (const VoicedSegment& segment : segments) {
     const double start = seconds(double(segment.start)), end = seconds(double(segment.end));
     if (segment.labels.empty()) {
       append(script.phones, {start, end, std::string(dam::kSilence), {}});

@@ -1,4 +1,5 @@
-// From the events of a voice to a phoneme script. Internal.
+/// @file
+/// From the events of a voice to a phoneme script. Internal.
 #pragma once
 
 #include <string_view>

@@ -1,17 +1,18 @@
-// A face and its sound for browsers: a small web server as a live transport, and a client of it.
-//
-//     auto sink = make_web_sink("http://127.0.0.1:8080/");
-//     (*sink)->start(info);                       // now http://127.0.0.1:8080/ shows the page
-//     auto source = make_web_source("ws://127.0.0.1:8080/");
-//
-// What the server offers, and each byte of it, stands in tools/web/README.md: the page `/`,
-// `/face` (access units), `/faps` (decoded values), `/audio` (segments for MediaSource), all three
-// as WebSockets, `/talk.mp4` (endless mp4 of the sound) and `/info.json`. Nothing is read from
-// disk. No encryption: put a proxy in front of it where that is wanted.
-//
-// The clock that browsers see is that of the sound segments. It runs one second ahead of LiveUnit
-// times (kWebTimeZero), so that the priming of the sound has a place; the source takes it off.
-// Source: containers, section 4.4.
+/// @file
+/// A face and its sound for browsers: a small web server as a live transport, and a client of it.
+///
+///     auto sink = make_web_sink("http://127.0.0.1:8080/");
+///     (*sink)->start(info);                       // now http://127.0.0.1:8080/ shows the page
+///     auto source = make_web_source("ws://127.0.0.1:8080/");
+///
+/// What the server offers, and each byte of it, stands in tools/web/README.md: the page `/`,
+/// `/face` (access units), `/faps` (decoded values), `/audio` (segments for MediaSource), all three
+/// as WebSockets, `/talk.mp4` (endless mp4 of the sound) and `/info.json`. Nothing is read from
+/// disk. No encryption: put a proxy in front of it where that is wanted.
+///
+/// The clock that browsers see is that of the sound segments. It runs one second ahead of LiveUnit
+/// times (kWebTimeZero), so that the priming of the sound has a place; the source takes it off.
+/// Source: containers, section 4.4.
 #pragma once
 
 #include <cstddef>
@@ -28,6 +29,7 @@ namespace animeme::web {
 /// Seconds on the clock of the segments at time 0.
 inline constexpr int kWebTimeZero = 1;
 
+/// For both directions.
 struct WebOptions {
   /// WebSockets and /talk.mp4 at the same time, 1..1000; whoever comes then gets 503.
   int max_clients = 64;
@@ -48,7 +50,7 @@ struct WebOptions {
   /// viewer::pack_head(), which the server then has as /head.bin. Both or none. Browsers without
   /// WebGL2 keep the schematic face.
   std::string head_script;
-  std::vector<std::uint8_t> head_model;
+  std::vector<std::uint8_t> head_model;  ///< see head_script
   /// Source: bytes that may wait for next(); the network waits when they are full.
   std::size_t queue_bytes = std::size_t(4) << 20;
 };

@@ -28,10 +28,10 @@ void store_modes(const FitData& data, const FitState& state, const ModeTable& ta
     }
 }
 
-class Trainer {
+class AnimemeTrainer {
  public:
-  Trainer(FitData data, const Model& model, const AnimemeOptions& own, const TrainOptions& options,
-          TrainRun& run)
+  AnimemeTrainer(FitData data, const Model& model, const AnimemeOptions& own,
+                 const TrainOptions& options, TrainRun& run)
       : data_(std::move(data)),
         own_(own),
         options_(options),
@@ -113,7 +113,7 @@ Result<Parameters> fit_animemes(const TrainingSet& set, const Model& model,
   data.order = own.order;
   data.time_margin = own.time_margin;
   data.normalised = own.normalised;
-  return Trainer(std::move(data), model, own, options, run).fit();
+  return AnimemeTrainer(std::move(data), model, own, options, run).fit();
 }
 
 }  // namespace animeme::dam

@@ -11,7 +11,7 @@ namespace animeme::dam {
 namespace {
 
 /// Sentences are summed in this many parts, each in order: the sum must not depend on threads.
-constexpr std::size_t kParts = 8;
+constexpr std::size_t kCoefficientParts = 8;
 
 struct PartialSums {
   Eigen::MatrixXd gram;  // lower triangle
@@ -73,7 +73,7 @@ Eigen::VectorXd ridge_diagonal(const FitData& data, std::size_t modes, double ri
 
 Normal make_normal(const FitData& data, const FitWeights& weights, std::span<const double> sigma) {
   const std::size_t count = data.sentences.size();
-  std::vector<PartialSums> partial(std::min(kParts, count));
+  std::vector<PartialSums> partial(std::min(kCoefficientParts, count));
   parallel_for(partial.size(), weights.threads, [&](std::size_t p) {
     partial[p] =
         sum_sentences(data, sigma, p * count / partial.size(), (p + 1) * count / partial.size());

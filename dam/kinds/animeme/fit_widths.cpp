@@ -4,8 +4,8 @@
 
 #include "dam/kinds/animeme/fit.h"
 #include "dam/kinds/animeme/fit_normal.h"
-#include "dam/kinds/projection.h"
 #include "dam/maths/parallel.h"
+#include "dam/maths/projection.h"
 
 namespace animeme::dam {
 namespace {

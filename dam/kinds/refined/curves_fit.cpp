@@ -12,7 +12,7 @@ namespace {
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr std::size_t kParts = 2;        // each needs a matrix of all unknowns
+constexpr std::size_t kCurveParts = 2;   // each needs a matrix of all unknowns
 constexpr Eigen::Index kSentences = 64;  // whose sums are taken off together
 
 /// A term of an occurrence with its place among the unknowns.
@@ -219,7 +219,7 @@ void CurveSums::add(const CurveSums& other) {
 CurveSums sum_curves(const RefinedData& data, const TermSpace& space,
                      std::span<const PhoneDominance> dominance, const std::vector<bool>& wanted) {
   const std::size_t count = data.speech->sentences.size();
-  std::vector<CurveSums> parts(std::min(kParts, count));
+  std::vector<CurveSums> parts(std::min(kCurveParts, count));
   parallel_for(parts.size(), data.threads, [&](std::size_t p) {
     Summer summer(data, space, dominance);
     for (std::size_t s = p * count / parts.size(); s < (p + 1) * count / parts.size(); ++s)

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dam/kinds/projection.h"
 #include "dam/kinds/refined/base_curves.h"
 #include "dam/kinds/refined/dominance.h"
+#include "dam/maths/projection.h"
 
 namespace animeme::dam {
 namespace {

@@ -45,9 +45,10 @@ std::vector<double> rotated(const std::vector<double>& rows, const Eigen::Matrix
   return {result.data(), result.data() + result.size()};
 }
 
-class Trainer {
+class RefinedTrainer {
  public:
-  Trainer(const TrainingSet& set, const Model& model, const TrainOptions& options, TrainRun& run)
+  RefinedTrainer(const TrainingSet& set, const Model& model, const TrainOptions& options,
+                 TrainRun& run)
       : options_(options),
         own_(options.refined),
         run_(run),
@@ -130,7 +131,7 @@ class Trainer {
 
 Result<Parameters> fit_refined(const TrainingSet& set, const Model& model,
                                const TrainOptions& options, TrainRun& run) {
-  return Trainer(set, model, options, run).fit();
+  return RefinedTrainer(set, model, options, run).fit();
 }
 
 }  // namespace animeme::dam

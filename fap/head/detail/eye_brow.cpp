@@ -7,7 +7,7 @@
 namespace animeme::head::detail {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double kPupil = 1.0 / 3;  // of the iris, as the standard has it, and a little more
 
 struct EyeColours {
@@ -43,7 +43,7 @@ Mesh make_eye(const Shape& shape, int side) {
   std::vector<double> angles;
   for (const double r : rings) angles.push_back(std::asin(r / radius));
   const double start = angles.back();
-  for (int i = 1; i <= 10; ++i) angles.push_back(start + (kPi - start) * i / 11.0);
+  for (int i = 1; i <= 10; ++i) angles.push_back(start + (pi - start) * i / 11.0);
   constexpr int kAround = 48;
   const EyeColours colours{.iris = linear_colour(shape.p.iris_colour),
                            .dark = linear_colour(shape.p.iris_colour) * 0.16f};
@@ -62,9 +62,9 @@ Mesh make_eye(const Shape& shape, int side) {
   };
   add(0, 0);
   for (const double polar : angles) {
-    for (int k = 0; k < kAround; ++k) add(polar, 2 * kPi * k / kAround);
+    for (int k = 0; k < kAround; ++k) add(polar, 2 * pi * k / kAround);
   }
-  add(kPi, 0);
+  add(pi, 0);
   const auto at = [](std::size_t ring, int k) {
     return std::uint32_t(1 + ring * kAround + std::size_t(k % kAround));
   };
@@ -91,7 +91,7 @@ Mesh make_brows(const Shape& shape) {
     const Vec3d out = gradient(shape.skin, place, 0.1);
     const Vec3d up = normalised(cross(out, along));
     const double taper =
-        std::pow(std::sin(kPi * std::clamp(0.035 + 0.945 * t, 0.0, 1.0)), 0.5) * (1.15 - 0.55 * t);
+        std::pow(std::sin(pi * std::clamp(0.035 + 0.945 * t, 0.0, 1.0)), 0.5) * (1.15 - 0.55 * t);
     const double half = shape.p.brow_thickness * taper;
     sections.push_back({place + out * 0.07, up * half, out * (0.10 + 0.25 * half)});
   }
@@ -117,7 +117,7 @@ Mesh make_lashes(const Shape& shape, const Skin& skin, std::vector<std::uint32_t
     const Vec3d rim = skin.places[skin.at(l.upper_lid, l.eye_inner + k)];
     const double t = double(k) / (count - 1);
     const double size = shape.p.lashes *
-                        std::pow(std::sin(kPi * std::min(0.06 + 0.62 * t, 0.62)), 1.2) *
+                        std::pow(std::sin(pi * std::min(0.06 + 0.62 * t, 0.62)), 1.2) *
                         (t > 0.97 ? 0.75 : 1.0);
     const Vec3d away = normalised(rim - shape.eye);
     const Vec3d side{0.55 * smooth_step(0.3, 1.0, t) - 0.25 * smooth_step(0.4, 0.0, t), 0, 0};

@@ -6,7 +6,7 @@
 namespace animeme::head::detail {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 // How the rays of a row start and rise.
 struct RowKey {
@@ -39,10 +39,10 @@ Columns make_columns(const Shape& shape, const Layout& l) {
   const double step = c.angle[std::size_t(l.eye_outer)] - c.angle[std::size_t(l.eye_outer - 1)];
   const double start = c.angle.back();
   const int rest = l.back - l.eye_outer;
-  const double a = std::max(step * rest / (kPi - start), 0.3);
+  const double a = std::max(step * rest / (pi - start), 0.3);
   for (int i = 1; i <= rest; ++i) {
     const double t = double(i) / rest;
-    c.angle.push_back(start + (kPi - start) * (a * t + (1 - a) * t * t));
+    c.angle.push_back(start + (pi - start) * (a * t + (1 - a) * t * t));
   }
   double last = 0;
   for (int i = 0; i < l.columns(); ++i) {
@@ -71,12 +71,12 @@ Keys make_keys(const Shape& shape, const Layout& l, const Columns& columns, int 
       p.mouth_width * (i <= l.mouth_corner ? double(i) / l.mouth_corner : 1 + beyond);
   const double line = shape.lip_line(at_mouth);
   const double spread = 1.0 * std::min(std::pow(beyond, 1.2), 1.1);
-  const double side = columns.angle[std::size_t(i)] / kPi;  // 0 front, 1 back
+  const double side = columns.angle[std::size_t(i)] / pi;  // 0 front, 1 back
   // Under the chin rays point down; at the sides and behind there is only the neck.
   const double behind = smooth_step(0.12, 0.42, side);
   const double chin = -p.chin_drop + 0.5;
   const double throat = -p.chin_drop - 3.2;
-  Keys keys = {{{0, 2.0, 0, kPi / 2},
+  Keys keys = {{{0, 2.0, 0, pi / 2},
                 {l.hairline, 2.0, 0, 0.80},
                 {l.brow, p.brow_height, 0, 0, 0.8},
                 {l.upper_lid, upper, 0, 0},

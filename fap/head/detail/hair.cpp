@@ -7,7 +7,7 @@
 namespace animeme::head::detail {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 // How a wave of strands runs over the hair: 0..1 at a place.
 double strand(Vec3d p, double count, double bend) {
@@ -33,7 +33,7 @@ double bob_field(const Shape& shape, const HairLines& lines, Vec3d p) {
   // Wider towards its ends, which turn in at the neck.
   const double drop = std::clamp((2.0 - p.y) / 9.0, 0.0, 1.0);
   const Vec3d q{x, 0, p.z + 1.6};
-  const double wide = 8.1 + 0.75 * std::sin(kPi * std::min(drop * 0.95, 1.0));
+  const double wide = 8.1 + 0.75 * std::sin(pi * std::min(drop * 0.95, 1.0));
   const double sides = (std::hypot(q.x / wide, q.z / 8.6) - 1) * 8.2;
   const double ends = smooth_max(-(p.y + 7.6 + 0.25 * strand(p, 9, 0)), p.y - 3.0, 1.0);
   double d = smooth_min(cap, smooth_max(sides, ends, 1.4), 1.6);
@@ -108,7 +108,7 @@ Lock fringe(const Surface& hair, const std::vector<Vec3d>& line, double above) {
 
 void add_bob_locks(const Surface& hair, const HairLines& lines, Vec3 colour, Mesh& mesh) {
   for (int i = 0; i < 17; ++i) {
-    const double angle = 0.92 + (2 * kPi - 1.84) * i / 16;
+    const double angle = 0.92 + (2 * pi - 1.84) * i / 16;
     const bool front = i == 0 || i == 16;
     Lock lock = curtain(hair, angle, -7.1 - 0.35 * (i % 3) + (front ? 0.6 : 0), front ? 1.2 : 1.7);
     lock.tint = 0.92f + 0.07f * float(i * 5 % 4);

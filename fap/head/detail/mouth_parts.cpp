@@ -6,7 +6,7 @@
 namespace animeme::head::detail {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr Vec3 kEnamel{0.77f, 0.74f, 0.67f};
 constexpr Vec3 kGum{0.55f, 0.17f, 0.16f};
 constexpr Vec3 kTongue{0.60f, 0.19f, 0.18f};
@@ -15,7 +15,7 @@ constexpr Vec3 kTongue{0.60f, 0.19f, 0.18f};
 struct Arch {
   double half_width, depth, front, height, rise;
   Vec3d place(double t) const {  // t -1..1 from the right end to the left one
-    const double a = t * kPi / 2;
+    const double a = t * pi / 2;
     const double aside = std::sin(a);
     return {half_width * aside, height + rise * aside * aside,
             front - depth * std::pow(1 - std::cos(a), 1.3)};
@@ -49,9 +49,9 @@ void add_tooth(const Tooth& tooth, float light, Mesh& mesh) {
   };
   add(0, 0);
   for (int ring = 1; ring < kRings; ++ring) {
-    for (int k = 0; k < kAround; ++k) add(kPi * ring / kRings, 2 * kPi * k / kAround);
+    for (int k = 0; k < kAround; ++k) add(pi * ring / kRings, 2 * pi * k / kAround);
   }
-  add(kPi, 0);
+  add(pi, 0);
   const auto at = [base](int ring, int k) {
     return base + 1 + std::uint32_t((ring - 1) * kAround + k % kAround);
   };
@@ -82,7 +82,7 @@ void add_gum(const Arch& arch, double offset, double height, Mesh& mesh) {
     const Vec3d place = arch.place(t) + Vec3d{0, offset, 0} - out * 0.12;
     const bool end = i == 0 || i == kSections - 1;
     for (int k = 0; k < kAround; ++k) {
-      const double a = 2 * kPi * k / kAround;
+      const double a = 2 * pi * k / kAround;
       const double s = end ? 0.3 : 1.0;
       mesh.positions.push_back(
           Vec3(place + out * (0.30 * s * std::cos(a)) + Vec3d{0, height * s * std::sin(a), 0}));
@@ -151,9 +151,9 @@ Mesh make_tongue(const Shape& shape) {
     const double thick = (0.62 - 0.30 * t) * std::max(taper, 0.35);
     const double z = front - 4.3 + 4.25 * t;
     const double y =
-        -shape.p.mouth_drop - 0.72 + 0.38 * std::sin(kPi * std::min(t * 1.1, 1.0)) + 0.22 * t * t;
+        -shape.p.mouth_drop - 0.72 + 0.38 * std::sin(pi * std::min(t * 1.1, 1.0)) + 0.22 * t * t;
     for (int k = 0; k < kTongueAround; ++k) {
-      const double a = 2 * kPi * k / kTongueAround;  // from the top
+      const double a = 2 * pi * k / kTongueAround;  // from the top
       const double groove = -0.14 * std::exp(-std::pow(std::sin(a) / 0.35, 2)) *
                             (std::cos(a) > 0 ? 1.0 : 0.0) * (1 - 0.6 * t);
       mesh.positions.push_back(

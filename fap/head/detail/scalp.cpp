@@ -7,7 +7,7 @@
 namespace animeme::head::detail {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr Vec3d kMiddle{0, 3.2, -0.6};
 constexpr int kCapRows = 24;
 constexpr int kLockAround = 8;
@@ -60,7 +60,7 @@ void add_cap(const Scalp& scalp, const std::vector<double>& edges, const Thickne
   const auto rows = std::uint32_t(kCapRows + 2);
   for (std::uint32_t row = 1; row <= rows; ++row) {
     for (std::uint32_t c = 0; c < columns; ++c) {
-      const double phi = 2 * kPi * c / columns;
+      const double phi = 2 * pi * c / columns;
       const double t = std::min(double(row) / kCapRows, 1.0);
       const double eased = t * (1.25 - 0.25 * t);  // rows are closer at the edge
       const double grown = thickness(1 - eased, phi);
@@ -71,7 +71,7 @@ void add_cap(const Scalp& scalp, const std::vector<double>& edges, const Thickne
   mesh.positions.push_back(Vec3(kMiddle));
   while (mesh.colours.size() < mesh.positions.size()) {
     const double phi = double((mesh.colours.size() - base + columns - 1) % columns) / columns;
-    const double streak = 0.6 * std::sin(phi * 2 * kPi * 23) + 0.4 * std::sin(phi * 2 * kPi * 41);
+    const double streak = 0.6 * std::sin(phi * 2 * pi * 23) + 0.4 * std::sin(phi * 2 * pi * 41);
     mesh.colours.push_back(colour * float(0.95 + 0.2 * streak));
   }
   mesh.occlusion.resize(mesh.positions.size(), 1.0f);
@@ -104,9 +104,9 @@ void add_lock(const Lock& lock, Vec3 colour, Mesh& mesh) {
   for (std::size_t i = 0; i < n; ++i) {
     const double t = double(i) / double(n - 1);
     for (int k = 0; k < kLockAround; ++k) {
-      const double up = std::cos(2 * kPi * k / kLockAround);  // 1 on the outer side
+      const double up = std::cos(2 * pi * k / kLockAround);  // 1 on the outer side
       const double streak = 0.5 + 0.5 * std::sin(k * 2.4 + lock.tint * 37);
-      const double light = 0.78 + 0.22 * std::sin(kPi * std::min(t * 1.15, 1.0)) + 0.28 * streak;
+      const double light = 0.78 + 0.22 * std::sin(pi * std::min(t * 1.15, 1.0)) + 0.28 * streak;
       mesh.colours.push_back(colour * float(light * lock.tint));
       mesh.occlusion.push_back(float(0.72 + 0.28 * up) * float(0.8 + 0.2 * t));
     }

@@ -9,7 +9,7 @@
 namespace animeme::head::detail {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int kColumns = 120;
 constexpr int kLockPlaces = 16;
 
@@ -80,7 +80,7 @@ void add_quiff(const Scalp& scalp, const Cap& cap, const std::vector<double>& ed
       const int seed = row * 16 + i;
       const double start = -0.78 + 1.56 * (i + 0.5) / count;
       const double sweep = start > kParting ? 0.55 : -0.75 - 0.3 * scatter(seed);
-      const double root = edges[std::size_t((start / (2 * kPi) + 1) * kColumns) % kColumns];
+      const double root = edges[std::size_t((start / (2 * pi) + 1) * kColumns) % kColumns];
       const double lift = (row == 0 ? 1.25 : 0.5) * (start > kParting ? 0.45 : 1.0) *
                           (0.85 + 0.3 * scatter(seed + 5)) * std::cos(start * 0.9);
       const double reach = 0.62 + 0.1 * scatter(seed + 9);
@@ -88,7 +88,7 @@ void add_quiff(const Scalp& scalp, const Cap& cap, const std::vector<double>& ed
           scalp,
           [&](double t) {
             const double height = (row == 0 ? 0.15 : 0.75) +
-                                  lift * std::sin(kPi * std::pow(t, 0.62)) * (1 - 0.4 * t) +
+                                  lift * std::sin(pi * std::pow(t, 0.62)) * (1 - 0.4 * t) +
                                   (row == 0 ? 0.75 : 0.2) * cap.top * smooth_step(0.0, 0.6, t);
             return Spot{root * (1 - 0.2 * row) * (1 - reach * t) + 0.02, start + sweep * t * t,
                         height};
@@ -104,7 +104,7 @@ void add_mop(const Scalp& scalp, const Cap& cap, Vec3 colour, Mesh& mesh) {
     const int count = layer == 0 ? 30 : 15;
     for (int i = 0; i < count; ++i) {
       const int seed = layer * 40 + i;
-      const double start = 2 * kPi * (i + 0.3 * scatter(seed)) / count;
+      const double start = 2 * pi * (i + 0.3 * scatter(seed)) / count;
       const double swirl = 0.5 + 0.2 * scatter(seed + 3);
       const double end = scalp.edge(start, [&](Vec3d p) {
         const double angle = std::atan2(std::abs(p.x), p.z);
@@ -151,7 +151,7 @@ Mesh make_short_hair(const Shape& shape) {
   const Scalp scalp(shape, cap.tilt);
   std::vector<double> edges;
   for (int i = 0; i < kColumns; ++i) {
-    edges.push_back(scalp.edge(2 * kPi * i / kColumns, [&](Vec3d p) {
+    edges.push_back(scalp.edge(2 * pi * i / kColumns, [&](Vec3d p) {
       return edge_height(cap, std::atan2(std::abs(p.x), p.z));
     }));
   }

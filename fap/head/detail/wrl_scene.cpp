@@ -8,7 +8,7 @@
 namespace animeme::head::detail {
 namespace {
 
-using fap::detail::quoted;
+using fap::detail::in_quotes;
 
 class Parser {
  public:
@@ -37,7 +37,7 @@ class Parser {
             in_.where()};
   }
   std::string shown() const {
-    return in_.kind() == WrlToken::end ? "the end of the file" : quoted(in_.text());
+    return in_.kind() == WrlToken::end ? "the end of the file" : in_quotes(in_.text());
   }
 
   bool is_statement() const { return in_.is("PROTO") || in_.is("EXTERNPROTO") || in_.is("ROUTE"); }

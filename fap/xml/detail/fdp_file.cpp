@@ -9,7 +9,7 @@
 namespace animeme::head::detail {
 namespace {
 
-using fap::detail::quoted;
+using fap::detail::in_quotes;
 
 constexpr std::size_t kMostInfluences = 20'000'000;
 
@@ -237,7 +237,7 @@ class Loader {
                                        : std::find(kReachNames.begin(), kReachNames.end(), *type);
     if (reach == kReachNames.end()) {
       file_.notes.push_back("line " + std::to_string(element.line) + ": influence of the type " +
-                            quoted(type == nullptr ? "" : *type) + " is unknown; left out");
+                            in_quotes(type == nullptr ? "" : *type) + " is unknown; left out");
       return {};
     }
     XfaceInfluence influence;

@@ -7,7 +7,7 @@
 namespace animeme::head::detail {
 namespace {
 
-using fap::detail::quoted;
+using fap::detail::in_quotes;
 
 // A file beside the .fdp or below: nothing else may be asked for by a file from elsewhere.
 bool stays_in_folder(std::string_view name) {
@@ -95,14 +95,14 @@ Result<void> load_fdp_meshes(const XmlElement& mesh, const LoadMeshFile& load, F
   const std::string* path = mesh.attribute("path");
   const std::string name = (path == nullptr ? "" : *path) + *file;
   if (!stays_in_folder(name)) {
-    return mesh.error(Code::invalid_argument, "the mesh " + quoted(name) +
+    return mesh.error(Code::invalid_argument, "the mesh " + in_quotes(name) +
                                                   " is not in the folder of the .fdp file; put it "
                                                   "there and name it without a path");
   }
   const bool wrl = ends_with(name, ".wrl");
   if (!wrl && !ends_with(name, ".obj")) {
     return mesh.error(Code::unsupported,
-                      "the mesh " + quoted(name) + " is neither .wrl (VRML97) nor .obj");
+                      "the mesh " + in_quotes(name) + " is neither .wrl (VRML97) nor .obj");
   }
   const Result<std::string> text = load(name);
   if (!text) return text.error().in_file(name);

@@ -7,7 +7,7 @@ namespace animeme::head::detail {
 namespace {
 
 using fap::detail::finite_number;
-using fap::detail::quoted;
+using fap::detail::in_quotes;
 
 constexpr std::string_view kBlanks = " \t\r\n,";
 
@@ -27,7 +27,7 @@ Result<std::vector<double>> number_list(const XmlElement& element, std::string_v
     const std::optional<double> number = finite_number(word);
     if (!number) {
       return element.error(Code::syntax,
-                           std::string(what) + " has " + quoted(word) + ", which is no number");
+                           std::string(what) + " has " + in_quotes(word) + ", which is no number");
     }
     numbers.push_back(*number);
     i = end;

@@ -1,9 +1,9 @@
 // Compiles against the headers of dam and links its library, both without Eigen.
 #include <cstdio>
 
-#include "dam/script/script.h"
-#include "dam/signal/signal.h"
-#include "fap/text.h"
+#include <animeme/dam/script.h>
+#include <animeme/dam/signal.h>
+#include <animeme/fap/text.h>
 
 int main() {
   const animeme::dam::Script script{{{0, 1, "AA", "a"}}};

@@ -1,8 +1,8 @@
 // Uses the text reader of fap and a function of codec, so both libraries have to link.
 #include <cstdio>
 
-#include "codec/decode/access_unit.h"
-#include "fap/text.h"
+#include <animeme/fap/text.h>
+#include <animeme/fba/access_unit.h>
 
 int main() {
   const auto clip = animeme::fap::read_text("2.1 empty 25 0\n");

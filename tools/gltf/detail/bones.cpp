@@ -9,8 +9,6 @@ using head::Part;
 using head::Transform;
 using head::Vec3;
 
-constexpr float kMetres = 0.01f;
-
 // The unit quaternion of a rotation, w not negative.
 std::array<float, 4> quaternion(const Transform& t) {
   const double m00 = t.row_x.x, m11 = t.row_y.y, m22 = t.row_z.z;

@@ -14,6 +14,8 @@ inline constexpr int kBoneCount = 4;
 inline constexpr std::array<std::string_view, kBoneCount> kBoneNames = {
     "neck_bone", "jaw_bone", "left_eye_bone", "right_eye_bone"};
 
+inline constexpr float kMetres = 0.01f;  ///< a centimetre, the unit of a head
+
 /// Rotation as x, y, z, w and place, in the space of the parent: the neck's is the scene, that of
 /// the others the neck. Lengths in metres.
 struct BoneKey {

@@ -47,7 +47,7 @@ std::size_t vrm_bone(const File& file, const char* name) {
 }
 
 // Nodes that skins use, or all but meshes if there is no skin.
-std::vector<bool> bones_of(const File& file, const std::vector<Node>& nodes) {
+std::vector<bool> joint_nodes(const File& file, const std::vector<Node>& nodes) {
   std::vector<bool> bones(nodes.size(), false);
   bool any = false;
   for (const Json& skin : list(file.root, "skins")) {
@@ -114,7 +114,7 @@ HeadJoints find_joints(const File& file, const std::vector<Node>& nodes) {
   joints.head = known("head");
   joints.eyes = {known("leftEye"), known("rightEye")};
   joints.jaw = known("jaw");
-  find_by_name(nodes, bones_of(file, nodes), joints);
+  find_by_name(nodes, joint_nodes(file, nodes), joints);
   sort_neck(nodes, joints);
   // The last bone of a neck without a head carries the head.
   if (joints.head == kNoNode && !joints.neck.empty()) {

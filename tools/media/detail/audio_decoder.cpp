@@ -18,7 +18,7 @@ Result<av::Codec> open_audio_decoder(const AVCodecParameters& parameters, AVRati
                                              avcodec_get_name(parameters.codec_id));
   }
   av::Codec codec(avcodec_alloc_context3(decoder));
-  if (!codec) return make_error(Code::out_of_range, "not enough memory");
+  if (!codec) return av::no_memory();
   int status = avcodec_parameters_to_context(codec.get(), &parameters);
   codec->pkt_timebase = time_base;
   codec->flags2 |= flags2;

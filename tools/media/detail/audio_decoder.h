@@ -29,6 +29,10 @@ std::int64_t first_played(const Input& input, std::int64_t first_decoded);
 /// (mp4 and its relatives); nullopt: elsewhere.
 std::optional<std::int64_t> end_of_sound(const Input& input, const AVStream& stream);
 
+/// Encoder padding is at most a frame or two, so an end that would cut more than this part of a
+/// second is wrong.
+inline constexpr int kPaddingPerSecond = 4;
+
 /// Number of the best audio stream, nullopt: there is none.
 std::optional<int> find_audio(const Input& input);
 

@@ -5,6 +5,9 @@
 #include <cstring>
 #include <string>
 
+#include "tools/media/detail/invalid.h"
+#include "tools/media/detail/unit_facts.h"
+
 extern "C" {
 #include <libavutil/intreadwrite.h>
 }
@@ -15,13 +18,7 @@ namespace {
 constexpr std::array<int, 13> kAacRates = {7350,  8000,  11025, 12000, 16000, 22050, 24000,
                                            32000, 44100, 48000, 64000, 88200, 96000};
 constexpr int kOpusRate = 48000;
-constexpr std::int64_t kMostAacBitsPerSample = 6;             // 6144 bits a frame of 1024 samples
-constexpr std::int64_t kLongestTime = std::int64_t(1) << 47;  // room for rescaling
-constexpr std::size_t kLargestPacket = std::size_t(1) << 24;
-
-Error invalid(std::string message) {
-  return make_error(Code::invalid_argument, std::move(message));
-}
+constexpr std::int64_t kMostAacBitsPerSample = 6;  // 6144 bits a frame of 1024 samples
 
 }  // namespace
 
@@ -50,7 +47,7 @@ Result<av::Parameters> codec_parameters(const AudioFormat& format, std::int64_t 
   }
   av::Parameters parameters(avcodec_parameters_alloc());
   if (!parameters || !av::set_extradata(*parameters, format.config)) {
-    return make_error(Code::out_of_range, "not enough memory");
+    return av::no_memory();
   }
   parameters->codec_type = AVMEDIA_TYPE_AUDIO;
   parameters->codec_id = format.codec == AudioCodec::opus ? AV_CODEC_ID_OPUS : AV_CODEC_ID_AAC;
@@ -82,7 +79,7 @@ Result<void> check_audio(const EncodedAudio& audio) {
     const AudioPacket& packet = audio.packets[i];
     const std::string name = "sound packet " + std::to_string(i);
     if (packet.bytes.empty()) return invalid(name + " is empty");
-    if (packet.bytes.size() > kLargestPacket) return invalid(name + " is larger than 16 MB");
+    if (packet.bytes.size() > kLargestUnit) return invalid(name + " is larger than 16 MB");
     if (packet.duration <= 0 || packet.duration > kLongestTime) {
       return invalid(name + " needs a positive duration");
     }
@@ -95,8 +92,7 @@ Result<void> check_audio(const EncodedAudio& audio) {
 }
 
 Result<void> copy_packet(const AudioPacket& source, const AudioFormat& format, AVPacket& target) {
-  const Error no_memory = make_error(Code::out_of_range, "not enough memory");
-  if (av_new_packet(&target, int(source.bytes.size())) < 0) return no_memory;
+  if (av_new_packet(&target, int(source.bytes.size())) < 0) return av::no_memory();
   std::memcpy(target.data, source.bytes.data(), source.bytes.size());
   target.pts = target.dts = source.time;
   target.duration = source.duration;
@@ -105,7 +101,7 @@ Result<void> copy_packet(const AudioPacket& source, const AudioFormat& format, A
   if (format.codec != AudioCodec::opus || format.frame_samples == 0 || surplus <= 0) return {};
   constexpr std::size_t kSize = 10;  // skip at begin, at end, two reasons
   std::uint8_t* skip = av_packet_new_side_data(&target, AV_PKT_DATA_SKIP_SAMPLES, kSize);
-  if (skip == nullptr) return no_memory;
+  if (skip == nullptr) return av::no_memory();
   std::memset(skip, 0, kSize);
   AV_WL32(skip + 4, std::uint32_t(surplus));
   return {};

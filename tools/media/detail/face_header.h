@@ -3,6 +3,7 @@
 // Source: containers, sections 1.2, 1.3 and 4.2.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -16,6 +17,9 @@ enum class VisualKind : std::uint8_t {
   face,     ///< visual_object_type 4
   other,    ///< video, still texture, mesh ...
 };
+
+/// Start code of an object, with stuffing up to the byte, in front of its first plane.
+inline constexpr std::array<std::uint8_t, 5> kObjectStart = {0x00, 0x00, 0x01, 0xBA, 0x7F};
 
 /// Visual object sequence and visual object header, as in a decoder configuration or in front of
 /// a plane.

@@ -28,11 +28,6 @@ FaceTrack classify(const AVCodecParameters& parameters) {
   return track;
 }
 
-double seconds(std::int64_t ticks, AVRational base) {
-  if (ticks == AV_NOPTS_VALUE || ticks <= 0 || base.den <= 0) return 0;
-  return double(ticks) * av_q2d(base);
-}
-
 }  // namespace
 
 void FaceTracks::update(AVFormatContext& file) {
@@ -63,8 +58,8 @@ int FaceTracks::first() const {
 }
 
 double stream_duration(const Input& input, const AVStream& stream) {
-  const double own = seconds(stream.duration, stream.time_base);
-  return own > 0 ? own : seconds(input.context()->duration, {1, AV_TIME_BASE});
+  const double own = to_seconds(stream.duration, stream.time_base);
+  return own > 0 ? own : std::max(to_seconds(input.context()->duration, {1, AV_TIME_BASE}), 0.0);
 }
 
 AudioInfo describe_audio(const Input& input, const AVStream& stream) {

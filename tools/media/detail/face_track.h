@@ -44,6 +44,11 @@ class FaceTracks {
 /// Facts of an audio stream.
 AudioInfo describe_audio(const Input& input, const AVStream& stream);
 
+/// 0: not known.
+inline double to_seconds(std::int64_t ticks, AVRational base) {
+  return ticks == AV_NOPTS_VALUE || base.den <= 0 ? 0 : double(ticks) * av_q2d(base);
+}
+
 /// Length of a stream in seconds, of the whole file if the stream does not state it; 0: unknown.
 double stream_duration(const Input& input, const AVStream& stream);
 

@@ -6,6 +6,7 @@ extern "C" {
 #include <libavformat/avformat.h>
 #include <libavutil/channel_layout.h>
 #include <libswresample/swresample.h>
+#include <libswscale/swscale.h>
 }
 
 #include <cstdint>
@@ -23,6 +24,7 @@ struct Deleter {
   void operator()(AVFrame* frame) const { av_frame_free(&frame); }
   void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
   void operator()(SwrContext* swr) const { swr_free(&swr); }
+  void operator()(SwsContext* sws) const { sws_freeContext(sws); }
   void operator()(AVCodecParameters* parameters) const { avcodec_parameters_free(&parameters); }
 };
 
@@ -30,10 +32,16 @@ using Packet = std::unique_ptr<AVPacket, Deleter>;
 using Frame = std::unique_ptr<AVFrame, Deleter>;
 using Codec = std::unique_ptr<AVCodecContext, Deleter>;
 using Swr = std::unique_ptr<SwrContext, Deleter>;
+using Sws = std::unique_ptr<SwsContext, Deleter>;
 using Parameters = std::unique_ptr<AVCodecParameters, Deleter>;
 
 /// Gives `parameters` a copy of the decoder configuration. False: no memory.
 bool set_extradata(AVCodecParameters& parameters, const std::vector<std::uint8_t>& bytes);
+
+/// Error of what could not be allocated.
+inline Error no_memory() { return make_error(Code::out_of_range, "not enough memory"); }
+
+inline constexpr int kBufferSize = 1 << 16;  ///< bytes between libavformat and a file
 
 /// AVDictionary with an owner.
 class Options {
@@ -91,7 +99,7 @@ auto guarded(Body&& body) -> decltype(body()) {
   try {
     return body();
   } catch (const std::bad_alloc&) {
-    return make_error(Code::out_of_range, "not enough memory");
+    return no_memory();
   } catch (const std::exception& problem) {
     return make_error(Code::internal, problem.what());
   }

@@ -14,8 +14,6 @@
 namespace animeme::media {
 namespace {
 
-constexpr int kBufferSize = 1 << 16;
-
 // Reading a file more often than this is not needed for anything but a hostile index.
 constexpr std::int64_t kRereads = 16;
 constexpr std::int64_t kSpareBudget = std::int64_t(64) << 20;
@@ -76,14 +74,14 @@ Result<std::unique_ptr<Input>> Input::open(std::span<const std::uint8_t> memory,
 
 Result<void> Input::start(const std::string& hint, const char* formats) {
   budget_ = size_ < 0 ? INT64_MAX : std::min(size_, INT64_MAX / 32) * kRereads + kSpareBudget;
-  auto* buffer = static_cast<unsigned char*>(av_malloc(kBufferSize));
+  auto* buffer = static_cast<unsigned char*>(av_malloc(av::kBufferSize));
   context_ = avformat_alloc_context();
   if (buffer != nullptr) {
-    io_ = avio_alloc_context(buffer, kBufferSize, 0, this, &Input::read, nullptr, &Input::seek);
+    io_ = avio_alloc_context(buffer, av::kBufferSize, 0, this, &Input::read, nullptr, &Input::seek);
   }
   if (io_ == nullptr || context_ == nullptr) {
     if (io_ == nullptr) av_free(buffer);
-    return make_error(Code::out_of_range, "not enough memory");
+    return av::no_memory();
   }
   if (size_ < 0) {
     io_->seekable = 0;

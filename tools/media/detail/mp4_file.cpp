@@ -15,13 +15,13 @@ std::int64_t rescale(std::int64_t value, std::uint32_t from, std::uint32_t to) {
 }
 
 /// Where a sample lies in the file, and when it is due.
-struct Place {
+struct SamplePlace {
   std::size_t track = 0, sample = 0;
   double time = 0;
 };
 
-std::vector<Place> in_order_of_time(const Mp4Movie& movie) {
-  std::vector<Place> places;
+std::vector<SamplePlace> in_order_of_time(const Mp4Movie& movie) {
+  std::vector<SamplePlace> places;
   for (std::size_t t = 0; t < movie.tracks.size(); ++t) {
     const Mp4Track& track = movie.tracks[t];
     std::int64_t time = track.start;
@@ -32,7 +32,7 @@ std::vector<Place> in_order_of_time(const Mp4Movie& movie) {
     }
   }
   std::stable_sort(places.begin(), places.end(),
-                   [](const Place& a, const Place& b) { return a.time < b.time; });
+                   [](const SamplePlace& a, const SamplePlace& b) { return a.time < b.time; });
   return places;
 }
 
@@ -41,9 +41,9 @@ void write_matrix(BoxWriter& out) {
     out.u32(value);
 }
 
-class Writer {
+class MovieWriter {
  public:
-  Writer(const Mp4Movie& movie, const std::vector<std::vector<std::uint64_t>>& offsets)
+  MovieWriter(const Mp4Movie& movie, const std::vector<std::vector<std::uint64_t>>& offsets)
       : movie_(movie), offsets_(offsets) {}
 
   std::vector<std::uint8_t> contents() {
@@ -234,25 +234,25 @@ class Writer {
 }  // namespace
 
 Result<std::vector<std::uint8_t>> write_movie(const Mp4Movie& movie) {
-  const std::vector<Place> places = in_order_of_time(movie);
+  const std::vector<SamplePlace> places = in_order_of_time(movie);
   std::vector<std::vector<std::uint64_t>> offsets;
   for (const Mp4Track& track : movie.tracks) offsets.emplace_back(track.samples.size(), 0);
   // The contents have the same size whatever the offsets are.
-  std::uint64_t at = Writer(movie, offsets).contents().size() + 8;
+  std::uint64_t at = MovieWriter(movie, offsets).contents().size() + 8;
   const std::uint64_t data_begin = at - 8;
-  for (const Place& place : places) {
+  for (const SamplePlace& place : places) {
     offsets[place.track][place.sample] = at;
     at += movie.tracks[place.track].samples[place.sample].bytes.size();
   }
   if (at > kLargestFile)
     return make_error(Code::out_of_range, "the file would be larger than 4 GB; cut the clip");
-  std::vector<std::uint8_t> file = Writer(movie, offsets).contents();
+  std::vector<std::uint8_t> file = MovieWriter(movie, offsets).contents();
   BoxWriter data;
   data.u32(at - data_begin);
   data.text("mdat");
   file.reserve(at);
   for (const std::uint8_t byte : data.bytes()) file.push_back(byte);
-  for (const Place& place : places) {
+  for (const SamplePlace& place : places) {
     const auto& bytes = movie.tracks[place.track].samples[place.sample].bytes;
     file.insert(file.end(), bytes.begin(), bytes.end());
   }

@@ -177,13 +177,13 @@ class Patch {
   std::unique_ptr<std::FILE, Closer> file_;
 };
 
-struct Place {
+struct BoxPlace {
   std::uint64_t at = 0;
   std::uint64_t size = 0;
 };
 
 // ftyp and moov among the boxes of the file; size 0: not there.
-void find_boxes(Patch& file, Place& brand, Place& contents) {
+void find_boxes(Patch& file, BoxPlace& brand, BoxPlace& contents) {
   std::uint64_t at = 0;
   for (;;) {
     std::array<std::uint8_t, 16> header{};
@@ -246,8 +246,8 @@ Result<void> complete_mp4(const std::string& path, bool contents_first) {
   errno = 0;
   Patch file(path);
   if (!file.good()) return failed();
-  Place brand;
-  Place contents;
+  BoxPlace brand;
+  BoxPlace contents;
   find_boxes(file, brand, contents);
   if (contents.size == 0) {
     return make_error(Code::internal, "the finished file has no moov box");

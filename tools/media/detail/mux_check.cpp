@@ -5,18 +5,14 @@
 
 #include "tools/media/detail/audio_parameters.h"
 #include "tools/media/detail/face_header.h"
+#include "tools/media/detail/invalid.h"
+#include "tools/media/detail/unit_facts.h"
 
 namespace animeme::media {
 namespace {
 
-constexpr std::int64_t kLongestTime = std::int64_t(1) << 47;  // room for rescaling
-constexpr std::size_t kLargestUnit = std::size_t(1) << 24;
 constexpr double kShortestFragment = 0.02;
 constexpr double kLongestFragment = 600;
-
-Error invalid(std::string message) {
-  return make_error(Code::invalid_argument, std::move(message));
-}
 
 Result<void> check_unit(const fba::AccessUnits& face, std::size_t index) {
   const fba::AccessUnit& unit = face.units[index];

@@ -4,16 +4,14 @@
 #include <utility>
 
 #include "tools/media/detail/face_header.h"
+#include "tools/media/detail/systems_scene.h"
 
 namespace animeme::media {
 namespace {
 
-constexpr int kAacLevel2 = 0x29;  // up to 48 kHz, two channels
-constexpr int kUnspecified = 0xFE;
-constexpr int kNoneRequired = 0xFF;
 constexpr std::uint8_t kSimpleFace = 0x61;
 
-int audio_profile(const AudioFormat* sound) {
+unsigned audio_profile(const AudioFormat* sound) {
   if (sound == nullptr) return kNoneRequired;
   const bool level2 =
       sound->codec == AudioCodec::aac && sound->sample_rate <= 48000 && sound->channels <= 2;
@@ -24,7 +22,7 @@ int audio_profile(const AudioFormat* sound) {
 
 int visual_profile(const MuxInput& input) {
   if (input.visual_profile != 0) return input.visual_profile;
-  if (input.face == nullptr) return kNoneRequired;
+  if (input.face == nullptr) return int(kNoneRequired);
   const std::uint8_t profile = read_visual_headers(input.face->config).profile;
   return profile != 0 ? profile : kSimpleFace;
 }
@@ -34,7 +32,7 @@ void set_mp4_options(const Mp4Contents& contents, av::Options& header) {
   header.set("skip_iods", 0);
   // Of the pictures beside a face; theirs is in their own headers.
   header.set("iods_video_profile",
-             contents.video != nullptr ? kUnspecified : contents.visual_profile);
+             contents.video != nullptr ? int(kUnspecified) : contents.visual_profile);
   header.set("iods_audio_profile", audio_profile(contents.sound));
   // The unit of track durations; the default of 1 ms would round them.
   header.set("movie_timescale", contents.sound != nullptr ? contents.sound->sample_rate

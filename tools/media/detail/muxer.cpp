@@ -30,15 +30,13 @@ bool set_buffer_facts(AVStream& stream, const fba::AccessUnits& face) {
   return false;
 }
 
-Error no_memory() { return make_error(Code::out_of_range, "not enough memory"); }
-
 }  // namespace
 
 Result<std::unique_ptr<Muxer>> Muxer::open(const std::string& path, const char* format,
                                            OutputStream::Filter filter) {
   std::unique_ptr<Muxer> muxer(new Muxer);
   muxer->packet_.reset(av_packet_alloc());
-  if (!muxer->packet_) return no_memory();
+  if (!muxer->packet_) return av::no_memory();
   const std::string url = "file:" + path;  // a colon in the name must not mean a protocol
   int status = avformat_alloc_output_context2(&muxer->context_, nullptr, format, url.c_str());
   if (status == AVERROR(EINVAL)) {
@@ -62,14 +60,14 @@ bool Muxer::is(const char* format) const {
 
 Result<void> Muxer::add_face(const fba::AccessUnits& units) {
   AVStream* stream = avformat_new_stream(context_, nullptr);
-  if (stream == nullptr) return no_memory();
+  if (stream == nullptr) return av::no_memory();
   AVCodecParameters& parameters = *stream->codecpar;
   parameters.codec_type = AVMEDIA_TYPE_VIDEO;
   parameters.codec_id = AV_CODEC_ID_MPEG4;
   parameters.width = 320;  // as the reference library writes it; 0 is refused
   parameters.height = 240;
   if (!av::set_extradata(parameters, units.config) || !set_buffer_facts(*stream, units)) {
-    return no_memory();
+    return av::no_memory();
   }
   stream->time_base = {1, int(container_timescale(units.timescale))};
   const std::int64_t first_duration = units.units.front().duration;
@@ -84,7 +82,7 @@ Result<void> Muxer::add_face(const fba::AccessUnits& units) {
 
 Result<void> Muxer::add_video(const EncodedVideo& video) {
   AVStream* stream = avformat_new_stream(context_, nullptr);
-  if (stream == nullptr) return no_memory();
+  if (stream == nullptr) return av::no_memory();
   AVCodecParameters& parameters = *stream->codecpar;
   parameters.codec_type = AVMEDIA_TYPE_VIDEO;
   parameters.codec_id = video.codec == VideoCodec::h264  ? AV_CODEC_ID_H264
@@ -97,7 +95,7 @@ Result<void> Muxer::add_video(const EncodedVideo& video) {
   parameters.color_space = AVCOL_SPC_BT709;
   parameters.color_primaries = AVCOL_PRI_BT709;
   parameters.color_trc = AVCOL_TRC_BT709;
-  if (!av::set_extradata(parameters, video.config)) return no_memory();
+  if (!av::set_extradata(parameters, video.config)) return av::no_memory();
   video_base_ = {int(video.rate.den), int(video.rate.num)};
   stream->avg_frame_rate = av_inv_q(video_base_);
   stream->time_base = {1, int(container_timescale(video.rate.num))};
@@ -108,7 +106,7 @@ Result<void> Muxer::add_video(const EncodedVideo& video) {
 
 Result<void> Muxer::add_stream(const AVCodecParameters& parameters, AVRational time_base) {
   AVStream* stream = avformat_new_stream(context_, nullptr);
-  if (stream == nullptr) return no_memory();
+  if (stream == nullptr) return av::no_memory();
   const int status = avcodec_parameters_copy(stream->codecpar, &parameters);
   if (status < 0) return write_error(status);
   stream->codecpar->codec_tag = 0;
@@ -155,7 +153,7 @@ Result<void> Muxer::write(AVPacket& packet, const AVStream& stream, AVRational f
 Result<void> Muxer::write_unit(const fba::AccessUnit& unit) {
   const std::size_t prefix = is("mpegts") && unit.intra ? face_->config.size() : 0;
   const int status = av_new_packet(packet_.get(), int(prefix + unit.bytes.size()));
-  if (status < 0) return no_memory();
+  if (status < 0) return av::no_memory();
   if (prefix > 0) std::memcpy(packet_->data, face_->config.data(), prefix);
   std::memcpy(packet_->data + prefix, unit.bytes.data(), unit.bytes.size());
   packet_->pts = packet_->dts = unit.time;
@@ -173,7 +171,7 @@ Result<void> Muxer::write_sound(const AudioPacket& packet) {
 }
 
 Result<void> Muxer::write_picture(const VideoPacket& picture) {
-  if (av_new_packet(packet_.get(), int(picture.bytes.size())) < 0) return no_memory();
+  if (av_new_packet(packet_.get(), int(picture.bytes.size())) < 0) return av::no_memory();
   std::memcpy(packet_->data, picture.bytes.data(), picture.bytes.size());
   packet_->pts = packet_->dts = picture.time;
   packet_->duration = 1;

@@ -7,8 +7,6 @@
 namespace animeme::media {
 namespace {
 
-constexpr int kBufferSize = 1 << 16;
-
 const char* remedy(int status) {
   switch (status) {
     case AVERROR(ENOSPC):
@@ -37,14 +35,15 @@ Result<std::unique_ptr<OutputStream>> OutputStream::to_file(const std::string& p
   // libavformat has a buffer already, and a full disk is to be seen where it happens.
   std::setvbuf(out->file_, nullptr, _IONBF, 0);
   out->filter_ = std::move(filter);
-  auto* buffer = static_cast<unsigned char*>(av_malloc(kBufferSize));
+  auto* buffer = static_cast<unsigned char*>(av_malloc(av::kBufferSize));
   if (buffer != nullptr) {
-    out->io_ = avio_alloc_context(buffer, kBufferSize, 1, out.get(), nullptr, &OutputStream::write,
-                                  out->filter_ ? nullptr : &OutputStream::seek);
+    out->io_ =
+        avio_alloc_context(buffer, av::kBufferSize, 1, out.get(), nullptr, &OutputStream::write,
+                           out->filter_ ? nullptr : &OutputStream::seek);
   }
   if (out->io_ == nullptr) {
     av_free(buffer);
-    return make_error(Code::out_of_range, "not enough memory");
+    return av::no_memory();
   }
   return out;
 }

@@ -19,12 +19,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kLongestPlaylist = std::uintmax_t(1) << 24;
-constexpr std::uintmax_t kMostBytes = std::uintmax_t(1) << 30;
+constexpr std::uintmax_t kMostPresentation = std::uintmax_t(1) << 30;
 constexpr std::size_t kMostRenditions = 16;
 
-using Bytes = std::vector<std::uint8_t>;
+using FileBytes = std::vector<std::uint8_t>;
 
-struct Closer {
+struct FileCloser {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
@@ -58,7 +58,7 @@ class Room {
     }
     const std::uintmax_t size = fs::file_size(file.path, status);
     if (status) return failed(name, status.value());
-    if (size > limit || (total_ += size) > kMostBytes) {
+    if (size > limit || (total_ += size) > kMostPresentation) {
       return make_error(Code::out_of_range, "the presentation is too large to be read");
     }
     file.size = std::size_t(size);
@@ -66,8 +66,8 @@ class Room {
   }
 
   /// Appends what is in a file. Errors: not_found, io.
-  Result<void> read(const File& found, Bytes& out) const {
-    const std::unique_ptr<std::FILE, Closer> file(std::fopen(found.path.c_str(), "rb"));
+  Result<void> read(const File& found, FileBytes& out) const {
+    const std::unique_ptr<std::FILE, FileCloser> file(std::fopen(found.path.c_str(), "rb"));
     if (!file) return failed(found.path.filename(), errno);
     const std::size_t begin = out.size();
     out.resize(begin + found.size);
@@ -78,7 +78,7 @@ class Room {
   }
 
   Result<std::string> read_text(const fs::path& name) {
-    Bytes bytes;
+    FileBytes bytes;
     Result<File> file = find(name, kLongestPlaylist);
     if (!file) return file.error();
     if (auto done = read(*file, bytes); !done) return done.error();
@@ -103,8 +103,8 @@ Result<fs::path> beside(const fs::path& playlist, const std::string& reference) 
   return playlist.parent_path() / *name;
 }
 
-Result<Bytes> join(Room& room, const fs::path& playlist, const Rendition& rendition) {
-  Bytes bytes;
+Result<FileBytes> join(Room& room, const fs::path& playlist, const Rendition& rendition) {
+  FileBytes bytes;
   std::vector<std::string> references;
   if (!rendition.init.empty()) references.push_back(rendition.init);
   references.insert(references.end(), rendition.segments.begin(), rendition.segments.end());
@@ -114,7 +114,7 @@ Result<Bytes> join(Room& room, const fs::path& playlist, const Rendition& rendit
   for (const std::string& reference : references) {
     Result<fs::path> name = beside(playlist, reference);
     if (!name) return name.error();
-    Result<Room::File> file = room.find(*name, kMostBytes);
+    Result<Room::File> file = room.find(*name, kMostPresentation);
     if (!file) return file.error();
     size += file->size;
     files.push_back(std::move(*file));
@@ -131,7 +131,7 @@ Result<void> add(Presentation& presentation, Room& room, const fs::path& playlis
   if (presentation.renditions.size() >= kMostRenditions) {
     return make_error(Code::out_of_range, "the playlist names too many renditions");
   }
-  Result<Bytes> bytes = join(room, playlist, rendition);
+  Result<FileBytes> bytes = join(room, playlist, rendition);
   if (!bytes) return bytes.error();
   presentation.renditions.push_back(std::move(*bytes));
   return {};

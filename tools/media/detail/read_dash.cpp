@@ -33,7 +33,7 @@ bool holds_segments(const std::string& element) {
   return element == "Representation" || element == "AdaptationSet" || element == "Period";
 }
 
-class Reader {
+class DashReader {
  public:
   Result<std::vector<Rendition>> read(std::string_view text);
 
@@ -60,15 +60,15 @@ class Reader {
 };
 
 // The template that tags change: of the representation if we are in one, else of what is open.
-Template& Reader::current() {
+Template& DashReader::current() {
   for (std::size_t i = levels_.size(); i-- > 0;) {
     if (holds_segments(levels_[i].element)) return levels_[i].segments;
   }
   return levels_.front().segments;
 }
 
-Result<std::int64_t> Reader::number(const XmlTag& tag, const char* key,
-                                    std::int64_t otherwise) const {
+Result<std::int64_t> DashReader::number(const XmlTag& tag, const char* key,
+                                        std::int64_t otherwise) const {
   const std::string* text = tag.find(key);
   if (text == nullptr) return otherwise;
   const std::optional<std::int64_t> value = whole_number(*text);
@@ -77,7 +77,7 @@ Result<std::int64_t> Reader::number(const XmlTag& tag, const char* key,
   return wrong(Code::syntax, std::string(key) + " is not a number that can be used");
 }
 
-Result<void> Reader::take_mpd(const XmlTag& tag) {
+Result<void> DashReader::take_mpd(const XmlTag& tag) {
   const std::string* type = tag.find("type");
   if (type != nullptr && *type != "static") {
     return wrong(Code::unsupported, "this describes a live presentation; give a finished one");
@@ -88,7 +88,7 @@ Result<void> Reader::take_mpd(const XmlTag& tag) {
   return {};
 }
 
-Result<void> Reader::take_template(const XmlTag& tag) {
+Result<void> DashReader::take_template(const XmlTag& tag) {
   Template& segments = current();
   segments.times.clear();
   segments.list.clear();
@@ -108,7 +108,7 @@ Result<void> Reader::take_template(const XmlTag& tag) {
   return {};
 }
 
-Result<void> Reader::take_time(const XmlTag& tag) {
+Result<void> DashReader::take_time(const XmlTag& tag) {
   std::vector<std::int64_t>& times = current().times;
   Template& segments = current();
   // `duration` keeps the length of the last entry, so that the next one finds its time.
@@ -129,7 +129,7 @@ Result<void> Reader::take_time(const XmlTag& tag) {
   return {};
 }
 
-Result<std::vector<std::string>> Reader::names(const Template& segments) const {
+Result<std::vector<std::string>> DashReader::names(const Template& segments) const {
   if (!segments.list.empty()) return segments.list;
   if (segments.media.empty()) {
     return wrong(Code::unsupported, "a representation is not in segments; give its file instead");
@@ -152,7 +152,7 @@ Result<std::vector<std::string>> Reader::names(const Template& segments) const {
   return names;
 }
 
-Result<void> Reader::finish_representation() {
+Result<void> DashReader::finish_representation() {
   if (set_has_one_) return {};
   set_has_one_ = true;
   const Level& level = levels_.back();
@@ -167,7 +167,7 @@ Result<void> Reader::finish_representation() {
   return {};
 }
 
-Result<void> Reader::open(const XmlTag& tag) {
+Result<void> DashReader::open(const XmlTag& tag) {
   const std::string& name = tag.name;
   if (levels_.empty() && name != "MPD") {
     return wrong(Code::syntax, "a DASH description begins with MPD");
@@ -217,7 +217,7 @@ Result<void> Reader::open(const XmlTag& tag) {
   return {};
 }
 
-Result<void> Reader::close(const std::string& name) {
+Result<void> DashReader::close(const std::string& name) {
   if (levels_.empty() || levels_.back().element != name) {
     return wrong(Code::syntax, "the tags do not match");
   }
@@ -228,7 +228,7 @@ Result<void> Reader::close(const std::string& name) {
   return {};
 }
 
-Result<std::vector<Rendition>> Reader::read(std::string_view text) {
+Result<std::vector<Rendition>> DashReader::read(std::string_view text) {
   constexpr std::size_t kDeepest = 32;
   Result<std::vector<XmlTag>> tags = read_tags(text);
   if (!tags) return tags.error();
@@ -247,6 +247,6 @@ Result<std::vector<Rendition>> Reader::read(std::string_view text) {
 
 }  // namespace
 
-Result<std::vector<Rendition>> read_dash(std::string_view text) { return Reader().read(text); }
+Result<std::vector<Rendition>> read_dash(std::string_view text) { return DashReader().read(text); }
 
 }  // namespace animeme::media

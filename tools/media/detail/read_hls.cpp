@@ -6,7 +6,7 @@
 namespace animeme::media {
 namespace {
 
-class Reader {
+class HlsReader {
  public:
   Result<HlsPlaylist> read(std::string_view text);
 
@@ -50,7 +50,7 @@ bool skip_prefix(std::string_view& text, std::string_view prefix) {
   return true;
 }
 
-Result<void> Reader::take_tag(std::string_view line) {
+Result<void> HlsReader::take_tag(std::string_view line) {
   if (skip_prefix(line, "#EXT-X-STREAM-INF:")) {
     variant_next_ = master_ = true;
   } else if (skip_prefix(line, "#EXT-X-MEDIA:")) {
@@ -75,7 +75,7 @@ Result<void> Reader::take_tag(std::string_view line) {
   return {};  // other tags do not change what is read
 }
 
-Result<void> Reader::take(std::string_view line) {
+Result<void> HlsReader::take(std::string_view line) {
   if (line.empty()) return {};
   if (line.front() == '#') return take_tag(line);
   if (out_.rendition.segments.size() + out_.playlists.size() >= kMostSegments) {
@@ -90,7 +90,7 @@ Result<void> Reader::take(std::string_view line) {
   return {};
 }
 
-Result<HlsPlaylist> Reader::read(std::string_view text) {
+Result<HlsPlaylist> HlsReader::read(std::string_view text) {
   skip_prefix(text, "\xEF\xBB\xBF");
   while (!text.empty()) {
     std::string_view line = text.substr(0, text.find('\n'));
@@ -116,6 +116,6 @@ Result<HlsPlaylist> Reader::read(std::string_view text) {
 
 }  // namespace
 
-Result<HlsPlaylist> read_hls(std::string_view text) { return Reader().read(text); }
+Result<HlsPlaylist> read_hls(std::string_view text) { return HlsReader().read(text); }
 
 }  // namespace animeme::media

@@ -133,9 +133,9 @@ Result<void> split(const OutputFolder& folder, Track& track, double end) {
   return {};
 }
 
-class Writer {
+class SegmentWriter {
  public:
-  Writer(const std::string& path, const MuxInput& input, const MuxOptions& options)
+  SegmentWriter(const std::string& path, const MuxInput& input, const MuxOptions& options)
       : path_(path), input_(input), options_(options), dash_(extension_of(path) == ".mpd") {}
 
   Result<MuxResult> write();
@@ -155,7 +155,7 @@ class Writer {
   std::vector<std::unique_ptr<TrackFeed>> feeds_;
 };
 
-Result<Track*> Writer::add_track(const OutputFolder& folder, const char* name) {
+Result<Track*> SegmentWriter::add_track(const OutputFolder& folder, const char* name) {
   auto track = std::make_unique<Track>();
   track->description.name = name;
   track->whole = folder.file(std::string(name) + ".all");
@@ -166,8 +166,8 @@ Result<Track*> Writer::add_track(const OutputFolder& folder, const char* name) {
   return tracks_.back().get();
 }
 
-Result<void> Writer::start(Track& track, const Mp4Contents& contents,
-                           std::unique_ptr<TrackFeed> feed) {
+Result<void> SegmentWriter::start(Track& track, const Mp4Contents& contents,
+                                  std::unique_ptr<TrackFeed> feed) {
   av::Options header;
   set_mp4_options(contents, header);
   set_fragment_options("frag_custom", 0, header);
@@ -177,7 +177,7 @@ Result<void> Writer::start(Track& track, const Mp4Contents& contents,
   return track.muxer->write_header(header);
 }
 
-Result<void> Writer::open(const OutputFolder& folder) {
+Result<void> SegmentWriter::open(const OutputFolder& folder) {
   if (input_.face != nullptr) {
     Result<Track*> track = add_track(folder, "face");
     if (!track) return track.error();
@@ -208,13 +208,13 @@ Result<void> Writer::open(const OutputFolder& folder) {
                sound_feed(muxer, *sound_, seconds_of_sound(input_)));
 }
 
-std::string Writer::text(const std::string& folder) const {
+std::string SegmentWriter::text(const std::string& folder) const {
   std::vector<SegmentedTrack> descriptions;
   for (const auto& track : tracks_) descriptions.push_back(track->description);
   return dash_ ? dash_description(descriptions, folder) : hls_master(descriptions, folder);
 }
 
-Result<MuxResult> Writer::write() {
+Result<MuxResult> SegmentWriter::write() {
   const std::filesystem::path target(path_);
   const std::string folder_name = target.stem().string() + (dash_ ? "_dash" : "_hls");
   Result<OutputFile> playlist = OutputFile::create(path_);
@@ -248,7 +248,7 @@ Result<MuxResult> Writer::write() {
 
 Result<MuxResult> write_segments(const std::string& path, const MuxInput& input,
                                  const MuxOptions& options) {
-  return Writer(path, input, options).write();
+  return SegmentWriter(path, input, options).write();
 }
 
 }  // namespace animeme::media

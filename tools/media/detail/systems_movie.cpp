@@ -10,17 +10,10 @@
 namespace animeme::media {
 namespace {
 
-constexpr unsigned kSceneStream = 3, kObjectStream = 1, kVisualStream = 4, kAudioStream = 5;
-constexpr unsigned kSystems = 0x01, kVisual = 0x20, kAac = 0x40;
-constexpr unsigned kAacLevel2 = 0x29, kUnspecified = 0xFE, kNoneRequired = 0xFF;
+constexpr unsigned kSceneStream = 3, kObjectStream = 1, kVisualStream = 4;
+constexpr unsigned kSystems = 0x01, kVisualObjects = 0x20;
 constexpr unsigned kWidth = 320, kHeight = 240;  // a face has no size; readers want one
 constexpr std::uint32_t kSystemsTimescale = 1000;
-
-void put_esds(BoxWriter& out, const StreamDescription& stream) {
-  out.begin_full("esds", 0, 0);
-  out.raw(elementary_stream_descriptor(stream));
-  out.end();
-}
 
 /// Begins any sample entry.
 void begin_entry(BoxWriter& out, const char* type) {
@@ -100,7 +93,7 @@ Mp4Track face_track(const fba::AccessUnits& face) {
     track.samples.push_back({unit.bytes, duration, unit.intra});
     track.length += duration;
   }
-  StreamDescription stream{kVisual, kVisualStream, largest_unit(face), 0, 0, face.config};
+  StreamDescription stream{kVisualObjects, kVisualStream, largest_unit(face), 0, 0, face.config};
   stream.max_bit_rate = std::uint32_t(peak_bit_rate(face));
   stream.average_bit_rate = std::uint32_t(mean_bit_rate(face));
   track.entry = visual_entry(stream);
@@ -120,13 +113,13 @@ Mp4Track sound_track(const EncodedAudio& sound) {
     track.samples.push_back({packet.bytes, packet.duration, true});
     largest = std::max(largest, packet.bytes.size());
   }
-  StreamDescription stream{kAac, kAudioStream, largest, 0, 0, sound.format.config};
+  StreamDescription stream{kAacObject, kAudioStream, largest, 0, 0, sound.format.config};
   stream.max_bit_rate = stream.average_bit_rate = std::uint32_t(mean_bit_rate(sound));
   track.entry = sound_entry(stream, sound.format.sample_rate);
   return track;
 }
 
-std::int64_t milliseconds(const Mp4Track& track) {
+std::int64_t length_in_ms(const Mp4Track& track) {
   const double ticks = double(std::max<std::int64_t>(track.start, 0) + track.length);
   return std::int64_t(ticks * kSystemsTimescale / track.timescale + 0.5);
 }
@@ -137,14 +130,14 @@ Mp4Movie systems_movie(const fba::AccessUnits& face, const EncodedAudio* sound,
                        int visual_profile) {
   Mp4Movie movie;
   Mp4Track visual = face_track(face);
-  std::int64_t length = milliseconds(visual);
+  std::int64_t length = length_in_ms(visual);
   // The unit of track durations; 1 ms would round them.
   movie.timescale = sound != nullptr ? std::uint32_t(sound->format.sample_rate) : face.timescale;
   std::vector<Mp4Track> media;
   media.push_back(std::move(visual));
   if (sound != nullptr) {
     media.push_back(sound_track(*sound));
-    length = std::max(length, milliseconds(media.back()));
+    length = std::max(length, length_in_ms(media.back()));
   }
   const std::vector<std::uint8_t> config = scene_config();
   movie.tracks.push_back(constant_track(kSceneTrack, "sdsm", "scene", kSceneStream,

@@ -178,4 +178,10 @@ std::vector<std::uint8_t> elementary_stream_descriptor(const StreamDescription& 
   return out.bytes();
 }
 
+void put_esds(BoxWriter& out, const StreamDescription& stream) {
+  out.begin_full("esds", 0, 0);
+  out.raw(elementary_stream_descriptor(stream));
+  out.end();
+}
+
 }  // namespace animeme::media

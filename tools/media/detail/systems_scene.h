@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "tools/media/detail/box_writer.h"
+
 namespace animeme::media {
 
 /// Track IDs, which are object descriptor IDs, too.
@@ -23,8 +25,11 @@ std::vector<std::uint8_t> scene_unit(bool sound);
 /// first and second track of the `mpod` reference.
 std::vector<std::uint8_t> object_unit(bool sound);
 
-/// Initial object descriptor, the content of `iods` behind its version: profiles (0xFE: not
-/// specified, 0xFF: none required) and the tracks of scene and objects.
+/// Profiles: not specified, none required, AAC up to 48 kHz and two channels.
+inline constexpr unsigned kUnspecified = 0xFE, kNoneRequired = 0xFF, kAacLevel2 = 0x29;
+
+/// Initial object descriptor, the content of `iods` behind its version: profiles and the tracks of
+/// scene and objects.
 std::vector<std::uint8_t> initial_object_descriptor(unsigned audio_profile,
                                                     unsigned visual_profile);
 
@@ -37,7 +42,13 @@ struct StreamDescription {
   std::span<const std::uint8_t> config;  ///< DecoderSpecificInfo; empty: none
 };
 
+/// Numbers of a StreamDescription.
+inline constexpr unsigned kAudioStream = 5, kAacObject = 0x40;
+
 /// Content of an `esds` box behind its version: ES_ID 0, as in files.
 std::vector<std::uint8_t> elementary_stream_descriptor(const StreamDescription& stream);
+
+/// The whole box.
+void put_esds(BoxWriter& out, const StreamDescription& stream);
 
 }  // namespace animeme::media

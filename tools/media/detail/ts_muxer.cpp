@@ -9,14 +9,11 @@
 namespace animeme::media {
 namespace {
 
-constexpr int kBufferSize = 1 << 16;
 // What decoders have between the clock of the stream and the time to show (libavformat doubles it
 // in the stamps). Nothing waits for it here.
 constexpr std::int64_t kMaxDelay = 100000;                       // microseconds
 constexpr std::int64_t kAddedByMuxer = 2 * kMaxDelay * 9 / 100;  // ticks of 90 kHz
 constexpr AVRational kStampBase{1, 90000};
-
-Error no_memory() { return make_error(Code::out_of_range, "not enough memory"); }
 
 }  // namespace
 
@@ -46,13 +43,13 @@ Result<void> TsMuxer::start(double table_period) {
   av::LogCapture log;
   packet_.reset(av_packet_alloc());
   avformat_alloc_output_context2(&context_, nullptr, "mpegts", nullptr);
-  auto* buffer = static_cast<unsigned char*>(av_malloc(kBufferSize));
+  auto* buffer = static_cast<unsigned char*>(av_malloc(av::kBufferSize));
   if (buffer != nullptr) {
-    io_ = avio_alloc_context(buffer, kBufferSize, 1, this, nullptr, &TsMuxer::collect, nullptr);
+    io_ = avio_alloc_context(buffer, av::kBufferSize, 1, this, nullptr, &TsMuxer::collect, nullptr);
   }
   if (!packet_ || context_ == nullptr || io_ == nullptr) {
     if (io_ == nullptr) av_free(buffer);
-    return no_memory();
+    return av::no_memory();
   }
   io_->seekable = 0;
   context_->pb = io_;
@@ -85,13 +82,13 @@ Result<void> TsMuxer::add_face() {
     return make_error(Code::invalid_argument, "the configuration is not that of a face");
   }
   AVStream* stream = avformat_new_stream(context_, nullptr);
-  if (stream == nullptr) return no_memory();
+  if (stream == nullptr) return av::no_memory();
   AVCodecParameters& parameters = *stream->codecpar;
   parameters.codec_type = AVMEDIA_TYPE_VIDEO;
   parameters.codec_id = AV_CODEC_ID_MPEG4;
   parameters.width = 320;
   parameters.height = 240;
-  if (!av::set_extradata(parameters, info_.face_config)) return no_memory();
+  if (!av::set_extradata(parameters, info_.face_config)) return av::no_memory();
   stream->time_base = kStampBase;
   streams_[0] = stream;
   return {};
@@ -99,13 +96,13 @@ Result<void> TsMuxer::add_face() {
 
 Result<void> TsMuxer::add_sound() {
   AVStream* stream = avformat_new_stream(context_, nullptr);
-  if (stream == nullptr) return no_memory();
+  if (stream == nullptr) return av::no_memory();
   if (info_.audio->config.empty()) {
     return make_error(Code::invalid_argument, "the sound has no configuration");
   }
   Result<av::Parameters> parameters = codec_parameters(*info_.audio);
   if (!parameters) return parameters.error();
-  if (avcodec_parameters_copy(stream->codecpar, parameters->get()) < 0) return no_memory();
+  if (avcodec_parameters_copy(stream->codecpar, parameters->get()) < 0) return av::no_memory();
   stream->time_base = kStampBase;
   streams_[1] = stream;
   return {};
@@ -144,7 +141,8 @@ Result<std::vector<std::uint8_t>> TsMuxer::write(const LiveUnit& unit) {
     return make_error(Code::invalid_argument, "a unit is empty or longer than 60000 bytes");
   }
   av::LogCapture quiet;
-  if (av_new_packet(packet_.get(), int(prefix.size() + unit.bytes.size())) < 0) return no_memory();
+  if (av_new_packet(packet_.get(), int(prefix.size() + unit.bytes.size())) < 0)
+    return av::no_memory();
   if (!prefix.empty()) std::memcpy(packet_->data, prefix.data(), prefix.size());
   std::memcpy(packet_->data + prefix.size(), unit.bytes.data(), unit.bytes.size());
   packet_->stream_index = streams_[track]->index;

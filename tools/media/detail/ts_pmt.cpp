@@ -9,9 +9,8 @@ namespace animeme::media {
 namespace {
 
 constexpr std::uint8_t kMapTable = 0x02;
-constexpr std::uint8_t kVisual = 0x10;      // stream type of 14496-2
-constexpr std::uint8_t kDescriptor = 0x1B;  // MPEG-4_video_descriptor
-constexpr std::size_t kCrc = 4;
+constexpr std::uint8_t kVisualStreamType = 0x10;  // stream type of 14496-2
+constexpr std::uint8_t kDescriptor = 0x1B;        // MPEG-4_video_descriptor
 
 using Bytes = std::span<const std::uint8_t>;
 
@@ -48,8 +47,8 @@ bool has_descriptor(Bytes descriptors) {
 /// The map with the descriptors, without its CRC; empty: nothing is to be done, or it is damaged.
 std::vector<std::uint8_t> describe(Bytes section, std::uint8_t profile) {
   constexpr std::size_t kFixed = 12;  // up to program_info_length
-  if (section.size() < kFixed + kCrc) return {};
-  const std::size_t end = section.size() - kCrc;
+  if (section.size() < kFixed + kTsCrcSize) return {};
+  const std::size_t end = section.size() - kTsCrcSize;
   std::size_t at = kFixed + (u16(section, 10) & 0x0FFF);
   if (at > end) return {};
   std::vector<std::uint8_t> out(section.begin(), section.begin() + std::ptrdiff_t(at));
@@ -60,7 +59,7 @@ std::vector<std::uint8_t> describe(Bytes section, std::uint8_t profile) {
     const Bytes entry = section.subspan(at, 5 + length);
     const std::size_t begin = out.size();
     out.insert(out.end(), entry.begin(), entry.end());
-    if (entry[0] == kVisual && !has_descriptor(entry.subspan(5))) {
+    if (entry[0] == kVisualStreamType && !has_descriptor(entry.subspan(5))) {
       out.insert(out.end(), {kDescriptor, 1, profile});
       put_u12(out, begin + 3, length + 3);
       changed = true;
@@ -68,7 +67,7 @@ std::vector<std::uint8_t> describe(Bytes section, std::uint8_t profile) {
     at += 5 + length;
   }
   if (!changed || at != end) return {};
-  put_u12(out, 1, out.size() + kCrc - 3);
+  put_u12(out, 1, out.size() + kTsCrcSize - 3);
   return out;
 }
 
@@ -87,7 +86,7 @@ void ProgramMapFilter::rewrite(std::span<std::uint8_t> packet) {
   const bool map = std::find(map_pids_.begin(), map_pids_.end(), pid) != map_pids_.end();
   if (!map || section[0] != kMapTable) return;
   std::vector<std::uint8_t> described = describe(section, profile_);
-  if (described.empty() || at + described.size() + kCrc > packet.size()) return;
+  if (described.empty() || at + described.size() + kTsCrcSize > packet.size()) return;
   // What follows the section in its packet must be stuffing, or it would be lost.
   const auto behind = packet.subspan(at + section.size());
   if (std::any_of(behind.begin(), behind.end(), [](std::uint8_t b) { return b != 0xFF; })) return;

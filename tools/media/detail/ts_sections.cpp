@@ -6,7 +6,6 @@ namespace animeme::media {
 namespace {
 
 constexpr std::size_t kHeader = 8;  // of a section in the long form
-constexpr std::size_t kCrc = 4;
 constexpr std::uint8_t kPatId = 0, kPmtId = 2;
 constexpr std::uint8_t kRegistration = 0x05, kExtension = 0x7F, kOpusExtension = 0x80;
 
@@ -21,8 +20,9 @@ std::size_t length_at(std::span<const std::uint8_t> bytes, std::size_t at) {
 /// Entries of a section of this table that is in force; nullopt: another one.
 std::optional<std::span<const std::uint8_t>> entries(std::span<const std::uint8_t> section,
                                                      std::uint8_t table) {
-  if (section.size() < kHeader + kCrc || section[0] != table || (section[5] & 1) == 0) return {};
-  return section.subspan(kHeader, section.size() - kHeader - kCrc);
+  if (section.size() < kHeader + kTsCrcSize || section[0] != table || (section[5] & 1) == 0)
+    return {};
+  return section.subspan(kHeader, section.size() - kHeader - kTsCrcSize);
 }
 
 /// Number of channels of a private stream whose descriptors say that it is Opus; 0: it is not.

@@ -11,6 +11,7 @@
 namespace animeme::media {
 
 inline constexpr std::size_t kTsPacket = 188;
+inline constexpr std::size_t kTsCrcSize = 4;  ///< bytes behind a section
 inline constexpr std::uint8_t kTsSync = 0x47;
 inline constexpr int kTsNoPid = 0x1FFF;  ///< of packets that only fill
 

@@ -9,6 +9,9 @@
 
 namespace animeme::media {
 
+inline constexpr std::int64_t kLongestTime = std::int64_t(1) << 47;  ///< room for rescaling
+inline constexpr std::size_t kLargestUnit = std::size_t(1) << 24;    ///< bytes, also of sound
+
 /// Bytes of the largest access unit.
 inline std::size_t largest_unit(const fba::AccessUnits& face) {
   std::size_t largest = 0;

@@ -11,9 +11,9 @@ bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; 
 
 bool ends_name(char c) { return is_space(c) || c == '/' || c == '>' || c == '=' || c == '<'; }
 
-class Reader {
+class TagReader {
  public:
-  explicit Reader(std::string_view xml) : xml_(xml) {}
+  explicit TagReader(std::string_view xml) : xml_(xml) {}
 
   Result<std::vector<XmlTag>> read();
 
@@ -54,7 +54,7 @@ class Reader {
   mutable std::int64_t lines_ = 1;
 };
 
-std::string Reader::name() {
+std::string TagReader::name() {
   const std::size_t begin = at_;
   while (!at_end() && !ends_name(xml_[at_])) ++at_;
   const std::string_view whole = xml_.substr(begin, at_ - begin);
@@ -62,7 +62,7 @@ std::string Reader::name() {
   return std::string(colon == std::string_view::npos ? whole : whole.substr(colon + 1));
 }
 
-Result<std::string> Reader::unescape(std::string_view text) const {
+Result<std::string> TagReader::unescape(std::string_view text) const {
   std::string out;
   constexpr std::pair<std::string_view, char> kEntities[] = {
       {"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}};
@@ -82,7 +82,7 @@ Result<std::string> Reader::unescape(std::string_view text) const {
   return out;
 }
 
-Result<void> Reader::attributes(XmlTag& tag) {
+Result<void> TagReader::attributes(XmlTag& tag) {
   for (;;) {
     skip_space();
     if (at_end()) return wrong(Code::truncated, "the document ends within a tag");
@@ -106,7 +106,7 @@ Result<void> Reader::attributes(XmlTag& tag) {
   }
 }
 
-Result<XmlTag> Reader::tag() {
+Result<XmlTag> TagReader::tag() {
   XmlTag tag;
   tag.line = line();
   tag.begins = !skip("/");
@@ -120,7 +120,7 @@ Result<XmlTag> Reader::tag() {
   return tag;
 }
 
-Result<std::vector<XmlTag>> Reader::read() {
+Result<std::vector<XmlTag>> TagReader::read() {
   std::vector<XmlTag> tags;
   while (skip_to("<")) {
     if (skip("?")) {
@@ -141,6 +141,6 @@ Result<std::vector<XmlTag>> Reader::read() {
 
 }  // namespace
 
-Result<std::vector<XmlTag>> read_tags(std::string_view xml) { return Reader(xml).read(); }
+Result<std::vector<XmlTag>> read_tags(std::string_view xml) { return TagReader(xml).read(); }
 
 }  // namespace animeme::media

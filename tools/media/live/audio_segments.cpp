@@ -9,18 +9,10 @@ namespace animeme::media {
 namespace {
 
 constexpr unsigned kTrack = 1;
-constexpr unsigned kAac = 0x40, kAudioStream = 5;
 constexpr unsigned kDefaultBaseIsMoof = 0x020000;
 constexpr unsigned kDataOffset = 0x1, kDurations = 0x100, kSizes = 0x200;
 // Bytes of a segment in front of the time in tfdt: moof, mfhd, traf, tfhd, tfdt up to its time.
 constexpr std::size_t kTimeAt = 8 + 16 + 8 + 16 + 12;
-
-void put_esds(BoxWriter& out, const std::vector<std::uint8_t>& config) {
-  out.begin_full("esds", 0, 0);
-  out.raw(elementary_stream_descriptor(
-      {.object_type = kAac, .stream_type = kAudioStream, .config = config}));
-  out.end();
-}
 
 /// OpusHead (little endian) as the box dOps (big endian), without pre-skip.
 void put_opus_box(BoxWriter& out, const AudioFormat& format) {
@@ -44,7 +36,9 @@ void put_sample_entry(BoxWriter& out, const AudioFormat& format) {
   out.u16(16);
   out.zeros(4);
   out.u32(format.sample_rate < 65536 ? std::uint64_t(format.sample_rate) << 16 : 0);
-  aac ? put_esds(out, format.config) : put_opus_box(out, format);
+  const StreamDescription stream{
+      .object_type = kAacObject, .stream_type = kAudioStream, .config = format.config};
+  aac ? put_esds(out, stream) : put_opus_box(out, format);
   out.end();
 }
 

@@ -1,15 +1,16 @@
-// Sound as the pieces of a fragmented mp4, as browsers take them while they come: one
-// initialisation segment, then media segments (moof and mdat) of a few packets each.
-//
-//     auto begin = write_audio_init(format);                 // once
-//     auto piece = write_audio_segment(1, packets);          // again and again
-//
-// The clock of the track has `sample_rate` ticks a second; tfdt is the time of the first packet.
-// There is no edit list: a packet with the time t begins at t, priming included, so times have to
-// be shifted until none is negative. Opus: the pre-skip in dOps is 0 for the same reason, and
-// browsers then play every sample at its time.
-// Source: containers, section 4.4; the boxes are those of ISO/IEC 14496-12, 14496-14 and of the
-// Opus encapsulation.
+/// @file
+/// Sound as the pieces of a fragmented mp4, as browsers take them while they come: one
+/// initialisation segment, then media segments (moof and mdat) of a few packets each.
+///
+///     auto begin = write_audio_init(format);                 // once
+///     auto piece = write_audio_segment(1, packets);          // again and again
+///
+/// The clock of the track has `sample_rate` ticks a second; tfdt is the time of the first packet.
+/// There is no edit list: a packet with the time t begins at t, priming included, so times have to
+/// be shifted until none is negative. Opus: the pre-skip in dOps is 0 for the same reason, and
+/// browsers then play every sample at its time.
+/// Source: containers, section 4.4; the boxes are those of ISO/IEC 14496-12, 14496-14 and of the
+/// Opus encapsulation.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
-// Packets that overtake each other, come twice or not at all, put in order. Knows nothing of
-// sockets and clocks; the caller says what time it is. Source: RFC 3550 appendix A.1 and A.8.
+/// @file
+/// Packets that overtake each other, come twice or not at all, put in order. Knows nothing of
+/// sockets and clocks; the caller says what time it is. Source: RFC 3550 appendix A.1 and A.8.
 #pragma once
 
 #include <array>
@@ -16,14 +17,15 @@ namespace animeme::media {
 /// A 32-bit counter without its wraps: the value next to the last one.
 class Unwrapper {
  public:
-  std::int64_t add(std::uint32_t value);
-  void reset() { known_ = false; }
+  std::int64_t add(std::uint32_t value);  ///< the value without wraps; near the one before
+  void reset() { known_ = false; }        ///< the next value begins anew
 
  private:
   bool known_ = false;
   std::int64_t last_ = 0;
 };
 
+/// How long a packet may keep others waiting.
 struct ReorderLimits {
   double seconds = 0.1;      ///< longest time that a packet waits for an earlier one
   std::size_t packets = 64;  ///< at most so many wait
@@ -38,10 +40,11 @@ class ReorderBuffer {
  public:
   /// So many packets are missing at this place; 0: not known.
   struct Missing {
-    std::int64_t packets = 0;
+    std::int64_t packets = 0;  ///< at least 1 where known
   };
-  using Item = std::variant<RtpPacket, Missing>;
+  using Item = std::variant<RtpPacket, Missing>;  ///< What comes out.
 
+  /// Limits as they are, unchecked.
   explicit ReorderBuffer(ReorderLimits limits) : limits_(limits) {}
 
   /// true: it had not come before (late ones count as old).
@@ -53,14 +56,15 @@ class ReorderBuffer {
   /// Nothing more will come: what is missing is lost.
   void flush() { flushing_ = true; }
 
+  /// Totals over the life of the buffer.
   struct Counts {
-    std::int64_t received = 0;  ///< without duplicates and late ones
-    std::int64_t lost = 0;
-    std::int64_t late = 0;
-    std::int64_t duplicates = 0;
-    std::int64_t reordered = 0;
+    std::int64_t received = 0;    ///< without duplicates and late ones
+    std::int64_t lost = 0;        ///< given up
+    std::int64_t late = 0;        ///< came after they had been given up
+    std::int64_t duplicates = 0;  ///< came before
+    std::int64_t reordered = 0;   ///< came behind a later one
   };
-  const Counts& counts() const { return counts_; }
+  const Counts& counts() const { return counts_; }  ///< so far
   /// Packets that should have come up to now, by their sequence numbers.
   std::int64_t expected() const { return expected_before_ + (begun_ ? highest_ - first_ + 1 : 0); }
   /// Highest sequence number, wraps in the bits above 16.
@@ -98,8 +102,9 @@ class ReorderBuffer {
 /// Interarrival jitter of RFC 3550 section 6.4.1, in ticks.
 class JitterMeter {
  public:
+  /// A packet of `timestamp` came at `now` seconds; `clock` ticks a second.
   void add(std::uint32_t timestamp, double now, std::uint32_t clock);
-  double ticks() const { return jitter_; }
+  double ticks() const { return jitter_; }  ///< of the clock
 
  private:
   bool begun_ = false;

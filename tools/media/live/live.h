@@ -1,16 +1,17 @@
-// A face and its sound while they are being made: what all live transports have in common.
-//
-//     auto sink = open_sink("rtp://192.0.2.7:5004", {});
-//     if (auto ok = (*sink)->start(info); !ok) return ok.error();
-//     for (const LiveUnit& unit : units) (*sink)->send(unit);     // when it is due
-//     (*sink)->finish();
-//
-//     auto source = open_source("talk.sdp", {});
-//     while (auto event = (*source)->next(1.0)) { ... }
-//
-// Sinks send at once what they are given; pacing is the caller's (see pacer.h). Sources give out
-// what came, with its losses marked; recovery.h decides what of it can be used.
-// Source: containers, section 4.
+/// @file
+/// A face and its sound while they are being made: what all live transports have in common.
+///
+///     auto sink = open_sink("rtp://192.0.2.7:5004", {});
+///     if (auto ok = (*sink)->start(info); !ok) return ok.error();
+///     for (const LiveUnit& unit : units) (*sink)->send(unit);     // when it is due
+///     (*sink)->finish();
+///
+///     auto source = open_source("talk.sdp", {});
+///     while (auto event = (*source)->next(1.0)) { ... }
+///
+/// Sinks send at once what they are given; pacing is the caller's (see pacer.h). Sources give out
+/// what came, with its losses marked; recovery.h decides what of it can be used.
+/// Source: containers, section 4.
 #pragma once
 
 #include <cstdint>
@@ -35,31 +36,32 @@ struct LiveInfo {
   friend bool operator==(const LiveInfo&, const LiveInfo&) = default;
 };
 
+/// The two media of a presentation.
 enum class LiveTrack : std::uint8_t { face, audio };
 
 /// One access unit of the face or one packet of sound.
 struct LiveUnit {
-  LiveTrack track = LiveTrack::face;
-  std::vector<std::uint8_t> bytes;
-  bool intra = false;  ///< face: a receiver can begin here
+  LiveTrack track = LiveTrack::face;  ///< whose unit
+  std::vector<std::uint8_t> bytes;    ///< access unit or packet
+  bool intra = false;                 ///< face: a receiver can begin here
   /// Face: ticks of LiveInfo::timescale. Sound: samples. 0 is the same instant in both; the first
   /// packets of a sound have negative times (priming).
   std::int64_t time = 0;
-  std::int64_t duration = 0;
+  std::int64_t duration = 0;  ///< same ticks; 0: not known
 
   friend bool operator==(const LiveUnit&, const LiveUnit&) = default;
 };
 
 /// Totals since start().
 struct SendStats {
-  std::int64_t face_units = 0;
-  std::int64_t audio_units = 0;
-  std::int64_t packets = 0;    ///< datagrams, messages or transport packets
-  std::int64_t bytes = 0;      ///< on the wire, without the headers of UDP, TCP and IP
-  std::int64_t repeated = 0;   ///< packets sent again by setting
-  std::int64_t receivers = 0;  ///< now connected (HTTP, SRT) or heard of (RTCP)
-  std::int64_t dropped = 0;    ///< units that a slow receiver did not get
-  double reported_loss = 0;    ///< share of packets, from receiver reports; 0..1
+  std::int64_t face_units = 0;   ///< access units
+  std::int64_t audio_units = 0;  ///< packets of sound
+  std::int64_t packets = 0;      ///< datagrams, messages or transport packets
+  std::int64_t bytes = 0;        ///< on the wire, without the headers of UDP, TCP and IP
+  std::int64_t repeated = 0;     ///< packets sent again by setting
+  std::int64_t receivers = 0;    ///< now connected (HTTP, SRT) or heard of (RTCP)
+  std::int64_t dropped = 0;      ///< units that a slow receiver did not get
+  double reported_loss = 0;      ///< share of packets, from receiver reports; 0..1
 };
 
 /// Sends one presentation. Not thread safe.
@@ -75,13 +77,13 @@ class LiveSink {
   virtual Result<void> poll() = 0;
   /// Says goodbye and closes.
   virtual Result<void> finish() = 0;
-  virtual SendStats stats() const = 0;
+  virtual SendStats stats() const = 0;  ///< since start()
 };
 
 /// Packets are missing before the next unit of this track.
 struct LiveGap {
-  LiveTrack track = LiveTrack::face;
-  std::int64_t packets = 0;  ///< how many; 0: not known
+  LiveTrack track = LiveTrack::face;  ///< whose packets
+  std::int64_t packets = 0;           ///< how many; 0: not known
 
   friend bool operator==(const LiveGap&, const LiveGap&) = default;
 };
@@ -99,14 +101,15 @@ struct LiveIdle {
 /// Info comes first, and again if it changes.
 using LiveEvent = std::variant<LiveInfo, LiveUnit, LiveGap, LiveEnd, LiveIdle>;
 
+/// Totals since the beginning.
 struct ReceiveStats {
-  std::int64_t packets = 0;
-  std::int64_t bytes = 0;
+  std::int64_t packets = 0;     ///< that were read
+  std::int64_t bytes = 0;       ///< of these
   std::int64_t lost = 0;        ///< packets that never came
   std::int64_t late = 0;        ///< came after they had been given up
   std::int64_t duplicates = 0;  ///< came again (repetition)
-  std::int64_t reordered = 0;
-  double jitter = 0;  ///< seconds, RFC 3550 section 6.4.1, of the face
+  std::int64_t reordered = 0;   ///< came behind a later one
+  double jitter = 0;            ///< seconds, RFC 3550 section 6.4.1, of the face
 };
 
 /// Receives one presentation. Not thread safe. Safe for whatever comes over the network: memory
@@ -117,7 +120,7 @@ class LiveSource {
   /// The next event, waiting at most `seconds`. Errors: io (the connection broke), syntax (not
   /// what this transport carries).
   virtual Result<LiveEvent> next(double seconds) = 0;
-  virtual ReceiveStats stats() const = 0;
+  virtual ReceiveStats stats() const = 0;  ///< since the beginning
 };
 
 }  // namespace animeme::media

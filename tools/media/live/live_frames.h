@@ -1,10 +1,11 @@
-// FAP frames out of planes as they are received, and as text.
-//
-//     LiveFrames frames(GapRule::hold, true);
-//     if (auto unit = recorder.accept(event); unit && unit->track == LiveTrack::face) {
-//       auto shown = frames.push(*unit, recorder.info()->timescale, recorder.after_gap());
-//       for (const fap::Frame& frame : *shown) text += fap_lines(frame, frames.rate());
-//     }
+/// @file
+/// FAP frames out of planes as they are received, and as text.
+///
+///     LiveFrames frames(GapRule::hold, true);
+///     if (auto unit = recorder.accept(event); unit && unit->track == LiveTrack::face) {
+///       auto shown = frames.push(*unit, recorder.info()->timescale, recorder.after_gap());
+///       for (const fap::Frame& frame : *shown) text += fap_lines(frame, frames.rate());
+///     }
 #pragma once
 
 #include <cstdint>
@@ -59,6 +60,6 @@ class LiveFrames {
 /// FAP text by the frame: its first line, which cannot know their number and says 0, and the two
 /// lines of a frame.
 std::string fap_header(fap::Rate rate, const std::string& name);
-std::string fap_lines(const fap::Frame& frame, fap::Rate rate);
+std::string fap_lines(const fap::Frame& frame, fap::Rate rate);  ///< `frame` is numbered at `rate`
 
 }  // namespace animeme::media

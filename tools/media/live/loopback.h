@@ -1,5 +1,6 @@
-// A sink and a source that are joined in memory, with losses where they are wanted: for tests of
-// what stands before a sink and behind a source.
+/// @file
+/// A sink and a source that are joined in memory, with losses where they are wanted: for tests of
+/// what stands before a sink and behind a source.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +11,7 @@
 
 namespace animeme::media {
 
+/// What goes wrong on the way.
 struct LoopbackOptions {
   double loss = 0;         ///< share of units that do not arrive, 0..1
   std::uint64_t seed = 1;  ///< of the losses: the same seed loses the same units
@@ -19,9 +21,10 @@ struct LoopbackOptions {
 /// What is sent before the source looks is kept. Losses show as a LiveGap before the next unit
 /// of the track.
 struct Loopback {
-  std::unique_ptr<LiveSink> sink;
-  std::unique_ptr<LiveSource> source;
+  std::unique_ptr<LiveSink> sink;      ///< writes
+  std::unique_ptr<LiveSource> source;  ///< reads what it wrote
 };
+/// Both ends may be used from one thread.
 Loopback make_loopback(const LoopbackOptions& options = {});
 
 }  // namespace animeme::media

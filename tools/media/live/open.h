@@ -1,13 +1,14 @@
-// Live transports by address.
-//
-//     auto sink = open_sink("rtp://192.0.2.7:5004", {.rtp = {.sdp_path = "talk.sdp"}});
-//     auto source = open_source("talk.sdp");
-//
-// | address | transport |
-// |---|---|
-// | rtp://host:port | RTP; sound on port + 2 |
-// | talk.sdp (receive only) | RTP as the session description says |
-// | udp://, srt:// | MPEG transport stream, ts_live.h |
+/// @file
+/// Live transports by address.
+///
+///     auto sink = open_sink("rtp://192.0.2.7:5004", {.rtp = {.sdp_path = "talk.sdp"}});
+///     auto source = open_source("talk.sdp");
+///
+/// | address | transport |
+/// |---|---|
+/// | rtp://host:port | RTP; sound on port + 2 |
+/// | talk.sdp (receive only) | RTP as the session description says |
+/// | udp://, srt:// | MPEG transport stream, ts_live.h |
 #pragma once
 
 #include <memory>
@@ -22,12 +23,13 @@ namespace animeme::media {
 
 /// Each transport reads its own part.
 struct SinkOptions {
-  RtpOptions rtp;
-  TsOptions ts;
+  RtpOptions rtp;  ///< for rtp://
+  TsOptions ts;    ///< for udp:// and srt://
 };
+/// Each transport reads its own part.
 struct SourceOptions {
-  RtpReceiveOptions rtp;
-  TsOptions ts;
+  RtpReceiveOptions rtp;  ///< for RTP
+  TsOptions ts;           ///< for udp:// and srt://
 };
 
 /// A sink for `url`, not yet started. Errors: invalid_argument (no address of ours; the message

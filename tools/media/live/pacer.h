@@ -1,15 +1,16 @@
-// When to send: a clock that can be replaced, and a pacer that holds units to it.
-//
-//     Pacer pacer(steady_clock());
-//     while (auto due = input.next_due()) {
-//       while (!pacer.wait_until(*due)) sink.poll();     // returns at least every 50 ms
-//       for (LiveUnit& unit : input.take(*due)) sink.send(unit);
-//       pacer.sent(*due);
-//     }
-//
-// Instants are absolute: that of a unit is the start of the presentation plus its own time, never
-// the instant of the unit before plus a distance. So errors of one wait do not add up, and the
-// sender keeps the speed of the machine's steady clock for days.
+/// @file
+/// When to send: a clock that can be replaced, and a pacer that holds units to it.
+///
+///     Pacer pacer(steady_clock());
+///     while (auto due = input.next_due()) {
+///       while (!pacer.wait_until(*due)) sink.poll();     // returns at least every 50 ms
+///       for (LiveUnit& unit : input.take(*due)) sink.send(unit);
+///       pacer.sent(*due);
+///     }
+///
+/// Instants are absolute: that of a unit is the start of the presentation plus its own time, never
+/// the instant of the unit before plus a distance. So errors of one wait do not add up, and the
+/// sender keeps the speed of the machine's steady clock for days.
 #pragma once
 
 #include <array>
@@ -21,7 +22,7 @@ namespace animeme::media {
 class Clock {
  public:
   virtual ~Clock() = default;
-  virtual double now() = 0;
+  virtual double now() = 0;  ///< seconds, never less than before
   /// Returns at `instant` or a little later, at once if that is over.
   virtual void sleep_until(double instant) = 0;
 };
@@ -32,7 +33,7 @@ Clock& steady_clock();
 /// A clock that jumps to where one sleeps: presentations run as fast as they are made.
 class JumpingClock : public Clock {
  public:
-  double now() override { return now_; }
+  double now() override { return now_; }  ///< where it jumped to
   void sleep_until(double instant) override {
     if (instant > now_) now_ = instant;
   }
@@ -44,10 +45,11 @@ class JumpingClock : public Clock {
 /// How late things were, in seconds; memory does not grow. Negative values count as 0.
 class LatenessMeter {
  public:
-  void add(double seconds);
-  std::int64_t count() const { return count_; }
+  void add(double seconds);                      ///< one more, seconds
+  std::int64_t count() const { return count_; }  ///< values added
+  /// Seconds; 0 if nothing was added.
   double mean() const { return count_ == 0 ? 0 : sum_ / double(count_); }
-  double worst() const { return worst_; }
+  double worst() const { return worst_; }  ///< seconds; 0 if nothing was added
   /// The value that a share of `part` (0..1) does not exceed: exact to 0.1 ms below 0.2 s, to 5 %
   /// above; 0 if nothing was added.
   double percentile(double part) const;
@@ -76,7 +78,7 @@ class Pacer {
   bool wait_until(double due);
   /// Notes that what was due at `due` has just been sent.
   void sent(double due);
-  const LatenessMeter& lateness() const { return lateness_; }
+  const LatenessMeter& lateness() const { return lateness_; }  ///< of everything sent
 
  private:
   Clock* clock_;

@@ -1,15 +1,15 @@
 #include "tools/media/live/presentation.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
+
+#include "tools/media/detail/face_header.h"
 
 namespace animeme::media {
 
 namespace {
 
-constexpr std::array<std::uint8_t, 5> kObjectStart = {0x00, 0x00, 0x01, 0xBA, 0x7F};
 constexpr std::size_t kProfileByte = 4;  // of the configuration
 
 void drop_object_start(std::vector<std::uint8_t>& bytes) {

@@ -1,14 +1,15 @@
-// A face and its sound on one clock, in the order in which they are to be sent.
-//
-//     ClipInput input(info, units, sound, {.loop = true});
-//     while (auto due = input.next_due()) {
-//       auto units = input.take(*due);             // sound a little ahead of the face
-//       ...
-//     }
-//
-// Presentation time 0 is time 0 of face and sound. A unit is due when its time comes, sound
-// `audio_ahead` seconds before, so that it is there when the face is. The first packets of a
-// sound are due before 0 (priming).
+/// @file
+/// A face and its sound on one clock, in the order in which they are to be sent.
+///
+///     ClipInput input(info, units, sound, {.loop = true});
+///     while (auto due = input.next_due()) {
+///       auto units = input.take(*due);             // sound a little ahead of the face
+///       ...
+///     }
+///
+/// Presentation time 0 is time 0 of face and sound. A unit is due when its time comes, sound
+/// `audio_ahead` seconds before, so that it is there when the face is. The first packets of a
+/// sound are due before 0 (priming).
 #pragma once
 
 #include <cstdint>
@@ -49,6 +50,7 @@ class LiveInput {
 /// Presentation time at which a unit of `input` is due.
 double due_of(const LiveInput& input, const LiveUnit& unit);
 
+/// How a clip is presented.
 struct ClipOptions {
   double audio_ahead = 0.05;  ///< seconds, 0..1
   bool loop = false;          ///< begin again at the end; times go on

@@ -1,9 +1,10 @@
 #include "tools/media/live/recorder.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
+
+#include "tools/media/detail/face_header.h"
 
 #include "tools/media/live/presentation.h"
 
@@ -11,7 +12,6 @@ namespace animeme::media {
 
 namespace {
 
-constexpr std::array<std::uint8_t, 5> kObjectStart = {0x00, 0x00, 0x01, 0xBA, 0x7F};
 constexpr std::size_t kCodeBytes = 4;
 
 // Streams begin with the object start code, planes in their middle do not.

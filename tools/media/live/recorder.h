@@ -1,16 +1,17 @@
-// What a source gives out, kept: a face and its sound as they can be written into a file.
-//
-//     Recorder recorder;
-//     while (!recorder.ended()) {
-//       auto event = source->next(0.1);
-//       if (!event) break;
-//       if (auto unit = recorder.accept(std::move(*event))) show(*unit);
-//     }
-//     Recording talk = recorder.recording();
-//
-// Planes and packets keep their bytes and their distances. After a loss the plane before it is
-// held (it lasts longer) until the next plane that can be decoded; missing sound is a gap in the
-// packets' times. Who joins in the middle begins with the first intra plane.
+/// @file
+/// What a source gives out, kept: a face and its sound as they can be written into a file.
+///
+///     Recorder recorder;
+///     while (!recorder.ended()) {
+///       auto event = source->next(0.1);
+///       if (!event) break;
+///       if (auto unit = recorder.accept(std::move(*event))) show(*unit);
+///     }
+///     Recording talk = recorder.recording();
+///
+/// Planes and packets keep their bytes and their distances. After a loss the plane before it is
+/// held (it lasts longer) until the next plane that can be decoded; missing sound is a gap in the
+/// packets' times. Who joins in the middle begins with the first intra plane.
 #pragma once
 
 #include <cstddef>
@@ -26,6 +27,7 @@
 
 namespace animeme::media {
 
+/// When a recording ends by itself.
 struct RecorderOptions {
   /// Seconds of presentation after which it ends; 0: never.
   double duration = 0;
@@ -44,8 +46,10 @@ struct Recording {
   EncodedAudio sound;     ///< no packets: silent. `length`: to the end of the last packet
 };
 
+/// Collects what a source gives out, for a file.
 class Recorder {
  public:
+  /// Options as they are, unchecked.
   explicit Recorder(const RecorderOptions& options = {}) : options_(options) {}
 
   /// Keeps what can be used of an event. Gives back the unit that was kept, for whoever shows it
@@ -56,13 +60,14 @@ class Recorder {
   bool ended() const { return ended_; }
   /// Was a plane lost or left out between the last two planes that were kept?
   bool after_gap() const { return after_gap_; }
+  /// Nothing: the source has not said yet.
   const std::optional<LiveInfo>& info() const { return info_; }
-  const RecoveryStats& recovery() const { return recovery_.stats(); }
+  const RecoveryStats& recovery() const { return recovery_.stats(); }  ///< totals
   /// Intra intervals that are complete; each is given once.
   std::vector<IntraInterval> take_intervals() { return recovery_.take_intervals(); }
   /// Seconds of face and of sound that were received.
   double face_seconds() const;
-  double sound_seconds() const;
+  double sound_seconds() const;  ///< likewise
 
   /// All that was kept so far. Both tracks may be empty.
   Recording recording() const;

@@ -1,12 +1,13 @@
-// What of a received face can be shown. A predictive plane holds differences to the plane before
-// it, so after a loss everything up to the next intra plane is wrong and is left out here.
-//
-//     FaceRecovery recovery;
-//     while (auto event = source->next(1.0)) {
-//       if (auto unit = recovery.accept(*event)) play(*unit);
-//     }
-//
-// For all transports. Source: containers, section 4.2.
+/// @file
+/// What of a received face can be shown. A predictive plane holds differences to the plane before
+/// it, so after a loss everything up to the next intra plane is wrong and is left out here.
+///
+///     FaceRecovery recovery;
+///     while (auto event = source->next(1.0)) {
+///       if (auto unit = recovery.accept(*event)) play(*unit);
+///     }
+///
+/// For all transports. Source: containers, section 4.2.
 #pragma once
 
 #include <cstdint>
@@ -43,6 +44,7 @@ struct RecoveryStats {
   }
 };
 
+/// Passes on the planes that can be decoded, and keeps count.
 class FaceRecovery {
  public:
   /// Takes the events of a source in their order. Gives back sound as it is, and planes that can be
@@ -52,7 +54,7 @@ class FaceRecovery {
 
   /// Is the face wrong or unknown since the last gap?
   bool waiting() const { return waiting_; }
-  const RecoveryStats& stats() const { return stats_; }
+  const RecoveryStats& stats() const { return stats_; }  ///< totals
   /// Intervals that are complete (LiveEnd completes the last), oldest first; each is given once. Of
   /// those that nobody takes the last 4096 are kept.
   std::vector<IntraInterval> take_intervals();

@@ -1,5 +1,6 @@
-// RTCP: sender reports tie RTP times to a wall clock, so that face and sound can be brought
-// together; receiver reports tell the sender what was lost. Source: RFC 3550 section 6.
+/// @file
+/// RTCP: sender reports tie RTP times to a wall clock, so that face and sound can be brought
+/// together; receiver reports tell the sender what was lost. Source: RFC 3550 section 6.
 #pragma once
 
 #include <cstdint>
@@ -23,34 +24,36 @@ struct ReportBlock {
   friend bool operator==(const ReportBlock&, const ReportBlock&) = default;
 };
 
+/// What a sender says of itself.
 struct SenderInfo {
-  std::uint64_t ntp = 0;  ///< 32 bits of seconds since 1900, 32 bits of fraction
-  std::uint32_t rtp = 0;  ///< the same instant
-  std::uint32_t packets = 0;
-  std::uint32_t octets = 0;  ///< of payload
+  std::uint64_t ntp = 0;      ///< 32 bits of seconds since 1900, 32 bits of fraction
+  std::uint32_t rtp = 0;      ///< the same instant
+  std::uint32_t packets = 0;  ///< sent so far, modulo 2^32
+  std::uint32_t octets = 0;   ///< of payload
 
   friend bool operator==(const SenderInfo&, const SenderInfo&) = default;
 };
 
 /// A sender report, or a receiver report if there is no sender information.
 struct RtcpReport {
-  std::uint32_t ssrc = 0;  ///< who reports
-  std::optional<SenderInfo> sender;
-  std::vector<ReportBlock> blocks;  ///< at most 31
+  std::uint32_t ssrc = 0;            ///< who reports
+  std::optional<SenderInfo> sender;  ///< nothing: a receiver's
+  std::vector<ReportBlock> blocks;   ///< at most 31
 
   friend bool operator==(const RtcpReport&, const RtcpReport&) = default;
 };
 
+/// The name of a sender, the same for all its media.
 struct RtcpName {
-  std::uint32_t ssrc = 0;
-  std::string cname;  ///< at most 255 bytes
+  std::uint32_t ssrc = 0;  ///< of the sender
+  std::string cname;       ///< at most 255 bytes
 
   friend bool operator==(const RtcpName&, const RtcpName&) = default;
 };
 
 /// A compound packet. Written in this order.
 struct RtcpMessage {
-  std::vector<RtcpReport> reports;
+  std::vector<RtcpReport> reports;  ///< usually one
   std::vector<RtcpName> names;      ///< at most 31
   std::vector<std::uint32_t> byes;  ///< who leaves; at most 31
 

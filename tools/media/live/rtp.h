@@ -1,12 +1,13 @@
-// A face and its sound over RTP: MP4V-ES planes and AAC or Opus, with RTCP for lip sync and loss.
-//
-//     auto sink = make_rtp_sink("rtp://192.0.2.7:5004", {.sdp_path = "talk.sdp"});
-//     auto source = make_rtp_source("talk.sdp");          // on the other machine
-//
-// The face goes to the port of the address, its RTCP to the port after it; sound and its RTCP to
-// the two after those. Both ends answer reports to where they came from.
-// Source: RFC 3550 (RTP, RTCP), 6416 (MP4V-ES), 3640 (AAC), 7587 (Opus), 8285 (header extension),
-// 8866 (SDP), 7273 (media clock); containers, sections 4.1 and 4.2.
+/// @file
+/// A face and its sound over RTP: MP4V-ES planes and AAC or Opus, with RTCP for lip sync and loss.
+///
+///     auto sink = make_rtp_sink("rtp://192.0.2.7:5004", {.sdp_path = "talk.sdp"});
+///     auto source = make_rtp_source("talk.sdp");          // on the other machine
+///
+/// The face goes to the port of the address, its RTCP to the port after it; sound and its RTCP to
+/// the two after those. Both ends answer reports to where they came from.
+/// Source: RFC 3550 (RTP, RTCP), 6416 (MP4V-ES), 3640 (AAC), 7587 (Opus), 8285 (header extension),
+/// 8866 (SDP), 7273 (media clock); containers, sections 4.1 and 4.2.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Who listens to a sender, by the reports that come back.
+/// @file
+/// Who listens to a sender, by the reports that come back.
 #pragma once
 
 #include <array>
@@ -15,9 +16,9 @@ class RtpListeners {
  public:
   /// `reporter` says of this track that it lost this share of packets.
   void add(std::uint32_t reporter, LiveTrack track, const ReportBlock& block, double now);
-  void remove(std::uint32_t reporter) { listeners_.erase(reporter); }
+  void remove(std::uint32_t reporter) { listeners_.erase(reporter); }  ///< it said goodbye
 
-  std::int64_t count(double now) const;
+  std::int64_t count(double now) const;  ///< heard of lately
   /// Mean over listeners of the worse of their tracks; 0..1.
   double loss(double now) const;
 

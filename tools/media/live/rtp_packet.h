@@ -1,5 +1,6 @@
-// One RTP packet: its header, its payload, and the header extension that says where the planes of
-// a bundle begin. Source: RFC 3550 section 5.1, RFC 8285 section 4.3.
+/// @file
+/// One RTP packet: its header, its payload, and the header extension that says where the planes of
+/// a bundle begin. Source: RFC 3550 section 5.1, RFC 8285 section 4.3.
 #pragma once
 
 #include <cstdint>
@@ -19,24 +20,25 @@ struct BundledPlane {
   friend bool operator==(const BundledPlane&, const BundledPlane&) = default;
 };
 
-inline constexpr std::size_t kMaxBundle = 16;
+inline constexpr std::size_t kMaxBundle = 16;  ///< planes of a packet
 /// What the session description calls the extension, and its number there.
 inline constexpr const char* kBundleExtension = "urn:x-animeme:planes";
-inline constexpr std::uint8_t kBundleExtensionId = 1;
+inline constexpr std::uint8_t kBundleExtensionId = 1;  ///< between 1 and 14
 
+/// One packet; write_rtp() and read_rtp() are its bytes.
 struct RtpPacket {
-  bool marker = false;
-  std::uint8_t payload_type = 96;  ///< 0..127
-  std::uint16_t sequence = 0;
-  std::uint32_t timestamp = 0;
-  std::uint32_t ssrc = 0;
-  std::vector<BundledPlane> bundle;  ///< empty: the packet has no extension; at most 15
-  std::vector<std::uint8_t> payload;
+  bool marker = false;                ///< last packet of an access unit
+  std::uint8_t payload_type = 96;     ///< 0..127
+  std::uint16_t sequence = 0;         ///< counts packets modulo 2^16
+  std::uint32_t timestamp = 0;        ///< ticks modulo 2^32
+  std::uint32_t ssrc = 0;             ///< of the sender
+  std::vector<BundledPlane> bundle;   ///< empty: the packet has no extension; at most 15
+  std::vector<std::uint8_t> payload;  ///< of the first plane on
 
   friend bool operator==(const RtpPacket&, const RtpPacket&) = default;
 };
 
-inline constexpr std::size_t kRtpHeaderSize = 12;
+inline constexpr std::size_t kRtpHeaderSize = 12;  ///< bytes, without extension
 /// Bytes of header and extension in front of the payload for so many planes (1: no extension).
 std::size_t rtp_header_size(std::size_t planes);
 
@@ -50,9 +52,9 @@ std::optional<RtpPacket> read_rtp(std::span<const std::uint8_t> datagram, int bu
 
 /// A datagram of one track, RTP or RTCP.
 struct RtpDatagram {
-  LiveTrack track = LiveTrack::face;
-  bool control = false;  ///< RTCP
-  std::vector<std::uint8_t> bytes;
+  LiveTrack track = LiveTrack::face;  ///< whose it is
+  bool control = false;               ///< RTCP
+  std::vector<std::uint8_t> bytes;    ///< one UDP payload
 
   friend bool operator==(const RtpDatagram&, const RtpDatagram&) = default;
 };

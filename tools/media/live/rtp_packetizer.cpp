@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "tools/media/detail/invalid.h"
 #include "tools/media/live/rtp_units.h"
 #include "tools/media/live/wire_internal.h"
 
@@ -30,9 +31,6 @@ std::int64_t RtpPacketizer::ticks(const LiveUnit& unit) const {
 }
 
 Result<void> RtpPacketizer::check(const LiveUnit& unit) const {
-  const auto invalid = [](const char* message) {
-    return make_error(Code::invalid_argument, message);
-  };
   if (unit.bytes.empty()) return invalid("a unit without bytes cannot be sent");
   if (track_ == LiveTrack::face) return {};
   if (!opus_ && unit.bytes.size() > kMaxAacFrame) {

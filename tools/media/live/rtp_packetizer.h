@@ -1,4 +1,5 @@
-// The units of one track into its RTP packets: numbers, time stamps, pieces and bundles.
+/// @file
+/// The units of one track into its RTP packets: numbers, time stamps, pieces and bundles.
 #pragma once
 
 #include <cstdint>
@@ -13,23 +14,24 @@ namespace animeme::media {
 
 /// Random at the begin of a sender's life, RFC 3550 section 5.1.
 struct RtpIdentity {
-  std::uint32_t ssrc = 0;
-  std::uint32_t offset = 0;  ///< RTP time at time 0
-  std::uint16_t sequence = 0;
+  std::uint32_t ssrc = 0;      ///< of the sender
+  std::uint32_t offset = 0;    ///< RTP time at time 0
+  std::uint16_t sequence = 0;  ///< of the first packet
 };
 
+/// Collects units until a packet is full, and numbers packets.
 class RtpPacketizer {
  public:
   /// `info` has this track; options are good.
   RtpPacketizer(LiveTrack track, const LiveInfo& info, const RtpOptions& options,
                 const RtpIdentity& identity, std::uint8_t payload_type);
 
-  LiveTrack track() const { return track_; }
-  std::uint32_t clock() const { return clock_; }  ///< of RTP times, ticks a second
-  std::uint32_t ssrc() const { return identity_.ssrc; }
-  std::uint32_t offset() const { return identity_.offset; }
-  std::uint32_t packets() const { return packets_; }  ///< made so far
-  std::uint32_t octets() const { return octets_; }    ///< their payload
+  LiveTrack track() const { return track_; }                 ///< whose units
+  std::uint32_t clock() const { return clock_; }             ///< of RTP times, ticks a second
+  std::uint32_t ssrc() const { return identity_.ssrc; }      ///< of the packets
+  std::uint32_t offset() const { return identity_.offset; }  ///< RTP time at time 0
+  std::uint32_t packets() const { return packets_; }         ///< made so far
+  std::uint32_t octets() const { return octets_; }           ///< their payload
   /// Seconds of a time or duration of LiveUnit.
   double seconds(std::int64_t time) const { return double(time) / timescale_; }
 
@@ -37,11 +39,11 @@ class RtpPacketizer {
   Result<void> check(const LiveUnit& unit) const;
   /// Would this unit share a packet with those that wait? Else flush() comes first.
   bool fits(const LiveUnit& unit) const;
-  void add(const LiveUnit& unit);
+  void add(const LiveUnit& unit);  ///< fits() and check() have to be true
   /// As many units wait as a packet may have.
   bool full() const { return int(units_.size()) >= most_; }
-  bool empty() const { return units_.empty(); }
-  int most() const { return most_; }
+  bool empty() const { return units_.empty(); }  ///< nothing waits
+  int most() const { return most_; }             ///< units of a packet at most
   /// Makes packets of what waits.
   std::vector<std::vector<std::uint8_t>> flush();
 

@@ -1,5 +1,6 @@
-// Access units into RTP payloads and back. Source: RFC 6416 section 5 (MP4V-ES), RFC 3640 section
-// 3.3.6 (AAC-hbr), RFC 7587 section 4.2 (Opus); containers, section 4.1.
+/// @file
+/// Access units into RTP payloads and back. Source: RFC 6416 section 5 (MP4V-ES), RFC 3640 section
+/// 3.3.6 (AAC-hbr), RFC 7587 section 4.2 (Opus); containers, section 4.1.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +13,8 @@ namespace animeme::media {
 
 /// One payload on its way out.
 struct RtpPayload {
-  std::vector<std::uint8_t> bytes;
-  bool marker = false;  ///< the last, or only, piece of its access unit
+  std::vector<std::uint8_t> bytes;  ///< behind the RTP header
+  bool marker = false;              ///< the last, or only, piece of its access unit
 };
 
 /// A plane, which goes into as many packets as it needs, each at most `room` (> 0) bytes, all with
@@ -25,7 +26,7 @@ std::vector<RtpPayload> split_plane(std::span<const std::uint8_t> plane, std::si
 /// have 1..8191 bytes.
 std::vector<RtpPayload> pack_aac(std::span<const std::vector<std::uint8_t>> frames,
                                  std::size_t room);
-inline constexpr std::size_t kMaxAacFrame = 8191;
+inline constexpr std::size_t kMaxAacFrame = 8191;  ///< 13 bits of size
 /// Bytes of such a packet with `frames` frames of `bytes` in all.
 std::size_t aac_packet_size(std::size_t frames, std::size_t bytes);
 
@@ -34,8 +35,8 @@ int opus_duration(std::span<const std::uint8_t> packet);
 
 /// An access unit on its way in, its time in ticks of the RTP clock.
 struct RtpUnit {
-  std::vector<std::uint8_t> bytes;
-  std::int64_t time = 0;
+  std::vector<std::uint8_t> bytes;  ///< joined, complete
+  std::int64_t time = 0;            ///< without wraps
 
   friend bool operator==(const RtpUnit&, const RtpUnit&) = default;
 };
@@ -58,9 +59,9 @@ class PlaneJoiner {
 
 /// Field widths of mpeg4-generic, from the session description.
 struct AacFields {
-  int size_bits = 13;
-  int index_bits = 3;
-  int index_delta_bits = 3;
+  int size_bits = 13;        ///< sizelength
+  int index_bits = 3;        ///< indexlength
+  int index_delta_bits = 3;  ///< indexdeltalength
 
   friend bool operator==(const AacFields&, const AacFields&) = default;
 };
@@ -68,9 +69,11 @@ struct AacFields {
 /// Takes AAC frames out of packets and joins pieces. Holds at most 64 kB.
 class AacJoiner {
  public:
+  /// `frame_samples`: ticks of a frame.
   AacJoiner(AacFields fields, int frame_samples) : fields_(fields), samples_(frame_samples) {}
+  /// Appends what is complete; false: the packet is broken.
   bool add(const RtpPacket& packet, std::int64_t time, std::vector<RtpUnit>& units);
-  void gap() { piece_.bytes.clear(); }
+  void gap() { piece_.bytes.clear(); }  ///< a piece that waits is dropped
 
  private:
   AacFields fields_;

@@ -1,12 +1,13 @@
-// What RTP and RTCP packets say, without sockets: a caller hands in datagrams and the time, and
-// takes out events and reports.
-//
-//     RtpReceiver receiver(*read_sdp(text), {}, 1);
-//     receiver.rtp(LiveTrack::face, datagram, seconds);
-//     while (auto event = receiver.next(seconds)) { ... }
-//
-// Safe for whatever comes in. At most 8 MB wait in it, besides `reorder_packets` datagrams a track;
-// when the caller does not take them out, further units are dropped and reported as a gap.
+/// @file
+/// What RTP and RTCP packets say, without sockets: a caller hands in datagrams and the time, and
+/// takes out events and reports.
+///
+///     RtpReceiver receiver(*read_sdp(text), {}, 1);
+///     receiver.rtp(LiveTrack::face, datagram, seconds);
+///     while (auto event = receiver.next(seconds)) { ... }
+///
+/// Safe for whatever comes in. At most 8 MB wait in it, besides `reorder_packets` datagrams a
+/// track; when the caller does not take them out, further units are dropped and reported as a gap.
 #pragma once
 
 #include <cstdint>
@@ -23,12 +24,15 @@
 
 namespace animeme::media {
 
+/// Both media of a session on their way in.
 class RtpReceiver {
  public:
   /// `id`: own identifier in reports. Times ("now") are seconds of any steady clock.
   RtpReceiver(const RtpSession& session, const RtpReceiveOptions& options, std::uint32_t id);
 
+  /// Takes an RTP datagram; anything may come.
   void rtp(LiveTrack track, std::span<const std::uint8_t> datagram, double now);
+  /// Takes an RTCP datagram; anything may come.
   void rtcp(LiveTrack track, std::span<const std::uint8_t> datagram, double now);
   /// The next event, never LiveIdle. nullopt: nothing is ready.
   std::optional<LiveEvent> next(double now);
@@ -37,8 +41,8 @@ class RtpReceiver {
   /// Receiver reports that are due: about every five seconds.
   std::vector<RtpDatagram> reports(double now);
 
-  ReceiveStats stats() const;
-  RtpSync sync() const { return timeline_.sync(); }
+  ReceiveStats stats() const;                        ///< of both media
+  RtpSync sync() const { return timeline_.sync(); }  ///< how the two clocks were brought together
 
  private:
   struct Source {

@@ -1,4 +1,5 @@
 #include "tools/media/live/rtp_sender.h"
+#include "tools/media/detail/invalid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,8 +28,6 @@ class Dice {
  private:
   std::uint64_t state_;
 };
-
-Error invalid(const char* message) { return make_error(Code::invalid_argument, message); }
 
 // Ticks as NTP, 2^-32 s; floor.
 std::uint64_t ntp_span(std::int64_t ticks, std::uint32_t clock) {
@@ -81,7 +80,7 @@ RtpSender::RtpSender(const LiveInfo& info, const RtpOptions& options, const std:
   // Nobody else should have it, RFC 7022.
   session_.cname = "animeme-" + std::to_string(seed);
   if (!info.face_config.empty()) {
-    FaceTrack& face = session_.face.emplace();
+    RtpFaceTrack& face = session_.face.emplace();
     describe(face, port);
     face.config = info.face_config;
     face.visual_profile = info.visual_profile;
@@ -90,7 +89,7 @@ RtpSender::RtpSender(const LiveInfo& info, const RtpOptions& options, const std:
     add_track(LiveTrack::face, face, identity());
   }
   if (info.audio) {
-    AudioTrack& audio = session_.audio.emplace();
+    RtpAudioTrack& audio = session_.audio.emplace();
     describe(audio, port + 2);
     audio.format = *info.audio;
     RtpIdentity other = identity();

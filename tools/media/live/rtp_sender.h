@@ -1,5 +1,6 @@
-// What a presentation looks like as RTP and RTCP packets, without sockets: a caller hands in units
-// and the time, and sends the datagrams that come out.
+/// @file
+/// What a presentation looks like as RTP and RTCP packets, without sockets: a caller hands in units
+/// and the time, and sends the datagrams that come out.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +21,7 @@ namespace animeme::media {
 /// of 0 or above kMaxTimescale; a sample rate of 0).
 Result<void> check(const LiveInfo& info, const RtpOptions& options);
 
+/// Both media of a session on their way out.
 class RtpSender {
  public:
   /// `address` and `port` go into the session description. `seed`: as RtpOptions::seed. `ntp`: the
@@ -30,7 +32,7 @@ class RtpSender {
   /// For write_sdp().
   const RtpSession& session() const { return session_; }
 
-  using Datagrams = std::vector<RtpDatagram>;
+  using Datagrams = std::vector<RtpDatagram>;  ///< In the order in which they are to be sent.
   /// Appends what is to be sent now. Times ("now") are seconds and ascend. Errors:
   /// invalid_argument (RtpPacketizer::check(), or a track that the presentation does not have).
   Result<void> send(const LiveUnit& unit, double now, Datagrams& out);

@@ -10,7 +10,6 @@
 namespace animeme::media {
 namespace {
 
-constexpr int kStandardPort = 5004;
 constexpr int kPortsBehind = 3;  // RTCP of the face, RTP and RTCP of the sound
 
 Result<void> write_description(const std::string& path, const RtpSession& session) {
@@ -103,7 +102,7 @@ class RtpSink : public LiveSink {
 }  // namespace
 
 Result<std::unique_ptr<LiveSink>> make_rtp_sink(const std::string& url, const RtpOptions& options) {
-  const Result<HostPort> where = read_host_port(url, kStandardPort);
+  const Result<HostPort> where = read_host_port(url, kRtpPort);
   if (!where) return where.error();
   if (where->host.empty()) {
     return make_error(Code::invalid_argument, "'" + url + "' does not say where to send to");

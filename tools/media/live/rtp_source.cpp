@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "tools/media/detail/invalid.h"
 #include "tools/media/live/rtp.h"
 #include "tools/media/live/rtp_receiver.h"
 #include "tools/media/live/udp_socket.h"
@@ -11,7 +12,6 @@
 namespace animeme::media {
 namespace {
 
-constexpr int kStandardPort = 5004;
 constexpr int kMostAtOnce = 256;  // datagrams of a socket before events are given out
 
 struct Inlet {
@@ -91,9 +91,6 @@ class RtpSource : public LiveSource {
 };
 
 Result<void> check(const RtpReceiveOptions& options) {
-  const auto invalid = [](const char* message) {
-    return make_error(Code::invalid_argument, message);
-  };
   const auto within = [](double value, double most) { return value >= 0 && value <= most; };
   if (!within(options.reorder_seconds, 10)) return invalid("reorder_seconds must be 0..10");
   if (!within(options.sync_seconds, 10)) return invalid("sync_seconds must be 0..10");
@@ -124,13 +121,13 @@ Result<void> open_inlets(const RtpTrack& track, LiveTrack which, const std::stri
 
 // A face alone, of which nothing is known but the port.
 Result<RtpSession> session_at(const std::string& url) {
-  const Result<HostPort> where = read_host_port(url, kStandardPort);
+  const Result<HostPort> where = read_host_port(url, kRtpPort);
   if (!where) return where.error();
   if (where->port == 0 || where->port > 65534) {
     return make_error(Code::invalid_argument, "RTP wants a port from 1 to 65534");
   }
   RtpSession session;
-  FaceTrack& face = session.face.emplace();
+  RtpFaceTrack& face = session.face.emplace();
   face.address = where->host.empty() ? "0.0.0.0" : where->host;
   face.port = where->port;
   face.rtcp_port = where->port + 1;

@@ -1,5 +1,6 @@
-// One clock for face and sound, whose RTP times begin at random numbers each.
-// Source: RFC 3550 section 6.4.1 (sender reports), RFC 7273 (media clock in the description).
+/// @file
+/// One clock for face and sound, whose RTP times begin at random numbers each.
+/// Source: RFC 3550 section 6.4.1 (sender reports), RFC 7273 (media clock in the description).
 #pragma once
 
 #include <array>
@@ -30,7 +31,7 @@ class RtpTimeline {
 
   /// A packet came; returns its time without wraps.
   std::int64_t add(LiveTrack track, std::uint32_t timestamp, double now);
-  void add_report(LiveTrack track, const SenderInfo& report);
+  void add_report(LiveTrack track, const SenderInfo& report);  ///< times of a sender report
   /// RTP time at time 0 as the description has it; nothing: it is that of another sender. Counts if
   /// all tracks have it.
   void describe(LiveTrack track, std::optional<std::uint32_t> offset);
@@ -41,7 +42,7 @@ class RtpTimeline {
   bool settle(double now);
   /// When settle() will say yes by itself; nothing: it does, or no packet came yet.
   std::optional<double> deadline() const;
-  RtpSync sync() const { return sync_; }
+  RtpSync sync() const { return sync_; }  ///< what the clock rests on
   /// Ticks of the track's clock since time 0, of a time from add(). Only when settled. A report
   /// that contradicts the clock in force by more than 20 ms moves the sound from then on; one that
   /// comes after a guess by arrival moves it in any case.

@@ -10,7 +10,6 @@
 namespace animeme::media {
 namespace {
 
-constexpr std::size_t kMaxConfig = 1024;
 constexpr fap::Rate kUnknownRate{30, 1};  // what a decoder assumes until the stream tells
 
 // a * b / c to the nearest, halves up; c > 0. Wide enough for times of centuries.
@@ -75,7 +74,7 @@ bool FaceAssembler::add_plane(RtpUnit plane, RtpUnits& out) {
   return true;
 }
 
-AudioAssembler::AudioAssembler(const AudioTrack& track)
+AudioAssembler::AudioAssembler(const RtpAudioTrack& track)
     : format_(track.format), joiner_(track.fields, track.format.frame_samples) {}
 
 RtpUnits AudioAssembler::add(const RtpPacket& packet, std::int64_t time) {

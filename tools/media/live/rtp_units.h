@@ -1,5 +1,6 @@
-// From packets in order to units of the face and the sound; times stay those of RTP.
-// Source: containers, sections 1.3 and 4.1.
+/// @file
+/// From packets in order to units of the face and the sound; times stay those of RTP.
+/// Source: containers, sections 1.3 and 4.1.
 #pragma once
 
 #include <cstdint>
@@ -27,11 +28,12 @@ class FaceAssembler {
   FaceAssembler(std::vector<std::uint8_t> config, std::uint32_t timescale)
       : config_(std::move(config)), timescale_(timescale) {}
 
-  RtpUnits add(const RtpPacket& packet, std::int64_t time);
-  void gap() { joiner_.gap(); }
+  RtpUnits add(const RtpPacket& packet, std::int64_t time);  ///< units that are complete now
+  void gap() { joiner_.gap(); }  ///< packets are missing; a piece that waits is dropped
   /// A new sender: the same, but what was in work is dropped.
   void restart() { joiner_ = {}; }
 
+  /// Decoder configuration, from the description or in band.
   const std::vector<std::uint8_t>& config() const { return config_; }
   /// Of the last intra plane; nothing: there was none, or it did not say.
   std::optional<fap::Rate> rate() const { return rate_; }
@@ -48,10 +50,10 @@ class FaceAssembler {
 /// Packets of sound.
 class AudioAssembler {
  public:
-  explicit AudioAssembler(const AudioTrack& track);
+  explicit AudioAssembler(const RtpAudioTrack& track);  ///< `track` as described
 
-  RtpUnits add(const RtpPacket& packet, std::int64_t time);
-  void gap() { joiner_.gap(); }
+  RtpUnits add(const RtpPacket& packet, std::int64_t time);  ///< units that are complete now
+  void gap() { joiner_.gap(); }  ///< packets are missing; a piece that waits is dropped
 
  private:
   AudioFormat format_;

@@ -43,7 +43,7 @@ std::string clock_lines(const RtpTrack& track, const std::string& cname) {
   return out;
 }
 
-std::string face_lines(const FaceTrack& face, const std::string& cname) {
+std::string face_lines(const RtpFaceTrack& face, const std::string& cname) {
   std::string parameters = "profile-level-id=" + std::to_string(int(face.visual_profile));
   if (!face.config.empty()) parameters += "; config=" + to_hex(face.config);
   std::string out = media_lines(face, "video", "MP4V-ES/90000", parameters);
@@ -56,7 +56,7 @@ std::string face_lines(const FaceTrack& face, const std::string& cname) {
   return out;
 }
 
-std::string audio_lines(const AudioTrack& audio, const std::string& cname) {
+std::string audio_lines(const RtpAudioTrack& audio, const std::string& cname) {
   const AudioFormat& format = audio.format;
   std::string own = "x-animeme:priming=" + std::to_string(format.priming) +
                     "; frame=" + std::to_string(format.frame_samples);

@@ -1,13 +1,14 @@
-// Session descriptions: where the packets of a presentation come from and what is in them.
-// Source: RFC 8866, 6416, 3640, 7587, 5576 (ssrc), 7273 (media clock), 8285 (extmap); containers,
-// section 4.1.
-//
-//     m=video 5004 RTP/AVP 96
-//     a=rtpmap:96 MP4V-ES/90000
-//     a=fmtp:96 profile-level-id=97; config=000001B061000001B58947
-//     a=ssrc:305419896 cname:animeme
-//     a=mediaclk:direct=2271560481       RTP time of time 0
-//     a=x-animeme:timescale=25000        ours; others pass over it
+/// @file
+/// Session descriptions: where the packets of a presentation come from and what is in them.
+/// Source: RFC 8866, 6416, 3640, 7587, 5576 (ssrc), 7273 (media clock), 8285 (extmap); containers,
+/// section 4.1.
+///
+///     m=video 5004 RTP/AVP 96
+///     a=rtpmap:96 MP4V-ES/90000
+///     a=fmtp:96 profile-level-id=97; config=000001B061000001B58947
+///     a=ssrc:305419896 cname:animeme
+///     a=mediaclk:direct=2271560481       RTP time of time 0
+///     a=x-animeme:timescale=25000        ours; others pass over it
 #pragma once
 
 #include <cstdint>
@@ -22,7 +23,9 @@
 
 namespace animeme::media {
 
-inline constexpr std::uint32_t kFaceClock = 90000;
+inline constexpr std::uint32_t kFaceClock = 90000;  ///< ticks a second, of MP4V-ES
+inline constexpr int kRtpPort = 5004;               ///< of a face whose address names none
+inline constexpr std::size_t kMaxConfig = 1024;     ///< bytes of a face's configuration
 /// Largest LiveInfo::timescale; that of the fastest stream of 14496-2 is 4095000.
 inline constexpr std::uint32_t kMaxTimescale = 10000000;
 
@@ -36,32 +39,35 @@ struct RtpTrack {
   std::uint32_t clock = 0;  ///< ticks a second
   /// Sender and its RTP time at time 0; the second holds for this sender only.
   std::optional<std::uint32_t> ssrc;
-  std::optional<std::uint32_t> clock_offset;
+  std::optional<std::uint32_t> clock_offset;  ///< RTP time at time 0
 
   friend bool operator==(const RtpTrack&, const RtpTrack&) = default;
 };
 
-struct FaceTrack : RtpTrack {
-  std::vector<std::uint8_t> config;  ///< empty: comes in band
-  std::uint8_t visual_profile = 0x61;
-  std::uint32_t timescale = 0;  ///< of the sender; 0: not said
-  int bundle_id = 0;            ///< number of the extension kBundleExtension; 0: not used
+/// The face, as a description has it.
+struct RtpFaceTrack : RtpTrack {
+  std::vector<std::uint8_t> config;    ///< empty: comes in band
+  std::uint8_t visual_profile = 0x61;  ///< profile-level-id
+  std::uint32_t timescale = 0;         ///< of the sender; 0: not said
+  int bundle_id = 0;                   ///< number of the extension kBundleExtension; 0: not used
 
-  friend bool operator==(const FaceTrack&, const FaceTrack&) = default;
+  friend bool operator==(const RtpFaceTrack&, const RtpFaceTrack&) = default;
 };
 
-struct AudioTrack : RtpTrack {
-  AudioFormat format;
-  AacFields fields;
+/// The sound, as a description has it.
+struct RtpAudioTrack : RtpTrack {
+  AudioFormat format;  ///< codec, rate, channels
+  AacFields fields;    ///< of mpeg4-generic
 
-  friend bool operator==(const AudioTrack&, const AudioTrack&) = default;
+  friend bool operator==(const RtpAudioTrack&, const RtpAudioTrack&) = default;
 };
 
+/// What a description says, or is to say.
 struct RtpSession {
-  std::string name = "animeme";
-  std::string cname = "animeme";
-  std::optional<FaceTrack> face;
-  std::optional<AudioTrack> audio;
+  std::string name = "animeme";        ///< s=
+  std::string cname = "animeme";       ///< of both media, so that they are known to belong together
+  std::optional<RtpFaceTrack> face;    ///< nothing: no face
+  std::optional<RtpAudioTrack> audio;  ///< nothing: no sound
   /// Media that are not for us, a sentence each.
   std::vector<std::string> ignored;
 

@@ -9,7 +9,6 @@ namespace {
 
 constexpr std::size_t kMaxText = 1 << 16;
 constexpr std::size_t kMaxMedia = 32;
-constexpr std::size_t kMaxConfig = 1024;
 constexpr std::uint32_t kMaxPort = 65534;
 constexpr std::uint32_t kMaxRate = 1000000;
 
@@ -147,7 +146,7 @@ void common(const SdpMedium& medium, RtpTrack& track) {
 std::string take_face(const SdpMedium& medium, RtpSession& session) {
   if (medium.encoding != "mp4v-es") return "its coding '" + medium.encoding + "' is not MP4V-ES";
   if (medium.clock != kFaceClock) return "its clock is not 90000";
-  FaceTrack face;
+  RtpFaceTrack face;
   common(medium, face);
   face.config = bytes_of(medium.format, "config");
   const VisualHeaders headers = read_visual_headers(face.config);
@@ -163,7 +162,7 @@ std::string take_face(const SdpMedium& medium, RtpSession& session) {
   return {};
 }
 
-std::string aac_format(const SdpMedium& medium, AudioTrack& audio) {
+std::string aac_format(const SdpMedium& medium, RtpAudioTrack& audio) {
   const auto mode = medium.format.find("mode");
   const std::string name = mode == medium.format.end() ? "" : lower(mode->second);
   if (name != "aac-hbr" && name != "aac-lbr") return "its mode is neither AAC-hbr nor AAC-lbr";
@@ -186,7 +185,7 @@ std::string aac_format(const SdpMedium& medium, AudioTrack& audio) {
   return {};
 }
 
-std::string opus_format(const SdpMedium& medium, AudioTrack& audio) {
+std::string opus_format(const SdpMedium& medium, RtpAudioTrack& audio) {
   if (medium.clock != 48000) return "its clock is not 48000";
   audio.format.codec = AudioCodec::opus;
   audio.format.frame_samples = 0;
@@ -199,16 +198,16 @@ std::string opus_format(const SdpMedium& medium, AudioTrack& audio) {
 }
 
 std::string take_audio(const SdpMedium& medium, RtpSession& session) {
-  AudioTrack audio;
+  RtpAudioTrack audio;
   common(medium, audio);
   audio.format.sample_rate = int(medium.clock);
   std::string reason = "its coding '" + medium.encoding + "' is neither mpeg4-generic nor opus";
   if (medium.encoding == "mpeg4-generic") reason = aac_format(medium, audio);
   if (medium.encoding == "opus") reason = opus_format(medium, audio);
   if (!reason.empty()) return reason;
-  constexpr std::uint32_t kLongest = 1 << 20;
-  audio.format.priming = int(number_of(medium.own, "priming", kLongest).value_or(0));
-  const auto frame = number_of(medium.own, "frame", kLongest);
+  constexpr std::uint32_t kMostSamples = 1 << 20;
+  audio.format.priming = int(number_of(medium.own, "priming", kMostSamples).value_or(0));
+  const auto frame = number_of(medium.own, "frame", kMostSamples);
   if (frame && audio.format.codec == AudioCodec::opus) audio.format.frame_samples = int(*frame);
   session.audio = std::move(audio);
   return {};

@@ -1,24 +1,26 @@
-// A face and its sound as an MPEG transport stream over UDP or SRT.
-//
-//     auto sink = make_ts_sink("udp://239.1.2.3:5004?ttl=4");
-//     auto source = make_ts_source("srt://192.0.2.7:5005?mode=caller&latency=200000");
-//
-// Addresses: udp://HOST:PORT, unicast or multicast, and srt://HOST:PORT?mode=caller (the default)
-// or listener. Further options behind the question mark go to FFmpeg's protocol (udp: ttl,
-// localaddr, buffer_size ...; srt: latency in microseconds, passphrase, streamid ...); one that
-// it does not know is ignored by FFmpeg. A UDP source binds to HOST where that is an address of
-// this machine or a multicast group; udp://0.0.0.0:PORT and udp://:PORT take all.
-//
-// On the wire: stream type 0x10 with the configuration in front of each intra plane, AAC as ADTS
-// (0x0F) or Opus (0x06). One PES packet for each unit, sent at once, with its length, so that
-// nobody has to wait for the next one. PAT and PMT are repeated for those who join late. Time 0 has
-// the stamp kTsTimeZero. finish() sends a PAT without programs, which our source takes as the end.
-//
-// What comes back: units byte for byte. Face times are stamps of 90 kHz, sound times samples,
-// rounded from those. LiveInfo::timescale is 90000. AudioFormat is what the stream tells: `config`
-// has the same meaning as the sender's, but AAC may have lost an extension of its 5-byte form and
-// Opus its gain; `priming` is that of the sender where the first packet is at hand, else 0.
-// Source: containers, sections 3.2, 4.2 and 5.2.
+/// @file
+/// A face and its sound as an MPEG transport stream over UDP or SRT.
+///
+///     auto sink = make_ts_sink("udp://239.1.2.3:5004?ttl=4");
+///     auto source = make_ts_source("srt://192.0.2.7:5005?mode=caller&latency=200000");
+///
+/// Addresses: udp://HOST:PORT, unicast or multicast, and srt://HOST:PORT?mode=caller (the default)
+/// or listener. Further options behind the question mark go to FFmpeg's protocol (udp: ttl,
+/// localaddr, buffer_size ...; srt: latency in microseconds, passphrase, streamid ...); one that
+/// it does not know is ignored by FFmpeg. A UDP source binds to HOST where that is an address of
+/// this machine or a multicast group; udp://0.0.0.0:PORT and udp://:PORT take all.
+///
+/// On the wire: stream type 0x10 with the configuration in front of each intra plane, AAC as ADTS
+/// (0x0F) or Opus (0x06). One PES packet for each unit, sent at once, with its length, so that
+/// nobody has to wait for the next one. PAT and PMT are repeated for those who join late. Time 0
+/// has the stamp kTsTimeZero. finish() sends a PAT without programs, which our source takes as the
+/// end.
+///
+/// What comes back: units byte for byte. Face times are stamps of 90 kHz, sound times samples,
+/// rounded from those. LiveInfo::timescale is 90000. AudioFormat is what the stream tells: `config`
+/// has the same meaning as the sender's, but AAC may have lost an extension of its 5-byte form and
+/// Opus its gain; `priming` is that of the sender where the first packet is at hand, else 0.
+/// Source: containers, sections 3.2, 4.2 and 5.2.
 #pragma once
 
 #include <memory>
@@ -31,6 +33,7 @@ namespace animeme::media {
 /// Stamp (90 kHz) of time 0: one second, so that the priming of the sound has stamps, too.
 inline constexpr std::int64_t kTsTimeZero = 90000;
 
+/// For both directions.
 struct TsOptions {
   /// Payload of a datagram or SRT message at most, rounded down to whole packets of 188 bytes;
   /// 188..1456. Smaller ones are sent as soon as a unit is complete.

@@ -8,7 +8,7 @@
 namespace animeme::media {
 namespace {
 
-constexpr int kGoodbyes = 3;  // any of them may get lost
+constexpr int kLastTables = 3;  // any of them may get lost
 
 class TsSink : public LiveSink {
  public:
@@ -50,7 +50,7 @@ class TsSink : public LiveSink {
   Result<void> finish() override {
     return av::guarded([&]() -> Result<void> {
       if (writer_ == nullptr || muxer_ == nullptr) return {};
-      for (int i = 0; i < kGoodbyes; ++i) {
+      for (int i = 0; i < kLastTables; ++i) {
         const auto packet = end_of_programs(unsigned(++table_counter_), 1);
         write(packet);
       }

@@ -1,7 +1,8 @@
-// Datagrams over IPv4 and IPv6, to one host or a multicast group.
-//
-//     auto in = UdpSocket::bind("127.0.0.1", 5004);
-//     auto got = in->receive(buffer);
+/// @file
+/// Datagrams over IPv4 and IPv6, to one host or a multicast group.
+///
+///     auto in = UdpSocket::bind("127.0.0.1", 5004);
+///     auto got = in->receive(buffer);
 #pragma once
 
 #include <cstdint>
@@ -23,12 +24,12 @@ class UdpAddress {
   /// host), invalid_argument (port outside 0..65535).
   static Result<UdpAddress> resolve(const std::string& host, int port);
 
-  std::string host() const;  ///< as numbers, without brackets
-  int port() const;
-  bool is_multicast() const;
-  bool is_loopback() const;
-  bool is_ipv6() const;
-  UdpAddress with_port(int port) const;
+  std::string host() const;              ///< as numbers, without brackets
+  int port() const;                      ///< 1..65535, 0 for any
+  bool is_multicast() const;             ///< a group, not a host
+  bool is_loopback() const;              ///< this machine
+  bool is_ipv6() const;                  ///< true: IPv6, false: IPv4
+  UdpAddress with_port(int port) const;  ///< the same host
 
  private:
   friend class UdpSocket;
@@ -50,7 +51,7 @@ class UdpSocket {
   static Result<UdpSocket> bind(const std::string& host, int port, const Multicast& multicast = {});
   /// For sending to `to` and receiving answers. Errors: io.
   static Result<UdpSocket> open_for(const UdpAddress& to, const Multicast& multicast = {});
-  UdpSocket(UdpSocket&& other) noexcept;
+  UdpSocket(UdpSocket&& other) noexcept;  ///< movable
   UdpSocket& operator=(UdpSocket&& other) noexcept;
   ~UdpSocket();
 
@@ -61,7 +62,7 @@ class UdpSocket {
   Result<std::optional<std::vector<std::uint8_t>>> receive(UdpAddress* from = nullptr);
   /// The port that it is bound to.
   int port() const;
-  int handle() const { return handle_; }
+  int handle() const { return handle_; }  ///< of the system, for poll()
 
  private:
   explicit UdpSocket(int handle) : handle_(handle) {}
@@ -75,9 +76,9 @@ Result<bool> wait_for_any(std::span<const UdpSocket* const> sockets, double seco
 /// host and port of "scheme://host:port"; IPv6 hosts in brackets. `standard_port` where there is
 /// none. Errors: invalid_argument.
 struct HostPort {
-  std::string host;
-  int port = 0;
+  std::string host;  ///< without brackets
+  int port = 0;      ///< 1..65535
 };
-Result<HostPort> read_host_port(const std::string& url, int standard_port);
+Result<HostPort> read_host_port(const std::string& url, int standard_port);  ///< see HostPort
 
 }  // namespace animeme::media

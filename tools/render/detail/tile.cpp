@@ -120,24 +120,6 @@ class Reach {
   bool rises_[3] = {};
 };
 
-// value = at + dx * x + dy * y, pixels from the first corner; four values at once.
-struct Plane {
-  F4 at, dx, dy;
-  F4 operator()(float x, float y) const { return at + dx * splat(x) + dy * splat(y); }
-};
-
-// Sides of a triangle on the screen, from its first corner, in pixels.
-struct Frame {
-  float bx, by, cx, cy, scale;
-
-  Plane plane(F4 a, F4 b, F4 c) const {
-    const F4 db = b - a;
-    const F4 dc = c - a;
-    return {a, (db * splat(cy) - dc * splat(by)) * splat(scale),
-            (dc * splat(bx) - db * splat(cx)) * splat(scale)};
-  }
-};
-
 F4 as_vector(Vec3 v) { return F4{v.x, v.y, v.z, 0}; }
 
 Vec3 unpack(std::uint32_t srgb) {
@@ -155,6 +137,24 @@ inline std::int32_t pack(F4 colour) {
 }
 
 }  // namespace
+
+// value = at + dx * x + dy * y, pixels from the first corner; four values at once.
+struct Tile::Plane {
+  F4 at, dx, dy;
+  F4 operator()(float x, float y) const { return at + dx * splat(x) + dy * splat(y); }
+};
+
+// Sides of a triangle on the screen, from its first corner, in pixels.
+struct Tile::Frame {
+  float bx, by, cx, cy, scale;
+
+  Plane plane(F4 a, F4 b, F4 c) const {
+    const F4 db = b - a;
+    const F4 dc = c - a;
+    return {a, (db * splat(cy) - dc * splat(by)) * splat(scale),
+            (dc * splat(bx) - db * splat(cx)) * splat(scale)};
+  }
+};
 
 // What a triangle shows; made when the first of its pixels is seen.
 struct Tile::Planes {

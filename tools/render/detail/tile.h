@@ -32,6 +32,8 @@ class Tile {
   void finish(Image& image) const;
 
  private:
+  struct Plane;
+  struct Frame;
   struct Planes;
   void draw_pixel(int index, const I4& inside, const F4& nearness, Planes& planes, float x, float y,
                   const View& view);

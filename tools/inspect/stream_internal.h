@@ -1,4 +1,5 @@
-// What motion holds, as JSON and as text: clips, bodies, streams and their planes.
+/// @file
+/// What motion holds, as JSON and as text: clips, bodies, streams and their planes.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +12,11 @@
 
 namespace animeme::inspect {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;  ///< keeps the order of its members
 
 /// Frames, rate, and the range of values of each parameter.
 Json describe_clip(const fap::Sequence& clip);
-Json describe_body(const fba::BodySequence& body);
+Json describe_body(const fba::BodySequence& body);  ///< the same of a body
 
 /// A whole stream of `bytes` bytes, without its planes.
 Json describe_stream(const fba::DecodedStream& stream, std::size_t bytes);

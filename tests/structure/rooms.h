@@ -1,0 +1,88 @@
+// The rooms of the source tree and the homes of the libraries of others, as tables. A new room
+// gets a row here and a README; include_violations() of rules.h fails for a folder without a row.
+#pragma once
+
+#include <string_view>
+
+namespace animeme::test {
+
+/// A room is a folder and its detail/; folders that know each other are one room, with one row.
+/// Names are separated by spaces, "x/*" are all folders below x/.
+struct Room {
+  std::string_view folders;  ///< or single files, if their row is above that of the folder
+  /// The rooms it stands on: its files include these, and whatever those may include. They have
+  /// rows above this one, so that nothing goes round in circles.
+  std::string_view stands_on;
+  bool installed = true;  ///< its headers, unless they are internal
+};
+
+inline constexpr Room kRooms[] = {
+    {"fap", ""},
+    {"fap/head", "fap"},
+    {"fap/xml", "fap/head"},
+
+    {"codec/syntax", "fap"},
+    {"codec/decode", "codec/syntax"},
+    {"codec/encode", "codec/decode"},
+    {"codec/text", "codec/encode"},
+
+    {"dam/maths", ""},
+    {"dam/script", "fap"},
+    {"dam/signal", "dam/script dam/maths"},
+    {"dam/model", "dam/signal"},
+    {"dam/corpus", "dam/model"},
+    {"dam/speaking", "dam/model"},
+    // A kind of model knows no other kind. Their list knows all.
+    {"dam/kinds/animeme", "dam/corpus dam/speaking"},
+    {"dam/kinds/refined", "dam/corpus dam/speaking"},
+    {"dam/kinds/table", "dam/corpus dam/speaking"},
+    {"dam/kinds/trajectory", "dam/corpus dam/speaking"},
+    {"dam/kinds", "dam/kinds/*"},
+    {"dam/evaluation", "dam/corpus dam/speaking"},
+    {"dam/training", "dam/kinds"},
+
+    {"conformance", "codec/text", false},
+
+    {"tools/xml.h", "", false},
+    {"tools/render", "fap/head"},
+    {"tools/gltf", "fap/head"},
+    {"tools/media tools/media/live", "codec/decode"},
+    {"tools/voice", "dam/script tools/media"},
+    {"tools/speech", "dam/speaking codec/encode tools/voice"},
+    {"tools/viewer", "dam/script tools/render tools/xml.h"},
+    {"tools/web", "tools/media"},
+    {"tools/check tools/commands",
+     "fap/xml dam/evaluation dam/training conformance tools/gltf tools/speech tools/viewer "
+     "tools/web",
+     false},
+    {"tools", "tools/commands", false},
+
+    // Tests of a room may use its neighbours to make what they test.
+    {"tests/*", "fap/* fap codec/* dam/* conformance tools/*", false},
+};
+
+/// A library of others. Headers that are installed show none; some show in no header at all.
+struct Library {
+  std::string_view name;
+  std::string_view headers;  ///< what their names start with, separated by spaces
+  std::string_view homes;    ///< the folders that may include them, with all below
+  bool sources_only = false;
+};
+
+/// The first row that fits counts. What has neither '.' nor '/' is the C++ library and no row.
+inline constexpr Library kLibraries[] = {
+    {"libxml2", "libxml/", "fap/xml", true},
+    {"Eigen", "Eigen/ unsupported/Eigen/", "dam tests/dam tests/bench"},
+    {"FFmpeg", "libav libsw libpost", "tools/media tests/media"},
+    {"espeak-ng", "espeak speak_lib", "tools/voice tests/voice"},
+    {"pocketsphinx", "pocketsphinx sphinxbase", "tools/voice tests/voice"},
+    {"libwebsockets", "libwebsockets", "tools/web/detail"},
+    {"zlib", "zlib", "tools/render tools/viewer tests"},
+    {"stb", "stb", "tools/gltf"},
+    {"nlohmann_json", "nlohmann/", "tools conformance tests"},
+    {"CLI11", "CLI/", "tools/commands tests/bench"},
+    {"GoogleTest", "gtest/ gmock/ benchmark/", "tests"},
+    {"the system", "", "tools tests"},
+};
+
+}  // namespace animeme::test
