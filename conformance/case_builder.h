@@ -1,6 +1,6 @@
 /// @file
 /// Builds one generated case plane by plane. The expected values come from StreamWriter, that is
-/// from the levels and the formula of fba_bitstream, section 5, and never from a decoder.
+/// from the levels and the formula of codec/bitstream.md, section 5, and never from a decoder.
 #pragma once
 
 #include <map>

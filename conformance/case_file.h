@@ -11,6 +11,7 @@
 
 #include "fap/result.h"
 
+/// Cases for FBA decoders, and their generator.
 namespace animeme::conformance {
 
 /// A file of a case.

@@ -14,7 +14,7 @@ namespace animeme::conformance {
 struct Family {
   std::string_view name;     ///< first part of the ids
   std::string_view title;    ///< for people
-  std::string_view section;  ///< of fba_bitstream
+  std::string_view section;  ///< of codec/bitstream.md
   /// How certain the description is: 'C' proven on real streams and two codecs, 'S' read in the
   /// sources and proven on synthetic streams, 'M' from memory of the standard, 'T' tolerance that
   /// the standard does not ask for, '?' the standard's intention is unknown.

@@ -1,7 +1,7 @@
 /// @file
 /// The arithmetic coder written a second time, word for word after the description and with no
 /// thought of speed, so that the generated streams do not rest on the codec that they test.
-/// Source: fba_bitstream, section 4.
+/// Source: codec/bitstream.md, section 4.
 #pragma once
 
 #include <cstddef>
@@ -37,7 +37,7 @@ struct Frequencies {
     count.assign(std::size_t(n), 1);
     halved = false;
   }
-  void update(std::size_t symbol);  ///< counts a symbol, as section 4 of codec/bitstream.md has it
+  void update(std::size_t symbol);  ///< counts a symbol, see codec/bitstream.md, section 4
 };
 
 /// What happened while a stream was written: traps that a decoder may fall into.

@@ -59,7 +59,7 @@ std::int64_t step_of(const fba::BodySettings& settings, int bap) {
   return scale == 0 ? 1 : bap_steps()[std::size_t(bap)] * scale;
 }
 
-// Ranges that were never sent (section 3.2). The body has none.
+// Ranges that were never sent (codec/bitstream.md, section 3.2). The body has none.
 int default_range(const fba::FaceSettings&, int kind, int fap, int divisor) {
   const fap::FapInfo& info = fap::info(fap);
   const int range = kind < 2 ? info.default_i_range : info.default_p_range;

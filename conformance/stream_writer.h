@@ -1,7 +1,7 @@
 /// @file
 /// FBA streams written a second time, straight from the description: levels in, bits and the
 /// values that a decoder must give out. It can also write what is not allowed.
-/// Source: fba_bitstream, sections 1 to 7.
+/// Source: codec/bitstream.md, sections 1 to 7.
 #pragma once
 
 #include <array>
@@ -71,8 +71,8 @@ struct Expected {
 };
 
 /// True if 23 zeros stand where the next start code would be if the object ended before this plane:
-/// a decoder then takes it for the end (fba_bitstream, section 1), and an encoder must not write
-/// it. Planes behind a plane start code cannot be mistaken. `bit` holds the stream.
+/// a decoder then takes it for the end (codec/bitstream.md, section 1), and an encoder must not
+/// write it. Planes behind a plane start code cannot be mistaken. `bit` holds the stream.
 bool looks_like_the_end(const std::vector<std::uint8_t>& bit, std::size_t plane_begin);
 
 /// Writes planes behind an object start code.
@@ -81,7 +81,7 @@ class StreamWriter {
   /// Writes the object start code.
   explicit StreamWriter(std::uint32_t object_code = fba::kObjectStart);
 
-  /// Levels have to lie in the ranges in force (fba_bitstream, 3.2); see levels().
+  /// Levels have to lie in the ranges in force (codec/bitstream.md, section 3.2); see levels().
   Expected write(const PlaneSpec& plane);
   /// Range of the level of a FAP or BAP in force for a plane: as after write() of `plane`'s
   /// settings. First lowest, second highest.

@@ -9,8 +9,8 @@
 /// lower lip, its corners and more. The map is linear, weight times the FAPs of the full shape,
 /// summed over the shapes. What the FAPs of each shape are was measured on the head model
 /// ICT-FaceKit (University of Southern California, MIT licence), which has ARKit's shapes: how far
-/// each feature point moves along the axis of its FAP, in units of that face (users_ask_for,
-/// section 2). See arkit_table.cpp for the numbers and what is not from there.
+/// each feature point moves along the axis of its FAP, in units of that face (fap/semantics.md,
+/// section 10). See arkit_table.cpp for the numbers and what is not from there.
 ///
 /// The way back is a fit, since 66 FAPs show faces that 52 shapes do not and several sets of shapes
 /// give one face:

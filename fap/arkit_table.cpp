@@ -2,7 +2,7 @@
 //
 // Measured on ICT-FaceKit (light; University of Southern California, MIT licence): displacement of
 // the FAP's feature point along its axis, divided by the FAPU of that head; entries below 10 units
-// are dropped (table ict_arkit_shape_to_fap_measured, see users_ask_for, section 2). Where the
+// are dropped (fap/semantics.md, section 10). Where the
 // model splits a shape into sides (browInnerUp, cheekPuff), the two are summed. Shapes of the right
 // side are not listed: the measured ones are the mirror image of the left, to the unit.
 //

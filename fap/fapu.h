@@ -1,5 +1,5 @@
 /// @file
-/// FAP units: how far a FAP value moves a point of a given face. Source: fap_semantics, sections
+/// FAP units: how far a FAP value moves a point of a given face. Source: fap/semantics.md, sections
 /// 1 and 2.
 #pragma once
 

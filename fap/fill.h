@@ -13,7 +13,7 @@
 namespace animeme::fap {
 
 /// What becomes of the FAPs of a group that a frame does not carry. A coded stream says so, group
-/// by group (mask types, fba_bitstream, section 3.1); a text file does not.
+/// by group (mask types, codec/bitstream.md, section 3.1); a text file does not.
 enum class GroupRule : std::uint8_t {
   unknown,      ///< not said: held, or derived as FillOptions say
   hold,         ///< types 0, 1 and 3: they keep the value they show; never had one: neutral, 0
@@ -38,7 +38,7 @@ struct FillOptions {
   /// Shows what the known public decoder shows, to compare with its output: a FAP that is absent
   /// from a frame takes the value of the other side if that is in the frame, whatever the rule of
   /// its group; else it holds. Lips never follow. `mirror`, `lips`, `prefer_partner` and all rules
-  /// are ignored. Source: fba_bitstream, section 9.
+  /// are ignored. Source: codec/bitstream.md, section 9.
   bool like_public_decoder = false;
   /// Frames that were skipped: values between their neighbours, rounded (true), or those of the
   /// frame before (false, what a receiver shows).
@@ -61,7 +61,7 @@ struct FillOptions {
 /// side of a face that rests on purpose): the value in the frame; the last value sent; for a FAP
 /// never sent so far the other side, then the other lip contour, then the other side of that;
 /// 0 (neutral). Held visemes and expressions lose their `def` and `init_face` flags, which are
-/// events. Source: fap_semantics, section 6; a table sent in the scene (FIT) is not known here.
+/// events. Source: fap/semantics.md, section 6; a table sent in the scene (FIT) is not known here.
 ///
 /// Errors: Code::invalid_argument if the frame numbers are negative or do not ascend;
 /// Code::out_of_range if the result would have more than max_frames frames.

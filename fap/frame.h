@@ -10,6 +10,7 @@
 
 #include "fap/rate.h"
 
+/// Facial animation parameters: data, tables, text.
 namespace animeme::fap {
 
 inline constexpr int kFapCount = 68;       ///< FAPs are numbered 1..68
@@ -20,7 +21,7 @@ inline constexpr int kLowLevelCount = 66;  ///< FAP 3..68
 using Mask = std::bitset<kFapCount + 1>;
 
 /// FAP 1. Shown mouth shape = viseme1 * blend/63 + viseme2 * (1 - blend/63).
-/// Source: fap_semantics, section 4.
+/// Source: fap/semantics.md, section 4.
 struct Viseme {
   std::int32_t select1 = 0;  ///< 0..14, see kVisemes in tables.h
   std::int32_t select2 = 0;  ///< 0..14
@@ -31,7 +32,7 @@ struct Viseme {
 };
 
 /// FAP 2. Shown = expression1 * intensity1/63 + expression2 * intensity2/63.
-/// Source: fap_semantics, section 5.
+/// Source: fap/semantics.md, section 5.
 struct Expression {
   std::int32_t select1 = 0;     ///< 0..6, see kExpressions in tables.h
   std::int32_t intensity1 = 0;  ///< 0..63

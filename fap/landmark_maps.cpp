@@ -5,7 +5,7 @@
 // (8), ends and tops of the brows (17 to 26), tip, base and wings of the nose (30, 31, 33, 35),
 // corners of the eyes (36, 39, 42, 45), middles and corners of the lips (48, 51, 54, 57, 60, 62,
 // 64, 66), cupid's bow (50, 52) and the inner lip halfway (61, 63, 65, 67). These are the landmarks
-// that face_models, section 1, names for 33 points of a head. Estimates:
+// that fap/head/face_models.md, section 1, names for 33 points of a head. Estimates:
 // - 3.1 to 3.4, centres of the lids: the mean of the two landmarks that each lid has. It lies a
 //   little below (above) the middle of the arc, by the same amount in all frames.
 // - 8.5 to 8.8, halfway on the outer lip: landmarks are at one and two thirds, so their mean.

@@ -48,7 +48,8 @@ enum class LandmarkLayout : std::uint8_t {
 std::span<const LandmarkSource> landmark_sources(LandmarkLayout layout);
 
 /// Angles of a head in rad as FAP 48, 49 and 50 have them: down, to the left, to the right are
-/// positive; yaw is outermost, then pitch, then roll, as Greta turns heads (fap_semantics, 1).
+/// positive; yaw is outermost, then pitch, then roll, as Greta turns heads (fap/semantics.md,
+/// section 1).
 struct HeadPose {
   double pitch = 0;  ///< rad, down
   double yaw = 0;    ///< rad, to the person's left

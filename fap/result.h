@@ -17,6 +17,7 @@
 #include <utility>
 #include <variant>
 
+/// Animeme: MPEG-4 facial animation.
 namespace animeme {
 
 /// What kind of failure, for programs that have to react to it.

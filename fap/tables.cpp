@@ -16,7 +16,7 @@ const std::array<GroupInfo, kGroupCount> kGroups = {{
 }};
 
 // The default ranges are symmetric, as the known decoder has them; the document prints some
-// one-sided (FAP 3, 14, 41, 42, 47) and +300/+60 for FAP 47. See fba_bitstream, 3.2.
+// one-sided (FAP 3, 14, 41, 42, 47) and +300/+60 for FAP 47. See codec/bitstream.md, section 3.2.
 const std::array<FapInfo, kFapCount> kFaps = {{
     // number, name, unit, positive motion, unidirectional, group, mirror, inner/outer lip
     // partner, feature point, quantiser step, default I range, default P range

@@ -1,6 +1,6 @@
 /// @file
 /// The tables of the standard: what each FAP is, its unit, group, feature point and
-/// quantiser step. Data only; the clause of the specification stands beside each table.
+/// quantiser step. Data only; where a table comes from stands beside it.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 namespace animeme::fap {
 
 /// FAP units (FAPU). A distance unit is that distance on the neutral face; one FAP step is
-/// 1/1024 of it, for `angle` 1e-5 rad. Source: fap_semantics, section 2.
+/// 1/1024 of it, for `angle` 1e-5 rad. Source: fap/semantics.md, section 2.
 enum class Unit : std::uint8_t { none, irisd, es, ens, mns, mw, angle };
 
 /// "IRISD", "ES", "ENS", "MNS", "MW", "AU" (angle unit), "" for none.
@@ -22,7 +22,8 @@ std::string_view unit_name(Unit unit);
 /// Direction of positive values, seen by the person ("left" is the person's left).
 enum class Motion : std::uint8_t { none, down, up, left, right, forward, growing, concave_upward };
 
-/// One row of the FAP table. Source: fap_semantics, section 3; ranges: fba_bitstream, 3.2.
+/// One row of the FAP table. Source: fap/semantics.md, section 3; ranges: codec/bitstream.md,
+/// section 3.2.
 struct FapInfo {
   int number;                      ///< 1..68
   std::string_view name;           ///< the standard's name, e.g. "open_jaw"

@@ -1,6 +1,6 @@
 /// @file
 /// FAP text: the ASCII .fap file that MPEG-4 face players exchange. Grammar and the quirks of
-/// real programs: fap_text_format, sections 1 to 3.
+/// real programs: fap/text_format.md, sections 1 to 3.
 ///
 ///     # a comment
 ///     2.1 my_clip 25 2                         version, name, frames a second, number of frames

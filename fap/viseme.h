@@ -4,8 +4,8 @@
 ///     animeme::fap::VisemeFitter fitter;
 ///     for (const Frame& frame : filled.frames) rows.push_back(fitter.fit(frame));
 ///
-/// The 15 shapes of that set are the visemes of FAP 1, one for one (fap_semantics, section 4): the
-/// order is that of kVisemes in tables.h, whose `morph` is the name of the morph target.
+/// The 15 shapes of that set are the visemes of FAP 1, one for one (fap/semantics.md, section 4):
+/// the order is that of kVisemes in tables.h, whose `morph` is the name of the morph target.
 #pragma once
 
 #include <array>

@@ -13,8 +13,8 @@ namespace animeme::fba {
 
 namespace {
 
-// Profiles (section 13): a face alone, or anything with a body. Level 2 is for more than 16 or
-// 32 kbit/s in any second.
+// Profiles (codec/bitstream.md, section 13): a face alone, or anything with a body. Level 2 is for
+// more than 16 or 32 kbit/s in any second.
 constexpr std::uint8_t kSimpleFaceLevel1 = 0x61;
 constexpr std::uint8_t kSimpleFbaLevel1 = 0x63;
 constexpr std::int64_t kFaceLevel1Rate = 16000, kFbaLevel1Rate = 32000;
@@ -26,7 +26,7 @@ struct TimeBase {
   std::int64_t frame = 0;  // ticks a frame; 0: rates change, round absolute times
 };
 
-// Exact for every rate that the stream can express. Source: containers, section 1.3.
+// Exact for every rate that the stream can express. Source: tools/media/containers.md, section 1.3.
 TimeBase time_base(const std::vector<Plane>& planes) {
   const fap::Rate rate = planes.front().rate;
   for (const Plane& plane : planes) {

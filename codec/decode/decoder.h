@@ -34,6 +34,7 @@
 #include "fap/frame.h"
 #include "fap/result.h"
 
+/// The FBA bitstream: decoder, encoders, texts around them.
 namespace animeme::fba {
 
 struct DecodedStream;
@@ -60,7 +61,7 @@ struct Plane {
 
 /// What stands in front of an object. Raw .fba files have the object start code alone.
 struct StreamInfo {
-  std::optional<std::uint8_t> profile_and_level;  ///< 0x61..0x64, see section 13
+  std::optional<std::uint8_t> profile_and_level;  ///< 0x61..0x64, codec/bitstream.md, section 13
   std::optional<std::uint8_t> verid;              ///< visual_object_verid
   std::optional<std::uint8_t> priority;           ///< visual_object_priority, 1 is the highest
   bool user_data = false;                         ///< there is user data; it is skipped
@@ -107,7 +108,7 @@ class Decoder {
   ///   unsupported    the plane uses DCT coding (fba_object_coding_type 1)
   /// The last four carry the bit position. After them the decoder goes on at the next intra plane
   /// behind a plane start code or object start code, if there is one. A start code that belongs to
-  /// neither planes nor headers (fba_bitstream, section 1) ends an object with a warning.
+  /// neither planes nor headers (codec/bitstream.md, section 1) ends an object with a warning.
   Result<Event> next();
 
  private:

@@ -105,8 +105,8 @@ struct Decoder::Impl {
   // 0 and then 1s from `bit` to `border`.
   bool is_stuffing(std::size_t bit, std::size_t border) const;
 
-  // Section 1: is it a start code that follows, behind 1 to 8 stuffing bits? True: something other
-  // than a plane was found and the phase has changed.
+  // codec/bitstream.md, section 1: is it a start code that follows, behind 1 to 8 stuffing bits?
+  // True: something other than a plane was found and the phase has changed.
   Result<bool> plane_border();
 
   // Stuffing (0, then 1s) can be the beginning of a predictive plane with a body, and zeros in such

@@ -12,7 +12,7 @@ namespace animeme::fba {
 
 /// What the mask types of an intra plane say about the FAPs that are not coded, in the terms of
 /// fap/fill.h: types none, hold and all are GroupRule::hold (with all, nothing is left to hold),
-/// interpolate is GroupRule::interpolate. Source: fba_bitstream, sections 3.1 and 9.
+/// interpolate is GroupRule::interpolate. Source: codec/bitstream.md, sections 3.1 and 9.
 fap::GroupRules group_rules(const FaceSettings& settings);
 
 /// The face of a decoded stream with every FAP resolved: face_sequence() through fap::fill() with

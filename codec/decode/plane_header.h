@@ -1,6 +1,6 @@
 /// @file
 /// What stands at the begin of an access unit: kind of plane, rate and skipped frames, without
-/// decoding it. Source: fba_bitstream, sections 1 and 2.
+/// decoding it. Source: codec/bitstream.md, sections 1 and 2.
 #pragma once
 
 #include <cstdint>

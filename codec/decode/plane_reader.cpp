@@ -239,7 +239,8 @@ class PlaneParser {
     return done ? proceed(next) : done;
   }
 
-  // Section 3.2: up to four sets, a marker at every fourth member of each group.
+  // codec/bitstream.md, section 3.2: up to four sets, a marker at every fourth member of each
+  // group.
   template <class Settings>
   Result<void> range_flags(SlotCoding& coding, Settings& settings, Stage next) {
     for (bool& flag : settings.send_range) flag = in_.bit() != 0;

@@ -37,7 +37,8 @@ struct PlaneInput {
 };
 
 /// Writes a stream plane by plane, as the known reference encoder does: object start code, planes
-/// bit after bit (or behind start codes), stuffing, end code. Source: fba_bitstream, 1 to 7.
+/// bit after bit (or behind start codes), stuffing, end code. Source: codec/bitstream.md, sections
+/// 1 to 7.
 class Encoder {
  public:
   /// An encoder at the begin of a stream.
@@ -76,7 +77,7 @@ class Encoder {
   /// sentence; nothing if all is well. Two things: 23 zeros and a 1 inside a plane, which is a
   /// start code for those who scan; and 22 zeros from a segment into the 14 bits behind it, on
   /// which the reference decoder loses its place. Call it behind end_unit() or end(). Source:
-  /// fba_bitstream, section 17.
+  /// codec/bitstream.md, section 17.
   std::optional<std::string> trap() const;
   /// Where all of them are, ascending, on the scale of bits().
   std::vector<std::int64_t> trap_bits() const;

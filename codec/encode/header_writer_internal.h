@@ -1,4 +1,4 @@
-// Writing what a plane says before its segments. Not installed API. Source: fba_bitstream,
+// Writing what a plane says before its segments. Not installed API. Source: codec/bitstream.md,
 // sections 2, 3 and 7.
 #pragma once
 

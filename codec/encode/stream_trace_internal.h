@@ -1,5 +1,5 @@
 // Where an encoder wrote what, and the traps that its bits may hold for other decoders. Not
-// installed API. Source: fba_bitstream, sections 4 and 17.
+// installed API. Source: codec/bitstream.md, sections 4 and 17.
 #pragma once
 
 #include <cstddef>

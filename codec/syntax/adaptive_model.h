@@ -1,5 +1,5 @@
 /// @file
-/// Adaptive symbol frequencies of the arithmetic coder. Source: fba_bitstream, section 4.
+/// Adaptive symbol frequencies of the arithmetic coder. Source: codec/bitstream.md, section 4.
 #pragma once
 
 #include <cstdint>

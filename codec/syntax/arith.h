@@ -1,6 +1,6 @@
 /// @file
 /// The arithmetic coder of the FBA stream: 16-bit registers, binary renormalisation, a stuffed 1
-/// after 22 zeros. Source: fba_bitstream, section 4.
+/// after 22 zeros. Source: codec/bitstream.md, section 4.
 ///
 /// The description renormalises bit by bit. Here all shifts of a symbol are done at once: the
 /// leading bits that the registers share (n of them) leave, then the m bits behind the first in

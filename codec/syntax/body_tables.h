@@ -1,5 +1,5 @@
 /// @file
-/// Tables of the body part of an FBA stream. Source: fba_bitstream, section 7.
+/// Tables of the body part of an FBA stream. Source: codec/bitstream.md, section 7.
 #pragma once
 
 #include <array>

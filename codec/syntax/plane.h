@@ -1,6 +1,6 @@
 /// @file
 /// One FBA object plane as data: its headers, masks, ranges and decoded values.
-/// Source: fba_bitstream, sections 2, 3 and 7.
+/// Source: codec/bitstream.md, sections 2, 3 and 7.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace animeme::fba {
 
-// Start codes (section 1).
+// Start codes (codec/bitstream.md, section 1).
 inline constexpr std::uint32_t kSequenceStart = 0x000001B0;   ///< followed by the profile byte
 inline constexpr std::uint32_t kSequenceEnd = 0x000001B1;     ///< ends a raw stream
 inline constexpr std::uint32_t kUserData = 0x000001B2;        ///< to be passed over
@@ -32,7 +32,8 @@ inline bool has_face(ObjectMask mask) { return (std::uint8_t(mask) & 1) != 0; }
 /// Body or face_and_body.
 inline bool has_body(ObjectMask mask) { return (std::uint8_t(mask) & 2) != 0; }
 
-/// Mask type of a group (section 3.1): what happens to the parameters that are not coded.
+/// Mask type of a group (codec/bitstream.md, section 3.1): what happens to the parameters that are
+/// not coded.
 enum class MaskType : std::uint8_t {
   none = 0,         ///< nothing of the group is coded, all keep their value
   hold = 1,         ///< coded by mask, the others keep their value
@@ -69,7 +70,8 @@ struct TimeCode {
   friend bool operator==(const TimeCode&, const TimeCode&) = default;
 };
 
-/// Temporal header. The skip count applies after the plane that carries it (section 10).
+/// Temporal header. The skip count applies after the plane that carries it (codec/bitstream.md,
+/// section 10).
 struct TemporalHeader {
   std::optional<CodedRate> rate;      ///< intra planes only
   std::optional<TimeCode> time_code;  ///< intra planes only
@@ -115,7 +117,8 @@ inline int bap_scale(int bap_quant) {
   return kBapScale[std::size_t(bap_quant)] == 0 ? 1 : kBapScale[std::size_t(bap_quant)];
 }
 
-/// Largest level of viseme_blend and the intensities at a fap_quant (section 6).
+/// Largest level of viseme_blend and the intensities at a fap_quant (codec/bitstream.md, section
+/// 6).
 inline int blend_range(int fap_quant) {
   return fap_quant == 0 ? 63 : (63 + fap_quant / 2) / fap_quant;
 }

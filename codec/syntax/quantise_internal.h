@@ -1,4 +1,4 @@
-// The quantiser. Not installed API. Source: fba_bitstream, section 5.
+// The quantiser. Not installed API. Source: codec/bitstream.md, section 5.
 #pragma once
 
 #include <cstdint>

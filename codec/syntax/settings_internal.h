@@ -20,7 +20,7 @@ Result<void> check_intra_period(int planes);
 /// visemes 0..14, expressions 0..6, blend and intensities 0..63.
 Result<void> check_high_level(const fap::Frame& frame);
 
-/// FAPs coded by mask types and masks; true if they agree (section 3.1).
+/// FAPs coded by mask types and masks; true if they agree (codec/bitstream.md, section 3.1).
 bool mask_agrees(const FaceSettings& settings);
 bool mask_agrees(const BodySettings& settings);
 
@@ -37,7 +37,7 @@ inline int range_number(std::int64_t level, int scale) {
 }
 
 /// The reference decoder takes an intra range of 0..0 for FAP 4 as "no ranges yet" and installs the
-/// default ones (fba_bitstream, 15.4). Never send that.
+/// default ones (codec/bitstream.md, section 15.4). Never send that.
 void guard_fap4(FaceSettings& settings);
 
 /// If the last group of the body codes its first member alone, the 21 zeros of its mask, a gender

@@ -38,7 +38,8 @@ const SlotTable& face_slots() {
 }
 
 const SlotTable& body_slots() {
-  // No default ranges: the known codec always sends those of the body (section 7.1).
+  // No default ranges: the known codec always sends those of the body (codec/bitstream.md, section
+  // 7.1).
   static const SlotTable table{kBodyGroupSizes, kBapOrder, kBapSteps, {}};
   return table;
 }

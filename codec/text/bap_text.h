@@ -1,7 +1,7 @@
 /// @file
 /// BAP text: the ASCII .bap file with body animation parameters. The grammar is that of FAP text
-/// (fap/text.h) with other versions and longer masks; fap_text_format, section 1, and
-/// fba_bitstream, section 11.
+/// (fap/text.h) with other versions and longer masks; fap/text_format.md, section 1, and
+/// codec/bitstream.md, section 11.
 ///
 ///     3.2 my_clip 25 2                         version, name, frames a second, number of frames
 ///     0 0 1 0 0 ...                            mask values: which BAPs follow

@@ -1,6 +1,6 @@
 /// @file
 /// Encoder parameter files (.epf): every coding decision of a stream as text, one tag a line.
-/// With one, the bytes of a stream are fully determined. Source: fba_bitstream, section 11.
+/// With one, the bytes of a stream are fully determined. Source: codec/bitstream.md, section 11.
 #pragma once
 
 #include <string_view>

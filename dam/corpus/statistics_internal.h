@@ -50,8 +50,8 @@ inline constexpr std::size_t kFewContacts = 5;
 double closure_gap_of(std::optional<double> median);
 
 /// Median over all P, B and M of the least measured inner gap near the phone, in FAP units, between
-/// 0 and 25; 25 if there are no lip FAPs or fewer than five such phones. Source: lipsync,
-/// section 5.6.
+/// 0 and 25; 25 if there are no lip FAPs or fewer than five such phones. Source: dam/lipsync.md,
+/// section 6.
 double measured_closure_gap(std::span<const Utterance* const> sentences);
 
 /// Median over all F and V of the highest measured place of the inner lower lip (FAP 5) near the

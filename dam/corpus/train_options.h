@@ -1,6 +1,6 @@
 /// @file
 /// What training can be told, and what it tells: options, progress, summary. Below the kinds of
-/// models, which all read them. Source: the paper, section V; lipsync, section 5.
+/// models, which all read them. Source: the paper, section V; dam/lipsync.md, sections 1 to 7.
 #pragma once
 
 #include <cstdint>

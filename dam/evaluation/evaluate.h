@@ -1,5 +1,5 @@
 /// @file
-/// How far synthesis is from recorded motion. Source: lipsync, section 8.
+/// How far synthesis is from recorded motion. Source: dam/lipsync.md, section 8.
 ///
 ///     auto result = animeme::dam::evaluate(model, utterances);       // synthesise and score
 ///     auto pairs = animeme::dam::synthesise_pairs(model, utterances);

@@ -1,6 +1,6 @@
 /// @file
 /// Is one system better than another, or were the sentences kind to it? Paired bootstrap over
-/// sentences. Source: lipsync, section 8, item 7.
+/// sentences. Source: dam/lipsync.md, section 8, item 7.
 #pragma once
 
 #include <cstddef>

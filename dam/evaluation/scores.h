@@ -1,7 +1,7 @@
 /// @file
 /// What evaluate() measures, as plain data. Errors are "made minus recorded"; controls are in their
-/// own units (FAP units for FAPs), times in ms, shares 0..1. Definitions: dam/README.md, "What
-/// evaluate measures". Source: lipsync, section 8.
+/// own units (FAP units for FAPs), times in ms, shares 0..1. Definitions: dam/evaluation/README.md,
+/// "What evaluate measures". Source: dam/lipsync.md, section 8.
 #pragma once
 
 #include <cstddef>

@@ -29,6 +29,7 @@
 #include "fap/rate.h"
 #include "fap/result.h"
 
+/// Dominated animeme models: scripts, training, speaking, evaluation.
 namespace animeme::dam {
 
 /// How a model was made and has to be evaluated. Numbers are part of the file format.
@@ -112,7 +113,7 @@ struct AnimemeParameters {
   friend bool operator==(const AnimemeParameters&, const AnimemeParameters&) = default;
 };
 
-// ---- method dam: lipsync, section 5.2; dam/README.md has what was added ----
+// ---- method dam: dam/lipsync.md, section 2; dam/README.md has what was added ----
 //
 //     S(t) = sum_j w_j(t) A_j(u_j),   w_j = D_j / sum_i D_i,
 //     D_j = strength_p (d_j / usual_p)^e exp(-(before / left_p)^2 - (after / right_p)^2),
@@ -154,7 +155,7 @@ struct TermTable {
   friend bool operator==(const TermTable&, const TermTable&) = default;
 };
 
-/// Parameters of method dam; see dam/lipsync.md, section 5.2.
+/// Parameters of method dam; see dam/lipsync.md, section 2.
 struct RefinedParameters {
   double time_margin = 0.3;               ///< >= 0
   double duration_exponent = 0.3;         ///< 0..2
@@ -257,7 +258,7 @@ struct Model {
 Result<void> validate(const Model& model);
 
 /// The model file: magic "ANIMEDAM", version 2.0, little endian, CRC-32 of everything.
-/// dam/README.md has the layout. The same model gives the same bytes.
+/// dam/model/README.md has the layout. The same model gives the same bytes.
 std::vector<std::uint8_t> write_model(const Model& model);
 
 /// Safe on any input: sizes are checked against the bytes that are there before anything is

@@ -1,4 +1,4 @@
-// The model file. Layout: dam/README.md.
+// The model file. Layout: dam/model/README.md.
 #include "dam/model/bytes_internal.h"
 #include "dam/model/file_frame_internal.h"
 #include "dam/model/kind_internal.h"

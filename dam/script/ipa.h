@@ -9,8 +9,7 @@
 ///
 /// X-SAMPA is accepted in the same strings (its lower-case letters are those of IPA, and IPA has
 /// no upper-case ones), and so are the spellings of espeak-ng and of the Montreal aligner's IPA
-/// dictionaries (aw, ej, tʃʰ). Source: ipa_to_mpeg4.csv and ipa_modifiers.csv of the phoneme
-/// specification.
+/// dictionaries (aw, ej, tʃʰ). Source: dam/script/phoneme_scripts.md, section 3.
 #pragma once
 
 #include <string_view>

@@ -10,9 +10,9 @@ struct IpaEntry {
   std::string_view label, second;  ///< second: empty, or the rest of an affricate
 };
 
-// The longest entry that fits wins. Visemes of the sounds: ipa_to_mpeg4.csv of the phoneme
-// specification; a row is chosen to have the viseme of the letter (except for bilabial
-// fricatives, which close like stops).
+// The longest entry that fits wins. Visemes of the sounds: dam/script/phoneme_scripts.md, section
+// 3; a row is chosen to have the viseme of the letter (except for bilabial fricatives, which close
+// like stops).
 inline constexpr IpaEntry kIpaEntries[] = {
     {"p", "P", {}},     {"ɸ", "P", {}},     {"Φ", "P", {}},     {"ʘ", "P", {}},
     {"p\\", "P", {}},   {"O\\", "P", {}},   {"b", "B", {}},     {"β", "B", {}},

@@ -4,8 +4,8 @@
 ///
 /// The set is the 39 phones of the CMU pronouncing dictionary, AX (the unstressed vowel of
 /// "sofa") and SIL (silence): 41 labels. Labels of other alphabets are mapped to it by
-/// dam/script/ipa.h. Source: the ARPAbet table of the phoneme specification; the classes are those
-/// of the lip-sync specification, section 5.2.
+/// dam/script/ipa.h. Source: dam/script/phoneme_scripts.md, section 3; classes:
+/// dam/lipsync.md, section 2.
 #pragma once
 
 #include <array>

@@ -20,7 +20,7 @@
 ///   named phones, phone, phonemes or "NAME - phones" (any case) gives the phones; the tier words,
 ///   word or "NAME - words", if there is one, the words.
 ///
-/// Source: phoneme script specification, sections 3 and 4.
+/// Source: dam/script/phoneme_scripts.md, sections 1 and 3.
 #pragma once
 
 #include <cstdint>

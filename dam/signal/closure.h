@@ -1,7 +1,7 @@
 /// @file
 /// P, B and M close the lips, F and V bring the lower lip to the upper teeth. Sums of smooth
 /// functions undershoot short contacts, and viewers notice nothing as readily, so synthesis repairs
-/// them. Source: lipsync, section 5.6.
+/// them. Source: dam/lipsync.md, section 6.
 #pragma once
 
 #include <cstddef>

@@ -13,7 +13,7 @@
 /// synthesise(), bit by bit, for the methods whose phones reach a bounded time (dam,
 /// cohen-massaro). With less, what is not known yet counts as silence; when it becomes known, the
 /// motion is led over to the better one, without a jump, within `cross_fade` seconds.
-/// Source: lipsync, section 5.6.
+/// Source: dam/lipsync.md, section 6.
 #pragma once
 
 #include <cstddef>

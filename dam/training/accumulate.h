@@ -67,7 +67,7 @@ class TrainingSums {
   /// or another rate; NaN; a broken script).
   Result<bool> add(const Utterance& sentence);
 
-  std::size_t sentences() const;              ///< that count, held-out ones included
+  std::size_t sentences() const;              ///< added, held-out ones included
   std::size_t frames() const;                 ///< that count in the fit
   std::vector<std::string> controls() const;  ///< names, in the order of the sums
   fap::Rate rate() const;                     ///< of the signals
@@ -96,7 +96,7 @@ class TrainingSums {
 };
 
 /// The file of sums: magic "ANIMESUM", version 1.0, little endian, CRC-32 of everything;
-/// dam/README.md has the layout. The same sums give the same bytes.
+/// dam/training/README.md has the layout. The same sums give the same bytes.
 std::vector<std::uint8_t> write_training_sums(const TrainingSums& sums);
 
 /// Safe on any input: sizes are checked against the bytes that are there before anything is

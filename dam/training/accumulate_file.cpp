@@ -1,4 +1,4 @@
-// The file of sums. Layout: dam/README.md.
+// The file of sums. Layout: dam/training/README.md.
 #include <algorithm>
 #include <cmath>
 

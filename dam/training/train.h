@@ -1,5 +1,6 @@
 /// @file
-/// Learning a model from recorded sentences. Source: the paper, section V; lipsync, section 5.
+/// Learning a model from recorded sentences. Source: the paper, section V; dam/lipsync.md, sections
+/// 1 to 7.
 #pragma once
 
 #include <span>

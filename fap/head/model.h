@@ -24,6 +24,7 @@
 #include "fap/head/vector.h"
 #include "fap/result.h"
 
+/// Heads, and the rig that lets FAPs move them.
 namespace animeme::head {
 
 using Triangle = std::array<std::uint32_t, 3>;  ///< counterclockwise seen from outside

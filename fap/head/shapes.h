@@ -17,7 +17,7 @@ fap::Frame expression_shape(int expression);
 
 /// The frame with its FAP 1 and 2 as low-level FAPs: viseme1 * blend/63 + viseme2 * (1 - blend/63)
 /// + expression1 * intensity1/63 + expression2 * intensity2/63. Low-level FAPs that the frame has
-/// itself win over those of the shapes. Source: fap_semantics, sections 4 and 5.
+/// itself win over those of the shapes. Source: fap/semantics.md, sections 4 and 5.
 fap::Frame low_level(const fap::Frame& frame);
 
 }  // namespace animeme::head

@@ -7,8 +7,8 @@
 ///
 ///     std::string text = *animeme::head::write_xmt(head, rig);
 ///
-/// Source: ISO/IEC 14496-1 (nodes and their fields), fap_semantics, section 7. What their numbers
-/// mean is told in the README, with what of it could not be checked against the text of the
+/// Source: ISO/IEC 14496-1 (nodes and their fields), fap/semantics.md, section 7. What their
+/// numbers mean is told in the README, with what of it could not be checked against the text of the
 /// standard.
 #pragma once
 

@@ -20,7 +20,8 @@ class Header {
   // Rate, time code and skipped frames: none.
   void temporal() { put(0, 3); }
 
-  // The four sets of ranges (section 3.2) of masked parameters; groups of these sizes.
+  // The four sets of ranges (codec/bitstream.md, section 3.2) of masked parameters; groups of these
+  // sizes.
   template <class Sizes, class Number>
   void ranges(const Sizes& sizes, const Number& number_of) {
     put(0xF, 4);

@@ -1,5 +1,5 @@
 // All methods side by side on a corpus: trains each on the rows that a split column calls "train",
-// scores it on those called "test", and prints the table of dam/README.md.
+// scores it on those called "test", and prints the table of dam/measured.md.
 //
 //     build/release/bin/rank_methods grid_s1 [--others grid_others] [--controls-folder arkit]
 //

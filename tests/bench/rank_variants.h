@@ -16,7 +16,7 @@ struct Variant {
 /// Every method, the default first, with the variants worth a row.
 std::vector<Variant> variants();
 
-/// From dam+f of the lip-sync specification to dam, one change after the other, and changes of dam.
+/// From dam+f (dam/lipsync.md, section 2) to dam, one change after the other, and changes of dam.
 std::vector<Variant> steps();
 
 }  // namespace animeme::bench

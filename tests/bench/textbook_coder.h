@@ -1,6 +1,7 @@
-// The FBA coder as the description writes it (fba_bitstream, sections 4 to 7): one bit at a time,
-// linear tables of cumulative frequencies, no thought for speed. The yardstick of bench_codec, and
-// what tests/codec/arith_test.cpp compares the fast coder with. It shares no code with the codec.
+// The FBA coder as the description writes it (codec/bitstream.md, sections 4 to 7): one bit at a
+// time, linear tables of cumulative frequencies, no thought for speed. The yardstick of
+// bench_codec, and what tests/codec/arith_test.cpp compares the fast coder with. It shares no code
+// with the codec.
 #pragma once
 
 #include <cstddef>

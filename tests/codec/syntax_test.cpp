@@ -1,6 +1,6 @@
 // What may stand around and in planes: headers, start codes old, new and foreign, temporal headers,
-// the coding type. Streams written bit by bit from the description (fba_bitstream, sections 1 to 8
-// and 12).
+// the coding type. Streams written bit by bit from the description (codec/bitstream.md, sections 1
+// to 8 and 12).
 #include <gtest/gtest.h>
 
 #include "codec/decode/decoder.h"

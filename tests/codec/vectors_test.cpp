@@ -1,4 +1,4 @@
-// The two hand-annotated vectors of the bitstream description (section 18), and small streams
+// The two hand-annotated vectors of codec/bitstream.md, section 18, and small streams
 // written bit by bit.
 #include <gtest/gtest.h>
 

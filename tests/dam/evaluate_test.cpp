@@ -96,7 +96,7 @@ TEST(Evaluate, Errors) {
   EXPECT_THAT(e.error().message, testing::HasSubstr(other[1].id));
 }
 
-/// The figures that dam/README.md states, on the full corpus, with head room for rounding.
+/// The figures that dam/measured.md states, on the full corpus, with head room for rounding.
 TEST(EvaluateFullCorpus, ReachesTheTargetsOnBothSplits) {
   const auto shared = test::shared_dir();
   if (shared.empty()) GTEST_SKIP() << "the full grid_s1 corpus is not here (ANIMEME_SHARED)";

@@ -171,7 +171,7 @@ TEST(ArkitFit, SteadinessFollowsMotion) {
 }
 
 // Recorded and synthesised motion of others, none of it made from ARKit shapes. The bounds are
-// those of least squares without memory (users_ask_for, section 2) and a tenth more.
+// those of least squares without memory (fap/semantics.md, section 10) and a tenth more.
 TEST(ArkitFit, FacesOfOthersComeBack) {
   const auto clips = test::shared_dir() / "wild_fap";
   if (test::shared_dir().empty()) GTEST_SKIP() << "no reference data";

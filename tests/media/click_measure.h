@@ -1,5 +1,5 @@
 // The click test: bursts at known samples must come back beside the planes they belong to.
-// Source: containers, section 5.3.
+// Source: tools/media/containers.md, section 5.3.
 #pragma once
 
 #include <algorithm>

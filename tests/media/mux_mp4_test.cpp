@@ -1,5 +1,5 @@
-// The primary mp4: what is written, byte by byte where the specification gives bytes, and that
-// it comes back.
+// The primary mp4: what is written, byte by byte where tools/media/containers.md gives them, and
+// that it comes back.
 #include <gmock/gmock.h>
 
 #include "tests/media/media_support.h"

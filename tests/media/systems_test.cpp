@@ -1,5 +1,5 @@
-// The MPEG-4 Systems presentation: its bytes against those of the containers specification, which
-// another encoder made, and the file through independent readers.
+// The MPEG-4 Systems presentation: its bytes against those of tools/media/containers.md, section
+// 1.5, which another encoder made, and the file through independent readers.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,12 +1,7 @@
 # Helpers of the package tests. Every step that fails ends the test with its output.
 # Given by -D: CXX (compiler), LAUNCHER (compiler launcher or empty), GENERATOR, WORK (a folder of
-# this test alone), ANIMEME_DIR (the source tree), TESTS (this folder).
-foreach(variable CXX GENERATOR WORK ANIMEME_DIR TESTS)
-  if(NOT DEFINED ${variable})
-    message(FATAL_ERROR "${variable} is not set")
-  endif()
-endforeach()
-
+# this test alone), PREFIX (where animeme is installed), BINARY_DIR and ANIMEME_DIR (its build and
+# source trees), TESTS (this folder).
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
 
@@ -16,16 +11,6 @@ function(step title)
     ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
     message(FATAL_ERROR "${title} failed (${status}):\n${output}")
-  endif()
-  set(output "${output}" PARENT_SCOPE)
-endfunction()
-
-function(step_that_fails title)
-  message(STATUS "${title}")
-  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output
-    ERROR_VARIABLE output)
-  if(status EQUAL 0)
-    message(FATAL_ERROR "${title} has to fail and did not:\n${output}")
   endif()
   set(output "${output}" PARENT_SCOPE)
 endfunction()

@@ -1,5 +1,5 @@
-// Players: the sound of every layout, its length, and the bursts in their places (containers,
-// section 5.3).
+// Players: the sound of every layout, its length, and the bursts in their places
+// (tools/media/containers.md, section 5.3).
 #include "tests/readers/readers_support.h"
 #include "tests/readers/talk.h"
 

@@ -1,12 +1,12 @@
 // npm mp4box and codem-isoboxer: tracks, descriptors and every sample, against the bytes of the
-// containers specification.
+// tools/media/containers.md, sections 1.4 and 1.5.
 #include "tests/readers/scripts.h"
 #include "tests/readers/talk.h"
 
 namespace animeme::test {
 namespace script_test {
 
-// Containers, section 1.4; bufferSizeDB and the two bit rates depend on the data.
+// tools/media/containers.md, section 1.4; bufferSizeDB and the two bit rates depend on the data.
 const std::string kFaceEsdsStart =
     "0000003c65736473"
     "00000000"
@@ -23,7 +23,7 @@ const std::string kFaceEsdsEnd =
     "02";
 constexpr std::size_t kEsdsFree = 3 + 4 + 4;
 
-// Containers, section 1.5.
+// tools/media/containers.md, section 1.5.
 const std::string kSystemsIods =
     "00000021696f647300000000"
     "1013004ffefe2961fe"
@@ -39,7 +39,8 @@ const std::string kObjectUnit =
     "1106029f0f020001"
     "1106051f0f020002";
 
-// The box "esds" behind the fields of a sample entry (containers, section 1.5: none in mp4s).
+// The box "esds" behind the fields of a sample entry (tools/media/containers.md, section 1.5: none
+// in mp4s).
 std::string esds_of(const Json& track) {
   const auto entry = track["entry_hex"].get<std::string>();
   const std::size_t fields = track["entry"] == "mp4v" ? 86 : track["entry"] == "mp4a" ? 36 : 16;
@@ -148,7 +149,7 @@ TEST(ScriptMp4, InitialObjectDescriptor) {
   NEEDS_NPM("mp4box");
   const TempDir dir;
   const std::string path = write_talk(dir, walking_talk(), layout_of("mp4"));
-  // Containers, section 1.4, with the tracks 1 and 2 named.
+  // tools/media/containers.md, section 1.4, with the tracks 1 and 2 named.
   const std::string iods =
       "0000002a696f647300000000"
       "1080808019"

@@ -82,10 +82,10 @@ struct Layout {
   bool fragments() const { return options.fragmented || segments(); }
   bool ts() const { return extension == ".ts"; }
   bool opus() const { return options.audio.codec == media::AudioCodec::opus; }
-  /// Samples that a decoder puts out before the sound (containers, section 5.1).
+  /// Samples that a decoder puts out before the sound (tools/media/containers.md, section 5.1).
   std::int64_t priming() const { return opus() ? 312 : 1024; }
   /// Samples by which face and sound begin late: Matroska and TS cannot say what priming of AAC is
-  /// (containers, section 5.2).
+  /// (tools/media/containers.md, section 5.2).
   std::int64_t late() const {
     return mp4() || segments() || extension == ".m4a" || opus() ? 0 : priming();
   }
@@ -159,7 +159,7 @@ inline std::string write_talk(const TempDir& dir, const Talk& talk, const Layout
 }
 
 /// The units as a container without a place for the configuration has them: TS repeats it in
-/// front of each intra plane (containers, section 3.2).
+/// front of each intra plane (tools/media/containers.md, section 3.2).
 inline std::vector<Bytes> units_of(const Talk& talk, bool config_in_band) {
   std::vector<Bytes> out;
   for (const fba::AccessUnit& unit : talk.face.units) {

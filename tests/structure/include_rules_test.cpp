@@ -107,6 +107,13 @@ TEST(StructureRules, LayersFire) {
   EXPECT_TRUE(broken("tools/media/mux.cpp", "<CLI/CLI.hpp>"));
   EXPECT_TRUE(broken("codec/text/epf.cpp", "<nlohmann/json.hpp>"));
   EXPECT_TRUE(broken("tools/main.cpp", "\"tests/support/shared.h\""));
+  EXPECT_FALSE(broken("tools/exchange/arkit.h", "\"dam/script/script.h\""));
+  EXPECT_FALSE(broken("tools/exchange/json.cpp", "<nlohmann/json.hpp>"));
+  EXPECT_TRUE(broken("tools/exchange/arkit.h", "<nlohmann/json.hpp>"));
+  EXPECT_TRUE(broken("tools/exchange/arkit.cpp", "\"tools/media/container.h\""));
+  EXPECT_TRUE(broken("tools/exchange/arkit.cpp", "\"tools/commands/common.h\""));
+  EXPECT_TRUE(broken("tools/media/mux.cpp", "\"tools/exchange/motion.h\""));
+  EXPECT_TRUE(broken("tools/exchange/arkit.cpp", "<CLI/CLI.hpp>"));
   EXPECT_FALSE(broken("conformance/run.cpp", "\"codec/decode/decoder.h\""));
   EXPECT_TRUE(broken("conformance/run.cpp", "\"dam/training/train.h\""));
   EXPECT_FALSE(broken("tests/codec/x_test.cpp", "\"dam/training/train.h\""));

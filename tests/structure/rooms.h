@@ -44,6 +44,8 @@ inline constexpr Room kRooms[] = {
     {"conformance", "codec/text", false},
 
     {"tools/xml.h", "", false},
+    {"tools/files", "fap", false},
+    {"tools/exchange", "dam/corpus codec/text"},
     {"tools/render", "fap/head"},
     {"tools/gltf", "fap/head"},
     {"tools/media tools/media/live", "codec/decode"},
@@ -51,8 +53,10 @@ inline constexpr Room kRooms[] = {
     {"tools/speech", "dam/speaking codec/encode tools/voice"},
     {"tools/viewer", "dam/script tools/render tools/xml.h"},
     {"tools/web", "tools/media"},
-    {"tools/check tools/commands",
-     "fap/xml dam/evaluation dam/training conformance tools/gltf tools/speech tools/viewer "
+    {"tools/check", "conformance tools/files tools/xml.h", false},
+    {"tools/commands",
+     "fap/xml dam/evaluation dam/training tools/check tools/exchange tools/gltf tools/speech "
+     "tools/viewer "
      "tools/web",
      false},
     {"tools", "tools/commands", false},
@@ -65,7 +69,7 @@ inline constexpr Room kRooms[] = {
 struct Library {
   std::string_view name;
   std::string_view headers;  ///< what their names start with, separated by spaces
-  std::string_view homes;    ///< the folders that may include them, with all below
+  std::string_view homes;    ///< the files and folders that may include them, with all below
   bool sources_only = false;
 };
 
@@ -80,7 +84,7 @@ inline constexpr Library kLibraries[] = {
     {"zlib", "zlib", "tools/render tools/viewer tests"},
     {"stb", "stb", "tools/gltf"},
     {"nlohmann_json", "nlohmann/", "tools conformance tests"},
-    {"CLI11", "CLI/", "tools/commands tests/bench"},
+    {"CLI11", "CLI/", "tools/commands tools/main.cpp tests/bench"},
     {"GoogleTest", "gtest/ gmock/ benchmark/", "tests"},
     {"the system", "", "tools tests"},
 };

@@ -93,7 +93,7 @@ std::string library_rule(std::string_view path, std::string_view header) {
     }
     const std::string name(library.name);
     if (!any_word(library.homes, [&](std::string_view home) {
-          return starts_with(path, home) && path.substr(home.size(), 1) == "/";
+          return path == home || fits(path, std::string(home) + "/*");
         })) {
       return name + " belongs to " + std::string(library.homes);
     }

@@ -426,7 +426,8 @@ TEST(CodecErrors, UsageIsExitCode2) {
 // --- stats
 
 TEST(Stats, BitsOfAHandWrittenStream) {
-  // fba_bitstream, section 18, A: an I plane of 80 bits with 62 of header, a P plane of 25 with 4.
+  // codec/bitstream.md, section 18, A: an I plane of 80 bits with 62 of header, a P plane of 25
+  // with 4.
   const TempDir dir;
   const std::string hex = "000001bab19001b492492402aa9927f094bf000001b1";
   std::string bytes;

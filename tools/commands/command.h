@@ -21,15 +21,18 @@ using Action = std::function<Result<int>()>;
 /// One command: its name, one line of help, and the function that sets it up. `examples` ends
 /// its --help.
 struct Command {
-  const char* name;
-  const char* summary;
-  const char* examples;
-  Action (*add)(CLI::App& app);
+  const char* name;              ///< as typed
+  const char* summary;           ///< one line of --help
+  const char* examples;          ///< of use, lines with two blanks in front
+  Action (*add)(CLI::App& app);  ///< sets options up; what it returns is run
 };
 
+/// @{
+/// The commands of the program, one file each.
 extern const Command kAlign, kCheck, kCompare, kDecode, kDemux, kEncode, kEvaluate, kExport,
     kFollow, kHead, kImport, kInfo, kMux, kPlot, kReceive, kRender, kSpeak, kStats, kStream, kTrain,
     kView;
+/// @}
 
 /// Prints a usage error on standard error; returns kUsage for the command to return.
 int usage_error(const std::string& text);

@@ -7,45 +7,26 @@
 #include <string>
 #include <vector>
 
-#include "codec/decode/decoder.h"
-#include "codec/text/bap_text.h"
 #include "fap/frame.h"
 #include "fap/result.h"
 #include "tools/commands/command.h"
 #include "tools/commands/terminal.h"
+#include "tools/exchange/motion.h"
 #include "tools/files/files.h"
 
+/// The commands of the program and what they share.
 namespace animeme::tools {
 
-/// What a file holds, told by its content.
-enum class FileKind : std::uint8_t {
-  fap_text,
-  bap_text,
-  fba_stream,
-  model,
-  script,
-  curves,
-  media,
-  unknown
-};
-FileKind kind_of(std::span<const std::uint8_t> bytes);  ///< told by content
-/// Is it media in segments (HLS, DASH)? Such a file is to be read by its path, never by its bytes:
-/// what it names lies beside it.
-bool is_playlist(std::span<const std::uint8_t> bytes);
+using exchange::FileKind;
+using exchange::FrameNumbers;
+using exchange::is_playlist;
+using exchange::kind_of;
 
-/// Any input with motion: .fap or .bap text, raw .fba, a container, or a table of curves
-/// (time_s, fap3_open_jaw ... as in a corpus; ARKit shapes, see arkit_csv.h). For text, warnings
-/// about quirks are printed.
-struct MotionInput {
-  FileKind kind = FileKind::unknown;  ///< how it was read
-  fap::Sequence face;                 ///< no frames: there is no face
-  fba::BodySequence body;             ///< no frames: there is no body
-  std::vector<std::uint8_t> stream;   ///< the raw FBA stream; empty for text
-  fba::DecodedStream decoded;         ///< of the stream; no planes for text
-  double start = 0;                   ///< of frame 0, seconds on the clock of a container's sound
+/// Any input with motion: what exchange::read_motion() reads, or a container. Its warnings were
+/// printed.
+struct MotionInput : exchange::Motion {
+  double start = 0;  ///< of frame 0, seconds on the clock of a container's sound
 };
-/// Frame numbers of FAP text start at 0 unless they are to be kept.
-enum class FrameNumbers : std::uint8_t { from_zero, keep };
 /// "-" is standard input; errors name the path.
 Result<MotionInput> read_motion(const std::string& path,
                                 FrameNumbers numbers = FrameNumbers::from_zero);

@@ -5,7 +5,6 @@
 
 #include "fap/fill.h"
 #include "fap/rate_text.h"
-#include "tools/commands/arkit_export.h"
 #include "tools/commands/common.h"
 #include "tools/commands/export_glb.h"
 #include "tools/commands/head_options.h"
@@ -69,15 +68,9 @@ std::string wrong_extension(const std::string& what, const std::string& path) {
   return "--output must end in " + std::string(wanted) + " for " + what + ", not " + path;
 }
 
-ArkitCurves to_arkit(const fap::Sequence& clip) {
-  ArkitCurves curves{clip.rate, {}};
-  fap::ArkitFitter fitter;
+exchange::ArkitCurves to_arkit(const fap::Sequence& clip) {
   ProgressLine progress("fitting");
-  for (const fap::Frame& frame : clip.frames) {
-    curves.frames.push_back(fitter.fit(frame));
-    progress.update(double(curves.frames.size()) / double(clip.frames.size()));
-  }
-  return curves;
+  return exchange::fit_arkit(clip, [&](double done) { progress.update(done); });
 }
 
 Result<fap::Sequence> read_filled(const ExportOptions& options, std::vector<std::uint8_t> bytes,
@@ -95,10 +88,11 @@ Result<fap::Sequence> read_filled(const ExportOptions& options, std::vector<std:
 Result<int> write_arkit(const ExportOptions& options, std::vector<std::uint8_t> bytes) {
   const Result<fap::Sequence> clip = read_filled(options, std::move(bytes), false);
   if (!clip) return clip.error();
-  const ArkitCurves curves = to_arkit(*clip);
+  const exchange::ArkitCurves curves = to_arkit(*clip);
   const std::string sound = std::filesystem::path(options.audio).filename().string();
   const bool csv = extension_of(options.output) == ".csv";
-  const std::string text = csv ? live_link_csv(curves) : arkit_json(curves, sound);
+  const std::string text =
+      csv ? exchange::write_live_link(curves) : exchange::write_arkit_json(curves, sound);
   if (auto written = write_file(options.output, text); !written) return written.error();
   say(options.output + ": " + std::to_string(curves.frames.size()) + " frames of 52 shapes, " +
       fap::format_rate(curves.rate) + " frames a second");
@@ -116,23 +110,26 @@ Result<int> write_head(const ExportOptions& options, std::vector<std::uint8_t> b
   return kOk;
 }
 
-Result<std::vector<VisemeEvent>> events_of_script(const std::string& text,
-                                                  const std::string& path) {
+Result<std::vector<exchange::VisemeEvent>> events_of_script(const std::string& text,
+                                                            const std::string& path) {
   const Result<dam::Script> script = dam::read_script(text);
   if (!script) return script.error().in_file(path);
-  return script_events(*script);
+  return exchange::script_events(*script);
 }
 
-Result<VisemeTrack> track_of(const ExportOptions& options, std::vector<std::uint8_t> bytes,
-                             bool from_script, const fap::Rate& rate) {
+Result<exchange::VisemeTrack> track_of(const ExportOptions& options,
+                                       std::vector<std::uint8_t> bytes, bool from_script,
+                                       const fap::Rate& rate) {
   if (from_script) {
     auto events = events_of_script({bytes.begin(), bytes.end()}, options.input);
     if (!events) return std::move(events).error();
-    return track_of_events(std::move(*events), rate, options.crossfade);
+    auto track = exchange::track_of_events(std::move(*events), rate, options.crossfade);
+    if (!track) return std::move(track).error().in_file(options.input);
+    return track;
   }
   const Result<fap::Sequence> clip = read_filled(options, std::move(bytes), true);
   if (!clip) return clip.error();
-  VisemeTrack track = track_of_face(*clip);
+  exchange::VisemeTrack track = exchange::track_of_face(*clip);
   if (options.script.empty()) return track;
   const Result<std::string> text = read_text_file(options.script);
   if (!text) return text.error();
@@ -143,14 +140,14 @@ Result<VisemeTrack> track_of(const ExportOptions& options, std::vector<std::uint
 }
 
 Result<int> write_visemes(const ExportOptions& options, const std::string& what,
-                          VisemeTrack track) {
+                          exchange::VisemeTrack track) {
   const std::string sound = std::filesystem::path(options.audio).filename().string();
   const bool json = extension_of(options.output) == ".json";
   std::string text;
   if (what == "rhubarb") {
-    text = json ? rhubarb_json(track, sound) : rhubarb_tsv(track);
+    text = json ? exchange::write_rhubarb_json(track, sound) : exchange::write_rhubarb_tsv(track);
   } else {
-    text = json ? visemes_json(track, sound) : visemes_csv(track);
+    text = json ? exchange::write_visemes_json(track, sound) : exchange::write_visemes_csv(track);
   }
   if (auto written = write_file(options.output, text); !written) return written.error();
   if (what == "rhubarb") {
@@ -197,7 +194,7 @@ Result<int> run(const ExportOptions& options) {
     return what == "head" ? write_head(options, std::move(*bytes))
                           : write_arkit(options, std::move(*bytes));
   }
-  Result<VisemeTrack> track = track_of(options, std::move(*bytes), from_script, *rate);
+  Result<exchange::VisemeTrack> track = track_of(options, std::move(*bytes), from_script, *rate);
   if (!track) return track.error();
   return write_visemes(options, what, std::move(*track));
 }

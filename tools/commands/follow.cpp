@@ -51,7 +51,7 @@ bool is_to_be_skipped(const std::string& text) {
 /// False if nobody reads any more.
 bool print_rows(const dam::Signal& signal) {
   for (std::size_t frame = 0; frame < signal.frames(); ++frame) {
-    std::fputs(curve_row(signal, frame).c_str(), stdout);
+    std::fputs(exchange::write_curve_row(signal, frame).c_str(), stdout);
   }
   return std::fflush(stdout) == 0;
 }
@@ -72,7 +72,7 @@ Result<int> run(const FollowOptions& options) {
   dam::SpeechStream stream(*model, settings);
   std::vector<std::string> names;
   for (const dam::Control& control : model->controls) names.push_back(control.name);
-  std::fputs(curve_header(names).c_str(), stdout);
+  std::fputs(exchange::write_curve_header(names).c_str(), stdout);
   std::string text;
   for (std::int64_t line = 1; std::getline(std::cin, text); ++line) {
     if (is_to_be_skipped(text)) continue;

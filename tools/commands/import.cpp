@@ -1,13 +1,14 @@
 // Motion captured by other programs: shapes of a phone, points of a tracker.
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "fap/rate_text.h"
 #include "fap/text.h"
-#include "tools/commands/arkit_csv.h"
 #include "tools/commands/common.h"
-#include "tools/commands/landmark_import.h"
+#include "tools/exchange/arkit.h"
+#include "tools/exchange/landmarks.h"
 
 namespace animeme::tools {
 
@@ -21,37 +22,48 @@ struct ImportOptions {
   std::string layout;
   std::string size;
   int face = -1;
-  LandmarkImportOptions landmarks;
+  exchange::LandmarkImportOptions landmarks;
   bool for_landmarks = false;  // an option was given that only landmarks know
 };
 
-Result<LandmarkImport> read_table(const ImportOptions& options, std::optional<fap::Rate> rate,
-                                  const std::string& text, std::vector<std::string>& warnings) {
-  if (options.for_landmarks || is_landmark_csv(text)) {
-    LandmarkImportOptions settings = options.landmarks;
-    settings.table.rate = rate;
-    if (options.layout == "68") settings.table.columns.layout = fap::LandmarkLayout::ibug68;
-    if (options.layout == "mediapipe") {
-      settings.table.columns.layout = fap::LandmarkLayout::mediapipe;
-    }
-    if (options.face >= 0) settings.table.rows.face = options.face;
-    return import_landmarks(text, settings, warnings);
-  }
-  auto clip = read_arkit_csv(text, {rate, options.degrees}, warnings);
-  if (!clip) return clip.error();
-  return LandmarkImport{std::move(*clip), {}};
+// Where the neutral face was and how large it is, for people.
+std::string talk_of(const exchange::LandmarkImport& take, bool given) {
+  const auto& frames = take.face.neutral_frames;
+  std::string text =
+      std::string(take.depth ? "points in space" : "points in the picture") + ", neutral face " +
+      (given ? "given" : "found") + " in " + std::to_string(frames.size()) +
+      (frames.size() == 1 ? " frame, " : " frames, ") + std::to_string(frames.front());
+  if (frames.size() > 1) text += " to " + std::to_string(frames.back());
+  const fap::Fapu& fapu = take.face.fapu;
+  char units[200];
+  std::snprintf(units, sizeof units,
+                "; its units: IRISD %.4g, ES %.4g, ENS %.4g, MNS %.4g, MW %.4g", fapu.irisd,
+                fapu.es, fapu.ens, fapu.mns, fapu.mw);
+  return text + units;
 }
 
-// "1280x720"; nothing if it is something else.
-std::optional<PictureSize> parse_size(const std::string& text) {
-  const std::size_t cross = text.find_first_of("xX:");
-  if (cross == std::string::npos) return std::nullopt;
-  const auto width = dam::parse_number(std::string_view(text).substr(0, cross));
-  const auto height = dam::parse_number(std::string_view(text).substr(cross + 1));
-  if (!width || !height || !(*width > 0 && *width < 1e6 && *height > 0 && *height < 1e6)) {
-    return std::nullopt;
+// The clip, after what is to be said of it was said.
+Result<fap::Sequence> read_table(const ImportOptions& options, std::optional<fap::Rate> rate,
+                                 const std::string& text) {
+  const auto tell = [&](const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) warn(options.input + ": " + warning);
+  };
+  if (options.for_landmarks || exchange::is_landmark_table(text)) {
+    exchange::LandmarkImportOptions settings = options.landmarks;
+    settings.table.rate = rate;
+    if (options.layout == "68") settings.table.layout = fap::LandmarkLayout::ibug68;
+    if (options.layout == "mediapipe") settings.table.layout = fap::LandmarkLayout::mediapipe;
+    if (options.face >= 0) settings.table.face = options.face;
+    auto take = exchange::import_landmarks(text, settings);
+    if (!take) return std::move(take).error().in_file(options.input);
+    tell(take->warnings);
+    say(options.input + ": " + talk_of(*take, !settings.neutral.empty()));
+    return std::move(take->face.clip);
   }
-  return PictureSize{*width, *height};
+  auto take = exchange::read_arkit_table(text, {rate, options.degrees});
+  if (!take) return std::move(take).error().in_file(options.input);
+  tell(take->warnings);
+  return std::move(take->clip);
 }
 
 // Empty if FAP text may have this name: not that of another kind of file.
@@ -75,7 +87,7 @@ Result<int> run(ImportOptions options) {
     given_rate = *rate;
   }
   if (!options.size.empty()) {
-    options.landmarks.table.size = parse_size(options.size);
+    options.landmarks.table.size = exchange::parse_picture_size(options.size);
     if (!options.landmarks.table.size) {
       return usage_error("--size: '" + options.size + "' is no size; write 1280x720");
     }
@@ -89,17 +101,14 @@ Result<int> run(ImportOptions options) {
     return make_error(Code::unsupported, "this is a packed file; unpack it with gunzip first")
         .in_file(options.input);
   }
-  if (options.for_landmarks && is_arkit_csv(*text)) {
+  if (options.for_landmarks && exchange::is_arkit_table(*text)) {
     return usage_error(options.input +
                        " has blend shapes: --layout, --neutral and the like are "
                        "for landmarks");
   }
-  std::vector<std::string> warnings;
-  Result<LandmarkImport> table = read_table(options, given_rate, *text, warnings);
-  if (!table) return table.error().in_file(options.input);
-  for (const std::string& warning : warnings) warn(options.input + ": " + warning);
-  if (!table->talk.empty()) say(options.input + ": " + table->talk);
-  fap::Sequence& clip = table->clip;
+  Result<fap::Sequence> read = read_table(options, given_rate, *text);
+  if (!read) return std::move(read).error();
+  fap::Sequence& clip = *read;
   if (options.input != "-") clip.name = std::filesystem::path(options.input).stem().string();
   if (auto written = write_file(options.output, fap::write_text(clip)); !written) {
     return written.error();
@@ -137,10 +146,10 @@ void add_landmark_options(CLI::App& app, ImportOptions& options) {
                      "(MediaPipe)"));
   add(app.add_option("--face", options.face, "Number (face_id) of the face to read; the first")
           ->check(CLI::NonNegativeNumber));
-  add(app.add_option("--confidence", options.landmarks.table.rows.confidence,
+  add(app.add_option("--confidence", options.landmarks.table.confidence,
                      "Rows with less are left out (OpenFace)")
           ->capture_default_str());
-  flag("--flat", options.landmarks.table.columns.flat, "Use the picture alone, not the depth");
+  flag("--flat", options.landmarks.table.flat, "Use the picture alone, not the depth");
   flag("--mirrored", options.landmarks.face.mirrored,
        "The picture was mirrored, as selfie cameras do: swap left and right");
 }

@@ -51,8 +51,9 @@ bool is_output(const std::string& path) {
 
 // The signal as it is, one column a control: for models of other rigs than FAPs.
 Result<int> write_curves(const std::string& path, const dam::Signal& signal) {
-  std::string text = curve_header(signal.names);
-  for (std::size_t frame = 0; frame < signal.frames(); ++frame) text += curve_row(signal, frame);
+  std::string text = exchange::write_curve_header(signal.names);
+  for (std::size_t frame = 0; frame < signal.frames(); ++frame)
+    text += exchange::write_curve_row(signal, frame);
   if (auto done = write_file(path, text); !done) return done.error();
   say(path + ": " + std::to_string(signal.frames()) + " frames of " +
       std::to_string(signal.names.size()) + " controls");

@@ -20,7 +20,7 @@ void set_quiet(bool quiet);
 /// A line on standard error that shows how far long work is; silent if that is no terminal.
 class ProgressLine {
  public:
-  explicit ProgressLine(std::string what);
+  explicit ProgressLine(std::string what);  ///< `what` stands in front of the bar
   ~ProgressLine();
   /// `done` 0..1; `detail` is shown behind the bar.
   void update(double done, const std::string& detail = {});
@@ -38,6 +38,7 @@ class StatusLine {
  public:
   StatusLine();
   ~StatusLine();
+  /// Replaces the line on a terminal, else prints a further one.
   void show(const std::string& text);
   /// Takes it away from a terminal, so that something else can be printed.
   void clear();

@@ -14,17 +14,17 @@ namespace animeme::tools {
 
 /// All bytes of a file, or of standard input for "-". Errors: not_found, io.
 Result<std::vector<std::uint8_t>> read_file(const std::string& path);
-Result<std::string> read_text_file(const std::string& path);
+Result<std::string> read_text_file(const std::string& path);  ///< likewise, as text
 
 /// Writes a file whole or not at all (temporary file beside it, then rename); "-" is standard
 /// output. Errors: io.
 Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes);
-Result<void> write_file(const std::string& path, std::string_view text);
+Result<void> write_file(const std::string& path, std::string_view text);  ///< likewise, of a text
 
 /// A file to be written; the text is borrowed.
 struct OutputText {
-  std::string path;
-  std::string_view text;
+  std::string path;       ///< where to
+  std::string_view text;  ///< borrowed
 };
 /// Writes several files: all of them whole, or none. Errors: io.
 Result<void> write_files(std::span<const OutputText> files);

@@ -9,7 +9,7 @@ namespace animeme::tools {
 
 /// Who listens; silence unless set. Each call is one line without its end.
 struct Talk {
-  std::function<void(const std::string&)> say = [](const std::string&) {};
+  std::function<void(const std::string&)> say = [](const std::string&) {};   ///< what is done
   std::function<void(const std::string&)> warn = [](const std::string&) {};  ///< of bad input
 };
 

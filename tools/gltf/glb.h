@@ -24,6 +24,7 @@
 #include "fap/head/rig.h"
 #include "fap/result.h"
 
+/// Heads and their motion as glTF 2.0, and back.
 namespace animeme::gltf {
 
 /// Which morph targets a file has.

@@ -15,7 +15,7 @@ namespace {
 using fba::BodySettings;
 using fba::FaceSettings;
 
-// --- headers, as fba_bitstream, sections 2, 3 and 7, lays them out
+// --- headers, as codec/bitstream.md, sections 2, 3 and 7, lays them out
 
 std::int64_t temporal_bits(const fba::Plane& plane) {
   std::int64_t bits = 1;  // skip_frames
@@ -181,7 +181,8 @@ class StreamCost {
   }
 
  private:
-  // Section 3.2: the default ranges, scaled by the quantiser of the first intra plane.
+  // codec/bitstream.md, section 3.2: the default ranges, scaled by the quantiser of the first intra
+  // plane.
   void begin_face(int scale) {
     if (begun_) return;
     begun_ = true;

@@ -7,7 +7,7 @@
 ///
 /// Safe for untrusted input: no other file or address than the given one is opened, and memory
 /// and time stay bounded. Not for several threads on one object; different calls may run in
-/// different threads. Source: containers, section 5.4.
+/// different threads. Source: tools/media/containers.md, section 5.4.
 #pragma once
 
 #include <cstdint>

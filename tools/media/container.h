@@ -10,7 +10,7 @@
 /// A name that ends in .m3u8 or .mpd is a playlist of segments (HLS, DASH), which are read, too:
 /// only ordinary files in its folder or below, 1 GB in all.
 /// Safe for untrusted input: no other file or address is opened, memory and time stay bounded.
-/// Source: containers, sections 1.2, 1.3, 2.3, 3.
+/// Source: tools/media/containers.md, sections 1.2, 1.3, 2.3, 3.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +23,7 @@
 #include "fap/result.h"
 #include "tools/media/encoded_audio.h"
 
+/// Sound, containers and live transports.
 namespace animeme::media {
 
 /// A sound track as its header describes it.

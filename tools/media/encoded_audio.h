@@ -4,7 +4,7 @@
 ///     Result<EncodedAudio> sound = encode_audio(voice, {.codec = AudioCodec::opus});
 ///     Result<Pcm> heard = decode_audio(*sound);     // as long as `voice`, sample 0 at sample 0
 ///
-/// Source: containers, sections 5.1 and 5.2.
+/// Source: tools/media/containers.md, sections 5.1 and 5.2.
 #pragma once
 
 #include <cstddef>

@@ -8,7 +8,7 @@
 /// coded, mono; sound that is coded already goes in as it is. Time 0 of the face is sample 0 of the
 /// sound. Files are written whole or not at all, and the same input gives the same bytes (with the
 /// same FFmpeg on the same machine; other versions of its encoders may round differently).
-/// Source: containers, sections 2.1, 2.2, 3.1, 3.2.
+/// Source: tools/media/containers.md, sections 2.1, 2.2, 3.1, 3.2.
 #pragma once
 
 #include <cstdint>

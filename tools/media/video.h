@@ -8,7 +8,7 @@
 ///     Result<EncodedVideo> video = encoder->finish();
 ///
 /// The coded video stays in memory (a talking head of 640 x 640 takes about 2 MB a minute).
-/// Source: containers, section 6.
+/// Source: tools/media/containers.md, section 6.
 #pragma once
 
 #include <cstdint>

@@ -9,6 +9,7 @@ set(DOXYGEN_HTML_OUTPUT docs)
 set(DOXYGEN_USE_MDFILE_AS_MAINPAGE ${PROJECT_SOURCE_DIR}/README.md)
 set(DOXYGEN_STRIP_FROM_PATH ${PROJECT_SOURCE_DIR})
 set(DOXYGEN_JAVADOC_AUTOBRIEF YES)
+set(DOXYGEN_IMAGE_PATH tools/pictures)
 set(DOXYGEN_FILE_PATTERNS *.h *.md)
 # What is not installed, and what is data.
 set(DOXYGEN_EXCLUDE_PATTERNS */detail/* */maths/* */kinds/*.h *_internal.h */conformance/cases/*)

@@ -17,6 +17,7 @@
 #include "fap/head/model.h"
 #include "tools/render/image.h"
 
+/// Pictures of heads by a software renderer.
 namespace animeme::render {
 
 /// A perspective camera. Right-handed: the picture's right is cross(target - eye, up).

@@ -21,6 +21,7 @@
 #include "tools/speech/lines.h"
 #include "tools/speech/talking_face.h"
 
+/// A talking head while it is being made.
 namespace animeme::speech {
 
 /// All settings of LiveSpeaker.
@@ -47,7 +48,7 @@ struct LineTrace {
   double face_coded = 0;   ///< ... its end
   double face_sent = 0;    ///< that frame has been sent
   double sound_begun = 0;  ///< the first packet with sound of it: coding ...
-  double sound_coded = 0;  ///< ... its last packet
+  double sound_coded = 0;  ///< ... its end
   double sound_sent = 0;   ///< that packet has been sent
 };
 

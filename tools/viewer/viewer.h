@@ -22,6 +22,7 @@
 #include "fap/head/rig.h"
 #include "fap/result.h"
 
+/// A page that shows a talking head.
 namespace animeme::viewer {
 
 /// A motion to show.

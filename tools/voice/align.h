@@ -6,7 +6,7 @@
 /// (ANIMEME_WITH_ALIGNER). English words are looked up in its dictionary; words that are not there
 /// and all words of other languages get their phones from espeak-ng (see voice.h), and the English
 /// model then aligns them: less exact, but lips forgive more than ears.
-/// Source: phoneme script specification, section 2.1.
+/// Source: tools/voice/engines.md, section 1.
 #pragma once
 
 #include <string>

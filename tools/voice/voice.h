@@ -9,7 +9,7 @@
 /// espeak-ng keeps state from one call to the next, so that the same text would sound different
 /// the second time. It is therefore run in a forked child process: every call is independent of
 /// all others, gives the same samples every time, may be made from several threads at once, and
-/// cannot take the program down. Source: phoneme script specification, section 2.2.
+/// cannot take the program down. Source: tools/voice/engines.md, section 2.
 #pragma once
 
 #include <string>
@@ -20,6 +20,7 @@
 #include "fap/result.h"
 #include "tools/media/pcm.h"
 
+/// Text to speech and forced alignment.
 namespace animeme::voice {
 
 /// Who speaks, and how.

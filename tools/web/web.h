@@ -12,7 +12,7 @@
 ///
 /// The clock that browsers see is that of the sound segments. It runs one second ahead of LiveUnit
 /// times (kWebTimeZero), so that the priming of the sound has a place; the source takes it off.
-/// Source: containers, section 4.4.
+/// Source: tools/media/containers.md, section 4.4.
 #pragma once
 
 #include <cstddef>
@@ -24,6 +24,7 @@
 #include "fap/result.h"
 #include "tools/media/live/live.h"
 
+/// A web server and its client as live transports.
 namespace animeme::web {
 
 /// Seconds on the clock of the segments at time 0.

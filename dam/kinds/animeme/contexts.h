@@ -1,6 +1,6 @@
 // How likely a mode is between its neighbours: the likelihood behind E_c of Eq. 10, with back-off
 // from the phones beside it over their classes to how common the mode is at all.
-// Source: lipsync, section 5.5.
+// Source: dam/lipsync.md, section 5.
 #pragma once
 
 #include <cstdint>

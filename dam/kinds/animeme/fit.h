@@ -1,5 +1,5 @@
 // The numbers of training: Eq. 2 as a least squares problem. Not for users of the library, see
-// train.h. Source: the paper, sections V-B to V-D; lipsync, sections 5.3 and 5.4.
+// train.h. Source: the paper, sections V-B to V-D; dam/lipsync.md, sections 3 and 4.
 //
 // Everything is in units of the training standard deviation, measured from rest. Polynomials are
 // kept in Legendre polynomials of 2u - 1 here, which spans the same functions as the powers of

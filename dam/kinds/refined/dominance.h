@@ -1,5 +1,5 @@
 // The dominance of the refined model: how much a phone has to say at a moment, in seconds from it.
-// Source: lipsync, section 5.2.
+// Source: dam/lipsync.md, section 2.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// The numbers of training the refined model. Internal. Source: lipsync, sections 5.3 and 5.4, and
-// dam/README.md for sentence offsets.
+// The numbers of training the refined model. Internal. Source: dam/lipsync.md, sections 3 and 4,
+// and dam/kinds/refined/README.md for sentence offsets.
 //
 // Targets are measured in standard deviations from the training mean. A sentence may be off by a
 // constant that nothing predicts (posture, tracker): such offsets have the prior weight

@@ -1,4 +1,4 @@
-// Training of the refined model: dominance, then all curves. Source: dam/README.md.
+// Training of the refined model: dominance, then all curves. Source: dam/kinds/refined/README.md.
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 #include <algorithm>

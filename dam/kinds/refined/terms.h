@@ -1,5 +1,5 @@
 // What the animeme of an occurrence is a sum of: its phone's own curve and small corrections, each
-// learned for a kind of neighbourhood. Source: lipsync, section 5.2, and dam/README.md.
+// learned for a kind of neighbourhood. Source: dam/lipsync.md, section 2, and dam/README.md.
 #pragma once
 
 #include <array>

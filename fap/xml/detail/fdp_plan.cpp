@@ -16,7 +16,7 @@ constexpr float kLeast = 0.01f;    // smaller factors are nothing
 constexpr float kAsAWhole = 0.2f;  // parts whose vertices all move at least this share
 
 // How much a FAP counts where a vertex has no room for all: those that recordings hardly use make
-// room for the others. Source: fap_semantics, section 9.
+// room for the others. Source: fap/semantics.md, section 9.
 float worth(int fap) {
   if (fap == 14 || fap == 15) return 0.2f;
   return fap == 27 || fap == 28 || fap == 39 || fap == 40 || fap >= 64 ? 0.5f : 1.0f;

@@ -1,5 +1,6 @@
 // How Xface moves a face: raised cosines around feature points. Facts of the player, for the reader
-// and for the writer. Source: the format as its player takes it; face_models, section 2.
+// and for the writer. Source: the format as its player takes it; fap/head/face_models.md, section
+// 2.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // A text file with no frames comes back as it was.
-#include "fap/text.h"
+#include <animeme/fap/text.h>
 
 int main() {
   const auto clip = animeme::fap::read_text("2.1 empty 25 0\n");

@@ -1,6 +1,4 @@
 // Uses the text reader of fap and a function of codec, so both libraries have to link.
-#include <cstdio>
-
 #include <animeme/fap/text.h>
 #include <animeme/fba/access_unit.h>
 
@@ -9,7 +7,5 @@ int main() {
   if (!clip || animeme::fap::write_text(*clip) != "2.1 empty 25 0\n") return 1;
   animeme::fba::AccessUnits units;
   units.units.push_back({{0, 0, 1, 0xba}, true, 0, 1000});
-  const auto stream = animeme::fba::join_access_units(units);
-  if (stream.size() < 4) return 1;
-  std::puts("fba consumer ok");
+  return animeme::fba::join_access_units(units).size() >= 4 ? 0 : 1;
 }

@@ -1,4 +1,4 @@
 // What is no glTF is an error.
-#include "tools/gltf/read_head.h"
+#include <animeme/gltf/read_head.h>
 
 int main() { return animeme::gltf::read_head({}, {}) ? 1 : 0; }

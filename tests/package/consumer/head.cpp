@@ -1,6 +1,6 @@
 // Makes the head and its rig.
-#include "fap/head/model.h"
-#include "fap/head/rig.h"
+#include <animeme/head/model.h>
+#include <animeme/head/rig.h>
 
 int main() {
   const auto head = animeme::head::make_head();

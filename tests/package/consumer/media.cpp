@@ -1,5 +1,5 @@
 // Sound at another rate, by FFmpeg.
-#include "tools/media/audio.h"
+#include <animeme/media/audio.h>
 
 int main() {
   const animeme::media::Pcm sound{8000, std::vector<float>(800)};

@@ -1,5 +1,5 @@
 // A PNG of one pixel, by zlib.
-#include "tools/render/png.h"
+#include <animeme/render/png.h>
 
 int main() {
   const auto png = animeme::render::png_of({1, 1, {1, 2, 3, 255}});

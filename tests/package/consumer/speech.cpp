@@ -1,4 +1,4 @@
 // Sound while it is being made, with FFmpeg behind it.
-#include "tools/speech/live_sound.h"
+#include <animeme/speech/live_sound.h>
 
 int main() { return animeme::speech::LiveSound::open(-1, {}) ? 1 : 0; }

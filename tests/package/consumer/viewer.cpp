@@ -1,5 +1,5 @@
 // A page needs a head; the script that draws one is there.
-#include "tools/viewer/viewer.h"
+#include <animeme/viewer/viewer.h>
 
 int main() {
   const bool refused = !animeme::viewer::make_page({});

@@ -1,5 +1,5 @@
 // Voices, or the sentence that there are none: both need what stands behind them.
-#include "tools/voice/voice.h"
+#include <animeme/voice/voice.h>
 
 int main() {
   const auto voices = animeme::voice::list_voices();

@@ -1,6 +1,6 @@
 // The start codes around an FBA stream: telling a face from a film, and an intra plane from a
 // predicted one. Looks at headers only and never searches plane data for start codes.
-// Source: containers, sections 1.2, 1.3 and 4.2.
+// Source: tools/media/containers.md, sections 1.2, 1.3 and 4.2.
 #pragma once
 
 #include <array>

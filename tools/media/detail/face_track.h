@@ -1,5 +1,5 @@
 // Finding the FBA stream of an open file and keeping libavcodec's hands off it.
-// Source: containers, section 2.3.
+// Source: tools/media/containers.md, section 2.3.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // A plain MPEG-4 file of tracks in memory: contents first, one sample a chunk, samples of all
-// tracks in the order of their times. Source: containers, section 1.5.
+// tracks in the order of their times. Source: tools/media/containers.md, section 1.5.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// What libavformat leaves to do in a finished mp4 file. Source: containers, section 1.4.
+// What libavformat leaves to do in a finished mp4 file. Source: tools/media/containers.md, section
+// 1.4.
 #pragma once
 
 #include <cstddef>

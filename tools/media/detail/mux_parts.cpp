@@ -42,7 +42,7 @@ void set_mp4_options(const Mp4Contents& contents, av::Options& header) {
 }
 
 void set_fragment_options(const char* cut, double seconds, av::Options& header) {
-  // Source: containers, section 2.2. Without delay_moov the edit list is missing.
+  // Source: tools/media/containers.md, section 2.2. Without delay_moov the edit list is missing.
   header.set("movflags", std::string(cut) + "+delay_moov+default_base_moof+skip_trailer");
   if (seconds > 0) header.set("frag_duration", std::int64_t(seconds * 1e6));
 }

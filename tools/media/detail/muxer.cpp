@@ -121,7 +121,7 @@ Result<void> Muxer::add_sound(const AudioFormat& format, std::int64_t bit_rate) 
   if (!parameters) return parameters.error();
   sound_ = format;
   // libavformat 5.1 moves the blocks by the pre-skip and has players skip it, too. Source:
-  // containers, section 3.1.
+  // tools/media/containers.md, section 3.1.
   if (format.codec == AudioCodec::opus && (is("matroska") || is("webm"))) {
     sound_shift_ = format.priming;
   }

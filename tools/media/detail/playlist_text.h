@@ -1,5 +1,5 @@
 // The texts around segments: HLS playlists and DASH descriptions, written and read. No files.
-// Source: containers, sections 2.2 and 4.3; RFC 8216; ISO/IEC 23009-1.
+// Source: tools/media/containers.md, sections 2.2 and 4.3; RFC 8216; ISO/IEC 23009-1.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Face and sound as segments for HLS or DASH. Source: containers, sections 2.2 and 4.3.
+// Face and sound as segments for HLS or DASH. Source: tools/media/containers.md, sections 2.2 and
+// 4.3.
 #pragma once
 
 #include <string>

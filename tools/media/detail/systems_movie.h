@@ -1,5 +1,5 @@
-// A complete MPEG-4 Systems presentation, which libavformat cannot write. Source: containers,
-// section 1.5.
+// A complete MPEG-4 Systems presentation, which libavformat cannot write. Source:
+// tools/media/containers.md, section 1.5.
 #pragma once
 
 #include "codec/decode/access_unit.h"

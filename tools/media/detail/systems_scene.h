@@ -1,5 +1,6 @@
 // What an MPEG-4 Systems presentation says besides its media: the scene (BIFS), the object
-// descriptors, the initial object descriptor. Source: containers, sections 1.4 and 1.5.
+// descriptors, the initial object descriptor. Source: tools/media/containers.md, sections 1.4 and
+// 1.5.
 #pragma once
 
 #include <cstddef>

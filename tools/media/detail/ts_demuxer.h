@@ -1,6 +1,6 @@
 // From transport packets to PES packets, with what is missing marked. Bytes are pushed as they
 // come; nothing is looked ahead for, so a unit is there as soon as its last packet is.
-// Source: containers, section 3.2; the syntax is that of ISO/IEC 13818-1.
+// Source: tools/media/containers.md, section 3.2; the syntax is that of ISO/IEC 13818-1.
 #pragma once
 
 #include <array>

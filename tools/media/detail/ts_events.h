@@ -1,5 +1,5 @@
 // From PES packets to what a LiveSource gives out: times, units, the description in front.
-// Source: containers, sections 3.2 and 4.2.
+// Source: tools/media/containers.md, sections 3.2 and 4.2.
 #pragma once
 
 #include <cstdint>

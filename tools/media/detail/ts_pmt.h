@@ -1,5 +1,5 @@
 // The MPEG-4_video_descriptor that libavformat leaves out of a transport stream's program map.
-// Source: containers, section 3.2; ISO/IEC 13818-1, sections 2.4.4 and 2.6.36.
+// Source: tools/media/containers.md, section 3.2; ISO/IEC 13818-1, sections 2.4.4 and 2.6.36.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // Program tables of a transport stream: which packets carry the face, which the sound.
-// Source: containers, section 3.2; the tables are those of ISO/IEC 13818-1.
+// Source: tools/media/containers.md, section 3.2; the tables are those of ISO/IEC 13818-1.
 #pragma once
 
 #include <array>

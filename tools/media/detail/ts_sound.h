@@ -1,6 +1,6 @@
 // Packets of sound out of the PES packets of a transport stream: ADTS frames and Opus units.
-// Source: ISO/IEC 14496-3 (adts_frame), the ETSI registration of Opus in MPEG-TS (containers,
-// section 3.2).
+// Source: ISO/IEC 14496-3 (adts_frame), the ETSI registration of Opus in MPEG-TS
+// (tools/media/containers.md, section 3.2).
 #pragma once
 
 #include <cstdint>

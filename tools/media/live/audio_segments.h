@@ -9,8 +9,8 @@
 /// There is no edit list: a packet with the time t begins at t, priming included, so times have to
 /// be shifted until none is negative. Opus: the pre-skip in dOps is 0 for the same reason, and
 /// browsers then play every sample at its time.
-/// Source: containers, section 4.4; the boxes are those of ISO/IEC 14496-12, 14496-14 and of the
-/// Opus encapsulation.
+/// Source: tools/media/containers.md, section 4.4; the boxes are those of ISO/IEC 14496-12,
+/// 14496-14 and of the Opus encapsulation.
 #pragma once
 
 #include <cstdint>

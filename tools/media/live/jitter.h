@@ -42,7 +42,7 @@ class ReorderBuffer {
   struct Missing {
     std::int64_t packets = 0;  ///< at least 1 where known
   };
-  using Item = std::variant<RtpPacket, Missing>;  ///< What comes out.
+  using Item = std::variant<RtpPacket, Missing>;  ///< what comes out
 
   /// Limits as they are, unchecked.
   explicit ReorderBuffer(ReorderLimits limits) : limits_(limits) {}

@@ -11,7 +11,7 @@
 ///
 /// Sinks send at once what they are given; pacing is the caller's (see pacer.h). Sources give out
 /// what came, with its losses marked; recovery.h decides what of it can be used.
-/// Source: containers, section 4.
+/// Source: tools/media/containers.md, section 4.
 #pragma once
 
 #include <cstdint>
@@ -47,7 +47,7 @@ struct LiveUnit {
   /// Face: ticks of LiveInfo::timescale. Sound: samples. 0 is the same instant in both; the first
   /// packets of a sound have negative times (priming).
   std::int64_t time = 0;
-  std::int64_t duration = 0;  ///< same ticks; 0: not known
+  std::int64_t duration = 0;  ///< same ticks: how long it is shown or heard
 
   friend bool operator==(const LiveUnit&, const LiveUnit&) = default;
 };

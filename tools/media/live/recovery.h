@@ -7,7 +7,7 @@
 ///       if (auto unit = recovery.accept(*event)) play(*unit);
 ///     }
 ///
-/// For all transports. Source: containers, section 4.2.
+/// For all transports. Source: tools/media/containers.md, section 4.2.
 #pragma once
 
 #include <cstdint>

@@ -7,7 +7,7 @@
 /// The face goes to the port of the address, its RTCP to the port after it; sound and its RTCP to
 /// the two after those. Both ends answer reports to where they came from.
 /// Source: RFC 3550 (RTP, RTCP), 6416 (MP4V-ES), 3640 (AAC), 7587 (Opus), 8285 (header extension),
-/// 8866 (SDP), 7273 (media clock); containers, sections 4.1 and 4.2.
+/// 8866 (SDP), 7273 (media clock); tools/media/containers.md, sections 4.1 and 4.2.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 /// @file
 /// Access units into RTP payloads and back. Source: RFC 6416 section 5 (MP4V-ES), RFC 3640 section
-/// 3.3.6 (AAC-hbr), RFC 7587 section 4.2 (Opus); containers, section 4.1.
+/// 3.3.6 (AAC-hbr), RFC 7587 section 4.2 (Opus); tools/media/containers.md, section 4.1.
 #pragma once
 
 #include <cstdint>

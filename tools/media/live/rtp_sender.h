@@ -32,7 +32,7 @@ class RtpSender {
   /// For write_sdp().
   const RtpSession& session() const { return session_; }
 
-  using Datagrams = std::vector<RtpDatagram>;  ///< In the order in which they are to be sent.
+  using Datagrams = std::vector<RtpDatagram>;  ///< in the order in which they are to be sent
   /// Appends what is to be sent now. Times ("now") are seconds and ascend. Errors:
   /// invalid_argument (RtpPacketizer::check(), or a track that the presentation does not have).
   Result<void> send(const LiveUnit& unit, double now, Datagrams& out);

@@ -1,6 +1,6 @@
 /// @file
 /// From packets in order to units of the face and the sound; times stay those of RTP.
-/// Source: containers, sections 1.3 and 4.1.
+/// Source: tools/media/containers.md, sections 1.3 and 4.1.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 /// @file
 /// Session descriptions: where the packets of a presentation come from and what is in them.
-/// Source: RFC 8866, 6416, 3640, 7587, 5576 (ssrc), 7273 (media clock), 8285 (extmap); containers,
-/// section 4.1.
+/// Source: RFC 8866, 6416, 3640, 7587, 5576 (ssrc), 7273 (media clock), 8285 (extmap);
+/// tools/media/containers.md, section 4.1.
 ///
 ///     m=video 5004 RTP/AVP 96
 ///     a=rtpmap:96 MP4V-ES/90000

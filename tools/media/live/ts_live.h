@@ -20,7 +20,7 @@
 /// rounded from those. LiveInfo::timescale is 90000. AudioFormat is what the stream tells: `config`
 /// has the same meaning as the sender's, but AAC may have lost an extension of its 5-byte form and
 /// Opus its gain; `priming` is that of the sender where the first packet is at hand, else 0.
-/// Source: containers, sections 3.2, 4.2 and 5.2.
+/// Source: tools/media/containers.md, sections 3.2, 4.2 and 5.2.
 #pragma once
 
 #include <memory>

@@ -1,0 +1,98 @@
+// Visemes as a library: tracks of scripts and faces, the files of Oculus avatars and Rhubarb.
+#include "tools/exchange/visemes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+namespace animeme::exchange {
+namespace visemes_test {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const dam::Script kScript{{{0, 0.2, "SIL", ""},
+                           {0.2, 0.32, "M", "my"},
+                           {0.32, 0.56, "AY", "my"},
+                           {0.56, 0.64, "HH", "hello"},
+                           {0.64, 0.8, "L", "hello"}}};
+
+std::vector<int> visemes_of(const std::vector<VisemeEvent>& events) {
+  std::vector<int> out;
+  for (const VisemeEvent& event : events) out.push_back(event.viseme);
+  return out;
+}
+
+TEST(ExchangeVisemes, EventsOfAScript) {
+  const auto events = script_events(kScript);
+  EXPECT_THAT(visemes_of(events), ElementsAre(0, 1, 10, 12, 8, 8));
+  EXPECT_EQ(events[3].phone, "AY");
+  EXPECT_NEAR(events[3].time, 0.44, 1e-12);
+  EXPECT_THAT(script_events({}), IsEmpty());
+}
+
+TEST(ExchangeVisemes, WeightsAddUpToOne) {
+  for (const double crossfade : {0.0, 0.08, 10.0}) {
+    const auto track = track_of_events(script_events(kScript), {50, 1}, crossfade);
+    ASSERT_TRUE(track) << track.error().describe();
+    ASSERT_EQ(track->frames.size(), 40U);
+    for (const auto& weights : track->frames) {
+      EXPECT_NEAR(std::accumulate(weights.begin(), weights.end(), 0.0), 1, 1e-12);
+      EXPECT_GE(*std::min_element(weights.begin(), weights.end()), -1e-12);
+    }
+    EXPECT_NEAR(track->frames[13][1], 1, 1e-12) << "the lips meet in the middle of M";
+  }
+}
+
+TEST(ExchangeVisemes, TracksThatCannotBe) {
+  EXPECT_EQ(track_of_events(script_events(kScript), {0, 0}, 0).error().code,
+            Code::invalid_argument);
+  EXPECT_EQ(track_of_events({{0, 1e300, "AA", 10}}, {25, 1}, 0).error().code, Code::out_of_range);
+  EXPECT_THAT(track_of_events({}, {25, 1}, 0)->frames, IsEmpty());
+  EXPECT_THAT(track_of_face({{25, 1}, {}, ""}).events, IsEmpty());
+}
+
+TEST(ExchangeVisemes, FacesHaveRuns) {
+  fap::Sequence clip{{25, 1}, {}, ""};
+  for (const int viseme : {0, 1, 11, 11}) {
+    for (int i = 0; i < 5; ++i) clip.frames.push_back(fap::viseme_shape(viseme));
+  }
+  const VisemeTrack track = track_of_face(clip);
+  EXPECT_THAT(visemes_of(track.events), ElementsAre(0, 1, 11));
+  EXPECT_NEAR(track.events[2].duration, 0.4, 1e-12);
+  EXPECT_EQ(track.frames.size(), 20U);
+}
+
+TEST(ExchangeVisemes, FilesOfAvatars) {
+  const auto track = track_of_events(script_events(kScript), {25, 1}, 0.08);
+  ASSERT_TRUE(track);
+  const auto json = nlohmann::json::parse(write_visemes_json(*track, "a\"b.wav"));
+  EXPECT_EQ(json["audio"], "a\"b.wav");
+  EXPECT_EQ(json["rate"], nlohmann::json({25, 1}));
+  EXPECT_EQ(json["events"][1]["viseme"], "viseme_PP");
+  EXPECT_EQ(json["events"][1]["phone"], "M");
+  EXPECT_EQ(json["frames"].size(), 20U);
+  const std::string csv = write_visemes_csv(*track);
+  EXPECT_THAT(csv, HasSubstr("time_s,viseme_sil,viseme_PP,"));
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 21);
+  const VisemeTrack nothing{{25, 1}, {}, {}};
+  EXPECT_EQ(nlohmann::json::parse(write_visemes_json(nothing))["audio"], nullptr);
+}
+
+TEST(ExchangeVisemes, MouthShapesOfRhubarb) {
+  const auto track = track_of_events(script_events(kScript), {25, 1}, 0.08);
+  ASSERT_TRUE(track);
+  EXPECT_EQ(write_rhubarb_tsv(*track), "0.00\tX\n0.20\tA\n0.32\tD\n0.44\tB\n0.64\tH\n0.80\tX\n");
+  const auto json = nlohmann::json::parse(write_rhubarb_json(*track, "x.wav"));
+  EXPECT_EQ(json["metadata"]["soundFile"], "x.wav");
+  EXPECT_EQ(json["mouthCues"].size(), 5U);
+  EXPECT_EQ(write_rhubarb_tsv({{25, 1}, {}, {}}), "");
+  EXPECT_EQ(nlohmann::json::parse(write_rhubarb_json({{25, 1}, {}, {}}))["mouthCues"].size(), 0U);
+}
+
+}  // namespace visemes_test
+}  // namespace animeme::exchange

@@ -1,0 +1,58 @@
+// Tables of other programs: their header, the fields of a row, and errors that say where.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dam/script/table_text_internal.h"
+#include "fap/result.h"
+
+namespace animeme::exchange {
+
+std::string lower_case(std::string_view text);
+
+/// The header of a table: its first line, without a byte order mark.
+std::string_view first_line(std::string_view text);
+
+/// Of comma, semicolon and tab the one that a header line has most of.
+char separator_of(std::string_view header);
+
+/// True for timecode, time_s, time and timestamp (lower case): a column of times.
+bool is_time_name(std::string_view name);
+
+/// "A, B, C, D, E, F and 3 more".
+std::string list_of_names(const std::vector<std::string>& names);
+
+/// The upper one of the two in the middle; `values` is not empty.
+double median(std::vector<double> values);
+
+/// The fields of a line, which is borrowed.
+class Row {
+ public:
+  Row(const dam::TableLine& line, char separator);
+
+  std::size_t line() const { return line_.number; }
+  std::size_t size() const { return fields_.size(); }
+  /// Without blanks around it.
+  std::string_view text(std::size_t field) const { return dam::trimmed(fields_[field]); }
+  std::optional<double> number(std::size_t field) const {
+    return dam::parse_number(fields_[field]);
+  }
+
+  /// Errors: syntax, if there are more or fewer fields than `columns`.
+  Result<void> check_size(std::size_t columns) const;
+  /// A syntax error at a field: `message` alone, or "NAME is 'VALUE', which is ...".
+  Error error(std::size_t field, const std::string& message) const;
+  Error wrong(std::size_t field, const std::string& name, const std::string& which_is) const;
+  /// The one for a header with a name that is there already.
+  Error named_twice(std::size_t field) const;
+
+ private:
+  dam::TableLine line_;
+  std::vector<std::string_view> fields_;
+};
+
+}  // namespace animeme::exchange

@@ -1,0 +1,72 @@
+#include "tools/exchange/file_kind.h"
+
+#include <algorithm>
+#include <cstring>
+#include <string_view>
+
+#include "tools/exchange/arkit.h"
+#include "tools/exchange/landmarks.h"
+
+namespace animeme::exchange {
+
+namespace {
+
+bool starts_with(std::span<const std::uint8_t> bytes, std::string_view text) {
+  return bytes.size() >= text.size() && std::memcmp(bytes.data(), text.data(), text.size()) == 0;
+}
+
+}  // namespace
+
+bool is_playlist(std::span<const std::uint8_t> bytes) {
+  if (starts_with(bytes, "#EXTM3U")) return true;
+  const auto head = bytes.first(std::min<std::size_t>(bytes.size(), 4096));
+  const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
+  return text.starts_with("<") && text.find("<MPD") != std::string_view::npos;
+}
+
+FileKind kind_of(std::span<const std::uint8_t> bytes) {
+  if (starts_with(bytes, "ANIMEDAM")) return FileKind::model;
+  if (is_playlist(bytes)) return FileKind::media;
+  if (bytes.size() >= 4 && bytes[0] == 0 && bytes[1] == 0 && bytes[2] == 1) {
+    const std::uint32_t code = bytes[3];
+    const bool fba = code == 0xB0 || code == 0xB2 || code == 0xB5 || code == 0xBA || code == 0xBB ||
+                     code == 0x01 || code == 0x03;
+    if (fba) return FileKind::fba_stream;
+  }
+  // Text has no control bytes but blanks; UTF-16 scripts have a byte order mark.
+  if (starts_with(bytes, "\xFF\xFE") || starts_with(bytes, "\xFE\xFF")) return FileKind::script;
+  const auto head = bytes.first(std::min<std::size_t>(bytes.size(), 4096));
+  const bool text = std::none_of(head.begin(), head.end(), [](std::uint8_t c) {
+    return c < 0x20 && c != '\t' && c != '\n' && c != '\r' && c != '\f';
+  });
+  if (!text) return FileKind::media;
+  std::string_view view(reinterpret_cast<const char*>(head.data()), head.size());
+  const char* const end_of_file = view.data() + bytes.size();
+  if (view.starts_with("\xEF\xBB\xBF")) view.remove_prefix(3);
+  if (view.find("ooTextFile") != std::string_view::npos) return FileKind::script;
+  // A table with a header line of words is a script; FAP text is numbers from its first word on.
+  while (!view.empty()) {
+    const std::size_t end = view.find('\n');
+    const std::string_view line = view.substr(0, end);
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first != std::string_view::npos && line[first] != '#') {
+      // The header of a table of landmarks is longer than the head.
+      const std::string_view rest(line.data(), std::size_t(end_of_file - line.data()));
+      if (line.substr(first).starts_with("time_s") || is_arkit_table(line) ||
+          is_landmark_table(rest)) {
+        return FileKind::curves;
+      }
+      const char c = line[first];
+      const bool number = (c >= '0' && c <= '9') || c == '-' || c == '.';
+      if (!number) return FileKind::script;
+      const std::string_view version =
+          line.substr(first, line.find_first_of(" \t\r", first) - first);
+      return version == "3.1" || version == "3.2" ? FileKind::bap_text : FileKind::fap_text;
+    }
+    if (end == std::string_view::npos) break;
+    view.remove_prefix(end + 1);
+  }
+  return FileKind::unknown;
+}
+
+}  // namespace animeme::exchange
