@@ -1,5 +1,6 @@
 // What every kind of model owes its users, whatever it is made of.
 #include "dam/model/kind_internal.h"
+#include "dam/training/train.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -43,12 +43,12 @@ inline constexpr Room kRooms[] = {
 
     {"conformance", "codec/text", false},
 
-    {"tools/xml.h tools/text.h tools/exit_code.h", "fap", false},
-    {"tools/files", "fap", false},
+    {"tools/xml.h tools/json.h tools/text.h tools/exit_code.h", "fap", false},
+    {"tools/files", "fap"},
     {"tools/exchange", "codec/text dam/corpus"},
     {"tools/render", "fap/head"},
     {"tools/gltf", "fap/head"},
-    {"tools/media tools/media/live", "codec/decode"},
+    {"tools/media tools/media/live", "codec/decode fap/xml"},
     {"tools/voice", "dam/script tools/media"},
     {"tools/speech", "dam/speaking codec/encode tools/voice tools/files"},
     {"tools/viewer", "dam/script tools/render tools/xml.h"},

@@ -1,18 +1,16 @@
 #include "tools/check/report.h"
 
-#include <cstdio>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "conformance/features.h"
+#include "tools/json.h"
+#include "tools/text.h"
 #include "tools/xml.h"
 
 namespace animeme::tools {
 namespace {
 
 using conformance::Family;
-using Json = nlohmann::ordered_json;
-
 // How often a feature occurs, and in how many cases that are right.
 struct Count {
   std::size_t cases = 0, right = 0;
@@ -35,12 +33,6 @@ bool has_family(const conformance::Case& info, const Family& family) {
     if (conformance::family_of(feature) == &family) return true;
   }
   return false;
-}
-
-std::string format(const char* pattern, auto... values) {
-  char line[400];
-  std::snprintf(line, sizeof line, pattern, values...);
-  return line;
 }
 
 std::string family_rows(const std::vector<CaseResult>& results) {

@@ -7,6 +7,7 @@
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
 #include "tools/commands/export_glb.h"
+#include "tools/commands/head_options.h"
 #include "tools/exchange/arkit.h"
 #include "tools/exchange/visemes.h"
 
@@ -27,7 +28,7 @@ struct ExportOptions {
   std::vector<const CLI::Option*> of_heads;    // for .glb alone
 };
 
-// Options that were given for nothing, in a sentence; empty: there are none.
+// ExportOptions that were given for nothing, in a sentence; empty: there are none.
 std::string idle_options(const ExportOptions& options, const std::string& what, bool from_script) {
   const auto given = [](const std::vector<const CLI::Option*>& list) {
     for (const CLI::Option* option : list) {
@@ -187,7 +188,7 @@ Result<int> run(const ExportOptions& options) {
                         "its visemes")
           .in_file(options.input);
     }
-    if (const std::string problem = problem_of(options.glb.head);
+    if (const std::string problem = studio::problem_of(options.glb.head);
         what == "head" && !problem.empty()) {
       return usage_error(problem);
     }
