@@ -9,7 +9,7 @@
 #include "dam/speaking/stream.h"
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
-#include "tools/commands/curve_text.h"
+#include "tools/exchange/curves.h"
 #include "tools/speech/spoken.h"
 
 namespace animeme::tools {

@@ -11,11 +11,10 @@
 #include "fap/rate_text.h"
 #include "fap/text.h"
 #include "tools/commands/common.h"
-#include "tools/commands/corpus.h"
-#include "tools/commands/curve_text.h"
 #include "tools/commands/face_stream.h"
 #include "tools/commands/preview.h"
 #include "tools/commands/spoken_options.h"
+#include "tools/exchange/curves.h"
 #include "tools/text.h"
 
 namespace animeme::tools {
