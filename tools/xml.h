@@ -8,7 +8,8 @@
 
 namespace animeme::tools {
 
-/// Text as the content of an element, or of an attribute in quotes.
+/// Text as the content of an element, or of an attribute in quotes of either kind. (fap/xml has its
+/// own, xml_escaped(): it must not use the tools, and keeps the line ends of attributes.)
 inline std::string escape_xml(std::string_view text) {
   std::string out;
   for (const char c : text) {

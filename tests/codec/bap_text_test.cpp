@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "codec/decode/decoder.h"
-#include "tests/codec/reference_streams.h"
 #include "tests/support/body_frame.h"
 #include "tests/support/random_clip.h"
+#include "tests/support/reference_streams.h"
 
 namespace animeme::fba {
 namespace bap_text_test {
@@ -192,7 +192,7 @@ TEST(BapText, ReferenceFilesReadAsAPlainReaderReadsThem) {
     for (const char* extension : {".src.bap", ".dec.bap"}) {
       if (!std::filesystem::exists(test::with(stream, extension))) continue;
       ++files;
-      const std::string text = test::read_file(test::with(stream, extension));
+      const std::string text = test::slurp(test::with(stream, extension));
       const auto [body, warnings] = read(text);
       EXPECT_THAT(warnings, IsEmpty());
       EXPECT_EQ(body.name, stream.filename().string());
@@ -213,7 +213,7 @@ TEST(BapText, BodyOfAStream) {
     EXPECT_EQ(body.rate, decoded->rate);
     const auto expected = test::with(stream, ".dec.bap");
     if (std::filesystem::exists(expected)) {
-      EXPECT_EQ(body.frames, test::read_bap(test::read_file(expected))) << stream;
+      EXPECT_EQ(body.frames, test::read_bap(test::slurp(expected))) << stream;
     } else {
       EXPECT_THAT(body.frames, IsEmpty()) << stream;
     }

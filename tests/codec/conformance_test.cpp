@@ -7,13 +7,13 @@
 #include "codec/text/bap_text.h"
 #include "codec/text/epf.h"
 #include "fap/text.h"
-#include "tests/codec/reference_streams.h"
+#include "tests/support/reference_streams.h"
 
 namespace animeme {
 namespace conformance_test {
 
 using test::read_bytes;
-using test::read_file;
+using test::slurp;
 using test::with;
 
 class ReferenceStream : public testing::TestWithParam<std::filesystem::path> {
@@ -42,7 +42,7 @@ TEST_P(ReferenceStream, DecodesToTheExpectedFrames) {
   ASSERT_TRUE(decoded) << decoded.error().describe();
   ASSERT_TRUE(has(".dec.fap") || has(".dec.bap"));
   if (has(".dec.fap")) {
-    auto expected = fap::read_text(read_file(with(path(), ".dec.fap")));
+    auto expected = fap::read_text(slurp(with(path(), ".dec.fap")));
     ASSERT_TRUE(expected) << expected.error().describe();
     const fap::Sequence got = fba::face_sequence(*decoded);
     ASSERT_EQ(got.frames.size(), expected->frames.size());
@@ -51,7 +51,7 @@ TEST_P(ReferenceStream, DecodesToTheExpectedFrames) {
     }
   }
   if (has(".dec.bap")) {
-    auto expected = fba::read_bap_text(read_file(with(path(), ".dec.bap")));
+    auto expected = fba::read_bap_text(slurp(with(path(), ".dec.bap")));
     ASSERT_TRUE(expected) << expected.error().describe();
     ASSERT_FALSE(expected->frames.empty());
     const fba::BodySequence got = fba::body_sequence(*decoded);
@@ -65,17 +65,17 @@ TEST_P(ReferenceStream, DecodesToTheExpectedFrames) {
 TEST_P(ReferenceStream, IsWrittenByteForByteFromItsEpf) {
   if (!has(".epf")) GTEST_SKIP() << "this stream comes without encoder parameters";
   const std::vector<std::uint8_t> stream = read_bytes(with(path(), ".fba"));
-  auto planes = fba::read_epf(read_file(with(path(), ".epf")));
+  auto planes = fba::read_epf(slurp(with(path(), ".epf")));
   ASSERT_TRUE(planes) << planes.error().describe();
   fap::Sequence clip;
   if (has(".src.fap")) {
-    auto read = fap::read_text(read_file(with(path(), ".src.fap")));
+    auto read = fap::read_text(slurp(with(path(), ".src.fap")));
     ASSERT_TRUE(read) << read.error().describe();
     clip = *read;
   }
   std::vector<fba::BodyFrame> bodies;
   if (has(".src.bap")) {
-    auto read = fba::read_bap_text(read_file(with(path(), ".src.bap")));
+    auto read = fba::read_bap_text(slurp(with(path(), ".src.bap")));
     ASSERT_TRUE(read) << read.error().describe();
     bodies = std::move(read->frames);
   }

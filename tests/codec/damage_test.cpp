@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "codec/decode/decoder.h"
-#include "tests/codec/reference_streams.h"
+#include "tests/support/reference_streams.h"
 
 namespace animeme {
 namespace damage_test {

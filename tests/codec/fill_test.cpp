@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "codec/encode/encoder.h"
-#include "tests/codec/reference_streams.h"
+#include "tests/support/reference_streams.h"
 
 namespace animeme::fba {
 namespace fill_test {

@@ -4,8 +4,8 @@
 #include "codec/decode/decoder.h"
 #include "codec/encode/encode.h"
 #include "codec/text/epf.h"
-#include "tests/codec/reference_streams.h"
 #include "tests/support/random_clip.h"
+#include "tests/support/reference_streams.h"
 
 namespace animeme {
 namespace hostile_test {

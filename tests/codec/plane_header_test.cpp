@@ -4,7 +4,7 @@
 
 #include "codec/decode/access_unit.h"
 #include "codec/decode/decoder.h"
-#include "tests/codec/reference_streams.h"
+#include "tests/support/reference_streams.h"
 
 namespace animeme::fba {
 namespace plane_header_test {

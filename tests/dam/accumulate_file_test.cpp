@@ -7,6 +7,7 @@
 
 #include "tests/dam/accumulate_support.h"
 #include "tests/support/sealed_model.h"
+#include "tests/support/temp_dir.h"
 
 namespace animeme::dam {
 namespace accumulate_file_test {
@@ -15,14 +16,11 @@ using test::planted;
 using test::sums_of;
 using testing::HasSubstr;
 
-std::filesystem::path temporary(const std::string& name) {
-  return std::filesystem::path(testing::TempDir()) / ("animeme_accumulate_" + name);
-}
-
 TEST(AccumulateFile, TheOrderOfFilesDoesNotMatterToABit) {
   const auto sentences = planted(24);
   const std::span<const Utterance> all = sentences;
-  const std::vector<std::filesystem::path> paths = {temporary("a"), temporary("b"), temporary("c")};
+  const test::TempDir dir;
+  const std::vector<std::filesystem::path> paths = {dir / "sums_a", dir / "sums_b", dir / "sums_c"};
   for (std::size_t i = 0; i < 3; ++i)
     ASSERT_TRUE(save_training_sums(sums_of(all.subspan(8 * i, 8)), paths[i]));
   std::vector<std::size_t> order = {0, 1, 2};

@@ -13,14 +13,6 @@
 
 namespace animeme::test {
 
-inline std::vector<dam::Utterance> planted(std::size_t count, std::uint32_t seed = 5,
-                                           std::vector<std::string> labels = {"SIL", "AA", "B",
-                                                                              "IY"}) {
-  Uniform random(seed);
-  const auto truth = plant(random, std::move(labels), 2, 2);
-  return planted_sentences(random, truth, count);
-}
-
 inline dam::TrainingSums sums_of(std::span<const dam::Utterance> sentences,
                                  const dam::Model* base = nullptr,
                                  const dam::TrainOptions& options = {}) {

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "tests/support/shared.h"
+#include "tests/support/temp_dir.h"
 
 namespace animeme::dam {
 namespace corpus_test {
@@ -18,10 +19,6 @@ using testing::HasSubstr;
 class CorpusFolder : public testing::Test {
  protected:
   void SetUp() override {
-    dir_ = fs::path(testing::TempDir()) /
-           (std::string("animeme_corpus_") +
-            testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(dir_);
     write("utterances.tsv", "id\ttext\tsplit\tmood\na\thi\ttrain\tglad\nb\tho\ttest\tsad\n");
     for (const char* id : {"a", "b"}) {
       write(std::string("phonemes/") + id + ".tsv",
@@ -29,8 +26,6 @@ class CorpusFolder : public testing::Test {
       write(std::string("fap/") + id + ".csv", curves());
     }
   }
-  void TearDown() override { fs::remove_all(dir_); }
-
   static std::string curves() {
     std::string text = "time_s,fap3_open_jaw,smile,measured\n";
     for (int i = 0; i < 10; ++i)
@@ -49,7 +44,8 @@ class CorpusFolder : public testing::Test {
     return corpus ? Error{} : corpus.error();
   }
 
-  fs::path dir_;
+  const test::TempDir temp_;
+  const fs::path dir_ = temp_.path();
 };
 
 TEST_F(CorpusFolder, IsRead) {

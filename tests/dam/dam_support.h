@@ -107,4 +107,12 @@ inline std::vector<dam::Utterance> planted_sentences(Uniform& random, const Plan
   return list;
 }
 
+inline std::vector<dam::Utterance> planted(std::size_t count, std::uint32_t seed = 5,
+                                           std::vector<std::string> labels = {"SIL", "AA", "B",
+                                                                              "IY"}) {
+  Uniform random(seed);
+  const auto truth = plant(random, std::move(labels), 2, 2);
+  return planted_sentences(random, truth, count);
+}
+
 }  // namespace animeme::test

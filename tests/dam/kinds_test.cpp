@@ -1,5 +1,6 @@
 // What every kind of model owes its users, whatever it is made of.
 #include "dam/model/kind_internal.h"
+#include "dam/training/train.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,6 +9,7 @@
 #include <cmath>
 
 #include "dam/evaluation/evaluate.h"
+#include "dam/training/train.h"
 #include "tests/dam/dam_support.h"
 #include "tests/support/shared.h"
 
@@ -28,11 +30,6 @@ class EveryKind : public testing::TestWithParam<Method> {
   static std::vector<Utterance> sample() {
     const auto corpus = read_corpus(test::data_dir() / "grid_s1_sample");
     return corpus ? corpus->utterances : std::vector<Utterance>{};
-  }
-  static std::vector<Utterance> planted(std::size_t count) {
-    test::Uniform random(5);
-    const auto truth = test::plant(random, {"SIL", "AA", "B", "IY"}, 2, 2);
-    return test::planted_sentences(random, truth, count);
   }
   /// Trains, and sees that the model can be kept and speaks.
   static void expect_usable(const std::vector<Utterance>& sentences, const TrainOptions& options) {
@@ -127,7 +124,7 @@ TEST_P(EveryKind, AWindowOfFramesIsThatOfTheWhole) {
 }
 
 TEST_P(EveryKind, OtherUnitsGiveTheSameMotionInThoseUnits) {
-  auto sentences = planted(12);
+  auto sentences = test::planted(12);
   const auto plain = train(sentences, quick());
   for (Utterance& u : sentences)
     for (std::size_t i = 0; i < u.signal.frames(); ++i) {
@@ -159,10 +156,10 @@ TEST_P(EveryKind, CanBeCancelled) {
 
 // ---- hostile training data ----
 
-TEST_P(EveryKind, OneSentenceIsEnough) { expect_usable(planted(1), quick()); }
+TEST_P(EveryKind, OneSentenceIsEnough) { expect_usable(test::planted(1), quick()); }
 
 TEST_P(EveryKind, ConstantControlsStayConstant) {
-  auto sentences = planted(4);
+  auto sentences = test::planted(4);
   for (Utterance& u : sentences)
     for (std::size_t i = 0; i < u.signal.frames(); ++i) u.signal.at(i, 1) = 0.1;
   TrainSummary summary;
@@ -175,7 +172,7 @@ TEST_P(EveryKind, ConstantControlsStayConstant) {
 }
 
 TEST_P(EveryKind, VeryShortPhonesAndNothingMeasured) {
-  auto sentences = planted(4);
+  auto sentences = test::planted(4);
   for (Utterance& u : sentences) {
     auto& phones = u.script.phones;
     for (std::size_t i = 1; i + 2 < phones.size(); i += 2) {  // one frame and less
@@ -189,7 +186,7 @@ TEST_P(EveryKind, VeryShortPhonesAndNothingMeasured) {
 }
 
 TEST_P(EveryKind, IdenticalSentencesAndNoPrior) {
-  auto sentences = planted(1);
+  auto sentences = test::planted(1);
   for (int i = 0; i < 20; ++i) {
     sentences.push_back(sentences[0]);
     sentences.back().id += std::to_string(i);

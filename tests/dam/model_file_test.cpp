@@ -7,6 +7,7 @@
 #include "dam/model/model.h"
 #include "dam/speaking/synthesise.h"
 #include "tests/support/sealed_model.h"
+#include "tests/support/temp_dir.h"
 
 namespace animeme::dam {
 namespace model_file_test {
@@ -207,7 +208,8 @@ TEST(ModelFile, InvalidParametersOfTheBaselines) {
 }
 
 TEST(ModelFile, OnDisk) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "animeme_model_file_test.dam";
+  const test::TempDir dir;
+  const std::filesystem::path path = dir / "a.dam";
   ASSERT_TRUE(save_model(small_model(), path));
   EXPECT_EQ(*load_model(path), small_model());
   EXPECT_FALSE(std::filesystem::exists(path.string() + ".part"));

@@ -298,14 +298,8 @@ TEST(RefinedDominance, RecoversTheDominanceThatMadeTheData) {
 
 // ---- the method as a whole ----
 
-std::vector<Utterance> planted(std::size_t count) {
-  test::Uniform random(5);
-  const auto truth = test::plant(random, {"SIL", "AA", "B", "IY"}, 2, 2);
-  return test::planted_sentences(random, truth, count);
-}
-
 TEST(Refined, ASentenceThatIsOffByAConstantTeachesTheSame) {
-  auto sentences = planted(30);
+  auto sentences = test::planted(30);
   TrainOptions options;
   options.refined.ridge = 1;
   options.refined.offset_frames = 1e-2;
@@ -334,7 +328,7 @@ TEST(Refined, ASentenceThatIsOffByAConstantTeachesTheSame) {
 
 TEST(Refined, LearnsWhatNeighboursDo) {
   // The second control follows the phone before: only a term for neighbours can tell.
-  auto sentences = planted(60);
+  auto sentences = test::planted(60);
   for (Utterance& u : sentences) {
     Signal& s = u.signal;
     for (std::size_t i = 0; i < s.frames(); ++i) {
@@ -366,7 +360,7 @@ TEST(Refined, LearnsWhatNeighboursDo) {
 }
 
 TEST(Refined, ChoosesStrongerRidgesWhenThereIsNothingToLearn) {
-  auto sentences = planted(40);
+  auto sentences = test::planted(40);
   TrainSummary clear, noisy;
   ASSERT_TRUE(train(sentences, {}, &clear));
   test::Uniform random(8);

@@ -183,12 +183,6 @@ TEST(Train, OptionsAreChecked) {
 
 // ---- hostile training data ----
 
-std::vector<Utterance> planted(std::size_t count) {
-  test::Uniform random(5);
-  const auto truth = test::plant(random, {"SIL", "AA", "B", "IY"}, 2, 2);
-  return test::planted_sentences(random, truth, count);
-}
-
 std::string refusal(const std::vector<Utterance>& sentences) {
   const auto model = train(sentences);
   EXPECT_FALSE(model);
@@ -197,32 +191,32 @@ std::string refusal(const std::vector<Utterance>& sentences) {
 
 TEST(TrainHostile, NothingToLearnFrom) {
   EXPECT_THAT(refusal({}), HasSubstr("no sentence"));
-  auto silent = planted(2);
+  auto silent = test::planted(2);
   for (Utterance& u : silent) u.script.phones = {{0, 2, "SIL", ""}};
   EXPECT_THAT(refusal(silent), HasSubstr("silence"));
 }
 
 TEST(TrainHostile, BrokenSignals) {
-  auto sentences = planted(3);
+  auto sentences = test::planted(3);
   sentences[1].signal.at(7, 1) = std::nan("");
   EXPECT_THAT(refusal(sentences), HasSubstr("frame 7 of c1"));
-  sentences = planted(3);
+  sentences = test::planted(3);
   sentences[2].signal.names[0] = "other";
   EXPECT_THAT(refusal(sentences), HasSubstr("s102"));
-  sentences = planted(3);
+  sentences = test::planted(3);
   sentences[0].signal.values.clear();
   EXPECT_THAT(refusal(sentences), HasSubstr("empty"));
-  sentences = planted(3);
+  sentences = test::planted(3);
   sentences[1].signal.rate = {30, 1};
   EXPECT_THAT(refusal(sentences), HasSubstr("rate"));
-  sentences = planted(3);
+  sentences = test::planted(3);
   sentences[1].script.phones[2].end = sentences[1].script.phones[2].start;
   EXPECT_THAT(refusal(sentences), HasSubstr("s101"));
 }
 
 TEST(TrainHostile, OneSentenceIsWarnedOf) {
   TrainSummary summary;
-  const auto model = train(planted(1), {}, &summary);
+  const auto model = train(test::planted(1), {}, &summary);
   ASSERT_TRUE(model) << model.error().describe();
   EXPECT_FALSE(summary.warnings.empty());
 }

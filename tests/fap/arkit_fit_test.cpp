@@ -2,14 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <random>
 
 #include "fap/arkit.h"
 #include "fap/fill.h"
 #include "fap/tables.h"
 #include "fap/text.h"
+#include "tests/support/files.h"
 #include "tests/support/shared.h"
 
 namespace animeme::fap {
@@ -177,10 +176,7 @@ TEST(ArkitFit, FacesOfOthersComeBack) {
   if (test::shared_dir().empty()) GTEST_SKIP() << "no reference data";
   for (const auto& [name, bound] :
        {std::pair{"xface_fear.fap", 0.21}, std::pair{"jag.fap", 0.33}}) {
-    std::ifstream in(clips / name, std::ios::binary);
-    ASSERT_TRUE(in) << name;
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
-    const auto clip = read_text(text);
+    const auto clip = read_text(test::slurp(clips / name));
     ASSERT_TRUE(clip) << name;
     const auto filled = fill(*clip, {.complete = true});
     ASSERT_TRUE(filled);

@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <sstream>
 
+#include "tests/support/files.h"
 #include "tests/support/shared.h"
 
 namespace animeme::fap {
@@ -156,8 +156,7 @@ TEST(Fapu, MeasuresTheIctHead) {
     points[id] = {std::stod(x), std::stod(y), std::stod(z)};
   }
   ASSERT_EQ(points.size(), 44u);
-  std::ifstream json(dir / "ict_fapu.json");
-  const std::string text{std::istreambuf_iterator<char>(json), {}};
+  const std::string text = test::slurp(dir / "ict_fapu.json");
   const auto expected = [&](const std::string& key) {
     return std::stod(text.substr(text.find("\"" + key + "\":") + key.size() + 3));
   };

@@ -2,11 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "fap/text.h"
 #include "tests/fap/make.h"
+#include "tests/support/files.h"
 #include "tests/support/shared.h"
 
 namespace animeme::fap {
@@ -16,15 +14,9 @@ using made::make_frame;
 using ::testing::ElementsAre;
 using ::testing::StartsWith;
 
-std::string contents(const char* name) {
-  const auto path = animeme::test::data_dir() / "fap" / name;
-  std::ifstream file(path, std::ios::binary);
-  EXPECT_TRUE(file) << path;
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 Sequence read(const char* name, std::vector<std::string>* warnings) {
-  const Result<Sequence> clip = read_text(contents(name), {}, warnings);
+  const Result<Sequence> clip =
+      read_text(test::data_file(std::string("fap/") + name), {}, warnings);
   EXPECT_TRUE(clip) << name << ":" << (clip ? "" : clip.error().describe());
   return clip ? *clip : Sequence{};
 }
@@ -32,7 +24,7 @@ Sequence read(const char* name, std::vector<std::string>* warnings) {
 TEST(TextData, SafeFormIsWrittenByteForByte) {
   for (const char* name : {"plain.fap", "high_level.fap"}) {
     std::vector<std::string> warnings;
-    EXPECT_EQ(write_text(read(name, &warnings)), contents(name));
+    EXPECT_EQ(write_text(read(name, &warnings)), test::data_file(std::string("fap/") + name));
     EXPECT_THAT(warnings, ElementsAre());
   }
 }

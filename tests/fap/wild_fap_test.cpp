@@ -2,21 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <map>
 
 #include "fap/text.h"
+#include "tests/support/files.h"
 #include "tests/support/shared.h"
 
 namespace animeme::fap {
 namespace wild_fap_test {
-
-std::string contents(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  EXPECT_TRUE(file) << path;
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 std::vector<std::filesystem::path> fap_files(const std::filesystem::path& dir) {
   std::vector<std::filesystem::path> files;
@@ -38,7 +31,7 @@ TEST_F(WildFap, AllAreReadAndWrittenBack) {
   const auto files = fap_files(test::shared_dir() / "wild_fap");
   ASSERT_FALSE(files.empty());
   for (const auto& path : files) {
-    const Result<Sequence> clip = read_text(contents(path));
+    const Result<Sequence> clip = read_text(test::slurp(path));
     ASSERT_TRUE(clip) << path << ": " << clip.error().describe();
     EXPECT_FALSE(clip->frames.empty()) << path;
     const Result<Sequence> again = read_text(write_text(*clip));
@@ -50,7 +43,7 @@ TEST_F(WildFap, AllAreReadAndWrittenBack) {
 TEST_F(WildFap, KnownContent) {
   const auto dir = test::shared_dir() / "wild_fap";
   const auto read = [&](const char* name) {
-    Result<Sequence> clip = read_text(contents(dir / name));
+    Result<Sequence> clip = read_text(test::slurp(dir / name));
     EXPECT_TRUE(clip) << name;
     return clip ? *clip : Sequence{};
   };
@@ -82,7 +75,7 @@ TEST_F(WildFap, ConformanceTexts) {
   const auto files = fap_files(test::shared_dir() / "conformance" / "streams");
   ASSERT_FALSE(files.empty());
   for (const auto& path : files) {
-    const Result<Sequence> clip = read_text(contents(path));
+    const Result<Sequence> clip = read_text(test::slurp(path));
     EXPECT_TRUE(clip) << path << ": " << clip.error().describe();
   }
 }

@@ -1,7 +1,6 @@
 // What programs of others make of our glTF files: the Khronos validator and Blender.
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -22,22 +21,6 @@ using test::TempDir;
 namespace fs = std::filesystem;
 
 const fs::path kHere = fs::path(ANIMEME_SOURCE_DIR) / "tests" / "gltf" / "scripts";
-
-std::string output_of(const std::string& command) {
-  std::string text;
-  FILE* pipe = ::popen(command.c_str(), "r");
-  if (pipe == nullptr) return text;
-  char block[4096];
-  for (std::size_t n = 0; (n = std::fread(block, 1, sizeof block, pipe)) > 0;) {
-    text.append(block, n);
-  }
-  ::pclose(pipe);
-  return text;
-}
-
-bool has(const std::string& program) {
-  return !output_of("command -v " + program + " 2>/dev/null").empty();
-}
 
 // Five frames of a mouth that opens while the head turns.
 std::string write_talk(const TempDir& dir, const GlbOptions& options) {
@@ -60,7 +43,7 @@ std::string write_talk(const TempDir& dir, const GlbOptions& options) {
 }
 
 TEST(GlbReaders, TheValidatorFindsNothing) {
-  if (!has("node")) GTEST_SKIP() << "node is not installed (Debian package nodejs)";
+  if (!has_program("node")) GTEST_SKIP() << "node is not installed (Debian package nodejs)";
   if (!fs::exists(fs::path(ANIMEME_SOURCE_DIR) / "tests/readers/js/node_modules/gltf-validator")) {
     GTEST_SKIP() << "npm gltf-validator is not installed: tools/setup.sh tests";
   }
@@ -68,9 +51,9 @@ TEST(GlbReaders, TheValidatorFindsNothing) {
        {GlbOptions{}, GlbOptions{.morphs = MorphNames::fap, .normals = true}}) {
     const TempDir dir;
     const std::string path = write_talk(dir, options);
-    const json report = json::parse(
-        output_of("node " + quoted((kHere / "validate.js").string()) + " " + quoted(path)), nullptr,
-        false);
+    const json report =
+        json::parse(run("node " + quoted((kHere / "validate.js").string()) + " " + quoted(path)),
+                    nullptr, false);
     ASSERT_TRUE(report.is_object());
     EXPECT_EQ(report["issues"]["numErrors"], 0) << report["issues"].dump(1).substr(0, 2000);
     EXPECT_EQ(report["issues"]["numWarnings"], 0) << report["issues"].dump(1).substr(0, 2000);
@@ -81,12 +64,12 @@ TEST(GlbReaders, TheValidatorFindsNothing) {
 }
 
 TEST(GlbReaders, BlenderHasTheTargetsAndTheKeys) {
-  if (!has("blender")) GTEST_SKIP() << "Blender is not installed (Debian package blender)";
+  if (!has_program("blender")) GTEST_SKIP() << "Blender is not installed (Debian package blender)";
   const TempDir dir;
   const std::string path = write_talk(dir, {});
   const std::string text =
-      output_of("blender --background --factory-startup --python " +
-                quoted((kHere / "blender.py").string()) + " -- " + quoted(path) + " 2>/dev/null");
+      run("blender --background --factory-startup --python " +
+          quoted((kHere / "blender.py").string()) + " -- " + quoted(path) + " 2>/dev/null");
   const std::size_t at = text.find("REPORT ");
   ASSERT_NE(at, std::string::npos) << text.substr(0, 2000);
   const json report = json::parse(text.substr(at + 7, text.find('\n', at) - at - 7));
@@ -116,7 +99,7 @@ TEST(GlbReaders, BlenderHasTheTargetsAndTheKeys) {
 
 // Blender writes what it has read of our file; that is read as a head of somebody else.
 TEST(GlbReaders, AHeadThatWentThroughBlenderMovesAsBefore) {
-  if (!has("blender")) GTEST_SKIP() << "Blender is not installed (Debian package blender)";
+  if (!has_program("blender")) GTEST_SKIP() << "Blender is not installed (Debian package blender)";
   const TempDir dir;
   head::HeadParameters parameters = *head::head_parameters("child");
   parameters.density = 0.5;
@@ -126,10 +109,9 @@ TEST(GlbReaders, AHeadThatWentThroughBlenderMovesAsBefore) {
   const auto file = make_glb(original, rig, still);
   ASSERT_TRUE(file);
   test::spill(dir / "in.glb", std::string(file->begin(), file->end()));
-  const std::string said =
-      output_of("blender --background --factory-startup --python " +
-                quoted((kHere / "blender_again.py").string()) + " -- " + quoted(dir / "in.glb") +
-                " " + quoted(dir / "out.glb") + " 2>&1");
+  const std::string said = run("blender --background --factory-startup --python " +
+                               quoted((kHere / "blender_again.py").string()) + " -- " +
+                               quoted(dir / "in.glb") + " " + quoted(dir / "out.glb") + " 2>&1");
   ASSERT_TRUE(fs::exists(dir / "out.glb")) << said.substr(0, 2000);
   auto source = read_head_file(dir / "out.glb");
   ASSERT_TRUE(source) << source.error().describe();

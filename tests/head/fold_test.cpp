@@ -6,6 +6,7 @@
 #include "fap/head/shapes.h"
 #include "fap/text.h"
 #include "tests/head/head_support.h"
+#include "tests/support/files.h"
 #include "tests/support/shared.h"
 
 namespace animeme::test {
@@ -89,9 +90,8 @@ class EachFace : public ::testing::TestWithParam<std::string> {
   }
 
   void expect_whole(const std::filesystem::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    const auto text = fap::read_text(std::string{std::istreambuf_iterator<char>(in), {}},
-                                     {.headerless = path.stem() == "headerless"});
+    const auto text =
+        fap::read_text(test::slurp(path), {.headerless = path.stem() == "headerless"});
     ASSERT_TRUE(text) << path;
     const auto filled = fap::fill(*text);
     ASSERT_TRUE(filled) << path;

@@ -3,12 +3,12 @@
 
 #include <gmock/gmock.h>
 
-#include <cstdio>
 #include <functional>
 
 #include "fap/head/obj.h"
 #include "fap/head/point_list.h"
 #include "tests/head/head_support.h"
+#include "tests/support/program.h"
 #include "tests/support/shared.h"
 
 namespace animeme::test {
@@ -26,18 +26,6 @@ struct ObjHead {
   std::string obj;
   std::string points;
 };
-
-std::string output_of(const std::string& command) {
-  std::string text;
-  FILE* pipe = popen(command.c_str(), "r");
-  char buffer[65536];
-  for (std::size_t n = 0;
-       pipe != nullptr && (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) {
-    text.append(buffer, n);
-  }
-  if (pipe != nullptr) pclose(pipe);
-  return text;
-}
 
 // A head of ours as the OBJ file and the list that a user would have.
 ObjHead obj_of(const Head& head, const Change& change) {
@@ -269,8 +257,8 @@ TEST(OwnHead, OfIctFaceKitMovesAsTheTableSays) {
   const std::string dir = shared_dir().string();
   if (dir.empty()) GTEST_SKIP() << "no reference data (ANIMEME_SHARED)";
   const std::string folder = dir + "/data/ict_facekit/";
-  ObjHead files{output_of("gzip -dc '" + folder + "generic_neutral_mesh.obj.gz'"),
-                output_of("cat '" + folder + "ict_feature_points.csv'")};
+  ObjHead files{test::run("gzip -dc '" + folder + "generic_neutral_mesh.obj.gz'"),
+                test::run("cat '" + folder + "ict_feature_points.csv'")};
   std::vector<std::string> notes;
   const Result<Head> head = read(files, &notes);
   ASSERT_TRUE(head) << head.error().describe();

@@ -4,6 +4,7 @@
 #include "fap/fill.h"
 #include "fap/text.h"
 #include "tests/head/head_support.h"
+#include "tests/support/files.h"
 #include "tests/support/shared.h"
 
 namespace animeme::test {
@@ -134,8 +135,7 @@ TEST(Captures, KeepTheFaceWhole) {
   std::sort(paths.begin(), paths.end());
   int shown = 0;
   for (const auto& path : paths) {
-    std::ifstream in(path, std::ios::binary);
-    const auto clip = fap::read_text(std::string{std::istreambuf_iterator<char>(in), {}});
+    const auto clip = fap::read_text(test::slurp(path));
     if (!clip) continue;
     const auto filled = fap::fill(*clip);
     ASSERT_TRUE(filled) << path;
@@ -176,8 +176,7 @@ TEST(Extremes, ReferenceStreamsStayFinite) {
   int shown = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (!entry.path().string().ends_with(".dec.fap")) continue;
-    std::ifstream in(entry.path(), std::ios::binary);
-    const auto clip = fap::read_text(std::string{std::istreambuf_iterator<char>(in), {}});
+    const auto clip = fap::read_text(test::slurp(entry.path()));
     ASSERT_TRUE(clip) << entry.path();
     for (std::size_t i = 0; i < clip->frames.size(); i += 20) {
       expect_finite(head::pose(rig_of("child"), clip->frames[i]));

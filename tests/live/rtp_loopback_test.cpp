@@ -4,9 +4,9 @@
 
 #include <fstream>
 
-#include "tests/codec/reference_streams.h"
 #include "tests/live/rtp_sockets.h"
 #include "tests/live/rtp_support.h"
+#include "tests/support/reference_streams.h"
 #include "tools/media/live/open.h"
 
 namespace animeme::media {

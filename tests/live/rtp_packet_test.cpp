@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/live/rtp_support.h"
+#include "tools/media/detail/audio_headers.h"
 #include "tools/media/live/rtp_payload.h"
 
 namespace animeme::media {
@@ -227,16 +228,16 @@ TEST(AacJoiner, HostilePacketsAreDropped) {
 }
 
 TEST(Opus, DurationsAreThoseOfTheRfc) {
-  EXPECT_EQ(opus_duration(Bytes{}), 0);
-  EXPECT_EQ(opus_duration(Bytes{0x00}), 480);         // SILK, 10 ms
-  EXPECT_EQ(opus_duration(Bytes{0x18}), 2880);        // SILK, 60 ms
-  EXPECT_EQ(opus_duration(Bytes{0x60}), 480);         // hybrid, 10 ms
-  EXPECT_EQ(opus_duration(Bytes{0x68}), 960);         // hybrid, 20 ms
-  EXPECT_EQ(opus_duration(Bytes{0x80}), 120);         // CELT, 2.5 ms
-  EXPECT_EQ(opus_duration(Bytes{0xF9}), 1920);        // two frames of 20 ms
-  EXPECT_EQ(opus_duration(Bytes{0xFB, 0x03}), 2880);  // three
-  EXPECT_EQ(opus_duration(Bytes{0xFB}), 0);
-  EXPECT_EQ(opus_duration(Bytes{0xFB, 0x3F}), 0);  // over 120 ms
+  EXPECT_EQ(opus_samples(Bytes{}), 0);
+  EXPECT_EQ(opus_samples(Bytes{0x00}), 480);         // SILK, 10 ms
+  EXPECT_EQ(opus_samples(Bytes{0x18}), 2880);        // SILK, 60 ms
+  EXPECT_EQ(opus_samples(Bytes{0x60}), 480);         // hybrid, 10 ms
+  EXPECT_EQ(opus_samples(Bytes{0x68}), 960);         // hybrid, 20 ms
+  EXPECT_EQ(opus_samples(Bytes{0x80}), 120);         // CELT, 2.5 ms
+  EXPECT_EQ(opus_samples(Bytes{0xF9}), 1920);        // two frames of 20 ms
+  EXPECT_EQ(opus_samples(Bytes{0xFB, 0x03}), 2880);  // three
+  EXPECT_EQ(opus_samples(Bytes{0xFB}), 0);
+  EXPECT_EQ(opus_samples(Bytes{0xFB, 0x3F}), 0);  // over 120 ms
 }
 
 }  // namespace rtp_packet_test

@@ -8,6 +8,7 @@
 
 #include "tests/live/rtp_sockets.h"
 #include "tests/live/rtp_support.h"
+#include "tests/support/files.h"
 #include "tests/support/shared.h"
 #include "tools/media/live/open.h"
 
@@ -16,15 +17,6 @@ namespace rtp_readers_test {
 
 using test::Bytes;
 using test::LiveTalk;
-
-bool has_program(const std::string& name) {
-  return std::system(("command -v " + name + " >/dev/null 2>&1").c_str()) == 0;
-}
-
-Bytes read_file(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return Bytes(std::istreambuf_iterator<char>(in), {});
-}
 
 // Somebody listens there, once nobody else can.
 bool wait_for_listener(int port) {
@@ -96,7 +88,7 @@ std::int64_t count_packets(const LiveTalk& talk, const RtpOptions& options) {
 }
 
 TEST(RtpReaders, GstreamerGetsTheElementaryStream) {
-  if (!has_program("gst-launch-1.0")) GTEST_SKIP() << "gst-launch-1.0 is not there";
+  if (!test::has_program("gst-launch-1.0")) GTEST_SKIP() << "gst-launch-1.0 is not there";
   const LiveTalk talk = test::random_talk(60, 20);
   const test::TempDir dir;
   const int port = test::free_ports();
@@ -111,12 +103,12 @@ TEST(RtpReaders, GstreamerGetsTheElementaryStream) {
                 (options.repeat > 1 ? " ! rtpjitterbuffer" : "") +
                 " ! rtpmp4vdepay ! filesink location=" + out + " 2>&1",
             talk, **sink, port);
-    EXPECT_EQ(read_file(out), face_stream(talk)) << options.mtu << " " << options.repeat;
+    EXPECT_EQ(test::read_bytes(out), face_stream(talk)) << options.mtu << " " << options.repeat;
   }
 }
 
 TEST(RtpReaders, FfprobeGetsFaceAndSoundByTheDescription) {
-  if (!has_program("ffprobe")) GTEST_SKIP() << "ffprobe is not there";
+  if (!test::has_program("ffprobe")) GTEST_SKIP() << "ffprobe is not there";
   LiveTalk talk = test::random_talk(60, 20);
   test::add_sound(talk, test::aac_format());
   // Its parser for films glues planes together; sound comes packet by packet.
@@ -150,7 +142,7 @@ TEST(RtpReaders, FfprobeGetsFaceAndSoundByTheDescription) {
 
 // The planes of the example files: size, intra flag, bytes.
 std::vector<Bytes> example_planes() {
-  const Bytes all = read_file((test::data_dir() / "containers" / "fba.aus").string());
+  const Bytes all = test::read_bytes((test::data_dir() / "containers" / "fba.aus").string());
   std::vector<Bytes> planes;
   for (std::size_t at = 0; at + 5 <= all.size();) {
     std::size_t size = 0;
@@ -163,7 +155,7 @@ std::vector<Bytes> example_planes() {
 }
 
 TEST(RtpReaders, WhatFfmpegSendsIsReceived) {
-  if (!has_program("ffmpeg")) GTEST_SKIP() << "ffmpeg is not there";
+  if (!test::has_program("ffmpeg")) GTEST_SKIP() << "ffmpeg is not there";
   const test::TempDir dir;
   const int port = test::free_ports();
   const std::string first = std::to_string(port);

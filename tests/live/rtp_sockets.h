@@ -7,10 +7,10 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
+#include "tests/support/files.h"
 #include "tests/support/random_clip.h"
 #include "tests/support/temp_dir.h"
 #include "tools/media/live/sdp.h"
@@ -33,9 +33,7 @@ inline int free_ports(int least = 20000) {
 
 /// Rewrites a description to other ports.
 inline void shift_ports(const std::string& path, int port) {
-  std::ifstream in(path, std::ios::binary);
-  const std::string text(std::istreambuf_iterator<char>(in), {});
-  auto session = media::read_sdp(text);
+  auto session = media::read_sdp(slurp(path));
   ASSERT_TRUE(session) << session.error().describe();
   session->face->port = port;
   session->face->rtcp_port = port + 1;

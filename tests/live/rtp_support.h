@@ -13,14 +13,13 @@
 #include "codec/decode/decoder.h"
 #include "codec/encode/live.h"
 #include "tests/support/audio_formats.h"
+#include "tests/support/files.h"
 #include "tests/support/random_clip.h"
 #include "tools/media/live/recovery.h"
 #include "tools/media/live/rtp_receiver.h"
 #include "tools/media/live/rtp_sender.h"
 
 namespace animeme::test {
-
-using Bytes = std::vector<std::uint8_t>;
 
 /// A presentation as it is sent.
 struct LiveTalk {

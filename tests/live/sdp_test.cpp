@@ -3,10 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "tests/live/rtp_support.h"
+#include "tests/support/files.h"
 #include "tests/support/shared.h"
 
 namespace animeme::media {
@@ -96,9 +94,8 @@ TEST(Sdp, ReadsThatOfFfmpeg) {
 
 TEST(Sdp, ReadsTheExampleOfTheReferenceData) {
   if (test::shared_dir().empty()) GTEST_SKIP() << "reference data is not there";
-  std::ifstream file(test::shared_dir() / "examples" / "containers" / "fba_rtp.sdp");
-  const std::string text(std::istreambuf_iterator<char>(file), {});
-  const auto session = read_sdp(text);
+  const auto session =
+      read_sdp(test::slurp(test::shared_dir() / "examples" / "containers" / "fba_rtp.sdp"));
   ASSERT_TRUE(session) << session.error().describe();
   EXPECT_EQ(session->face->config, kConfig);
   EXPECT_EQ(session->face->visual_profile, 97);

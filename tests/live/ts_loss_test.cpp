@@ -3,10 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <deque>
-#include <fstream>
-#include <iterator>
 
 #include "tests/live/ports.h"
+#include "tests/support/files.h"
 #include "tests/support/live_loop.h"
 #include "tests/support/shared.h"
 #include "tools/media/container.h"
@@ -244,8 +243,7 @@ TEST(TsLoss, PacketsThatComeTwiceCountOnce) {
 
 // A film in stream type 0x10 is no face.
 TEST(TsLoss, AFilmIsNoFace) {
-  std::ifstream file(data_dir() / "containers" / "mpeg4_video.ts", std::ios::binary);
-  const std::vector<std::uint8_t> bytes(std::istreambuf_iterator<char>(file), {});
+  const Bytes bytes = read_bytes(data_dir() / "containers" / "mpeg4_video.ts");
   ASSERT_FALSE(bytes.empty());
   const Received got = parse(bytes, 1316);
   EXPECT_TRUE(got.of(LiveTrack::face).empty());

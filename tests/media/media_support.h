@@ -3,39 +3,25 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "codec/decode/access_unit.h"
+#include "tests/support/files.h"
+#include "tests/support/program.h"
 #include "tests/support/shared.h"
 #include "tests/support/temp_dir.h"
 #include "tools/media/pcm.h"
 
 namespace animeme::test {
 
-using Bytes = std::vector<std::uint8_t>;
 namespace fs = std::filesystem;
 
 inline const Bytes kFaceConfig = {0, 0, 1, 0xB0, 0x61, 0, 0, 1, 0xB5, 0x89, 0x47};
-
-inline Bytes read_bytes(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return Bytes(std::istreambuf_iterator<char>(in), {});
-}
-
-inline void write_bytes(const std::string& path, const Bytes& bytes) {
-  std::ofstream out(path, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-}
 
 /// Units with legal headers and arbitrary plane data, start code emulations included. Every
 /// `period`-th one is intra.
@@ -100,24 +86,6 @@ inline std::int64_t find_click(const media::Pcm& pcm, std::int64_t near, std::in
     }
   }
   return at;
-}
-
-/// Output of a shell command; `status` receives its exit status.
-inline std::string run(const std::string& command, int* status = nullptr) {
-  std::string output;
-  std::FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return output;
-  std::array<char, 4096> block{};
-  while (const std::size_t got = std::fread(block.data(), 1, block.size(), pipe)) {
-    output.append(block.data(), got);
-  }
-  const int result = pclose(pipe);
-  if (status != nullptr) *status = result;
-  return output;
-}
-
-inline bool has_program(const std::string& name) {
-  return std::system(("command -v " + name + " >/dev/null 2>&1").c_str()) == 0;
 }
 
 /// CRC-32 as ffprobe prints it.

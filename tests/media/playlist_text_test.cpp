@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 
 #include "tools/media/detail/presentation.h"
-#include "tools/media/detail/xml_tags.h"
 
 namespace animeme::media {
 namespace playlist_text_test {
@@ -147,38 +146,51 @@ TEST(Playlists, DashRefusals) {
       "</SegmentTimeline></SegmentTemplate>" +
           one,
       Code::unsupported, "template");
-  expect_dash_refused("<S d='1' r='-1'/>", Code::unsupported, "count");
-  expect_dash_refused("<S d='1' r='99999999'/>", Code::out_of_range, "too long");
-  expect_dash_refused("<S d='x'/>", Code::syntax, "not a number");
-  expect_dash_refused("<S/>", Code::syntax, "duration");
+  const auto expect_times_refused = [&](const std::string& entry, Code code,
+                                        const std::string& words) {
+    expect_dash_refused("<SegmentTemplate media='a$Time$'><SegmentTimeline>" + entry +
+                            "</SegmentTimeline></SegmentTemplate>" + one,
+                        code, words);
+  };
+  expect_times_refused("<S d='1' r='-1'/>", Code::unsupported, "count");
+  expect_times_refused("<S d='1' r='99999999'/>", Code::out_of_range, "too long");
+  expect_times_refused("<S d='9007199254740992' r='1'/>", Code::out_of_range, "too long");
+  expect_times_refused("<S d='x'/>", Code::syntax, "not a number");
+  expect_times_refused("<S/>", Code::syntax, "duration");
   expect_dash_refused("<SegmentTemplate timescale='0'/>", Code::syntax, "time scale");
-  expect_dash_refused("<SegmentURL media='a' mediaRange='0-1'/>", Code::unsupported, "byte");
+  expect_dash_refused("<SegmentList><SegmentURL media='a' mediaRange='0-1'/></SegmentList>",
+                      Code::unsupported, "byte");
   EXPECT_EQ(read_dash("<MPD type='dynamic'/>").error().code, Code::unsupported);
   EXPECT_EQ(read_dash("<MPD><Period/><Period/></MPD>").error().code, Code::unsupported);
   EXPECT_EQ(read_dash("<!DOCTYPE a [<!ENTITY b 'c'>]><MPD/>").error().code, Code::unsupported);
   EXPECT_EQ(read_dash("<SomethingElse/>").error().code, Code::syntax);
   EXPECT_EQ(read_dash("<MPD><Period></MPD>").error().code, Code::syntax);
-  EXPECT_EQ(read_dash("<MPD").error().code, Code::truncated);
-  EXPECT_EQ(read_dash("<MPD>").error().code, Code::truncated);
-  EXPECT_EQ(read_dash("").error().code, Code::truncated);
+  EXPECT_EQ(read_dash("<MPD").error().code, Code::syntax);
+  EXPECT_EQ(read_dash("<MPD>").error().code, Code::syntax);
+  EXPECT_EQ(read_dash("<MPD/>").error().code, Code::truncated);
+  EXPECT_EQ(read_dash("").error().code, Code::syntax);
   std::string deep = "<MPD>";
   for (int i = 0; i < 10000; ++i) deep += "<a>";
-  EXPECT_EQ(read_dash(deep).error().code, Code::syntax);
+  EXPECT_EQ(read_dash(deep).error().code, Code::out_of_range);
 }
 
 TEST(Playlists, XmlTags) {
-  const auto tags = read_tags("<?xml?>\n<a x='1' b:y = \"&lt;&quot;\">t&amp;x</a><c/>");
+  const auto read = [](const std::string& media, const std::string& rest = "") {
+    return read_dash(
+        "<?xml version='1.0'?>\n<MPD xmlns:b='b'><Period><AdaptationSet>"
+        "<Representation><SegmentList><SegmentURL b:x='1' media=" +
+        media + "/></SegmentList></Representation></AdaptationSet></Period></MPD>" + rest);
+  };
+  const auto tags = read("\"&lt;&quot;&#65;\"", "<!-- c --><?x?>");
   ASSERT_TRUE(tags) << tags.error().describe();
-  ASSERT_EQ(tags->size(), 3u);
-  EXPECT_EQ((*tags)[0].line, 2);
-  EXPECT_EQ(*(*tags)[0].find("y"), "<\"");
-  EXPECT_EQ((*tags)[0].text, "t&x");
-  EXPECT_EQ((*tags)[0].find("z"), nullptr);
-  EXPECT_TRUE((*tags)[2].begins && (*tags)[2].ends);
-  for (const char* bad : {"<", "<a", "<a x", "<a x=", "<a x=1>", "<a x='1", "< >", "<a>&b;", "<!--",
-                          "<?x", "<![CDATA[x]]>"}) {
-    EXPECT_FALSE(read_tags(bad)) << bad;
+  EXPECT_THAT(tags->front().segments, ElementsAre("<\"A"));
+  for (const char* bad : {"", "1", "'1", "'&b;'", "'1' media='2'", "'1'><a>&b;</a>"}) {
+    const auto refused = read(bad);
+    ASSERT_FALSE(refused) << bad;
+    EXPECT_EQ(refused.error().code, Code::syntax) << bad;
+    EXPECT_EQ(refused.error().where.line, 2) << bad;
   }
+  for (const char* bad : {"<", "<a", "<!--", "<?x", "<a/>"}) EXPECT_FALSE(read("'1'", bad)) << bad;
 }
 
 TEST(Playlists, References) {

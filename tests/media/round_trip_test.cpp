@@ -1,8 +1,8 @@
 // Every reference stream through every container: access units byte for byte, times in place.
 #include <gmock/gmock.h>
 
-#include "tests/codec/reference_streams.h"
 #include "tests/media/media_support.h"
+#include "tests/support/reference_streams.h"
 #include "tools/media/audio.h"
 #include "tools/media/container.h"
 #include "tools/media/mux.h"

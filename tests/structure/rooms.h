@@ -43,22 +43,22 @@ inline constexpr Room kRooms[] = {
 
     {"conformance", "codec/text", false},
 
-    {"tools/xml.h", "", false},
-    {"tools/files", "fap", false},
-    {"tools/exchange", "dam/corpus codec/text"},
+    {"tools/xml.h tools/json.h tools/text.h tools/exit_code.h", "fap", false},
+    {"tools/files", "fap"},
+    {"tools/exchange", "codec/text dam/corpus"},
     {"tools/render", "fap/head"},
     {"tools/gltf", "fap/head"},
-    {"tools/media tools/media/live", "codec/decode"},
+    {"tools/media tools/media/live", "codec/decode fap/xml"},
     {"tools/voice", "dam/script tools/media"},
-    {"tools/speech", "dam/speaking codec/encode tools/voice"},
+    {"tools/speech", "dam/speaking codec/encode tools/voice tools/files"},
     {"tools/viewer", "dam/script tools/render tools/xml.h"},
     {"tools/web", "tools/media"},
+    {"tools/plot", "dam/evaluation tools/media tools/files tools/xml.h"},
+    {"tools/inspect", "codec/text dam/evaluation dam/training tools/xml.h"},
+    {"tools/live", "tools/speech tools/viewer tools/web"},
+    {"tools/studio", "fap/xml tools/gltf tools/plot tools/render"},
     {"tools/check", "conformance tools/files tools/xml.h", false},
-    {"tools/commands",
-     "fap/xml dam/evaluation dam/training tools/check tools/exchange tools/gltf tools/speech "
-     "tools/viewer "
-     "tools/web",
-     false},
+    {"tools/commands", "tools/exchange tools/inspect tools/live tools/studio tools/check", false},
     {"tools", "tools/commands", false},
 
     // Tests of a room may use its neighbours to make what they test.

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "tests/codec/reference_streams.h"
 #include "tests/support/live_loop.h"
+#include "tests/support/reference_streams.h"
 
 namespace animeme::test {
 

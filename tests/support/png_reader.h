@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-namespace animeme::test {
+#include "tests/support/files.h"
 
-using Bytes = std::vector<std::uint8_t>;
+namespace animeme::test {
 
 inline std::uint32_t big_endian(const Bytes& data, std::size_t at) {
   return std::uint32_t(data[at]) << 24 | std::uint32_t(data[at + 1]) << 16 |

@@ -6,11 +6,11 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/support/files.h"
+
 namespace animeme::test {
 
 namespace png {
-
-using Bytes = std::vector<std::uint8_t>;
 
 inline void put(Bytes& out, std::uint32_t word) {
   for (int shift = 24; shift >= 0; shift -= 8) out.push_back(std::uint8_t(word >> shift));

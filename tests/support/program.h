@@ -4,15 +4,13 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include "tests/support/files.h"
 #include "tests/support/temp_dir.h"
 
 namespace animeme::test {
@@ -22,15 +20,6 @@ struct ProgramResult {
   std::string out;
   std::string err;
 };
-
-inline std::string slurp(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-inline void spill(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
 
 inline std::string quoted(const std::string& text) {
   std::string out = "'";
@@ -59,9 +48,23 @@ inline ProgramResult animeme(std::vector<std::string> arguments, const std::stri
   return run_command(arguments, input);
 }
 
+/// Output of a shell command; `status` receives what system() would return.
+inline std::string run(const std::string& command, int* status = nullptr) {
+  std::string output;
+  std::FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return output;
+  std::array<char, 65536> block{};
+  while (const std::size_t got = std::fread(block.data(), 1, block.size(), pipe)) {
+    output.append(block.data(), got);
+  }
+  const int result = pclose(pipe);
+  if (status != nullptr) *status = result;
+  return output;
+}
+
 /// True if a program is installed.
-inline bool have(const std::string& program) {
-  return std::system(("command -v " + quoted(program) + " >/dev/null 2>&1").c_str()) == 0;
+inline bool has_program(const std::string& name) {
+  return std::system(("command -v " + quoted(name) + " >/dev/null 2>&1").c_str()) == 0;
 }
 
 }  // namespace animeme::test

@@ -5,19 +5,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "fap/text.h"
-#include "tests/codec/reference_streams.h"
-#include "tests/support/program.h"
 #include "tests/support/random_clip.h"
+#include "tests/support/reference_streams.h"
+#include "tests/tools/commands.h"
 
 namespace animeme {
 namespace codec_commands_test {
 
 using test::animeme;
+using test::Json;
+using test::json_of;
 using test::spill;
+using test::succeeds;
 using test::TempDir;
 using test::with;
 using testing::AllOf;
@@ -26,26 +28,12 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-using Json = nlohmann::json;
-
 std::string reference(const std::string& name, const char* extension) {
   for (const auto& path : test::reference_streams()) {
     if (path.filename() == name) return with(path, extension).string();
   }
   ADD_FAILURE() << "no reference stream " << name;
   return {};
-}
-
-void succeeds(const std::vector<std::string>& arguments) {
-  const auto result = animeme(arguments);
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-}
-
-Json json_of(std::vector<std::string> arguments, int exit_code = 0) {
-  arguments.push_back("--json");
-  const auto result = animeme(arguments);
-  EXPECT_EQ(result.exit_code, exit_code) << result.err;
-  return Json::parse(result.out, nullptr, false);
 }
 
 // Exit code 3, one sentence, nothing written.

@@ -4,42 +4,26 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "fap/tables.h"
 #include "fap/text.h"
-#include "tests/support/program.h"
+#include "tests/tools/commands.h"
 
 namespace animeme {
 namespace encode_presets_test {
 
 using test::animeme;
+using test::Json;
+using test::json_of;
+using test::read_clip;
 using test::slurp;
 using test::spill;
+using test::succeeds;
 using test::TempDir;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-using Json = nlohmann::json;
 using Arguments = std::vector<std::string>;
-
-void succeeds(const Arguments& arguments) {
-  const auto result = animeme(arguments);
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-}
-
-Json json_of(Arguments arguments) {
-  arguments.push_back("--json");
-  const auto result = animeme(arguments);
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  return Json::parse(result.out, nullptr, false);
-}
-
-fap::Sequence read_clip(const std::string& path) {
-  auto clip = fap::read_text(slurp(path));
-  EXPECT_TRUE(clip) << clip.error().describe();
-  return clip ? *clip : fap::Sequence{};
-}
 
 constexpr int kRestAtZero = 31;  // and 32
 constexpr int kRestElsewhere = 4;

@@ -2,11 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include "dam/corpus/corpus.h"
-#include "tests/support/program.h"
 #include "tests/support/shared.h"
+#include "tests/tools/commands.h"
 
 namespace animeme {
 namespace evaluate_test {
@@ -46,10 +44,8 @@ class Evaluate : public testing::Test {
   }
   /// With --json; exit code 0 is asserted.
   static json run_json(std::vector<std::string> arguments) {
-    arguments.push_back("--json");
-    const auto result = run(arguments);
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    return json::parse(result.out, nullptr, false);
+    arguments.insert(arguments.begin(), "evaluate");
+    return test::json_of(arguments);
   }
 
   static TempDir* dir_;

@@ -3,27 +3,21 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 
 #include "dam/script/phones.h"
 #include "dam/script/script.h"
 #include "fap/tables.h"
 #include "fap/text.h"
-#include "tests/support/program.h"
 #include "tests/support/shared.h"
+#include "tests/tools/commands.h"
 
 namespace animeme {
 namespace speak_test {
 
 using test::animeme;
+using test::read_clip;
 using test::TempDir;
 using testing::HasSubstr;
-
-fap::Sequence read_clip(const std::string& path) {
-  auto clip = fap::read_text(test::slurp(path));
-  EXPECT_TRUE(clip) << clip.error().describe();
-  return clip ? *clip : fap::Sequence();
-}
 
 dam::Script read_script_file(const std::string& path) {
   auto script = dam::read_script(test::slurp(path));
@@ -135,7 +129,8 @@ TEST(Speak, Mp4HoldsTheVeryFapsAfterQuantisation) {
 }
 
 TEST(Speak, FfprobeSeesAacAndSimpleFaceAnimation) {
-  if (!test::have("ffprobe")) GTEST_SKIP() << "ffprobe (Debian package ffmpeg) is not installed";
+  if (!test::has_program("ffprobe"))
+    GTEST_SKIP() << "ffprobe (Debian package ffmpeg) is not installed";
   const TempDir dir;
   ASSERT_EQ(animeme({"speak", "--text", "Hello", "-o", dir / "a.mp4"}).exit_code, 0);
   const auto probe = test::run_command(

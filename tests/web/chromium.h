@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/temp_dir.h"
+
 namespace animeme::test {
 
 class Chromium {
@@ -33,8 +35,6 @@ class Chromium {
   }
 
   Chromium() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "animeme-web-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
     std::array<int, 2> in{}, out{};
     if (pipe2(in.data(), O_CLOEXEC) != 0 || pipe2(out.data(), O_CLOEXEC) != 0) return;
     child_ = fork();
@@ -61,8 +61,6 @@ class Chromium {
       kill(-child_, SIGKILL);  // its own group: helpers that stayed behind
       waitpid(child_, nullptr, WNOHANG);
     }
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
   }
   Chromium(const Chromium&) = delete;
   Chromium& operator=(const Chromium&) = delete;
@@ -148,7 +146,7 @@ class Chromium {
     for (const int handle : {0, 1, 2}) dup2(nothing, handle);
     close(in_copy);
     close(out_copy);
-    const std::string browser = find(), data = "--user-data-dir=" + folder_;
+    const std::string browser = find(), data = "--user-data-dir=" + folder_.path().string();
     execl(browser.c_str(), browser.c_str(), "--headless", "--no-sandbox", "--disable-quic",
           "--no-first-run", "--disable-background-networking", "--disable-component-update",
           "--disable-sync", "--disable-dev-shm-usage", "--disable-extensions",
@@ -191,7 +189,8 @@ class Chromium {
     }
   }
 
-  std::string folder_, session_, text_;
+  const TempDir folder_;  // its profile
+  std::string session_, text_;
   pid_t child_ = -1;
   int to_ = -1, from_ = -1, last_id_ = 0;
   std::vector<std::string> complaints_;

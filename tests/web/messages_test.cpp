@@ -8,8 +8,8 @@
 
 #include "codec/decode/decoder.h"
 #include "codec/decode/fill.h"
-#include "tests/codec/reference_streams.h"
 #include "tests/support/live_loop.h"
+#include "tests/support/reference_streams.h"
 #include "tools/media/live/audio_segments.h"
 #include "tools/web/detail/values.h"
 

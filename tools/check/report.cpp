@@ -11,8 +11,6 @@ namespace animeme::tools {
 namespace {
 
 using conformance::Family;
-using Json = nlohmann::ordered_json;
-
 // How often a feature occurs, and in how many cases that are right.
 struct Count {
   std::size_t cases = 0, right = 0;

@@ -1,17 +1,15 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "codec/decode/access_unit.h"
 #include "tools/commands/common.h"
+#include "tools/json.h"
 #include "tools/media/container.h"
 
 namespace animeme::tools {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct DemuxOptions {
   std::string input;

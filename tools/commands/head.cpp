@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <iterator>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "fap/head/obj.h"
@@ -14,12 +13,11 @@
 #include "tools/commands/common.h"
 #include "tools/commands/head_options.h"
 #include "tools/gltf/glb.h"
+#include "tools/json.h"
 
 namespace animeme::tools {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct HeadOptions {
   studio::HeadChoice head;

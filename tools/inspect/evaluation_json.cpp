@@ -1,12 +1,9 @@
-#include <nlohmann/json.hpp>
 
 #include "tools/inspect/evaluation.h"
 
 namespace animeme::inspect {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json series_json(const dam::SeriesScore& one) {
   return {{"name", one.name},   {"scored", one.scored}, {"rmse", one.rmse},

@@ -9,10 +9,9 @@
 #include "codec/decode/decoder.h"
 #include "codec/text/bap_text.h"
 #include "fap/frame.h"
+#include "tools/json.h"
 
 namespace animeme::inspect {
-
-using Json = nlohmann::ordered_json;  ///< keeps the order of its members
 
 /// Frames, rate, and the range of values of each parameter.
 Json describe_clip(const fap::Sequence& clip);

@@ -11,6 +11,7 @@ extern "C" {
 
 #include "tools/media/container.h"
 #include "tools/media/detail/audio_decoder.h"
+#include "tools/media/detail/audio_headers.h"
 #include "tools/media/detail/face_track.h"
 #include "tools/media/detail/rendition.h"
 
@@ -25,21 +26,6 @@ constexpr int kGapPerSecond = 200;
 struct FreeFilter {
   void operator()(AVBSFContext* filter) const { av_bsf_free(&filter); }
 };
-
-/// Samples of an Opus packet at 48 kHz, by its first two bytes (RFC 6716, section 3.1).
-std::int64_t opus_samples(std::span<const std::uint8_t> packet) {
-  if (packet.empty()) return 0;
-  const unsigned configuration = packet[0] >> 3;
-  constexpr int kSilk[] = {480, 960, 1920, 2880};
-  constexpr int kHybrid[] = {480, 960};
-  constexpr int kCelt[] = {120, 240, 480, 960};
-  const int frame = configuration < 12   ? kSilk[configuration & 3]
-                    : configuration < 16 ? kHybrid[configuration & 1]
-                                         : kCelt[configuration & 3];
-  const unsigned code = packet[0] & 3;
-  if (code == 3) return packet.size() < 2 ? 0 : std::int64_t(frame) * (packet[1] & 63);
-  return code == 0 ? frame : 2 * std::int64_t(frame);
-}
 
 // Puts the packets of one stream on the time line of read_audio().
 class PacketCollector {

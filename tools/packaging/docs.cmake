@@ -1,4 +1,7 @@
 # The manual as HTML: cmake --build build/release --target docs, then build/release/docs/index.html.
+if(NOT PROJECT_IS_TOP_LEVEL)
+  return()
+endif()
 find_package(Doxygen QUIET)
 if(NOT DOXYGEN_FOUND)
   message(STATUS "Manual: off (doxygen is missing)")
@@ -12,7 +15,7 @@ set(DOXYGEN_JAVADOC_AUTOBRIEF YES)
 set(DOXYGEN_IMAGE_PATH tools/pictures)
 set(DOXYGEN_FILE_PATTERNS *.h *.md)
 # What is not installed, and what is data.
-set(DOXYGEN_EXCLUDE_PATTERNS */detail/* */maths/* */kinds/*.h *_internal.h */conformance/cases/*)
+set(DOXYGEN_EXCLUDE_PATTERNS */detail/*.h */maths/*.h */kinds/*.h *_internal.h */conformance/cases/*)
 # Operators say all by their names.
 set(DOXYGEN_EXCLUDE_SYMBOLS *operator*)
 set(DOXYGEN_DISTRIBUTE_GROUP_DOC YES)

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace animeme::head::detail {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kGoodEnough = 0.002;  // error of a factor
 constexpr int kWidths = 40;            // tried
 constexpr float kLeastBell = 0.15f;    // of 2, at the border of a region that is cut into bands
@@ -77,7 +77,7 @@ class Fitter {
   // The cosine without its weight; nothing beyond the width.
   double bell(std::uint32_t vertex, double width) const {
     const double d = distance_[vertex];
-    return d < width ? std::cos(kPi * d / width) + 1 : 0;
+    return d < width ? std::cos(std::numbers::pi * d / width) + 1 : 0;
   }
 
   // Weight of the whole as one region, and the sum of its squared errors.
@@ -113,7 +113,7 @@ class Fitter {
     }
     const float end = distance_[by_distance_.back()];
     // cos(pi * reach / width) + 1 = kLeastBell
-    if (task_.most > 1) near = reach * float(kPi) / std::acos(kLeastBell - 1);
+    if (task_.most > 1) near = reach * float(std::numbers::pi) / std::acos(kLeastBell - 1);
     near = std::clamp(near, 0.01f * end, end);
     double least = std::numeric_limits<double>::infinity();
     std::uint32_t best = by_distance_.back();

@@ -41,7 +41,6 @@ float xface_distance(Reach reach, Vec3 a, Vec3 b) {
 
 std::vector<float> raised_cosine(std::span<const Vec3> positions, const XfaceItem& item,
                                  const XfaceInfluence& influence) {
-  constexpr double kPi = 3.14159265358979323846;
   std::vector<float> factors;
   float farthest = 0;
   for (const std::uint32_t v : item.region) {
@@ -51,7 +50,7 @@ std::vector<float> raised_cosine(std::span<const Vec3> positions, const XfaceIte
   for (float& f : factors) {
     // Xface divides by 0 where the region is one point; that point moves with full weight here.
     const double share = farthest > 0 ? double(f) / double(farthest) : 0;
-    f = float(std::cos(kPi * share) + 1) * influence.weight;
+    f = float(std::cos(std::numbers::pi * share) + 1) * influence.weight;
   }
   return factors;
 }

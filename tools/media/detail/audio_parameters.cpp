@@ -1,10 +1,10 @@
 #include "tools/media/detail/audio_parameters.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <string>
 
+#include "tools/media/detail/audio_headers.h"
 #include "tools/media/detail/invalid.h"
 #include "tools/media/detail/unit_facts.h"
 
@@ -15,8 +15,6 @@ extern "C" {
 namespace animeme::media {
 namespace {
 
-constexpr std::array<int, 13> kAacRates = {7350,  8000,  11025, 12000, 16000, 22050, 24000,
-                                           32000, 44100, 48000, 64000, 88200, 96000};
 constexpr int kOpusRate = 48000;
 constexpr std::int64_t kMostAacBitsPerSample = 6;  // 6144 bits a frame of 1024 samples
 
@@ -24,8 +22,9 @@ constexpr std::int64_t kMostAacBitsPerSample = 6;  // 6144 bits a frame of 1024 
 
 int coded_sample_rate(AudioCodec codec, int sample_rate) {
   if (codec == AudioCodec::opus) return kOpusRate;
-  const auto* rate = std::lower_bound(kAacRates.begin(), kAacRates.end(), sample_rate);
-  return rate == kAacRates.end() ? kAacRates.back() : *rate;
+  const auto rate = std::find_if(kAacRates.rbegin(), kAacRates.rend(),
+                                 [&](int candidate) { return candidate >= sample_rate; });
+  return rate == kAacRates.rend() ? kAacRates.front() : *rate;
 }
 
 BitRates bit_rates(AudioCodec codec) {

@@ -7,22 +7,22 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/media/live/wire_internal.h"
+
 namespace animeme::media {
 
 /// Big endian bytes with boxes in boxes: begin() writes a header whose size end() fills in.
 class BoxWriter {
  public:
   void u8(unsigned value) { bytes_.push_back(std::uint8_t(value)); }
-  void u16(unsigned value) { number(value, 2); }
-  void u32(std::uint64_t value) { number(value, 4); }
-  void u64(std::uint64_t value) { number(value, 8); }
+  void u16(unsigned value) { put(bytes_, value, 2); }
+  void u32(std::uint64_t value) { put(bytes_, value, 4); }
+  void u64(std::uint64_t value) { put(bytes_, value, 8); }
   void zeros(std::size_t count) { bytes_.resize(bytes_.size() + count); }
   void text(std::string_view text) {
     for (const char c : text) u8(std::uint8_t(c));
   }
-  void raw(std::span<const std::uint8_t> bytes) {
-    for (const std::uint8_t byte : bytes) u8(byte);
-  }
+  void raw(std::span<const std::uint8_t> bytes) { append(bytes_, bytes); }
 
   void begin(std::string_view type) {
     open_.push_back(bytes_.size());
@@ -50,10 +50,6 @@ class BoxWriter {
   const std::vector<std::uint8_t>& bytes() const { return bytes_; }
 
  private:
-  void number(std::uint64_t value, unsigned count) {
-    for (unsigned i = count; i-- > 0;) u8(unsigned(value >> (8 * i) & 0xFF));
-  }
-
   std::vector<std::uint8_t> bytes_;
   std::vector<std::size_t> open_;
 };

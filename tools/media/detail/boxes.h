@@ -6,15 +6,11 @@
 #include <span>
 #include <string_view>
 
+#include "tools/media/live/wire_internal.h"
+
 namespace animeme::media {
 
 using Bytes = std::span<const std::uint8_t>;
-
-inline std::uint64_t read_big_endian(Bytes bytes, std::size_t at, std::size_t count) {
-  std::uint64_t value = 0;
-  for (std::size_t i = 0; i < count; ++i) value = value << 8 | bytes[at + i];
-  return value;
-}
 
 struct Box {
   std::string_view type;

@@ -1,9 +1,6 @@
 #include "tools/media/detail/mp4_file.h"
 
 #include <algorithm>
-
-#include "tools/media/detail/box_writer.h"
-
 namespace animeme::media {
 namespace {
 
@@ -48,17 +45,20 @@ class MovieWriter {
 
   std::vector<std::uint8_t> contents() {
     out_.begin("ftyp");
-    out_.text("mp42");
+    out_.text(movie_.brands.substr(0, 4));
     out_.u32(0);
-    out_.text("mp42isom");
+    out_.text(movie_.brands);
     out_.end();
     out_.begin("moov");
     write_header();
-    out_.begin_full("iods", 0, 0);
-    out_.raw(movie_.initial_object_descriptor);
-    out_.end();
+    if (!movie_.initial_object_descriptor.empty()) {
+      out_.begin_full("iods", 0, 0);
+      out_.raw(movie_.initial_object_descriptor);
+      out_.end();
+    }
     for (std::size_t t = 0; t < movie_.tracks.size(); ++t)
       write_track(movie_.tracks[t], offsets_[t]);
+    if (movie_.fragments) write_defaults();
     out_.end();
     return out_.bytes();
   }
@@ -88,6 +88,19 @@ class MovieWriter {
     write_matrix(out_);
     out_.zeros(24);
     out_.u32(next);
+    out_.end();
+  }
+
+  void write_defaults() {
+    out_.begin("mvex");
+    for (const Mp4Track& track : movie_.tracks) {
+      out_.begin_full("trex", 0, 0);
+      out_.u32(track.id);
+      out_.u32(1);
+      out_.u32(track.fragment_duration);
+      out_.zeros(8);
+      out_.end();
+    }
     out_.end();
   }
 
@@ -184,8 +197,12 @@ class MovieWriter {
     out_.end();
     write_times(track);
     write_sync(track);
-    out_.begin_full("stsc", 0, 0);  // one sample a chunk
-    for (int i = 0; i < 4; ++i) out_.u32(1);
+    out_.begin_full("stsc", 0, 0);
+    if (track.samples.empty()) {
+      out_.u32(0);
+    } else {
+      for (int i = 0; i < 4; ++i) out_.u32(1);  // one sample a chunk
+    }
     out_.end();
     out_.begin_full("stsz", 0, 0);
     out_.u32(0);
@@ -232,6 +249,26 @@ class MovieWriter {
 };
 
 }  // namespace
+
+void begin_entry(BoxWriter& out, std::string_view type) {
+  out.begin(type);
+  out.zeros(6);
+  out.u16(1);  // data reference
+}
+
+void begin_sound_entry(BoxWriter& out, std::string_view type, unsigned channels, int sample_rate) {
+  begin_entry(out, type);
+  out.zeros(8);
+  out.u16(channels);
+  out.u16(16);
+  out.u32(0);
+  out.u32(sample_rate < 65536 ? std::uint64_t(sample_rate) << 16 : 0);
+}
+
+std::vector<std::uint8_t> write_contents(const Mp4Movie& movie) {
+  std::vector<std::vector<std::uint64_t>> offsets(movie.tracks.size());
+  return MovieWriter(movie, offsets).contents();
+}
 
 Result<std::vector<std::uint8_t>> write_movie(const Mp4Movie& movie) {
   const std::vector<SamplePlace> places = in_order_of_time(movie);

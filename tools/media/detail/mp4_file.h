@@ -1,5 +1,6 @@
 // A plain MPEG-4 file of tracks in memory: contents first, one sample a chunk, samples of all
-// tracks in the order of their times. Source: tools/media/containers.md, section 1.5.
+// tracks in the order of their times; or its contents alone, in front of fragments. Source:
+// tools/media/containers.md, section 1.5.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "fap/result.h"
+#include "tools/media/detail/box_writer.h"
 
 namespace animeme::media {
 
@@ -28,15 +30,25 @@ struct Mp4Track {
   unsigned width = 0, height = 0;
   std::vector<unsigned> references;  ///< `mpod`
   std::vector<Mp4Sample> samples;
+  std::uint32_t fragment_duration = 0;  ///< of samples in fragments that do not say it
 };
 
 struct Mp4Movie {
+  std::string brands = "mp42isom";  ///< the first is the major one
   std::uint32_t timescale = 1000;
-  std::vector<std::uint8_t> initial_object_descriptor;
+  std::vector<std::uint8_t> initial_object_descriptor;  ///< empty: none
+  bool fragments = false;                               ///< fragments follow
   std::vector<Mp4Track> tracks;
 };
 
-/// Brand mp42. Error: out_of_range (4 GB or more).
+/// Begins a sample entry of any kind; one of sound (`type` "mp4a" or "Opus").
+void begin_entry(BoxWriter& out, std::string_view type);
+void begin_sound_entry(BoxWriter& out, std::string_view type, unsigned channels, int sample_rate);
+
+/// What is in front of the samples, for tracks that have none or fragments of them.
+std::vector<std::uint8_t> write_contents(const Mp4Movie& movie);
+
+/// Error: out_of_range (4 GB or more).
 Result<std::vector<std::uint8_t>> write_movie(const Mp4Movie& movie);
 
 }  // namespace animeme::media

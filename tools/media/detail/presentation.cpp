@@ -1,17 +1,16 @@
 #include "tools/media/detail/presentation.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <memory>
+#include <fstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "tools/media/detail/extension.h"
 #include "tools/media/detail/playlist_text.h"
+#include "tools/media/live/sdp_internal.h"
 
 namespace animeme::media {
 namespace {
@@ -24,10 +23,6 @@ constexpr std::size_t kMostRenditions = 16;
 
 using FileBytes = std::vector<std::uint8_t>;
 
-struct FileCloser {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
 // Files in one folder, up to a number of bytes in all.
 class Room {
  public:
@@ -37,60 +32,45 @@ class Room {
     root_ = fs::canonical(folder.empty() ? fs::path(".") : folder, status);
   }
 
-  struct File {
-    fs::path path;
-    std::size_t size = 0;
-  };
-
-  /// An ordinary file of the room. Its size counts for the limit. Errors: those of
-  /// read_presentation().
-  Result<File> find(const fs::path& name, std::uintmax_t limit) {
+  /// Appends what is in an ordinary file of the room. Errors: those of read_presentation().
+  Result<void> read(const fs::path& name, FileBytes& out,
+                    std::uintmax_t limit = kMostPresentation) {
     std::error_code status;
-    File file;
-    file.path = fs::canonical(root_ / name, status);
-    if (status) return failed(name, status.value());
-    const auto [end, ignored] =
-        std::mismatch(root_.begin(), root_.end(), file.path.begin(), file.path.end());
-    if (end != root_.end() || !fs::is_regular_file(file.path, status)) {
+    const fs::path path = fs::canonical(root_ / name, status);
+    if (status) return failed(name, status);
+    const auto [end, ignored] = std::mismatch(root_.begin(), root_.end(), path.begin(), path.end());
+    if (end != root_.end() || !fs::is_regular_file(path, status)) {
       return make_error(Code::unsupported, "\"" + name.string() +
                                                "\" is no ordinary file in the folder of the "
                                                "playlist");
     }
-    const std::uintmax_t size = fs::file_size(file.path, status);
-    if (status) return failed(name, status.value());
+    const std::uintmax_t size = fs::file_size(path, status);
+    if (status) return failed(name, status);
     if (size > limit || (total_ += size) > kMostPresentation) {
       return make_error(Code::out_of_range, "the presentation is too large to be read");
     }
-    file.size = std::size_t(size);
-    return file;
-  }
-
-  /// Appends what is in a file. Errors: not_found, io.
-  Result<void> read(const File& found, FileBytes& out) const {
-    const std::unique_ptr<std::FILE, FileCloser> file(std::fopen(found.path.c_str(), "rb"));
-    if (!file) return failed(found.path.filename(), errno);
+    std::ifstream file(path, std::ios::binary);
     const std::size_t begin = out.size();
-    out.resize(begin + found.size);
-    const std::size_t got = std::fread(out.data() + begin, 1, found.size, file.get());
-    out.resize(begin + got);
-    if (std::ferror(file.get()) != 0) return failed(found.path.filename(), EIO);
+    out.resize(begin + std::size_t(size));
+    file.read(reinterpret_cast<char*>(out.data() + begin), std::streamsize(size));
+    if (!file) return failed(name, std::make_error_code(std::errc::io_error));
     return {};
   }
 
   Result<std::string> read_text(const fs::path& name) {
     FileBytes bytes;
-    Result<File> file = find(name, kLongestPlaylist);
-    if (!file) return file.error();
-    if (auto done = read(*file, bytes); !done) return done.error();
+    if (auto done = read(name, bytes, kLongestPlaylist); !done) return done.error();
     return std::string(bytes.begin(), bytes.end());
   }
 
   const fs::path& name() const { return name_; }
 
  private:
-  static Error failed(const fs::path& name, int reason) {
-    const Code code = reason == ENOENT || reason == ENOTDIR ? Code::not_found : Code::io;
-    return make_error(code, "\"" + name.string() + "\" cannot be opened: " + std::strerror(reason));
+  static Error failed(const fs::path& name, std::error_code reason) {
+    const bool missing =
+        reason == std::errc::no_such_file_or_directory || reason == std::errc::not_a_directory;
+    return make_error(missing ? Code::not_found : Code::io,
+                      "\"" + name.string() + "\" cannot be opened: " + reason.message());
   }
 
   fs::path root_, name_;
@@ -103,37 +83,24 @@ Result<fs::path> beside(const fs::path& playlist, const std::string& reference) 
   return playlist.parent_path() / *name;
 }
 
-Result<FileBytes> join(Room& room, const fs::path& playlist, const Rendition& rendition) {
-  FileBytes bytes;
-  std::vector<std::string> references;
-  if (!rendition.init.empty()) references.push_back(rendition.init);
-  references.insert(references.end(), rendition.segments.begin(), rendition.segments.end());
-  // Sizes first, so that what is too large is not read at all.
-  std::vector<Room::File> files;
-  std::size_t size = 0;
-  for (const std::string& reference : references) {
-    Result<fs::path> name = beside(playlist, reference);
-    if (!name) return name.error();
-    Result<Room::File> file = room.find(*name, kMostPresentation);
-    if (!file) return file.error();
-    size += file->size;
-    files.push_back(std::move(*file));
-  }
-  bytes.reserve(size);
-  for (const Room::File& file : files) {
-    if (auto read = room.read(file, bytes); !read) return read.error();
-  }
-  return bytes;
-}
-
 Result<void> add(Presentation& presentation, Room& room, const fs::path& playlist,
                  const Rendition& rendition) {
   if (presentation.renditions.size() >= kMostRenditions) {
     return make_error(Code::out_of_range, "the playlist names too many renditions");
   }
-  Result<FileBytes> bytes = join(room, playlist, rendition);
-  if (!bytes) return bytes.error();
-  presentation.renditions.push_back(std::move(*bytes));
+  FileBytes bytes;
+  const auto append = [&](const std::string& reference) -> Result<void> {
+    Result<fs::path> name = beside(playlist, reference);
+    if (!name) return name.error();
+    return room.read(*name, bytes);
+  };
+  if (!rendition.init.empty()) {
+    if (auto done = append(rendition.init); !done) return done;
+  }
+  for (const std::string& reference : rendition.segments) {
+    if (auto done = append(reference); !done) return done;
+  }
+  presentation.renditions.push_back(std::move(bytes));
   return {};
 }
 
@@ -206,24 +173,17 @@ Result<std::string> from_reference(const std::string& reference) {
                       "\"" + reference + "\" does not lie in the folder of the playlist");
   };
   if (reference.find_first_of(":?#\\") != std::string::npos) return outside();
-  const auto digit = [](char c) {
-    return c >= '0' && c <= '9'   ? c - '0'
-           : c >= 'a' && c <= 'f' ? c - 'a' + 10
-           : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                  : -1;
-  };
   std::string out;
   for (std::size_t i = 0; i < reference.size(); ++i) {
     if (reference[i] != '%') {
       out += reference[i];
       continue;
     }
-    const int high = i + 2 < reference.size() ? digit(reference[i + 1]) : -1;
-    const int low = high < 0 ? -1 : digit(reference[i + 2]);
-    if (low < 0 || high * 16 + low == 0) {
+    const auto code = from_hex(std::string_view(reference).substr(i + 1, 2));
+    if (!code || code->empty() || code->front() == 0) {
       return make_error(Code::syntax, "\"" + reference + "\" is no name that can be read");
     }
-    out += char(high * 16 + low);
+    out += char(code->front());
     i += 2;
   }
   const fs::path path(out);

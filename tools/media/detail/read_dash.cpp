@@ -1,19 +1,25 @@
 // Reading DASH descriptions, the small part of them that local files need.
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 
-#include "tools/media/detail/dash_text.h"
+#include "fap/xml/detail/document.h"
 #include "tools/media/detail/playlist_text.h"
-#include "tools/media/detail/xml_tags.h"
 
 namespace animeme::media {
 namespace {
 
-constexpr int kMostSets = 64;
+using head::detail::XmlElement;
 
-// What a SegmentTemplate or SegmentList says; a representation inherits from its set.
+constexpr std::size_t kMostSets = 64;
+constexpr std::size_t kLongestName = 2048;
+constexpr std::int64_t kLargest = std::int64_t(1) << 53;
+
+// Of a representation: what is around it says first, what is in it has the last word.
 struct Template {
+  std::string base;  // folder of relative names, with its slash
   std::string initialization;
   std::string media;
   std::int64_t number = 1;
@@ -23,230 +29,218 @@ struct Template {
   std::vector<std::string> list;    // of a SegmentList
 };
 
-struct Level {
-  std::string element;
-  std::string base;  // folder of relative names, with its slash
-  Template segments;
-};
-
-bool holds_segments(const std::string& element) {
-  return element == "Representation" || element == "AdaptationSet" || element == "Period";
+std::string text_of(const XmlElement& element, std::string_view attribute,
+                    const std::string& otherwise = {}) {
+  const std::string* text = element.attribute(attribute);
+  return text == nullptr ? otherwise : *text;
 }
 
-class DashReader {
- public:
-  Result<std::vector<Rendition>> read(std::string_view text);
+/// Replaces `value` if the attribute is there.
+Result<void> take_number(const XmlElement& element, const char* attribute, std::int64_t& value) {
+  const std::string* text = element.attribute(attribute);
+  if (text == nullptr) return {};
+  const char* end = text->data() + text->size();
+  const auto [at, error] = std::from_chars(text->data(), end, value);
+  if (error == std::errc() && at == end && value >= -1 && value <= kLargest) return {};
+  return element.error(Code::syntax, std::string(attribute) + " is not a number that can be used");
+}
 
- private:
-  Result<void> open(const XmlTag& tag);
-  Result<void> close(const std::string& name);
-  Result<void> take_mpd(const XmlTag& tag);
-  Result<void> take_template(const XmlTag& tag);
-  Result<void> take_time(const XmlTag& tag);
-  Result<void> finish_representation();
-  Result<std::vector<std::string>> names(const Template& segments) const;
-  Result<std::int64_t> number(const XmlTag& tag, const char* key, std::int64_t otherwise) const;
-  Error wrong(Code code, const std::string& what) const { return error_at_line(code, what, line_); }
-  Template& current();
-
-  std::vector<Rendition> out_;
-  std::vector<Level> levels_;
-  std::int64_t line_ = 0;
-  double seconds_ = 0;
-  int periods_ = 0;
-  int sets_ = 0;
-  bool set_has_one_ = false;  // representation
-  std::string id_;            // of the representation
-};
-
-// The template that tags change: of the representation if we are in one, else of what is open.
-Template& DashReader::current() {
-  for (std::size_t i = levels_.size(); i-- > 0;) {
-    if (holds_segments(levels_[i].element)) return levels_[i].segments;
+/// "PT1H2M3.5S" in seconds; 0: another form, which is not used for clips.
+double period_seconds(std::string_view text) {
+  if (!text.starts_with("PT")) return 0;
+  text.remove_prefix(2);
+  double total = 0;
+  while (!text.empty()) {
+    double value = 0;
+    const auto [at, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto used = std::size_t(at - text.data());
+    if (error != std::errc() || used >= text.size()) return 0;
+    const char unit = text[used];
+    total += value * (unit == 'H' ? 3600 : unit == 'M' ? 60 : unit == 'S' ? 1 : NAN);
+    text.remove_prefix(used + 1);
   }
-  return levels_.front().segments;
+  return total >= 0 && total < 1e9 ? total : 0;
 }
 
-Result<std::int64_t> DashReader::number(const XmlTag& tag, const char* key,
-                                        std::int64_t otherwise) const {
-  const std::string* text = tag.find(key);
-  if (text == nullptr) return otherwise;
-  const std::optional<std::int64_t> value = whole_number(*text);
-  constexpr std::int64_t kLargest = std::int64_t(1) << 53;
-  if (value && *value >= -1 && *value <= kLargest) return *value;
-  return wrong(Code::syntax, std::string(key) + " is not a number that can be used");
-}
-
-Result<void> DashReader::take_mpd(const XmlTag& tag) {
-  const std::string* type = tag.find("type");
-  if (type != nullptr && *type != "static") {
-    return wrong(Code::unsupported, "this describes a live presentation; give a finished one");
-  }
-  if (const std::string* length = tag.find("mediaPresentationDuration")) {
-    seconds_ = period_seconds(*length).value_or(0);
-  }
-  return {};
-}
-
-Result<void> DashReader::take_template(const XmlTag& tag) {
-  Template& segments = current();
-  segments.times.clear();
-  segments.list.clear();
-  const std::string* init = tag.find("initialization");
-  if (init != nullptr) segments.initialization = *init;
-  if (const std::string* media = tag.find("media")) segments.media = *media;
-  const auto number_of_first = number(tag, "startNumber", segments.number);
-  const auto timescale = number(tag, "timescale", segments.timescale);
-  const auto duration = number(tag, "duration", segments.duration);
-  if (!number_of_first) return number_of_first.error();
-  if (!timescale) return timescale.error();
-  if (!duration) return duration.error();
-  if (*timescale <= 0) return wrong(Code::syntax, "the time scale must be positive");
-  segments.number = *number_of_first;
-  segments.timescale = *timescale;
-  segments.duration = *duration;
-  return {};
-}
-
-Result<void> DashReader::take_time(const XmlTag& tag) {
-  std::vector<std::int64_t>& times = current().times;
-  Template& segments = current();
-  // `duration` keeps the length of the last entry, so that the next one finds its time.
-  const std::int64_t expected = times.empty() ? 0 : times.back() + segments.duration;
-  const auto time = number(tag, "t", expected);
-  const auto duration = number(tag, "d", 0);
-  const auto repeat = number(tag, "r", 0);
-  if (!time) return time.error();
-  if (!duration) return duration.error();
-  if (!repeat) return repeat.error();
-  if (*duration <= 0) return wrong(Code::syntax, "a segment needs a duration");
-  if (*repeat < 0) return wrong(Code::unsupported, "segments without a count are not read");
-  if (std::uint64_t(*repeat) + times.size() >= kMostSegments) {
-    return wrong(Code::out_of_range, "the description is too long");
-  }
-  segments.duration = *duration;
-  for (std::int64_t i = 0; i <= *repeat; ++i) times.push_back(*time + i * *duration);
-  return {};
-}
-
-Result<std::vector<std::string>> DashReader::names(const Template& segments) const {
-  if (!segments.list.empty()) return segments.list;
-  if (segments.media.empty()) {
-    return wrong(Code::unsupported, "a representation is not in segments; give its file instead");
-  }
-  std::vector<std::int64_t> times = segments.times;
-  if (times.empty() && segments.duration > 0) {
-    const double count =
-        std::ceil(seconds_ * double(segments.timescale) / double(segments.duration));
-    if (!(count >= 1 && count <= double(kMostSegments))) {
-      return wrong(Code::unsupported, "the number of segments is not stated");
+/// Fills in $Number$, $Number%05d$, $Time$, $RepresentationID$ and $$; nullopt: another name, or
+/// the pattern is too long.
+std::optional<std::string> fill_in(std::string_view pattern, std::int64_t number, std::int64_t time,
+                                   const std::string& id) {
+  std::string out;
+  if (pattern.size() + id.size() > kLongestName) return std::nullopt;
+  while (!pattern.empty()) {
+    const std::size_t begin = pattern.find('$');
+    out += pattern.substr(0, begin);
+    if (begin == std::string_view::npos) break;
+    const std::size_t end = pattern.find('$', begin + 1);
+    if (end == std::string_view::npos) return std::nullopt;
+    std::string_view name = pattern.substr(begin + 1, end - begin - 1);
+    pattern.remove_prefix(end + 1);
+    int width = 1;
+    if (const std::size_t percent = name.find('%'); percent != std::string_view::npos) {
+      const std::string_view form = name.substr(percent);  // %05d
+      if (form.size() != 4 || form[1] != '0' || form[2] < '1' || form[2] > '9' || form[3] != 'd') {
+        return std::nullopt;
+      }
+      width = form[2] - '0';
+      name = name.substr(0, percent);
     }
-    for (std::int64_t i = 0; i < std::int64_t(count); ++i) times.push_back(i * segments.duration);
+    if (name == "RepresentationID") {
+      out += id;
+    } else if (name == "Number" || name == "Time") {
+      char text[40];
+      std::snprintf(text, sizeof text, "%0*lld", width,
+                    (long long)(name == "Time" ? time : number));
+      out += text;
+    } else if (name.empty()) {
+      out += '$';
+    } else {
+      return std::nullopt;
+    }
   }
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    auto name = fill_in(segments.media, segments.number + std::int64_t(i), times[i], id_);
-    if (!name) return wrong(Code::unsupported, "this segment template is not known");
-    names.push_back(std::move(*name));
-  }
-  return names;
+  return out;
 }
 
-Result<void> DashReader::finish_representation() {
-  if (set_has_one_) return {};
-  set_has_one_ = true;
-  const Level& level = levels_.back();
-  Result<std::vector<std::string>> segments = names(level.segments);
-  if (!segments) return segments.error();
-  const auto init = fill_in(level.segments.initialization, 0, 0, id_);
-  if (!init) return wrong(Code::unsupported, "this segment template is not known");
+Result<void> take_timeline(const XmlElement& timeline, std::vector<std::int64_t>& times) {
+  std::int64_t time = 0;
+  for (const XmlElement& entry : timeline.children) {
+    if (entry.name != "S") continue;
+    std::int64_t duration = 0, repeat = 0;
+    for (const auto& ok : {take_number(entry, "t", time), take_number(entry, "d", duration),
+                           take_number(entry, "r", repeat)}) {
+      if (!ok) return ok;
+    }
+    if (duration <= 0) return entry.error(Code::syntax, "a segment needs a duration");
+    if (repeat < 0) {
+      return entry.error(Code::unsupported, "segments without a count are not read");
+    }
+    if (std::size_t(repeat) + times.size() >= kMostSegments ||
+        duration > (kLargest - time) / (repeat + 1)) {
+      return entry.error(Code::out_of_range, "the description is too long");
+    }
+    for (std::int64_t i = 0; i <= repeat; ++i, time += duration) times.push_back(time);
+  }
+  return {};
+}
+
+Result<void> take_list(const XmlElement& element, Template& out) {
+  for (const XmlElement& child : element.children) {
+    if (child.name == "Initialization" && child.attribute("range") == nullptr) {
+      out.initialization = text_of(child, "sourceURL", out.initialization);
+    } else if (child.name == "SegmentURL" && child.attribute("mediaRange") == nullptr &&
+               child.attribute("media") != nullptr) {
+      if (out.list.size() >= kMostSegments) {
+        return child.error(Code::out_of_range, "the description is too long");
+      }
+      out.list.push_back(*child.attribute("media"));
+    } else if (child.name == "Initialization" || child.name == "SegmentURL") {
+      return child.error(Code::unsupported, "byte ranges are not read");
+    }
+  }
+  return {};
+}
+
+/// What an element around a representation, or itself, adds.
+Result<void> take_level(const XmlElement& level, Template& out) {
+  for (const XmlElement& child : level.children) {
+    if (child.name == "BaseURL") {
+      out.base += child.text.substr(0, child.text.rfind('/') + 1);
+      if (out.base.size() > kLongestName) {
+        return child.error(Code::out_of_range, "a name is too long");
+      }
+    }
+    if (child.name != "SegmentTemplate" && child.name != "SegmentList") continue;
+    out.times.clear();
+    out.list.clear();
+    out.initialization = text_of(child, "initialization", out.initialization);
+    out.media = text_of(child, "media", out.media);
+    for (const auto& ok : {take_number(child, "startNumber", out.number),
+                           take_number(child, "timescale", out.timescale),
+                           take_number(child, "duration", out.duration), take_list(child, out)}) {
+      if (!ok) return ok;
+    }
+    if (out.timescale <= 0) return child.error(Code::syntax, "the time scale must be positive");
+    if (const XmlElement* timeline = child.child("SegmentTimeline")) {
+      if (auto ok = take_timeline(*timeline, out.times); !ok) return ok;
+    }
+  }
+  return {};
+}
+
+Result<Rendition> read_representation(const XmlElement& representation, Template segments,
+                                      double seconds) {
+  if (auto ok = take_level(representation, segments); !ok) return ok.error();
+  const auto unknown = [&](const char* what) {
+    return representation.error(Code::unsupported, what);
+  };
+  const std::string id = text_of(representation, "id");
+  std::vector<std::string> names = std::move(segments.list);
+  if (names.empty()) {
+    if (segments.media.empty()) {
+      return unknown("a representation is not in segments; give its file instead");
+    }
+    std::vector<std::int64_t>& times = segments.times;
+    if (times.empty() && segments.duration > 0) {
+      const double count =
+          std::ceil(seconds * double(segments.timescale) / double(segments.duration));
+      if (!(count >= 1 && count <= double(kMostSegments) &&
+            count * double(segments.duration) <= double(kLargest))) {
+        return unknown("the number of segments is not stated");
+      }
+      for (std::int64_t i = 0; i < std::int64_t(count); ++i) times.push_back(i * segments.duration);
+    }
+    for (const std::int64_t time : times) {
+      auto name = fill_in(segments.media, segments.number++, time, id);
+      if (!name) return unknown("this segment template is not known");
+      names.push_back(std::move(*name));
+    }
+  }
+  const auto init = fill_in(segments.initialization, 0, 0, id);
+  if (!init) return unknown("this segment template is not known");
   Rendition rendition;
-  if (!init->empty()) rendition.init = level.base + *init;
-  for (const std::string& name : *segments) rendition.segments.push_back(level.base + name);
-  if (!rendition.segments.empty()) out_.push_back(std::move(rendition));
-  return {};
+  if (!init->empty()) rendition.init = segments.base + *init;
+  for (const std::string& name : names) rendition.segments.push_back(segments.base + name);
+  return rendition;
 }
 
-Result<void> DashReader::open(const XmlTag& tag) {
-  const std::string& name = tag.name;
-  if (levels_.empty() && name != "MPD") {
-    return wrong(Code::syntax, "a DASH description begins with MPD");
-  }
-  Level level;
-  level.element = name;
-  if (!levels_.empty()) level.base = levels_.back().base;
-  // Of several representations only the first is read.
-  if (holds_segments(name) && !levels_.empty() && !(name == "Representation" && set_has_one_)) {
-    level.segments = current();
-  }
-  levels_.push_back(std::move(level));
-  if (name == "MPD") return take_mpd(tag);
-  if (name == "Period" && ++periods_ > 1) {
-    return wrong(Code::unsupported, "several periods are not read");
-  }
-  if (name == "AdaptationSet") {
-    set_has_one_ = false;
-    if (++sets_ > kMostSets) return wrong(Code::out_of_range, "too many adaptation sets");
-  }
-  if (name == "Representation") {
-    const std::string* id = tag.find("id");
-    id_ = id == nullptr ? "" : *id;
-  }
-  if (name == "BaseURL") {
-    // Holds for the element around it and all in it.
-    std::string& base = levels_[levels_.size() >= 2 ? levels_.size() - 2 : 0].base;
-    base += tag.text.substr(0, tag.text.rfind('/') + 1);
-    if (base.size() > kLongestName) return wrong(Code::out_of_range, "a name is too long");
-  }
-  if (name == "SegmentTemplate" || name == "SegmentList") return take_template(tag);
-  if (name == "S") return take_time(tag);
-  if (name == "Initialization" && tag.find("sourceURL") != nullptr) {
-    if (tag.find("range") != nullptr) return wrong(Code::unsupported, "byte ranges are not read");
-    current().initialization = *tag.find("sourceURL");
-  }
-  if (name == "SegmentURL") {
-    const std::string* media = tag.find("media");
-    if (media == nullptr || tag.find("mediaRange") != nullptr) {
-      return wrong(Code::unsupported, "byte ranges are not read");
-    }
-    if (current().list.size() >= kMostSegments) {
-      return wrong(Code::out_of_range, "the description is too long");
-    }
-    current().list.push_back(*media);
-  }
-  return {};
-}
-
-Result<void> DashReader::close(const std::string& name) {
-  if (levels_.empty() || levels_.back().element != name) {
-    return wrong(Code::syntax, "the tags do not match");
-  }
-  if (name == "Representation") {
-    if (auto done = finish_representation(); !done) return done;
-  }
-  levels_.pop_back();
-  return {};
-}
-
-Result<std::vector<Rendition>> DashReader::read(std::string_view text) {
-  constexpr std::size_t kDeepest = 32;
-  Result<std::vector<XmlTag>> tags = read_tags(text);
-  if (!tags) return tags.error();
-  for (const XmlTag& tag : *tags) {
-    line_ = tag.line;
-    if (levels_.size() > kDeepest) return wrong(Code::syntax, "the tags are nested too deeply");
-    Result<void> done;
-    if (tag.begins) done = open(tag);
-    if (done && tag.ends) done = close(tag.name);
-    if (!done) return done.error();
-  }
-  if (!levels_.empty()) return wrong(Code::truncated, "the description ends too early");
-  if (out_.empty()) return make_error(Code::truncated, "the description names no segments");
-  return std::move(out_);
-}
+Error nothing() { return make_error(Code::truncated, "the description names no segments"); }
 
 }  // namespace
 
-Result<std::vector<Rendition>> read_dash(std::string_view text) { return DashReader().read(text); }
+Result<std::vector<Rendition>> read_dash(std::string_view text) {
+  const Result<XmlElement> mpd = head::detail::parse_xml(text);
+  if (!mpd) return mpd.error();
+  if (mpd->name != "MPD") return mpd->error(Code::syntax, "a DASH description begins with MPD");
+  if (text_of(*mpd, "type", "static") != "static") {
+    return mpd->error(Code::unsupported, "this describes a live presentation; give a finished one");
+  }
+  const double seconds = period_seconds(text_of(*mpd, "mediaPresentationDuration"));
+  const XmlElement* period = mpd->child("Period");
+  if (period == nullptr) return nothing();
+  for (const XmlElement& other : mpd->children) {
+    if (other.name == "Period" && &other != period) {
+      return other.error(Code::unsupported, "several periods are not read");
+    }
+  }
+  Template around;
+  for (const XmlElement* level : {&*mpd, period}) {
+    if (auto ok = take_level(*level, around); !ok) return ok.error();
+  }
+  std::vector<Rendition> out;
+  std::size_t sets = 0;
+  for (const XmlElement& set : period->children) {
+    if (set.name != "AdaptationSet") continue;
+    if (++sets > kMostSets) return set.error(Code::out_of_range, "too many adaptation sets");
+    Template segments = around;
+    if (auto ok = take_level(set, segments); !ok) return ok.error();
+    const XmlElement* representation = set.child("Representation");
+    if (representation == nullptr) continue;
+    auto rendition = read_representation(*representation, std::move(segments), seconds);
+    if (!rendition) return rendition.error();
+    if (!rendition->segments.empty()) out.push_back(std::move(*rendition));
+  }
+  if (out.empty()) return nothing();
+  return out;
+}
 
 }  // namespace animeme::media

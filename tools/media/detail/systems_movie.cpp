@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "tools/media/detail/audio_parameters.h"
-#include "tools/media/detail/box_writer.h"
 #include "tools/media/detail/systems_scene.h"
 #include "tools/media/detail/unit_facts.h"
 
@@ -14,13 +13,6 @@ constexpr unsigned kSceneStream = 3, kObjectStream = 1, kVisualStream = 4;
 constexpr unsigned kSystems = 0x01, kVisualObjects = 0x20;
 constexpr unsigned kWidth = 320, kHeight = 240;  // a face has no size; readers want one
 constexpr std::uint32_t kSystemsTimescale = 1000;
-
-/// Begins any sample entry.
-void begin_entry(BoxWriter& out, const char* type) {
-  out.begin(type);
-  out.zeros(6);
-  out.u16(1);  // data reference
-}
 
 std::vector<std::uint8_t> systems_entry(const StreamDescription& stream) {
   BoxWriter out;
@@ -50,12 +42,8 @@ std::vector<std::uint8_t> visual_entry(const StreamDescription& stream) {
 
 std::vector<std::uint8_t> sound_entry(const StreamDescription& stream, int sample_rate) {
   BoxWriter out;
-  begin_entry(out, "mp4a");
-  out.zeros(8);
-  out.u16(2);  // always, by the template; the configuration tells the channels
-  out.u16(16);
-  out.u32(0);
-  out.u32(sample_rate < 65536 ? std::uint64_t(sample_rate) << 16 : 0);
+  // Two channels, by the template; the configuration tells how many there are.
+  begin_sound_entry(out, "mp4a", 2, sample_rate);
   put_esds(out, stream);
   out.end();
   return out.bytes();

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "tools/media/detail/ts_sections.h"
+#include "tools/media/live/wire_internal.h"
 
 namespace animeme::media {
 namespace {
@@ -12,17 +13,13 @@ constexpr std::uint8_t kMapTable = 0x02;
 constexpr std::uint8_t kVisualStreamType = 0x10;  // stream type of 14496-2
 constexpr std::uint8_t kDescriptor = 0x1B;        // MPEG-4_video_descriptor
 
-using Bytes = std::span<const std::uint8_t>;
-
-unsigned u16(Bytes bytes, std::size_t at) { return unsigned(bytes[at]) << 8 | bytes[at + 1]; }
-
 void put_u12(std::vector<std::uint8_t>& bytes, std::size_t at, std::size_t value) {
   bytes[at] = std::uint8_t((bytes[at] & 0xF0) | (value >> 8 & 0x0F));
   bytes[at + 1] = std::uint8_t(value);
 }
 
 /// Where the payload of a packet begins; 0: it has none, or no section begins in it.
-std::size_t section_begin(Bytes packet) {
+std::size_t section_begin(ByteSpan packet) {
   const bool starts = (packet[1] & 0x40) != 0, has_payload = (packet[3] & 0x10) != 0;
   if (packet[0] != kTsSync || !starts || !has_payload) return 0;
   std::size_t at = 4;
@@ -33,30 +30,30 @@ std::size_t section_begin(Bytes packet) {
 }
 
 /// The section at `at`; empty: it is not whole in this packet.
-Bytes section_at(Bytes packet, std::size_t at) {
-  const std::size_t size = 3 + (u16(packet, at + 1) & 0x0FFF);
-  return at + size <= packet.size() ? packet.subspan(at, size) : Bytes();
+ByteSpan section_at(ByteSpan packet, std::size_t at) {
+  const std::size_t size = 3 + (read_big_endian(packet, at + 1, 2) & 0x0FFF);
+  return at + size <= packet.size() ? packet.subspan(at, size) : ByteSpan();
 }
 
-bool has_descriptor(Bytes descriptors) {
+bool has_descriptor(ByteSpan descriptors) {
   for (std::size_t at = 0; at + 2 <= descriptors.size(); at += 2 + std::size_t(descriptors[at + 1]))
     if (descriptors[at] == kDescriptor) return true;
   return false;
 }
 
 /// The map with the descriptors, without its CRC; empty: nothing is to be done, or it is damaged.
-std::vector<std::uint8_t> describe(Bytes section, std::uint8_t profile) {
+std::vector<std::uint8_t> describe(ByteSpan section, std::uint8_t profile) {
   constexpr std::size_t kFixed = 12;  // up to program_info_length
   if (section.size() < kFixed + kTsCrcSize) return {};
   const std::size_t end = section.size() - kTsCrcSize;
-  std::size_t at = kFixed + (u16(section, 10) & 0x0FFF);
+  std::size_t at = kFixed + (read_big_endian(section, 10, 2) & 0x0FFF);
   if (at > end) return {};
   std::vector<std::uint8_t> out(section.begin(), section.begin() + std::ptrdiff_t(at));
   bool changed = false;
   while (at + 5 <= end) {
-    const std::size_t length = u16(section, at + 3) & 0x0FFF;
+    const std::size_t length = read_big_endian(section, at + 3, 2) & 0x0FFF;
     if (at + 5 + length > end) return {};
-    const Bytes entry = section.subspan(at, 5 + length);
+    const ByteSpan entry = section.subspan(at, 5 + length);
     const std::size_t begin = out.size();
     out.insert(out.end(), entry.begin(), entry.end());
     if (entry[0] == kVisualStreamType && !has_descriptor(entry.subspan(5))) {
@@ -76,9 +73,9 @@ std::vector<std::uint8_t> describe(Bytes section, std::uint8_t profile) {
 void ProgramMapFilter::rewrite(std::span<std::uint8_t> packet) {
   const std::size_t at = section_begin(packet);
   if (at == 0) return;
-  const Bytes section = section_at(packet, at);
+  const ByteSpan section = section_at(packet, at);
   if (section.empty()) return;
-  const int pid = int(u16(packet, 1) & 0x1FFF);
+  const int pid = int(read_big_endian(packet, 1, 2) & 0x1FFF);
   if (pid == 0) {
     if (auto maps = read_pat(section)) map_pids_ = std::move(*maps);
     return;

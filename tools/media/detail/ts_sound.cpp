@@ -1,35 +1,11 @@
 #include "tools/media/detail/ts_sound.h"
 
-#include <array>
-#include <optional>
+#include "tools/media/detail/audio_headers.h"
 
 namespace animeme::media {
 namespace {
 
-constexpr std::array<int, 13> kRates = {96000, 88200, 64000, 48000, 44100, 32000, 24000,
-                                        22050, 16000, 12000, 11025, 8000,  7350};
-constexpr std::size_t kAdtsHeader = 7;
 constexpr int kFrameSamples = 1024;
-
-struct Adts {
-  unsigned object_type = 2, rate_index = 0, channels = 1;
-  std::size_t header = kAdtsHeader, size = 0;  // size with the header
-  int blocks = 1;
-};
-
-std::optional<Adts> read_adts(std::span<const std::uint8_t> at) {
-  if (at.size() < kAdtsHeader || at[0] != 0xFF || (at[1] & 0xF6) != 0xF0) return {};
-  Adts frame;
-  frame.object_type = 1 + (at[2] >> 6);
-  frame.rate_index = at[2] >> 2 & 15;
-  frame.channels = (at[2] & 1u) << 2 | at[3] >> 6;
-  frame.size = std::size_t(at[3] & 3) << 11 | std::size_t(at[4]) << 3 | at[5] >> 5;
-  frame.blocks = 1 + (at[6] & 3);
-  if ((at[1] & 1) == 0) frame.header += 2 * std::size_t(frame.blocks);  // checksums
-  const bool usable = frame.rate_index < kRates.size() && frame.channels > 0 && frame.blocks == 1 &&
-                      frame.size > frame.header;
-  return usable ? std::optional(frame) : std::nullopt;
-}
 
 }  // namespace
 
@@ -67,8 +43,8 @@ void TsSound::push_adts(std::vector<AudioPacket>& out) {
       continue;
     }
     if (rest_.size() - at < frame->size) break;
-    format_.sample_rate = kRates[frame->rate_index];
-    format_.channels = frame->channels == 7 ? 8 : int(frame->channels);
+    format_.sample_rate = kAacRates[frame->rate_index];
+    format_.channels = aac_channels(frame->channels);
     format_.frame_samples = kFrameSamples;
     format_.config = {std::uint8_t(frame->object_type << 3 | frame->rate_index >> 1),
                       std::uint8_t((frame->rate_index & 1) << 7 | frame->channels << 3)};
@@ -104,35 +80,6 @@ void TsSound::push_opus(std::vector<AudioPacket>& out) {
   }
   if (!left.empty()) ++damaged_;
   rest_.clear();  // units never lie across PES packets
-}
-
-int opus_samples(std::span<const std::uint8_t> packet) {
-  if (packet.empty()) return 0;
-  const int config = packet[0] >> 3;
-  int frame = 0;
-  if (config < 12) {
-    constexpr std::array<int, 4> kSilk = {480, 960, 1920, 2880};
-    frame = kSilk[std::size_t(config % 4)];
-  } else if (config < 16) {
-    frame = config % 2 == 0 ? 480 : 960;
-  } else {
-    frame = 120 << config % 4;
-  }
-  const int code = packet[0] & 3;
-  if (code == 3 && packet.size() < 2) return 0;
-  const int frames = code == 0 ? 1 : code < 3 ? 2 : packet[1] & 63;
-  const int samples = frame * frames;
-  return samples <= 5760 ? samples : 0;
-}
-
-std::vector<std::uint8_t> opus_head(int channels, int pre_skip, unsigned gain) {
-  std::vector<std::uint8_t> head = {'O', 'p', 'u', 's', 'H', 'e', 'a', 'd', 1};
-  head.push_back(std::uint8_t(channels));
-  head.push_back(std::uint8_t(pre_skip & 0xFF));
-  head.push_back(std::uint8_t(pre_skip >> 8 & 0xFF));
-  head.insert(head.end(), {0x80, 0xBB, 0, 0});  // 48000, little endian
-  head.insert(head.end(), {std::uint8_t(gain), std::uint8_t(gain >> 8), 0});  // mapping family 0
-  return head;
 }
 
 }  // namespace animeme::media

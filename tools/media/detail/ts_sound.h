@@ -41,10 +41,4 @@ class TsSound {
   std::int64_t damaged_ = 0;
 };
 
-/// Samples at 48 kHz in an Opus packet (RFC 6716, section 3.1); 0: not a legal packet.
-int opus_samples(std::span<const std::uint8_t> packet);
-
-/// OpusHead (RFC 7845, section 5.1).
-std::vector<std::uint8_t> opus_head(int channels, int pre_skip, unsigned gain = 0);
-
 }  // namespace animeme::media

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tools/media/detail/box_writer.h"
+#include "tools/media/detail/mp4_file.h"
 #include "tools/media/detail/systems_scene.h"
 
 namespace animeme::media {
@@ -26,101 +26,15 @@ void put_opus_box(BoxWriter& out, const AudioFormat& format) {
   out.end();
 }
 
-void put_sample_entry(BoxWriter& out, const AudioFormat& format) {
+std::vector<std::uint8_t> sample_entry(const AudioFormat& format) {
   const bool aac = format.codec == AudioCodec::aac;
-  out.begin(aac ? "mp4a" : "Opus");
-  out.zeros(6);
-  out.u16(1);  // data reference
-  out.zeros(8);
-  out.u16(unsigned(format.channels));
-  out.u16(16);
-  out.zeros(4);
-  out.u32(format.sample_rate < 65536 ? std::uint64_t(format.sample_rate) << 16 : 0);
+  BoxWriter out;
+  begin_sound_entry(out, aac ? "mp4a" : "Opus", unsigned(format.channels), format.sample_rate);
   const StreamDescription stream{
       .object_type = kAacObject, .stream_type = kAudioStream, .config = format.config};
   aac ? put_esds(out, stream) : put_opus_box(out, format);
   out.end();
-}
-
-void put_empty_tables(BoxWriter& out) {
-  for (const char* name : {"stts", "stsc"}) {
-    out.begin_full(name, 0, 0);
-    out.u32(0);
-    out.end();
-  }
-  out.begin_full("stsz", 0, 0);
-  out.u32(0);
-  out.u32(0);
-  out.end();
-  out.begin_full("stco", 0, 0);
-  out.u32(0);
-  out.end();
-}
-
-void put_media(BoxWriter& out, const AudioFormat& format) {
-  out.begin("mdia");
-  out.begin_full("mdhd", 0, 0);
-  out.zeros(8);
-  out.u32(std::uint64_t(format.sample_rate));
-  out.u32(0);
-  out.u16(0x55C4);  // no language
-  out.u16(0);
-  out.end();
-  out.begin_full("hdlr", 0, 0);
-  out.u32(0);
-  out.text("soun");
-  out.zeros(13);
-  out.end();
-  out.begin("minf");
-  out.begin_full("smhd", 0, 0);
-  out.zeros(4);
-  out.end();
-  out.begin("dinf");
-  out.begin_full("dref", 0, 0);
-  out.u32(1);
-  out.begin_full("url ", 0, 1);
-  out.end();
-  out.end();
-  out.end();
-  out.begin("stbl");
-  out.begin_full("stsd", 0, 0);
-  out.u32(1);
-  put_sample_entry(out, format);
-  out.end();
-  put_empty_tables(out);
-  for (int open = 0; open < 3; ++open) out.end();  // stbl, minf, mdia
-}
-
-void put_matrix(BoxWriter& out) {
-  for (const std::uint32_t value : {0x10000u, 0u, 0u, 0u, 0x10000u, 0u, 0u, 0u, 0x40000000u}) {
-    out.u32(value);
-  }
-}
-
-void put_track_header(BoxWriter& out) {
-  out.begin_full("tkhd", 0, 3);
-  out.zeros(8);
-  out.u32(kTrack);
-  out.zeros(20);
-  out.u16(0x100);  // full volume
-  out.u16(0);
-  put_matrix(out);
-  out.zeros(8);
-  out.end();
-}
-
-void put_movie_header(BoxWriter& out) {
-  out.begin_full("mvhd", 0, 0);
-  out.zeros(8);
-  out.u32(1000);
-  out.u32(0);
-  out.u32(0x10000);
-  out.u16(0x100);
-  out.zeros(10);
-  put_matrix(out);
-  out.zeros(24);
-  out.u32(kTrack + 1);
-  out.end();
+  return out.bytes();
 }
 
 }  // namespace
@@ -136,29 +50,14 @@ Result<std::vector<std::uint8_t>> write_audio_init(const AudioFormat& format) {
     return make_error(Code::invalid_argument,
                       "the sound has no configuration, sample rate or channels");
   }
-  BoxWriter out;
-  out.begin("ftyp");
-  out.text("iso5");
-  out.u32(0);
-  out.text("iso5mp42");
-  out.end();
-  out.begin("moov");
-  put_movie_header(out);
-  out.begin("trak");
-  put_track_header(out);
-  put_media(out, format);
-  out.end();
-  out.begin("mvex");
-  out.begin_full("trex", 0, 0);
-  out.u32(kTrack);
-  out.u32(1);
-  out.u32(std::uint64_t(std::max(format.frame_samples, 0)));
-  out.u32(0);
-  out.u32(0);
-  out.end();
-  out.end();
-  out.end();
-  return out.bytes();
+  Mp4Movie movie{.brands = "iso5mp42", .fragments = true};
+  Mp4Track& track = movie.tracks.emplace_back();
+  track.id = kTrack;
+  track.handler = "soun";
+  track.entry = sample_entry(format);
+  track.timescale = std::uint32_t(format.sample_rate);
+  track.fragment_duration = std::uint32_t(std::max(format.frame_samples, 0));
+  return write_contents(movie);
 }
 
 Result<std::vector<std::uint8_t>> write_audio_segment(std::uint32_t sequence,

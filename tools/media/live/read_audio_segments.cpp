@@ -1,8 +1,8 @@
 #include <optional>
 #include <string>
 
+#include "tools/media/detail/audio_headers.h"
 #include "tools/media/detail/boxes.h"
-#include "tools/media/detail/ts_sound.h"
 #include "tools/media/live/audio_segments.h"
 
 namespace animeme::media {

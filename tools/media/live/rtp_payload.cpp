@@ -68,29 +68,6 @@ std::vector<RtpPayload> pack_aac(std::span<const ByteVector> frames, std::size_t
   return out;
 }
 
-int opus_duration(ByteSpan packet) {
-  if (packet.empty()) return 0;
-  const int config = packet[0] >> 3;
-  int frame = 0;
-  if (config < 12) {
-    constexpr int kSilk[] = {480, 960, 1920, 2880};
-    frame = kSilk[config & 3];
-  } else if (config < 16) {
-    frame = (config & 1) == 0 ? 480 : 960;
-  } else {
-    frame = 120 << (config & 3);
-  }
-  int count = 1;
-  if ((packet[0] & 3) == 3) {
-    if (packet.size() < 2) return 0;
-    count = packet[1] & 63;
-  } else if ((packet[0] & 3) != 0) {
-    count = 2;
-  }
-  constexpr int kLongest = 5760;
-  return frame * count <= kLongest ? frame * count : 0;
-}
-
 void PlaneJoiner::gap() {
   open_ = false;
   skipping_ = false;

@@ -30,9 +30,6 @@ inline constexpr std::size_t kMaxAacFrame = 8191;  ///< 13 bits of size
 /// Bytes of such a packet with `frames` frames of `bytes` in all.
 std::size_t aac_packet_size(std::size_t frames, std::size_t bytes);
 
-/// Samples at 48 kHz of an Opus packet, from its first bytes; 0: not Opus. RFC 6716 section 3.1.
-int opus_duration(std::span<const std::uint8_t> packet);
-
 /// An access unit on its way in, its time in ticks of the RTP clock.
 struct RtpUnit {
   std::vector<std::uint8_t> bytes;  ///< joined, complete

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "codec/decode/plane_header.h"
+#include "tools/media/detail/audio_headers.h"
 #include "tools/media/detail/face_header.h"
 
 namespace animeme::media {
@@ -87,7 +88,7 @@ RtpUnits AudioAssembler::add(const RtpPacket& packet, std::int64_t time) {
   }
   for (RtpUnit& frame : frames) {
     const int duration =
-        format_.codec == AudioCodec::aac ? format_.frame_samples : opus_duration(frame.bytes);
+        format_.codec == AudioCodec::aac ? format_.frame_samples : opus_samples(frame.bytes);
     if (duration == 0) {
       out.damaged = true;
       continue;

@@ -53,14 +53,4 @@ struct SdpMedium {
   std::int64_t line = 0;
 };
 
-/// What an AudioSpecificConfig says. nullopt: not AAC, or too short.
-struct AacFacts {
-  int frame_samples = 1024;
-  int channels = 0;  // 0: in the config's own program element
-};
-std::optional<AacFacts> read_aac_config(std::span<const std::uint8_t> config);
-
-/// OpusHead, as the format of Ogg has it, with no pre-skip.
-std::vector<std::uint8_t> default_opus_head(int channels);
-
 }  // namespace animeme::media

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "tools/media/detail/audio_headers.h"
 #include "tools/media/detail/face_header.h"
 #include "tools/media/live/sdp.h"
 #include "tools/media/live/sdp_internal.h"
@@ -192,7 +193,7 @@ std::string opus_format(const SdpMedium& medium, RtpAudioTrack& audio) {
   audio.format.channels = number_of(medium.format, "sprop-stereo", 1).value_or(0) == 1 ? 2 : 1;
   audio.format.config = bytes_of(medium.own, "head");
   if (audio.format.config.size() < 19) {
-    audio.format.config = default_opus_head(audio.format.channels);
+    audio.format.config = opus_head(audio.format.channels, 0);
   }
   return {};
 }

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cctype>
 
-#include "codec/syntax/bits.h"
 #include "tools/media/live/sdp_internal.h"
 
 namespace animeme::media {
@@ -74,29 +73,6 @@ std::optional<std::uint32_t> number_of(const Parameters& parameters, std::string
   const auto found = parameters.find(key);
   if (found == parameters.end()) return std::nullopt;
   return to_number(found->second, highest);
-}
-
-// Source: ISO/IEC 14496-3 section 1.6.2.1, as far as AAC without extensions goes.
-std::optional<AacFacts> read_aac_config(std::span<const std::uint8_t> config) {
-  constexpr std::uint32_t kEscape = 31;
-  constexpr std::uint32_t kOwnRate = 15;
-  fba::BitReader in(config);
-  std::uint32_t type = in.bits(5);
-  if (type == kEscape) type = 32 + in.bits(6);
-  if (in.bits(4) == kOwnRate) in.bits(24);
-  AacFacts facts;
-  facts.channels = int(in.bits(4));
-  if (in.bit() != 0) facts.frame_samples = 960;
-  if (in.overrun() || type == 0) return std::nullopt;
-  if (facts.channels == 7) facts.channels = 8;
-  return facts;
-}
-
-std::vector<std::uint8_t> default_opus_head(int channels) {
-  std::vector<std::uint8_t> out = {'O', 'p', 'u', 's', 'H', 'e', 'a', 'd', 1};
-  out.push_back(std::uint8_t(channels));
-  out.insert(out.end(), {0, 0, 0x80, 0xBB, 0, 0, 0, 0, 0});  // pre-skip, 48000 Hz, gain, mapping
-  return out;
 }
 
 }  // namespace animeme::media

@@ -20,6 +20,13 @@ inline void append(ByteVector& out, ByteSpan bytes) {
   out.insert(out.end(), bytes.begin(), bytes.end());
 }
 
+/// The number of `count` (up to 8) bytes at `at`, which must be there.
+inline std::uint64_t read_big_endian(ByteSpan bytes, std::size_t at, std::size_t count) {
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < count; ++i) value = value << 8 | bytes[at + i];
+  return value;
+}
+
 /// Takes numbers off the front. Past the end it gives zeros and says so for good.
 class WireReader {
  public:
@@ -27,9 +34,7 @@ class WireReader {
 
   std::uint64_t get(int bytes) {
     const ByteSpan part = take(std::size_t(bytes));
-    std::uint64_t value = 0;
-    for (const std::uint8_t byte : part) value = value << 8 | byte;
-    return value;
+    return read_big_endian(part, 0, part.size());
   }
   std::uint8_t u8() { return std::uint8_t(get(1)); }
   std::uint16_t u16() { return std::uint16_t(get(2)); }

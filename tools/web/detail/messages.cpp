@@ -1,20 +1,14 @@
 #include "tools/web/detail/messages.h"
 
+#include "tools/media/live/wire_internal.h"
+
 namespace animeme::web {
 namespace {
 
 constexpr std::size_t kHelloHeader = 10;
 constexpr std::uint8_t kHasSound = 1;
 
-void put(std::vector<std::uint8_t>& out, std::uint64_t value, int bytes) {
-  for (int i = bytes; i-- > 0;) out.push_back(std::uint8_t(value >> 8 * i));
-}
-
-std::uint64_t get(std::span<const std::uint8_t> in, std::size_t at, std::size_t bytes) {
-  std::uint64_t value = 0;
-  for (std::size_t i = 0; i < bytes; ++i) value = value << 8 | in[at + i];
-  return value;
-}
+using media::put;
 
 }  // namespace
 
@@ -29,7 +23,7 @@ std::vector<std::uint8_t> write_hello(const Hello& hello) {
 
 Result<Hello> read_hello(std::span<const std::uint8_t> message) {
   if (message.size() < kHelloHeader || message[0] != 'A' ||
-      message.size() != kHelloHeader + get(message, 8, 2)) {
+      message.size() != kHelloHeader + media::read_big_endian(message, 8, 2)) {
     return make_error(Code::syntax, "the server does not send a face as Animeme does");
   }
   if (message[1] != kVersion) {
@@ -39,7 +33,7 @@ Result<Hello> read_hello(std::span<const std::uint8_t> message) {
   Hello hello;
   hello.visual_profile = message[2];
   hello.has_sound = (message[3] & kHasSound) != 0;
-  hello.timescale = std::uint32_t(get(message, 4, 4));
+  hello.timescale = std::uint32_t(media::read_big_endian(message, 4, 4));
   hello.config.assign(message.begin() + kHelloHeader, message.end());
   if (hello.timescale == 0) return make_error(Code::syntax, "a time scale of 0");
   return hello;
@@ -59,8 +53,8 @@ Result<UnitMessage> read_unit(std::span<const std::uint8_t> message) {
   if (message.size() <= kUnitHeader || message[0] >= 0x40) {
     return make_error(Code::syntax, "a message of the server is no access unit");
   }
-  return UnitMessage{get(message, 0, 8),
-                     std::uint32_t(get(message, 8, 4)),
+  return UnitMessage{media::read_big_endian(message, 0, 8),
+                     std::uint32_t(media::read_big_endian(message, 8, 4)),
                      message[kFlagsAt],
                      {message.begin() + kUnitHeader, message.end()}};
 }

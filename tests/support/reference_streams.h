@@ -4,27 +4,16 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "codec/syntax/plane.h"
+#include "tests/support/files.h"
 #include "tests/support/shared.h"
 
 namespace animeme::test {
-
-inline std::string read_file(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-inline std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
-  const std::string text = read_file(path);
-  return {text.begin(), text.end()};
-}
 
 /// Base paths (without extension) of all streams at hand, by name. A stream without expected
 /// values is none: it belongs to a case of what must not be decoded.
