@@ -241,7 +241,7 @@ void tell(const EncodeOptions& options, const Bytes& bytes, const fba::EncodeRep
   std::printf("%s\n", json.dump(2).c_str());
 }
 
-// EncodeOptions that the preset has no use for.
+// Options that the preset has no use for.
 const char* contradiction(const EncodeOptions& options, Preset preset) {
   if (options.input.empty() && options.bap.empty()) {
     return "nothing to code: name a FAP text, or a BAP text with --bap";

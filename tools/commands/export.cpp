@@ -28,7 +28,7 @@ struct ExportOptions {
   std::vector<const CLI::Option*> of_heads;    // for .glb alone
 };
 
-// ExportOptions that were given for nothing, in a sentence; empty: there are none.
+// Options that were given for nothing, in a sentence; empty: there are none.
 std::string idle_options(const ExportOptions& options, const std::string& what, bool from_script) {
   const auto given = [](const std::vector<const CLI::Option*>& list) {
     for (const CLI::Option* option : list) {

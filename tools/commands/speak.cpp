@@ -10,7 +10,6 @@
 #include "fap/rate_text.h"
 #include "fap/text.h"
 #include "tools/commands/common.h"
-#include "tools/commands/corpus.h"
 #include "tools/commands/face_stream.h"
 #include "tools/commands/preview.h"
 #include "tools/commands/spoken_options.h"

@@ -74,7 +74,7 @@ std::string misuse(const TrainOptions& options) {
   return {};
 }
 
-// TrainOptions that mean nothing to most methods: said, rather than swallowed.
+// Options that mean nothing to most methods: said, rather than swallowed.
 std::string misplaced(const CLI::App& app, const std::string& method) {
   const std::pair<const char*, const char*> owners[] = {
       {"--order", "dam-paper"},

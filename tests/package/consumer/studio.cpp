@@ -1,7 +1,9 @@
-// Names of files tell films from pictures.
-#include <animeme/studio/film.h>
+// A head of ours on a picture.
+#include <animeme/studio/head_view.h>
 
 int main() {
-  using animeme::studio::is_film;
-  return (is_film("mp4") || is_film(".mp4")) && !is_film("png") ? 0 : 1;
+  animeme::studio::HeadLook look;
+  look.width = look.height = 16;
+  auto view = animeme::studio::HeadView::make(look);
+  return view && view->draw({}).width == 16 ? 0 : 1;
 }
