@@ -48,6 +48,16 @@ TEST(Structure, NoFileNamesPathsOfOneMachine) {
   EXPECT_THAT(violations(path_violations, [](std::string_view) { return true; }), IsEmpty());
 }
 
+TEST(Structure, FoldersHaveAReadmeAndAPlaceAmongTheRooms) {
+  std::vector<std::string> paths;
+  for (const SourceFile& file : tree()) paths.push_back(file.path);
+  EXPECT_THAT(folder_violations(paths), IsEmpty());
+}
+
+TEST(Structure, ReadmesArePages) {
+  EXPECT_THAT(violations(page_violations, [](std::string_view) { return true; }), IsEmpty());
+}
+
 // The rules themselves: each one has to fire, or the tests above prove nothing.
 TEST(StructureRules, FindsIncludes) {
   const auto found =
