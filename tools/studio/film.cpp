@@ -1,6 +1,5 @@
 #include "tools/studio/film.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 

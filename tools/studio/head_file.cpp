@@ -1,6 +1,5 @@
 #include "tools/studio/head_file.h"
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 
 #include "fap/head/obj.h"
