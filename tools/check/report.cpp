@@ -1,10 +1,10 @@
 #include "tools/check/report.h"
 
-#include <cstdio>
 #include <set>
 
 #include "conformance/features.h"
 #include "tools/json.h"
+#include "tools/text.h"
 #include "tools/xml.h"
 
 namespace animeme::tools {
@@ -33,12 +33,6 @@ bool has_family(const conformance::Case& info, const Family& family) {
     if (conformance::family_of(feature) == &family) return true;
   }
   return false;
-}
-
-std::string format(const char* pattern, auto... values) {
-  char line[400];
-  std::snprintf(line, sizeof line, pattern, values...);
-  return line;
 }
 
 std::string family_rows(const std::vector<CaseResult>& results) {

@@ -7,6 +7,7 @@
 #include "conformance/trial.h"
 #include "fap/rate_text.h"
 #include "fap/text.h"
+#include "tools/exit_code.h"
 #include "tools/files/files.h"
 
 namespace animeme::tools {

@@ -2,7 +2,10 @@
 #include <memory>
 
 #include "dam/script/script.h"
-#include "tools/commands/spoken.h"
+#include "tools/commands/command.h"
+#include "tools/commands/terminal.h"
+#include "tools/files/files.h"
+#include "tools/speech/spoken.h"
 
 namespace animeme::tools {
 
@@ -20,7 +23,8 @@ Result<int> run(const AlignOptions& options) {
   if (extension != ".textgrid" && extension != ".tsv" && options.output != "-") {
     return usage_error("--output must end in .TextGrid or .tsv, not " + options.output);
   }
-  Result<dam::Script> script = align_file(options.audio, options.transcript, options.language);
+  Result<dam::Script> script =
+      speech::align_file(options.audio, options.transcript, options.language, talk());
   if (!script) return script.error();
   const std::string text =
       extension == ".tsv" ? dam::write_script_tsv(*script) : dam::write_textgrid(*script);

@@ -6,22 +6,13 @@
 #include <string>
 
 #include "fap/result.h"
+#include "tools/exit_code.h"
 
 namespace CLI {
 class App;
 }
 
 namespace animeme::tools {
-
-/// Exit codes of the program.
-enum ExitCode : int {
-  kOk = 0,
-  kCheckFailed = 1,
-  kUsage = 2,
-  kBadInput = 3,
-  kInternal = 4,
-  kInterrupted = 130,  ///< Ctrl-C; what was written is complete as far as it goes
-};
 
 /// A command puts its options into `app` and returns what is to run when it was chosen: the exit
 /// code, or an error that main() prints (exit code 3).

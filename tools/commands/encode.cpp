@@ -12,6 +12,7 @@
 #include "codec/text/epf.h"
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
+#include "tools/text.h"
 
 namespace animeme::tools {
 
@@ -202,14 +203,12 @@ Outcome count(const Bytes& bytes) {
 
 void tell(const EncodeOptions& options, const Bytes& bytes, const fba::EncodeReport& report) {
   const Outcome outcome = count(bytes);
-  char text[240];
-  std::snprintf(text, sizeof text, ": %zu planes, %zu bytes, %.2f kbit/s", outcome.planes,
-                bytes.size(), outcome.kbps);
-  std::string line = name_of_output(options.output) + text;
+  std::string line =
+      name_of_output(options.output) +
+      format(": %zu planes, %zu bytes, %.2f kbit/s", outcome.planes, bytes.size(), outcome.kbps);
   if (report.planes > 0) {
-    std::snprintf(text, sizeof text, "; fap_quant %d, error %.2f FAP units RMS, %zu coded",
-                  report.fap_quant, report.rms, report.coded);
-    line += text;
+    line += format("; fap_quant %d, error %.2f FAP units RMS, %zu coded", report.fap_quant,
+                   report.rms, report.coded);
     const auto add = [&line](std::size_t number, const char* what) {
       if (number > 0) line += ", " + std::to_string(number) + what;
     };
@@ -220,9 +219,8 @@ void tell(const EncodeOptions& options, const Bytes& bytes, const fba::EncodeRep
   }
   say(line);
   if (options.kbps > 0 && outcome.kbps > options.kbps * 1.001) {
-    std::snprintf(text, sizeof text, "%.2f kbit/s is the least that this clip needs, %.2f asked",
-                  outcome.kbps, options.kbps);
-    warn(text);
+    warn(format("%.2f kbit/s is the least that this clip needs, %.2f asked", outcome.kbps,
+                options.kbps));
   }
   if (!options.json) return;
   nlohmann::ordered_json json = {{"planes", outcome.planes},

@@ -3,10 +3,17 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <optional>
 
-#include "tools/commands/curve_plot.h"
-#include "tools/commands/evaluate_report.h"
+#include "tools/commands/corpus.h"
+#include "tools/commands/face_stream.h"
+#include "tools/inspect/evaluation.h"
+#include "tools/plot/curves.h"
+#include "tools/plot/sentences.h"
+#include "tools/speech/spoken.h"
+#include "tools/text.h"
 
 namespace animeme::tools {
 
@@ -30,6 +37,44 @@ struct EvaluateOptions {
   double min_closed = -1;
   double max_false = -1;
 };
+
+// A model, or somebody's tracks: ID.csv or ID.fap in a folder.
+struct System {
+  std::string path;
+  std::optional<dam::Model> model;  // none: tracks
+};
+
+// A model file or "builtin"; a folder of tracks if it is one or `tracks` says so.
+Result<System> open_system(const std::string& path, bool tracks) {
+  std::error_code ignored;
+  if (tracks || std::filesystem::is_directory(path, ignored)) return System{path, std::nullopt};
+  Result<dam::Model> model = speech::read_model(path);
+  if (!model) return model.error();
+  return System{path, std::move(*model)};
+}
+
+// The sentences with what the system makes of them.
+Result<std::vector<dam::SentencePair>> pairs_of(const System& system, const CorpusSettings& corpus,
+                                                const std::vector<dam::Utterance>& recorded,
+                                                const dam::EvaluateOptions& options) {
+  if (system.model) return dam::synthesise_pairs(*system.model, recorded, options);
+  CorpusSettings settings = corpus;
+  settings.controls.clear();
+  settings.controls_folder = std::filesystem::absolute(system.path).string();
+  Result<dam::Corpus> tracks = read_corpus(settings);
+  if (!tracks) return tracks.error();
+  auto pairs = inspect::pair_up(std::move(tracks->utterances), recorded, corpus.skip_missing);
+  if (!pairs) return pairs.error().in_file(system.path);
+  return pairs;
+}
+
+Result<std::vector<dam::Control>> scale_of(const System& system,
+                                           const std::vector<dam::SentencePair>& pairs) {
+  if (system.model) return system.model->controls;
+  Result<std::vector<dam::Control>> scale = inspect::scale_of(pairs);
+  if (!scale) return scale.error().in_file(system.path);
+  return scale;
+}
 
 // The recordings with the controls of the model; with all for tracks.
 Result<std::vector<dam::Utterance>> read_recordings(const CorpusSettings& corpus,
@@ -71,7 +116,8 @@ std::vector<dam::Control> common_scale(const std::vector<dam::Control>& a,
 
 Result<void> compare_systems(const EvaluateOptions& options, const CorpusSettings& corpus,
                              const std::vector<dam::SentencePair>& pairs,
-                             const dam::EvaluateOptions& evaluate, EvaluateReport& report) {
+                             const dam::EvaluateOptions& evaluate,
+                             inspect::EvaluationReport& report) {
   Result<System> other = open_system(options.against, false);
   if (!other) return other.error();
   std::vector<dam::Utterance> recorded;
@@ -107,10 +153,8 @@ bool has_gap(const dam::Evaluation& result) {
 std::vector<std::string> failed_checks(const EvaluateOptions& options,
                                        const dam::Evaluation& result) {
   std::vector<std::string> failed;
-  const auto fail = [&](const char* format, double value, double limit) {
-    char text[160];
-    std::snprintf(text, sizeof text, format, value, limit);
-    failed.emplace_back(text);
+  const auto fail = [&](const char* pattern, double value, double limit) {
+    failed.push_back(tools::format(pattern, value, limit));
   };
   if (options.max_nrmse >= 0 && !(result.nrmse <= options.max_nrmse)) {
     fail("the mean NRMSE is %.4f, above %g", result.nrmse, options.max_nrmse);
@@ -130,8 +174,9 @@ std::vector<std::string> failed_checks(const EvaluateOptions& options,
   return failed;
 }
 
-Result<EvaluateReport> evaluate_all(const EvaluateOptions& options, const CorpusSettings& corpus,
-                                    const std::string& path) {
+Result<inspect::EvaluationReport> evaluate_all(const EvaluateOptions& options,
+                                               const CorpusSettings& corpus,
+                                               const std::string& path) {
   Result<System> system = open_system(path, !options.tracks.empty());
   if (!system) return system.error();
   Result<std::vector<dam::Utterance>> recorded = read_recordings(corpus, *system);
@@ -148,7 +193,7 @@ Result<EvaluateReport> evaluate_all(const EvaluateOptions& options, const Corpus
   evaluate.score.scale = std::move(*scale);
   Result<dam::Evaluation> result = dam::score(*pairs, evaluate.score);
   if (!result) return result.error().in_file(corpus.folder);
-  EvaluateReport report;
+  inspect::EvaluationReport report;
   report.system = path;
   report.closed_gap = evaluate.score.closed_gap;
   report.evaluation = std::move(*result);
@@ -157,13 +202,18 @@ Result<EvaluateReport> evaluate_all(const EvaluateOptions& options, const Corpus
     if (!done) return done.error();
   }
   if (options.codec) {
-    auto codec = score_codec(*pairs, options.stream, evaluate.score);
+    ProgressLine line("coding");
+    auto codec = inspect::score_codec(*pairs, encode_options(options.stream), evaluate.score,
+                                      [&](double done) { line.update(done); });
     if (!codec) return codec.error();
     report.codec = std::move(*codec);
   }
   if (!options.picture.empty()) {
-    auto drawn = write_picture(options.picture, *pairs, report.evaluation);
-    if (!drawn) return drawn.error();
+    const Result<std::string> svg = plot::sentences_svg(*pairs, report.evaluation);
+    if (!svg) return svg.error();
+    const auto drawing = plot::drawing_bytes(options.picture, *svg);
+    if (!drawing) return drawing.error();
+    if (auto done = write_file(options.picture, *drawing); !done) return done.error();
   }
   return report;
 }
@@ -178,16 +228,14 @@ Result<int> run(const EvaluateOptions& options) {
     return usage_error("--tracks takes the place of the model: evaluate --tracks DIR CORPUS");
   }
   if (corpus.folder.empty()) return usage_error("name a model and a corpus folder");
-  if (!options.picture.empty() && (options.picture == "-" || !is_drawing(options.picture))) {
+  if (!options.picture.empty() && (options.picture == "-" || !plot::is_drawing(options.picture))) {
     return usage_error("--picture must end in .svg or .png, not " + options.picture);
   }
-  Result<EvaluateReport> report = evaluate_all(options, corpus, path);
+  Result<inspect::EvaluationReport> report = evaluate_all(options, corpus, path);
   if (!report) return report.error();
-  if (options.json) {
-    std::printf("%s\n", evaluate_json(*report).c_str());
-  } else {
-    print_evaluation(*report, options.full);
-  }
+  std::fputs(options.json ? (inspect::evaluation_json(*report) + "\n").c_str()
+                          : inspect::evaluation_text(*report, options.full).c_str(),
+             stdout);
   const std::vector<std::string> failed = failed_checks(options, report->evaluation);
   for (const std::string& sentence : failed) {
     std::fprintf(stderr, "animeme: check failed: %s\n", sentence.c_str());

@@ -7,6 +7,7 @@
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
 #include "tools/commands/export_glb.h"
+#include "tools/commands/head_options.h"
 #include "tools/exchange/arkit.h"
 #include "tools/exchange/visemes.h"
 
@@ -187,7 +188,7 @@ Result<int> run(const ExportOptions& options) {
                         "its visemes")
           .in_file(options.input);
     }
-    if (const std::string problem = problem_of(options.glb.head);
+    if (const std::string problem = studio::problem_of(options.glb.head);
         what == "head" && !problem.empty()) {
       return usage_error(problem);
     }

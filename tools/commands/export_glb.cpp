@@ -10,7 +10,7 @@ namespace animeme::tools {
 
 Result<void> export_glb(const std::string& path, const fap::Sequence& filled,
                         const GlbExport& options) {
-  const Result<head::Head> head = load_head_and_tell(options.head);
+  const Result<head::Head> head = studio::load_head(options.head, talk());
   if (!head) return head.error();
   ProgressLine progress("exporting");
   gltf::GlbOptions settings;

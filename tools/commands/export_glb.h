@@ -6,13 +6,13 @@
 
 #include "fap/frame.h"
 #include "fap/result.h"
-#include "tools/commands/head_file.h"
+#include "tools/studio/head_file.h"
 
 namespace animeme::tools {
 
 /// What the user asks of `export` to .glb.
 struct GlbExport {
-  HeadChoice head;               ///< whose head
+  studio::HeadChoice head;
   std::string morphs = "arkit";  ///< or "fap"
   std::string audio;             ///< name to mention; may be empty
   bool normals = false;          ///< write normals, too

@@ -2,11 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <cstdio>
 
 #include "codec/encode/encode.h"
 #include "tools/commands/interrupt.h"
 #include "tools/media/mux.h"
+#include "tools/text.h"
 
 namespace animeme::tools {
 
@@ -42,11 +42,7 @@ fba::EncodeOptions encode_options(const StreamSettings& settings) {
   return options;
 }
 
-std::string seconds_text(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f s", seconds);
-  return text;
-}
+std::string seconds_text(double seconds) { return format("%.2f s", seconds); }
 
 Result<fba::AccessUnits> access_units(const FaceInput& face, const StreamSettings& settings) {
   if (!face.stream.empty()) return fba::split_access_units(face.stream);
@@ -92,10 +88,8 @@ std::string summary(const media::MuxInput& input, const media::MuxOptions& optio
     for (const fba::AccessUnit& unit : face.units) bytes += unit.bytes.size();
     const fba::AccessUnit& last = face.units.back();
     const double seconds = double(last.time + last.duration) / face.timescale;
-    char facts[120];
-    std::snprintf(facts, sizeof facts, "face %zu planes, %.2f s, %.2f kbit/s", face.units.size(),
-                  seconds, double(bytes) * 8e-3 / seconds);
-    text += facts;
+    text += format("face %zu planes, %.2f s, %.2f kbit/s", face.units.size(), seconds,
+                   double(bytes) * 8e-3 / seconds);
   }
   if (input.audio != nullptr) {
     text +=

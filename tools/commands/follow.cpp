@@ -8,8 +8,9 @@
 #include "dam/script/phones.h"
 #include "dam/speaking/stream.h"
 #include "fap/rate_text.h"
-#include "tools/commands/model_input.h"
+#include "tools/commands/common.h"
 #include "tools/exchange/curves.h"
+#include "tools/speech/spoken.h"
 
 namespace animeme::tools {
 
@@ -62,7 +63,7 @@ Error broken() {
 Result<int> run(const FollowOptions& options) {
   Result<fap::Rate> rate = fap::parse_rate(options.rate);
   if (!rate) return usage_error("--rate " + options.rate + ": " + rate.error().message);
-  Result<dam::Model> model = read_model_or_builtin(options.model);
+  Result<dam::Model> model = speech::read_model(options.model);
   if (!model) return model.error();
   dam::StreamOptions settings;
   settings.synthesis.rate = *rate;

@@ -11,7 +11,7 @@
 #include "fap/xml/fdp.h"
 #include "fap/xml/xmt.h"
 #include "tools/commands/common.h"
-#include "tools/commands/head_file.h"
+#include "tools/commands/head_options.h"
 #include "tools/gltf/glb.h"
 #include "tools/json.h"
 
@@ -20,7 +20,7 @@ namespace animeme::tools {
 namespace {
 
 struct HeadOptions {
-  HeadChoice head;
+  studio::HeadChoice head;
   std::string output;
   bool json = false;
 };
@@ -49,7 +49,7 @@ std::vector<std::string> still_faps(const head::Head& head, const head::Rig& rig
   return still;
 }
 
-Json describe(const LoadedHead& loaded, const head::Rig& rig) {
+Json describe(const studio::LoadedHead& loaded, const head::Rig& rig) {
   const head::Head& head = loaded.head;
   Json parts = Json::object();
   for (std::size_t i = 0; i < head.parts.size(); ++i) {
@@ -174,7 +174,7 @@ constexpr struct Writer {
                 {".obj", write_obj}};
 
 Result<int> run(const HeadOptions& options) {
-  if (const std::string problem = problem_of(options.head); !problem.empty()) {
+  if (const std::string problem = studio::problem_of(options.head); !problem.empty()) {
     return usage_error(problem);
   }
   const Writer* const writer = std::find_if(
@@ -183,7 +183,7 @@ Result<int> run(const HeadOptions& options) {
   if (!options.output.empty() && writer == std::end(kWriters)) {
     return usage_error("the output " + options.output + " has to end in .fdp, .xmt, .glb or .obj");
   }
-  const Result<LoadedHead> loaded = load_head(options.head);
+  const Result<studio::LoadedHead> loaded = studio::load_head(options.head);
   if (!loaded) return loaded.error();
   const head::Rig rig = head::make_rig(loaded->head);
   if (!options.output.empty()) {

@@ -1,15 +1,13 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "codec/decode/decoder.h"
-#include "dam/model/model.h"
-#include "dam/script/script.h"
-#include "fap/rate_text.h"
 #include "tools/commands/common.h"
-#include "tools/commands/info_stream.h"
+#include "tools/inspect/file_internal.h"
+#include "tools/inspect/stream_internal.h"
+#include "tools/json.h"
 #include "tools/media/container.h"
 
 namespace animeme::tools {
@@ -32,8 +30,8 @@ Result<Json> describe_coded(const InfoOptions& options, std::span<const std::uin
                             Description& out) {
   Result<fba::DecodedStream> decoded = fba::decode(bytes);
   if (!decoded) return decoded.error();
-  Json json = describe_stream(*decoded, bytes.size());
-  if (options.planes && options.json) json["plane_list"] = describe_planes(*decoded);
+  Json json = inspect::describe_stream(*decoded, bytes.size());
+  if (options.planes && options.json) json["plane_list"] = inspect::describe_planes(*decoded);
   if (options.planes) out.stream = std::move(*decoded);
   return json;
 }
@@ -79,52 +77,12 @@ Result<Json> describe_media(const InfoOptions& options, std::span<const std::uin
   return json;
 }
 
-Result<Json> describe_model(std::span<const std::uint8_t> bytes) {
-  Result<dam::Model> model = dam::read_model(bytes);
-  if (!model) return model.error();
-  Json phones = Json::array();
-  const auto* animemes = std::get_if<dam::AnimemeParameters>(&model->parameters);
-  std::size_t modes = 0;
-  for (std::size_t i = 0; i < model->phones.size(); ++i) {
-    const dam::PhoneModel& phone = model->phones[i];
-    Json json = {{"phone", phone.label}, {"examples", phone.examples}};
-    if (animemes != nullptr) {
-      json["modes"] = animemes->phones[i].modes.size();
-      modes += animemes->phones[i].modes.size();
-    }
-    phones.push_back(std::move(json));
-  }
-  Json controls = Json::array();
-  for (const dam::Control& control : model->controls) controls.push_back(control.name);
-  Json json = {{"kind", "model"},
-               {"method", dam::method_name(model->method)},
-               {"bytes", bytes.size()},
-               {"rate", fap::format_rate(model->rate)}};
-  if (animemes != nullptr) {
-    json["order"] = animemes->order;
-    json["modes"] = modes;
-  }
-  json.update({{"phones", phones},
-               {"controls", controls},
-               {"attribution", model->attribution},
-               {"provenance", model->provenance}});
-  return json;
-}
-
-Result<Json> describe_script(std::span<const std::uint8_t> bytes) {
-  Result<dam::Script> script =
-      dam::read_script({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  if (!script) return script.error();
-  return Json{
-      {"kind", "script"}, {"phones", script->phones.size()}, {"seconds", script->duration()}};
-}
-
 Result<Json> describe_text(const InfoOptions& options, std::vector<std::uint8_t> bytes) {
   Result<MotionInput> motion = parse_motion(std::move(bytes), options.input);
   if (!motion) return motion.error();
   const bool bap = motion->kind == FileKind::bap_text;
   Json json = {{"kind", bap ? "bap" : "fap"}};
-  json.update(bap ? describe_body(motion->body) : describe_clip(motion->face));
+  json.update(bap ? inspect::describe_body(motion->body) : inspect::describe_clip(motion->face));
   return json;
 }
 
@@ -143,10 +101,10 @@ Result<Description> describe(const InfoOptions& options) {
       json = describe_media(options, *bytes, out);
       break;
     case FileKind::model:
-      json = describe_model(*bytes);
+      json = inspect::describe_model(*bytes);
       break;
     case FileKind::script:
-      json = describe_script(*bytes);
+      json = inspect::describe_script(*bytes);
       break;
     default:
       json = describe_text(options, std::move(*bytes));
@@ -156,40 +114,6 @@ Result<Description> describe(const InfoOptions& options) {
   return out;
 }
 
-std::string shown_value(const Json& value) {
-  if (value.is_string()) return value.get<std::string>();
-  if (!value.is_number_float()) return value.dump();
-  char text[40];
-  std::snprintf(text, sizeof text, "%.3f", value.get<double>());
-  return text;
-}
-
-// The tree as indented "name: value" lines; lists of objects as one line each.
-void print(const Json& json, int indent) {
-  for (const auto& [key, value] : json.items()) {
-    const std::string pad(std::size_t(indent), ' ');
-    if (value.is_object()) {
-      std::printf("%s%s:\n", pad.c_str(), key.c_str());
-      print(value, indent + 2);
-    } else if (value.is_array() && !value.empty() && value.front().is_object()) {
-      std::printf("%s%s:\n", pad.c_str(), key.c_str());
-      for (const Json& item : value) {
-        std::string line;
-        for (const auto& [name, field] : item.items()) {
-          line += (line.empty() ? "" : "  ") + name + " " + shown_value(field);
-        }
-        std::printf("%s  %s\n", pad.c_str(), line.c_str());
-      }
-    } else if (value.is_array()) {
-      std::string line;
-      for (const Json& item : value) line += (line.empty() ? "" : ", ") + shown_value(item);
-      if (!line.empty()) std::printf("%s%s: %s\n", pad.c_str(), key.c_str(), line.c_str());
-    } else if (const std::string text = shown_value(value); !text.empty()) {
-      std::printf("%s%s: %s\n", pad.c_str(), key.c_str(), text.c_str());
-    }
-  }
-}
-
 Result<int> run(const InfoOptions& options) {
   Result<Description> found = describe(options);
   if (!found) return found.error().in_file(options.input);
@@ -197,8 +121,9 @@ Result<int> run(const InfoOptions& options) {
     std::printf("%s\n", found->json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
     return kOk;
   }
-  print(found->json, 0);
-  if (found->stream) print_planes(*found->stream);
+  std::string text = inspect::tree_text(found->json);
+  if (found->stream) text += inspect::planes_text(*found->stream);
+  std::fputs(text.c_str(), stdout);
   return kOk;
 }
 

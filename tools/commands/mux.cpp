@@ -8,8 +8,8 @@
 #include "tools/commands/common.h"
 #include "tools/commands/face_stream.h"
 #include "tools/commands/preview.h"
-#include "tools/commands/voice_input.h"
 #include "tools/media/container.h"
+#include "tools/speech/voice_file.h"
 
 namespace animeme::tools {
 
@@ -41,15 +41,15 @@ Result<fba::AccessUnits> read_units(const MuxOptions& options) {
   return access_units(*face, options.stream);
 }
 
-Result<SoundInput> sound_of(const MuxOptions& options) {
-  SoundInput sound;
+Result<speech::SoundInput> sound_of(const MuxOptions& options) {
+  speech::SoundInput sound;
   if (options.sound.codec == "copy") {
     Result<media::EncodedAudio> coded = media::read_encoded_audio(options.audio);
     if (!coded) return coded.error().in_file(options.audio);
     sound.coded = std::move(*coded);
     return sound;
   }
-  Result<media::Pcm> samples = read_voice(options.audio);
+  Result<media::Pcm> samples = speech::read_voice(options.audio, talk());
   if (!samples) return samples.error();
   sound.samples = std::move(*samples);
   return sound;
@@ -58,7 +58,7 @@ Result<SoundInput> sound_of(const MuxOptions& options) {
 Result<int> run(MuxOptions options) {
   Result<fba::AccessUnits> units = read_units(options);
   if (!units) return units.error().in_file(options.face);
-  const Result<SoundInput> sound = sound_of(options);
+  const Result<speech::SoundInput> sound = sound_of(options);
   if (!sound) return sound.error();
   const fba::AccessUnit& last = units->units.back();
   const double seconds = double(last.time + last.duration) / units->timescale;

@@ -5,11 +5,10 @@
 #include "dam/script/script.h"
 #include "fap/fill.h"
 #include "fap/head/shapes.h"
-#include "fap/tables.h"
 #include "tools/commands/common.h"
-#include "tools/commands/curve_plot.h"
 #include "tools/commands/fap_names.h"
-#include "tools/commands/voice_input.h"
+#include "tools/plot/clips.h"
+#include "tools/speech/voice_file.h"
 
 namespace animeme::tools {
 
@@ -26,51 +25,10 @@ struct PlotOptions {
   double to = -1;
 };
 
-// A filled clip, and when its frame 0 is shown.
-struct PlottedClip {
-  fap::Sequence clip;
-  double start = 0;
-
-  double end() const { return start + clip.duration(); }
-};
-
-PlotPoints points_of(int fap, const PlottedClip& shown) {
-  PlotPoints points;
-  for (const fap::Frame& frame : shown.clip.frames) {
-    points.emplace_back(shown.start + shown.clip.rate.seconds(double(frame.number)),
-                        frame.value[std::size_t(fap)]);
-  }
-  return points;
-}
-
-std::string unit_of(int fap) {
-  const fap::Unit unit = fap::info(fap).unit;
-  if (unit == fap::Unit::angle) return "0.00001 rad";
-  return "1/1024 " + std::string(fap::unit_name(unit));
-}
-
-PlotRow row_of(int fap, const std::vector<PlottedClip>& clips) {
-  PlotRow row{"FAP " + std::to_string(fap), std::string(fap::info(fap).name), unit_of(fap), {}};
-  for (const PlottedClip& clip : clips) row.curves.push_back(points_of(fap, clip));
-  return row;
-}
-
-// b less a at the times of a; what b shows at a time is its last frame so far.
-PlotRow difference_of(int fap, const PlottedClip& a, const PlottedClip& b) {
-  PlotRow row{"FAP " + std::to_string(fap), "difference", unit_of(fap), {{}}, 2};
-  const PlotPoints shown = points_of(fap, b);
-  std::size_t at = 0;
-  for (const auto& [time, value] : points_of(fap, a)) {
-    while (at + 1 < shown.size() && shown[at + 1].first <= time + 1e-6) ++at;
-    if (!shown.empty()) row.curves[0].emplace_back(time, shown[at].second - value);
-  }
-  return row;
-}
-
 Result<int> run(const PlotOptions& options) {
   const Result<std::vector<int>> faps = fap_numbers(options.faps);
   if (!faps) return usage_error("--faps: " + faps.error().message);
-  if (!is_drawing(options.output)) {
+  if (!plot::is_drawing(options.output)) {
     return usage_error("--output must end in .svg or .png, not " + options.output);
   }
   if (options.to > 0 && options.to <= options.from) {
@@ -79,7 +37,7 @@ Result<int> run(const PlotOptions& options) {
   if (options.difference && options.b.empty()) {
     return usage_error("--difference needs two clips");
   }
-  std::vector<PlottedClip> clips;
+  std::vector<plot::TimedClip> clips;
   std::vector<std::string> names;
   for (const std::string& path : {options.a, options.b}) {
     if (path.empty()) continue;
@@ -92,14 +50,14 @@ Result<int> run(const PlotOptions& options) {
     clips.push_back({std::move(*filled), input->start});
     names.push_back(std::filesystem::path(path).filename().string());
   }
-  PlotPanel panel;
-  for (const PlottedClip& clip : clips) panel.seconds = std::max(panel.seconds, clip.end());
+  plot::Panel panel;
+  for (const plot::TimedClip& clip : clips) panel.seconds = std::max(panel.seconds, clip.end());
   if (options.from >= panel.seconds) {
     return usage_error("--from lies behind the end of the clip");
   }
   panel.begin = options.from;
   if (options.to > 0) panel.seconds = std::min(panel.seconds, options.to);
-  if (panel.seconds - panel.begin > kLongestPlot) {
+  if (panel.seconds - panel.begin > plot::kLongest) {
     return make_error(
                Code::out_of_range,
                "more than ten minutes are too wide to plot; choose a part by --from and --to")
@@ -107,19 +65,19 @@ Result<int> run(const PlotOptions& options) {
   }
   dam::Script script;
   if (!options.script.empty()) {
-    Result<dam::Script> read = read_script(options.script);
+    Result<dam::Script> read = speech::read_script(options.script);
     if (!read) return read.error();
     script = std::move(*read);
     panel.script = &script;
   }
   for (const int fap : *faps) {
-    panel.rows.push_back(row_of(fap, clips));
-    if (options.difference) panel.rows.push_back(difference_of(fap, clips[0], clips[1]));
+    panel.rows.push_back(plot::fap_row(fap, clips));
+    if (options.difference) panel.rows.push_back(plot::difference_row(fap, clips[0], clips[1]));
   }
   if (options.difference) names.emplace_back("difference: second less first");
-  if (auto written = write_drawing(options.output, curves_svg({panel}, names)); !written) {
-    return written.error();
-  }
+  const auto drawing = plot::drawing_bytes(options.output, plot::curves_svg({panel}, names));
+  if (!drawing) return drawing.error();
+  if (auto written = write_file(options.output, *drawing); !written) return written.error();
   return kOk;
 }
 

@@ -3,13 +3,12 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "tools/commands/common.h"
 #include "tools/commands/interrupt.h"
-#include "tools/commands/live_address.h"
-#include "tools/commands/receive_output.h"
-#include "tools/commands/receive_report.h"
+#include "tools/live/address.h"
+#include "tools/live/receive_output.h"
+#include "tools/live/receive_report.h"
 #include "tools/media/live/pacer.h"
 #include "tools/media/live/recorder.h"
 
@@ -23,7 +22,7 @@ constexpr std::size_t kMostIntervals = 100'000;
 struct ReceiveOptions {
   std::string source;
   std::string output;
-  LiveSourceOptions receive;
+  live::SourceOptions receive;
   std::string gap = "hold";
   double duration = 0;
   double wait = 60;
@@ -44,7 +43,7 @@ class Reception {
   Reception(const ReceiveOptions& options, media::LiveSource& source)
       : options_(options),
         source_(source),
-        recorder_({.duration = options.duration, .keep = !is_fap_output(options.output)}),
+        recorder_({.duration = options.duration, .keep = !live::is_fap_output(options.output)}),
         text_(options.output, rule_of(options.gap), options.fill) {}
 
   bool has_face() const { return recorder_.recovery().usable > 0; }
@@ -64,7 +63,7 @@ class Reception {
   const ReceiveOptions& options_;
   media::LiveSource& source_;
   media::Recorder recorder_;
-  FapOutput text_;
+  live::FapOutput text_;
   StatusLine status_;
   std::vector<media::IntraInterval> intervals_;
   std::optional<double> first_;  // instant of the first unit
@@ -77,13 +76,18 @@ Result<void> Reception::take(media::LiveEvent event) {
     if (intervals_.size() < kMostIntervals) intervals_.push_back(interval);
   }
   if (!unit) return {};
-  return text_.push(*unit, recorder_.info()->timescale, recorder_.after_gap());
+  const Result<std::string> text =
+      text_.push(*unit, recorder_.info()->timescale, recorder_.after_gap());
+  if (!text) return text.error();
+  const bool written = std::fwrite(text->data(), 1, text->size(), stdout) == text->size();
+  if (written && std::fflush(stdout) == 0) return {};
+  return make_error(Code::io, "the frames cannot be written: nobody reads standard output");
 }
 
 void Reception::look(double now) {
   if (!options_.stats || !first_ || now - *first_ < told_ + 1) return;
   told_ = std::floor(now - *first_);
-  status_.show(receive_line(told_, recorder_, source_.stats()));
+  status_.show(live::receive_line(told_, recorder_, source_.stats()));
 }
 
 Result<void> Reception::run() {
@@ -115,14 +119,14 @@ Result<void> Reception::write() {
     warn("a raw stream has no place for missing planes: " + options_.output +
          " is shorter than what was sent; mp4 keeps the times");
   }
-  return write_recording(options_.output, recorder_.recording());
+  return live::write_recording(options_.output, recorder_.recording(), talk());
 }
 
 void Reception::report() {
   status_.clear();
-  say(receive_summary(recorder_, source_.stats(), intervals_));
+  say(live::receive_summary(recorder_, source_.stats(), intervals_));
   if (!options_.json) return;
-  std::printf("%s\n", receive_json(recorder_, source_.stats(), intervals_).dump(2).c_str());
+  std::printf("%s\n", live::receive_json(recorder_, source_.stats(), intervals_).c_str());
 }
 
 Error nothing_came(const ReceiveOptions& options, const Reception& reception) {
@@ -138,7 +142,7 @@ Error nothing_came(const ReceiveOptions& options, const Reception& reception) {
 }
 
 Result<int> run(const ReceiveOptions& options) {
-  if (!is_fap_output(options.output) && !is_container_output(options.output) &&
+  if (!live::is_fap_output(options.output) && !live::is_container_output(options.output) &&
       extension_of(options.output) != ".fba") {
     return usage_error("--output must end in .fap, .fba, .mp4, .mkv or .ts, or be -, not " +
                        options.output);
@@ -146,8 +150,8 @@ Result<int> run(const ReceiveOptions& options) {
   if (options.json && options.output == "-") {
     return usage_error("--json and the frames of -o - both go to standard output");
   }
-  if (auto ok = check_folder(options.output); !ok) return ok.error();
-  auto source = open_live_source(options.source, options.receive);
+  if (auto ok = live::check_folder(options.output); !ok) return ok.error();
+  auto source = live::open_source(options.source, options.receive);
   if (!source && source.error().code == Code::invalid_argument) {
     return usage_error(source.error().message);
   }
@@ -156,7 +160,7 @@ Result<int> run(const ReceiveOptions& options) {
   Reception reception(options, **source);
   const auto received = reception.run();
   const bool enough =
-      reception.has_face() || (is_container_output(options.output) && reception.has_sound());
+      reception.has_face() || (live::is_container_output(options.output) && reception.has_sound());
   if (enough) {
     if (auto written = reception.write(); !written) return written.error();
   }

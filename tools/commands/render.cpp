@@ -7,11 +7,13 @@
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
 #include "tools/commands/fap_names.h"
-#include "tools/commands/head_view.h"
+#include "tools/commands/head_options.h"
 #include "tools/commands/preview.h"
-#include "tools/commands/render_frames.h"
-#include "tools/commands/voice_input.h"
+#include "tools/render/png.h"
 #include "tools/render/scene.h"
+#include "tools/speech/voice_file.h"
+#include "tools/studio/frames.h"
+#include "tools/studio/head_view.h"
 
 namespace animeme::tools {
 
@@ -27,7 +29,7 @@ struct RenderOptions {
   std::int64_t frame = -1;
   std::vector<double> times;
   std::string sheet;
-  HeadChoice head;
+  studio::HeadChoice head;
   std::string view = "front";
   double up = 0;
   double zoom = 1;
@@ -61,7 +63,7 @@ std::optional<Pair> parse_pair(const std::string& text, int most) {
 struct Plan {
   Pair size;
   Pair sheet;
-  HeadLook look;
+  studio::HeadLook look;
 };
 
 Result<Plan> make_plan(const RenderOptions& options) {
@@ -88,51 +90,58 @@ Result<Plan> make_plan(const RenderOptions& options) {
     return make_error(Code::invalid_argument,
                       "--view is front, three-quarter, side or degrees to the left");
   }
-  if (std::string problem = problem_of(options.head); !problem.empty()) {
+  if (std::string problem = studio::problem_of(options.head); !problem.empty()) {
     return make_error(Code::invalid_argument, std::move(problem));
   }
   plan.look = {options.head, *degrees, options.up, options.zoom, plan.size.x, plan.size.y};
   return plan;
 }
 
-Result<std::vector<ShownFrame>> choose_frames(const RenderOptions& options, const Plan& plan) {
-  if (!options.shapes.empty()) return shape_frames(options.shapes);
+Result<std::vector<studio::ShownFrame>> choose_frames(const RenderOptions& options,
+                                                      const Plan& plan) {
+  if (!options.shapes.empty()) return studio::shape_frames(options.shapes);
   Result<FaceInput> input = read_face(options.input);
   if (!input) return input.error();
   const Result<fap::Sequence> clip = fap::fill(input->clip);
   if (!clip) return clip.error().in_file(options.input);
-  Result<std::vector<ShownFrame>> frames = options.frame >= 0 ? frame_number(*clip, options.frame)
-                                           : !options.times.empty()
-                                               ? frames_at(*clip, options.times)
-                                               : even_frames(*clip, plan.sheet.x * plan.sheet.y);
+  Result<std::vector<studio::ShownFrame>> frames =
+      options.frame >= 0       ? studio::frame_number(*clip, options.frame)
+      : !options.times.empty() ? studio::frames_at(*clip, options.times)
+                               : studio::even_frames(*clip, plan.sheet.x * plan.sheet.y);
   if (!frames) return frames.error().in_file(options.input);
   return frames;
 }
 
-Result<void> draw(const Plan& plan, const std::vector<ShownFrame>& frames, PictureSink& sink) {
-  Result<HeadView> view = HeadView::make(plan.look);
+// All pictures in rows of `columns`, as a PNG file.
+Result<std::vector<std::uint8_t>> draw(const Plan& plan,
+                                       const std::vector<studio::ShownFrame>& frames, int columns) {
+  Result<studio::HeadView> view = studio::HeadView::make(plan.look, talk());
   if (!view) return view.error();
-  for (const ShownFrame& shown : frames) {
-    if (auto added = sink.add(view->draw(shown.frame)); !added) return added;
-  }
-  return sink.finish();
+  std::vector<render::Image> pictures;
+  for (const studio::ShownFrame& shown : frames) pictures.push_back(view->draw(shown.frame));
+  Result<render::Image> sheet =
+      render::contact_sheet(pictures, std::min(columns, int(pictures.size())));
+  if (!sheet) return sheet.error();
+  return render::png_of(*sheet);
 }
 
 // The sound of the video, copied where the file takes it; nothing where the face has none.
-Result<std::optional<SoundInput>> sound_of(const RenderOptions& options) {
+Result<std::optional<speech::SoundInput>> sound_of(const RenderOptions& options) {
   const bool own = options.audio.empty();
   const bool only_opus = media::usual_codec(options.output) == media::AudioCodec::opus;
-  Result<SoundInput> sound =
-      read_sound(own ? options.input : options.audio, [only_opus](media::AudioCodec codec) {
+  Result<speech::SoundInput> sound = speech::read_sound(
+      own ? options.input : options.audio,
+      [only_opus](media::AudioCodec codec) {
         return !only_opus || codec == media::AudioCodec::opus;
-      });
+      },
+      talk());
   if (sound) return std::optional(std::move(*sound));
   if (!own) return sound.error();
-  return std::optional<SoundInput>();
+  return std::optional<speech::SoundInput>();
 }
 
 Result<int> render_video(const RenderOptions& options, const Plan& plan) {
-  PreviewOptions preview{
+  studio::FilmOptions preview{
       .look = plan.look, .quality = options.quality, .audio_bit_rate = options.audio_bit_rate};
   if (!options.rate.empty()) {
     const Result<fap::Rate> rate = fap::parse_rate(options.rate);
@@ -149,11 +158,11 @@ Result<int> render_video(const RenderOptions& options, const Plan& plan) {
   if (!clip) return clip.error().in_file(options.input);
   Result<dam::Script> script = dam::Script{};
   if (!options.script.empty()) {
-    script = read_script(options.script);
+    script = speech::read_script(options.script);
     if (!script) return script.error();
     preview.script = &*script;
   }
-  const Result<std::optional<SoundInput>> sound = sound_of(options);
+  const Result<std::optional<speech::SoundInput>> sound = sound_of(options);
   if (!sound) return sound.error();
   media::MuxInput tracks;
   if (*sound) (*sound)->give_to(tracks);
@@ -175,20 +184,21 @@ Result<int> run(const RenderOptions& options) {
   if (!plan) return usage_error(plan.error().message);
   const std::string extension = extension_of(options.output);
   const bool still = options.frame >= 0 || !options.times.empty() || !options.sheet.empty();
-  if (is_video(extension) && (still || !options.shapes.empty())) {
+  if (studio::is_film(extension) && (still || !options.shapes.empty())) {
     return usage_error(
         "a video shows the whole clip; --frame, --time, --sheet and --shapes are for "
         ".png");
   }
-  if (is_video(extension)) return render_video(options, *plan);
+  if (studio::is_film(extension)) return render_video(options, *plan);
   if (extension != ".png" && options.output != "-") {
     return usage_error("the output " + options.output + " has to end in .png, .mp4, .webm or .mkv");
   }
-  Result<std::vector<ShownFrame>> frames = choose_frames(options, *plan);
+  Result<std::vector<studio::ShownFrame>> frames = choose_frames(options, *plan);
   if (!frames) return frames.error();
   const int columns = options.sheet.empty() ? columns_for(frames->size()) : plan->sheet.x;
-  const auto sink = png_sink(options.output, columns);
-  if (auto drawn = draw(*plan, *frames, *sink); !drawn) return drawn.error();
+  const auto png = draw(*plan, *frames, columns);
+  if (!png) return png.error();
+  if (auto written = write_file(options.output, *png); !written) return written.error();
   return kOk;
 }
 

@@ -1,7 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "codec/encode/encode.h"
 #include "dam/script/script.h"
@@ -10,18 +9,20 @@
 #include "dam/speaking/synthesise.h"
 #include "fap/rate_text.h"
 #include "fap/text.h"
+#include "tools/commands/common.h"
 #include "tools/commands/face_stream.h"
-#include "tools/commands/model_input.h"
 #include "tools/commands/preview.h"
-#include "tools/commands/spoken.h"
+#include "tools/commands/spoken_options.h"
 #include "tools/exchange/curves.h"
+#include "tools/json.h"
+#include "tools/text.h"
 
 namespace animeme::tools {
 
 namespace {
 
 struct SpeakOptions {
-  SpokenOptions spoken;
+  speech::SpokenOptions spoken;
   std::string output;
   std::string preview;
   std::string model;
@@ -68,7 +69,7 @@ Result<fap::Sequence> to_clip(const dam::Signal& signal) {
 }
 
 Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
-                         const Spoken& spoken) {
+                         const speech::Spoken& spoken) {
   const std::string extension = extension_of(options.output);
   if (extension == ".fap") {
     if (auto done = write_file(options.output, fap::write_text(clip)); !done) return done.error();
@@ -80,11 +81,9 @@ Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
     Result<std::vector<std::uint8_t>> stream = fba::encode(clip, encode_options(options.stream));
     if (!stream) return stream.error();
     if (auto done = write_file(options.output, *stream); !done) return done.error();
-    char rate[40];
-    std::snprintf(rate, sizeof rate, "%.2f kbit/s",
-                  double(stream->size()) * 8e-3 / clip.duration());
     say(options.output + ": " + std::to_string(clip.frames.size()) + " planes, " +
-        std::to_string(stream->size()) + " bytes, " + seconds_text(clip.duration()) + ", " + rate);
+        std::to_string(stream->size()) + " bytes, " + seconds_text(clip.duration()) +
+        format(", %.2f kbit/s", double(stream->size()) * 8e-3 / clip.duration()));
     return kOk;
   }
   Result<fba::AccessUnits> units = access_units({clip, {}}, options.stream);
@@ -99,23 +98,23 @@ Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
   return write_preview(options.preview, *units, input);
 }
 
-void report(const SpeakOptions& options, const Spoken& spoken, const dam::Signal& signal,
+void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam::Signal& signal,
             const dam::SynthesisReport& synthesis) {
   for (const auto& [label, by] : synthesis.replaced) {
     if (!options.json) say("the model has no " + label + ", spoken as " + by);
   }
   if (!options.json) return;
-  nlohmann::ordered_json replaced = nlohmann::ordered_json::object();
+  Json replaced = Json::object();
   for (const auto& [label, by] : synthesis.replaced) replaced[label] = by;
-  const nlohmann::ordered_json json = {{"output", options.output},
-                                       {"voice", spoken.voice},
-                                       {"seconds", signal.rate.seconds(double(signal.frames()))},
-                                       {"frames", signal.frames()},
-                                       {"phones", synthesis.phones},
-                                       {"replaced_phones", synthesis.replaced_phones},
-                                       {"replaced", replaced},
-                                       {"closures_forced", synthesis.closures},
-                                       {"lip_tooth_forced", synthesis.lip_tooth_contacts}};
+  const Json json = {{"output", options.output},
+                     {"voice", spoken.voice},
+                     {"seconds", signal.rate.seconds(double(signal.frames()))},
+                     {"frames", signal.frames()},
+                     {"phones", synthesis.phones},
+                     {"replaced_phones", synthesis.replaced_phones},
+                     {"replaced", replaced},
+                     {"closures_forced", synthesis.closures},
+                     {"lip_tooth_forced", synthesis.lip_tooth_contacts}};
   std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
 }
 
@@ -130,9 +129,9 @@ Result<int> run(const SpeakOptions& options) {
   }
   Result<fap::Rate> rate = fap::parse_rate(options.rate);
   if (!rate) return usage_error("--rate " + options.rate + ": " + rate.error().message);
-  Result<dam::Model> model = read_model_or_builtin(options.model);
+  Result<dam::Model> model = speech::read_model(options.model);
   if (!model) return model.error();
-  Result<Spoken> spoken = get_spoken(options.spoken);
+  Result<speech::Spoken> spoken = speech::get_spoken(options.spoken, talk());
   if (!spoken) return spoken.error();
 
   dam::SynthesisOptions settings;

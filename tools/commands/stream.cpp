@@ -4,37 +4,54 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "fap/rate_text.h"
+#include "tools/commands/common.h"
 #include "tools/commands/interrupt.h"
-#include "tools/commands/stream_program.h"
-#include "tools/commands/stream_report.h"
+#include "tools/commands/spoken_options.h"
+#include "tools/live/address.h"
+#include "tools/live/program.h"
+#include "tools/live/stream_report.h"
+#include "tools/media/container.h"
 
 namespace animeme::tools {
 
 namespace {
 
+struct StreamOptions {
+  std::string input;
+  std::vector<std::string> to;
+  std::vector<std::string> sdp;
+  live::SinkOptions sink;
+  live::ProgramOptions program;
+  std::string codec;
+  std::string rate = "25";
+  bool no_sound = false;
+  bool fast = false;
+  bool stats = false;
+  bool json = false;
+};
+
 constexpr double kPollSeconds = 0.05;  // sinks are looked after so often
 
 std::string bad_options(const StreamOptions& options) {
-  const bool spoken = options.spoken.has_text || !options.spoken.text_file.empty() ||
-                      !options.spoken.script.empty() || options.spoken.has_transcript;
-  const int sources = int(!options.input.empty()) + int(!options.say.empty()) + int(spoken);
+  const bool spoken = speech::has_source(options.program.spoken);
+  const int sources = int(!options.input.empty()) + int(!options.program.say.empty()) + int(spoken);
   if (sources > 1) return "name one thing to stream: a file, --say, or --text and its like";
-  if (!options.say.empty() && !options.spoken.audio.empty()) {
+  if (!options.program.say.empty() && !options.program.spoken.audio.empty()) {
     return "--audio goes with a face, not with --say, whose voice is synthetic";
   }
-  if (sources == 0 && options.spoken.audio.empty()) {
+  if (sources == 0 && options.program.spoken.audio.empty()) {
     return "nothing to stream: name a file with a face, or give --text, --script or --say -";
   }
   if (sources == 0) return "--audio needs a face beside it, --transcript or --script";
-  if (!options.say.empty() && options.loop) return "--loop repeats clips, --say is none";
-  if (!options.say.empty() && options.fast) {
+  if (!options.program.say.empty() && options.program.loop)
+    return "--loop repeats clips, --say is none";
+  if (!options.program.say.empty() && options.fast) {
     return "--fast does not go with --say, whose lines come in their own time";
   }
   std::size_t rtp = 0;
-  for (const std::string& url : options.to) rtp += is_rtp(url);
+  for (const std::string& url : options.to) rtp += live::is_rtp(url);
   if (options.sdp.size() > rtp) return "there are more --sdp files than rtp addresses";
   return {};
 }
@@ -42,10 +59,10 @@ std::string bad_options(const StreamOptions& options) {
 /// Tells once a second how it goes, and of lines that could not be spoken.
 class Watch {
  public:
-  Watch(const StreamOptions& options, Program& program, StreamReport& report)
+  Watch(const StreamOptions& options, live::Program& program, live::StreamReport& report)
       : options_(options), program_(program), report_(report) {}
 
-  void look(const LiveSinks& sinks, const media::Pacer& pacer, double now) {
+  void look(const live::Sinks& sinks, const media::Pacer& pacer, double now) {
     if (program_.lines) tell(program_.lines->take_warnings());
     if (program_.speaker) tell(program_.speaker->take_warnings());
     if (!options_.stats || now < next_) return;
@@ -61,15 +78,15 @@ class Watch {
   }
 
   const StreamOptions& options_;
-  Program& program_;
-  StreamReport& report_;
+  live::Program& program_;
+  live::StreamReport& report_;
   StatusLine status_;
   double next_ = 1;
 };
 
 /// Sends all of it, unit by unit. Ends early at Ctrl-C.
-Result<void> send_all(media::LiveInput& input, LiveSinks& sinks, media::Clock& clock,
-                      media::Pacer& pacer, StreamReport& report, Watch& watch, double begin) {
+Result<void> send_all(media::LiveInput& input, live::Sinks& sinks, media::Clock& clock,
+                      media::Pacer& pacer, live::StreamReport& report, Watch& watch, double begin) {
   double polled = clock.now();
   const auto look = [&]() -> Result<void> {
     if (clock.now() - polled < kPollSeconds) return {};
@@ -96,27 +113,85 @@ Result<void> send_all(media::LiveInput& input, LiveSinks& sinks, media::Clock& c
   return {};
 }
 
-void print_result(const StreamOptions& options, const StreamReport& report, double seconds,
-                  const LiveSinks& sinks, const media::Pacer& pacer, const Program& program) {
+// A file with a face, and with sound if it is a container or `audio` names one. Coded streams and
+// coded sound keep their bytes, but for what `coding` says.
+Result<live::Clip> load_clip(const std::string& path, const std::string& audio,
+                             const live::Coding& coding) {
+  Result<std::vector<std::uint8_t>> bytes = read_file(path);
+  if (!bytes) return bytes.error();
+  live::Clip clip;
+  const bool media = kind_of(*bytes) == FileKind::media;
+  if (media) {
+    // Its units with their own times.
+    Result<media::Container> container =
+        media::read_container(std::span<const std::uint8_t>(*bytes));
+    if (!container) return container.error().in_file(path);
+    clip.face = std::move(container->face);
+    const bool own_sound = audio.empty() && coding.sound && container->audio.has_value();
+    if (own_sound) {
+      Result<media::EncodedAudio> sound = live::live_sound(path, coding, talk());
+      if (!sound) return sound.error();
+      clip.sound = std::move(*sound);
+    }
+  }
+  Result<MotionInput> motion = parse_motion(std::move(*bytes), path);
+  if (!motion) return motion.error();
+  if (motion->stream.empty()) {
+    if (auto ok = require_face(*motion, path); !ok) return ok.error();
+    Result<fba::AccessUnits> face = live::live_units(motion->face, coding);
+    if (!face) return face.error().in_file(path);
+    clip.face = std::move(*face);
+  } else {
+    if (!media) {
+      Result<fba::AccessUnits> units = fba::split_access_units(motion->stream);
+      if (!units) return units.error().in_file(path);
+      clip.face = std::move(*units);
+    }
+    auto face = live::for_live_use(std::move(clip.face), motion->decoded, path, coding, talk());
+    if (!face) return face.error();
+    clip.face = std::move(*face);
+  }
+  if (!audio.empty() && coding.sound) {
+    Result<media::EncodedAudio> sound = live::live_sound(audio, coding, talk());
+    if (!sound) return sound.error();
+    clip.sound = std::move(*sound);
+  }
+  return clip;
+}
+
+Result<void> open_program(const StreamOptions& options, fap::Rate rate, live::Program& program) {
+  const live::ProgramOptions& what = options.program;
+  if (!what.say.empty()) return live::open_speaker(what, rate, program);
+  Result<live::Clip> clip = options.input.empty()
+                                ? live::spoken_clip(what, rate, talk())
+                                : load_clip(options.input, what.spoken.audio, what.coding);
+  if (!clip) return clip.error();
+  live::play_clip(std::move(*clip), what, program);
+  return {};
+}
+
+void print_result(const StreamOptions& options, const live::StreamReport& report, double seconds,
+                  const live::Sinks& sinks, const media::Pacer& pacer,
+                  const live::Program& program) {
   const auto traces = program.speaker ? program.speaker->traces() : std::deque<speech::LineTrace>{};
   say(report.summary(seconds, sinks, pacer, traces));
   if (options.json) {
-    std::printf("%s\n", report.json(seconds, sinks, pacer, traces).dump(2).c_str());
+    std::printf("%s\n", report.json(seconds, sinks, pacer, traces).c_str());
   }
 }
 
-Result<int> send(const StreamOptions& options, Program& program, LiveSinks& sinks) {
+Result<int> send(const StreamOptions& options, live::Program& program, live::Sinks& sinks) {
   media::LiveInput& input = program.input();
   media::JumpingClock jumping;
   media::Clock& clock = options.fast ? static_cast<media::Clock&>(jumping) : media::steady_clock();
   const Interrupt interrupt;
   if (auto ok = sinks.start(input.info()); !ok) return ok.error();
-  for (const LiveAddress& address : sinks.addresses()) say("sending to " + address.url);
+  for (const live::Address& address : sinks.addresses()) say("sending to " + address.url);
   // Priming is due before time 0.
   const double begin = std::min(0.0, input.next_due().value_or(0));
   media::Pacer pacer(clock, kPollSeconds);
   pacer.restart(-begin);
-  StreamReport report(input.info());
+  live::StreamReport report(input.info());
   Watch watch(options, program, report);
   const auto sent = send_all(input, sinks, clock, pacer, report, watch, begin);
   watch.done();
@@ -131,20 +206,20 @@ Result<int> run(StreamOptions& options) {
   if (const std::string bad = bad_options(options); !bad.empty()) return usage_error(bad);
   Result<fap::Rate> rate = fap::parse_rate(options.rate);
   if (!rate) return usage_error("--rate " + options.rate + ": " + rate.error().message);
-  options.coding.codec_given = !options.codec.empty();
-  options.coding.sound = !options.no_sound;
+  options.program.coding.codec_given = !options.codec.empty();
+  options.program.coding.sound = !options.no_sound;
   // Opus packets are shorter, which is what counts when sound is made while it is sent.
-  const bool opus = options.codec.empty() ? !options.say.empty() : options.codec == "opus";
-  options.coding.audio.codec = opus ? media::AudioCodec::opus : media::AudioCodec::aac;
-  auto sinks = LiveSinks::open(options.to, options.sdp, options.sink);
+  const bool opus = options.codec.empty() ? !options.program.say.empty() : options.codec == "opus";
+  options.program.coding.audio.codec = opus ? media::AudioCodec::opus : media::AudioCodec::aac;
+  auto sinks = live::Sinks::open(options.to, options.sdp, options.sink, talk());
   if (!sinks && sinks.error().code == Code::invalid_argument) {
     return usage_error(sinks.error().message);
   }
   if (!sinks) return sinks.error();
-  if (options.sdp.empty() && std::any_of(options.to.begin(), options.to.end(), is_rtp)) {
+  if (options.sdp.empty() && std::any_of(options.to.begin(), options.to.end(), live::is_rtp)) {
     warn("receivers of rtp need a session description: write one with --sdp talk.sdp");
   }
-  Program program;
+  live::Program program;
   if (auto ok = open_program(options, *rate, program); !ok) return ok.error();
   return send(options, program, *sinks);
 }
@@ -152,41 +227,45 @@ Result<int> run(StreamOptions& options) {
 void add_source_options(CLI::App& app, StreamOptions& options) {
   app.add_option("input", options.input,
                  "File with a face: mp4, mkv, ts (with its sound), .fba, .fap");
-  add_spoken_options(app, options.spoken);
-  app.add_option("--say", options.say,
+  add_spoken_options(app, options.program.spoken);
+  app.add_option("--say", options.program.say,
                  "Lines of text to speak as they come, - for standard input; between them the face "
                  "idles");
-  app.add_flag("--loop", options.loop, "Begin the clip again at its end; times go on");
-  app.add_option("--duration", options.duration, "End after so many seconds")
+  app.add_flag("--loop", options.program.loop, "Begin the clip again at its end; times go on");
+  app.add_option("--duration", options.program.duration, "End after so many seconds")
       ->check(CLI::PositiveNumber);
   app.add_flag("--no-sound", options.no_sound, "Send the face alone");
-  app.add_option("--model", options.model, "Model file of a character; default: the built-in one");
+  app.add_option("--model", options.program.model,
+                 "Model file of a character; default: the built-in one");
   app.add_option("--rate", options.rate, "Frames a second of a face made from text or script")
       ->capture_default_str();
-  app.add_option("--style", options.style, "Intensity: 0 at rest, 1 as learned, 1.5 exaggerated")
+  app.add_option("--style", options.program.style,
+                 "Intensity: 0 at rest, 1 as learned, 1.5 exaggerated")
       ->check(CLI::Range(0.0, dam::kMostStyle))
       ->capture_default_str();
-  app.add_flag("--life", options.life, "Add blinks, and brows and head that move a little");
-  app.add_option("--seed", options.seed, "Other times of blinks and another sway of the head")
+  app.add_flag("--life", options.program.life, "Add blinks, and brows and head that move a little");
+  app.add_option("--seed", options.program.seed,
+                 "Other times of blinks and another sway of the head")
       ->needs("--life");
 }
 
 void add_coding_options(CLI::App& app, StreamOptions& options) {
-  app.add_option("--intra-seconds", options.coding.intra_seconds,
+  app.add_option("--intra-seconds", options.program.coding.intra_seconds,
                  "Seconds between points where receivers can join; streams and containers whose "
                  "own lie farther apart are coded again, all others are sent as they are")
       ->check(CLI::Range(0.04, 60.0))
       ->capture_default_str();
   app.add_flag(
-      "--copy", options.coding.copy,
+      "--copy", options.program.coding.copy,
       "Send streams and containers as they are, however far their joining points are apart");
-  app.add_option("--quant", options.coding.quant, "Quantiser fap_quant of faces that are coded")
+  app.add_option("--quant", options.program.coding.quant,
+                 "Quantiser fap_quant of faces that are coded")
       ->check(CLI::Range(0, 31))
       ->capture_default_str();
   app.add_option("--audio-codec", options.codec,
                  "aac or opus; default: what a file has, opus for --say, else aac")
       ->check(CLI::IsMember({"aac", "opus"}));
-  app.add_option("--audio-bitrate", options.coding.audio.bit_rate,
+  app.add_option("--audio-bitrate", options.program.coding.audio.bit_rate,
                  "Bits a second of sound that is coded; default: aac 64000, opus 40000")
       ->check(CLI::Range(6000, 320000));
 }

@@ -26,6 +26,8 @@ void say(const std::string& text) {
   if (!quiet_setting) std::cerr << text << "\n";
 }
 
+Talk talk() { return {say, warn}; }
+
 int usage_error(const std::string& text) {
   std::cerr << "animeme: " << text << "\nRun with --help for more information.\n";
   return kUsage;

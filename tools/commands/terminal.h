@@ -4,12 +4,16 @@
 
 #include <string>
 
+#include "tools/files/talk.h"
+
 namespace animeme::tools {
 
 /// Prints "animeme: warning: text" on standard error, unless --quiet was given.
 void warn(const std::string& text);
 /// Prints a line of talk on standard error, unless --quiet was given.
 void say(const std::string& text);
+/// The same for libraries, which have something to say but do not print.
+Talk talk();
 /// Set by main() from --quiet.
 void set_quiet(bool quiet);
 

@@ -3,10 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "tools/commands/train_parts.h"
-#include "tools/commands/train_report.h"
 
 namespace animeme::tools {
 
@@ -55,13 +53,7 @@ Result<int> run_whole(const TrainOptions& options) {
   if (auto written = write_file(options.output, dam::write_model(*model)); !written) {
     return written.error();
   }
-  if (options.json) {
-    auto json = train_json(options.output, *model, summary);
-    json["corpus_seconds"] = corpus->duration();
-    std::printf("%s\n", json.dump(2).c_str());
-  } else {
-    say_training(options.output, *model, summary, corpus->duration());
-  }
+  tell_training(options.output, *model, summary, {corpus->duration(), {}}, options.json);
   return kOk;
 }
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dam/training/accumulate.h"
-#include "tools/commands/train_report.h"
+#include "tools/speech/spoken.h"
 
 namespace animeme::tools {
 
@@ -15,7 +15,7 @@ namespace {
 Result<dam::TrainingSums> open_sums(const PartSettings& parts, const dam::TrainOptions& train) {
   dam::Model base;
   if (!parts.dominance.empty()) {
-    Result<dam::Model> read = read_model_or_builtin(parts.dominance);
+    Result<dam::Model> read = speech::read_model(parts.dominance);
     if (!read) return read.error();
     base = std::move(*read);
   }
@@ -82,6 +82,15 @@ class Accumulator {
 
 }  // namespace
 
+void tell_training(const std::string& output, const dam::Model& model,
+                   const dam::TrainSummary& summary, const inspect::TrainingData& data, bool json) {
+  if (json) {
+    std::printf("%s\n", inspect::training_json(output, model, summary, data).c_str());
+  } else {
+    say(inspect::training_text(output, model, summary, data));
+  }
+}
+
 Result<int> accumulate(const PartSettings& parts, const CorpusSettings& corpus,
                        const dam::TrainOptions& train, bool json) {
   Result<dam::TrainingSums> sums = open_sums(parts, train);
@@ -114,13 +123,7 @@ Result<int> merge(const PartSettings& parts, const std::string& output, dam::Tra
   if (auto written = write_file(output, dam::write_model(*model)); !written) {
     return written.error();
   }
-  if (json) {
-    auto out = train_json(output, *model, summary);
-    out["parts"] = parts.merge;
-    std::printf("%s\n", out.dump(2).c_str());
-  } else {
-    say_training(output, *model, summary, 0);
-  }
+  tell_training(output, *model, summary, {0, parts.merge}, json);
   return kOk;
 }
 

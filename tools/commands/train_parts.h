@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "dam/training/train.h"
-#include "tools/commands/model_input.h"
+#include "tools/commands/corpus.h"
+#include "tools/inspect/training.h"
 
 namespace animeme::tools {
 
@@ -19,7 +20,10 @@ struct PartSettings {
   std::vector<std::string> merge;  ///< files of sums
 };
 
-/// `train --accumulate`; the exit code.
+/// Says, or prints as JSON, what a training has found.
+void tell_training(const std::string& output, const dam::Model& model,
+                   const dam::TrainSummary& summary, const inspect::TrainingData& data, bool json);
+
 Result<int> accumulate(const PartSettings& parts, const CorpusSettings& corpus,
                        const dam::TrainOptions& train, bool json);
 

@@ -10,9 +10,10 @@
 #include "fap/head/rig.h"
 #include "tools/commands/common.h"
 #include "tools/commands/face_stream.h"
-#include "tools/commands/head_file.h"
+#include "tools/commands/head_options.h"
 #include "tools/commands/view_sound.h"
-#include "tools/commands/voice_input.h"
+#include "tools/speech/voice_file.h"
+#include "tools/text.h"
 #include "tools/viewer/viewer.h"
 
 namespace animeme::tools {
@@ -31,7 +32,7 @@ struct ViewOptions {
   std::string audio;
   SoundSettings sound;
   std::string script;
-  HeadChoice head;
+  studio::HeadChoice head;
 };
 
 // A clip, and whether it came with a container that may hold sound.
@@ -51,11 +52,7 @@ Result<ViewedClip> read_shown(const std::string& path) {
   return ViewedClip{{std::move(*filled), input->start, name}, input->kind == FileKind::media};
 }
 
-std::string megabytes(double bytes) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f MB", bytes / 1e6);
-  return text;
-}
+std::string megabytes(double bytes) { return format("%.2f MB", bytes / 1e6); }
 
 // The sound that was asked for, else that of the first container that has one; nothing if none has.
 Result<std::optional<PageSound>> sound_of(const ViewOptions& options,
@@ -100,10 +97,10 @@ void warn_of_size(const viewer::Page& page, std::size_t size, double seconds) {
 }
 
 Result<int> run(const ViewOptions& options) {
-  if (const std::string problem = problem_of(options.head); !problem.empty()) {
+  if (const std::string problem = studio::problem_of(options.head); !problem.empty()) {
     return usage_error(problem);
   }
-  const Result<head::Head> head = load_head_and_tell(options.head);
+  const Result<head::Head> head = studio::load_head(options.head, talk());
   if (!head) return head.error();
   viewer::Page page;
   std::vector<std::string> containers;
@@ -121,7 +118,7 @@ Result<int> run(const ViewOptions& options) {
   const double seconds = *sound ? (*sound)->seconds : 0;
   if (*sound) page.sound = std::move((*sound)->sound);
   if (!options.script.empty()) {
-    Result<dam::Script> script = read_script(options.script);
+    Result<dam::Script> script = speech::read_script(options.script);
     if (!script) return script.error();
     page.script = std::move(*script);
   }

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "tools/commands/common.h"
-#include "tools/commands/voice_input.h"
 #include "tools/media/mux.h"
+#include "tools/speech/voice_file.h"
 
 namespace animeme::tools {
 
@@ -38,11 +38,11 @@ class WorkFolder {
 
 Result<PageSound> page_sound(const std::string& path, const SoundSettings& settings) {
   const bool as_it_is = settings.codec.empty() && settings.bit_rate == 0;
-  Result<media::EncodedAudio> coded = read_coded_sound(
+  Result<media::EncodedAudio> coded = speech::read_coded_sound(
       path, [as_it_is](media::AudioCodec) { return as_it_is; },
-      audio_settings(settings, "sound.mp4"));
+      audio_settings(settings, "sound.mp4"), talk());
   if (!coded) return coded.error();
-  const SoundInput sound{std::move(*coded), {}};
+  const speech::SoundInput sound{std::move(*coded), {}};
   const WorkFolder folder;
   if (folder.path().empty()) {
     return make_error(Code::io, "there is no folder for temporary files: set TMPDIR to one");

@@ -1,0 +1,41 @@
+#include "tools/commands/spoken_options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace animeme::tools {
+
+void add_spoken_options(CLI::App& app, speech::SpokenOptions& options) {
+  app.add_option("--text", options.text, "Text to speak with a synthetic voice")
+      ->each([&options](const std::string&) { options.has_text = true; });
+  app.add_option("--text-file", options.text_file, "The same from a file, - for standard input")
+      ->excludes("--text");
+  app.add_option("--script", options.script,
+                 "Timed phones of a recording: TSV (start_s end_s phone) or Praat TextGrid")
+      ->excludes("--text")
+      ->excludes("--text-file");
+  app.add_option("--audio", options.audio, "Recorded voice in any format that FFmpeg reads")
+      ->excludes("--text")
+      ->excludes("--text-file");
+  app.add_option("--transcript", options.transcript,
+                 "What is said in --audio; its phones are found by alignment")
+      ->each([&options](const std::string&) { options.has_transcript = true; })
+      ->needs("--audio")
+      ->excludes("--script");
+  app.add_option("--lang", options.language, "Language of the text: en, de, fr, pt-br ...")
+      ->capture_default_str();
+  app.add_option("--speed", options.words_per_minute, "Words a minute of the synthetic voice")
+      ->check(CLI::Range(80, 450))
+      ->capture_default_str();
+  app.add_option("--pitch", options.pitch, "Pitch of the synthetic voice")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str();
+}
+
+std::string missing_options(const speech::SpokenOptions& options) {
+  if (has_source(options)) return {};
+  return options.audio.empty()
+             ? "nothing to say: give --text, --script, or --audio with --transcript"
+             : "--audio needs --transcript (its text) or --script (its timed phones)";
+}
+
+}  // namespace animeme::tools

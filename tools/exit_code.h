@@ -1,0 +1,17 @@
+/// @file
+/// How the program ends.
+#pragma once
+
+namespace animeme::tools {
+
+/// Exit codes of the program.
+enum ExitCode : int {
+  kOk = 0,
+  kCheckFailed = 1,
+  kUsage = 2,
+  kBadInput = 3,
+  kInternal = 4,
+  kInterrupted = 130,  ///< Ctrl-C; what was written is complete as far as it goes
+};
+
+}  // namespace animeme::tools

@@ -1,0 +1,41 @@
+/// @file
+/// How much each parameter of a clip moves.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "codec/text/bap_text.h"
+#include "fap/frame.h"
+
+namespace animeme::inspect {
+
+/// The parameters that occur at all.
+template <class Frame>
+auto used_mask(const std::vector<Frame>& frames) {
+  decltype(Frame().mask) used;
+  for (const Frame& frame : frames) used |= frame.mask;
+  return used;
+}
+
+/// One FAP or BAP as a receiver sees it: a value that a frame leaves out stays.
+struct Activity {
+  int number = 0;             ///< of the FAP or BAP
+  std::int64_t frames = 0;    ///< frames that carry it
+  bool is_amount = true;      ///< false for FAP 1 and 2, whose values are choices
+  std::int32_t min = 0;       ///< amounts only
+  std::int32_t max = 0;       ///< amounts only
+  double rms_speed = 0;       ///< amounts only: units a second, from frame to frame
+  std::size_t distinct = 0;   ///< different values
+  double moves = 0;           ///< share of the frames behind the first in which it changes, 0..1
+  std::vector<int> equal_to;  ///< left/right and inner/outer partners of the same value throughout
+
+  bool never_moves() const { return distinct <= 1; }  ///< one value throughout
+};
+
+/// Those of used_mask(), by number.
+std::vector<Activity> measure_activity(const fap::Sequence& clip);
+std::vector<Activity> measure_activity(const fba::BodySequence& body);  ///< likewise, of BAPs
+
+}  // namespace animeme::inspect

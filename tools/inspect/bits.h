@@ -1,0 +1,48 @@
+/// @file
+/// Where the bits of a stream go.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "codec/decode/decoder.h"
+
+namespace animeme::inspect {
+
+/// Sizes of the planes of one type, in bits. All 0 if there are none.
+struct PlaneBits {
+  std::size_t planes = 0;    ///< of this type
+  double mean = 0;           ///< bits a plane
+  double median = 0;         ///< bits a plane
+  std::int64_t largest = 0;  ///< bits
+};
+
+/// Where the bits of a stream went.
+struct BitStatistics {
+  double seconds = 0;          ///< from the first plane to the end of the last
+  double kbit_per_s = 0;       ///< the whole stream
+  double peak_kbit_per_s = 0;  ///< the costliest second (of shorter streams: all of it)
+  PlaneBits intra;             ///< planes with settings
+  PlaneBits predictive;        ///< all others
+
+  // Every bit of the stream is one of these three kinds.
+  std::int64_t framing_bits = 0;  ///< start codes, stuffing, sequence headers
+  std::int64_t header_bits = 0;   ///< types, temporal headers, masks, quantisers, ranges
+  std::int64_t value_bits = 0;    ///< segments, and flags of FAP 1 and 2
+
+  /// What each parameter costs at best: -log2 of the frequencies that the adaptive models have
+  /// when the value comes, summed over the stream. Segment ends and stuffed bits are not in it.
+  std::array<double, fap::kFapCount + 1> ideal_fap_bits{};
+  std::array<double, fba::kBapCount + 1> ideal_bap_bits{};  ///< by BAP number
+
+  double ideal_bits() const;  ///< sum of both
+};
+
+/// Bits of a plane's header: all that stands before its segments. Exact.
+std::int64_t header_bits(const fba::Plane& plane);
+
+/// `bytes` is the size of the stream that was decoded. Linear in the stream.
+BitStatistics measure_bits(const fba::DecodedStream& stream, std::size_t bytes);
+
+}  // namespace animeme::inspect

@@ -1,0 +1,259 @@
+#include "tools/inspect/stream_internal.h"
+
+#include <algorithm>
+#include <string>
+
+#include "fap/rate_text.h"
+#include "fap/tables.h"
+#include "tools/inspect/activity.h"
+#include "tools/json.h"
+#include "tools/text.h"
+
+namespace animeme::inspect {
+
+using tools::Json;
+
+namespace {
+
+// Runs of numbers: "3-13, 51-60".
+template <std::size_t N>
+std::string mask_text(const std::bitset<N>& mask, const char* separator = ", ") {
+  std::string text;
+  for (std::size_t number = 1; number < N; ++number) {
+    if (!mask[number]) continue;
+    std::size_t last = number;
+    while (last + 1 < N && mask[last + 1]) ++last;
+    if (!text.empty()) text += separator;
+    text += std::to_string(number);
+    if (last > number) text += "-" + std::to_string(last);
+    number = last;
+  }
+  return text.empty() ? "none" : text;
+}
+
+struct ValueRange {
+  std::int32_t low = 0;
+  std::int32_t high = 0;
+};
+
+template <class Frame>
+ValueRange range_of(const std::vector<Frame>& frames, std::size_t number) {
+  ValueRange range;
+  bool first = true;
+  for (const Frame& frame : frames) {
+    if (!frame.mask[number]) continue;
+    const std::int32_t value = frame.value[number];
+    range.low = first ? value : std::min(range.low, value);
+    range.high = first ? value : std::max(range.high, value);
+    first = false;
+  }
+  return range;
+}
+
+constexpr const char* kRangeNames[4] = {"i_max", "i_min", "p_max", "p_min"};
+
+template <std::size_t N>
+Json types_of(const std::array<fba::MaskType, N>& types) {
+  Json list = Json::array();
+  for (const fba::MaskType type : types) list.push_back(int(type));
+  return list;
+}
+
+// The four sets that were sent, for the parameters from `first` on.
+template <class Settings>
+void add_ranges(Json& json, const Settings& settings, std::size_t first, const char* prefix) {
+  for (std::size_t kind = 0; kind < 4; ++kind) {
+    if (!settings.send_range[kind]) continue;
+    Json ranges = Json::array();
+    for (std::size_t number = first; number < settings.mask.size(); ++number) {
+      if (settings.mask[number]) ranges.push_back(settings.range[kind][number] * 60);
+    }
+    json[std::string(prefix) + kRangeNames[kind]] = ranges;
+  }
+}
+
+std::string time_code_text(const fba::TimeCode& code) {
+  return tools::format("%02d:%02d:%02d", code.hours, code.minutes, code.seconds);
+}
+
+void add_temporal(Json& json, const fba::TemporalHeader& temporal) {
+  if (temporal.skip) json["skip"] = *temporal.skip;
+  if (temporal.rate) json["rate"] = fap::format_rate(temporal.rate->rate());
+  if (temporal.time_code) json["time_code"] = time_code_text(*temporal.time_code);
+}
+
+Json describe_plane(const fba::Plane& plane) {
+  const bool face = fba::has_face(plane.object_mask);
+  const bool body = fba::has_body(plane.object_mask);
+  Json json = {{"number", plane.number},
+               {"seconds", plane.seconds},
+               {"type", plane.intra ? "I" : "P"},
+               {"bit", plane.bit_begin},
+               {"bits", plane.bit_end - plane.bit_begin},
+               {"start_code", plane.start_code},
+               {"face", face},
+               {"body", body}};
+  add_temporal(json, plane.temporal);
+  if (face && plane.face.mask[1]) json["viseme_def"] = plane.face.viseme.def;
+  if (face && plane.face.mask[2]) {
+    json["init_face"] = plane.face.expression.init_face;
+    json["expression_def"] = plane.face.expression.def;
+  }
+  if (plane.intra && plane.face_settings) {
+    const fba::FaceSettings& settings = *plane.face_settings;
+    json["fap_quant"] = settings.fap_quant;
+    json["mask_types"] = types_of(settings.mask_type);
+    json["faps"] = mask_text(settings.mask);
+    json["gender"] = settings.male ? "male" : "female";
+    add_ranges(json, settings, fap::kFirstLowLevel, "");
+  }
+  if (plane.intra && plane.body_settings) {
+    const fba::BodySettings& settings = *plane.body_settings;
+    json["bap_quant"] = settings.bap_quant;
+    json["bap_mask_types"] = types_of(settings.mask_type);
+    json["baps"] = mask_text(settings.mask);
+    json["bap_gender"] = settings.male ? "male" : "female";
+    add_ranges(json, settings, 1, "bap_");
+  }
+  return json;
+}
+
+// "I -60..1860 P -120..60": the widest of the ranges that were sent.
+template <class Settings>
+std::string widest_ranges(const Settings& settings, std::size_t first) {
+  const auto widest = [&](std::size_t kind) -> std::string {
+    if (!settings.send_range[kind]) return "?";
+    int m = 0;
+    for (std::size_t number = first; number < settings.mask.size(); ++number) {
+      if (settings.mask[number]) m = std::max<int>(m, settings.range[kind][number]);
+    }
+    return (kind % 2 == 1 && m > 0 ? "-" : "") + std::to_string(m * 60);
+  };
+  std::string text;
+  for (const std::size_t kind : {std::size_t(fba::kIntraMax), std::size_t(fba::kPredictiveMax)}) {
+    if (!settings.send_range[kind] && !settings.send_range[kind + 1]) continue;
+    text += kind == fba::kIntraMax ? " I " : " P ";
+    text += widest(kind + 1) + ".." + widest(kind);
+  }
+  return text.empty() ? " ranges as before" : " ranges" + text;
+}
+
+template <class Settings>
+std::string settings_text(const Settings& settings, const char* name, int quant,
+                          std::size_t first) {
+  std::string types;
+  for (const fba::MaskType type : settings.mask_type) types += char('0' + int(type));
+  return std::string("  ") + name + " " + mask_text(settings.mask, ",") + " types " + types +
+         " quant " + std::to_string(quant) + widest_ranges(settings, first);
+}
+
+std::string details(const fba::Plane& plane) {
+  std::string text;
+  const fba::TemporalHeader& temporal = plane.temporal;
+  if (plane.start_code) text += "  start code";
+  if (temporal.rate) text += "  rate " + fap::format_rate(temporal.rate->rate());
+  if (temporal.time_code) text += "  time " + time_code_text(*temporal.time_code);
+  if (temporal.skip) text += "  skip " + std::to_string(*temporal.skip);
+  if (fba::has_face(plane.object_mask)) {
+    if (plane.face.mask[1] && plane.face.viseme.def) text += "  viseme_def";
+    if (plane.face.mask[2] && plane.face.expression.init_face) text += "  init_face";
+    if (plane.face.mask[2] && plane.face.expression.def) text += "  expression_def";
+  }
+  if (!plane.intra) return text;
+  if (plane.face_settings) {
+    const fba::FaceSettings& face = *plane.face_settings;
+    text += settings_text(face, "FAP", face.fap_quant, fap::kFirstLowLevel);
+  }
+  if (plane.body_settings) {
+    const fba::BodySettings& body = *plane.body_settings;
+    text += settings_text(body, "BAP", body.bap_quant, 1);
+  }
+  return text;
+}
+
+}  // namespace
+
+Json describe_clip(const fap::Sequence& clip) {
+  const fap::Mask used = used_mask(clip.frames);
+  Json faps = Json::array();
+  for (int number = fap::kFirstLowLevel; number <= fap::kFapCount; ++number) {
+    if (!used[std::size_t(number)]) continue;
+    const ValueRange range = range_of(clip.frames, std::size_t(number));
+    faps.push_back({{"fap", number},
+                    {"name", fap::info(number).name},
+                    {"min", range.low},
+                    {"max", range.high}});
+  }
+  return {{"frames", clip.frames.size()},
+          {"rate", fap::format_rate(clip.rate)},
+          {"seconds", clip.duration()},
+          {"coded_faps", mask_text(used)},
+          {"faps", faps}};
+}
+
+Json describe_body(const fba::BodySequence& body) {
+  const auto used = used_mask(body.frames);
+  Json baps = Json::array();
+  for (std::size_t number = 1; number <= fba::kBapCount; ++number) {
+    if (!used[number]) continue;
+    const ValueRange range = range_of(body.frames, number);
+    baps.push_back({{"bap", number}, {"min", range.low}, {"max", range.high}});
+  }
+  const double end = body.frames.empty() ? 0.0 : double(body.frames.back().number + 1);
+  return {{"frames", body.frames.size()},
+          {"rate", fap::format_rate(body.rate)},
+          {"seconds", body.rate.seconds(end)},
+          {"coded_baps", mask_text(used)},
+          {"baps", baps}};
+}
+
+Json describe_stream(const fba::DecodedStream& stream, std::size_t bytes) {
+  std::size_t intra = 0;
+  std::int64_t bits = 0;
+  const fba::FaceSettings* face = nullptr;
+  const fba::BodySettings* body = nullptr;
+  for (const fba::Plane& plane : stream.planes) {
+    intra += plane.intra ? 1 : 0;
+    bits += plane.bit_end - plane.bit_begin;
+    if (face == nullptr) face = plane.face_settings.get();
+    if (body == nullptr) body = plane.body_settings.get();
+  }
+  const fba::BodySequence bodies = fba::body_sequence(stream);
+  const double seconds = stream.rate.seconds(double(stream.planes.back().number + 1));
+  Json json = {{"planes", stream.planes.size()},
+               {"intra_planes", intra},
+               {"body_planes", bodies.frames.size()},
+               {"bytes", bytes},
+               {"seconds", seconds},
+               {"kbit_per_s", double(bits) * 1e-3 / seconds},
+               {"clip", describe_clip(fba::face_sequence(stream))}};
+  if (stream.info.profile_and_level) {
+    json["profile_and_level"] = *stream.info.profile_and_level;
+  }
+  if (body != nullptr) json["body"] = describe_body(bodies);
+  json["warnings"] = stream.warnings;
+  if (face != nullptr) json["fap_quant"] = face->fap_quant;
+  if (body != nullptr) json["bap_quant"] = body->bap_quant;
+  return json;
+}
+
+Json describe_planes(const fba::DecodedStream& stream) {
+  Json list = Json::array();
+  for (const fba::Plane& plane : stream.planes) list.push_back(describe_plane(plane));
+  return list;
+}
+
+std::string planes_text(const fba::DecodedStream& stream) {
+  std::string text = tools::format("%8s %10s %10s %7s  %-4s %s\n", "number", "seconds", "bit",
+                                   "bits", "type", "of    says");
+  for (const fba::Plane& plane : stream.planes) {
+    constexpr const char* kParts[4] = {"-", "face", "body", "both"};
+    text += tools::format("%8lld %10.3f %10lld %7lld  %-4s %-4s%s\n", (long long)plane.number,
+                          plane.seconds, (long long)plane.bit_begin,
+                          (long long)(plane.bit_end - plane.bit_begin), plane.intra ? "I" : "P",
+                          kParts[std::size_t(plane.object_mask)], details(plane).c_str());
+  }
+  return text;
+}
+
+}  // namespace animeme::inspect

@@ -1,0 +1,136 @@
+#include "tools/inspect/training.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/json.h"
+#include "tools/text.h"
+
+namespace animeme::inspect {
+
+using tools::format;
+
+namespace {
+
+using tools::Json;
+
+// The part of the objective by which a step lowered it.
+double relative_fall(const std::vector<double>& objective, std::size_t step) {
+  const double before = objective[step - 1];
+  return before != 0 ? (before - objective[step]) / std::abs(before) : 0;
+}
+
+Json steps_json(const dam::TrainSummary& summary) {
+  Json steps = Json::array();
+  for (std::size_t i = 1; i < summary.objective.size(); ++i) {
+    steps.push_back({{"objective", summary.objective[i]},
+                     {"relative_fall", relative_fall(summary.objective, i)}});
+  }
+  return steps;
+}
+
+Json phones_json(const dam::TrainSummary& summary, Json& unknown) {
+  Json rare = Json::array();
+  for (const dam::RarePhone& phone : summary.rare) {
+    rare.push_back(
+        {{"phone", phone.label}, {"examples", phone.examples}, {"leans_on", phone.leans_on}});
+  }
+  unknown = Json::array();
+  for (const dam::UnknownPhone& phone : summary.unknown) {
+    unknown.push_back({{"phone", phone.label}, {"spoken_as", phone.spoken_as}});
+  }
+  return rare;
+}
+
+std::string steps_text(const dam::TrainSummary& summary) {
+  if (summary.objective.empty()) return {};
+  std::string text = format("start: objective %.1f\n", summary.objective[0]);
+  for (std::size_t i = 1; i < summary.objective.size(); ++i) {
+    text += format("step %zu: objective %.1f, %.3g %% less\n", i, summary.objective[i],
+                   100 * relative_fall(summary.objective, i));
+  }
+  if (summary.converged) return text + format("converged after %d steps\n", summary.iterations);
+  return text + format("stopped after %d steps, before convergence; --max-iterations allows more\n",
+                       summary.iterations);
+}
+
+std::string explained_text(const dam::TrainSummary& summary) {
+  double sum = 0;
+  std::size_t moving = 0;
+  const dam::ControlNote* least = nullptr;
+  for (const dam::ControlNote& control : summary.controls) {
+    if (control.constant) continue;
+    sum += control.explained;
+    ++moving;
+    if (least == nullptr || control.explained < least->explained) least = &control;
+  }
+  if (least == nullptr) return {};
+  return format("%.0f %% of the motion explained (%s sentences), least of %s: %.0f %%\n",
+                100 * sum / double(moving), summary.held_out ? "held-out" : "training",
+                least->name.c_str(), 100 * least->explained);
+}
+
+}  // namespace
+
+std::string training_json(const std::string& output, const dam::Model& model,
+                          const dam::TrainSummary& summary, const TrainingData& data) {
+  Json json = {{"model", output},
+               {"method", dam::method_name(model.method)},
+               {"utterances", summary.utterances},
+               {"frames", summary.frames},
+               {"phone_occurrences", summary.occurrences},
+               {"phones", model.phones.size()},
+               {"modes", summary.modes},
+               {"controls", model.controls.size()}};
+  if (!summary.objective.empty()) {
+    json["iterations"] = summary.iterations;
+    json["converged"] = summary.converged;
+    json["objective"] = summary.objective;
+    json["steps"] = steps_json(summary);
+    json["lag_seconds"] = summary.lag;
+  }
+  if (summary.ridge > 0) json["ridge_factor"] = summary.ridge;
+  json["explained_on"] = summary.held_out ? "held_out" : "training";
+  Json explained = Json::array();
+  for (const dam::ControlNote& control : summary.controls) {
+    explained.push_back({{"control", control.name},
+                         {"constant", control.constant},
+                         {"explained", control.explained}});
+  }
+  json["explained"] = std::move(explained);
+  Json unknown;
+  json["rare_phones"] = phones_json(summary, unknown);
+  json["unknown_phones"] = std::move(unknown);
+  json["standing_out"] = Json::array();
+  for (const dam::SentenceNote& s : summary.standing) {
+    json["standing_out"].push_back({{"id", s.id}, {"offset", s.offset}, {"error", s.error}});
+  }
+  json["training_seconds"] = summary.seconds;
+  json["warnings"] = summary.warnings;
+  if (data.parts.empty()) {
+    json["corpus_seconds"] = data.seconds;
+  } else {
+    json["parts"] = data.parts;
+  }
+  return json.dump(2);
+}
+
+std::string training_text(const std::string& output, const dam::Model& model,
+                          const dam::TrainSummary& summary, const TrainingData& data) {
+  std::string text = format("%zu utterances, ", summary.utterances);
+  if (data.seconds > 0) text += format("%.1f s, ", data.seconds);
+  text += format("%zu phones (%zu occurrences), %zu controls", model.phones.size(),
+                 summary.occurrences, model.controls.size());
+  if (summary.modes > 0) text += format(", %zu modes", summary.modes);
+  text += "\n" + steps_text(summary);
+  if (summary.ridge > 0) text += format("ridges times %g\n", summary.ridge);
+  text += explained_text(summary);
+  std::string unknown;
+  for (const dam::UnknownPhone& phone : summary.unknown) {
+    if (!phone.spoken_as.empty()) unknown += " " + phone.label + " (" + phone.spoken_as + ")";
+  }
+  if (!unknown.empty()) text += "not in the data, spoken by relatives:" + unknown + "\n";
+  return text + output + format(": trained in %.1f s", summary.seconds);
+}
+
+}  // namespace animeme::inspect

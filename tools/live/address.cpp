@@ -1,0 +1,65 @@
+#include "tools/live/address.h"
+
+#include <initializer_list>
+#include <string_view>
+
+#include "fap/head/model.h"
+#include "fap/head/rig.h"
+#include "tools/viewer/viewer.h"
+
+namespace animeme::live {
+
+namespace {
+
+bool begins(const std::string& url, std::initializer_list<std::string_view> schemes) {
+  for (const std::string_view scheme : schemes) {
+    if (url.starts_with(scheme)) return true;
+  }
+  return false;
+}
+
+bool is_web(const std::string& url) {
+  return begins(url, {"http://", "https://", "ws://", "wss://"});
+}
+
+bool is_media(const std::string& url) { return begins(url, {"rtp://", "udp://", "srt://"}); }
+
+/// The page shows a head of ours unless it has one.
+web::WebOptions with_head(web::WebOptions options) {
+  if (!options.head_script.empty()) return options;
+  const Result<head::Head> head = head::make_head();
+  if (!head) return options;  // it has a schematic face for that
+  options.head_script = viewer::head_script();
+  options.head_model = viewer::pack_head(*head, head::make_rig(*head));
+  return options;
+}
+
+}  // namespace
+
+bool is_rtp(const std::string& url) { return begins(url, {"rtp://"}); }
+
+Result<std::unique_ptr<media::LiveSink>> open_sink(const std::string& url,
+                                                   const SinkOptions& options) {
+  if (is_web(url)) {
+    auto sink = web::make_web_sink(url, with_head(options.web));
+    if (!sink) return sink.error();
+    return std::unique_ptr<media::LiveSink>(std::move(*sink));
+  }
+  if (is_media(url)) return media::open_sink(url, options.media);
+  return make_error(Code::invalid_argument,
+                    "'" + url +
+                        "' is no address to send to; write rtp://host:port, udp://host:port, "
+                        "srt://host:port or http://host:port");
+}
+
+Result<std::unique_ptr<media::LiveSource>> open_source(const std::string& where,
+                                                       const SourceOptions& options) {
+  if (is_web(where)) return web::make_web_source(where, options.web);
+  if (is_media(where) || where.ends_with(".sdp")) return media::open_source(where, options.media);
+  return make_error(Code::invalid_argument,
+                    "'" + where +
+                        "' is nothing to receive from; name a session description (.sdp) or write "
+                        "rtp://host:port, udp://host:port, srt://host:port or ws://host:port");
+}
+
+}  // namespace animeme::live

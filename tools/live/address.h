@@ -1,0 +1,37 @@
+/// @file
+/// Every live transport by its address: those of tools/media and the web server.
+///
+/// | address | transport |
+/// |---|---|
+/// | rtp://host:port, NAME.sdp | RTP |
+/// | udp://host:port, srt://host:port | MPEG transport stream |
+/// | http://host:port | a web server with a page that shows the face; its clients use ws:// |
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "tools/media/live/open.h"
+#include "tools/web/web.h"
+
+namespace animeme::live {
+
+struct SinkOptions {
+  media::SinkOptions media;
+  web::WebOptions web;
+};
+struct SourceOptions {
+  media::SourceOptions media;
+  web::WebOptions web;
+};
+
+/// Errors: invalid_argument (no address of ours; the message lists them), those of the transport.
+Result<std::unique_ptr<media::LiveSink>> open_sink(const std::string& url,
+                                                   const SinkOptions& options);
+Result<std::unique_ptr<media::LiveSource>> open_source(const std::string& where,
+                                                       const SourceOptions& options);
+
+/// True for an address whose receivers need a session description.
+bool is_rtp(const std::string& url);
+
+}  // namespace animeme::live

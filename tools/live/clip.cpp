@@ -1,0 +1,154 @@
+#include "tools/live/clip.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "codec/encode/live.h"
+#include "tools/speech/voice_file.h"
+#include "tools/text.h"
+
+namespace animeme::live {
+
+namespace {
+
+constexpr double kLongInterval = 2;  // seconds that a receiver may have to wait
+
+/// One plane of a clip that is to be coded.
+struct Instant {
+  const fap::Frame* face;
+  const fba::BodyFrame* body;
+  std::int64_t number;
+};
+
+fba::LiveOptions live_options(fap::Rate rate, const Coding& coding) {
+  fba::LiveOptions options;
+  options.rate = rate;
+  options.fap_quant = coding.quant;
+  const double planes = coding.intra_seconds * rate.frames_per_second();
+  options.intra_period = int(std::lround(std::min(planes, 1e6)));
+  return options;
+}
+
+Result<fba::AccessUnits> code(const std::vector<Instant>& instants, fba::LiveOptions options) {
+  if (instants.empty()) return make_error(Code::not_found, "there are no frames to stream");
+  fap::Mask used;
+  for (const Instant& instant : instants) used |= instant.face->mask;
+  options.faps = used;
+  fba::LiveEncoder encoder(options);
+  std::vector<std::uint8_t> stream;
+  for (std::size_t i = 0; i < instants.size(); ++i) {
+    const bool last = i + 1 == instants.size();
+    const std::int64_t skip = last ? 0 : instants[i + 1].number - instants[i].number - 1;
+    const auto unit = encoder.write(*instants[i].face, std::uint32_t(skip), instants[i].body);
+    if (!unit) return unit.error();
+    stream.insert(stream.end(), unit->begin(), unit->end());
+  }
+  const auto end = encoder.finish();
+  stream.insert(stream.end(), end.begin(), end.end());
+  return fba::split_access_units(stream);
+}
+
+/// A decoded stream coded again for live use, with its own quantisers.
+Result<fba::AccessUnits> code_again(const fba::DecodedStream& stream, const Coding& coding) {
+  fba::LiveOptions options = live_options(stream.rate, coding);
+  std::vector<Instant> instants;
+  for (const fba::Plane& plane : stream.planes) {
+    if (plane.face_settings) options.fap_quant = plane.face_settings->fap_quant;
+    if (plane.body_settings) options.bap_quant = plane.body_settings->bap_quant;
+    instants.push_back({&plane.face, plane.body.get(), plane.number});
+  }
+  return code(instants, options);
+}
+
+/// Marks as intra those units only at which a receiver can join: their plane tells the rate and all
+/// ranges that an earlier plane has set.
+fba::AccessUnits with_true_joints(fba::AccessUnits units, const fba::DecodedStream& decoded) {
+  if (units.units.size() != decoded.planes.size()) return units;
+  std::array<bool, 4> face_set{}, body_set{};
+  const auto tells_all = [](const auto& settings, std::array<bool, 4>& set) {
+    bool all = true;
+    for (std::size_t kind = 0; settings && kind < set.size(); ++kind) {
+      all = all && (settings->send_range[kind] || !set[kind]);
+      set[kind] = set[kind] || settings->send_range[kind];
+    }
+    return all;
+  };
+  for (std::size_t i = 0; i < units.units.size(); ++i) {
+    const fba::Plane& plane = decoded.planes[i];
+    if (!plane.intra) continue;
+    const bool face = tells_all(plane.face_settings, face_set);
+    const bool body = tells_all(plane.body_settings, body_set);
+    units.units[i].intra = i == 0 || (face && body && plane.temporal.rate.has_value());
+  }
+  return units;
+}
+
+std::string interval_text(double seconds) { return tools::format("%.1f s", seconds); }
+
+}  // namespace
+
+double longest_intra_interval(const fba::AccessUnits& units) {
+  if (units.units.empty()) return 0;
+  std::int64_t begin = units.units.front().time, longest = 0;
+  for (const fba::AccessUnit& unit : units.units) {
+    longest = std::max(longest, unit.time - begin);
+    if (unit.intra) begin = unit.time;
+  }
+  const fba::AccessUnit& last = units.units.back();
+  longest = std::max(longest, last.time + last.duration - begin);
+  return double(longest) / units.timescale;
+}
+
+Result<fba::AccessUnits> live_units(const fap::Sequence& clip, const Coding& coding) {
+  std::vector<Instant> instants;
+  for (const fap::Frame& frame : clip.frames) instants.push_back({&frame, nullptr, frame.number});
+  return code(instants, live_options(clip.rate, coding));
+}
+
+Result<Clip> code_live_clip(const fap::Sequence& clip, const media::Pcm* audio,
+                            const Coding& coding) {
+  Result<fba::AccessUnits> face = live_units(clip, coding);
+  if (!face) return face.error();
+  Clip out{std::move(*face), {}};
+  if (audio == nullptr || !coding.sound) return out;
+  Result<media::EncodedAudio> sound = media::encode_audio(*audio, coding.audio);
+  if (!sound) return sound.error();
+  out.sound = std::move(*sound);
+  return out;
+}
+
+Result<fba::AccessUnits> for_live_use(fba::AccessUnits units, const fba::DecodedStream& decoded,
+                                      const std::string& name, const Coding& coding,
+                                      const tools::Talk& talk) {
+  const double longest = longest_intra_interval(with_true_joints(units, decoded));
+  // A plane of tolerance: periods are whole numbers of planes.
+  const double plane = decoded.rate.seconds(1);
+  if (!coding.copy && longest > coding.intra_seconds + plane) {
+    talk.say(name + ": coded again, so that receivers can join every " +
+             interval_text(coding.intra_seconds) + "; --copy keeps it as it is");
+    auto again = code_again(decoded, coding);
+    if (!again) return again.error().in_file(name);
+    const double begin = double(units.units.front().time) / units.timescale;
+    for (fba::AccessUnit& unit : again->units) unit.time += std::llround(begin * again->timescale);
+    return again;
+  }
+  if (longest > kLongInterval) {
+    talk.warn(
+        name + ": up to " + interval_text(longest) +
+        " pass between two intra planes, so long a receiver that joins or loses a packet has to "
+        "wait; without --copy it is coded again");
+  }
+  return units;
+}
+
+Result<media::EncodedAudio> live_sound(const std::string& path, const Coding& coding,
+                                       const tools::Talk& talk) {
+  const auto keep = [&](media::AudioCodec codec) {
+    return !coding.codec_given || codec == coding.audio.codec;
+  };
+  return speech::read_coded_sound(path, keep, coding.audio, talk);
+}
+
+}  // namespace animeme::live

@@ -1,0 +1,105 @@
+#include "tools/live/program.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "dam/signal/fap_signal.h"
+#include "dam/speaking/life.h"
+
+namespace animeme::live {
+
+namespace {
+
+constexpr double kAhead = 0.02;    // seconds that sound is sent before its time
+constexpr double kLiveLead = 0.1;  // silence before a live line, time to open the mouth
+constexpr double kLiveTail = 0.3;  // after it, to close it
+
+dam::SynthesisOptions synthesis_of(const ProgramOptions& options, fap::Rate rate) {
+  dam::SynthesisOptions settings;
+  settings.rate = rate;
+  settings.style = options.style;
+  return settings;
+}
+
+}  // namespace
+
+Result<Clip> spoken_clip(const ProgramOptions& options, fap::Rate rate, const tools::Talk& talk) {
+  Result<dam::Model> model = speech::read_model(options.model);
+  if (!model) return model.error();
+  Result<speech::Spoken> spoken = speech::get_spoken(options.spoken, talk);
+  if (!spoken) return spoken.error();
+  dam::SynthesisOptions settings = synthesis_of(options, rate);
+  if (spoken->audio) {
+    settings.tail = std::max(0.0, spoken->audio->duration() - spoken->script.duration());
+  }
+  Result<dam::Signal> signal = dam::synthesise(*model, spoken->script, settings);
+  if (!signal) return signal.error();
+  if (options.life) {
+    auto added = dam::add_life(*signal, spoken->script, {1, options.seed});
+    if (!added) return added.error();
+  }
+  Result<fap::Sequence> clip = dam::to_sequence(*signal);
+  if (!clip) return clip.error();
+  return code_live_clip(*clip, spoken->audio ? &*spoken->audio : nullptr, options.coding);
+}
+
+Result<void> open_speaker(const ProgramOptions& options, fap::Rate rate, Program& program) {
+  Result<dam::Model> model = speech::read_model(options.model);
+  if (!model) return model.error();
+  program.model = std::move(*model);
+  if (options.say != "-") {
+    program.descriptor = ::open(options.say.c_str(), O_RDONLY | O_CLOEXEC);
+    if (program.descriptor < 0) {
+      return make_error(Code::not_found, "cannot open the lines to say").in_file(options.say);
+    }
+  }
+  voice::VoiceOptions voice;
+  voice.language = options.spoken.language;
+  voice.words_per_minute = options.spoken.words_per_minute;
+  voice.pitch = options.spoken.pitch;
+  voice.lead_silence = kLiveLead;
+  voice.tail_silence = kLiveTail;
+  const int descriptor = options.say == "-" ? STDIN_FILENO : program.descriptor;
+  auto lines = speech::VoiceLines::open(descriptor, voice, media::steady_clock());
+  if (!lines) return lines.error();
+  program.lines = std::move(*lines);
+
+  speech::SpeakerOptions settings;
+  settings.face = {synthesis_of(options, rate), options.life, options.seed};
+  settings.fap_quant = options.coding.quant;
+  settings.intra_seconds = options.coding.intra_seconds;
+  settings.voice_rate = program.lines->sample_rate();
+  settings.audio_ahead = kAhead;
+  settings.audio.reset();
+  if (options.coding.sound) settings.audio = options.coding.audio;
+  settings.duration = options.duration;
+  auto speaker =
+      speech::LiveSpeaker::open(program.model, *program.lines, media::steady_clock(), settings);
+  if (!speaker) return speaker.error();
+  program.speaker = std::move(*speaker);
+  return {};
+}
+
+Program::~Program() {
+  speaker.reset();
+  lines.reset();
+  if (descriptor >= 0) ::close(descriptor);
+}
+
+media::LiveInput& Program::input() const {
+  return speaker ? static_cast<media::LiveInput&>(*speaker) : *clip;
+}
+
+void play_clip(Clip clip, const ProgramOptions& options, Program& program) {
+  media::ClipOptions settings;
+  settings.audio_ahead = kAhead;
+  settings.loop = options.loop;
+  settings.duration = options.duration;
+  program.clip =
+      std::make_unique<media::ClipInput>(std::move(clip.face), std::move(clip.sound), settings);
+}
+
+}  // namespace animeme::live

@@ -1,0 +1,59 @@
+/// @file
+/// What is sent: a clip that is there as a whole, or a head that speaks line by line.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "dam/model/model.h"
+#include "fap/rate.h"
+#include "tools/live/clip.h"
+#include "tools/media/live/presentation.h"
+#include "tools/speech/live_speaker.h"
+#include "tools/speech/spoken.h"
+
+namespace animeme::live {
+
+/// What is said, how it looks and how it is coded.
+struct ProgramOptions {
+  std::string say;  ///< file of lines to speak as they come, "-": standard input
+  speech::SpokenOptions spoken;
+  Coding coding;
+  std::string model;  ///< as speech::read_model() takes it
+  double style = 1;   ///< as dam::SynthesisOptions::style
+  bool life = false;  ///< blinks, and brows and head that move a little
+  std::uint64_t seed = 1;
+  bool loop = false;                                          ///< clips begin again at their end
+  double duration = std::numeric_limits<double>::infinity();  ///< seconds
+};
+
+/// What is sent, and all that has to live as long.
+struct Program {
+  dam::Model model;
+  int descriptor = -1;  ///< of the lines, if it is ours to close
+  std::unique_ptr<speech::VoiceLines> lines;
+  std::unique_ptr<speech::LiveSpeaker> speaker;
+  std::unique_ptr<media::ClipInput> clip;
+
+  Program() = default;
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+  ~Program();
+  media::LiveInput& input() const;
+};
+
+/// Text, script or recorded voice as a clip of `rate`, as `animeme speak` makes it. Errors: those
+/// of speech::read_model(), speech::get_spoken(), dam::synthesise() and code_live_clip().
+Result<Clip> spoken_clip(const ProgramOptions& options, fap::Rate rate,
+                         const tools::Talk& talk = {});
+
+/// Makes `program` play a clip.
+void play_clip(Clip clip, const ProgramOptions& options, Program& program);
+
+/// Makes `program` a head that speaks the lines of options.say. `program` must stay where it is.
+/// Errors: those of speech::read_model(), VoiceLines and LiveSpeaker; not_found (no such file).
+Result<void> open_speaker(const ProgramOptions& options, fap::Rate rate, Program& program);
+
+}  // namespace animeme::live

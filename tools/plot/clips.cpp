@@ -1,0 +1,45 @@
+#include "tools/plot/clips.h"
+
+#include <string>
+
+#include "fap/tables.h"
+
+namespace animeme::plot {
+
+namespace {
+
+Points points_of(int fap, const TimedClip& shown) {
+  Points points;
+  for (const fap::Frame& frame : shown.clip.frames) {
+    points.emplace_back(shown.start + shown.clip.rate.seconds(double(frame.number)),
+                        frame.value[std::size_t(fap)]);
+  }
+  return points;
+}
+
+std::string unit_of(int fap) {
+  const fap::Unit unit = fap::info(fap).unit;
+  if (unit == fap::Unit::angle) return "0.00001 rad";
+  return "1/1024 " + std::string(fap::unit_name(unit));
+}
+
+}  // namespace
+
+Row fap_row(int fap, const std::vector<TimedClip>& clips) {
+  Row row{"FAP " + std::to_string(fap), std::string(fap::info(fap).name), unit_of(fap), {}};
+  for (const TimedClip& clip : clips) row.curves.push_back(points_of(fap, clip));
+  return row;
+}
+
+Row difference_row(int fap, const TimedClip& a, const TimedClip& b) {
+  Row row{"FAP " + std::to_string(fap), "difference", unit_of(fap), {{}}, 2};
+  const Points shown = points_of(fap, b);
+  std::size_t at = 0;
+  for (const auto& [time, value] : points_of(fap, a)) {
+    while (at + 1 < shown.size() && shown[at + 1].first <= time + 1e-6) ++at;
+    if (!shown.empty()) row.curves[0].emplace_back(time, shown[at].second - value);
+  }
+  return row;
+}
+
+}  // namespace animeme::plot

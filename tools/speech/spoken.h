@@ -1,0 +1,53 @@
+/// @file
+/// What is said and when: from text (a synthetic voice), from an aligned script, or from a
+/// recorded voice and its text. And who says it.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "dam/model/model.h"
+#include "dam/script/script.h"
+#include "fap/result.h"
+#include "tools/files/talk.h"
+#include "tools/media/pcm.h"
+
+namespace animeme::speech {
+
+/// Where speech comes from: one of text, text_file, script, and audio with transcript. A script may
+/// have audio, too.
+struct SpokenOptions {
+  std::string text;
+  bool has_text = false;   ///< text may be empty
+  std::string text_file;   ///< "-": standard input
+  std::string script;      ///< a phoneme script of any format
+  std::string audio;       ///< a recorded voice
+  std::string transcript;  ///< what is said in it
+  bool has_transcript = false;
+  std::string language = "en";
+  int words_per_minute = 175;  ///< of a synthetic voice, 80 to 450
+  int pitch = 50;              ///< of a synthetic voice, 0 to 100
+};
+
+struct Spoken {
+  dam::Script script;
+  std::optional<media::Pcm> audio;
+  std::string voice;  ///< of synthetic speech
+};
+
+/// Whether one of the four sources is named, and all that it needs.
+bool has_source(const SpokenOptions& options);
+
+/// Speaks, reads or aligns. Errors: those of reading the files, of voice::speak_text(),
+/// dam::check_against_audio() and align_file().
+Result<Spoken> get_spoken(const SpokenOptions& options, const tools::Talk& talk = {});
+
+/// The timed phones of a recording and its text in `language`. What the aligner doubts goes to
+/// talk.warn. Errors: those of read_voice() and voice::align().
+Result<dam::Script> align_file(const std::string& audio, const std::string& transcript,
+                               const std::string& language, const tools::Talk& talk = {});
+
+/// A model file, or the built-in model for "" and "builtin". Errors: those of dam::load_model().
+Result<dam::Model> read_model(const std::string& path);
+
+}  // namespace animeme::speech

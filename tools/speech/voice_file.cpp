@@ -1,0 +1,64 @@
+#include "tools/speech/voice_file.h"
+
+#include "tools/files/files.h"
+#include "tools/media/audio.h"
+#include "tools/media/container.h"
+
+namespace animeme::speech {
+
+Result<dam::Script> read_script(const std::string& path) {
+  const Result<std::string> text = tools::read_text_file(path);
+  if (!text) return text.error();
+  Result<dam::Script> script = dam::read_script(*text);
+  if (!script) return script.error().in_file(path);
+  return script;
+}
+
+Result<media::Pcm> read_voice(const std::string& path, const tools::Talk& talk, int sample_rate) {
+  std::vector<std::string> warnings;
+  media::ReadAudioOptions options;
+  options.sample_rate = sample_rate;
+  options.warnings = &warnings;
+  Result<media::Pcm> audio = media::read_audio(path, options);
+  if (!audio) return audio.error().in_file(path);
+  for (const std::string& text : warnings) talk.warn(path + ": " + text);
+  return audio;
+}
+
+double SoundInput::seconds() const {
+  if (samples) return samples->duration();
+  if (coded->length > 0) return double(coded->length) / coded->format.sample_rate;
+  const media::AudioPacket& last = coded->packets.back();
+  return double(last.time + last.duration) / coded->format.sample_rate;
+}
+
+void SoundInput::give_to(media::MuxInput& input) const {
+  if (samples) input.audio = &*samples;
+  if (coded) input.encoded = &*coded;
+}
+
+Result<SoundInput> read_sound(const std::string& path, const KeepCodec& keep,
+                              const tools::Talk& talk) {
+  SoundInput sound;
+  Result<media::EncodedAudio> coded = media::read_encoded_audio(path);
+  if (coded && keep(coded->format.codec)) {
+    sound.coded = std::move(*coded);
+    return sound;
+  }
+  if (!coded && coded.error().code != Code::unsupported) return coded.error().in_file(path);
+  Result<media::Pcm> samples = read_voice(path, talk);
+  if (!samples) return samples.error();
+  sound.samples = std::move(*samples);
+  return sound;
+}
+
+Result<media::EncodedAudio> read_coded_sound(const std::string& path, const KeepCodec& keep,
+                                             const media::AudioSettings& settings,
+                                             const tools::Talk& talk) {
+  Result<SoundInput> sound = read_sound(path, keep, talk);
+  if (!sound) return sound.error();
+  if (sound->coded) return std::move(*sound->coded);
+  return media::encode_audio(*sound->samples, settings);
+}
+
+}  // namespace animeme::speech

@@ -1,0 +1,53 @@
+/// @file
+/// Scripts and sounds from files, or from standard input for "-". Each error names its file, and so
+/// does each warning, which goes to talk.warn.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "dam/script/script.h"
+#include "fap/result.h"
+#include "tools/files/talk.h"
+#include "tools/media/encoded_audio.h"
+#include "tools/media/mux.h"
+#include "tools/media/pcm.h"
+
+namespace animeme::speech {
+
+/// A phoneme script of any format. Errors: those of tools::read_text_file() and dam::read_script().
+Result<dam::Script> read_script(const std::string& path);
+
+/// A recording as samples of one channel; `sample_rate` 0: its own. Errors: those of
+/// media::read_audio().
+Result<media::Pcm> read_voice(const std::string& path, const tools::Talk& talk = {},
+                              int sample_rate = 0);
+
+/// A sound that goes into a file: coded already (with packets), or samples to be coded; one of
+/// them.
+struct SoundInput {
+  std::optional<media::EncodedAudio> coded;  ///< nothing: `samples`
+  std::optional<media::Pcm> samples;         ///< nothing: `coded`
+
+  double seconds() const;  ///< length of whichever there is
+  /// Names it in `input`, which borrows it.
+  void give_to(media::MuxInput& input) const;
+};
+
+/// Whether sound of a codec may stay as it is coded.
+using KeepCodec = std::function<bool(media::AudioCodec)>;
+
+/// The best sound of a file: its packets if it is AAC or Opus and `keep` agrees, else samples.
+/// Errors: those of media::read_encoded_audio() and media::read_audio(); not_found: no file, or no
+/// sound in it.
+Result<SoundInput> read_sound(const std::string& path, const KeepCodec& keep,
+                              const tools::Talk& talk = {});
+
+/// The same, coded with `settings` where it could not stay. Errors: also those of
+/// media::encode_audio().
+Result<media::EncodedAudio> read_coded_sound(const std::string& path, const KeepCodec& keep,
+                                             const media::AudioSettings& settings,
+                                             const tools::Talk& talk = {});
+
+}  // namespace animeme::speech

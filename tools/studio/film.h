@@ -1,0 +1,50 @@
+/// @file
+/// Films of a face: what any player shows.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dam/script/script.h"
+#include "fap/frame.h"
+#include "fap/result.h"
+#include "tools/files/talk.h"
+#include "tools/media/mux.h"
+#include "tools/studio/head_view.h"
+
+namespace animeme::studio {
+
+struct FilmOptions {
+  HeadLook look;
+  std::optional<fap::Rate> rate;        ///< pictures a second; nothing: one a frame of the clip
+  int quality = 20;                     ///< as VideoSettings::quality
+  const dam::Script* script = nullptr;  ///< phones to show below; nullptr: none
+  std::vector<int> faps;                ///< curves to show below, three at most
+  int audio_bit_rate = 0;               ///< bits a second; 0: usual
+};
+
+/// A film that was written.
+struct Film {
+  std::size_t pictures = 0;
+  int width = 0, height = 0;  ///< pixels
+  fap::Rate rate;             ///< pictures a second
+  std::string codec;          ///< name of the codec
+  double seconds = 0;
+  bool stopped = false;  ///< before the end
+};
+
+/// The extensions that write_film() takes: .mp4, .webm, .mkv; in lower case.
+bool is_film(const std::string& extension);
+
+/// Renders `clip` (filled) and writes it with the sound that `sound` names (audio or encoded; its
+/// face goes along as a track of its own). The film lasts as long as the clip or the sound,
+/// whatever is longer. What the head notes is said. Errors: not_found (no frames), unsupported
+/// (extension, no encoder), those of load_head(), VideoEncoder and write_container(), with the
+/// path.
+Result<Film> write_film(const std::string& path, const fap::Sequence& clip,
+                        const media::MuxInput& sound, const FilmOptions& options,
+                        const tools::Talk& talk = {}, const tools::Progress& progress = {});
+
+}  // namespace animeme::studio

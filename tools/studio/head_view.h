@@ -1,0 +1,43 @@
+/// @file
+/// A head, a camera and a renderer: frames in, pictures out.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "fap/frame.h"
+#include "fap/result.h"
+#include "tools/render/image.h"
+#include "tools/studio/head_file.h"
+
+namespace animeme::studio {
+
+/// How a head is looked at.
+struct HeadLook {
+  HeadChoice head;     ///< whose head
+  double degrees = 0;  ///< to the person's left
+  double up = 0;       ///< degrees from above
+  double zoom = 1;     ///< 1: head and shoulders
+  int width = 640;     ///< pixels
+  int height = 640;    ///< pixels
+};
+
+/// Movable, not copyable.
+class HeadView {
+ public:
+  /// Errors and talk: those of load_head().
+  static Result<HeadView> make(const HeadLook& look, const tools::Talk& talk = {});
+  HeadView(HeadView&&) noexcept;
+  HeadView& operator=(HeadView&&) noexcept;
+  ~HeadView();
+
+  /// The picture is valid until the next call.
+  const render::Image& draw(const fap::Frame& frame);
+
+ private:
+  struct State;
+  explicit HeadView(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace animeme::studio
