@@ -1,4 +1,5 @@
-// JSON as the commands write it: members stay in the order in which they were added.
+/// @file
+/// JSON as the commands write it: members stay in the order in which they were added.
 #pragma once
 
 #include <nlohmann/json.hpp>

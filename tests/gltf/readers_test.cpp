@@ -16,7 +16,9 @@ namespace animeme::gltf {
 namespace readers_test {
 
 using nlohmann::json;
+using test::has_program;
 using test::quoted;
+using test::run;
 using test::TempDir;
 namespace fs = std::filesystem;
 

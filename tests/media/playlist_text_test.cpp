@@ -181,9 +181,9 @@ TEST(Playlists, XmlTags) {
         "<Representation><SegmentList><SegmentURL b:x='1' media=" +
         media + "/></SegmentList></Representation></AdaptationSet></Period></MPD>" + rest);
   };
-  const auto tags = read("\"&lt;&quot;&#65;\"", "<!-- c --><?x?>");
+  const auto tags = read("\"&lt;&quot;&#65;&amp;#38;&#38;\"", "<!-- c --><?x?>");
   ASSERT_TRUE(tags) << tags.error().describe();
-  EXPECT_THAT(tags->front().segments, ElementsAre("<\"A"));
+  EXPECT_THAT(tags->front().segments, ElementsAre("<\"A&#38;&"));
   for (const char* bad : {"", "1", "'1", "'&b;'", "'1' media='2'", "'1'><a>&b;</a>"}) {
     const auto refused = read(bad);
     ASSERT_FALSE(refused) << bad;

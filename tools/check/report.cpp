@@ -1,9 +1,9 @@
 #include "tools/check/report.h"
 
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "conformance/features.h"
+#include "tools/json.h"
 #include "tools/text.h"
 #include "tools/xml.h"
 

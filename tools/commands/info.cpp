@@ -1,20 +1,18 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "codec/decode/decoder.h"
 #include "tools/commands/common.h"
 #include "tools/inspect/file_internal.h"
 #include "tools/inspect/stream_internal.h"
+#include "tools/json.h"
 #include "tools/media/container.h"
 
 namespace animeme::tools {
 
 namespace {
-
-using inspect::Json;
 
 struct InfoOptions {
   std::string input;

@@ -1,7 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "codec/encode/encode.h"
 #include "dam/script/script.h"
@@ -15,6 +14,7 @@
 #include "tools/commands/preview.h"
 #include "tools/commands/spoken_options.h"
 #include "tools/exchange/curves.h"
+#include "tools/json.h"
 #include "tools/text.h"
 
 namespace animeme::tools {
@@ -104,17 +104,17 @@ void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam
     if (!options.json) say("the model has no " + label + ", spoken as " + by);
   }
   if (!options.json) return;
-  nlohmann::ordered_json replaced = nlohmann::ordered_json::object();
+  Json replaced = Json::object();
   for (const auto& [label, by] : synthesis.replaced) replaced[label] = by;
-  const nlohmann::ordered_json json = {{"output", options.output},
-                                       {"voice", spoken.voice},
-                                       {"seconds", signal.rate.seconds(double(signal.frames()))},
-                                       {"frames", signal.frames()},
-                                       {"phones", synthesis.phones},
-                                       {"replaced_phones", synthesis.replaced_phones},
-                                       {"replaced", replaced},
-                                       {"closures_forced", synthesis.closures},
-                                       {"lip_tooth_forced", synthesis.lip_tooth_contacts}};
+  const Json json = {{"output", options.output},
+                     {"voice", spoken.voice},
+                     {"seconds", signal.rate.seconds(double(signal.frames()))},
+                     {"frames", signal.frames()},
+                     {"phones", synthesis.phones},
+                     {"replaced_phones", synthesis.replaced_phones},
+                     {"replaced", replaced},
+                     {"closures_forced", synthesis.closures},
+                     {"lip_tooth_forced", synthesis.lip_tooth_contacts}};
   std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
 }
 

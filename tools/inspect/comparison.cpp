@@ -1,8 +1,7 @@
 #include "tools/inspect/comparison.h"
 
-#include <nlohmann/json.hpp>
-
 #include "fap/tables.h"
+#include "tools/json.h"
 #include "tools/text.h"
 
 namespace animeme::inspect {
@@ -11,7 +10,7 @@ using tools::format;
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using tools::Json;
 
 // What faces and bodies have in common.
 template <class Difference>

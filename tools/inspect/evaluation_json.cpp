@@ -1,7 +1,10 @@
 
 #include "tools/inspect/evaluation.h"
+#include "tools/json.h"
 
 namespace animeme::inspect {
+
+using tools::Json;
 
 namespace {
 

@@ -1,16 +1,16 @@
-#include <nlohmann/json.hpp>
 
 #include "dam/model/model.h"
 #include "dam/script/script.h"
 #include "fap/rate_text.h"
 #include "tools/inspect/file_internal.h"
+#include "tools/json.h"
 #include "tools/text.h"
 
 namespace animeme::inspect {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using tools::Json;
 
 std::string shown_value(const Json& value) {
   if (value.is_string()) return value.get<std::string>();

@@ -2,15 +2,18 @@
 
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "codec/decode/decoder.h"
 #include "codec/decode/fill.h"
 #include "codec/encode/encode.h"
 #include "fap/tables.h"
+#include "tools/inspect/activity.h"
+#include "tools/json.h"
 #include "tools/text.h"
 
 namespace animeme::inspect {
+
+using tools::Json;
 
 namespace {
 
@@ -103,7 +106,7 @@ double floor_of(const fba::DecodedStream& stream) {
   return bits;
 }
 
-nlohmann::ordered_json to_json(const ClipSizes& clip) {
+Json to_json(const ClipSizes& clip) {
   return {{"clip", clip.name},
           {"planes", clip.planes},
           {"all_bits", clip.all_bits},
@@ -184,14 +187,13 @@ std::string sizes_means(const std::vector<ClipSizes>& clips, double max_rms) {
 }
 
 std::string sizes_json(const std::vector<ClipSizes>& clips, double max_rms) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  Json list = Json::array();
   for (const ClipSizes& clip : clips) list.push_back(to_json(clip));
-  const nlohmann::ordered_json json = {
-      {"max_rms", max_rms},
-      {"clips", list},
-      {"mean_file_ratio", mean(clips, &ClipSizes::file_ratio)},
-      {"mean_floor_ratio", mean(clips, &ClipSizes::floor_ratio)},
-      {"mean_limited_ratio", mean(clips, &ClipSizes::limited_ratio)}};
+  const Json json = {{"max_rms", max_rms},
+                     {"clips", list},
+                     {"mean_file_ratio", mean(clips, &ClipSizes::file_ratio)},
+                     {"mean_floor_ratio", mean(clips, &ClipSizes::floor_ratio)},
+                     {"mean_limited_ratio", mean(clips, &ClipSizes::limited_ratio)}};
   return json.dump(2);
 }
 

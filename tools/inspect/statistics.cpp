@@ -1,10 +1,10 @@
 #include "tools/inspect/statistics.h"
 
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "fap/rate_text.h"
 #include "fap/tables.h"
+#include "tools/json.h"
 #include "tools/text.h"
 
 namespace animeme::inspect {
@@ -13,7 +13,7 @@ using tools::format;
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using tools::Json;
 
 // --- the stream as a whole
 

@@ -1,15 +1,17 @@
 #include "tools/inspect/stream_internal.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "fap/rate_text.h"
 #include "fap/tables.h"
 #include "tools/inspect/activity.h"
+#include "tools/json.h"
 #include "tools/text.h"
 
 namespace animeme::inspect {
+
+using tools::Json;
 
 namespace {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "tools/json.h"
 #include "tools/text.h"
 
 namespace animeme::inspect {
@@ -12,7 +12,7 @@ using tools::format;
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using tools::Json;
 
 // The part of the objective by which a step lowered it.
 double relative_fall(const std::vector<double>& objective, std::size_t step) {

@@ -55,8 +55,13 @@ class Builder {
     element.line = line();
     for (int i = 0; i < count; ++i) {
       const xmlChar** a = attributes + 5 * i;  // name, prefix, URI, begin, end of the value
-      element.attributes.push_back(
-          {std::string(view(a[0])), std::string(reinterpret_cast<const char*>(a[3]), a[4] - a[3])});
+      std::string value(reinterpret_cast<const char*>(a[3]), a[4] - a[3]);
+      // As long as libxml2 replaces no entities, it leaves each & of an attribute written so.
+      for (std::size_t at = value.find("&#38;"); at != std::string::npos;
+           at = value.find("&#38;", at + 1)) {
+        value.erase(at + 1, 4);
+      }
+      element.attributes.push_back({std::string(view(a[0])), std::move(value)});
     }
     open_.push_back(&element);
   }

@@ -1,6 +1,7 @@
 #include "tools/media/detail/presentation.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -49,11 +50,12 @@ class Room {
     if (size > limit || (total_ += size) > kMostPresentation) {
       return make_error(Code::out_of_range, "the presentation is too large to be read");
     }
+    errno = 0;
     std::ifstream file(path, std::ios::binary);
     const std::size_t begin = out.size();
     out.resize(begin + std::size_t(size));
     file.read(reinterpret_cast<char*>(out.data() + begin), std::streamsize(size));
-    if (!file) return failed(name, std::make_error_code(std::errc::io_error));
+    if (!file) return failed(name, {errno != 0 ? errno : EIO, std::generic_category()});
     return {};
   }
 
