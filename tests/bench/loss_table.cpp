@@ -39,7 +39,7 @@ struct Row {
   double seconds = 0;
 };
 
-void add(const test::Talk& talk, const std::vector<LiveEvent>& events, Row& row) {
+void add(const test::LiveTalk& talk, const std::vector<LiveEvent>& events, Row& row) {
   FaceRecovery recovery;
   const auto units = test::only(test::recovered(events, recovery), LiveTrack::face);
   test::expect_right(talk, units);
@@ -51,7 +51,7 @@ void add(const test::Talk& talk, const std::vector<LiveEvent>& events, Row& row)
   row.seconds += test::seconds_of(talk, talk.units.back());
 }
 
-void count_bytes(const test::Talk& talk, const RtpOptions& options, Row& row) {
+void count_bytes(const test::LiveTalk& talk, const RtpOptions& options, Row& row) {
   constexpr std::size_t kUdpAndIp = 28;
   RtpSender sender(talk.info, options, "192.0.2.1", 5004, 1, 0);
   RtpSender::Datagrams out;
@@ -64,7 +64,7 @@ void count_bytes(const test::Talk& talk, const RtpOptions& options, Row& row) {
 }
 
 // Real time, real sockets, a relay in between.
-std::vector<LiveEvent> over_sockets(const test::Talk& talk, RtpOptions options, int loss,
+std::vector<LiveEvent> over_sockets(const test::LiveTalk& talk, RtpOptions options, int loss,
                                     std::uint64_t seed) {
   const test::TempDir dir;
   const int front = test::free_ports();
@@ -98,7 +98,7 @@ std::vector<LiveEvent> over_sockets(const test::Talk& talk, RtpOptions options, 
   return events;
 }
 
-Row measure(const test::Talk& talk, const Settings& settings, int loss, int repeat) {
+Row measure(const test::LiveTalk& talk, const Settings& settings, int loss, int repeat) {
   Row row;
   const RtpOptions options{.repeat = repeat};
   count_bytes(talk, options, row);
@@ -127,7 +127,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   if (settings.sockets) settings.networks = 1;
 
-  test::Talk talk = test::random_talk(settings.seconds * 25, settings.period);
+  test::LiveTalk talk = test::random_talk(settings.seconds * 25, settings.period);
   test::add_sound(talk, test::aac_format());
   std::printf(
       "| loss | repeat | planes right | freezes a minute | mean freeze | longest | face |\n");

@@ -7,7 +7,7 @@
 #include "codec/encode/encode.h"
 #include "dam/corpus/corpus.h"
 #include "fap/text.h"
-#include "tests/support/files.h"
+#include "tests/support/shared.h"
 #include "tests/support/landmark_tables.h"
 #include "tools/exchange/curves.h"
 

@@ -5,7 +5,7 @@
 
 #include "fap/head/srgb.h"
 #include "tests/head/head_support.h"
-#include "tests/support/files.h"
+#include "tests/support/shared.h"
 
 namespace animeme::test {
 namespace wrl_test {

@@ -8,6 +8,7 @@
 
 #include "tests/live/rtp_sockets.h"
 #include "tests/live/rtp_support.h"
+#include "tests/support/files.h"
 #include "tests/support/program.h"
 #include "tests/support/shared.h"
 #include "tools/media/live/open.h"

@@ -1,8 +1,6 @@
 // Files, whole.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -29,13 +27,6 @@ inline void spill(const std::filesystem::path& path, const std::string& text) {
 }
 inline void write_bytes(const std::filesystem::path& path, const Bytes& bytes) {
   spill(path, std::string(bytes.begin(), bytes.end()));
-}
-
-/// A file of tests/data. Empty, with a failure, if it cannot be read. `name` is relative to that.
-inline std::string data_file(const std::string& name) {
-  const std::filesystem::path path = ANIMEME_SOURCE_DIR "/tests/data/" + name;
-  EXPECT_TRUE(std::filesystem::is_regular_file(path)) << name;
-  return slurp(path);
 }
 
 }  // namespace animeme::test

@@ -1,9 +1,13 @@
 // Where the tests find the full reference data, if it is there at all.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+
+#include "tests/support/files.h"
 
 namespace animeme::test {
 
@@ -20,6 +24,13 @@ inline std::filesystem::path shared_dir() {
 /// A file or folder that ships with the tests.
 inline std::filesystem::path data_dir() {
   return std::filesystem::path(ANIMEME_SOURCE_DIR) / "tests" / "data";
+}
+
+/// A file of tests/data. Empty, with a failure, if it cannot be read. `name` is relative to that.
+inline std::string data_file(const std::string& name) {
+  const std::filesystem::path path = data_dir() / name;
+  EXPECT_TRUE(std::filesystem::is_regular_file(path)) << name;
+  return slurp(path);
 }
 
 }  // namespace animeme::test

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "fap/xml/fdp.h"
-#include "tests/support/files.h"
+#include "tests/support/shared.h"
 #include "tests/xml/deltas.h"
 
 namespace animeme::test {

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "tests/head/head_support.h"
-#include "tests/support/files.h"
+#include "tests/support/shared.h"
 #include "tests/xml/deltas.h"
 
 namespace animeme::test {
