@@ -1,26 +1,56 @@
 #!/bin/sh
 # Installs what is missing, builds everything and runs all tests: once as released, once under
-# the address and undefined behaviour sanitizers.
-#   tests/run.sh             everything
+# the address and undefined behaviour sanitizers. Ends with the time of each part and the tests that
+# were skipped.
+#   tests/run.sh             with the programs that read most of our files
+#   tests/run.sh full        also with those that take long to install: browsers, players, npm packages
 #   tests/run.sh quick       the release build only
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
-"$here/tools/setup.sh" tests
-jobs=$(nproc)
-# A compiler cache helps who builds again, precompiled headers who builds once.
-faster="-DANIMEME_PCH=ON"
-command -v ccache >/dev/null && [ -z "${CCACHE_DISABLE:-}" ] &&
-  faster="-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"
+mode=${1:-tests}
+case $mode in
+  tests | quick) packages=tests ;;
+  full) packages=full ;;
+  *) echo "usage: tests/run.sh [full|quick]" >&2; exit 2 ;;
+esac
+cd "$here"
+times=$(mktemp)
+trap 'rm -f "$times"' EXIT
+status=0
+
+# part TITLE COMMAND...: runs it and notes how long it took.
+part() {
+  title=$1
+  shift
+  echo "== $title"
+  begin=$(date +%s)
+  "$@" || { status=$?; echo "$title failed" >>"$times"; }
+  printf '%-36s %5d s\n' "$title" $(($(date +%s) - begin)) >>"$times"
+}
+
+# finish: what there is to say at the end.
+finish() {
+  # shellcheck disable=SC2046  # the logs that there are
+  "$here/tests/skipped.sh" $(ls build/release/Testing/Temporary/LastTest.log \
+    build/asan/Testing/Temporary/LastTest.log 2>/dev/null) || true
+  echo "== Time"
+  cat "$times"
+  exit "$status"
+}
 
 run() {
   preset=$1
-  shift
-  echo "== $preset"
-  (cd "$here" && cmake --preset "$preset" $faster "$@" >/dev/null)
-  cmake --build "$here/build/$preset"
-  ctest --test-dir "$here/build/$preset" --output-on-failure -j "$jobs" \
-    --output-junit "$here/build/$preset/tests.xml" 
+  rm -f "build/$preset/Testing/Temporary/LastTest.log"
+  part "$preset: configure" cmake --preset "$preset" --log-level=STATUS
+  [ "$status" = 0 ] || finish
+  part "$preset: build" cmake --build "build/$preset"
+  [ "$status" = 0 ] || finish
+  part "$preset: tests" ctest --test-dir "build/$preset" --output-on-failure -j "$(nproc)" \
+    --output-junit "$here/build/$preset/tests.xml"
 }
 
+part "packages" tools/setup.sh "$packages"
+[ "$status" = 0 ] || finish
 run release
-[ "${1:-}" = "quick" ] || run asan
+[ "$mode" = quick ] || run asan
+finish

@@ -8,13 +8,14 @@ text=${1:-"Hello world! My mouth moves by numbers, and a few thousand bits a sec
 output=${2:-hello.mp4}
 [ $# -gt 2 ] && shift 2 || shift $#
 
+begin=$(date +%s)
 "$here/tools/setup.sh"
-# The tests need more packages; a build that has them keeps them.
-tests=""
-[ -f "$here/build/release/CMakeCache.txt" ] || tests="-DANIMEME_BUILD_TESTS=OFF"
-# shellcheck disable=SC2086  # nothing or one word
-cmake -S "$here" -B "$here/build/release" -G Ninja -DCMAKE_BUILD_TYPE=Release $tests \
-  >"$here/build-setup.log" 2>&1 || { cat "$here/build-setup.log" >&2; exit 1; }
-rm -f "$here/build-setup.log"
-cmake --build "$here/build/release" --target animeme
-exec "$here/build/release/bin/animeme" speak --text "$text" -o "$output" "$@"
+installed=$(date +%s)
+cd "$here"
+cmake --preset release >build-setup.log 2>&1 || { cat build-setup.log >&2; exit 1; }
+rm -f build-setup.log
+cmake --build build/release --target animeme
+built=$(date +%s)
+cd - >/dev/null
+"$here/build/release/bin/animeme" speak --text "$text" -o "$output" "$@"
+echo "packages $((installed - begin)) s, build $((built - installed)) s, speaking $(($(date +%s) - built)) s" >&2

@@ -1,8 +1,11 @@
 #!/bin/sh
 # Installs what building and running Animeme needs and a fresh Debian 12 lacks. Asks for
-# nothing; uses sudo when it is not root. With "check" it only tells what is missing. With "tests"
-# it also installs what the tests need: libraries, programs of others that read our files, and npm
-# packages into tests/readers/js/node_modules.
+# nothing; uses sudo when it is not root.
+#   tools/setup.sh           what the program needs
+#   tools/setup.sh check     tells what of that is missing
+#   tools/setup.sh tests     also what the tests need, and small programs of others that read our files
+#   tools/setup.sh full      also large ones: Chromium, GStreamer, mpv, Doxygen, and npm packages into
+#                            tests/readers/js/node_modules
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 
@@ -14,17 +17,19 @@ packages="
   libespeak-ng-dev espeak-ng-data
   libpocketsphinx-dev libsphinxbase-dev pocketsphinx-en-us
 "
+mode=${1:-}
 # Only the tests need these.
-[ "${1:-}" = "tests" ] && packages="$packages libgtest-dev libgmock-dev libbenchmark-dev ffmpeg clang-format-14"
-# Without these, tests of tests/readers skip.
-readers="
-  mediainfo mkvtoolnix mpv chromium
-  gstreamer1.0-tools gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad
-"
+case $mode in
+  tests | full) packages="$packages libgtest-dev libgmock-dev libbenchmark-dev" ;;
+esac
+# Without these, tests skip and say so.
+readers="ffmpeg mediainfo mkvtoolnix clang-format-14 universal-ctags"
+[ "$mode" = full ] && readers="$readers mpv chromium doxygen
+  gstreamer1.0-tools gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad"
 
 # True if node 18 or later and npm are there, from wherever.
 has_node() {
-  command -v npm >/dev/null &&
+  command -v node >/dev/null &&
     node -e 'process.exit(parseInt(process.versions.node) < 18 ? 1 : 0)' 2>/dev/null
 }
 
@@ -60,13 +65,17 @@ install_npm_packages() {
 missing=$(missing_of $packages)
 if [ -n "$missing" ]; then
   echo "Missing Debian packages:$missing" >&2
-  [ "${1:-}" = "check" ] && exit 1
+  [ "$mode" = check ] && exit 1
   # shellcheck disable=SC2086
   install_packages $missing
 fi
-[ "${1:-}" = "tests" ] || exit 0
+case $mode in
+  tests | full) ;;
+  *) exit 0 ;;
+esac
 
-has_node || readers="$readers nodejs npm"
+has_node || readers="$readers nodejs"
+[ "$mode" = full ] && { command -v npm >/dev/null || readers="$readers npm"; }
 # shellcheck disable=SC2086
 missing=$(missing_of $readers)
 if [ -n "$missing" ]; then
@@ -74,4 +83,5 @@ if [ -n "$missing" ]; then
   # shellcheck disable=SC2086
   install_packages $missing || echo "warning: without$missing tests will skip" >&2
 fi
+[ "$mode" = full ] || exit 0
 install_npm_packages >&2 || echo "warning: without npm packages tests will skip" >&2

@@ -114,6 +114,10 @@ TEST(StructureRules, LayersFire) {
   EXPECT_TRUE(broken("tools/media/speak.cpp", "<espeak-ng/speak_lib.h>"));
   EXPECT_TRUE(broken("tools/main.cpp", "<pocketsphinx.h>"));
   EXPECT_TRUE(broken("tools/main.cpp", "<Eigen/Core>"));
+  EXPECT_FALSE(broken("tools/commands/info.cpp", "<CLI/CLI.hpp>"));
+  EXPECT_TRUE(broken("tools/studio/film.cpp", "<CLI/CLI.hpp>"));
+  EXPECT_FALSE(broken("tools/main.cpp", "\"tools/commands/command.h\""));
+  EXPECT_TRUE(broken("tools/check/suite.cpp", "\"tools/commands/command.h\""));
   EXPECT_TRUE(broken("tools/media/mux.cpp", "<CLI/CLI.hpp>"));
   EXPECT_TRUE(broken("codec/text/epf.cpp", "<nlohmann/json.hpp>"));
   EXPECT_TRUE(broken("tools/main.cpp", "\"tests/support/shared.h\""));

@@ -38,13 +38,13 @@ inline void chunk(Bytes& file, std::string_view type, const Bytes& data) {
 /// `rgba`: rows from the top.
 inline std::vector<std::uint8_t> png_of(const std::vector<std::uint8_t>& rgba, int width) {
   const std::size_t row = std::size_t(width) * 4;
-  png::Bytes rows;
+  Bytes rows;
   for (std::size_t at = 0; at < rgba.size(); at += row) {
     rows.push_back(0);
     rows.insert(rows.end(), rgba.begin() + std::ptrdiff_t(at),
                 rgba.begin() + std::ptrdiff_t(at + row));
   }
-  png::Bytes data = {0x78, 0x01};
+  Bytes data = {0x78, 0x01};
   constexpr std::size_t kBlock = 65535;  // as they are
   for (std::size_t at = 0; at < rows.size(); at += kBlock) {
     const auto size = std::uint16_t(std::min(kBlock, rows.size() - at));
@@ -62,8 +62,8 @@ inline std::vector<std::uint8_t> png_of(const std::vector<std::uint8_t>& rgba, i
     b = (b + a) % 65521;
   }
   png::put(data, b << 16 | a);
-  png::Bytes file = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
-  png::Bytes header;
+  Bytes file = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+  Bytes header;
   png::put(header, std::uint32_t(width));
   png::put(header, std::uint32_t(rgba.size() / row));
   header.insert(header.end(), {8, 6, 0, 0, 0});
