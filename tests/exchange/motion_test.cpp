@@ -7,8 +7,8 @@
 #include "codec/encode/encode.h"
 #include "dam/corpus/corpus.h"
 #include "fap/text.h"
-#include "tests/support/shared.h"
 #include "tests/support/landmark_tables.h"
+#include "tests/support/shared.h"
 #include "tools/exchange/curves.h"
 
 namespace animeme::exchange {
