@@ -6,6 +6,7 @@
 
 namespace animeme::tools {
 
+/// Ordered: a script sees members as they were added.
 using Json = nlohmann::ordered_json;
 
 }  // namespace animeme::tools

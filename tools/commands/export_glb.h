@@ -12,7 +12,7 @@ namespace animeme::tools {
 
 /// What the user asks of `export` to .glb.
 struct GlbExport {
-  studio::HeadChoice head;
+  studio::HeadChoice head;       ///< whose head
   std::string morphs = "arkit";  ///< or "fap"
   std::string audio;             ///< name to mention; may be empty
   bool normals = false;          ///< write normals, too

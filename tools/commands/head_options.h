@@ -12,7 +12,7 @@ namespace animeme::tools {
 
 /// What --help says of --head and --points.
 extern const char* const kHeadHelp;
-extern const char* const kPointsHelp;
+extern const char* const kPointsHelp;  ///< likewise
 
 /// Adds --head and --points.
 void add_head_options(CLI::App& app, studio::HeadChoice& choice);

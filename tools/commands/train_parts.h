@@ -24,6 +24,7 @@ struct PartSettings {
 void tell_training(const std::string& output, const dam::Model& model,
                    const dam::TrainSummary& summary, const inspect::TrainingData& data, bool json);
 
+/// `train --accumulate`; the exit code.
 Result<int> accumulate(const PartSettings& parts, const CorpusSettings& corpus,
                        const dam::TrainOptions& train, bool json);
 

@@ -16,8 +16,8 @@ struct Talk {
 /// How long work is watched: it tells how far it is, 0..1, and asks whether it is to stop. What was
 /// done then is complete as far as it goes.
 struct Progress {
-  std::function<void(double)> at = [](double) {};
-  std::function<bool()> stop = [] { return false; };
+  std::function<void(double)> at = [](double) {};     ///< told how far it is
+  std::function<bool()> stop = [] { return false; };  ///< true: stop
 };
 
 }  // namespace animeme::tools

@@ -30,8 +30,8 @@ Result<std::vector<dam::Control>> scale_of(const std::vector<dam::SentencePair>&
 
 /// What coding does to the motion.
 struct CodecScore {
-  std::size_t bytes = 0;
-  double kbps = 0;
+  std::size_t bytes = 0;  ///< of all streams
+  double kbps = 0;        ///< of all sentences, 1000 bits a second
   dam::Evaluation error;  ///< decoded against the motion before coding
   dam::Evaluation total;  ///< decoded against the recordings
 };
@@ -43,13 +43,13 @@ Result<CodecScore> score_codec(const std::vector<dam::SentencePair>& pairs,
 
 /// Everything that was found out.
 struct EvaluationReport {
-  std::string system;
-  dam::Evaluation evaluation;
-  double closed_gap = 45;
-  std::string against;
-  std::optional<dam::PairedDifference> difference;
-  std::size_t compared_controls = 0;  ///< scored ones that both systems have
-  std::optional<CodecScore> codec;
+  std::string system;                               ///< its name
+  dam::Evaluation evaluation;                       ///< of the system
+  double closed_gap = 45;                           ///< FAP units: a smaller inner gap is closed
+  std::string against;                              ///< name of the other system; empty: none
+  std::optional<dam::PairedDifference> difference;  ///< system less the other one
+  std::size_t compared_controls = 0;                ///< scored ones that both systems have
+  std::optional<CodecScore> codec;                  ///< nothing: not asked for
 };
 
 /// The report as JSON text.

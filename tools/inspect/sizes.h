@@ -32,7 +32,7 @@ Result<ClipSizes> measure_sizes(const std::string& name, const fap::Sequence& cl
 
 /// The heading of a table of sizes, and the row of a clip; they end with a line end.
 std::string sizes_heading();
-std::string sizes_row(const ClipSizes& clip);
+std::string sizes_row(const ClipSizes& clip);  ///< likewise
 /// The last row, with the means of all clips (one at least), and what the columns are.
 std::string sizes_means(const std::vector<ClipSizes>& clips, double max_rms);
 /// All of it as JSON text.

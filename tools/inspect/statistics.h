@@ -17,11 +17,13 @@ namespace animeme::inspect {
 /// What was measured of one input.
 struct Statistics {
   std::string kind;                   ///< what the input was
-  std::size_t faces = 0, bodies = 0;  ///< frames
+  std::size_t faces = 0;              ///< frames with a face
+  std::size_t bodies = 0;             ///< frames with a body
   fap::Rate rate;                     ///< of the face, or of a body alone
   double seconds = 0;                 ///< of the stream, else of the face, else of the body
   std::optional<BitStatistics> bits;  ///< streams only
-  std::vector<Activity> faps, baps;   ///< those that occur
+  std::vector<Activity> faps;         ///< those that occur
+  std::vector<Activity> baps;         ///< those that occur
 };
 
 /// Measures a face and a body; both may be empty. `stream` is what they were decoded from, `bytes`

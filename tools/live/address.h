@@ -16,18 +16,21 @@
 
 namespace animeme::live {
 
+/// What sending takes, by transport.
 struct SinkOptions {
-  media::SinkOptions media;
-  web::WebOptions web;
+  media::SinkOptions media;  ///< RTP, MPEG-TS
+  web::WebOptions web;       ///< the web server or client
 };
+/// What receiving takes, by transport.
 struct SourceOptions {
-  media::SourceOptions media;
-  web::WebOptions web;
+  media::SourceOptions media;  ///< RTP, MPEG-TS
+  web::WebOptions web;         ///< the web server or client
 };
 
 /// Errors: invalid_argument (no address of ours; the message lists them), those of the transport.
 Result<std::unique_ptr<media::LiveSink>> open_sink(const std::string& url,
                                                    const SinkOptions& options);
+/// The same of a source.
 Result<std::unique_ptr<media::LiveSource>> open_source(const std::string& where,
                                                        const SourceOptions& options);
 

@@ -16,16 +16,17 @@ namespace animeme::live {
 
 /// How face and sound are coded where they are not yet.
 struct Coding {
-  int quant = 1;
-  double intra_seconds = 1;  ///< coded streams with longer distances are coded again
-  bool copy = false;         ///< coded streams stay as they are, whatever is asked for
-  bool sound = true;
-  media::AudioSettings audio;
-  bool codec_given = false;  ///< coded sound of another codec is coded again
+  int quant = 1;               ///< fap_quant, 1..31
+  double intra_seconds = 1;    ///< coded streams with longer distances are coded again
+  bool copy = false;           ///< coded streams stay as they are, whatever is asked for
+  bool sound = true;           ///< false: the face alone
+  media::AudioSettings audio;  ///< how sound is coded
+  bool codec_given = false;    ///< coded sound of another codec is coded again
 };
 
+/// Face and sound, coded.
 struct Clip {
-  fba::AccessUnits face;
+  fba::AccessUnits face;      ///< planes
   media::EncodedAudio sound;  ///< no packets: silent
 };
 

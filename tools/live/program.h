@@ -18,30 +18,30 @@ namespace animeme::live {
 
 /// What is said, how it looks and how it is coded.
 struct ProgramOptions {
-  std::string say;  ///< file of lines to speak as they come, "-": standard input
-  speech::SpokenOptions spoken;
-  Coding coding;
-  std::string model;  ///< as speech::read_model() takes it
-  double style = 1;   ///< as dam::SynthesisOptions::style
-  bool life = false;  ///< blinks, and brows and head that move a little
-  std::uint64_t seed = 1;
-  bool loop = false;                                          ///< clips begin again at their end
+  std::string say;               ///< file of lines to speak as they come, "-": standard input
+  speech::SpokenOptions spoken;  ///< text, script or voice
+  Coding coding;                 ///< of face and sound
+  std::string model;             ///< as speech::read_model() takes it
+  double style = 1;              ///< as dam::SynthesisOptions::style
+  bool life = false;             ///< blinks, and brows and head that move a little
+  std::uint64_t seed = 1;        ///< of life
+  bool loop = false;             ///< clips begin again at their end
   double duration = std::numeric_limits<double>::infinity();  ///< seconds
 };
 
 /// What is sent, and all that has to live as long.
 struct Program {
-  dam::Model model;
-  int descriptor = -1;  ///< of the lines, if it is ours to close
-  std::unique_ptr<speech::VoiceLines> lines;
-  std::unique_ptr<speech::LiveSpeaker> speaker;
-  std::unique_ptr<media::ClipInput> clip;
+  dam::Model model;                              ///< of the speaker
+  int descriptor = -1;                           ///< of the lines, if it is ours to close
+  std::unique_ptr<speech::VoiceLines> lines;     ///< null: a clip plays
+  std::unique_ptr<speech::LiveSpeaker> speaker;  ///< null: a clip plays
+  std::unique_ptr<media::ClipInput> clip;        ///< null: lines are spoken
 
   Program() = default;
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
   ~Program();
-  media::LiveInput& input() const;
+  media::LiveInput& input() const;  ///< the clip or the speaker
 };
 
 /// Text, script or recorded voice as a clip of `rate`, as `animeme speak` makes it. Errors: those

@@ -14,9 +14,9 @@ namespace animeme::live {
 
 /// What is sent to one address, and how that goes.
 struct Address {
-  std::string url;
-  std::unique_ptr<media::LiveSink> sink;
-  bool broken = false;
+  std::string url;                        ///< as given
+  std::unique_ptr<media::LiveSink> sink;  ///< never null
+  bool broken = false;                    ///< nothing is sent there any more
 };
 
 /// All addresses of a stream. One that breaks while it runs is left behind with a warning (to
@@ -37,7 +37,7 @@ class Sinks {
   /// Says goodbye everywhere; the first error.
   Result<void> finish();
 
-  const std::vector<Address>& addresses() const { return addresses_; }
+  const std::vector<Address>& addresses() const { return addresses_; }  ///< in the order of open()
   /// Of all addresses: receivers are added up, the largest loss counts.
   media::SendStats stats() const;
 

@@ -77,7 +77,7 @@ function(animeme_install_package)
       string(PREPEND animeme_spread
         "if(${name} IN_LIST animeme_wanted)\n  list(APPEND animeme_wanted ${below})\nendif()\n")
     endif()
-    string(APPEND animeme_load "if(${name} IN_LIST animeme_wanted)\n${find}  include(\"\${CMAKE_CURRENT_LIST_DIR}/animeme-${name}.cmake\")\nendif()\n")
+    string(APPEND animeme_load "if(${name} IN_LIST animeme_wanted AND EXISTS \"\${CMAKE_CURRENT_LIST_DIR}/animeme-${name}.cmake\")\n${find}  include(\"\${CMAKE_CURRENT_LIST_DIR}/animeme-${name}.cmake\")\nendif()\n")
     get_property(headers GLOBAL PROPERTY ANIMEME_HEADERS_${name})
     string(APPEND animeme_table "set(animeme_headers_${name} ${headers})\n")
   endforeach()

@@ -11,10 +11,10 @@ namespace animeme::plot {
 
 /// A filled clip (fap/fill.h), and when its frame 0 is shown.
 struct TimedClip {
-  fap::Sequence clip;
-  double start = 0;  ///< seconds
+  fap::Sequence clip;  ///< filled
+  double start = 0;    ///< seconds
 
-  double end() const { return start + clip.duration(); }
+  double end() const { return start + clip.duration(); }  ///< seconds
 };
 
 /// FAP `fap`, 3 to 68, of up to three clips, a curve each in the order of the clips.

@@ -22,8 +22,8 @@ using Points = std::vector<std::pair<double, double>>;
 
 /// One curve a colour, in the order of the legend; together they share a scale.
 struct Row {
-  std::string title;
-  std::string subtitle;
+  std::string title;             ///< of the row
+  std::string subtitle;          ///< smaller, behind it
   std::string unit;              ///< of the values; empty: none is told
   std::vector<Points> curves;    ///< first_colour + their number: three at most
   std::size_t first_colour = 0;  ///< place in the legend of the first curve
@@ -36,7 +36,7 @@ struct Panel {
   double seconds = 0;                   ///< where it ends
   const dam::Script* script = nullptr;  ///< phones behind the rows; nullptr: none
   bool names_below = false;             ///< the phones' names stand below the rows, not above
-  std::vector<Row> rows;
+  std::vector<Row> rows;                ///< from the top
 };
 
 /// Longer than this nothing should be drawn, seconds.

@@ -17,22 +17,23 @@ namespace animeme::speech {
 /// Where speech comes from: one of text, text_file, script, and audio with transcript. A script may
 /// have audio, too.
 struct SpokenOptions {
-  std::string text;
-  bool has_text = false;   ///< text may be empty
-  std::string text_file;   ///< "-": standard input
-  std::string script;      ///< a phoneme script of any format
-  std::string audio;       ///< a recorded voice
-  std::string transcript;  ///< what is said in it
-  bool has_transcript = false;
-  std::string language = "en";
-  int words_per_minute = 175;  ///< of a synthetic voice, 80 to 450
-  int pitch = 50;              ///< of a synthetic voice, 0 to 100
+  std::string text;             ///< what to say
+  bool has_text = false;        ///< text may be empty
+  std::string text_file;        ///< "-": standard input
+  std::string script;           ///< a phoneme script of any format
+  std::string audio;            ///< a recorded voice
+  std::string transcript;       ///< what is said in it
+  bool has_transcript = false;  ///< transcript may be empty
+  std::string language = "en";  ///< as espeak-ng names it
+  int words_per_minute = 175;   ///< of a synthetic voice, 80 to 450
+  int pitch = 50;               ///< of a synthetic voice, 0 to 100
 };
 
+/// Speech as phones, with its sound.
 struct Spoken {
-  dam::Script script;
-  std::optional<media::Pcm> audio;
-  std::string voice;  ///< of synthetic speech
+  dam::Script script;               ///< timed phones
+  std::optional<media::Pcm> audio;  ///< nothing: a script without sound
+  std::string voice;                ///< of synthetic speech
 };
 
 /// Whether one of the four sources is named, and all that it needs.

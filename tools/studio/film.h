@@ -16,8 +16,9 @@
 
 namespace animeme::studio {
 
+/// How a film looks and sounds.
 struct FilmOptions {
-  HeadLook look;
+  HeadLook look;                        ///< head and camera
   std::optional<fap::Rate> rate;        ///< pictures a second; nothing: one a frame of the clip
   int quality = 20;                     ///< as VideoSettings::quality
   const dam::Script* script = nullptr;  ///< phones to show below; nullptr: none
@@ -27,12 +28,13 @@ struct FilmOptions {
 
 /// A film that was written.
 struct Film {
-  std::size_t pictures = 0;
-  int width = 0, height = 0;  ///< pixels
-  fap::Rate rate;             ///< pictures a second
-  std::string codec;          ///< name of the codec
-  double seconds = 0;
-  bool stopped = false;  ///< before the end
+  std::size_t pictures = 0;  ///< that were drawn
+  int width = 0;             ///< pixels
+  int height = 0;            ///< pixels
+  fap::Rate rate;            ///< pictures a second
+  std::string codec;         ///< name of the codec
+  double seconds = 0;        ///< of the film
+  bool stopped = false;      ///< before the end
 };
 
 /// The extensions that write_film() takes: .mp4, .webm, .mkv; in lower case.

@@ -17,6 +17,7 @@ struct HeadChoice {
   std::string points;          ///< list of feature points; see fap/head/point_list.h
 };
 
+/// A head and what there is to say of it.
 struct LoadedHead {
   head::Head head;                 ///< see fap/head/model.h
   std::vector<std::string> notes;  ///< what was guessed or is missing, a sentence each

@@ -27,7 +27,7 @@ class HeadView {
  public:
   /// Errors and talk: those of load_head().
   static Result<HeadView> make(const HeadLook& look, const tools::Talk& talk = {});
-  HeadView(HeadView&&) noexcept;
+  HeadView(HeadView&&) noexcept;  ///< leaves the other one empty
   HeadView& operator=(HeadView&&) noexcept;
   ~HeadView();
 
