@@ -24,8 +24,11 @@ part() {
   shift
   echo "== $title"
   begin=$(date +%s)
-  "$@" || { status=$?; echo "$title failed" >>"$times"; }
-  printf '%-36s %5d s\n' "$title" $(($(date +%s) - begin)) >>"$times"
+  result=0
+  "$@" || result=$?
+  printf '%-36s %5d s%s\n' "$title" $(($(date +%s) - begin)) "$([ $result = 0 ] || echo '  failed')" >>"$times"
+  [ $result = 0 ] || status=$result
+  return $result
 }
 
 # finish: what there is to say at the end.
@@ -41,18 +44,15 @@ finish() {
 run() {
   preset=$1
   rm -f "build/$preset/Testing/Temporary/LastTest.log"
-  part "$preset: configure" cmake --preset "$preset" --log-level=STATUS
-  [ "$status" = 0 ] || finish
-  part "$preset: build" cmake --build "build/$preset"
-  [ "$status" = 0 ] || finish
+  part "$preset: configure" cmake --preset "$preset" --log-level=STATUS || finish
+  part "$preset: build" cmake --build "build/$preset" || finish
   # A sender over SRT was seen to hang at its end once: what times out gets a second try, what fails does not.
   part "$preset: tests" ctest --test-dir "build/$preset" --output-on-failure -j "$(nproc)" \
     --repeat after-timeout:2 \
-    --output-junit "$here/build/$preset/tests.xml"
+    --output-junit "$here/build/$preset/tests.xml" || true  # the other round is of use all the same
 }
 
-part "packages" tools/setup.sh "$packages"
-[ "$status" = 0 ] || finish
+part "packages" tools/setup.sh "$packages" || finish
 run release
 [ "$mode" = quick ] || run asan
 finish

@@ -202,7 +202,8 @@ Result<Container> ContainerReader::read(const av::LogCapture& log) {
     result_.warnings.push_back("the stream headers are incomplete");
   }
   tracks_.update(file_);
-  const std::optional<int> audio = other_sound_ ? std::nullopt : find_audio(input_);
+  std::optional<int> audio;
+  if (!other_sound_) audio = find_audio(input_);
   for (unsigned i = 0; i < file_.nb_streams; ++i) {
     const bool wanted =
         int(i) == audio.value_or(-1) || tracks_[int(i)].state != FaceTrack::State::no;
