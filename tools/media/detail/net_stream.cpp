@@ -187,6 +187,7 @@ void NetWriter::run() {
     }
     close();
     const std::lock_guard lock(mutex_);
+    if (last_) return;  // finish() saw a receiver: nobody would stop the wait for another one
     queue_.clear();
     queued_ = 0;
     changed_.notify_all();
