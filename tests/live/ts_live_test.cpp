@@ -120,6 +120,34 @@ TEST(TsLive, AnSrtSinkWaitsForReceivers) {
   sender.join();
 }
 
+// The end comes while the receiver leaves: not the moment to wait for another one.
+TEST(TsLive, AnSrtSinkEndsWhenItsReceiverHasJustGone) {
+  if (!has_srt()) GTEST_SKIP() << "this FFmpeg was built without srt";
+  Presentation show = reference(reference_streams()[0]);
+  for (int round = 0; round < 5; ++round) {
+    const int port = free_udp_port();
+    auto sink = make_ts_sink(local_url("srt", port, "?mode=listener&latency=20000"));
+    ASSERT_TRUE((*sink)->start(show.info));
+    auto source = make_ts_source(local_url("srt", port, "?mode=caller&latency=20000"));
+    ASSERT_TRUE(source) << source.error().describe();
+    LiveUnit unit = show.units[0];
+    const auto send = [&] {
+      unit.time += unit.duration;
+      ASSERT_TRUE((*sink)->send(unit));
+    };
+    Received got;
+    while (got.units.empty()) {
+      send();
+      receive(**source, got, 0.05);
+    }
+    source->reset();
+    for (int i = 0; i < 200 * round; ++i) send();
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_TRUE((*sink)->finish());
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60));
+  }
+}
+
 TEST(TsLive, AMulticastGroupCarriesIt) {
   Presentation show = reference(reference_streams()[0]);
   const std::string url =
