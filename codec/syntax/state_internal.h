@@ -44,9 +44,10 @@ struct SlotCoding {
     valid = true;
     scale = new_scale;
     quantised = quant != 0;
+    const std::span<const std::uint16_t> numbers = table->number;
     coded.clear();
-    for (std::size_t slot = 0; slot < table->number.size(); ++slot) {
-      if (mask[table->number[slot]]) coded.push_back(std::uint16_t(slot));
+    for (std::size_t slot = 0; slot < numbers.size(); ++slot) {
+      if (mask[numbers[slot]]) coded.push_back(std::uint16_t(slot));
     }
     set_default_ranges();
   }
