@@ -7,71 +7,39 @@
 
 #include "fap/arkit_internal.h"
 #include "fap/detail/symmetry.h"
+#include "fap/detail/text_scanner.h"
 #include "fap/tables.h"
 
 namespace animeme::fap {
 
-const std::array<std::string_view, kArkitChannelCount> kArkitNames = {"eyeBlinkLeft",
-                                                                      "eyeLookDownLeft",
-                                                                      "eyeLookInLeft",
-                                                                      "eyeLookOutLeft",
-                                                                      "eyeLookUpLeft",
-                                                                      "eyeSquintLeft",
-                                                                      "eyeWideLeft",
-                                                                      "eyeBlinkRight",
-                                                                      "eyeLookDownRight",
-                                                                      "eyeLookInRight",
-                                                                      "eyeLookOutRight",
-                                                                      "eyeLookUpRight",
-                                                                      "eyeSquintRight",
-                                                                      "eyeWideRight",
-                                                                      "jawForward",
-                                                                      "jawRight",
-                                                                      "jawLeft",
-                                                                      "jawOpen",
-                                                                      "mouthClose",
-                                                                      "mouthFunnel",
-                                                                      "mouthPucker",
-                                                                      "mouthRight",
-                                                                      "mouthLeft",
-                                                                      "mouthSmileLeft",
-                                                                      "mouthSmileRight",
-                                                                      "mouthFrownLeft",
-                                                                      "mouthFrownRight",
-                                                                      "mouthDimpleLeft",
-                                                                      "mouthDimpleRight",
-                                                                      "mouthStretchLeft",
-                                                                      "mouthStretchRight",
-                                                                      "mouthRollLower",
-                                                                      "mouthRollUpper",
-                                                                      "mouthShrugLower",
-                                                                      "mouthShrugUpper",
-                                                                      "mouthPressLeft",
-                                                                      "mouthPressRight",
-                                                                      "mouthLowerDownLeft",
-                                                                      "mouthLowerDownRight",
-                                                                      "mouthUpperUpLeft",
-                                                                      "mouthUpperUpRight",
-                                                                      "browDownLeft",
-                                                                      "browDownRight",
-                                                                      "browInnerUp",
-                                                                      "browOuterUpLeft",
-                                                                      "browOuterUpRight",
-                                                                      "cheekPuff",
-                                                                      "cheekSquintLeft",
-                                                                      "cheekSquintRight",
-                                                                      "noseSneerLeft",
-                                                                      "noseSneerRight",
-                                                                      "tongueOut",
-                                                                      "headYaw",
-                                                                      "headPitch",
-                                                                      "headRoll",
-                                                                      "leftEyeYaw",
-                                                                      "leftEyePitch",
-                                                                      "leftEyeRoll",
-                                                                      "rightEyeYaw",
-                                                                      "rightEyePitch",
-                                                                      "rightEyeRoll"};
+namespace {
+
+// By number.
+constexpr std::string_view kNames =
+    "eyeBlinkLeft eyeLookDownLeft eyeLookInLeft eyeLookOutLeft eyeLookUpLeft eyeSquintLeft "
+    "eyeWideLeft eyeBlinkRight eyeLookDownRight eyeLookInRight eyeLookOutRight eyeLookUpRight "
+    "eyeSquintRight eyeWideRight jawForward jawRight jawLeft jawOpen mouthClose mouthFunnel "
+    "mouthPucker mouthRight mouthLeft mouthSmileLeft mouthSmileRight mouthFrownLeft "
+    "mouthFrownRight mouthDimpleLeft mouthDimpleRight mouthStretchLeft mouthStretchRight "
+    "mouthRollLower mouthRollUpper mouthShrugLower mouthShrugUpper mouthPressLeft mouthPressRight "
+    "mouthLowerDownLeft mouthLowerDownRight mouthUpperUpLeft mouthUpperUpRight browDownLeft "
+    "browDownRight browInnerUp browOuterUpLeft browOuterUpRight cheekPuff cheekSquintLeft "
+    "cheekSquintRight noseSneerLeft noseSneerRight tongueOut headYaw headPitch headRoll "
+    "leftEyeYaw leftEyePitch leftEyeRoll rightEyeYaw rightEyePitch rightEyeRoll";
+
+constexpr std::array<std::string_view, kArkitChannelCount> split_names() {
+  std::array<std::string_view, kArkitChannelCount> names;
+  std::string_view rest = kNames;
+  for (std::string_view& name : names) {
+    name = rest.substr(0, rest.find(' '));
+    rest.remove_prefix(std::min(name.size() + 1, rest.size()));
+  }
+  return names;
+}
+
+}  // namespace
+
+constinit const std::array<std::string_view, kArkitChannelCount> kArkitNames = split_names();
 
 namespace {
 
@@ -81,20 +49,14 @@ constexpr int kLidsMeet = 1024;  // FAP 19 + 21: IRISD is the opening of the lid
 constexpr std::size_t kLongestName = 32;
 constexpr std::size_t kFirstEyeball = 23, kLastEyeball = 26;
 
-std::string lower_case(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-  return out;
-}
-
 std::array<std::string, kArkitChannelCount> lower_case_names() {
   std::array<std::string, kArkitChannelCount> names;
-  for (std::size_t i = 0; i < names.size(); ++i) names[i] = lower_case(kArkitNames[i]);
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = detail::lower_case(kArkitNames[i]);
   return names;
 }
 
 std::string normal_name(std::string_view name) {
-  std::string out = lower_case(name);
+  std::string out = detail::lower_case(name);
   if (out.ends_with("_l")) return out.replace(out.size() - 2, 2, "left");
   if (out.ends_with("_r")) return out.replace(out.size() - 2, 2, "right");
   return out;

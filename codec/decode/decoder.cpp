@@ -3,19 +3,17 @@
 namespace animeme::fba {
 
 void Decoder::Impl::warn(std::string text, std::size_t bit) {
-  Event event;
+  Event& event = waiting.emplace_back();
   event.kind = Event::Kind::warning;
   event.text = std::move(text);
   event.bit = stream_bit(bit);
-  waiting.push_back(std::move(event));
 }
 
 void Decoder::Impl::tell_info() {
-  Event event;
+  Event& event = waiting.emplace_back();
   event.kind = Event::Kind::info;
   event.info = info;
   event.bit = stream_bit(position);
-  waiting.push_back(std::move(event));
   info = {};
   info_told = true;
 }

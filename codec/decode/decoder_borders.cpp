@@ -11,30 +11,14 @@ bool is_header(std::uint32_t code) {
          is_object_start(code);
 }
 
-const char* object_type_name(std::uint32_t type) {
-  switch (type) {
-    case 1:
-      return "video";
-    case 2:
-      return "still texture";
-    case 3:
-      return "mesh";
-    case 5:
-      return "3D mesh";
-    default:
-      return "reserved";
-  }
-}
+// Types 0 to 5; 4 is face and body animation.
+constexpr const char* kObjectTypes[] = {"reserved", "video", "still texture",
+                                        "mesh",     "",      "3D mesh"};
 
 }  // namespace
 
 Result<bool> Decoder::Impl::read_header() {
-  if (!available(position + 32)) {
-    if (!finished) return need_data();
-    const bool empty = stream_bit(position) == 0 && buffer.empty();
-    return at(Code::truncated, empty ? "the stream is empty" : "the stream ends in its headers",
-              size_bits());
-  }
+  if (!available(position + 32)) return need_more();
   const std::uint32_t code = code_at(position);
   if (is_object_start(code)) {
     info.old_start_code = code == kOldObjectStart;
@@ -45,7 +29,7 @@ Result<bool> Decoder::Impl::read_header() {
     if (!info_told) tell_info();
     phase = Phase::planes;  // a unit taken out of a stream; read_plane() finds the code
   } else if (code == kSequenceStart) {
-    if (!available(position + 40)) return need_more("headers");
+    if (!available(position + 40)) return need_more();
     info.profile_and_level = std::uint8_t(BitReader(buffer, position + 32).bits(8));
     position += 40;
     phase = Phase::user_data;
@@ -66,13 +50,15 @@ Result<bool> Decoder::Impl::read_header() {
   return false;
 }
 
-Result<bool> Decoder::Impl::need_more(const char* where) {
+Result<bool> Decoder::Impl::need_more() {
   if (!finished) return need_data();
-  return at(Code::truncated, std::string("the stream ends in its ") + where, size_bits());
+  const bool empty = stream_bit(position) == 0 && buffer.empty();
+  return at(Code::truncated, empty ? "the stream is empty" : "the stream ends in its headers",
+            size_bits());
 }
 
 Result<bool> Decoder::Impl::read_visual_object() {
-  if (!available(position + 48)) return need_more("headers");
+  if (!available(position + 48)) return need_more();
   BitReader in(buffer, position + 32);
   if (in.bit() != 0) {
     info.verid = std::uint8_t(in.bits(4));
@@ -80,9 +66,9 @@ Result<bool> Decoder::Impl::read_visual_object() {
   }
   const std::uint32_t type = in.bits(4);
   if (type != 4) {
+    const std::string name = type < std::size(kObjectTypes) ? kObjectTypes[type] : "reserved";
     return at(Code::unsupported,
-              std::string("the visual object is of type ") + object_type_name(type) +
-                  ", not face and body animation",
+              "the visual object is of type " + name + ", not face and body animation",
               position + 32);
   }
   position += 40;

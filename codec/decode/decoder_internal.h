@@ -94,7 +94,7 @@ struct Decoder::Impl {
   // decoder_borders.cpp: headers, start codes and what lies between planes.
 
   Result<bool> read_header();
-  Result<bool> need_more(const char* where);
+  Result<bool> need_more();
   Result<bool> read_visual_object();
 
   // Byte-wise search for a start code: any header (skipping user data), or, when lost, an intra

@@ -157,16 +157,9 @@ class PlaneParser {
     settings.male = in_.bit() != 0;
     if (in_.bit() != 0) return dct("face");
 
-    SlotCoding& coding = plane_.face.coding;
-    coding = state_.face.coding;
-    coding.valid = true;
-    coding.scale = fap_scale(settings.fap_quant);
-    coding.quantised = settings.fap_quant != 0;
-    coding.coded.clear();
-    for (std::uint16_t slot = 0; slot < fap::kLowLevelCount; ++slot) {
-      if (settings.mask[std::size_t(slot + fap::kFirstLowLevel)]) coding.coded.push_back(slot);
-    }
-    return range_flags(coding, settings, Stage::face_ranges);
+    plane_.face.coding.begin(state_.face.coding, settings.mask, settings.fap_quant,
+                             fap_scale(settings.fap_quant));
+    return range_flags(settings, Stage::face_ranges);
   }
 
   const FaceSettings& settings_in_force() const {
@@ -200,13 +193,7 @@ class PlaneParser {
     BodySettings& settings = plane_.body_settings;
     settings = {};
     settings.bap_quant = int(in_.bits(5));
-    SlotCoding& coding = plane_.body.coding;
-    coding = state_.body.coding;
-    coding.valid = true;
-    coding.scale = bap_scale(settings.bap_quant);
-    coding.quantised = settings.bap_quant != 0;
-    coding.coded.clear();
-    std::uint16_t slot = 0;
+    std::size_t slot = 0;
     for (std::size_t group = 0; group < kBodyGroupCount; ++group) {
       if (auto ok = bits_.marker("body masks"); !ok) return ok;
       const MaskType type = MaskType(in_.bits(2));
@@ -216,14 +203,14 @@ class PlaneParser {
       }
       for (int i = 0; i < kBodyGroupSizes[group]; ++i, ++slot) {
         const bool coded = type == MaskType::hold ? in_.bit() != 0 : type == MaskType::all;
-        if (!coded) continue;
-        settings.mask.set(kBapOrder[slot]);
-        coding.coded.push_back(slot);
+        settings.mask[kBapOrder[slot]] = coded;
       }
     }
     settings.male = in_.bit() != 0;
     if (in_.bit() != 0) return dct("body");
-    return range_flags(coding, settings, Stage::body_ranges);
+    plane_.body.coding.begin(state_.body.coding, settings.mask, settings.bap_quant,
+                             bap_scale(settings.bap_quant));
+    return range_flags(settings, Stage::body_ranges);
   }
 
   Error dct(const char* part) const {
@@ -242,9 +229,8 @@ class PlaneParser {
   // codec/bitstream.md, section 3.2: up to four sets, a marker at every fourth member of each
   // group.
   template <class Settings>
-  Result<void> range_flags(SlotCoding& coding, Settings& settings, Stage next) {
+  Result<void> range_flags(Settings& settings, Stage next) {
     for (bool& flag : settings.send_range) flag = in_.bit() != 0;
-    coding.set_default_ranges();
     progress_.kind = 0;
     return proceed(next);
   }

@@ -23,16 +23,13 @@ constexpr double kLeastBudget = 1;       // bits: as few as can be
 constexpr std::size_t kMaxRetries = 40;  // plans tried to avoid traps
 
 Result<void> check(const EncodeOptions& options) {
-  for (const auto& ok :
-       {internal::check_fap_quant(options.fap_quant), internal::check_bap_quant(options.bap_quant),
-        internal::check_intra_period(options.intra_period)}) {
-    if (!ok) return ok;
-  }
+  const auto ok =
+      internal::check_numbers(options.fap_quant, options.bap_quant, options.intra_period);
+  if (!ok) return ok;
   if (options.max_rms >= 0 && options.max_bits_per_second >= 0 && options.still_below >= 0) {
     return {};
   }
-  return make_error(Code::invalid_argument,
-                    "limits of error, rate and motion must not be negative");
+  return internal::invalid("limits of error, rate and motion must not be negative");
 }
 
 // Writes the runs of a plan, and knows which plane a bit belongs to.

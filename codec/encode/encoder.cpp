@@ -5,6 +5,7 @@
 #include "codec/encode/plane_levels_internal.h"
 #include "codec/encode/stream_trace_internal.h"
 #include "codec/syntax/bits.h"
+#include "codec/syntax/settings_internal.h"
 
 namespace animeme::fba {
 
@@ -35,15 +36,12 @@ struct Encoder::Impl {
   internal::HighLevels high_levels{};
 
   Result<void> check(const PlaneInput& plane) const {
-    const auto invalid = [](const char* message) {
-      return make_error(Code::invalid_argument, message);
-    };
     if (unit_ended && !has_start_code(plane)) {
-      return invalid("behind end_unit() a plane needs a start code, see StreamOptions");
+      return internal::invalid("behind end_unit() a plane needs a start code, see StreamOptions");
     }
     if (!plane.intra && ((has_face(plane.object_mask) && !state.face.coding.valid) ||
                          (has_body(plane.object_mask) && !state.body.coding.valid))) {
-      return invalid("a predictive plane needs an intra plane of its kind before it");
+      return internal::invalid("a predictive plane needs an intra plane of its kind before it");
     }
     return internal::check_input(plane);
   }

@@ -45,17 +45,13 @@ struct LiveEncoder::Impl : internal::LiveMemory {
   }
 
   Result<void> check() const {
-    const auto invalid = [](const char* message) {
-      return make_error(Code::invalid_argument, message);
-    };
-    if (!rate) return invalid("the stream cannot express this frame rate, see code_rate()");
-    for (const auto& ok : {internal::check_fap_quant(options.fap_quant),
-                           internal::check_bap_quant(options.bap_quant),
-                           internal::check_intra_period(options.intra_period)}) {
-      if (!ok) return ok;
-    }
+    if (!rate)
+      return internal::invalid("the stream cannot express this frame rate, see code_rate()");
+    const auto ok =
+        internal::check_numbers(options.fap_quant, options.bap_quant, options.intra_period);
+    if (!ok) return ok;
     if (options.ranges && *std::max_element(options.ranges->begin(), options.ranges->end()) > 31) {
-      return invalid("ranges must be 0..31");
+      return internal::invalid("ranges must be 0..31");
     }
     return {};
   }

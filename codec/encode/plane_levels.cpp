@@ -35,10 +35,6 @@ bool ranges_legal(const Settings& settings) {
   return true;
 }
 
-Error invalid(std::string message) {
-  return make_error(Code::invalid_argument, std::move(message));
-}
-
 // `name`: FAP or BAP, `part`: face or body.
 template <class Settings>
 Result<void> check_settings(const Settings* settings, const char* name, const char* part) {
@@ -53,12 +49,12 @@ Result<void> check_intra(const PlaneInput& plane) {
   }
   if (const FaceSettings* settings = plane.face_settings; has_face(plane.object_mask)) {
     if (settings == nullptr) return invalid("an intra plane needs face settings");
-    if (auto ok = check_fap_quant(settings->fap_quant); !ok) return ok;
+    if (auto ok = check_quant("fap_quant", settings->fap_quant); !ok) return ok;
     if (auto ok = check_settings(settings, "FAP", "face"); !ok) return ok;
   }
   if (const BodySettings* settings = plane.body_settings; has_body(plane.object_mask)) {
     if (settings == nullptr) return invalid("an intra plane needs body settings");
-    if (auto ok = check_bap_quant(settings->bap_quant); !ok) return ok;
+    if (auto ok = check_quant("bap_quant", settings->bap_quant); !ok) return ok;
     if (auto ok = check_settings(settings, "BAP", "body"); !ok) return ok;
   }
   return {};
@@ -67,16 +63,9 @@ Result<void> check_intra(const PlaneInput& plane) {
 template <class Settings>
 void apply(const SlotCoding& before, const Settings& settings, int quant, int scale,
            SlotCoding& coding) {
-  coding = before;
-  coding.valid = true;
-  coding.scale = scale;
-  coding.quantised = quant != 0;
-  coding.coded.clear();
-  coding.set_default_ranges();
-  for (std::size_t slot = 0; slot < coding.table->number.size(); ++slot) {
+  coding.begin(before, settings.mask, quant, scale);
+  for (const std::uint16_t slot : coding.coded) {
     const std::size_t number = coding.table->number[slot];
-    if (!settings.mask[number]) continue;
-    coding.coded.push_back(std::uint16_t(slot));
     for (std::size_t kind = 0; kind < 4; ++kind) {
       if (!settings.send_range[kind]) continue;
       coding.range[kind][slot] = level_range(settings.range[kind][number], scale);

@@ -28,19 +28,20 @@ bool agrees(MaskType type, bool coded) {
 
 }  // namespace
 
-Result<void> check_fap_quant(int fap_quant) {
-  if (fap_quant >= 0 && fap_quant <= 31) return {};
-  return make_error(Code::invalid_argument, "fap_quant must be 0..31");
+Error invalid(std::string message) {
+  return make_error(Code::invalid_argument, std::move(message));
 }
 
-Result<void> check_bap_quant(int bap_quant) {
-  if (bap_quant >= 0 && bap_quant <= 31) return {};
-  return make_error(Code::invalid_argument, "bap_quant must be 0..31");
+Result<void> check_quant(const char* name, int quant) {
+  if (quant >= 0 && quant <= 31) return {};
+  return invalid(std::string(name) + " must be 0..31");
 }
 
-Result<void> check_intra_period(int planes) {
-  if (planes >= 0) return {};
-  return make_error(Code::invalid_argument, "the intra period must not be negative");
+Result<void> check_numbers(int fap_quant, int bap_quant, int intra_period) {
+  if (auto ok = check_quant("fap_quant", fap_quant); !ok) return ok;
+  if (auto ok = check_quant("bap_quant", bap_quant); !ok) return ok;
+  if (intra_period >= 0) return {};
+  return invalid("the intra period must not be negative");
 }
 
 Result<void> check_high_level(const fap::Frame& frame) {

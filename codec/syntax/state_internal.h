@@ -37,6 +37,20 @@ struct SlotCoding {
   bool ranges_known = false;                       // a first intra plane has set the defaults
   bool valid = false;                              // an intra plane has been seen
 
+  // What an intra plane begins with that codes the parameters of `mask`.
+  template <class Mask>
+  void begin(const SlotCoding& before, const Mask& mask, int quant, int new_scale) {
+    *this = before;
+    valid = true;
+    scale = new_scale;
+    quantised = quant != 0;
+    const std::span<const std::uint16_t> numbers = table->number;
+    coded.clear();
+    for (std::size_t slot = 0; slot < numbers.size(); ++slot) {
+      if (mask[numbers[slot]]) coded.push_back(std::uint16_t(slot));
+    }
+    set_default_ranges();
+  }
   // At the first intra plane: the default ranges, scaled by that plane's quantiser.
   void set_default_ranges();
   // Bits of one set of ranges in the stream.

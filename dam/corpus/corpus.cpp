@@ -102,21 +102,10 @@ Result<Script> read_phonemes(const fs::path& folder, const std::string& id) {
   return script;
 }
 
-Result<Signal> read_controls(const fs::path& csv, const fs::path& fap_text) {
-  const bool is_fap = !is_file(csv) && is_file(fap_text);
-  const fs::path& path = is_fap ? fap_text : csv;
-  const auto text = read_file(path);
-  if (!text) return text.error();
-  if (!is_fap) {
-    auto signal = read_curves(*text);
-    if (!signal) return std::move(signal).error().in_file(path.string());
-    return signal;
-  }
-  const auto clip = fap::read_text(*text);
-  if (!clip) return Error(clip.error()).in_file(path.string());
-  auto signal = to_signal(*clip);
-  if (!signal) return std::move(signal).error().in_file(path.string());
-  return signal;
+Result<Signal> read_fap_signal(const std::string& text) {
+  const auto clip = fap::read_text(text);
+  if (!clip) return clip.error();
+  return to_signal(*clip);
 }
 
 Result<Signal> keep_controls(Signal signal, const std::vector<std::string>& names) {
@@ -150,13 +139,15 @@ class CorpusReader {
 
   Result<void> read(Utterance& u) {
     const fs::path csv = curves(u.id, ".csv"), fap_text = curves(u.id, ".fap");
-    const fs::path path = !is_file(csv) && is_file(fap_text) ? fap_text : csv;
+    const bool is_fap = !is_file(csv) && is_file(fap_text);
+    const fs::path& path = is_fap ? fap_text : csv;
     auto script = read_phonemes(folder_, u.id);
     if (!script) return script.error();
-    auto signal = read_controls(csv, fap_text);
-    if (!signal) return signal.error();
-    if (names_.empty()) names_ = signal->names;
-    signal = keep_controls(std::move(*signal), names_);
+    const auto text = read_file(path);
+    if (!text) return text.error();
+    auto signal = is_fap ? read_fap_signal(*text) : read_curves(*text);
+    if (signal && names_.empty()) names_ = signal->names;
+    if (signal) signal = keep_controls(std::move(*signal), names_);
     if (!signal) return std::move(signal).error().in_file(path.string());
     u.script = std::move(*script);
     u.signal = std::move(*signal);

@@ -112,11 +112,9 @@ std::vector<Control> control_statistics(std::span<const Utterance* const> senten
 }
 
 std::vector<bool> speech_frames(const Utterance& utterance) {
-  const auto stretches = speech_stretches(utterance.script);
-  std::vector<bool> speech(utterance.signal.frames());
-  for (std::size_t i = 0; i < speech.size(); ++i)
-    speech[i] = is_measured(utterance.signal, i) &&
-                distance_to_speech(stretches, utterance.signal.time(i)) <= kSpeechMargin;
+  std::vector<bool> speech;
+  for (const FramePlace place : frame_places(utterance, 0))
+    speech.push_back(place == FramePlace::speech);
   return speech;
 }
 

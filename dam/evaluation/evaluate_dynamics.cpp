@@ -1,7 +1,6 @@
 // Is the motion as lively as the recorded one? Over-smoothing shows as ratios below 1.
 #include "dam/evaluation/evaluate_series_internal.h"
 #include "dam/evaluation/evaluate_sums_internal.h"
-#include "dam/evaluation/evaluate_velocity_internal.h"
 
 namespace animeme::dam {
 namespace {

@@ -1,4 +1,4 @@
-// Running sums and order statistics for scores. Internal to evaluation.
+// Running sums, order statistics and derivatives for scores. Internal to evaluation.
 #pragma once
 
 #include <algorithm>
@@ -52,6 +52,16 @@ inline double percentile(std::vector<double>& values, double share) {
   const auto low = std::size_t(at);
   const std::size_t high = std::min(low + 1, values.size() - 1);
   return values[low] + (at - double(low)) * (values[high] - values[low]);
+}
+
+/// Frames on each side that a derivative of order 1, 2 or 3 takes.
+inline constexpr std::size_t kReach[] = {0, 1, 1, 2};
+
+/// Per frame^order. `i` has kReach[order] frames on both sides.
+inline double derivative(const std::vector<double>& x, std::size_t i, int order) {
+  if (order == 1) return (x[i + 1] - x[i - 1]) / 2;
+  if (order == 2) return x[i + 1] - 2 * x[i] + x[i - 1];
+  return (x[i + 2] - 2 * x[i + 1] + 2 * x[i - 1] - x[i - 2]) / 2;
 }
 
 }  // namespace animeme::dam

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "dam/evaluation/evaluate_series_internal.h"
-#include "dam/evaluation/evaluate_velocity_internal.h"
+#include "dam/evaluation/evaluate_sums_internal.h"
 #include "dam/script/phones.h"
 
 namespace animeme::dam {

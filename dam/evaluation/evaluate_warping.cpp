@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "dam/evaluation/evaluate_series_internal.h"
-#include "dam/evaluation/evaluate_velocity_internal.h"
+#include "dam/evaluation/evaluate_sums_internal.h"
 
 namespace animeme::dam {
 namespace {

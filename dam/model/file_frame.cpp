@@ -43,11 +43,9 @@ std::vector<std::uint8_t> frame_file(const FileFormat& format, std::span<const s
   ByteWriter file;
   file.bytes.reserve(kHeader + body.size() + kChecksum);
   file.bytes.assign(format.magic.begin(), format.magic.end());
-  file.number(format.major);
-  file.number(format.minor);
-  file.number(std::uint64_t(body.size()));
+  file.put(format.major, format.minor, std::uint64_t(body.size()));
   file.bytes.insert(file.bytes.end(), body.begin(), body.end());
-  file.number(crc32(file.bytes));
+  file.put(crc32(file.bytes));
   return std::move(file.bytes);
 }
 
@@ -57,8 +55,8 @@ Result<FileBody> open_frame(const FileFormat& format, std::span<const std::uint8
   if (file.size() < kHeader + kChecksum)
     return make_error(Code::truncated, the(format) + " ends within its header");
   ByteReader header(file.subspan(kMagic));
-  const auto major = header.number<std::uint16_t>(), minor = header.number<std::uint16_t>();
-  const auto size = header.number<std::uint64_t>();
+  const auto major = header.next<std::uint16_t>(), minor = header.next<std::uint16_t>();
+  const auto size = header.next<std::uint64_t>();
   if (major != format.major)
     return make_error(Code::unsupported, the(format) + " has version " + std::to_string(major) +
                                              "." + std::to_string(minor) + ", this program reads " +
@@ -70,7 +68,7 @@ Result<FileBody> open_frame(const FileFormat& format, std::span<const std::uint8
   if (size > there) return make_error(Code::truncated, the(format) + " is cut off");
   if (size < there) return damaged_file(format, "bytes behind its end");
   ByteReader checksum(file.last(kChecksum));
-  if (crc32(file.first(file.size() - kChecksum)) != checksum.number<std::uint32_t>())
+  if (crc32(file.first(file.size() - kChecksum)) != checksum.next<std::uint32_t>())
     return damaged_file(format, "its checksum does not match");
   return FileBody{file.subspan(kHeader, there), minor > format.minor};
 }
@@ -89,28 +87,18 @@ Result<std::vector<std::uint8_t>> load_file(const FileFormat& format,
 
 Result<void> save_file(const FileFormat& format, std::span<const std::uint8_t> bytes,
                        const std::filesystem::path& path) {
-  const auto fail = [&] {
-    return Error{Code::io,
-                 "cannot write " + the(format) + "; check the folder and the free space",
-                 {path.string(), 0, 0, -1}};
-  };
   std::filesystem::path temporary = path;
   temporary += ".part";
-  std::error_code error;
-  {
-    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-    out.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-    out.close();
-    if (!out) {
-      std::filesystem::remove(temporary, error);
-      return fail();
-    }
-  }
-  std::filesystem::rename(temporary, path, error);
-  if (!error) return {};
-  std::error_code ignored;
+  std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+  out.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+  out.close();
+  std::error_code error, ignored;
+  if (out) std::filesystem::rename(temporary, path, error);
+  if (out && !error) return {};
   std::filesystem::remove(temporary, ignored);
-  return fail();
+  return Error{Code::io,
+               "cannot write " + the(format) + "; check the folder and the free space",
+               {path.string(), 0, 0, -1}};
 }
 
 }  // namespace animeme::dam

@@ -41,6 +41,11 @@ struct Speech {
   std::pair<std::size_t, std::size_t> frames_between(double low, double high) const;
 };
 
+/// Model::phones index of Occurrence::left or right.
+inline std::int32_t neighbour(const Model& model, const std::string& label) {
+  return label.empty() ? kRestContext : model.find_phone(label);
+}
+
 struct Kind {
   Method method;
   std::string_view name;  ///< for users and files

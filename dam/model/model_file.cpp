@@ -13,36 +13,22 @@ Error damaged_model(const std::string& how) { return damaged_file(kModelFormat, 
 
 Result<Model> read_payload(ByteReader& in, bool newer_minor) {
   Model model;
-  model.method = Method(in.number<std::uint8_t>());
+  in.get(model.method);
   if (method_name(model.method).empty())
     return make_error(
         Code::unsupported,
         "the model was made by a method that this version does not know; use a newer one");
-  model.pause_edge = in.real();
-  model.closure_gap = in.real();
-  const auto has_raise = in.number<std::uint8_t>();
-  const double raise = in.real();
+  in.get(model.pause_edge, model.closure_gap);
+  const auto has_raise = in.next<std::uint8_t>();
+  const auto raise = in.next<double>();
   if (has_raise > 1) return damaged_model("unknown flag");
   if (has_raise == 1) model.lip_tooth_raise = raise;
-  model.rate.num = in.number<std::uint32_t>();
-  model.rate.den = in.number<std::uint32_t>();
-  model.attribution = in.text();
-  model.provenance = in.text();
+  in.get(model.rate.num, model.rate.den, model.attribution, model.provenance);
   model.controls.resize(in.count(4 + 3 * 8));
-  for (Control& c : model.controls) {
-    c.name = in.text();
-    c.rest = in.real();
-    c.mean = in.real();
-    c.sd = in.real();
-  }
+  for (Control& c : model.controls) in.get(c.name, c.rest, c.mean, c.sd);
   model.phones.resize(in.count(4 + 4 + 4 + 8 + 8));
-  for (PhoneModel& p : model.phones) {
-    p.label = in.text();
-    p.examples = in.number<std::uint32_t>();
-    p.context_class = in.number<std::uint32_t>();
-    p.duration = in.real();
-    p.longest = in.real();
-  }
+  for (PhoneModel& p : model.phones)
+    in.get(p.label, p.examples, p.context_class, p.duration, p.longest);
   if (auto ok = kind_of(model.method).read(in, model); !ok)
     return damaged_model(ok.error().message);
   if (in.failed()) return damaged_model("its parts are larger than the file");
@@ -55,30 +41,14 @@ Result<Model> read_payload(ByteReader& in, bool newer_minor) {
 
 std::vector<std::uint8_t> write_model(const Model& model) {
   ByteWriter body;
-  body.number(std::uint8_t(model.method));
-  body.real(model.pause_edge);
-  body.real(model.closure_gap);
-  body.number(std::uint8_t(model.lip_tooth_raise ? 1 : 0));
-  body.real(model.lip_tooth_raise.value_or(0));
-  body.number(model.rate.num);
-  body.number(model.rate.den);
-  body.text(model.attribution);
-  body.text(model.provenance);
-  body.number(std::uint32_t(model.controls.size()));
-  for (const Control& c : model.controls) {
-    body.text(c.name);
-    body.real(c.rest);
-    body.real(c.mean);
-    body.real(c.sd);
-  }
-  body.number(std::uint32_t(model.phones.size()));
-  for (const PhoneModel& phone : model.phones) {
-    body.text(phone.label);
-    body.number(phone.examples);
-    body.number(phone.context_class);
-    body.real(phone.duration);
-    body.real(phone.longest);
-  }
+  body.put(model.method, model.pause_edge, model.closure_gap);
+  body.put(std::uint8_t(model.lip_tooth_raise ? 1 : 0), model.lip_tooth_raise.value_or(0));
+  body.put(model.rate.num, model.rate.den, model.attribution, model.provenance);
+  body.count(model.controls.size());
+  for (const Control& c : model.controls) body.put(c.name, c.rest, c.mean, c.sd);
+  body.count(model.phones.size());
+  for (const PhoneModel& p : model.phones)
+    body.put(p.label, p.examples, p.context_class, p.duration, p.longest);
   kind_of(model.method).write(model, body);
   return frame_file(kModelFormat, body.bytes);
 }

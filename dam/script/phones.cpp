@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "dam/script/script_text_internal.h"
+
 namespace animeme::dam {
 namespace {
 
@@ -74,7 +76,6 @@ constexpr Alias kAliases[] = {{"AXR", "ER"}, {"IX", "IH"}, {"UX", "UW"},   {"DX"
                               {"ENG", "NG"}, {"HV", "HH"}, {"AX-H", "AX"}, {"OH", "AO"}};
 
 char upper(char c) { return c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c; }
-char lower(char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -108,8 +109,7 @@ std::string_view phone_class_name(PhoneClass phone_class) {
 
 bool is_silence_spelling(std::string_view spelling) {
   if (spelling.size() > 8) return false;
-  std::string text(spelling);
-  std::transform(text.begin(), text.end(), text.begin(), lower);
+  const std::string text = lower_case(spelling);
   return std::find(std::begin(kSilences), std::end(kSilences), text) != std::end(kSilences);
 }
 

@@ -1,5 +1,5 @@
-// The table of dam/script/phones.h, one line an alternative. Shares: a diphthong stays a little
-// longer on its open half; affricates are closed for two fifths.
+// The table of dam/script/phones.h. Shares: a diphthong stays a little longer on its open half;
+// affricates are closed for two fifths.
 #include <algorithm>
 #include <iterator>
 
@@ -8,154 +8,132 @@
 namespace animeme::dam {
 namespace {
 
+struct RelativesText {
+  std::string_view label;
+  /// Separated by blanks. "AA:55:UW": AA for 55 % of the time, then UW; "*": kNextVowel.
+  std::string_view alternatives;
+};
+
+constexpr RelativesText kRelatives[] = {
+    // SIL: lips together and at rest, so the nearest are the sounds made with closed lips.
+    {"SIL", "M B P"},
+    // AA: the other open unrounded vowels; AO as open but rounded; AY starts here.
+    {"AA", "AH AE AO AY"},
+    // AE: the next more closed front vowel, then the open ones.
+    {"AE", "EH AA AH EY"},
+    // AH: its unstressed twin, then a little more open, then a little more spread.
+    {"AH", "AX AA EH AE"},
+    // AO: OW starts with it; else an open mouth that rounds.
+    {"AO", "OW AA:50:UW AA UH"},
+    // AW: a glide from open to rounded.
+    {"AW", "AA:55:UW AA:55:UH AH:55:UW AE:55:UW AA:55:W OW AA AH"},
+    // AX: a short half-open vowel without gesture.
+    {"AX", "AH EH IH UH"},
+    // AY: a glide from open to spread.
+    {"AY", "AA:55:IY AA:55:IH AH:55:IY AE:55:IY AH:55:IH AE AA EY"},
+    // B: same closure; F and V at least raise the lower lip.
+    {"B", "P M V F"},
+    // CH: same protrusion; T then R keeps teeth and rounding in turn.
+    {"CH", "JH T:40:SH SH ZH T:40:R S"},
+    // D: same place, the other voicing, then nasal, fricative, lateral.
+    {"D", "T N Z L"},
+    // DH: same place; then alveolars, which show the tongue less.
+    {"DH", "TH D L Z T"},
+    // EH: neighbours in opening, both unrounded.
+    {"EH", "AE EY AX IH"},
+    // ER: a vowel opening with the lips of R; R alone; a weakly rounded vowel.
+    {"ER", "AX:35:R AH:35:R R UH AH EH"},
+    // EY: a glide from half open to spread.
+    {"EY", "EH:50:IY EH:50:IH AE:50:IY AE:50:IH EH IH IY"},
+    // F: same contact; TH shows the teeth over a low lip; a closure is further off.
+    {"F", "V TH P B"},
+    // G: velars have neutral lips; so have HH and N.
+    {"G", "K NG HH N D"},
+    // HH: breath through the mouth of the vowel that follows; else a neutral mouth.
+    {"HH", "* AX AH EH K G"},
+    // IH: the same spread, less open; then more open.
+    {"IH", "IY EH Y AX"},
+    // IY: the same spread; EY ends here.
+    {"IY", "IH Y EY EH"},
+    // JH: same protrusion; D then R keeps teeth and rounding in turn.
+    {"JH", "CH D:40:ZH ZH SH D:40:R Z"},
+    // K: velars have neutral lips; so have HH and N.
+    {"K", "G NG HH N T"},
+    // L: tongue behind the teeth, lips neutral.
+    {"L", "N D T DH"},
+    // M: same closure; V and F at least raise the lower lip.
+    {"M", "B P V F"},
+    // N: same place, lips neutral.
+    {"N", "D T L NG"},
+    // NG: velar with neutral lips; N is as neutral.
+    {"NG", "G K N D"},
+    // OW: a glide from open rounded to closed rounded.
+    {"OW", "AO:50:UW AO:50:UH AH:40:UW AO:50:W AO UW UH"},
+    // OY: a glide from rounded to spread.
+    {"OY", "AO:50:IY AO:50:IH OW:50:IY OW:50:IH AO:50:EY UW:50:IY AO OW"},
+    // P: same closure; F and V at least raise the lower lip.
+    {"P", "B M F V"},
+    // R: the vowel of the same shape, then the rounded glide, then a weak rounding.
+    {"R", "ER W UH L"},
+    // S: same place and opening, then the stops, teeth nearly together.
+    {"S", "Z T D N"},
+    // SH: same protrusion and teeth; S then R keeps them in turn.
+    {"SH", "CH JH ZH S:50:R S Z"},
+    // T: same place, the other voicing, then nasal, fricative, lateral.
+    {"T", "D N S L"},
+    // TH: same place; then alveolars, which show the tongue less.
+    {"TH", "DH T S L D"},
+    // UH: the same rounding, tighter; OW ends here.
+    {"UH", "UW OW W AX"},
+    // UW: the same rounding, laxer; the glide made with it.
+    {"UW", "UH W OW AO"},
+    // V: same contact; DH shows the teeth over a low lip; a closure is further off.
+    {"V", "F DH B P"},
+    // W: the vowel of the same rounding; R is the weaker one.
+    {"W", "UW UH OW R"},
+    // Y: the vowel of the same spread; velars are at least neutral.
+    {"Y", "IY IH EY G K"},
+    // Z: same place and opening, then the stops, teeth nearly together.
+    {"Z", "S D T N"},
+    // ZH: same protrusion and teeth; Z then R keeps them in turn.
+    {"ZH", "JH SH CH Z:50:R Z S"},
+};
+
 struct RelativesRow {
   std::string_view label;
-  std::span<const Relative> alternatives;
+  std::array<Relative, 8> alternatives{};
+  std::size_t count = 0;
 };
 
-constexpr Relative one(std::string_view label) { return {{{{label, 1.0}, {}}}, 1}; }
-
-constexpr Relative two(std::string_view first, double share, std::string_view second) {
-  return {{{{first, share}, {second, 1.0 - share}}}, 2};
+constexpr Relative relative(std::string_view text) {
+  const std::string_view first = text.substr(0, text.find(':'));
+  if (text == first) return {{{{text == "*" ? kNextVowel : text, 1.0}, {}}}, 1};
+  const std::string_view digits = text.substr(first.size() + 1, 2);
+  const double share = (10 * (digits[0] - '0') + digits[1] - '0') / 100.0;
+  return {{{{first, share}, {text.substr(first.size() + 4), 1.0 - share}}}, 2};
 }
 
-// SIL: lips together and at rest, so the nearest are the sounds made with closed lips.
-constexpr Relative kSil[] = {one("M"), one("B"), one("P")};
-// AA: the other open unrounded vowels; AO as open but rounded; AY starts here.
-constexpr Relative kAa[] = {one("AH"), one("AE"), one("AO"), one("AY")};
-// AE: the next more closed front vowel, then the open ones.
-constexpr Relative kAe[] = {one("EH"), one("AA"), one("AH"), one("EY")};
-// AH: its unstressed twin, then a little more open, then a little more spread.
-constexpr Relative kAh[] = {one("AX"), one("AA"), one("EH"), one("AE")};
-// AO: OW starts with it; else an open mouth that rounds.
-constexpr Relative kAo[] = {one("OW"), two("AA", 0.5, "UW"), one("AA"), one("UH")};
-// AW: a glide from open to rounded.
-constexpr Relative kAw[] = {two("AA", 0.55, "UW"),
-                            two("AA", 0.55, "UH"),
-                            two("AH", 0.55, "UW"),
-                            two("AE", 0.55, "UW"),
-                            two("AA", 0.55, "W"),
-                            one("OW"),
-                            one("AA"),
-                            one("AH")};
-// AX: a short half-open vowel without gesture.
-constexpr Relative kAx[] = {one("AH"), one("EH"), one("IH"), one("UH")};
-// AY: a glide from open to spread.
-constexpr Relative kAy[] = {two("AA", 0.55, "IY"),
-                            two("AA", 0.55, "IH"),
-                            two("AH", 0.55, "IY"),
-                            two("AE", 0.55, "IY"),
-                            two("AH", 0.55, "IH"),
-                            one("AE"),
-                            one("AA"),
-                            one("EY")};
-// B: same closure; F and V at least raise the lower lip.
-constexpr Relative kB[] = {one("P"), one("M"), one("V"), one("F")};
-// CH: same protrusion; T then R keeps teeth and rounding in turn.
-constexpr Relative kCh[] = {one("JH"), two("T", 0.4, "SH"), one("SH"),
-                            one("ZH"), two("T", 0.4, "R"),  one("S")};
-// D: same place, the other voicing, then nasal, fricative, lateral.
-constexpr Relative kD[] = {one("T"), one("N"), one("Z"), one("L")};
-// DH: same place; then alveolars, which show the tongue less.
-constexpr Relative kDh[] = {one("TH"), one("D"), one("L"), one("Z"), one("T")};
-// EH: neighbours in opening, both unrounded.
-constexpr Relative kEh[] = {one("AE"), one("EY"), one("AX"), one("IH")};
-// ER: a vowel opening with the lips of R; R alone; a weakly rounded vowel.
-constexpr Relative kEr[] = {
-    two("AX", 0.35, "R"), two("AH", 0.35, "R"), one("R"), one("UH"), one("AH"), one("EH")};
-// EY: a glide from half open to spread.
-constexpr Relative kEy[] = {two("EH", 0.5, "IY"),
-                            two("EH", 0.5, "IH"),
-                            two("AE", 0.5, "IY"),
-                            two("AE", 0.5, "IH"),
-                            one("EH"),
-                            one("IH"),
-                            one("IY")};
-// F: same contact; TH shows the teeth over a low lip; a closure is further off.
-constexpr Relative kF[] = {one("V"), one("TH"), one("P"), one("B")};
-// G: velars have neutral lips; so have HH and N.
-constexpr Relative kG[] = {one("K"), one("NG"), one("HH"), one("N"), one("D")};
-// HH: breath through the mouth of the vowel that follows; else a neutral mouth.
-constexpr Relative kHh[] = {one(kNextVowel), one("AX"), one("AH"), one("EH"), one("K"), one("G")};
-// IH: the same spread, less open; then more open.
-constexpr Relative kIh[] = {one("IY"), one("EH"), one("Y"), one("AX")};
-// IY: the same spread; EY ends here.
-constexpr Relative kIy[] = {one("IH"), one("Y"), one("EY"), one("EH")};
-// JH: same protrusion; D then R keeps teeth and rounding in turn.
-constexpr Relative kJh[] = {one("CH"), two("D", 0.4, "ZH"), one("ZH"),
-                            one("SH"), two("D", 0.4, "R"),  one("Z")};
-// K: velars have neutral lips; so have HH and N.
-constexpr Relative kK[] = {one("G"), one("NG"), one("HH"), one("N"), one("T")};
-// L: tongue behind the teeth, lips neutral.
-constexpr Relative kL[] = {one("N"), one("D"), one("T"), one("DH")};
-// M: same closure; V and F at least raise the lower lip.
-constexpr Relative kM[] = {one("B"), one("P"), one("V"), one("F")};
-// N: same place, lips neutral.
-constexpr Relative kN[] = {one("D"), one("T"), one("L"), one("NG")};
-// NG: velar with neutral lips; N is as neutral.
-constexpr Relative kNg[] = {one("G"), one("K"), one("N"), one("D")};
-// OW: a glide from open rounded to closed rounded.
-constexpr Relative kOw[] = {two("AO", 0.5, "UW"),
-                            two("AO", 0.5, "UH"),
-                            two("AH", 0.4, "UW"),
-                            two("AO", 0.5, "W"),
-                            one("AO"),
-                            one("UW"),
-                            one("UH")};
-// OY: a glide from rounded to spread.
-constexpr Relative kOy[] = {two("AO", 0.5, "IY"),
-                            two("AO", 0.5, "IH"),
-                            two("OW", 0.5, "IY"),
-                            two("OW", 0.5, "IH"),
-                            two("AO", 0.5, "EY"),
-                            two("UW", 0.5, "IY"),
-                            one("AO"),
-                            one("OW")};
-// P: same closure; F and V at least raise the lower lip.
-constexpr Relative kP[] = {one("B"), one("M"), one("F"), one("V")};
-// R: the vowel of the same shape, then the rounded glide, then a weak rounding.
-constexpr Relative kR[] = {one("ER"), one("W"), one("UH"), one("L")};
-// S: same place and opening, then the stops, teeth nearly together.
-constexpr Relative kS[] = {one("Z"), one("T"), one("D"), one("N")};
-// SH: same protrusion and teeth; S then R keeps them in turn.
-constexpr Relative kSh[] = {one("CH"),          one("JH"), one("ZH"),
-                            two("S", 0.5, "R"), one("S"),  one("Z")};
-// T: same place, the other voicing, then nasal, fricative, lateral.
-constexpr Relative kT[] = {one("D"), one("N"), one("S"), one("L")};
-// TH: same place; then alveolars, which show the tongue less.
-constexpr Relative kTh[] = {one("DH"), one("T"), one("S"), one("L"), one("D")};
-// UH: the same rounding, tighter; OW ends here.
-constexpr Relative kUh[] = {one("UW"), one("OW"), one("W"), one("AX")};
-// UW: the same rounding, laxer; the glide made with it.
-constexpr Relative kUw[] = {one("UH"), one("W"), one("OW"), one("AO")};
-// V: same contact; DH shows the teeth over a low lip; a closure is further off.
-constexpr Relative kV[] = {one("F"), one("DH"), one("B"), one("P")};
-// W: the vowel of the same rounding; R is the weaker one.
-constexpr Relative kW[] = {one("UW"), one("UH"), one("OW"), one("R")};
-// Y: the vowel of the same spread; velars are at least neutral.
-constexpr Relative kY[] = {one("IY"), one("IH"), one("EY"), one("G"), one("K")};
-// Z: same place and opening, then the stops, teeth nearly together.
-constexpr Relative kZ[] = {one("S"), one("D"), one("T"), one("N")};
-// ZH: same protrusion and teeth; Z then R keeps them in turn.
-constexpr Relative kZh[] = {one("JH"),          one("SH"), one("CH"),
-                            two("Z", 0.5, "R"), one("Z"),  one("S")};
-
-constexpr RelativesRow kRows[] = {
-    {"SIL", kSil}, {"AA", kAa}, {"AE", kAe}, {"AH", kAh}, {"AO", kAo}, {"AW", kAw}, {"AX", kAx},
-    {"AY", kAy},   {"B", kB},   {"CH", kCh}, {"D", kD},   {"DH", kDh}, {"EH", kEh}, {"ER", kEr},
-    {"EY", kEy},   {"F", kF},   {"G", kG},   {"HH", kHh}, {"IH", kIh}, {"IY", kIy}, {"JH", kJh},
-    {"K", kK},     {"L", kL},   {"M", kM},   {"N", kN},   {"NG", kNg}, {"OW", kOw}, {"OY", kOy},
-    {"P", kP},     {"R", kR},   {"S", kS},   {"SH", kSh}, {"T", kT},   {"TH", kTh}, {"UH", kUh},
-    {"UW", kUw},   {"V", kV},   {"W", kW},   {"Y", kY},   {"Z", kZ},   {"ZH", kZh},
-};
+constexpr auto kRows = [] {
+  std::array<RelativesRow, std::size(kRelatives)> rows;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].label = kRelatives[i].label;
+    for (std::string_view rest = kRelatives[i].alternatives; !rest.empty();) {
+      const std::string_view text = rest.substr(0, rest.find(' '));
+      rows[i].alternatives[rows[i].count++] = relative(text);
+      rest.remove_prefix(std::min(text.size() + 1, rest.size()));
+    }
+  }
+  return rows;
+}();
 
 }  // namespace
 
 std::span<const Relative> phone_relatives(std::string_view label) {
-  const auto row =
-      std::find_if(std::begin(kRows), std::end(kRows),
-                   [&](const RelativesRow& candidate) { return candidate.label == label; });
-  return row == std::end(kRows) ? std::span<const Relative>() : row->alternatives;
+  const auto row = std::find_if(kRows.begin(), kRows.end(), [&](const RelativesRow& candidate) {
+    return candidate.label == label;
+  });
+  if (row == kRows.end()) return {};
+  return std::span(row->alternatives).first(row->count);
 }
 
 }  // namespace animeme::dam

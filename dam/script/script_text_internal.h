@@ -37,7 +37,7 @@ class LineReader {
 };
 
 /// Without blanks and tabs at both ends.
-std::string_view trim(std::string_view text);
+std::string_view trimmed(std::string_view text);
 
 /// ASCII letters in lower case, the rest as it is.
 std::string lower_case(std::string_view text);

@@ -17,7 +17,7 @@ using Tiers = std::vector<const TextGridTier*>;
 Tiers tiers_called(const TextGrid& grid, std::string_view name) {
   Tiers whole, suffix;
   for (const TextGridTier& tier : grid.tiers) {
-    const std::string lower = lower_case(trim(tier.name));
+    const std::string lower = lower_case(trimmed(tier.name));
     if (lower == name) whole.push_back(&tier);
     if (lower.ends_with(" - " + std::string(name))) suffix.push_back(&tier);
   }
@@ -59,12 +59,13 @@ Result<const TextGridTier*> choose_phones(const TextGrid& grid) {
 
 // "Ann - phones" wants "Ann - words".
 const TextGridTier* choose_words(const TextGrid& grid, const TextGridTier& phones) {
-  const std::string own = lower_case(trim(phones.name));
+  const std::string own = lower_case(trimmed(phones.name));
   const std::size_t dash = own.rfind(" - ");
   const std::string speaker = dash == std::string::npos ? "" : own.substr(0, dash + 3);
   for (const std::string_view name : kWordTiers) {
     for (const TextGridTier& tier : grid.tiers) {
-      if (lower_case(trim(tier.name)) == speaker + std::string(name) && !tier.points) return &tier;
+      if (lower_case(trimmed(tier.name)) == speaker + std::string(name) && !tier.points)
+        return &tier;
     }
   }
   return nullptr;
@@ -100,7 +101,7 @@ Result<Script> read_textgrid(std::string_view text, const ScriptOptions& options
   }
   std::vector<RawPhone> raw;
   for (const TextGridItem& item : (*tier)->items) {
-    raw.push_back({item.start, item.end, std::string(trim(item.text)), {}, item.line});
+    raw.push_back({item.start, item.end, std::string(trimmed(item.text)), {}, item.line});
   }
   if (const TextGridTier* words = choose_words(*grid, **tier)) add_words(raw, *words);
   return make_script(raw, options.alphabet);

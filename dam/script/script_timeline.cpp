@@ -117,7 +117,7 @@ std::string clean_word(std::string_view word) {
   for (char& c : out) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
   }
-  return std::string(trim(out));
+  return std::string(trimmed(out));
 }
 
 void append(std::vector<Phone>& phones, Phone phone) {

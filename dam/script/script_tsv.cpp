@@ -18,7 +18,7 @@ std::vector<std::string_view> split_tabs(std::string_view line) {
   std::vector<std::string_view> fields;
   while (fields.size() < kMaxColumns) {
     const std::size_t tab = line.find('\t');
-    fields.push_back(trim(line.substr(0, tab)));
+    fields.push_back(trimmed(line.substr(0, tab)));
     if (tab == std::string_view::npos) break;
     line.remove_prefix(tab + 1);
   }
@@ -41,7 +41,7 @@ TsvColumns name_columns(std::string_view header) {
 
 bool next_content_line(LineReader& reader, Line& line) {
   while (reader.next(line)) {
-    if (!trim(line.text).empty() && line.text[0] != '#') return true;
+    if (!trimmed(line.text).empty() && line.text[0] != '#') return true;
   }
   return false;
 }

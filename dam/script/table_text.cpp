@@ -28,12 +28,6 @@ std::vector<std::string_view> split_fields(std::string_view line, char separator
   }
 }
 
-std::string_view trimmed(std::string_view field) {
-  while (!field.empty() && (field.front() == ' ' || field.front() == '\t')) field.remove_prefix(1);
-  while (!field.empty() && (field.back() == ' ' || field.back() == '\t')) field.remove_suffix(1);
-  return field;
-}
-
 std::optional<double> parse_number(std::string_view field) {
   field = trimmed(field);
   if (field.starts_with('+')) field.remove_prefix(1);

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "dam/script/script_text_internal.h"
+
 namespace animeme::dam {
 
 /// One line that is not empty, with its number from 1.
@@ -18,9 +20,6 @@ struct TableLine {
 std::vector<TableLine> table_lines(std::string_view text);
 
 std::vector<std::string_view> split_fields(std::string_view line, char separator);
-
-/// Blanks around it dropped.
-std::string_view trimmed(std::string_view field);
 
 /// A whole field as a number, "." as decimal point whatever the locale; nothing otherwise. May be
 /// infinite or NaN if it says so.

@@ -1,7 +1,6 @@
 #include "dam/signal/closure.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "dam/maths/raised_cosine.h"
@@ -20,81 +19,89 @@ std::ptrdiff_t channel_of(std::span<const std::string> names, int fap) {
   return -1;
 }
 
-/// One place along the lips: inner upper, inner lower, outer upper, outer lower channel (-1: none).
-struct LipPair {
-  std::ptrdiff_t upper, lower, outer_upper, outer_lower;
-};
-
-std::array<LipPair, 3> lip_pairs(std::span<const std::string> names) {
-  const auto at = [&](int fap) { return channel_of(names, fap); };
-  return {{{at(4), at(5), at(51), at(52)},
-           {at(8), at(10), at(55), at(57)},
-           {at(9), at(11), at(56), at(58)}}};
+std::optional<LipChannels> channels_of(std::span<const std::string> names, int upper, int lower) {
+  const auto u = channel_of(names, upper), l = channel_of(names, lower);
+  if (u < 0 || l < 0) return std::nullopt;
+  return LipChannels{std::size_t(u), std::size_t(l)};
 }
 
-void close_pair(Signal& signal, const LipPair& pair, const FrameSpan& span, double centre,
-                double half_width, double amount, const ClosureOptions& options) {
-  const auto add = [&](std::size_t frame, std::ptrdiff_t channel, double value) {
-    if (channel >= 0) signal.at(frame, std::size_t(channel)) += value;
-  };
+/// One place along the lips that has both inner channels, and the outer ones (-1: none).
+struct LipPair {
+  LipChannels inner;
+  std::ptrdiff_t outer_upper, outer_lower;
+};
+
+/// The middle first, if it is there.
+std::vector<LipPair> lip_pairs(std::span<const std::string> names) {
+  constexpr int kFaps[][4] = {{4, 5, 51, 52}, {8, 10, 55, 57}, {9, 11, 56, 58}};
+  std::vector<LipPair> pairs;
+  for (const auto& faps : kFaps)
+    if (const auto inner = channels_of(names, faps[0], faps[1]))
+      pairs.push_back({*inner, channel_of(names, faps[2]), channel_of(names, faps[3])});
+  return pairs;
+}
+
+/// Tells `add` by how much each channel moves when the lips come together by `gap`.
+template <class Add>
+void close_pair(const LipPair& pair, double gap, const ClosureOptions& options, const Add& add) {
+  add(pair.inner.upper, kUpperShare * gap);
+  add(pair.inner.lower, (1 - kUpperShare) * gap);
+  if (pair.outer_upper >= 0)
+    add(std::size_t(pair.outer_upper), options.upper_follow * kUpperShare * gap);
+  if (pair.outer_lower >= 0)
+    add(std::size_t(pair.outer_lower), options.lower_follow * (1 - kUpperShare) * gap);
+}
+
+/// Calls use(frame, share) around the frame in which a phone has its contact.
+template <class Use>
+void around_contact(const Signal& signal, const Phone& phone, std::size_t frame, const Use& use) {
+  const double centre = signal.time(frame);
+  const double half_width = phone.duration() / 2 + kHalfWidth;
+  const FrameSpan span = frames_near(signal, {centre, centre, {}, {}}, half_width);
   for (std::size_t i = span.first; i < span.last; ++i) {
     const double x = (signal.time(i) - centre) / half_width;
-    if (std::abs(x) >= 1) continue;
-    const double shift = amount * raised_bell(x);
-    add(i, pair.upper, kUpperShare * shift);
-    add(i, pair.lower, (1 - kUpperShare) * shift);
-    add(i, pair.outer_upper, options.upper_follow * kUpperShare * shift);
-    add(i, pair.outer_lower, options.lower_follow * (1 - kUpperShare) * shift);
+    if (std::abs(x) < 1) use(i, raised_bell(x));
   }
 }
 
-bool close_phone(Signal& signal, const Phone& phone, const std::array<LipPair, 3>& pairs,
+bool close_phone(Signal& signal, const Phone& phone, const std::vector<LipPair>& pairs,
                  const ClosureOptions& options) {
-  const LipChannels middle{std::size_t(pairs[0].upper), std::size_t(pairs[0].lower)};
+  const LipChannels& middle = pairs[0].inner;
   const FrameSpan search = frames_near(signal, phone, kClosureSearch);
   std::size_t least = search.first;
   for (std::size_t i = search.first; i < search.last; ++i)
     if (inner_gap(signal, i, middle) < inner_gap(signal, least, middle)) least = i;
   if (search.first == search.last || !(inner_gap(signal, least, middle) > options.target))
     return false;
-  const double centre = signal.time(least);
-  const double half_width = phone.duration() / 2 + kHalfWidth;
-  const FrameSpan span = frames_near(signal, {centre, centre, {}, {}}, half_width);
   for (const LipPair& pair : pairs) {
-    if (pair.upper < 0 || pair.lower < 0) continue;
-    const LipChannels lips{std::size_t(pair.upper), std::size_t(pair.lower)};
-    const double amount = inner_gap(signal, least, lips) - options.target;
-    if (amount > 0) close_pair(signal, pair, span, centre, half_width, amount, options);
+    const double amount = inner_gap(signal, least, pair.inner) - options.target;
+    if (!(amount > 0)) continue;
+    around_contact(signal, phone, least, [&](std::size_t i, double share) {
+      close_pair(pair, amount * share, options,
+                 [&](std::size_t channel, double value) { signal.at(i, channel) += value; });
+    });
   }
   return true;
 }
 
-bool raise_to_teeth(Signal& signal, const Phone& phone, const std::array<LipPair, 3>& pairs,
+bool raise_to_teeth(Signal& signal, const Phone& phone, const std::vector<LipPair>& pairs,
                     double raise, const ClosureOptions& options) {
-  const auto lower = std::size_t(pairs[0].lower);
+  const std::size_t lower = pairs[0].inner.lower;
   const FrameSpan search = frames_near(signal, phone, kClosureSearch);
   std::size_t highest = search.first;
   for (std::size_t i = search.first; i < search.last; ++i)
     if (signal.at(i, lower) > signal.at(highest, lower)) highest = i;
   if (search.first == search.last || !(signal.at(highest, lower) < raise)) return false;
   const double missing = raise - signal.at(highest, lower);
-  const double centre = signal.time(highest);
-  const double half_width = phone.duration() / 2 + kHalfWidth;
-  const FrameSpan span = frames_near(signal, {centre, centre, {}, {}}, half_width);
-  for (std::size_t i = span.first; i < span.last; ++i) {
-    const double x = (signal.time(i) - centre) / half_width;
-    if (std::abs(x) >= 1) continue;
-    const double shift = missing * raised_bell(x);
+  around_contact(signal, phone, highest, [&](std::size_t i, double share) {
     for (const LipPair& pair : pairs) {
-      if (pair.upper < 0 || pair.lower < 0) continue;
-      const LipChannels lips{std::size_t(pair.upper), std::size_t(pair.lower)};
-      const double room = std::max(0.0, inner_gap(signal, i, lips) - kLeastOpen);
-      const double moved = std::min(shift, room);
-      signal.at(i, lips.lower) += moved;
+      const double room = std::max(0.0, inner_gap(signal, i, pair.inner) - kLeastOpen);
+      const double moved = std::min(missing * share, room);
+      signal.at(i, pair.inner.lower) += moved;
       if (pair.outer_lower >= 0)
         signal.at(i, std::size_t(pair.outer_lower)) += options.lower_follow * moved;
     }
-  }
+  });
   return true;
 }
 
@@ -102,17 +109,11 @@ bool raise_to_teeth(Signal& signal, const Phone& phone, const std::array<LipPair
 
 void close_pose(std::span<const std::string> names, std::span<double> pose,
                 const ClosureOptions& options) {
-  const auto add = [&](std::ptrdiff_t channel, double value) {
-    if (channel >= 0) pose[std::size_t(channel)] += value;
-  };
   for (const LipPair& pair : lip_pairs(names)) {
-    if (pair.upper < 0 || pair.lower < 0) continue;
-    const double gap = -(pose[std::size_t(pair.upper)] + pose[std::size_t(pair.lower)]);
-    if (!(gap > 0)) continue;
-    add(pair.upper, kUpperShare * gap);
-    add(pair.lower, (1 - kUpperShare) * gap);
-    add(pair.outer_upper, options.upper_follow * kUpperShare * gap);
-    add(pair.outer_lower, options.lower_follow * (1 - kUpperShare) * gap);
+    const double gap = -(pose[pair.inner.upper] + pose[pair.inner.lower]);
+    if (gap > 0)
+      close_pair(pair, gap, options,
+                 [&](std::size_t channel, double value) { pose[channel] += value; });
   }
 }
 
@@ -127,9 +128,7 @@ bool is_bilabial(std::string_view label) {
 }
 
 std::optional<LipChannels> inner_lip_channels(std::span<const std::string> names) {
-  const auto upper = channel_of(names, 4), lower = channel_of(names, 5);
-  if (upper < 0 || lower < 0) return std::nullopt;
-  return LipChannels{std::size_t(upper), std::size_t(lower)};
+  return channels_of(names, 4, 5);
 }
 
 FrameSpan frames_near(const Signal& signal, const Phone& phone, double margin) {
@@ -166,16 +165,14 @@ std::size_t apply_contact(Signal& signal, const ClosureOptions& options) {
   for (std::size_t i = 0; i < signal.frames(); ++i) {
     bool moved = false;
     for (const LipPair& pair : pairs) {
-      if (pair.upper < 0 || pair.lower < 0) continue;
-      const LipChannels lips{std::size_t(pair.upper), std::size_t(pair.lower)};
-      const double overlap = options.least - inner_gap(signal, i, lips);
+      const double overlap = options.least - inner_gap(signal, i, pair.inner);
       if (!(overlap > 0)) continue;
       moved = true;
       const auto open = [&](std::ptrdiff_t channel, double share) {
         if (channel >= 0) signal.at(i, std::size_t(channel)) -= share * overlap / 2;
       };
-      open(pair.upper, 1);
-      open(pair.lower, 1);
+      open(std::ptrdiff_t(pair.inner.upper), 1);
+      open(std::ptrdiff_t(pair.inner.lower), 1);
       open(pair.outer_upper, options.upper_follow);
       open(pair.outer_lower, options.lower_follow);
     }

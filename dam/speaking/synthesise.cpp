@@ -3,16 +3,46 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dam/maths/raised_cosine.h"
 #include "dam/model/kind_internal.h"
 #include "dam/script/timeline_internal.h"
 #include "dam/signal/closure.h"
 #include "dam/speaking/frames_internal.h"
-#include "dam/speaking/rest_gate_internal.h"
 
 namespace animeme::dam {
 namespace {
 
 constexpr double kMostFrames = 1e7;
+
+/// Seconds in which a clip leaves and reaches rest, and the least, if the speech begins earlier.
+constexpr double kEndRamp = 0.1, kShortestEndRamp = 0.08;
+
+/// How much of the deviation from rest is shown: fades from two thirds of `edge` seconds from
+/// speech to nothing at `edge`, and, if wanted, over the first and the last frames of the clip.
+class RestGate {
+ public:
+  /// `last_frame` in seconds; infinity while the end is not known.
+  RestGate(const Script& script, double edge, bool rest_at_ends, double last_frame)
+      : stretches_(speech_stretches(script)), edge_(edge), ends_(rest_at_ends), end_(last_frame) {
+    if (stretches_.empty()) return;
+    lead_in_ = std::clamp(stretches_.front().start, kShortestEndRamp, kEndRamp);
+    lead_out_ = std::clamp(end_ - stretches_.back().end, kShortestEndRamp, kEndRamp);
+  }
+  /// 0..1 at a time in seconds.
+  double operator()(double time) const {
+    const double distance = distance_to_speech(stretches_, time);
+    double gate = raised_step((edge_ - distance) / (edge_ / 3));
+    if (ends_) gate *= raised_step(time / lead_in_) * raised_step((end_ - time) / lead_out_);
+    return gate;
+  }
+
+ private:
+  std::vector<Stretch> stretches_;
+  double edge_;
+  bool ends_;
+  double end_;
+  double lead_in_ = kEndRamp, lead_out_ = kEndRamp;
+};
 
 void to_control_units(const Model& model, const RestGate& gate, double style, Signal& signal) {
   const std::size_t controls = model.controls.size();

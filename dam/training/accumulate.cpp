@@ -7,42 +7,35 @@
 #include "dam/corpus/training_set_internal.h"
 #include "dam/kinds/refined/solve.h"
 #include "dam/model/bytes_internal.h"
-#include "dam/model/digest_internal.h"
 #include "dam/training/training_sums_internal.h"
 
 namespace animeme::dam {
 namespace {
 
+/// FNV-1a, 64 bits, its bits well mixed at the end: tells contents apart, but is not a protection
+/// against people who mean harm.
+std::uint64_t digest_of(std::span<const std::uint8_t> bytes) {
+  std::uint64_t h = 0xCBF29CE484222325u;
+  for (const std::uint8_t b : bytes) h = (h ^ b) * 0x100000001B3u;
+  h = (h ^ (h >> 33)) * 0xFF51AFD7ED558CCDu;
+  h = (h ^ (h >> 33)) * 0xC4CEB9FE1A85EC53u;
+  return h ^ (h >> 33);
+}
+
 /// Of all that is learned from: identifier, phones, curves.
 std::uint64_t sentence_digest(const Utterance& u) {
   ByteWriter out;
   out.bytes.reserve(9 * u.signal.values.size() + 64 * u.script.phones.size() + 1024);
-  out.text(u.id);
-  out.number(u.signal.rate.num);
-  out.number(u.signal.rate.den);
-  for (const std::string& name : u.signal.names) out.text(name);
-  for (const double value : u.signal.values) out.real(value);
+  out.put(u.id, u.signal.rate.num, u.signal.rate.den, u.signal.names, u.signal.values);
   for (std::size_t i = 0; i < u.signal.frames(); ++i)
-    out.number(std::uint8_t(is_measured(u.signal, i) ? 1 : 0));
-  for (const Phone& phone : u.script.phones) {
-    out.real(phone.start);
-    out.real(phone.end);
-    out.text(phone.label);
-  }
+    out.put(std::uint8_t(is_measured(u.signal, i) ? 1 : 0));
+  for (const Phone& phone : u.script.phones) out.put(phone.start, phone.end, phone.label);
   return digest_of(out.bytes);
 }
 
 bool same_controls(const SumsState& state, const std::vector<std::string>& names) {
   return std::equal(state.controls.begin(), state.controls.end(), names.begin(), names.end(),
                     [](const ControlSums& c, const std::string& name) { return c.name == name; });
-}
-
-void set_controls(SumsState& state, const std::vector<std::string>& names, fap::Rate rate) {
-  for (const std::string& name : names) {
-    state.controls.emplace_back();
-    state.controls.back().name = name;
-  }
-  state.rate = rate;
 }
 
 void add_moments(const Utterance& u, SumsState& state) {

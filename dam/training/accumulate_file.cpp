@@ -17,59 +17,40 @@ Error damaged_sums(const std::string& how) { return damaged_file(kSumsFormat, ho
 
 void write_base(const SumsState& state, ByteWriter& out) {
   const SumsBase& base = state.base;
-  out.real(base.pause_edge);
-  out.real(base.refined.time_margin);
-  out.real(base.refined.duration_exponent);
-  out.real(base.offset_frames);
-  out.number(std::uint32_t(base.phones.size()));
+  out.put(base.pause_edge, base.refined.time_margin, base.refined.duration_exponent,
+          base.offset_frames);
+  out.count(base.phones.size());
   for (std::size_t p = 0; p < base.phones.size(); ++p) {
-    out.text(base.phones[p].label);
-    out.number(base.phones[p].context_class);
-    out.real(base.phones[p].duration);
-    out.real(base.refined.dominance[p].left);
-    out.real(base.refined.dominance[p].right);
-    out.real(base.refined.dominance[p].strength);
-    out.number(state.phones[p].examples);
-    out.real(state.phones[p].log_duration);
-    out.real(state.phones[p].longest);
+    const PhoneModel& phone = base.phones[p];
+    const PhoneDominance& d = base.refined.dominance[p];
+    const PhoneSums& sums = state.phones[p];
+    out.put(phone.label, phone.context_class, phone.duration, d.left, d.right, d.strength,
+            sums.examples, sums.log_duration, sums.longest);
   }
 }
 
-void write_histogram(const Histogram& histogram, ByteWriter& out) {
-  out.number(std::uint32_t(histogram.counts.size()));
-  for (const auto& [bin, count] : histogram.counts) {
-    out.number(std::uint32_t(bin));
-    out.number(count);
-  }
+/// A number and its partner, many times: a histogram, the sentences.
+template <class Pairs>
+void write_pairs(const Pairs& pairs, ByteWriter& out) {
+  out.count(pairs.size());
+  for (const auto& [first, second] : pairs) out.put(first, second);
 }
 
 void write_statistics(const SumsState& state, ByteWriter& out) {
-  out.number(state.rate.num);
-  out.number(state.rate.den);
-  out.number(state.speech_frames);
-  out.number(state.rest_frames);
-  out.number(std::uint32_t(state.controls.size()));
-  for (const ControlSums& c : state.controls) {
-    out.text(c.name);
-    for (const double x : {c.low, c.high, c.sum, c.squares, c.rest_sum}) out.real(x);
-  }
-  write_histogram(state.closures, out);
-  write_histogram(state.lip_tooth, out);
-  out.number(std::uint32_t(state.sentences.size()));
-  for (const auto& [id, digest] : state.sentences) {
-    out.text(id);
-    out.number(digest);
-  }
+  out.put(state.rate.num, state.rate.den, state.speech_frames, state.rest_frames);
+  out.count(state.controls.size());
+  for (const ControlSums& c : state.controls)
+    out.put(c.name, c.low, c.high, c.sum, c.squares, c.rest_sum);
+  write_pairs(state.closures.counts, out);
+  write_pairs(state.lip_tooth.counts, out);
+  write_pairs(state.sentences, out);
 }
 
 void write_fit(const FitSums& fit, std::size_t n, ByteWriter& out) {
-  out.number(fit.sentences);
-  out.number(std::uint64_t(fit.curves.frames));
-  for (const double x : fit.curves.energy) out.real(x);
-  for (const double x : fit.level) out.real(x);
-  for (const double x : fit.curves.right) out.real(x);
+  out.put(fit.sentences, std::uint64_t(fit.curves.frames), fit.curves.energy, fit.level,
+          fit.curves.right);
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i; j < n; ++j) out.real(fit.curves.gram[i * n + j]);
+    for (std::size_t j = i; j < n; ++j) out.put(fit.curves.gram[i * n + j]);
 }
 
 // ---- reading ----
@@ -88,20 +69,15 @@ Problem read_phones(ByteReader& in, SumsState& state, std::vector<std::uint32_t>
   const auto& known = state.base.phones;
   std::size_t next = 0;
   for (std::size_t left = in.count(4 + 4 + 4 * 8 + 8 + 2 * 8); left > 0; --left) {
-    const std::string label = in.text();
+    const auto label = in.next<std::string>();
     while (next < known.size() && known[next].label != label) ++next;
     if (next == known.size()) return "phone '" + label + "' is not known or out of order";
-    const auto group = in.number<std::uint32_t>();
+    const auto group = in.next<std::uint32_t>();
     PhoneModel& phone = state.base.phones[next];
     PhoneDominance& d = state.base.refined.dominance[next];
     PhoneSums& sums = state.phones[next];
-    phone.duration = in.real();
-    d.left = in.real();
-    d.right = in.real();
-    d.strength = in.real();
-    sums.examples = in.number<std::uint64_t>();
-    sums.log_duration = in.real();
-    sums.longest = in.real();
+    in.get(phone.duration, d.left, d.right, d.strength, sums.examples, sums.log_duration,
+           sums.longest);
     const bool fine = between(phone.duration, 1e-6, 1e6) && between(d.left, 1e-9, 10) &&
                       between(d.right, 1e-9, 10) && between(d.strength, 1e-9, 1e6) &&
                       std::isfinite(sums.log_duration) && between(sums.longest, 0, 1e6);
@@ -113,10 +89,8 @@ Problem read_phones(ByteReader& in, SumsState& state, std::vector<std::uint32_t>
 
 Problem read_base(ByteReader& in, SumsState& state, std::vector<std::uint32_t>& number) {
   SumsBase& base = state.base;
-  base.pause_edge = in.real();
-  base.refined.time_margin = in.real();
-  base.refined.duration_exponent = in.real();
-  base.offset_frames = in.real();
+  in.get(base.pause_edge, base.refined.time_margin, base.refined.duration_exponent,
+         base.offset_frames);
   if (!between(base.pause_edge, 0, 1e6) || !between(base.refined.time_margin, 0, 100) ||
       !between(base.refined.duration_exponent, 0, 2) || !between(base.offset_frames, 0.01, 1e9))
     return "a setting is out of range";
@@ -125,8 +99,8 @@ Problem read_base(ByteReader& in, SumsState& state, std::vector<std::uint32_t>& 
 
 Problem read_histogram(ByteReader& in, Histogram& histogram) {
   for (std::size_t left = in.count(4 + 8); left > 0; --left) {
-    const auto bin = std::int32_t(in.number<std::uint32_t>());
-    const auto count = in.number<std::uint64_t>();
+    const auto bin = in.next<std::int32_t>();
+    const auto count = in.next<std::uint64_t>();
     const bool ascending = histogram.counts.empty() || bin > histogram.counts.rbegin()->first;
     if (!ascending || std::abs(double(bin)) > Histogram::kLastBin || count == 0 ||
         count > (std::uint64_t(1) << 48))
@@ -139,8 +113,7 @@ Problem read_histogram(ByteReader& in, Histogram& histogram) {
 Problem read_controls(ByteReader& in, SumsState& state) {
   state.controls.resize(in.count(4 + 5 * 8));
   for (ControlSums& c : state.controls) {
-    c.name = in.text();
-    for (double* x : {&c.low, &c.high, &c.sum, &c.squares, &c.rest_sum}) *x = in.real();
+    in.get(c.name, c.low, c.high, c.sum, c.squares, c.rest_sum);
     const bool range =
         state.speech_frames == 0 ? c.low > c.high : c.low <= c.high && all_finite({c.low, c.high});
     if (c.name.empty() || !range || !all_finite({c.sum, c.squares, c.rest_sum}) || c.squares < 0)
@@ -150,16 +123,13 @@ Problem read_controls(ByteReader& in, SumsState& state) {
 }
 
 Problem read_statistics(ByteReader& in, SumsState& state) {
-  state.rate.num = in.number<std::uint32_t>();
-  state.rate.den = in.number<std::uint32_t>();
-  state.speech_frames = in.number<std::uint64_t>();
-  state.rest_frames = in.number<std::uint64_t>();
+  in.get(state.rate.num, state.rate.den, state.speech_frames, state.rest_frames);
   if (Problem p = read_controls(in, state); !p.empty()) return p;
   if (Problem p = read_histogram(in, state.closures); !p.empty()) return p;
   if (Problem p = read_histogram(in, state.lip_tooth); !p.empty()) return p;
   for (std::size_t left = in.count(4 + 8); left > 0; --left) {
-    std::pair<std::string, std::uint64_t> sentence{in.text(), 0};
-    sentence.second = in.number<std::uint64_t>();
+    std::pair<std::string, std::uint64_t> sentence;
+    in.get(sentence.first, sentence.second);
     if (!state.sentences.empty() && sentence <= *state.sentences.rbegin())
       return "its sentences are not ascending";
     state.sentences.insert(state.sentences.end(), std::move(sentence));
@@ -173,13 +143,12 @@ Problem read_statistics(ByteReader& in, SumsState& state) {
 Problem read_space(ByteReader& in, const std::vector<std::uint32_t>& number, SumsState& state) {
   for (std::size_t t = 0; t < kTermCount; ++t) {
     const RefinedTerm term = kTermInfo[t].term;
-    if (in.number<std::uint8_t>() != std::uint8_t(term) ||
-        in.number<std::uint32_t>() != kTermInfo[t].orders)
+    if (in.next<RefinedTerm>() != term || in.next<std::uint32_t>() != kTermInfo[t].orders)
       return "a term is unknown";
     auto& keys = state.space.tables[t].keys;
     keys.resize(in.count(4));
     for (std::size_t i = 0; i < keys.size(); ++i) {
-      const auto key = in.number<std::uint32_t>();
+      const auto key = in.next<std::uint32_t>();
       keys[i] = key;
       if (const auto phone = phone_of_key(term, key)) {
         if (*phone >= number.size() || state.phones[number[*phone]].examples == 0)
@@ -204,13 +173,13 @@ Problem read_space(ByteReader& in, const std::vector<std::uint32_t>& number, Sum
 /// True if so many numbers were there.
 bool read_reals(ByteReader& in, std::size_t count, std::vector<double>& values) {
   values.resize(in.limited(count, 8));
-  for (double& value : values) value = in.real();
+  in.get(values);
   return values.size() == count;
 }
 
 Problem read_fit(ByteReader& in, std::size_t n, std::size_t k, FitSums& fit) {
-  fit.sentences = in.number<std::uint64_t>();
-  fit.curves.frames = std::size_t(in.number<std::uint64_t>());
+  in.get(fit.sentences);
+  fit.curves.frames = std::size_t(in.next<std::uint64_t>());
   std::vector<double> triangle;
   if (!read_reals(in, k + 1, fit.curves.energy) || !read_reals(in, k, fit.level) ||
       !read_reals(in, n * (k + 1), fit.curves.right) || !read_reals(in, n * (n + 1) / 2, triangle))
@@ -252,10 +221,9 @@ std::vector<std::uint8_t> write_training_sums(const TrainingSums& sums) {
   write_base(state, body);
   write_statistics(state, body);
   for (std::size_t t = 0; t < kTermCount; ++t) {
-    body.number(std::uint8_t(kTermInfo[t].term));
-    body.number(kTermInfo[t].orders);
-    body.number(std::uint32_t(state.space.tables[t].keys.size()));
-    for (const std::uint32_t key : state.space.tables[t].keys) body.number(key);
+    body.put(kTermInfo[t].term, kTermInfo[t].orders);
+    body.count(state.space.tables[t].keys.size());
+    body.put(state.space.tables[t].keys);
   }
   if (!state.controls.empty())
     for (const FitSums* fit : {&state.kept, &state.held}) write_fit(*fit, n, body);

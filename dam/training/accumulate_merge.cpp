@@ -72,13 +72,7 @@ Result<void> TrainingSums::merge(const TrainingSums& other) {
     return refused("the sentence '" + id +
                    "' is in two of the parts and would count twice; give every sentence to one "
                    "part only");
-  if (to.controls.empty()) {
-    to.rate = from.rate;
-    for (const std::string& name : other.controls()) {
-      to.controls.emplace_back();
-      to.controls.back().name = name;
-    }
-  }
+  if (to.controls.empty()) set_controls(to, other.controls(), from.rate);
   widen(to, from.space);
   const std::size_t columns = to.controls.size() + 1;
   add_fit(from.kept, from.space, to.kept, to.space, columns);

@@ -67,6 +67,11 @@ SumsBase start_base() {
   return base;
 }
 
+void set_controls(SumsState& state, const std::vector<std::string>& names, fap::Rate rate) {
+  for (const std::string& name : names) state.controls.emplace_back().name = name;
+  state.rate = rate;
+}
+
 void add_fit(const FitSums& from, const TermSpace& from_space, FitSums& to,
              const TermSpace& to_space, std::size_t columns) {
   const auto places = places_in(from_space, to_space);

@@ -81,6 +81,9 @@ inline Error refused(const std::string& what) { return make_error(Code::invalid_
 /// Every phone of phones.h, sorted by label, with start values.
 SumsBase start_base();
 
+/// The controls and the rate of the first sentence or part.
+void set_controls(SumsState& state, const std::vector<std::string>& names, fap::Rate rate);
+
 /// Makes room for more unknowns: the union of both spaces.
 void widen(SumsState& state, const TermSpace& space);
 

@@ -85,6 +85,13 @@ class TextScanner {
   std::int64_t line_ = 1;
 };
 
+/// ASCII letters in lower case, the rest as it is.
+inline std::string lower_case(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+  return out;
+}
+
 /// `token` in quotes for a message: unprintable bytes become '?', long ones are cut.
 inline std::string in_quotes(std::string_view token) {
   constexpr std::size_t longest = 32;

@@ -1,10 +1,6 @@
 #include "fap/head/own_head.h"
 
-#include "fap/head/detail/own_check.h"
-#include "fap/head/detail/own_colours.h"
-#include "fap/head/detail/own_parts.h"
-#include "fap/head/detail/own_place.h"
-#include "fap/head/detail/sky.h"
+#include "fap/head/detail/own_steps.h"
 #include "fap/tables.h"
 
 namespace animeme::head {

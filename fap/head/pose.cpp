@@ -3,7 +3,6 @@
 #include "fap/detail/lips.h"
 #include "fap/head/detail/normals.h"
 #include "fap/head/detail/targets.h"
-#include "fap/head/detail/teeth.h"
 #include "fap/head/rig.h"
 #include "fap/head/shapes.h"
 #include "fap/shape_fit.h"

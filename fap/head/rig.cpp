@@ -5,7 +5,6 @@
 #include "fap/detail/lips.h"
 #include "fap/head/detail/normals.h"
 #include "fap/head/detail/targets.h"
-#include "fap/head/detail/teeth.h"
 
 namespace animeme::head {
 namespace {

@@ -1,7 +1,7 @@
 #include "fap/head/wrl.h"
 
 #include "fap/detail/number_text.h"
-#include "fap/head/detail/wrl_scene.h"
+#include "fap/head/detail/scene.h"
 #include "fap/head/srgb.h"
 
 namespace animeme::head {

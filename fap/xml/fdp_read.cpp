@@ -3,7 +3,7 @@
 #include <set>
 
 #include "fap/xml/detail/fdp_file.h"
-#include "fap/xml/detail/left_to_rig.h"
+#include "fap/xml/detail/moves.h"
 
 namespace animeme::head {
 namespace {

@@ -3,7 +3,7 @@
 #include "fap/detail/number_text.h"
 #include "fap/head/wrl.h"
 #include "fap/xml/detail/fdp_plan.h"
-#include "fap/xml/detail/writable.h"
+#include "fap/xml/detail/moves.h"
 #include "fap/xml/fdp.h"
 
 namespace animeme::head {
@@ -13,12 +13,12 @@ using detail::FdpPlan;
 using detail::XfaceItem;
 using fap::detail::append_shortest;
 
+constexpr std::string_view kNameLetters =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
+
 bool is_file_name(std::string_view name) {
   return !name.empty() && name.size() <= 200 && name.front() != '-' &&
-         std::all_of(name.begin(), name.end(), [](char c) {
-           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                  c == '-' || c == '_';
-         });
+         name.find_first_not_of(kNameLetters) == name.npos;
 }
 
 Result<void> check(const Head& head, const Rig& rig, const FdpOptions& options) {
@@ -41,23 +41,19 @@ Result<void> check(const Head& head, const Rig& rig, const FdpOptions& options) 
   return {};
 }
 
+constexpr std::pair<Part, std::string_view> kBindings[] = {
+    {Part::hair, "Hair"},
+    {Part::left_eye, "LeftEye"},
+    {Part::right_eye, "RightEye"},
+    {Part::lower_teeth, "LowerTeeth"},
+    {Part::upper_teeth, "UpperTeeth"},
+    {Part::tongue, "Tongue"},
+};
+
 std::string_view binding_of(Part part) {
-  switch (part) {
-    case Part::hair:
-      return "Hair";
-    case Part::left_eye:
-      return "LeftEye";
-    case Part::right_eye:
-      return "RightEye";
-    case Part::lower_teeth:
-      return "LowerTeeth";
-    case Part::upper_teeth:
-      return "UpperTeeth";
-    case Part::tongue:
-      return "Tongue";
-    default:
-      return "";
-  }
+  for (const auto& [bound, name] : kBindings)
+    if (bound == part) return name;
+  return {};
 }
 
 class FdpWriter {

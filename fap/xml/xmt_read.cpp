@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "fap/xml/detail/xmt_points.h"
+#include "fap/xml/detail/xmt_tables.h"
 #include "fap/xml/xmt.h"
 
 namespace animeme::head {

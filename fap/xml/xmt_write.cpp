@@ -4,7 +4,6 @@
 #include "fap/detail/number_text.h"
 #include "fap/head/srgb.h"
 #include "fap/xml/detail/moves.h"
-#include "fap/xml/detail/writable.h"
 #include "fap/xml/xmt.h"
 
 namespace animeme::head {

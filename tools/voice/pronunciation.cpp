@@ -17,7 +17,7 @@ using Dictionary = std::map<std::string, std::vector<Labels>, std::less<>>;
 constexpr std::size_t kMaxVariants = 8;
 
 std::string_view take_field(std::string_view& line) {
-  line = dam::trim(line);
+  line = dam::trimmed(line);
   const std::string_view field = line.substr(0, line.find_first_of(" \t"));
   line.remove_prefix(field.size());
   return field;

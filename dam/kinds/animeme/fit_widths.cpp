@@ -13,7 +13,7 @@ namespace {
 /// Controls are worked on in blocks of this many: wide enough for vector units, small enough to
 /// keep the projection's memory down.
 constexpr std::size_t kBlock = 8;
-constexpr double kMinLogSigma = -3, kMaxLogSigma = 1.6, kMaxLogStep = 0.7;
+constexpr double kMinLogSigma = -3, kMaxLogSigma = 1.6;
 
 using Block = Eigen::Array<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, int(kBlock)>;
 
@@ -98,16 +98,6 @@ class BlockWorker {
   std::vector<Block> slopes_;
 };
 
-Eigen::VectorXd damped_step(const WidthStep& step, double damping) {
-  const auto n = Eigen::Index(step.gradient.size());
-  Eigen::MatrixXd h = Eigen::Map<const Eigen::MatrixXd>(step.hessian.data(), n, n);
-  h.diagonal() += damping * h.diagonal().cwiseAbs() + Eigen::VectorXd::Constant(n, 1e-9);
-  const Eigen::LDLT<Eigen::MatrixXd> factor(h);
-  Eigen::VectorXd delta = factor.solve(Eigen::Map<const Eigen::VectorXd>(step.gradient.data(), n));
-  for (double& d : delta) d = std::isfinite(d) ? std::clamp(d, -kMaxLogStep, kMaxLogStep) : 0.0;
-  return delta;
-}
-
 FitState moved(const FitState& from, const Eigen::VectorXd& delta) {
   FitState to;
   to.sigma = from.sigma;
@@ -157,7 +147,7 @@ bool expectation_maximisation(const FitData& data, const FitWeights& weights, in
     bool fell = false;
     double gain = 0;
     for (int attempt = 0; attempt < 8 && !fell; ++attempt) {
-      FitState trial = moved(state, damped_step(step, damping));
+      FitState trial = moved(state, damped_step(step.gradient, step.hessian, damping));
       solve_coefficients(data, weights, trial);
       fell = trial.objective < state.objective;
       damping = fell ? std::max(1e-6, damping / 5) : damping * 5;

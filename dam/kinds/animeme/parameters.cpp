@@ -36,38 +36,28 @@ Result<void> check_phone(const Model& model, std::size_t coefficients, const Ani
 // ...
 
 void write_phone(ByteWriter& out, const AnimemePhone& phone, std::size_t controls) {
-  out.number(std::uint32_t(phone.modes.size()));
+  out.count(phone.modes.size());
   for (const Mode& mode : phone.modes) {
-    out.real(mode.sigma);
+    out.put(mode.sigma);
     for (std::size_t c = 0; c < controls; ++c)
       for (std::size_t i = c; i < mode.coefficients.size(); i += controls)
-        out.real(mode.coefficients[i]);
+        out.put(mode.coefficients[i]);
   }
-  out.number(std::uint32_t(phone.contexts.size()));
-  for (const ContextCount& c : phone.contexts) {
-    out.number(std::uint32_t(c.left));
-    out.number(std::uint32_t(c.right));
-    out.number(c.mode);
-    out.number(c.count);
-  }
+  out.count(phone.contexts.size());
+  for (const ContextCount& c : phone.contexts) out.put(c.left, c.right, c.mode, c.count);
 }
 
 AnimemePhone read_phone(ByteReader& in, std::size_t controls, std::size_t coefficients) {
   AnimemePhone phone;
   phone.modes.resize(in.count(8 + 8 * coefficients));
   for (Mode& mode : phone.modes) {
-    mode.sigma = in.real();
+    in.get(mode.sigma);
     mode.coefficients.resize(coefficients);
     for (std::size_t c = 0; c < controls; ++c)
-      for (std::size_t i = c; i < coefficients; i += controls) mode.coefficients[i] = in.real();
+      for (std::size_t i = c; i < coefficients; i += controls) in.get(mode.coefficients[i]);
   }
   phone.contexts.resize(in.count(16));
-  for (ContextCount& c : phone.contexts) {
-    c.left = std::int32_t(in.number<std::uint32_t>());
-    c.right = std::int32_t(in.number<std::uint32_t>());
-    c.mode = in.number<std::uint32_t>();
-    c.count = in.number<std::uint32_t>();
-  }
+  for (ContextCount& c : phone.contexts) in.get(c.left, c.right, c.mode, c.count);
   return phone;
 }
 
@@ -91,17 +81,14 @@ Result<void> validate_animemes(const Model& model) {
 
 void write_animemes(const Model& model, ByteWriter& out) {
   const auto& p = std::get<AnimemeParameters>(model.parameters);
-  out.number(p.order);
-  out.number(std::uint8_t(p.normalised ? 1 : 0));
-  out.real(p.time_margin);
+  out.put(p.order, std::uint8_t(p.normalised ? 1 : 0), p.time_margin);
   for (const AnimemePhone& phone : p.phones) write_phone(out, phone, model.controls.size());
 }
 
 Result<void> read_animemes(ByteReader& in, Model& model) {
   AnimemeParameters p;
-  p.order = in.number<std::uint32_t>();
-  const auto blend = in.number<std::uint8_t>();
-  p.time_margin = in.real();
+  std::uint8_t blend = 0;
+  in.get(p.order, blend, p.time_margin);
   if (blend > 1) return make_error(Code::syntax, "unknown blend");
   if (p.order > kMaxOrder) return make_error(Code::syntax, "degree out of range");
   p.normalised = blend == 1;

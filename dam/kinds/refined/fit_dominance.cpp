@@ -13,7 +13,7 @@ namespace animeme::dam {
 namespace {
 
 constexpr double kStartWidth = 0.08;
-constexpr double kLeastWidth = 0.004, kMostWidth = 0.6, kMostLogStrength = 3, kMostLogStep = 0.7;
+constexpr double kLeastWidth = 0.004, kMostWidth = 0.6, kMostLogStrength = 3;
 constexpr std::size_t kPerPhone = 3;  // log L, log R, log strength
 
 double prior_of(const RefinedData& data, const DominanceOptions& options,
@@ -136,17 +136,10 @@ class StepWorker {
 
 std::vector<PhoneDominance> moved(std::span<const PhoneDominance> from, const DominanceStep& step,
                                   double damping) {
-  const auto n = Eigen::Index(step.gradient.size());
-  Eigen::MatrixXd h = Eigen::Map<const Eigen::MatrixXd>(step.hessian.data(), n, n);
-  h.diagonal() += damping * h.diagonal().cwiseAbs() + Eigen::VectorXd::Constant(n, 1e-9);
-  const Eigen::VectorXd delta = Eigen::LDLT<Eigen::MatrixXd>(h).solve(
-      Eigen::Map<const Eigen::VectorXd>(step.gradient.data(), n));
+  const Eigen::VectorXd delta = damped_step(step.gradient, step.hessian, damping);
   std::vector<PhoneDominance> to(from.begin(), from.end());
   for (std::size_t p = 0; p < to.size(); ++p) {
-    const auto by = [&](std::size_t a) {
-      const double d = delta[Eigen::Index(p * kPerPhone + a)];
-      return std::isfinite(d) ? std::clamp(d, -kMostLogStep, kMostLogStep) : 0.0;
-    };
+    const auto by = [&](std::size_t a) { return delta[Eigen::Index(p * kPerPhone + a)]; };
     const auto width = [&](double w, double d) {
       return std::clamp(w * std::exp(d), kLeastWidth, kMostWidth);
     };

@@ -54,43 +54,29 @@ Result<void> validate_refined(const Model& model) {
 
 void write_refined(const Model& model, ByteWriter& out) {
   const auto& p = std::get<RefinedParameters>(model.parameters);
-  out.real(p.time_margin);
-  out.real(p.duration_exponent);
-  for (const PhoneDominance& d : p.dominance) {
-    out.real(d.left);
-    out.real(d.right);
-    out.real(d.strength);
-  }
-  out.number(std::uint32_t(p.tables.size()));
+  out.put(p.time_margin, p.duration_exponent);
+  for (const PhoneDominance& d : p.dominance) out.put(d.left, d.right, d.strength);
+  out.count(p.tables.size());
   for (const TermTable& table : p.tables) {
-    out.number(std::uint8_t(table.term));
-    out.number(table.orders);
-    out.number(std::uint32_t(table.keys.size()));
-    for (const std::uint32_t key : table.keys) out.number(key);
-    for (const float value : table.values) out.single(value);
+    out.put(table.term, table.orders);
+    out.count(table.keys.size());
+    out.put(table.keys, table.values);
   }
 }
 
 Result<void> read_refined(ByteReader& in, Model& model) {
   RefinedParameters p;
-  p.time_margin = in.real();
-  p.duration_exponent = in.real();
+  in.get(p.time_margin, p.duration_exponent);
   p.dominance.resize(in.limited(model.phones.size(), 24));
-  for (PhoneDominance& d : p.dominance) {
-    d.left = in.real();
-    d.right = in.real();
-    d.strength = in.real();
-  }
+  for (PhoneDominance& d : p.dominance) in.get(d.left, d.right, d.strength);
   p.tables.resize(in.count(1 + 4 + 4));
   for (TermTable& table : p.tables) {
-    table.term = RefinedTerm(in.number<std::uint8_t>());
-    table.orders = in.number<std::uint32_t>();
+    in.get(table.term, table.orders);
     if (table.orders > kRefinedOrders) return make_error(Code::syntax, "a term of unknown shape");
     const std::size_t row = table.orders * model.controls.size();
     table.keys.resize(in.count(4 + 4 * row));
-    for (std::uint32_t& key : table.keys) key = in.number<std::uint32_t>();
     table.values.resize(table.keys.size() * row);
-    for (float& value : table.values) value = in.single();
+    in.get(table.keys, table.values);
   }
   model.parameters = std::move(p);
   return {};

@@ -58,35 +58,23 @@ Result<void> validate_triphones(const Model& model) {
 
 void write_triphones(const Model& model, ByteWriter& out) {
   const auto& p = std::get<TriphoneParameters>(model.parameters);
-  out.number(p.points);
-  out.real(p.reach);
-  out.number(std::uint32_t(p.curves.size()));
-  for (const ContextCurve& curve : p.curves) {
-    out.number(std::uint32_t(curve.phone));
-    out.number(std::uint8_t(curve.level));
-    out.number(std::uint32_t(curve.left));
-    out.number(std::uint32_t(curve.right));
-    out.number(curve.count);
-    for (const float v : curve.values) out.single(v);
-  }
+  out.put(p.points, p.reach);
+  out.count(p.curves.size());
+  for (const ContextCurve& curve : p.curves)
+    out.put(curve.phone, curve.level, curve.left, curve.right, curve.count, curve.values);
 }
 
 Result<void> read_triphones(ByteReader& in, Model& model) {
   TriphoneParameters p;
-  p.points = in.number<std::uint32_t>();
-  p.reach = in.real();
+  in.get(p.points, p.reach);
   if (p.points < 2 || p.points > kMaxPoints)
     return make_error(Code::syntax, "number of points out of range");
   const std::size_t values = p.points * model.controls.size();
   p.curves.resize(in.count(kCurveHeader + 4 * values));
   for (ContextCurve& curve : p.curves) {
-    curve.phone = std::int32_t(in.number<std::uint32_t>());
-    curve.level = CurveLevel(in.number<std::uint8_t>());
-    curve.left = std::int32_t(in.number<std::uint32_t>());
-    curve.right = std::int32_t(in.number<std::uint32_t>());
-    curve.count = in.number<std::uint32_t>();
+    in.get(curve.phone, curve.level, curve.left, curve.right, curve.count);
     curve.values.resize(in.limited(values, 4));
-    for (float& v : curve.values) v = in.single();
+    in.get(curve.values);
   }
   model.parameters = std::move(p);
   return {};
@@ -96,12 +84,10 @@ void speak_triphones(const Speech& speech, std::span<double> rows, SynthesisRepo
   const auto& p = std::get<TriphoneParameters>(speech.model.parameters);
   const std::size_t controls = speech.model.controls.size();
   std::vector<double> sums(speech.frames, 0.0), curve(p.points * controls);
-  const auto neighbour = [&](const std::string& label) {
-    return label.empty() ? kRestContext : speech.model.find_phone(label);
-  };
   for (std::size_t j = 0; j < speech.timeline.size(); ++j) {
     const Occurrence& o = speech.timeline[j];
-    if (!add_curves(speech.model, p, speech.phone[j], neighbour(o.left), neighbour(o.right), curve))
+    if (!add_curves(speech.model, p, speech.phone[j], neighbour(speech.model, o.left),
+                    neighbour(speech.model, o.right), curve))
       continue;
     const double reach = p.reach * o.paced();
     const auto [first, last] = speech.frames_between(o.start - reach, o.end() + reach);

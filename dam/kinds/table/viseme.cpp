@@ -23,17 +23,14 @@ Result<void> validate_visemes(const Model& model) {
 
 void write_visemes(const Model& model, ByteWriter& out) {
   const auto& p = std::get<VisemeParameters>(model.parameters);
-  out.real(p.place);
-  out.real(p.plateau);
-  for (const double v : p.poses) out.real(v);
+  out.put(p.place, p.plateau, p.poses);
 }
 
 Result<void> read_visemes(ByteReader& in, Model& model) {
   VisemeParameters p;
-  p.place = in.real();
-  p.plateau = in.real();
+  in.get(p.place, p.plateau);
   p.poses.resize(in.limited(model.phones.size() * model.controls.size(), 8));
-  for (double& v : p.poses) v = in.real();
+  in.get(p.poses);
   model.parameters = std::move(p);
   return {};
 }

@@ -38,32 +38,23 @@ Result<void> validate_trajectory(const Model& model) {
 
 void write_trajectory(const Model& model, ByteWriter& out) {
   const auto& p = std::get<TrajectoryParameters>(model.parameters);
-  out.number(p.states);
-  out.number(p.order);
-  for (const double v : p.smoothness) out.real(v);
-  for (std::size_t i = 0; i < p.mean.size(); ++i) {
-    out.real(p.mean[i]);
-    out.real(p.variance[i]);
-  }
+  out.put(p.states, p.order, p.smoothness);
+  for (std::size_t i = 0; i < p.mean.size(); ++i) out.put(p.mean[i], p.variance[i]);
 }
 
 Result<void> read_trajectory(ByteReader& in, Model& model) {
   TrajectoryParameters p;
-  p.states = in.number<std::uint32_t>();
-  p.order = in.number<std::uint32_t>();
+  in.get(p.states, p.order);
   if (p.states < 1 || p.states > kMaxStates)
     return make_error(Code::syntax, "number of states out of range");
   const std::size_t controls = model.controls.size();
   p.smoothness.resize(in.limited(controls, 8));
-  for (double& v : p.smoothness) v = in.real();
+  in.get(p.smoothness);
   // The phones and controls are in memory already, but not their product.
   const std::size_t values = in.limited(model.phones.size() * p.states * controls, 16);
   p.mean.resize(values);
   p.variance.resize(values);
-  for (std::size_t i = 0; i < values; ++i) {
-    p.mean[i] = in.real();
-    p.variance[i] = in.real();
-  }
+  for (std::size_t i = 0; i < values; ++i) in.get(p.mean[i], p.variance[i]);
   model.parameters = std::move(p);
   return {};
 }

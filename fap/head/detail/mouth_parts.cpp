@@ -2,6 +2,7 @@
 
 #include "fap/head/detail/paint.h"
 #include "fap/head/detail/parts.h"
+#include "fap/head/detail/tube.h"
 
 namespace animeme::head::detail {
 namespace {
@@ -90,18 +91,7 @@ void add_gum(const Arch& arch, double offset, double height, Mesh& mesh) {
       mesh.occlusion.push_back(float(0.75 - 0.5 * t * t));
     }
   }
-  const auto at = [base](int i, int k) { return base + std::uint32_t(i * kAround + k % kAround); };
-  for (int i = 0; i + 1 < kSections; ++i) {
-    for (int k = 0; k < kAround; ++k) {
-      mesh.triangles.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1)});
-      mesh.triangles.push_back({at(i, k), at(i + 1, k + 1), at(i, k + 1)});
-    }
-  }
-  for (int k = 1; k + 1 < kAround; ++k) {
-    mesh.triangles.push_back({at(0, 0), at(0, k), at(0, k + 1)});
-    mesh.triangles.push_back(
-        {at(kSections - 1, 0), at(kSections - 1, k + 1), at(kSections - 1, k)});
-  }
+  join_rings(base, kSections, kAround, mesh);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "fap/head/detail/own_check.h"
+#include "fap/head/detail/own_steps.h"
 
 #include <set>
 

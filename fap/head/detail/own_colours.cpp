@@ -1,4 +1,4 @@
-#include "fap/head/detail/own_colours.h"
+#include "fap/head/detail/own_steps.h"
 
 #include "fap/head/detail/paint.h"
 

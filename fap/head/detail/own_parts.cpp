@@ -1,18 +1,14 @@
-#include "fap/head/detail/own_parts.h"
+#include "fap/head/detail/own_steps.h"
 
-#include <cctype>
 #include <map>
 
+#include "fap/detail/text_scanner.h"
 #include "fap/head/detail/paint.h"
 
 namespace animeme::head {
 namespace {
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return out;
-}
+using fap::detail::lower_case;
 
 bool has_any(std::string_view text, std::initializer_list<std::string_view> words) {
   return std::any_of(words.begin(), words.end(), [&](std::string_view word) {
@@ -53,12 +49,12 @@ std::optional<int> part_by_word(const std::string& name) {
 
 std::optional<Part> part_by_name(std::string_view name, std::string_view material) {
   // Brows and lashes often share the material of the hair.
-  const std::optional<int> hairs = part_by_word(lower(name));
+  const std::optional<int> hairs = part_by_word(lower_case(name));
   if (hairs == int(Part::brows) || hairs == int(Part::lashes)) {
-    if (part_by_word(lower(material)) == int(Part::hair)) return Part(*hairs);
+    if (part_by_word(lower_case(material)) == int(Part::hair)) return Part(*hairs);
   }
   // The material is the finer division: one object often has the skin and the eyes.
-  for (const std::string& text : {lower(material), lower(name)}) {
+  for (const std::string& text : {lower_case(material), lower_case(name)}) {
     const std::optional<int> found = part_by_word(text);
     if (!found) continue;
     if (*found == kPartCount) return std::nullopt;
@@ -68,7 +64,7 @@ std::optional<Part> part_by_name(std::string_view name, std::string_view materia
 }
 
 Vec3 colour_by_name(std::string_view name, std::string_view material) {
-  const std::string text = lower(material.empty() ? name : material);
+  const std::string text = lower_case(material.empty() ? name : material);
   return has_any(text, {"gum"}) ? detail::linear_colour(0xC27472) : kNoColour;
 }
 
@@ -115,7 +111,8 @@ std::vector<std::uint8_t> parts_of(const Piece& piece, float middle, float mouth
     sum.y += piece.mesh.positions[v].y;
     ++sum.count;
   }
-  const bool lower_by_name = has_any(lower(piece.name + " " + piece.material), {"lower", "bottom"});
+  const bool lower_by_name =
+      has_any(lower_case(piece.name + " " + piece.material), {"lower", "bottom"});
   for (std::size_t v = 0; v < count; ++v) {
     const Sum& sum = sums[bodies[v]];
     if (eyes) out[v] = std::uint8_t(sum.x / sum.count > middle ? Part::left_eye : Part::right_eye);

@@ -1,4 +1,4 @@
-#include "fap/head/detail/own_place.h"
+#include "fap/head/detail/own_steps.h"
 
 #include <algorithm>
 #include <functional>

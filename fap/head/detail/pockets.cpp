@@ -1,4 +1,4 @@
-#include "fap/head/detail/pockets.h"
+#include "fap/head/detail/grid.h"
 
 #include <array>
 #include <functional>

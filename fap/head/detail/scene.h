@@ -75,4 +75,8 @@ struct ScenePiece {
 /// scene beyond 4 million vertices or 200 000 nodes).
 Result<std::vector<ScenePiece>> scene_pieces(std::span<const SceneNodePtr> roots);
 
+/// The nodes at the top of a VRML97 text. Errors: see read_wrl().
+Result<std::vector<SceneNodePtr>> wrl_scene(std::string_view text,
+                                            std::vector<std::string>* notes = nullptr);
+
 }  // namespace animeme::head::detail

@@ -3,7 +3,6 @@
 
 #include "fap/head/detail/grid.h"
 #include "fap/head/detail/paint.h"
-#include "fap/head/detail/pockets.h"
 
 namespace animeme::head::detail {
 namespace {

@@ -1,4 +1,4 @@
-#include "fap/head/detail/sky.h"
+#include "fap/head/detail/own_steps.h"
 
 #include <limits>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "fap/head/detail/teeth.h"
+#include "fap/head/detail/targets.h"
 
 namespace animeme::head::detail {
 namespace {

@@ -1,4 +1,4 @@
-#include "fap/head/detail/wrl_scene.h"
+#include "fap/head/detail/scene.h"
 
 #include <map>
 

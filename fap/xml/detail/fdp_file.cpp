@@ -10,14 +10,9 @@ namespace animeme::head::detail {
 namespace {
 
 using fap::detail::in_quotes;
+using fap::detail::lower_case;
 
 constexpr std::size_t kMostInfluences = 20'000'000;
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = c >= 'A' && c <= 'Z' ? char(c + 32) : c;
-  return out;
-}
 
 class Loader {
  public:
@@ -72,7 +67,8 @@ class Loader {
     for (const std::string_view wanted : {"rest", "neutral"}) {
       for (const XmlElement& entity : source.children) {
         const std::string* alias = entity.attribute("alias");
-        if (entity.name == "entity" && alias != nullptr && lower(*alias) == wanted) return &entity;
+        if (entity.name == "entity" && alias != nullptr && lower_case(*alias) == wanted)
+          return &entity;
       }
     }
     return nullptr;

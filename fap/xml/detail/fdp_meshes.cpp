@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "fap/detail/text_scanner.h"
-#include "fap/head/detail/wrl_scene.h"
+#include "fap/head/detail/scene.h"
 #include "fap/xml/detail/fdp_file.h"
 
 namespace animeme::head::detail {
@@ -19,13 +19,6 @@ bool stays_in_folder(std::string_view name) {
     name.remove_prefix(std::min(end + 1, name.size()));
   }
   return true;
-}
-
-bool ends_with(std::string_view name, std::string_view extension) {
-  if (name.size() < extension.size()) return false;
-  return std::equal(extension.begin(), extension.end(),
-                    name.end() - std::ptrdiff_t(extension.size()),
-                    [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? b + 32 : b); });
 }
 
 // Xface calls a mesh by the DEF name of its geometry, else FILE_0, FILE_1 ... of those without one.
@@ -99,8 +92,9 @@ Result<void> load_fdp_meshes(const XmlElement& mesh, const LoadMeshFile& load, F
                                                   " is not in the folder of the .fdp file; put it "
                                                   "there and name it without a path");
   }
-  const bool wrl = ends_with(name, ".wrl");
-  if (!wrl && !ends_with(name, ".obj")) {
+  const std::string lower = fap::detail::lower_case(name);
+  const bool wrl = lower.ends_with(".wrl");
+  if (!wrl && !lower.ends_with(".obj")) {
     return mesh.error(Code::unsupported,
                       "the mesh " + in_quotes(name) + " is neither .wrl (VRML97) nor .obj");
   }

@@ -35,10 +35,15 @@ Result<std::vector<double>> number_list(const XmlElement& element, std::string_v
   return numbers;
 }
 
-Result<std::optional<double>> number_in(const XmlElement& element, std::string_view attribute) {
+Result<std::vector<double>> numbers_of(const XmlElement& element, std::string_view attribute) {
   const std::string* text = element.attribute(attribute);
-  if (text == nullptr) return std::optional<double>();
-  const auto numbers = number_list(element, attribute_of(element, attribute), *text);
+  if (text == nullptr) return std::vector<double>();
+  return number_list(element, attribute_of(element, attribute), *text);
+}
+
+Result<std::optional<double>> number_in(const XmlElement& element, std::string_view attribute) {
+  if (element.attribute(attribute) == nullptr) return std::optional<double>();
+  const auto numbers = numbers_of(element, attribute);
   if (!numbers) return numbers.error();
   if (numbers->size() != 1) {
     return element.error(Code::syntax, attribute_of(element, attribute) + " needs one number");

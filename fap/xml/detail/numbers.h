@@ -13,6 +13,9 @@ namespace animeme::head::detail {
 Result<std::vector<double>> number_list(const XmlElement& element, std::string_view what,
                                         std::string_view text);
 
+/// The numbers of an attribute; none if it is not there.
+Result<std::vector<double>> numbers_of(const XmlElement& element, std::string_view attribute);
+
 /// One number in an attribute; nothing if the attribute is not there.
 Result<std::optional<double>> number_in(const XmlElement& element, std::string_view attribute);
 

@@ -1,4 +1,4 @@
-#include "fap/xml/detail/xmt_points.h"
+#include "fap/xml/detail/xmt_tables.h"
 
 #include <algorithm>
 #include <cmath>

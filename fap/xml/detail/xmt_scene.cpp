@@ -101,8 +101,7 @@ Result<void> XmtScene::fill_attribute(SceneNode& node, const XmlElement& element
   SceneValue value;
   value.where = at(element);
   if (has_numbers(attribute.name)) {
-    auto numbers = number_list(
-        element, "attribute " + attribute.name + " of <" + element.name + ">", attribute.value);
+    auto numbers = numbers_of(element, attribute.name);
     if (!numbers) return numbers.error();
     value.numbers = std::move(*numbers);
   } else {

@@ -2,21 +2,13 @@
 
 #include <algorithm>
 
-#include "fap/xml/detail/left_to_rig.h"
+#include "fap/xml/detail/moves.h"
 #include "fap/xml/detail/numbers.h"
 
 namespace animeme::head::detail {
 namespace {
 
 constexpr std::size_t kMostMoves = 20'000'000;
-
-// The numbers of an attribute; none if it is not there.
-Result<std::vector<double>> numbers_of(const XmlElement& element, std::string_view attribute) {
-  const std::string* text = element.attribute(attribute);
-  if (text == nullptr) return std::vector<double>();
-  return number_list(element, "attribute " + std::string(attribute) + " of <" + element.name + ">",
-                     *text);
-}
 
 // A FaceDefMesh as numbers. Displacements come vertex by vertex, for each its intervals.
 struct MeshTable {

@@ -1,4 +1,5 @@
-// FaceDefTables: what FAPs do to the meshes of a face.
+// FaceDefTables: what FAPs do to the meshes of a face; and which vertices the places of
+// featurePointsCoord are.
 #pragma once
 
 #include "fap/xml/detail/xmt_scene.h"
@@ -20,5 +21,10 @@ inline constexpr std::size_t kNoPiece = ~std::size_t(0);
 /// Errors: syntax (numbers that do not fit together), out_of_range (fapID, a vertex that the mesh
 /// does not have).
 Result<void> read_tables(const XmlElement& fdp, XmtScene& scene, XmtFace& face);
+
+/// Sets face.source.points and the pivot of the neck; see read_xmt(). Closed lips have two vertices
+/// in one place: of vertices that are equally near, the one is taken that moves as the FAPs of the
+/// point say, or, without tables, that has its lip on its side. Notes distances.
+void set_points(const fap::FeaturePoints& places, XmtFace& face);
 
 }  // namespace animeme::head::detail
