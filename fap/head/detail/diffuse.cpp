@@ -1,9 +1,17 @@
 #include "fap/head/detail/diffuse.h"
 
+#include <algorithm>
+#include <array>
+
 namespace animeme::head::detail {
 namespace {
 
 constexpr int kRounds = 40;
+
+// Columns know nothing of each other: so many at a time stay in registers and in the cache.
+constexpr std::size_t kWidth = 8;
+using Row = std::array<float, kWidth>;
+using Block = std::vector<Row>;
 
 // The matrix of the step: unit and the flow between neighbours; symmetric.
 class Flow {
@@ -22,17 +30,17 @@ class Flow {
     }
   }
 
-  void apply(const Weights& in, Weights& out) const {
+  void apply(const Block& in, Block& out) const {
     std::size_t edge = 0;
     for (std::uint32_t v = 0; v < sum_.size(); ++v) {
-      const std::span<float> row = out.row(v);
-      const std::span<const float> own = in.row(v);
-      for (std::size_t c = 0; c < row.size(); ++c) row[c] = sum_[v] * own[c];
+      Row row;
+      for (std::size_t c = 0; c < kWidth; ++c) row[c] = sum_[v] * in[v][c];
       for (const std::uint32_t n : neighbours_.of(v)) {
-        const std::span<const float> other = in.row(n);
+        const Row& other = in[n];
         const float share = share_[edge++];
-        for (std::size_t c = 0; c < row.size(); ++c) row[c] -= share * other[c];
+        for (std::size_t c = 0; c < kWidth; ++c) row[c] -= share * other[c];
       }
+      out[v] = row;
     }
   }
 
@@ -41,24 +49,46 @@ class Flow {
   std::vector<float> share_, sum_;
 };
 
-// Product of each column of a with that of b.
-std::vector<double> products(const Weights& a, const Weights& b) {
-  std::vector<double> sums(a.controls(), 0);
-  for (std::size_t v = 0; v < a.vertices(); ++v) {
-    const auto x = a.row(v);
-    const auto y = b.row(v);
-    for (std::size_t c = 0; c < sums.size(); ++c) sums[c] += double(x[c]) * double(y[c]);
-  }
-  return sums;
+using Sums = std::array<double, kWidth>;
+
+// sums += the product of each column of two rows.
+void add_products(const Row& a, const Row& b, Sums& sums) {
+  for (std::size_t c = 0; c < kWidth; ++c) sums[c] += double(a[c]) * double(b[c]);
 }
 
-// to = keep * to + add * from, column by column.
-void combine(std::span<const float> keep, Weights& to, std::span<const float> add,
-             const Weights& from) {
-  for (std::size_t v = 0; v < to.vertices(); ++v) {
-    const std::span<float> row = to.row(v);
-    const std::span<const float> other = from.row(v);
-    for (std::size_t c = 0; c < row.size(); ++c) row[c] = keep[c] * row[c] + add[c] * other[c];
+void diffuse(const Flow& flow, Block& table) {
+  Block image(table.size()), rest(table.size());
+  flow.apply(table, image);
+  Sums size{};
+  for (std::size_t v = 0; v < table.size(); ++v) {
+    for (std::size_t c = 0; c < kWidth; ++c) rest[v][c] = table[v][c] - image[v][c];
+    add_products(rest[v], rest[v], size);
+  }
+  Block direction = rest;
+  for (int round = 0; round < kRounds; ++round) {
+    flow.apply(direction, image);
+    Sums along{}, next{};
+    for (std::size_t v = 0; v < table.size(); ++v) add_products(direction[v], image[v], along);
+    Row step;
+    for (std::size_t c = 0; c < kWidth; ++c) {
+      step[c] = along[c] > 0 ? float(size[c] / along[c]) : 0;
+    }
+    for (std::size_t v = 0; v < table.size(); ++v) {
+      for (std::size_t c = 0; c < kWidth; ++c) {
+        table[v][c] += step[c] * direction[v][c];
+        rest[v][c] -= step[c] * image[v][c];
+      }
+      add_products(rest[v], rest[v], next);
+    }
+    for (std::size_t c = 0; c < kWidth; ++c) {
+      step[c] = size[c] > 0 ? float(next[c] / size[c]) : 0;
+    }
+    for (std::size_t v = 0; v < table.size(); ++v) {
+      for (std::size_t c = 0; c < kWidth; ++c) {
+        direction[v][c] = step[c] * direction[v][c] + rest[v][c];
+      }
+    }
+    size = next;
   }
 }
 
@@ -67,29 +97,17 @@ void combine(std::span<const float> keep, Weights& to, std::span<const float> ad
 void diffuse(std::span<const Vec3> positions, const Neighbours& neighbours,
              std::span<const float> radii, Weights& table) {
   const Flow flow(positions, neighbours, radii);
-  const std::vector<float> ones(table.controls(), 1);
-  std::vector<float> step(table.controls());
-  Weights image(table.vertices(), table.controls());
-  Weights rest = table;
-  flow.apply(table, image);
-  combine(ones, rest, std::vector<float>(table.controls(), -1), image);
-  Weights direction = rest;
-  std::vector<double> size = products(rest, rest);
-  for (int round = 0; round < kRounds; ++round) {
-    flow.apply(direction, image);
-    const std::vector<double> along = products(direction, image);
-    for (std::size_t c = 0; c < step.size(); ++c) {
-      step[c] = along[c] > 0 ? float(size[c] / along[c]) : 0;
+  Block block(table.vertices());
+  for (std::size_t first = 0; first < table.controls(); first += kWidth) {
+    const std::size_t count = std::min(kWidth, table.controls() - first);
+    for (std::size_t v = 0; v < block.size(); ++v) {
+      block[v] = {};
+      std::ranges::copy(table.row(v).subspan(first, count), block[v].begin());
     }
-    combine(ones, table, step, direction);
-    for (float& s : step) s = -s;
-    combine(ones, rest, step, image);
-    const std::vector<double> next = products(rest, rest);
-    for (std::size_t c = 0; c < step.size(); ++c) {
-      step[c] = size[c] > 0 ? float(next[c] / size[c]) : 0;
+    diffuse(flow, block);
+    for (std::size_t v = 0; v < block.size(); ++v) {
+      std::copy_n(block[v].begin(), count, table.row(v).begin() + std::ptrdiff_t(first));
     }
-    combine(step, direction, ones, rest);
-    size = next;
   }
 }
 
