@@ -1,7 +1,6 @@
 // Motion for other programs: what they know are ARKit's shapes, visemes, mouth shapes or glTF.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <memory>
 
 #include "fap/fill.h"
 #include "fap/rate_text.h"
@@ -210,41 +209,39 @@ void add_glb_options(CLI::App& app, GlbExport& glb) {
                "glb: normals of the morph targets, for players that do not compute them");
 }
 
-Action add_export(CLI::App& app) {
-  auto options = std::make_shared<ExportOptions>();
-  app.add_option("input", options->input,
+void add_options(CLI::App& app, ExportOptions& options) {
+  app.add_option("input", options.input,
                  "FAP text, FBA stream or container; for visemes also a phoneme script (TSV, "
                  "TextGrid)")
       ->required();
-  app.add_option("-o,--output", options->output,
+  app.add_option("-o,--output", options.output,
                  "File to write: .csv (Live Link Face: Unreal, Blender, Maya), .json (the same "
                  "curves for scripts), .glb (a head with morph targets and animation), "
                  ".visemes.json or .visemes.csv (15 weights a frame under "
                  "the names of Oculus and Ready Player Me), .tsv or .rhubarb.json (mouth shapes of "
                  "Rhubarb Lip Sync)")
       ->required();
-  app.add_option("--what", options->what,
+  app.add_option("--what", options.what,
                  "What to write, whatever the file is called: arkit (52 shapes and 9 angles), "
                  "visemes, rhubarb, head (.glb)")
       ->check(CLI::IsMember({"arkit", "visemes", "rhubarb", "head"}));
-  app.add_option("--audio", options->audio, "Name of the sound to mention in .json and .glb");
-  app.add_option("--script", options->script,
+  app.add_option("--audio", options.audio, "Name of the sound to mention in .json and .glb");
+  app.add_option("--script", options.script,
                  "Phoneme script of the face: the events of visemes are its sounds; without it, "
                  "what the face shows most");
-  app.add_option("--rate", options->rate, "Frames a second of visemes of a script")
+  app.add_option("--rate", options.rate, "Frames a second of visemes of a script")
       ->capture_default_str();
-  app.add_option("--crossfade", options->crossfade,
+  app.add_option("--crossfade", options.crossfade,
                  "Seconds that one viseme of a script takes to fade into the next, at most")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1.0));
-  add_glb_options(app, options->glb);
+  add_glb_options(app, options.glb);
   for (const char* name : {"--rate", "--crossfade"}) {
-    options->of_scripts.push_back(app.get_option(name));
+    options.of_scripts.push_back(app.get_option(name));
   }
   for (const char* name : {"--head", "--points", "--morphs", "--normals"}) {
-    options->of_heads.push_back(app.get_option(name));
+    options.of_heads.push_back(app.get_option(name));
   }
-  return [options] { return run(*options); };
 }
 
 }  // namespace
@@ -265,6 +262,6 @@ const Command kExport{
     "  const frame = track.frames[Math.min(Math.floor(t * track.fps), track.frames.length - 1)];\n"
     "  track.names.forEach((name, i) =>\n"
     "    mesh.morphTargetInfluences[mesh.morphTargetDictionary[name]] = frame[i]);",
-    add_export};
+    set_up<ExportOptions>};
 
 }  // namespace animeme::tools

@@ -2,7 +2,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
-#include <memory>
 #include <sstream>
 
 #include "dam/script/phones.h"
@@ -89,19 +88,17 @@ Result<int> run(const FollowOptions& options) {
   return kOk;
 }
 
-Action add_follow(CLI::App& app) {
-  auto options = std::make_shared<FollowOptions>();
-  app.add_option("--model", options->model, "Model file of a character; default: the built-in one");
-  app.add_option("--rate", options->rate, "Frames a second: 25, 29.97, 60 ...")
+void add_options(CLI::App& app, FollowOptions& options) {
+  app.add_option("--model", options.model, "Model file of a character; default: the built-in one");
+  app.add_option("--rate", options.rate, "Frames a second: 25, 29.97, 60 ...")
       ->capture_default_str();
-  app.add_option("--style", options->style, "Intensity, 0 to 1.5")
+  app.add_option("--style", options.style, "Intensity, 0 to 1.5")
       ->check(CLI::Range(0.0, dam::kMostStyle))
       ->capture_default_str();
-  app.add_option("--look-ahead", options->look_ahead,
+  app.add_option("--look-ahead", options.look_ahead,
                  "Seconds of phones to wait for before a frame is given out; default: as many as "
                  "make it final (about half a second)")
       ->check(CLI::Range(0.0, 60.0));
-  return [options] { return run(*options); };
 }
 
 }  // namespace
@@ -110,6 +107,6 @@ const Command kFollow{
     "follow", "Speak while the phones are still coming: timed phones in, curves out, line by line",
     "  my_tts --phones | animeme follow --model me.dam | my_player\n"
     "  printf '0 0.3 SIL\\n0.3 0.42 HH\\n0.42 0.6 AY\\n' | animeme follow --look-ahead 0.1",
-    add_follow};
+    set_up<FollowOptions>};
 
 }  // namespace animeme::tools

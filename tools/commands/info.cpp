@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <memory>
 #include <optional>
 
 #include "codec/decode/decoder.h"
@@ -127,16 +126,14 @@ Result<int> run(const InfoOptions& options) {
   return kOk;
 }
 
-Action add_info(CLI::App& app) {
-  auto options = std::make_shared<InfoOptions>();
-  app.add_option("file", options->input,
+void add_options(CLI::App& app, InfoOptions& options) {
+  app.add_option("file", options.input,
                  "FAP or BAP text, FBA stream, container, sound, model or phoneme script")
       ->required();
-  app.add_flag("--json", options->json, "Machine-readable result");
+  app.add_flag("--json", options.json, "Machine-readable result");
   app.add_flag(
-      "--planes", options->planes,
+      "--planes", options.planes,
       "One line a plane: bit position, size, headers, masks, ranges (all of them with --json)");
-  return [options] { return run(*options); };
 }
 
 }  // namespace
@@ -144,6 +141,6 @@ Action add_info(CLI::App& app) {
 const Command kInfo{"info", "What a file holds",
                     "  animeme info talk.mp4\n"
                     "  animeme info talk.fba --planes --json",
-                    add_info};
+                    set_up<InfoOptions>};
 
 }  // namespace animeme::tools

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 
 #include "codec/decode/fill.h"
 #include "dam/script/script.h"
@@ -135,22 +134,20 @@ Result<int> run(const ViewOptions& options) {
   return kOk;
 }
 
-Action add_view(CLI::App& app) {
-  auto options = std::make_shared<ViewOptions>();
-  app.add_option("input", options->first,
+void add_options(CLI::App& app, ViewOptions& options) {
+  app.add_option("input", options.first,
                  "FAP text, FBA stream, a container with a face, or a table of curves")
       ->required();
-  app.add_option("second", options->second, "Another one to compare it with");
-  app.add_option("-o,--output", options->output, "HTML file to write, - for standard output")
+  app.add_option("second", options.second, "Another one to compare it with");
+  app.add_option("-o,--output", options.output, "HTML file to write, - for standard output")
       ->required();
-  app.add_option("--audio", options->audio,
+  app.add_option("--audio", options.audio,
                  "Sound in any format that FFmpeg reads; default: that of a container. AAC and "
                  "Opus stay as they are unless one of the options below is given");
-  app.add_option("--script", options->script,
+  app.add_option("--script", options.script,
                  "Phoneme script (table or TextGrid) to show with the curves");
-  add_sound_options(app, options->sound, false);
-  add_head_options(app, options->head);
-  return [options] { return run(*options); };
+  add_sound_options(app, options.sound, false);
+  add_head_options(app, options.head);
 }
 
 }  // namespace
@@ -163,6 +160,6 @@ const Command kView{
     "  animeme view original.fap coded.fba --audio voice.wav -o loss.html\n"
     "  animeme view lecture.mp4 --audio-codec opus --audio-bitrate 20000 -o lecture.html\n"
     "The page needs no network; ? shows its keys.",
-    add_view};
+    set_up<ViewOptions>};
 
 }  // namespace animeme::tools
