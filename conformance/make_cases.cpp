@@ -14,13 +14,7 @@
 #include <iostream>
 #include <iterator>
 
-#include "codec/text/bap_text.h"
-#include "codec/text/epf.h"
-#include "conformance/analyse.h"
-#include "conformance/case_builder.h"
 #include "conformance/describe.h"
-#include "conformance/features.h"
-#include "fap/text.h"
 
 namespace animeme::conformance {
 namespace {

@@ -76,8 +76,14 @@ int range_after(const Family& family, const Settings& settings, int kind, std::s
                       : default_range(settings, kind, int(number), divisor);
 }
 
-bool is_selection(int which) {
-  return which == kSelect1 || which == kSelect2 || which == kExpression1 || which == kExpression2;
+template <class Family, class Settings>
+StreamWriter::Range range_of(const Family& family, const Settings& settings, bool intra,
+                             std::size_t number) {
+  if (!intra) {
+    return {-family.range[fba::kPredictiveMin][number], family.range[fba::kPredictiveMax][number]};
+  }
+  return {-range_after(family, settings, fba::kIntraMin, number),
+          range_after(family, settings, fba::kIntraMax, number)};
 }
 
 int high_limit(const fba::FaceSettings& settings, int which) {
@@ -88,6 +94,27 @@ int high_limit(const fba::FaceSettings& settings, int which) {
 }
 
 }  // namespace
+
+bool is_selection(int which) {
+  return which == kSelect1 || which == kSelect2 || which == kExpression1 || which == kExpression2;
+}
+
+bool zeros_behind_segment(const CoderTrace& trace, const std::vector<std::uint8_t>& bit) {
+  for (std::size_t i = 0; i < trace.segment_end.size(); ++i) {
+    int zeros = trace.zeros_at_end[i];
+    const std::size_t end = trace.segment_end[i];
+    for (std::size_t k = end; k < end + 14 && k < bit.size() && bit[k] == 0; ++k) ++zeros;
+    if (zeros >= 22) return true;
+  }
+  return false;
+}
+
+bool start_code_inside(std::span<const std::uint8_t> bytes, std::size_t begin, std::size_t end) {
+  for (std::size_t at = (begin + 7) / 8; at * 8 + 24 <= end; ++at) {
+    if (bytes[at] == 0 && bytes[at + 1] == 0 && bytes[at + 2] == 1) return true;
+  }
+  return false;
+}
 
 bool looks_like_the_end(const std::vector<std::uint8_t>& bit, std::size_t plane_begin) {
   const std::size_t border = (plane_begin / 8 + 1) * 8;
@@ -108,19 +135,11 @@ StreamWriter::StreamWriter(std::uint32_t object_code) {
 }
 
 StreamWriter::Range StreamWriter::fap_range(const PlaneSpec& plane, std::size_t fap) const {
-  const int max = plane.intra ? fba::kIntraMax : fba::kPredictiveMax;
-  if (!plane.intra) {
-    return {-face_.range[std::size_t(max + 1)][fap], face_.range[std::size_t(max)][fap]};
-  }
-  return {-range_after(face_, plane.face, max + 1, fap), range_after(face_, plane.face, max, fap)};
+  return range_of(face_, plane.face, plane.intra, fap);
 }
 
 StreamWriter::Range StreamWriter::bap_range(const PlaneSpec& plane, std::size_t bap) const {
-  const int max = plane.intra ? fba::kIntraMax : fba::kPredictiveMax;
-  if (!plane.intra) {
-    return {-body_.range[std::size_t(max + 1)][bap], body_.range[std::size_t(max)][bap]};
-  }
-  return {-range_after(body_, plane.body, max + 1, bap), range_after(body_, plane.body, max, bap)};
+  return range_of(body_, plane.body, plane.intra, bap);
 }
 
 int StreamWriter::high_range(const PlaneSpec& plane, int which) const {
