@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "codec/encode/live.h"
 #include "codec/text/epf.h"
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
+#include "tools/json.h"
 #include "tools/text.h"
 
 namespace animeme::tools {
@@ -222,20 +222,20 @@ void tell(const EncodeOptions& options, const Bytes& bytes, const fba::EncodeRep
                 options.kbps));
   }
   if (!options.json) return;
-  nlohmann::ordered_json json = {{"planes", outcome.planes},
-                                 {"intra_planes", outcome.intra_planes},
-                                 {"bytes", bytes.size()},
-                                 {"kbit_per_s", outcome.kbps}};
+  Json json = {{"planes", outcome.planes},
+               {"intra_planes", outcome.intra_planes},
+               {"bytes", bytes.size()},
+               {"kbit_per_s", outcome.kbps}};
   if (report.planes > 0) {
-    json.update(nlohmann::ordered_json{{"fap_quant", report.fap_quant},
-                                       {"bap_quant", report.bap_quant},
-                                       {"rms", report.rms},
-                                       {"rms_other", report.rms_other},
-                                       {"coded", report.coded},
-                                       {"mirrored", report.mirrored},
-                                       {"left_out", report.left_out},
-                                       {"stilled", report.stilled},
-                                       {"skipped", report.skipped}});
+    json.update(Json{{"fap_quant", report.fap_quant},
+                     {"bap_quant", report.bap_quant},
+                     {"rms", report.rms},
+                     {"rms_other", report.rms_other},
+                     {"coded", report.coded},
+                     {"mirrored", report.mirrored},
+                     {"left_out", report.left_out},
+                     {"stilled", report.stilled},
+                     {"skipped", report.skipped}});
   }
   std::printf("%s\n", json.dump(2).c_str());
 }

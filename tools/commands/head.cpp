@@ -68,8 +68,6 @@ Json describe(const studio::LoadedHead& loaded, const head::Rig& rig) {
     const head::Vec3 p = head.at(id);
     points[id] = {p.x, p.y, p.z};
   }
-  Json shapes = Json::array();
-  for (const head::ShapeControl& shape : head.shapes) shapes.push_back(shape.name);
   return {{"name", head.name},
           {"parts", parts},
           {"fapu_cm",
@@ -81,7 +79,7 @@ Json describe(const studio::LoadedHead& loaded, const head::Rig& rig) {
           {"moved_by", !head.shapes.empty()    ? "shapes"
                        : !head.targets.empty() ? "targets"
                                                : "feature_points"},
-          {"shapes", shapes},
+          {"shapes", json_list(head.shapes, &head::ShapeControl::name)},
           {"feature_points_cm", points},
           {"missing_feature_points", missing},
           {"still_faps", still_faps(head, rig)},

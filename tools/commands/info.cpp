@@ -62,10 +62,12 @@ Result<Json> describe_media(const InfoOptions& options, std::span<const std::uin
   const bool playlist = is_playlist(bytes);
   Result<media::ContainerInfo> info = playlist ? media::probe(options.input) : media::probe(bytes);
   if (!info) return info.error();
-  Json tracks = Json::array();
-  for (const media::TrackInfo& track : info->tracks) tracks.push_back(describe_track(track));
-  Json json = {{"kind", "media"},           {"format", info->format}, {"bytes", info->bytes},
-               {"seconds", info->duration}, {"tracks", tracks},       {"warnings", info->warnings}};
+  Json json = {{"kind", "media"},
+               {"format", info->format},
+               {"bytes", info->bytes},
+               {"seconds", info->duration},
+               {"tracks", json_list(info->tracks, describe_track)},
+               {"warnings", info->warnings}};
   if (info->first(media::TrackKind::face) == nullptr) return json;
   Result<media::Container> container =
       playlist ? media::read_container(options.input) : media::read_container(bytes);

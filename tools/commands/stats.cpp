@@ -19,18 +19,11 @@ struct StatsOptions {
 };
 
 const char* kind_name(FileKind kind) {
-  switch (kind) {
-    case FileKind::fap_text:
-      return "fap";
-    case FileKind::bap_text:
-      return "bap";
-    case FileKind::curves:
-      return "curves";
-    case FileKind::media:
-      return "media";
-    default:
-      return "fba";
-  }
+  return kind == FileKind::fap_text   ? "fap"
+         : kind == FileKind::bap_text ? "bap"
+         : kind == FileKind::curves   ? "curves"
+         : kind == FileKind::media    ? "media"
+                                      : "fba";
 }
 
 // Row by row: a clip takes its time.
