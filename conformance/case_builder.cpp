@@ -3,10 +3,7 @@
 #include <algorithm>
 
 #include "codec/text/bap_text.h"
-#include "conformance/analyse.h"
 #include "conformance/epf_writer.h"
-#include "conformance/features.h"
-#include "conformance/sha256.h"
 #include "fap/rate_text.h"
 #include "fap/tables.h"
 #include "fap/text.h"

@@ -7,7 +7,6 @@
 // levels; the codec is then asked to decode, and to encode where there are parameters, and every
 // difference is an error. describe: DIR/X.fba and the files beside it (see case_file.h) are
 // described; title, note and origin of a case.json that is there are kept.
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>

@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <optional>
 
 #include "tools/commands/common.h"
 #include "tools/commands/face_stream.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 
 #include "fap/arkit.h"
 #include "fap/head/shapes.h"

@@ -1,4 +1,3 @@
-
 #include "tools/inspect/evaluation.h"
 #include "tools/json.h"
 

@@ -1,4 +1,3 @@
-
 #include "dam/model/model.h"
 #include "dam/script/script.h"
 #include "fap/rate_text.h"

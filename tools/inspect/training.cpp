@@ -1,6 +1,5 @@
 #include "tools/inspect/training.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "tools/json.h"
