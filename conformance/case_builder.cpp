@@ -200,17 +200,10 @@ void CaseBuilder::add_parameters(MadeCase& made) const {
     intra += plane.intra;
     intra_with_code += plane.intra && plane.start_code != StartCode::none;
   }
+  // An encoder gives start codes of one kind to no plane, to all, or to the intra planes.
   if (old_codes != 0 && old_codes != with_code) return;
-  if (with_code == 0) {
-    made.info.plane_start_codes = "none";
-  } else if (with_code == planes()) {
-    made.info.plane_start_codes = "all";
-  } else if (with_code == intra_with_code && with_code == intra) {
-    made.info.plane_start_codes = "intra";
-  } else {
-    return;
-  }
-  made.info.old_codes = old_codes != 0;
+  const bool only_intra = with_code == intra_with_code && with_code == intra;
+  if (with_code != 0 && with_code != planes() && !only_intra) return;
   std::string epf = write_epf(planes_);
   if (epf.empty()) return;
   made.content["parameters"] = std::move(epf);
