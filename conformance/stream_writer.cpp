@@ -8,7 +8,7 @@ namespace {
 using Groups = std::vector<std::vector<int>>;
 
 // FAP 3..68 by group, in the order of the stream.
-const Groups& face_groups() {
+const Groups& groups_of(const fba::FaceSettings&) {
   static const Groups groups = [] {
     Groups out;
     for (std::size_t g = 1; g < fap::kGroupCount; ++g) {
@@ -21,7 +21,8 @@ const Groups& face_groups() {
   return groups;
 }
 
-const Groups& body_groups() {
+// BAPs likewise.
+const Groups& groups_of(const fba::BodySettings&) {
   static const Groups groups = [] {
     Groups out;
     std::size_t slot = 0;
@@ -221,32 +222,32 @@ void StreamWriter::face_header(const PlaneSpec& plane) {
   }
   bits_.put(settings.male, 1);
   bits_.put(plane.damage == Damage::dct_face, 1);
-  write_ranges(plane, settings, face_groups());
+  write_ranges(plane, settings);
 }
 
 void StreamWriter::body_header(const PlaneSpec& plane) {
   const fba::BodySettings& settings = plane.body;
   bits_.put(std::uint32_t(settings.bap_quant), 5);
-  for (std::size_t g = 0; g < body_groups().size(); ++g) {
+  const Groups& groups = groups_of(settings);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
     marker(plane);
     const bool damaged = plane.damage == Damage::body_type2 && int(g) == plane.damage_at;
     const std::uint32_t type = damaged ? 2 : std::uint32_t(settings.mask_type[g]);
     bits_.put(type, 2);
     if (type != 1 && type != 2) continue;
-    for (const int bap : body_groups()[g]) bits_.put(settings.mask[std::size_t(bap)], 1);
+    for (const int bap : groups[g]) bits_.put(settings.mask[std::size_t(bap)], 1);
   }
   bits_.put(settings.male, 1);
   bits_.put(plane.damage == Damage::dct_body, 1);
-  write_ranges(plane, settings, body_groups());
+  write_ranges(plane, settings);
 }
 
 template <class Settings>
-void StreamWriter::write_ranges(const PlaneSpec& plane, const Settings& settings,
-                                const Groups& groups) {
+void StreamWriter::write_ranges(const PlaneSpec& plane, const Settings& settings) {
   for (const bool send : settings.send_range) bits_.put(send, 1);
   for (std::size_t kind = 0; kind < 4; ++kind) {
     if (!settings.send_range[kind]) continue;
-    for (const std::vector<int>& group : groups) {
+    for (const std::vector<int>& group : groups_of(settings)) {
       for (std::size_t i = 0; i < group.size(); ++i) {
         if (i % 4 == 0) marker(plane);
         const std::size_t number = std::size_t(group[i]);
@@ -257,39 +258,31 @@ void StreamWriter::write_ranges(const PlaneSpec& plane, const Settings& settings
 }
 
 template <class Settings>
-void StreamWriter::install(Family& family, const Settings& settings, const Groups& groups,
-                           int divisor) {
-  if (!family.known) {
-    for (std::size_t kind = 0; kind < 4; ++kind) {
-      for (const auto& group : groups) {
-        for (const int number : group) {
-          family.range[kind][std::size_t(number)] =
-              default_range(settings, int(kind), number, divisor);
-        }
-      }
-    }
-    family.known = true;
-  }
-  for (const auto& group : groups) {
+void StreamWriter::install(Family& family, const Settings& settings) {
+  const int divisor = divisor_of(settings);
+  for (const auto& group : groups_of(settings)) {
     for (const int number : group) {
       const std::size_t n = std::size_t(number);
-      if (!settings.mask[n]) continue;
       for (std::size_t kind = 0; kind < 4; ++kind) {
-        if (settings.send_range[kind]) {
-          family.range[kind][n] = settings.range[kind][n] * 60 / divisor;
+        int& range = family.range[kind][n];
+        if (!family.known) range = default_range(settings, int(kind), number, divisor);
+        if (settings.mask[n] && settings.send_range[kind]) {
+          range = settings.range[kind][n] * 60 / divisor;
         }
       }
+      if (!settings.mask[n]) continue;
       family.model[n].reset(family.range[fba::kPredictiveMax][n] +
                             family.range[fba::kPredictiveMin][n] + 1);
     }
   }
+  family.known = true;
 }
 
 void StreamWriter::write_face(const PlaneSpec& plane, Expected& expected) {
   if (plane.intra) {
     face_header(plane);
     face_settings_ = plane.face;
-    install(face_, face_settings_, face_groups(), divisor_of(face_settings_));
+    install(face_, face_settings_);
     for (int which = 0; which < kHighCount; ++which) {
       high_.model[std::size_t(which)].reset(2 * high_limit(face_settings_, which) + 1);
     }
@@ -310,7 +303,7 @@ void StreamWriter::write_face(const PlaneSpec& plane, Expected& expected) {
     frame.expression = {high[kExpression1], high[kIntensity1], high[kExpression2],
                         high[kIntensity2],  plane.init_face,   plane.expression_def};
   }
-  write_values(plane, face_, face_groups(), plane.fap);
+  write_values(plane, face_, face_settings_, plane.fap);
   for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
     if (mask[fap]) frame.value[fap] = face_.value[fap];
   }
@@ -320,9 +313,9 @@ void StreamWriter::write_body(const PlaneSpec& plane, Expected& expected) {
   if (plane.intra) {
     body_header(plane);
     body_settings_ = plane.body;
-    install(body_, body_settings_, body_groups(), divisor_of(body_settings_));
+    install(body_, body_settings_);
   }
-  write_values(plane, body_, body_groups(), plane.bap);
+  write_values(plane, body_, body_settings_, plane.bap);
   expected.body.mask = body_settings_.mask;
   for (std::size_t bap = 1; bap <= fba::kBapCount; ++bap) {
     if (body_settings_.mask[bap]) expected.body.value[bap] = body_.value[bap];
@@ -350,19 +343,15 @@ void StreamWriter::write_high(const PlaneSpec& plane, int first, int last) {
   segment.flush();
 }
 
-template <class Levels>
-void StreamWriter::write_values(const PlaneSpec& plane, Family& family, const Groups& groups,
+template <class Settings, class Levels>
+void StreamWriter::write_values(const PlaneSpec& plane, Family& family, const Settings& settings,
                                 const Levels& levels) {
-  constexpr bool kFace = std::tuple_size_v<Levels> == fap::kFapCount + 1;
   SegmentWriter segment(bits_, trace_, bad_stuffing_);
-  for (const auto& group : groups) {
+  for (const auto& group : groups_of(settings)) {
     for (const int number : group) {
       const std::size_t n = std::size_t(number);
-      const bool coded = kFace ? face_settings_.mask[n] : body_settings_.mask[n];
-      if (!coded) continue;
-      const std::int64_t step =
-          kFace ? step_of(face_settings_, number) : step_of(body_settings_, number);
-      const std::int64_t change = levels[n] * step;
+      if (!settings.mask[n]) continue;
+      const std::int64_t change = levels[n] * step_of(settings, number);
       if (plane.intra) {
         Frequencies flat;
         flat.reset(family.range[fba::kIntraMax][n] + family.range[fba::kIntraMin][n] + 1);

@@ -136,15 +136,13 @@ class StreamWriter {
   void face_header(const PlaneSpec& plane);
   void body_header(const PlaneSpec& plane);
   template <class Settings>
-  void write_ranges(const PlaneSpec& plane, const Settings& settings,
-                    const std::vector<std::vector<int>>& groups);
+  void write_ranges(const PlaneSpec& plane, const Settings& settings);
   template <class Settings>
-  void install(Family& family, const Settings& settings,
-               const std::vector<std::vector<int>>& groups, int divisor);
+  void install(Family& family, const Settings& settings);
   void write_high(const PlaneSpec& plane, int first, int last);
-  template <class Levels>
-  void write_values(const PlaneSpec& plane, Family& family,
-                    const std::vector<std::vector<int>>& groups, const Levels& levels);
+  template <class Settings, class Levels>
+  void write_values(const PlaneSpec& plane, Family& family, const Settings& settings,
+                    const Levels& levels);
 
   Bits bits_;
   CoderTrace trace_;

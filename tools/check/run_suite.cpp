@@ -100,9 +100,7 @@ Result<CodedClip> read_clip(const std::string& path, bool body) {
     if (!clip) return clip.error();
     return coded_values(*clip);
   }
-  fap::ReadTextOptions options;
-  options.keep_numbers = true;
-  Result<fap::Sequence> clip = fap::read_text(*text, options);
+  Result<fap::Sequence> clip = fap::read_text(*text, {.keep_numbers = true});
   if (!clip) return clip.error();
   return coded_values(*clip);
 }

@@ -47,15 +47,11 @@ bool is_to_be_skipped(const std::string& text) {
   return first == std::string::npos || text[first] == '#' || text.compare(first, 5, "start") == 0;
 }
 
-/// False if nobody reads any more.
-bool print_rows(const dam::Signal& signal) {
+Result<void> print_rows(const dam::Signal& signal) {
   for (std::size_t frame = 0; frame < signal.frames(); ++frame) {
     std::fputs(exchange::write_curve_row(signal, frame).c_str(), stdout);
   }
-  return std::fflush(stdout) == 0;
-}
-
-Error broken() {
+  if (std::fflush(stdout) == 0) return {};
   return make_error(Code::io, "the curves cannot be written: nobody reads standard output");
 }
 
@@ -80,11 +76,11 @@ Result<int> run(const FollowOptions& options) {
     if (auto ok = stream.push(*phone); !ok) return in_line(line, ok.error().message);
     Result<dam::Signal> signal = stream.pull();
     if (!signal) return signal.error();
-    if (!print_rows(*signal)) return broken();
+    if (auto ok = print_rows(*signal); !ok) return ok.error();
   }
   Result<dam::Signal> signal = stream.finish();
   if (!signal) return signal.error();
-  if (!print_rows(*signal)) return broken();
+  if (auto ok = print_rows(*signal); !ok) return ok.error();
   return kOk;
 }
 
