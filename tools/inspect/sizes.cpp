@@ -106,7 +106,7 @@ double floor_of(const fba::DecodedStream& stream) {
   return bits;
 }
 
-Json to_json(const ClipSizes& clip) {
+Json clip_json(const ClipSizes& clip) {
   return {{"clip", clip.name},
           {"planes", clip.planes},
           {"all_bits", clip.all_bits},
@@ -188,7 +188,7 @@ std::string sizes_means(const std::vector<ClipSizes>& clips, double max_rms) {
 
 std::string sizes_json(const std::vector<ClipSizes>& clips, double max_rms) {
   const Json json = {{"max_rms", max_rms},
-                     {"clips", tools::json_list(clips, to_json)},
+                     {"clips", tools::json_list(clips, clip_json)},
                      {"mean_file_ratio", mean(clips, &ClipSizes::file_ratio)},
                      {"mean_floor_ratio", mean(clips, &ClipSizes::floor_ratio)},
                      {"mean_limited_ratio", mean(clips, &ClipSizes::limited_ratio)}};
