@@ -214,18 +214,10 @@ class Collector {
     add_if(trace.stuffed > 0, "coder_trap.stuffed");
     add_if(trace.halved > 0, "coder_trap.halved");
     add_if(trace.empty_segments > 0, "coder_trap.empty_segment");
-    for (std::size_t i = 0; i < trace.segment_end.size(); ++i) {
-      int zeros = trace.zeros_at_end[i];
-      const std::size_t end = trace.segment_end[i];
-      for (std::size_t k = end; k < end + 14 && k < bit.size() && bit[k] == 0; ++k) ++zeros;
-      add_if(zeros >= 22, "coder_trap.zeros_behind_segment");
-    }
+    add_if(zeros_behind_segment(trace, bit), "coder_trap.zeros_behind_segment");
     for (const fba::Plane& plane : decoded_.planes) {
-      for (std::int64_t at = (plane.bit_begin + 7) / 8; at * 8 + 24 <= plane.bit_end; ++at) {
-        const std::size_t k = std::size_t(at);
-        add_if(bytes_[k] == 0 && bytes_[k + 1] == 0 && bytes_[k + 2] == 1,
-               "coder_trap.start_code_inside");
-      }
+      add_if(start_code_inside(bytes_, std::size_t(plane.bit_begin), std::size_t(plane.bit_end)),
+             "coder_trap.start_code_inside");
     }
   }
 

@@ -3,10 +3,7 @@
 #include <algorithm>
 
 #include "codec/text/bap_text.h"
-#include "conformance/analyse.h"
 #include "conformance/epf_writer.h"
-#include "conformance/features.h"
-#include "conformance/sha256.h"
 #include "fap/rate_text.h"
 #include "fap/tables.h"
 #include "fap/text.h"
@@ -59,28 +56,25 @@ CaseBuilder::CaseBuilder(std::uint64_t seed, std::string name, std::string title
   info_.origin = "conformance/make_cases --seed " + std::to_string(seed);
 }
 
+// Levels of the high-level values from `which` on that lead to these.
+void CaseBuilder::set_high(PlaneSpec& plane, int which, std::initializer_list<int> targets) const {
+  const int quant = plane.intra ? plane.face.fap_quant : writer_.face_settings().fap_quant;
+  for (const int target : targets) {
+    const int step = is_selection(which) ? 1 : std::max(quant, 1);
+    const int before = plane.intra ? 0 : writer_.high_value(which) / step;
+    plane.high[std::size_t(which++)] = target - before;
+  }
+}
+
 void CaseBuilder::set_viseme(PlaneSpec& plane, int select1, int select2, int blend,
                              bool def) const {
-  const std::array<int, 3> target = {select1, select2, blend};
-  const int quant = plane.intra ? plane.face.fap_quant : writer_.face_settings().fap_quant;
-  const int step = std::max(quant, 1);
-  for (int which = kSelect1; which <= kBlend; ++which) {
-    const int before = plane.intra ? 0 : writer_.high_value(which) / (which == kBlend ? step : 1);
-    plane.high[std::size_t(which)] = target[std::size_t(which)] - before;
-  }
+  set_high(plane, kSelect1, {select1, select2, blend});
   plane.viseme_def = def;
 }
 
 void CaseBuilder::set_expression(PlaneSpec& plane, int select1, int intensity1, int select2,
                                  int intensity2, bool init_face, bool def) const {
-  const std::array<int, 4> target = {select1, intensity1, select2, intensity2};
-  const int quant = plane.intra ? plane.face.fap_quant : writer_.face_settings().fap_quant;
-  const int step = std::max(quant, 1);
-  for (int which = kExpression1; which <= kIntensity2; ++which) {
-    const bool scaled = which == kIntensity1 || which == kIntensity2;
-    const int before = plane.intra ? 0 : writer_.high_value(which) / (scaled ? step : 1);
-    plane.high[std::size_t(which)] = target[std::size_t(which - kExpression1)] - before;
-  }
+  set_high(plane, kExpression1, {select1, intensity1, select2, intensity2});
   plane.init_face = init_face;
   plane.expression_def = def;
 }
@@ -206,17 +200,10 @@ void CaseBuilder::add_parameters(MadeCase& made) const {
     intra += plane.intra;
     intra_with_code += plane.intra && plane.start_code != StartCode::none;
   }
+  // An encoder gives start codes of one kind to no plane, to all, or to the intra planes.
   if (old_codes != 0 && old_codes != with_code) return;
-  if (with_code == 0) {
-    made.info.plane_start_codes = "none";
-  } else if (with_code == planes()) {
-    made.info.plane_start_codes = "all";
-  } else if (with_code == intra_with_code && with_code == intra) {
-    made.info.plane_start_codes = "intra";
-  } else {
-    return;
-  }
-  made.info.old_codes = old_codes != 0;
+  const bool only_intra = with_code == intra_with_code && with_code == intra;
+  if (with_code != 0 && with_code != planes() && !only_intra) return;
   std::string epf = write_epf(planes_);
   if (epf.empty()) return;
   made.content["parameters"] = std::move(epf);

@@ -73,6 +73,7 @@ class CaseBuilder {
   const std::vector<Expected>& expected() const { return expected_; }
 
  private:
+  void set_high(PlaneSpec& plane, int which, std::initializer_list<int> targets) const;
   void draw_levels(PlaneSpec& plane, Levels levels);
   MadeCase start(std::vector<std::uint8_t> bytes) const;
   void add_text(MadeCase& made, const char* face_role, const char* body_role,

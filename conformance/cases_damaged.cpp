@@ -1,6 +1,4 @@
 // Generated cases: streams that break a rule. What a decoder can still give is said for each.
-#include <functional>
-
 #include "conformance/case_builder.h"
 
 namespace animeme::conformance {

@@ -19,15 +19,13 @@ std::span<const std::uint8_t> bytes_of(const std::string& text) {
 Error wrong(const std::string& what) { return make_error(Code::internal, what); }
 
 Result<void> check_face(const MadeCase& made, const fba::DecodedStream& got) {
-  fap::ReadTextOptions options;
-  options.keep_numbers = true;
   const fap::Sequence clip = fba::face_sequence(got);
   const auto found = made.content.find("face");
   if (found == made.content.end()) {
     if (clip.frames.empty()) return {};
     return wrong("the decoder gives faces, none were expected");
   }
-  Result<fap::Sequence> expected = fap::read_text(found->second, options);
+  Result<fap::Sequence> expected = fap::read_text(found->second, {.keep_numbers = true});
   if (!expected) return expected.error();
   if (clip.frames.size() != expected->frames.size()) {
     return wrong("the decoder gives " + std::to_string(clip.frames.size()) +

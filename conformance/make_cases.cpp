@@ -7,20 +7,13 @@
 // levels; the codec is then asked to decode, and to encode where there are parameters, and every
 // difference is an error. describe: DIR/X.fba and the files beside it (see case_file.h) are
 // described; title, note and origin of a case.json that is there are kept.
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
 
-#include "codec/text/bap_text.h"
-#include "codec/text/epf.h"
-#include "conformance/analyse.h"
-#include "conformance/case_builder.h"
 #include "conformance/describe.h"
-#include "conformance/features.h"
-#include "fap/text.h"
 
 namespace animeme::conformance {
 namespace {

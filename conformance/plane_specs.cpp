@@ -32,8 +32,8 @@ class Leveller {
         v.select1, v.select2, v.blend, e.select1, e.intensity1, e.select2, e.intensity2};
     for (std::size_t which = 0; which < kHighCount; ++which) {
       if (!now.mask[which <= kBlend ? 1 : 2]) continue;
-      const bool scaled = which == kBlend || which == kIntensity1 || which == kIntensity2;
-      const std::int32_t step = scaled && settings.fap_quant != 0 ? settings.fap_quant : 1;
+      const bool scaled = !is_selection(int(which)) && settings.fap_quant != 0;
+      const std::int32_t step = scaled ? settings.fap_quant : 1;
       spec.high[which] = (high[which] - (plane.intra ? 0 : high_[which])) / step;
       high_[which] = high[which];
     }

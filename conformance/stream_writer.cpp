@@ -8,7 +8,7 @@ namespace {
 using Groups = std::vector<std::vector<int>>;
 
 // FAP 3..68 by group, in the order of the stream.
-const Groups& face_groups() {
+const Groups& groups_of(const fba::FaceSettings&) {
   static const Groups groups = [] {
     Groups out;
     for (std::size_t g = 1; g < fap::kGroupCount; ++g) {
@@ -21,7 +21,8 @@ const Groups& face_groups() {
   return groups;
 }
 
-const Groups& body_groups() {
+// BAPs likewise.
+const Groups& groups_of(const fba::BodySettings&) {
   static const Groups groups = [] {
     Groups out;
     std::size_t slot = 0;
@@ -76,8 +77,14 @@ int range_after(const Family& family, const Settings& settings, int kind, std::s
                       : default_range(settings, kind, int(number), divisor);
 }
 
-bool is_selection(int which) {
-  return which == kSelect1 || which == kSelect2 || which == kExpression1 || which == kExpression2;
+template <class Family, class Settings>
+StreamWriter::Range range_of(const Family& family, const Settings& settings, bool intra,
+                             std::size_t number) {
+  if (!intra) {
+    return {-family.range[fba::kPredictiveMin][number], family.range[fba::kPredictiveMax][number]};
+  }
+  return {-range_after(family, settings, fba::kIntraMin, number),
+          range_after(family, settings, fba::kIntraMax, number)};
 }
 
 int high_limit(const fba::FaceSettings& settings, int which) {
@@ -88,6 +95,27 @@ int high_limit(const fba::FaceSettings& settings, int which) {
 }
 
 }  // namespace
+
+bool is_selection(int which) {
+  return which == kSelect1 || which == kSelect2 || which == kExpression1 || which == kExpression2;
+}
+
+bool zeros_behind_segment(const CoderTrace& trace, const std::vector<std::uint8_t>& bit) {
+  for (std::size_t i = 0; i < trace.segment_end.size(); ++i) {
+    int zeros = trace.zeros_at_end[i];
+    const std::size_t end = trace.segment_end[i];
+    for (std::size_t k = end; k < end + 14 && k < bit.size() && bit[k] == 0; ++k) ++zeros;
+    if (zeros >= 22) return true;
+  }
+  return false;
+}
+
+bool start_code_inside(std::span<const std::uint8_t> bytes, std::size_t begin, std::size_t end) {
+  for (std::size_t at = (begin + 7) / 8; at * 8 + 24 <= end; ++at) {
+    if (bytes[at] == 0 && bytes[at + 1] == 0 && bytes[at + 2] == 1) return true;
+  }
+  return false;
+}
 
 bool looks_like_the_end(const std::vector<std::uint8_t>& bit, std::size_t plane_begin) {
   const std::size_t border = (plane_begin / 8 + 1) * 8;
@@ -108,19 +136,11 @@ StreamWriter::StreamWriter(std::uint32_t object_code) {
 }
 
 StreamWriter::Range StreamWriter::fap_range(const PlaneSpec& plane, std::size_t fap) const {
-  const int max = plane.intra ? fba::kIntraMax : fba::kPredictiveMax;
-  if (!plane.intra) {
-    return {-face_.range[std::size_t(max + 1)][fap], face_.range[std::size_t(max)][fap]};
-  }
-  return {-range_after(face_, plane.face, max + 1, fap), range_after(face_, plane.face, max, fap)};
+  return range_of(face_, plane.face, plane.intra, fap);
 }
 
 StreamWriter::Range StreamWriter::bap_range(const PlaneSpec& plane, std::size_t bap) const {
-  const int max = plane.intra ? fba::kIntraMax : fba::kPredictiveMax;
-  if (!plane.intra) {
-    return {-body_.range[std::size_t(max + 1)][bap], body_.range[std::size_t(max)][bap]};
-  }
-  return {-range_after(body_, plane.body, max + 1, bap), range_after(body_, plane.body, max, bap)};
+  return range_of(body_, plane.body, plane.intra, bap);
 }
 
 int StreamWriter::high_range(const PlaneSpec& plane, int which) const {
@@ -202,32 +222,32 @@ void StreamWriter::face_header(const PlaneSpec& plane) {
   }
   bits_.put(settings.male, 1);
   bits_.put(plane.damage == Damage::dct_face, 1);
-  write_ranges(plane, settings, face_groups());
+  write_ranges(plane, settings);
 }
 
 void StreamWriter::body_header(const PlaneSpec& plane) {
   const fba::BodySettings& settings = plane.body;
   bits_.put(std::uint32_t(settings.bap_quant), 5);
-  for (std::size_t g = 0; g < body_groups().size(); ++g) {
+  const Groups& groups = groups_of(settings);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
     marker(plane);
     const bool damaged = plane.damage == Damage::body_type2 && int(g) == plane.damage_at;
     const std::uint32_t type = damaged ? 2 : std::uint32_t(settings.mask_type[g]);
     bits_.put(type, 2);
     if (type != 1 && type != 2) continue;
-    for (const int bap : body_groups()[g]) bits_.put(settings.mask[std::size_t(bap)], 1);
+    for (const int bap : groups[g]) bits_.put(settings.mask[std::size_t(bap)], 1);
   }
   bits_.put(settings.male, 1);
   bits_.put(plane.damage == Damage::dct_body, 1);
-  write_ranges(plane, settings, body_groups());
+  write_ranges(plane, settings);
 }
 
 template <class Settings>
-void StreamWriter::write_ranges(const PlaneSpec& plane, const Settings& settings,
-                                const Groups& groups) {
+void StreamWriter::write_ranges(const PlaneSpec& plane, const Settings& settings) {
   for (const bool send : settings.send_range) bits_.put(send, 1);
   for (std::size_t kind = 0; kind < 4; ++kind) {
     if (!settings.send_range[kind]) continue;
-    for (const std::vector<int>& group : groups) {
+    for (const std::vector<int>& group : groups_of(settings)) {
       for (std::size_t i = 0; i < group.size(); ++i) {
         if (i % 4 == 0) marker(plane);
         const std::size_t number = std::size_t(group[i]);
@@ -238,39 +258,31 @@ void StreamWriter::write_ranges(const PlaneSpec& plane, const Settings& settings
 }
 
 template <class Settings>
-void StreamWriter::install(Family& family, const Settings& settings, const Groups& groups,
-                           int divisor) {
-  if (!family.known) {
-    for (std::size_t kind = 0; kind < 4; ++kind) {
-      for (const auto& group : groups) {
-        for (const int number : group) {
-          family.range[kind][std::size_t(number)] =
-              default_range(settings, int(kind), number, divisor);
-        }
-      }
-    }
-    family.known = true;
-  }
-  for (const auto& group : groups) {
+void StreamWriter::install(Family& family, const Settings& settings) {
+  const int divisor = divisor_of(settings);
+  for (const auto& group : groups_of(settings)) {
     for (const int number : group) {
       const std::size_t n = std::size_t(number);
-      if (!settings.mask[n]) continue;
       for (std::size_t kind = 0; kind < 4; ++kind) {
-        if (settings.send_range[kind]) {
-          family.range[kind][n] = settings.range[kind][n] * 60 / divisor;
+        int& range = family.range[kind][n];
+        if (!family.known) range = default_range(settings, int(kind), number, divisor);
+        if (settings.mask[n] && settings.send_range[kind]) {
+          range = settings.range[kind][n] * 60 / divisor;
         }
       }
+      if (!settings.mask[n]) continue;
       family.model[n].reset(family.range[fba::kPredictiveMax][n] +
                             family.range[fba::kPredictiveMin][n] + 1);
     }
   }
+  family.known = true;
 }
 
 void StreamWriter::write_face(const PlaneSpec& plane, Expected& expected) {
   if (plane.intra) {
     face_header(plane);
     face_settings_ = plane.face;
-    install(face_, face_settings_, face_groups(), divisor_of(face_settings_));
+    install(face_, face_settings_);
     for (int which = 0; which < kHighCount; ++which) {
       high_.model[std::size_t(which)].reset(2 * high_limit(face_settings_, which) + 1);
     }
@@ -291,7 +303,7 @@ void StreamWriter::write_face(const PlaneSpec& plane, Expected& expected) {
     frame.expression = {high[kExpression1], high[kIntensity1], high[kExpression2],
                         high[kIntensity2],  plane.init_face,   plane.expression_def};
   }
-  write_values(plane, face_, face_groups(), plane.fap);
+  write_values(plane, face_, face_settings_, plane.fap);
   for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
     if (mask[fap]) frame.value[fap] = face_.value[fap];
   }
@@ -301,9 +313,9 @@ void StreamWriter::write_body(const PlaneSpec& plane, Expected& expected) {
   if (plane.intra) {
     body_header(plane);
     body_settings_ = plane.body;
-    install(body_, body_settings_, body_groups(), divisor_of(body_settings_));
+    install(body_, body_settings_);
   }
-  write_values(plane, body_, body_groups(), plane.bap);
+  write_values(plane, body_, body_settings_, plane.bap);
   expected.body.mask = body_settings_.mask;
   for (std::size_t bap = 1; bap <= fba::kBapCount; ++bap) {
     if (body_settings_.mask[bap]) expected.body.value[bap] = body_.value[bap];
@@ -331,19 +343,15 @@ void StreamWriter::write_high(const PlaneSpec& plane, int first, int last) {
   segment.flush();
 }
 
-template <class Levels>
-void StreamWriter::write_values(const PlaneSpec& plane, Family& family, const Groups& groups,
+template <class Settings, class Levels>
+void StreamWriter::write_values(const PlaneSpec& plane, Family& family, const Settings& settings,
                                 const Levels& levels) {
-  constexpr bool kFace = std::tuple_size_v<Levels> == fap::kFapCount + 1;
   SegmentWriter segment(bits_, trace_, bad_stuffing_);
-  for (const auto& group : groups) {
+  for (const auto& group : groups_of(settings)) {
     for (const int number : group) {
       const std::size_t n = std::size_t(number);
-      const bool coded = kFace ? face_settings_.mask[n] : body_settings_.mask[n];
-      if (!coded) continue;
-      const std::int64_t step =
-          kFace ? step_of(face_settings_, number) : step_of(body_settings_, number);
-      const std::int64_t change = levels[n] * step;
+      if (!settings.mask[n]) continue;
+      const std::int64_t change = levels[n] * step_of(settings, number);
       if (plane.intra) {
         Frequencies flat;
         flat.reset(family.range[fba::kIntraMax][n] + family.range[fba::kIntraMin][n] + 1);

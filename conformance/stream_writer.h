@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "codec/syntax/plane.h"
@@ -25,6 +26,9 @@ enum High : std::uint8_t {
   kIntensity2,
   kHighCount
 };
+
+/// True for a viseme or expression that is chosen: these are not quantised.
+bool is_selection(int which);
 
 /// The start code in front of a plane, if any.
 enum class StartCode : std::uint8_t { none, plane, old_plane };
@@ -74,6 +78,12 @@ struct Expected {
 /// a decoder then takes it for the end (codec/bitstream.md, section 1), and an encoder must not
 /// write it. Planes behind a plane start code cannot be mistaken. `bit` holds the stream.
 bool looks_like_the_end(const std::vector<std::uint8_t>& bit, std::size_t plane_begin);
+
+/// True if 22 zeros stand within the 14 bits that a decoder looks ahead behind a segment: those
+/// bits belong to the next field.
+bool zeros_behind_segment(const CoderTrace& trace, const std::vector<std::uint8_t>& bit);
+/// True if a start code prefix stands at a byte border between two bits of a stream.
+bool start_code_inside(std::span<const std::uint8_t> bytes, std::size_t begin, std::size_t end);
 
 /// Writes planes behind an object start code.
 class StreamWriter {
@@ -126,15 +136,13 @@ class StreamWriter {
   void face_header(const PlaneSpec& plane);
   void body_header(const PlaneSpec& plane);
   template <class Settings>
-  void write_ranges(const PlaneSpec& plane, const Settings& settings,
-                    const std::vector<std::vector<int>>& groups);
+  void write_ranges(const PlaneSpec& plane, const Settings& settings);
   template <class Settings>
-  void install(Family& family, const Settings& settings,
-               const std::vector<std::vector<int>>& groups, int divisor);
+  void install(Family& family, const Settings& settings);
   void write_high(const PlaneSpec& plane, int first, int last);
-  template <class Levels>
-  void write_values(const PlaneSpec& plane, Family& family,
-                    const std::vector<std::vector<int>>& groups, const Levels& levels);
+  template <class Settings, class Levels>
+  void write_values(const PlaneSpec& plane, Family& family, const Settings& settings,
+                    const Levels& levels);
 
   Bits bits_;
   CoderTrace trace_;

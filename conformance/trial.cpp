@@ -25,18 +25,11 @@ Trial decode_all(std::span<const std::uint8_t> bytes) {
 }
 
 std::string kind_of_error(Code code) {
-  switch (code) {
-    case Code::syntax:
-      return "syntax";
-    case Code::truncated:
-      return "truncated";
-    case Code::unsupported:
-      return "unsupported";
-    case Code::out_of_range:
-      return "out_of_range";
-    default:
-      return "other";
-  }
+  return code == Code::syntax         ? "syntax"
+         : code == Code::truncated    ? "truncated"
+         : code == Code::unsupported  ? "unsupported"
+         : code == Code::out_of_range ? "out_of_range"
+                                      : "other";
 }
 
 void set_switches(std::span<const std::uint8_t> bytes, const fba::DecodedStream& decoded,

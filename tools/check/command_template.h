@@ -2,7 +2,6 @@
 /// A foreign program given as a command line with places for files.
 #pragma once
 
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -191,8 +191,7 @@ std::string json_report(const Suite& suite, const std::vector<CaseResult>& resul
       json["features"][id] = {{"cases", count.cases}, {"right", count.right}};
     }
   }
-  json["results"] = Json::array();
-  for (const CaseResult& result : results) json["results"].push_back(to_json(result));
+  json["results"] = json_list(results, to_json);
   // What foreign programs print need not be UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -35,10 +35,14 @@ RunFiles files_of(const fs::path& scratch, std::size_t i, const SuiteCase& one,
   return files;
 }
 
-std::string text_or_nothing(const SuiteCase& one, const char* role) {
+std::string path_of(const SuiteCase& one, const char* role) {
   const auto found = one.path.find(role);
-  if (found == one.path.end()) return {};
-  Result<std::string> text = read_text_file(found->second.string());
+  return found == one.path.end() ? std::string() : found->second.string();
+}
+
+// Empty if there is no such file.
+std::string small_file(const std::string& path) {
+  Result<std::string> text = read_text_file(path);
   return text ? *text : std::string();
 }
 
@@ -60,9 +64,9 @@ int run_own(const SuiteCase& one, const RunFiles& files, bool encode) {
 
   Case info = one.info;
   if (!one.described) conformance::set_switches(*bytes, trial.stream, info);
-  const auto again = conformance::encode_again(info, text_or_nothing(one, "parameters"),
-                                               text_or_nothing(one, "source_face"),
-                                               text_or_nothing(one, "source_body"));
+  const auto text = [&](const char* role) { return small_file(path_of(one, role)); };
+  const auto again =
+      conformance::encode_again(info, text("parameters"), text("source_face"), text("source_body"));
   std::string said = "same";
   if (!again) {
     said = again.error().describe();
@@ -83,11 +87,6 @@ std::string last_line(const std::string& text) {
   return last.size() > 200 ? last.substr(0, 200) + "..." : last;
 }
 
-std::string small_file(const std::string& path) {
-  Result<std::string> text = read_text_file(path);
-  return text ? *text : std::string();
-}
-
 // A text of values; no such file, or an empty one, is a clip without frames.
 Result<CodedClip> read_clip(const std::string& path, bool body) {
   CodedClip none;
@@ -101,16 +100,9 @@ Result<CodedClip> read_clip(const std::string& path, bool body) {
     if (!clip) return clip.error();
     return coded_values(*clip);
   }
-  fap::ReadTextOptions options;
-  options.keep_numbers = true;
-  Result<fap::Sequence> clip = fap::read_text(*text, options);
+  Result<fap::Sequence> clip = fap::read_text(*text, {.keep_numbers = true});
   if (!clip) return clip.error();
   return coded_values(*clip);
-}
-
-std::string path_of(const SuiteCase& one, const char* role) {
-  const auto found = one.path.find(role);
-  return found == one.path.end() ? std::string() : found->second.string();
 }
 
 // Judges what a decoder has left behind.

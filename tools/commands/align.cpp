@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <memory>
 
 #include "dam/script/script.h"
 #include "tools/commands/command.h"
@@ -33,15 +32,13 @@ Result<int> run(const AlignOptions& options) {
   return kOk;
 }
 
-Action add_align(CLI::App& app) {
-  auto options = std::make_shared<AlignOptions>();
-  app.add_option("--audio", options->audio, "Recorded voice in any format that FFmpeg reads")
+void add_options(CLI::App& app, AlignOptions& options) {
+  app.add_option("--audio", options.audio, "Recorded voice in any format that FFmpeg reads")
       ->required();
-  app.add_option("--transcript", options->transcript, "What is said in it")->required();
-  app.add_option("--lang", options->language, "Language of the transcript")->capture_default_str();
-  app.add_option("-o,--output", options->output, "Script to write: .TextGrid (Praat) or .tsv")
+  app.add_option("--transcript", options.transcript, "What is said in it")->required();
+  app.add_option("--lang", options.language, "Language of the transcript")->capture_default_str();
+  app.add_option("-o,--output", options.output, "Script to write: .TextGrid (Praat) or .tsv")
       ->required();
-  return [options] { return run(*options); };
 }
 
 }  // namespace
@@ -50,6 +47,6 @@ const Command kAlign{"align", "Find the timed phones of a recording from its tex
                      "  animeme align --audio voice.wav --transcript \"what she said\" "
                      "-o voice.TextGrid\n"
                      "  animeme align --audio voice.mp3 --transcript \"what she said\" -o - -q",
-                     add_align};
+                     set_up<AlignOptions>};
 
 }  // namespace animeme::tools

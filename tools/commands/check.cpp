@@ -1,7 +1,6 @@
 #include <fnmatch.h>
 #include <CLI/CLI.hpp>
 
-#include <memory>
 #include <thread>
 
 #include "tools/check/report.h"
@@ -102,31 +101,28 @@ Result<int> run(const CheckOptions& options) {
   return sum.all_right() ? kOk : kCheckFailed;
 }
 
-Action add_check(CLI::App& app) {
-  auto options = std::make_shared<CheckOptions>();
-  app.add_option("place", options->place,
+void add_options(CLI::App& app, CheckOptions& options) {
+  app.add_option("place", options.place,
                  "Folder of cases (conformance), a .tar.xz of them, or a folder of X.fba with "
                  "X.dec.fap or X.dec.bap")
       ->required();
-  app.add_option("--decoder", options->decoder,
+  app.add_option("--decoder", options.decoder,
                  "Another decoder: its command with {in} {out} {bap} for the files; without {out} "
                  "standard output is read. No shell is run");
-  app.add_option("--filter", options->filters,
+  app.add_option("--filter", options.filters,
                  "Cases whose name or one of whose features contains this, or matches it with * ? "
                  "[]; may be given again");
-  app.add_option("--timeout", options->timeout, "Seconds for one case")
+  app.add_option("--timeout", options.timeout, "Seconds for one case")
       ->check(CLI::Range(0.01, 86400.0))
       ->capture_default_str();
-  app.add_option("--jobs", options->jobs, "Cases at once; 0: one for each processor core")
+  app.add_option("--jobs", options.jobs, "Cases at once; 0: one for each processor core")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
-  app.add_flag("--no-encode", options->no_encode,
+  app.add_flag("--no-encode", options.no_encode,
                "Only decode; do not write the streams again from their parameters");
-  app.add_flag("--coverage", options->coverage,
-               "Run nothing, print which features the cases cover");
-  app.add_option("--json", options->json, "Results as JSON to this file, - for standard output");
-  app.add_option("--junit", options->junit, "Results as JUnit XML to this file");
-  return [options] { return run(*options); };
+  app.add_flag("--coverage", options.coverage, "Run nothing, print which features the cases cover");
+  app.add_option("--json", options.json, "Results as JSON to this file, - for standard output");
+  app.add_option("--junit", options.junit, "Results as JUnit XML to this file");
 }
 
 }  // namespace
@@ -138,6 +134,6 @@ const Command kCheck{"check",
                      "  animeme check conformance --decoder \"mydecoder {in} {out} {bap}\"\n"
                      "  animeme check conformance --decoder \"mydecoder --fap {in}\" --filter "
                      "'range*' --json results.json",
-                     add_check};
+                     set_up<CheckOptions>};
 
 }  // namespace animeme::tools

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "fap/result.h"
@@ -17,6 +18,15 @@ namespace animeme::tools {
 /// A command puts its options into `app` and returns what is to run when it was chosen: the exit
 /// code, or an error that main() prints (exit code 3).
 using Action = std::function<Result<int>()>;
+
+/// Command::add of most: makes the options, adds them by add_options(app, options), and runs
+/// run(options). Both functions stand beside the command.
+template <class Options>
+Action set_up(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  add_options(app, *options);
+  return [options] { return run(*options); };
+}
 
 /// One command: its name, one line of help, and the function that sets it up. `examples` ends
 /// its --help.

@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <memory>
 
 #include "tools/commands/common.h"
 #include "tools/inspect/comparison.h"
@@ -64,15 +63,13 @@ Result<int> run(const CompareOptions& options) {
   return accepted(comparison.face) && accepted(comparison.body) ? kOk : kCheckFailed;
 }
 
-Action add_compare(CLI::App& app) {
-  auto options = std::make_shared<CompareOptions>();
-  app.add_option("a", options->a, "FAP or BAP text, FBA stream or container")->required();
-  app.add_option("b", options->b, "The same or another form")->required();
-  app.add_option("--max-rms", options->max_rms,
+void add_options(CLI::App& app, CompareOptions& options) {
+  app.add_option("a", options.a, "FAP or BAP text, FBA stream or container")->required();
+  app.add_option("b", options.b, "The same or another form")->required();
+  app.add_option("--max-rms", options.max_rms,
                  "Accept up to this error, in quantiser steps RMS over all FAPs, and over all BAPs")
       ->check(CLI::NonNegativeNumber);
-  app.add_flag("--json", options->json, "Machine-readable result");
-  return [options] { return run(*options); };
+  app.add_flag("--json", options.json, "Machine-readable result");
 }
 
 }  // namespace
@@ -82,6 +79,6 @@ const Command kCompare{
     "  animeme compare talk.fap talk.fba\n"
     "  animeme compare body.bap dance.fba\n"
     "  animeme compare before.fap after.fap --max-rms 0.5 --json",
-    add_compare};
+    set_up<CompareOptions>};
 
 }  // namespace animeme::tools

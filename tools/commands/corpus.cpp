@@ -1,21 +1,13 @@
 #include "tools/commands/corpus.h"
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 
 #include "dam/signal/fap_signal.h"
+#include "tools/commands/fap_names.h"
 
 namespace animeme::tools {
 
 namespace {
-
-// A FAP number 3..68, 0 if the text is none.
-int fap_number(std::string_view text) {
-  int value = 0;
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole = status == std::errc() && end == text.data() + text.size();
-  return whole && value >= fap::kFirstLowLevel && value <= fap::kFapCount ? value : 0;
-}
 
 Result<dam::CorpusOptions> corpus_options(const CorpusSettings& settings) {
   Result<std::vector<std::string>> names = control_names(settings.controls);

@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <memory>
 
 #include "codec/decode/fill.h"
 #include "fap/fill.h"
@@ -83,16 +82,14 @@ Result<int> run(const DecodeOptions& options) {
   return kOk;
 }
 
-Action add_decode(CLI::App& app) {
-  auto options = std::make_shared<DecodeOptions>();
-  app.add_option("input", options->input, "FBA stream, or an mp4, mkv or ts file with one")
+void add_options(CLI::App& app, DecodeOptions& options) {
+  app.add_option("input", options.input, "FBA stream, or an mp4, mkv or ts file with one")
       ->required();
-  app.add_option("-o,--output", options->output, "FAP text to write, - for standard output");
-  app.add_option("--bap", options->bap, "BAP text with the body to write, - for standard output");
-  app.add_flag("--fill", options->fill,
+  app.add_option("-o,--output", options.output, "FAP text to write, - for standard output");
+  app.add_option("--bap", options.bap, "BAP text with the body to write, - for standard output");
+  app.add_flag("--fill", options.fill,
                "Resolve held, mirrored and skipped values, for players that want every FAP; those "
                "that a stream never codes are at rest, 0");
-  return [options] { return run(*options); };
 }
 
 }  // namespace
@@ -102,6 +99,6 @@ const Command kDecode{"decode",
                       "  animeme decode talk.mp4 -o talk.fap\n"
                       "  animeme decode dance.fba -o face.fap --bap body.bap\n"
                       "  animeme decode talk.fba --fill -o - | head -4",
-                      add_decode};
+                      set_up<DecodeOptions>};
 
 }  // namespace animeme::tools

@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <memory>
 
 #include "codec/decode/access_unit.h"
 #include "tools/commands/common.h"
@@ -65,15 +64,13 @@ Result<int> run(const DemuxOptions& options) {
   return kOk;
 }
 
-Action add_demux(CLI::App& app) {
-  auto options = std::make_shared<DemuxOptions>();
-  app.add_option("input", options->input, "mp4, mkv, ts, m3u8 or mpd file with a face")->required();
-  app.add_option("--face", options->face, "Raw FBA stream to write, - for standard output");
-  app.add_option("--audio", options->audio, "Sound to write: .wav, or .m4a and others as it is");
-  app.add_flag("--es-headers", options->headers,
+void add_options(CLI::App& app, DemuxOptions& options) {
+  app.add_option("input", options.input, "mp4, mkv, ts, m3u8 or mpd file with a face")->required();
+  app.add_option("--face", options.face, "Raw FBA stream to write, - for standard output");
+  app.add_option("--audio", options.audio, "Sound to write: .wav, or .m4a and others as it is");
+  app.add_flag("--es-headers", options.headers,
                "Begin the stream with its visual object headers (old decoders want none)");
-  app.add_flag("--json", options->json, "Machine-readable summary on standard output");
-  return [options] { return run(*options); };
+  app.add_flag("--json", options.json, "Machine-readable summary on standard output");
 }
 
 }  // namespace
@@ -82,6 +79,6 @@ const Command kDemux{"demux", "Take face and voice out of a file",
                      "  animeme demux talk.mp4 --face talk.fba --audio voice.m4a\n"
                      "  animeme demux talk.m3u8 --audio voice.wav\n"
                      "  animeme demux talk.mkv --face - | animeme decode - -o talk.fap",
-                     add_demux};
+                     set_up<DemuxOptions>};
 
 }  // namespace animeme::tools

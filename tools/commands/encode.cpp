@@ -5,13 +5,12 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <memory>
-#include <nlohmann/json.hpp>
 
 #include "codec/encode/live.h"
 #include "codec/text/epf.h"
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
+#include "tools/json.h"
 #include "tools/text.h"
 
 namespace animeme::tools {
@@ -223,20 +222,20 @@ void tell(const EncodeOptions& options, const Bytes& bytes, const fba::EncodeRep
                 options.kbps));
   }
   if (!options.json) return;
-  nlohmann::ordered_json json = {{"planes", outcome.planes},
-                                 {"intra_planes", outcome.intra_planes},
-                                 {"bytes", bytes.size()},
-                                 {"kbit_per_s", outcome.kbps}};
+  Json json = {{"planes", outcome.planes},
+               {"intra_planes", outcome.intra_planes},
+               {"bytes", bytes.size()},
+               {"kbit_per_s", outcome.kbps}};
   if (report.planes > 0) {
-    json.update(nlohmann::ordered_json{{"fap_quant", report.fap_quant},
-                                       {"bap_quant", report.bap_quant},
-                                       {"rms", report.rms},
-                                       {"rms_other", report.rms_other},
-                                       {"coded", report.coded},
-                                       {"mirrored", report.mirrored},
-                                       {"left_out", report.left_out},
-                                       {"stilled", report.stilled},
-                                       {"skipped", report.skipped}});
+    json.update(Json{{"fap_quant", report.fap_quant},
+                     {"bap_quant", report.bap_quant},
+                     {"rms", report.rms},
+                     {"rms_other", report.rms_other},
+                     {"coded", report.coded},
+                     {"mirrored", report.mirrored},
+                     {"left_out", report.left_out},
+                     {"stilled", report.stilled},
+                     {"skipped", report.skipped}});
   }
   std::printf("%s\n", json.dump(2).c_str());
 }
@@ -287,52 +286,50 @@ Result<int> run(const EncodeOptions& given) {
   return kOk;
 }
 
-Action add_encode(CLI::App& app) {
-  auto options = std::make_shared<EncodeOptions>();
-  app.add_option("input", options->input, "FAP text (also .fba or a container, to code it anew)");
-  app.add_option("--bap", options->bap, "BAP text (or a stream) with the body");
-  app.add_option("-o,--output", options->output, "FBA stream to write, - for standard output")
+void add_options(CLI::App& app, EncodeOptions& options) {
+  app.add_option("input", options.input, "FAP text (also .fba or a container, to code it anew)");
+  app.add_option("--bap", options.bap, "BAP text (or a stream) with the body");
+  app.add_option("-o,--output", options.output, "FBA stream to write, - for standard output")
       ->required();
-  app.add_option("--epf", options->epf,
+  app.add_option("--epf", options.epf,
                  "Encoder parameter file: every decision comes from it, the bytes are determined");
   const std::map<std::string, Preset> presets = {{"plain", Preset::plain},
                                                  {"file", Preset::file},
                                                  {"live", Preset::live},
                                                  {"exact", Preset::exact}};
-  app.add_option("--preset", options->preset,
+  app.add_option("--preset", options.preset,
                  "plain: all that the clip has, in every plane (the default)\n"
                  "file: the smallest stream; FAPs at rest are left out, right sides that equal "
                  "their left ones are left to the decoder (decode --fill shows them)\n"
                  "live: one plane in, one plane out, for senders\n"
                  "exact: as --epf says (the default with --epf)")
       ->transform(CLI::CheckedTransformer(presets).description(""));
-  app.add_option("--rms", options->rms,
+  app.add_option("--rms", options.rms,
                  "file: fewest bits with at most this error, FAP units RMS over the FAPs that "
                  "move (half quantiser steps for angles and bodies); 2 is not visible")
       ->check(CLI::Range(0.0, 1e6));
-  app.add_option("--kbps", options->kbps, "file: smallest error at this rate, kbit/s")
+  app.add_option("--kbps", options.kbps, "file: smallest error at this rate, kbit/s")
       ->check(CLI::Range(0.0, 1e6));
-  app.add_option("--still-below", options->still_below,
+  app.add_option("--still-below", options.still_below,
                  "file: FAPs that move by less than this altogether are held still, FAP units")
       ->check(CLI::Range(0.0, 1e6));
-  app.add_flag("--skip-still", options->skip_still,
+  app.add_flag("--skip-still", options.skip_still,
                "file: do not send planes in which nothing moves (receivers hold the one before)");
-  app.add_option("--quant", options->quant,
+  app.add_option("--quant", options.quant,
                  "Quantiser of face and body; 1 (the default) is not visible, 0 lossless up to "
                  "+-1860")
       ->check(CLI::Range(0, 31));
-  app.add_option("--intra-period", options->intra_period,
+  app.add_option("--intra-period", options.intra_period,
                  "Intra plane every N planes for random access; 0: only where needed (live: 50)")
       ->check(CLI::NonNegativeNumber);
   const std::map<std::string, fba::PlaneStartCodes> names = {{"none", fba::PlaneStartCodes::none},
                                                              {"intra", fba::PlaneStartCodes::intra},
                                                              {"all", fba::PlaneStartCodes::all}};
-  app.add_option("--plane-start-codes", options->start_codes,
+  app.add_option("--plane-start-codes", options.start_codes,
                  "Planes that get a start code: none, intra or all")
       ->transform(CLI::CheckedTransformer(names).description(""));
-  app.add_flag("--json", options->json, "What was written and chosen, machine-readable");
-  app.add_flag("--old-codes", options->old_codes, "Write plane start codes of the 1999 edition");
-  return [options] { return run(*options); };
+  app.add_flag("--json", options.json, "What was written and chosen, machine-readable");
+  app.add_flag("--old-codes", options.old_codes, "Write plane start codes of the 1999 edition");
 }
 
 }  // namespace
@@ -346,6 +343,6 @@ const Command kEncode{
     "  animeme encode talk.fap --quant 4 --intra-period 50 --plane-start-codes intra -o talk.fba\n"
     "  animeme encode talk.fap --epf talk.epf -o talk.fba\n"
     "  animeme encode face.fap --bap body.bap -o both.fba",
-    add_encode};
+    set_up<EncodeOptions>};
 
 }  // namespace animeme::tools

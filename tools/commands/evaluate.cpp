@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <optional>
 
 #include "tools/commands/corpus.h"
@@ -254,35 +253,33 @@ void add_thresholds(CLI::App& app, EvaluateOptions& options) {
       ->check(CLI::NonNegativeNumber);
 }
 
-Action add_evaluate(CLI::App& app) {
-  auto options = std::make_shared<EvaluateOptions>();
-  app.add_option("model", options->system, "Model file, or 'builtin'")->required();
-  app.add_option("corpus", options->corpus.folder, "Corpus folder, see train");
-  app.add_option("--tracks", options->tracks,
+void add_options(CLI::App& app, EvaluateOptions& options) {
+  app.add_option("model", options.system, "Model file, or 'builtin'")->required();
+  app.add_option("corpus", options.corpus.folder, "Corpus folder, see train");
+  app.add_option("--tracks", options.tracks,
                  "Folder with ID.csv or ID.fap of another system, in place of the model");
-  app.add_option("--split", options->corpus.split, "Use these rows only, e.g. test");
-  add_corpus_options(app, options->corpus);
-  app.add_option("--seen-split", options->seen_split,
+  app.add_option("--split", options.corpus.split, "Use these rows only, e.g. test");
+  add_corpus_options(app, options.corpus);
+  app.add_option("--seen-split", options.seen_split,
                  "Rows the model was trained on: tells seen from unseen contexts");
-  app.add_option("--closed-gap", options->evaluate.score.closed_gap,
+  app.add_option("--closed-gap", options.evaluate.score.closed_gap,
                  "Inner gap below which lips count as closed, FAP units")
       ->capture_default_str();
-  app.add_flag("--no-closure", options->no_closure, "Leave out the closure of P, B and M");
-  app.add_option("--against", options->against,
+  app.add_flag("--no-closure", options.no_closure, "Leave out the closure of P, B and M");
+  app.add_option("--against", options.against,
                  "A second model or folder of tracks: difference with its interval");
-  app.add_option("--draws", options->draws, "Draws of the bootstrap over sentences")
+  app.add_option("--draws", options.draws, "Draws of the bootstrap over sentences")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   CLI::Option* codec =
-      app.add_flag("--codec", options->codec, "Error of the codec apart, and its bit rate");
-  add_coding_options(app, options->stream);
+      app.add_flag("--codec", options.codec, "Error of the codec apart, and its bit rate");
+  add_coding_options(app, options.stream);
   for (const char* name : {"--quant", "--rms", "--kbps"}) app.get_option(name)->needs(codec);
-  app.add_option("--picture", options->picture,
+  app.add_option("--picture", options.picture,
                  "Curves of the best, median and worst sentence, .svg or .png");
-  add_thresholds(app, *options);
-  app.add_flag("--full", options->full, "Tables by control, phoneme, viseme, class and sentence");
-  app.add_flag("--json", options->json, "Machine-readable result, with everything");
-  return [options] { return run(*options); };
+  add_thresholds(app, options);
+  app.add_flag("--full", options.full, "Tables by control, phoneme, viseme, class and sentence");
+  app.add_flag("--json", options.json, "Machine-readable result, with everything");
 }
 
 }  // namespace
@@ -293,6 +290,6 @@ const Command kEvaluate{
     "  animeme evaluate a.dam grid_s1 --split test --against b.dam\n"
     "  animeme evaluate --tracks theirs grid_s1 --split test --json\n"
     "  animeme evaluate a.dam grid_s1 --split test --codec --kbps 2 --max-nrmse 0.6",
-    add_evaluate};
+    set_up<EvaluateOptions>};
 
 }  // namespace animeme::tools

@@ -1,15 +1,14 @@
 // Motion for other programs: what they know are ARKit's shapes, visemes, mouth shapes or glTF.
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <memory>
+#include <filesystem>
 
 #include "fap/fill.h"
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
-#include "tools/commands/export_glb.h"
 #include "tools/commands/head_options.h"
 #include "tools/exchange/arkit.h"
 #include "tools/exchange/visemes.h"
+#include "tools/gltf/glb.h"
 
 namespace animeme::tools {
 
@@ -23,7 +22,9 @@ struct ExportOptions {
   std::string script;
   std::string rate = "25";
   double crossfade = 0.08;
-  GlbExport glb;
+  studio::HeadChoice head;
+  std::string morphs = "arkit";
+  bool normals = false;
   std::vector<const CLI::Option*> of_scripts;  // options that are for visemes of scripts alone
   std::vector<const CLI::Option*> of_heads;    // for .glb alone
 };
@@ -103,11 +104,22 @@ Result<int> write_arkit(const ExportOptions& options, std::vector<std::uint8_t> 
 Result<int> write_head(const ExportOptions& options, std::vector<std::uint8_t> bytes) {
   const Result<fap::Sequence> clip = read_filled(options, std::move(bytes), false);
   if (!clip) return clip.error();
-  GlbExport settings = options.glb;
+  const Result<head::Head> head = studio::load_head(options.head, talk());
+  if (!head) return head.error();
+  ProgressLine progress("exporting");
+  gltf::GlbOptions settings;
+  settings.morphs = options.morphs == "fap" ? gltf::MorphNames::fap : gltf::MorphNames::arkit;
   settings.audio = std::filesystem::path(options.audio).filename().string();
-  if (auto written = export_glb(options.output, *clip, settings); !written) {
-    return written.error();
-  }
+  settings.normals = options.normals;
+  settings.name = std::filesystem::path(options.output).stem().string();
+  settings.progress = [&](double done) { progress.update(done); };
+  const auto file = gltf::make_glb(*head, head::make_rig(*head), *clip, settings);
+  if (!file) return file.error();
+  if (auto written = write_file(options.output, *file); !written) return written.error();
+  progress.clear();
+  say(options.output + ": head \"" + head->name + "\", " + std::to_string(clip->frames.size()) +
+      " keys, " + fap::format_rate(clip->rate) + " a second, " +
+      std::to_string(file->size() / 1000) + " kB");
   return kOk;
 }
 
@@ -188,7 +200,7 @@ Result<int> run(const ExportOptions& options) {
                         "its visemes")
           .in_file(options.input);
     }
-    if (const std::string problem = studio::problem_of(options.glb.head);
+    if (const std::string problem = studio::problem_of(options.head);
         what == "head" && !problem.empty()) {
       return usage_error(problem);
     }
@@ -200,51 +212,45 @@ Result<int> run(const ExportOptions& options) {
   return write_visemes(options, what, std::move(*track));
 }
 
-void add_glb_options(CLI::App& app, GlbExport& glb) {
-  add_head_options(app, glb.head);
-  app.add_option("--morphs", glb.morphs,
-                 "glb: morph targets by the names of ARKit (jawOpen ...) or of FAPs (open_jaw ...)")
-      ->check(CLI::IsMember({"arkit", "fap"}))
-      ->capture_default_str();
-  app.add_flag("--normals", glb.normals,
-               "glb: normals of the morph targets, for players that do not compute them");
-}
-
-Action add_export(CLI::App& app) {
-  auto options = std::make_shared<ExportOptions>();
-  app.add_option("input", options->input,
+void add_options(CLI::App& app, ExportOptions& options) {
+  app.add_option("input", options.input,
                  "FAP text, FBA stream or container; for visemes also a phoneme script (TSV, "
                  "TextGrid)")
       ->required();
-  app.add_option("-o,--output", options->output,
+  app.add_option("-o,--output", options.output,
                  "File to write: .csv (Live Link Face: Unreal, Blender, Maya), .json (the same "
                  "curves for scripts), .glb (a head with morph targets and animation), "
                  ".visemes.json or .visemes.csv (15 weights a frame under "
                  "the names of Oculus and Ready Player Me), .tsv or .rhubarb.json (mouth shapes of "
                  "Rhubarb Lip Sync)")
       ->required();
-  app.add_option("--what", options->what,
+  app.add_option("--what", options.what,
                  "What to write, whatever the file is called: arkit (52 shapes and 9 angles), "
                  "visemes, rhubarb, head (.glb)")
       ->check(CLI::IsMember({"arkit", "visemes", "rhubarb", "head"}));
-  app.add_option("--audio", options->audio, "Name of the sound to mention in .json and .glb");
-  app.add_option("--script", options->script,
+  app.add_option("--audio", options.audio, "Name of the sound to mention in .json and .glb");
+  app.add_option("--script", options.script,
                  "Phoneme script of the face: the events of visemes are its sounds; without it, "
                  "what the face shows most");
-  app.add_option("--rate", options->rate, "Frames a second of visemes of a script")
+  app.add_option("--rate", options.rate, "Frames a second of visemes of a script")
       ->capture_default_str();
-  app.add_option("--crossfade", options->crossfade,
+  app.add_option("--crossfade", options.crossfade,
                  "Seconds that one viseme of a script takes to fade into the next, at most")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1.0));
-  add_glb_options(app, options->glb);
+  add_head_options(app, options.head);
+  app.add_option("--morphs", options.morphs,
+                 "glb: morph targets by the names of ARKit (jawOpen ...) or of FAPs (open_jaw ...)")
+      ->check(CLI::IsMember({"arkit", "fap"}))
+      ->capture_default_str();
+  app.add_flag("--normals", options.normals,
+               "glb: normals of the morph targets, for players that do not compute them");
   for (const char* name : {"--rate", "--crossfade"}) {
-    options->of_scripts.push_back(app.get_option(name));
+    options.of_scripts.push_back(app.get_option(name));
   }
   for (const char* name : {"--head", "--points", "--morphs", "--normals"}) {
-    options->of_heads.push_back(app.get_option(name));
+    options.of_heads.push_back(app.get_option(name));
   }
-  return [options] { return run(*options); };
 }
 
 }  // namespace
@@ -265,6 +271,6 @@ const Command kExport{
     "  const frame = track.frames[Math.min(Math.floor(t * track.fps), track.frames.length - 1)];\n"
     "  track.names.forEach((name, i) =>\n"
     "    mesh.morphTargetInfluences[mesh.morphTargetDictionary[name]] = frame[i]);",
-    add_export};
+    set_up<ExportOptions>};
 
 }  // namespace animeme::tools

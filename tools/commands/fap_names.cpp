@@ -1,7 +1,6 @@
 #include "tools/commands/fap_names.h"
 
 #include <charconv>
-#include <string_view>
 
 #include "fap/frame.h"
 #include "fap/tables.h"
@@ -10,17 +9,20 @@ namespace animeme::tools {
 
 namespace {
 
-// 0 if it is no low-level FAP.
+// By number or name; 0 if it is no low-level FAP.
 int number_of(std::string_view name) {
-  int number = fap::find_fap(name).value_or(0);
-  if (number == 0) {
-    const char* end = name.data() + name.size();
-    if (std::from_chars(name.data(), end, number).ptr != end) return 0;
-  }
-  return number >= fap::kFirstLowLevel && number <= fap::kFapCount ? number : 0;
+  const int number = fap::find_fap(name).value_or(fap_number(name));
+  return number >= fap::kFirstLowLevel ? number : 0;
 }
 
 }  // namespace
+
+int fap_number(std::string_view text) {
+  int value = 0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = status == std::errc() && end == text.data() + text.size();
+  return whole && value >= fap::kFirstLowLevel && value <= fap::kFapCount ? value : 0;
+}
 
 Result<std::vector<int>> fap_numbers(const std::vector<std::string>& names) {
   std::vector<int> numbers;

@@ -2,7 +2,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
-#include <memory>
 #include <sstream>
 
 #include "dam/script/phones.h"
@@ -48,15 +47,11 @@ bool is_to_be_skipped(const std::string& text) {
   return first == std::string::npos || text[first] == '#' || text.compare(first, 5, "start") == 0;
 }
 
-/// False if nobody reads any more.
-bool print_rows(const dam::Signal& signal) {
+Result<void> print_rows(const dam::Signal& signal) {
   for (std::size_t frame = 0; frame < signal.frames(); ++frame) {
     std::fputs(exchange::write_curve_row(signal, frame).c_str(), stdout);
   }
-  return std::fflush(stdout) == 0;
-}
-
-Error broken() {
+  if (std::fflush(stdout) == 0) return {};
   return make_error(Code::io, "the curves cannot be written: nobody reads standard output");
 }
 
@@ -81,27 +76,25 @@ Result<int> run(const FollowOptions& options) {
     if (auto ok = stream.push(*phone); !ok) return in_line(line, ok.error().message);
     Result<dam::Signal> signal = stream.pull();
     if (!signal) return signal.error();
-    if (!print_rows(*signal)) return broken();
+    if (auto ok = print_rows(*signal); !ok) return ok.error();
   }
   Result<dam::Signal> signal = stream.finish();
   if (!signal) return signal.error();
-  if (!print_rows(*signal)) return broken();
+  if (auto ok = print_rows(*signal); !ok) return ok.error();
   return kOk;
 }
 
-Action add_follow(CLI::App& app) {
-  auto options = std::make_shared<FollowOptions>();
-  app.add_option("--model", options->model, "Model file of a character; default: the built-in one");
-  app.add_option("--rate", options->rate, "Frames a second: 25, 29.97, 60 ...")
+void add_options(CLI::App& app, FollowOptions& options) {
+  app.add_option("--model", options.model, "Model file of a character; default: the built-in one");
+  app.add_option("--rate", options.rate, "Frames a second: 25, 29.97, 60 ...")
       ->capture_default_str();
-  app.add_option("--style", options->style, "Intensity, 0 to 1.5")
+  app.add_option("--style", options.style, "Intensity, 0 to 1.5")
       ->check(CLI::Range(0.0, dam::kMostStyle))
       ->capture_default_str();
-  app.add_option("--look-ahead", options->look_ahead,
+  app.add_option("--look-ahead", options.look_ahead,
                  "Seconds of phones to wait for before a frame is given out; default: as many as "
                  "make it final (about half a second)")
       ->check(CLI::Range(0.0, 60.0));
-  return [options] { return run(*options); };
 }
 
 }  // namespace
@@ -110,6 +103,6 @@ const Command kFollow{
     "follow", "Speak while the phones are still coming: timed phones in, curves out, line by line",
     "  my_tts --phones | animeme follow --model me.dam | my_player\n"
     "  printf '0 0.3 SIL\\n0.3 0.42 HH\\n0.42 0.6 AY\\n' | animeme follow --look-ahead 0.1",
-    add_follow};
+    set_up<FollowOptions>};
 
 }  // namespace animeme::tools

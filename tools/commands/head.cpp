@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
-#include <memory>
 #include <set>
 
 #include "fap/head/obj.h"
@@ -69,8 +68,6 @@ Json describe(const studio::LoadedHead& loaded, const head::Rig& rig) {
     const head::Vec3 p = head.at(id);
     points[id] = {p.x, p.y, p.z};
   }
-  Json shapes = Json::array();
-  for (const head::ShapeControl& shape : head.shapes) shapes.push_back(shape.name);
   return {{"name", head.name},
           {"parts", parts},
           {"fapu_cm",
@@ -82,7 +79,7 @@ Json describe(const studio::LoadedHead& loaded, const head::Rig& rig) {
           {"moved_by", !head.shapes.empty()    ? "shapes"
                        : !head.targets.empty() ? "targets"
                                                : "feature_points"},
-          {"shapes", shapes},
+          {"shapes", json_list(head.shapes, &head::ShapeControl::name)},
           {"feature_points_cm", points},
           {"missing_feature_points", missing},
           {"still_faps", still_faps(head, rig)},
@@ -200,16 +197,14 @@ Result<int> run(const HeadOptions& options) {
   return kOk;
 }
 
-Action add_head(CLI::App& app) {
-  auto options = std::make_shared<HeadOptions>();
-  app.add_option("head", options->head.head, kHeadHelp)->capture_default_str();
-  app.add_option("--points", options->head.points, kPointsHelp);
+void add_options(CLI::App& app, HeadOptions& options) {
+  app.add_option("head", options.head.head, kHeadHelp)->capture_default_str();
+  app.add_option("--points", options.head.points, kPointsHelp);
   app.add_option(
-      "-o,--output", options->output,
+      "-o,--output", options.output,
       "Write the head: .fdp (Xface; with its mesh, .wrl), .xmt (MPEG-4 scene with an FDP), "
       ".glb (with morph targets), .obj (with a list of feature points)");
-  app.add_flag("--json", options->json, "The same for scripts");
-  return [options] { return run(*options); };
+  app.add_flag("--json", options.json, "The same for scripts");
 }
 
 }  // namespace
@@ -228,6 +223,6 @@ const Command kHead{
     "chin 2.1 and 2.10, the nose 9.1-9.3 and 9.15, cheeks 5.1-5.4; further points\n"
     "make it better. Show the head with --head me.obj --points landmarks.csv in\n"
     "render, view and export.",
-    add_head};
+    set_up<HeadOptions>};
 
 }  // namespace animeme::tools

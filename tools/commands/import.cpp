@@ -2,7 +2,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 
 #include "fap/rate_text.h"
 #include "fap/text.h"
@@ -154,21 +153,19 @@ void add_landmark_options(CLI::App& app, ImportOptions& options) {
        "The picture was mirrored, as selfie cameras do: swap left and right");
 }
 
-Action add_import(CLI::App& app) {
-  auto options = std::make_shared<ImportOptions>();
-  app.add_option("input", options->input,
+void add_options(CLI::App& app, ImportOptions& options) {
+  app.add_option("input", options.input,
                  "Table (CSV) of ARKit blend shapes: of Live Link Face, or time_s and one column a "
                  "shape; or of landmarks: of OpenFace, 68 points (x_0, y_0 or landmark_0_x ...), "
                  "468 or 478 points of MediaPipe, or feature points (8.1_x, 8.1_y ...); - for "
                  "standard input")
       ->required();
-  app.add_option("-o,--output", options->output, "FAP text to write, - for standard output")
+  app.add_option("-o,--output", options.output, "FAP text to write, - for standard output")
       ->required();
-  app.add_option("--rate", options->rate,
+  app.add_option("--rate", options.rate,
                  "Frames a second of the clip, like 30 or 29.97; without it the times tell");
-  app.add_flag("--degrees", options->degrees, "Angles of head and eyes are degrees, not radians");
-  add_landmark_options(app, *options);
-  return [options] { return run(*options); };
+  app.add_flag("--degrees", options.degrees, "Angles of head and eyes are degrees, not radians");
+  add_landmark_options(app, options);
 }
 
 }  // namespace
@@ -180,6 +177,6 @@ const Command kImport{"import", "Turn a captured face (ARKit curves, landmarks) 
                       "  animeme import openface.csv -o take.fap\n"
                       "  animeme import openface.csv --flat --neutral 0.5-1.2s -o take.fap\n"
                       "  animeme import mediapipe.csv --size 1280x720 --mirrored -o take.fap",
-                      add_import};
+                      set_up<ImportOptions>};
 
 }  // namespace animeme::tools

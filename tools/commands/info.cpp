@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <memory>
 #include <optional>
 
 #include "codec/decode/decoder.h"
@@ -63,10 +62,12 @@ Result<Json> describe_media(const InfoOptions& options, std::span<const std::uin
   const bool playlist = is_playlist(bytes);
   Result<media::ContainerInfo> info = playlist ? media::probe(options.input) : media::probe(bytes);
   if (!info) return info.error();
-  Json tracks = Json::array();
-  for (const media::TrackInfo& track : info->tracks) tracks.push_back(describe_track(track));
-  Json json = {{"kind", "media"},           {"format", info->format}, {"bytes", info->bytes},
-               {"seconds", info->duration}, {"tracks", tracks},       {"warnings", info->warnings}};
+  Json json = {{"kind", "media"},
+               {"format", info->format},
+               {"bytes", info->bytes},
+               {"seconds", info->duration},
+               {"tracks", json_list(info->tracks, describe_track)},
+               {"warnings", info->warnings}};
   if (info->first(media::TrackKind::face) == nullptr) return json;
   Result<media::Container> container =
       playlist ? media::read_container(options.input) : media::read_container(bytes);
@@ -127,16 +128,14 @@ Result<int> run(const InfoOptions& options) {
   return kOk;
 }
 
-Action add_info(CLI::App& app) {
-  auto options = std::make_shared<InfoOptions>();
-  app.add_option("file", options->input,
+void add_options(CLI::App& app, InfoOptions& options) {
+  app.add_option("file", options.input,
                  "FAP or BAP text, FBA stream, container, sound, model or phoneme script")
       ->required();
-  app.add_flag("--json", options->json, "Machine-readable result");
+  app.add_flag("--json", options.json, "Machine-readable result");
   app.add_flag(
-      "--planes", options->planes,
+      "--planes", options.planes,
       "One line a plane: bit position, size, headers, masks, ranges (all of them with --json)");
-  return [options] { return run(*options); };
 }
 
 }  // namespace
@@ -144,6 +143,6 @@ Action add_info(CLI::App& app) {
 const Command kInfo{"info", "What a file holds",
                     "  animeme info talk.mp4\n"
                     "  animeme info talk.fba --planes --json",
-                    add_info};
+                    set_up<InfoOptions>};
 
 }  // namespace animeme::tools

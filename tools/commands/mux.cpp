@@ -2,8 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <memory>
-#include <optional>
 
 #include "tools/commands/common.h"
 #include "tools/commands/face_stream.h"
@@ -75,29 +73,27 @@ Result<int> run(MuxOptions options) {
   return write_preview(options.preview, *units, input);
 }
 
-Action add_mux(CLI::App& app) {
-  auto options = std::make_shared<MuxOptions>();
-  app.add_option("face", options->face, "FAP text, FBA stream, or a container with a face")
+void add_options(CLI::App& app, MuxOptions& options) {
+  app.add_option("face", options.face, "FAP text, FBA stream, or a container with a face")
       ->required();
-  app.add_option("audio", options->audio, "Sound in any format that FFmpeg reads")->required();
-  app.add_option("-o,--output", options->output,
+  app.add_option("audio", options.audio, "Sound in any format that FFmpeg reads")->required();
+  app.add_option("-o,--output", options.output,
                  "File to write: .mp4, .mkv, .ts; .m3u8 (HLS) or .mpd (DASH) with a "
                  "folder of segments beside it")
       ->required();
-  add_stream_options(app, options->stream);
-  add_sound_options(app, options->sound, true);
+  add_stream_options(app, options.stream);
+  add_sound_options(app, options.sound, true);
   CLI::Option* fragmented =
-      app.add_flag("--fragmented", options->mux.fragmented,
+      app.add_flag("--fragmented", options.mux.fragmented,
                    "mp4: in fragments, so that a reader can begin before the file is complete");
-  app.add_option("--fragment-seconds", options->mux.fragment_seconds,
+  app.add_option("--fragment-seconds", options.mux.fragment_seconds,
                  "Length of fragments and of segments (.m3u8, .mpd), seconds")
       ->check(CLI::Range(0.02, 600.0))
       ->capture_default_str();
-  app.add_flag("--systems", options->mux.systems,
+  app.add_flag("--systems", options.mux.systems,
                "mp4: add the scene and object streams of a complete MPEG-4 Systems presentation")
       ->excludes(fragmented);
-  add_preview_option(app, options->preview);
-  return [options] { return run(*options); };
+  add_preview_option(app, options.preview);
 }
 
 }  // namespace
@@ -110,6 +106,6 @@ const Command kMux{"mux", "Put a face and a voice into one file",
                    "  animeme mux talk.fba voice.wav --fragment-seconds 4 -o talk.m3u8\n"
                    "  animeme mux talk.fba voice.wav --systems -o scene.mp4\n"
                    "  animeme mux talk.fba voice.wav -o talk.mp4 --preview talk.preview.mp4",
-                   add_mux};
+                   set_up<MuxOptions>};
 
 }  // namespace animeme::tools

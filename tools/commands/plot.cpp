@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <memory>
 
 #include "dam/script/script.h"
 #include "fap/fill.h"
@@ -81,23 +80,20 @@ Result<int> run(const PlotOptions& options) {
   return kOk;
 }
 
-Action add_plot(CLI::App& app) {
-  auto options = std::make_shared<PlotOptions>();
-  app.add_option("a", options->a, "FAP text, FBA stream or container (blue line)")->required();
-  app.add_option("b", options->b, "A second one to compare with (orange, dashed)");
-  app.add_option("-o,--output", options->output,
+void add_options(CLI::App& app, PlotOptions& options) {
+  app.add_option("a", options.a, "FAP text, FBA stream or container (blue line)")->required();
+  app.add_option("b", options.b, "A second one to compare with (orange, dashed)");
+  app.add_option("-o,--output", options.output,
                  "Picture to write: .svg or .png; - is SVG on standard output")
       ->required();
-  app.add_option("--script", options->script, "Phoneme script to show behind the curves");
-  app.add_option("--faps", options->faps, "FAPs by number, name or range (3-13), one row each")
+  app.add_option("--script", options.script, "Phoneme script to show behind the curves");
+  app.add_option("--faps", options.faps, "FAPs by number, name or range (3-13), one row each")
       ->delimiter(',')
       ->capture_default_str();
-  app.add_flag("--difference", options->difference,
-               "A row with the second less the first for each");
-  app.add_option("--from", options->from, "Seconds at which the picture begins")
+  app.add_flag("--difference", options.difference, "A row with the second less the first for each");
+  app.add_option("--from", options.from, "Seconds at which the picture begins")
       ->check(CLI::NonNegativeNumber);
-  app.add_option("--to", options->to, "Seconds at which it ends")->check(CLI::PositiveNumber);
-  return [options] { return run(*options); };
+  app.add_option("--to", options.to, "Seconds at which it ends")->check(CLI::PositiveNumber);
 }
 
 }  // namespace
@@ -108,6 +104,6 @@ const Command kPlot{"plot", "Curves of one clip or two as a picture",
                     "-o curves.svg\n"
                     "  animeme plot talk.fap talk.fba --difference --faps open_jaw,raise_b_midlip "
                     "-o loss.png",
-                    add_plot};
+                    set_up<PlotOptions>};
 
 }  // namespace animeme::tools

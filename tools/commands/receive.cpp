@@ -2,7 +2,6 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 
 #include "tools/commands/common.h"
 #include "tools/commands/interrupt.h"
@@ -173,41 +172,39 @@ Result<int> run(const ReceiveOptions& options) {
   return Interrupt::requested() ? kInterrupted : kOk;
 }
 
-Action add_receive(CLI::App& app) {
-  auto options = std::make_shared<ReceiveOptions>();
-  app.add_option("source", options->source,
+void add_options(CLI::App& app, ReceiveOptions& options) {
+  app.add_option("source", options.source,
                  "Session description (.sdp) or address: rtp://host:port, udp://host:port, "
                  "srt://host:port, ws://host:port")
       ->required();
-  app.add_option("-o,--output", options->output,
+  app.add_option("-o,--output", options.output,
                  "What to write: .mp4 .mkv .ts (face and sound), .fba (stream), .fap (text), - for "
                  "FAP text on standard output while it comes")
       ->required();
-  app.add_option("--duration", options->duration, "End after so many seconds of presentation")
+  app.add_option("--duration", options.duration, "End after so many seconds of presentation")
       ->check(CLI::PositiveNumber);
-  app.add_option("--wait", options->wait, "Seconds to wait for the first packet; 0: for ever")
+  app.add_option("--wait", options.wait, "Seconds to wait for the first packet; 0: for ever")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  app.add_option("--timeout", options->timeout,
+  app.add_option("--timeout", options.timeout,
                  "End when nothing came for so many seconds; 0: never")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_option(
-         "--gap", options->gap,
+         "--gap", options.gap,
          "FAP text where planes are missing: hold the last values, ease to neutral, or skip "
          "the frames")
       ->check(CLI::IsMember({"hold", "neutral", "skip"}))
       ->capture_default_str();
-  app.add_flag("--fill", options->fill,
+  app.add_flag("--fill", options.fill,
                "FAP text with every FAP in every frame, as players want it");
-  app.add_option("--reorder-seconds", options->receive.media.rtp.reorder_seconds,
+  app.add_option("--reorder-seconds", options.receive.media.rtp.reorder_seconds,
                  "rtp: the longest time that a packet waits for an earlier one")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
-  app.add_flag("--stats", options->stats, "Tell once a second how it goes");
-  app.add_flag("--json", options->json,
+  app.add_flag("--stats", options.stats, "Tell once a second how it goes");
+  app.add_flag("--json", options.json,
                "Machine-readable report on standard output, with a row for every intra interval");
-  return [options] { return run(*options); };
 }
 
 }  // namespace
@@ -219,6 +216,6 @@ const Command kReceive{
     "  animeme receive talk.sdp -o - --fill | my_avatar\n"
     "Ends when the sender says goodbye, at --duration, after --timeout, or at Ctrl-C (exit code "
     "130);\nwhat was received till then is written whole.",
-    add_receive};
+    set_up<ReceiveOptions>};
 
 }  // namespace animeme::tools

@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
-#include <memory>
 
 #include "dam/script/script.h"
 #include "fap/fill.h"
@@ -202,50 +201,48 @@ Result<int> run(const RenderOptions& options) {
   return kOk;
 }
 
-Action add_render(CLI::App& app) {
-  auto options = std::make_shared<RenderOptions>();
-  app.add_option("input", options->input, "FAP text, FBA stream, container or table of curves");
+void add_options(CLI::App& app, RenderOptions& options) {
+  app.add_option("input", options.input, "FAP text, FBA stream, container or table of curves");
   app.add_option(
-         "-o,--output", options->output,
+         "-o,--output", options.output,
          "File to write: .mp4 or .mkv (H.264), .webm (VP9), or a .png still or sheet; - is PNG on "
          "standard output")
       ->required();
-  auto* shapes = app.add_option("--shapes", options->shapes,
+  auto* shapes = app.add_option("--shapes", options.shapes,
                                 "Instead of a file: neutral and all visemes or expressions");
-  auto* frame = app.add_option("--frame", options->frame, "Frame to show, from 0")
+  auto* frame = app.add_option("--frame", options.frame, "Frame to show, from 0")
                     ->check(CLI::NonNegativeNumber);
-  auto* time = app.add_option("--time", options->times, "Seconds to show; several make a sheet")
+  auto* time = app.add_option("--time", options.times, "Seconds to show; several make a sheet")
                    ->delimiter(',');
-  auto* sheet = app.add_option("--sheet", options->sheet,
+  auto* sheet = app.add_option("--sheet", options.sheet,
                                "Contact sheet, COLUMNSxROWS: frames evenly over the clip");
   frame->excludes(time)->excludes(shapes)->excludes(sheet);
   time->excludes(shapes);
-  add_head_options(app, options->head);
-  app.add_option("--view", options->view,
+  add_head_options(app, options.head);
+  app.add_option("--view", options.view,
                  "front, three-quarter, side, or degrees to the person's left")
       ->capture_default_str();
-  app.add_option("--up", options->up, "Degrees to look from above")
+  app.add_option("--up", options.up, "Degrees to look from above")
       ->check(CLI::Range(-80, 80))
       ->capture_default_str();
-  app.add_option("--zoom", options->zoom, "1: head and shoulders; 2 is twice as near")
+  app.add_option("--zoom", options.zoom, "1: head and shoulders; 2 is twice as near")
       ->check(CLI::Range(0.2, 20.0))
       ->capture_default_str();
-  app.add_option("--size", options->size, "Pixels of one picture, WIDTHxHEIGHT")
+  app.add_option("--size", options.size, "Pixels of one picture, WIDTHxHEIGHT")
       ->capture_default_str();
-  app.add_option("--audio", options->audio,
+  app.add_option("--audio", options.audio,
                  "Video: sound beside the face; default: that of the input, if it has any");
-  app.add_option("--script", options->script, "Video: phones to show below the face");
-  app.add_option("--curves", options->curves,
+  app.add_option("--script", options.script, "Video: phones to show below the face");
+  app.add_option("--curves", options.curves,
                  "Video: FAPs to draw below the face, three at most, by number or name")
       ->delimiter(',')
       ->expected(1, 3);
-  app.add_option("--rate", options->rate, "Video: pictures a second; default: those of the clip");
-  app.add_option("--quality", options->quality, "Video: 0 (best) to 51 (smallest)")
+  app.add_option("--rate", options.rate, "Video: pictures a second; default: those of the clip");
+  app.add_option("--quality", options.quality, "Video: 0 (best) to 51 (smallest)")
       ->check(CLI::Range(0, 51))
       ->capture_default_str();
-  app.add_option("--audio-bitrate", options->audio_bit_rate, "Video: bits a second of its sound")
+  app.add_option("--audio-bitrate", options.audio_bit_rate, "Video: bits a second of its sound")
       ->check(CLI::Range(6000, 320000));
-  return [options] { return run(*options); };
 }
 
 }  // namespace
@@ -258,6 +255,6 @@ const Command kRender{"render", "Videos and pictures of a face",
                       "  animeme render talk.mp4 --sheet 4x3 --head man --view three-quarter "
                       "-o sheet.png\n"
                       "  animeme render --shapes visemes --size 200x200 -o visemes.png",
-                      add_render};
+                      set_up<RenderOptions>};
 
 }  // namespace animeme::tools

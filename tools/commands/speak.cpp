@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <memory>
 
 #include "codec/encode/encode.h"
 #include "dam/script/script.h"
@@ -169,34 +168,32 @@ Result<int> run(const SpeakOptions& options) {
   return written;
 }
 
-Action add_speak(CLI::App& app) {
-  auto options = std::make_shared<SpeakOptions>();
-  add_spoken_options(app, options->spoken);
+void add_options(CLI::App& app, SpeakOptions& options) {
+  add_spoken_options(app, options.spoken);
   app.add_option(
-         "-o,--output", options->output,
+         "-o,--output", options.output,
          "What to write: .mp4 .mkv .ts .m3u8 .mpd (face and voice), .fba (stream), .fap (text), "
          ".csv (curves)")
       ->required();
-  app.add_option("--model", options->model, "Model file of a character; default: the built-in one");
-  app.add_option("--rate", options->rate, "Frames a second: 25, 29.97, 60 ...")
+  app.add_option("--model", options.model, "Model file of a character; default: the built-in one");
+  app.add_option("--rate", options.rate, "Frames a second: 25, 29.97, 60 ...")
       ->capture_default_str();
-  app.add_option("--save-script", options->save_script,
+  app.add_option("--save-script", options.save_script,
                  "Also write the timed phones: .TextGrid (Praat) or .tsv");
-  app.add_option("--style", options->style,
+  app.add_option("--style", options.style,
                  "Intensity: 0 keeps the mouth at rest, 1 is as learned, 1.5 exaggerates")
       ->check(CLI::Range(0.0, dam::kMostStyle))
       ->capture_default_str();
-  app.add_flag("--no-closure", options->no_closure,
+  app.add_flag("--no-closure", options.no_closure,
                "Do not force the lips shut on p, b and m, nor to the teeth on f and v");
-  app.add_flag("--life", options->life,
+  app.add_flag("--life", options.life,
                "Add blinks, and brows and head that move a little at stresses");
-  app.add_option("--seed", options->seed, "Other times of blinks and another sway of the head")
+  app.add_option("--seed", options.seed, "Other times of blinks and another sway of the head")
       ->needs("--life");
-  add_stream_options(app, options->stream);
-  add_preview_option(app, options->preview);
-  add_sound_options(app, options->sound, false);
-  app.add_flag("--json", options->json, "Machine-readable summary on standard output");
-  return [options] { return run(*options); };
+  add_stream_options(app, options.stream);
+  add_preview_option(app, options.preview);
+  add_sound_options(app, options.sound, false);
+  app.add_flag("--json", options.json, "Machine-readable summary on standard output");
 }
 
 }  // namespace
@@ -207,6 +204,6 @@ const Command kSpeak{
     "  animeme speak --text \"Guten Tag\" --lang de --rate 30 -o tag.mp4\n"
     "  animeme speak --audio voice.wav --transcript \"what she said\" -o talk.mp4\n"
     "  animeme speak --script voice.TextGrid --audio voice.wav --model me.dam -o talk.fba",
-    add_speak};
+    set_up<SpeakOptions>};
 
 }  // namespace animeme::tools

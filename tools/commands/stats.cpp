@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 
 #include "tools/commands/common.h"
 #include "tools/inspect/sizes.h"
@@ -20,18 +19,11 @@ struct StatsOptions {
 };
 
 const char* kind_name(FileKind kind) {
-  switch (kind) {
-    case FileKind::fap_text:
-      return "fap";
-    case FileKind::bap_text:
-      return "bap";
-    case FileKind::curves:
-      return "curves";
-    case FileKind::media:
-      return "media";
-    default:
-      return "fba";
-  }
+  return kind == FileKind::fap_text   ? "fap"
+         : kind == FileKind::bap_text ? "bap"
+         : kind == FileKind::curves   ? "curves"
+         : kind == FileKind::media    ? "media"
+                                      : "fba";
 }
 
 // Row by row: a clip takes its time.
@@ -72,19 +64,17 @@ Result<int> run(const StatsOptions& options) {
   return kOk;
 }
 
-Action add_stats(CLI::App& app) {
-  auto options = std::make_shared<StatsOptions>();
-  app.add_option("file", options->inputs, "FBA stream, container, FAP or BAP text, curves")
+void add_options(CLI::App& app, StatsOptions& options) {
+  app.add_option("file", options.inputs, "FBA stream, container, FAP or BAP text, curves")
       ->required();
   CLI::Option* sizes = app.add_flag(
-      "--sizes", options->sizes,
+      "--sizes", options.sizes,
       "How small each clip gets with encode --preset file, beside the form common in the wild");
-  app.add_option("--rms", options->rms, "With --sizes: limit of the error of the last column")
+  app.add_option("--rms", options.rms, "With --sizes: limit of the error of the last column")
       ->check(CLI::Range(1e-3, 1e6))
       ->capture_default_str()
       ->needs(sizes);
-  app.add_flag("--json", options->json, "Machine-readable result");
-  return [options] { return run(*options); };
+  app.add_flag("--json", options.json, "Machine-readable result");
 }
 
 }  // namespace
@@ -93,6 +83,6 @@ const Command kStats{"stats", "Bit rate of a stream, activity of each FAP and BA
                      "  animeme stats talk.fba\n"
                      "  animeme stats talk.fap --json\n"
                      "  animeme stats --sizes clips/*.fap",
-                     add_stats};
+                     set_up<StatsOptions>};
 
 }  // namespace animeme::tools

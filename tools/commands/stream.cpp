@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
@@ -270,34 +269,32 @@ void add_coding_options(CLI::App& app, StreamOptions& options) {
       ->check(CLI::Range(6000, 320000));
 }
 
-Action add_stream(CLI::App& app) {
-  auto options = std::make_shared<StreamOptions>();
-  add_source_options(app, *options);
+void add_options(CLI::App& app, StreamOptions& options) {
+  add_source_options(app, options);
   app.add_option(
-         "--to", options->to,
+         "--to", options.to,
          "Address: rtp://host:port, udp://host:port, srt://host:port, or http://host:port to "
          "serve browsers; may be repeated")
       ->required()
       ->allow_extra_args(false);
-  app.add_option("--sdp", options->sdp,
+  app.add_option("--sdp", options.sdp,
                  "Session description to write for an rtp address; receivers need it")
       ->allow_extra_args(false);
-  app.add_option("--mtu", options->sink.media.rtp.mtu, "Largest datagram, bytes")
+  app.add_option("--mtu", options.sink.media.rtp.mtu, "Largest datagram, bytes")
       ->check(CLI::Range(256, 65000))
       ->capture_default_str();
-  app.add_option("--repeat", options->sink.media.rtp.repeat,
+  app.add_option("--repeat", options.sink.media.rtp.repeat,
                  "rtp: how often each packet of the face is sent, against loss")
       ->check(CLI::Range(1, 8))
       ->capture_default_str();
-  app.add_option("--bundle", options->sink.media.rtp.bundle,
+  app.add_option("--bundle", options.sink.media.rtp.bundle,
                  "rtp: planes a packet; more save headers and cost delay")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();
-  add_coding_options(app, *options);
-  app.add_flag("--fast", options->fast, "Do not wait for the clock, send as fast as it goes");
-  app.add_flag("--stats", options->stats, "Tell once a second how it goes");
-  app.add_flag("--json", options->json, "Machine-readable summary on standard output at the end");
-  return [options] { return run(*options); };
+  add_coding_options(app, options);
+  app.add_flag("--fast", options.fast, "Do not wait for the clock, send as fast as it goes");
+  app.add_flag("--stats", options.stats, "Tell once a second how it goes");
+  app.add_flag("--json", options.json, "Machine-readable summary on standard output at the end");
 }
 
 }  // namespace
@@ -310,6 +307,6 @@ const Command kStream{
     "  my_chat_bot | animeme stream --say - --life --to rtp://192.0.2.7:5004 --sdp bot.sdp "
     "--stats\n"
     "Ctrl-C ends it in good order: receivers are told, the summary is printed; exit code 130.",
-    add_stream};
+    set_up<StreamOptions>};
 
 }  // namespace animeme::tools

@@ -1,7 +1,6 @@
 #include "dam/training/train.h"
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <memory>
 
 #include "tools/commands/train_parts.h"

@@ -1,17 +1,15 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <memory>
+#include <filesystem>
 
 #include "codec/decode/fill.h"
-#include "dam/script/script.h"
 #include "fap/fill.h"
 #include "fap/head/rig.h"
+#include "tools/check/suite.h"
 #include "tools/commands/common.h"
 #include "tools/commands/face_stream.h"
 #include "tools/commands/head_options.h"
-#include "tools/commands/view_sound.h"
 #include "tools/speech/voice_file.h"
 #include "tools/text.h"
 #include "tools/viewer/viewer.h"
@@ -50,6 +48,34 @@ Result<ViewedClip> read_shown(const std::string& path) {
   if (!filled) return filled.error().in_file(path);
   const std::string name = std::filesystem::path(path).filename().string();
   return ViewedClip{{std::move(*filled), input->start, name}, input->kind == FileKind::media};
+}
+
+struct PageSound {
+  viewer::Sound sound;
+  double seconds = 0;  // its length
+};
+
+// The sound of a file in an mp4 of its own, as browsers take it. AAC and Opus stay packet by packet
+// as they are, unless `settings` ask for something; anything else is coded, as AAC if nothing is
+// asked for.
+Result<PageSound> page_sound(const std::string& path, const SoundSettings& settings) {
+  const bool as_it_is = settings.codec.empty() && settings.bit_rate == 0;
+  Result<media::EncodedAudio> coded = speech::read_coded_sound(
+      path, [as_it_is](media::AudioCodec) { return as_it_is; },
+      audio_settings(settings, "sound.mp4"), talk());
+  if (!coded) return coded.error();
+  const speech::SoundInput sound{std::move(*coded), {}};
+  const auto folder = ScratchFolder::make();
+  if (!folder) {
+    return make_error(Code::io, "there is no folder for temporary files: set TMPDIR to one");
+  }
+  media::MuxInput input;
+  sound.give_to(input);
+  const std::string file = ((*folder)->path() / "sound.mp4").string();
+  if (const auto written = media::write_mp4(file, input); !written) return written.error();
+  Result<std::vector<std::uint8_t>> bytes = read_file(file);
+  if (!bytes) return bytes.error();
+  return PageSound{{std::move(*bytes), "audio/mp4"}, sound.seconds()};
 }
 
 std::string megabytes(double bytes) { return format("%.2f MB", bytes / 1e6); }
@@ -135,22 +161,20 @@ Result<int> run(const ViewOptions& options) {
   return kOk;
 }
 
-Action add_view(CLI::App& app) {
-  auto options = std::make_shared<ViewOptions>();
-  app.add_option("input", options->first,
+void add_options(CLI::App& app, ViewOptions& options) {
+  app.add_option("input", options.first,
                  "FAP text, FBA stream, a container with a face, or a table of curves")
       ->required();
-  app.add_option("second", options->second, "Another one to compare it with");
-  app.add_option("-o,--output", options->output, "HTML file to write, - for standard output")
+  app.add_option("second", options.second, "Another one to compare it with");
+  app.add_option("-o,--output", options.output, "HTML file to write, - for standard output")
       ->required();
-  app.add_option("--audio", options->audio,
+  app.add_option("--audio", options.audio,
                  "Sound in any format that FFmpeg reads; default: that of a container. AAC and "
                  "Opus stay as they are unless one of the options below is given");
-  app.add_option("--script", options->script,
+  app.add_option("--script", options.script,
                  "Phoneme script (table or TextGrid) to show with the curves");
-  add_sound_options(app, options->sound, false);
-  add_head_options(app, options->head);
-  return [options] { return run(*options); };
+  add_sound_options(app, options.sound, false);
+  add_head_options(app, options.head);
 }
 
 }  // namespace
@@ -163,6 +187,6 @@ const Command kView{
     "  animeme view original.fap coded.fba --audio voice.wav -o loss.html\n"
     "  animeme view lecture.mp4 --audio-codec opus --audio-bitrate 20000 -o lecture.html\n"
     "The page needs no network; ? shows its keys.",
-    add_view};
+    set_up<ViewOptions>};
 
 }  // namespace animeme::tools

@@ -1,7 +1,6 @@
 #include "tools/exchange/file_kind.h"
 
 #include <algorithm>
-#include <cstring>
 #include <string_view>
 
 #include "tools/exchange/arkit.h"
@@ -11,21 +10,23 @@ namespace animeme::exchange {
 
 namespace {
 
-bool starts_with(std::span<const std::uint8_t> bytes, std::string_view text) {
-  return bytes.size() >= text.size() && std::memcmp(bytes.data(), text.data(), text.size()) == 0;
+constexpr std::size_t kHead = 4096;  // bytes that are looked at
+
+std::string_view text_of(std::span<const std::uint8_t> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 }  // namespace
 
 bool is_playlist(std::span<const std::uint8_t> bytes) {
-  if (starts_with(bytes, "#EXTM3U")) return true;
-  const auto head = bytes.first(std::min<std::size_t>(bytes.size(), 4096));
-  const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
-  return text.starts_with("<") && text.find("<MPD") != std::string_view::npos;
+  const std::string_view text = text_of(bytes).substr(0, kHead);
+  return text.starts_with("#EXTM3U") ||
+         (text.starts_with("<") && text.find("<MPD") != std::string_view::npos);
 }
 
 FileKind kind_of(std::span<const std::uint8_t> bytes) {
-  if (starts_with(bytes, "ANIMEDAM")) return FileKind::model;
+  const std::string_view whole = text_of(bytes);
+  if (whole.starts_with("ANIMEDAM")) return FileKind::model;
   if (is_playlist(bytes)) return FileKind::media;
   if (bytes.size() >= 4 && bytes[0] == 0 && bytes[1] == 0 && bytes[2] == 1) {
     const std::uint32_t code = bytes[3];
@@ -34,14 +35,12 @@ FileKind kind_of(std::span<const std::uint8_t> bytes) {
     if (fba) return FileKind::fba_stream;
   }
   // Text has no control bytes but blanks; UTF-16 scripts have a byte order mark.
-  if (starts_with(bytes, "\xFF\xFE") || starts_with(bytes, "\xFE\xFF")) return FileKind::script;
-  const auto head = bytes.first(std::min<std::size_t>(bytes.size(), 4096));
-  const bool text = std::none_of(head.begin(), head.end(), [](std::uint8_t c) {
-    return c < 0x20 && c != '\t' && c != '\n' && c != '\r' && c != '\f';
+  if (whole.starts_with("\xFF\xFE") || whole.starts_with("\xFE\xFF")) return FileKind::script;
+  std::string_view view = whole.substr(0, kHead);
+  const bool text = std::none_of(view.begin(), view.end(), [](char c) {
+    return std::uint8_t(c) < 0x20 && c != '\t' && c != '\n' && c != '\r' && c != '\f';
   });
   if (!text) return FileKind::media;
-  std::string_view view(reinterpret_cast<const char*>(head.data()), head.size());
-  const char* const end_of_file = view.data() + bytes.size();
   if (view.starts_with("\xEF\xBB\xBF")) view.remove_prefix(3);
   if (view.find("ooTextFile") != std::string_view::npos) return FileKind::script;
   // A table with a header line of words is a script; FAP text is numbers from its first word on.
@@ -51,7 +50,7 @@ FileKind kind_of(std::span<const std::uint8_t> bytes) {
     const std::size_t first = line.find_first_not_of(" \t\r");
     if (first != std::string_view::npos && line[first] != '#') {
       // The header of a table of landmarks is longer than the head.
-      const std::string_view rest(line.data(), std::size_t(end_of_file - line.data()));
+      const std::string_view rest = whole.substr(std::size_t(line.data() - whole.data()));
       if (line.substr(first).starts_with("time_s") || is_arkit_table(line) ||
           is_landmark_table(rest)) {
         return FileKind::curves;

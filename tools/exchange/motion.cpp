@@ -14,9 +14,8 @@ Result<Motion> read_motion(std::vector<std::uint8_t> bytes, FrameNumbers numbers
   motion.kind = kind_of(bytes);
   switch (motion.kind) {
     case FileKind::fap_text: {
-      fap::ReadTextOptions options;
-      options.keep_numbers = numbers == FrameNumbers::keep;
-      auto clip = fap::read_text(text, options, &motion.warnings);
+      const bool keep = numbers == FrameNumbers::keep;
+      auto clip = fap::read_text(text, {.keep_numbers = keep}, &motion.warnings);
       if (!clip) return clip.error();
       motion.face = std::move(*clip);
       return motion;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "tools/gltf/detail/bones.h"
 #include "tools/gltf/detail/glb_buffer.h"
-#include "tools/gltf/detail/glb_file.h"
 #include "tools/gltf/detail/morphs.h"
 
 namespace animeme::gltf {
@@ -20,55 +20,30 @@ constexpr int kNeckNode = 1;  // node 0 is the foot of the skeleton
 constexpr int node_of(Bone bone) { return kNeckNode + int(bone); }
 
 // The bone that carries a part; nothing: the scene does.
-struct Carrier {
-  bool bone = false;
-  Bone which = Bone::neck;
-};
-
-Carrier carrier_of(const head::Rig& rig, Part part) {
-  const bool on_neck =
-      part != Part::skin && part != Part::body && rig.shown_by_shapes[std::size_t(part)];
-  if (on_neck) return {true, Bone::neck};
+std::optional<Bone> carrier_of(const head::Rig& rig, Part part) {
+  if (part == Part::skin || part == Part::body) return std::nullopt;
+  if (rig.shown_by_shapes[std::size_t(part)]) return Bone::neck;
   switch (part) {
-    case Part::skin:
-    case Part::body:
-      return {};
     case Part::left_eye:
-      return {true, Bone::left_eye};
+      return Bone::left_eye;
     case Part::right_eye:
-      return {true, Bone::right_eye};
+      return Bone::right_eye;
     case Part::lower_teeth:
     case Part::tongue:
-      return {true, Bone::jaw};
-    case Part::upper_teeth:
-    case Part::hair:
-    case Part::brows:
-    case Part::lashes:
-      return {true, Bone::neck};
+      return Bone::jaw;
+    default:
+      return Bone::neck;
   }
-  return {};
 }
 
+// Name and roughness, in the order of head::Material.
+constexpr std::pair<const char*, double> kMaterials[] = {
+    {"skin", 0.6}, {"eye", 0.1}, {"teeth", 0.3}, {"wet", 0.25}, {"hair", 0.5}, {"cloth", 0.9}};
+
 json material_of(head::Material material) {
-  const auto rough = [](const char* name, double roughness) {
-    return json{{"name", name},
-                {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", roughness}}}};
-  };
-  switch (material) {
-    case head::Material::skin:
-      return rough("skin", 0.6);
-    case head::Material::eye:
-      return rough("eye", 0.1);
-    case head::Material::teeth:
-      return rough("teeth", 0.3);
-    case head::Material::wet:
-      return rough("wet", 0.25);
-    case head::Material::hair:
-      return rough("hair", 0.5);
-    case head::Material::cloth:
-      return rough("cloth", 0.9);
-  }
-  return rough("skin", 0.6);
+  const auto& [name, roughness] = kMaterials[std::size_t(material)];
+  return {{"name", name},
+          {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", roughness}}}};
 }
 
 class Writer {
@@ -146,8 +121,8 @@ class Writer {
     const Part part = Part(number);
     const head::Mesh& mesh = head_.parts[number];
     if (mesh.positions.empty() || mesh.triangles.empty()) return;
-    const Carrier carrier = carrier_of(rig_, part);
-    const Vec3 origin = carrier.bone ? pivot_of(rig_, carrier.which) : Vec3{};
+    const std::optional<Bone> carrier = carrier_of(rig_, part);
+    const Vec3 origin = carrier ? pivot_of(rig_, *carrier) : Vec3{};
     std::vector<Vec3> places;
     for (const Vec3& v : rig_.parts[number].positions) places.push_back((v - origin) * kMetres);
     json attributes = part == Part::skin ? skin_attributes(places.size()) : json::object();
@@ -169,8 +144,8 @@ class Writer {
     if (part == Part::skin) node["skin"] = skeleton();
     nodes_.push_back(std::move(node));
     const int index = int(nodes_.size()) - 1;
-    if (carrier.bone) {
-      nodes_[std::size_t(node_of(carrier.which))]["children"].push_back(index);
+    if (carrier) {
+      nodes_[std::size_t(node_of(*carrier))]["children"].push_back(index);
     } else {
       scene_.push_back(index);
     }
@@ -269,7 +244,7 @@ class Writer {
                  {"accessors", std::move(buffer_.accessors)},
                  {"bufferViews", std::move(buffer_.views)}};
     if (skins_.empty()) root.erase("skins");
-    return glb_file(std::move(root), buffer_.bytes());
+    return buffer_.file(std::move(root));
   }
 
   const head::Head& head_;

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "tools/gltf/detail/joints.h"
-#include "tools/gltf/detail/load_file.h"
 #include "tools/gltf/detail/paint.h"
 #include "tools/gltf/detail/point_guess.h"
 #include "tools/gltf/detail/primitive.h"

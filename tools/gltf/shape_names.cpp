@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 
 #include "fap/arkit.h"
 #include "fap/head/shapes.h"
@@ -49,52 +48,30 @@ std::vector<std::vector<std::string>> readings_of(std::string_view name) {
 }
 
 struct OtherName {
-  std::string_view key;
+  std::string_view keys;
   std::array<std::string_view, 3> shapes;  // of ARKit
 };
 
 constexpr OtherName kOthers[] = {
-    {"blink", {"eyeBlinkLeft", "eyeBlinkRight"}},
-    {"eyesclosed", {"eyeBlinkLeft", "eyeBlinkRight"}},
-    {"eyesclose", {"eyeBlinkLeft", "eyeBlinkRight"}},
-    {"eyeclose", {"eyeBlinkLeft", "eyeBlinkRight"}},
-    {"eyeclosed", {"eyeBlinkLeft", "eyeBlinkRight"}},
-    {"closeeyes", {"eyeBlinkLeft", "eyeBlinkRight"}},
-    {"まばたき", {"eyeBlinkLeft", "eyeBlinkRight"}},
-    {"blinkleft", {"eyeBlinkLeft"}},
-    {"blinkright", {"eyeBlinkRight"}},
-    {"winkleft", {"eyeBlinkLeft"}},
-    {"winkright", {"eyeBlinkRight"}},
-    {"eyecloseleft", {"eyeBlinkLeft"}},
-    {"eyecloseright", {"eyeBlinkRight"}},
-    {"eyeclosedleft", {"eyeBlinkLeft"}},
-    {"eyeclosedright", {"eyeBlinkRight"}},
-    {"ウィンク", {"eyeBlinkLeft"}},
-    {"ウィンク右", {"eyeBlinkRight"}},
+    {"blink eyesclosed eyesclose eyeclose eyeclosed closeeyes まばたき",
+     {"eyeBlinkLeft", "eyeBlinkRight"}},
+    {"blinkleft winkleft eyecloseleft eyeclosedleft ウィンク", {"eyeBlinkLeft"}},
+    {"blinkright winkright eyecloseright eyeclosedright ウィンク右", {"eyeBlinkRight"}},
     {"eyeswide", {"eyeWideLeft", "eyeWideRight"}},
-    {"eyeslookup", {"eyeLookUpLeft", "eyeLookUpRight"}},
-    {"eyeslookdown", {"eyeLookDownLeft", "eyeLookDownRight"}},
-    {"eyeslookleft", {"eyeLookOutLeft", "eyeLookInRight"}},
-    {"eyeslookright", {"eyeLookInLeft", "eyeLookOutRight"}},
-    {"lookup", {"eyeLookUpLeft", "eyeLookUpRight"}},
-    {"lookdown", {"eyeLookDownLeft", "eyeLookDownRight"}},
-    {"lookleft", {"eyeLookOutLeft", "eyeLookInRight"}},
-    {"lookright", {"eyeLookInLeft", "eyeLookOutRight"}},
-    {"mouthopen", {"jawOpen"}},
-    {"openmouth", {"jawOpen"}},
+    {"eyeslookup lookup", {"eyeLookUpLeft", "eyeLookUpRight"}},
+    {"eyeslookdown lookdown", {"eyeLookDownLeft", "eyeLookDownRight"}},
+    {"eyeslookleft lookleft", {"eyeLookOutLeft", "eyeLookInRight"}},
+    {"eyeslookright lookright", {"eyeLookInLeft", "eyeLookOutRight"}},
+    {"mouthopen openmouth", {"jawOpen"}},
     {"smile", {"mouthSmileLeft", "mouthSmileRight"}},
     {"smileleft", {"mouthSmileLeft"}},
     {"smileright", {"mouthSmileRight"}},
     {"frown", {"mouthFrownLeft", "mouthFrownRight"}},
-    {"browsup", {"browInnerUp", "browOuterUpLeft", "browOuterUpRight"}},
-    {"browup", {"browInnerUp", "browOuterUpLeft", "browOuterUpRight"}},
-    {"browraise", {"browInnerUp", "browOuterUpLeft", "browOuterUpRight"}},
-    {"browsraise", {"browInnerUp", "browOuterUpLeft", "browOuterUpRight"}},
-    {"eyebrowsup", {"browInnerUp", "browOuterUpLeft", "browOuterUpRight"}},
+    {"browsup browup browraise browsraise eyebrowsup",
+     {"browInnerUp", "browOuterUpLeft", "browOuterUpRight"}},
     {"browraiseouterleft", {"browOuterUpLeft"}},
     {"browraiseouterright", {"browOuterUpRight"}},
-    {"browsdown", {"browDownLeft", "browDownRight"}},
-    {"eyebrowsdown", {"browDownLeft", "browDownRight"}},
+    {"browsdown eyebrowsdown", {"browDownLeft", "browDownRight"}},
 };
 
 // Spellings of visemes beside their names in the table of FAP 1.
@@ -148,7 +125,7 @@ std::vector<ArkitPart> arkit_parts(const std::string& key) {
 std::vector<ArkitPart> other_parts(const std::string& key) {
   std::vector<ArkitPart> parts;
   for (const OtherName& other : kOthers) {
-    if (key != other.key) continue;
+    if ((" " + std::string(other.keys) + " ").find(" " + key + " ") == std::string::npos) continue;
     for (const std::string_view shape : other.shapes) {
       if (!shape.empty()) parts.push_back({shape_channel(shape), kBoth});
     }

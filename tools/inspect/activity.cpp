@@ -1,6 +1,5 @@
 #include "tools/inspect/activity.h"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <set>

@@ -1,9 +1,7 @@
-#include <algorithm>
 
 #include "codec/decode/decoder.h"
 #include "codec/decode/fill.h"
 #include "dam/signal/fap_signal.h"
-#include "fap/tables.h"
 #include "tools/inspect/evaluation.h"
 
 namespace animeme::inspect {

@@ -1,10 +1,10 @@
-
 #include "tools/inspect/evaluation.h"
 #include "tools/json.h"
 
 namespace animeme::inspect {
 
 using tools::Json;
+using tools::json_list;
 
 namespace {
 
@@ -21,12 +21,6 @@ Json measures_json(const dam::RegionScore& region) {
     json[one.name].erase("name");
     json[one.name].erase("scored");
   }
-  return json;
-}
-
-Json controls_json(const dam::RegionScore& region) {
-  Json json = Json::array();
-  for (const dam::SeriesScore& one : region.controls) json.push_back(series_json(one));
   return json;
 }
 
@@ -62,8 +56,7 @@ Json timing_json(const dam::TimingScore& timing) {
   json["extremes"] = timing.extremes;
   json["misalignment_ms"] = timing.misalignment;
   json["offset_ms"] = timing.offset;
-  json["classes"] = Json::array();
-  for (const dam::LagScore& one : timing.classes) json["classes"].push_back(lag_json(one));
+  json["classes"] = json_list(timing.classes, lag_json);
   return json;
 }
 
@@ -81,22 +74,13 @@ Json all_dynamics_json(const dam::Evaluation& result) {
   Json json = dynamics_json(result.dynamics);
   json.erase("name");
   json.erase("scored");
-  json["series"] = Json::array();
-  for (const auto& one : result.series_dynamics) json["series"].push_back(dynamics_json(one));
+  json["series"] = json_list(result.series_dynamics, dynamics_json);
   return json;
 }
 
-Json groups_json(const std::vector<dam::GroupScore>& groups) {
-  Json json = Json::array();
-  for (const dam::GroupScore& one : groups) {
-    json.push_back({{"name", one.name},
-                    {"phones", one.phones},
-                    {"frames", one.frames},
-                    {"nrmse", one.nrmse},
-                    {"l2", one.l2},
-                    {"gap_rmse", one.gap_rmse}});
-  }
-  return json;
+Json group_json(const dam::GroupScore& one) {
+  return {{"name", one.name},   {"phones", one.phones}, {"frames", one.frames},
+          {"nrmse", one.nrmse}, {"l2", one.l2},         {"gap_rmse", one.gap_rmse}};
 }
 
 Json silence_json(const dam::RegionScore& silence) {
@@ -106,20 +90,12 @@ Json silence_json(const dam::RegionScore& silence) {
           {"mean_l2", silence.l2},
           {"mean_correlation", silence.correlation},
           {"measures", measures_json(silence)},
-          {"controls", controls_json(silence)}};
+          {"controls", json_list(silence.controls, series_json)}};
 }
 
-Json utterances_json(const dam::Evaluation& result) {
-  Json json = Json::array();
-  for (const dam::UtteranceScore& one : result.per_utterance) {
-    json.push_back({{"id", one.id},
-                    {"frames", one.frames},
-                    {"nrmse", one.nrmse},
-                    {"l2", one.l2},
-                    {"gap_rmse", one.gap_rmse},
-                    {"gap_correlation", one.gap_correlation}});
-  }
-  return json;
+Json utterance_json(const dam::UtteranceScore& one) {
+  return {{"id", one.id}, {"frames", one.frames},     {"nrmse", one.nrmse},
+          {"l2", one.l2}, {"gap_rmse", one.gap_rmse}, {"gap_correlation", one.gap_correlation}};
 }
 
 Json scores_json(const dam::Evaluation& result) {
@@ -147,13 +123,13 @@ Json scores_json(const dam::Evaluation& result) {
           {"timing", timing_json(result.timing)},
           {"dynamics", all_dynamics_json(result)},
           {"measures", measures_json(result)},
-          {"controls", controls_json(result)},
+          {"controls", json_list(result.controls, series_json)},
           {"silence", silence_json(result.silence)},
-          {"by_phone", groups_json(result.breakdown.phones)},
-          {"by_viseme", groups_json(result.breakdown.visemes)},
-          {"by_triphone", groups_json(result.breakdown.triphones)},
-          {"by_word", groups_json(result.breakdown.words)},
-          {"per_utterance", utterances_json(result)}};
+          {"by_phone", json_list(result.breakdown.phones, group_json)},
+          {"by_viseme", json_list(result.breakdown.visemes, group_json)},
+          {"by_triphone", json_list(result.breakdown.triphones, group_json)},
+          {"by_word", json_list(result.breakdown.words, group_json)},
+          {"per_utterance", json_list(result.per_utterance, utterance_json)}};
 }
 
 Json difference_json(const dam::ErrorDifference& one) {

@@ -1,4 +1,3 @@
-
 #include "dam/model/model.h"
 #include "dam/script/script.h"
 #include "fap/rate_text.h"
@@ -60,8 +59,6 @@ Result<Json> describe_model(std::span<const std::uint8_t> bytes) {
     }
     phones.push_back(std::move(json));
   }
-  Json controls = Json::array();
-  for (const dam::Control& control : model->controls) controls.push_back(control.name);
   Json json = {{"kind", "model"},
                {"method", dam::method_name(model->method)},
                {"bytes", bytes.size()},
@@ -71,7 +68,7 @@ Result<Json> describe_model(std::span<const std::uint8_t> bytes) {
     json["modes"] = modes;
   }
   json.update({{"phones", phones},
-               {"controls", controls},
+               {"controls", tools::json_list(model->controls, &dam::Control::name)},
                {"attribution", model->attribution},
                {"provenance", model->provenance}});
   return json;

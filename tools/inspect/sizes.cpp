@@ -106,7 +106,7 @@ double floor_of(const fba::DecodedStream& stream) {
   return bits;
 }
 
-Json to_json(const ClipSizes& clip) {
+Json clip_json(const ClipSizes& clip) {
   return {{"clip", clip.name},
           {"planes", clip.planes},
           {"all_bits", clip.all_bits},
@@ -187,10 +187,8 @@ std::string sizes_means(const std::vector<ClipSizes>& clips, double max_rms) {
 }
 
 std::string sizes_json(const std::vector<ClipSizes>& clips, double max_rms) {
-  Json list = Json::array();
-  for (const ClipSizes& clip : clips) list.push_back(to_json(clip));
   const Json json = {{"max_rms", max_rms},
-                     {"clips", list},
+                     {"clips", tools::json_list(clips, clip_json)},
                      {"mean_file_ratio", mean(clips, &ClipSizes::file_ratio)},
                      {"mean_floor_ratio", mean(clips, &ClipSizes::floor_ratio)},
                      {"mean_limited_ratio", mean(clips, &ClipSizes::limited_ratio)}};

@@ -54,9 +54,7 @@ constexpr const char* kRangeNames[4] = {"i_max", "i_min", "p_max", "p_min"};
 
 template <std::size_t N>
 Json types_of(const std::array<fba::MaskType, N>& types) {
-  Json list = Json::array();
-  for (const fba::MaskType type : types) list.push_back(int(type));
-  return list;
+  return tools::json_list(types, [](fba::MaskType type) { return int(type); });
 }
 
 // The four sets that were sent, for the parameters from `first` on.
@@ -238,9 +236,7 @@ Json describe_stream(const fba::DecodedStream& stream, std::size_t bytes) {
 }
 
 Json describe_planes(const fba::DecodedStream& stream) {
-  Json list = Json::array();
-  for (const fba::Plane& plane : stream.planes) list.push_back(describe_plane(plane));
-  return list;
+  return tools::json_list(stream.planes, describe_plane);
 }
 
 std::string planes_text(const fba::DecodedStream& stream) {

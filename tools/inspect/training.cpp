@@ -1,6 +1,5 @@
 #include "tools/inspect/training.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "tools/json.h"
@@ -13,6 +12,7 @@ using tools::format;
 namespace {
 
 using tools::Json;
+using tools::json_list;
 
 // The part of the objective by which a step lowered it.
 double relative_fall(const std::vector<double>& objective, std::size_t step) {
@@ -27,19 +27,6 @@ Json steps_json(const dam::TrainSummary& summary) {
                      {"relative_fall", relative_fall(summary.objective, i)}});
   }
   return steps;
-}
-
-Json phones_json(const dam::TrainSummary& summary, Json& unknown) {
-  Json rare = Json::array();
-  for (const dam::RarePhone& phone : summary.rare) {
-    rare.push_back(
-        {{"phone", phone.label}, {"examples", phone.examples}, {"leans_on", phone.leans_on}});
-  }
-  unknown = Json::array();
-  for (const dam::UnknownPhone& phone : summary.unknown) {
-    unknown.push_back({{"phone", phone.label}, {"spoken_as", phone.spoken_as}});
-  }
-  return rare;
 }
 
 std::string steps_text(const dam::TrainSummary& summary) {
@@ -91,20 +78,18 @@ std::string training_json(const std::string& output, const dam::Model& model,
   }
   if (summary.ridge > 0) json["ridge_factor"] = summary.ridge;
   json["explained_on"] = summary.held_out ? "held_out" : "training";
-  Json explained = Json::array();
-  for (const dam::ControlNote& control : summary.controls) {
-    explained.push_back({{"control", control.name},
-                         {"constant", control.constant},
-                         {"explained", control.explained}});
-  }
-  json["explained"] = std::move(explained);
-  Json unknown;
-  json["rare_phones"] = phones_json(summary, unknown);
-  json["unknown_phones"] = std::move(unknown);
-  json["standing_out"] = Json::array();
-  for (const dam::SentenceNote& s : summary.standing) {
-    json["standing_out"].push_back({{"id", s.id}, {"offset", s.offset}, {"error", s.error}});
-  }
+  json["explained"] = json_list(summary.controls, [](const dam::ControlNote& one) {
+    return Json{{"control", one.name}, {"constant", one.constant}, {"explained", one.explained}};
+  });
+  json["rare_phones"] = json_list(summary.rare, [](const dam::RarePhone& one) {
+    return Json{{"phone", one.label}, {"examples", one.examples}, {"leans_on", one.leans_on}};
+  });
+  json["unknown_phones"] = json_list(summary.unknown, [](const dam::UnknownPhone& one) {
+    return Json{{"phone", one.label}, {"spoken_as", one.spoken_as}};
+  });
+  json["standing_out"] = json_list(summary.standing, [](const dam::SentenceNote& one) {
+    return Json{{"id", one.id}, {"offset", one.offset}, {"error", one.error}};
+  });
   json["training_seconds"] = summary.seconds;
   json["warnings"] = summary.warnings;
   if (data.parts.empty()) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "fap/frame.h"
 #include "fap/result.h"

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "fap/head/shapes.h"
 #include "fap/head/srgb.h"
 #include "fap/tables.h"
+#include "tools/json.h"
 #include "tools/render/scene.h"
 #include "tools/viewer/detail/bytes.h"
 #include "tools/viewer/viewer.h"
@@ -14,7 +14,7 @@ namespace {
 
 using detail::Bytes;
 using head::Vec3;
-using Json = nlohmann::ordered_json;
+using tools::Json;
 
 constexpr const char* kMaterials[] = {"skin", "eye", "teeth", "wet", "hair", "cloth"};
 
@@ -108,25 +108,25 @@ Json jaw_of(const head::Rig& rig) {
     frame.set(fap, value);
     return head::pose(rig, frame).jaw;
   };
-  return Json{{"axis", json_of(rig.jaw_axis)},
-              {"sine", turned(3, 512).row_z.y / 512},
-              {"limit", turned(3, 1 << 20).row_z.y},
-              {"thrust", turned(14, 512).shift.z / 512},
-              {"shift", turned(15, 512).shift.x / 512}};
+  return {{"axis", json_of(rig.jaw_axis)},
+          {"sine", turned(3, 512).row_z.y / 512},
+          {"limit", turned(3, 1 << 20).row_z.y},
+          {"thrust", turned(14, 512).shift.z / 512},
+          {"shift", turned(15, 512).shift.x / 512}};
 }
 
 Json rooms_of(const head::Rooms& rooms) {
-  return Json{{"brows", rooms.brows},         {"brow_lid", rooms.brow_lid},
-              {"upper_lip", rooms.upper_lip}, {"lower_lip", rooms.lower_lip},
-              {"lip_chin", rooms.lip_chin},   {"chin", rooms.chin}};
+  return {{"brows", rooms.brows},         {"brow_lid", rooms.brow_lid},
+          {"upper_lip", rooms.upper_lip}, {"lower_lip", rooms.lower_lip},
+          {"lip_chin", rooms.lip_chin},   {"chin", rooms.chin}};
 }
 
 Json teeth_of(const head::DentalArch& arch) {
-  return Json{{"middle", json_of(arch.middle)},
-              {"half_width", arch.half_width},
-              {"depth", arch.depth},
-              {"half_height", arch.half_height},
-              {"count", arch.vertices.size()}};
+  return {{"middle", json_of(arch.middle)},
+          {"half_width", arch.half_width},
+          {"depth", arch.depth},
+          {"half_height", arch.half_height},
+          {"count", arch.vertices.size()}};
 }
 
 Json points_of(const head::Head& head) {
@@ -161,18 +161,18 @@ Json shapes_of(int count, Shape shape) {
 Json camera_of(const head::Head& head) {
   const render::Camera camera = render::look_at(head, 0);
   // Nearer pictures look at another place; from 1.8 on it stays.
-  return Json{{"target", json_of(camera.target)},
-              {"near", json_of(render::look_at(head, 0, 0, 1.8).target)},
-              {"distance", length(camera.eye - camera.target)},
-              {"angle", camera.view_angle}};
+  return {{"target", json_of(camera.target)},
+          {"near", json_of(render::look_at(head, 0, 0, 1.8).target)},
+          {"distance", length(camera.eye - camera.target)},
+          {"angle", camera.view_angle}};
 }
 
-Json eyes_of(const head::Rig& rig) {
-  Json eyes = Json::array();
-  for (const head::Eye& eye : rig.eyes) {
-    eyes.push_back({{"centre", json_of(eye.centre)}, {"radius", eye.radius}});
-  }
-  return eyes;
+Json eye_of(const head::Eye& eye) {
+  return {{"centre", json_of(eye.centre)}, {"radius", eye.radius}};
+}
+
+void write_vertices(const std::vector<std::uint32_t>& vertices, Bytes& out) {
+  for (const std::uint32_t vertex : vertices) out.varint(vertex);
 }
 
 }  // namespace
@@ -187,16 +187,10 @@ std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig
   for (const head::Target& target : rig.targets) targets.push_back(write_target(target, data));
   write_pairs(rig.lips, data);
   for (const auto& lids : rig.lids) write_pairs(lids, data);
-  for (const auto& vertices : rig.lid_vertices) {
-    for (const std::uint32_t vertex : vertices) data.varint(vertex);
-  }
-  for (const auto& vertices : rig.eye_skin) {
-    for (const std::uint32_t vertex : vertices) data.varint(vertex);
-  }
-  for (const head::DentalArch& arch : rig.teeth) {
-    for (const std::uint32_t vertex : arch.vertices) data.varint(vertex);
-  }
-  for (const std::uint32_t vertex : rig.lash_anchors) data.varint(vertex);
+  for (const auto& vertices : rig.lid_vertices) write_vertices(vertices, data);
+  for (const auto& vertices : rig.eye_skin) write_vertices(vertices, data);
+  for (const head::DentalArch& arch : rig.teeth) write_vertices(arch.vertices, data);
+  write_vertices(rig.lash_anchors, data);
   for (const float weight : rig.neck_weights) data.u16(rounded(weight * 65535, 65535));
   const Json header{
       {"version", 2},
@@ -212,7 +206,7 @@ std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig
       {"before_eyes", {rig.eye_skin[0].size(), rig.eye_skin[1].size()}},
       {"anchors", rig.lash_anchors.size()},
       {"fapu", {{"es", rig.fapu.es}, {"mns", rig.fapu.mns}}},
-      {"eyes", eyes_of(rig)},
+      {"eyes", tools::json_list(rig.eyes, eye_of)},
       {"jaw", jaw_of(rig)},
       {"rooms", rooms_of(rig.rooms)},
       {"teeth", {teeth_of(rig.teeth[0]), teeth_of(rig.teeth[1])}},
@@ -223,8 +217,7 @@ std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig
       {"expressions", shapes_of(int(fap::kExpressions.size()), head::expression_shape)},
       {"camera", camera_of(head)},
   };
-  return detail::with_header(header.dump(-1, ' ', true, Json::error_handler_t::replace), data)
-      .take();
+  return detail::with_header(header, data);
 }
 
 }  // namespace animeme::viewer

@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "fap/head/shapes.h"
 #include "fap/tables.h"
+#include "tools/json.h"
 #include "tools/viewer/detail/bytes.h"
 #include "tools/viewer/detail/parts.h"
 #include "tools/viewer/viewer.h"
@@ -12,18 +12,13 @@ namespace animeme::viewer {
 namespace {
 
 using detail::Bytes;
-using Json = nlohmann::ordered_json;
+using tools::Json;
+using tools::json_list;
 
 // JSON inside of a script element: nothing in it can end the element.
 std::string script_text(const Json& json) {
   std::string out;
-  for (const char c : json.dump(-1, ' ', true, Json::error_handler_t::replace)) {
-    if (c == '<') {
-      out += "\\u003c";
-    } else {
-      out += c;
-    }
-  }
+  for (const char c : detail::text_of(json)) out += c == '<' ? "\\u003c" : std::string(1, c);
   return out;
 }
 
@@ -67,34 +62,25 @@ std::string pack_clip(const Clip& clip, const head::Rig& rig) {
                     {"start", clip.start},     {"first", clip.motion.frames.front().number},
                     {"frames", frames.size()}, {"controls", controls},
                     {"derived", derived}};
-  return packed(
-      detail::with_header(header.dump(-1, ' ', true, Json::error_handler_t::replace), data).take());
+  return packed(detail::with_header(header, data));
 }
 
-Json fap_table() {
-  Json table = Json::array();
-  for (const fap::FapInfo& info : fap::kFaps) {
-    table.push_back({{"number", info.number},
-                     {"name", info.name},
-                     {"group", info.group},
-                     {"unit", fap::unit_name(info.unit)},
-                     {"point", info.feature_point}});
-  }
-  return table;
+Json fap_of(const fap::FapInfo& info) {
+  return {{"number", info.number},
+          {"name", info.name},
+          {"group", info.group},
+          {"unit", fap::unit_name(info.unit)},
+          {"point", info.feature_point}};
 }
 
-Json phones_of(const dam::Script& script) {
-  Json phones = Json::array();
-  for (const dam::Phone& phone : script.phones) {
-    phones.push_back({phone.start, phone.end, phone.label, phone.word});
-  }
-  return phones;
+Json phone_of(const dam::Phone& phone) {
+  return Json::array({phone.start, phone.end, phone.label, phone.word});
 }
 
 Json facts_of(const Page& page) {
-  Json groups = Json::array();
-  for (const fap::GroupInfo& group : fap::kGroups) groups.push_back(group.name);
-  Json facts{{"faps", fap_table()}, {"groups", groups}, {"phones", phones_of(page.script)}};
+  Json facts{{"faps", json_list(fap::kFaps, fap_of)},
+             {"groups", json_list(fap::kGroups, &fap::GroupInfo::name)},
+             {"phones", json_list(page.script.phones, phone_of)}};
   if (page.sound) facts["sound"] = page.sound->type;
   return facts;
 }
@@ -155,9 +141,7 @@ Result<std::string> make_page(const Page& page) {
     }
   }
   // Through JSON and back: what is no UTF-8 becomes a replacement mark.
-  const std::string name =
-      Json::parse(Json(page.clips[0].name).dump(-1, ' ', true, Json::error_handler_t::replace))
-          .get<std::string>();
+  const std::string name = Json::parse(detail::text_of(page.clips[0].name)).get<std::string>();
   const std::string script = std::string(detail::kHeadModules) + std::string(detail::kPageModules);
   return filled(detail::kTemplate, {{"<!--title-->", tools::escape_xml(name)},
                                     {"/*style*/", std::string(detail::kStyle)},

@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "fap/landmarks.h"
 #include "fap/result.h"
 #include "tools/exchange/detail/table.h"
 #include "tools/exchange/landmarks.h"

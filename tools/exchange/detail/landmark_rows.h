@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "fap/landmarks.h"
 #include "fap/result.h"
 #include "tools/exchange/detail/landmark_columns.h"
 #include "tools/exchange/detail/times.h"

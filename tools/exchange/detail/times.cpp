@@ -63,16 +63,12 @@ double timecode_step(const std::vector<RowTime>& times) {
   return steps.empty() ? 0 : median(std::move(steps));
 }
 
-// True if some second ends within the recording: its last frame number tells the timecode rate.
-bool passes_a_second(const std::vector<RowTime>& times) {
-  return times.front().seconds != times.back().seconds;
-}
-
 int tell_timecode_rate(const std::vector<RowTime>& times, std::optional<fap::Rate> rate,
                        std::vector<std::string>& warnings) {
   double last = 0;
   for (const RowTime& time : times) last = std::max(last, time.frames.value_or(0));
-  if (passes_a_second(times)) {
+  // If some second ends within the recording, its last frame number tells the rate.
+  if (times.front().seconds != times.back().seconds) {
     // Slower than any camera, and no row missing: the second ends where it ends.
     const bool slow = last < kTimecodeRates[0] - 1 && timecode_step(times) == 1;
     return slow ? int(last) + 1 : timecode_rate(last);
@@ -101,8 +97,6 @@ std::vector<double> seconds_of(const std::vector<RowTime>& times, int per_second
   return seconds;
 }
 
-bool is_ntsc(fap::Rate rate) { return rate.den == 1001; }
-
 // Frames a second, counted over the whole recording: frames that were left out count.
 double measured_rate(const std::vector<double>& seconds, double step) {
   double frames = 0;
@@ -114,7 +108,7 @@ fap::Rate snapped(double measured, double duration, bool timecode) {
   fap::Rate best{0, 1};
   double error = kSnap;
   for (const fap::Rate& rate : kRates) {
-    if (is_ntsc(rate) && (timecode || duration < kNtscFrom)) continue;
+    if (rate.den == 1001 && (timecode || duration < kNtscFrom)) continue;
     const double off = std::abs(measured / rate.frames_per_second() - 1);
     if (off < error) {
       error = off;
@@ -140,13 +134,6 @@ Result<fap::Rate> tell_rate(const std::vector<double>& seconds, bool timecode) {
                           " s apart, which is no frame rate; correct them or give the rate");
   }
   return snapped(measured, duration, timecode);
-}
-
-// Positions of the rows in frames after the first.
-std::vector<double> positions_of(const std::vector<double>& seconds, double per_second) {
-  std::vector<double> positions;
-  for (const double now : seconds) positions.push_back((now - seconds.front()) * per_second);
-  return positions;
 }
 
 // The frame number of a row at `position` behind a row with number `previous` (-1: none). Rows
@@ -194,22 +181,24 @@ Result<PlacedRows> place_rows(const std::vector<RowTime>& times, std::optional<f
     if (!told) return std::move(told).error();
     rate = *told;
   }
-  const std::vector<double> positions =
-      positions_of(seconds, timecode ? counted_rate(*rate) : rate->frames_per_second());
+  const double scale = timecode ? counted_rate(*rate) : rate->frames_per_second();
   PlacedRows placed{*rate, {}};
   std::size_t merged = 0;
   std::int64_t number = -1;
+  double before = 0;
   for (std::size_t i = 0; i < times.size(); ++i) {
     const auto at = std::int64_t(times[i].line);
-    if (i > 0 && positions[i] < positions[i - 1]) {
+    const double position = (seconds[i] - seconds.front()) * scale;  // in frames after the first
+    if (position < before) {
       return error_at_line(Code::out_of_range, "the time goes back; sort the rows by time", at);
     }
-    if (positions[i] > kLargestFrame) {
+    if (position > kLargestFrame) {
       return error_at_line(Code::out_of_range,
                            "the time is more than 10 million frames after the first; correct it",
                            at);
     }
-    const std::int64_t next = next_number(number, positions[i]);
+    const std::int64_t next = next_number(number, position);
+    before = position;
     if (next == number) {
       placed.numbers.back().reset();
       ++merged;

@@ -2,7 +2,6 @@
 
 #include <bit>
 #include <cstring>
-#include <limits>
 #include <map>
 #include <string_view>
 
@@ -21,19 +20,15 @@ enum class Component : std::uint16_t {
   float32 = 5126,
 };
 
-std::size_t size_of(Component type) {
-  switch (type) {
-    case Component::int8:
-    case Component::uint8:
-      return 1;
-    case Component::int16:
-    case Component::uint16:
-      return 2;
-    case Component::uint32:
-    case Component::float32:
-      return 4;
-  }
-  return 0;
+struct ComponentInfo {
+  std::size_t size;  // bytes
+  double largest;    // what normalised numbers are divided by
+};
+
+ComponentInfo info_of(Component type) {
+  constexpr ComponentInfo kInfos[] = {{1, 127}, {1, 255},          {2, 32767}, {2, 65535},
+                                      {},       {4, 4294967295.0}, {4, 1}};
+  return kInfos[std::size_t(type) - std::size_t(Component::int8)];
 }
 
 // `count` elements in bytes, `stride` bytes apart.
@@ -80,24 +75,6 @@ double number_at(const std::uint8_t* place, Component type) {
   return 0;
 }
 
-double largest_of(Component type) {
-  switch (type) {
-    case Component::int8:
-      return 127;
-    case Component::uint8:
-      return 255;
-    case Component::int16:
-      return 32767;
-    case Component::uint16:
-      return 65535;
-    case Component::uint32:
-      return 4294967295.0;
-    case Component::float32:
-      return 1;
-  }
-  return 1;
-}
-
 Error bad(std::size_t accessor, std::string_view what) {
   return make_error(Code::syntax, "accessor " + std::to_string(accessor) + " " + std::string(what) +
                                       ": export the file again");
@@ -122,7 +99,7 @@ Result<Block> block_of(const File& file, std::size_t accessor, const Json& where
   if (!view) return bad(accessor, "has no buffer view");
   auto bytes = view_of(file, *view);
   if (!bytes) return bytes.error();
-  const std::size_t element = size_of(type) * components;
+  const std::size_t element = info_of(type).size * components;
   const std::size_t stride =
       whole_or(member(file.entry("bufferViews", *view), "byteStride"), element);
   const std::size_t offset = whole_or(member(where, "byteOffset"), 0);
@@ -174,11 +151,11 @@ Result<Layout> layout_of(const File& file, std::size_t accessor, std::size_t com
 // Calls put(element, component, value) for all that is given; what is not stays 0.
 template <class Put>
 Result<void> read(std::size_t accessor, const Layout& layout, Put put) {
-  const double scale = layout.normalised ? 1 / largest_of(layout.type) : 1;
+  const double scale = layout.normalised ? 1 / info_of(layout.type).largest : 1;
   bool finite = true;
   const auto element = [&](const Block& block, std::size_t from, std::size_t to) {
     const std::uint8_t* place = block.bytes.data() + from * block.stride;
-    for (std::size_t c = 0; c < layout.components; ++c, place += size_of(block.type)) {
+    for (std::size_t c = 0; c < layout.components; ++c, place += info_of(block.type).size) {
       const double value = number_at(place, block.type) * scale;
       finite = finite && std::isfinite(value);
       put(to, c, layout.normalised ? std::max(value, -1.0) : value);

@@ -31,6 +31,9 @@ struct File {
   bool uses(std::string_view extension) const;
 };
 
+/// The whole of a file. Errors: not_found, io.
+Result<Bytes> bytes_of(const std::string& path);
+
 /// Errors: see read_head().
 Result<File> open_file(std::span<const std::uint8_t> bytes, const LoadFile& load);
 

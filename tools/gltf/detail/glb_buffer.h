@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fap/head/vector.h"
+#include "fap/result.h"
 
 namespace animeme::gltf {
 
@@ -29,7 +30,10 @@ class GlbBuffer {
   int sparse(std::size_t count, std::span<const std::uint32_t> vertices,
              std::span<const head::Vec3> values);
 
-  const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+  /// The binary form of glTF, a header, the JSON and the data; `root` gets its buffer. Error:
+  /// out_of_range (larger than 4 GB).
+  Result<std::vector<std::uint8_t>> file(nlohmann::json root);
+
   nlohmann::json accessors = nlohmann::json::array();
   nlohmann::json views = nlohmann::json::array();
 

@@ -1,8 +1,8 @@
-#include "tools/gltf/detail/load_file.h"
-
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+
+#include "tools/gltf/detail/file.h"
 
 namespace animeme::gltf {
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "tools/gltf/detail/extensions.h"
-#include "tools/gltf/detail/triangles.h"
 #include "tools/gltf/detail/words.h"
 #include "tools/gltf/shape_names.h"
 
@@ -12,6 +11,31 @@ namespace {
 
 using head::Vec3;
 using head::Vec3d;
+
+constexpr std::size_t kTriangles = 4;
+constexpr std::size_t kTriangleStrip = 5;
+constexpr std::size_t kTriangleFan = 6;
+
+// Without those that have no area because two corners are one. Error: syntax (an index beyond the
+// vertices).
+Result<std::vector<head::Triangle>> triangles_of(const std::vector<std::uint32_t>& indices,
+                                                 std::size_t vertices, std::size_t mode) {
+  std::vector<head::Triangle> triangles;
+  for (const std::uint32_t index : indices) {
+    if (index >= vertices) {
+      return make_error(Code::syntax,
+                        "a triangle has a vertex that does not exist: export the file again");
+    }
+  }
+  const std::size_t step = mode == kTriangles ? 3 : 1;
+  for (std::size_t i = 0; i + 2 < indices.size(); i += step) {
+    head::Triangle t = {indices[i], indices[i + 1], indices[i + 2]};
+    if (mode == kTriangleStrip && i % 2 == 1) std::swap(t[1], t[2]);
+    if (mode == kTriangleFan) t = {indices[0], indices[i + 1], indices[i + 2]};
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);
+  }
+  return triangles;
+}
 
 // Names: of the mesh, as nearly all programs write them; of the primitive (UniGLTF); of the
 // accessors.

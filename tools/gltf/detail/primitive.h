@@ -1,8 +1,6 @@
 // Meshes of a file as triangles in the world at rest, with what moves them.
 #pragma once
 
-#include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -36,23 +36,13 @@ struct Look {
   float tint = 0;  // of the highlight: 0 white, 1 as the surface
 };
 
-Look look_of(Material material) {
-  switch (material) {
-    case Material::skin:
-      return {{0.42f, 0.22f, 0.16f}, 0.10f, 4, 0.22f};
-    case Material::eye:
-      return {{0.25f, 0.22f, 0.20f}, 0, 1, 0};
-    case Material::teeth:
-      return {{0.2f, 0.2f, 0.2f}, 0.35f, 5, 0};
-    case Material::wet:
-      return {{0.3f, 0.15f, 0.1f}, 0.25f, 5, 0};
-    case Material::hair:
-      return {{0.15f, 0.12f, 0.10f}, 0.14f, 4, 0.3f, 0.85f};
-    case Material::cloth:
-      return {{0.15f, 0.15f, 0.15f}, 0.02f, 3, 0.12f};
-  }
-  return {{0, 0, 0}, 0, 1, 0};
-}
+constexpr Look kLooks[] = {  // in the order of head::Material
+    {{0.42f, 0.22f, 0.16f}, 0.10f, 4, 0.22f},
+    {{0.25f, 0.22f, 0.20f}, 0, 1, 0},
+    {{0.2f, 0.2f, 0.2f}, 0.35f, 5, 0},
+    {{0.3f, 0.15f, 0.1f}, 0.25f, 5, 0},
+    {{0.15f, 0.12f, 0.10f}, 0.14f, 4, 0.3f, 0.85f},
+    {{0.15f, 0.15f, 0.15f}, 0.02f, 3, 0.12f}};
 
 float power(float base, int squarings) {
   for (int i = 0; i < squarings; ++i) base *= base;
@@ -98,6 +88,18 @@ Vec3 cornea(Vec3 normal, Vec3 gaze) {
   return normal + (normal - gaze * ahead) * (0.5f * head::smooth_step(0.2f, 1.0f, ahead));
 }
 
+// sRGB value 0..255 of linear light 0..1, by table.
+float shown(float light) {
+  const float x = std::clamp(light, 0.0f, 1.0f) * kShownSteps;
+  const int i = int(x);
+  const auto& table = shown_table();
+  return table[std::size_t(i)] +
+         (table[std::size_t(i + 1)] - table[std::size_t(i)]) * (x - float(i));
+}
+
+// The same after the filmic curve.
+float filmic(float x) { return shown(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f)); }
+
 }  // namespace
 
 View::View(const Camera& camera, int width, int height) : eye(camera.eye) {
@@ -112,19 +114,9 @@ View::View(const Camera& camera, int width, int height) : eye(camera.eye) {
   rim = normalised(right * -0.7f + up * 0.5f + back * -0.8f);
 }
 
-float shown(float light) {
-  const float x = std::clamp(light, 0.0f, 1.0f) * kShownSteps;
-  const int i = int(x);
-  const auto& table = shown_table();
-  return table[std::size_t(i)] +
-         (table[std::size_t(i + 1)] - table[std::size_t(i)]) * (x - float(i));
-}
-
-float filmic(float x) { return shown(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f)); }
-
 void shade(const Surface& surface, const View& view, std::size_t first, std::size_t last,
            ScreenVertex* out) {
-  const Look look = look_of(surface.material);
+  const Look& look = kLooks[std::size_t(surface.material)];
   const Vec3 gaze = surface.transform.turn({0, 0, 1});
   for (std::size_t i = first; i < last; ++i) {
     const Vec3 place = surface.transform(surface.positions[i]);

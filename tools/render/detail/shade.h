@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "tools/render/raster.h"
 
@@ -28,11 +27,6 @@ struct ScreenVertex {
   head::Vec3 colour;   ///< 0..255, as shown
   head::Vec3 normal;   ///< for highlights; not of length 1
 };
-
-/// sRGB value 0..255 of linear light 0..1, by table.
-float shown(float light);
-/// The same after the filmic curve.
-float filmic(float light);
 
 /// Vertices first .. last - 1.
 void shade(const Surface& surface, const View& view, std::size_t first, std::size_t last,

@@ -8,9 +8,8 @@
 
 namespace animeme::render::detail {
 
-inline constexpr int kTile = 64;    ///< pixels a side
-inline constexpr int kBlock = 8;    ///< pixels a side of the squares that are known to be covered
-inline constexpr int kSamples = 4;  ///< a pixel
+inline constexpr int kTile = 64;  ///< pixels a side
+inline constexpr int kBlock = 8;  ///< pixels a side of the squares that are known to be covered
 
 /// Vectors of the four samples of a pixel, by an extension that g++ and clang++ share.
 using F4 = float __attribute__((vector_size(16)));

@@ -11,11 +11,6 @@ void Bytes::u16(std::uint32_t value) {
   u8(value >> 8 & 0xFF);
 }
 
-void Bytes::u32(std::uint32_t value) {
-  u16(value & 0xFFFF);
-  u16(value >> 16);
-}
-
 void Bytes::varint(std::uint64_t value) {
   for (; value >= 0x80; value >>= 7) u8(std::uint32_t(value & 0x7F) | 0x80);
   u8(std::uint32_t(value));
@@ -25,15 +20,19 @@ void Bytes::zigzag(std::int64_t value) {
   varint(value < 0 ? ~(std::uint64_t(value) << 1) : std::uint64_t(value) << 1);
 }
 
-void Bytes::append(const Bytes& other) {
-  data_.insert(data_.end(), other.data_.begin(), other.data_.end());
+std::string text_of(const tools::Json& json) {
+  return json.dump(-1, ' ', true, tools::Json::error_handler_t::replace);
 }
 
-Bytes with_header(const std::string& json, const Bytes& rest) {
-  Bytes out;
-  out.u32(std::uint32_t(json.size()));
-  out.text(json);
-  out.append(rest);
+std::vector<std::uint8_t> with_header(const tools::Json& header, const Bytes& rest) {
+  const std::string json = text_of(header);
+  const auto size = std::uint32_t(json.size());
+  Bytes length;
+  length.u16(size & 0xFFFF);
+  length.u16(size >> 16);
+  std::vector<std::uint8_t> out = length.data();
+  out.insert(out.end(), json.begin(), json.end());
+  out.insert(out.end(), rest.data().begin(), rest.data().end());
   return out;
 }
 
