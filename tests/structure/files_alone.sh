@@ -11,7 +11,7 @@ day=$(git log -1 --format=%ct 2>/dev/null || date +%s)
 turn=${ANIMEME_FILES:-$((day / 86400 % 16))}
 [ "$turn" = all ] && every=1 turn=0 || every=16
 flags="-std=c++20 -fsyntax-only -Wall -Wextra -Wshadow -Werror -Wno-missing-field-initializers -I.
-  $(pkg-config --cflags-only-I --silence-errors eigen3 libxml-2.0 espeak-ng | sed 's/-I/-isystem /g')
+  $(pkg-config --cflags-only-I --silence-errors eigen3 libxml-2.0 espeak-ng stb | sed 's/-I/-isystem /g')
   -isystem /usr/include/pocketsphinx -DANIMEME_SOURCE_DIR=\"\" -DANIMEME_BINARY_DIR=\"\" -DANIMEME_VERSION=\"\""
 files=$(find fap codec dam conformance tools tests -name '*.cpp' ! -name '*_absent.cpp' ! -path '*/node_modules/*' \
   ! -path 'tests/package/*' | sort | awk -v every="$every" -v turn="$turn" 'NR % every == turn % every')
