@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "tools/media/detail/audio_decoder.h"
-#include "tools/media/detail/rendition.h"
+#include "tools/media/detail/presentation.h"
 #include "tools/media/detail/resampler.h"
 
 namespace animeme::media {
@@ -148,38 +148,30 @@ void warn(const ReadAudioOptions& options, std::string text) {
 }
 
 Result<Pcm> decode_all(Input& input, const ReadAudioOptions& options) {
-  AVFormatContext& file = *input.context();
-  const int found = avformat_find_stream_info(&file, nullptr);
-  if (found < 0) return av::make_av_error(found, "the file is damaged");
-  const std::optional<int> index = find_audio(input);
-  if (!index) return make_error(Code::not_found, "the file has no audio track");
-  for (unsigned i = 0; i < file.nb_streams; ++i) {
-    if (int(i) != *index) file.streams[i]->discard = AVDISCARD_ALL;
-  }
-  const AVStream& stream = *file.streams[*index];
-  Result<av::Codec> codec = open_audio_decoder(stream);
+  Result<AVStream*> chosen = choose_audio(input);
+  if (!chosen) return chosen.error();
+  const AVStream& stream = **chosen;
+  Result<av::Codec> codec = open_audio_decoder(*stream.codecpar, stream.time_base);
   if (!codec) return codec.error();
 
   SoundCollector sound(input, stream, options);
   const auto take = [&](AVFrame& frame) { return sound.add(frame); };
-  const av::Packet packet(av_packet_alloc());
   const av::Frame frame(av_frame_alloc());
-  if (!packet || !frame) return av::no_memory();
+  if (!frame) return av::no_memory();
   std::int64_t damaged = 0;
-  int status = 0;
-  while ((status = av_read_frame(&file, packet.get())) >= 0) {
-    if (packet->stream_index == *index) {
-      Result<bool> good = decode_packet(**codec, packet.get(), *frame, take);
-      if (!good) return good.error();
-      if (!*good) ++damaged;
-    }
-    av_packet_unref(packet.get());
-  }
+  const auto decode = [&](AVPacket& packet) -> Result<void> {
+    Result<bool> good = decode_packet(**codec, &packet, *frame, take);
+    if (!good) return good.error();
+    if (!*good) ++damaged;
+    return {};
+  };
+  Result<int> status = read_packets(input, stream.index, decode);
+  if (!status) return status.error();
   Result<bool> flushed = decode_packet(**codec, nullptr, *frame, take);
   if (!flushed) return flushed.error();
   if (damaged > 0) warn(options, std::to_string(damaged) + " damaged audio packets were skipped");
-  if (status != AVERROR_EOF || input.exhausted()) {
-    warn(options, "the file ends early or is damaged: " + av::error_text(status));
+  if (*status != AVERROR_EOF || input.exhausted()) {
+    warn(options, "the file ends early or is damaged: " + av::error_text(*status));
   }
   return sound.finish();
 }
@@ -208,13 +200,8 @@ Result<Pcm> read_from(const Source& source, const ReadAudioOptions& options) {
 }  // namespace
 
 Result<Pcm> read_audio(const std::string& path, const ReadAudioOptions& options) {
-  return av::guarded([&]() -> Result<Pcm> {
-    Result<Pcm> pcm =
-        is_playlist(path)
-            ? read_sound_of(path, [&](auto bytes) { return read_from(bytes, options); })
-            : read_from(path, options);
-    if (!pcm) return std::move(pcm.error()).in_file(path);
-    return pcm;
+  return av::guarded(path, [&] {
+    return read_sound_of(path, [&](const auto& source) { return read_from(source, options); });
   });
 }
 

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <span>
 #include <string_view>
 #include <utility>
 
@@ -12,7 +11,7 @@
 #include "tools/media/detail/face_track.h"
 #include "tools/media/detail/muxer.h"
 #include "tools/media/detail/output_file.h"
-#include "tools/media/detail/rendition.h"
+#include "tools/media/detail/presentation.h"
 
 namespace animeme::media {
 namespace {
@@ -52,47 +51,33 @@ Error does_not_fit(std::string_view extension, AVCodecID codec) {
                         std::string(extension) + " file cannot take; use " + fitting + "or .wav");
 }
 
-Result<void> copy_packets(Input& input, int index, Muxer& muxer) {
-  AVFormatContext& file = *input.context();
-  const av::Packet packet(av_packet_alloc());
-  if (!packet) return av::no_memory();
-  const std::optional<std::int64_t> end = end_of_sound(input, *file.streams[index]);
+Result<void> copy_packets(Input& input, const AVStream& stream, Muxer& muxer) {
+  const std::optional<std::int64_t> end = end_of_sound(input, stream);
   std::optional<std::int64_t> begin;  // subtracted; priming before 0 stays where it is
-  while (av_read_frame(&file, packet.get()) >= 0) {
-    if (packet->stream_index != index) {
-      av_packet_unref(packet.get());
-      continue;
-    }
-    const std::int64_t time = packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts;
+  Result<int> read = read_packets(input, stream.index, [&](AVPacket& packet) {
+    const std::int64_t time = packet.pts != AV_NOPTS_VALUE ? packet.pts : packet.dts;
     // The last packet of a fragmented file is said to be whole.
-    if (end && time != AV_NOPTS_VALUE && time < *end && packet->duration > *end - time) {
-      packet->duration = *end - time;
+    if (end && time != AV_NOPTS_VALUE && time < *end && packet.duration > *end - time) {
+      packet.duration = *end - time;
     }
     if (!begin && time != AV_NOPTS_VALUE) begin = std::max<std::int64_t>(time, 0);
-    if (packet->pts != AV_NOPTS_VALUE) packet->pts -= begin.value_or(0);
-    if (packet->dts != AV_NOPTS_VALUE) packet->dts -= begin.value_or(0);
-    Result<void> written = muxer.write_packet(*packet);
-    if (!written) return written;
-  }
+    if (packet.pts != AV_NOPTS_VALUE) packet.pts -= begin.value_or(0);
+    if (packet.dts != AV_NOPTS_VALUE) packet.dts -= begin.value_or(0);
+    return muxer.write_packet(packet);
+  });
+  if (!read) return read.error();
   if (input.exhausted()) return make_error(Code::syntax, "the file's index is damaged");
   if (!begin) return make_error(Code::syntax, "the audio track of " + input.format() + " is empty");
   return {};
 }
 
 Result<void> copy_track(Input& input, const CopyTarget& target, const std::string& out) {
-  AVFormatContext& file = *input.context();
-  FaceTracks faces;
-  faces.update(file);
-  const int status = avformat_find_stream_info(&file, nullptr);
-  if (status < 0) return av::make_av_error(status, "the file is damaged");
-  const std::optional<int> index = find_audio(input);
-  if (!index) return make_error(Code::not_found, "the file has no audio track");
-  const AVStream& stream = *file.streams[*index];
+  FaceTracks().update(*input.context());
+  Result<AVStream*> chosen = choose_audio(input);
+  if (!chosen) return chosen.error();
+  const AVStream& stream = **chosen;
   if (!takes(target, stream.codecpar->codec_id)) {
     return does_not_fit(target.extension, stream.codecpar->codec_id);
-  }
-  for (unsigned i = 0; i < file.nb_streams; ++i) {
-    if (int(i) != *index) file.streams[i]->discard = AVDISCARD_ALL;
   }
   Result<OutputFile> output = OutputFile::create(out);
   if (!output) return output.error();
@@ -105,7 +90,7 @@ Result<void> copy_track(Input& input, const CopyTarget& target, const std::strin
   }
   Result<void> done = (*muxer)->add_stream(*stream.codecpar, stream.time_base);
   if (done) done = (*muxer)->write_header(header);
-  if (done) done = copy_packets(input, *index, **muxer);
+  if (done) done = copy_packets(input, stream, **muxer);
   if (done) done = (*muxer)->finish();
   if (!done) return std::move(done.error()).in_file(out);
   return output->commit();
@@ -135,9 +120,7 @@ Result<void> extract(const std::string& in, const std::string& out) {
     if (!input) return input.error();
     return copy_track(**input, *target, out);
   };
-  Result<void> copied = is_playlist(in) ? read_sound_of(in, copy) : copy(in);
-  if (!copied) return std::move(copied.error()).in_file(in);
-  return copied;
+  return av::guarded(in, [&] { return read_sound_of(in, copy); });
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include "tools/media/detail/extension.h"
 #include "tools/media/detail/interleaver.h"
 #include "tools/media/detail/mp4_fix.h"
-#include "tools/media/detail/mux_check.h"
 #include "tools/media/detail/mux_parts.h"
 #include "tools/media/detail/output_file.h"
 #include "tools/media/detail/segment_writer.h"
@@ -172,10 +171,9 @@ Result<MuxResult> write_file(const std::string& path, const FileType& type, cons
 
 Result<MuxResult> guarded_write(const std::string& path, const FileType& type,
                                 const MuxInput& input, const MuxOptions& options) {
-  return av::guarded([&]() -> Result<MuxResult> {
+  return av::guarded(path, [&] {
     Result<MuxResult> written = write_file(path, type, input, options);
-    if (!written) return std::move(written.error()).in_file(path);
-    if (options.progress) options.progress(1.0);
+    if (written && options.progress) options.progress(1.0);
     return written;
   });
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "tools/media/container.h"
@@ -132,25 +133,13 @@ Result<ContainerInfo> probe_playlist(const std::string& path) {
 }  // namespace
 
 const char* name_of(TrackKind kind) {
-  switch (kind) {
-    case TrackKind::face:
-      return "face";
-    case TrackKind::audio:
-      return "audio";
-    case TrackKind::video:
-      return "video";
-    case TrackKind::other:
-      return "other";
-  }
-  return "other";
+  constexpr std::array kNames = {"face", "audio", "video", "other"};
+  return kNames[std::size_t(kind)];
 }
 
 Result<ContainerInfo> probe(const std::string& path) {
-  return av::guarded([&]() -> Result<ContainerInfo> {
-    Result<ContainerInfo> info = is_playlist(path) ? probe_playlist(path) : probe_from(path);
-    if (!info) return std::move(info.error()).in_file(path);
-    return info;
-  });
+  return av::guarded(path,
+                     [&] { return is_playlist(path) ? probe_playlist(path) : probe_from(path); });
 }
 
 Result<ContainerInfo> probe(std::span<const std::uint8_t> file) {

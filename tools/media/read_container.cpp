@@ -5,7 +5,7 @@
 #include "tools/media/container.h"
 #include "tools/media/detail/audio_decoder.h"
 #include "tools/media/detail/face_track.h"
-#include "tools/media/detail/rendition.h"
+#include "tools/media/detail/presentation.h"
 #include "tools/media/detail/unit_collector.h"
 
 namespace animeme::media {
@@ -20,7 +20,7 @@ class SoundStart {
  public:
   SoundStart(const Input& input, AVStream* stream) : input_(input), stream_(stream) {
     if (stream_ == nullptr) return;
-    Result<av::Codec> opened = open_audio_decoder(*stream_);
+    Result<av::Codec> opened = open_audio_decoder(*stream_->codecpar, stream_->time_base);
     if (opened) codec_ = std::move(*opened);
     frame_.reset(av_frame_alloc());
     if (!codec_ || !frame_) give_up();
@@ -257,11 +257,8 @@ Result<Container> read_playlist(const std::string& path, const ReadOptions& opti
 }  // namespace
 
 Result<Container> read_container(const std::string& path, const ReadOptions& options) {
-  return av::guarded([&]() -> Result<Container> {
-    Result<Container> container =
-        is_playlist(path) ? read_playlist(path, options) : read_from(path, options);
-    if (!container) return std::move(container.error()).in_file(path);
-    return container;
+  return av::guarded(path, [&] {
+    return is_playlist(path) ? read_playlist(path, options) : read_from(path, options);
   });
 }
 

@@ -13,7 +13,7 @@ extern "C" {
 #include "tools/media/detail/audio_decoder.h"
 #include "tools/media/detail/audio_headers.h"
 #include "tools/media/detail/face_track.h"
-#include "tools/media/detail/rendition.h"
+#include "tools/media/detail/presentation.h"
 
 namespace animeme::media {
 namespace {
@@ -179,26 +179,14 @@ Result<EncodedAudio> PacketCollector::finish() {
 }
 
 Result<EncodedAudio> read_track(Input& input) {
-  AVFormatContext& file = *input.context();
-  FaceTracks faces;
-  faces.update(file);
-  const int found = avformat_find_stream_info(&file, nullptr);
-  if (found < 0) return av::make_av_error(found, "the file is damaged");
-  const std::optional<int> index = find_audio(input);
-  if (!index) return make_error(Code::not_found, "the file has no audio track");
-  for (unsigned i = 0; i < file.nb_streams; ++i) {
-    if (int(i) != *index) file.streams[i]->discard = AVDISCARD_ALL;
-  }
-  PacketCollector sound(input, *file.streams[*index]);
+  FaceTracks().update(*input.context());
+  Result<AVStream*> stream = choose_audio(input);
+  if (!stream) return stream.error();
+  PacketCollector sound(input, **stream);
   if (auto opened = sound.open(); !opened) return opened.error();
-  const av::Packet packet(av_packet_alloc());
-  if (!packet) return av::no_memory();
-  while (av_read_frame(&file, packet.get()) >= 0) {
-    Result<void> added;
-    if (packet->stream_index == *index) added = sound.add(packet.get());
-    av_packet_unref(packet.get());
-    if (!added) return added.error();
-  }
+  Result<int> read =
+      read_packets(input, (*stream)->index, [&](AVPacket& packet) { return sound.add(&packet); });
+  if (!read) return read.error();
   if (auto ended = sound.add(nullptr); !ended) return ended.error();
   return sound.finish();
 }
@@ -214,12 +202,8 @@ Result<EncodedAudio> read_from(const Source& source) {
 }  // namespace
 
 Result<EncodedAudio> read_encoded_audio(const std::string& path) {
-  return av::guarded([&]() -> Result<EncodedAudio> {
-    Result<EncodedAudio> audio =
-        is_playlist(path) ? read_sound_of(path, [](auto bytes) { return read_from(bytes); })
-                          : read_from(path);
-    if (!audio) return std::move(audio.error()).in_file(path);
-    return audio;
+  return av::guarded(path, [&] {
+    return read_sound_of(path, [](const auto& source) { return read_from(source); });
   });
 }
 

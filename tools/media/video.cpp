@@ -11,18 +11,12 @@
 namespace animeme::media {
 namespace {
 
+// By VideoCodec.
+constexpr std::array kNames = {"h264", "vp9", "mpeg4"};
 // Asked for by name: FFmpeg's own choice for H.264 may be hardware that is not there.
-const char* encoder_of(VideoCodec codec) {
-  switch (codec) {
-    case VideoCodec::h264:
-      return "libx264";
-    case VideoCodec::vp9:
-      return "libvpx-vp9";
-    case VideoCodec::mpeg4:
-      return "mpeg4";
-  }
-  return "mpeg4";
-}
+constexpr std::array kEncoders = {"libx264", "libvpx-vp9", "mpeg4"};
+
+const char* encoder_of(VideoCodec codec) { return kEncoders[std::size_t(codec)]; }
 
 Result<void> check(const VideoSettings& settings) {
   const auto bad = [](int side) { return side < 16 || side > 8192 || side % 2 != 0; };
@@ -108,17 +102,7 @@ Result<av::Sws> open_scaler(const VideoSettings& settings) {
 
 }  // namespace
 
-const char* name_of(VideoCodec codec) {
-  switch (codec) {
-    case VideoCodec::h264:
-      return "h264";
-    case VideoCodec::vp9:
-      return "vp9";
-    case VideoCodec::mpeg4:
-      return "mpeg4";
-  }
-  return "mpeg4";
-}
+const char* name_of(VideoCodec codec) { return kNames[std::size_t(codec)]; }
 
 Result<VideoCodec> video_codec_for(std::string_view extension) {
   constexpr std::array kAny = {VideoCodec::h264, VideoCodec::vp9, VideoCodec::mpeg4};

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <memory>
 
 #include "tools/media/audio.h"
 #include "tools/media/detail/ffmpeg.h"

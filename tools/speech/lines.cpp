@@ -12,21 +12,14 @@
 #include <thread>
 #include <utility>
 
+#include "tools/media/live/sdp_internal.h"
+
 namespace animeme::speech {
 
 namespace {
 
 constexpr std::size_t kMostBytes = 4000;  // of a line
 constexpr std::size_t kMostDone = 4;      // lines that wait: a voice is faster than speech
-
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-
-std::string trimmed(std::string text) {
-  while (!text.empty() && is_blank(text.back())) text.pop_back();
-  const auto first = std::find_if_not(text.begin(), text.end(), is_blank);
-  text.erase(text.begin(), first);
-  return text;
-}
 
 /// Cuts lines out of bytes as they come.
 class LineCutter {
@@ -42,11 +35,11 @@ class LineCutter {
         const std::size_t blank = rest_.rfind(' ', kMostBytes);
         end = next = blank == std::string::npos || blank == 0 ? kMostBytes : blank;
       }
-      lines.push_back(trimmed(rest_.substr(0, end)));
+      lines.emplace_back(media::trim(rest_.substr(0, end)));
       rest_.erase(0, next);
     }
   }
-  std::string rest() { return trimmed(std::exchange(rest_, {})); }
+  std::string rest() { return std::string(media::trim(std::exchange(rest_, {}))); }
 
  private:
   std::string rest_;

@@ -190,19 +190,9 @@ Result<std::unique_ptr<LiveSpeaker>> LiveSpeaker::open(const dam::Model& model, 
   info.timescale = shape->timescale;
   if (sound) info.audio = sound->format();
   fba::LiveEncoder encoder(coding(options, face->mask()));
-  auto impl = std::make_unique<Impl>(Impl{options,
-                                          &lines,
-                                          &clock,
-                                          std::move(*face),
-                                          std::move(sound),
-                                          std::move(encoder),
-                                          std::move(info),
-                                          shape->units.front().duration,
-                                          {},
-                                          {},
-                                          0,
-                                          0,
-                                          {}});
+  auto impl = std::make_unique<Impl>(Impl{options, &lines, &clock, std::move(*face),
+                                          std::move(sound), std::move(encoder), std::move(info),
+                                          shape->units.front().duration});
   return std::unique_ptr<LiveSpeaker>(new LiveSpeaker(std::move(impl)));
 }
 

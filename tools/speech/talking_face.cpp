@@ -1,6 +1,5 @@
 #include "tools/speech/talking_face.h"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 

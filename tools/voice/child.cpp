@@ -19,20 +19,11 @@ struct Header {
   std::uint32_t tag = 0, size = 0;
 };
 
-bool write_all(int descriptor, const char* data, std::size_t size) {
+/// Calls ::read or ::write until all of `data` is through.
+template <class Call, class Byte>
+bool transfer(Call call, int descriptor, Byte* data, std::size_t size) {
   while (size > 0) {
-    const ssize_t written = ::write(descriptor, data, size);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    data += written;
-    size -= std::size_t(written);
-  }
-  return true;
-}
-
-bool read_all(int descriptor, char* data, std::size_t size) {
-  while (size > 0) {
-    const ssize_t count = ::read(descriptor, data, size);
+    const ssize_t count = call(descriptor, data, size);
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) return false;
     data += count;
@@ -61,11 +52,11 @@ enum class Outcome { done, stopped, broken };
 Outcome listen(int descriptor, const std::function<bool(std::uint32_t, std::string)>& receive) {
   for (;;) {
     Header header;
-    if (!read_all(descriptor, reinterpret_cast<char*>(&header), sizeof header)) break;
+    if (!transfer(::read, descriptor, reinterpret_cast<char*>(&header), sizeof header)) break;
     if (header.tag == kDone) return Outcome::done;
     if (header.size > kMaxMessage) break;
     std::string bytes(header.size, '\0');
-    if (!read_all(descriptor, bytes.data(), bytes.size())) break;
+    if (!transfer(::read, descriptor, bytes.data(), bytes.size())) break;
     if (!receive(header.tag, std::move(bytes))) return Outcome::stopped;
   }
   return Outcome::broken;
@@ -88,8 +79,8 @@ std::string wait_for(pid_t child) {
 bool Sender::send(std::uint32_t tag, std::string_view bytes) {
   const Header header{tag, std::uint32_t(bytes.size())};
   return bytes.size() <= kMaxMessage &&
-         write_all(descriptor_, reinterpret_cast<const char*>(&header), sizeof header) &&
-         write_all(descriptor_, bytes.data(), bytes.size());
+         transfer(::write, descriptor_, reinterpret_cast<const char*>(&header), sizeof header) &&
+         transfer(::write, descriptor_, bytes.data(), bytes.size());
 }
 
 Result<void> run_child(std::string_view what, unsigned seconds,

@@ -50,14 +50,11 @@ int on_speech(short* samples, int count, espeak_EVENT* events) {
   return good ? 0 : 1;
 }
 
-bool fail(Sender& sender, const std::string& message) { return sender.send(kFailure, message); }
-
 bool start(Sender& sender, const std::string& data_path) {
-  const int rate = espeak_Initialize(
+  const std::int32_t rate = espeak_Initialize(
       AUDIO_OUTPUT_SYNCHRONOUS, 0, data_path.empty() ? nullptr : data_path.c_str(),
       espeakINITIALIZE_PHONEME_EVENTS | espeakINITIALIZE_PHONEME_IPA | espeakINITIALIZE_DONT_EXIT);
-  const std::int32_t wire = rate;
-  return rate > 0 && sender.send(kSampleRate, bytes_of(&wire, 1));
+  return rate > 0 && sender.send(kSampleRate, bytes_of(&rate, 1));
 }
 
 constexpr std::string_view kNoData =
@@ -65,11 +62,11 @@ constexpr std::string_view kNoData =
     "path to the folder that contains espeak-ng-data";
 
 bool speak_all(Sender& sender, const EspeakJob& job) {
-  if (!start(sender, job.options.data_path)) return fail(sender, std::string(kNoData));
+  if (!start(sender, job.options.data_path)) return sender.send(kFailure, kNoData);
   g_sender = &sender;
   espeak_SetSynthCallback(on_speech);
   if (espeak_SetVoiceByName(job.voice.c_str()) != EE_OK) {
-    return fail(sender, "espeak-ng cannot load its voice " + job.voice);
+    return sender.send(kFailure, "espeak-ng cannot load its voice " + job.voice);
   }
   espeak_SetParameter(espeakRATE, job.options.words_per_minute, 0);
   espeak_SetParameter(espeakPITCH, job.options.pitch, 0);
@@ -78,7 +75,7 @@ bool speak_all(Sender& sender, const EspeakJob& job) {
   for (const std::string& text : job.texts) {
     if (espeak_Synth(text.c_str(), text.size() + 1, 0, POS_CHARACTER, 0, espeakCHARS_UTF8, nullptr,
                      nullptr) != EE_OK) {
-      return fail(sender, "espeak-ng failed to speak the text");
+      return sender.send(kFailure, "espeak-ng failed to speak the text");
     }
     if (!sender.send(kTextEnd, {})) return false;
   }
@@ -86,7 +83,7 @@ bool speak_all(Sender& sender, const EspeakJob& job) {
 }
 
 bool send_voices(Sender& sender, const std::string& data_path) {
-  if (!start(sender, data_path)) return fail(sender, std::string(kNoData));
+  if (!start(sender, data_path)) return sender.send(kFailure, kNoData);
   const espeak_VOICE** list = espeak_ListVoices(nullptr);
   for (; list != nullptr && *list != nullptr; ++list) {
     const espeak_VOICE& voice = **list;

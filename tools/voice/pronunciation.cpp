@@ -36,8 +36,9 @@ void read_line(std::string_view line, const std::set<std::string, std::less<>>& 
     if (label.empty() || label == dam::kSilence) return;
     labels.emplace_back(label);
   }
+  if (labels.empty()) return;
   std::vector<Labels>& variants = dictionary[std::string(word)];
-  if (!labels.empty() && variants.size() < kMaxVariants) variants.push_back(std::move(labels));
+  if (variants.size() < kMaxVariants) variants.push_back(std::move(labels));
 }
 
 Result<Dictionary> read_dictionary(const std::string& path, const std::vector<std::string>& words) {
@@ -100,8 +101,7 @@ Result<std::vector<SpokenWord>> find_pronunciations(const std::vector<std::strin
   }
   std::set<std::string> missing;
   for (const std::string& word : words) {
-    const auto known = dictionary.find(dam::lower_case(word));
-    if (known == dictionary.end() || known->second.empty()) missing.insert(word);
+    if (!dictionary.contains(dam::lower_case(word))) missing.insert(word);
   }
   if (!missing.empty()) {
     const auto added = add_spoken({missing.begin(), missing.end()}, options, dictionary);
@@ -110,7 +110,7 @@ Result<std::vector<SpokenWord>> find_pronunciations(const std::vector<std::strin
   std::vector<SpokenWord> spoken;
   for (const std::string& word : words) {
     const auto known = dictionary.find(dam::lower_case(word));
-    if (known == dictionary.end() || known->second.empty()) {
+    if (known == dictionary.end()) {
       warnings.push_back("no pronunciation for \"" + word + "\"; the word is left out");
     } else {
       spoken.push_back({word, known->second});

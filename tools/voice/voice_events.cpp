@@ -37,15 +37,11 @@ bool is_mostly_silent(const std::vector<std::int16_t>& samples, std::int64_t sta
 
 // espeak-ng cuts names at 8 bytes, maybe inside a character.
 std::string_view whole_characters(std::string_view ipa) {
-  std::string_view rest = ipa, whole = ipa;
-  while (!rest.empty()) {
-    const std::string_view before = rest;
-    if (dam::take_code_point(rest) == 0xFFFD) {
-      whole = ipa.substr(0, ipa.size() - before.size());
-      break;
-    }
+  for (std::string_view rest = ipa; !rest.empty();) {
+    const std::size_t at = ipa.size() - rest.size();
+    if (dam::take_code_point(rest) == 0xFFFD) return ipa.substr(0, at);
   }
-  return whole;
+  return ipa;
 }
 
 std::vector<IpaPhone> labels_of(std::string_view ipa) {

@@ -1,10 +1,9 @@
 #include <algorithm>
-#include <cstdio>
 #include <exception>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "tools/media/live/audio_segments.h"
+#include "tools/media/live/sdp_internal.h"
 #include "tools/web/detail/messages.h"
 #include "tools/web/detail/server.h"
 #include "tools/web/detail/values.h"
@@ -98,8 +97,7 @@ Result<void> Sink::begin(const media::LiveInfo& info) {
     if (!written) return written.error();
     init = std::move(*written);
   }
-  const SoundFacts sound{info_.audio ? info_.audio->sample_rate : 0};
-  auto server = Server::listen(address_, options_, sound);
+  auto server = Server::listen(address_, options_, info_.audio ? info_.audio->sample_rate : 0);
   if (!server) return server.error();
   const Hello hello{info_.visual_profile, info_.audio.has_value(), info_.timescale,
                     info_.face_config};
@@ -116,14 +114,9 @@ Result<void> Sink::begin(const media::LiveInfo& info) {
 void Sink::describe() {
   nlohmann::ordered_json json{{"version", kVersion}, {"time_zero", kWebTimeZero}, {"now", now_}};
   if (!info_.face_config.empty()) {
-    std::string config;
-    char digits[3];
-    for (const std::uint8_t byte : info_.face_config) {
-      std::snprintf(digits, sizeof digits, "%02x", byte);
-      config += digits;
-    }
-    json["face"] = {
-        {"timescale", info_.timescale}, {"profile", info_.visual_profile}, {"config", config}};
+    json["face"] = {{"timescale", info_.timescale},
+                    {"profile", info_.visual_profile},
+                    {"config", media::lower(media::to_hex(info_.face_config))}};
   }
   if (info_.audio) {
     json["audio"] = {{"mime", media::audio_mime(*info_.audio)},

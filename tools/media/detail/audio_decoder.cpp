@@ -6,10 +6,6 @@
 
 namespace animeme::media {
 
-Result<av::Codec> open_audio_decoder(const AVStream& stream) {
-  return open_audio_decoder(*stream.codecpar, stream.time_base);
-}
-
 Result<av::Codec> open_audio_decoder(const AVCodecParameters& parameters, AVRational time_base,
                                      int flags2) {
   const AVCodec* decoder = avcodec_find_decoder(parameters.codec_id);
@@ -59,6 +55,32 @@ std::optional<std::int64_t> end_of_sound(const Input& input, const AVStream& str
 std::optional<int> find_audio(const Input& input) {
   const int index = av_find_best_stream(input.context(), AVMEDIA_TYPE_AUDIO, -1, -1, nullptr, 0);
   return index < 0 ? std::nullopt : std::optional<int>(index);
+}
+
+Result<AVStream*> choose_audio(Input& input) {
+  AVFormatContext& file = *input.context();
+  const int found = avformat_find_stream_info(&file, nullptr);
+  if (found < 0) return av::make_av_error(found, "the file is damaged");
+  const std::optional<int> index = find_audio(input);
+  if (!index) return make_error(Code::not_found, "the file has no audio track");
+  for (unsigned i = 0; i < file.nb_streams; ++i) {
+    if (int(i) != *index) file.streams[i]->discard = AVDISCARD_ALL;
+  }
+  return file.streams[*index];
+}
+
+Result<int> read_packets(Input& input, int stream,
+                         const std::function<Result<void>(AVPacket&)>& take) {
+  const av::Packet packet(av_packet_alloc());
+  if (!packet) return av::no_memory();
+  for (;;) {
+    const int status = av_read_frame(input.context(), packet.get());
+    if (status < 0) return status;
+    Result<void> taken;
+    if (packet->stream_index == stream) taken = take(*packet);
+    av_packet_unref(packet.get());
+    if (!taken) return taken.error();
+  }
 }
 
 }  // namespace animeme::media

@@ -9,10 +9,7 @@
 
 namespace animeme::media {
 
-/// Opens the decoder of a stream. Errors: unsupported, syntax.
-Result<av::Codec> open_audio_decoder(const AVStream& stream);
-
-/// The same for any packets; `flags2` as in AVCodecContext.
+/// Opens a decoder; `flags2` as in AVCodecContext. Errors: unsupported, syntax.
 Result<av::Codec> open_audio_decoder(const AVCodecParameters& parameters, AVRational time_base,
                                      int flags2 = 0);
 
@@ -35,5 +32,14 @@ inline constexpr int kPaddingPerSecond = 4;
 
 /// Number of the best audio stream, nullopt: there is none.
 std::optional<int> find_audio(const Input& input);
+
+/// That stream, once all headers are read; the others are left out of what is read from then on.
+/// Errors: syntax (damaged), not_found (there is none).
+Result<AVStream*> choose_audio(Input& input);
+
+/// Reads to the end and hands each packet of a stream to `take`, which may stop everything with an
+/// error. Returns FFmpeg's reason why nothing more comes.
+Result<int> read_packets(Input& input, int stream,
+                         const std::function<Result<void>(AVPacket&)>& take);
 
 }  // namespace animeme::media

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,9 @@ class BoxWriter {
   void u8(unsigned value) { bytes_.push_back(std::uint8_t(value)); }
   void u16(unsigned value) { put(bytes_, value, 2); }
   void u32(std::uint64_t value) { put(bytes_, value, 4); }
+  void u32(std::initializer_list<std::uint64_t> values) {
+    for (const std::uint64_t value : values) u32(value);
+  }
   void u64(std::uint64_t value) { put(bytes_, value, 8); }
   void zeros(std::size_t count) { bytes_.resize(bytes_.size() + count); }
   void text(std::string_view text) {
@@ -34,9 +38,8 @@ class BoxWriter {
     u32(std::uint32_t(version) << 24 | flags);
   }
   void end() {
-    const std::size_t at = open_.back(), size = bytes_.size() - at;
+    write_big_endian(bytes_, open_.back(), 4, bytes_.size() - open_.back());
     open_.pop_back();
-    for (std::size_t i = 0; i < 4; ++i) bytes_[at + i] = std::uint8_t(size >> (24 - 8 * i));
   }
 
   /// A descriptor (14496-1): tag, length in four bytes of seven bits, content.

@@ -10,7 +10,7 @@
 
 namespace animeme::media {
 
-using Bytes = std::span<const std::uint8_t>;
+using Bytes = ByteSpan;
 
 struct Box {
   std::string_view type;
@@ -43,6 +43,17 @@ std::size_t for_each_box(Bytes bytes, std::size_t begin, std::size_t end, const 
     at = box.end;
   }
   return at;
+}
+
+/// Number of a track by its header; 0: there is none.
+inline std::uint32_t track_id(Bytes moov, const Box& trak) {
+  std::uint32_t id = 0;
+  for_each_box(moov, trak.begin, trak.end, [&](const Box& box) {
+    if (box.type != "tkhd" || box.end == box.begin) return;
+    const std::size_t at = box.begin + (moov[box.begin] == 1 ? 20 : 12);
+    id = at + 4 <= box.end ? std::uint32_t(read_big_endian(moov, at, 4)) : 0;
+  });
+  return id;
 }
 
 }  // namespace animeme::media

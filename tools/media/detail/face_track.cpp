@@ -1,6 +1,6 @@
 #include "tools/media/detail/face_track.h"
 
-#include <cmath>
+#include <algorithm>
 
 #include "tools/media/detail/face_header.h"
 
@@ -57,18 +57,16 @@ int FaceTracks::first() const {
   return possible;
 }
 
-double stream_duration(const Input& input, const AVStream& stream) {
-  const double own = to_seconds(stream.duration, stream.time_base);
-  return own > 0 ? own : std::max(to_seconds(input.context()->duration, {1, AV_TIME_BASE}), 0.0);
-}
-
 AudioInfo describe_audio(const Input& input, const AVStream& stream) {
   const AVCodecParameters& parameters = *stream.codecpar;
   AudioInfo info;
   info.codec = avcodec_get_name(parameters.codec_id);
   info.sample_rate = parameters.sample_rate;
   info.channels = parameters.ch_layout.nb_channels;
-  info.duration = stream_duration(input, stream);
+  info.duration = to_seconds(stream.duration, stream.time_base);
+  if (!(info.duration > 0)) {  // that of the whole file
+    info.duration = std::max(to_seconds(input.context()->duration, {1, AV_TIME_BASE}), 0.0);
+  }
   info.bit_rate = parameters.bit_rate;
   return info;
 }

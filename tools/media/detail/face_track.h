@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "tools/media/container.h"
@@ -48,8 +47,5 @@ AudioInfo describe_audio(const Input& input, const AVStream& stream);
 inline double to_seconds(std::int64_t ticks, AVRational base) {
   return ticks == AV_NOPTS_VALUE || base.den <= 0 ? 0 : double(ticks) * av_q2d(base);
 }
-
-/// Length of a stream in seconds, of the whole file if the stream does not state it; 0: unknown.
-double stream_duration(const Input& input, const AVStream& stream);
 
 }  // namespace animeme::media

@@ -54,6 +54,15 @@ bool set_extradata(AVCodecParameters& parameters, const std::vector<std::uint8_t
   return true;
 }
 
+Io make_io(void* self, Transfer read, Transfer write, Seek seek) {
+  constexpr int kBufferSize = 1 << 16;
+  auto* buffer = static_cast<unsigned char*>(av_malloc(kBufferSize));
+  if (buffer == nullptr) return nullptr;
+  Io io(avio_alloc_context(buffer, kBufferSize, write != nullptr, self, read, write, seek));
+  if (!io) av_free(buffer);
+  return io;
+}
+
 std::string error_text(int status) {
   std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
   if (av_strerror(status, text.data(), text.size()) < 0) return "error " + std::to_string(status);

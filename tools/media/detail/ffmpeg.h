@@ -26,6 +26,10 @@ struct Deleter {
   void operator()(SwrContext* swr) const { swr_free(&swr); }
   void operator()(SwsContext* sws) const { sws_freeContext(sws); }
   void operator()(AVCodecParameters* parameters) const { avcodec_parameters_free(&parameters); }
+  void operator()(AVIOContext* io) const {
+    av_freep(&io->buffer);
+    avio_context_free(&io);
+  }
 };
 
 using Packet = std::unique_ptr<AVPacket, Deleter>;
@@ -34,6 +38,7 @@ using Codec = std::unique_ptr<AVCodecContext, Deleter>;
 using Swr = std::unique_ptr<SwrContext, Deleter>;
 using Sws = std::unique_ptr<SwsContext, Deleter>;
 using Parameters = std::unique_ptr<AVCodecParameters, Deleter>;
+using Io = std::unique_ptr<AVIOContext, Deleter>;
 
 /// Gives `parameters` a copy of the decoder configuration. False: no memory.
 bool set_extradata(AVCodecParameters& parameters, const std::vector<std::uint8_t>& bytes);
@@ -41,7 +46,12 @@ bool set_extradata(AVCodecParameters& parameters, const std::vector<std::uint8_t
 /// Error of what could not be allocated.
 inline Error no_memory() { return make_error(Code::out_of_range, "not enough memory"); }
 
-inline constexpr int kBufferSize = 1 << 16;  ///< bytes between libavformat and a file
+using Transfer = int (*)(void* self, std::uint8_t* bytes, int size);
+using Seek = std::int64_t (*)(void* self, std::int64_t offset, int whence);
+
+/// What lies between libavformat and our bytes; one of `read` and `write` is nullptr, `seek` may
+/// be. nullptr: no memory.
+Io make_io(void* self, Transfer read, Transfer write, Seek seek);
 
 /// AVDictionary with an owner.
 class Options {
@@ -103,6 +113,16 @@ auto guarded(Body&& body) -> decltype(body()) {
   } catch (const std::exception& problem) {
     return make_error(Code::internal, problem.what());
   }
+}
+
+/// The same with the name of a file in the Error that `body` returns.
+template <class Body>
+auto guarded(const std::string& path, const Body& body) -> decltype(body()) {
+  return guarded([&] {
+    auto result = body();
+    if (!result) result.error() = std::move(result.error()).in_file(path);
+    return result;
+  });
 }
 
 }  // namespace animeme::media::av

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "tools/media/detail/extension.h"
 #include "tools/media/detail/face_header.h"
 #include "tools/media/detail/mp4_check.h"
 
@@ -24,16 +25,11 @@ int refuse_open(AVFormatContext*, AVIOContext**, const char*, int, AVDictionary*
 
 // Only the extension: a name must not choose a protocol or a file pattern.
 std::string name_hint(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::string hint = "input";
-  if (extension.size() < 2 || extension.size() > 6) return hint;
-  hint += '.';
-  for (char c : extension.substr(1)) {
-    const auto u = static_cast<unsigned char>(c);
-    if (std::isalnum(u) == 0) return "input";
-    hint += static_cast<char>(std::tolower(u));
-  }
-  return hint;
+  const std::string extension = extension_of(path);
+  const bool plain = extension.size() >= 2 && extension.size() <= 6 &&
+                     std::all_of(extension.begin() + 1, extension.end(),
+                                 [](unsigned char c) { return std::isalnum(c) != 0; });
+  return plain ? "input" + extension : "input";
 }
 
 Error file_error(const std::string& path, int number) {
@@ -74,26 +70,16 @@ Result<std::unique_ptr<Input>> Input::open(std::span<const std::uint8_t> memory,
 
 Result<void> Input::start(const std::string& hint, const char* formats) {
   budget_ = size_ < 0 ? INT64_MAX : std::min(size_, INT64_MAX / 32) * kRereads + kSpareBudget;
-  auto* buffer = static_cast<unsigned char*>(av_malloc(av::kBufferSize));
   context_ = avformat_alloc_context();
-  if (buffer != nullptr) {
-    io_ = avio_alloc_context(buffer, av::kBufferSize, 0, this, &Input::read, nullptr, &Input::seek);
-  }
-  if (io_ == nullptr || context_ == nullptr) {
-    if (io_ == nullptr) av_free(buffer);
-    return av::no_memory();
-  }
-  if (size_ < 0) {
-    io_->seekable = 0;
-    io_->seek = nullptr;
-  }
+  io_ = av::make_io(this, &Input::read, nullptr, size_ < 0 ? nullptr : &Input::seek);
+  if (!io_ || context_ == nullptr) return av::no_memory();
   if (holds_raw_stream()) {
     return make_error(Code::unsupported,
                       "a raw FBA stream, not a container; decode or mux it as it is");
   }
   Result<void> sound = check_mp4();
   if (!sound) return sound;
-  context_->pb = io_;
+  context_->pb = io_.get();
   context_->io_open = refuse_open;
   av::Options options;
   options.set("protocol_whitelist", std::string("none"));  // for demuxers that open others
@@ -129,10 +115,6 @@ Result<void> Input::check_mp4() {
 
 Input::~Input() {
   avformat_close_input(&context_);
-  if (io_ != nullptr) {
-    av_freep(&io_->buffer);
-    avio_context_free(&io_);
-  }
   if (file_ != nullptr) std::fclose(file_);
 }
 

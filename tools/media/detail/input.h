@@ -51,7 +51,7 @@ class Input {
   std::int64_t size_ = -1;     // -1: a pipe
   std::int64_t budget_ = 0;
   bool exhausted_ = false;
-  AVIOContext* io_ = nullptr;
+  av::Io io_;
   AVFormatContext* context_ = nullptr;
 };
 

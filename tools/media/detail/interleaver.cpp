@@ -8,47 +8,37 @@ namespace {
 constexpr int kReportEvery = 64;
 constexpr double kShortestFile = 0.5;  // seconds; readers cannot tell what less is (TS)
 
-class FaceFeed : public TrackFeed {
+/// Packets that are there as a whole.
+template <class Packet>
+class ListFeed : public TrackFeed {
  public:
-  FaceFeed(Muxer& muxer, const fba::AccessUnits& face) : muxer_(muxer), face_(face) {}
+  using Write = Result<void> (Muxer::*)(const Packet&);
+  ListFeed(Muxer& muxer, const std::vector<Packet>& packets, AVRational base, bool Packet::*sync,
+           Write how)
+      : muxer_(muxer), packets_(packets), base_(base), sync_(sync), write_(how) {}
 
   Result<void> begin() override { return {}; }
-  bool ready() const override { return next_ < face_.units.size(); }
-  std::int64_t time() const override { return face_.units[next_].time; }
-  AVRational time_base() const override { return {1, int(face_.timescale)}; }
-  bool sync() const override { return face_.units[next_].intra; }
-  Result<void> write() override { return muxer_.write_unit(face_.units[next_++]); }
+  bool ready() const override { return next_ < packets_.size(); }
+  std::int64_t time() const override { return packets_[next_].time; }
+  AVRational time_base() const override { return base_; }
+  bool sync() const override { return packets_[next_].*sync_; }
+  Result<void> write() override { return (muxer_.*write_)(packets_[next_++]); }
   double end() const override {
     if (next_ == 0) return 0;
-    const fba::AccessUnit& last = face_.units[next_ - 1];
-    return double(last.time + last.duration) / face_.timescale;
+    const Packet& last = packets_[next_ - 1];
+    return double(last.time + duration_of(last)) * base_.num / base_.den;
   }
-  double share() const override { return double(next_) / double(face_.units.size()); }
+  double share() const override { return double(next_) / double(packets_.size()); }
 
  private:
+  static std::int64_t duration_of(const fba::AccessUnit& unit) { return unit.duration; }
+  static std::int64_t duration_of(const VideoPacket&) { return 1; }
+
   Muxer& muxer_;
-  const fba::AccessUnits& face_;
-  std::size_t next_ = 0;
-};
-
-class VideoFeed : public TrackFeed {
- public:
-  VideoFeed(Muxer& muxer, const EncodedVideo& video) : muxer_(muxer), video_(video) {}
-
-  Result<void> begin() override { return {}; }
-  bool ready() const override { return next_ < video_.packets.size(); }
-  std::int64_t time() const override { return video_.packets[next_].time; }
-  AVRational time_base() const override { return {int(video_.rate.den), int(video_.rate.num)}; }
-  bool sync() const override { return video_.packets[next_].key; }
-  Result<void> write() override { return muxer_.write_picture(video_.packets[next_++]); }
-  double end() const override {
-    return next_ == 0 ? 0 : video_.rate.seconds(double(video_.packets[next_ - 1].time + 1));
-  }
-  double share() const override { return double(next_) / double(video_.packets.size()); }
-
- private:
-  Muxer& muxer_;
-  const EncodedVideo& video_;
+  const std::vector<Packet>& packets_;
+  AVRational base_;
+  bool Packet::*sync_;
+  Write write_;
   std::size_t next_ = 0;
 };
 
@@ -98,11 +88,15 @@ TrackFeed* first_due(const std::vector<std::unique_ptr<TrackFeed>>& feeds) {
 }  // namespace
 
 std::unique_ptr<TrackFeed> face_feed(Muxer& muxer, const fba::AccessUnits& face) {
-  return std::make_unique<FaceFeed>(muxer, face);
+  return std::make_unique<ListFeed<fba::AccessUnit>>(muxer, face.units,
+                                                     AVRational{1, int(face.timescale)},
+                                                     &fba::AccessUnit::intra, &Muxer::write_unit);
 }
 
 std::unique_ptr<TrackFeed> video_feed(Muxer& muxer, const EncodedVideo& video) {
-  return std::make_unique<VideoFeed>(muxer, video);
+  return std::make_unique<ListFeed<VideoPacket>>(
+      muxer, video.packets, AVRational{int(video.rate.den), int(video.rate.num)}, &VideoPacket::key,
+      &Muxer::write_picture);
 }
 
 std::unique_ptr<TrackFeed> sound_feed(Muxer& muxer, SoundSource& sound, double seconds) {
@@ -123,6 +117,9 @@ Result<Interleaved> interleave(std::vector<std::unique_ptr<TrackFeed>>& feeds,
     if (stop && std::all_of(feeds.begin(), feeds.end(), has_begun) && stop()) {
       result.stopped = true;
       break;
+    }
+    if (feed->before) {
+      if (auto done = feed->before(*feed); !done) return done.error();
     }
     if (auto written = feed->write(); !written) return written.error();
     if (!progress || steps % kReportEvery != 0) continue;

@@ -31,6 +31,10 @@ class TrackFeed {
   virtual double end() const = 0;
   /// 0..1.
   virtual double share() const = 0;
+
+  /// Called by interleave() in front of each packet, when it is due; empty: nothing to do. Error:
+  /// io.
+  std::function<Result<void>(const TrackFeed&)> before;
 };
 
 /// All of these outlive the feed. `seconds` of sound, for share().

@@ -39,16 +39,6 @@ TopBoxes find_top_boxes(std::uint64_t size, const ReadAt& read) {
   return top;
 }
 
-bool has_track_number(Bytes moov, const Box& trak) {
-  bool found = false;
-  for_each_box(moov, trak.begin, trak.end, [&](const Box& box) {
-    if (box.type != "tkhd" || box.end == box.begin) return;
-    const std::size_t at = box.begin + (moov[box.begin] == 1 ? 20 : 12);
-    found = at + 4 <= box.end && read_big_endian(moov, at, 4) - 1 < 0x7FFFFFFF;
-  });
-  return found;
-}
-
 }  // namespace
 
 Result<void> check_fragmented_mp4(std::uint64_t size, const ReadAt& read) {
@@ -62,7 +52,7 @@ Result<void> check_fragmented_mp4(std::uint64_t size, const ReadAt& read) {
   if (box.begin == 0) return damaged;
   bool good = true;
   const std::size_t end = for_each_box(moov, box.begin, box.end, [&](const Box& inner) {
-    if (inner.type == "trak") good = good && has_track_number(moov, inner);
+    if (inner.type == "trak") good = good && track_id(moov, inner) - 1 < 0x7FFFFFFF;
   });
   return good && end == box.end ? Result<void>() : damaged;
 }

@@ -33,10 +33,7 @@ std::vector<SamplePlace> in_order_of_time(const Mp4Movie& movie) {
   return places;
 }
 
-void write_matrix(BoxWriter& out) {
-  for (const std::uint32_t value : {0x10000u, 0u, 0u, 0u, 0x10000u, 0u, 0u, 0u, 0x40000000u})
-    out.u32(value);
-}
+void write_matrix(BoxWriter& out) { out.u32({0x10000, 0, 0, 0, 0x10000, 0, 0, 0, 0x40000000}); }
 
 class MovieWriter {
  public:
@@ -78,11 +75,7 @@ class MovieWriter {
       next = std::max(next, track.id + 1);
     }
     out_.begin_full("mvhd", 0, 0);
-    out_.u32(0);
-    out_.u32(0);
-    out_.u32(movie_.timescale);
-    out_.u32(std::uint64_t(duration));
-    out_.u32(0x10000);
+    out_.u32({0, 0, movie_.timescale, std::uint64_t(duration), 0x10000});
     out_.u16(0x100);
     out_.zeros(10);
     write_matrix(out_);
@@ -95,9 +88,7 @@ class MovieWriter {
     out_.begin("mvex");
     for (const Mp4Track& track : movie_.tracks) {
       out_.begin_full("trex", 0, 0);
-      out_.u32(track.id);
-      out_.u32(1);
-      out_.u32(track.fragment_duration);
+      out_.u32({track.id, 1, track.fragment_duration});
       out_.zeros(8);
       out_.end();
     }
@@ -107,17 +98,12 @@ class MovieWriter {
   void write_track(const Mp4Track& track, const std::vector<std::uint64_t>& offsets) {
     out_.begin("trak");
     out_.begin_full("tkhd", 0, track.presented ? 3 : 1);
-    out_.u32(0);
-    out_.u32(0);
-    out_.u32(track.id);
-    out_.u32(0);
-    out_.u32(std::uint64_t(shown(track)));
+    out_.u32({0, 0, track.id, 0, std::uint64_t(shown(track))});
     out_.zeros(12);
     out_.u16(track.handler == "soun" ? 0x100 : 0);
     out_.u16(0);
     write_matrix(out_);
-    out_.u32(std::uint64_t(track.width) << 16);
-    out_.u32(std::uint64_t(track.height) << 16);
+    out_.u32({std::uint64_t(track.width) << 16, std::uint64_t(track.height) << 16});
     out_.end();
     write_edits(track);
     if (!track.references.empty()) {
@@ -144,9 +130,7 @@ class MovieWriter {
   }
 
   void edit(std::int64_t duration, std::int64_t media_time) {
-    out_.u32(std::uint64_t(duration));
-    out_.u32(std::uint32_t(media_time));
-    out_.u32(0x10000);
+    out_.u32({std::uint64_t(duration), std::uint32_t(media_time), 0x10000});
   }
 
   void write_media(const Mp4Track& track, const std::vector<std::uint64_t>& offsets) {
@@ -154,10 +138,7 @@ class MovieWriter {
     for (const Mp4Sample& sample : track.samples) duration += sample.duration;
     out_.begin("mdia");
     out_.begin_full("mdhd", 0, 0);
-    out_.u32(0);
-    out_.u32(0);
-    out_.u32(track.timescale);
-    out_.u32(std::uint64_t(duration));
+    out_.u32({0, 0, track.timescale, std::uint64_t(duration)});
     out_.u16(0x55C4);  // no language
     out_.u16(0);
     out_.end();
@@ -205,8 +186,7 @@ class MovieWriter {
     }
     out_.end();
     out_.begin_full("stsz", 0, 0);
-    out_.u32(0);
-    out_.u32(track.samples.size());
+    out_.u32({0, track.samples.size()});
     for (const Mp4Sample& sample : track.samples) out_.u32(sample.bytes.size());
     out_.end();
     out_.begin_full("stco", 0, 0);
@@ -225,10 +205,7 @@ class MovieWriter {
     }
     out_.begin_full("stts", 0, 0);
     out_.u32(runs.size());
-    for (const auto& [count, duration] : runs) {
-      out_.u32(count);
-      out_.u32(std::uint64_t(duration));
-    }
+    for (const auto& [count, duration] : runs) out_.u32({count, std::uint64_t(duration)});
     out_.end();
   }
 

@@ -52,16 +52,6 @@ void walk(Bytes bytes, const Box& parent, std::vector<std::size_t>& found, int d
   });
 }
 
-std::uint32_t track_id(Bytes moov, const Box& trak) {
-  std::uint32_t id = 0;
-  for_each_box(moov, trak.begin, trak.end, [&](const Box& box) {
-    if (box.type != "tkhd" || box.end == box.begin) return;
-    const std::size_t at = box.begin + (moov[box.begin] == 1 ? 20 : 12);
-    if (at + 4 <= box.end) id = std::uint32_t(read_big_endian(moov, at, 4));
-  });
-  return id;
-}
-
 // Tracks of MPEG-4 systems, in their order.
 std::vector<std::uint32_t> tracks_with_descriptor(Bytes moov, const Box& whole) {
   std::vector<std::uint32_t> ids;
@@ -84,9 +74,7 @@ void set_next_track_id(std::span<std::uint8_t> moov, const Box& whole) {
   });
   for_each_box(moov, whole.begin, whole.end, [&](const Box& box) {
     if (box.type != "mvhd" || box.end - box.begin < kSize) return;
-    for (std::size_t i = 0; i < 4; ++i) {
-      moov[box.end - 4 + i] = std::uint8_t((last + 1) >> (24 - 8 * i));
-    }
+    write_big_endian(moov, box.end - 4, 4, last + 1);
   });
 }
 
@@ -123,9 +111,7 @@ Result<void> shift_table(std::span<std::uint8_t> moov, const Box& table, std::ui
                         "the file is too large to begin with its contents; write it without "
                         "faststart, or as .mkv");
     }
-    for (std::size_t i = 0; i < width; ++i) {
-      moov[at + i] = std::uint8_t(offset >> (8 * (width - 1 - i)));
-    }
+    write_big_endian(moov, at, width, offset);
   }
   return {};
 }

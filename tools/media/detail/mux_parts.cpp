@@ -3,13 +3,49 @@
 #include <string>
 #include <utility>
 
+#include "tools/media/detail/audio_parameters.h"
 #include "tools/media/detail/face_header.h"
+#include "tools/media/detail/invalid.h"
 #include "tools/media/detail/systems_scene.h"
+#include "tools/media/detail/unit_facts.h"
 
 namespace animeme::media {
 namespace {
 
 constexpr std::uint8_t kSimpleFace = 0x61;
+constexpr double kShortestFragment = 0.02;
+constexpr double kLongestFragment = 600;
+
+Result<void> check_unit(const fba::AccessUnits& face, std::size_t index) {
+  const fba::AccessUnit& unit = face.units[index];
+  const std::string name = "access unit " + std::to_string(index);
+  if (unit.bytes.empty()) return invalid(name + " is empty");
+  if (unit.bytes.size() > kLargestUnit) return invalid(name + " is larger than 16 MB");
+  if (unit.duration <= 0 || unit.duration > kLongestTime) {
+    return invalid(name + " needs a positive duration");
+  }
+  const std::int64_t earliest = index == 0 ? 0 : face.units[index - 1].time + 1;
+  if (unit.time < earliest || unit.time > kLongestTime) {
+    return invalid(name + " has the time " + std::to_string(unit.time) +
+                   "; times begin at 0 and ascend");
+  }
+  return {};
+}
+
+Result<void> check_face(const fba::AccessUnits& face) {
+  if (face.units.empty()) return invalid("the face has no access units");
+  if (face.timescale == 0 || face.timescale > INT32_MAX) {
+    return invalid("the face's time scale must be 1 to 2147483647 ticks a second");
+  }
+  if (read_visual_headers(face.config).kind != VisualKind::face) {
+    return invalid("the face's decoder configuration is missing or not that of a face");
+  }
+  for (std::size_t i = 0; i < face.units.size(); ++i) {
+    Result<void> legal = check_unit(face, i);
+    if (!legal) return legal;
+  }
+  return {};
+}
 
 unsigned audio_profile(const AudioFormat* sound) {
   if (sound == nullptr) return kNoneRequired;
@@ -19,6 +55,38 @@ unsigned audio_profile(const AudioFormat* sound) {
 }
 
 }  // namespace
+
+Result<void> check_input(const MuxInput& input, const MuxOptions& options) {
+  const bool sound = input.audio != nullptr || input.encoded != nullptr;
+  if (input.face == nullptr && !sound && input.video == nullptr) {
+    return invalid("nothing to write: neither a face nor sound nor pictures were given");
+  }
+  if (input.audio != nullptr && input.encoded != nullptr) {
+    return invalid("the sound was given twice, as samples and coded");
+  }
+  if (input.face != nullptr) {
+    if (auto legal = check_face(*input.face); !legal) return legal;
+  }
+  if (input.video != nullptr && input.video->packets.empty()) {
+    return invalid("there are no pictures");
+  }
+  if (options.systems && input.video != nullptr) {
+    return make_error(Code::unsupported, "a Systems presentation has no pictures");
+  }
+  if (options.systems && input.face == nullptr) {
+    return make_error(Code::unsupported, "a Systems presentation needs a face");
+  }
+  if (options.systems && options.fragmented) {
+    return make_error(Code::unsupported, "a Systems presentation cannot be fragmented");
+  }
+  const double seconds = options.fragment_seconds;
+  if (!(seconds >= kShortestFragment && seconds <= kLongestFragment)) {
+    return invalid("fragments must last 0.02 to 600 seconds");
+  }
+  if (input.audio != nullptr && input.audio->samples.empty()) return invalid("the sound is empty");
+  if (input.encoded != nullptr) return check_audio(*input.encoded);
+  return {};
+}
 
 int visual_profile(const MuxInput& input) {
   if (input.visual_profile != 0) return input.visual_profile;

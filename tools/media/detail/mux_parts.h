@@ -9,6 +9,10 @@
 
 namespace animeme::media {
 
+/// What must hold before anything is written. Errors: those of write_container() for its input and
+/// options.
+Result<void> check_input(const MuxInput& input, const MuxOptions& options);
+
 /// Profile and level of the face, 0xFF (none required) without one.
 int visual_profile(const MuxInput& input);
 

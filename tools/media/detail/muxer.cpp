@@ -75,8 +75,7 @@ Result<void> Muxer::add_face(const fba::AccessUnits& units) {
             first_duration, INT32_MAX);
   av_dict_set(&stream->metadata, "handler_name", "FBA", 0);
   face_ = &units;
-  face_stream_ = stream;
-  face_base_ = {1, int(units.timescale)};
+  face_track_ = {stream, {1, int(units.timescale)}};
   return {};
 }
 
@@ -96,11 +95,10 @@ Result<void> Muxer::add_video(const EncodedVideo& video) {
   parameters.color_primaries = AVCOL_PRI_BT709;
   parameters.color_trc = AVCOL_TRC_BT709;
   if (!av::set_extradata(parameters, video.config)) return av::no_memory();
-  video_base_ = {int(video.rate.den), int(video.rate.num)};
-  stream->avg_frame_rate = av_inv_q(video_base_);
+  video_track_ = {stream, {int(video.rate.den), int(video.rate.num)}};
+  stream->avg_frame_rate = av_inv_q(video_track_.base);
   stream->time_base = {1, int(container_timescale(video.rate.num))};
   stream->disposition = AV_DISPOSITION_DEFAULT;
-  video_stream_ = stream;
   return {};
 }
 
@@ -111,8 +109,7 @@ Result<void> Muxer::add_stream(const AVCodecParameters& parameters, AVRational t
   if (status < 0) return write_error(status);
   stream->codecpar->codec_tag = 0;
   stream->time_base = time_base;
-  other_stream_ = stream;
-  other_base_ = time_base;
+  other_track_ = {stream, time_base};
   return {};
 }
 
@@ -143,9 +140,9 @@ Result<void> Muxer::write_header(av::Options& options) {
   return {};
 }
 
-Result<void> Muxer::write(AVPacket& packet, const AVStream& stream, AVRational from) {
-  packet.stream_index = stream.index;
-  av_packet_rescale_ts(&packet, from, stream.time_base);
+Result<void> Muxer::write(AVPacket& packet, const Track& track) {
+  packet.stream_index = track.stream->index;
+  av_packet_rescale_ts(&packet, track.base, track.stream->time_base);
   packet.pos = -1;
   return check(av_interleaved_write_frame(context_, &packet));
 }
@@ -159,7 +156,7 @@ Result<void> Muxer::write_unit(const fba::AccessUnit& unit) {
   packet_->pts = packet_->dts = unit.time;
   packet_->duration = unit.duration;
   if (unit.intra) packet_->flags |= AV_PKT_FLAG_KEY;
-  return write(*packet_, *face_stream_, face_base_);
+  return write(*packet_, face_track_);
 }
 
 Result<void> Muxer::write_sound(const AudioPacket& packet) {
@@ -176,12 +173,10 @@ Result<void> Muxer::write_picture(const VideoPacket& picture) {
   packet_->pts = packet_->dts = picture.time;
   packet_->duration = 1;
   if (picture.key) packet_->flags |= AV_PKT_FLAG_KEY;
-  return write(*packet_, *video_stream_, video_base_);
+  return write(*packet_, video_track_);
 }
 
-Result<void> Muxer::write_packet(AVPacket& packet) {
-  return write(packet, *other_stream_, other_base_);
-}
+Result<void> Muxer::write_packet(AVPacket& packet) { return write(packet, other_track_); }
 
 Result<void> Muxer::end_fragment() {
   Result<void> flushed = check(av_interleaved_write_frame(context_, nullptr));

@@ -47,23 +47,22 @@ class Muxer {
   Result<void> finish();
 
  private:
+  struct Track {
+    AVStream* stream = nullptr;
+    AVRational base{1, 1};  // of the times that come in
+  };
   Muxer() = default;
   Result<void> check(int status);
-  Result<void> write(AVPacket& packet, const AVStream& stream, AVRational from);
+  Result<void> write(AVPacket& packet, const Track& track);
   bool is(const char* format) const;
 
   std::unique_ptr<OutputStream> out_;
   AVFormatContext* context_ = nullptr;
   av::Packet packet_;
   const fba::AccessUnits* face_ = nullptr;
-  AVStream* face_stream_ = nullptr;
-  AVStream* video_stream_ = nullptr;
-  AVStream* other_stream_ = nullptr;
+  Track face_track_, video_track_, other_track_;
   AudioFormat sound_;
   std::int64_t sound_shift_ = 0;  // samples
-  AVRational face_base_{1, 1};    // of AccessUnit times
-  AVRational video_base_{1, 1};   // a picture
-  AVRational other_base_{1, 1};
 };
 
 }  // namespace animeme::media

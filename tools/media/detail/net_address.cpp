@@ -1,9 +1,9 @@
 #include "tools/media/detail/net_address.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include "tools/media/detail/ffmpeg.h"
+#include "tools/media/live/sdp_internal.h"
 
 namespace animeme::media {
 namespace {
@@ -24,12 +24,10 @@ Error bad_address(const std::string& what) {
 }  // namespace
 
 std::string NetAddress::option(const std::string& name) const {
-  std::size_t at = 0;
-  while (at < query.size()) {
-    const std::size_t end = std::min(query.find('&', at + 1), query.size());
-    const std::string entry = query.substr(at + 1, end - at - 1);
-    if (entry.compare(0, name.size() + 1, name + "=") == 0) return entry.substr(name.size() + 1);
-    at = end;
+  std::string_view rest = query;
+  for (take_until(rest, '?'); !rest.empty();) {
+    std::string_view value = take_until(rest, '&');
+    if (take_until(value, '=') == name) return std::string(value);
   }
   return {};
 }
@@ -43,22 +41,14 @@ Result<NetAddress> parse_net_address(const std::string& url, bool for_reading) {
     return bad_address("an address of " + address.scheme + " cannot be used here");
   }
   std::string place = url.substr(scheme + 3);
-  const std::size_t mark = place.find_first_of("?/");
-  if (mark != std::string::npos) {
-    const std::size_t query = place.find('?');
-    if (query != std::string::npos) address.query = place.substr(query);
-    place.resize(mark);
-  }
+  address.query = place.substr(std::min(place.find('?'), place.size()));
+  place.resize(std::min(place.find_first_of("?/"), place.size()));
   const std::size_t colon = place.rfind(':');
   if (colon == std::string::npos) return bad_address("the address has no port");
   address.host = place.substr(0, colon);
   if (address.host == "@") address.host.clear();
-  const std::string port = place.substr(colon + 1);
-  const auto [end, status] = std::from_chars(port.data(), port.data() + port.size(), address.port);
-  if (status != std::errc() || end != port.data() + port.size() || address.port < 1 ||
-      address.port > 65535) {
-    return bad_address("the port is no number from 1 to 65535");
-  }
+  address.port = int(to_number(place.substr(colon + 1), 65535).value_or(0));
+  if (address.port < 1) return bad_address("the port is no number from 1 to 65535");
   const std::string mode = address.option("mode");
   if (address.scheme == "srt" && !mode.empty() && mode != "caller" && mode != "listener") {
     return bad_address("the mode is neither caller nor listener");

@@ -1,13 +1,9 @@
 #include "tools/media/detail/net_stream.h"
 
-#include <arpa/inet.h>
-#include <netdb.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
 #include <algorithm>
 
 #include "tools/media/detail/ffmpeg.h"
+#include "tools/media/live/udp_socket.h"
 
 namespace animeme::media {
 namespace {
@@ -20,29 +16,10 @@ constexpr std::int64_t kSocketBuffer = std::int64_t(1) << 20;
 constexpr milliseconds kRetry{200};
 constexpr std::int64_t kSrtLatency = 120000;  // microseconds, unless the address says otherwise
 
-bool is_multicast(const sockaddr& address) {
-  if (address.sa_family == AF_INET) {
-    const auto& v4 = reinterpret_cast<const sockaddr_in&>(address);
-    return IN_MULTICAST(ntohl(v4.sin_addr.s_addr));
-  }
-  const auto& v6 = reinterpret_cast<const sockaddr_in6&>(address);
-  return address.sa_family == AF_INET6 && IN6_IS_ADDR_MULTICAST(&v6.sin6_addr);
-}
-
 /// Is this an address of this machine that a socket can be bound to?
 bool is_own_address(const std::string& host) {
-  addrinfo hints{};
-  hints.ai_socktype = SOCK_DGRAM;
-  addrinfo* found = nullptr;
-  if (getaddrinfo(host.c_str(), nullptr, &hints, &found) != 0) return false;
-  bool own = false;
-  const int handle = socket(found->ai_family, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  if (handle >= 0) {
-    own = !is_multicast(*found->ai_addr) && bind(handle, found->ai_addr, found->ai_addrlen) == 0;
-    ::close(handle);
-  }
-  freeaddrinfo(found);
-  return own;
+  const Result<UdpAddress> address = UdpAddress::resolve(host, 0);
+  return address && !address->is_multicast() && UdpSocket::bind(address->host(), 0);
 }
 
 }  // namespace

@@ -35,24 +35,13 @@ Result<std::unique_ptr<OutputStream>> OutputStream::to_file(const std::string& p
   // libavformat has a buffer already, and a full disk is to be seen where it happens.
   std::setvbuf(out->file_, nullptr, _IONBF, 0);
   out->filter_ = std::move(filter);
-  auto* buffer = static_cast<unsigned char*>(av_malloc(av::kBufferSize));
-  if (buffer != nullptr) {
-    out->io_ =
-        avio_alloc_context(buffer, av::kBufferSize, 1, out.get(), nullptr, &OutputStream::write,
-                           out->filter_ ? nullptr : &OutputStream::seek);
-  }
-  if (out->io_ == nullptr) {
-    av_free(buffer);
-    return av::no_memory();
-  }
+  out->io_ = av::make_io(out.get(), nullptr, &OutputStream::write,
+                         out->filter_ ? nullptr : &OutputStream::seek);
+  if (!out->io_) return av::no_memory();
   return out;
 }
 
 OutputStream::~OutputStream() {
-  if (io_ != nullptr) {
-    av_freep(&io_->buffer);
-    avio_context_free(&io_);
-  }
   if (file_ != nullptr) std::fclose(file_);
 }
 
@@ -81,7 +70,7 @@ std::int64_t OutputStream::seek(void* self, std::int64_t offset, int whence) {
 }
 
 Result<void> OutputStream::close() {
-  avio_flush(io_);
+  avio_flush(io_.get());
   int status = io_->error;
   if (std::fclose(file_) != 0 && status >= 0) status = AVERROR(errno);
   file_ = nullptr;

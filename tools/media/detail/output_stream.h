@@ -26,7 +26,7 @@ class OutputStream {
   OutputStream(const OutputStream&) = delete;
   OutputStream& operator=(const OutputStream&) = delete;
 
-  AVIOContext* io() const { return io_; }
+  AVIOContext* io() const { return io_.get(); }
   /// Flushes and closes. Error: io (disk full, for one).
   Result<void> close();
 
@@ -38,7 +38,7 @@ class OutputStream {
 
   std::FILE* file_ = nullptr;
   Filter filter_;
-  AVIOContext* io_ = nullptr;
+  av::Io io_;
 };
 
 /// "cannot be written: ..." with a remedy where there is one.

@@ -1,8 +1,8 @@
 #include "tools/media/detail/presentation.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
@@ -91,16 +91,12 @@ Result<void> add(Presentation& presentation, Room& room, const fs::path& playlis
     return make_error(Code::out_of_range, "the playlist names too many renditions");
   }
   FileBytes bytes;
-  const auto append = [&](const std::string& reference) -> Result<void> {
+  std::vector<std::string> references = rendition.segments;
+  if (!rendition.init.empty()) references.insert(references.begin(), rendition.init);
+  for (const std::string& reference : references) {
     Result<fs::path> name = beside(playlist, reference);
     if (!name) return name.error();
-    return room.read(*name, bytes);
-  };
-  if (!rendition.init.empty()) {
-    if (auto done = append(rendition.init); !done) return done;
-  }
-  for (const std::string& reference : rendition.segments) {
-    if (auto done = append(reference); !done) return done;
+    if (auto done = room.read(*name, bytes); !done) return done;
   }
   presentation.renditions.push_back(std::move(bytes));
   return {};
@@ -160,11 +156,9 @@ std::string to_reference(const std::string& name) {
   for (const char c : name) {
     if (kPlain.find(c) != std::string_view::npos) {
       out += c;
-      continue;
+    } else {
+      out += "%" + to_hex(std::array{std::uint8_t(c)});
     }
-    char code[4];
-    std::snprintf(code, sizeof code, "%%%02X", unsigned(static_cast<unsigned char>(c)));
-    out += code;
   }
   return out;
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fap/result.h"
+#include "tools/media/container.h"
 
 namespace animeme::media {
 
@@ -21,6 +21,28 @@ struct Presentation {
 /// of the playlist or below it are opened, whatever names or symbolic links say, and not more than
 /// 1 GB in all. Errors: not_found, io, syntax, truncated, unsupported, out_of_range.
 Result<Presentation> read_presentation(const std::string& path);
+
+/// The first rendition with a track of this kind; nullptr: there is none.
+inline const std::vector<std::uint8_t>* find_rendition(const Presentation& presentation,
+                                                       TrackKind kind) {
+  for (const std::vector<std::uint8_t>& bytes : presentation.renditions) {
+    const Result<ContainerInfo> info = probe(bytes);
+    if (info && info->first(kind) != nullptr) return &bytes;
+  }
+  return nullptr;
+}
+
+/// Runs `read` on a file, or on the bytes of the sound if it is a playlist. Errors: those of `read`
+/// and of reading the presentation; not_found (silent).
+template <class Read>
+auto read_sound_of(const std::string& path, const Read& read) -> decltype(read(path)) {
+  if (!is_playlist(path)) return read(path);
+  const Result<Presentation> presentation = read_presentation(path);
+  if (!presentation) return presentation.error();
+  const std::vector<std::uint8_t>* sound = find_rendition(*presentation, TrackKind::audio);
+  if (sound == nullptr) return make_error(Code::not_found, "the presentation has no sound");
+  return read(std::span<const std::uint8_t>(*sound));
+}
 
 /// A file name as a relative reference: other characters than letters, digits and -_.~/ as %XX.
 std::string to_reference(const std::string& name);

@@ -1,5 +1,4 @@
 // Reading DASH descriptions, the small part of them that local files need.
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>

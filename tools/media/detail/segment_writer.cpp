@@ -1,6 +1,7 @@
 #include "tools/media/detail/segment_writer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -18,43 +19,10 @@
 #include "tools/media/detail/output_stream.h"
 #include "tools/media/detail/playlist_text.h"
 #include "tools/media/detail/presentation.h"
+#include "tools/media/live/sdp_internal.h"
 
 namespace animeme::media {
 namespace {
-
-// Passes packets on and begins a fragment at the first one, long enough after the last begin, with
-// which a reader can begin.
-class CuttingFeed : public TrackFeed {
- public:
-  CuttingFeed(Muxer& muxer, std::unique_ptr<TrackFeed> feed, double seconds,
-              std::vector<std::int64_t>& begins)
-      : muxer_(muxer), feed_(std::move(feed)), seconds_(seconds), begins_(begins) {}
-
-  Result<void> begin() override { return feed_->begin(); }
-  bool ready() const override { return feed_->ready(); }
-  std::int64_t time() const override { return feed_->time(); }
-  AVRational time_base() const override { return feed_->time_base(); }
-  bool sync() const override { return feed_->sync(); }
-  double end() const override { return feed_->end(); }
-  double share() const override { return feed_->share(); }
-
-  Result<void> write() override {
-    const std::int64_t now = time();
-    if (begins_.empty()) {
-      begins_.push_back(now);
-    } else if (sync() && double(now - begins_.back()) >= seconds_ * time_base().den) {
-      if (auto ended = muxer_.end_fragment(); !ended) return ended;
-      begins_.push_back(now);
-    }
-    return feed_->write();
-  }
-
- private:
-  Muxer& muxer_;
-  std::unique_ptr<TrackFeed> feed_;
-  double seconds_;
-  std::vector<std::int64_t>& begins_;
-};
 
 // One track on its way into the folder.
 struct Track {
@@ -63,12 +31,6 @@ struct Track {
   std::unique_ptr<Muxer> muxer;
   std::vector<std::int64_t> begins;  // of the fragments, presentation time
 };
-
-std::string hexadecimal(int value) {
-  char text[8];
-  std::snprintf(text, sizeof text, "%02X", unsigned(value));
-  return text;
-}
 
 // RFC 6381.
 std::string codecs_of(const AudioFormat& sound) {
@@ -83,14 +45,10 @@ bool is_ours(std::string_view file) {
 }
 
 Result<void> write_bytes(const std::string& path, std::span<const std::uint8_t> bytes) {
-  errno = 0;
-  std::FILE* file = std::fopen(path.c_str(), "wb");
-  const bool written =
-      file != nullptr && std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-  int reason = errno;
-  const bool closed = file != nullptr && std::fclose(file) == 0;
-  if (written && !closed) reason = errno;
-  return written && closed ? Result<void>() : write_error(AVERROR(reason != 0 ? reason : EIO));
+  Result<std::unique_ptr<OutputStream>> out = OutputStream::to_file(path);
+  if (!out) return out.error();
+  avio_write((*out)->io(), bytes.data(), int(bytes.size()));
+  return (*out)->close();
 }
 
 Result<void> write_text(const std::string& path, const std::string& text) {
@@ -172,8 +130,18 @@ Result<void> SegmentWriter::start(Track& track, const Mp4Contents& contents,
   set_mp4_options(contents, header);
   set_fragment_options("frag_custom", 0, header);
   track.description.timescale = std::uint32_t(feed->time_base().den);
-  feeds_.push_back(std::make_unique<CuttingFeed>(*track.muxer, std::move(feed),
-                                                 options_.fragment_seconds, track.begins));
+  // A fragment begins with the first packet, long enough after the last begin, with which a reader
+  // can begin.
+  feed->before = [&track, seconds = options_.fragment_seconds](const TrackFeed& due) {
+    const std::int64_t now = due.time();
+    const bool first = track.begins.empty();
+    const bool cut =
+        !first && due.sync() && double(now - track.begins.back()) >= seconds * due.time_base().den;
+    const Result<void> ended = cut ? track.muxer->end_fragment() : Result<void>();
+    if (ended && (first || cut)) track.begins.push_back(now);
+    return ended;
+  };
+  feeds_.push_back(std::move(feed));
   return track.muxer->write_header(header);
 }
 
@@ -184,7 +152,7 @@ Result<void> SegmentWriter::open(const OutputFolder& folder) {
     Muxer& muxer = *(*track)->muxer;
     const int profile = visual_profile(input_);
     (*track)->description.face = true;
-    (*track)->description.codecs = "mp4v.20." + hexadecimal(profile);
+    (*track)->description.codecs = "mp4v.20." + to_hex(std::array{std::uint8_t(profile)});
     Result<void> done = muxer.add_face(*input_.face);
     if (done) {
       done = start(**track, {input_.face, profile, nullptr}, face_feed(muxer, *input_.face));

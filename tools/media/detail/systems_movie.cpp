@@ -28,11 +28,9 @@ std::vector<std::uint8_t> visual_entry(const StreamDescription& stream) {
   out.zeros(16);
   out.u16(kWidth);
   out.u16(kHeight);
-  out.u32(72 << 16);  // dots an inch
-  out.u32(72 << 16);
-  out.u32(0);
-  out.u16(1);     // frame a sample
-  out.zeros(32);  // name of the compressor
+  out.u32({72 << 16, 72 << 16, 0});  // dots an inch
+  out.u16(1);                        // frame a sample
+  out.zeros(32);                     // name of the compressor
   out.u16(24);
   out.u16(0xFFFF);
   put_esds(out, stream);

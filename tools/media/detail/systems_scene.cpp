@@ -1,25 +1,17 @@
 #include "tools/media/detail/systems_scene.h"
 
-#include "tools/media/detail/box_writer.h"
+#include "codec/syntax/bits.h"
 
 namespace animeme::media {
 namespace {
 
-class Bits {
- public:
-  void put(unsigned value, unsigned count) {
-    for (unsigned i = count; i-- > 0;) {
-      if (used_ % 8 == 0) bytes_.push_back(0);
-      bytes_.back() = std::uint8_t(bytes_.back() | (value >> i & 1u) << (7 - used_ % 8));
-      ++used_;
-    }
-  }
-  std::vector<std::uint8_t> take() { return std::move(bytes_); }
+using Bits = fba::BitWriter;
 
- private:
-  std::vector<std::uint8_t> bytes_;
-  std::size_t used_ = 0;
-};
+/// All bytes, the last one filled up with zeros.
+std::vector<std::uint8_t> padded(Bits& out) {
+  out.bits(0, int((8 - out.position() % 8) % 8));
+  return out.take();
+}
 
 // Node types are numbered within the context they stand in (BIFS version 1).
 constexpr unsigned kGroup = 1, kFace = 14, kSound = 39;                    // 3, 6, 6 bits
@@ -32,58 +24,58 @@ constexpr unsigned kByMask = 1, kByList = 0;  // how fields are told
 constexpr unsigned kMore = 0, kEnd = 1;       // of a list
 
 /// A node of our own, not a reference to another.
-void new_node(Bits& out, unsigned type, unsigned type_bits) {
-  out.put(0, 1);
-  out.put(type, type_bits);
+void new_node(Bits& out, unsigned type, int type_bits) {
+  out.bits(0, 1);
+  out.bits(type, type_bits);
 }
 
 /// FAP node with an empty viseme and an empty expression.
 void put_fap_node(Bits& out) {
   new_node(out, 1, 1);
-  out.put(kDefined, 1);
-  out.put(1, 2);  // its ID
-  out.put(kByList, 1);
+  out.bits(kDefined, 1);
+  out.bits(1, 2);  // its ID
+  out.bits(kByList, 1);
   for (const unsigned field : {kVisemeField, kExpressionField}) {
-    out.put(kMore, 1);
-    out.put(field, 7);
+    out.bits(kMore, 1);
+    out.bits(field, 7);
     new_node(out, 1, 1);
-    out.put(kAnonymous, 1);
-    out.put(kByList, 1);
-    out.put(kEnd, 1);
+    out.bits(kAnonymous, 1);
+    out.bits(kByList, 1);
+    out.bits(kEnd, 1);
   }
-  out.put(kEnd, 1);
+  out.bits(kEnd, 1);
 }
 
 void put_face(Bits& out) {
   new_node(out, kFace, 6);
-  out.put(kDefined, 1);
-  out.put(0, 2);  // its ID
-  out.put(kByList, 1);
-  out.put(kMore, 1);
-  out.put(kFapField, 3);
+  out.bits(kDefined, 1);
+  out.bits(0, 2);  // its ID
+  out.bits(kByList, 1);
+  out.bits(kMore, 1);
+  out.bits(kFapField, 3);
   put_fap_node(out);
-  out.put(kEnd, 1);
+  out.bits(kEnd, 1);
 }
 
 void put_sound(Bits& out) {
   new_node(out, kSound, 6);
-  out.put(kAnonymous, 1);
-  out.put(kByList, 1);
-  out.put(kMore, 1);
-  out.put(kSourceField, 4);
+  out.bits(kAnonymous, 1);
+  out.bits(kByList, 1);
+  out.bits(kMore, 1);
+  out.bits(kSourceField, 4);
   new_node(out, kAudioSource, 3);
-  out.put(kAnonymous, 1);
-  out.put(kByList, 1);
-  out.put(kMore, 1);
-  out.put(kUrlField, 3);
-  out.put(0, 1);  // several values
-  out.put(1, 1);  // as a list
-  out.put(kMore, 1);
-  out.put(1, 1);  // an object descriptor, no text
-  out.put(kSoundTrack, 10);
-  out.put(kEnd, 1);  // of the list
-  out.put(kEnd, 1);  // of AudioSource
-  out.put(kEnd, 1);  // of Sound
+  out.bits(kAnonymous, 1);
+  out.bits(kByList, 1);
+  out.bits(kMore, 1);
+  out.bits(kUrlField, 3);
+  out.bits(0, 1);  // several values
+  out.bits(1, 1);  // as a list
+  out.bits(kMore, 1);
+  out.bits(1, 1);  // an object descriptor, no text
+  out.bits(kSoundTrack, 10);
+  out.bits(kEnd, 1);  // of the list
+  out.bits(kEnd, 1);  // of AudioSource
+  out.bits(kEnd, 1);  // of Sound
 }
 
 void put_object(BoxWriter& out, unsigned id, unsigned reference) {
@@ -99,38 +91,38 @@ void put_object(BoxWriter& out, unsigned id, unsigned reference) {
 
 std::vector<std::uint8_t> scene_config() {
   Bits out;
-  out.put(2, 5);  // bits of node IDs
-  out.put(0, 5);  // bits of route IDs
-  out.put(1, 1);  // a command stream
-  out.put(1, 1);  // in pixels
-  out.put(1, 1);  // has a size
-  out.put(320, 16);
-  out.put(240, 16);
-  return out.take();
+  out.bits(2, 5);  // bits of node IDs
+  out.bits(0, 5);  // bits of route IDs
+  out.bits(1, 1);  // a command stream
+  out.bits(1, 1);  // in pixels
+  out.bits(1, 1);  // has a size
+  out.bits(320, 16);
+  out.bits(240, 16);
+  return padded(out);
 }
 
 std::vector<std::uint8_t> scene_unit(bool sound) {
   Bits out;
-  out.put(3, 2);  // SceneReplace
-  out.put(0, 6);
-  out.put(0, 1);  // no names
-  out.put(0, 1);  // no PROTO
+  out.bits(3, 2);  // SceneReplace
+  out.bits(0, 6);
+  out.bits(0, 1);  // no names
+  out.bits(0, 1);  // no PROTO
   new_node(out, kGroup, 3);
-  out.put(kAnonymous, 1);
-  out.put(kByMask, 1);
-  out.put(1, 1);  // children
-  out.put(0, 1);  // several values
-  out.put(1, 1);  // as a list
-  out.put(kMore, 1);
+  out.bits(kAnonymous, 1);
+  out.bits(kByMask, 1);
+  out.bits(1, 1);  // children
+  out.bits(0, 1);  // several values
+  out.bits(1, 1);  // as a list
+  out.bits(kMore, 1);
   put_face(out);
   if (sound) {
-    out.put(kMore, 1);
+    out.bits(kMore, 1);
     put_sound(out);
   }
-  out.put(kEnd, 1);
-  out.put(0, 1);  // no routes
-  out.put(0, 1);  // no more commands
-  return out.take();
+  out.bits(kEnd, 1);
+  out.bits(0, 1);  // no routes
+  out.bits(0, 1);  // no more commands
+  return padded(out);
 }
 
 std::vector<std::uint8_t> object_unit(bool sound) {
@@ -164,8 +156,7 @@ std::vector<std::uint8_t> elementary_stream_descriptor(const StreamDescription& 
   decoder.u8(stream.stream_type << 2 | 1);
   decoder.u8(unsigned(stream.buffer_size >> 16 & 0xFF));
   decoder.u16(unsigned(stream.buffer_size & 0xFFFF));
-  decoder.u32(stream.max_bit_rate);
-  decoder.u32(stream.average_bit_rate);
+  decoder.u32({stream.max_bit_rate, stream.average_bit_rate});
   if (!stream.config.empty()) decoder.descriptor(0x05, stream.config);
   BoxWriter inside;
   inside.u16(0);  // ES_ID

@@ -45,13 +45,11 @@ void TsEvents::take_map(const TsProgram& program) {
   if (program.face != program_.face) {
     config_.clear();
     film_ = false;
-    face_clock_ = {};
-    track_stamp_[0].reset();
+    clocks_[0] = {};
   }
   if (program.sound != program_.sound || program.sound_codec != program_.sound_codec) {
     sound_ = TsSound(program.sound_codec, program.channels);
-    sound_clock_ = {};
-    track_stamp_[1].reset();
+    clocks_[1] = {};
     priming_ = 0;
   }
   program_ = program;
@@ -77,8 +75,8 @@ std::optional<std::int64_t> TsEvents::unwrap(const TsPes& pes) {
 /// Sixteen lost packets look like none to a counter of four bits. Are there other signs that
 /// something is missing in front of this one? `interval`: between the two units before, in ticks.
 bool TsEvents::outage(const TsPes& pes, std::int64_t stamp, std::int64_t interval) const {
-  const auto& own = track_stamp_[std::size_t(pes.track)];
-  const auto& other = track_stamp_[1 - std::size_t(pes.track)];
+  const auto& own = clocks_[std::size_t(pes.track)].stamp;
+  const auto& other = clocks_[1 - std::size_t(pes.track)].stamp;
   if (!own || interval <= 0 || 2 * (stamp - *own) <= 3 * interval) return false;
   if (pes.suspect) return true;
   if (other && stamp - *other > kOtherTrack && *other >= *own - kOtherTrack) return true;
@@ -107,10 +105,10 @@ void TsEvents::take_face(TsPes& pes) {
   if (config_.empty()) return;  // nobody can begin here
   unit.intra = *intra;
   const auto stamp = unwrap(pes);
-  Clock& clock = face_clock_;
+  Clock& clock = clocks_[0];
   unit.time = stamp ? *stamp - kTsTimeZero : clock.last + clock.interval;
   if (stamp && outage(pes, *stamp, clock.interval)) gap(LiveTrack::face, 0);
-  if (stamp) track_stamp_[0] = stamp;
+  if (stamp) clock.stamp = stamp;
   if (clock.started && unit.time > clock.last) clock.interval = unit.time - clock.last;
   unit.duration = clock.interval;
   clock.last = unit.time;
@@ -125,11 +123,11 @@ void TsEvents::take_sound(TsPes& pes) {
   if (sound_.damaged() != damaged) gap(LiveTrack::audio, 0);
   if (packets.empty()) return;
   const int rate = sound_.format().sample_rate;
-  Clock& clock = sound_clock_;
+  Clock& clock = clocks_[1];
   const std::int64_t begin =
       stamp ? to_samples(*stamp - kTsTimeZero, rate) : clock.last + clock.interval;
   if (stamp && outage(pes, *stamp, clock.interval * 90000 / rate)) gap(LiveTrack::audio, 0);
-  if (stamp) track_stamp_[1] = stamp;
+  if (stamp) clock.stamp = stamp;
   for (AudioPacket& packet : packets) {
     LiveUnit unit{.track = LiveTrack::audio, .bytes = std::move(packet.bytes)};
     unit.time = begin + packet.time;
@@ -137,7 +135,7 @@ void TsEvents::take_sound(TsPes& pes) {
     if (!clock.started && unit.time < 0 && unit.time >= -kLongestPriming) {
       priming_ = int(-unit.time);
     }
-    clock = {unit.time, unit.duration, true};
+    clock = {unit.time, unit.duration, true, clock.stamp};
     hold(std::move(unit), last_stamp_.value_or(0));
   }
 }

@@ -35,6 +35,7 @@ class TsEvents {
     std::int64_t last = 0;      // time of the last unit
     std::int64_t interval = 0;  // to the one before it; 0: not known
     bool started = false;
+    std::optional<std::int64_t> stamp;  // of the last unit that had one, unwrapped
   };
 
   TsProgram program_;
@@ -42,9 +43,8 @@ class TsEvents {
   bool film_ = false;                 // stream type 0x10, but no face
   TsSound sound_;
   int priming_ = 0;
-  Clock face_clock_, sound_clock_;
-  std::optional<std::int64_t> last_stamp_;      // unwrapped, of either track
-  std::optional<std::int64_t> track_stamp_[2];  // the same by LiveTrack
+  Clock clocks_[2];                         // by LiveTrack
+  std::optional<std::int64_t> last_stamp_;  // unwrapped, of either track
   std::deque<LiveEvent> held_;
   std::int64_t held_from_ = 0, held_to_ = 0;  // stamps
   std::optional<LiveInfo> told_;

@@ -43,16 +43,9 @@ Result<void> TsMuxer::start(double table_period) {
   av::LogCapture log;
   packet_.reset(av_packet_alloc());
   avformat_alloc_output_context2(&context_, nullptr, "mpegts", nullptr);
-  auto* buffer = static_cast<unsigned char*>(av_malloc(av::kBufferSize));
-  if (buffer != nullptr) {
-    io_ = avio_alloc_context(buffer, av::kBufferSize, 1, this, nullptr, &TsMuxer::collect, nullptr);
-  }
-  if (!packet_ || context_ == nullptr || io_ == nullptr) {
-    if (io_ == nullptr) av_free(buffer);
-    return av::no_memory();
-  }
-  io_->seekable = 0;
-  context_->pb = io_;
+  io_ = av::make_io(this, nullptr, &TsMuxer::collect, nullptr);
+  if (!packet_ || context_ == nullptr || !io_) return av::no_memory();
+  context_->pb = io_.get();
   context_->flags |= AVFMT_FLAG_BITEXACT | AVFMT_FLAG_CUSTOM_IO;
   context_->max_delay = int(kMaxDelay);
   context_->avoid_negative_ts = 0;
@@ -109,16 +102,11 @@ Result<void> TsMuxer::add_sound() {
 }
 
 TsMuxer::~TsMuxer() {
-  if (context_ != nullptr) {
-    av::LogCapture quiet;
-    // Without the trailer the writer would keep its own memory.
-    if (io_ != nullptr && last_[0] != last_[1]) av_write_trailer(context_);
-    avformat_free_context(context_);
-  }
-  if (io_ != nullptr) {
-    av_freep(&io_->buffer);
-    avio_context_free(&io_);
-  }
+  if (context_ == nullptr) return;
+  av::LogCapture quiet;
+  // Without the trailer the writer would keep its own memory.
+  if (io_ && last_[0] != last_[1]) av_write_trailer(context_);
+  avformat_free_context(context_);
 }
 
 Result<std::vector<std::uint8_t>> TsMuxer::write(const LiveUnit& unit) {
@@ -154,7 +142,7 @@ Result<std::vector<std::uint8_t>> TsMuxer::write(const LiveUnit& unit) {
   if (status >= 0) status = av_write_frame(context_, nullptr);  // it would collect small packets
   if (status < 0) return av::make_av_error(status, "the unit cannot be written");
   last_[track] = stamp;
-  avio_flush(io_);
+  avio_flush(io_.get());
   std::vector<std::uint8_t> packets;
   packets.swap(bytes_);
   return program_map_.push(packets);

@@ -35,7 +35,7 @@ class TsMuxer {
   ProgramMapFilter program_map_{0x61};
   std::vector<std::uint8_t> bytes_;
   AVFormatContext* context_ = nullptr;
-  AVIOContext* io_ = nullptr;
+  av::Io io_;
   AVStream* streams_[2] = {nullptr, nullptr};  // by LiveTrack
   std::int64_t last_[2] = {INT64_MIN, INT64_MIN};
   av::Packet packet_;

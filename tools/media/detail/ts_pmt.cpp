@@ -87,8 +87,7 @@ void ProgramMapFilter::rewrite(std::span<std::uint8_t> packet) {
   // What follows the section in its packet must be stuffing, or it would be lost.
   const auto behind = packet.subspan(at + section.size());
   if (std::any_of(behind.begin(), behind.end(), [](std::uint8_t b) { return b != 0xFF; })) return;
-  const std::uint32_t crc = ts_crc(described);
-  for (const unsigned shift : {24u, 16u, 8u, 0u}) described.push_back(std::uint8_t(crc >> shift));
+  put(described, ts_crc(described), int(kTsCrcSize));
   std::copy(described.begin(), described.end(), packet.begin() + std::ptrdiff_t(at));
 }
 

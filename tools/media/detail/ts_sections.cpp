@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tools/media/live/wire_internal.h"
+
 namespace animeme::media {
 namespace {
 
@@ -9,12 +11,9 @@ constexpr std::size_t kHeader = 8;  // of a section in the long form
 constexpr std::uint8_t kPatId = 0, kPmtId = 2;
 constexpr std::uint8_t kRegistration = 0x05, kExtension = 0x7F, kOpusExtension = 0x80;
 
-int pid_at(std::span<const std::uint8_t> bytes, std::size_t at) {
-  return (bytes[at] & 0x1F) << 8 | bytes[at + 1];
-}
-
-std::size_t length_at(std::span<const std::uint8_t> bytes, std::size_t at) {
-  return std::size_t(bytes[at] & 0x0F) << 8 | bytes[at + 1];
+int pid_at(ByteSpan bytes, std::size_t at) { return int(read_big_endian(bytes, at, 2) & 0x1FFF); }
+std::size_t u12_at(ByteSpan bytes, std::size_t at) {
+  return read_big_endian(bytes, at, 2) & 0x0FFF;
 }
 
 /// Entries of a section of this table that is in force; nullopt: another one.
@@ -57,7 +56,7 @@ std::uint32_t ts_crc(std::span<const std::uint8_t> section) {
 
 void TsSections::take(std::vector<std::vector<std::uint8_t>>& complete) {
   while (bytes_.size() >= 3 && bytes_[0] != 0xFF) {
-    const std::size_t size = 3 + length_at(bytes_, 1);
+    const std::size_t size = 3 + u12_at(bytes_, 1);
     if (bytes_.size() < size) return;
     const auto end = bytes_.begin() + std::ptrdiff_t(size);
     std::vector<std::uint8_t> section(bytes_.begin(), end);
@@ -105,11 +104,11 @@ std::optional<TsProgram> read_pmt(std::span<const std::uint8_t> section) {
   const auto rows = entries(section, kPmtId);
   if (!rows || rows->size() < 4) return {};
   TsProgram program;
-  std::size_t at = 4 + length_at(*rows, 2);
+  std::size_t at = 4 + u12_at(*rows, 2);
   while (at + 5 <= rows->size()) {
     const std::uint8_t type = (*rows)[at];
     const int pid = pid_at(*rows, at + 1);
-    const std::size_t size = std::min(length_at(*rows, at + 3), rows->size() - at - 5);
+    const std::size_t size = std::min(u12_at(*rows, at + 3), rows->size() - at - 5);
     const auto descriptors = rows->subspan(at + 5, size);
     if (type == 0x10 && program.face == kTsNoPid) program.face = pid;
     if (program.sound == kTsNoPid) {
@@ -136,8 +135,7 @@ std::array<std::uint8_t, kTsPacket> end_of_programs(unsigned continuity_counter,
       0x01,    std::uint8_t(0xC1 | (version & 31) << 1),
       0x00,    0x00};
   std::copy(head.begin(), head.end(), packet.begin());
-  const std::uint32_t crc = ts_crc(std::span(packet).subspan(5, 8));
-  for (unsigned i = 0; i < 4; ++i) packet[13 + i] = std::uint8_t(crc >> (24 - 8 * i));
+  write_big_endian(packet, 13, 4, ts_crc(std::span(packet).subspan(5, 8)));
   return packet;
 }
 

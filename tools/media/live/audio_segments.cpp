@@ -80,14 +80,12 @@ Result<std::vector<std::uint8_t>> write_audio_segment(std::uint32_t sequence,
   out.u64(std::uint64_t(packets.front().time));
   out.end();
   out.begin_full("trun", 0, kDataOffset | kDurations | kSizes);
-  out.u32(packets.size());
-  out.u32(moof + 8);
+  out.u32({packets.size(), moof + 8});
   for (const AudioPacket& packet : packets) {
     if (packet.bytes.empty() || packet.duration <= 0) {
       return make_error(Code::invalid_argument, "a packet of sound is empty");
     }
-    out.u32(std::uint64_t(packet.duration));
-    out.u32(packet.bytes.size());
+    out.u32({std::uint64_t(packet.duration), packet.bytes.size()});
   }
   for (int open = 0; open < 3; ++open) out.end();  // trun, traf, moof
   out.begin("mdat");
@@ -97,10 +95,7 @@ Result<std::vector<std::uint8_t>> write_audio_segment(std::uint32_t sequence,
 }
 
 void set_segment_time(std::span<std::uint8_t> segment, std::int64_t time) {
-  if (segment.size() < kTimeAt + 8) return;
-  for (std::size_t i = 0; i < 8; ++i) {
-    segment[kTimeAt + i] = std::uint8_t(std::uint64_t(time) >> (56 - 8 * i));
-  }
+  if (segment.size() >= kTimeAt + 8) write_big_endian(segment, kTimeAt, 8, std::uint64_t(time));
 }
 
 void set_priming(AudioFormat& format, int priming) {

@@ -1,7 +1,6 @@
 #include "tools/media/live/live_frames.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 

@@ -3,10 +3,6 @@
 namespace animeme::media {
 namespace {
 
-bool has_scheme(const std::string& url, const char* scheme) {
-  return url.rfind(std::string(scheme) + "://", 0) == 0;
-}
-
 Error no_such_scheme(const std::string& url) {
   return make_error(Code::invalid_argument,
                     "'" + url +
@@ -15,13 +11,13 @@ Error no_such_scheme(const std::string& url) {
 }
 
 bool is_transport_stream(const std::string& url) {
-  return has_scheme(url, "udp") || has_scheme(url, "srt");
+  return url.starts_with("udp://") || url.starts_with("srt://");
 }
 
 }  // namespace
 
 Result<std::unique_ptr<LiveSink>> open_sink(const std::string& url, const SinkOptions& options) {
-  if (has_scheme(url, "rtp")) return make_rtp_sink(url, options.rtp);
+  if (url.starts_with("rtp://")) return make_rtp_sink(url, options.rtp);
   if (is_transport_stream(url)) return make_ts_sink(url, options.ts);
   return no_such_scheme(url);
 }
@@ -29,7 +25,7 @@ Result<std::unique_ptr<LiveSink>> open_sink(const std::string& url, const SinkOp
 Result<std::unique_ptr<LiveSource>> open_source(const std::string& where,
                                                 const SourceOptions& options) {
   if (is_transport_stream(where)) return make_ts_source(where, options.ts);
-  if (has_scheme(where, "rtp") || where.ends_with(".sdp")) {
+  if (where.starts_with("rtp://") || where.ends_with(".sdp")) {
     return make_rtp_source(where, options.rtp);
   }
   return no_such_scheme(where);

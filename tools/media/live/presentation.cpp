@@ -37,25 +37,33 @@ double due_of(const LiveInput& input, const LiveUnit& unit) {
 }
 
 ClipInput::ClipInput(fba::AccessUnits face, EncodedAudio audio, const ClipOptions& options)
-    : face_(std::move(face)), audio_(std::move(audio)), options_(options) {
+    : options_(options) {
   double face_end = 0, audio_end = 0;  // seconds
   std::int64_t grid = 1;
-  if (!face_.units.empty()) {
-    info_.face_config = face_.config;
-    info_.timescale = face_.timescale;
-    if (face_.config.size() > kProfileByte) info_.visual_profile = face_.config[kProfileByte];
-    const fba::AccessUnit& last = face_.units.back();
+  if (!face.units.empty()) {
+    info_.face_config = face.config;
+    info_.timescale = face.timescale;
+    if (face.config.size() > kProfileByte) info_.visual_profile = face.config[kProfileByte];
+    const fba::AccessUnit& last = face.units.back();
     face_end = seconds_of(info_, LiveTrack::face, last.time + last.duration);
     grid = std::max<std::int64_t>(1, last.duration);
   }
-  if (!audio_.packets.empty()) {
-    info_.audio = audio_.format;
-    if (face_.units.empty()) info_.timescale = std::uint32_t(audio_.format.sample_rate);
-    const AudioPacket& last = audio_.packets.back();
+  if (!audio.packets.empty()) {
+    info_.audio = audio.format;
+    if (face.units.empty()) info_.timescale = std::uint32_t(audio.format.sample_rate);
+    const AudioPacket& last = audio.packets.back();
     audio_end =
-        seconds_of(info_, LiveTrack::audio, last.time + last.duration + audio_.format.priming);
+        seconds_of(info_, LiveTrack::audio, last.time + last.duration + audio.format.priming);
   }
   round_ = std::max(grid, up_to_multiple(std::max(face_end, audio_end) * info_.timescale, grid));
+  for (fba::AccessUnit& unit : face.units) {
+    units_[0].push_back(
+        {LiveTrack::face, std::move(unit.bytes), unit.intra, unit.time, unit.duration});
+  }
+  for (AudioPacket& packet : audio.packets) {
+    units_[1].push_back(
+        {LiveTrack::audio, std::move(packet.bytes), false, packet.time, packet.duration});
+  }
 }
 
 std::int64_t ClipInput::shift(LiveTrack track, std::int64_t round) const {
@@ -69,39 +77,24 @@ std::int64_t ClipInput::shift(LiveTrack track, std::int64_t round) const {
 
 std::optional<double> ClipInput::due(LiveTrack track) const {
   const Cursor& at = at_[std::size_t(track)];
-  const bool face = track == LiveTrack::face;
-  if (at.unit >= (face ? face_.units.size() : audio_.packets.size())) return std::nullopt;
-  const std::int64_t time = face ? face_.units[at.unit].time : audio_.packets[at.unit].time;
-  const double seconds = seconds_of(info_, track, time + shift(track, at.round));
+  const std::vector<LiveUnit>& units = units_[std::size_t(track)];
+  if (at.unit >= units.size()) return std::nullopt;
+  const double seconds = seconds_of(info_, track, units[at.unit].time + shift(track, at.round));
   if (seconds >= options_.duration) return std::nullopt;
-  return face ? seconds : seconds - options_.audio_ahead;
+  return track == LiveTrack::face ? seconds : seconds - options_.audio_ahead;
 }
 
 LiveUnit ClipInput::current(LiveTrack track) const {
   const Cursor& at = at_[std::size_t(track)];
-  LiveUnit out;
-  out.track = track;
-  if (track == LiveTrack::face) {
-    const fba::AccessUnit& unit = face_.units[at.unit];
-    out.bytes = unit.bytes;
-    if (at.round > 0) drop_object_start(out.bytes);
-    out.intra = unit.intra;
-    out.time = unit.time;
-    out.duration = unit.duration;
-  } else {
-    const AudioPacket& packet = audio_.packets[at.unit];
-    out.bytes = packet.bytes;
-    out.time = packet.time;
-    out.duration = packet.duration;
-  }
+  LiveUnit out = units_[std::size_t(track)][at.unit];
+  if (track == LiveTrack::face && at.round > 0) drop_object_start(out.bytes);
   out.time += shift(track, at.round);
   return out;
 }
 
 void ClipInput::advance(LiveTrack track) {
   Cursor& at = at_[std::size_t(track)];
-  const std::size_t count = track == LiveTrack::face ? face_.units.size() : audio_.packets.size();
-  if (++at.unit < count || !options_.loop) return;
+  if (++at.unit < units_[std::size_t(track)].size() || !options_.loop) return;
   at.unit = 0;
   ++at.round;
 }

@@ -83,9 +83,8 @@ class ClipInput : public LiveInput {
   void advance(LiveTrack track);
 
   LiveInfo info_;
-  fba::AccessUnits face_;
-  EncodedAudio audio_;
   ClipOptions options_;
+  std::vector<LiveUnit> units_[2];  // by LiveTrack
   std::int64_t round_ = 0;  // length of a round in ticks of the face, without one in samples
   Cursor at_[2];            // by LiveTrack
 };

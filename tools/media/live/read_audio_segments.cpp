@@ -51,11 +51,6 @@ std::optional<std::vector<std::uint8_t>> read_esds(Bytes bytes, const Box& entry
   return std::vector<std::uint8_t>(at(config->begin), at(config->end));
 }
 
-struct Run {
-  std::size_t count = 0, sizes_at = 0;
-  std::int64_t time = 0;
-};
-
 }  // namespace
 
 Result<AudioFormat> read_audio_init(Bytes segment) {
@@ -93,20 +88,19 @@ Result<std::vector<AudioPacket>> read_audio_segment(Bytes segment) {
   const auto mdat = find(segment, 0, segment.size(), "mdat");
   if (!tfdt || !trun || !mdat) return damaged();
   if (tfdt->end - tfdt->begin < 12 || trun->end - trun->begin < 12) return damaged();
-  Run run;
-  run.time = std::int64_t(read_big_endian(segment, tfdt->begin + 4, 8) & 0x7FFFFFFFFFFFF);
-  run.count = std::size_t(read_big_endian(segment, trun->begin + 4, 4));
-  run.sizes_at = trun->begin + 12;
-  if (run.count > kMostPackets || trun->end - run.sizes_at < 8 * run.count) return damaged();
+  auto time = std::int64_t(read_big_endian(segment, tfdt->begin + 4, 8) & 0x7FFFFFFFFFFFF);
+  const auto count = std::size_t(read_big_endian(segment, trun->begin + 4, 4));
+  const std::size_t sizes_at = trun->begin + 12;
+  if (count > kMostPackets || trun->end - sizes_at < 8 * count) return damaged();
   std::vector<AudioPacket> packets;
   std::size_t at = mdat->begin;
-  for (std::size_t i = 0; i < run.count; ++i) {
-    const auto duration = std::int64_t(read_big_endian(segment, run.sizes_at + 8 * i, 4));
-    const auto size = std::size_t(read_big_endian(segment, run.sizes_at + 8 * i + 4, 4));
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto duration = std::int64_t(read_big_endian(segment, sizes_at + 8 * i, 4));
+    const auto size = std::size_t(read_big_endian(segment, sizes_at + 8 * i + 4, 4));
     if (size == 0 || size > mdat->end - at || duration == 0) return damaged();
     const auto begin = segment.begin() + std::ptrdiff_t(at);
-    packets.push_back({{begin, begin + std::ptrdiff_t(size)}, run.time, duration});
-    run.time += duration;
+    packets.push_back({{begin, begin + std::ptrdiff_t(size)}, time, duration});
+    time += duration;
     at += size;
   }
   return packets;

@@ -25,9 +25,7 @@ class PacketWriter {
   }
   ~PacketWriter() {
     while ((out_.size() - begin_) % 4 != 0) out_.push_back(0);
-    const std::size_t words = (out_.size() - begin_) / 4 - 1;
-    out_[begin_ + 2] = std::uint8_t(words >> 8);
-    out_[begin_ + 3] = std::uint8_t(words);
+    write_big_endian(out_, begin_ + 2, 2, (out_.size() - begin_) / 4 - 1);
   }
   PacketWriter(const PacketWriter&) = delete;
   PacketWriter& operator=(const PacketWriter&) = delete;
@@ -126,17 +124,11 @@ bool read_byes(WireReader in, std::size_t count, RtcpMessage& message) {
 }
 
 bool read_packet(ByteSpan body, std::uint8_t type, std::size_t count, RtcpMessage& message) {
-  switch (type) {
-    case kSender:
-    case kReceiver:
-      return read_report(WireReader(body), PacketType(type), count, message);
-    case kNames:
-      return read_names(WireReader(body), count, message);
-    case kBye:
-      return read_byes(WireReader(body), count, message);
-    default:
-      return true;
-  }
+  const WireReader in(body);
+  if (type == kNames) return read_names(in, count, message);
+  if (type == kBye) return read_byes(in, count, message);
+  if (type != kSender && type != kReceiver) return true;
+  return read_report(in, PacketType(type), count, message);
 }
 
 }  // namespace

@@ -60,7 +60,6 @@ class RtpReceiver {
   void push(LiveEvent event);
   LiveEvent pop(std::deque<LiveEvent>& queue);
   void restart(Source& source, double now);
-  void convert_pending();
   LiveUnit timed(LiveUnit unit);
   LiveInfo info() const;
   std::optional<double> end_time() const;

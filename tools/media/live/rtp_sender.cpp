@@ -1,7 +1,6 @@
 #include "tools/media/live/rtp_sender.h"
 #include "tools/media/detail/invalid.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

@@ -1,8 +1,8 @@
-#include <chrono>
 #include <fstream>
 #include <utility>
 
 #include "tools/media/detail/output_file.h"
+#include "tools/media/live/pacer.h"
 #include "tools/media/live/rtp.h"
 #include "tools/media/live/rtp_sender.h"
 #include "tools/media/live/udp_socket.h"
@@ -34,7 +34,7 @@ class RtpSink : public LiveSink {
       if (!opened) return opened.error();
       *socket = std::move(*opened);
     }
-    begin_ = std::chrono::steady_clock::now();
+    begin_ = steady_clock().now();
     sender_.emplace(info, options_, to_.host(), to_.port(),
                     options_.seed ? *options_.seed : random_number(), ntp_now());
     if (options_.sdp_path.empty()) return {};
@@ -77,9 +77,7 @@ class RtpSink : public LiveSink {
   SendStats stats() const override { return sender_ ? sender_->stats(now()) : stats_; }
 
  private:
-  double now() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  }
+  double now() const { return steady_clock().now() - begin_; }
 
   Result<void> transmit(const RtpSender::Datagrams& datagrams) {
     for (const RtpDatagram& each : datagrams) {
@@ -95,7 +93,7 @@ class RtpSink : public LiveSink {
   std::optional<UdpSocket> media_;
   std::optional<UdpSocket> control_;
   std::optional<RtpSender> sender_;
-  std::chrono::steady_clock::time_point begin_;
+  double begin_ = 0;
   SendStats stats_;
 };
 

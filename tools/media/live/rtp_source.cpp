@@ -1,10 +1,9 @@
 #include <algorithm>
-#include <chrono>
 #include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "tools/media/detail/invalid.h"
+#include "tools/media/live/pacer.h"
 #include "tools/media/live/rtp.h"
 #include "tools/media/live/rtp_receiver.h"
 #include "tools/media/live/udp_socket.h"
@@ -45,9 +44,7 @@ class RtpSource : public LiveSource {
   ReceiveStats stats() const override { return receiver_.stats(); }
 
  private:
-  double now() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  }
+  double now() const { return steady_clock().now() - begin_; }
 
   std::vector<const UdpSocket*> sockets() const {
     std::vector<const UdpSocket*> all;
@@ -85,7 +82,7 @@ class RtpSource : public LiveSource {
     return {};
   }
 
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  const double begin_ = steady_clock().now();
   RtpReceiver receiver_;
   std::vector<Inlet> inlets_;
 };

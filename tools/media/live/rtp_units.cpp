@@ -65,13 +65,9 @@ bool FaceAssembler::add_plane(RtpUnit plane, RtpUnits& out) {
   if (header->temporal.rate) rate_ = header->temporal.rate->rate();
   const fap::Rate rate = rate_.value_or(kUnknownRate);
   const std::int64_t planes = 1 + std::int64_t(header->temporal.skip.value_or(0));
-  LiveUnit unit;
-  unit.track = LiveTrack::face;
-  unit.bytes = std::move(plane.bytes);
-  unit.intra = header->intra;
-  unit.time = plane.time;
-  unit.duration = std::max<std::int64_t>(1, scale(planes * rate.den, timescale_, rate.num));
-  out.units.push_back(std::move(unit));
+  const std::int64_t duration = scale(planes * rate.den, timescale_, rate.num);
+  out.units.push_back({LiveTrack::face, std::move(plane.bytes), header->intra, plane.time,
+                       std::max<std::int64_t>(1, duration)});
   return true;
 }
 

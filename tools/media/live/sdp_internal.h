@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/media/encoded_audio.h"
+#include "tools/media/live/sdp.h"
 
 namespace animeme::media {
 
@@ -33,21 +33,14 @@ Parameters read_parameters(std::string_view text);
 std::optional<std::uint32_t> number_of(const Parameters& parameters, std::string_view key,
                                        std::uint32_t highest);
 
-/// One medium as it was read, before anybody asks whether it is for us.
-struct SdpMedium {
-  std::string kind;     // "video", "audio" ...
-  std::string address;  // empty: not said
-  int ttl = 0;
-  std::uint32_t port = 0;
-  std::uint32_t rtcp_port = 0;  // 0: not said
-  int payload_type = -1;        // the first one
-  std::string encoding;         // lower case; empty: no rtpmap
-  std::uint32_t clock = 0;
+/// One medium as it was read, before anybody asks whether it is for us. What was not said: an empty
+/// address, rtcp_port 0, payload_type -1.
+struct SdpMedium : RtpTrack {
+  std::string kind;      // "video", "audio" ...
+  std::string encoding;  // lower case; empty: no rtpmap
   std::uint32_t channels = 1;
   Parameters format;  // a=fmtp
   Parameters own;     // a=x-animeme
-  std::optional<std::uint32_t> ssrc;
-  std::optional<std::uint32_t> clock_offset;
   std::string cname;
   int bundle_id = 0;
   std::int64_t line = 0;

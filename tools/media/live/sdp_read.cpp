@@ -1,8 +1,5 @@
-#include <algorithm>
-
 #include "tools/media/detail/audio_headers.h"
 #include "tools/media/detail/face_header.h"
-#include "tools/media/live/sdp.h"
 #include "tools/media/live/sdp_internal.h"
 
 namespace animeme::media {
@@ -22,25 +19,14 @@ class SdpReader {
   Result<void> line(std::string_view text, std::int64_t number) {
     if (text.size() < 2 || text[1] != '=') return {};
     const std::string_view value = trim(text.substr(2));
-    switch (text[0]) {
-      case 'v':
-        if (value != "0") return bad_line("a version other than 0", number);
-        version_ = true;
-        return {};
-      case 's':
-        name = std::string(value);
-        return {};
-      case 'c':
-        connection(value);
-        return {};
-      case 'm':
-        return medium(value, number);
-      case 'a':
-        if (!media.empty()) return attribute(value, media.back(), number);
-        return {};
-      default:
-        return {};
-    }
+    const char kind = text[0];
+    if (kind == 'v' && value != "0") return bad_line("a version other than 0", number);
+    if (kind == 'v') version_ = true;
+    if (kind == 's') name = std::string(value);
+    if (kind == 'c') connection(value);
+    if (kind == 'm') return medium(value, number);
+    if (kind == 'a' && !media.empty()) return attribute(value, media.back(), number);
+    return {};
   }
   bool is_description() const { return version_ && !media.empty(); }
 
@@ -52,15 +38,9 @@ class SdpReader {
   void connection(std::string_view value) {
     take_until(value, ' ');
     take_until(value, ' ');
-    std::string address(take_until(value, '/'));
-    const int ttl = int(to_number(take_until(value, '/'), 255).value_or(0));
-    if (media.empty()) {
-      address_ = address;
-      ttl_ = ttl;
-    } else {
-      media.back().address = address;
-      media.back().ttl = ttl;
-    }
+    RtpTrack& about = media.empty() ? all_ : media.back();
+    about.address = std::string(take_until(value, '/'));
+    about.ttl = int(to_number(take_until(value, '/'), 255).value_or(0));
   }
 
   // video 5004 RTP/AVP 96 97
@@ -72,11 +52,12 @@ class SdpReader {
     std::string_view port = take_until(value, ' ');
     const auto port_number = to_number(take_until(port, '/'), kMaxPort);
     if (!port_number) return bad_line("no port number up to 65534 in its m= line", number);
-    next.port = *port_number;
+    next.port = int(*port_number);
     take_until(value, ' ');
-    if (const auto type = to_number(take_until(value, ' '), 127)) next.payload_type = int(*type);
-    next.address = address_;
-    next.ttl = ttl_;
+    const auto type = to_number(take_until(value, ' '), 127);
+    next.payload_type = type ? int(*type) : -1;
+    next.address = all_.address;
+    next.ttl = all_.ttl;
     media.push_back(std::move(next));
     return {};
   }
@@ -91,7 +72,7 @@ class SdpReader {
     } else if (key == "rtcp") {
       const auto port = to_number(take_until(value, ' '), kMaxPort + 1);
       if (!port) return bad_line("no port number in its a=rtcp line", number);
-      medium.rtcp_port = *port;
+      medium.rtcp_port = int(*port);
     } else if (key == "ssrc") {
       medium.ssrc = to_number(take_until(value, ' '), ~0u);
       if (take_until(value, ':') == "cname") medium.cname = std::string(trim(value));
@@ -122,8 +103,7 @@ class SdpReader {
   }
 
   bool version_ = false;
-  std::string address_;
-  int ttl_ = 0;
+  RtpTrack all_;  // address and ttl of those that have none of their own
 };
 
 std::vector<std::uint8_t> bytes_of(const Parameters& parameters, std::string_view key) {
@@ -133,14 +113,8 @@ std::vector<std::uint8_t> bytes_of(const Parameters& parameters, std::string_vie
 }
 
 void common(const SdpMedium& medium, RtpTrack& track) {
-  track.address = medium.address;
-  track.ttl = medium.ttl;
-  track.port = int(medium.port);
-  track.rtcp_port = int(medium.rtcp_port != 0 ? medium.rtcp_port : medium.port + 1);
-  track.payload_type = medium.payload_type;
-  track.clock = medium.clock;
-  track.ssrc = medium.ssrc;
-  track.clock_offset = medium.clock_offset;
+  track = medium;
+  if (track.rtcp_port == 0) track.rtcp_port = track.port + 1;
 }
 
 // Empty: taken; else why not.

@@ -1,28 +1,18 @@
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 
 #include "tools/media/live/sdp_internal.h"
 
 namespace animeme::media {
-namespace {
-
-int digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
-
-}  // namespace
 
 std::optional<std::vector<std::uint8_t>> from_hex(std::string_view text) {
   if (text.size() % 2 != 0) return std::nullopt;
   std::vector<std::uint8_t> out;
   for (std::size_t i = 0; i < text.size(); i += 2) {
-    const int high = digit(text[i]);
-    const int low = digit(text[i + 1]);
-    if (high < 0 || low < 0) return std::nullopt;
-    out.push_back(std::uint8_t(high << 4 | low));
+    const char* const end = text.data() + i + 2;
+    std::uint8_t& byte = out.emplace_back();
+    if (std::from_chars(end - 2, end, byte, 16).ptr != end) return std::nullopt;
   }
   return out;
 }
@@ -48,14 +38,11 @@ std::string_view take_until(std::string_view& text, char mark) {
 }
 
 std::optional<std::uint32_t> to_number(std::string_view text, std::uint32_t highest) {
-  if (text.empty() || text.size() > 10) return std::nullopt;
-  std::uint64_t value = 0;
-  for (const char c : text) {
-    if (c < '0' || c > '9') return std::nullopt;
-    value = value * 10 + std::uint64_t(c - '0');
-  }
-  if (value > highest) return std::nullopt;
-  return std::uint32_t(value);
+  std::uint32_t value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [at, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || at != end || value > highest) return std::nullopt;
+  return value;
 }
 
 Parameters read_parameters(std::string_view text) {

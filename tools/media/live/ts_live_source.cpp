@@ -35,7 +35,7 @@ class TsSource : public LiveSource {
           break;
         }
         take(datagram->bytes);
-        if (found_nothing()) {
+        if (!program_found_ && demuxer_.stats().bytes > kEnoughToTell) {
           return make_error(Code::syntax,
                             "what comes in is no transport stream with a face or sound");
         }
@@ -62,8 +62,6 @@ class TsSource : public LiveSource {
       parser_.push(std::move(event), events_);
     }
   }
-
-  bool found_nothing() const { return !program_found_ && demuxer_.stats().bytes > kEnoughToTell; }
 
   /// RFC 3550, section 6.4.1.
   void measure(const TsPes& pes) {

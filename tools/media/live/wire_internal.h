@@ -27,6 +27,12 @@ inline std::uint64_t read_big_endian(ByteSpan bytes, std::size_t at, std::size_t
   return value;
 }
 
+/// Puts the low `count` bytes of `value` at `at`, which must be there, highest first.
+inline void write_big_endian(std::span<std::uint8_t> bytes, std::size_t at, std::size_t count,
+                             std::uint64_t value) {
+  for (; count > 0; value >>= 8) bytes[at + --count] = std::uint8_t(value);
+}
+
 /// Takes numbers off the front. Past the end it gives zeros and says so for good.
 class WireReader {
  public:

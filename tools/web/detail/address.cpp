@@ -5,8 +5,9 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
 #include <cstring>
+
+#include "tools/media/live/sdp_internal.h"
 
 namespace animeme::web {
 namespace {
@@ -48,12 +49,9 @@ Result<WebAddress> parse_web_address(const std::string& url) {
     if (!plain) return bad("the host has a character that no host has");
   }
   if (!has_port) return address;
-  const std::string port = place.substr(colon + 1);
-  const auto [end, status] = std::from_chars(port.data(), port.data() + port.size(), address.port);
-  if (status != std::errc() || end != port.data() + port.size() || address.port < 0 ||
-      address.port > 65535) {
-    return bad("the port is no number up to 65535");
-  }
+  const auto port = media::to_number(place.substr(colon + 1), 65535);
+  if (!port) return bad("the port is no number up to 65535");
+  address.port = int(*port);
   return address;
 }
 

@@ -124,8 +124,7 @@ bool Hub::waiting(ClientId client) const {
 }
 
 bool Hub::stalled(ClientId client, Clock::time_point since) const {
-  const auto found = clients_.find(client);
-  return found != clients_.end() && !found->second.queue.empty() && found->second.taken < since;
+  return waiting(client) && clients_.at(client).taken < since;
 }
 
 }  // namespace animeme::web

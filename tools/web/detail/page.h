@@ -1,7 +1,6 @@
 // The page that the server shows, put into the program by the build from the folder page.
 #pragma once
 
-#include <string>
 #include <string_view>
 
 namespace animeme::web {
@@ -10,8 +9,5 @@ std::string_view page_text();
 
 /// What makes the page show a head; to follow viewer::head_script() in one module.
 std::string_view head_glue();
-
-/// The page as it is served. `head_script`: as WebOptions.
-std::string make_page(std::string_view head_script);
 
 }  // namespace animeme::web
