@@ -1,15 +1,16 @@
 #!/bin/sh
 # tests/structure/files_alone.sh COMPILER: the presets release and asan compile many files as one,
 # which hides an include that a file lacks. This looks at files alone (-fsyntax-only): those of one
-# of 16 turns, by the day of the last commit, so that a fortnight of work passes them all.
-#   ANIMEME_FILES=all     all of them (some minutes)
+# of 32 turns, by the day of the last commit, so that a month of work passes them all.
+#   ANIMEME_FILES=all     all of them, on all cores (some minutes)
 #   ANIMEME_FILES=7       that turn
 set -eu
 compiler=${1:-c++}
 cd "$(dirname "$0")/../.."
 day=$(git log -1 --format=%ct 2>/dev/null || date +%s)
-turn=${ANIMEME_FILES:-$((day / 86400 % 16))}
-[ "$turn" = all ] && every=1 turn=0 || every=16
+turn=${ANIMEME_FILES:-$((day / 86400 % 32))}
+every=32 jobs=1
+[ "$turn" = all ] && every=1 turn=0 jobs=$(nproc)
 flags="-std=c++20 -fsyntax-only -Wall -Wextra -Wshadow -Werror -Wno-missing-field-initializers -I.
   $(pkg-config --cflags-only-I --silence-errors eigen3 libxml-2.0 espeak-ng stb | sed 's/-I/-isystem /g')
   -isystem /usr/include/pocketsphinx -DANIMEME_SOURCE_DIR=\"\" -DANIMEME_BINARY_DIR=\"\" -DANIMEME_VERSION=\"\""
@@ -17,4 +18,4 @@ files=$(find fap codec dam conformance tools tests -name '*.cpp' ! -name '*_abse
   ! -path 'tests/package/*' | sort | awk -v every="$every" -v turn="$turn" 'NR % every == turn % every')
 echo "$(echo "$files" | wc -l) files"
 # shellcheck disable=SC2086  # lists of words are meant
-echo "$files" | xargs -P "$(nproc)" -n 4 "$compiler" $flags
+echo "$files" | xargs -P "$jobs" -n 4 "$compiler" $flags
