@@ -7,6 +7,7 @@
 #include "dam/kinds/table/contexts.h"
 #include "dam/kinds/table/viseme_weights.h"
 #include "dam/model/kind_internal.h"
+#include "dam/speaking/synthesise.h"
 #include "tests/dam/dam_support.h"
 
 namespace animeme::dam {
