@@ -186,6 +186,17 @@ class Collector {
                                      : "plane_code.some");
   }
 
+  // Whatever they say: bits between a plane and the start code of the next one.
+  bool is_stuffing(std::int64_t bit) const {
+    for (std::size_t i = 1; i < specs_.size(); ++i) {
+      if (specs_[i].start_code != StartCode::none && bit >= decoded_.planes[i - 1].bit_end &&
+          bit < decoded_.planes[i].bit_begin - 32) {
+        return true;
+      }
+    }
+    return false;
+  }
+
   // Writes the planes again and looks at what the coder went through.
   void rewrite() {
     StreamWriter writer(object_code_);
@@ -205,7 +216,8 @@ class Collector {
     std::size_t same = 0;
     const std::size_t begin = std::size_t(object_bit_);
     while (same < bit.size() && begin + same < bytes_.size() * 8 &&
-           bit[same] == ((bytes_[(begin + same) / 8] >> (7 - (begin + same) % 8)) & 1)) {
+           (bit[same] == ((bytes_[(begin + same) / 8] >> (7 - (begin + same) % 8)) & 1) ||
+            is_stuffing(std::int64_t(begin + same)))) {
       ++same;
     }
     facts_.same_when_rewritten = same == bit.size();

@@ -136,7 +136,7 @@ void time_cases(std::uint64_t seed, std::vector<MadeCase>& out) {
 void object_cases(std::uint64_t seed, std::vector<MadeCase>& out) {
   CaseBuilder b(seed, "plane_without_anything", "planes with object mask 0 between others",
                 "such a plane has no temporal header and no values but counts as a frame");
-  for (int k = 0; k < 12; ++k) {
+  for (int k = 0; k < 13; ++k) {  // at the end it could be taken for stuffing
     PlaneSpec plane = k % 6 == 0 ? intra_face(lips()) : predictive();
     if (k % 3 == 2) plane = predictive(fba::ObjectMask::nothing);
     if (k == 8) plane.intra = true;
@@ -191,6 +191,45 @@ void end_cases(std::uint64_t seed, std::vector<MadeCase>& out) {
   }
 }
 
+// Planes of 6 bits, which would fit into the byte in front of a start code.
+void short_plane_cases(std::uint64_t seed, std::vector<MadeCase>& out) {
+  const auto begin = [&](const char* name, const char* title, const char* note) {
+    CaseBuilder b(seed, name, title, note);
+    b.add_group(some_faps({}, 1), 1);
+    while (b.writer().bits().bit.size() % 8 > 1) b.add(predictive());
+    return b;
+  };
+  const auto shorts = [](CaseBuilder& b) {
+    b.writer().bits().put(0b0'01'0'01, 6);
+    b.writer().bits().stuff();
+  };
+  {
+    CaseBuilder b =
+        begin("short_plane_skips_none", "a short plane at the end that skips 0 frames",
+              "4 bits more take it across the byte border; without them it is stuffing");
+    PlaneSpec plane = predictive();
+    plane.temporal.skip = 0;
+    b.add(plane);
+    out.push_back(b.finish());
+  }
+  {
+    CaseBuilder b = begin("short_plane_before_end", "a short plane whole in front of the end code",
+                          "taken for stuffing, whatever its bits say: it is lost");
+    shorts(b);
+    b.writer().bits().put(fba::kSequenceEnd, 32);
+    out.push_back(b.finish_with(b.writer().bits().bytes()));
+  }
+  {
+    CaseBuilder b =
+        begin("short_plane_before_intra", "a short plane whole in front of a plane start code",
+              "taken for stuffing, whatever its bits say: it is lost");
+    shorts(b);
+    b.writer().bits().put(fba::kPlaneStart, 32);
+    b.add_group(lips(), 3);
+    out.push_back(b.finish(false));  // no encoder is to write this
+  }
+}
+
 }  // namespace
 
 void make_stream_cases(std::uint64_t seed, std::vector<MadeCase>& out) {
@@ -199,6 +238,7 @@ void make_stream_cases(std::uint64_t seed, std::vector<MadeCase>& out) {
   time_cases(seed, out);
   object_cases(seed, out);
   end_cases(seed, out);
+  short_plane_cases(seed, out);
 }
 
 }  // namespace animeme::conformance

@@ -102,7 +102,7 @@ Result<bool> Decoder::Impl::read_plane() {
   plane_begin = position;
   plane_end = in.position();
   had_start_code = after_start_code;
-  after_start_code = false;
+  after_start_code = first_plane = false;
   position = plane_end;
   return true;
 }

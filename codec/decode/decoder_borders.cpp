@@ -25,6 +25,7 @@ Result<bool> Decoder::Impl::read_header() {
     tell_info();
     position += 32;
     phase = Phase::planes;
+    first_plane = true;
   } else if (is_plane_start(code)) {
     if (!info_told) tell_info();
     phase = Phase::planes;  // a unit taken out of a stream; read_plane() finds the code
@@ -146,20 +147,28 @@ Result<bool> Decoder::Impl::plane_border() {
   }
   if (!available(border + 32)) return false;
   const std::uint32_t code = code_at(border);
-  if ((is_plane_start(code) || code == kSequenceEnd) && short_plane_before(border)) return false;
-  if (is_plane_start(code)) {
+  if (is_plane_start(code) || code == kSequenceEnd || is_header(code)) {
     if (!is_stuffing(position, border)) {
-      warn("the stuffing before a plane start code is not 0 and 1s", position);
+      // An object is over behind a plane only: its first one comes whatever follows.
+      if (first_plane && !is_plane_start(code)) return false;
+      warn(
+          "the bits in front of a start code are taken for stuffing, as the standard says, though "
+          "they are not 0 and 1s; if the encoder meant a plane, it is lost",
+          position);
     }
-    consume_start_code(border);
-  } else if (code == kSequenceEnd) {
-    end(border + 32);
+    if (is_plane_start(code)) {
+      consume_start_code(border);
+      return false;
+    }
+    if (code == kSequenceEnd) {
+      end(border + 32);
+    } else {
+      position = border;
+      phase = Phase::headers;
+    }
     return true;
-  } else if (is_header(code) && is_stuffing(position, border)) {
-    position = border;
-    phase = Phase::headers;
-    return true;
-  } else if ((code >> 8) == 1 && is_stuffing(position, border) && !plane_like_the_last()) {
+  }
+  if ((code >> 8) == 1 && is_stuffing(position, border) && !plane_like_the_last()) {
     foreign_code(code, border);
     return true;
   }
@@ -177,16 +186,6 @@ void Decoder::Impl::foreign_code(std::uint32_t code, std::size_t bit) {
   warn("the start code 000001" + digits + " does not belong to a face or body and ends it", bit);
   position = bit + 32;
   lose();
-}
-
-bool Decoder::Impl::short_plane_before(std::size_t border) {
-  if (is_stuffing(position, border)) return false;
-  BitReader in(std::span<const std::uint8_t>(buffer).first(border / 8), position);
-  do {
-    if (!internal::parse_plane(in, state, true, parsed)) return false;
-    if (in.position() >= border) return false;
-  } while (!is_stuffing(in.position(), border));
-  return true;
 }
 
 void Decoder::Impl::consume_start_code(std::size_t bit) {

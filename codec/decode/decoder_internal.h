@@ -33,6 +33,7 @@ struct Decoder::Impl {
   std::size_t position = 0;       // bit in buffer
   bool finished = false;
   bool after_start_code = false;  // the plane to come has its start code consumed
+  bool first_plane = false;       // it is the first of its object
   std::int64_t end_bit = -1;      // where the stream ended
   bool spoken = false;            // there has been a plane or an error
   Phase phase = Phase::headers;
@@ -116,10 +117,6 @@ struct Decoder::Impl {
 
   // A start code of something else ends the object. Another one may follow.
   void foreign_code(std::uint32_t code, std::size_t bit);
-
-  // Planes of a few bits may lie between here and the border where a start code stands; the bits
-  // are then not those of stuffing, but planes and stuffing. Planes so short change no state.
-  bool short_plane_before(std::size_t border);
 
   void consume_start_code(std::size_t bit);
 };

@@ -142,9 +142,36 @@ void gather_body(std::span<const BodyFrame> body, ClipData& clip) {
   }
 }
 
+// FAP 1 and 2, a body or a face that rest throughout say nothing: decoders begin there. One of face
+// and body stays.
+void leave_out_rest(ClipData& clip) {
+  const auto moves = [&](bool body) {
+    return std::any_of(clip.channels.begin(), clip.channels.end(), [&](const Channel& channel) {
+      return channel.body == body && !is_zero(channel.value);
+    });
+  };
+  clip.has_viseme &= std::any_of(clip.viseme.begin(), clip.viseme.end(), [](const auto& viseme) {
+    return viseme.select1 != 0 || viseme.select2 != 0 || viseme.def;
+  });
+  clip.has_expression &= std::any_of(
+      clip.expression.begin(), clip.expression.end(), [](const fap::Expression& expression) {
+        return (expression.select1 != 0 && expression.intensity1 != 0) ||
+               (expression.select2 != 0 && expression.intensity2 != 0) || expression.def ||
+               expression.init_face;
+      });
+  if (clip.has_face && !moves(true)) clip.has_body = false;
+  if (clip.has_body && !clip.has_viseme && !clip.has_expression && !moves(false)) {
+    clip.has_face = false;
+  }
+  std::erase_if(clip.channels, [&](const Channel& channel) {
+    return !(channel.body ? clip.has_body : clip.has_face);
+  });
+}
+
 }  // namespace
 
-Result<ClipData> gather(const fap::Sequence& face, std::span<const BodyFrame> body, bool all_faps) {
+Result<ClipData> gather(const fap::Sequence& face, std::span<const BodyFrame> body,
+                        bool leave_out) {
   if (face.frames.empty() && body.empty()) {
     return make_error(Code::invalid_argument, "the clip has no frames");
   }
@@ -166,8 +193,9 @@ Result<ClipData> gather(const fap::Sequence& face, std::span<const BodyFrame> bo
   clip.number = merge_numbers(face, body);
   if (auto ok = check_gaps(clip.number); !ok) return ok.error();
   gather_high_level(face, clip);
-  gather_face(face, all_faps && clip.has_face, clip);
+  gather_face(face, leave_out && clip.has_face, clip);
   gather_body(body, clip);
+  if (leave_out) leave_out_rest(clip);
   return clip;
 }
 

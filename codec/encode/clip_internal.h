@@ -40,9 +40,10 @@ struct ClipData {
   std::size_t planes() const { return number.size(); }
 };
 
-/// Merges face and body by frame numbers and holds what a frame leaves out. `all_faps`: a face gets
-/// channels, at 0, of the low-level FAPs that it does not have, too. Errors as encode().
-Result<ClipData> gather(const fap::Sequence& face, std::span<const BodyFrame> body, bool all_faps);
+/// Merges face and body by frame numbers and holds what a frame leaves out. `leave_out`: a face
+/// gets channels, at 0, of the low-level FAPs that it does not have, too, and what rests throughout
+/// is left out as far as that can be told before levels are chosen. Errors as encode().
+Result<ClipData> gather(const fap::Sequence& face, std::span<const BodyFrame> body, bool leave_out);
 
 /// Quantiser step of a channel at fap_quant or the body quantiser index.
 inline std::int32_t step_at(const Channel& channel, int quant) {

@@ -30,9 +30,10 @@ struct EncodeOptions {
   int intra_period = 0;  ///< intra plane at least every so many planes; 0: only where needed
   StreamOptions stream;  ///< start codes
 
-  /// Parameters that stay at 0 are not coded, and right sides that equal their left sides in every
-  /// plane are left to the decoder (mask type 2). The values after fill() are the same; they are
-  /// too in decoders that copy left and right sides whatever the mask type says.
+  /// Parameters that stay at 0 are not coded (nor are FAP 1 and 2 that stay neutral, or all of a
+  /// body beside a face or of a face beside a body), and right sides that equal their left sides in
+  /// every plane are left to the decoder (mask type 2). The values after fill() are the same; they
+  /// are too in decoders that copy left and right sides whatever the mask type says.
   bool leave_out = false;
   /// Intra planes also where they save bits: at a jump that would widen the ranges of the rest.
   bool extra_intra = false;

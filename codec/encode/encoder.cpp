@@ -13,6 +13,16 @@ using internal::HighLevelState;
 using internal::SlotCoding;
 using internal::SlotState;
 
+namespace {
+
+// Of a predictive plane: is_intra, fba_object_mask, skip_frames.
+constexpr int kPlainHeaderBits = 4;
+// skip_frames set, and number_of_frames_to_skip.
+constexpr std::uint32_t kSkipNoFrames = 0b1'0000;
+constexpr int kSkipNoFramesBits = 5;
+
+}  // namespace
+
 struct Encoder::Impl {
   // One family's part of a plane, worked out before anything is written.
   struct PendingSlots {
@@ -28,6 +38,9 @@ struct Encoder::Impl {
   fap::Frame reconstruction;
   bool started = false;         // the object start code is written
   bool unit_ended = false;      // stuffing to the byte border is written
+  std::size_t plane_begin = 0;  // of the last plane
+  bool follows = false;         // it has no start code of its own
+  bool can_grow = false;        // nor does it skip frames, which it could
   internal::StreamTrace trace;  // of the bytes not taken yet
 
   // The plane that is being written; here so that nothing is allocated plane by plane.
@@ -139,8 +152,32 @@ struct Encoder::Impl {
   }
 
   void stuff() {
-    if (!unit_ended) out.stuff();
-    unit_ended = false;
+    if (!unit_ended) {
+      // A decoder that stands in front of a plane looks past the bits up to the byte border; if a
+      // start code follows it takes them for stuffing, whatever they say. codec/bitstream.md,
+      // section 1.
+      if (follows && plane_begin / 8 == out.position() / 8) lengthen_last_plane();
+      out.stuff();
+    }
+    follows = unit_ended = false;
+  }
+
+  // Tells it to skip 0 frames, which takes it across the byte border.
+  void lengthen_last_plane() {
+    if (!can_grow) {
+      trace.lost.push_back(plane_begin);
+      return;
+    }
+    const int rest = int(out.position() - plane_begin) - kPlainHeaderBits;
+    const std::uint32_t payload = out.take_back(rest);
+    out.take_back(1);
+    out.bits(kSkipNoFrames, kSkipNoFramesBits);
+    out.bits(payload, rest);
+    for (auto segment = trace.segments.rbegin(); segment != trace.segments.rend(); ++segment) {
+      if (segment->begin < plane_begin) break;
+      segment->begin += kSkipNoFramesBits - 1;
+      segment->end += kSkipNoFramesBits - 1;
+    }
   }
 
   bool has_start_code(const PlaneInput& plane) const {
@@ -155,6 +192,9 @@ struct Encoder::Impl {
       stuff();
       start_code(options.old_codes ? kOldPlaneStart : kPlaneStart);
     }
+    plane_begin = out.position();
+    follows = !has_start_code(plane);
+    can_grow = !plane.intra && !plane.temporal.skip && plane.object_mask != ObjectMask::nothing;
     out.bit(plane.intra);
     out.bits(std::uint32_t(plane.object_mask), 2);
     if (plane.object_mask != ObjectMask::nothing)
@@ -234,9 +274,10 @@ void Encoder::end_unit() {
 std::optional<std::string> Encoder::trap() const {
   const auto traps = internal::find_traps(impl_->out.bytes(), impl_->trace);
   if (traps.empty()) return std::nullopt;
-  return (traps.front().kind == internal::Trap::Kind::start_code
-              ? "the bits of a plane look like a start code at bit "
-              : "22 zeros reach past a segment at bit ") +
+  constexpr const char* kSentences[] = {"the bits of a plane look like a start code at bit ",
+                                        "22 zeros reach past a segment at bit ",
+                                        "a start code turns a plane into stuffing at bit "};
+  return kSentences[std::size_t(traps.front().kind)] +
          std::to_string(impl_->taken_bits + std::int64_t(traps.front().bit));
 }
 
@@ -253,6 +294,7 @@ void Encoder::drop() {
   impl_->trace.clear();
   impl_->started = impl_->taken_bits != 0;
   impl_->unit_ended = impl_->started;
+  impl_->follows = false;
   impl_->state.face.coding.valid = false;
   impl_->state.body.coding.valid = false;
 }
@@ -260,6 +302,8 @@ void Encoder::drop() {
 std::vector<std::uint8_t> Encoder::take() {
   std::vector<std::uint8_t> bytes = impl_->out.take();
   impl_->taken_bits += std::int64_t(bytes.size()) * 8;
+  impl_->follows &= impl_->plane_begin >= bytes.size() * 8;  // else it is long enough
+  impl_->plane_begin -= bytes.size() * 8;
   impl_->trace.clear();
   return bytes;
 }

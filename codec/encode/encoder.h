@@ -74,10 +74,12 @@ class Encoder {
   void end_unit();
 
   /// What in the bytes not taken yet can lead other decoders astray although it is legal, as a
-  /// sentence; nothing if all is well. Two things: 23 zeros and a 1 inside a plane, which is a
-  /// start code for those who scan; and 22 zeros from a segment into the 14 bits behind it, on
-  /// which the reference decoder loses its place. Call it behind end_unit() or end(). Source:
-  /// codec/bitstream.md, section 17.
+  /// sentence; nothing if all is well. Three things: 23 zeros and a 1 inside a plane, which is a
+  /// start code for those who scan; 22 zeros from a segment into the 14 bits behind it, on which
+  /// the reference decoder loses its place; and a plane without face and body whole in the byte in
+  /// front of a start code, which is lost as stuffing (others that short skip 0 frames, which makes
+  /// them longer). Call it behind end_unit() or end(). Source: codec/bitstream.md, sections 1
+  /// and 17.
   std::optional<std::string> trap() const;
   /// Where all of them are, ascending, on the scale of bits().
   std::vector<std::int64_t> trap_bits() const;

@@ -71,6 +71,7 @@ std::vector<Trap> find_traps(std::span<const std::uint8_t> bytes, const StreamTr
   std::vector<Trap> traps;
   add_look_aheads(bytes, trace, traps);
   add_start_codes(bytes, trace, traps);
+  for (const std::size_t bit : trace.lost) traps.push_back({Trap::Kind::lost_plane, bit});
   std::stable_sort(traps.begin(), traps.end(),
                    [](const Trap& a, const Trap& b) { return a.bit < b.bit; });
   return traps;

@@ -17,10 +17,12 @@ struct StreamTrace {
   };
   std::vector<Segment> segments;         // of the arithmetic coder
   std::vector<std::size_t> start_codes;  // real ones
+  std::vector<std::size_t> lost;         // planes that decoders take for stuffing
 
   void clear() {
     segments.clear();
     start_codes.clear();
+    lost.clear();
   }
 };
 
@@ -29,9 +31,10 @@ struct Trap {
   enum class Kind : std::uint8_t {
     start_code,  // 23 zeros and a 1 that are no start code
     look_ahead,  // 22 zeros from the tail of a segment into the 14 bits behind it
+    lost_plane,  // a plane that lies whole in the byte in front of a start code
   };
   Kind kind = Kind::start_code;
-  std::size_t bit = 0;  // the first of the zeros
+  std::size_t bit = 0;  // the first of the zeros, of the plane
 };
 
 /// The traps in `bytes` by their positions; each place once. Linear in the number of bytes.

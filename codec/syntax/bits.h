@@ -75,6 +75,13 @@ class BitWriter {
     pending_ += count;
     if (pending_ >= 32) write_bytes();
   }
+  /// Takes the last `count` bits back; they have to belong to the unfinished byte.
+  std::uint32_t take_back(int count) {
+    const std::uint32_t value = std::uint32_t(accumulator_) & ((1U << count) - 1);
+    accumulator_ >>= count;
+    pending_ -= count;
+    return value;
+  }
   /// next_start_code() of the standard: a 0 and then 1s up to the byte border, a whole byte 7F if
   /// already aligned.
   void stuff() {

@@ -139,7 +139,7 @@ TEST_P(WholeClip, ComesBackWithinTheQuantiser) {
     EXPECT_EQ(report["bytes"], slurp(dir / "a.fba").size());
     EXPECT_NEAR(report["kbit_per_s"].get<double>(), report["bytes"].get<double>() * 8e-3 * 25 / 66,
                 1e-9);
-    succeeds({"decode", dir / "a.fba", "-o", dir / "b.fap"});
+    succeeds({"decode", dir / "a.fba", "--coded", "-o", dir / "b.fap"});
     expect_close(clip, read_clip(dir / "b.fap"));
     succeeds({"compare", text, dir / "a.fba", "--max-rms", "0.5"});
     const Json info = json_of({"info", dir / "a.fba"});
@@ -208,7 +208,7 @@ TEST(FilePreset, CodesFlagsOfFap1And2AsGiven) {
   const fap::Sequence clip = talking_clip(60, true);
   const std::string text = write_clip(dir, "a.fap", clip);
   succeeds({"encode", text, "--preset", "file", "--skip-still", "-o", dir / "a.fba"});
-  succeeds({"decode", dir / "a.fba", "-o", dir / "b.fap"});
+  succeeds({"decode", dir / "a.fba", "--coded", "-o", dir / "b.fap"});
   const fap::Sequence shown = read_clip(dir / "b.fap");
   ASSERT_EQ(shown.frames.size(), clip.frames.size());
   for (std::size_t i = 0; i < clip.frames.size(); ++i) {
@@ -307,7 +307,7 @@ TEST(LivePreset, ReceiversCanJoinInTheMiddle) {
     if (old_codes) arguments.push_back("--old-codes");
     succeeds(arguments);
     const std::string bytes = slurp(dir / "a.fba");
-    succeeds({"decode", dir / "a.fba", "-o", dir / "a.out.fap"});
+    succeeds({"decode", dir / "a.fba", "--coded", "-o", dir / "a.out.fap"});
     const fap::Sequence whole = read_clip(dir / "a.out.fap");
     const Json planes = json_of({"info", dir / "a.fba", "--planes"})["plane_list"];
     ASSERT_EQ(planes.size(), 120U);
@@ -320,7 +320,7 @@ TEST(LivePreset, ReceiversCanJoinInTheMiddle) {
       EXPECT_EQ(bytes.substr(start, 4),
                 old_codes ? std::string("\0\0\1\3", 4) : std::string("\0\0\1\xBB", 4));
       spill(dir / "rest.fba", bytes.substr(start));
-      succeeds({"decode", dir / "rest.fba", "-o", dir / "rest.fap"});
+      succeeds({"decode", dir / "rest.fba", "--coded", "-o", dir / "rest.fap"});
       const fap::Sequence rest = read_clip(dir / "rest.fap");
       ASSERT_EQ(rest.frames.size(), 120 - i);
       EXPECT_EQ(rest.rate, whole.rate);
