@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 #include <limits>
 #include <string_view>
@@ -24,6 +25,26 @@ std::optional<double> number(std::string_view token) {
 bool looks_like_rate(std::string_view token) {
   return !token.empty() && token.find_first_not_of("0123456789./") == std::string_view::npos &&
          token.front() >= '0' && token.front() <= '9';
+}
+
+std::string with_point(std::string_view token) {
+  std::string text(token);
+  std::replace(text.begin(), text.end(), ',', '.');
+  return text;
+}
+
+// "29,97", "1e9", "-25", and "nan" and "inf" where a name stands in front: somebody's rate, but
+// none.
+bool is_wrong_rate(std::string_view token, bool named) {
+  if (looks_like_rate(token) || parse_rate(token)) return false;
+  const std::string text = with_point(token);
+  return number(text) && (named || text.find_first_of("0123456789") != std::string::npos);
+}
+
+std::string wrong_rate(std::string_view token) {
+  const std::string text = with_point(token);
+  if (text == token || !looks_like_rate(text)) return parse_rate(token).error().message;
+  return in_quotes(token) + " is not a frame rate, write " + text + " with a point";
 }
 
 // The words of a line, all of them parts of `line`.
@@ -166,9 +187,13 @@ Result<TextHeader> parse_header(const Words& w, Place place, const TextDialect& 
   if (ends_with_numbers(w)) {
     take_count(w.words.back(), header);
     --rate_at;
+  } else if (rate_at > 1 && is_wrong_rate(w.words[rate_at - 1], rate_at > 2)) {
+    return refuse(wrong_rate(w.words[rate_at - 1]), w.words[rate_at - 1]);
   } else if (rate_at > 0 && looks_like_rate(w.words.back())) {
     notes.add(Quirk::no_count, place.line,
               [] { return "the header has no frame count, all frames are read"; });
+  } else if (rate_at > 1 && is_wrong_rate(w.words.back(), true)) {
+    return refuse(wrong_rate(w.words.back()), w.words.back());
   } else {
     return refuse(std::string(kForm) + ", but the frame rate is missing", w.words.back());
   }

@@ -20,7 +20,8 @@ packages="
 mode=${1:-}
 # Only the tests need these.
 case $mode in
-  tests | full) packages="$packages libgtest-dev libgmock-dev libbenchmark-dev" ;;
+  tests | full) packages="$packages libgtest-dev libgmock-dev libbenchmark-dev
+    clang-14 libclang-rt-14-dev llvm-14" ;;
 esac
 # Without these, tests skip and say so.
 readers="ffmpeg mediainfo mkvtoolnix clang-format-14 universal-ctags"

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "fap/detail/text_scanner.h"
+
 namespace animeme::dam {
 
 /// UTF-8 without byte order mark. Input: UTF-8 with or without mark, or UTF-16 of either byte
@@ -39,7 +41,6 @@ class LineReader {
 /// Without blanks and tabs at both ends.
 std::string_view trimmed(std::string_view text);
 
-/// ASCII letters in lower case, the rest as it is.
-std::string lower_case(std::string_view text);
+using fap::detail::lower_case;
 
 }  // namespace animeme::dam

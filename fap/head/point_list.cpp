@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "fap/detail/number_text.h"
+#include "fap/detail/text_scanner.h"
 
 namespace animeme::head {
 namespace {
@@ -47,8 +48,7 @@ std::optional<PointColumns> heading_of(const std::vector<std::string>& fields) {
   }
   PointColumns columns{.id = -1, .vertex = -1};
   for (int i = 0; i < int(fields.size()); ++i) {
-    std::string name = fields[std::size_t(i)];
-    for (char& c : name) c = char(std::tolower(static_cast<unsigned char>(c)));
+    const std::string name = fap::detail::lower_case(fields[std::size_t(i)]);
     const auto has = [&](const char* word) { return name.find(word) != std::string::npos; };
     const auto take = [i](int& column) { column = column < 0 ? i : column; };
     if (has("vertex") || has("index")) {

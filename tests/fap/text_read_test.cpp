@@ -322,6 +322,14 @@ TEST(ReadText, ErrorsTellWhere) {
       {"2.1 x\n" + frame_text("0 1 2"), Code::syntax, 1, 5, "the frame rate is missing"},
       {"2.1\n" + frame_text("0 1 2"), Code::syntax, 1, 1, "the frame rate is missing"},
       {"2.1 x 1/0 1\n", Code::syntax, 1, 7, "is not a frame rate"},
+      {"2.1 x 29,97 1\n", Code::syntax, 1, 7,
+       "'29,97' is not a frame rate, write 29.97 with a point"},
+      {"2.1 29,97 1\n", Code::syntax, 1, 5, "'29,97' is not a frame rate"},
+      {"2.1 x 29,97\n", Code::syntax, 1, 7, "write 29.97 with a point"},
+      {"2.1 my talk nan 1\n", Code::syntax, 1, 13,
+       "'nan' is not a frame rate, write for instance 25, 12.5, 29.97 or 30000/1001"},
+      {"2.1 x 1e9 1\n", Code::syntax, 1, 7, "'1e9' is not a frame rate"},
+      {"2.1 x -25 1\n", Code::syntax, 1, 7, "'-25' is not a frame rate"},
       {header + kMask.substr(2) + "\n0 1 2\n", Code::syntax, 2, mask_end - 2,
        "the mask has only 67 of 68 values"},
       {header + kMask.substr(2), Code::truncated, 2, mask_end - 2, "67 of 68"},
@@ -374,6 +382,15 @@ TEST(ReadText, ForeignFilesAreNamed) {
 
 TEST(ReadText, RefusesABadDefaultRate) {
   EXPECT_EQ(error_of(kTwoFrames, {.default_rate = {0, 1}}).code, Code::invalid_argument);
+}
+
+// Names that look a little like numbers, without a number of frames behind the rate.
+TEST(ReadText, NamesOfDigitsAreNames) {
+  for (const char* name : {"2026-11-22", "1-2", "scene 25", "1,2,3", "nan"}) {
+    const std::string rate = std::string_view(name) == "scene 25" ? "30000/1001" : "25";
+    const Read got = read("2.1 " + std::string(name) + " " + rate + "\n" + frame_text("0 1 2"));
+    EXPECT_EQ(got.clip.name, name);
+  }
 }
 
 }  // namespace text_read_test

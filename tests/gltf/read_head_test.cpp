@@ -140,7 +140,8 @@ TEST(ReadHead, SeamsAreWeldedAndLipsAreNot) {
   primitive["indices"] = file.accessor(std::vector<std::uint32_t>{0, 1, 2, 4, 3, 5}, "SCALAR");
   primitive["targets"] = {{{"POSITION", file.sparse(6, std::vector<std::uint8_t>{5},
                                                     std::vector<float>{0, -1, 0}, "VEC3")}}};
-  file.add("meshes", {{"primitives", {primitive}}, {"extras", {{"targetNames", {"jawOpen"}}}}});
+  file.add("meshes", {{"primitives", nlohmann::json::array({primitive})},
+                      {"extras", {{"targetNames", {"jawOpen"}}}}});
   file.add("nodes", {{"mesh", 0}});
   const head::Source source = read(file.glb());
   const head::Mesh& mesh = source.pieces.at(0).mesh;

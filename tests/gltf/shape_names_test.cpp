@@ -168,7 +168,7 @@ std::vector<std::uint8_t> viseme_head(const head::Rig& rig) {
       for (int fap = 19; fap <= 22; ++fap) closed.set(fap, fap < 21 ? 995 : 29);
       add("eyesClosed", closed);
     }
-    mesh["primitives"] = {primitive};
+    mesh["primitives"] = nlohmann::json::array({primitive});
     nodes.push_back(file.add("nodes", {{"mesh", file.add("meshes", mesh)}}));
   }
   file.add("scenes", {{"nodes", nodes}});

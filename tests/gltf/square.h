@@ -55,7 +55,8 @@ struct Square {
     primitive["material"] = file.add("materials", std::move(material));
   }
   std::vector<std::uint8_t> glb(nlohmann::json node = nlohmann::json::object()) {
-    node["mesh"] = file.add("meshes", {{"primitives", {primitive}}, {"name", "face"}});
+    node["mesh"] =
+        file.add("meshes", {{"primitives", nlohmann::json::array({primitive})}, {"name", "face"}});
     file.add("scenes", {{"nodes", {file.add("nodes", std::move(node))}}});
     return file.glb();
   }

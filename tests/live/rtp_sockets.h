@@ -19,9 +19,10 @@
 namespace animeme::test {
 
 /// The first of four ports in a row that are free just now, even, from `least` on. Programs that
-/// run at the same time begin at different places.
+/// run at the same time begin at different places, all below those that the system gives to
+/// whoever asks for any (from 32768 on).
 inline int free_ports(int least = 20000) {
-  int port = least > 20000 ? least : 20000 + int(getpid() % 4000) * 8;
+  int port = least > 20000 ? least : 20000 + int(getpid() % 1500) * 8;
   for (; port < 65000; port += 4) {
     bool free = true;
     for (int i = 0; i < 4; ++i) free = free && media::UdpSocket::bind("0.0.0.0", port + i);

@@ -16,11 +16,12 @@ using ::testing::SizeIs;
 
 const Bytes kConfig = {0, 0, 1, 0xB0, 0x61, 0, 0, 1, 0xB5, 0x89, 0x47};
 
-RtpSession some_session(const AudioFormat& format) {
+RtpSession some_session(const AudioFormat& format, const char* address = "192.0.2.7") {
   LiveInfo info{kConfig, 25000, 0x61, format};
   RtpOptions options;
   options.bundle = 4;
-  return RtpSender(info, options, "192.0.2.7", 5004, 1, 0).session();
+  options.ttl = 16;
+  return RtpSender(info, options, address, 5004, 1, 0).session();
 }
 
 AudioFormat opus_format() {
@@ -34,8 +35,7 @@ AudioFormat opus_format() {
 
 TEST(Sdp, ComesBackAsItWas) {
   for (const AudioFormat& format : {test::aac_format(), opus_format()}) {
-    RtpSession session = some_session(format);
-    session.face->ttl = session.audio->ttl = 16;
+    RtpSession session = some_session(format, "233.252.0.7");
     const auto read = read_sdp(write_sdp(session));
     ASSERT_TRUE(read) << read.error().describe();
     EXPECT_EQ(*read, session) << write_sdp(session);
@@ -49,13 +49,17 @@ TEST(Sdp, HasTheLinesOfTheStandards) {
   const std::string text = write_sdp(some_session(test::aac_format()));
   EXPECT_THAT(text, ::testing::StartsWith("v=0\r\no=- "));
   for (const char* line :
-       {"m=video 5004 RTP/AVP 96\r\n", "c=IN IP4 192.0.2.7/1\r\n", "a=rtpmap:96 MP4V-ES/90000\r\n",
+       {"m=video 5004 RTP/AVP 96\r\n", "c=IN IP4 192.0.2.7\r\n", "a=rtpmap:96 MP4V-ES/90000\r\n",
         "a=fmtp:96 profile-level-id=97; config=000001B061000001B58947\r\n",
         "m=audio 5006 RTP/AVP 97\r\n", "a=rtpmap:97 mpeg4-generic/48000/1\r\n",
         "a=fmtp:97 streamType=5; profile-level-id=41; mode=AAC-hbr; sizelength=13; indexlength=3; "
         "indexdeltalength=3; config=1188\r\n"}) {
     EXPECT_THAT(text, HasSubstr(line));
   }
+  // A time to live is for multicast alone (RFC 8866, 5.7).
+  EXPECT_THAT(write_sdp(some_session(opus_format(), "233.252.0.7")),
+              HasSubstr("c=IN IP4 233.252.0.7/16\r\n"));
+  EXPECT_THAT(write_sdp(some_session(opus_format(), "ff15::7")), HasSubstr("c=IN IP6 ff15::7\r\n"));
   EXPECT_THAT(write_sdp(some_session(opus_format())),
               HasSubstr("a=rtpmap:97 opus/48000/2\r\na=fmtp:97 sprop-stereo=1\r\n"));
 }

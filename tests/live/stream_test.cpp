@@ -65,7 +65,7 @@ TEST_F(Streams, WhatIsReceivedIsTheSourceByteForByte) {
 
 TEST_F(Streams, TextAndStreamHaveTheFapsOfTheSource) {
   ASSERT_EQ(animeme({"demux", dir / "talk.mp4", "--face", dir / "talk.fba"}).exit_code, 0);
-  ASSERT_EQ(animeme({"decode", dir / "talk.fba", "-o", dir / "talk.fap"}).exit_code, 0);
+  ASSERT_EQ(animeme({"decode", dir / "talk.fba", "--coded", "-o", dir / "talk.fap"}).exit_code, 0);
   Running send(sender({dir / "talk.fba", "--loop", "--stats"}), dir / "s.out", dir / "s.err");
   ASSERT_TRUE(wait_for([&] { return described(); }));
   Running text({"receive", dir / "talk.sdp", "-o", "-", "--duration", "5"}, dir / "got.fap",
@@ -156,7 +156,7 @@ TEST_F(Streams, FastDoesNotWaitForTheClock) {
 
 TEST_F(Streams, AStreamThatCannotBeJoinedIsCodedAgain) {
   ASSERT_EQ(animeme({"demux", dir / "talk.mp4", "--face", dir / "talk.fba"}).exit_code, 0);
-  ASSERT_EQ(animeme({"decode", dir / "talk.fba", "-o", dir / "talk.fap"}).exit_code, 0);
+  ASSERT_EQ(animeme({"decode", dir / "talk.fba", "--coded", "-o", dir / "talk.fap"}).exit_code, 0);
   ASSERT_EQ(animeme({"encode", dir / "talk.fap", "-o", dir / "one.fba"}).exit_code, 0);
   const auto intra = [&](std::vector<std::string> more) {
     more.insert(more.end(), {dir / "one.fba", "--fast", "--json"});

@@ -142,9 +142,7 @@ TEST(TsLive, AnSrtSinkEndsWhenItsReceiverHasJustGone) {
     }
     source->reset();
     for (int i = 0; i < 200 * round; ++i) send();
-    const auto begin = std::chrono::steady_clock::now();
-    EXPECT_TRUE((*sink)->finish());
-    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60));
+    EXPECT_TRUE((*sink)->finish());  // it once waited for ever here
   }
 }
 

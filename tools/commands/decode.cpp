@@ -13,47 +13,70 @@ struct DecodeOptions {
   std::string input;
   std::string output;
   std::string bap;
+  bool coded = false;
   bool fill = false;
 };
 
+// A stream says what becomes of FAPs that it does not code (held, mirrored), and which frames it
+// skips; a text has no place for that, and players would show one side alone. What a text leaves
+// open is open.
+Result<fap::Sequence> shown(const MotionInput& input, const DecodeOptions& options) {
+  const bool stream = !input.stream.empty();
+  if (options.fill) {
+    return stream ? fba::fill(input.decoded, {.complete = true}) : fap::fill(input.face);
+  }
+  if (!stream || options.coded) return input.face;
+  return fba::fill(input.decoded, {.keep_high_level = true});
+}
+
 Result<std::string> face_text(MotionInput& input, const DecodeOptions& options) {
   if (input.face.frames.empty() && !input.body.frames.empty()) {
-    const char* remedy = options.bap.empty() ? "write the body with --bap in place of -o"
-                                             : "leave out -o, --bap alone writes the body";
     return make_error(Code::not_found,
-                      std::string("the stream codes a body but no face: ") + remedy)
+                      "the stream codes a body but no face: write it with --bap in place of -o")
         .in_file(options.input);
   }
   if (auto ok = require_face(input, options.input); !ok) return ok.error();
-  if (options.fill) {
-    // A stream says what becomes of FAPs that it does not code, a text does not.
-    Result<fap::Sequence> filled =
-        input.stream.empty() ? fap::fill(input.face) : fba::fill(input.decoded, {.complete = true});
-    if (!filled) return filled.error().in_file(options.input);
-    filled->name = input.face.name;
-    input.face = std::move(*filled);
-  }
+  Result<fap::Sequence> face = shown(input, options);
+  if (!face) return face.error().in_file(options.input);
+  face->name = input.face.name;
+  input.face = std::move(*face);
   return fap::write_text(input.face);
+}
+
+// With -o and --bap what there is is written, so that batches run over files with and without
+// bodies.
+void leave_out_what_is_missing(const MotionInput& input, DecodeOptions& options) {
+  if (options.output.empty() || options.bap.empty()) return;
+  const auto leave_out = [&](std::string& path, const char* what) {
+    warn(options.input + " has no " + what + ": " + name_of_output(path) + " is not written");
+    path.clear();
+  };
+  if (input.body.frames.empty()) {
+    leave_out(options.bap, "body");
+  } else if (input.face.frames.empty()) {
+    leave_out(options.output, "face");
+  }
 }
 
 Result<std::string> body_text(const MotionInput& input, const DecodeOptions& options) {
   if (input.body.frames.empty()) {
-    return make_error(Code::not_found, "there is no body in this: leave out --bap")
+    return make_error(Code::not_found, "there is no body in this: name a FAP text with -o")
         .in_file(options.input);
   }
   return fba::write_bap_text(input.body);
 }
 
-Result<int> run(const DecodeOptions& options) {
+Result<int> run(DecodeOptions options) {
   if (options.output.empty() && options.bap.empty()) {
     return usage_error("nothing to write: name a FAP text with -o, a BAP text with --bap, or both");
   }
   if (options.output == options.bap) return usage_error("-o and --bap name the same file");
-  if (options.fill && options.output.empty()) {
-    return usage_error("--fill is for the face: name a FAP text with -o");
+  if ((options.fill || options.coded) && options.output.empty()) {
+    return usage_error("--fill and --coded are for the face: name a FAP text with -o");
   }
   Result<MotionInput> input = read_motion(options.input);
   if (!input) return input.error();
+  leave_out_what_is_missing(*input, options);
   std::vector<OutputText> files;
   Result<std::string> body = std::string();
   if (!options.bap.empty()) {
@@ -87,18 +110,20 @@ void add_options(CLI::App& app, DecodeOptions& options) {
       ->required();
   app.add_option("-o,--output", options.output, "FAP text to write, - for standard output");
   app.add_option("--bap", options.bap, "BAP text with the body to write, - for standard output");
+  CLI::Option* coded = app.add_flag("--coded", options.coded,
+                                    "The values as they are coded: sides that a stream leaves to "
+                                    "be mirrored are missing, skipped frames too");
   app.add_flag("--fill", options.fill,
-               "Resolve held, mirrored and skipped values, for players that want every FAP; those "
-               "that a stream never codes are at rest, 0");
+               "Every FAP: those that the stream never codes are at rest, 0")
+      ->excludes(coded);
 }
 
 }  // namespace
 
-const Command kDecode{"decode",
-                      "Decode an FBA stream to FAP and BAP text: the coded values exactly",
+const Command kDecode{"decode", "Decode an FBA stream to FAP and BAP text, as a player shows it",
                       "  animeme decode talk.mp4 -o talk.fap\n"
                       "  animeme decode dance.fba -o face.fap --bap body.bap\n"
-                      "  animeme decode talk.fba --fill -o - | head -4",
+                      "  animeme decode talk.fba --coded -o - | head -4    # for tests of decoders",
                       set_up<DecodeOptions>};
 
 }  // namespace animeme::tools

@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -11,6 +10,8 @@
 #include <iostream>
 #include <iterator>
 #include <utility>
+
+#include "fap/detail/text_scanner.h"
 
 namespace animeme::tools {
 
@@ -129,10 +130,7 @@ Result<void> write_files(std::span<const OutputText> files) {
 }
 
 std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return char(c >= 'A' && c <= 'Z' ? c + 32 : c); });
-  return extension;
+  return fap::detail::lower_case(std::filesystem::path(path).extension().string());
 }
 
 std::string name_of_output(const std::string& path) {

@@ -138,7 +138,7 @@ class Writer {
                       {"material", material(mesh.material)}};
     json out = {{"name", head::kPartNames[number]}};
     add_morphs(number, places.size(), primitive, out);
-    out["primitives"] = {primitive};
+    out["primitives"] = json::array({primitive});
     meshes_.push_back(std::move(out));
     json node = {{"name", head::kPartNames[number]}, {"mesh", meshes_.size() - 1}};
     if (part == Part::skin) node["skin"] = skeleton();
@@ -232,7 +232,7 @@ class Writer {
     if (!options_.audio.empty()) scene["extras"] = {{"audio", options_.audio}};
     json root = {{"asset", {{"version", "2.0"}, {"generator", "animeme"}}},
                  {"scene", 0},
-                 {"scenes", {scene}},
+                 {"scenes", json::array({scene})},
                  {"nodes", nodes_},
                  {"meshes", meshes_},
                  {"skins", skins_},

@@ -4,12 +4,15 @@
 #include <array>
 
 #include "fap/arkit.h"
+#include "fap/detail/text_scanner.h"
 #include "fap/head/shapes.h"
 #include "fap/tables.h"
 #include "tools/gltf/detail/words.h"
 
 namespace animeme::gltf {
 namespace {
+
+using fap::detail::lower_case;
 
 constexpr int kLeft = 1, kRight = 2, kBoth = 3;
 
@@ -79,12 +82,6 @@ constexpr std::pair<std::string_view, int> kVowels[] = {
     {"a", 10}, {"あ", 10}, {"e", 11}, {"ee", 11}, {"eh", 11}, {"え", 11},
     {"i", 12}, {"い", 12}, {"o", 13}, {"お", 13}, {"u", 14},  {"う", 14}};
 
-std::string small(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-  return out;
-}
-
 // "viseme_PP", "v_PP" and "PP"; the mouth's shapes of VRoid are "MTH_A".
 int viseme_of(std::vector<std::string> words) {
   constexpr std::array<std::string_view, 5> kPrefixes = {"vrc", "viseme", "vis", "v", "mth"};
@@ -97,7 +94,8 @@ int viseme_of(std::vector<std::string> words) {
   if (key.starts_with("viseme")) key = key.substr(6);
   for (int viseme = 0; viseme < int(fap::kVisemes.size()); ++viseme) {
     const fap::VisemeInfo& row = fap::kVisemes[std::size_t(viseme)];
-    if (key == small(row.name) || key == small(row.morph.substr(row.morph.find('_') + 1))) {
+    if (key == lower_case(row.name) ||
+        key == lower_case(row.morph.substr(row.morph.find('_') + 1))) {
       return viseme;
     }
   }

@@ -1,4 +1,3 @@
-
 #include "codec/decode/decoder.h"
 #include "codec/decode/fill.h"
 #include "dam/signal/fap_signal.h"

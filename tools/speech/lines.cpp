@@ -12,7 +12,7 @@
 #include <thread>
 #include <utility>
 
-#include "tools/media/live/sdp_internal.h"
+#include "tools/media/detail/words_internal.h"
 
 namespace animeme::speech {
 

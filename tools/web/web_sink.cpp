@@ -2,8 +2,8 @@
 #include <exception>
 #include <nlohmann/json.hpp>
 
+#include "tools/media/detail/words_internal.h"
 #include "tools/media/live/audio_segments.h"
-#include "tools/media/live/sdp_internal.h"
 #include "tools/web/detail/messages.h"
 #include "tools/web/detail/server.h"
 #include "tools/web/detail/values.h"
@@ -116,7 +116,7 @@ void Sink::describe() {
   if (!info_.face_config.empty()) {
     json["face"] = {{"timescale", info_.timescale},
                     {"profile", info_.visual_profile},
-                    {"config", media::lower(media::to_hex(info_.face_config))}};
+                    {"config", media::lower_case(media::to_hex(info_.face_config))}};
   }
   if (info_.audio) {
     json["audio"] = {{"mime", media::audio_mime(*info_.audio)},

@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "dam/script/table_text_internal.h"
+#include "fap/detail/text_scanner.h"
 #include "fap/result.h"
 
 namespace animeme::exchange {
 
-std::string lower_case(std::string_view text);
+using fap::detail::lower_case;
 
 /// The header of a table: its first line, without a byte order mark.
 std::string_view first_line(std::string_view text);

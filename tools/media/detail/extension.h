@@ -4,13 +4,13 @@
 #include <filesystem>
 #include <string>
 
-#include "tools/media/live/sdp_internal.h"
+#include "tools/media/detail/words_internal.h"
 
 namespace animeme::media {
 
 /// Extension in lower case with its dot: ".mp4"; empty: there is none.
 inline std::string extension_of(const std::string& path) {
-  return lower(std::filesystem::path(path).extension().string());
+  return lower_case(std::filesystem::path(path).extension().string());
 }
 
 }  // namespace animeme::media

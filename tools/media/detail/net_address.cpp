@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "tools/media/detail/ffmpeg.h"
-#include "tools/media/live/sdp_internal.h"
+#include "tools/media/detail/words_internal.h"
 
 namespace animeme::media {
 namespace {

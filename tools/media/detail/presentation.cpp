@@ -11,7 +11,7 @@
 
 #include "tools/media/detail/extension.h"
 #include "tools/media/detail/playlist_text.h"
-#include "tools/media/live/sdp_internal.h"
+#include "tools/media/detail/words_internal.h"
 
 namespace animeme::media {
 namespace {

@@ -19,7 +19,7 @@
 #include "tools/media/detail/output_stream.h"
 #include "tools/media/detail/playlist_text.h"
 #include "tools/media/detail/presentation.h"
-#include "tools/media/live/sdp_internal.h"
+#include "tools/media/detail/words_internal.h"
 
 namespace animeme::media {
 namespace {
@@ -47,7 +47,10 @@ bool is_ours(std::string_view file) {
 Result<void> write_bytes(const std::string& path, std::span<const std::uint8_t> bytes) {
   Result<std::unique_ptr<OutputStream>> out = OutputStream::to_file(path);
   if (!out) return out.error();
-  avio_write((*out)->io(), bytes.data(), int(bytes.size()));
+  constexpr std::size_t kPiece = 1 << 20;  // libavformat counts in int
+  for (; !bytes.empty(); bytes = bytes.subspan(std::min(bytes.size(), kPiece))) {
+    avio_write((*out)->io(), bytes.data(), int(std::min(bytes.size(), kPiece)));
+  }
   return (*out)->close();
 }
 

@@ -15,10 +15,17 @@ std::string one_line(std::string text) {
 
 std::string attribute(const std::string& text) { return "a=" + text + "\r\n"; }
 
+std::string connection(const std::string& address) {
+  return (address.find(':') == std::string::npos ? "IN IP4 " : "IN IP6 ") + address;
+}
+
+// Multicast addresses of version 4 have a time to live, and no others (RFC 8866, 5.7).
 std::string connection(const RtpTrack& track) {
-  const bool six = track.address.find(':') != std::string::npos;
-  std::string line = std::string("IN ") + (six ? "IP6 " : "IP4 ") + track.address;
-  return track.ttl > 0 && !six ? line + "/" + std::to_string(track.ttl) : line;
+  const std::size_t dot = track.address.find('.');
+  const int first =
+      dot > 3 ? 0 : int(to_number(std::string_view(track.address).substr(0, dot), 255).value_or(0));
+  const bool multicast = first >= 224 && first < 240;
+  return connection(track.address) + (multicast ? "/" + std::to_string(track.ttl) : "");
 }
 
 std::string media_lines(const RtpTrack& track, const char* kind, const std::string& map,
@@ -97,9 +104,7 @@ std::string write_sdp(const RtpSession& session) {
   if (session.face) first = &*session.face;
   if (first == nullptr) return {};
   const std::string id = std::to_string(first->ssrc.value_or(0));
-  RtpTrack origin = *first;
-  origin.ttl = 0;
-  std::string out = "v=0\r\no=- " + id + " 1 " + connection(origin) + "\r\n";
+  std::string out = "v=0\r\no=- " + id + " 1 " + connection(first->address) + "\r\n";
   out += "s=" + one_line(session.name) + "\r\nt=0 0\r\n" + attribute("tool:animeme");
   // Both media clocks run on one clock of the sender, whose second 0 is time 0.
   if (first->clock_offset) out += attribute("ts-refclk:private");

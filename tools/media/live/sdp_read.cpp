@@ -48,7 +48,7 @@ class SdpReader {
     if (media.size() >= kMaxMedia) return bad_line("too many media", number);
     SdpMedium next;
     next.line = number;
-    next.kind = lower(take_until(value, ' '));
+    next.kind = lower_case(take_until(value, ' '));
     std::string_view port = take_until(value, ' ');
     const auto port_number = to_number(take_until(port, '/'), kMaxPort);
     if (!port_number) return bad_line("no port number up to 65534 in its m= line", number);
@@ -63,7 +63,7 @@ class SdpReader {
   }
 
   static Result<void> attribute(std::string_view value, SdpMedium& medium, std::int64_t number) {
-    const std::string key = lower(take_until(value, ':'));
+    const std::string key = lower_case(take_until(value, ':'));
     if (key == "rtpmap") return rtpmap(value, medium, number);
     if (key == "fmtp") {
       if (is_for(take_until(value, ' '), medium)) medium.format = read_parameters(value);
@@ -94,7 +94,7 @@ class SdpReader {
   // 96 MP4V-ES/90000
   static Result<void> rtpmap(std::string_view value, SdpMedium& medium, std::int64_t number) {
     if (!is_for(take_until(value, ' '), medium)) return {};
-    medium.encoding = lower(take_until(value, '/'));
+    medium.encoding = lower_case(take_until(value, '/'));
     const auto clock = to_number(take_until(value, '/'), kMaxRate);
     if (!clock || *clock == 0) return bad_line("no clock rate in its a=rtpmap line", number);
     medium.clock = *clock;
@@ -139,7 +139,7 @@ std::string take_face(const SdpMedium& medium, RtpSession& session) {
 
 std::string aac_format(const SdpMedium& medium, RtpAudioTrack& audio) {
   const auto mode = medium.format.find("mode");
-  const std::string name = mode == medium.format.end() ? "" : lower(mode->second);
+  const std::string name = mode == medium.format.end() ? "" : lower_case(mode->second);
   if (name != "aac-hbr" && name != "aac-lbr") return "its mode is neither AAC-hbr nor AAC-lbr";
   audio.format.codec = AudioCodec::aac;
   audio.format.config = bytes_of(medium.format, "config");

@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "tools/media/live/sdp_internal.h"
+#include "tools/media/detail/words_internal.h"
 
 namespace animeme::web {
 namespace {

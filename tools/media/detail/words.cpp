@@ -1,8 +1,7 @@
-#include <algorithm>
-#include <cctype>
-#include <charconv>
+#include "tools/media/detail/words_internal.h"
 
-#include "tools/media/live/sdp_internal.h"
+#include <algorithm>
+#include <charconv>
 
 namespace animeme::media {
 
@@ -24,12 +23,6 @@ std::string_view trim(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
 }
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return out;
-}
-
 std::string_view take_until(std::string_view& text, char mark) {
   const std::size_t end = std::min(text.find(mark), text.size());
   const std::string_view part = text.substr(0, end);
@@ -49,7 +42,7 @@ Parameters read_parameters(std::string_view text) {
   Parameters out;
   while (!text.empty()) {
     std::string_view value = take_until(text, ';');
-    const std::string key = lower(take_until(value, '='));
+    const std::string key = lower_case(take_until(value, '='));
     if (!key.empty()) out.try_emplace(key, trim(value));
   }
   return out;
