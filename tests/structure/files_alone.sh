@@ -1,15 +1,15 @@
 #!/bin/sh
 # tests/structure/files_alone.sh COMPILER: the presets release and asan compile many files as one,
 # which hides an include that a file lacks. This looks at files alone (-fsyntax-only): those of one
-# of 32 turns, by the day of the last commit, so that a month of work passes them all.
+# of 64 turns, by the day of the last commit, so that two months of work pass them all.
 #   ANIMEME_FILES=all     all of them, on all cores (some minutes)
 #   ANIMEME_FILES=7       that turn
 set -eu
 compiler=${1:-c++}
 cd "$(dirname "$0")/../.."
 day=$(git log -1 --format=%ct 2>/dev/null || date +%s)
-turn=${ANIMEME_FILES:-$((day / 86400 % 32))}
-every=32 jobs=1
+turn=${ANIMEME_FILES:-$((day / 86400 % 64))}
+every=64 jobs=1
 [ "$turn" = all ] && every=1 turn=0 jobs=$(nproc)
 flags="-std=c++20 -fsyntax-only -Wall -Wextra -Wshadow -Werror -Wno-missing-field-initializers -I.
   $(pkg-config --cflags-only-I --silence-errors eigen3 libxml-2.0 espeak-ng stb | sed 's/-I/-isystem /g')
