@@ -162,6 +162,18 @@ void range_size_cases(std::uint64_t seed, std::vector<MadeCase>& out) {
     b.add_group(face, 3);
     out.push_back(b.finish());
   }
+  {
+    CaseBuilder b(seed, "range_kept_from_a_coarse_plane",
+                  "a first plane at fap_quant 31 sends the predictive ranges, those behind it at 1 "
+                  "send intra ranges only",
+                  "the ranges keep their number of levels; what the standard wants is unknown");
+    const std::initializer_list<int> faps = {3, 4, 5, 6, 7, 19, 20, 40};
+    b.add_group(some_faps(faps, 31, 5), 1);
+    fba::FaceSettings face = some_faps(faps, 1, 20);
+    face.send_range[fba::kPredictiveMax] = face.send_range[fba::kPredictiveMin] = false;
+    for (int k = 0; k < 2; ++k) b.add_group(face, 6);
+    out.push_back(b.finish());
+  }
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "codec/encode/clip_internal.h"
@@ -169,6 +170,24 @@ void leave_out_rest(ClipData& clip) {
 }
 
 }  // namespace
+
+std::int64_t period_frames(double intra_seconds, fap::Rate rate) {
+  if (intra_seconds <= 0) return 0;
+  constexpr double kForever = 1e9;
+  return std::max<std::int64_t>(
+      1, std::llround(std::min(intra_seconds * rate.frames_per_second(), kForever)));
+}
+
+void add_periods(std::span<const std::int64_t> number, std::size_t first, std::size_t end,
+                 std::int64_t frames, std::vector<std::size_t>& begins) {
+  begins.push_back(first);
+  if (frames <= 0) return;
+  for (std::size_t plane = first + 1; plane < end; ++plane) {
+    if (number[plane] - number[first] < frames) continue;
+    begins.push_back(plane);
+    first = plane;
+  }
+}
 
 Result<ClipData> gather(const fap::Sequence& face, std::span<const BodyFrame> body,
                         bool leave_out) {

@@ -40,6 +40,13 @@ struct ClipData {
   std::size_t planes() const { return number.size(); }
 };
 
+/// How many frames of `rate` an intra period lasts, at least one; 0: there is none.
+std::int64_t period_frames(double intra_seconds, fap::Rate rate);
+/// Where a stretch of planes gets intra planes because the period is over: `first`, then each plane
+/// that stands so many frames (> 0) behind the last one. Frames that are skipped count.
+void add_periods(std::span<const std::int64_t> number, std::size_t first, std::size_t end,
+                 std::int64_t frames, std::vector<std::size_t>& begins);
+
 /// Merges face and body by frame numbers and holds what a frame leaves out. `leave_out`: a face
 /// gets channels, at 0, of the low-level FAPs that it does not have, too, and what rests throughout
 /// is left out as far as that can be told before levels are chosen. Errors as encode().

@@ -3,23 +3,18 @@
 namespace animeme::fba::internal {
 
 ClipPlanes::ClipPlanes(const ClipData& clip, const Decision& decision)
-    : clip_(clip), decision_(decision) {
-  for (const Channel& channel : clip.channels) {
-    steps_.push_back(step_at(channel, decision.quant(channel)));
-  }
-}
+    : clip_(clip), decision_(decision) {}
 
 void ClipPlanes::load(std::size_t plane) {
   for (std::size_t i = 0; i < clip_.channels.size(); ++i) {
     const std::size_t number = std::size_t(clip_.channels[i].number);
-    const std::int32_t value =
-        std::int32_t(std::int64_t(decision_.rows[i].levels[plane]) * steps_[i]);
+    const std::int32_t value = std::int32_t(decision_.value(clip_.channels[i], i, plane));
     (clip_.channels[i].body ? body_.value[number] : face_.value[number]) = value;
   }
   if (!clip_.viseme.empty()) {
     face_.viseme = clip_.viseme[plane];
     face_.expression = clip_.expression[plane];
-    keep_legal(face_.viseme, face_.expression, decision_.fap_quant);
+    keep_legal(face_.viseme, face_.expression, fap_quant(plane));
   }
 }
 

@@ -19,6 +19,10 @@ class ClipPlanes {
   void load(std::size_t plane);
   const fap::Frame& face() const { return face_; }
   const BodyFrame& body() const { return body_; }
+  /// The quantiser of a plane.
+  int fap_quant(std::size_t plane) const {
+    return decision_.first && plane == 0 ? decision_.first->fap_quant : decision_.fap_quant;
+  }
 
   /// Goes to a plane of `run`. What is returned borrows the run and lasts until the next call.
   PlaneInput input(const Run& run, std::size_t plane);
@@ -26,7 +30,6 @@ class ClipPlanes {
  private:
   const ClipData& clip_;
   const Decision& decision_;
-  std::vector<std::int32_t> steps_;
   fap::Frame face_;
   BodyFrame body_;
 };

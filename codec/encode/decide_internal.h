@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "codec/encode/clip_internal.h"
@@ -22,13 +23,44 @@ struct Row {
   std::vector<std::int32_t> levels;  // of the reconstruction: value / step
 };
 
+/// Quantisers of one plane and its levels, one for each channel.
+struct CoarsePlane {
+  int fap_quant = 1;
+  int bap_quant = 1;
+  std::vector<std::int32_t> levels;
+
+  int quant(const Channel& channel) const { return channel.body ? bap_quant : fap_quant; }
+};
+
 struct Decision {
   int fap_quant = 1;
   int bap_quant = 1;
   std::vector<Row> rows;  // one for each channel of the clip
+  // The first plane, if it tells the ranges of all the others in finer steps than theirs
+  // (EncodeOptions::kept_ranges).
+  std::optional<CoarsePlane> first;
 
   int quant(const Channel& channel) const { return channel.body ? bap_quant : fap_quant; }
+  /// The value that a decoder has of channel `i`, which is `channel`.
+  std::int64_t value(const Channel& channel, std::size_t i, std::size_t plane) const {
+    if (first && plane == 0) {
+      return std::int64_t(first->levels[i]) * step_at(channel, first->quant(channel));
+    }
+    return std::int64_t(rows[i].levels[plane]) * step_at(channel, quant(channel));
+  }
 };
+
+/// Gives the decision a first plane at the quantisers with which the ranges of all predictive
+/// planes cost least. Leaves it as it is where that cannot save anything.
+void choose_first(const ClipData& clip, Decision& decision);
+
+/// True if a level lies beyond what an intra plane can hold. Never without quantisation, where
+/// angles could not be followed at all: that is an error.
+bool reaches_too_far(const ClipData& clip, const Decision& decision);
+/// Replaces levels that cannot be reached, with intra planes at `begins` (ascending), by the
+/// nearest that can. Returns how many.
+std::size_t limit_levels(const ClipData& clip, const std::vector<std::size_t>& begins,
+                         Decision& decision);
 
 /// The decision that `options` ask for. `bit_budget`: bits for the parameters of the whole clip
 /// (without headers), 0: any number.

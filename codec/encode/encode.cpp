@@ -24,8 +24,12 @@ constexpr std::size_t kMaxRetries = 40;  // plans tried to avoid traps
 
 Result<void> check(const EncodeOptions& options) {
   const auto ok =
-      internal::check_numbers(options.fap_quant, options.bap_quant, options.intra_period);
+      internal::check_numbers(options.fap_quant, options.bap_quant, options.intra_seconds);
   if (!ok) return ok;
+  if (options.kept_ranges && options.intra_seconds > 0) {
+    return internal::invalid(
+        "with kept ranges receivers can join at the begin only: an intra period has no use");
+  }
   if (options.max_rms >= 0 && options.max_bits_per_second >= 0 && options.still_below >= 0) {
     return {};
   }
@@ -67,16 +71,25 @@ struct Written {
   std::size_t intra_planes = 0;
   std::size_t retries = 0;
   std::size_t traps = 0;
+  std::size_t limited = 0;
 };
 
 // Plans, writes and checks; plans anew if the bits happen to hold traps.
-Result<Written> write(const ClipData& clip, const Decision& decision,
-                      const EncodeOptions& options) {
+Result<Written> write(const ClipData& clip, const Decision& wanted, const EncodeOptions& options) {
   Written out;
-  internal::PlanOptions plan{options.intra_period, options.extra_intra, {}};
+  internal::PlanOptions plan{
+      internal::period_frames(options.intra_seconds, clip.rate.rate()), options.extra_intra, {}};
+  const bool far = internal::reaches_too_far(clip, wanted);
+  Decision reached;
+  const Decision& decision = far ? reached : wanted;
   Writer writer(clip, decision);
   for (;;) {
-    Result<std::vector<Run>> runs = plan_runs(clip, decision, plan);
+    const std::vector<std::size_t> begins = run_begins(clip, wanted, plan);
+    if (far) {
+      reached = wanted;
+      out.limited = internal::limit_levels(clip, begins, reached);
+    }
+    Result<std::vector<Run>> runs = plan_runs(clip, decision, begins, plan.trapped);
     if (!runs) return runs.error();
     Encoder encoder(options.stream);
     if (auto ok = writer.write(*runs, encoder); !ok) return ok.error();
@@ -103,12 +116,11 @@ void measure_error(const ClipData& clip, const Decision& decision, EncodeReport&
   double values[2] = {0, 0};
   for (std::size_t i = 0; i < clip.channels.size(); ++i) {
     const Channel& channel = clip.channels[i];
-    const Row& row = decision.rows[i];
     if (internal::is_still(channel.value)) continue;
-    const double step = internal::step_at(channel, decision.quant(channel));
     const std::size_t kind = channel.distance ? 0 : 1;
     for (std::size_t plane = 0; plane < clip.planes(); ++plane) {
-      const double difference = (channel.value[plane] - row.levels[plane] * step) / channel.unit;
+      const double difference =
+          double(channel.value[plane] - decision.value(channel, i, plane)) / channel.unit;
       error[kind] += difference * difference;
     }
     values[kind] += double(clip.planes());
@@ -132,22 +144,43 @@ EncodeReport report_on(const ClipData& clip, const Decision& decision) {
   return report;
 }
 
+// The smaller one of the streams with and without kept ranges, if those are wanted.
+Result<Written> write_smallest(const ClipData& clip, Decision& decision,
+                               const EncodeOptions& options) {
+  Result<Written> plain = write(clip, decision, options);
+  if (!plain || !options.kept_ranges) return plain;
+  Decision with_first = decision;
+  internal::choose_first(clip, with_first);
+  if (!with_first.first) return plain;
+  Result<Written> kept = write(clip, with_first, options);
+  if (!kept || kept->traps > plain->traps || kept->stream.size() >= plain->stream.size()) {
+    return plain;
+  }
+  decision = std::move(with_first);
+  return kept;
+}
+
 // One attempt; `bit_budget` as in decide().
 Result<Written> attempt(const ClipData& clip, const EncodeOptions& options, double bit_budget,
                         EncodeReport& report) {
   Decision decision = internal::decide(clip, options, bit_budget);
-  report = report_on(clip, decision);
   Result<Written> written = Written{};
   if (options.skip_still) {
     ClipData moving = clip;
-    internal::keep_planes(internal::moving_planes(clip, decision), moving, decision);
+    Decision of_moving = decision;
+    internal::keep_planes(internal::moving_planes(clip, decision), moving, of_moving);
+    written = write_smallest(moving, of_moving, options);
+    decision.first = std::move(of_moving.first);
+    report = report_on(clip, decision);
     report.planes = moving.planes();
-    written = write(moving, decision, options);
   } else {
+    written = write_smallest(clip, decision, options);
+    report = report_on(clip, decision);
     report.planes = clip.planes();
-    written = write(clip, decision, options);
   }
   if (!written) return written;
+  report.kept_ranges = decision.first.has_value();
+  report.limited = written->limited;
   report.skipped = clip.planes() - report.planes;
   report.intra_planes = written->intra_planes;
   report.retries = written->retries;
@@ -161,6 +194,12 @@ EncodeOptions file_options() {
   EncodeOptions options;
   options.leave_out = true;
   options.extra_intra = true;
+  return options;
+}
+
+EncodeOptions live_options() {
+  EncodeOptions options = file_options();
+  options.intra_seconds = 2;
   return options;
 }
 

@@ -25,9 +25,11 @@ namespace animeme::fba {
 /// What encode() may do. The defaults are the plain form: every parameter that occurs in the clip
 /// is coded in every plane, in the tightest ranges that the format has.
 struct EncodeOptions {
-  int fap_quant = 1;     ///< 0..31; 1: the standard's steps, 0: lossless for values up to +-1860
-  int bap_quant = 1;     ///< 0..31, index into kBapScale
-  int intra_period = 0;  ///< intra plane at least every so many planes; 0: only where needed
+  int fap_quant = 1;  ///< 0..31; 1: the standard's steps, 0: lossless for values up to +-1860
+  int bap_quant = 1;  ///< 0..31, index into kBapScale
+  /// An intra plane, where receivers can join, at least every so many seconds (a plane and the
+  /// frames that it skips count, rounded to whole frames); 0: only where needed.
+  double intra_seconds = 0;
   StreamOptions stream;  ///< start codes
 
   /// Parameters that stay at 0 are not coded (nor are FAP 1 and 2 that stay neutral, or all of a
@@ -39,6 +41,13 @@ struct EncodeOptions {
   bool extra_intra = false;
   /// Planes in which nothing moves are not sent; the plane before says how many frames to skip.
   bool skip_still = false;
+  /// The first plane is coarse (fap_quant up to 31), which makes the steps of ranges fine, and
+  /// tells the ranges of all predictive planes; later intra planes keep them as numbers of levels
+  /// (codec/bitstream.md, section 3.2). Some 5 % less on speech, read by the two other decoders
+  /// that were tried, but what the standard means is not sure. Only the first frame has larger
+  /// errors (max_rms does not count them, EncodeReport does), and receivers can join at the begin
+  /// only: invalid_argument with intra_seconds. Not done where it saves nothing.
+  bool kept_ranges = false;
 
   /// > 0: choose fap_quant and the levels for the fewest bits at this error, root mean square over
   /// all FAPs that move: FAP units (half a quantiser step for angles and for BAPs). The two kinds
@@ -61,6 +70,8 @@ struct EncodeOptions {
 
 /// The options for files: the smallest stream of the same values.
 EncodeOptions file_options();
+/// The same with a joining point every 2 s: for clips that are to be sent.
+EncodeOptions live_options();
 
 /// What encode() chose.
 struct EncodeReport {
@@ -75,6 +86,10 @@ struct EncodeReport {
   std::size_t stilled = 0;       ///< parameters that moved in the clip and do not in the stream
   double rms = 0;                ///< error of the moving FAPs that are no angles, FAP units
   double rms_other = 0;          ///< error of moving angles and BAPs, half quantiser steps
+  bool kept_ranges = false;      ///< the first plane is coarse and tells the ranges of the others
+  /// Values beyond what planes can tell (+-1860 quantiser steps in intra planes and from plane to
+  /// plane), replaced by the nearest that can be told.
+  std::size_t limited = 0;
   std::size_t retries = 0;  ///< how often the ranges were changed to avoid a trap (Encoder::trap)
   /// Traps that are left when 40 plans have been tried: 0 as a rule; FAP 1 and 2 alone can make one
   /// that no range changes.
@@ -85,16 +100,19 @@ struct EncodeReport {
 /// value (0 at first). Gaps in the frame numbers become skipped frames; where only one of face and
 /// body has a frame, the other one is held. Deterministic: the same bytes on every machine.
 ///
-/// The stream begins with an intra plane; there is another one every `intra_period` planes and
-/// wherever a change is too large for a predictive plane. Every intra plane sends all masks,
-/// ranges and the rate, so decoding can start there. The stream holds neither false start codes
-/// nor zero runs that mislead old decoders, but see EncodeReport::traps.
+/// The stream begins with an intra plane; there is another one every `intra_seconds` and wherever a
+/// change is too large for a predictive plane. Every intra plane sends all masks, ranges (but see
+/// kept_ranges) and the rate, so decoding can start there. The stream holds neither false start
+/// codes nor zero runs that mislead old decoders, but see EncodeReport::traps.
+///
+/// Memory: about 8 bytes for each parameter and plane and the stream itself, which is decoded again
+/// plane by plane; with max_rms or max_bits_per_second 40 bytes more for each plane.
 ///
 /// `face` may be empty if `body` is not; its rate is that of the stream. Errors: invalid_argument
 /// (no frames, numbers that do not ascend or leave out more than a million frames, options out of
 /// bounds), unsupported (a rate that the format cannot express: use k/16 frames per second up to
-/// 255 15/16, or those times 1000/1001), out_of_range (a value that no intra plane can hold, or a
-/// viseme outside 0..14, an expression outside 0..6, a blend or an intensity outside 0..63; the
+/// 255 15/16, or those times 1000/1001), out_of_range (without quantisation, a value beyond +-1860;
+/// a viseme outside 0..14, an expression outside 0..6, a blend or an intensity outside 0..63; the
 /// message names parameter and frame), internal (verify failed).
 Result<std::vector<std::uint8_t>> encode(const fap::Sequence& face, const EncodeOptions& = {},
                                          std::span<const BodyFrame> body = {},

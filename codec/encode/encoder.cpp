@@ -23,7 +23,17 @@ constexpr int kSkipNoFramesBits = 5;
 
 }  // namespace
 
-struct Encoder::Impl {
+// Where the writing stands between planes.
+struct Encoder::Place {
+  BitWriter out;
+  bool started = false;         // the object start code is written
+  bool unit_ended = false;      // stuffing to the byte border is written
+  std::size_t plane_begin = 0;  // of the last plane
+  bool follows = false;         // it has no start code of its own
+  bool can_grow = false;        // nor does it skip frames, which it could
+};
+
+struct Encoder::Impl : Encoder::Place {
   // One family's part of a plane, worked out before anything is written.
   struct PendingSlots {
     explicit PendingSlots(const internal::SlotTable& table) : coding(table) {}
@@ -32,15 +42,10 @@ struct Encoder::Impl {
   };
 
   StreamOptions options;
-  BitWriter out;
   std::int64_t taken_bits = 0;
   internal::StreamState state;
   fap::Frame reconstruction;
-  bool started = false;         // the object start code is written
-  bool unit_ended = false;      // stuffing to the byte border is written
-  std::size_t plane_begin = 0;  // of the last plane
-  bool follows = false;         // it has no start code of its own
-  bool can_grow = false;        // nor does it skip frames, which it could
+  Place taken;                  // behind the last take()
   internal::StreamTrace trace;  // of the bytes not taken yet
 
   // The plane that is being written; here so that nothing is allocated plane by plane.
@@ -100,6 +105,9 @@ struct Encoder::Impl {
     segment.flush();
     trace.segments.push_back({begin, out.position()});
   }
+
+  std::vector<std::uint8_t> bytes_and_rest();
+  std::vector<internal::Trap> traps();
 
   // First everything that can fail, then the bits.
   Result<void> write(const PlaneInput& plane) {
@@ -271,8 +279,23 @@ void Encoder::end_unit() {
   impl_->unit_ended = true;
 }
 
+// The bits of an unfinished byte with those behind them that zeros could go on in. A plane begins
+// 001 at worst, and stuffing with a 0; if that is one bit alone, the zeros of a start code follow.
+std::vector<std::uint8_t> Encoder::Impl::bytes_and_rest() {
+  constexpr std::uint32_t kNextPlane = 0x3FFF;
+  BitWriter whole = out;
+  const bool may_be_stuffed = whole.position() % 8 == 7;
+  whole.bits(may_be_stuffed ? 0 : kNextPlane, 16);
+  return whole.bytes();
+}
+
+std::vector<internal::Trap> Encoder::Impl::traps() {
+  return out.aligned() ? internal::find_traps(out.bytes(), trace)
+                       : internal::find_traps(bytes_and_rest(), trace);
+}
+
 std::optional<std::string> Encoder::trap() const {
-  const auto traps = internal::find_traps(impl_->out.bytes(), impl_->trace);
+  const auto traps = impl_->traps();
   if (traps.empty()) return std::nullopt;
   constexpr const char* kSentences[] = {"the bits of a plane look like a start code at bit ",
                                         "22 zeros reach past a segment at bit ",
@@ -283,18 +306,15 @@ std::optional<std::string> Encoder::trap() const {
 
 std::vector<std::int64_t> Encoder::trap_bits() const {
   std::vector<std::int64_t> bits;
-  for (const internal::Trap& trap : internal::find_traps(impl_->out.bytes(), impl_->trace)) {
+  for (const internal::Trap& trap : impl_->traps()) {
     bits.push_back(impl_->taken_bits + std::int64_t(trap.bit));
   }
   return bits;
 }
 
 void Encoder::drop() {
-  impl_->out = {};
+  static_cast<Place&>(*impl_) = impl_->taken;
   impl_->trace.clear();
-  impl_->started = impl_->taken_bits != 0;
-  impl_->unit_ended = impl_->started;
-  impl_->follows = false;
   impl_->state.face.coding.valid = false;
   impl_->state.body.coding.valid = false;
 }
@@ -305,6 +325,7 @@ std::vector<std::uint8_t> Encoder::take() {
   impl_->follows &= impl_->plane_begin >= bytes.size() * 8;  // else it is long enough
   impl_->plane_begin -= bytes.size() * 8;
   impl_->trace.clear();
+  impl_->taken = *impl_;
   return bytes;
 }
 

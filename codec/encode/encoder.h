@@ -78,16 +78,17 @@ class Encoder {
   /// start code for those who scan; 22 zeros from a segment into the 14 bits behind it, on which
   /// the reference decoder loses its place; and a plane without face and body whole in the byte in
   /// front of a start code, which is lost as stuffing (others that short skip 0 frames, which makes
-  /// them longer). Call it behind end_unit() or end(). Source: codec/bitstream.md, sections 1
-  /// and 17.
+  /// them longer). Call it behind end_unit() or end(), or behind any plane: then what can follow
+  /// is reckoned with. Source: codec/bitstream.md, sections 1 and 17.
   std::optional<std::string> trap() const;
   /// Where all of them are, ascending, on the scale of bits().
   std::vector<std::int64_t> trap_bits() const;
-  /// Forgets the bytes not taken yet (which have to begin where a unit ended, or the stream). The
-  /// next plane has to be intra and to send all four range sets.
+  /// Forgets what was written since the last take(), or since the begin. The next plane has to be
+  /// intra and to send all four range sets.
   void drop();
 
  private:
+  struct Place;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -4,6 +4,7 @@
 #include <deque>
 
 #include "codec/decode/decoder.h"
+#include "codec/encode/clip_internal.h"
 #include "codec/encode/encoder.h"
 #include "codec/encode/live_settings_internal.h"
 #include "codec/syntax/settings_internal.h"
@@ -36,19 +37,22 @@ struct LiveEncoder::Impl : internal::LiveMemory {
 
   FaceSettings face;  // of the intra plane in force
   BodySettings body;
-  std::int64_t since_intra = -1;  // planes; -1: no intra plane yet
+  std::int64_t since_intra = -1;  // frames; -1: no intra plane yet
+  std::int64_t period = 0;        // likewise
   std::int64_t planes = 0;
 
   explicit Impl(const LiveOptions& given)
-      : options(given), encoder(StreamOptions{PlaneStartCodes::all, given.old_codes}) {
+      : options(given), encoder(StreamOptions{given.plane_start_codes, given.old_codes}) {
     rate = code_rate(options.rate);
+    if (rate) period = internal::period_frames(options.intra_seconds, options.rate);
+    if (options.ranges) motion.ranges = *options.ranges;
   }
 
   Result<void> check() const {
     if (!rate)
       return internal::invalid("the stream cannot express this frame rate, see code_rate()");
     const auto ok =
-        internal::check_numbers(options.fap_quant, options.bap_quant, options.intra_period);
+        internal::check_numbers(options.fap_quant, options.bap_quant, options.intra_seconds);
     if (!ok) return ok;
     if (options.ranges && *std::max_element(options.ranges->begin(), options.ranges->end()) > 31) {
       return internal::invalid("ranges must be 0..31");
@@ -64,18 +68,18 @@ struct LiveEncoder::Impl : internal::LiveMemory {
     return internal::check_high_level(coded);
   }
 
-  Result<void> write_plane(bool intra, std::uint32_t skip) {
+  Result<void> write_plane(const internal::HeldFrame& shown, bool intra, std::uint32_t skip) {
     PlaneInput plane;
     plane.intra = intra;
     plane.object_mask = held.has_body ? ObjectMask::face_and_body : ObjectMask::face;
     if (intra) plane.temporal.rate = rate;
     if (skip > 0) plane.temporal.skip = skip;
-    plane.face = &held.face;
-    plane.body = &held.body;
+    plane.face = &shown.face;
+    plane.body = &shown.body;
     plane.face_settings = &face;
     plane.body_settings = &body;
     auto ok = encoder.write(plane);
-    if (ok) encoder.end_unit();
+    if (ok && options.plane_start_codes == PlaneStartCodes::all) encoder.end_unit();
     return ok;
   }
 
@@ -83,20 +87,22 @@ struct LiveEncoder::Impl : internal::LiveMemory {
   Result<void> write_best(std::uint32_t skip) {
     const bool due = since_intra < 0 || held.face.mask != face.mask ||
                      (held.has_body && held.body.mask != body.mask) ||
-                     (options.intra_period > 0 && since_intra >= options.intra_period);
+                     (period > 0 && since_intra >= period);
     if (!due) {
-      if (write_plane(false, skip)) {
+      if (write_plane(held, false, skip)) {
         last_intra = false;
         if (!encoder.trap()) return {};
         encoder.drop();
       }
     }
     last_intra = true;
+    internal::HeldFrame near = held;
+    internal::limit(near, options);
     for (int detour = 0;; ++detour) {
       const bool young = planes < kWarmUp;
-      face = internal::settle_face(held, motion, options, young, detour);
-      if (held.has_body) body = internal::settle_body(held, motion, options, young, detour);
-      if (auto ok = write_plane(true, skip); !ok) return ok;
+      face = internal::settle_face(near, motion, options, young, detour);
+      if (held.has_body) body = internal::settle_body(near, motion, options, young, detour);
+      if (auto ok = write_plane(near, true, skip); !ok) return ok;
       if (!encoder.trap() || detour == kMaxDetours) break;
       encoder.drop();
     }
@@ -116,7 +122,7 @@ struct LiveEncoder::Impl : internal::LiveMemory {
       since_intra = -1;  // the plane to come has to be complete in itself
       return ok.error();
     }
-    since_intra = last_intra ? 1 : since_intra + 1;
+    since_intra = (last_intra ? 1 : since_intra + 1) + skip;
     ++planes;
     last = {encoder.reconstruction(), encoder.body_reconstruction()};
     std::vector<std::uint8_t> unit = encoder.take();

@@ -2,6 +2,7 @@
 
 #include "codec/syntax/quantise_internal.h"
 #include "codec/syntax/settings_internal.h"
+#include "codec/syntax/state_internal.h"
 
 namespace animeme::fba::internal {
 
@@ -21,7 +22,7 @@ std::uint8_t predictive_range(std::int64_t largest, int scale) {
 
 std::uint8_t face_range(std::size_t fap, const Motion& motion, const LiveOptions& options,
                         bool young) {
-  if (options.ranges) return (*options.ranges)[fap];
+  if (options.ranges) return motion.ranges[fap];
   const std::uint8_t seen =
       predictive_range(motion.face.largest(fap), scale_at(false, options.fap_quant));
   if (!young) return seen;
@@ -80,13 +81,33 @@ void Motion::see(const HeldFrame& held, const Shown& last, const LiveOptions& op
   for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
     if (!last.face.mask[fap]) continue;
     const std::int64_t change = std::int64_t(held.face.value[fap]) - last.face.value[fap];
-    face.see(fap, quantise(change, face_step(fap, options)));
+    const std::int64_t level = quantise(change, face_step(fap, options));
+    face.see(fap, level);
+    const int needed = range_number(std::abs(level), scale_at(false, options.fap_quant));
+    if (needed <= kMaxRange) ranges[fap] = std::max(ranges[fap], std::uint8_t(needed));
   }
   for (std::size_t slot = 0; slot < kBapOrder.size(); ++slot) {
     const std::size_t bap = kBapOrder[slot];
     if (!last.body.mask[bap]) continue;
     const std::int64_t change = std::int64_t(held.body.value[bap]) - last.body.value[bap];
     body.see(bap, quantise(change, body_step(slot, options)));
+  }
+}
+
+void limit(HeldFrame& held, const LiveOptions& options) {
+  const auto limit_value = [](std::int32_t& value, std::int64_t step, int scale) {
+    const std::int64_t most = level_range(kMaxRange, scale) * step;
+    if (std::abs(std::int64_t(value)) > most + step / 2) {
+      value = std::int32_t(value > 0 ? most : -most);
+    }
+  };
+  for (std::size_t fap = fap::kFirstLowLevel; options.fap_quant != 0 && fap <= fap::kFapCount;
+       ++fap) {
+    limit_value(held.face.value[fap], face_step(fap, options), scale_at(false, options.fap_quant));
+  }
+  for (std::size_t slot = 0; options.bap_quant != 0 && slot < kBapOrder.size(); ++slot) {
+    limit_value(held.body.value[kBapOrder[slot]], body_step(slot, options),
+                scale_at(true, options.bap_quant));
   }
 }
 
@@ -134,3 +155,28 @@ BodySettings settle_body(const HeldFrame& held, const Motion& motion, const Live
 }
 
 }  // namespace animeme::fba::internal
+
+namespace animeme::fba {
+
+PredictiveRanges ranges_of(const fap::Sequence& clip, int fap_quant) {
+  PredictiveRanges ranges{};
+  fap::Frame last;
+  for (const fap::Frame& frame : clip.frames) {
+    for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+      if (!frame.mask[fap]) continue;
+      // Levels of the reconstruction can change by one more than the values.
+      const std::int64_t change = std::int64_t(frame.value[fap]) - last.value[fap];
+      const std::int32_t step = internal::step_at(false, fap::info(int(fap)).quant_step, fap_quant);
+      const std::int64_t level = std::abs(change) / step + 1;
+      const int range = internal::range_number(level, internal::scale_at(false, fap_quant));
+      if (last.mask[fap]) {
+        ranges[fap] = std::max(ranges[fap], std::uint8_t(std::min(range, internal::kMaxRange)));
+      }
+      last.value[fap] = frame.value[fap];
+      last.mask.set(fap);
+    }
+  }
+  return ranges;
+}
+
+}  // namespace animeme::fba

@@ -51,6 +51,7 @@ class Activity {
 
 struct Motion {
   Activity<fap::kFapCount + 1> face;
+  PredictiveRanges ranges{};  // where the options give some: those, widened by larger changes
   Activity<kBapCount + 1> body;
 
   /// Changes of the held values since the last plane, of what is coded in it.
@@ -60,6 +61,10 @@ struct Motion {
     body.next_period();
   }
 };
+
+/// Makes values beyond what an intra plane can hold the nearest that it can. Not without
+/// quantisation, where angles could not be followed at all.
+void limit(HeldFrame& held, const LiveOptions& options);
 
 /// What an intra plane of the held values settles, with the tightest intra ranges, and predictive
 /// ranges for the motion of late, or wider ones while `young`, when too little has been seen of it.

@@ -13,19 +13,23 @@ namespace {
 // Settles masks and ranges of each run.
 class Planner {
  public:
-  Planner(const ClipData& clip, const Decision& decision, const PlanOptions& options)
-      : clip_(clip), decision_(decision), options_(options), coded_(coded_channels(decision)) {
+  Planner(const ClipData& clip, const Decision& decision, const std::vector<std::size_t>& begins,
+          const std::vector<std::size_t>& trapped)
+      : clip_(clip),
+        decision_(decision),
+        begins_(begins),
+        trapped_(trapped),
+        coded_(coded_channels(decision)) {
     faps_ = std::size_t(std::count_if(coded_.begin(), coded_.end(),
                                       [this](std::size_t i) { return !channel(i).body; }));
   }
 
   Result<std::vector<Run>> plan() {
     if (auto ok = check_reach(); !ok) return ok.error();
-    const std::vector<std::size_t> begins = run_begins(clip_, decision_, options_);
     std::vector<Run> runs;
-    for (std::size_t i = 0; i < begins.size(); ++i) {
-      const std::size_t end = i + 1 < begins.size() ? begins[i + 1] : clip_.planes();
-      Result<Run> run = settle(begins[i], end - begins[i]);
+    for (std::size_t i = 0; i < begins_.size(); ++i) {
+      Result<Run> run =
+          i == 0 && decision_.first ? settle_first() : settle(begins_[i], end_of(i) - begins_[i]);
       if (!run) return run.error();
       runs.push_back(std::move(*run));
     }
@@ -33,6 +37,9 @@ class Planner {
   }
 
  private:
+  std::size_t end_of(std::size_t run) const {
+    return run + 1 < begins_.size() ? begins_[run + 1] : clip_.planes();
+  }
   const Channel& channel(std::size_t i) const { return clip_.channels[i]; }
   int quant(std::size_t i) const { return decision_.quant(channel(i)); }
   int scale(std::size_t i) const { return scale_at(channel(i).body, quant(i)); }
@@ -45,6 +52,12 @@ class Planner {
     run.first = first;
     run.count = count;
     set_up(run);
+    if (decision_.first) {
+      // The first plane has told these.
+      for (const RangeKind kind : {kPredictiveMax, kPredictiveMin}) {
+        run.face.send_range[kind] = run.body.send_range[kind] = false;
+      }
+    }
     const std::size_t detours = detours_of(first, count);
     for (std::size_t n = 0; n < coded_.size(); ++n) {
       const std::size_t i = coded_[n];
@@ -53,22 +66,52 @@ class Planner {
       for (std::size_t turn = turn_of(n); turn < detours; turn += coded_.size()) {
         take_detour(ranges, is_last(n));
       }
-      for (std::size_t kind = 0; kind < 4; ++kind) {
-        const std::size_t number = std::size_t(channel(i).number);
-        (channel(i).body ? run.body.range[kind][number] : run.face.range[kind][number]) =
-            ranges.range[kind];
-      }
+      set_ranges(i, ranges, run);
     }
     guard_fap4(run.face);
     return run;
   }
 
+  // The coarse plane, with ranges for the changes of all runs behind it.
+  Result<Run> settle_first() const {
+    Run run;
+    run.count = 1;
+    set_up(run);
+    run.face.fap_quant = decision_.first->fap_quant;
+    run.body.bap_quant = decision_.first->bap_quant;
+    const std::size_t detours = detours_of(0, clip_.planes());
+    for (std::size_t n = 0; n < coded_.size(); ++n) {
+      const std::size_t i = coded_[n];
+      const int coarse = scale_at(channel(i).body, decision_.first->quant(channel(i)));
+      RunCost ranges = run_ranges(std::span(&decision_.first->levels[i], 1), coarse);
+      for (std::size_t k = 1; k < begins_.size(); ++k) {
+        const RunCost of_run = run_ranges(levels(i, begins_[k], end_of(k) - begins_[k]), coarse);
+        for (const RangeKind kind : {kPredictiveMax, kPredictiveMin}) {
+          ranges.range[kind] = std::max(ranges.range[kind], of_run.range[kind]);
+        }
+      }
+      for (std::size_t turn = turn_of(n); turn < detours; turn += coded_.size()) {
+        take_detour(ranges, is_last(n));
+      }
+      set_ranges(i, ranges, run);
+    }
+    guard_fap4(run.face);
+    return run;
+  }
+
+  void set_ranges(std::size_t i, const RunCost& ranges, Run& run) const {
+    const std::size_t number = std::size_t(channel(i).number);
+    for (std::size_t kind = 0; kind < 4; ++kind) {
+      (channel(i).body ? run.body.range[kind][number] : run.face.range[kind][number]) =
+          ranges.range[kind];
+    }
+  }
+
   // How many ranges a run is to have wider. A trap that outlives its detours asks for more each
   // time: ranges behind it in its segment do not move it, and those before it may be many.
   std::size_t detours_of(std::size_t first, std::size_t count) const {
-    const std::vector<std::size_t>& trapped = options_.trapped;
-    const auto begin = std::lower_bound(trapped.begin(), trapped.end(), first);
-    const auto end = std::lower_bound(begin, trapped.end(), first + count);
+    const auto begin = std::lower_bound(trapped_.begin(), trapped_.end(), first);
+    const auto end = std::lower_bound(begin, trapped_.end(), first + count);
     std::ptrdiff_t most = 0;  // times that one plane had a trap
     for (auto it = begin; it != end;) {
       const auto next = std::upper_bound(it, end, *it);
@@ -160,7 +203,8 @@ class Planner {
 
   const ClipData& clip_;
   const Decision& decision_;
-  const PlanOptions& options_;
+  const std::vector<std::size_t>& begins_;
+  const std::vector<std::size_t>& trapped_;
   std::vector<std::size_t> coded_;  // channels, FAPs first
   std::size_t faps_ = 0;            // of them
 };
@@ -168,8 +212,9 @@ class Planner {
 }  // namespace
 
 Result<std::vector<Run>> plan_runs(const ClipData& clip, const Decision& decision,
-                                   const PlanOptions& options) {
-  return Planner(clip, decision, options).plan();
+                                   const std::vector<std::size_t>& begins,
+                                   const std::vector<std::size_t>& trapped) {
+  return Planner(clip, decision, begins, trapped).plan();
 }
 
 }  // namespace animeme::fba::internal

@@ -16,7 +16,7 @@ struct Run {
 };
 
 struct PlanOptions {
-  int intra_period = 0;
+  std::int64_t intra_frames = 0;  // period_frames()
   bool extra_intra = false;
   // Planes whose bits held a trap, ascending, one entry for each time: the runs that they are in
   // get other ranges for the same values, and so other bits.
@@ -36,9 +36,10 @@ std::vector<std::size_t> coded_channels(const Decision& decision);
 std::vector<std::size_t> run_begins(const ClipData& clip, const Decision& decision,
                                     const PlanOptions& options);
 
-/// run_begins() and what each of these planes settles. Error out_of_range if an intra plane cannot
-/// hold a value, or 32 bits its reconstruction.
+/// What the planes at `begins`, run_begins(), settle. `trapped`: that of PlanOptions. Error
+/// out_of_range if an intra plane cannot hold a value, or 32 bits its reconstruction.
 Result<std::vector<Run>> plan_runs(const ClipData& clip, const Decision& decision,
-                                   const PlanOptions& options);
+                                   const std::vector<std::size_t>& begins,
+                                   const std::vector<std::size_t>& trapped);
 
 }  // namespace animeme::fba::internal

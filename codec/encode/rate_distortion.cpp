@@ -19,9 +19,8 @@ void forget_if_zero(TrellisResult& row) {
 
 RateDistortion::RateDistortion(const ClipData& clip, const EncodeOptions& options)
     : clip_(clip), options_(options) {
-  const std::size_t period =
-      options.intra_period > 0 ? std::size_t(options.intra_period) : clip.planes();
-  for (std::size_t plane = 0; plane < clip.planes(); plane += period) run_begin_.push_back(plane);
+  add_periods(clip.number, 0, clip.planes(), period_frames(options.intra_seconds, clip.rate.rate()),
+              run_begin_);
 }
 
 TrellisProblem RateDistortion::problem(std::size_t channel, int quant) const {
@@ -38,7 +37,7 @@ TrellisProblem RateDistortion::problem(std::size_t channel, int quant) const {
 RateDistortion::UnitResult RateDistortion::solve_unit(const Unit& unit, int quant,
                                                       double lambda) const {
   const auto solve_row = [&](const TrellisProblem& row) {
-    TrellisResult best = search_row(row, lambda, plain_row(row));
+    TrellisResult best = search_runs(row, lambda);
     TrellisResult still = still_row(row);
     forget_if_zero(best);
     forget_if_zero(still);

@@ -21,7 +21,15 @@ class Splitter {
       : clip_(clip), decision_(decision), options_(options), coded_(coded_channels(decision)) {}
 
   Planes begins() const {
-    Planes begins = split_where_needed(due());
+    Planes needed = split_where_needed(trapped());
+    if (decision_.first && needed.size() > 1 && needed[1] != 1)
+      needed.insert(needed.begin() + 1, 1);
+    if (decision_.first && needed.size() == 1) needed.push_back(1);
+    Planes begins;
+    for (std::size_t i = 0; i < needed.size(); ++i) {
+      const std::size_t end = i + 1 < needed.size() ? needed[i + 1] : clip_.planes();
+      add_periods(clip_.number, needed[i], end, options_.intra_frames, begins);
+    }
     return options_.extra_intra ? split_where_it_pays(begins) : begins;
   }
 
@@ -35,20 +43,16 @@ class Splitter {
 
   // Where other ranges do not help against a trap (there may be no parameter that has any, or all
   // are as wide as they can be), an intra plane will.
-  Planes due() const {
-    const std::size_t period =
-        options_.intra_period > 0 ? std::size_t(options_.intra_period) : clip_.planes();
-    Planes begins;
-    for (std::size_t plane = 0; plane < clip_.planes(); plane += period) begins.push_back(plane);
-    const Planes& trapped = options_.trapped;
-    for (auto it = trapped.begin(); it != trapped.end();) {
-      const auto next = std::upper_bound(it, trapped.end(), *it);
+  Planes trapped() const {
+    Planes begins = {0};
+    const Planes& again = options_.trapped;
+    for (auto it = again.begin(); it != again.end();) {
+      const auto next = std::upper_bound(it, again.end(), *it);
       if ((coded_.empty() || next - it > kTurnsBeforeIntra) && can_be_intra(*it)) {
         begins.push_back(*it);
       }
       it = next;
     }
-    tidy(begins);
     return begins;
   }
 

@@ -241,13 +241,34 @@ TrellisResult search_row(const TrellisProblem& problem, double lambda, const Tre
     gained = false;
     const Limit now = widest(problem, best.levels);
     for (const Limit& limit : {Limit{now.up - 1, now.down}, Limit{now.up, now.down - 1}}) {
-      if (limit.up < 1 || limit.down < 1) continue;
+      if (limit.up < 0 || limit.down < 0) continue;
       const double before = cost_of(best, lambda);
       settle(problem, search, lambda, limit, best.levels, best);
       gained |= cost_of(best, lambda) < before;
     }
   }
   return best;
+}
+
+TrellisResult search_runs(const TrellisProblem& problem, double lambda) {
+  if (problem.run_begin.size() == 1) return search_row(problem, lambda, plain_row(problem));
+  constexpr std::size_t kFromItsBegin = 0;
+  TrellisResult all;
+  for (std::size_t run = 0; run < problem.run_begin.size(); ++run) {
+    TrellisProblem alone = problem;
+    alone.a = part(problem.a, problem.run_begin, run);
+    if (!problem.b.empty()) alone.b = part(problem.b, problem.run_begin, run);
+    alone.run_begin = std::span(&kFromItsBegin, 1);
+    const TrellisResult moving = search_row(alone, lambda, plain_row(alone));
+    const TrellisResult still = still_row(alone);
+    const bool rests = lambda > 0 && still.fits && cost_of(still, lambda) < cost_of(moving, lambda);
+    const TrellisResult& best = rests ? still : moving;
+    all.levels.insert(all.levels.end(), best.levels.begin(), best.levels.end());
+    all.bits += best.bits;
+    all.error += best.error;
+    all.fits &= best.fits;
+  }
+  return all;
 }
 
 }  // namespace animeme::fba::internal

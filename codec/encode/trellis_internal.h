@@ -39,6 +39,9 @@ TrellisResult plain_row(const TrellisProblem& problem);
 TrellisResult search_row(const TrellisProblem& problem, double lambda, const TrellisResult& start);
 /// The row that stays where it is nearest to all values.
 TrellisResult still_row(const TrellisProblem& problem);
+/// The better one of search_row() from plain_row() and still_row() for each run by itself: what is
+/// between two intra planes does not depend on the rest.
+TrellisResult search_runs(const TrellisProblem& problem, double lambda);
 
 /// error + lambda * bits.
 inline double cost_of(const TrellisResult& row, double lambda) {

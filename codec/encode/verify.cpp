@@ -15,10 +15,10 @@ Error verify_error(std::int64_t number, const std::string& what) {
 
 // FAP 1 and 2 as given; what has a scale within half a quantiser step.
 bool high_level_agrees(const fap::Frame& got, const fap::Frame& want, const ClipData& clip,
-                       const Decision& decision) {
+                       int fap_quant) {
   if (got.mask[1] != clip.has_viseme || got.mask[2] != clip.has_expression) return false;
   const auto near = [&](std::int32_t& value, std::int32_t other) {
-    const bool is = std::abs(value - other) <= fap_scale(decision.fap_quant) / 2;
+    const bool is = std::abs(value - other) <= fap_scale(fap_quant) / 2;
     value = other;
     return is;
   };
@@ -50,7 +50,7 @@ Result<void> verify(const std::vector<std::uint8_t>& stream, const ClipData& cli
     if (event->plane.number != number - clip.number.front()) {
       return verify_error(number, "its number");
     }
-    if (!high_level_agrees(event->plane.face, expected.face(), clip, decision)) {
+    if (!high_level_agrees(event->plane.face, expected.face(), clip, expected.fap_quant(plane))) {
       return verify_error(number, "FAP 1 or 2");
     }
     for (std::size_t i = 0; i < clip.channels.size(); ++i) {

@@ -37,10 +37,10 @@ Result<void> check_quant(const char* name, int quant) {
   return invalid(std::string(name) + " must be 0..31");
 }
 
-Result<void> check_numbers(int fap_quant, int bap_quant, int intra_period) {
+Result<void> check_numbers(int fap_quant, int bap_quant, double intra_seconds) {
   if (auto ok = check_quant("fap_quant", fap_quant); !ok) return ok;
   if (auto ok = check_quant("bap_quant", bap_quant); !ok) return ok;
-  if (intra_period >= 0) return {};
+  if (intra_seconds >= 0) return {};  // not NaN either
   return invalid("the intra period must not be negative");
 }
 

@@ -17,7 +17,7 @@ Error invalid(std::string message);  ///< Code::invalid_argument
 /// Error invalid_argument if a quantiser, called `name`, is out of bounds.
 Result<void> check_quant(const char* name, int quant);
 /// The same for the numbers of an encoder's options.
-Result<void> check_numbers(int fap_quant, int bap_quant, int intra_period);
+Result<void> check_numbers(int fap_quant, int bap_quant, double intra_seconds);
 
 /// Error out_of_range if FAP 1 or 2, where the mask of the frame has it, is out of its bounds:
 /// visemes 0..14, expressions 0..6, blend and intensities 0..63.

@@ -69,7 +69,7 @@ TEST_P(Presets, FileHasTheSameValuesAfterFilling) {
   const int quant = int(GetParam() % 5);
   fba::EncodeOptions small = fba::file_options();
   small.fap_quant = quant;
-  small.intra_period = GetParam() % 2 == 0 ? 0 : 17;
+  small.intra_seconds = GetParam() % 2 == 0 ? 0 : 17 / 25.0;
   fba::EncodeReport report;
   auto stream = fba::encode(clip, small, {}, &report);
   if (!stream) {
@@ -85,6 +85,49 @@ TEST_P(Presets, FileHasTheSameValuesAfterFilling) {
   // Whether the decoder heeds mask types or copies sides always: the same face.
   expect_same_values(reference, filled(*stream, false));
   expect_same_values(reference, filled(*stream, true));
+}
+
+TEST_P(Presets, KeptRangesChangeTheFirstFrameAlone) {
+  const fap::Sequence clip = talking_clip(GetParam(), 100);
+  fba::EncodeOptions options = fba::file_options();
+  options.fap_quant = 1 + int(GetParam() % 5);
+  const auto plain = fba::encode(clip, options);
+  options.kept_ranges = true;
+  fba::EncodeReport report;
+  const auto kept = fba::encode(clip, options, {}, &report);
+  ASSERT_TRUE(plain);
+  ASSERT_TRUE(kept) << kept.error().describe();
+  EXPECT_LE(kept->size(), plain->size());
+  const auto decoded = fba::decode(*kept);
+  ASSERT_TRUE(decoded);
+  EXPECT_EQ(report.kept_ranges, *kept != *plain);
+  EXPECT_EQ(report.kept_ranges, decoded->planes[0].face_settings->fap_quant > options.fap_quant);
+  fap::Sequence want = filled(*plain, false);
+  fap::Sequence got = filled(*kept, false);
+  want.frames.erase(want.frames.begin());
+  got.frames.erase(got.frames.begin());
+  expect_same_values(want, got);
+  options.intra_seconds = 1;
+  EXPECT_EQ(fba::encode(clip, options).error().code, Code::invalid_argument);
+}
+
+TEST(KeptRanges, SaveBitsWhereSmallChangesAreMany) {
+  test::Random random(4);
+  fap::Sequence clip;
+  fap::Frame frame;
+  for (int i = 0; i < 75; ++i) {
+    frame.number = i;
+    for (int fap = 3; fap <= 28; ++fap) {
+      frame.set(fap, frame.value[std::size_t(fap)] + random.range(-3, 3));
+    }
+    clip.frames.push_back(frame);
+  }
+  fba::EncodeOptions options = fba::file_options();
+  const auto plain = fba::encode(clip, options);
+  options.kept_ranges = true;
+  const auto kept = fba::encode(clip, options);
+  ASSERT_TRUE(plain && kept);
+  EXPECT_LT(double(kept->size()), 0.8 * double(plain->size()));
 }
 
 TEST_P(Presets, FileIsSmaller) {

@@ -35,7 +35,7 @@ std::size_t drain(std::span<const std::uint8_t> stream) {
 
 std::vector<std::uint8_t> sample(std::uint64_t seed, fba::PlaneStartCodes codes) {
   fba::EncodeOptions options;
-  options.intra_period = 5;
+  options.intra_seconds = 5 / 25.0;
   options.stream.plane_start_codes = codes;
   auto stream = fba::encode(test::random_clip(seed, 20), options);
   EXPECT_TRUE(stream);
@@ -84,9 +84,9 @@ TEST(Hostile, RandomBytesEnd) {
 
 TEST(Hostile, ResynchronisesAtTheNextIntraPlane) {
   fba::EncodeOptions options;
-  options.intra_period = 5;
   options.stream.plane_start_codes = fba::PlaneStartCodes::all;
   const fap::Sequence clip = test::random_clip(7, 20);
+  options.intra_seconds = clip.rate.seconds(5);
   auto stream = fba::encode(clip, options);
   ASSERT_TRUE(stream);
   auto whole = fba::decode(*stream);

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "codec/decode/decoder.h"
 #include "tests/support/random_clip.h"
 
@@ -69,7 +72,7 @@ TEST_P(Live, ReceiversCanJoinAtEveryIntraPlane) {
   const fap::Sequence clip = test::random_clip(GetParam(), 60);
   fba::LiveOptions options;
   options.fap_quant = 1 + int(GetParam() % 4);
-  options.intra_period = 12;
+  options.intra_seconds = 12 / 25.0;
   const Sent sent = send(clip, options);
   ASSERT_EQ(sent.frames.size(), clip.frames.size());
   int joined = 0;
@@ -99,13 +102,13 @@ TEST_P(Live, ValuesAreWithinHalfAStep) {
 INSTANTIATE_TEST_SUITE_P(Seeds, Live, testing::Range<std::uint64_t>(1, 9));
 
 TEST(LiveEncoder, IntraPlanesComeInTime) {
-  const Sent sent = send(calm_clip(101), {.intra_period = 25});
+  const Sent sent = send(calm_clip(101), {.intra_seconds = 25 / 25.0});
   for (std::size_t i = 0; i < sent.intra.size(); ++i) EXPECT_EQ(sent.intra[i], i % 25 == 0) << i;
 }
 
 TEST(LiveEncoder, RangesAdaptToTheMotion) {
   const fap::Sequence clip = calm_clip(200);
-  const Sent sent = send(clip, {.intra_period = 50});
+  const Sent sent = send(clip, {.intra_seconds = 50 / 25.0});
   auto decoded = fba::decode(join(sent, 0));
   ASSERT_TRUE(decoded);
   const auto range = [&](std::size_t plane) {
@@ -118,7 +121,7 @@ TEST(LiveEncoder, RangesAdaptToTheMotion) {
 TEST(LiveEncoder, ALargeChangeBringsAnIntraPlane) {
   fap::Sequence clip = calm_clip(120);
   clip.frames[110].value[5] = 3000;
-  const Sent sent = send(clip, {.intra_period = 0});
+  const Sent sent = send(clip, {.intra_seconds = 0});
   EXPECT_TRUE(sent.intra[110]);
   EXPECT_FALSE(sent.intra[109]);
   expect_decodes(sent, 0);
@@ -128,12 +131,12 @@ TEST(LiveEncoder, ALargeChangeBringsAnIntraPlane) {
 TEST(LiveEncoder, ANewFapBringsAnIntraPlane) {
   fap::Sequence clip = calm_clip(30);
   for (std::size_t i = 20; i < 30; ++i) clip.frames[i].set(31, 40);
-  const Sent sent = send(clip, {.intra_period = 0});
+  const Sent sent = send(clip, {.intra_seconds = 0});
   EXPECT_TRUE(sent.intra[20]);
   EXPECT_EQ(sent.frames[25].value[31], 40);
   expect_decodes(sent, 0);
 
-  const Sent fixed = send(clip, {.intra_period = 0, .faps = fap::Mask().set(3).set(4)});
+  const Sent fixed = send(clip, {.intra_seconds = 0, .faps = fap::Mask().set(3).set(4)});
   EXPECT_FALSE(fixed.intra[20]);
   EXPECT_EQ(fixed.frames[25].mask, fap::Mask().set(3).set(4));
 }
@@ -141,7 +144,7 @@ TEST(LiveEncoder, ANewFapBringsAnIntraPlane) {
 TEST(LiveEncoder, GivenRangesAreUsed) {
   fba::PredictiveRanges ranges{};
   ranges.fill(3);
-  const Sent sent = send(calm_clip(60), {.intra_period = 20, .ranges = ranges});
+  const Sent sent = send(calm_clip(60), {.intra_seconds = 20 / 25.0, .ranges = ranges});
   auto decoded = fba::decode(join(sent, 0));
   ASSERT_TRUE(decoded);
   for (const fba::Plane& plane : decoded->planes) {
@@ -150,9 +153,87 @@ TEST(LiveEncoder, GivenRangesAreUsed) {
   }
 }
 
+TEST(LiveEncoder, LargerChangesWidenTheRangesThatWereGiven) {
+  fba::PredictiveRanges ranges{};
+  ranges.fill(1);
+  fap::Sequence clip = calm_clip(60);
+  clip.frames[30].value[4] = clip.frames[29].value[4] + 200 * fap::info(4).quant_step;
+  const Sent sent = send(clip, {.intra_seconds = 1, .ranges = ranges});
+  EXPECT_TRUE(sent.intra[30]);
+  auto decoded = fba::decode(join(sent, 0));
+  ASSERT_TRUE(decoded);
+  EXPECT_EQ(decoded->planes[29].face_settings->range[fba::kPredictiveMax][4], 1);
+  EXPECT_EQ(decoded->planes[59].face_settings->range[fba::kPredictiveMax][4], 4);
+}
+
+TEST(LiveEncoder, RangesOfAClipHoldIt) {
+  const fap::Sequence clip = calm_clip(200);
+  for (const int quant : {1, 2, 5, 31}) {
+    const Sent sent =
+        send(clip, {.fap_quant = quant, .intra_seconds = 0, .ranges = fba::ranges_of(clip, quant)});
+    // One more where the bits of a plane held a trap.
+    EXPECT_LE(std::count(sent.intra.begin(), sent.intra.end(), true), 2) << quant;
+  }
+}
+
+TEST(LiveEncoder, PeriodsAreSecondsAtAnyRate) {
+  for (const fap::Rate rate : {fap::Rate{25, 1}, fap::Rate{60, 1}, fap::Rate{30000, 1001}}) {
+    fba::LiveEncoder encoder({.rate = rate, .intra_seconds = 2});
+    const int period = int(std::lround(2 * rate.frames_per_second()));
+    const fap::Sequence clip = calm_clip(3 * period);
+    int early = 0;  // where the bits of a plane held a trap
+    int since = 0;
+    for (int i = 0; i < 3 * period; ++i, ++since) {
+      ASSERT_TRUE(encoder.write(clip.frames[std::size_t(i)]));
+      EXPECT_TRUE(since < period || encoder.intra()) << i;
+      if (!encoder.intra()) continue;
+      early += since % period != 0 ? 1 : 0;
+      since = 0;
+    }
+    EXPECT_LE(early, 1);
+  }
+}
+
+// Frames that are skipped take time, too.
+TEST(LiveEncoder, SkippedFramesCount) {
+  fba::LiveEncoder encoder({.intra_seconds = 1});
+  const fap::Sequence clip = calm_clip(30);
+  for (int i = 0; i < 30; ++i) {
+    ASSERT_TRUE(encoder.write(clip.frames[std::size_t(i)], 4));
+    EXPECT_EQ(encoder.intra(), i % 5 == 0) << i;
+  }
+}
+
+// A value beyond what an intra plane holds is followed as far as planes reach.
+TEST(LiveEncoder, ValuesBeyondTheLimitAreFollowed) {
+  fap::Sequence clip = calm_clip(30);
+  for (std::size_t i = 0; i < 30; ++i) clip.frames[i].set(14, i < 10 ? 0 : 2500);
+  const Sent sent = send(clip, {.intra_seconds = 0});
+  ASSERT_EQ(sent.frames.size(), 30U);
+  EXPECT_TRUE(sent.intra[10]);
+  EXPECT_EQ(sent.frames[10].value[14], 1860);
+  EXPECT_EQ(sent.frames[12].value[14], 2500);
+  expect_decodes(sent, 0);
+}
+
+TEST(LiveEncoder, WithoutStartCodesPlanesFollowBitByBit) {
+  const fap::Sequence clip = calm_clip(60);
+  const Sent all = send(clip, {.intra_seconds = 1});
+  const Sent some =
+      send(clip, {.intra_seconds = 1, .plane_start_codes = fba::PlaneStartCodes::intra});
+  const Sent none =
+      send(clip, {.intra_seconds = 1, .plane_start_codes = fba::PlaneStartCodes::none});
+  expect_decodes(some, 0);
+  expect_decodes(none, 0);
+  EXPECT_LT(join(some, 0).size() + 57 * 4, join(all, 0).size());
+  EXPECT_LE(join(none, 0).size(), join(some, 0).size());
+  const auto decoded = fba::decode(join(some, 0));
+  for (const fba::Plane& plane : decoded->planes) EXPECT_EQ(plane.start_code, plane.intra);
+}
+
 TEST(LiveEncoder, GoesOnAfterAnError) {
   const fap::Sequence clip = calm_clip(10);
-  fba::LiveEncoder encoder;
+  fba::LiveEncoder encoder({.fap_quant = 0});
   Sent sent;
   for (std::size_t i = 0; i < 10; ++i) {
     fap::Frame frame = clip.frames[i];
@@ -172,7 +253,7 @@ TEST(LiveEncoder, GoesOnAfterAnError) {
 }
 
 TEST(LiveEncoder, SkipsAndBodies) {
-  fba::LiveEncoder encoder({.intra_period = 10});
+  fba::LiveEncoder encoder({.intra_seconds = 10 / 25.0});
   fba::BodyFrame body;
   body.mask.set(1);
   std::vector<std::uint8_t> stream;
@@ -199,7 +280,7 @@ TEST(LiveEncoder, SkipsAndBodies) {
 TEST(LiveEncoder, RefusesOptionsOutOfBounds) {
   const fap::Frame frame;
   EXPECT_EQ(fba::LiveEncoder({.fap_quant = 32}).write(frame).error().code, Code::invalid_argument);
-  EXPECT_EQ(fba::LiveEncoder({.intra_period = -1}).write(frame).error().code,
+  EXPECT_EQ(fba::LiveEncoder({.intra_seconds = -1}).write(frame).error().code,
             Code::invalid_argument);
   EXPECT_EQ(fba::LiveEncoder({.rate = {10, 3}}).write(frame).error().code, Code::invalid_argument);
 }

@@ -119,10 +119,11 @@ fba::EncodeOptions some_options(Random& random) {
   fba::EncodeOptions options = random.chance(50) ? fba::file_options() : fba::EncodeOptions{};
   options.fap_quant = random.chance(60) ? random.range(1, 4) : random.range(0, 31);
   options.bap_quant = random.range(0, 31);
-  if (random.chance(50)) options.intra_period = random.range(1, 30);
+  if (random.chance(50)) options.intra_seconds = random.range(1, 30) / 25.0;
   options.stream.plane_start_codes = fba::PlaneStartCodes(random.range(0, 2));
   options.stream.old_codes = random.chance(20);
   options.skip_still = random.chance(20);
+  options.kept_ranges = options.intra_seconds == 0 && random.chance(50);
   // These search, which takes long.
   if (random.chance(2)) options.max_bits_per_second = random.range(100, 1000);
   if (random.chance(2)) options.max_rms = random.range(1, 5);
@@ -155,8 +156,9 @@ TEST_P(Clips, LiveOnesAreReadByBoth) {
     fba::LiveOptions options;
     options.rate = clip.rate;
     options.fap_quant = random.range(0, 31);
-    options.intra_period = random.range(0, 30);
+    options.intra_seconds = random.range(0, 30) / 25.0;
     options.old_codes = random.chance(20);
+    options.plane_start_codes = fba::PlaneStartCodes(random.range(0, 2));
     fba::LiveEncoder encoder(options);
     Bytes stream;
     for (const fap::Frame& frame : clip.frames) {
@@ -200,7 +202,7 @@ TEST(ShortPlanes, OfAStillFaceAreAllThere) {
     for (const auto where : {fba::PlaneStartCodes::none, fba::PlaneStartCodes::intra}) {
       fba::EncodeOptions options;
       options.stream.plane_start_codes = where;
-      options.intra_period = where == fba::PlaneStartCodes::intra ? 11 : 0;
+      options.intra_seconds = (where == fba::PlaneStartCodes::intra ? 11 : 0) / 25.0;
       const auto stream = fba::encode(still_clip(frames), options);
       ASSERT_TRUE(stream) << stream.error().describe();
       EXPECT_TRUE(both_read(*stream));

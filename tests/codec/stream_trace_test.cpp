@@ -218,7 +218,7 @@ TEST(Traps, EncodeAvoidsManyInOneClip) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     const fap::Sequence clip = look_ahead_traps(seed, 2000);
     fba::EncodeReport report;
-    const auto stream = fba::encode(clip, {.intra_period = 1}, {}, &report);
+    const auto stream = fba::encode(clip, {.intra_seconds = 1 / 25.0}, {}, &report);
     ASSERT_TRUE(stream);
     retries += report.retries;
     EXPECT_EQ(report.traps, 0U);
@@ -244,7 +244,7 @@ TEST(Traps, LiveEncoderAvoidsThem) {
   for (const int fap : {3, 4, 5, 6, 7}) settings.range[fba::kIntraMax][std::size_t(fap)] = 1;
   settings.range[fba::kIntraMin][7] = 1;
   fba::Encoder plain({fba::PlaneStartCodes::all, false});
-  fba::LiveEncoder live({.intra_period = 1});
+  fba::LiveEncoder live({.intra_seconds = 1 / 25.0});
   Bytes stream;
   for (const fap::Frame& frame : clip.frames) {
     fba::PlaneInput plane;

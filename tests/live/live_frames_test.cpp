@@ -20,7 +20,7 @@ struct Coded {
 Coded code(const fap::Sequence& clip, int intra_period = 10) {
   fba::LiveOptions options;
   options.rate = clip.rate;
-  options.intra_period = intra_period;
+  options.intra_seconds = intra_period / 25.0;
   fap::Mask mask;
   for (const fap::Frame& frame : clip.frames) mask |= frame.mask;
   options.faps = mask;

@@ -42,7 +42,7 @@ inline LiveTalk talk_of(const fba::AccessUnits& face) {
 /// A face that walks at random, with an intra plane every `period` planes.
 inline LiveTalk random_talk(int planes, int period = 25, fap::Rate rate = {25, 1}) {
   Random random(7);
-  fba::LiveEncoder encoder({.rate = rate, .fap_quant = 4, .intra_period = period});
+  fba::LiveEncoder encoder({.rate = rate, .fap_quant = 4, .intra_seconds = rate.seconds(period)});
   Bytes stream;
   fap::Frame frame;
   for (int i = 0; i < planes; ++i) {

@@ -36,7 +36,7 @@ inline Talk walking_talk(int sample_rate = 48000) {
   fap::Sequence clip = random_clip(11, 60);
   clip.rate = {25, 1};
   fba::EncodeOptions options;
-  options.intra_period = 25;
+  options.intra_seconds = 25 / 25.0;
   const auto stream = fba::encode(clip, options);
   EXPECT_TRUE(stream) << stream.error().describe();
   if (!stream) return talk;

@@ -68,7 +68,7 @@ inline Presentation presentation(const fba::AccessUnits& face, std::size_t most 
 
 /// A face that moves, coded as for live use.
 inline Presentation live_presentation(int frames, int intra_period, unsigned seed = 7) {
-  fba::LiveEncoder encoder({.intra_period = intra_period});
+  fba::LiveEncoder encoder({.intra_seconds = intra_period / 25.0});
   std::mt19937 random(seed);
   fba::AccessUnits face{.config = {0, 0, 1, 0xB0, 0x61, 0, 0, 1, 0xB5, 0x89, 0x47}};
   std::array<int, 6> value{};

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "fap/tables.h"
 #include "fap/text.h"
+#include "tests/support/shared.h"
 #include "tests/tools/commands.h"
 
 namespace animeme {
@@ -303,7 +305,7 @@ TEST(LivePreset, ReceiversCanJoinInTheMiddle) {
   const std::string text = write_clip(dir, "a.fap", talking_clip(120, true));
   for (const bool old_codes : {false, true}) {
     Arguments arguments = {"encode", text, "--preset", "live", "-o", dir / "a.fba"};
-    arguments.insert(arguments.end(), {"--intra-period", "30"});
+    arguments.insert(arguments.end(), {"--intra-period", "30", "--plane-start-codes", "all"});
     if (old_codes) arguments.push_back("--old-codes");
     succeeds(arguments);
     const std::string bytes = slurp(dir / "a.fba");
@@ -333,6 +335,52 @@ TEST(LivePreset, ReceiversCanJoinInTheMiddle) {
     }
     EXPECT_EQ(joined, 4);
   }
+}
+
+// Joining points in seconds at any rate, found by their start codes; the values are those of
+// `file`.
+TEST(LivePreset, HasAJoiningPointEveryTwoSeconds) {
+  const TempDir dir;
+  fap::Sequence clip = talking_clip(300, true);
+  for (const std::uint32_t rate : {25, 60}) {
+    clip.rate = {rate, 1};
+    const std::string text = write_clip(dir, "a.fap", clip);
+    succeeds({"encode", text, "--preset", "file", "-o", dir / "file.fba"});
+    for (const std::string seconds : {"", "1", "0.5"}) {
+      Arguments arguments = {"encode", text, "--preset", "live", "-o", dir / "live.fba"};
+      if (!seconds.empty()) arguments.insert(arguments.end(), {"--intra-seconds", seconds});
+      succeeds(arguments);
+      const double period = (seconds.empty() ? 2 : std::stod(seconds)) * rate;
+      double since = 0;
+      for (const Json& plane : json_of({"info", dir / "live.fba", "--planes"})["plane_list"]) {
+        EXPECT_EQ(plane["start_code"], plane["type"] == "I");
+        since = plane["type"] == "I" ? 0 : since + 1;
+        EXPECT_LT(since, period);
+      }
+      EXPECT_EQ(filled(dir, dir / "live.fba").frames, filled(dir, dir / "file.fba").frames);
+    }
+  }
+}
+
+// On what was recorded, 24 sentences of a few seconds: `live` may cost 1.15 times `file`.
+TEST(LivePreset, CostsLittleMoreThanFile) {
+  const TempDir dir;
+  double file = 0, live = 0, kept = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(test::data_dir() / "grid_s1_sample" / "fap")) {
+    const std::string csv = entry.path().string();
+    const auto bytes = [&](const Arguments& more) {
+      Arguments arguments = {"encode", csv, "-o", dir / "a.fba"};
+      arguments.insert(arguments.end(), more.begin(), more.end());
+      return json_of(arguments)["bytes"].get<double>();
+    };
+    file += bytes({"--preset", "file"});
+    live += bytes({"--preset", "live", "--intra-seconds", "5"});
+    kept += bytes({"--preset", "file", "--kept-ranges"});
+  }
+  ASSERT_GT(file, 0);
+  EXPECT_LT(live, 1.15 * file);
+  EXPECT_LT(kept, 0.97 * file);
 }
 
 TEST(ExactPreset, DoesAsTheParametersSay) {
@@ -366,15 +414,16 @@ TEST(EncodeUsage, ContradictionsAreOneSentence) {
                               {"--still-below", "3"},
                               {"--skip-still"},
                               {"--preset", "plain", "--rms", "2"},
-                              {"--preset", "live", "--skip-still"},
-                              {"--preset", "live", "--rms", "2"},
-                              {"--preset", "live", "--plane-start-codes", "none"},
-                              {"--preset", "live", "--plane-start-codes", "intra"},
+                              {"--kept-ranges"},
+                              {"--preset", "live", "--kept-ranges"},
+                              {"--preset", "file", "--kept-ranges", "--intra-seconds", "5"},
+                              {"--intra-seconds", "5", "--intra-period", "125"},
                               {"--preset", "exact"},
                               {"--preset", "file", "--epf", epf},
                               {"--preset", "live", "--epf", epf},
                               {"--epf", epf, "--quant", "2"},
                               {"--epf", epf, "--intra-period", "9"},
+                              {"--epf", epf, "--intra-seconds", "9"},
                               {"--epf", epf, "--rms", "1"},
                               {"--preset", "file", "--rms", "2", "--quant", "1"},
                               {"--preset", "file", "--kbps", "2", "--quant", "1"},
@@ -418,7 +467,8 @@ TEST(EncodeErrors, NameFrameAndParameter) {
   apart.frames[3].number = 4294967296 + apart.frames[2].number + 1;
   const std::string far = write_clip(dir, "b.fap", apart);
   for (const char* preset : {"plain", "file", "live"}) {
-    auto result = animeme({"encode", text, "--preset", preset, "-o", dir / "out.fba"});
+    auto result =
+        animeme({"encode", text, "--preset", preset, "-o", dir / "out.fba", "--quant", "0"});
     EXPECT_EQ(result.exit_code, 3) << preset;
     EXPECT_THAT(result.err, HasSubstr("FAP 5")) << preset;
     EXPECT_THAT(result.err, HasSubstr("frame 0")) << preset;
@@ -427,6 +477,22 @@ TEST(EncodeErrors, NameFrameAndParameter) {
     EXPECT_THAT(result.err, HasSubstr("more than a million frames")) << preset;
   }
   EXPECT_EQ(dir.files().size(), 2U);
+}
+
+// What no plane can tell is coded as near as can be, with a warning.
+TEST(EncodeErrors, ValuesTooFarAreAWarning) {
+  const TempDir dir;
+  fap::Sequence clip = talking_clip(10, false);
+  for (fap::Frame& frame : clip.frames) frame.set(14, 1900);
+  const std::string text = write_clip(dir, "a.fap", clip);
+  for (const char* preset : {"plain", "file", "live"}) {
+    const auto result = animeme({"encode", text, "--preset", preset, "-o", dir / "a.fba"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("1 values lie beyond")) << preset;
+    const fap::Sequence shown = filled(dir, dir / "a.fba");
+    EXPECT_EQ(shown.frames[0].value[14], 1860);
+    EXPECT_EQ(shown.frames[1].value[14], 1900);
+  }
 }
 
 }  // namespace encode_presets_test

@@ -39,7 +39,7 @@ media::Pcm make_tones(double seconds) {
 }
 
 fba::AccessUnits make_mouth(double seconds) {
-  fba::LiveEncoder encoder({.intra_period = 20});
+  fba::LiveEncoder encoder({.intra_seconds = 20 / 25.0});
   fba::AccessUnits face{.config = {0, 0, 1, 0xB0, 0x61, 0, 0, 1, 0xB5, 0x89, 0x47}};
   for (int i = 0; i < int(seconds * 25); ++i) {
     const double t = i / 25.0;

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <map>
 
-#include "codec/encode/live.h"
 #include "codec/text/epf.h"
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
@@ -19,8 +18,6 @@ namespace {
 
 enum class Preset : std::uint8_t { plain, file, live, exact };
 
-constexpr int kLiveIntraPeriod = 50;
-
 struct EncodeOptions {
   std::string input;
   std::string bap;
@@ -28,6 +25,7 @@ struct EncodeOptions {
   std::string epf;
   std::optional<Preset> preset;
   std::optional<int> quant;
+  std::optional<double> intra_seconds;
   std::optional<int> intra_period;
   std::optional<fba::PlaneStartCodes> start_codes;
   bool old_codes = false;
@@ -35,10 +33,14 @@ struct EncodeOptions {
   double kbps = 0;
   double still_below = 0;
   bool skip_still = false;
+  bool kept_ranges = false;
   bool json = false;
 
+  // Who joins a live stream looks for a start code; what is read from its begin needs none.
   fba::StreamOptions stream() const {
-    return {start_codes.value_or(fba::PlaneStartCodes::none), old_codes};
+    return {start_codes.value_or(preset == Preset::live ? fba::PlaneStartCodes::intra
+                                                        : fba::PlaneStartCodes::none),
+            old_codes};
   }
 };
 
@@ -127,9 +129,14 @@ Result<Bytes> encode_clip(const EncodeOptions& options, fba::EncodeReport& repor
   if (!material) return material.error();
   fba::EncodeOptions settings;
   if (options.preset == Preset::file) settings = fba::file_options();
+  if (options.preset == Preset::live) settings = fba::live_options();
   settings.fap_quant = settings.bap_quant = options.quant.value_or(1);
-  settings.intra_period = options.intra_period.value_or(0);
+  if (options.intra_seconds) settings.intra_seconds = *options.intra_seconds;
+  if (options.intra_period) {
+    settings.intra_seconds = material->face.rate.seconds(*options.intra_period);
+  }
   settings.stream = options.stream();
+  settings.kept_ranges = options.kept_ranges;
   settings.max_rms = options.rms;
   settings.max_bits_per_second = options.kbps * 1000;
   settings.still_below = options.still_below;
@@ -137,49 +144,6 @@ Result<Bytes> encode_clip(const EncodeOptions& options, fba::EncodeReport& repor
   ProgressLine progress("searching for the smallest stream");
   settings.progress = [&progress](double done) { progress.update(done); };
   return fba::encode(material->face, settings, material->body.frames, &report);
-}
-
-// Frame by frame, as a sender would that does not know what is to come.
-Result<Bytes> encode_live(const EncodeOptions& options) {
-  Result<Material> material = read_clip(options);
-  if (!material) return material.error();
-  fba::LiveOptions settings;
-  settings.rate = material->face.rate;
-  settings.fap_quant = settings.bap_quant = options.quant.value_or(1);
-  settings.intra_period = options.intra_period.value_or(kLiveIntraPeriod);
-  settings.old_codes = options.old_codes;
-  fba::LiveEncoder encoder(settings);
-  Bytes stream;
-  auto face = material->face.frames.begin();
-  auto body = material->body.frames.begin();
-  const auto next_number = [&] {
-    std::int64_t number = INT64_MAX;
-    if (face != material->face.frames.end()) number = face->number;
-    if (body != material->body.frames.end()) number = std::min(number, body->number);
-    return number;
-  };
-  for (std::int64_t number = next_number(); number != INT64_MAX;) {
-    fap::Frame frame;  // without a mask: the face is held
-    const fba::BodyFrame* body_now = nullptr;
-    if (face != material->face.frames.end() && face->number == number) frame = *face++;
-    if (body != material->body.frames.end() && body->number == number) body_now = &*body++;
-    const std::int64_t next = next_number();
-    // Numbers may be any; the encoder refuses what is too much.
-    const std::uint64_t gap = std::uint64_t(next) - std::uint64_t(number) - 1;
-    const std::uint32_t skip =
-        next == INT64_MAX ? 0 : std::uint32_t(std::min<std::uint64_t>(gap, UINT32_MAX));
-    Result<Bytes> unit = encoder.write(frame, skip, body_now);
-    if (!unit) {
-      Error error = unit.error();
-      error.message = "frame " + std::to_string(number) + ": " + error.message;
-      return error;
-    }
-    stream.insert(stream.end(), unit->begin(), unit->end());
-    number = next;
-  }
-  const Bytes end = encoder.finish();
-  stream.insert(stream.end(), end.begin(), end.end());
-  return stream;
 }
 
 // What was written, counted as a receiver does.
@@ -215,8 +179,15 @@ void tell(const EncodeOptions& options, const Bytes& bytes, const fba::EncodeRep
     add(report.left_out, " at rest left out");
     add(report.stilled, " stilled");
     add(report.skipped, " still frames skipped");
+    if (report.kept_ranges) line += ", ranges kept from a coarse first plane";
   }
   say(line);
+  if (report.limited > 0) {
+    warn(
+        format("%zu values lie beyond what a plane can tell, +-1860 quantiser steps: the nearest "
+               "that can be told are coded",
+               report.limited));
+  }
   if (options.kbps > 0 && outcome.kbps > options.kbps * 1.001) {
     warn(format("%.2f kbit/s is the least that this clip needs, %.2f asked", outcome.kbps,
                 options.kbps));
@@ -235,7 +206,9 @@ void tell(const EncodeOptions& options, const Bytes& bytes, const fba::EncodeRep
                      {"mirrored", report.mirrored},
                      {"left_out", report.left_out},
                      {"stilled", report.stilled},
-                     {"skipped", report.skipped}});
+                     {"skipped", report.skipped},
+                     {"limited", report.limited},
+                     {"kept_ranges", report.kept_ranges}});
   }
   std::printf("%s\n", json.dump(2).c_str());
 }
@@ -254,16 +227,19 @@ const char* contradiction(const EncodeOptions& options, Preset preset) {
   }
   const bool chooses = options.rms > 0 || options.kbps > 0;
   const bool shapes = chooses || options.still_below > 0 || options.skip_still;
-  if (shapes && preset != Preset::file) {
-    return "--rms, --kbps, --still-below and --skip-still want --preset file";
+  if (shapes && preset != Preset::file && preset != Preset::live) {
+    return "--rms, --kbps, --still-below and --skip-still want --preset file or live";
+  }
+  if (options.kept_ranges && preset != Preset::file) return "--kept-ranges wants --preset file";
+  if (options.intra_seconds && options.intra_period) {
+    return "--intra-seconds and --intra-period say the same: leave one out";
+  }
+  if (options.kept_ranges && (options.intra_seconds || options.intra_period)) {
+    return "with --kept-ranges receivers can join at the begin only: leave the intra period out";
   }
   if (options.quant && chooses) return "--quant is chosen by --rms and --kbps: leave it out";
-  if (preset == Preset::exact && (options.quant || options.intra_period)) {
-    return "--quant and --intra-period come from the encoder parameter file: leave them out";
-  }
-  if (preset == Preset::live && options.start_codes &&
-      *options.start_codes != fba::PlaneStartCodes::all) {
-    return "--preset live gives every plane a start code, so that each is a unit of its own";
+  if (preset == Preset::exact && (options.quant || options.intra_seconds || options.intra_period)) {
+    return "--quant and --intra-seconds come from the encoder parameter file: leave them out";
   }
   if (options.json && options.output == "-") return "--json and -o - both want standard output";
   return nullptr;
@@ -274,9 +250,8 @@ Result<int> run(const EncodeOptions& given) {
   if (!options.preset) options.preset = options.epf.empty() ? Preset::plain : Preset::exact;
   if (const char* text = contradiction(options, *options.preset)) return usage_error(text);
   fba::EncodeReport report;
-  Result<Bytes> bytes = *options.preset == Preset::exact  ? encode_by_epf(options)
-                        : *options.preset == Preset::live ? encode_live(options)
-                                                          : encode_clip(options, report);
+  Result<Bytes> bytes =
+      *options.preset == Preset::exact ? encode_by_epf(options) : encode_clip(options, report);
   if (!bytes) {
     if (!bytes.error().where.file.empty()) return bytes.error();
     return bytes.error().in_file(options.input.empty() ? options.bap : options.input);
@@ -297,12 +272,13 @@ void add_options(CLI::App& app, EncodeOptions& options) {
                                                  {"file", Preset::file},
                                                  {"live", Preset::live},
                                                  {"exact", Preset::exact}};
-  app.add_option("--preset", options.preset,
-                 "plain: all that the clip has, in every plane (the default)\n"
-                 "file: the smallest stream; FAPs at rest are left out, right sides that equal "
-                 "their left ones are left to the decoder (decode --fill shows them)\n"
-                 "live: one plane in, one plane out, for senders\n"
-                 "exact: as --epf says (the default with --epf)")
+  app.add_option(
+         "--preset", options.preset,
+         "plain: all that the clip has, in every plane (the default)\n"
+         "file: the smallest stream; FAPs at rest are left out, right sides that equal "
+         "their left ones are left to the decoder (decode --fill shows them)\n"
+         "live: as file, with a point where receivers can join every 2 s, for what is sent\n"
+         "exact: as --epf says (the default with --epf)")
       ->transform(CLI::CheckedTransformer(presets).description(""));
   app.add_option("--rms", options.rms,
                  "file: fewest bits with at most this error, FAP units RMS over the FAPs that "
@@ -315,18 +291,26 @@ void add_options(CLI::App& app, EncodeOptions& options) {
       ->check(CLI::Range(0.0, 1e6));
   app.add_flag("--skip-still", options.skip_still,
                "file: do not send planes in which nothing moves (receivers hold the one before)");
+  app.add_flag(
+      "--kept-ranges", options.kept_ranges,
+      "file: the first plane is coarse and tells the ranges of all others more finely; some "
+      "5 % less on speech, for players that keep ranges as numbers of levels");
   app.add_option("--quant", options.quant,
                  "Quantiser of face and body; 1 (the default) is not visible, 0 lossless up to "
                  "+-1860")
       ->check(CLI::Range(0, 31));
-  app.add_option("--intra-period", options.intra_period,
-                 "Intra plane every N planes for random access; 0: only where needed (live: 50)")
+  app.add_option("--intra-seconds", options.intra_seconds,
+                 "Seconds between points where receivers can join (intra planes); 0: only where "
+                 "needed (live: 2)")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--intra-period", options.intra_period, "The same in frames")
       ->check(CLI::NonNegativeNumber);
   const std::map<std::string, fba::PlaneStartCodes> names = {{"none", fba::PlaneStartCodes::none},
                                                              {"intra", fba::PlaneStartCodes::intra},
                                                              {"all", fba::PlaneStartCodes::all}};
   app.add_option("--plane-start-codes", options.start_codes,
-                 "Planes that get a start code: none, intra or all")
+                 "Planes that get a start code, byte aligned: none, intra (the default of live) or "
+                 "all")
       ->transform(CLI::CheckedTransformer(names).description(""));
   app.add_flag("--json", options.json, "What was written and chosen, machine-readable");
   app.add_flag("--old-codes", options.old_codes, "Write plane start codes of the 1999 edition");
@@ -334,15 +318,15 @@ void add_options(CLI::App& app, EncodeOptions& options) {
 
 }  // namespace
 
-const Command kEncode{
-    "encode", "Code FAP and BAP text as an FBA stream",
-    "  animeme encode talk.fap -o talk.fba\n"
-    "  animeme encode talk.fap --preset file -o small.fba\n"
-    "  animeme encode talk.fap --preset file --rms 2 -o smaller.fba\n"
-    "  animeme encode talk.fap --preset file --kbps 1 -o one_kilobit.fba\n"
-    "  animeme encode talk.fap --quant 4 --intra-period 50 --plane-start-codes intra -o talk.fba\n"
-    "  animeme encode talk.fap --epf talk.epf -o talk.fba\n"
-    "  animeme encode face.fap --bap body.bap -o both.fba",
-    set_up<EncodeOptions>};
+const Command kEncode{"encode", "Code FAP and BAP text as an FBA stream",
+                      "  animeme encode talk.fap -o talk.fba\n"
+                      "  animeme encode talk.fap --preset file -o small.fba\n"
+                      "  animeme encode talk.fap --preset file --rms 2 -o smaller.fba\n"
+                      "  animeme encode talk.fap --preset file --kbps 1 -o one_kilobit.fba\n"
+                      "  animeme encode talk.fap --preset live --intra-seconds 1 "
+                      "--plane-start-codes intra -o talk.fba\n"
+                      "  animeme encode talk.fap --epf talk.epf -o talk.fba\n"
+                      "  animeme encode face.fap --bap body.bap -o both.fba",
+                      set_up<EncodeOptions>};
 
 }  // namespace animeme::tools

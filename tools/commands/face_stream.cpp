@@ -52,8 +52,7 @@ Result<fba::AccessUnits> access_units(const FaceInput& face, const StreamSetting
   const double unit_rate = kUnitBits * face.clip.rate.frames_per_second();
   options.max_bits_per_second =
       std::max(options.max_bits_per_second - unit_rate, options.max_bits_per_second * 0.1);
-  const double planes = settings.intra_seconds * face.clip.rate.frames_per_second();
-  options.intra_period = int(std::lround(std::min(planes, 1e9)));
+  options.intra_seconds = settings.intra_seconds;
   Result<std::vector<std::uint8_t>> stream = fba::encode(face.clip, options);
   if (!stream) return stream.error();
   return fba::split_access_units(*stream);

@@ -15,6 +15,7 @@ struct StatsOptions {
   std::vector<std::string> inputs;
   bool json = false;
   bool sizes = false;
+  int quant = 1;
   double rms = 2;
 };
 
@@ -38,13 +39,15 @@ Result<int> print_sizes(const StatsOptions& options) {
     Result<FaceInput> input = read_face(file);
     if (!input) return input.error();
     const std::string name = std::filesystem::path(file).stem().string();
-    Result<inspect::ClipSizes> clip = inspect::measure_sizes(name, input->clip, options.rms);
+    Result<inspect::ClipSizes> clip =
+        inspect::measure_sizes(name, input->clip, options.quant, options.rms);
     if (!clip) return clip.error().in_file(file);
     print(inspect::sizes_row(*clip));
     clips.push_back(std::move(*clip));
   }
-  print(inspect::sizes_means(clips, options.rms));
-  if (options.json) std::printf("%s\n", inspect::sizes_json(clips, options.rms).c_str());
+  print(inspect::sizes_means(clips, options.quant, options.rms));
+  if (options.json)
+    std::printf("%s\n", inspect::sizes_json(clips, options.quant, options.rms).c_str());
   const bool same = std::all_of(clips.begin(), clips.end(),
                                 [](const inspect::ClipSizes& clip) { return clip.same_values; });
   return same ? kOk : kCheckFailed;
@@ -67,9 +70,13 @@ Result<int> run(const StatsOptions& options) {
 void add_options(CLI::App& app, StatsOptions& options) {
   app.add_option("file", options.inputs, "FBA stream, container, FAP or BAP text, curves")
       ->required();
-  CLI::Option* sizes = app.add_flag(
-      "--sizes", options.sizes,
-      "How small each clip gets with encode --preset file, beside the form common in the wild");
+  CLI::Option* sizes = app.add_flag("--sizes", options.sizes,
+                                    "How small each clip gets with encode --preset file and live, "
+                                    "beside the form common in the wild");
+  app.add_option("--quant", options.quant, "With --sizes: quantiser of file and live")
+      ->check(CLI::Range(0, 31))
+      ->capture_default_str()
+      ->needs(sizes);
   app.add_option("--rms", options.rms, "With --sizes: limit of the error of the last column")
       ->check(CLI::Range(1e-3, 1e6))
       ->capture_default_str()
@@ -82,7 +89,8 @@ void add_options(CLI::App& app, StatsOptions& options) {
 const Command kStats{"stats", "Bit rate of a stream, activity of each FAP and BAP",
                      "  animeme stats talk.fba\n"
                      "  animeme stats talk.fap --json\n"
-                     "  animeme stats --sizes clips/*.fap",
+                     "  animeme stats --sizes clips/*.fap\n"
+                     "  animeme stats --sizes capture.fap --quant 4",
                      set_up<StatsOptions>};
 
 }  // namespace animeme::tools

@@ -92,14 +92,15 @@ double floor_of(const std::vector<std::int64_t>& levels) {
   return bits;
 }
 
-// The same of all FAPs that a stream of fap_quant 1 codes.
-double floor_of(const fba::DecodedStream& stream) {
+// The same of all FAPs that a stream codes.
+double floor_of(const fba::DecodedStream& stream, int quant) {
   double bits = 0;
   for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
     if (!stream.planes.front().face.mask[std::size_t(fap)]) continue;
+    const int step = quant == 0 ? 1 : fap::info(fap).quant_step * quant;
     std::vector<std::int64_t> levels;
     for (const fba::Plane& plane : stream.planes) {
-      levels.push_back(plane.face.value[std::size_t(fap)] / fap::info(fap).quant_step);
+      levels.push_back(plane.face.value[std::size_t(fap)] / step);
     }
     bits += floor_of(levels);
   }
@@ -115,6 +116,13 @@ Json clip_json(const ClipSizes& clip) {
           {"same_values", clip.same_values},
           {"floor_bits", clip.floor_bits},
           {"floor_ratio", clip.floor_ratio()},
+          {"kept_bits", clip.kept_bits},
+          {"kept_to_file", clip.kept_ratio()},
+          {"live_5s_bits", clip.live5_bits},
+          {"live_5s_to_file", clip.live5_ratio()},
+          {"live_1s_bits", clip.live1_bits},
+          {"live_1s_to_file", clip.live1_ratio()},
+          {"live_1s_kbit_per_s", clip.live1_kbps()},
           {"limited_bits", clip.limited_bits},
           {"limited_ratio", clip.limited_ratio()},
           {"limited_fap_quant", clip.limited_quant},
@@ -129,68 +137,101 @@ double mean(const std::vector<ClipSizes>& clips, double (ClipSizes::*ratio)() co
 
 }  // namespace
 
-Result<ClipSizes> measure_sizes(const std::string& name, const fap::Sequence& clip,
+Result<ClipSizes> measure_sizes(const std::string& name, const fap::Sequence& clip, int quant,
                                 double max_rms) {
   ClipSizes sizes;
   sizes.name = name;
   sizes.planes = clip.frames.size();
-  Result<Bytes> all = encode_all(clip);
-  if (!all) return all.error();
-  Result<Bytes> file = fba::encode(clip, fba::file_options());
-  if (!file) return file.error();
-  Result<fba::DecodedStream> decoded = fba::decode(*file);
-  if (!decoded) return decoded.error();
-  sizes.floor_bits = floor_of(*decoded);
-  Result<bool> same = same_values(clip, *all, *file);
-  if (!same) return same.error();
-  fba::EncodeOptions options = fba::file_options();
-  options.max_rms = max_rms;
+  if (sizes.planes > 0) {
+    sizes.seconds =
+        clip.rate.seconds(double(clip.frames.back().number - clip.frames.front().number + 1));
+  }
   fba::EncodeReport report;
-  Result<Bytes> limited = fba::encode(clip, options, {}, &report);
-  if (!limited) return limited.error();
-  sizes.all_bits = double(all->size()) * 8;
-  sizes.file_bits = double(file->size()) * 8;
-  sizes.same_values = *same;
-  sizes.limited_bits = double(limited->size()) * 8;
+  const auto coded = [&](fba::EncodeOptions options, double& bits) -> Result<Bytes> {
+    Result<Bytes> stream = fba::encode(clip, options, {}, &report);
+    if (stream) bits = double(stream->size()) * 8;
+    return stream;
+  };
+  fba::EncodeOptions options = fba::file_options();
+  options.fap_quant = quant;
+  Result<Bytes> file = coded(options, sizes.file_bits);
+  if (!file) return file.error();
+  options.kept_ranges = true;
+  if (auto kept = coded(options, sizes.kept_bits); !kept) return kept.error();
+  options.kept_ranges = false;
+  options.stream.plane_start_codes = fba::PlaneStartCodes::intra;
+  options.intra_seconds = 5;
+  if (auto live = coded(options, sizes.live5_bits); !live) return live.error();
+  options.intra_seconds = 1;
+  if (auto live = coded(options, sizes.live1_bits); !live) return live.error();
+  options = fba::file_options();
+  options.max_rms = max_rms;
+  if (auto limited = coded(options, sizes.limited_bits); !limited) return limited.error();
   sizes.limited_quant = report.fap_quant;
   sizes.limited_rms = report.rms;
+  Result<Bytes> all = encode_all(clip);
+  if (!all) return all.error();
+  sizes.all_bits = double(all->size()) * 8;
+  options = {};
+  options.fap_quant = quant;
+  Result<Bytes> plain = fba::encode(clip, options);
+  if (!plain) return plain.error();
+  Result<bool> same = same_values(clip, *plain, *file);
+  if (!same) return same.error();
+  sizes.same_values = *same;
+  Result<fba::DecodedStream> decoded = fba::decode(*file);
+  if (!decoded) return decoded.error();
+  sizes.floor_bits = floor_of(*decoded, quant);
   return sizes;
 }
 
 std::string sizes_heading() {
   return tools::format(
-      "bits a plane and share of the first form:\n%-28s %6s %8s %8s %6s %6s %8s %6s %6s %6s\n",
-      "clip", "planes", "all 66", "file", "", "floor", "limited", "", "quant", "error");
+      "bits a plane; shares of all 66, of file, and kbit/s:\n"
+      "%-22s %6s %7s %7s %6s %6s | %6s %6s %6s %7s | %7s %6s %5s %5s\n",
+      "clip", "planes", "all 66", "file", "", "floor", "kept", "live5", "live1", "kbit/s",
+      "limited", "", "quant", "error");
 }
 
 std::string sizes_row(const ClipSizes& clip) {
   const double planes = double(clip.planes);
-  return tools::format("%-28s %6zu %8.1f %8.1f %6.3f %6.3f %8.1f %6.3f %6d %6.2f%s\n",
-                       clip.name.c_str(), clip.planes, clip.all_bits / planes,
-                       clip.file_bits / planes, clip.file_ratio(), clip.floor_ratio(),
-                       clip.limited_bits / planes, clip.limited_ratio(), clip.limited_quant,
-                       clip.limited_rms, clip.same_values ? "" : "  VALUES DIFFER");
+  return tools::format(
+      "%-22s %6zu %7.1f %7.1f %6.3f %6.3f | %6.3f %6.3f %6.3f %7.2f | %7.1f %6.3f %5d %5.2f%s\n",
+      clip.name.c_str(), clip.planes, clip.all_bits / planes, clip.file_bits / planes,
+      clip.file_ratio(), clip.floor_ratio(), clip.kept_ratio(), clip.live5_ratio(),
+      clip.live1_ratio(), clip.live1_kbps(), clip.limited_bits / planes, clip.limited_ratio(),
+      clip.limited_quant, clip.limited_rms, clip.same_values ? "" : "  VALUES DIFFER");
 }
 
-std::string sizes_means(const std::vector<ClipSizes>& clips, double max_rms) {
-  return tools::format("%-28s %6zu %8s %8s %6.3f %6.3f %8s %6.3f\n", "mean of the clips",
-                       clips.size(), "", "", mean(clips, &ClipSizes::file_ratio),
-                       mean(clips, &ClipSizes::floor_ratio), "",
-                       mean(clips, &ClipSizes::limited_ratio)) +
+std::string sizes_means(const std::vector<ClipSizes>& clips, int quant, double max_rms) {
+  return tools::format("%-22s %6zu %7s %7s %6.3f %6.3f | %6.3f %6.3f %6.3f %7.2f | %7s %6.3f\n",
+                       "mean of the clips", clips.size(), "", "",
+                       mean(clips, &ClipSizes::file_ratio), mean(clips, &ClipSizes::floor_ratio),
+                       mean(clips, &ClipSizes::kept_ratio), mean(clips, &ClipSizes::live5_ratio),
+                       mean(clips, &ClipSizes::live1_ratio), mean(clips, &ClipSizes::live1_kbps),
+                       "", mean(clips, &ClipSizes::limited_ratio)) +
          tools::format(
              "\nall 66: every FAP coded in ranges of +-1860 at fap_quant 1, one intra plane\n"
-             "file: preset file, the same values once filled in\n"
+             "file: preset file at fap_quant %d, the same values as plain once filled in\n"
              "floor: the differences of these values alone, in models exactly as wide as they are\n"
+             "kept: the same with --kept-ranges, share of file\n"
+             "live5, live1: preset live, joining points every 5 s and every second, share of file; "
+             "kbit/s of live1\n"
              "limited: preset file with an error of at most %g FAP units RMS over the FAPs that "
              "move\n",
-             max_rms);
+             quant, max_rms);
 }
 
-std::string sizes_json(const std::vector<ClipSizes>& clips, double max_rms) {
-  const Json json = {{"max_rms", max_rms},
+std::string sizes_json(const std::vector<ClipSizes>& clips, int quant, double max_rms) {
+  const Json json = {{"fap_quant", quant},
+                     {"max_rms", max_rms},
                      {"clips", tools::json_list(clips, clip_json)},
                      {"mean_file_ratio", mean(clips, &ClipSizes::file_ratio)},
                      {"mean_floor_ratio", mean(clips, &ClipSizes::floor_ratio)},
+                     {"mean_kept_to_file", mean(clips, &ClipSizes::kept_ratio)},
+                     {"mean_live_5s_to_file", mean(clips, &ClipSizes::live5_ratio)},
+                     {"mean_live_1s_to_file", mean(clips, &ClipSizes::live1_ratio)},
+                     {"mean_live_1s_kbit_per_s", mean(clips, &ClipSizes::live1_kbps)},
                      {"mean_limited_ratio", mean(clips, &ClipSizes::limited_ratio)}};
   return json.dump(2);
 }

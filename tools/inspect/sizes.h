@@ -1,5 +1,5 @@
 /// @file
-/// How small a clip gets: the form that is common in the wild beside the preset `file`.
+/// How small a clip gets: the form that is common in the wild beside the presets.
 #pragma once
 
 #include <string>
@@ -18,24 +18,34 @@ struct ClipSizes {
   double file_bits = 0;      ///< preset file, the same values after filling in
   bool same_values = false;  ///< that they are the same, decoded and filled in
   double floor_bits = 0;     ///< a bound for these values, see floor_of()
+  double kept_bits = 0;      ///< preset file with kept ranges
+  double live5_bits = 0;     ///< preset live with a joining point every 5 s ...
+  double live1_bits = 0;     ///< ... every second
+  double seconds = 0;        ///< what the clip lasts
   double limited_bits = 0;   ///< preset file with a limit of the error
   int limited_quant = 0;     ///< fap_quant that was chosen for it
   double limited_rms = 0;    ///< FAP units, over the FAPs that move and are no angles
-  double floor_ratio() const { return floor_bits / all_bits; }  ///< bound : common form
-  double file_ratio() const { return file_bits / all_bits; }    ///< preset file : common form
+  double floor_ratio() const { return floor_bits / all_bits; }       ///< bound : common form
+  double file_ratio() const { return file_bits / all_bits; }         ///< preset file : common form
+  double kept_ratio() const { return kept_bits / file_bits; }        ///< kept ranges : preset file
+  double live5_ratio() const { return live5_bits / file_bits; }      ///< preset live : preset file
+  double live1_ratio() const { return live1_bits / file_bits; }      ///< likewise
+  double live1_kbps() const { return live1_bits / seconds / 1000; }  ///< kbit/s
   /// With a limited error : common form.
   double limited_ratio() const { return limited_bits / all_bits; }
 };
 
-/// Codes a clip in the three forms; `max_rms` as in fba::EncodeOptions. Errors: those of encode().
-Result<ClipSizes> measure_sizes(const std::string& name, const fap::Sequence& clip, double max_rms);
+/// Codes a clip in these forms, at `quant` but for the common one; `max_rms` as in
+/// fba::EncodeOptions. Errors: those of encode().
+Result<ClipSizes> measure_sizes(const std::string& name, const fap::Sequence& clip, int quant,
+                                double max_rms);
 
 /// The heading of a table of sizes, and the row of a clip; they end with a line end.
 std::string sizes_heading();
 std::string sizes_row(const ClipSizes& clip);  ///< likewise
 /// The last row, with the means of all clips (one at least), and what the columns are.
-std::string sizes_means(const std::vector<ClipSizes>& clips, double max_rms);
+std::string sizes_means(const std::vector<ClipSizes>& clips, int quant, double max_rms);
 /// All of it as JSON text.
-std::string sizes_json(const std::vector<ClipSizes>& clips, double max_rms);
+std::string sizes_json(const std::vector<ClipSizes>& clips, int quant, double max_rms);
 
 }  // namespace animeme::inspect

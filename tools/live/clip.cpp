@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
-#include "codec/encode/live.h"
+#include "codec/decode/fill.h"
+#include "codec/encode/encode.h"
 #include "tools/speech/voice_file.h"
 #include "tools/text.h"
 
@@ -15,51 +17,43 @@ namespace {
 
 constexpr double kLongInterval = 2;  // seconds that a receiver may have to wait
 
-/// One plane of a clip that is to be coded.
-struct Instant {
-  const fap::Frame* face;
-  const fba::BodyFrame* body;
-  std::int64_t number;
-};
-
-fba::LiveOptions live_options(fap::Rate rate, const Coding& coding) {
-  fba::LiveOptions options;
-  options.rate = rate;
-  options.fap_quant = coding.quant;
-  const double planes = coding.intra_seconds * rate.frames_per_second();
-  options.intra_period = int(std::lround(std::min(planes, 1e6)));
-  return options;
-}
-
-Result<fba::AccessUnits> code(const std::vector<Instant>& instants, fba::LiveOptions options) {
-  if (instants.empty()) return make_error(Code::not_found, "there are no frames to stream");
-  fap::Mask used;
-  for (const Instant& instant : instants) used |= instant.face->mask;
-  options.faps = used;
-  fba::LiveEncoder encoder(options);
-  std::vector<std::uint8_t> stream;
-  for (std::size_t i = 0; i < instants.size(); ++i) {
-    const bool last = i + 1 == instants.size();
-    const std::int64_t skip = last ? 0 : instants[i + 1].number - instants[i].number - 1;
-    const auto unit = encoder.write(*instants[i].face, std::uint32_t(skip), instants[i].body);
-    if (!unit) return unit.error();
-    stream.insert(stream.end(), unit->begin(), unit->end());
+Result<fba::AccessUnits> code(const fap::Sequence& face, std::span<const fba::BodyFrame> body,
+                              fba::EncodeOptions options, const Coding& coding) {
+  if (face.frames.empty() && body.empty()) {
+    return make_error(Code::not_found, "there are no frames to stream");
   }
-  const auto end = encoder.finish();
-  stream.insert(stream.end(), end.begin(), end.end());
-  return fba::split_access_units(stream);
+  options.intra_seconds = coding.intra_seconds;
+  const auto stream = fba::encode(face, options, body);
+  if (!stream) return stream.error();
+  return fba::split_access_units(*stream);
 }
 
-/// A decoded stream coded again for live use, with its own quantisers.
+/// A decoded stream coded again with its own quantisers and planes: what receivers show, so that
+/// sides that were left to them are there.
 Result<fba::AccessUnits> code_again(const fba::DecodedStream& stream, const Coding& coding) {
-  fba::LiveOptions options = live_options(stream.rate, coding);
-  std::vector<Instant> instants;
+  fba::EncodeOptions options = fba::live_options();
+  std::vector<fba::BodyFrame> body;
   for (const fba::Plane& plane : stream.planes) {
     if (plane.face_settings) options.fap_quant = plane.face_settings->fap_quant;
     if (plane.body_settings) options.bap_quant = plane.body_settings->bap_quant;
-    instants.push_back({&plane.face, plane.body.get(), plane.number});
+    if (!plane.body) continue;
+    body.push_back(*plane.body);
+    body.back().number = plane.number;
   }
-  return code(instants, options);
+  Result<fap::Sequence> face = fba::fill(stream, {.keep_high_level = true});
+  if (!face) return face.error();
+  face->rate = stream.rate;
+  // fill() numbers from 0 and repeats what was skipped.
+  const std::int64_t first = stream.planes.empty() ? 0 : stream.planes.front().number;
+  std::vector<fap::Frame> frames;
+  for (const fba::Plane& plane : stream.planes) {
+    const std::size_t at = std::size_t(plane.number - first);
+    if (at >= face->frames.size()) continue;
+    frames.push_back(face->frames[at]);
+    frames.back().number = plane.number;
+  }
+  face->frames = std::move(frames);
+  return code(*face, body, options, coding);
 }
 
 /// Marks as intra those units only at which a receiver can join: their plane tells the rate and all
@@ -102,9 +96,9 @@ double longest_intra_interval(const fba::AccessUnits& units) {
 }
 
 Result<fba::AccessUnits> live_units(const fap::Sequence& clip, const Coding& coding) {
-  std::vector<Instant> instants;
-  for (const fap::Frame& frame : clip.frames) instants.push_back({&frame, nullptr, frame.number});
-  return code(instants, live_options(clip.rate, coding));
+  fba::EncodeOptions options = fba::live_options();
+  options.fap_quant = coding.quant;
+  return code(clip, {}, options, coding);
 }
 
 Result<Clip> code_live_clip(const fap::Sequence& clip, const media::Pcm* audio,

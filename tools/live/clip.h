@@ -30,8 +30,8 @@ struct Clip {
   media::EncodedAudio sound;  ///< no packets: silent
 };
 
-/// A clip as the live encoder codes it: every intra plane tells all that a receiver needs.
-/// Errors: those of fba::LiveEncoder; not_found (no frames).
+/// A clip as fba::live_options() code it: every intra plane tells all that a receiver needs.
+/// Errors: those of fba::encode(); not_found (no frames).
 Result<fba::AccessUnits> live_units(const fap::Sequence& clip, const Coding& coding);
 
 /// Seconds of the longest stretch between two intra planes, or from the last one to the end.

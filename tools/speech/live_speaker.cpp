@@ -21,21 +21,46 @@ constexpr std::size_t kMostTraces = 1000;
 constexpr std::uint8_t kSimpleFaceLevel2 = 0x62;
 constexpr std::size_t kProfileByte = 4;  // of the configuration
 
-fba::LiveOptions coding(const SpeakerOptions& options, const fap::Mask& mask) {
+// How fast a face moves each FAP, on an example: the phones of its model, each between open mouths,
+// at a quick pace.
+fba::PredictiveRanges ranges_of_face(const dam::Model& model, const SpeakerOptions& options,
+                                     TalkingFace face) {
+  constexpr double kSeconds = 0.08;
+  dam::Script script;
+  const auto add = [&script](const std::string& label) {
+    const double start = script.duration();
+    script.phones.push_back({start, start + kSeconds, label, {}});
+  };
+  for (const dam::PhoneModel& phone : model.phones) {
+    add("AA");
+    add(phone.label);
+  }
+  fap::Sequence clip;
+  if (!face.say(script)) return {};
+  while (face.speaking()) {
+    const Result<fap::Frame> frame = face.next();
+    if (!frame) return {};
+    clip.frames.push_back(*frame);
+  }
+  return fba::ranges_of(clip, options.fap_quant);
+}
+
+fba::LiveOptions coding(const dam::Model& model, const SpeakerOptions& options,
+                        const TalkingFace& face) {
   fba::LiveOptions coding;
   coding.rate = options.face.synthesis.rate;
   coding.fap_quant = options.fap_quant;
-  const double planes = options.intra_seconds * coding.rate.frames_per_second();
-  coding.intra_period = std::max(1, int(std::lround(std::min(planes, 1e6))));
-  coding.faps = mask;
+  coding.intra_seconds = options.intra_seconds;
+  coding.faps = face.mask();
+  coding.ranges = ranges_of_face(model, options, face);
   return coding;
 }
 
 // Configuration and clock of the stream, from its first plane.
-Result<fba::AccessUnits> shape_of(const SpeakerOptions& options, TalkingFace face) {
+Result<fba::AccessUnits> shape_of(const fba::LiveOptions& options, TalkingFace face) {
   const Result<fap::Frame> frame = face.next();
   if (!frame) return frame.error();
-  fba::LiveEncoder encoder(coding(options, face.mask()));
+  fba::LiveEncoder encoder(options);
   Result<std::vector<std::uint8_t>> stream = encoder.write(*frame);
   if (!stream) return stream.error();
   const auto end = encoder.finish();
@@ -181,7 +206,8 @@ Result<std::unique_ptr<LiveSpeaker>> LiveSpeaker::open(const dam::Model& model, 
     if (!opened) return opened.error();
     sound = std::move(*opened);
   }
-  const Result<fba::AccessUnits> shape = shape_of(options, *face);
+  const fba::LiveOptions live = coding(model, options, *face);
+  const Result<fba::AccessUnits> shape = shape_of(live, *face);
   if (!shape) return shape.error();
   media::LiveInfo info;
   info.face_config = shape->config;
@@ -189,7 +215,7 @@ Result<std::unique_ptr<LiveSpeaker>> LiveSpeaker::open(const dam::Model& model, 
   info.visual_profile = kSimpleFaceLevel2;
   info.timescale = shape->timescale;
   if (sound) info.audio = sound->format();
-  fba::LiveEncoder encoder(coding(options, face->mask()));
+  fba::LiveEncoder encoder(live);
   auto impl = std::make_unique<Impl>(Impl{options, &lines, &clock, std::move(*face),
                                           std::move(sound), std::move(encoder), std::move(info),
                                           shape->units.front().duration});
