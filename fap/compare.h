@@ -47,6 +47,23 @@ struct Difference {
   friend bool operator==(const Difference&, const Difference&) = default;
 };
 
+/// Compares frame by frame what is not in memory as a whole.
+class Comparer {
+ public:
+  /// The next frame that only one clip has, or that both have under one number; numbers ascend.
+  void only_a(const Frame& frame);
+  void only_b(const Frame& frame);                      ///< likewise
+  void both(const Frame& a, const Frame& b);            ///< likewise
+  Difference compared(Rate rate_a, Rate rate_b) const;  ///< so far
+
+ private:
+  void note_difference(std::int64_t number);
+  void compare_values(std::size_t fap, const Frame& a, const Frame& b);
+
+  Difference difference_;
+  std::array<double, kFapCount + 1> squares_{};
+};
+
 /// Compares coded content as it is: a FAP that is absent is not the same as a FAP of value 0. To
 /// compare what is seen, fill() both clips first. Frame numbers must ascend in both. Linear in
 /// the number of frames, never fails.

@@ -16,7 +16,7 @@ constexpr Kind kKinds[] = {
     {Method::dam, "dam", validate_refined, write_refined, read_refined, fit_refined, speak_refined,
      reach_of_refined},
     {Method::dam_paper, "dam-paper", validate_animemes, write_animemes, read_animemes, fit_animemes,
-     speak_animemes},
+     speak_animemes, reach_of_animemes},
     {Method::cohen_massaro, "cohen-massaro", validate_animemes, write_animemes, read_animemes,
      fit_animemes, speak_animemes, reach_of_animemes},
     {Method::mmm, "mmm", validate_trajectory, write_trajectory, read_trajectory, fit_trajectory,

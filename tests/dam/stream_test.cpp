@@ -92,6 +92,19 @@ TEST(Stream, GivesTheFramesOfTheWholeClip) {
   }
 }
 
+// Methods that choose modes by the whole sentence give other frames, but as many.
+TEST(Stream, EveryMethodGivesAllFrames) {
+  const Script script = long_script();
+  for (const Method method : methods()) {
+    const Model model = quick_model(method);
+    const auto whole = synthesise(model, script, {});
+    ASSERT_TRUE(whole);
+    const Signal streamed = stream_of(model, script, {}, 3);
+    EXPECT_EQ(streamed.values.size(), whole->values.size()) << method_name(method);
+    EXPECT_GT(exact_look_ahead(model), 0) << method_name(method);
+  }
+}
+
 TEST(Stream, WaitsNoLongerThanItSays) {
   double latest = 0;
   StreamOptions options;

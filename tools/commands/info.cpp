@@ -2,8 +2,9 @@
 #include <cstdio>
 #include <optional>
 
-#include "codec/decode/decoder.h"
+#include "codec/decode/access_unit.h"
 #include "tools/commands/common.h"
+#include "tools/commands/plane_file.h"
 #include "tools/inspect/file_internal.h"
 #include "tools/inspect/stream_internal.h"
 #include "tools/json.h"
@@ -19,19 +20,26 @@ struct InfoOptions {
   bool planes = false;
 };
 
-// What describe() found. In text form planes are a table, so the stream is kept for it.
+// What describe() found. In text form planes are a table, for which the stream is read again.
 struct Description {
   Json json;
-  std::optional<fba::DecodedStream> stream;
+  std::optional<PlaneFile> stream;
 };
 
-Result<Json> describe_coded(const InfoOptions& options, std::span<const std::uint8_t> bytes,
-                            Description& out) {
-  Result<fba::DecodedStream> decoded = fba::decode(bytes);
-  if (!decoded) return decoded.error();
-  Json json = inspect::describe_stream(*decoded, bytes.size());
-  if (options.planes && options.json) json["plane_list"] = inspect::describe_planes(*decoded);
-  if (options.planes) out.stream = std::move(*decoded);
+Result<Json> describe_coded(const InfoOptions& options, PlaneFile file, Description& out) {
+  PlaneReader reader(file);
+  inspect::StreamExtent extent;
+  Json list = Json::array();
+  for (;;) {
+    const Result<const fba::Plane*> plane = reader.next();
+    if (!plane) return plane.error();
+    if (*plane == nullptr) break;
+    extent.add(**plane);
+    if (options.planes && options.json) list.push_back(inspect::describe_plane(**plane));
+  }
+  Json json = inspect::describe_stream(extent, reader.info(), reader.warnings(), reader.bytes());
+  if (options.planes && options.json) json["plane_list"] = std::move(list);
+  if (options.planes) out.stream = std::move(file);
   return json;
 }
 
@@ -72,7 +80,8 @@ Result<Json> describe_media(const InfoOptions& options, std::span<const std::uin
   Result<media::Container> container =
       playlist ? media::read_container(options.input) : media::read_container(bytes);
   if (!container) return container.error();
-  Result<Json> stream = describe_coded(options, fba::join_access_units(container->face), out);
+  Result<Json> stream =
+      describe_coded(options, PlaneFile(fba::join_access_units(container->face)), out);
   if (!stream) return stream.error();
   json["face"] = *stream;
   return json;
@@ -88,15 +97,23 @@ Result<Json> describe_text(const InfoOptions& options, std::vector<std::uint8_t>
 }
 
 Result<Description> describe(const InfoOptions& options) {
+  Description out;
+  Result<Json> json = Json();
+  const Json of_stream = {{"kind", "fba"}};
+  if (PlaneFile::can_read(options.input)) {
+    out.json = of_stream;
+    json = describe_coded(options, PlaneFile(options.input), out);
+    if (!json) return json.error();
+    out.json.update(*json);
+    return out;
+  }
   Result<std::vector<std::uint8_t>> bytes = read_file(options.input);
   if (!bytes) return bytes.error();
   if (bytes->empty()) return make_error(Code::truncated, "the file is empty");
-  Description out;
-  Result<Json> json = Json();
   switch (kind_of(*bytes)) {
     case FileKind::fba_stream:
-      out.json = {{"kind", "fba"}};
-      json = describe_coded(options, *bytes, out);
+      out.json = of_stream;
+      json = describe_coded(options, PlaneFile(std::move(*bytes)), out);
       break;
     case FileKind::media:
       json = describe_media(options, *bytes, out);
@@ -122,9 +139,14 @@ Result<int> run(const InfoOptions& options) {
     std::printf("%s\n", found->json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
     return kOk;
   }
-  std::string text = inspect::tree_text(found->json);
-  if (found->stream) text += inspect::planes_text(*found->stream);
-  std::fputs(text.c_str(), stdout);
+  std::fputs(inspect::tree_text(found->json).c_str(), stdout);
+  if (!found->stream) return kOk;
+  std::fputs(inspect::planes_heading().c_str(), stdout);
+  auto printed = found->stream->for_each([](const fba::Plane& plane) {
+    std::fputs(inspect::plane_text(plane).c_str(), stdout);
+    return Result<void>();
+  });
+  if (!printed) return printed.error().in_file(options.input);
   return kOk;
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "tools/commands/common.h"
+#include "tools/commands/plane_file.h"
 #include "tools/inspect/sizes.h"
 #include "tools/inspect/statistics.h"
 
@@ -53,16 +54,46 @@ Result<int> print_sizes(const StatsOptions& options) {
   return same ? kOk : kCheckFailed;
 }
 
+Result<inspect::Statistics> measure_stream(const PlaneFile& file, const char* kind,
+                                           const std::string& path, bool tell = true) {
+  PlaneReader reader(file);
+  inspect::Measurement measurement;
+  for (;;) {
+    const Result<const fba::Plane*> plane = reader.next();
+    if (!plane) return Error(plane.error()).in_file(path);
+    if (*plane == nullptr) break;
+    measurement.add(**plane);
+  }
+  for (const std::string& text : reader.warnings()) {
+    if (tell) warn(path + ": " + text);
+  }
+  return measurement.measured(kind, {}, {}, reader.bytes());
+}
+
+Result<inspect::Statistics> measure_motion(const std::string& path) {
+  Result<MotionInput> input = read_motion(path);
+  if (!input) return input.error();
+  const char* kind = kind_name(input->kind);
+  if (!input->stream.empty()) {
+    return measure_stream(PlaneFile(std::move(input->stream)), kind, path, false);
+  }
+  inspect::Measurement measurement;
+  for (const fap::Frame& frame : input->face.frames) measurement.add(frame);
+  for (const fba::BodyFrame& frame : input->body.frames) measurement.add(frame);
+  return measurement.measured(kind, input->face.rate, input->body.rate, 0);
+}
+
 Result<int> run(const StatsOptions& options) {
   if (options.sizes) return print_sizes(options);
   if (options.inputs.size() != 1)
     return usage_error("several files can be given with --sizes only");
-  Result<MotionInput> input = read_motion(options.inputs.front());
-  if (!input) return input.error();
-  const inspect::Statistics statistics = inspect::measure(
-      kind_name(input->kind), input->face, input->body, input->decoded, input->stream.size());
-  std::fputs(options.json ? (inspect::statistics_json(statistics) + "\n").c_str()
-                          : inspect::statistics_text(statistics).c_str(),
+  const std::string& path = options.inputs.front();
+  Result<inspect::Statistics> statistics = PlaneFile::can_read(path)
+                                               ? measure_stream(PlaneFile(path), "fba", path)
+                                               : measure_motion(path);
+  if (!statistics) return statistics.error();
+  std::fputs(options.json ? (inspect::statistics_json(*statistics) + "\n").c_str()
+                          : inspect::statistics_text(*statistics).c_str(),
              stdout);
   return kOk;
 }

@@ -1,5 +1,6 @@
 #include "tools/inspect/activity.h"
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -12,98 +13,172 @@ namespace animeme::inspect {
 
 namespace {
 
-// Follows one parameter over a clip. `value_of` gives what counts as its value; values are
-// compared and, if they are numbers, measured.
-template <class Frame, class ValueOf>
-Activity follow(const std::vector<Frame>& frames, fap::Rate rate, int number, ValueOf value_of) {
-  using Value = decltype(value_of(frames.front()));
-  Activity out;
-  out.number = number;
-  std::set<Value> seen;
-  std::optional<Value> held;
-  double squares = 0;
-  std::int64_t steps = 0;
-  std::int64_t moved = 0;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const Frame& frame = frames[i];
-    const bool present = frame.mask[std::size_t(number)];
-    out.frames += present ? 1 : 0;
-    if (!present && !held) continue;
-    const Value value = present ? value_of(frame) : *held;
-    if (held) {
-      ++steps;
-      moved += value != *held ? 1 : 0;
+// Follows one parameter. Values are compared and, if they are numbers, measured.
+template <class Value>
+class Follower {
+ public:
+  // `since`: frames since the one before, 0 for the first. Nothing: the frame leaves it out.
+  void add(const std::optional<Value>& given, std::int64_t since) {
+    frames_ += given ? 1 : 0;
+    if (!given && !held_) return;
+    const Value value = given.value_or(held_.value_or(Value()));
+    if (held_) {
+      ++steps_;
+      moved_ += value != *held_ ? 1 : 0;
       if constexpr (std::is_arithmetic_v<Value>) {
-        const double seconds = rate.seconds(double(frame.number - frames[i - 1].number));
-        const double speed = (double(value) - double(*held)) / seconds;
-        squares += speed * speed;
+        const double speed = (double(value) - double(*held_)) / double(since);
+        squares_ += speed * speed;
       }
     }
-    if (present) seen.insert(value);
-    held = value;
+    if (given && (!held_ || value != *held_)) seen_.insert(value);
+    held_ = value;
   }
-  out.distinct = seen.size();
-  if (frames.size() > 1) out.moves = double(moved) / double(frames.size() - 1);
-  out.is_amount = std::is_arithmetic_v<Value>;
-  if constexpr (std::is_arithmetic_v<Value>) {
-    out.min = *seen.begin();
-    out.max = *seen.rbegin();
-    if (steps > 0) out.rms_speed = std::sqrt(squares / double(steps));
-  }
-  return out;
-}
+  bool occurred() const { return held_.has_value(); }
 
-bool equal_throughout(const fap::Sequence& clip, int a, int b) {
-  const std::size_t left = std::size_t(a);
-  const std::size_t right = std::size_t(b);
-  bool present = false;
-  for (const fap::Frame& frame : clip.frames) {
-    if (frame.mask[left] != frame.mask[right]) return false;
-    if (frame.mask[left] && frame.value[left] != frame.value[right]) return false;
-    present |= frame.mask[left];
+  // `all`: frames of the clip.
+  Activity measured(int number, std::int64_t all, fap::Rate rate) const {
+    Activity out;
+    out.number = number;
+    out.frames = frames_;
+    out.distinct = seen_.size();
+    if (all > 1) out.moves = double(moved_) / double(all - 1);
+    out.is_amount = std::is_arithmetic_v<Value>;
+    if constexpr (std::is_arithmetic_v<Value>) {
+      out.min = *seen_.begin();
+      out.max = *seen_.rbegin();
+      if (steps_ > 0) {
+        out.rms_speed = std::sqrt(squares_ / double(steps_)) * rate.frames_per_second();
+      }
+    }
+    return out;
   }
-  return present;
+
+ private:
+  std::set<Value> seen_;
+  std::optional<Value> held_;
+  std::int64_t frames_ = 0, steps_ = 0, moved_ = 0;
+  double squares_ = 0;
+};
+
+// Frames so far, and how far they are apart.
+class Numbers {
+ public:
+  std::int64_t since(std::int64_t number) {
+    const std::int64_t since = all_++ == 0 ? 0 : number - last_;
+    last_ = number;
+    return since;
+  }
+  std::int64_t all() const { return all_; }
+
+ private:
+  std::int64_t all_ = 0, last_ = 0;
+};
+
+// Two FAPs that occur together and have the same value throughout.
+struct Pair {
+  int a, b;
+  bool equal = true, present = false;
+
+  void add(const fap::Frame& frame) {
+    const std::size_t left = std::size_t(a), right = std::size_t(b);
+    equal = equal && frame.mask[left] == frame.mask[right] &&
+            (!frame.mask[left] || frame.value[left] == frame.value[right]);
+    present = present || frame.mask[left];
+  }
+};
+
+template <class Value>
+std::optional<Value> value_if(bool given, const Value& value) {
+  return given ? std::optional<Value>(value) : std::nullopt;
 }
 
 }  // namespace
 
-std::vector<Activity> measure_activity(const fap::Sequence& clip) {
-  const fap::Mask used = used_mask(clip.frames);
-  std::vector<Activity> out;
-  if (used[1]) {
-    out.push_back(follow(clip.frames, clip.rate, 1, [](const fap::Frame& f) {
-      return std::tuple(f.viseme.select1, f.viseme.select2, f.viseme.blend, f.viseme.def);
-    }));
-  }
-  if (used[2]) {
-    out.push_back(follow(clip.frames, clip.rate, 2, [](const fap::Frame& f) {
-      const fap::Expression& e = f.expression;
-      return std::tuple(e.select1, e.intensity1, e.select2, e.intensity2, e.init_face, e.def);
-    }));
-  }
+struct FaceActivity::Impl {
+  using Viseme = std::tuple<std::int32_t, std::int32_t, std::int32_t, bool>;
+  using Expression = std::tuple<std::int32_t, std::int32_t, std::int32_t, std::int32_t, bool, bool>;
+
+  Numbers numbers;
+  Follower<Viseme> viseme;
+  Follower<Expression> expression;
+  std::array<Follower<std::int32_t>, fap::kFapCount + 1> fap;
+  std::vector<Pair> pairs;
+};
+
+FaceActivity::FaceActivity() : impl_(std::make_unique<Impl>()) {
   for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
-    const std::size_t index = std::size_t(fap);
-    if (!used[index]) continue;
-    Activity one = follow(clip.frames, clip.rate, fap,
-                          [index](const fap::Frame& f) { return f.value[index]; });
     for (const int other : {fap::info(fap).mirror, fap::info(fap).partner}) {
-      if (other != 0 && equal_throughout(clip, fap, other)) one.equal_to.push_back(other);
+      if (other != 0) impl_->pairs.push_back({fap, other});
     }
-    out.push_back(std::move(one));
+  }
+}
+FaceActivity::~FaceActivity() = default;
+
+void FaceActivity::add(const fap::Frame& frame) {
+  const std::int64_t since = impl_->numbers.since(frame.number);
+  const fap::Viseme& v = frame.viseme;
+  const fap::Expression& e = frame.expression;
+  impl_->viseme.add(value_if(frame.mask[1], Impl::Viseme(v.select1, v.select2, v.blend, v.def)),
+                    since);
+  impl_->expression.add(value_if(frame.mask[2], Impl::Expression(e.select1, e.intensity1, e.select2,
+                                                                 e.intensity2, e.init_face, e.def)),
+                        since);
+  for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+    impl_->fap[fap].add(value_if(frame.mask[fap], frame.value[fap]), since);
+  }
+  for (Pair& pair : impl_->pairs) pair.add(frame);
+}
+
+std::vector<Activity> FaceActivity::measured(fap::Rate rate) const {
+  std::vector<Activity> out;
+  const std::int64_t all = impl_->numbers.all();
+  if (impl_->viseme.occurred()) out.push_back(impl_->viseme.measured(1, all, rate));
+  if (impl_->expression.occurred()) out.push_back(impl_->expression.measured(2, all, rate));
+  for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+    const Follower<std::int32_t>& one = impl_->fap[std::size_t(fap)];
+    if (!one.occurred()) continue;
+    out.push_back(one.measured(fap, all, rate));
+    for (const Pair& pair : impl_->pairs) {
+      if (pair.a == fap && pair.equal && pair.present) out.back().equal_to.push_back(pair.b);
+    }
   }
   return out;
 }
 
-std::vector<Activity> measure_activity(const fba::BodySequence& body) {
-  const auto used = used_mask(body.frames);
+struct BodyActivity::Impl {
+  Numbers numbers;
+  std::vector<Follower<std::int32_t>> bap = std::vector<Follower<std::int32_t>>(fba::kBapCount + 1);
+};
+
+BodyActivity::BodyActivity() : impl_(std::make_unique<Impl>()) {}
+BodyActivity::~BodyActivity() = default;
+
+void BodyActivity::add(const fba::BodyFrame& frame) {
+  const std::int64_t since = impl_->numbers.since(frame.number);
+  for (std::size_t bap = 1; bap <= std::size_t(fba::kBapCount); ++bap) {
+    impl_->bap[bap].add(value_if(frame.mask[bap], frame.value[bap]), since);
+  }
+}
+
+std::vector<Activity> BodyActivity::measured(fap::Rate rate) const {
   std::vector<Activity> out;
   for (int bap = 1; bap <= fba::kBapCount; ++bap) {
-    const std::size_t index = std::size_t(bap);
-    if (!used[index]) continue;
-    out.push_back(follow(body.frames, body.rate, bap,
-                         [index](const fba::BodyFrame& f) { return f.value[index]; }));
+    const Follower<std::int32_t>& one = impl_->bap[std::size_t(bap)];
+    if (one.occurred()) out.push_back(one.measured(bap, impl_->numbers.all(), rate));
   }
   return out;
+}
+
+std::vector<Activity> measure_activity(const fap::Sequence& clip) {
+  FaceActivity activity;
+  for (const fap::Frame& frame : clip.frames) activity.add(frame);
+  return activity.measured(clip.rate);
+}
+
+std::vector<Activity> measure_activity(const fba::BodySequence& body) {
+  BodyActivity activity;
+  for (const fba::BodyFrame& frame : body.frames) activity.add(frame);
+  return activity.measured(body.rate);
 }
 
 }  // namespace animeme::inspect

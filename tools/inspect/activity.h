@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "codec/text/bap_text.h"
@@ -34,7 +35,34 @@ struct Activity {
   bool never_moves() const { return distinct <= 1; }  ///< one value throughout
 };
 
-/// Those of used_mask(), by number.
+/// Measures frame by frame. Memory grows with the number of different values alone.
+class FaceActivity {
+ public:
+  FaceActivity();
+  ~FaceActivity();
+  void add(const fap::Frame& frame);  ///< numbers ascend
+  /// Those that occurred, by number.
+  std::vector<Activity> measured(fap::Rate rate) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The same of bodies.
+class BodyActivity {
+ public:
+  BodyActivity();
+  ~BodyActivity();
+  void add(const fba::BodyFrame& frame);                 ///< numbers ascend
+  std::vector<Activity> measured(fap::Rate rate) const;  ///< those that occurred, by number
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Of a whole clip.
 std::vector<Activity> measure_activity(const fap::Sequence& clip);
 std::vector<Activity> measure_activity(const fba::BodySequence& body);  ///< likewise, of BAPs
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "codec/syntax/arith.h"
@@ -203,7 +205,7 @@ class StreamCost {
 
 // --- rates
 
-PlaneBits plane_bits(std::vector<std::int64_t> bits) {
+PlaneBits plane_bits(std::vector<std::uint32_t> bits) {
   PlaneBits out;
   out.planes = bits.size();
   if (bits.empty()) return out;
@@ -212,32 +214,32 @@ PlaneBits plane_bits(std::vector<std::int64_t> bits) {
   out.largest = bits.back();
   out.mean =
       double(std::accumulate(bits.begin(), bits.end(), std::int64_t(0))) / double(bits.size());
-  out.median = bits.size() % 2 == 1 ? double(bits[half]) : double(bits[half - 1] + bits[half]) / 2;
+  out.median =
+      bits.size() % 2 == 1 ? double(bits[half]) : (double(bits[half - 1]) + double(bits[half])) / 2;
   return out;
 }
 
-// Bits a second of the planes that begin within the costliest second. What stands before a plane
-// counts with it, the end code with the last one.
-double peak(const fba::DecodedStream& stream, std::int64_t total, double seconds) {
-  const auto begin_of = [&](std::size_t plane) {
-    return stream.rate.seconds(double(stream.planes[plane].number));
-  };
-  const auto cost_of = [&](std::size_t plane) {
-    const std::int64_t before = plane == 0 ? 0 : stream.planes[plane - 1].bit_end;
-    const bool last = plane + 1 == stream.planes.size();
-    return (last ? total : stream.planes[plane].bit_end) - before;
-  };
-  std::int64_t window = 0;
-  std::int64_t most = 0;
-  std::size_t first = 0;
-  for (std::size_t last = 0; last < stream.planes.size(); ++last) {
-    window += cost_of(last);
+// The most bits of the planes that begin within one second. What stands before a plane counts with
+// it.
+class Window {
+ public:
+  void add(double seconds, std::int64_t bits) {
+    planes_.emplace_back(seconds, bits);
+    inside_ += bits;
     // A little less than a second, so that 25 planes a second are 25 and not 26 after rounding.
-    while (begin_of(last) - begin_of(first) > 1 - 1e-9) window -= cost_of(first++);
-    most = std::max(most, window);
+    while (seconds - planes_.front().first > 1 - 1e-9) {
+      inside_ -= planes_.front().second;
+      planes_.pop_front();
+    }
+    most_ = std::max(most_, inside_);
   }
-  return double(most) / std::min(seconds, 1.0);
-}
+  // With so many bits behind the last plane.
+  std::int64_t most(std::int64_t rest) const { return std::max(most_, inside_ + rest); }
+
+ private:
+  std::deque<std::pair<double, std::int64_t>> planes_;
+  std::int64_t inside_ = 0, most_ = 0;
+};
 
 }  // namespace
 
@@ -256,27 +258,45 @@ std::int64_t header_bits(const fba::Plane& plane) {
   return bits;
 }
 
-BitStatistics measure_bits(const fba::DecodedStream& stream, std::size_t bytes) {
+struct BitMeter::Impl {
   BitStatistics out;
   StreamCost cost;
-  std::vector<std::int64_t> intra;
-  std::vector<std::int64_t> predictive;
+  std::vector<std::uint32_t> intra;
+  std::vector<std::uint32_t> predictive;
   std::int64_t plane_total = 0;
-  for (const fba::Plane& plane : stream.planes) {
-    const std::int64_t bits = plane.bit_end - plane.bit_begin;
-    (plane.intra ? intra : predictive).push_back(bits);
-    plane_total += bits;
-    out.header_bits += header_bits(plane);
-    cost.add(plane, out);
-  }
+  fap::Rate rate;  // of the first plane
+  Window window;
+  std::int64_t end = 0;
+  std::int64_t number = -1;
+};
+
+BitMeter::BitMeter() : impl_(std::make_unique<Impl>()) {}
+BitMeter::~BitMeter() = default;
+
+void BitMeter::add(const fba::Plane& plane) {
+  Impl& m = *impl_;
+  if (m.number < 0) m.rate = plane.rate;
+  const std::int64_t bits = plane.bit_end - plane.bit_begin;
+  (plane.intra ? m.intra : m.predictive).push_back(std::uint32_t(bits));
+  m.plane_total += bits;
+  m.out.header_bits += header_bits(plane);
+  m.cost.add(plane, m.out);
+  m.window.add(m.rate.seconds(double(plane.number)), plane.bit_end - m.end);
+  m.end = plane.bit_end;
+  m.number = plane.number;
+}
+
+BitStatistics BitMeter::measured(std::size_t bytes) const {
+  const Impl& m = *impl_;
+  BitStatistics out = m.out;
   const std::int64_t total = std::int64_t(bytes) * 8;
-  out.framing_bits = total - plane_total;
-  out.value_bits = plane_total - out.header_bits;
-  out.intra = plane_bits(std::move(intra));
-  out.predictive = plane_bits(std::move(predictive));
-  out.seconds = stream.rate.seconds(double(stream.planes.back().number + 1));
+  out.framing_bits = total - m.plane_total;
+  out.value_bits = m.plane_total - out.header_bits;
+  out.intra = plane_bits(m.intra);
+  out.predictive = plane_bits(m.predictive);
+  out.seconds = m.rate.seconds(double(m.number + 1));
   out.kbit_per_s = double(total) * 1e-3 / out.seconds;
-  out.peak_kbit_per_s = peak(stream, total, out.seconds) * 1e-3;
+  out.peak_kbit_per_s = double(m.window.most(total - m.end)) / std::min(out.seconds, 1.0) * 1e-3;
   return out;
 }
 

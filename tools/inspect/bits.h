@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
 #include "codec/decode/decoder.h"
 
@@ -42,7 +43,18 @@ struct BitStatistics {
 /// Bits of a plane's header: all that stands before its segments. Exact.
 std::int64_t header_bits(const fba::Plane& plane);
 
-/// `bytes` is the size of the stream that was decoded. Linear in the stream.
-BitStatistics measure_bits(const fba::DecodedStream& stream, std::size_t bytes);
+/// Counts plane by plane. Memory: 4 bytes a plane, and the planes of one second.
+class BitMeter {
+ public:
+  BitMeter();
+  ~BitMeter();
+  void add(const fba::Plane& plane);  ///< in the order of the stream
+  /// `bytes`: the size of the stream; one plane at least was added.
+  BitStatistics measured(std::size_t bytes) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 }  // namespace animeme::inspect

@@ -52,16 +52,25 @@ int bap_step(int number) {
   return steps[std::size_t(number)];
 }
 
-BodyDifference compare_bodies(const fba::BodySequence& a, const fba::BodySequence& b) {
-  BodyDifference d;
-  d.frames_a = std::int64_t(a.frames.size());
-  d.frames_b = std::int64_t(b.frames.size());
-  d.same_rate = a.rate == b.rate;
-  fap::walk_side_by_side(
-      a.frames, b.frames, [&](const fba::BodyFrame& one) { note(d, one.number); },
-      [&](const fba::BodyFrame& left, const fba::BodyFrame& right) {
-        compare_frames(d, left, right);
-      });
+void BodyComparer::only_a(const fba::BodyFrame& frame) {
+  ++difference_.frames_a;
+  note(difference_, frame.number);
+}
+
+void BodyComparer::only_b(const fba::BodyFrame& frame) {
+  ++difference_.frames_b;
+  note(difference_, frame.number);
+}
+
+void BodyComparer::both(const fba::BodyFrame& a, const fba::BodyFrame& b) {
+  ++difference_.frames_a;
+  ++difference_.frames_b;
+  compare_frames(difference_, a, b);
+}
+
+BodyDifference BodyComparer::compared(fap::Rate rate_a, fap::Rate rate_b) const {
+  BodyDifference d = difference_;
+  d.same_rate = rate_a == rate_b;
   double squares = 0;
   std::int64_t count = 0;
   for (int number = 1; number <= fba::kBapCount; ++number) {
@@ -73,6 +82,16 @@ BodyDifference compare_bodies(const fba::BodySequence& a, const fba::BodySequenc
   }
   if (count > 0) d.rms_steps = std::sqrt(squares / double(count));
   return d;
+}
+
+BodyDifference compare_bodies(const fba::BodySequence& a, const fba::BodySequence& b) {
+  BodyComparer comparer;
+  fap::walk_side_by_side(
+      fap::each_of(a.frames), fap::each_of(b.frames),
+      [&](const fba::BodyFrame& one) { comparer.only_a(one); },
+      [&](const fba::BodyFrame& one) { comparer.only_b(one); },
+      [&](const fba::BodyFrame& left, const fba::BodyFrame& right) { comparer.both(left, right); });
+  return comparer.compared(a.rate, b.rate);
 }
 
 }  // namespace animeme::inspect

@@ -42,6 +42,19 @@ struct BodyDifference {
 /// Quantiser step of BAP `number` (1..296) at bap_quant 1.
 int bap_step(int number);
 
+/// Compares frame by frame what is not in memory as a whole.
+class BodyComparer {
+ public:
+  /// The next frame that only one has, or that both have under one number; numbers ascend.
+  void only_a(const fba::BodyFrame& frame);
+  void only_b(const fba::BodyFrame& frame);                           ///< likewise
+  void both(const fba::BodyFrame& a, const fba::BodyFrame& b);        ///< likewise
+  BodyDifference compared(fap::Rate rate_a, fap::Rate rate_b) const;  ///< so far
+
+ private:
+  BodyDifference difference_;
+};
+
 /// Frames are matched by their numbers, which ascend in both.
 BodyDifference compare_bodies(const fba::BodySequence& a, const fba::BodySequence& b);
 

@@ -131,22 +131,42 @@ const double* bap_bits(const Statistics& s) {
 
 }  // namespace
 
-Statistics measure(std::string kind, const fap::Sequence& face, const fba::BodySequence& body,
-                   const fba::DecodedStream& stream, std::size_t bytes) {
+void Measurement::add(const fba::Plane& plane) {
+  if (planes_++ == 0) rate_ = plane.rate;
+  bits_.add(plane);
+  if (fba::has_face(plane.object_mask)) add(plane.face);
+  if (plane.body) add(*plane.body);
+}
+
+void Measurement::add(const fap::Frame& frame) {
+  ++faces_;
+  last_face_ = frame.number;
+  face_.add(frame);
+}
+
+void Measurement::add(const fba::BodyFrame& frame) {
+  ++bodies_;
+  last_body_ = frame.number;
+  body_.add(frame);
+}
+
+Statistics Measurement::measured(std::string kind, fap::Rate face, fap::Rate body,
+                                 std::size_t bytes) const {
+  if (planes_ > 0) face = body = rate_;
   Statistics out;
   out.kind = std::move(kind);
-  out.faces = face.frames.size();
-  out.bodies = body.frames.size();
-  out.rate = out.faces == 0 && out.bodies > 0 && bytes == 0 ? body.rate : face.rate;
-  if (bytes > 0) out.bits = measure_bits(stream, bytes);
-  out.faps = measure_activity(face);
-  out.baps = measure_activity(body);
+  out.faces = faces_;
+  out.bodies = bodies_;
+  out.rate = faces_ == 0 && bodies_ > 0 ? body : face;
+  if (planes_ > 0) out.bits = bits_.measured(bytes);
+  out.faps = face_.measured(face);
+  out.baps = body_.measured(body);
   if (out.bits) {
     out.seconds = out.bits->seconds;
-  } else if (out.faces > 0) {
-    out.seconds = face.duration();
-  } else if (out.bodies > 0) {
-    out.seconds = body.rate.seconds(double(body.frames.back().number + 1));
+  } else if (faces_ > 0) {
+    out.seconds = face.seconds(double(last_face_ + 1));
+  } else if (bodies_ > 0) {
+    out.seconds = body.seconds(double(last_body_ + 1));
   }
   return out;
 }

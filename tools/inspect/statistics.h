@@ -26,10 +26,23 @@ struct Statistics {
   std::vector<Activity> baps;         ///< those that occur
 };
 
-/// Measures a face and a body; both may be empty. `stream` is what they were decoded from, `bytes`
-/// its size; 0 bytes: there is none.
-Statistics measure(std::string kind, const fap::Sequence& face, const fba::BodySequence& body,
-                   const fba::DecodedStream& stream, std::size_t bytes);
+/// Measures frame by frame what is not in memory as a whole.
+class Measurement {
+ public:
+  void add(const fba::Plane& plane);      ///< of a stream, in order
+  void add(const fap::Frame& frame);      ///< of a text
+  void add(const fba::BodyFrame& frame);  ///< likewise
+  /// `kind` as it is to be told; `face` and `body` rates of a text; `bytes` of a stream, else 0.
+  Statistics measured(std::string kind, fap::Rate face, fap::Rate body, std::size_t bytes) const;
+
+ private:
+  BitMeter bits_;
+  FaceActivity face_;
+  BodyActivity body_;
+  std::size_t planes_ = 0, faces_ = 0, bodies_ = 0;
+  fap::Rate rate_;  // of the first plane
+  std::int64_t last_face_ = -1, last_body_ = -1;
+};
 
 /// Everything as JSON text.
 std::string statistics_json(const Statistics& statistics);

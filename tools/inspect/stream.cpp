@@ -31,25 +31,6 @@ std::string mask_text(const std::bitset<N>& mask, const char* separator = ", ") 
   return text.empty() ? "none" : text;
 }
 
-struct ValueRange {
-  std::int32_t low = 0;
-  std::int32_t high = 0;
-};
-
-template <class Frame>
-ValueRange range_of(const std::vector<Frame>& frames, std::size_t number) {
-  ValueRange range;
-  bool first = true;
-  for (const Frame& frame : frames) {
-    if (!frame.mask[number]) continue;
-    const std::int32_t value = frame.value[number];
-    range.low = first ? value : std::min(range.low, value);
-    range.high = first ? value : std::max(range.high, value);
-    first = false;
-  }
-  return range;
-}
-
 constexpr const char* kRangeNames[4] = {"i_max", "i_min", "p_max", "p_min"};
 
 template <std::size_t N>
@@ -79,6 +60,8 @@ void add_temporal(Json& json, const fba::TemporalHeader& temporal) {
   if (temporal.rate) json["rate"] = fap::format_rate(temporal.rate->rate());
   if (temporal.time_code) json["time_code"] = time_code_text(*temporal.time_code);
 }
+
+}  // namespace
 
 Json describe_plane(const fba::Plane& plane) {
   const bool face = fba::has_face(plane.object_mask);
@@ -115,6 +98,8 @@ Json describe_plane(const fba::Plane& plane) {
   }
   return json;
 }
+
+namespace {
 
 // "I -60..1860 P -120..60": the widest of the ranges that were sent.
 template <class Settings>
@@ -171,85 +156,107 @@ std::string details(const fba::Plane& plane) {
 
 }  // namespace
 
-Json describe_clip(const fap::Sequence& clip) {
-  const fap::Mask used = used_mask(clip.frames);
+namespace {
+
+Json describe_face(const Extent<fap::Frame>& face, fap::Rate rate) {
   Json faps = Json::array();
   for (int number = fap::kFirstLowLevel; number <= fap::kFapCount; ++number) {
-    if (!used[std::size_t(number)]) continue;
-    const ValueRange range = range_of(clip.frames, std::size_t(number));
+    if (!face.used[std::size_t(number)]) continue;
+    const auto& range = face.range[std::size_t(number)];
     faps.push_back({{"fap", number},
                     {"name", fap::info(number).name},
                     {"min", range.low},
                     {"max", range.high}});
   }
-  return {{"frames", clip.frames.size()},
-          {"rate", fap::format_rate(clip.rate)},
-          {"seconds", clip.duration()},
-          {"coded_faps", mask_text(used)},
+  return {{"frames", face.frames},
+          {"rate", fap::format_rate(rate)},
+          {"seconds", rate.seconds(double(face.last + 1))},
+          {"coded_faps", mask_text(face.used)},
           {"faps", faps}};
 }
 
-Json describe_body(const fba::BodySequence& body) {
-  const auto used = used_mask(body.frames);
+Json describe_body(const Extent<fba::BodyFrame>& body, fap::Rate rate) {
   Json baps = Json::array();
   for (std::size_t number = 1; number <= fba::kBapCount; ++number) {
-    if (!used[number]) continue;
-    const ValueRange range = range_of(body.frames, number);
-    baps.push_back({{"bap", number}, {"min", range.low}, {"max", range.high}});
+    if (!body.used[number]) continue;
+    baps.push_back(
+        {{"bap", number}, {"min", body.range[number].low}, {"max", body.range[number].high}});
   }
-  const double end = body.frames.empty() ? 0.0 : double(body.frames.back().number + 1);
-  return {{"frames", body.frames.size()},
-          {"rate", fap::format_rate(body.rate)},
-          {"seconds", body.rate.seconds(end)},
-          {"coded_baps", mask_text(used)},
+  return {{"frames", body.frames},
+          {"rate", fap::format_rate(rate)},
+          {"seconds", rate.seconds(double(body.last + 1))},
+          {"coded_baps", mask_text(body.used)},
           {"baps", baps}};
 }
 
-Json describe_stream(const fba::DecodedStream& stream, std::size_t bytes) {
-  std::size_t intra = 0;
-  std::int64_t bits = 0;
-  const fba::FaceSettings* face = nullptr;
-  const fba::BodySettings* body = nullptr;
-  for (const fba::Plane& plane : stream.planes) {
-    intra += plane.intra ? 1 : 0;
-    bits += plane.bit_end - plane.bit_begin;
-    if (face == nullptr) face = plane.face_settings.get();
-    if (body == nullptr) body = plane.body_settings.get();
+}  // namespace
+
+template <class Frame>
+void Extent<Frame>::add(const Frame& frame) {
+  ++frames;
+  last = frame.number;
+  for (std::size_t number = 1; number < range.size(); ++number) {
+    if (!frame.mask[number]) continue;
+    const std::int32_t value = frame.value[number];
+    Range& one = range[number];
+    one.low = used[number] ? std::min(one.low, value) : value;
+    one.high = used[number] ? std::max(one.high, value) : value;
+    used.set(number);
   }
-  const fba::BodySequence bodies = fba::body_sequence(stream);
-  const double seconds = stream.rate.seconds(double(stream.planes.back().number + 1));
-  Json json = {{"planes", stream.planes.size()},
-               {"intra_planes", intra},
-               {"body_planes", bodies.frames.size()},
+}
+
+void StreamExtent::add(const fba::Plane& plane) {
+  if (planes++ == 0) rate = plane.rate;
+  intra += plane.intra ? 1 : 0;
+  bits += plane.bit_end - plane.bit_begin;
+  last = plane.number;
+  if (plane.face_settings && !fap_quant) fap_quant = plane.face_settings->fap_quant;
+  if (plane.body_settings && !bap_quant) bap_quant = plane.body_settings->bap_quant;
+  if (fba::has_face(plane.object_mask)) face.add(plane.face);
+  if (plane.body) body.add(*plane.body);
+}
+
+Json describe_clip(const fap::Sequence& clip) {
+  Extent<fap::Frame> face;
+  for (const fap::Frame& frame : clip.frames) face.add(frame);
+  return describe_face(face, clip.rate);
+}
+
+Json describe_body(const fba::BodySequence& body) {
+  Extent<fba::BodyFrame> extent;
+  for (const fba::BodyFrame& frame : body.frames) extent.add(frame);
+  return describe_body(extent, body.rate);
+}
+
+Json describe_stream(const StreamExtent& stream, const fba::StreamInfo& info,
+                     const std::vector<std::string>& warnings, std::size_t bytes) {
+  const double seconds = stream.rate.seconds(double(stream.last + 1));
+  Json json = {{"planes", stream.planes},
+               {"intra_planes", stream.intra},
+               {"body_planes", stream.body.frames},
                {"bytes", bytes},
                {"seconds", seconds},
-               {"kbit_per_s", double(bits) * 1e-3 / seconds},
-               {"clip", describe_clip(fba::face_sequence(stream))}};
-  if (stream.info.profile_and_level) {
-    json["profile_and_level"] = *stream.info.profile_and_level;
-  }
-  if (body != nullptr) json["body"] = describe_body(bodies);
-  json["warnings"] = stream.warnings;
-  if (face != nullptr) json["fap_quant"] = face->fap_quant;
-  if (body != nullptr) json["bap_quant"] = body->bap_quant;
+               {"kbit_per_s", double(stream.bits) * 1e-3 / seconds},
+               {"clip", describe_face(stream.face, stream.rate)}};
+  if (info.profile_and_level) json["profile_and_level"] = *info.profile_and_level;
+  if (stream.bap_quant) json["body"] = describe_body(stream.body, stream.rate);
+  json["warnings"] = warnings;
+  if (stream.fap_quant) json["fap_quant"] = *stream.fap_quant;
+  if (stream.bap_quant) json["bap_quant"] = *stream.bap_quant;
   return json;
 }
 
-Json describe_planes(const fba::DecodedStream& stream) {
-  return tools::json_list(stream.planes, describe_plane);
+std::string planes_heading() {
+  return tools::format("%8s %10s %10s %7s  %-4s %s\n", "number", "seconds", "bit", "bits", "type",
+                       "of    says");
 }
 
-std::string planes_text(const fba::DecodedStream& stream) {
-  std::string text = tools::format("%8s %10s %10s %7s  %-4s %s\n", "number", "seconds", "bit",
-                                   "bits", "type", "of    says");
-  for (const fba::Plane& plane : stream.planes) {
-    constexpr const char* kParts[4] = {"-", "face", "body", "both"};
-    text += tools::format("%8lld %10.3f %10lld %7lld  %-4s %-4s%s\n", (long long)plane.number,
-                          plane.seconds, (long long)plane.bit_begin,
-                          (long long)(plane.bit_end - plane.bit_begin), plane.intra ? "I" : "P",
-                          kParts[std::size_t(plane.object_mask)], details(plane).c_str());
-  }
-  return text;
+std::string plane_text(const fba::Plane& plane) {
+  constexpr const char* kParts[4] = {"-", "face", "body", "both"};
+  return tools::format("%8lld %10.3f %10lld %7lld  %-4s %-4s%s\n", (long long)plane.number,
+                       plane.seconds, (long long)plane.bit_begin,
+                       (long long)(plane.bit_end - plane.bit_begin), plane.intra ? "I" : "P",
+                       kParts[std::size_t(plane.object_mask)], details(plane).c_str());
 }
 
 }  // namespace animeme::inspect

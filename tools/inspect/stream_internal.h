@@ -3,8 +3,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "codec/decode/decoder.h"
 #include "codec/text/bap_text.h"
@@ -16,14 +19,44 @@ namespace animeme::inspect {
 nlohmann::ordered_json describe_clip(const fap::Sequence& clip);
 nlohmann::ordered_json describe_body(const fba::BodySequence& body);  ///< the same of a body
 
-/// A whole stream of `bytes` bytes, without its planes.
-nlohmann::ordered_json describe_stream(const fba::DecodedStream& stream, std::size_t bytes);
+/// How many frames there are, and what parameters they have from where to where. Frame: that of a
+/// face or of a body.
+template <class Frame>
+struct Extent {
+  struct Range {
+    std::int32_t low = 0, high = 0;
+  };
+  std::size_t frames = 0;
+  std::int64_t last = -1;      ///< number of the last frame
+  decltype(Frame::mask) used;  ///< parameters that occur
+  std::vector<Range> range = std::vector<Range>(decltype(Frame::mask)().size());  ///< by number
 
-/// All that the planes say but their values; an array. Ranges are in levels at quantiser 1, in
-/// the order of the parameters named.
-nlohmann::ordered_json describe_planes(const fba::DecodedStream& stream);
+  void add(const Frame& frame);
+};
 
-/// The same as a table, one line a plane. Ranges are the widest of all parameters.
-std::string planes_text(const fba::DecodedStream& stream);
+/// A stream, plane by plane; without what each of them says.
+struct StreamExtent {
+  std::size_t planes = 0, intra = 0;
+  std::int64_t bits = 0;                    ///< of the planes
+  std::int64_t last = -1;                   ///< number of the last plane
+  fap::Rate rate;                           ///< of the first plane
+  std::optional<int> fap_quant, bap_quant;  ///< the first ones
+  Extent<fap::Frame> face;
+  Extent<fba::BodyFrame> body;
+
+  void add(const fba::Plane& plane);
+};
+
+/// One plane at least was added. `bytes`: the size of the stream.
+nlohmann::ordered_json describe_stream(const StreamExtent& stream, const fba::StreamInfo& info,
+                                       const std::vector<std::string>& warnings, std::size_t bytes);
+
+/// All that a plane says but its values. Ranges are in levels at quantiser 1, in the order of the
+/// parameters named.
+nlohmann::ordered_json describe_plane(const fba::Plane& plane);
+
+/// The same as a line of a table, with its heading. Ranges are the widest of all parameters.
+std::string planes_heading();
+std::string plane_text(const fba::Plane& plane);
 
 }  // namespace animeme::inspect
