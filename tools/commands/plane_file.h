@@ -1,0 +1,36 @@
+/// @file
+/// A raw FBA stream that is decoded as often as wanted, with a piece of it in memory at a time.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "codec/decode/decoder.h"
+#include "fap/result.h"
+
+namespace animeme::tools {
+
+/// A stream in a file, or in memory.
+class PlaneFile {
+ public:
+  /// A stream in memory.
+  explicit PlaneFile(std::vector<std::uint8_t> bytes) : bytes_(std::move(bytes)) {}
+  /// A stream in a file; can_read() was asked.
+  explicit PlaneFile(std::string path) : path_(std::move(path)) {}
+
+  /// Is this a file (no pipe, not standard input) with such a stream?
+  static bool can_read(const std::string& path);
+
+  using Take = std::function<Result<void>(const fba::Plane&)>;  ///< an error ends the reading
+  /// All planes from the first on; the errors and warnings are those of fba::decode(), those of
+  /// `take`, and io.
+  Result<void> for_each(const Take& take, std::vector<std::string>* warnings = nullptr) const;
+
+ private:
+  std::string path_;  // empty: bytes_
+  std::vector<std::uint8_t> bytes_;
+};
+
+}  // namespace animeme::tools
