@@ -46,6 +46,9 @@ struct FillOptions {
   /// Keep FAP 1 and 2 beside low-level FAPs. Known players disagree about such frames, so they
   /// are left out as long as there is anything else.
   bool keep_high_level = false;
+  /// FAP 1 and 2 become low-level FAPs as fap/expand.h says, so that players that know no others
+  /// show them. Low-level FAPs that are sent win over those of the shapes; held ones do, too.
+  bool expand = false;
   /// Low-level FAPs that were never sent and follow from none are in the result, too, at 0
   /// (neutral), unless FAP 1 and 2 are all there is. That is what a receiver of a coded
   /// stream shows: an encoder leaves FAPs out that stay at 0.

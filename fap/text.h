@@ -47,8 +47,9 @@ struct ReadTextOptions {
 ///
 /// Legal and taken silently: comments (from '#' at the start of a token to the end of the line),
 /// blank lines, tabs, CR LF, a missing newline at the end, versions 2.0 to 2.2, a path as name,
-/// rates like 12.5 and 29.97 (see rate_text.h), gaps in the frame numbers (skipped frames: they
-/// stay gaps, fill() closes them).
+/// rates like 12.5 and 29.97 (see rate_text.h), an exact rate behind the name as write_text()
+/// leaves it there ("talk@29.97fps" beside the rate 30), gaps in the frame numbers (skipped frames:
+/// they stay gaps, fill() closes them).
 ///
 /// Taken with a warning:
 /// - a UTF-8 byte order mark; no header; another version than 2.0 to 2.2; blanks in the name (all
@@ -82,17 +83,35 @@ Result<Sequence> read_text(std::string_view text, const ReadTextOptions& options
 /// How write_text() writes.
 struct WriteTextOptions {
   bool renumber = false;  ///< number the frames 0, 1, 2 ...; false: their own numbers, with gaps
-  bool integer_rate = false;  ///< round the rate to a whole number >= 1, as some players demand
+  /// The header has the nearest whole rate (1 at least), as players demand. A rate that is not
+  /// whole stands behind the name, "talk@29.97fps", from where read_text() takes it: no place of a
+  /// comment is read over by all players (fap/text_format.md, section 3), and a name is one word to
+  /// each of them.
+  bool whole_rate = false;
 };
 
 /// Writes the form that every known player reads: version 2.1, no comments, a one-word name, the
 /// exact frame count, 68 mask values, mask and values on lines of their own, LF, a newline at
 /// the end. Old players further want frames 0, 1, 2 ... without gaps, one mask for all frames, no
-/// FAP 1 and 2 beside others, and an integer rate: see fill() and the options.
+/// FAP 1 and 2 beside others, and a whole rate: see fill() and the options. Whether a text has all
+/// of it: fap/players.h.
 ///
-/// read_text() gives the same sequence back if the name is one word, the frame numbers ascend
-/// from 0 and values of absent FAPs are 0. Blanks and control characters of the name become
-/// '_', and so does a leading '#'; an empty name becomes "clip". An invalid rate is written as 0.
+/// read_text() gives the same sequence back if the name is one word of 200 bytes at most, the frame
+/// numbers ascend from 0 and values of absent FAPs are 0. Blanks and control characters of the name
+/// become '_', and so do a leading '#' and an '@' that would be read as an exact rate; longer names
+/// are cut (a player has room for 254 bytes); an empty one becomes "clip". An invalid rate is
+/// written as 0.
 std::string write_text(const Sequence& sequence, const WriteTextOptions& options = {});
+
+/// @{
+/// The same in pieces, for clips that nobody wants to have in memory: the first line, and the two
+/// lines of a frame under its own number, appended to `text`.
+std::string text_header(Rate rate, const std::string& name, std::int64_t frames,
+                        const WriteTextOptions& options = {});
+void append_text(std::string& text, const Frame& frame);
+/// @}
+
+/// The whole rate nearest to `rate`, 1 at least; the same if it is not valid.
+Rate whole_rate(Rate rate);
 
 }  // namespace animeme::fap

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fap/detail/text_header.h"
+#include "fap/detail/text_writing.h"
 #include "fap/rate_text.h"
 
 namespace animeme::fap::detail {
@@ -207,10 +208,32 @@ Result<TextHeader> parse_header(const Words& w, Place place, const TextDialect& 
     return error;
   }
   header.rate = *rate;
+  if (const std::size_t tag = exact_rate_at(header.name, *rate); tag != std::string::npos) {
+    header.rate = exact_rate_of(std::string_view(header.name).substr(tag));
+    header.name.resize(tag);
+  }
   return header;
 }
 
+constexpr std::string_view kExactEnd = "fps";
+
 }  // namespace
+
+std::string exact_rate_tag(Rate rate) { return "@" + format_rate(rate) + std::string(kExactEnd); }
+
+Rate exact_rate_of(std::string_view tag) {
+  const Result<Rate> rate = parse_rate(tag.substr(1, tag.size() - 1 - kExactEnd.size()));
+  return rate ? *rate : Rate{0, 0};
+}
+
+std::size_t exact_rate_at(std::string_view name, Rate whole) {
+  const std::size_t tag = name.rfind('@');
+  if (tag == std::string_view::npos || tag == 0 || !name.ends_with(kExactEnd)) return name.npos;
+  if (name.size() - tag < kExactEnd.size() + 2) return name.npos;
+  const Rate rate = exact_rate_of(name.substr(tag));
+  const bool exact = rate.valid() && rate.den > 1 && whole_rate(rate) == whole;
+  return exact ? tag : name.npos;
+}
 
 Result<TextHeader> read_header(std::string_view text, TextScanner& scanner,
                                const TextDialect& dialect, const ReadTextOptions& options,

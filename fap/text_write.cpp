@@ -7,12 +7,6 @@
 namespace animeme::fap {
 namespace {
 
-Rate written_rate(Rate rate, bool integer) {
-  if (!integer || !rate.valid()) return rate;
-  const std::uint64_t rounded = (std::uint64_t(rate.num) * 2 + rate.den) / (2ull * rate.den);
-  return {std::uint32_t(std::max<std::uint64_t>(rounded, 1)), 1};
-}
-
 class FrameWriter {
  public:
   explicit FrameWriter(std::string& text) : text_(text) {}
@@ -55,10 +49,30 @@ class FrameWriter {
 
 }  // namespace
 
+Rate whole_rate(Rate rate) {
+  if (!rate.valid()) return rate;
+  const std::uint64_t rounded = (std::uint64_t(rate.num) * 2 + rate.den) / (2ull * rate.den);
+  return {std::uint32_t(std::max<std::uint64_t>(rounded, 1)), 1};
+}
+
+std::string text_header(Rate rate, const std::string& name, std::int64_t frames,
+                        const WriteTextOptions& options) {
+  const Rate written = options.whole_rate ? whole_rate(rate) : rate;
+  std::string word = detail::one_word(name);
+  if (const std::size_t tag = detail::exact_rate_at(word, written); tag != std::string::npos) {
+    word[tag] = '_';
+  }
+  if (written != rate) word += detail::exact_rate_tag(rate);
+  return "2.1 " + word + " " + format_rate(written) + " " + std::to_string(frames) + "\n";
+}
+
+void append_text(std::string& text, const Frame& frame) {
+  FrameWriter(text).write(frame, frame.number);
+}
+
 std::string write_text(const Sequence& sequence, const WriteTextOptions& options) {
-  const Rate rate = written_rate(sequence.rate, options.integer_rate);
-  std::string text = "2.1 " + detail::one_word(sequence.name) + " " + format_rate(rate) + " " +
-                     std::to_string(sequence.frames.size()) + "\n";
+  std::string text =
+      text_header(sequence.rate, sequence.name, std::int64_t(sequence.frames.size()), options);
   FrameWriter writer(text);
   std::int64_t running = 0;
   for (const Frame& frame : sequence.frames) {

@@ -24,11 +24,56 @@ TEST(WriteText, Options) {
   const Sequence clip{{30000, 1001}, {make_frame(4, {{3, 1}}), make_frame(9, {{3, 2}})}, "x"};
   const std::string mask = mask_line({3}) + "\n";
   EXPECT_EQ(write_text(clip), "2.1 x 29.97 2\n" + mask + "4 1\n" + mask + "9 2\n");
-  EXPECT_EQ(write_text(clip, {.renumber = true, .integer_rate = true}),
-            "2.1 x 30 2\n" + mask + "0 1\n" + mask + "1 2\n");
-  EXPECT_EQ(write_text({{1, 3}, {}, "x"}, {.integer_rate = true}), "2.1 x 1 0\n");
-  EXPECT_EQ(write_text({{25, 2}, {}, "x"}, {.integer_rate = true}), "2.1 x 13 0\n");
-  EXPECT_EQ(write_text({{0, 1}, {}, "x"}, {.integer_rate = true}), "2.1 x 0 0\n");
+  EXPECT_EQ(write_text(clip, {.renumber = true, .whole_rate = true}),
+            "2.1 x@29.97fps 30 2\n" + mask + "0 1\n" + mask + "1 2\n");
+  EXPECT_EQ(write_text({{1, 3}, {}, "x"}, {.whole_rate = true}), "2.1 x@0.3333333fps 1 0\n");
+  EXPECT_EQ(write_text({{25, 2}, {}, "x"}, {.whole_rate = true}), "2.1 x@12.5fps 13 0\n");
+  EXPECT_EQ(write_text({{25, 1}, {}, "x"}, {.whole_rate = true}), "2.1 x 25 0\n");
+  EXPECT_EQ(write_text({{0, 1}, {}, "x"}, {.whole_rate = true}), "2.1 x 0 0\n");
+}
+
+TEST(WriteText, WholeRatesKeepTheExactOne) {
+  for (const Rate rate : {Rate{30000, 1001}, Rate{24000, 1001}, Rate{25, 2}, Rate{1, 3},
+                          Rate{25, 1}, Rate{4294967291u, 4294967279u}}) {
+    for (const char* name : {"talk", "a@b", "a@29.97fps", "@30fps", "C:\\faces\\x.fap"}) {
+      const Sequence clip{rate, {make_frame(0, {{3, 1}})}, name};
+      const std::string text = write_text(clip, {.whole_rate = true});
+      std::vector<std::string> warnings;
+      const Result<Sequence> again = read_text(text, {}, &warnings);
+      ASSERT_TRUE(again) << text;
+      EXPECT_EQ(again->rate, rate) << text;
+      EXPECT_TRUE(warnings.empty()) << text;
+      EXPECT_EQ(write_text(*again, {.whole_rate = true}), text);
+      if (std::string(name) != "a@29.97fps") {
+        EXPECT_EQ(again->name, name) << text;
+      }
+    }
+  }
+}
+
+TEST(WriteText, OnlyTheRateOfTheHeaderIsMadeExact) {
+  for (const char* header : {"x@29.97fps 25", "x@30fps 30", "x@29.97 30", "@29.97fps 30",
+                             "x@29.97fps 29.97", "x@fps 30", "x@0fps 1"}) {
+    const Result<Sequence> clip = read_text("2.1 " + std::string(header) + " 0\n");
+    ASSERT_TRUE(clip) << header;
+    EXPECT_EQ(clip->name + " ", std::string(header).substr(0, clip->name.size() + 1)) << header;
+  }
+  // What would be read as an exact rate and is none stays a name.
+  const Sequence clip{{30, 1}, {}, "x@29.97fps"};
+  EXPECT_EQ(write_text(clip), "2.1 x_29.97fps 30 0\n");
+}
+
+TEST(WriteText, LongNamesAreCut) {
+  const std::string text =
+      write_text({{30000, 1001}, {}, std::string(1000, 'n')}, {.whole_rate = true});
+  EXPECT_EQ(text, "2.1 " + std::string(200, 'n') + "@29.97fps 30 0\n");
+}
+
+TEST(WriteText, InPieces) {
+  const Sequence clip{{25, 1}, {make_frame(0, {{3, 5}}), make_frame(3, {{4, -6}})}, "x"};
+  std::string text = text_header(clip.rate, clip.name, 2);
+  for (const Frame& frame : clip.frames) append_text(text, frame);
+  EXPECT_EQ(text, write_text(clip));
 }
 
 TEST(WriteText, NamesAreOneWord) {

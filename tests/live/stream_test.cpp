@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "codec/decode/decoder.h"
+#include "fap/players.h"
 #include "fap/text.h"
 #include "tests/live/stream_support.h"
 #include "tools/media/audio.h"
@@ -74,6 +75,10 @@ TEST_F(Streams, TextAndStreamHaveTheFapsOfTheSource) {
   Running stream({"receive", dir / "talk.sdp", "-o", dir / "got.fba", "--duration", "3"},
                  dir / "2.out", dir / "2.err");
   EXPECT_EQ(stream.wait(), 0) << test::slurp(dir / "2.err");
+  Running players({"receive", dir / "talk.sdp", "-o", dir / "players.fap", "--duration", "2"},
+                  dir / "3.out", dir / "3.err");
+  EXPECT_EQ(players.wait(), 0) << test::slurp(dir / "3.err");
+  EXPECT_THAT(fap::player_problems(test::slurp(dir / "players.fap")), testing::IsEmpty());
   send.signal(SIGTERM);
   EXPECT_EQ(send.wait(), 130);
 

@@ -47,7 +47,8 @@ struct Imported {
 inline Imported import(const std::string& table, std::vector<std::string> options) {
   const TempDir dir;
   spill(dir / "take.csv", table);
-  std::vector<std::string> arguments = {"import", dir / "take.csv", "-o", dir / "take.fap"};
+  std::vector<std::string> arguments = {"import", dir / "take.csv", "--exact", "-o",
+                                        dir / "take.fap"};
   arguments.insert(arguments.end(), options.begin(), options.end());
   const auto result = animeme(arguments);
   EXPECT_EQ(result.exit_code, 0) << result.err;

@@ -36,7 +36,8 @@ struct Imported {
 Imported import(const std::string& table, std::vector<std::string> options = {}) {
   const TempDir dir;
   spill(dir / "take.csv", table);
-  std::vector<std::string> arguments = {"import", dir / "take.csv", "-o", dir / "take.fap"};
+  std::vector<std::string> arguments = {"import", dir / "take.csv", "--exact", "-o",
+                                        dir / "take.fap"};
   arguments.insert(arguments.end(), options.begin(), options.end());
   const auto result = animeme(arguments);
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -220,7 +221,7 @@ TEST(Import, HelpHasExamples) {
 TEST(Import, OtherCommandsReadTheSameFiles) {
   const TempDir dir;
   spill(dir / "live.csv", live_link(120, 60));
-  ASSERT_EQ(animeme({"import", dir / "live.csv", "-o", dir / "live.fap"}).exit_code, 0);
+  ASSERT_EQ(animeme({"import", dir / "live.csv", "--exact", "-o", dir / "live.fap"}).exit_code, 0);
   const auto direct = animeme({"encode", dir / "live.csv", "-o", dir / "a.fba"});
   ASSERT_EQ(direct.exit_code, 0) << direct.err;
   ASSERT_EQ(animeme({"encode", dir / "live.fap", "-o", dir / "b.fba"}).exit_code, 0);

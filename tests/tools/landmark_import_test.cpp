@@ -214,7 +214,8 @@ TEST(ImportLandmarks, BadTables) {
   };
   for (const auto& one : cases) {
     spill(dir / "take.csv", one.text);
-    std::vector<std::string> arguments = {"import", dir / "take.csv", "-o", dir / "take.fap"};
+    std::vector<std::string> arguments = {"import", dir / "take.csv", "--exact", "-o",
+                                          dir / "take.fap"};
     arguments.insert(arguments.end(), one.options.begin(), one.options.end());
     const auto result = animeme(arguments);
     EXPECT_EQ(result.exit_code, one.exit_code) << one.what << "\n" << result.err;

@@ -1,4 +1,5 @@
 // What reads a stream plane by plane takes no memory for those that are over.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <spawn.h>
 #include <sys/resource.h>
@@ -47,7 +48,7 @@ void write_long_stream(const std::string& path) {
 
 // Megabytes that the program had resident at most.
 long megabytes_of(std::vector<std::string> arguments, const std::string& out) {
-  arguments.insert(arguments.begin(), test::program_path());
+  arguments.insert(arguments.begin(), std::string(ANIMEME_BINARY_DIR) + "/bin/animeme");
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);

@@ -61,7 +61,7 @@ TEST(ImportOpenFace, InThePicture) {
 TEST(ImportOpenFace, OtherCommandsReadTheSameTables) {
   const TempDir dir;
   spill(dir / "take.csv", openface(30, 7, -1));
-  ASSERT_EQ(animeme({"import", dir / "take.csv", "-o", dir / "take.fap"}).exit_code, 0);
+  ASSERT_EQ(animeme({"import", dir / "take.csv", "--exact", "-o", dir / "take.fap"}).exit_code, 0);
   const auto direct = animeme({"encode", dir / "take.csv", "-o", dir / "a.fba"});
   ASSERT_EQ(direct.exit_code, 0) << direct.err;
   ASSERT_EQ(animeme({"encode", dir / "take.fap", "-o", dir / "b.fba"}).exit_code, 0);

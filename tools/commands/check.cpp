@@ -1,19 +1,25 @@
 #include <fnmatch.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
 #include <thread>
 
+#include "fap/players.h"
 #include "tools/check/report.h"
 #include "tools/check/run_suite.h"
 #include "tools/check/suite.h"
 #include "tools/commands/common.h"
+#include "tools/json.h"
 
 namespace animeme::tools {
 
 namespace {
 
 struct CheckOptions {
-  std::string place;
+  std::vector<std::string> places;
+  bool high_level = false;
   std::string decoder;
   std::string json;
   std::string junit;
@@ -43,7 +49,42 @@ bool is_chosen(const SuiteCase& one, const std::vector<std::string>& filters) {
   return false;
 }
 
+// Texts are checked for players, anything else is a suite.
+bool is_text(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) return false;
+  return path == "-" || extension_of(path) == ".fap";
+}
+
+Result<int> check_texts(const CheckOptions& options) {
+  Json files = Json::array();
+  int wrong = 0;
+  for (const std::string& path : options.places) {
+    const Result<std::string> text = read_text_file(path);
+    if (!text) return text.error();
+    const auto problems = fap::player_problems(*text, {.high_level = options.high_level});
+    wrong += problems.empty() ? 0 : 1;
+    files.push_back({{"file", path}, {"players", problems.empty()}, {"problems", problems}});
+    if (options.json == "-") continue;
+    if (problems.empty()) std::printf("%s: right for all players\n", path.c_str());
+    for (const std::string& problem : problems) {
+      std::printf("%s: %s\n", path.c_str(), problem.c_str());
+    }
+  }
+  if (!options.json.empty()) {
+    const auto replace = nlohmann::json::error_handler_t::replace;
+    auto ok = write_file(options.json, files.dump(2, ' ', false, replace) + "\n");
+    if (!ok) return ok.error();
+  }
+  return wrong == 0 ? kOk : kCheckFailed;
+}
+
 Result<int> run(const CheckOptions& options) {
+  const auto texts = std::count_if(options.places.begin(), options.places.end(), is_text);
+  if (texts > 0 && std::size_t(texts) == options.places.size()) return check_texts(options);
+  if (options.places.size() > 1) {
+    return usage_error("only FAP texts (.fap) are checked together, not " + options.places.back());
+  }
   if (options.json == "-" && options.junit == "-") {
     return usage_error("--json and --junit cannot both go to standard output");
   }
@@ -53,7 +94,7 @@ Result<int> run(const CheckOptions& options) {
     if (!command) return usage_error(command.error().message);
     run.command = std::move(*command);
   }
-  Result<Suite> suite = load_suite(options.place);
+  Result<Suite> suite = load_suite(options.places.front());
   if (!suite) return suite.error();
   std::vector<const SuiteCase*> chosen;
   for (SuiteCase& one : suite->cases) {
@@ -96,16 +137,18 @@ Result<int> run(const CheckOptions& options) {
   if (sum.bad_data > 0) {
     return make_error(Code::syntax, std::to_string(sum.bad_data) +
                                         " cases are not as they were published; get them again")
-        .in_file(options.place);
+        .in_file(options.places.front());
   }
   return sum.all_right() ? kOk : kCheckFailed;
 }
 
 void add_options(CLI::App& app, CheckOptions& options) {
-  app.add_option("place", options.place,
-                 "Folder of cases (conformance), a .tar.xz of them, or a folder of X.fba with "
-                 "X.dec.fap or X.dec.bap")
+  app.add_option("place", options.places,
+                 "Folder of cases (conformance), a .tar.xz of them, a folder of X.fba with "
+                 "X.dec.fap or X.dec.bap; or FAP texts, whether old players read them right")
       ->required();
+  app.add_flag("--high-level", options.high_level,
+               "FAP texts are for players that show FAP 1 and 2, as Xface does");
   app.add_option("--decoder", options.decoder,
                  "Another decoder: its command with {in} {out} {bap} for the files; without {out} "
                  "standard output is read. No shell is run");
@@ -128,8 +171,9 @@ void add_options(CLI::App& app, CheckOptions& options) {
 }  // namespace
 
 const Command kCheck{"check",
-                     "Run conformance cases against this decoder or any program; exit code 1 if "
-                     "one is not right",
+                     "Run conformance cases against this decoder or any program, or check FAP "
+                     "texts for players; exit code 1 if one is not right",
+                     "  animeme check talk.fap\n"
                      "  animeme check conformance\n"
                      "  animeme check conformance --decoder \"mydecoder {in} {out} {bap}\"\n"
                      "  animeme check conformance --decoder \"mydecoder --fap {in}\" --filter "

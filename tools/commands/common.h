@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fap/fill.h"
 #include "fap/frame.h"
 #include "fap/result.h"
 #include "tools/commands/command.h"
@@ -35,13 +36,18 @@ Result<MotionInput> parse_motion(std::vector<std::uint8_t> bytes, const std::str
 
 /// Any input with a face as a clip.
 struct FaceInput {
-  fap::Sequence clip;                ///< ascending frame numbers
-  std::vector<std::uint8_t> stream;  ///< the raw FBA stream; empty for text
-  double start = 0;                  ///< as MotionInput::start
+  fap::Sequence clip;                       ///< ascending frame numbers
+  std::vector<std::uint8_t> stream;         ///< the raw FBA stream; empty for text
+  double start = 0;                         ///< as MotionInput::start
+  std::vector<fap::GroupRules> rules = {};  ///< one a frame, for fap::fill(); empty for text
 };
 /// As read_motion(). A stream or text with a body but no face is not_found.
 Result<FaceInput> read_face(const std::string& path);
-/// Likewise, from bytes that were read already.
+/// The face as players show it: held and mirrored as the stream means it, FAP 1 and 2 as low-level
+/// FAPs unless they are kept. Errors: those of fap::fill(), with `path`.
+Result<fap::Sequence> shown_face(const FaceInput& input, const std::string& path,
+                                 fap::FillOptions options = {});
+/// As read_face(), from bytes that were read already.
 Result<FaceInput> parse_face(std::vector<std::uint8_t> bytes, const std::string& path);
 /// The face of an input that was read already, and the check for there being one.
 Result<FaceInput> face_of(MotionInput input, const std::string& path);

@@ -2,7 +2,6 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
-#include "fap/fill.h"
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
 #include "tools/commands/head_options.h"
@@ -82,9 +81,7 @@ Result<fap::Sequence> read_filled(const ExportOptions& options, std::vector<std:
   fap::FillOptions filling;
   filling.interpolate = filling.complete = true;
   filling.keep_high_level = keep_high_level;
-  Result<fap::Sequence> filled = fap::fill(input->clip, filling);
-  if (!filled) return filled.error().in_file(options.input);
-  return filled;
+  return shown_face(*input, options.input, filling);
 }
 
 Result<int> write_arkit(const ExportOptions& options, std::vector<std::uint8_t> bytes) {

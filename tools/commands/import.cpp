@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "fap/rate_text.h"
-#include "fap/text.h"
 #include "tools/commands/common.h"
+#include "tools/commands/face_text.h"
 #include "tools/exchange/arkit.h"
 #include "tools/exchange/landmarks.h"
 
@@ -18,6 +18,7 @@ struct ImportOptions {
   std::string output;
   std::string rate;
   bool degrees = false;
+  bool exact = false;
   std::string layout;
   std::string size;
   int face = -1;
@@ -109,13 +110,19 @@ Result<int> run(ImportOptions options) {
   if (!read) return std::move(read).error();
   fap::Sequence& clip = *read;
   if (options.input != "-") clip.name = std::filesystem::path(options.input).stem().string();
-  if (auto written = write_file(options.output, fap::write_text(clip)); !written) {
-    return written.error();
-  }
+  FaceText face = face_text(clip);
+  face.coded = options.exact;  // nobody has coded it: as it is
+  OutputFile file(options.output);
+  const Result<std::int64_t> frames = write_face_text(file, name_of_output(options.output), face);
+  if (!frames) return frames.error();
+  if (auto written = file.publish(); !written) return written.error();
   const std::int64_t skipped = clip.frames.back().number + 1 - std::int64_t(clip.frames.size());
-  say(name_of_output(options.output) + ": " + std::to_string(clip.frames.size()) + " frames, " +
+  say(name_of_output(options.output) + ": " + std::to_string(*frames) + " frames, " +
       std::to_string(clip.frames.front().mask.count()) + " FAPs, " + fap::format_rate(clip.rate) +
-      " frames a second" + (skipped > 0 ? ", " + std::to_string(skipped) + " frames skipped" : ""));
+      " frames a second" +
+      (skipped == 0 ? ""
+                    : ", " + std::to_string(skipped) +
+                          (options.exact ? " frames skipped" : " of them held")));
   return kOk;
 }
 
@@ -165,6 +172,7 @@ void add_options(CLI::App& app, ImportOptions& options) {
   app.add_option("--rate", options.rate,
                  "Frames a second of the clip, like 30 or 29.97; without it the times tell");
   app.add_flag("--degrees", options.degrees, "Angles of head and eyes are degrees, not radians");
+  add_exact_option(app, options.exact);
   add_landmark_options(app, options);
 }
 

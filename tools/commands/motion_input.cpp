@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "codec/decode/access_unit.h"
+#include "codec/decode/fill.h"
 #include "tools/commands/common.h"
 #include "tools/media/container.h"
 
@@ -63,7 +64,21 @@ Result<FaceInput> parse_face(std::vector<std::uint8_t> bytes, const std::string&
 
 Result<FaceInput> face_of(MotionInput input, const std::string& path) {
   if (auto ok = require_face(input, path); !ok) return ok.error();
-  return FaceInput{std::move(input.face), std::move(input.stream), input.start};
+  FaceInput face{std::move(input.face), std::move(input.stream), input.start};
+  for (const fba::Plane& plane : input.decoded.planes) {
+    if (!fba::has_face(plane.object_mask)) continue;
+    const fba::FaceSettings none;
+    face.rules.push_back(fba::group_rules(plane.face_settings ? *plane.face_settings : none));
+  }
+  return face;
+}
+
+Result<fap::Sequence> shown_face(const FaceInput& input, const std::string& path,
+                                 fap::FillOptions options) {
+  options.expand = !options.keep_high_level;
+  Result<fap::Sequence> shown = fap::fill(input.clip, input.rules, options);
+  if (!shown) return std::move(shown).error().in_file(path);
+  return shown;
 }
 
 Result<void> require_face(const MotionInput& input, const std::string& path) {

@@ -2,8 +2,6 @@
 #include <algorithm>
 
 #include "dam/script/script.h"
-#include "fap/fill.h"
-#include "fap/head/shapes.h"
 #include "tools/commands/common.h"
 #include "tools/commands/fap_names.h"
 #include "tools/plot/clips.h"
@@ -42,10 +40,8 @@ Result<int> run(const PlotOptions& options) {
     if (path.empty()) continue;
     Result<FaceInput> input = read_face(path);
     if (!input) return input.error();
-    Result<fap::Sequence> filled = fap::fill(input->clip);
-    if (!filled) return filled.error().in_file(path);
-    // FAP 1 and 2 as the built-in head shows them.
-    for (fap::Frame& frame : filled->frames) frame = head::low_level(frame);
+    Result<fap::Sequence> filled = shown_face(*input, path);
+    if (!filled) return filled.error();
     clips.push_back({std::move(*filled), input->start});
     names.push_back(std::filesystem::path(path).filename().string());
   }

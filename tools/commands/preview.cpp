@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "fap/fill.h"
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
 #include "tools/commands/face_stream.h"
@@ -31,8 +30,8 @@ Result<int> write_preview(const std::string& path, const fba::AccessUnits& face,
                           const media::MuxInput& sound) {
   Result<FaceInput> input = parse_face(fba::join_access_units(face), path);
   if (!input) return input.error();
-  const Result<fap::Sequence> clip = fap::fill(input->clip, {.interpolate = true});
-  if (!clip) return clip.error().in_file(path);
+  const Result<fap::Sequence> clip = shown_face(*input, path, {.interpolate = true});
+  if (!clip) return clip.error();
   media::MuxInput tracks = sound;
   tracks.face = nullptr;
   if (media::usual_codec(path) != media::AudioCodec::opus || sound.encoded == nullptr ||

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "tools/commands/common.h"
+#include "tools/commands/face_text.h"
 #include "tools/commands/interrupt.h"
 #include "tools/live/address.h"
 #include "tools/live/receive_output.h"
@@ -26,7 +27,7 @@ struct ReceiveOptions {
   double duration = 0;
   double wait = 60;
   double timeout = 10;
-  bool fill = false;
+  live::FapOutputOptions text;
   bool stats = false;
   bool json = false;
 };
@@ -36,6 +37,13 @@ media::GapRule rule_of(const std::string& name) {
   return name == "skip" ? media::GapRule::skip : media::GapRule::hold;
 }
 
+live::FapOutputOptions text_options(const ReceiveOptions& options) {
+  live::FapOutputOptions text = options.text;
+  text.gap = rule_of(options.gap);
+  text.exact = text.exact || text.coded || text.gap == media::GapRule::skip;
+  return text;
+}
+
 /// One reception from the first packet to the last.
 class Reception {
  public:
@@ -43,7 +51,7 @@ class Reception {
       : options_(options),
         source_(source),
         recorder_({.duration = options.duration, .keep = !live::is_fap_output(options.output)}),
-        text_(options.output, rule_of(options.gap), options.fill) {}
+        text_(options.output, text_options(options)) {}
 
   bool has_face() const { return recorder_.recovery().usable > 0; }
   bool has_sound() const { return recorder_.sound_seconds() > 0; }
@@ -75,10 +83,8 @@ Result<void> Reception::take(media::LiveEvent event) {
     if (intervals_.size() < kMostIntervals) intervals_.push_back(interval);
   }
   if (!unit) return {};
-  const Result<std::string> text =
-      text_.push(*unit, recorder_.info()->timescale, recorder_.after_gap());
-  if (!text) return text.error();
-  const bool written = std::fwrite(text->data(), 1, text->size(), stdout) == text->size();
+  const std::string text = text_.push(*unit, recorder_.info()->timescale, recorder_.after_gap());
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (written && std::fflush(stdout) == 0) return {};
   return make_error(Code::io, "the frames cannot be written: nobody reads standard output");
 }
@@ -113,7 +119,13 @@ Result<void> Reception::run() {
 }
 
 Result<void> Reception::write() {
-  if (text_.wanted()) return text_.finish();
+  if (text_.wanted()) {
+    if (!text_options(options_).exact) {
+      warn_of_rate(name_of_output(options_.output), text_.rate(),
+                   "animeme decode --rate makes another text of it");
+    }
+    return text_.finish();
+  }
   if (extension_of(options_.output) == ".fba" && recorder_.recovery().frozen_seconds > 0) {
     warn("a raw stream has no place for missing planes: " + options_.output +
          " is shorter than what was sent; mp4 keeps the times");
@@ -193,11 +205,19 @@ void add_options(CLI::App& app, ReceiveOptions& options) {
   app.add_option(
          "--gap", options.gap,
          "FAP text where planes are missing: hold the last values, ease to neutral, or skip "
-         "the frames")
+         "the frames (with --exact)")
       ->check(CLI::IsMember({"hold", "neutral", "skip"}))
       ->capture_default_str();
-  app.add_flag("--fill", options.fill,
-               "FAP text with every FAP in every frame, as players want it");
+  CLI::Option* coded = app.add_flag(
+      "--coded", options.text.coded,
+      "FAP text with the values as they are coded, nothing held or mirrored; with --exact");
+  app.add_flag("--fill", options.text.fill,
+               "FAP text with every FAP: those that were never sent are at rest, 0")
+      ->excludes(coded);
+  app.add_flag("--expand", options.text.expand,
+               "FAP text with FAP 1 and 2 (visemes, expressions) as low-level FAPs")
+      ->excludes(coded);
+  add_exact_option(app, options.text.exact);
   app.add_option("--reorder-seconds", options.receive.media.rtp.reorder_seconds,
                  "rtp: the longest time that a packet waits for an earlier one")
       ->check(CLI::Range(0.0, 10.0))

@@ -2,7 +2,6 @@
 #include <charconv>
 
 #include "dam/script/script.h"
-#include "fap/fill.h"
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
 #include "tools/commands/fap_names.h"
@@ -101,8 +100,8 @@ Result<std::vector<studio::ShownFrame>> choose_frames(const RenderOptions& optio
   if (!options.shapes.empty()) return studio::shape_frames(options.shapes);
   Result<FaceInput> input = read_face(options.input);
   if (!input) return input.error();
-  const Result<fap::Sequence> clip = fap::fill(input->clip);
-  if (!clip) return clip.error().in_file(options.input);
+  const Result<fap::Sequence> clip = shown_face(*input, options.input);
+  if (!clip) return clip.error();
   Result<std::vector<studio::ShownFrame>> frames =
       options.frame >= 0       ? studio::frame_number(*clip, options.frame)
       : !options.times.empty() ? studio::frames_at(*clip, options.times)
@@ -153,8 +152,8 @@ Result<int> render_video(const RenderOptions& options, const Plan& plan) {
   preview.faps = std::move(*faps);
   Result<FaceInput> input = read_face(options.input);
   if (!input) return input.error();
-  const Result<fap::Sequence> clip = fap::fill(input->clip, {.interpolate = true});
-  if (!clip) return clip.error().in_file(options.input);
+  const Result<fap::Sequence> clip = shown_face(*input, options.input, {.interpolate = true});
+  if (!clip) return clip.error();
   Result<dam::Script> script = dam::Script{};
   if (!options.script.empty()) {
     script = speech::read_script(options.script);

@@ -6,10 +6,11 @@
 #include "dam/signal/fap_signal.h"
 #include "dam/speaking/life.h"
 #include "dam/speaking/synthesise.h"
+#include "dam/speaking/viseme_track.h"
 #include "fap/rate_text.h"
-#include "fap/text.h"
 #include "tools/commands/common.h"
 #include "tools/commands/face_stream.h"
+#include "tools/commands/face_text.h"
 #include "tools/commands/preview.h"
 #include "tools/commands/spoken_options.h"
 #include "tools/exchange/curves.h"
@@ -32,6 +33,8 @@ struct SpeakOptions {
   double style = 1;
   bool no_closure = false;
   bool life = false;
+  bool exact = false;
+  std::string visemes;
   std::uint64_t seed = 1;
   bool json = false;
 };
@@ -71,8 +74,13 @@ Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
                          const speech::Spoken& spoken) {
   const std::string extension = extension_of(options.output);
   if (extension == ".fap") {
-    if (auto done = write_file(options.output, fap::write_text(clip)); !done) return done.error();
-    say(options.output + ": " + std::to_string(clip.frames.size()) + " frames, " +
+    FaceText face = face_text(clip);
+    face.exact = options.exact;
+    OutputFile file(options.output);
+    const Result<std::int64_t> frames = write_face_text(file, options.output, face);
+    if (!frames) return frames.error();
+    if (auto done = file.publish(); !done) return done.error();
+    say(options.output + ": " + std::to_string(*frames) + " frames, " +
         seconds_text(clip.duration()));
     return kOk;
   }
@@ -126,6 +134,9 @@ Result<int> run(const SpeakOptions& options) {
   if (const std::string missing = missing_options(options.spoken); !missing.empty()) {
     return usage_error(missing);
   }
+  if (!options.visemes.empty() && extension_of(options.output) == ".csv") {
+    return usage_error("--visemes is for FAPs; export writes tables of visemes (talk.visemes.csv)");
+  }
   Result<fap::Rate> rate = fap::parse_rate(options.rate);
   if (!rate) return usage_error("--rate " + options.rate + ": " + rate.error().message);
   Result<dam::Model> model = speech::read_model(options.model);
@@ -154,6 +165,11 @@ Result<int> run(const SpeakOptions& options) {
     Result<fap::Sequence> clip = to_clip(*signal);
     if (!clip) return clip.error();
     clip->name = std::filesystem::path(options.output).stem().string();
+    if (!options.visemes.empty()) {
+      const bool instead = options.visemes == "instead";
+      dam::show_visemes(spoken->script, *clip,
+                        instead ? dam::VisemePlace::instead : dam::VisemePlace::beside);
+    }
     written = write_result(options, *clip, *spoken);
   }
   if (!written) return written;
@@ -182,12 +198,18 @@ void add_options(CLI::App& app, SpeakOptions& options) {
                  "Also write the timed phones: .TextGrid (Praat) or .tsv");
   app.add_option("--style", options.style,
                  "Intensity: 0 keeps the mouth at rest, 1 is as learned, 1.5 exaggerates")
-      ->check(CLI::Range(0.0, dam::kMostStyle))
-      ->capture_default_str();
+      ->option_text("0..1.5=1")
+      ->check(CLI::Range(0.0, dam::kMostStyle));
   app.add_flag("--no-closure", options.no_closure,
                "Do not force the lips shut on p, b and m, nor to the teeth on f and v");
   app.add_flag("--life", options.life,
                "Add blinks, and brows and head that move a little at stresses");
+  app.add_option("--visemes", options.visemes,
+                 "FAP 1, for players that know visemes only: 'instead' of jaw, lips and tongue, or "
+                 "'beside' them")
+      ->option_text("PLACE")
+      ->check(CLI::IsMember({"instead", "beside"}));
+  add_exact_option(app, options.exact);
   app.add_option("--seed", options.seed, "Other times of blinks and another sway of the head")
       ->needs("--life");
   add_stream_options(app, options.stream);
@@ -202,6 +224,7 @@ const Command kSpeak{
     "speak", "Make a face talk: from text, or from a recorded voice and its phonemes or text",
     "  animeme speak --text \"Hello world\" -o hello.mp4\n"
     "  animeme speak --text \"Guten Tag\" --lang de --rate 30 -o tag.mp4\n"
+    "  animeme speak --text \"Hello world\" --visemes instead -o hello.fap    # for Xface\n"
     "  animeme speak --audio voice.wav --transcript \"what she said\" -o talk.mp4\n"
     "  animeme speak --script voice.TextGrid --audio voice.wav --model me.dam -o talk.fba",
     set_up<SpeakOptions>};

@@ -24,9 +24,11 @@ void add_spoken_options(CLI::App& app, speech::SpokenOptions& options) {
   app.add_option("--lang", options.language, "Language of the text: en, de, fr, pt-br ...")
       ->capture_default_str();
   app.add_option("--speed", options.words_per_minute, "Words a minute of the synthetic voice")
+      ->option_text("80..450=175")
       ->check(CLI::Range(80, 450))
       ->capture_default_str();
   app.add_option("--pitch", options.pitch, "Pitch of the synthetic voice")
+      ->option_text("0..100=50")
       ->check(CLI::Range(0, 100))
       ->capture_default_str();
 }

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "codec/decode/fill.h"
-#include "fap/fill.h"
 #include "fap/head/rig.h"
 #include "tools/check/suite.h"
 #include "tools/commands/common.h"
@@ -42,12 +40,13 @@ struct ViewedClip {
 Result<ViewedClip> read_shown(const std::string& path) {
   Result<MotionInput> input = read_motion(path);
   if (!input) return input.error();
-  if (auto ok = require_face(*input, path); !ok) return ok.error();
-  Result<fap::Sequence> filled =
-      input->stream.empty() ? fap::fill(input->face) : fba::fill(input->decoded);
-  if (!filled) return filled.error().in_file(path);
+  const bool container = input->kind == FileKind::media;
+  const Result<FaceInput> face = face_of(std::move(*input), path);
+  if (!face) return face.error();
+  Result<fap::Sequence> filled = shown_face(*face, path);
+  if (!filled) return filled.error();
   const std::string name = std::filesystem::path(path).filename().string();
-  return ViewedClip{{std::move(*filled), input->start, name}, input->kind == FileKind::media};
+  return ViewedClip{{std::move(*filled), face->start, name}, container};
 }
 
 struct PageSound {

@@ -34,49 +34,6 @@ std::span<const std::uint8_t> bytes_of(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-// A file that lies complete beside its place until it is published; removed if it never is.
-class StagedFile {
- public:
-  explicit StagedFile(std::string path) : path_(std::move(path)) {
-    // Devices and pipes (/dev/null, /dev/stdout) cannot be renamed onto.
-    std::error_code ignored;
-    const auto status = std::filesystem::status(path_, ignored);
-    special_ = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
-    target_ = special_ ? path_ : path_ + ".part" + std::to_string(::getpid());
-  }
-  StagedFile(StagedFile&& other) noexcept
-      : path_(std::move(other.path_)),
-        target_(std::move(other.target_)),
-        special_(other.special_),
-        waiting_(std::exchange(other.waiting_, false)) {}
-  StagedFile(const StagedFile&) = delete;
-  ~StagedFile() {
-    if (waiting_) std::remove(target_.c_str());
-  }
-
-  Result<void> stage(std::span<const std::uint8_t> bytes) {
-    errno = 0;
-    std::ofstream out(target_, std::ios::binary | std::ios::trunc);
-    waiting_ = out.is_open() && !special_;
-    out.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-    out.flush();
-    if (!out) return file_error(path_, "cannot write");
-    return {};
-  }
-  Result<void> publish() {
-    if (!waiting_) return {};
-    if (std::rename(target_.c_str(), path_.c_str()) != 0) return file_error(path_, "cannot write");
-    waiting_ = false;
-    return {};
-  }
-
- private:
-  std::string path_;
-  std::string target_;
-  bool special_ = false;
-  bool waiting_ = false;
-};
-
 }  // namespace
 
 Result<std::vector<std::uint8_t>> read_file(const std::string& path) {
@@ -101,10 +58,58 @@ Result<std::string> read_text_file(const std::string& path) {
   return std::string(bytes->begin(), bytes->end());
 }
 
+OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
+  if (path_ == "-") return;
+  // Devices and pipes (/dev/null, /dev/stdout) cannot be renamed onto.
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path_, ignored);
+  special_ = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+  target_ = special_ ? path_ : path_ + ".part" + std::to_string(::getpid());
+}
+OutputFile::OutputFile(OutputFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      target_(std::move(other.target_)),
+      special_(other.special_),
+      waiting_(std::exchange(other.waiting_, false)),
+      out_(std::move(other.out_)) {}
+OutputFile::~OutputFile() {
+  if (waiting_) std::remove(target_.c_str());
+}
+
+Result<void> OutputFile::open() {
+  if (path_ == "-" || out_.is_open()) return {};
+  errno = 0;
+  out_.open(target_, std::ios::binary | std::ios::trunc);
+  waiting_ = out_.is_open() && !special_;
+  if (!out_.is_open()) return file_error(path_, "cannot write");
+  return {};
+}
+
+Result<void> OutputFile::write(std::span<const std::uint8_t> bytes) {
+  if (path_ == "-") return write_stdout(bytes);
+  if (auto opened = open(); !opened) return opened;
+  out_.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+  out_.flush();  // a full disk is told now, not when other files have taken their places
+  if (!out_) return file_error(path_, "cannot write");
+  return {};
+}
+
+Result<void> OutputFile::write(std::string_view text) { return write(bytes_of(text)); }
+
+Result<void> OutputFile::publish() {
+  if (path_ == "-") return {};
+  if (auto opened = open(); !opened) return opened;
+  out_.close();
+  if (!out_) return file_error(path_, "cannot write");
+  if (!waiting_) return {};
+  if (std::rename(target_.c_str(), path_.c_str()) != 0) return file_error(path_, "cannot write");
+  waiting_ = false;
+  return {};
+}
+
 Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes) {
-  if (path == "-") return write_stdout(bytes);
-  StagedFile file(path);
-  if (auto done = file.stage(bytes); !done) return done;
+  OutputFile file(path);
+  if (auto done = file.write(bytes); !done) return done;
   return file.publish();
 }
 
@@ -113,17 +118,17 @@ Result<void> write_file(const std::string& path, std::string_view text) {
 }
 
 Result<void> write_files(std::span<const OutputText> files) {
-  std::vector<StagedFile> staged;
+  std::vector<OutputFile> staged;
   for (const OutputText& file : files) {
     if (file.path == "-") continue;
     staged.emplace_back(file.path);
-    if (auto done = staged.back().stage(bytes_of(file.text)); !done) return done;
+    if (auto done = staged.back().write(file.text); !done) return done;
   }
   for (const OutputText& file : files) {
     if (file.path != "-") continue;
     if (auto done = write_stdout(bytes_of(file.text)); !done) return done;
   }
-  for (StagedFile& file : staged) {
+  for (OutputFile& file : staged) {
     if (auto done = file.publish(); !done) return done;
   }
   return {};

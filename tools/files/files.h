@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <fstream>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +21,32 @@ Result<std::string> read_text_file(const std::string& path);  ///< likewise, as 
 /// output. Errors: io.
 Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes);
 Result<void> write_file(const std::string& path, std::string_view text);  ///< likewise, of a text
+
+/// A file that is written bit by bit: it lies beside its place until it is published, and is
+/// removed if it never is. "-" is standard output, which gets everything at once, as do devices and
+/// pipes.
+class OutputFile {
+ public:
+  explicit OutputFile(std::string path);    ///< nothing is opened yet
+  OutputFile(OutputFile&& other) noexcept;  ///< the other one no longer writes
+  OutputFile(const OutputFile&) = delete;
+  ~OutputFile();
+
+  /// Appends. Errors: io, not_found (no such folder).
+  Result<void> write(std::span<const std::uint8_t> bytes);
+  Result<void> write(std::string_view text);  ///< likewise, of a text
+  /// All is written: the file takes its place. Errors: io.
+  Result<void> publish();
+
+ private:
+  Result<void> open();
+
+  std::string path_;
+  std::string target_;
+  bool special_ = false;
+  bool waiting_ = false;
+  std::ofstream out_;
+};
 
 /// A file to be written; the text is borrowed.
 struct OutputText {

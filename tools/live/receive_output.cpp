@@ -17,6 +17,12 @@ std::string name_of(const std::string& output) {
   return output == "-" ? "live" : std::filesystem::path(output).stem().string();
 }
 
+std::optional<fap::FillOptions> shown_by(const FapOutputOptions& options) {
+  if (options.coded) return std::nullopt;
+  return fap::FillOptions{
+      .keep_high_level = !options.fill, .expand = options.expand, .complete = options.fill};
+}
+
 }  // namespace
 
 bool is_container_output(const std::string& output) {
@@ -35,28 +41,36 @@ Result<void> check_folder(const std::string& output) {
   return make_error(Code::io, "cannot write into this folder").in_file(output);
 }
 
-Result<std::string> FapOutput::push(const media::LiveUnit& unit, std::uint32_t timescale,
-                                    bool after_gap) {
-  if (!wanted() || unit.track != media::LiveTrack::face) return std::string();
-  Result<std::vector<fap::Frame>> frames = frames_.push(unit, timescale, after_gap);
-  if (!frames) return frames.error();
+FapOutput::FapOutput(const std::string& output, const FapOutputOptions& options)
+    : output_(output), options_(options), frames_(options.gap, shown_by(options)) {
+  options_.exact = options.exact || options.coded || options.gap == media::GapRule::skip;
+}
+
+std::string FapOutput::push(const media::LiveUnit& unit, std::uint32_t timescale, bool after_gap) {
+  if (!wanted() || unit.track != media::LiveTrack::face) return {};
+  const std::vector<fap::Frame> frames = frames_.push(unit, timescale, after_gap);
   clip_.rate = frames_.rate();
   if (output_ != "-") {
-    clip_.frames.insert(clip_.frames.end(), frames->begin(), frames->end());
-    return std::string();
+    clip_.frames.insert(clip_.frames.end(), frames.begin(), frames.end());
+    return {};
   }
-  if (frames->empty()) return std::string();
   std::string text;
-  if (!begun_) text = media::fap_header(clip_.rate, name_of(output_));
-  begun_ = true;
-  for (const fap::Frame& frame : *frames) text += media::fap_lines(frame, clip_.rate);
+  if (!begun_ && !frames.empty()) {
+    text = fap::text_header(clip_.rate, name_of(output_), 0, {.whole_rate = !options_.exact});
+    begun_ = true;
+  }
+  for (const fap::Frame& frame : frames) fap::append_text(text, frame);
   return text;
 }
 
 Result<void> FapOutput::finish() {
   if (output_ == "-") return {};
   clip_.name = name_of(output_);
-  return tools::write_file(output_, fap::write_text(clip_));
+  if (!options_.coded && !clip_.frames.empty()) {
+    const fap::Mask all = clip_.frames.back().mask;
+    for (fap::Frame& frame : clip_.frames) frame = fap::with_mask(frame, all);
+  }
+  return tools::write_file(output_, fap::write_text(clip_, {.whole_rate = !options_.exact}));
 }
 
 Result<void> write_recording(const std::string& output, const media::Recording& recording,

@@ -19,23 +19,34 @@ bool is_fap_output(const std::string& output);
 /// A sentence before anything is received: not after an hour of recording. Error: io.
 Result<void> check_folder(const std::string& output);
 
-/// Frames as text: for standard output as they come, else kept for the file.
+/// What is in the text of a reception.
+struct FapOutputOptions {
+  media::GapRule gap = media::GapRule::hold;  ///< what is shown while planes are missing
+  bool coded = false;                         ///< frames as they are coded; implies `exact`
+  bool fill = false;                          ///< every FAP, at rest if it was never sent
+  bool expand = false;                        ///< FAP 1 and 2 as low-level FAPs
+  bool exact = false;  ///< the exact rate in the header, where players want a whole one
+};
+
+/// Frames as text: for standard output as they come, else kept for the file. Players show files; a
+/// text that is still coming has no frame count and a mask that grows.
 class FapOutput {
  public:
-  /// `output`: path, or "-"; `fill`: give out complete frames.
-  FapOutput(const std::string& output, media::GapRule gap, bool fill)
-      : output_(output), frames_(gap, fill) {}
+  /// `output`: path, or "-".
+  FapOutput(const std::string& output, const FapOutputOptions& options);
 
   /// False: `output` is no text, nothing is done with units.
   bool wanted() const { return is_fap_output(output_); }
-  /// Text of the frames of a unit for standard output; empty where a file is written. Errors:
-  /// those of LiveFrames.
-  Result<std::string> push(const media::LiveUnit& unit, std::uint32_t timescale, bool after_gap);
+  /// Text of the frames of a unit for standard output; empty where a file is written.
+  std::string push(const media::LiveUnit& unit, std::uint32_t timescale, bool after_gap);
+  /// Frames a second, of those so far.
+  fap::Rate rate() const { return clip_.rate; }
   /// Writes the file, if it is one. Error: io.
   Result<void> finish();
 
  private:
   std::string output_;
+  FapOutputOptions options_;
   media::LiveFrames frames_;
   fap::Sequence clip_;
   bool begun_ = false;

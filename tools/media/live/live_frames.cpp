@@ -5,8 +5,6 @@
 #include <utility>
 
 #include "codec/decode/fill.h"
-#include "fap/fill.h"
-#include "fap/text.h"
 
 namespace animeme::media {
 
@@ -57,12 +55,13 @@ std::optional<fba::Plane> LiveFrames::decode(const LiveUnit& unit) {
   return plane;
 }
 
-void LiveFrames::add_gap(std::int64_t end, std::vector<fap::Frame>& frames) const {
+void LiveFrames::add_gap(std::int64_t end, bool lost, std::vector<fap::Frame>& frames) const {
   if (!last_ || gap_ == GapRule::skip) return;
   end = std::min(end, last_->number + 1 + kMostGapFrames);
   for (std::int64_t number = last_->number + 1; number < end; ++number) {
     fap::Frame frame = *last_;
-    if (gap_ == GapRule::neutral) {
+    frame.viseme.def = frame.expression.def = frame.expression.init_face = false;
+    if (lost && gap_ == GapRule::neutral) {
       const double gone = rate_.seconds(double(number - last_->number)) / kEaseSeconds;
       frame = towards_neutral(frame, std::max(0.0, 1 - gone));
     }
@@ -71,30 +70,15 @@ void LiveFrames::add_gap(std::int64_t end, std::vector<fap::Frame>& frames) cons
   }
 }
 
-/// Two frames are enough: the one before has every FAP as it is shown.
-Result<fap::Frame> LiveFrames::filled(const fba::Plane& plane, fap::Frame frame) const {
-  fap::Sequence pair;
-  pair.rate = rate_;
-  std::vector<fap::GroupRules> rules;
-  const fap::GroupRules own =
+fap::Frame LiveFrames::shown(const fba::Plane& plane, const fap::Frame& frame) {
+  const fap::GroupRules rules =
       plane.face_settings ? fba::group_rules(*plane.face_settings) : fap::GroupRules{};
-  if (last_) {
-    pair.frames.push_back(*last_);
-    pair.frames.back().number = 0;
-    rules.push_back(own);
-  }
-  const std::int64_t number = std::exchange(frame.number, std::int64_t(pair.frames.size()));
-  pair.frames.push_back(frame);
-  rules.push_back(own);
-  Result<fap::Sequence> filled = fap::fill(pair, rules, {.complete = true});
-  if (!filled) return filled.error();
-  frame = filled->frames.back();
-  frame.number = number;
-  return frame;
+  const fap::Frame& received = receiver_->receive(frame, rules);
+  return fap::with_mask(received, receiver_->mask());
 }
 
-Result<std::vector<fap::Frame>> LiveFrames::push(const LiveUnit& unit, std::uint32_t timescale,
-                                                 bool after_gap) {
+std::vector<fap::Frame> LiveFrames::push(const LiveUnit& unit, std::uint32_t timescale,
+                                         bool after_gap) {
   const std::optional<fba::Plane> plane = decode(unit);
   std::vector<fap::Frame> frames;
   damaged_ = damaged_ || !plane;
@@ -105,31 +89,12 @@ Result<std::vector<fap::Frame>> LiveFrames::push(const LiveUnit& unit, std::uint
   fap::Frame frame = plane->face;
   frame.number = std::llround(seconds * rate_.frames_per_second());
   if (last_) frame.number = std::max(frame.number, last_->number + 1);
-  if (after_gap || damaged_) add_gap(frame.number, frames);
+  if (after_gap || damaged_ || receiver_) add_gap(frame.number, after_gap || damaged_, frames);
   damaged_ = false;
-  if (fill_) {
-    Result<fap::Frame> complete = filled(*plane, frame);
-    if (!complete) return complete.error();
-    frame = *complete;
-  }
+  if (receiver_) frame = shown(*plane, frame);
   frames.push_back(frame);
   last_ = frame;
   return frames;
-}
-
-std::string fap_header(fap::Rate rate, const std::string& name) {
-  fap::Sequence nothing;
-  nothing.rate = rate;
-  nothing.name = name;
-  return fap::write_text(nothing);
-}
-
-std::string fap_lines(const fap::Frame& frame, fap::Rate rate) {
-  fap::Sequence one;
-  one.rate = rate;
-  one.frames.push_back(frame);
-  const std::string text = fap::write_text(one);
-  return text.substr(text.find('\n') + 1);
 }
 
 }  // namespace animeme::media
