@@ -88,6 +88,31 @@ TEST(HeadCommand, HeadsOfUsersAreDrawnShownAndExported) {
   EXPECT_NE(own_picture, test::slurp(dir / "rest.png"));
 }
 
+// Xface cuts texts at blanks: the files that an .fdp names have none, wherever it lies.
+TEST(HeadCommand, WritesXfaceHeadsWithTheirTextures) {
+  const TempDir dir;
+  std::filesystem::create_directory(dir / "two words");
+  const std::filesystem::path folder = dir / "two words";
+  const auto made = animeme({"head", "child", "-o", (folder / "my child.fdp").string()});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_THAT(made.err, HasSubstr("10 textures"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "my_child_skin.tga"));
+  const auto read = animeme({"head", (folder / "my child.fdp").string()});
+  ASSERT_EQ(read.exit_code, 0) << read.err;
+  EXPECT_THAT(read.out, testing::Not(HasSubstr("texture")));
+  // Without a texture the colours in the mesh count.
+  std::filesystem::remove(folder / "my_child_skin.tga");
+  const auto without = animeme({"head", (folder / "my child.fdp").string()});
+  ASSERT_EQ(without.exit_code, 0) << without.err;
+  EXPECT_THAT(without.out, HasSubstr("texture 'my_child_skin.tga' is left out"));
+  std::filesystem::remove(folder / "my_child.wrl");
+  const auto half = animeme({"head", (folder / "my child.fdp").string()});
+  EXPECT_EQ(half.exit_code, 3);
+  EXPECT_THAT(half.err, HasSubstr("my child.fdp:10: "));
+  EXPECT_THAT(half.err, HasSubstr((folder / "my_child.wrl").string()));
+  EXPECT_THAT(half.err, HasSubstr("put the .wrl or .obj files"));
+}
+
 TEST(HeadCommand, SaysWhatIsWrong) {
   const TempDir dir;
   const auto expect = [&](const std::vector<std::string>& arguments, int code, const char* text) {
