@@ -54,6 +54,7 @@ class Assembler {
     set_points();
     if (auto error = set_units()) return std::move(*error);
     set_joints();
+    turn_inside_out();
     detail::colour_parts(head_);
     detail::see_sky(head_);
     add_targets();
@@ -180,6 +181,7 @@ class Assembler {
     }
     for (const Triangle& t : piece.mesh.triangles) {
       if (parts[t[0]] >= kPartCount) continue;
+      piece_of_[parts[t[0]]].push_back(std::uint32_t(i));
       head_.parts[parts[t[0]]].triangles.push_back({index[t[0]], index[t[1]], index[t[2]]});
     }
   }
@@ -236,6 +238,20 @@ class Assembler {
     head_.neck_pivot = source_.neck_pivot.value_or(Vec3{0, -0.97f, -0.34f} * es_);
   }
 
+  void turn_inside_out() {
+    for (const detail::TurnedPiece& found : detail::turn_inside_out(head_, es_, piece_of_)) {
+      const Piece& piece = source_.pieces[found.piece];
+      const std::string name = !piece.name.empty() ? piece.name : piece.material;
+      const std::string mesh =
+          name.empty() ? "mesh " + std::to_string(found.piece + 1) : "the mesh \"" + name + "\"";
+      say(mesh + " showed its inside: " +
+          (found.turned == found.triangles
+               ? "all"
+               : std::to_string(found.turned) + " of its " + std::to_string(found.triangles)) +
+          " triangles were wound clockwise; they are turned now");
+    }
+  }
+
   void add_targets() {
     for (const PieceTarget& target : source_.targets) {
       std::array<Target, kPartCount> by_part;
@@ -284,6 +300,7 @@ class Assembler {
   Head head_;
   std::vector<std::vector<std::uint8_t>> parts_;   // piece, vertex
   std::vector<std::vector<std::uint32_t>> index_;  // number in the part
+  detail::PieceOfTriangle piece_of_;
   std::array<Ball, 2> balls_;
   std::array<Vec3, 2> eyes_;  // as far as known: pupils, lids or centres
   float es_ = 1;

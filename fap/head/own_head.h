@@ -11,7 +11,8 @@
 ///
 /// Readers of files (fap/xml, tools/gltf, obj.h) fill a Source; assemble() does what they have in
 /// common: it sorts the pieces into parts by their names, turns the head upright, brings it to
-/// centimetres and to the origin, and finds eyes, jaw, neck and FAPU.
+/// centimetres and to the origin, finds eyes, jaw, neck and FAPU, and turns triangles that show
+/// their inside because they are wound clockwise.
 #pragma once
 
 #include <optional>

@@ -42,7 +42,30 @@ void append_colour(std::string& text, Vec3 linear) {
   }
 }
 
-void append_shape(std::string& text, const Piece& piece) {
+// Corners in threes, each followed by a comma, as plain scanners want it.
+void append_triangles(std::string& text, std::string_view field,
+                      const std::vector<Triangle>& triangles) {
+  text += "    " + std::string(field) + " [\n";
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    if (i > 0) text += ",\n";
+    for (const std::uint32_t v : triangles[i]) text += std::to_string(v) + ", ";
+    text += "-1";
+  }
+  text += " ]\n";
+}
+
+void append_places(std::string& text, std::span<const TexturePlace> places) {
+  text += "    texCoord TextureCoordinate { point [\n";
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (i > 0) text += ",\n";
+    append_significant(text, places[i].u, 5);
+    text += ' ';
+    append_significant(text, places[i].v, 5);
+  }
+  text += " ] }\n";
+}
+
+void append_shape(std::string& text, const Piece& piece, const PieceTexture& texture) {
   const Mesh& mesh = piece.mesh;
   if (!piece.name.empty()) text += "DEF " + word(piece.name) + " ";
   text += "Shape {\n";
@@ -51,7 +74,11 @@ void append_shape(std::string& text, const Piece& piece) {
     if (!piece.material.empty()) text += "DEF " + word(piece.material) + " ";
     text += "Material { diffuseColor ";
     append_colour(text, mean(mesh.colours));
-    text += "} }\n";
+    text += "}";
+    if (!texture.file.empty()) {
+      text += "\n    texture ImageTexture { url \"" + texture.file + "\" }";
+    }
+    text += " }\n";
   }
   text += "  geometry IndexedFaceSet {\n    coord Coordinate { point [\n";
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -67,13 +94,11 @@ void append_shape(std::string& text, const Piece& piece) {
     }
     text += " ] }\n";
   }
-  text += "    coordIndex [\n";
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (i > 0) text += ",\n";
-    for (const std::uint32_t v : mesh.triangles[i]) text += std::to_string(v) + ", ";
-    text += "-1";
-  }
-  text += " ]\n    creaseAngle 3.14\n  }\n}\n";
+  if (!texture.file.empty()) append_places(text, texture.places);
+  append_triangles(text, "coordIndex", mesh.triangles);
+  // The same once more: Xface wants to be told which texture place each corner has.
+  if (!texture.file.empty()) append_triangles(text, "texCoordIndex", mesh.triangles);
+  text += "    creaseAngle 3.14\n  }\n}\n";
 }
 
 }  // namespace
@@ -93,9 +118,11 @@ Result<std::vector<Piece>> read_wrl(std::string_view text, std::vector<std::stri
   return pieces;
 }
 
-std::string write_wrl(std::span<const Piece> pieces) {
+std::string write_wrl(std::span<const Piece> pieces, std::span<const PieceTexture> textures) {
   std::string text = "#VRML V2.0 utf8\n";
-  for (const Piece& piece : pieces) append_shape(text, piece);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    append_shape(text, pieces[i], i < textures.size() ? textures[i] : PieceTexture{});
+  }
   return text;
 }
 

@@ -5,7 +5,8 @@
 ///
 /// What is read: Group, Transform and other grouping nodes, Shape, IndexedFaceSet with Coordinate
 /// and Color, Appearance with the diffuseColor of its Material, DEF and USE. All other nodes and
-/// fields are passed over (lights, textures, scripts, PROTO). Source: ISO/IEC 14772-1.
+/// fields are passed over (lights, scripts, PROTO; textures, which only read_fdp() looks at).
+/// Source: ISO/IEC 14772-1.
 #pragma once
 
 #include <span>
@@ -29,10 +30,24 @@ namespace animeme::head {
 Result<std::vector<Piece>> read_wrl(std::string_view text,
                                     std::vector<std::string>* notes = nullptr);
 
+/// A place on a texture: (0, 0) is its lower left corner, (1, 1) the upper right one.
+struct TexturePlace {
+  float u = 0;  ///< to the right
+  float v = 0;  ///< up
+};
+
+/// The texture of a piece.
+struct PieceTexture {
+  std::string file;                  ///< its name; empty: the piece has none
+  std::vector<TexturePlace> places;  ///< of the vertices
+};
+
 /// Writes pieces as VRML97, a Shape with DEF for each in the order given, so that read_wrl() gives
 /// the same back: names without blanks, colours to a thousandth. Written so that plain scanners
 /// such as that of Xface can read it: one blank around each bracket, no DEF for the geometry (Xface
 /// calls it FILE_0, FILE_1 ... then). Occlusion and weights of the neck are left out.
-std::string write_wrl(std::span<const Piece> pieces);
+/// `textures`, if given, are those of the pieces, in their order; files that they name are not
+/// written. Viewers show a texture in place of the colours.
+std::string write_wrl(std::span<const Piece> pieces, std::span<const PieceTexture> textures = {});
 
 }  // namespace animeme::head

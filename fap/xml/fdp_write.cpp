@@ -2,6 +2,7 @@
 
 #include "fap/detail/number_text.h"
 #include "fap/head/wrl.h"
+#include "fap/xml/detail/colour_plane.h"
 #include "fap/xml/detail/fdp_plan.h"
 #include "fap/xml/detail/moves.h"
 #include "fap/xml/fdp.h"
@@ -141,17 +142,24 @@ class FdpWriter {
   std::string text_;
 };
 
-std::string meshes_of(const Head& head, const FdpPlan& plan, float scale) {
+void add_meshes(const Head& head, const FdpPlan& plan, const FdpOptions& options, FdpFiles& out) {
   std::vector<Piece> pieces;
+  std::vector<PieceTexture> textures;
   for (const Part part : plan.parts) {
     Piece piece{.name = std::string(kPartNames[std::size_t(part)]),
                 .material = {},
                 .mesh = head.part(part),
                 .neck_weights = {}};
-    for (Vec3& p : piece.mesh.positions) p *= scale;
+    textures.emplace_back();
+    if (!piece.mesh.colours.empty()) {
+      detail::ColourPlane plane = detail::colour_plane(piece.mesh);
+      textures.back() = {options.name + "_" + piece.name + ".tga", std::move(plane.places)};
+      out.textures.push_back({textures.back().file, detail::write_tga(plane.picture)});
+    }
+    for (Vec3& p : piece.mesh.positions) p *= float(options.scale);
     pieces.push_back(std::move(piece));
   }
-  return write_wrl(pieces);
+  out.wrl = write_wrl(pieces, textures);
 }
 
 }  // namespace
@@ -159,8 +167,10 @@ std::string meshes_of(const Head& head, const FdpPlan& plan, float scale) {
 Result<FdpFiles> write_fdp(const Head& head, const Rig& rig, const FdpOptions& options) {
   if (auto good = check(head, rig, options); !good) return good.error();
   const FdpPlan plan = detail::plan_fdp(head, rig, options);
-  return FdpFiles{FdpWriter(head, plan, options).write(),
-                  meshes_of(head, plan, float(options.scale))};
+  FdpFiles files;
+  files.fdp = FdpWriter(head, plan, options).write();
+  add_meshes(head, plan, options, files);
+  return files;
 }
 
 }  // namespace animeme::head

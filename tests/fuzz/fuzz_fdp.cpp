@@ -1,6 +1,6 @@
 // Any bytes as a face definition file or as a mesh: an answer without a crash, and what was read
 // holds together. The first byte chooses: VRML97, XMT-A, or an .fdp, after a zero byte with its
-// mesh (VRML97 or OBJ).
+// mesh (VRML97 or OBJ), after another one with all its textures (TGA).
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -66,9 +66,13 @@ void run_xmt(std::string_view text) {
 
 void run_fdp(std::string_view text) {
   const std::size_t end = std::min(text.find('\0'), text.size());
-  const std::string mesh(text.substr(std::min(end + 1, text.size())));
-  const auto source = head::read_fdp(
-      text.substr(0, end), [&](const std::string&) -> Result<std::string> { return mesh; });
+  const std::string_view rest = text.substr(std::min(end + 1, text.size()));
+  const std::size_t mesh_end = std::min(rest.find('\0'), rest.size());
+  const auto load = [&](const std::string& name) -> Result<std::string> {
+    if (!name.ends_with(".tga")) return std::string(rest.substr(0, mesh_end));
+    return std::string(rest.substr(std::min(mesh_end + 1, rest.size())));
+  };
+  const auto source = head::read_fdp(text.substr(0, end), load);
   if (!source) return require(!source.error().message.empty());
   check(*source);
 }

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/png_reader.h"
 #include "tests/support/program.h"
 #include "tests/support/shared.h"
 
@@ -86,6 +87,47 @@ TEST(HeadCommand, HeadsOfUsersAreDrawnShownAndExported) {
   const auto own_picture = test::slurp(dir / "me.png");
   run({"render", clip, "--time", "0", "--size", "80x80", "-o", dir / "rest.png"});
   EXPECT_NE(own_picture, test::slurp(dir / "rest.png"));
+}
+
+// Xface cuts texts at blanks: the files that an .fdp names have none, wherever it lies.
+TEST(HeadCommand, WritesXfaceHeadsWithTheirTextures) {
+  const TempDir dir;
+  std::filesystem::create_directory(dir / "two words");
+  const std::filesystem::path folder = dir / "two words";
+  const auto made = animeme({"head", "child", "-o", (folder / "my child.fdp").string()});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_THAT(made.err, HasSubstr("10 textures"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "my_child_skin.tga"));
+  const auto read = animeme({"head", (folder / "my child.fdp").string()});
+  ASSERT_EQ(read.exit_code, 0) << read.err;
+  EXPECT_THAT(read.out, testing::Not(HasSubstr("texture")));
+  // Drawn, it looks as the head that it was.
+  const std::string clip = (test::data_dir() / "grid_s1_sample/fap/prac8p.csv").string();
+  const auto drawn = [&](const std::string& head) {
+    const auto done = animeme({"render", clip, "--time", "0", "--size", "120x120", "--head", head,
+                               "-o", dir / "drawn.png"});
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    int width = 0;
+    int height = 0;
+    return test::decode_png(test::read_bytes(dir / "drawn.png"), width, height);
+  };
+  const test::Bytes own = drawn("child");
+  const test::Bytes back = drawn((folder / "my child.fdp").string());
+  ASSERT_EQ(own.size(), back.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < own.size(); ++i) sum += std::abs(int(own[i]) - int(back[i]));
+  EXPECT_LT(sum / double(own.size()), 6);  // it is 3; a head of plaster 29
+  // Without a texture the colours in the mesh count.
+  std::filesystem::remove(folder / "my_child_skin.tga");
+  const auto without = animeme({"head", (folder / "my child.fdp").string()});
+  ASSERT_EQ(without.exit_code, 0) << without.err;
+  EXPECT_THAT(without.out, HasSubstr("texture 'my_child_skin.tga' is left out"));
+  std::filesystem::remove(folder / "my_child.wrl");
+  const auto half = animeme({"head", (folder / "my child.fdp").string()});
+  EXPECT_EQ(half.exit_code, 3);
+  EXPECT_THAT(half.err, HasSubstr("my child.fdp:10: "));
+  EXPECT_THAT(half.err, HasSubstr((folder / "my_child.wrl").string()));
+  EXPECT_THAT(half.err, HasSubstr("put the .wrl or .obj files"));
 }
 
 TEST(HeadCommand, SaysWhatIsWrong) {

@@ -21,13 +21,15 @@ const head::FdpFiles& child_files() {
 // A scanner that knows blanks only: numbers, each followed by a word that is ',' or ']'.
 struct PlainMesh {
   std::vector<head::Vec3> points;
-  std::vector<head::Triangle> triangles;
+  std::vector<head::Triangle> triangles, on_texture;
+  std::size_t places = 0;  // on the texture
+  std::string texture;
 };
 
 std::vector<PlainMesh> scan(const std::string& text) {
   std::istringstream in(text);
   std::vector<PlainMesh> meshes;
-  std::string word;
+  std::string word, texture;
   bool coordinates = false;
   while (in >> word) {
     if (word == "geometry") {
@@ -36,6 +38,20 @@ std::vector<PlainMesh> scan(const std::string& text) {
       in >> word;
       EXPECT_EQ(word, "{");
       meshes.emplace_back();
+      meshes.back().texture = texture;
+    }
+    if (word == "texture") {
+      in >> word;
+      EXPECT_EQ(word, "ImageTexture");
+      while (word != "url") in >> word;
+      in >> texture;
+    }
+    if (word == "texCoord") {
+      while (word != "[") in >> word;
+      for (float u = 0, v = 0; in && word != "]"; ++meshes.back().places) {
+        in >> u >> v >> word;
+        EXPECT_TRUE(u >= 0.25f && u <= 0.75f && v >= 0.25f && v <= 0.75f) << u << " " << v;
+      }
     }
     coordinates = coordinates || word == "coord";
     if (word == "point" && coordinates) {
@@ -48,15 +64,15 @@ std::vector<PlainMesh> scan(const std::string& text) {
       }
       coordinates = false;
     }
-    if (word == "coordIndex") {
+    if (word == "coordIndex" || word == "texCoordIndex") {
+      auto& triangles = word == "coordIndex" ? meshes.back().triangles : meshes.back().on_texture;
       in >> word;
       EXPECT_EQ(word, "[");
       while (in && word != "]") {
         std::array<long, 4> n{};
         for (long& x : n) in >> x >> word;
         EXPECT_EQ(n[3], -1);
-        meshes.back().triangles.push_back(
-            {std::uint32_t(n[0]), std::uint32_t(n[1]), std::uint32_t(n[2])});
+        triangles.push_back({std::uint32_t(n[0]), std::uint32_t(n[1]), std::uint32_t(n[2])});
       }
     }
   }
@@ -72,6 +88,10 @@ TEST(FdpPlayer, MeshesAreCutAtBlanks) {
     ASSERT_LT(m, meshes.size());
     EXPECT_EQ(meshes[m].points, mesh.positions);
     EXPECT_EQ(meshes[m].triangles, mesh.triangles);
+    // A place for each vertex, by the same numbers: Xface has no others.
+    EXPECT_EQ(meshes[m].places, mesh.positions.size());
+    EXPECT_EQ(meshes[m].on_texture, mesh.triangles);
+    EXPECT_EQ(meshes[m].texture, '"' + child_files().textures.at(m).name + '"');
     ++m;
   }
   EXPECT_EQ(m, meshes.size());

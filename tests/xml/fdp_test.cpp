@@ -105,6 +105,36 @@ TEST_P(FdpHead, EachFapMovesItsPointAsFarAsTheTableSays) {
   }
 }
 
+// As Xface itself does it with the files: raised cosines on the vertex of the point.
+TEST_P(FdpHead, InXfaceFiftySixFapsMoveTheirPointsWithinTwoPerCent) {
+  const FdpFiles& files = files_of(GetParam());
+  const auto file = head::detail::load_fdp(files.fdp, only(GetParam() + ".wrl", files.wrl));
+  ASSERT_TRUE(file) << file.error().describe();
+  int shown = 0;
+  for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+    const fap::Move move = fap::move_of(fap);
+    const double step = head::detail::xface_step(fap, file->fapu);
+    // Eyeballs come out as their pupils do.
+    const std::string_view id = fap == 27   ? "3.5"
+                                : fap == 28 ? "3.6"
+                                            : fap::info(fap).feature_point;
+    const auto item = std::find_if(file->items.begin(), file->items.end(),
+                                   [&](const auto& each) { return each.name == id; });
+    if (move.kind != fap::MoveKind::translate || step == 0 || item == file->items.end()) continue;
+    head::detail::XfaceMesh mesh(file->meshes[item->mesh].positions);
+    for (const auto& other : file->items) {
+      if (other.mesh == item->mesh) mesh.add(other);
+    }
+    const Vec3 moved =
+        head::detail::xface_direction(fap) * float(mesh.factors(fap)[item->pivot] * step * 1024);
+    const double along = move.axis[0] * moved.x + move.axis[1] * moved.y + move.axis[2] * moved.z;
+    const double wanted = fap::displacement(fap, 1024, file->fapu);
+    EXPECT_NEAR(along, wanted, 0.02 * std::abs(wanted)) << "FAP " << fap;
+    ++shown;
+  }
+  EXPECT_EQ(shown, 56);
+}
+
 // What the README says of the default number of regions.
 TEST_P(FdpHead, RaisedCosinesComeNearToOurRig) {
   const auto measure = measure_fdp(rig(), files_of(GetParam()), head::FdpOptions().scale);

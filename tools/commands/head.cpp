@@ -123,29 +123,45 @@ struct Output {
   const head::Rig& rig;
 
   std::string name() const { return std::filesystem::path(path).stem().string(); }
-  std::string beside(const char* ending) const {
-    return (std::filesystem::path(path).parent_path() / (name() + ending)).string();
+  std::string beside(const std::string& file) const {
+    return (std::filesystem::path(path).parent_path() / file).string();
   }
 };
 
-// Two files that belong together: none is written without the other.
-Result<void> write_pair(const Output& out, const std::string& text, const OutputText& second,
-                        const std::string& what) {
-  const OutputText files[] = {{out.path, text}, second};
+// Files that belong together: none is written without the others.
+Result<void> write_obj(const Output& out) {
+  const std::string obj = head::write_obj(out.head);
+  const std::string points = head::points_of(out.head);
+  const OutputText files[] = {{out.path, obj}, {out.beside(out.name() + ".points.csv"), points}};
   if (auto ok = write_files(files); !ok) return ok;
-  say(out.path + " and its " + what + " " + second.path);
+  say(out.path + " and its feature points " + files[1].path);
   return {};
 }
 
-Result<void> write_obj(const Output& out) {
-  return write_pair(out, head::write_obj(out.head),
-                    {out.beside(".points.csv"), head::points_of(out.head)}, "feature points");
+// Xface cuts texts at blanks, so the files that an .fdp names have none: "my head.fdp" has
+// "my_head.wrl".
+std::string plain_name(std::string name) {
+  for (char& c : name) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '_' || c == '-';
+    if (!plain) c = '_';
+  }
+  if (name.starts_with('-')) name[0] = '_';
+  return name;
 }
 
 Result<void> write_fdp(const Output& out) {
-  const Result<head::FdpFiles> made = head::write_fdp(out.head, out.rig, {.name = out.name()});
+  const std::string name = plain_name(out.name());
+  const Result<head::FdpFiles> made = head::write_fdp(out.head, out.rig, {.name = name});
   if (!made) return made.error();
-  return write_pair(out, made->fdp, {out.beside(".wrl"), made->wrl}, "mesh");
+  std::vector<OutputText> files = {{out.path, made->fdp}, {out.beside(name + ".wrl"), made->wrl}};
+  for (const head::FdpTexture& texture : made->textures) {
+    files.push_back({out.beside(texture.name), texture.content});
+  }
+  if (auto ok = write_files(files); !ok) return ok;
+  say(out.path + ", its mesh " + files[1].path + " and " + std::to_string(made->textures.size()) +
+      " textures (" + name + "_*.tga); keep them together");
+  return {};
 }
 
 Result<void> write_glb(const Output& out) {
@@ -200,10 +216,10 @@ Result<int> run(const HeadOptions& options) {
 void add_options(CLI::App& app, HeadOptions& options) {
   app.add_option("head", options.head.head, kHeadHelp)->capture_default_str();
   app.add_option("--points", options.head.points, kPointsHelp);
-  app.add_option(
-      "-o,--output", options.output,
-      "Write the head: .fdp (Xface; with its mesh, .wrl), .xmt (MPEG-4 scene with an FDP), "
-      ".glb (with morph targets), .obj (with a list of feature points)");
+  app.add_option("-o,--output", options.output,
+                 "Write the head: .fdp (Xface; with its mesh, .wrl, and textures, .tga), .xmt "
+                 "(MPEG-4 scene with an FDP), "
+                 ".glb (with morph targets), .obj (with a list of feature points)");
   app.add_flag("--json", options.json, "The same for scripts");
 }
 

@@ -40,6 +40,29 @@ std::vector<std::uint8_t> parts_of(const Piece& piece, float middle, float mouth
 /// For each vertex the lowest number of a vertex that it is connected with.
 std::vector<std::uint32_t> bodies_of(const Mesh& mesh);
 
+/// For each triangle of each part the index of its piece in the source.
+using PieceOfTriangle = std::array<std::vector<std::uint32_t>, kPartCount>;
+
+/// Triangles of a piece that were turned.
+struct TurnedPiece {
+  std::size_t piece = 0;
+  std::size_t turned = 0;
+  std::size_t triangles = 0;  ///< all that it has
+};
+
+/// Turns triangles that are wound the other way, so that they would show their inside. Parts and
+/// feature points of the head are known, `es` is the distance of its eyes.
+///
+/// Judged are connected bodies, each for itself; within one, a triangle that its neighbours
+/// contradict is as wrong as they are right. A body with three feature points of the face looks
+/// forward there. Others are looked at from many sides (teeth and tongue also without the rest):
+/// what is seen from outside has to be a front of it. Sheets that are open (cards of hair, masks)
+/// are judged together with those of their piece. Bodies that nobody sees are as the rest of their
+/// piece, or as all other pieces, if these are wrong as a whole. In doubt nothing is turned: right
+/// bodies that show their inside (a neck from below, the back of a mask) do so from fewer sides
+/// than four in five.
+std::vector<TurnedPiece> turn_inside_out(Head& head, float es, const PieceOfTriangle& pieces);
+
 /// Gives each part its material, and a colour to vertices of kNoColour: one for each part, lips
 /// within the contour of the mouth if its points are known, pupil and iris on the eyes.
 void colour_parts(Head& head);

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "fap/head/own_head.h"
+#include "fap/head/wrl.h"
 
 namespace animeme::head::detail {
 
@@ -38,8 +39,11 @@ struct SceneNode {
   std::array<double, 4> scale_orientation = {0, 0, 1, 0};  ///< the same
   // Coordinate: points, Color: colours
   std::vector<Vec3> values;
+  // TextureCoordinate, ImageTexture
+  std::vector<TexturePlace> texture_places;
+  std::vector<std::string> urls;
   // IndexedFaceSet
-  std::vector<std::int32_t> coord_index, colour_index;
+  std::vector<std::int32_t> coord_index, colour_index, texture_index;
   Position coord_where, colour_where;
   bool colour_per_vertex = true;
   bool counterclockwise = true;
@@ -58,6 +62,17 @@ Result<void> set_field(SceneNode& node, std::string_view field, SceneValue value
 /// The matrix of a Transform.
 Transform placement(const SceneNode& transform);
 
+/// The texture of a piece and where its corners lie on it.
+struct ScenePicture {
+  struct Corner {
+    std::uint32_t vertex = 0;
+    TexturePlace place;
+  };
+  std::vector<std::string> urls;  ///< any one of them; empty: the piece has no texture
+  std::vector<Corner> corners;    ///< of all polygons
+  std::string problem;            ///< why it cannot be used: the end of a sentence
+};
+
 /// An IndexedFaceSet at its place.
 struct ScenePiece {
   Piece piece;  ///< name: DEF of the shape, else of its faces, else of the nearest group
@@ -66,6 +81,7 @@ struct ScenePiece {
   const SceneNode* faces = nullptr;     ///< lives as long as the graph
   std::vector<const SceneNode*> above;  ///< groups, the outermost first
   Transform place;
+  ScenePicture picture;
 };
 
 /// The meshes below `roots` in the order of the file, also those without a triangle. Polygons

@@ -72,6 +72,24 @@ Result<void> set_indices(const SceneNode& node, std::string_view field, const Sc
   return {};
 }
 
+Result<void> set_texture_places(const SceneNode& node, std::string_view field,
+                                const SceneValue& value, std::vector<TexturePlace>& out) {
+  if (value.numbers.size() % 2 != 0) {
+    return at(value, Code::syntax,
+              of(node, field) +
+                  " has an odd number of numbers; they come in "
+                  "twos");
+  }
+  out.clear();
+  for (std::size_t i = 0; i < value.numbers.size(); i += 2) {
+    out.push_back({float(value.numbers[i]), float(value.numbers[i + 1])});
+    if (!std::isfinite(out.back().u) || !std::isfinite(out.back().v)) {
+      return at(value, Code::out_of_range, of(node, field) + " has a number that is not finite");
+    }
+  }
+  return {};
+}
+
 bool truth(const SceneValue& value, bool otherwise) {
   if (value.words.empty()) return otherwise;
   return value.words.front() == "TRUE" || value.words.front() == "true";
@@ -92,6 +110,10 @@ Result<void> set_faces_field(SceneNode& node, std::string_view field, const Scen
   }
   if (field == "colorIndex") {
     return set_indices(node, field, value, node.colour_index, node.colour_where);
+  }
+  if (field == "texCoordIndex") {
+    Position unused;
+    return set_indices(node, field, value, node.texture_index, unused);
   }
   if (field == "colorPerVertex") node.colour_per_vertex = truth(value, true);
   if (field == "ccw") node.counterclockwise = truth(value, true);
@@ -126,6 +148,10 @@ Result<void> set_field(SceneNode& node, std::string_view field, SceneValue value
       (node.type == "Color" && field == "color")) {
     return set_vectors(node, field, value, node.values);
   }
+  if (node.type == "TextureCoordinate" && field == "point") {
+    return set_texture_places(node, field, value, node.texture_places);
+  }
+  if (node.type == "ImageTexture" && field == "url") node.urls = std::move(value.words);
   if (node.type == "Material" && field == "diffuseColor") {
     Vec3 colour;
     if (auto done = set_vector(node, field, value, colour); !done) return done;

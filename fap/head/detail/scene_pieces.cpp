@@ -42,10 +42,14 @@ Error outside(Position where, std::string_view what, std::int64_t index, std::si
 // What the corners of the polygons of a set say, corner by corner.
 class FaceReader {
  public:
-  FaceReader(const SceneNode& faces, Mesh& mesh) : faces_(faces), mesh_(mesh) {}
+  /// With urls in `picture` its corners are read, too.
+  FaceReader(const SceneNode& faces, Mesh& mesh, ScenePicture& picture)
+      : faces_(faces), mesh_(mesh), picture_(picture) {}
 
   Result<void> read(bool flipped) {
     colours_ = faces_.child("Color");
+    if (!picture_.urls.empty()) places_ = faces_.child("TextureCoordinate");
+    if (!picture_.urls.empty() && places_ == nullptr) picture_.problem = "has no texCoord";
     sums_.resize(mesh_.positions.size());
     counts_.resize(mesh_.positions.size());
     for (std::size_t i = 0; i <= faces_.coord_index.size(); ++i) {
@@ -88,6 +92,25 @@ class FaceReader {
     return polygon_ < index.size() ? index[polygon_] : -1;
   }
 
+  void add_texture_places() {
+    if (places_ == nullptr) return;
+    const std::vector<std::int32_t>& index = faces_.texture_index;
+    for (const Corner& corner : corners_) {
+      const std::int64_t place = index.empty()                 ? std::int64_t(corner.vertex)
+                                 : corner.index < index.size() ? index[corner.index]
+                                                               : -1;
+      if (place < 0 || std::size_t(place) >= places_->texture_places.size()) {
+        picture_.problem = "names texture coordinate " + std::to_string(place) +
+                           ", but there are " + std::to_string(places_->texture_places.size()) +
+                           ", counted from 0";
+        places_ = nullptr;
+        picture_.corners.clear();
+        return;
+      }
+      picture_.corners.push_back({corner.vertex, places_->texture_places[std::size_t(place)]});
+    }
+  }
+
   Result<void> add_polygon(bool flipped) {
     if (corners_.empty()) return {};  // -1 twice, or at the end
     for (std::size_t k = 2; k < corners_.size(); ++k) {
@@ -96,6 +119,7 @@ class FaceReader {
       if (flipped) std::swap(t[1], t[2]);
       mesh_.triangles.push_back(t);
     }
+    add_texture_places();
     for (const Corner& corner : corners_) {
       if (colours_ == nullptr || colours_->values.empty()) break;
       const std::int64_t c = colour_of(corner);
@@ -114,7 +138,9 @@ class FaceReader {
 
   const SceneNode& faces_;
   Mesh& mesh_;
+  ScenePicture& picture_;
   const SceneNode* colours_ = nullptr;
+  const SceneNode* places_ = nullptr;  // of the texture, while they are good
   std::vector<Vec3> sums_;
   std::vector<int> counts_;
   std::vector<Corner> corners_;
@@ -170,9 +196,11 @@ class Flattener {
     out.piece.name = name_of(shape, *faces);
     Mesh& mesh = out.piece.mesh;
     for (std::size_t i = 0; i < count; ++i) mesh.positions.push_back(place(points->values[i]));
-    FaceReader reader(*faces, mesh);
-    if (auto done = reader.read(mirrors(place) == faces->counterclockwise); !done) return done;
     const SceneNode* appearance = shape.child("Appearance");
+    const SceneNode* texture = appearance == nullptr ? nullptr : appearance->child("ImageTexture");
+    if (texture != nullptr) out.picture.urls = texture->urls;
+    FaceReader reader(*faces, mesh, out.picture);
+    if (auto done = reader.read(mirrors(place) == faces->counterclockwise); !done) return done;
     const SceneNode* material = appearance == nullptr ? nullptr : appearance->child("Material");
     if (material != nullptr) out.piece.material = material->name;
     const bool coloured = faces->child("Color") != nullptr;

@@ -1,8 +1,8 @@
 #include "fap/head/detail/own_steps.h"
 
 #include <limits>
-#include <numbers>
 
+#include "fap/head/detail/look.h"
 #include "fap/head/detail/normals.h"
 
 namespace animeme::head::detail {
@@ -16,22 +16,22 @@ constexpr float kTeethLight = 0.7f;
 constexpr float kTongueLight = 0.55f;
 constexpr float kOwn = 0.12f;  // cm: a surface does not hide itself
 
-// A depth picture of all parts, seen from `from`: the sky is as far away as anything can be.
+// A depth picture of all parts: the sky is as far away as anything can be.
 class Depths {
  public:
   Depths(const Head& head, Vec3 from, float radius)
-      : from_(from), scale_(kSize / (2 * radius)), depths_(std::size_t(kSize) * kSize, kSky) {
-    right_ = normalised(cross(std::abs(from.y) < 0.9f ? Vec3{0, 1, 0} : Vec3{1, 0, 0}, from));
-    up_ = cross(from, right_);
+      : look_(from, radius, kSize), depths_(std::size_t(kSize) * kSize, kSky) {
     for (const Mesh& mesh : head.parts) {
+      const std::vector<Vec3> places = look_.places(mesh.positions);
       for (const Triangle& t : mesh.triangles) {
-        draw(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
+        look_.draw(places[t[0]], places[t[1]], places[t[2]],
+                   [&](std::size_t i, float z) { depths_[i] = std::max(depths_[i], z); });
       }
     }
   }
 
   bool sees(Vec3 p) const {
-    const Vec3 q = place(p);
+    const Vec3 q = look_.place(p);
     const int x = int(q.x);
     const int y = int(q.y);
     if (x < 0 || y < 0 || x >= kSize || y >= kSize) return true;
@@ -41,48 +41,9 @@ class Depths {
  private:
   static constexpr float kSky = std::numeric_limits<float>::lowest();
 
-  // Pixels across and down; z grows towards the one who looks.
-  Vec3 place(Vec3 p) const {
-    return {dot(p, right_) * scale_ + kSize / 2, dot(p, up_) * scale_ + kSize / 2, dot(p, from_)};
-  }
-
-  void draw(Vec3 a, Vec3 b, Vec3 c) {
-    a = place(a);
-    b = place(b);
-    c = place(c);
-    const float area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-    if (std::abs(area) < 1e-6f) return;
-    const auto low = [](float x, float y, float z) {
-      return std::max(0, int(std::floor(std::min({x, y, z}))));
-    };
-    const auto high = [](float x, float y, float z) {
-      return std::min(kSize - 1, int(std::ceil(std::max({x, y, z}))));
-    };
-    for (int y = low(a.y, b.y, c.y); y <= high(a.y, b.y, c.y); ++y) {
-      for (int x = low(a.x, b.x, c.x); x <= high(a.x, b.x, c.x); ++x) {
-        const float px = float(x) + 0.5f;
-        const float py = float(y) + 0.5f;
-        const float u = ((px - a.x) * (c.y - a.y) - (py - a.y) * (c.x - a.x)) / area;
-        const float v = ((b.x - a.x) * (py - a.y) - (b.y - a.y) * (px - a.x)) / area;
-        if (u < 0 || v < 0 || u + v > 1) continue;
-        float& depth = depths_[std::size_t(y) * kSize + std::size_t(x)];
-        depth = std::max(depth, a.z + u * (b.z - a.z) + v * (c.z - a.z));
-      }
-    }
-  }
-
-  Vec3 from_, right_, up_;
-  float scale_;
+  Look look_;
   std::vector<float> depths_;
 };
-
-// Evenly over the sphere, along a spiral.
-Vec3 side(int i) {
-  const float y = 1 - 2 * (float(i) + 0.5f) / kSides;
-  const float angle = float(i) * float(std::numbers::pi * (3 - std::sqrt(5.0)));
-  const float r = std::sqrt(1 - y * y);
-  return {r * std::cos(angle), y, r * std::sin(angle)};
-}
 
 }  // namespace
 
@@ -98,7 +59,7 @@ void see_sky(Head& head) {
     all[part].resize(mesh.positions.size());
   }
   for (int i = 0; i < kSides; ++i) {
-    const Vec3 from = side(i);
+    const Vec3 from = side_of_sphere(i, kSides);
     const Depths depths(head, from, radius);
     for (std::size_t part = 0; part < head.parts.size(); ++part) {
       const Mesh& mesh = head.parts[part];

@@ -81,10 +81,7 @@ class Loader {
     if (rest == nullptr) {
       return source->error(Code::not_found, "no <entity> has the alias \"Rest\"");
     }
-    for (const XmlElement& mesh : rest->children) {
-      if (mesh.name != "mesh") continue;
-      if (auto done = load_fdp_meshes(mesh, load_, file_); !done) return done;
-    }
+    if (auto done = load_fdp_meshes(*rest, load_, file_); !done) return done;
     for (std::size_t m = 0; m < file_.meshes.size(); ++m) {
       for (const std::string& name : file_.meshes[m].names) mesh_of_.try_emplace(name, m);
     }

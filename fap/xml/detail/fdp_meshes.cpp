@@ -9,20 +9,9 @@ namespace {
 
 using fap::detail::in_quotes;
 
-// A file beside the .fdp or below: nothing else may be asked for by a file from elsewhere.
-bool stays_in_folder(std::string_view name) {
-  if (name.empty() || name.front() == '/' || name.front() == '\\') return false;
-  if (name.find(':') != name.npos || name.find('\0') != name.npos) return false;
-  while (!name.empty()) {
-    const std::size_t end = std::min(name.find_first_of("/\\"), name.size());
-    if (name.substr(0, end) == "..") return false;
-    name.remove_prefix(std::min(end + 1, name.size()));
-  }
-  return true;
-}
-
 // Xface calls a mesh by the DEF name of its geometry, else FILE_0, FILE_1 ... of those without one.
-Result<void> add_wrl(const std::string& file, std::string_view text, FdpFile& out) {
+Result<void> add_wrl(const std::string& file, std::string_view text, FdpTextures textures,
+                     FdpFile& out) {
   const auto scene = wrl_scene(text, &out.notes);
   if (!scene) return scene.error();
   auto pieces = scene_pieces(*scene);
@@ -41,6 +30,7 @@ Result<void> add_wrl(const std::string& file, std::string_view text, FdpFile& ou
       mesh.where.push_back({out.pieces.size(), shown ? v : kMissing});
     }
     if (piece.name.empty()) piece.name = mesh.names.front();
+    if (shown) textures.paint(mesh.names.front(), scene_piece.picture, piece);
     if (shown) out.pieces.push_back(std::move(piece));
     out.meshes.push_back(std::move(mesh));
   }
@@ -78,9 +68,10 @@ Result<void> add_obj(std::string_view text, FdpFile& out) {
   return {};
 }
 
-}  // namespace
-
-Result<void> load_fdp_meshes(const XmlElement& mesh, const LoadMeshFile& load, FdpFile& out) {
+// One <mesh>. `missing` gets the name of its file if there is none, with the path where `load`
+// looked for it, if it says so.
+Result<void> add_mesh(const XmlElement& mesh, const LoadMeshFile& load, FdpFile& out,
+                      std::vector<std::string>& missing) {
   const std::string* file = mesh.attribute("file");
   if (file == nullptr || file->empty()) {
     return mesh.error(Code::syntax, "<mesh> needs an attribute file");
@@ -99,9 +90,39 @@ Result<void> load_fdp_meshes(const XmlElement& mesh, const LoadMeshFile& load, F
                       "the mesh " + in_quotes(name) + " is neither .wrl (VRML97) nor .obj");
   }
   const Result<std::string> text = load(name);
+  if (!text && text.error().code == Code::not_found) {
+    const std::string& found = text.error().where.file;
+    const std::string& place = found.empty() ? name : found;
+    if (std::find(missing.begin(), missing.end(), place) == missing.end()) missing.push_back(place);
+    return {};
+  }
   if (!text) return text.error().in_file(name);
-  const Result<void> done = wrl ? add_wrl(*file, *text, out) : add_obj(*text, out);
+  const std::string folder = name.substr(0, name.find_last_of("/\\") + 1);
+  const Result<void> done =
+      wrl ? add_wrl(*file, *text, {load, folder, out.notes}, out) : add_obj(*text, out);
   return done ? done : Result<void>(done.error().in_file(name));
+}
+
+Error missing_meshes(const XmlElement& entity, const std::vector<std::string>& places) {
+  std::string list;
+  for (const std::string& place : places) list += (list.empty() ? "\"" : ", \"") + place + "\"";
+  return entity.error(Code::not_found, "the .fdp is only half of a head: there is no mesh file " +
+                                           list +
+                                           "; put the .wrl or .obj files that belong to it there "
+                                           "(a .dat beside an .fdp is a pack of "
+                                           "meshes that only Xface reads)");
+}
+
+}  // namespace
+
+Result<void> load_fdp_meshes(const XmlElement& entity, const LoadMeshFile& load, FdpFile& out) {
+  std::vector<std::string> missing;
+  for (const XmlElement& mesh : entity.children) {
+    if (mesh.name != "mesh") continue;
+    if (auto done = add_mesh(mesh, load, out, missing); !done) return done;
+  }
+  if (missing.empty()) return {};
+  return missing_meshes(entity, missing);
 }
 
 }  // namespace animeme::head::detail
