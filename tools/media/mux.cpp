@@ -116,6 +116,8 @@ Result<MuxResult> write_streams(const std::string& path, const FileType& type,
     set_mp4_options({input.face, visual_profile(input), format, input.video}, header);
     if (options.fragmented) {
       set_fragment_options("frag_keyframe", options.fragment_seconds, header);
+    } else {
+      set_chunk_options(header);
     }
   }
   if (auto started = muxer.write_header(header); !started) return started.error();
@@ -123,7 +125,8 @@ Result<MuxResult> write_streams(const std::string& path, const FileType& type,
   if (!done) return done.error();
   if (auto finished = muxer.finish(); !finished) return finished.error();
   if (type.is_mp4()) {
-    auto completed = complete_mp4(path, options.faststart);
+    auto completed = complete_mp4(
+        path, options.faststart || options.fragmented ? Layout::indexed : Layout::as_written);
     if (!completed) return completed.error();
   }
   return MuxResult{done->seconds, done->stopped};

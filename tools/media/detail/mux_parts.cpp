@@ -109,6 +109,12 @@ void set_mp4_options(const Mp4Contents& contents, av::Options& header) {
                                     : std::int64_t(contents.video->rate.num) * 1000);
 }
 
+void set_chunk_options(av::Options& header) {
+  // Packets that lie side by side share a chunk, an entry in two tables.
+  constexpr std::int64_t kChunk = 1000000;  // microseconds
+  header.set("chunk_duration", kChunk);
+}
+
 void set_fragment_options(const char* cut, double seconds, av::Options& header) {
   // Source: tools/media/containers.md, section 2.2. Without delay_moov the edit list is missing.
   header.set("movflags", std::string(cut) + "+delay_moov+default_base_moof+skip_trailer");

@@ -27,6 +27,9 @@ struct Mp4Contents {
 /// Options of libavformat's mp4 muxer: brand, initial object descriptor, movie time scale.
 void set_mp4_options(const Mp4Contents& contents, av::Options& header);
 
+/// An mp4 in one piece: a second of each track at a time.
+void set_chunk_options(av::Options& header);
+
 /// The same for a file of fragments; `cut` is libavformat's word for where they begin besides:
 /// "frag_keyframe" or "frag_custom". `seconds` 0: no longest fragment.
 void set_fragment_options(const char* cut, double seconds, av::Options& header);

@@ -199,7 +199,7 @@ Result<MuxResult> SegmentWriter::write() {
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     Track& track = *tracks_[i];
     Result<void> step = track.muxer->finish();
-    if (step) step = complete_mp4(track.whole, true);
+    if (step) step = complete_mp4(track.whole, Layout::contents_first);
     if (step) step = split(*folder, track, feeds_[i]->end());
     if (step && !dash_) {
       step =
