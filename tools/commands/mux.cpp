@@ -1,7 +1,6 @@
 #include "tools/media/mux.h"
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 
 #include "tools/commands/common.h"
 #include "tools/commands/face_stream.h"
@@ -39,6 +38,7 @@ Result<fba::AccessUnits> read_units(const MuxOptions& options) {
   return access_units(*face, options.stream);
 }
 
+// Samples only where they are needed twice: a file is decoded while it is written.
 Result<speech::SoundInput> sound_of(const MuxOptions& options) {
   speech::SoundInput sound;
   if (options.sound.codec == "copy") {
@@ -47,6 +47,7 @@ Result<speech::SoundInput> sound_of(const MuxOptions& options) {
     sound.coded = std::move(*coded);
     return sound;
   }
+  if (options.preview.empty()) return sound;
   Result<media::Pcm> samples = speech::read_voice(options.audio, talk());
   if (!samples) return samples.error();
   sound.samples = std::move(*samples);
@@ -58,15 +59,10 @@ Result<int> run(MuxOptions options) {
   if (!units) return units.error().in_file(options.face);
   const Result<speech::SoundInput> sound = sound_of(options);
   if (!sound) return sound.error();
-  const fba::AccessUnit& last = units->units.back();
-  const double seconds = double(last.time + last.duration) / units->timescale;
-  if (std::abs(sound->seconds() - seconds) > 1.0) {
-    warn("the face lasts " + seconds_text(seconds) + ", the sound " +
-         seconds_text(sound->seconds()));
-  }
   media::MuxInput input;
   input.face = &*units;
   sound->give_to(input);
+  if (!sound->coded && !sound->samples) input.audio_file = &options.audio;
   options.mux.audio = audio_settings(options.sound, options.output);
   Result<int> written = write_media(options.output, input, options.mux);
   if (!written || *written != kOk || options.preview.empty()) return written;

@@ -71,7 +71,8 @@ Result<void> check_type(const FileType& type, const MuxInput& input, const MuxOp
   }
   const AudioCodec codec =
       input.encoded != nullptr ? input.encoded->format.codec : options.audio.codec;
-  const bool sound = input.audio != nullptr || input.encoded != nullptr;
+  const bool sound =
+      input.audio != nullptr || input.audio_file != nullptr || input.encoded != nullptr;
   if (sound && !type.takes(codec)) {
     return unsupported("a " + name + " file takes no " + name_of(codec) + "; " +
                        (type.opus ? "code the sound as opus" : "code the sound as aac") +
@@ -109,7 +110,7 @@ Result<MuxResult> write_streams(const std::string& path, const FileType& type,
   if (format != nullptr) {
     auto added = muxer.add_sound(*format, (*sound)->bit_rate());
     if (!added) return added.error();
-    feeds.push_back(sound_feed(muxer, **sound, seconds_of_sound(input)));
+    feeds.push_back(sound_feed(muxer, **sound, (*sound)->seconds()));
   }
   av::Options header;
   if (type.is_mp4()) {
@@ -129,17 +130,36 @@ Result<MuxResult> write_streams(const std::string& path, const FileType& type,
         path, options.faststart || options.fragmented ? Layout::indexed : Layout::as_written);
     if (!completed) return completed.error();
   }
-  return MuxResult{done->seconds, done->stopped};
+  return MuxResult{done->seconds, *sound ? (*sound)->seconds_so_far() : 0, done->stopped};
+}
+
+Result<EncodedAudio> read_all(SoundSource& source) {
+  EncodedAudio audio{source.format(), {}, 0};
+  for (;;) {
+    const Result<const AudioPacket*> packet = source.next();
+    if (!packet) return packet.error();
+    if (*packet == nullptr) break;
+    audio.packets.push_back(**packet);
+  }
+  if (audio.packets.empty()) {
+    return make_error(Code::invalid_argument, "the sound is shorter than one coded sample");
+  }
+  audio.length = audio.packets.back().time + audio.packets.back().duration;
+  return audio;
 }
 
 Result<MuxResult> write_systems(const std::string& path, const MuxInput& input,
                                 const MuxOptions& options) {
   const EncodedAudio* sound = input.encoded;
   std::optional<EncodedAudio> coded;
-  if (input.audio != nullptr) {
-    Result<EncodedAudio> made = encode_audio(*input.audio, options.audio);
-    if (!made) return made.error();
-    sound = &coded.emplace(std::move(*made));
+  if (sound == nullptr) {
+    Result<std::optional<SoundSource>> source = open_sound(input, options);
+    if (!source) return source.error();
+    if (*source) {
+      Result<EncodedAudio> made = read_all(**source);
+      if (!made) return made.error();
+      sound = &coded.emplace(std::move(*made));
+    }
   }
   Result<std::vector<std::uint8_t>> bytes =
       write_movie(systems_movie(*input.face, sound, visual_profile(input)));
@@ -149,9 +169,10 @@ Result<MuxResult> write_systems(const std::string& path, const MuxInput& input,
   out.close();
   if (!out) return make_error(Code::io, "cannot write the file; check the free space");
   const fba::AccessUnit& last = input.face->units.back();
-  MuxResult result{double(last.time + last.duration) / input.face->timescale, false};
+  MuxResult result{double(last.time + last.duration) / input.face->timescale, 0, false};
   if (sound != nullptr) {
-    result.seconds = std::max(result.seconds, double(sound->length) / sound->format.sample_rate);
+    result.sound_seconds = double(sound->length) / sound->format.sample_rate;
+    result.seconds = std::max(result.seconds, result.sound_seconds);
   }
   return result;
 }

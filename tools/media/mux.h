@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "codec/decode/access_unit.h"
 #include "fap/result.h"
@@ -27,7 +28,10 @@ namespace animeme::media {
 struct MuxInput {
   const fba::AccessUnits* face = nullptr;  ///< nullptr: sound only
   const Pcm* audio = nullptr;              ///< samples to be coded; nullptr: none
-  /// Coded sound to be copied, packet by packet; nullptr: none. Not together with `audio`.
+  /// A sound file (see read_audio()) that is decoded and coded while it is written, so that memory
+  /// does not grow with it; nullptr: none.
+  const std::string* audio_file = nullptr;
+  /// Coded sound to be copied, packet by packet; nullptr: none. One of these three at most.
   const EncodedAudio* encoded = nullptr;
   /// Pictures for players that know no faces; nullptr: none. They become the first track, and the
   /// face beside them is not shown by default. In .mp4, .mkv and .webm (VP9), not in Systems
@@ -40,7 +44,9 @@ struct MuxInput {
 
 /// How a container is written.
 struct MuxOptions {
-  AudioSettings audio;  ///< how MuxInput::audio is coded
+  AudioSettings audio;  ///< how MuxInput::audio or MuxInput::audio_file is coded
+  /// Receives one sentence for everything odd in MuxInput::audio_file; nullptr: not wanted.
+  std::vector<std::string>* warnings = nullptr;
   /// mp4: contents before data, so that a player can begin while it loads.
   bool faststart = true;
   /// mp4: in fragments, each of which is complete, so that a reader can begin while the file is
@@ -62,8 +68,9 @@ struct MuxOptions {
 
 /// What became of it.
 struct MuxResult {
-  double seconds = 0;    ///< end of the longer track in the file
-  bool stopped = false;  ///< MuxOptions::stop ended it: the file holds the first `seconds` only
+  double seconds = 0;        ///< end of the longer track in the file
+  double sound_seconds = 0;  ///< length of the sound, as far as it was written; 0: none
+  bool stopped = false;      ///< MuxOptions::stop ended it: the file holds the first `seconds` only
 };
 
 /// The codec to take for a file of this name when nobody chose: Opus for .opus, .webm and .weba,
@@ -77,8 +84,9 @@ AudioCodec usual_codec(const std::string& path);
 /// that the codec lacks is resampled (see AudioEncoder).
 /// Errors: invalid_argument (nothing to write; no units; configuration not of a face; an empty
 /// unit or packet; times not ascending or negative; durations not positive; empty sound; bit rate;
-/// sound given twice; fragment length), io (folder missing, disk full ...), unsupported (this
-/// FFmpeg lacks the encoder; Opus in a Systems presentation), out_of_range (memory).
+/// sound given twice; fragment length), those of AudioReader for a sound file, io (folder missing,
+/// disk full ...), unsupported (this FFmpeg lacks the encoder; Opus in a Systems presentation),
+/// out_of_range (memory).
 Result<MuxResult> write_mp4(const std::string& path, const MuxInput& input,
                             const MuxOptions& options = {});
 

@@ -57,12 +57,13 @@ unsigned audio_profile(const AudioFormat* sound) {
 }  // namespace
 
 Result<void> check_input(const MuxInput& input, const MuxOptions& options) {
-  const bool sound = input.audio != nullptr || input.encoded != nullptr;
-  if (input.face == nullptr && !sound && input.video == nullptr) {
+  const int sounds = int(input.audio != nullptr) + int(input.encoded != nullptr) +
+                     int(input.audio_file != nullptr);
+  if (input.face == nullptr && sounds == 0 && input.video == nullptr) {
     return invalid("nothing to write: neither a face nor sound nor pictures were given");
   }
-  if (input.audio != nullptr && input.encoded != nullptr) {
-    return invalid("the sound was given twice, as samples and coded");
+  if (sounds > 1) {
+    return invalid("the sound was given twice, as samples, coded, or as a file");
   }
   if (input.face != nullptr) {
     if (auto legal = check_face(*input.face); !legal) return legal;
@@ -129,13 +130,13 @@ Result<std::optional<SoundSource>> open_sound(const MuxInput& input, const MuxOp
     if (!opened) return opened.error();
     sound.emplace(std::move(*opened));
   }
+  if (input.audio_file != nullptr) {
+    Result<SoundSource> opened =
+        SoundSource::decoding(*input.audio_file, options.audio, options.warnings);
+    if (!opened) return opened.error();
+    sound.emplace(std::move(*opened));
+  }
   return sound;
-}
-
-double seconds_of_sound(const MuxInput& input) {
-  if (input.audio != nullptr) return input.audio->duration();
-  const EncodedAudio& audio = *input.encoded;
-  return double(audio.packets.back().time) / audio.format.sample_rate;
 }
 
 }  // namespace animeme::media

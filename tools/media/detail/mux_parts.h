@@ -35,10 +35,7 @@ void set_chunk_options(av::Options& header);
 void set_fragment_options(const char* cut, double seconds, av::Options& header);
 
 /// The sound of `input`, coded as `options` say; nothing: there is none. Errors: those of
-/// AudioEncoder::open().
+/// AudioEncoder::open() and AudioReader::open().
 Result<std::optional<SoundSource>> open_sound(const MuxInput& input, const MuxOptions& options);
-
-/// Length of the sound, which must be there, seconds.
-double seconds_of_sound(const MuxInput& input);
 
 }  // namespace animeme::media
