@@ -1,10 +1,12 @@
 #include "tools/media/mux.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "tools/commands/common.h"
 #include "tools/commands/face_stream.h"
 #include "tools/commands/preview.h"
+#include "tools/live/clip.h"
 #include "tools/media/container.h"
 #include "tools/speech/voice_file.h"
 
@@ -18,9 +20,37 @@ struct MuxOptions {
   std::string output;
   StreamSettings stream;
   std::string preview;
+  bool copy = false;
   SoundSettings sound;
   media::MuxOptions mux;
 };
+
+bool in_segments(const std::string& path) {
+  const std::string extension = extension_of(path);
+  return extension == ".m3u8" || extension == ".mpd";
+}
+
+// A segment begins where playing can begin, so a stream with one such point would be one segment.
+Result<fba::AccessUnits> for_segments(fba::AccessUnits units, const MuxOptions& options) {
+  const double longest = live::longest_intra_interval(units);
+  if (options.copy) {
+    if (longest > options.mux.fragment_seconds + options.stream.intra_seconds) {
+      warn(options.face + ": segments last up to " + seconds_text(longest) +
+           ", as far as its intra planes are apart; without --copy it is coded again");
+    }
+    return units;
+  }
+  const Result<fba::DecodedStream> decoded = fba::decode(fba::join_access_units(units));
+  if (!decoded) return decoded.error();
+  live::Coding coding;
+  coding.intra_seconds = std::max(options.stream.intra_seconds, options.mux.fragment_seconds);
+  auto again = live::with_joints(units, *decoded, coding);
+  if (!again) return again.error();
+  if (!*again) return units;
+  say(options.face + ": coded again, so that a segment can begin every " +
+      seconds_text(coding.intra_seconds) + "; --copy keeps it as it is");
+  return std::move(**again);
+}
 
 // A face out of a container keeps its times, which its planes alone would not tell.
 Result<fba::AccessUnits> read_units(const MuxOptions& options) {
@@ -57,6 +87,11 @@ Result<speech::SoundInput> sound_of(const MuxOptions& options) {
 Result<int> run(MuxOptions options) {
   Result<fba::AccessUnits> units = read_units(options);
   if (!units) return units.error().in_file(options.face);
+  const bool one_point = options.stream.intra_seconds == 0;  // is asked for
+  if (in_segments(options.output) && !one_point) {
+    units = for_segments(std::move(*units), options);
+    if (!units) return units.error().in_file(options.face);
+  }
   const Result<speech::SoundInput> sound = sound_of(options);
   if (!sound) return sound.error();
   media::MuxInput input;
@@ -78,6 +113,9 @@ void add_options(CLI::App& app, MuxOptions& options) {
                  "folder of segments beside it")
       ->required();
   add_stream_options(app, options.stream);
+  app.add_flag("--copy", options.copy,
+               "HLS and DASH: keep a stream as it is, however far the points where playing can "
+               "begin are apart; else it is coded again with --intra-seconds");
   add_sound_options(app, options.sound, true);
   CLI::Option* fragmented =
       app.add_flag("--fragmented", options.mux.fragmented,
