@@ -124,6 +124,12 @@ void add_options(CLI::App& app, MuxOptions& options) {
                  "Length of fragments and of segments (.m3u8, .mpd), seconds")
       ->check(CLI::Range(0.02, 600.0))
       ->capture_default_str();
+  app.add_option(
+         "--pes-seconds", options.mux.shared_seconds,
+         "ts: planes of so many seconds share a packet, and tables come half a second apart: a "
+         "fraction of the bytes, but few readers part the planes again; 0: a packet a plane")
+      ->check(CLI::Range(0.0, 2.0))
+      ->capture_default_str();
   app.add_flag("--systems", options.mux.systems,
                "mp4: add the scene and object streams of a complete MPEG-4 Systems presentation")
       ->excludes(fragmented);
@@ -137,6 +143,7 @@ const Command kMux{"mux", "Put a face and a voice into one file",
                    "  animeme mux talk.fap voice.flac --quant 2 -o talk.mkv\n"
                    "  animeme mux talk.fba voice.wav --audio-codec opus --fragmented -o talk.mp4\n"
                    "  animeme mux talk.mp4 talk.mp4 --audio-codec copy -o talk.ts\n"
+                   "  animeme mux talk.fba voice.wav --pes-seconds 0.4 -o talk.ts\n"
                    "  animeme mux talk.fba voice.wav --fragment-seconds 4 -o talk.m3u8\n"
                    "  animeme mux talk.fba voice.wav --systems -o scene.mp4\n"
                    "  animeme mux talk.fba voice.wav -o talk.mp4 --preview talk.preview.mp4",

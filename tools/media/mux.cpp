@@ -11,6 +11,7 @@
 #include "tools/media/detail/mp4_fix.h"
 #include "tools/media/detail/mux_parts.h"
 #include "tools/media/detail/output_file.h"
+#include "tools/media/detail/plane_cutter.h"
 #include "tools/media/detail/segment_writer.h"
 #include "tools/media/detail/systems_movie.h"
 #include "tools/media/detail/ts_pmt.h"
@@ -25,6 +26,7 @@ struct FileType {
   bool face, aac, opus, h264, vp9;
 
   bool is_mp4() const { return std::string_view(muxer) == "mp4"; }
+  bool is_ts() const { return std::string_view(muxer) == "mpegts"; }
   bool is_segments() const { return std::string_view(muxer) == "segments"; }
   bool takes(AudioCodec codec) const { return codec == AudioCodec::opus ? opus : aac; }
   bool takes(VideoCodec codec) const { return codec == VideoCodec::vp9 ? vp9 : h264; }
@@ -62,6 +64,9 @@ Result<void> check_type(const FileType& type, const MuxInput& input, const MuxOp
     return unsupported("a Systems presentation is an .mp4 file");
   }
   if (options.fragmented && !type.is_mp4()) return unsupported("only an mp4 can be fragmented");
+  if (options.shared_seconds > 0 && !type.is_ts()) {
+    return unsupported("planes share packets in .ts files only");
+  }
   if (input.video != nullptr && !type.takes(input.video->codec)) {
     return unsupported("a " + name + " file takes no " + name_of(input.video->codec) +
                        " video; use .mp4 or .mkv");
@@ -85,7 +90,7 @@ Result<void> check_type(const FileType& type, const MuxInput& input, const MuxOp
 }
 
 OutputStream::Filter filter_of(const FileType& type, const MuxInput& input) {
-  if (std::string_view(type.muxer) != "mpegts" || input.face == nullptr) return nullptr;
+  if (!type.is_ts() || input.face == nullptr) return nullptr;
   const auto filter = std::make_shared<ProgramMapFilter>(std::uint8_t(visual_profile(input)));
   return [filter](std::span<const std::uint8_t> bytes) { return filter->push(bytes); };
 }
@@ -102,9 +107,15 @@ Result<MuxResult> write_streams(const std::string& path, const FileType& type,
     if (auto added = muxer.add_video(*input.video); !added) return added.error();
     feeds.push_back(video_feed(muxer, *input.video));
   }
-  if (input.face != nullptr) {
-    if (auto added = muxer.add_face(*input.face); !added) return added.error();
-    feeds.push_back(face_feed(muxer, *input.face));
+  fba::AccessUnits shared;
+  const fba::AccessUnits* face = input.face;
+  if (face != nullptr && type.is_ts() && options.shared_seconds > 0) {
+    shared = share_packets(*face, options.shared_seconds);
+    face = &shared;
+  }
+  if (face != nullptr) {
+    if (auto added = muxer.add_face(*face); !added) return added.error();
+    feeds.push_back(face_feed(muxer, *face));
   }
   const AudioFormat* format = *sound ? &(*sound)->format() : nullptr;
   if (format != nullptr) {
@@ -121,6 +132,7 @@ Result<MuxResult> write_streams(const std::string& path, const FileType& type,
       set_chunk_options(header);
     }
   }
+  if (type.is_ts()) set_ts_options(options.shared_seconds, header);
   if (auto started = muxer.write_header(header); !started) return started.error();
   Result<Interleaved> done = interleave(feeds, options.stop, options.progress);
   if (!done) return done.error();

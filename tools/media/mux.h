@@ -54,6 +54,11 @@ struct MuxOptions {
   bool fragmented = false;
   /// The longest fragment, and the shortest segment of HLS and DASH but for the last; 0.02..600.
   double fragment_seconds = 1;
+  /// ts: planes that begin within so many seconds share a PES packet, which takes 188 bytes or more
+  /// each, and tables come every 0.5 s, or with each packet, instead of every 0.1 s; 0..2. Several
+  /// planes in a packet are legal and read back here, but not by every reader. 0: a packet for each
+  /// plane.
+  double shared_seconds = 0;
   /// mp4: a complete MPEG-4 Systems presentation with a scene of a face and a sound, an object
   /// stream and the initial object descriptor; for players and tools of MPEG-4 Systems. It is made
   /// in memory, with the contents first, and limited to 4 GB. Sound: AAC.
@@ -97,7 +102,7 @@ Result<MuxResult> write_mp4(const std::string& path, const MuxInput& input,
 ///                        0.5 ms off
 ///   .ts                  face, AAC; configuration in front of each intra plane, stream type 0x10
 ///                        with an MPEG-4 video descriptor, the same common shift, 90 kHz clock, 188
-///                        bytes or more for each plane
+///                        bytes or more for each plane (but see MuxOptions::shared_seconds)
 ///   .m3u8 .mpd           HLS or DASH: face and sound as fragmented mp4 segments, each a rendition
 ///                        of its own, in a folder beside the file ("talk_hls", "talk_dash"), which
 ///                        is replaced if it holds such segments only. The sound is what a player

@@ -1,5 +1,6 @@
 #include "tools/media/detail/mux_parts.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -15,6 +16,8 @@ namespace {
 constexpr std::uint8_t kSimpleFace = 0x61;
 constexpr double kShortestFragment = 0.02;
 constexpr double kLongestFragment = 600;
+constexpr double kLongestShared = 2;
+constexpr double kTablePeriod = 0.5;  // standards that build on 13818-1 ask for no less
 
 Result<void> check_unit(const fba::AccessUnits& face, std::size_t index) {
   const fba::AccessUnit& unit = face.units[index];
@@ -84,6 +87,9 @@ Result<void> check_input(const MuxInput& input, const MuxOptions& options) {
   if (!(seconds >= kShortestFragment && seconds <= kLongestFragment)) {
     return invalid("fragments must last 0.02 to 600 seconds");
   }
+  if (!(options.shared_seconds >= 0 && options.shared_seconds <= kLongestShared)) {
+    return invalid("planes can share a packet for 0 to 2 seconds");
+  }
   if (input.audio != nullptr && input.audio->samples.empty()) return invalid("the sound is empty");
   if (input.encoded != nullptr) return check_audio(*input.encoded);
   return {};
@@ -108,6 +114,18 @@ void set_mp4_options(const Mp4Contents& contents, av::Options& header) {
                                 : contents.face != nullptr
                                     ? std::int64_t(contents.face->timescale)
                                     : std::int64_t(contents.video->rate.num) * 1000);
+}
+
+void set_ts_options(double shared_seconds, av::Options& header) {
+  // Frames of sound share a packet for half of this. The clock of the stream is twice as much
+  // ahead of the times, so that all of a packet is there when it is due.
+  constexpr double kDelay = 0.7;  // seconds, as the ffmpeg program has it
+  header.set("max_delay", std::int64_t(std::max(kDelay, 2 * shared_seconds) * 1e6));
+  header.set("omit_video_pes_length", std::int64_t(0));  // the end of a unit is known at once
+  // Tables come with the first packet that is due behind this period.
+  if (shared_seconds > 0) {
+    header.set("pat_period", std::to_string(std::max(kTablePeriod - shared_seconds, 0.1)));
+  }
 }
 
 void set_chunk_options(av::Options& header) {

@@ -34,6 +34,9 @@ void set_chunk_options(av::Options& header);
 /// "frag_keyframe" or "frag_custom". `seconds` 0: no longest fragment.
 void set_fragment_options(const char* cut, double seconds, av::Options& header);
 
+/// A transport stream; `shared_seconds` as in MuxOptions.
+void set_ts_options(double shared_seconds, av::Options& header);
+
 /// The sound of `input`, coded as `options` say; nothing: there is none. Errors: those of
 /// AudioEncoder::open() and AudioReader::open().
 Result<std::optional<SoundSource>> open_sound(const MuxInput& input, const MuxOptions& options);
