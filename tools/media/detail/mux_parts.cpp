@@ -50,13 +50,6 @@ Result<void> check_face(const fba::AccessUnits& face) {
   return {};
 }
 
-unsigned audio_profile(const AudioFormat* sound) {
-  if (sound == nullptr) return kNoneRequired;
-  const bool level2 =
-      sound->codec == AudioCodec::aac && sound->sample_rate <= 48000 && sound->channels <= 2;
-  return level2 ? kAacLevel2 : kUnspecified;
-}
-
 }  // namespace
 
 Result<void> check_input(const MuxInput& input, const MuxOptions& options) {
