@@ -131,6 +131,18 @@ TEST(ProgramMap, OurFilesHaveIt) {
   EXPECT_EQ(back->face.units.size(), face.units.size());
 }
 
+// Two planes and no sound: fewer packets than libavformat wants to see.
+TEST(ProgramMap, ShortFilesAreTransportStreamsToo) {
+  const test::TempDir dir;
+  const fba::AccessUnits face = test::make_face(2);
+  ASSERT_TRUE(write_container(dir.file("a.ts"), {.face = &face}));
+  EXPECT_EQ(test::read_bytes(dir.file("a.ts")).size() % kPacket, 0u);
+  const Result<Container> back = read_container(dir.file("a.ts"));
+  ASSERT_TRUE(back) << back.error().describe();
+  EXPECT_EQ(back->format, "mpegts");
+  EXPECT_EQ(back->face.units.size(), 2u);
+}
+
 struct Count {
   int packets = 0, units = 0;  // transport packets, PES packets or sections
 };

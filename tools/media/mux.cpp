@@ -1,6 +1,8 @@
 #include "tools/media/mux.h"
 
 #include <algorithm>
+#include <array>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -15,6 +17,7 @@
 #include "tools/media/detail/segment_writer.h"
 #include "tools/media/detail/systems_movie.h"
 #include "tools/media/detail/ts_pmt.h"
+#include "tools/media/detail/ts_sections.h"
 
 namespace animeme::media {
 namespace {
@@ -95,6 +98,23 @@ OutputStream::Filter filter_of(const FileType& type, const MuxInput& input) {
   return [filter](std::span<const std::uint8_t> bytes) { return filter->push(bytes); };
 }
 
+// libavformat takes nothing for a transport stream that has less than eleven packets.
+Result<void> fill_up_ts(const std::string& path) {
+  constexpr std::size_t kFewest = 16;
+  std::error_code status;
+  const auto size = std::size_t(std::filesystem::file_size(path, status));
+  if (status || size >= kFewest * kTsPacket) return {};
+  std::vector<char> packet(kTsPacket, char(0xFF));
+  const std::array<std::uint8_t, 4> header = {kTsSync, kTsNoPid >> 8, kTsNoPid & 0xFF, 0x10};
+  std::copy(header.begin(), header.end(), packet.begin());
+  std::ofstream out(path, std::ios::binary | std::ios::app);
+  for (std::size_t i = size / kTsPacket; i < kFewest; ++i) {
+    out.write(packet.data(), std::streamsize(packet.size()));
+  }
+  out.close();
+  return out ? Result<void>() : make_error(Code::io, "cannot write the file; check the free space");
+}
+
 Result<MuxResult> write_streams(const std::string& path, const FileType& type,
                                 const MuxInput& input, const MuxOptions& options) {
   Result<std::optional<SoundSource>> sound = open_sound(input, options);
@@ -141,6 +161,9 @@ Result<MuxResult> write_streams(const std::string& path, const FileType& type,
     auto completed = complete_mp4(
         path, options.faststart || options.fragmented ? Layout::indexed : Layout::as_written);
     if (!completed) return completed.error();
+  }
+  if (type.is_ts()) {
+    if (auto filled = fill_up_ts(path); !filled) return filled.error();
   }
   return MuxResult{done->seconds, *sound ? (*sound)->seconds_so_far() : 0, done->stopped};
 }

@@ -1,5 +1,5 @@
-// Several planes in one PES packet: where one ends and the next begins. Source:
-// tools/media/containers.md, section 3.2; borders are parsed, never searched for (section 1.3).
+// Several planes in one PES packet: where one ends and the next begins. Borders are parsed, never
+// searched for. Source: tools/media/containers.md, sections 1.3 and 3.2.
 #pragma once
 
 #include <cstddef>
