@@ -90,6 +90,23 @@ class Systems : public testing::Test {
   test::TempDir dir_;
 };
 
+TEST_F(Systems, ChunksAreShared) {
+  const fba::AccessUnits face = test::make_face(100);
+  const Pcm sound = test::make_clicks(48000, 4 * 48000, {24037});
+  const Bytes file = test::read_bytes(write(face, &sound));
+  // The tracks of scene and objects have one chunk each; the third table is that of the face.
+  std::vector<std::size_t> counts;
+  const std::string text(file.begin(), file.end());
+  for (auto at = text.find("stco"); at != text.npos; at = text.find("stco", at + 1)) {
+    counts.push_back(file[at + 11]);
+  }
+  ASSERT_EQ(counts.size(), 4u);
+  EXPECT_EQ(counts[0], 1u);
+  EXPECT_EQ(counts[1], 1u);
+  EXPECT_EQ(counts[2], 4u) << "a chunk a second";
+  EXPECT_LE(counts[3], 5u);
+}
+
 TEST_F(Systems, FaceComesBackByteForByteAndInTime) {
   const fba::AccessUnits face = test::make_face(100);
   const Pcm sound = test::make_clicks(48000, 4 * 48000, {24037, 96011});

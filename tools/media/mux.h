@@ -101,8 +101,9 @@ Result<MuxResult> write_mp4(const std::string& path, const MuxInput& input,
 ///                        moved by its priming (21.3 ms at 48 kHz); face against sound at most
 ///                        0.5 ms off
 ///   .ts                  face, AAC; configuration in front of each intra plane, stream type 0x10
-///                        with an MPEG-4 video descriptor, the same common shift, 90 kHz clock, 188
-///                        bytes or more for each plane (but see MuxOptions::shared_seconds)
+///                        with an MPEG-4 video descriptor, the same common shift and 1.4 s, 90 kHz
+///                        clock, 188 bytes or more for each plane, but see
+///                        MuxOptions::shared_seconds
 ///   .m3u8 .mpd           HLS or DASH: face and sound as fragmented mp4 segments, each a rendition
 ///                        of its own, in a folder beside the file ("talk_hls", "talk_dash"), which
 ///                        is replaced if it holds such segments only. The sound is what a player
