@@ -7,10 +7,12 @@
 #include "tests/live/ports.h"
 #include "tests/support/files.h"
 #include "tests/support/live_loop.h"
+#include "tests/support/reference_streams.h"
 #include "tests/support/shared.h"
 #include "tools/media/container.h"
 #include "tools/media/detail/ts_events.h"
 #include "tools/media/live/ts_live.h"
+#include "tools/media/mux.h"
 
 namespace animeme::test {
 namespace ts_loss_test {
@@ -224,6 +226,38 @@ TEST(TsLoss, TheCutOfTheBytesDoesNotMatter) {
     EXPECT_EQ(got.units.size(), show.units.size()) << piece;
     EXPECT_TRUE(got.gaps.empty());
   }
+}
+
+// Other writers put several planes in a PES packet; so does mux, if asked to.
+TEST(TsLoss, SharedPacketsArePartedAgain) {
+  const TempDir dir;
+  std::size_t streams = 0, most = 0;
+  for (const auto& base : reference_streams()) {
+    const auto face = fba::split_access_units(read_bytes(with(base, ".fba")));
+    ASSERT_TRUE(face) << face.error().describe();
+    std::vector<std::size_t> packets;
+    for (const double shared : {0.0, 0.4}) {
+      const auto written =
+          media::write_container(dir / "a.ts", {.face = &*face}, {.shared_seconds = shared});
+      ASSERT_TRUE(written) << written.error().describe();
+      const auto bytes = read_bytes(dir / "a.ts");
+      packets.push_back(bytes.size() / 188);
+      const Received got = parse(bytes, 1316);
+      EXPECT_TRUE(got.gaps.empty()) << base;
+      const auto units = got.of(LiveTrack::face);
+      ASSERT_EQ(units.size(), face->units.size()) << base << " " << shared;
+      for (std::size_t i = 0; i < units.size(); ++i) {
+        EXPECT_EQ(units[i].bytes, face->units[i].bytes);
+        EXPECT_EQ(units[i].intra, face->units[i].intra);
+        const double time = double(units[i].time - units[0].time) / 90000;
+        EXPECT_NEAR(time, double(face->units[i].time) / face->timescale, 1.51 / 90000);
+      }
+    }
+    ++streams;
+    most = std::max(most, packets[0] - std::min(packets[0], packets[1]));
+  }
+  if (streams == 0) GTEST_SKIP() << "no reference streams";
+  EXPECT_GT(most, 20u) << "nothing was shared";
 }
 
 TEST(TsLoss, PacketsThatComeTwiceCountOnce) {

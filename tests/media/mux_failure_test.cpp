@@ -165,6 +165,7 @@ TEST_F(MuxFailure, CodecsThatAFormatDoesNotTake) {
   refused("a.ts", {.face = &face_, .encoded = &*coded}, {}, "takes no opus");
   refused("a.mp4", {.face = &face_, .encoded = &*coded}, {.systems = true}, "takes AAC");
   refused("a.mkv", input_, {.fragmented = true}, "only an mp4");
+  refused("a.mkv", input_, {.shared_seconds = 0.4}, ".ts files only");
   refused("a.mp4", input_, {.fragmented = true, .systems = true}, "cannot be fragmented");
   EXPECT_EQ(dir_.count(), 0u);
 }

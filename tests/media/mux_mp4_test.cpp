@@ -164,6 +164,16 @@ TEST_F(MuxMp4, SyncTableNamesTheIntraPlanes) {
             (Bytes{0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0, 1, 0, 0, 0, 51}));
 }
 
+TEST_F(MuxMp4, ChunksAreShared) {
+  write();
+  const Bytes file = test::read_bytes(path_);
+  const Bytes offsets = test::find_box(file, kSampleTable + "stco");
+  ASSERT_GE(offsets.size(), 8u);
+  EXPECT_EQ(offsets.size(), 8u + 4 * offsets[7]);
+  EXPECT_LE(offsets[7], 5) << "4 s, a chunk a second, not one a plane";
+  EXPECT_GE(offsets[7], 3) << "but the sound is never far";
+}
+
 TEST_F(MuxMp4, BrandsAndContentsFirst) {
   write();
   const Bytes file = test::read_bytes(path_);

@@ -54,6 +54,60 @@ TEST_P(CopySound, PacketsComeBackByteForByte) {
   EXPECT_NEAR(double(test::find_click(*decoded, 24037 + shift, 2000)), double(24037 + shift), 48);
 }
 
+class SoundFile : public testing::TestWithParam<const char*> {};
+
+// Decoded block by block, coded block by block: nothing may be lost or added at the borders.
+TEST_P(SoundFile, GivesTheBytesThatItsSamplesGive) {
+  const test::TempDir dir;
+  const fba::AccessUnits face = test::make_face(100);
+  const Pcm sound = test::make_clicks(44100, 4 * 44100 - 77, {24037, 96011});
+  const std::string file = dir.file("voice.m4a");
+  ASSERT_TRUE(write_container(file, {.audio = &sound}));
+  const Result<Pcm> samples = read_audio(file);
+  ASSERT_TRUE(samples) << samples.error().describe();
+  ASSERT_EQ(samples->samples.size(), sound.samples.size()) << "padding is cut";
+  MuxOptions options;
+  options.systems = GetParam() == std::string("systems.mp4");
+  options.fragmented = GetParam() == std::string("fragments.mp4");
+  std::vector<test::Bytes> written;
+  for (const MuxInput& input : {MuxInput{.face = &face, .audio = &*samples},
+                                MuxInput{.face = &face, .audio_file = &file}}) {
+    const Result<MuxResult> done = write_container(dir.file(GetParam()), input, options);
+    ASSERT_TRUE(done) << done.error().describe();
+    EXPECT_NEAR(done->sound_seconds, sound.duration(), options.systems ? 1e-3 : 1e-9);
+    const Result<EncodedAudio> back = read_encoded_audio(dir.file(GetParam()));
+    ASSERT_TRUE(back) << back.error().describe();
+    test::Bytes all;
+    for (const AudioPacket& packet : back->packets) {
+      all.insert(all.end(), packet.bytes.begin(), packet.bytes.end());
+    }
+    written.push_back(std::move(all));
+  }
+  EXPECT_GT(written[0].size(), 1000u);
+  EXPECT_EQ(written[0], written[1]);
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, SoundFile,
+                         testing::Values("a.mp4", "fragments.mp4", "systems.mp4", "a.mkv", "a.ts",
+                                         "a.m3u8", "a.mpd"));
+
+TEST(SoundFileErrors, NameTheSoundAndLeaveNothing) {
+  const test::TempDir dir;
+  const fba::AccessUnits face = test::make_face(100);
+  const std::string missing = dir.file("voice.wav");
+  const auto none =
+      write_container(dir.file("a.mp4"), MuxInput{.face = &face, .audio_file = &missing});
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, Code::not_found);
+  EXPECT_THAT(none.error().describe(), testing::HasSubstr("voice.wav"));
+  const Pcm sound = test::make_clicks(8000, 8000, {100});
+  const auto twice = write_container(
+      dir.file("a.mp4"), MuxInput{.face = &face, .audio = &sound, .audio_file = &missing});
+  ASSERT_FALSE(twice);
+  EXPECT_EQ(twice.error().code, Code::invalid_argument);
+  EXPECT_EQ(dir.count(), 0u);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Formats, CopySound,
     testing::Values(Copy{"a.mp4", AudioCodec::aac}, Copy{"a.mp4", AudioCodec::opus},

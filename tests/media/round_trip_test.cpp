@@ -14,14 +14,18 @@ struct Way {
   const char* extension;
   AudioCodec codec;
   bool fragmented;
-  double tolerance;  // seconds; 0: exact
+  double tolerance;   // seconds; 0: exact
+  double shared = 0;  // seconds of planes in a packet
 };
 
-constexpr Way kWays[] = {
-    {".mp4", AudioCodec::aac, false, 0},          {".mp4", AudioCodec::opus, true, 0},
-    {".m3u8", AudioCodec::aac, false, 0},         {".mpd", AudioCodec::opus, false, 0},
-    {".mkv", AudioCodec::aac, false, 0.001},      {".mkv", AudioCodec::opus, false, 0.001},
-    {".ts", AudioCodec::aac, false, 1.01 / 90000}};
+constexpr Way kWays[] = {{".mp4", AudioCodec::aac, false, 0},
+                         {".mp4", AudioCodec::opus, true, 0},
+                         {".m3u8", AudioCodec::aac, false, 0},
+                         {".mpd", AudioCodec::opus, false, 0},
+                         {".mkv", AudioCodec::aac, false, 0.001},
+                         {".mkv", AudioCodec::opus, false, 0.001},
+                         {".ts", AudioCodec::aac, false, 1.01 / 90000},
+                         {".ts", AudioCodec::aac, false, 1.51 / 90000, 0.4}};
 
 class RoundTrip : public testing::Test {
  protected:
@@ -57,6 +61,7 @@ class RoundTrip : public testing::Test {
       const std::string path = dir_.file(std::string("a") + way.extension);
       MuxOptions options;
       options.fragmented = way.fragmented;
+      options.shared_seconds = way.shared;
       const MuxInput input{.face = &face, .encoded = &sounds_[std::size_t(way.codec)]};
       const auto written = write_container(path, input, options);
       ASSERT_TRUE(written) << written.error().describe();
@@ -105,6 +110,7 @@ TEST_F(RoundTrip, GapsAndALateStart) {
     const std::string path = dir_.file(std::string("a") + way.extension);
     MuxOptions options;
     options.fragmented = way.fragmented;
+    options.shared_seconds = way.shared;
     const MuxInput input{.face = &face, .encoded = &sounds_[std::size_t(way.codec)]};
     ASSERT_TRUE(write_container(path, input, options));
     const Result<Container> back = read_container(path);
@@ -130,6 +136,7 @@ TEST_F(RoundTrip, FacesWithoutSound) {
     const std::string path = dir_.file(std::string("a") + way.extension);
     MuxOptions options;
     options.fragmented = way.fragmented;
+    options.shared_seconds = way.shared;
     ASSERT_TRUE(write_container(path, {.face = &face}, options));
     const Result<Container> back = read_container(path);
     ASSERT_TRUE(back) << back.error().describe();

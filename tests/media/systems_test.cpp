@@ -25,6 +25,42 @@ TEST(SystemsScene, IsTheOneOfTheSpecification) {
                    0x00, 0x00, 0x00, 0x01, 0x0E, 0x04, 0x00, 0x00, 0x00, 0x02}));
 }
 
+TEST(SystemsScene, ProfileOfTheSound) {
+  EXPECT_EQ(audio_profile(nullptr), 0xFFu);
+  const auto profile = [](int rate, int channels, unsigned object_type = 2,
+                          AudioCodec codec = AudioCodec::aac) {
+    const AudioFormat format{codec, rate, channels,
+                             1024,  1024, {std::uint8_t(object_type << 3), 0x88}};
+    return audio_profile(&format);
+  };
+  EXPECT_EQ(profile(48000, 1), 0x29u);
+  EXPECT_EQ(profile(44100, 2), 0x29u);
+  EXPECT_EQ(profile(96000, 2), 0x2Bu);
+  EXPECT_EQ(profile(48000, 5), 0x2Au);
+  EXPECT_EQ(profile(88200, 4), 0x2Bu);
+  EXPECT_EQ(profile(48000, 6), 0x50u);
+  EXPECT_EQ(profile(96000, 8), 0x51u);
+  EXPECT_EQ(profile(48000, 2, 5), 0xFEu) << "HE-AAC";
+  EXPECT_EQ(profile(48000, 2, 2, AudioCodec::opus), 0xFEu);
+}
+
+// Both writers say the same of sound of more than two channels.
+TEST(SystemsScene, CopiedSoundOfManyChannelsIsOfLevel4) {
+  const test::TempDir dir;
+  const fba::AccessUnits face = test::make_face(50);
+  auto sound = encode_audio(test::make_clicks(48000, 2 * 48000, {24037}));
+  ASSERT_TRUE(sound);
+  sound->format.channels = 5;
+  for (const bool systems : {false, true}) {
+    const MuxInput input{.face = &face, .encoded = &*sound};
+    ASSERT_TRUE(write_container(dir.file("a.mp4"), input, {.systems = systems}));
+    const Bytes iods = test::find_box(test::read_bytes(dir.file("a.mp4")), "moov/iods");
+    ASSERT_GE(iods.size(), 14u);
+    const std::size_t begin = iods[5] >= 0x80 ? 9 : 6;  // behind tag and length
+    EXPECT_EQ(iods[begin + 4], 0x2A) << systems;
+  }
+}
+
 TEST(SystemsScene, WithoutSoundHasOnlyTheFace) {
   // The same bits up to the end of the face, then the ends of children, routes and commands.
   EXPECT_EQ(scene_unit(false), (Bytes{0xC0, 0x05, 0xA1, 0xD0, 0x0D, 0x00, 0x24, 0x05, 0x3C}));
@@ -53,6 +89,23 @@ class Systems : public testing::Test {
   }
   test::TempDir dir_;
 };
+
+TEST_F(Systems, ChunksAreShared) {
+  const fba::AccessUnits face = test::make_face(100);
+  const Pcm sound = test::make_clicks(48000, 4 * 48000, {24037});
+  const Bytes file = test::read_bytes(write(face, &sound));
+  // The tracks of scene and objects have one chunk each; the third table is that of the face.
+  std::vector<std::size_t> counts;
+  const std::string text(file.begin(), file.end());
+  for (auto at = text.find("stco"); at != text.npos; at = text.find("stco", at + 1)) {
+    counts.push_back(file[at + 11]);
+  }
+  ASSERT_EQ(counts.size(), 4u);
+  EXPECT_EQ(counts[0], 1u);
+  EXPECT_EQ(counts[1], 1u);
+  EXPECT_EQ(counts[2], 4u) << "a chunk a second";
+  EXPECT_LE(counts[3], 5u);
+}
 
 TEST_F(Systems, FaceComesBackByteForByteAndInTime) {
   const fba::AccessUnits face = test::make_face(100);

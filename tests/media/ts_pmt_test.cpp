@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <map>
 #include <span>
 
 #include "tests/media/media_support.h"
@@ -52,9 +53,7 @@ Bytes filtered(const Bytes& stream, std::size_t cut = 1 << 20, std::uint8_t prof
         filter.push(std::span(stream).subspan(at, std::min(cut, stream.size() - at)));
     out.insert(out.end(), part.begin(), part.end());
   }
-  const Bytes rest = filter.finish();
-  out.insert(out.end(), rest.begin(), rest.end());
-  return out;
+  return out;  // whole packets
 }
 
 Bytes joined(const Bytes& a, const Bytes& b) {
@@ -90,7 +89,7 @@ TEST(ProgramMap, AllElsePassesAsItIs) {
         joined(packet(0, kAssociation), packet(0x1000, video)),
         joined(packet(0, kAssociation), packet(0x1001, plain)),  // no map of a programme
         packet(0x1000, plain),                                   // before the association
-        Bytes(1000, 0x47), Bytes(999, 0)}) {
+        Bytes(kPacket * 5, 0x47), Bytes(kPacket * 5, 0)}) {
     EXPECT_EQ(filtered(stream, 50), stream);
   }
   Bytes full = map({{0x10, Bytes(160, 0)}});  // 3 bytes more do not fit
@@ -130,6 +129,53 @@ TEST(ProgramMap, OurFilesHaveIt) {
   const Result<Container> back = read_container(file);
   ASSERT_TRUE(back) << back.error().describe();
   EXPECT_EQ(back->face.units.size(), face.units.size());
+}
+
+// Two planes and no sound: fewer packets than libavformat wants to see.
+TEST(ProgramMap, ShortFilesAreTransportStreamsToo) {
+  const test::TempDir dir;
+  const fba::AccessUnits face = test::make_face(2);
+  ASSERT_TRUE(write_container(dir.file("a.ts"), {.face = &face}));
+  EXPECT_EQ(test::read_bytes(dir.file("a.ts")).size() % kPacket, 0u);
+  const Result<Container> back = read_container(dir.file("a.ts"));
+  ASSERT_TRUE(back) << back.error().describe();
+  EXPECT_EQ(back->format, "mpegts");
+  EXPECT_EQ(back->face.units.size(), 2u);
+}
+
+struct Count {
+  int packets = 0, units = 0;  // transport packets, PES packets or sections
+};
+
+std::map<int, Count> count_packets(const Bytes& file) {
+  std::map<int, Count> found;
+  for (std::size_t at = 0; at + kPacket <= file.size(); at += kPacket) {
+    Count& each = found[(file[at + 1] & 0x1F) << 8 | file[at + 2]];
+    ++each.packets;
+    each.units += (file[at + 1] & 0x40) != 0 ? 1 : 0;
+  }
+  return found;
+}
+
+TEST(SharedPackets, CostAFractionOfAPacketAPlane) {
+  constexpr int kTables = 0, kFace = 0x100, kSound = 0x101;
+  const test::TempDir dir;
+  const auto sample = read_container((test::data_dir() / "containers" / "std_aac.mp4").string());
+  ASSERT_TRUE(sample) << sample.error().describe();
+  const int planes = int(sample->face.units.size());  // of 10 s
+  const Pcm sound = test::make_clicks(48000, 480000, {24000});
+  const MuxInput input{.face = &sample->face, .audio = &sound};
+  ASSERT_TRUE(write_container(dir.file("a.ts"), input));
+  auto alone = count_packets(test::read_bytes(dir.file("a.ts")));
+  EXPECT_EQ(alone[kFace].units, planes);
+  EXPECT_LE(alone[kSound].units, 50) << "frames of sound share them always";
+  EXPECT_GE(alone[kTables].units, 80);
+  ASSERT_TRUE(write_container(dir.file("a.ts"), input, {.shared_seconds = 0.4}));
+  auto shared = count_packets(test::read_bytes(dir.file("a.ts")));
+  EXPECT_LE(shared[kFace].units, planes / 10 + 5) << "ten planes a packet, but for intra planes";
+  EXPECT_LE(shared[kFace].packets * 3, alone[kFace].packets);
+  EXPECT_LE(shared[kTables].units, 30);
+  EXPECT_GE(shared[kTables].units, 20) << "no less than two a second";
 }
 
 }  // namespace ts_pmt_test

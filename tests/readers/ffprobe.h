@@ -22,7 +22,8 @@ inline void expect_packets(const Talk& talk, const Layout& layout, const Json& p
   const std::vector<Bytes> units = units_of(talk, layout.ts());
   ASSERT_EQ(packets.size(), units.size());
   // mkv rounds the shift and each time to 1 ms.
-  const double shift = double(layout.late()) / talk.sound.sample_rate;
+  const double shift =
+      double(layout.late()) / talk.sound.sample_rate + (layout.ts() ? kTsBegin : 0);
   const double rounding = mp4 ? 1e-6 : layout.ts() ? 1.1 / 90000 : 0.001;
   for (std::size_t i = 0; i < units.size(); ++i) {
     const fba::AccessUnit& unit = talk.face.units[i];

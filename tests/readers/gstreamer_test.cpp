@@ -70,8 +70,10 @@ TEST_P(GStreamer, GivesTheUnitsByteForByteAndInTime) {
       SCOPED_TRACE("unit " + std::to_string(count) + ": " + line);
       EXPECT_EQ(field(line, "(unit:sink) ("), std::to_string(units[count].size()));
       const double time = double(unit.time) / talk.face.timescale;
-      // tsdemux lets the face begin at 0, mkv has whole milliseconds behind the priming.
-      const double shift = layout.ts() ? 0 : double(layout.late()) / talk.sound.sample_rate;
+      // tsdemux counts from the clock at the first plane, mkv has whole milliseconds behind the
+      // priming.
+      const double shift =
+          layout.ts() ? kTsBegin / 2 : double(layout.late()) / talk.sound.sample_rate;
       EXPECT_NEAR(seconds_of(field(line, "pts: ")), time + shift,
                   layout.ts() ? 2.0 / 90000 : 0.001);
       if (!layout.ts()) {

@@ -71,6 +71,10 @@ inline void expect_bursts(const media::Pcm& heard, const Talk& talk, std::int64_
   }
 }
 
+/// Times of a transport stream begin so late, seconds, and half of that behind its clock
+/// (tools/media/containers.md, section 3.2).
+inline constexpr double kTsBegin = 1.4;
+
 struct Layout {
   std::string name;
   std::string extension;

@@ -76,6 +76,66 @@ TEST(MuxCommand, TheFaceStaysTheSameInEveryFormat) {
   }
 }
 
+// A stream of one intra plane, as encode writes it, of 20 s.
+void write_long_stream(const TempDir& dir) {
+  std::string text = "2.1 long 25 500\n";
+  std::string mask(68 * 2, ' ');
+  for (std::size_t fap = 0; fap < 68; ++fap) mask[2 * fap] = fap == 2 ? '1' : '0';
+  for (int i = 0; i < 500; ++i) {
+    text += mask + "\n" + std::to_string(i) + " " + std::to_string(i * 37 % 400) + "\n";
+  }
+  test::spill(dir / "long.fap", text);
+  ASSERT_EQ(animeme({"encode", dir / "long.fap", "--quant", "3", "-o", dir / "long.fba"}).exit_code,
+            0);
+  write_noise(dir / "long.wav", 20);
+}
+
+std::size_t segments_of(const std::string& playlist) {
+  const std::string text = test::slurp(playlist);
+  std::size_t count = 0;
+  for (auto at = text.find("#EXTINF"); at != text.npos; at = text.find("#EXTINF", at + 1)) ++count;
+  return count;
+}
+
+TEST(MuxCommand, AStreamOfOneIntraPlaneIsCodedAgainForSegments) {
+  const TempDir dir;
+  write_long_stream(dir);
+  const std::vector<std::string> mux = {"mux", dir / "long.fba", dir / "long.wav", "-o"};
+  const auto with = [&](std::vector<std::string> more) {
+    std::vector<std::string> all = mux;
+    all.insert(all.end(), more.begin(), more.end());
+    return animeme(all);
+  };
+  const auto again = with({dir / "a.m3u8"});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_THAT(again.err, HasSubstr("coded again, so that a segment can begin every 5.00 s"));
+  EXPECT_THAT(again.err, HasSubstr("--copy keeps it"));
+  EXPECT_EQ(segments_of(dir / "a_hls/face.m3u8"), 4u);
+  // The same values, since the quantiser is the same.
+  ASSERT_EQ(animeme({"decode", dir / "long.fba", "-o", dir / "one.fap"}).exit_code, 0);
+  ASSERT_EQ(animeme({"decode", dir / "a.m3u8", "-o", dir / "four.fap"}).exit_code, 0);
+  const auto body = [](const std::string& text) { return text.substr(text.find("25 500")); };
+  EXPECT_EQ(body(test::slurp(dir / "one.fap")), body(test::slurp(dir / "four.fap")));
+
+  const auto closer = with({dir / "b.m3u8", "--intra-seconds", "2"});
+  ASSERT_EQ(closer.exit_code, 0) << closer.err;
+  EXPECT_EQ(segments_of(dir / "b_hls/face.m3u8"), 10u);
+  const auto second = animeme({"mux", dir / "b.m3u8", dir / "long.wav", "-o", dir / "c.m3u8"});
+  ASSERT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_THAT(second.err, testing::Not(HasSubstr("coded again"))) << "close enough";
+
+  const auto copy = with({dir / "d.mpd", "--copy"});
+  ASSERT_EQ(copy.exit_code, 0) << copy.err;
+  EXPECT_THAT(copy.err, HasSubstr("segments last up to 20.00 s"));
+  ASSERT_EQ(animeme({"demux", dir / "d.mpd", "--face", dir / "d.fba"}).exit_code, 0);
+  ASSERT_EQ(with({dir / "e.mp4"}).exit_code, 0) << "others keep the stream";
+  ASSERT_EQ(animeme({"demux", dir / "e.mp4", "--face", dir / "e.fba"}).exit_code, 0);
+  EXPECT_EQ(test::slurp(dir / "d.fba"), test::slurp(dir / "e.fba"));
+  const auto one = with({dir / "f.m3u8", "--intra-seconds", "0"});
+  ASSERT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_EQ(segments_of(dir / "f_hls/face.m3u8"), 1u);
+}
+
 TEST(DemuxCommand, JsonTellsWhatWasTaken) {
   const TempDir dir;
   const auto done = animeme({"demux", sample(), "--face", dir / "a.fba", "--json"});

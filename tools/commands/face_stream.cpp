@@ -79,7 +79,8 @@ media::AudioSettings audio_settings(const SoundSettings& settings, const std::st
 namespace {
 
 // ": face 100 planes, 4.00 s, 2.52 kbit/s, sound aac".
-std::string summary(const media::MuxInput& input, const media::MuxOptions& options) {
+std::string summary(const media::MuxInput& input, const media::MuxOptions& options,
+                    double sound_seconds) {
   std::string text = ": ";
   if (input.face != nullptr) {
     const fba::AccessUnits& face = *input.face;
@@ -87,17 +88,18 @@ std::string summary(const media::MuxInput& input, const media::MuxOptions& optio
     for (const fba::AccessUnit& unit : face.units) bytes += unit.bytes.size();
     const fba::AccessUnit& last = face.units.back();
     const double seconds = double(last.time + last.duration) / face.timescale;
+    if (sound_seconds > 0 && std::abs(sound_seconds - seconds) > 1.0) {
+      warn("the face lasts " + seconds_text(seconds) + ", the sound " +
+           seconds_text(sound_seconds));
+    }
     text += format("face %zu planes, %.2f s, %.2f kbit/s", face.units.size(), seconds,
                    double(bytes) * 8e-3 / seconds);
   }
-  if (input.audio != nullptr) {
-    text +=
-        ", sound " + seconds_text(input.audio->duration()) + " as " + name_of(options.audio.codec);
-  }
-  if (input.encoded != nullptr) {
-    const media::EncodedAudio& audio = *input.encoded;
-    text += ", sound " + seconds_text(double(audio.length) / audio.format.sample_rate) +
-            " copied (" + name_of(audio.format.codec) + ")";
+  if (sound_seconds > 0) {
+    text += ", sound " + seconds_text(sound_seconds);
+    text += input.encoded == nullptr
+                ? std::string(" as ") + name_of(options.audio.codec)
+                : std::string(" copied (") + name_of(input.encoded->format.codec) + ")";
   }
   return text;
 }
@@ -110,14 +112,17 @@ Result<int> write_media(const std::string& path, const media::MuxInput& input,
   ProgressLine progress("writing " + path);
   options.progress = [&progress](double done) { progress.update(done); };
   options.stop = [] { return Interrupt::requested(); };
+  std::vector<std::string> odd;
+  options.warnings = &odd;
   Result<media::MuxResult> written = media::write_container(path, input, options);
   progress.clear();
+  for (const std::string& text : odd) warn(*input.audio_file + ": " + text);
   if (!written) return written.error().in_file(path);
   if (written->stopped) {
     say(path + ": stopped; the file holds the first " + seconds_text(written->seconds));
     return kInterrupted;
   }
-  say(path + summary(input, options));
+  say(path + summary(input, options, written->sound_seconds));
   return kOk;
 }
 

@@ -1,11 +1,12 @@
 #include "tools/media/mux.h"
 
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <algorithm>
 
 #include "tools/commands/common.h"
 #include "tools/commands/face_stream.h"
 #include "tools/commands/preview.h"
+#include "tools/live/clip.h"
 #include "tools/media/container.h"
 #include "tools/speech/voice_file.h"
 
@@ -19,9 +20,37 @@ struct MuxOptions {
   std::string output;
   StreamSettings stream;
   std::string preview;
+  bool copy = false;
   SoundSettings sound;
   media::MuxOptions mux;
 };
+
+bool in_segments(const std::string& path) {
+  const std::string extension = extension_of(path);
+  return extension == ".m3u8" || extension == ".mpd";
+}
+
+// A segment begins where playing can begin, so a stream with one such point would be one segment.
+Result<fba::AccessUnits> for_segments(fba::AccessUnits units, const MuxOptions& options) {
+  const double longest = live::longest_intra_interval(units);
+  if (options.copy) {
+    if (longest > options.mux.fragment_seconds + options.stream.intra_seconds) {
+      warn(options.face + ": segments last up to " + seconds_text(longest) +
+           ", as far as its intra planes are apart; without --copy it is coded again");
+    }
+    return units;
+  }
+  const Result<fba::DecodedStream> decoded = fba::decode(fba::join_access_units(units));
+  if (!decoded) return decoded.error();
+  live::Coding coding;
+  coding.intra_seconds = std::max(options.stream.intra_seconds, options.mux.fragment_seconds);
+  auto again = live::with_joints(units, *decoded, coding);
+  if (!again) return again.error();
+  if (!*again) return units;
+  say(options.face + ": coded again, so that a segment can begin every " +
+      seconds_text(coding.intra_seconds) + "; --copy keeps it as it is");
+  return std::move(**again);
+}
 
 // A face out of a container keeps its times, which its planes alone would not tell.
 Result<fba::AccessUnits> read_units(const MuxOptions& options) {
@@ -39,6 +68,7 @@ Result<fba::AccessUnits> read_units(const MuxOptions& options) {
   return access_units(*face, options.stream);
 }
 
+// Samples only where they are needed twice: a file is decoded while it is written.
 Result<speech::SoundInput> sound_of(const MuxOptions& options) {
   speech::SoundInput sound;
   if (options.sound.codec == "copy") {
@@ -47,6 +77,7 @@ Result<speech::SoundInput> sound_of(const MuxOptions& options) {
     sound.coded = std::move(*coded);
     return sound;
   }
+  if (options.preview.empty()) return sound;
   Result<media::Pcm> samples = speech::read_voice(options.audio, talk());
   if (!samples) return samples.error();
   sound.samples = std::move(*samples);
@@ -56,17 +87,17 @@ Result<speech::SoundInput> sound_of(const MuxOptions& options) {
 Result<int> run(MuxOptions options) {
   Result<fba::AccessUnits> units = read_units(options);
   if (!units) return units.error().in_file(options.face);
+  const bool one_point = options.stream.intra_seconds == 0;  // is asked for
+  if (in_segments(options.output) && !one_point) {
+    units = for_segments(std::move(*units), options);
+    if (!units) return units.error().in_file(options.face);
+  }
   const Result<speech::SoundInput> sound = sound_of(options);
   if (!sound) return sound.error();
-  const fba::AccessUnit& last = units->units.back();
-  const double seconds = double(last.time + last.duration) / units->timescale;
-  if (std::abs(sound->seconds() - seconds) > 1.0) {
-    warn("the face lasts " + seconds_text(seconds) + ", the sound " +
-         seconds_text(sound->seconds()));
-  }
   media::MuxInput input;
   input.face = &*units;
   sound->give_to(input);
+  if (!sound->coded && !sound->samples) input.audio_file = &options.audio;
   options.mux.audio = audio_settings(options.sound, options.output);
   Result<int> written = write_media(options.output, input, options.mux);
   if (!written || *written != kOk || options.preview.empty()) return written;
@@ -82,6 +113,9 @@ void add_options(CLI::App& app, MuxOptions& options) {
                  "folder of segments beside it")
       ->required();
   add_stream_options(app, options.stream);
+  app.add_flag("--copy", options.copy,
+               "HLS and DASH: keep a stream as it is, however far the points where playing can "
+               "begin are apart; else it is coded again with --intra-seconds");
   add_sound_options(app, options.sound, true);
   CLI::Option* fragmented =
       app.add_flag("--fragmented", options.mux.fragmented,
@@ -89,6 +123,12 @@ void add_options(CLI::App& app, MuxOptions& options) {
   app.add_option("--fragment-seconds", options.mux.fragment_seconds,
                  "Length of fragments and of segments (.m3u8, .mpd), seconds")
       ->check(CLI::Range(0.02, 600.0))
+      ->capture_default_str();
+  app.add_option(
+         "--pes-seconds", options.mux.shared_seconds,
+         "ts: planes of so many seconds share a packet, and tables come half a second apart: a "
+         "fraction of the bytes, but few readers part the planes again; 0: a packet a plane")
+      ->check(CLI::Range(0.0, 2.0))
       ->capture_default_str();
   app.add_flag("--systems", options.mux.systems,
                "mp4: add the scene and object streams of a complete MPEG-4 Systems presentation")
@@ -103,6 +143,7 @@ const Command kMux{"mux", "Put a face and a voice into one file",
                    "  animeme mux talk.fap voice.flac --quant 2 -o talk.mkv\n"
                    "  animeme mux talk.fba voice.wav --audio-codec opus --fragmented -o talk.mp4\n"
                    "  animeme mux talk.mp4 talk.mp4 --audio-codec copy -o talk.ts\n"
+                   "  animeme mux talk.fba voice.wav --pes-seconds 0.4 -o talk.ts\n"
                    "  animeme mux talk.fba voice.wav --fragment-seconds 4 -o talk.m3u8\n"
                    "  animeme mux talk.fba voice.wav --systems -o scene.mp4\n"
                    "  animeme mux talk.fba voice.wav -o talk.mp4 --preview talk.preview.mp4",

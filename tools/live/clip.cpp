@@ -113,21 +113,33 @@ Result<Clip> code_live_clip(const fap::Sequence& clip, const media::Pcm* audio,
   return out;
 }
 
+Result<std::optional<fba::AccessUnits>> with_joints(const fba::AccessUnits& units,
+                                                    const fba::DecodedStream& decoded,
+                                                    const Coding& coding) {
+  // A plane of tolerance: periods are whole numbers of planes.
+  const double plane = decoded.rate.seconds(1);
+  const double longest = longest_intra_interval(with_true_joints(units, decoded));
+  if (longest <= coding.intra_seconds + plane) return std::optional<fba::AccessUnits>();
+  auto again = code_again(decoded, coding);
+  if (!again) return again.error();
+  const double begin = double(units.units.front().time) / units.timescale;
+  for (fba::AccessUnit& unit : again->units) unit.time += std::llround(begin * again->timescale);
+  return std::optional(std::move(*again));
+}
+
 Result<fba::AccessUnits> for_live_use(fba::AccessUnits units, const fba::DecodedStream& decoded,
                                       const std::string& name, const Coding& coding,
                                       const tools::Talk& talk) {
-  const double longest = longest_intra_interval(with_true_joints(units, decoded));
-  // A plane of tolerance: periods are whole numbers of planes.
-  const double plane = decoded.rate.seconds(1);
-  if (!coding.copy && longest > coding.intra_seconds + plane) {
-    talk.say(name + ": coded again, so that receivers can join every " +
-             interval_text(coding.intra_seconds) + "; --copy keeps it as it is");
-    auto again = code_again(decoded, coding);
+  if (!coding.copy) {
+    auto again = with_joints(units, decoded, coding);
     if (!again) return again.error().in_file(name);
-    const double begin = double(units.units.front().time) / units.timescale;
-    for (fba::AccessUnit& unit : again->units) unit.time += std::llround(begin * again->timescale);
-    return again;
+    if (*again) {
+      talk.say(name + ": coded again, so that receivers can join every " +
+               interval_text(coding.intra_seconds) + "; --copy keeps it as it is");
+      return std::move(**again);
+    }
   }
+  const double longest = longest_intra_interval(with_true_joints(units, decoded));
   if (longest > kLongInterval) {
     talk.warn(
         name + ": up to " + interval_text(longest) +

@@ -2,6 +2,7 @@
 /// What is there as a whole before it is streamed: a face and its sound, coded.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "codec/decode/access_unit.h"
@@ -36,6 +37,12 @@ Result<fba::AccessUnits> live_units(const fap::Sequence& clip, const Coding& cod
 
 /// Seconds of the longest stretch between two intra planes, or from the last one to the end.
 double longest_intra_interval(const fba::AccessUnits& units);
+
+/// Coded units of a stream, `decoded`, coded again so that joining points lie
+/// Coding::intra_seconds apart, with their quantisers and times; nothing: they do already.
+Result<std::optional<fba::AccessUnits>> with_joints(const fba::AccessUnits& units,
+                                                    const fba::DecodedStream& decoded,
+                                                    const Coding& coding);
 
 /// Coded units of a stream, `decoded`, as they are, or coded again where their intra planes lie
 /// farther apart than `coding` wants. Says so; warns of streams that can be joined at their begin

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,7 +25,7 @@ namespace animeme::media {
 struct ReadAudioOptions {
   int sample_rate = 0;  ///< Hz of the result, 1000..384000; 0: the file's own rate
   /// Longer sound is refused. Whatever is set here, 2^29 samples (3.1 hours at 48 kHz, 2 GiB)
-  /// are the end.
+  /// are the end of what read_audio() gives.
   double max_seconds = 3 * 3600.0;
   /// Receives one sentence for everything odd (damaged packets, early end); nullptr: not wanted.
   std::vector<std::string>* warnings = nullptr;
@@ -43,6 +44,32 @@ Result<Pcm> read_audio(const std::string& path, const ReadAudioOptions& options 
 
 /// The same from memory.
 Result<Pcm> read_audio(std::span<const std::uint8_t> file, const ReadAudioOptions& options = {});
+
+/// The same sound block by block, for what is made of it meanwhile: memory does not grow with its
+/// length. Movable, not copyable.
+class AudioReader {
+ public:
+  /// Opens the file and decodes the begin of its sound. Errors: those of read_audio().
+  static Result<AudioReader> open(const std::string& path, const ReadAudioOptions& options = {});
+  /// From memory, which has to outlive the reader.
+  static Result<AudioReader> open(std::span<const std::uint8_t> file,
+                                  const ReadAudioOptions& options = {});
+  AudioReader(AudioReader&&) noexcept;  ///< movable
+  AudioReader& operator=(AudioReader&&) noexcept;
+  ~AudioReader();
+
+  int sample_rate() const;  ///< Hz, of the samples that come out
+  /// Length as the file tells it, seconds, for progress; 0: it does not.
+  double told_seconds() const;
+  /// The next samples, one or more, valid until the next call; empty: there are no more. Errors:
+  /// those of read_audio() that show later than at the begin.
+  Result<std::span<const float>> next();
+
+ private:
+  struct Impl;
+  explicit AudioReader(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
 
 /// Converts to another rate, sample 0 stays at time 0, the length is rounded to the nearest
 /// sample. Errors: invalid_argument (a rate outside 1000..384000), out_of_range (memory).

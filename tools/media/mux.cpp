@@ -1,6 +1,8 @@
 #include "tools/media/mux.h"
 
 #include <algorithm>
+#include <array>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -11,9 +13,11 @@
 #include "tools/media/detail/mp4_fix.h"
 #include "tools/media/detail/mux_parts.h"
 #include "tools/media/detail/output_file.h"
+#include "tools/media/detail/plane_cutter.h"
 #include "tools/media/detail/segment_writer.h"
 #include "tools/media/detail/systems_movie.h"
 #include "tools/media/detail/ts_pmt.h"
+#include "tools/media/detail/ts_sections.h"
 
 namespace animeme::media {
 namespace {
@@ -25,6 +29,7 @@ struct FileType {
   bool face, aac, opus, h264, vp9;
 
   bool is_mp4() const { return std::string_view(muxer) == "mp4"; }
+  bool is_ts() const { return std::string_view(muxer) == "mpegts"; }
   bool is_segments() const { return std::string_view(muxer) == "segments"; }
   bool takes(AudioCodec codec) const { return codec == AudioCodec::opus ? opus : aac; }
   bool takes(VideoCodec codec) const { return codec == VideoCodec::vp9 ? vp9 : h264; }
@@ -62,6 +67,9 @@ Result<void> check_type(const FileType& type, const MuxInput& input, const MuxOp
     return unsupported("a Systems presentation is an .mp4 file");
   }
   if (options.fragmented && !type.is_mp4()) return unsupported("only an mp4 can be fragmented");
+  if (options.shared_seconds > 0 && !type.is_ts()) {
+    return unsupported("planes share packets in .ts files only");
+  }
   if (input.video != nullptr && !type.takes(input.video->codec)) {
     return unsupported("a " + name + " file takes no " + name_of(input.video->codec) +
                        " video; use .mp4 or .mkv");
@@ -71,7 +79,8 @@ Result<void> check_type(const FileType& type, const MuxInput& input, const MuxOp
   }
   const AudioCodec codec =
       input.encoded != nullptr ? input.encoded->format.codec : options.audio.codec;
-  const bool sound = input.audio != nullptr || input.encoded != nullptr;
+  const bool sound =
+      input.audio != nullptr || input.audio_file != nullptr || input.encoded != nullptr;
   if (sound && !type.takes(codec)) {
     return unsupported("a " + name + " file takes no " + name_of(codec) + "; " +
                        (type.opus ? "code the sound as opus" : "code the sound as aac") +
@@ -84,9 +93,26 @@ Result<void> check_type(const FileType& type, const MuxInput& input, const MuxOp
 }
 
 OutputStream::Filter filter_of(const FileType& type, const MuxInput& input) {
-  if (std::string_view(type.muxer) != "mpegts" || input.face == nullptr) return nullptr;
+  if (!type.is_ts() || input.face == nullptr) return nullptr;
   const auto filter = std::make_shared<ProgramMapFilter>(std::uint8_t(visual_profile(input)));
   return [filter](std::span<const std::uint8_t> bytes) { return filter->push(bytes); };
+}
+
+// libavformat takes nothing for a transport stream that has less than eleven packets.
+Result<void> fill_up_ts(const std::string& path) {
+  constexpr std::size_t kFewest = 16;
+  std::error_code status;
+  const auto size = std::size_t(std::filesystem::file_size(path, status));
+  if (status || size >= kFewest * kTsPacket) return {};
+  std::vector<char> packet(kTsPacket, char(0xFF));
+  const std::array<std::uint8_t, 4> header = {kTsSync, kTsNoPid >> 8, kTsNoPid & 0xFF, 0x10};
+  std::copy(header.begin(), header.end(), packet.begin());
+  std::ofstream out(path, std::ios::binary | std::ios::app);
+  for (std::size_t i = size / kTsPacket; i < kFewest; ++i) {
+    out.write(packet.data(), std::streamsize(packet.size()));
+  }
+  out.close();
+  return out ? Result<void>() : make_error(Code::io, "cannot write the file; check the free space");
 }
 
 Result<MuxResult> write_streams(const std::string& path, const FileType& type,
@@ -101,42 +127,74 @@ Result<MuxResult> write_streams(const std::string& path, const FileType& type,
     if (auto added = muxer.add_video(*input.video); !added) return added.error();
     feeds.push_back(video_feed(muxer, *input.video));
   }
-  if (input.face != nullptr) {
-    if (auto added = muxer.add_face(*input.face); !added) return added.error();
-    feeds.push_back(face_feed(muxer, *input.face));
+  fba::AccessUnits shared;
+  const fba::AccessUnits* face = input.face;
+  if (face != nullptr && type.is_ts() && options.shared_seconds > 0) {
+    shared = share_packets(*face, options.shared_seconds);
+    face = &shared;
+  }
+  if (face != nullptr) {
+    if (auto added = muxer.add_face(*face); !added) return added.error();
+    feeds.push_back(face_feed(muxer, *face));
   }
   const AudioFormat* format = *sound ? &(*sound)->format() : nullptr;
   if (format != nullptr) {
     auto added = muxer.add_sound(*format, (*sound)->bit_rate());
     if (!added) return added.error();
-    feeds.push_back(sound_feed(muxer, **sound, seconds_of_sound(input)));
+    feeds.push_back(sound_feed(muxer, **sound, (*sound)->seconds()));
   }
   av::Options header;
   if (type.is_mp4()) {
     set_mp4_options({input.face, visual_profile(input), format, input.video}, header);
     if (options.fragmented) {
       set_fragment_options("frag_keyframe", options.fragment_seconds, header);
+    } else {
+      set_chunk_options(header);
     }
   }
+  if (type.is_ts()) set_ts_options(options.shared_seconds, header);
   if (auto started = muxer.write_header(header); !started) return started.error();
   Result<Interleaved> done = interleave(feeds, options.stop, options.progress);
   if (!done) return done.error();
   if (auto finished = muxer.finish(); !finished) return finished.error();
   if (type.is_mp4()) {
-    auto completed = complete_mp4(path, options.faststart);
+    auto completed = complete_mp4(
+        path, options.faststart || options.fragmented ? Layout::indexed : Layout::as_written);
     if (!completed) return completed.error();
   }
-  return MuxResult{done->seconds, done->stopped};
+  if (type.is_ts()) {
+    if (auto filled = fill_up_ts(path); !filled) return filled.error();
+  }
+  return MuxResult{done->seconds, *sound ? (*sound)->seconds_so_far() : 0, done->stopped};
+}
+
+Result<EncodedAudio> read_all(SoundSource& source) {
+  EncodedAudio audio{source.format(), {}, 0};
+  for (;;) {
+    const Result<const AudioPacket*> packet = source.next();
+    if (!packet) return packet.error();
+    if (*packet == nullptr) break;
+    audio.packets.push_back(**packet);
+  }
+  if (audio.packets.empty()) {
+    return make_error(Code::invalid_argument, "the sound is shorter than one coded sample");
+  }
+  audio.length = audio.packets.back().time + audio.packets.back().duration;
+  return audio;
 }
 
 Result<MuxResult> write_systems(const std::string& path, const MuxInput& input,
                                 const MuxOptions& options) {
   const EncodedAudio* sound = input.encoded;
   std::optional<EncodedAudio> coded;
-  if (input.audio != nullptr) {
-    Result<EncodedAudio> made = encode_audio(*input.audio, options.audio);
-    if (!made) return made.error();
-    sound = &coded.emplace(std::move(*made));
+  if (sound == nullptr) {
+    Result<std::optional<SoundSource>> source = open_sound(input, options);
+    if (!source) return source.error();
+    if (*source) {
+      Result<EncodedAudio> made = read_all(**source);
+      if (!made) return made.error();
+      sound = &coded.emplace(std::move(*made));
+    }
   }
   Result<std::vector<std::uint8_t>> bytes =
       write_movie(systems_movie(*input.face, sound, visual_profile(input)));
@@ -146,9 +204,10 @@ Result<MuxResult> write_systems(const std::string& path, const MuxInput& input,
   out.close();
   if (!out) return make_error(Code::io, "cannot write the file; check the free space");
   const fba::AccessUnit& last = input.face->units.back();
-  MuxResult result{double(last.time + last.duration) / input.face->timescale, false};
+  MuxResult result{double(last.time + last.duration) / input.face->timescale, 0, false};
   if (sound != nullptr) {
-    result.seconds = std::max(result.seconds, double(sound->length) / sound->format.sample_rate);
+    result.sound_seconds = double(sound->length) / sound->format.sample_rate;
+    result.seconds = std::max(result.seconds, result.sound_seconds);
   }
   return result;
 }

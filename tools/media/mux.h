@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "codec/decode/access_unit.h"
 #include "fap/result.h"
@@ -27,7 +28,10 @@ namespace animeme::media {
 struct MuxInput {
   const fba::AccessUnits* face = nullptr;  ///< nullptr: sound only
   const Pcm* audio = nullptr;              ///< samples to be coded; nullptr: none
-  /// Coded sound to be copied, packet by packet; nullptr: none. Not together with `audio`.
+  /// A sound file (see read_audio()) that is decoded and coded while it is written, so that memory
+  /// does not grow with it; nullptr: none.
+  const std::string* audio_file = nullptr;
+  /// Coded sound to be copied, packet by packet; nullptr: none. One of these three at most.
   const EncodedAudio* encoded = nullptr;
   /// Pictures for players that know no faces; nullptr: none. They become the first track, and the
   /// face beside them is not shown by default. In .mp4, .mkv and .webm (VP9), not in Systems
@@ -40,7 +44,9 @@ struct MuxInput {
 
 /// How a container is written.
 struct MuxOptions {
-  AudioSettings audio;  ///< how MuxInput::audio is coded
+  AudioSettings audio;  ///< how MuxInput::audio or MuxInput::audio_file is coded
+  /// Receives one sentence for everything odd in MuxInput::audio_file; nullptr: not wanted.
+  std::vector<std::string>* warnings = nullptr;
   /// mp4: contents before data, so that a player can begin while it loads.
   bool faststart = true;
   /// mp4: in fragments, each of which is complete, so that a reader can begin while the file is
@@ -48,6 +54,11 @@ struct MuxOptions {
   bool fragmented = false;
   /// The longest fragment, and the shortest segment of HLS and DASH but for the last; 0.02..600.
   double fragment_seconds = 1;
+  /// ts: planes that begin within so many seconds share a PES packet, which takes 188 bytes or more
+  /// each, and tables come every 0.5 s, or with each packet, instead of every 0.1 s; 0..2. Several
+  /// planes in a packet are legal and read back here, but not by every reader. 0: a packet for each
+  /// plane.
+  double shared_seconds = 0;
   /// mp4: a complete MPEG-4 Systems presentation with a scene of a face and a sound, an object
   /// stream and the initial object descriptor; for players and tools of MPEG-4 Systems. It is made
   /// in memory, with the contents first, and limited to 4 GB. Sound: AAC.
@@ -62,8 +73,9 @@ struct MuxOptions {
 
 /// What became of it.
 struct MuxResult {
-  double seconds = 0;    ///< end of the longer track in the file
-  bool stopped = false;  ///< MuxOptions::stop ended it: the file holds the first `seconds` only
+  double seconds = 0;        ///< end of the longer track in the file
+  double sound_seconds = 0;  ///< length of the sound, as far as it was written; 0: none
+  bool stopped = false;      ///< MuxOptions::stop ended it: the file holds the first `seconds` only
 };
 
 /// The codec to take for a file of this name when nobody chose: Opus for .opus, .webm and .weba,
@@ -77,8 +89,9 @@ AudioCodec usual_codec(const std::string& path);
 /// that the codec lacks is resampled (see AudioEncoder).
 /// Errors: invalid_argument (nothing to write; no units; configuration not of a face; an empty
 /// unit or packet; times not ascending or negative; durations not positive; empty sound; bit rate;
-/// sound given twice; fragment length), io (folder missing, disk full ...), unsupported (this
-/// FFmpeg lacks the encoder; Opus in a Systems presentation), out_of_range (memory).
+/// sound given twice; fragment length), those of AudioReader for a sound file, io (folder missing,
+/// disk full ...), unsupported (this FFmpeg lacks the encoder; Opus in a Systems presentation),
+/// out_of_range (memory).
 Result<MuxResult> write_mp4(const std::string& path, const MuxInput& input,
                             const MuxOptions& options = {});
 
@@ -88,8 +101,9 @@ Result<MuxResult> write_mp4(const std::string& path, const MuxInput& input,
 ///                        moved by its priming (21.3 ms at 48 kHz); face against sound at most
 ///                        0.5 ms off
 ///   .ts                  face, AAC; configuration in front of each intra plane, stream type 0x10
-///                        with an MPEG-4 video descriptor, the same common shift, 90 kHz clock, 188
-///                        bytes or more for each plane
+///                        with an MPEG-4 video descriptor, the same common shift and 1.4 s, 90 kHz
+///                        clock, 188 bytes or more for each plane, but see
+///                        MuxOptions::shared_seconds
 ///   .m3u8 .mpd           HLS or DASH: face and sound as fragmented mp4 segments, each a rendition
 ///                        of its own, in a folder beside the file ("talk_hls", "talk_dash"), which
 ///                        is replaced if it holds such segments only. The sound is what a player

@@ -141,7 +141,7 @@ Result<void> ContainerReader::take(const AVPacket& packet) {
   tracks_.decide(packet);
   if (face_ < 0 && tracks_[index].state == FaceTrack::State::yes) {
     face_ = index;
-    units_.emplace(options_, tracks_[index].config);
+    units_.emplace(options_, tracks_[index].config, result_.format == "mpegts");
   }
   if (index != face_) return {};
   return units_->add(packet, file_.streams[index]->time_base);

@@ -9,9 +9,7 @@
 
 namespace animeme::dam {
 
-/// Dominance below this share of the strength counts as 0.
-inline constexpr double kRefinedCut = 1e-5;
-/// Widths beyond which it does: sqrt(-ln 1e-5).
+/// Widths beyond which dominance counts as 0: sqrt(-ln 1e-5), where 1e-5 of the strength is left.
 inline constexpr double kRefinedReach = 3.3930;
 /// A phone's strength grows with its duration by at most these factors of the usual one.
 inline constexpr double kShortestShare = 0.3, kLongestShare = 3;

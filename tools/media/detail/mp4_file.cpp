@@ -1,6 +1,8 @@
 #include "tools/media/detail/mp4_file.h"
 
 #include <algorithm>
+#include <cmath>
+
 namespace animeme::media {
 namespace {
 
@@ -11,11 +13,18 @@ std::int64_t rescale(std::int64_t value, std::uint32_t from, std::uint32_t to) {
   return std::int64_t((double(value) * to) / from + 0.5);
 }
 
-/// Where a sample lies in the file, and when it is due.
+/// Where a sample lies in the file, and the second in which it is due.
 struct SamplePlace {
   std::size_t track = 0, sample = 0;
-  double time = 0;
+  double second = 0;
 };
+
+/// Samples that lie side by side.
+struct Chunk {
+  std::uint64_t offset = 0;
+  std::uint32_t samples = 0;
+};
+using Chunks = std::vector<std::vector<Chunk>>;  // by track
 
 std::vector<SamplePlace> in_order_of_time(const Mp4Movie& movie) {
   std::vector<SamplePlace> places;
@@ -24,21 +33,36 @@ std::vector<SamplePlace> in_order_of_time(const Mp4Movie& movie) {
     std::int64_t time = track.start;
     for (std::size_t s = 0; s < track.samples.size(); ++s) {
       // What describes the presentation comes before all of it.
-      places.push_back({t, s, track.presented ? double(time) / track.timescale : -1e9});
+      places.push_back({t, s, track.presented ? std::floor(double(time) / track.timescale) : -1e9});
       time += track.samples[s].duration;
     }
   }
-  std::stable_sort(places.begin(), places.end(),
-                   [](const SamplePlace& a, const SamplePlace& b) { return a.time < b.time; });
+  // Within a second track by track.
+  std::stable_sort(places.begin(), places.end(), [](const SamplePlace& a, const SamplePlace& b) {
+    return a.second < b.second || (a.second == b.second && a.track < b.track);
+  });
   return places;
+}
+
+Chunks chunks_of(const Mp4Movie& movie, const std::vector<SamplePlace>& places, std::uint64_t at) {
+  Chunks chunks(movie.tracks.size());
+  const SamplePlace* before = nullptr;
+  for (const SamplePlace& place : places) {
+    const bool shared =
+        before != nullptr && before->track == place.track && before->second == place.second;
+    if (!shared) chunks[place.track].push_back({at, 0});
+    ++chunks[place.track].back().samples;
+    at += movie.tracks[place.track].samples[place.sample].bytes.size();
+    before = &place;
+  }
+  return chunks;
 }
 
 void write_matrix(BoxWriter& out) { out.u32({0x10000, 0, 0, 0, 0x10000, 0, 0, 0, 0x40000000}); }
 
 class MovieWriter {
  public:
-  MovieWriter(const Mp4Movie& movie, const std::vector<std::vector<std::uint64_t>>& offsets)
-      : movie_(movie), offsets_(offsets) {}
+  MovieWriter(const Mp4Movie& movie, const Chunks& chunks) : movie_(movie), chunks_(chunks) {}
 
   std::vector<std::uint8_t> contents() {
     out_.begin("ftyp");
@@ -54,7 +78,7 @@ class MovieWriter {
       out_.end();
     }
     for (std::size_t t = 0; t < movie_.tracks.size(); ++t)
-      write_track(movie_.tracks[t], offsets_[t]);
+      write_track(movie_.tracks[t], chunks_[t]);
     if (movie_.fragments) write_defaults();
     out_.end();
     return out_.bytes();
@@ -95,7 +119,7 @@ class MovieWriter {
     out_.end();
   }
 
-  void write_track(const Mp4Track& track, const std::vector<std::uint64_t>& offsets) {
+  void write_track(const Mp4Track& track, const std::vector<Chunk>& chunks) {
     out_.begin("trak");
     out_.begin_full("tkhd", 0, track.presented ? 3 : 1);
     out_.u32({0, 0, track.id, 0, std::uint64_t(shown(track))});
@@ -113,7 +137,7 @@ class MovieWriter {
       out_.end();
       out_.end();
     }
-    write_media(track, offsets);
+    write_media(track, chunks);
     out_.end();
   }
 
@@ -133,7 +157,7 @@ class MovieWriter {
     out_.u32({std::uint64_t(duration), std::uint32_t(media_time), 0x10000});
   }
 
-  void write_media(const Mp4Track& track, const std::vector<std::uint64_t>& offsets) {
+  void write_media(const Mp4Track& track, const std::vector<Chunk>& chunks) {
     std::int64_t duration = 0;
     for (const Mp4Sample& sample : track.samples) duration += sample.duration;
     out_.begin("mdia");
@@ -158,7 +182,7 @@ class MovieWriter {
     out_.end();
     out_.end();
     out_.end();
-    write_sample_table(track, offsets);
+    write_sample_table(track, chunks);
     out_.end();
     out_.end();
   }
@@ -170,7 +194,7 @@ class MovieWriter {
     out_.end();
   }
 
-  void write_sample_table(const Mp4Track& track, const std::vector<std::uint64_t>& offsets) {
+  void write_sample_table(const Mp4Track& track, const std::vector<Chunk>& chunks) {
     out_.begin("stbl");
     out_.begin_full("stsd", 0, 0);
     out_.u32(1);
@@ -178,21 +202,26 @@ class MovieWriter {
     out_.end();
     write_times(track);
     write_sync(track);
-    out_.begin_full("stsc", 0, 0);
-    if (track.samples.empty()) {
-      out_.u32(0);
-    } else {
-      for (int i = 0; i < 4; ++i) out_.u32(1);  // one sample a chunk
-    }
-    out_.end();
+    write_chunks(chunks);
     out_.begin_full("stsz", 0, 0);
     out_.u32({0, track.samples.size()});
     for (const Mp4Sample& sample : track.samples) out_.u32(sample.bytes.size());
     out_.end();
     out_.begin_full("stco", 0, 0);
-    out_.u32(offsets.size());
-    for (const std::uint64_t offset : offsets) out_.u32(offset);
+    out_.u32(chunks.size());
+    for (const Chunk& chunk : chunks) out_.u32(chunk.offset);
     out_.end();
+    out_.end();
+  }
+
+  void write_chunks(const std::vector<Chunk>& chunks) {
+    std::vector<std::size_t> changes;  // chunks with another number of samples than the one before
+    for (std::size_t c = 0; c < chunks.size(); ++c) {
+      if (c == 0 || chunks[c].samples != chunks[c - 1].samples) changes.push_back(c);
+    }
+    out_.begin_full("stsc", 0, 0);
+    out_.u32(changes.size());
+    for (const std::size_t c : changes) out_.u32({c + 1, chunks[c].samples, 1});
     out_.end();
   }
 
@@ -221,7 +250,7 @@ class MovieWriter {
   }
 
   const Mp4Movie& movie_;
-  const std::vector<std::vector<std::uint64_t>>& offsets_;
+  const Chunks& chunks_;
   BoxWriter out_;
 };
 
@@ -243,24 +272,22 @@ void begin_sound_entry(BoxWriter& out, std::string_view type, unsigned channels,
 }
 
 std::vector<std::uint8_t> write_contents(const Mp4Movie& movie) {
-  std::vector<std::vector<std::uint64_t>> offsets(movie.tracks.size());
-  return MovieWriter(movie, offsets).contents();
+  return MovieWriter(movie, Chunks(movie.tracks.size())).contents();
 }
 
 Result<std::vector<std::uint8_t>> write_movie(const Mp4Movie& movie) {
   const std::vector<SamplePlace> places = in_order_of_time(movie);
-  std::vector<std::vector<std::uint64_t>> offsets;
-  for (const Mp4Track& track : movie.tracks) offsets.emplace_back(track.samples.size(), 0);
+  Chunks chunks = chunks_of(movie, places, 0);
   // The contents have the same size whatever the offsets are.
-  std::uint64_t at = MovieWriter(movie, offsets).contents().size() + 8;
-  const std::uint64_t data_begin = at - 8;
+  const std::uint64_t data_begin = MovieWriter(movie, chunks).contents().size();
+  chunks = chunks_of(movie, places, data_begin + 8);
+  std::uint64_t at = data_begin + 8;
   for (const SamplePlace& place : places) {
-    offsets[place.track][place.sample] = at;
     at += movie.tracks[place.track].samples[place.sample].bytes.size();
   }
   if (at > kLargestFile)
     return make_error(Code::out_of_range, "the file would be larger than 4 GB; cut the clip");
-  std::vector<std::uint8_t> file = MovieWriter(movie, offsets).contents();
+  std::vector<std::uint8_t> file = MovieWriter(movie, chunks).contents();
   BoxWriter data;
   data.u32(at - data_begin);
   data.text("mdat");

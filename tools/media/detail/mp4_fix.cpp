@@ -6,10 +6,12 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "tools/media/detail/box_writer.h"
 #include "tools/media/detail/boxes.h"
+#include "tools/media/detail/fragment_index.h"
 #include "tools/media/detail/output_stream.h"
 
 namespace animeme::media {
@@ -168,20 +170,39 @@ struct BoxPlace {
   std::uint64_t size = 0;
 };
 
-// ftyp and moov among the boxes of the file; size 0: not there.
-void find_boxes(Patch& file, BoxPlace& brand, BoxPlace& contents) {
+struct FileBoxes {
+  BoxPlace brand, contents;         // ftyp and moov; size 0: not there
+  std::vector<BoxPlace> fragments;  // moof
+};
+
+FileBoxes find_boxes(Patch& file) {
+  FileBoxes found;
   std::uint64_t at = 0;
   for (;;) {
     std::array<std::uint8_t, 16> header{};
     const std::size_t got = file.read(at, header);
-    if (got < 8) return;
+    if (got < 8) return found;
     std::uint64_t size = read_big_endian(header, 0, 4);
     if (size == 1 && got == 16) size = read_big_endian(header, 8, 8);
-    if (size < 8) return;
-    if (std::memcmp(header.data() + 4, "ftyp", 4) == 0) brand = {at, size};
-    if (std::memcmp(header.data() + 4, "moov", 4) == 0) contents = {at, size};
+    if (size < 8) return found;
+    if (std::memcmp(header.data() + 4, "ftyp", 4) == 0) found.brand = {at, size};
+    if (std::memcmp(header.data() + 4, "moov", 4) == 0) found.contents = {at, size};
+    if (std::memcmp(header.data() + 4, "moof", 4) == 0) found.fragments.push_back({at, size});
     at += size;
   }
+}
+
+// Goes through the fragments of the file.
+Result<FragmentIndex> read_fragments(Patch& file, Bytes moov, const std::vector<BoxPlace>& places) {
+  FragmentIndex index(moov);
+  std::vector<std::uint8_t> moof;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const std::uint64_t end = i + 1 < places.size() ? places[i + 1].at : file.size();
+    moof.resize(std::size_t(places[i].size));
+    if (file.read(places[i].at, moof) != moof.size()) return write_error(AVERROR(EIO));
+    index.add(moof, end - places[i].at);
+  }
+  return index;
 }
 
 // The completed contents to their place; everything from `tail` to `end` makes room.
@@ -199,7 +220,8 @@ std::vector<std::size_t> find_es_ids(std::span<const std::uint8_t> moov) {
   return found;
 }
 
-std::vector<std::uint8_t> complete_moov(std::span<const std::uint8_t> moov) {
+std::vector<std::uint8_t> complete_moov(std::span<const std::uint8_t> moov,
+                                        std::optional<std::uint64_t> duration) {
   std::vector<std::uint8_t> cleared(moov.begin(), moov.end());
   for (const std::size_t at : find_es_ids(moov)) cleared[at] = cleared[at + 1] = 0;
   const Box whole = box_at(cleared, 0, cleared.size());
@@ -215,6 +237,11 @@ std::vector<std::uint8_t> complete_moov(std::span<const std::uint8_t> moov) {
       put_iods(out, content, ids);
     } else {
       out.begin(box.type);
+      if (box.type == "mvex" && duration) {
+        out.begin_full("mehd", 1, 0);
+        out.u64(*duration);
+        out.end();
+      }
       out.raw(content);
       out.end();
     }
@@ -227,24 +254,29 @@ Result<void> shift_chunks(std::span<std::uint8_t> moov, std::uint64_t shift) {
   return shift_in(moov, {"", 0, moov.size()}, shift);
 }
 
-Result<void> complete_mp4(const std::string& path, bool contents_first) {
+Result<void> complete_mp4(const std::string& path, Layout layout) {
   const auto failed = [] { return write_error(AVERROR(errno != 0 ? errno : EIO)); };
   errno = 0;
   Patch file(path);
   if (!file.good()) return failed();
-  BoxPlace brand;
-  BoxPlace contents;
-  find_boxes(file, brand, contents);
+  const auto [brand, contents, fragments] = find_boxes(file);
   if (contents.size == 0) {
     return make_error(Code::internal, "the finished file has no moov box");
   }
   std::vector<std::uint8_t> old(static_cast<std::size_t>(contents.size));
   if (file.read(contents.at, old) != old.size()) return failed();
-  std::vector<std::uint8_t> moov = complete_moov(old);
   const std::uint64_t moov_end = contents.at + contents.size;
+  if (layout == Layout::indexed && !fragments.empty()) {
+    Result<FragmentIndex> index = read_fragments(file, old, fragments);
+    if (!index) return index.error();
+    std::vector<std::uint8_t> moov = complete_moov(old, index->duration());
+    append(moov, index->boxes());
+    return replace(file, contents.at, moov_end, file.size(), moov) ? Result<void>() : failed();
+  }
+  std::vector<std::uint8_t> moov = complete_moov(old);
   const std::uint64_t brand_end = brand.at + brand.size;
   const bool last = moov_end == file.size();
-  if (last && contents_first && contents.at > brand_end) {
+  if (last && layout != Layout::as_written && contents.at > brand_end) {
     if (auto shifted = shift_chunks(moov, moov.size()); !shifted) return shifted;
     return replace(file, brand_end, brand_end, contents.at, moov) ? Result<void>() : failed();
   }

@@ -1,5 +1,6 @@
 #include "tools/media/detail/mux_parts.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -15,6 +16,8 @@ namespace {
 constexpr std::uint8_t kSimpleFace = 0x61;
 constexpr double kShortestFragment = 0.02;
 constexpr double kLongestFragment = 600;
+constexpr double kLongestShared = 2;
+constexpr double kTablePeriod = 0.5;  // standards that build on 13818-1 ask for no less
 
 Result<void> check_unit(const fba::AccessUnits& face, std::size_t index) {
   const fba::AccessUnit& unit = face.units[index];
@@ -47,22 +50,16 @@ Result<void> check_face(const fba::AccessUnits& face) {
   return {};
 }
 
-unsigned audio_profile(const AudioFormat* sound) {
-  if (sound == nullptr) return kNoneRequired;
-  const bool level2 =
-      sound->codec == AudioCodec::aac && sound->sample_rate <= 48000 && sound->channels <= 2;
-  return level2 ? kAacLevel2 : kUnspecified;
-}
-
 }  // namespace
 
 Result<void> check_input(const MuxInput& input, const MuxOptions& options) {
-  const bool sound = input.audio != nullptr || input.encoded != nullptr;
-  if (input.face == nullptr && !sound && input.video == nullptr) {
+  const int sounds = int(input.audio != nullptr) + int(input.encoded != nullptr) +
+                     int(input.audio_file != nullptr);
+  if (input.face == nullptr && sounds == 0 && input.video == nullptr) {
     return invalid("nothing to write: neither a face nor sound nor pictures were given");
   }
-  if (input.audio != nullptr && input.encoded != nullptr) {
-    return invalid("the sound was given twice, as samples and coded");
+  if (sounds > 1) {
+    return invalid("the sound was given twice, as samples, coded, or as a file");
   }
   if (input.face != nullptr) {
     if (auto legal = check_face(*input.face); !legal) return legal;
@@ -82,6 +79,9 @@ Result<void> check_input(const MuxInput& input, const MuxOptions& options) {
   const double seconds = options.fragment_seconds;
   if (!(seconds >= kShortestFragment && seconds <= kLongestFragment)) {
     return invalid("fragments must last 0.02 to 600 seconds");
+  }
+  if (!(options.shared_seconds >= 0 && options.shared_seconds <= kLongestShared)) {
+    return invalid("planes can share a packet for 0 to 2 seconds");
   }
   if (input.audio != nullptr && input.audio->samples.empty()) return invalid("the sound is empty");
   if (input.encoded != nullptr) return check_audio(*input.encoded);
@@ -109,6 +109,24 @@ void set_mp4_options(const Mp4Contents& contents, av::Options& header) {
                                     : std::int64_t(contents.video->rate.num) * 1000);
 }
 
+void set_ts_options(double shared_seconds, av::Options& header) {
+  // Frames of sound share a packet for half of this. The clock of the stream is twice as much
+  // ahead of the times, so that all of a packet is there when it is due.
+  constexpr double kDelay = 0.7;  // seconds, as the ffmpeg program has it
+  header.set("max_delay", std::int64_t(std::max(kDelay, 2 * shared_seconds) * 1e6));
+  header.set("omit_video_pes_length", std::int64_t(0));  // the end of a unit is known at once
+  // Tables come with the first packet that is due behind this period.
+  if (shared_seconds > 0) {
+    header.set("pat_period", std::to_string(std::max(kTablePeriod - shared_seconds, 0.1)));
+  }
+}
+
+void set_chunk_options(av::Options& header) {
+  // Packets that lie side by side share a chunk, an entry in two tables.
+  constexpr std::int64_t kChunk = 1000000;  // microseconds
+  header.set("chunk_duration", kChunk);
+}
+
 void set_fragment_options(const char* cut, double seconds, av::Options& header) {
   // Source: tools/media/containers.md, section 2.2. Without delay_moov the edit list is missing.
   header.set("movflags", std::string(cut) + "+delay_moov+default_base_moof+skip_trailer");
@@ -123,13 +141,13 @@ Result<std::optional<SoundSource>> open_sound(const MuxInput& input, const MuxOp
     if (!opened) return opened.error();
     sound.emplace(std::move(*opened));
   }
+  if (input.audio_file != nullptr) {
+    Result<SoundSource> opened =
+        SoundSource::decoding(*input.audio_file, options.audio, options.warnings);
+    if (!opened) return opened.error();
+    sound.emplace(std::move(*opened));
+  }
   return sound;
-}
-
-double seconds_of_sound(const MuxInput& input) {
-  if (input.audio != nullptr) return input.audio->duration();
-  const EncodedAudio& audio = *input.encoded;
-  return double(audio.packets.back().time) / audio.format.sample_rate;
 }
 
 }  // namespace animeme::media

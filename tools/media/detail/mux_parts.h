@@ -27,15 +27,18 @@ struct Mp4Contents {
 /// Options of libavformat's mp4 muxer: brand, initial object descriptor, movie time scale.
 void set_mp4_options(const Mp4Contents& contents, av::Options& header);
 
+/// An mp4 in one piece: a second of each track at a time.
+void set_chunk_options(av::Options& header);
+
 /// The same for a file of fragments; `cut` is libavformat's word for where they begin besides:
 /// "frag_keyframe" or "frag_custom". `seconds` 0: no longest fragment.
 void set_fragment_options(const char* cut, double seconds, av::Options& header);
 
-/// The sound of `input`, coded as `options` say; nothing: there is none. Errors: those of
-/// AudioEncoder::open().
-Result<std::optional<SoundSource>> open_sound(const MuxInput& input, const MuxOptions& options);
+/// A transport stream; `shared_seconds` as in MuxOptions.
+void set_ts_options(double shared_seconds, av::Options& header);
 
-/// Length of the sound, which must be there, seconds.
-double seconds_of_sound(const MuxInput& input);
+/// The sound of `input`, coded as `options` say; nothing: there is none. Errors: those of
+/// AudioEncoder::open() and AudioReader::open().
+Result<std::optional<SoundSource>> open_sound(const MuxInput& input, const MuxOptions& options);
 
 }  // namespace animeme::media

@@ -149,6 +149,14 @@ Result<Presentation> read_presentation(const std::string& path) {
   return presentation;
 }
 
+Result<std::vector<std::uint8_t>> sound_of_playlist(const std::string& path) {
+  const Result<Presentation> presentation = read_presentation(path);
+  if (!presentation) return presentation.error();
+  const std::vector<std::uint8_t>* sound = find_rendition(*presentation, TrackKind::audio);
+  if (sound == nullptr) return make_error(Code::not_found, "the presentation has no sound");
+  return *sound;
+}
+
 std::string to_reference(const std::string& name) {
   constexpr std::string_view kPlain =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_.~/";

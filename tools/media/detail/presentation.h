@@ -32,15 +32,16 @@ inline const std::vector<std::uint8_t>* find_rendition(const Presentation& prese
   return nullptr;
 }
 
+/// The rendition with the sound. Errors: those of reading the presentation; not_found (silent).
+Result<std::vector<std::uint8_t>> sound_of_playlist(const std::string& path);
+
 /// Runs `read` on a file, or on the bytes of the sound if it is a playlist. Errors: those of `read`
-/// and of reading the presentation; not_found (silent).
+/// and of sound_of_playlist().
 template <class Read>
 auto read_sound_of(const std::string& path, const Read& read) -> decltype(read(path)) {
   if (!is_playlist(path)) return read(path);
-  const Result<Presentation> presentation = read_presentation(path);
-  if (!presentation) return presentation.error();
-  const std::vector<std::uint8_t>* sound = find_rendition(*presentation, TrackKind::audio);
-  if (sound == nullptr) return make_error(Code::not_found, "the presentation has no sound");
+  const Result<std::vector<std::uint8_t>> sound = sound_of_playlist(path);
+  if (!sound) return sound.error();
   return read(std::span<const std::uint8_t>(*sound));
 }
 

@@ -58,36 +58,61 @@ Result<void> write_text(const std::string& path, const std::string& text) {
   return write_bytes(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
+struct TopBox {
+  std::array<char, 4> type{};
+  std::uint64_t size = 0;  // 0: there is none
+};
+
+// The box at `at`; libavformat's fragments have sizes of 32 bits.
+TopBox next_box(std::istream& in, std::uint64_t at) {
+  std::array<char, 8> header{};
+  in.seekg(std::streamoff(at));
+  if (!in.read(header.data(), header.size())) return {};
+  std::array<std::uint8_t, 4> size{};
+  std::copy(header.begin(), header.begin() + 4, size.begin());
+  TopBox box{{header[4], header[5], header[6], header[7]}, read_big_endian(size, 0, 4)};
+  if (box.size < 8) box.size = 0;
+  return box;
+}
+
+Result<void> copy_part(std::istream& in, std::uint64_t at, std::uint64_t size,
+                       const std::string& path) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
+  in.seekg(std::streamoff(at));
+  if (!in.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(size))) {
+    return make_error(Code::io, "the fragments cannot be read again");
+  }
+  return write_bytes(path, bytes);
+}
+
 // The file of fragments as an initialization segment and one segment a fragment.
 Result<void> split(const OutputFolder& folder, Track& track, double end) {
   std::ifstream in(track.whole, std::ios::binary);
-  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(in), {}};
-  in.close();
   SegmentedTrack& description = track.description;
-  std::vector<std::size_t> begins;
-  const std::size_t all = for_each_box(bytes, 0, bytes.size(), [&](const Box& box) {
-    if (box.type == "moof") begins.push_back(box.begin - 8);
-  });
-  if (begins.size() != track.begins.size() || all != bytes.size()) {
+  std::vector<std::uint64_t> begins;
+  std::uint64_t size = 0;
+  for (TopBox box = next_box(in, 0); box.size != 0; box = next_box(in, size)) {
+    if (std::string_view(box.type.data(), 4) == "moof") begins.push_back(size);
+    size += box.size;
+  }
+  in.clear();
+  in.seekg(0, std::ios::end);
+  if (begins.size() != track.begins.size() || std::uint64_t(in.tellg()) != size) {
     return make_error(Code::internal, "the fragments are not those that were asked for");
   }
   description.init = description.name + "-init.mp4";
-  const std::span<const std::uint8_t> whole(bytes);
-  if (auto done = write_bytes(folder.file(description.init), whole.first(begins[0])); !done) {
-    return done;
-  }
-  begins.push_back(bytes.size());
+  if (auto done = copy_part(in, 0, begins[0], folder.file(description.init)); !done) return done;
+  begins.push_back(size);
   track.begins.push_back(std::llround(end * description.timescale));
   for (std::size_t i = 0; i + 1 < begins.size(); ++i) {
     char name[40];
     std::snprintf(name, sizeof name, "%s-%05zu.m4s", description.name.c_str(), i + 1);
     // What lies before time 0 is never heard.
     const std::int64_t time = std::max<std::int64_t>(track.begins[i], 0);
-    const std::size_t size = begins[i + 1] - begins[i];
+    const std::uint64_t length = begins[i + 1] - begins[i];
     description.segments.push_back(
-        {name, time, std::max<std::int64_t>(track.begins[i + 1] - time, 1), std::int64_t(size)});
-    auto done = write_bytes(folder.file(name), whole.subspan(begins[i], size));
-    if (!done) return done;
+        {name, time, std::max<std::int64_t>(track.begins[i + 1] - time, 1), std::int64_t(length)});
+    if (auto done = copy_part(in, begins[i], length, folder.file(name)); !done) return done;
   }
   std::error_code ignored;
   std::filesystem::remove(track.whole, ignored);
@@ -175,8 +200,7 @@ Result<void> SegmentWriter::open(const OutputFolder& folder) {
   description.channels = format.channels;
   Muxer& muxer = *(*track)->muxer;
   if (auto added = muxer.add_sound(format, sound_->bit_rate()); !added) return added;
-  return start(**track, {nullptr, 0xFF, &format},
-               sound_feed(muxer, *sound_, seconds_of_sound(input_)));
+  return start(**track, {nullptr, 0xFF, &format}, sound_feed(muxer, *sound_, sound_->seconds()));
 }
 
 std::string SegmentWriter::text(const std::string& folder) const {
@@ -199,7 +223,7 @@ Result<MuxResult> SegmentWriter::write() {
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     Track& track = *tracks_[i];
     Result<void> step = track.muxer->finish();
-    if (step) step = complete_mp4(track.whole, true);
+    if (step) step = complete_mp4(track.whole, Layout::contents_first);
     if (step) step = split(*folder, track, feeds_[i]->end());
     if (step && !dash_) {
       step =
@@ -212,7 +236,7 @@ Result<MuxResult> SegmentWriter::write() {
   if (step) step = playlist->commit();  // last: it is what readers look for
   if (!step) return step.error();
   folder->keep();
-  return MuxResult{done->seconds, done->stopped};
+  return MuxResult{done->seconds, sound_ ? sound_->seconds_so_far() : 0, done->stopped};
 }
 
 }  // namespace

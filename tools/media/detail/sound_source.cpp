@@ -9,13 +9,49 @@
 namespace animeme::media {
 
 Result<SoundSource> SoundSource::coding(const Pcm& pcm, const AudioSettings& settings) {
-  Result<AudioEncoder> encoder = AudioEncoder::open(pcm.sample_rate, settings);
-  if (!encoder) return encoder.error();
   SoundSource source;
   source.pcm_ = &pcm;
-  source.encoder_.emplace(std::move(*encoder));
-  source.bit_rate_ = coded_bit_rate(settings, pcm.sample_rate);
+  if (auto started = source.start(pcm.sample_rate, settings); !started) return started.error();
   return source;
+}
+
+Result<SoundSource> SoundSource::decoding(const std::string& path, const AudioSettings& settings,
+                                          std::vector<std::string>* warnings) {
+  constexpr double kLongest = 24 * 3600;
+  Result<AudioReader> reader =
+      AudioReader::open(path, {.max_seconds = kLongest, .warnings = warnings});
+  if (!reader) return reader.error();
+  SoundSource source;
+  source.reader_.emplace(std::move(*reader));
+  source.path_ = path;
+  const int rate = source.reader_->sample_rate();
+  if (auto started = source.start(rate, settings); !started) return started.error();
+  return source;
+}
+
+Result<void> SoundSource::start(int sample_rate, const AudioSettings& settings) {
+  Result<AudioEncoder> encoder = AudioEncoder::open(sample_rate, settings);
+  if (!encoder) return encoder.error();
+  encoder_.emplace(std::move(*encoder));
+  bit_rate_ = coded_bit_rate(settings, sample_rate);
+  return {};
+}
+
+double SoundSource::seconds() const {
+  if (pcm_ != nullptr) return pcm_->duration();
+  if (reader_) return reader_->told_seconds();
+  return double(audio_->packets.back().time) / audio_->format.sample_rate;
+}
+
+double SoundSource::seconds_so_far() const {
+  if (audio_ == nullptr) {
+    return double(pushed_) / (reader_ ? reader_->sample_rate() : pcm_->sample_rate);
+  }
+  if (at_ == 0) return 0;
+  const AudioPacket& last = audio_->packets[at_ - 1];
+  const std::int64_t end = last.time + last.duration;
+  return double(audio_->length > 0 ? std::min(end, audio_->length) : end) /
+         audio_->format.sample_rate;
 }
 
 SoundSource SoundSource::copying(const EncodedAudio& audio) {
@@ -25,18 +61,28 @@ SoundSource SoundSource::copying(const EncodedAudio& audio) {
   return source;
 }
 
-Result<void> SoundSource::refill() {
+Result<std::span<const float>> SoundSource::more_samples() {
   constexpr std::size_t kBlock = 16384;
+  if (pcm_ != nullptr) {
+    const std::span<const float> rest = std::span(pcm_->samples).subspan(pushed_);
+    return rest.first(std::min(kBlock, rest.size()));
+  }
+  Result<std::span<const float>> block = reader_->next();
+  if (!block) return block.error().in_file(path_);
+  return block;
+}
+
+Result<void> SoundSource::refill() {
   coded_.clear();
   at_ = 0;
   while (coded_.empty() && !finished_) {
-    const std::size_t count = std::min(kBlock, pcm_->samples.size() - pushed_);
-    finished_ = count == 0;
+    const Result<std::span<const float>> samples = more_samples();
+    if (!samples) return samples.error();
+    finished_ = samples->empty();
     Result<std::vector<AudioPacket>> packets =
-        finished_ ? encoder_->finish()
-                  : encoder_->push(std::span(pcm_->samples).subspan(pushed_, count));
+        finished_ ? encoder_->finish() : encoder_->push(*samples);
     if (!packets) return packets.error();
-    pushed_ += count;
+    pushed_ += samples->size();
     coded_ = std::move(*packets);
   }
   return {};

@@ -133,11 +133,8 @@ Mp4Movie systems_movie(const fba::AccessUnits& face, const EncodedAudio* sound,
   movie.tracks.back().references = {kFaceTrack};
   if (sound != nullptr) movie.tracks.back().references.push_back(kSoundTrack);
   for (Mp4Track& track : media) movie.tracks.push_back(std::move(track));
-  const unsigned audio_profile = sound == nullptr                     ? kNoneRequired
-                                 : sound->format.sample_rate <= 48000 ? kAacLevel2
-                                                                      : kUnspecified;
-  movie.initial_object_descriptor =
-      initial_object_descriptor(audio_profile, unsigned(visual_profile));
+  movie.initial_object_descriptor = initial_object_descriptor(
+      audio_profile(sound != nullptr ? &sound->format : nullptr), unsigned(visual_profile));
   return movie;
 }
 

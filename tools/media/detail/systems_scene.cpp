@@ -134,6 +134,18 @@ std::vector<std::uint8_t> object_unit(bool sound) {
   return out.bytes();
 }
 
+unsigned audio_profile(const AudioFormat* sound) {
+  if (sound == nullptr) return kNoneRequired;
+  constexpr unsigned kLowComplexity = 2;  // object type
+  const bool known = sound->codec == AudioCodec::aac && !sound->config.empty() &&
+                     sound->config[0] >> 3 == kLowComplexity && sound->sample_rate <= 96000;
+  if (!known) return kUnspecified;
+  const bool fast = sound->sample_rate > 48000;
+  if (sound->channels > 5) return fast ? 0x51 : 0x50;          // levels 7 and 6
+  if (sound->channels > 2 || fast) return fast ? 0x2B : 0x2A;  // 5 and 4
+  return 0x29;                                                 // 2
+}
+
 std::vector<std::uint8_t> initial_object_descriptor(unsigned audio_profile,
                                                     unsigned visual_profile) {
   BoxWriter out;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tools/media/detail/box_writer.h"
+#include "tools/media/encoded_audio.h"
 
 namespace animeme::media {
 
@@ -26,8 +27,11 @@ std::vector<std::uint8_t> scene_unit(bool sound);
 /// first and second track of the `mpod` reference.
 std::vector<std::uint8_t> object_unit(bool sound);
 
-/// Profiles: not specified, none required, AAC up to 48 kHz and two channels.
-inline constexpr unsigned kUnspecified = 0xFE, kNoneRequired = 0xFF, kAacLevel2 = 0x29;
+/// Profiles: not specified, none required.
+inline constexpr unsigned kUnspecified = 0xFE, kNoneRequired = 0xFF;
+
+/// Profile and level of sound, which may be null: that of AAC-LC by its channels and rate.
+unsigned audio_profile(const AudioFormat* sound);
 
 /// Initial object descriptor, the content of `iods` behind its version: profiles and the tracks of
 /// scene and objects.

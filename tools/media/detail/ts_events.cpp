@@ -1,6 +1,7 @@
 #include "tools/media/detail/ts_events.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "tools/media/detail/face_header.h"
@@ -57,6 +58,7 @@ void TsEvents::take_map(const TsProgram& program) {
 
 void TsEvents::gap(LiveTrack track, std::int64_t packets) {
   if (track == LiveTrack::audio) sound_.reset();
+  if (track == LiveTrack::face) cutter_.gap();
   held_.emplace_back(LiveGap{track, packets});
 }
 
@@ -103,17 +105,25 @@ void TsEvents::take_face(TsPes& pes) {
   if (headers.kind == VisualKind::face) config_.assign(pes.bytes.begin(), split);
   if (config_.empty() && *intra) config_ = default_face_config();
   if (config_.empty()) return;  // nobody can begin here
-  unit.intra = *intra;
   const auto stamp = unwrap(pes);
   Clock& clock = clocks_[0];
-  unit.time = stamp ? *stamp - kTsTimeZero : clock.last + clock.interval;
+  const std::int64_t begin = stamp ? *stamp - kTsTimeZero : clock.last + clock.interval;
   if (stamp && outage(pes, *stamp, clock.interval)) gap(LiveTrack::face, 0);
-  if (stamp) clock.stamp = stamp;
-  if (clock.started && unit.time > clock.last) clock.interval = unit.time - clock.last;
-  unit.duration = clock.interval;
-  clock.last = unit.time;
-  clock.started = true;
-  hold(std::move(unit), clock.last + kTsTimeZero);
+  std::span<const std::uint8_t> rest(unit.bytes);
+  for (const PlaneCutter::Piece& piece : cutter_.cut(rest, *intra)) {
+    const std::int64_t later = std::llround(piece.seconds * 90000);
+    LiveUnit plane{.track = LiveTrack::face,
+                   .bytes = {rest.begin(), rest.begin() + std::ptrdiff_t(piece.size)},
+                   .intra = read_is_intra(rest).value_or(false),
+                   .time = begin + later};
+    rest = rest.subspan(piece.size);
+    if (stamp) clock.stamp = *stamp + later;
+    if (clock.started && plane.time > clock.last) clock.interval = plane.time - clock.last;
+    plane.duration = clock.interval;
+    clock.last = plane.time;
+    clock.started = true;
+    hold(std::move(plane), clock.last + kTsTimeZero);
+  }
 }
 
 void TsEvents::take_sound(TsPes& pes) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "tools/media/detail/plane_cutter.h"
 #include "tools/media/detail/ts_demuxer.h"
 #include "tools/media/detail/ts_sound.h"
 
@@ -40,7 +41,8 @@ class TsEvents {
 
   TsProgram program_;
   std::vector<std::uint8_t> config_;  // of the face
-  bool film_ = false;                 // stream type 0x10, but no face
+  PlaneCutter cutter_;
+  bool film_ = false;  // stream type 0x10, but no face
   TsSound sound_;
   int priming_ = 0;
   Clock clocks_[2];                         // by LiveTrack

@@ -103,6 +103,4 @@ std::vector<std::uint8_t> ProgramMapFilter::push(std::span<const std::uint8_t> b
   return out;
 }
 
-std::vector<std::uint8_t> ProgramMapFilter::finish() { return std::move(rest_); }
-
 }  // namespace animeme::media

@@ -17,8 +17,6 @@ class ProgramMapFilter {
 
   /// The packets that are complete with these bytes.
   std::vector<std::uint8_t> push(std::span<const std::uint8_t> bytes);
-  /// What is left: less than a packet.
-  std::vector<std::uint8_t> finish();
 
  private:
   void rewrite(std::span<std::uint8_t> packet);

@@ -37,7 +37,7 @@ class TsSections {
 /// PAT: PIDs of the program maps, in order. nullopt: not a PAT that is in force.
 std::optional<std::vector<int>> read_pat(std::span<const std::uint8_t> section);
 
-enum class TsCodec : std::uint8_t { none, face, adts, opus };
+enum class TsCodec : std::uint8_t { none, adts, opus };
 
 /// What a program has for us.
 struct TsProgram {

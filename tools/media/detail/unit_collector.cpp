@@ -1,5 +1,6 @@
 #include "tools/media/detail/unit_collector.h"
 
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -12,12 +13,16 @@ constexpr std::int64_t kLatest = std::int64_t(1) << 47;
 
 }  // namespace
 
-UnitCollector::UnitCollector(const ReadOptions& options, std::vector<std::uint8_t> config)
-    : options_(options), config_(std::move(config)) {}
+UnitCollector::UnitCollector(const ReadOptions& options, std::vector<std::uint8_t> config,
+                             bool shared)
+    : options_(options), config_(std::move(config)) {
+  if (shared) cutter_.emplace();
+}
 
 void UnitCollector::lose() {
   ++lost_;
   wait_for_intra_ = true;  // predicted planes build on the lost one
+  if (cutter_) cutter_->gap();
 }
 
 Error UnitCollector::too_long() const {
@@ -37,6 +42,7 @@ bool UnitCollector::continues(const AVPacket& packet) const {
 Result<void> UnitCollector::append(std::span<const std::uint8_t> bytes) {
   if (bytes_ + bytes.size() > options_.max_bytes) return too_long();
   bytes_ += bytes.size();
+  if (cutter_) cutter_->gap();
   std::vector<std::uint8_t>& unit = units_.back().bytes;
   unit.insert(unit.end(), bytes.begin(), bytes.end());
   return {};
@@ -75,7 +81,17 @@ Result<void> UnitCollector::add(const AVPacket& packet, AVRational time_base) {
   wait_for_intra_ = false;
   bytes_ += bytes.size();
   last_duration_ = packet.duration > 0 && packet.duration < kLatest ? packet.duration : 0;
-  units_.push_back({{bytes.begin(), bytes.end()}, *intra, time, last_duration_});
+  std::vector<PlaneCutter::Piece> pieces{{bytes.size(), 0}};
+  if (cutter_) pieces = cutter_->cut(bytes, *intra);
+  if (pieces.size() > 1) last_duration_ = 0;  // that of all of them
+  for (const PlaneCutter::Piece& piece : pieces) {
+    const std::int64_t later = std::llround(piece.seconds / av_q2d(time_base));
+    units_.push_back({{bytes.begin(), bytes.begin() + std::ptrdiff_t(piece.size)},
+                      read_is_intra(bytes).value_or(false),
+                      time + later,
+                      last_duration_});
+    bytes = bytes.subspan(piece.size);
+  }
   return {};
 }
 

@@ -2,18 +2,20 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "tools/media/container.h"
 #include "tools/media/detail/ffmpeg.h"
+#include "tools/media/detail/plane_cutter.h"
 
 namespace animeme::media {
 
 class UnitCollector {
  public:
-  /// `config`: from the file's header, may be empty.
-  UnitCollector(const ReadOptions& options, std::vector<std::uint8_t> config);
+  /// `config`: from the file's header, may be empty. `shared`: a packet may hold several units.
+  UnitCollector(const ReadOptions& options, std::vector<std::uint8_t> config, bool shared);
 
   /// Takes one packet. Errors: out_of_range (limits).
   Result<void> add(const AVPacket& packet, AVRational time_base);
@@ -36,6 +38,7 @@ class UnitCollector {
 
   ReadOptions options_;
   std::vector<std::uint8_t> config_;
+  std::optional<PlaneCutter> cutter_;  // of shared packets
   std::vector<fba::AccessUnit> units_;
   AVRational base_{1, 1};
   std::size_t bytes_ = 0;

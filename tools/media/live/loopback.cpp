@@ -61,7 +61,8 @@ class LoopbackSource : public LiveSource {
       ++wire_->received.packets;
       wire_->received.bytes += std::int64_t(unit->bytes.size());
     }
-    Result<LiveEvent> event(std::move(wire_->events.front()));
+    Result<LiveEvent> event{LiveEvent(LiveIdle{})};
+    std::swap(*event, wire_->events.front());  // not moved: g++ 12 warns in vain
     wire_->events.pop_front();
     return event;
   }
