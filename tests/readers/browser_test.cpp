@@ -72,6 +72,9 @@ TEST(Browser, PlaysTheSoundAndReadsTheFace) {
   std::vector<Layout> all = layouts();
   for (const Layout& layout : sound_layouts()) all.push_back(layout);
   for (const Layout& layout : all) {
+    // No browser reads one, and this one plays the frames of sound that share a packet as raw AAC
+    // without an end.
+    if (layout.ts()) continue;
     names += " " + fs::path(write_talk(dir, talk, layout)).filename().string();
   }
   for (const std::string& name : write_playlists(dir, talk)) names += " " + name;
@@ -86,7 +89,7 @@ TEST(Browser, PlaysTheSoundAndReadsTheFace) {
     SCOPED_TRACE(layout.name);
     const std::string path = dir.file(layout.name + layout.extension);
     const Json& said = report["files"][layout.name + layout.extension];
-    if (layout.ts()) continue;  // no browser reads one by itself
+    if (layout.ts()) continue;
     expect_decoded(said["decoded"], path, talk, layout);
     expect_played(said["played"], talk, layout);
     if (!layout.mp4()) continue;
