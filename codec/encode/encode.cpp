@@ -198,7 +198,8 @@ EncodeOptions file_options() {
 }
 
 EncodeOptions live_options() {
-  EncodeOptions options = file_options();
+  EncodeOptions options;
+  options.extra_intra = true;
   options.intra_seconds = 2;
   return options;
 }

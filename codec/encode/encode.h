@@ -70,7 +70,8 @@ struct EncodeOptions {
 
 /// The options for files: the smallest stream of the same values.
 EncodeOptions file_options();
-/// The same with a joining point every 2 s: for clips that are to be sent.
+/// For clips that are to be sent: all that the clip has is coded, and there is a joining point every
+/// 2 s, with ranges of its own up to the next.
 EncodeOptions live_options();
 
 /// What encode() chose.

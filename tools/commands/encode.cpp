@@ -130,6 +130,7 @@ Result<Bytes> encode_clip(const EncodeOptions& options, fba::EncodeReport& repor
   fba::EncodeOptions settings;
   if (options.preset == Preset::file) settings = fba::file_options();
   if (options.preset == Preset::live) settings = fba::live_options();
+  settings.leave_out = settings.leave_out || options.rms > 0 || options.kbps > 0;
   settings.fap_quant = settings.bap_quant = options.quant.value_or(1);
   if (options.intra_seconds) settings.intra_seconds = *options.intra_seconds;
   if (options.intra_period) {
@@ -277,7 +278,8 @@ void add_options(CLI::App& app, EncodeOptions& options) {
          "plain: all that the clip has, in every plane (the default)\n"
          "file: the smallest stream; FAPs at rest are left out, right sides that equal "
          "their left ones are left to the decoder (decode --fill shows them)\n"
-         "live: as file, with a point where receivers can join every 2 s, for what is sent\n"
+         "live: all that the clip has, in the tightest ranges between points where receivers can "
+         "join, every 2 s\n"
          "exact: as --epf says (the default with --epf)")
       ->transform(CLI::CheckedTransformer(presets).description(""));
   app.add_option("--rms", options.rms,

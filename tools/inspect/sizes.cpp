@@ -158,7 +158,8 @@ Result<ClipSizes> measure_sizes(const std::string& name, const fap::Sequence& cl
   if (!file) return file.error();
   options.kept_ranges = true;
   if (auto kept = coded(options, sizes.kept_bits); !kept) return kept.error();
-  options.kept_ranges = false;
+  options = fba::live_options();
+  options.fap_quant = quant;
   options.stream.plane_start_codes = fba::PlaneStartCodes::intra;
   options.intra_seconds = 5;
   if (auto live = coded(options, sizes.live5_bits); !live) return live.error();
