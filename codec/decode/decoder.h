@@ -127,7 +127,8 @@ struct DecodedStream {
 
 /// Decodes a raw stream. Fails at the first error (see Decoder::next()); a stream without a
 /// single plane is Code::truncated. The stream is not copied; what follows its end code is ignored
-/// with a warning.
+/// with a warning. Memory: some 480 bytes a plane, and 1.2 kB for each with a body; a Decoder needs
+/// one plane at a time.
 Result<DecodedStream> decode(std::span<const std::uint8_t> stream);
 
 /// The face planes of a decoded stream as a clip: masks say what was coded, numbers include

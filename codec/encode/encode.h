@@ -70,8 +70,8 @@ struct EncodeOptions {
 
 /// The options for files: the smallest stream of the same values.
 EncodeOptions file_options();
-/// For clips that are to be sent: all that the clip has is coded, and there is a joining point every
-/// 2 s, with ranges of its own up to the next.
+/// For clips that are to be sent: all that the clip has is coded, and there is a joining point
+/// every 2 s, with ranges of its own up to the next.
 EncodeOptions live_options();
 
 /// What encode() chose.
@@ -106,8 +106,9 @@ struct EncodeReport {
 /// kept_ranges) and the rate, so decoding can start there. The stream holds neither false start
 /// codes nor zero runs that mislead old decoders, but see EncodeReport::traps.
 ///
-/// Memory: about 8 bytes for each parameter and plane and the stream itself, which is decoded again
-/// plane by plane; with max_rms or max_bits_per_second 40 bytes more for each plane.
+/// Memory: about 10 bytes a plane for each parameter that occurs, with leave_out 600 bytes a plane
+/// (every FAP counts), with max_rms or max_bits_per_second 400 bytes a plane more; and the stream.
+/// It is decoded again plane by plane.
 ///
 /// `face` may be empty if `body` is not; its rate is that of the stream. Errors: invalid_argument
 /// (no frames, numbers that do not ascend or leave out more than a million frames, options out of
