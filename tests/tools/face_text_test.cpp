@@ -146,11 +146,11 @@ TEST(FaceText, ExpandShowsVisemesToPlayersOfLowLevelFaps) {
 TEST(FaceText, CommandsThatShowExpandByThemselves) {
   const TempDir dir;
   fap::Sequence clip{{25, 1}, {}, "x"};
-  for (int i = 0; i < 8; ++i) {
+  for (int i = 0; i < 4; ++i) {
     fap::Frame frame;
     frame.number = i;
     frame.mask.set(1);
-    frame.viseme = {10, 0, 9 * i, false};
+    frame.viseme = {10, 0, 21 * i, false};
     frame.set(48, 3000);
     clip.frames.push_back(frame);
   }
@@ -158,9 +158,8 @@ TEST(FaceText, CommandsThatShowExpandByThemselves) {
   succeeds({"decode", dir / "a.fap", "--expand", "-o", dir / "b.fap"});
   for (const char* name : {"a", "b"}) {
     const std::string path = dir / name;
-    succeeds({"render", path + ".fap", "--frame", "7", "--size", "160x160", "-o", path + ".png"});
+    succeeds({"render", path + ".fap", "--frame", "3", "--size", "160x160", "-o", path + ".png"});
     succeeds({"export", path + ".fap", "-o", path + ".csv"});
-    succeeds({"export", path + ".fap", "-o", path + ".glb"});
     succeeds({"view", path + ".fap", "-o", path + ".html"});
   }
   EXPECT_EQ(slurp(dir / "a.png"), slurp(dir / "b.png"));
@@ -171,7 +170,6 @@ TEST(FaceText, CommandsThatShowExpandByThemselves) {
   spill(dir / "r.fap", fap::write_text(rest));
   succeeds({"export", dir / "r.fap", "-o", dir / "r.csv"});
   EXPECT_NE(curves, slurp(dir / "r.csv"));
-  EXPECT_EQ(std::filesystem::file_size(dir / "a.glb"), std::filesystem::file_size(dir / "b.glb"));
 }
 
 TEST(FaceText, ImportsRepeatWhatIsMissing) {

@@ -17,7 +17,7 @@ namespace memory_test {
 
 using test::TempDir;
 
-constexpr int kPlanes = 400'000;
+constexpr int kPlanes = 200'000;
 
 // 26 FAPs that hardly move.
 void write_long_stream(const std::string& path) {
@@ -77,7 +77,7 @@ TEST(Memory, DoesNotGrowWithTheStream) {
   const TempDir dir;
   const std::string stream = dir / "long.fba";
   write_long_stream(stream);
-  // Decoded planes alone would be 330 MB.
+  // Decoded planes alone would be 100 MB.
   constexpr long kMost = 70;
   EXPECT_LT(megabytes_of({"info", stream}, dir / "out"), kMost);
   EXPECT_LT(megabytes_of({"stats", stream}, dir / "out"), kMost);
