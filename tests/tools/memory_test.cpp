@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "codec/encode/encoder.h"
+#include "tests/support/sanitized.h"
 #include "tests/tools/commands.h"
 
 extern char** environ;
@@ -66,14 +67,7 @@ long megabytes_of(std::vector<std::string> arguments, const std::string& out) {
 }
 
 TEST(Memory, DoesNotGrowWithTheStream) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the address sanitizer keeps what was freed";
-#endif
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-  GTEST_SKIP() << "the address sanitizer keeps what was freed";
-#endif
-#endif
+  if (test::kAddressSanitizer) GTEST_SKIP() << "the address sanitizer keeps what was freed";
   const TempDir dir;
   const std::string stream = dir / "long.fba";
   write_long_stream(stream);

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "dam/script/phones.h"
+#include "tests/support/sanitized.h"
 
 namespace animeme::voice {
 namespace voice_test {
@@ -99,10 +100,9 @@ TEST(Speak, EveryCallGivesTheSameSamples) {
 }
 
 TEST(Speak, FromSeveralThreads) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP()
-      << "the sanitizer's allocator may be locked by another thread when a child is forked";
-#endif
+  if (test::kAddressSanitizer) {
+    GTEST_SKIP() << "the sanitizer's allocator may be locked by another thread at a fork";
+  }
   SKIP_WITHOUT_VOICES();
   const Speech expected = speak("one two three");
   std::vector<Speech> spoken(4);
