@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "fap/detail/text_notes.h"
 #include "fap/detail/text_scanner.h"
 #include "fap/frame.h"
 #include "fap/tables.h"
@@ -77,7 +78,7 @@ class PlayerCheck {
       while (whole && next_line()) whole = frame();
       if (whole) end();
     }
-    return said();
+    return notes_.lines();
   }
 
  private:
@@ -217,33 +218,7 @@ class PlayerCheck {
   }
 
   void tell(Trouble trouble, std::int64_t line, std::string text) {
-    Told& told = told_[std::size_t(trouble)];
-    if (told.times++ > 0) return;
-    told.line = line;
-    told.text = std::move(text);
-  }
-
-  struct Told {
-    std::int64_t times = 0;
-    std::int64_t line = 0;
-    std::string text;
-  };
-
-  std::vector<std::string> said() const {
-    std::vector<const Told*> seen;
-    for (const Told& told : told_) {
-      if (told.times > 0) seen.push_back(&told);
-    }
-    std::stable_sort(seen.begin(), seen.end(),
-                     [](const Told* a, const Told* b) { return a->line < b->line; });
-    std::vector<std::string> lines;
-    for (const Told* told : seen) {
-      lines.push_back("line " + std::to_string(told->line) + ": " + told->text);
-      if (told->times == 1) continue;
-      lines.back() += " (and in " + std::to_string(told->times - 1) + " more place" +
-                      (told->times > 2 ? "s)" : ")");
-    }
-    return lines;
+    notes_.add(trouble, line, [&] { return std::move(text); });
   }
 
   std::string_view text_;  // what is still to be read
@@ -256,7 +231,7 @@ class PlayerCheck {
   std::int64_t frames_ = 0;
   Mask ever_;
   bool last_newline_ = true;
-  std::array<Told, std::size_t(Trouble::kinds)> told_;
+  detail::LineNotes<Trouble, std::size_t(Trouble::kinds)> notes_;
 };
 
 }  // namespace

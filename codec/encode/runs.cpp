@@ -21,10 +21,7 @@ class Splitter {
       : clip_(clip), decision_(decision), options_(options), coded_(coded_channels(decision)) {}
 
   Planes begins() const {
-    Planes needed = split_where_needed(trapped());
-    if (decision_.first && needed.size() > 1 && needed[1] != 1)
-      needed.insert(needed.begin() + 1, 1);
-    if (decision_.first && needed.size() == 1) needed.push_back(1);
+    const Planes needed = split_where_needed(trapped());
     Planes begins;
     for (std::size_t i = 0; i < needed.size(); ++i) {
       const std::size_t end = i + 1 < needed.size() ? needed[i + 1] : clip_.planes();
@@ -45,6 +42,7 @@ class Splitter {
   // are as wide as they can be), an intra plane will.
   Planes trapped() const {
     Planes begins = {0};
+    if (decision_.first) begins.push_back(1);  // behind the coarse plane
     const Planes& again = options_.trapped;
     for (auto it = again.begin(); it != again.end();) {
       const auto next = std::upper_bound(it, again.end(), *it);

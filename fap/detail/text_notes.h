@@ -1,4 +1,4 @@
-// Collects what the FAP text reader had to interpret. Internal.
+// Collects what is to be said of the lines of a FAP text. Internal.
 #pragma once
 
 #include <algorithm>
@@ -35,13 +35,14 @@ enum class Quirk : std::uint8_t {
   count,  // keep last
 };
 
-/// One entry per kind of quirk, so that memory stays constant on any input.
-class TextNotes {
+/// One entry per kind of note, so that memory stays constant on any input.
+template <class Kind, std::size_t kKinds>
+class LineNotes {
  public:
   /// `text` may be made on the fly: it is only called for at the first occurrence.
   template <class MakeText>
-  void add(Quirk quirk, std::int64_t line, MakeText text) {
-    Note& note = notes_[std::size_t(quirk)];
+  void add(Kind kind, std::int64_t line, MakeText text) {
+    Note& note = notes_[std::size_t(kind)];
     if (note.count++ == 0) {
       note.line = line;
       note.text = text();
@@ -74,7 +75,10 @@ class TextNotes {
     std::int64_t line = 0;
     std::string text;
   };
-  std::array<Note, std::size_t(Quirk::count)> notes_;
+  std::array<Note, kKinds> notes_;
 };
+
+/// What the reader had to interpret.
+using TextNotes = LineNotes<Quirk, std::size_t(Quirk::count)>;
 
 }  // namespace animeme::fap::detail

@@ -1,9 +1,8 @@
 #include "tools/inspect/body_difference.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
-
-#include "fap/detail/walk.h"
 
 namespace animeme::inspect {
 
@@ -82,16 +81,6 @@ BodyDifference BodyComparer::compared(fap::Rate rate_a, fap::Rate rate_b) const 
   }
   if (count > 0) d.rms_steps = std::sqrt(squares / double(count));
   return d;
-}
-
-BodyDifference compare_bodies(const fba::BodySequence& a, const fba::BodySequence& b) {
-  BodyComparer comparer;
-  fap::walk_side_by_side(
-      fap::each_of(a.frames), fap::each_of(b.frames),
-      [&](const fba::BodyFrame& one) { comparer.only_a(one); },
-      [&](const fba::BodyFrame& one) { comparer.only_b(one); },
-      [&](const fba::BodyFrame& left, const fba::BodyFrame& right) { comparer.both(left, right); });
-  return comparer.compared(a.rate, b.rate);
 }
 
 }  // namespace animeme::inspect

@@ -55,7 +55,4 @@ class BodyComparer {
   BodyDifference difference_;
 };
 
-/// Frames are matched by their numbers, which ascend in both.
-BodyDifference compare_bodies(const fba::BodySequence& a, const fba::BodySequence& b);
-
 }  // namespace animeme::inspect
