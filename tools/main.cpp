@@ -5,6 +5,8 @@
 #include <string>
 
 #include "tools/commands/common.h"
+#include "tools/commands/outputs.h"
+#include "tools/files/unfinished.h"
 
 namespace {
 
@@ -53,6 +55,11 @@ int run(int argc, char** argv) {
     return app.exit(error) == 0 ? kOk : kUsage;
   }
   set_quiet(quiet);
+  for (const CLI::App* command : app.get_subcommands()) {
+    if (const std::string text = problem_with_outputs(*command); !text.empty()) {
+      return usage_error(text);
+    }
+  }
   const Result<int> result = chosen();
   return result ? *result : report(result.error());
 }
@@ -61,6 +68,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   std::ios::sync_with_stdio(false);
+  animeme::tools::clean_up_on_signals();
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include "dam/script/table_text_internal.h"
 #include "dam/signal/fap_signal.h"
+#include "fap/detail/whole_file.h"
 #include "fap/text.h"
 
 namespace animeme::dam {
@@ -26,11 +25,11 @@ constexpr const char* kWantedByRow =
 
 /// `missing`: the sentence for a file that cannot be opened.
 Result<std::string> read_file(const fs::path& path, const char* missing = kWantedByRow) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return error_in(path, Code::not_found, missing);
-  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (in.bad()) return error_in(path, Code::io, "cannot read this file");
-  return text;
+  auto text = fap::detail::read_whole_text(path);
+  if (text) return text;
+  Error error = text.error();
+  if (error.code == Code::not_found) error.message = missing;
+  return std::move(error).in_file(path.string());
 }
 
 bool is_file(const fs::path& path) {

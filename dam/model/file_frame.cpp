@@ -2,10 +2,10 @@
 
 #include <array>
 #include <cstring>
-#include <fstream>
-#include <iterator>
+#include <limits>
 
 #include "dam/model/bytes_internal.h"
+#include "fap/detail/whole_file.h"
 
 namespace animeme::dam {
 namespace {
@@ -32,6 +32,34 @@ std::uint32_t crc32(std::span<const std::uint8_t> bytes) {
 
 std::string the(const FileFormat& format) { return "the " + std::string(format.what); }
 
+struct Header {
+  std::uint64_t size = 0;  // of the body
+  bool newer_minor = false;
+};
+
+// `first`: the beginning of a file of `file_size` bytes.
+Result<Header> read_header(const FileFormat& format, std::span<const std::uint8_t> first,
+                           std::size_t file_size) {
+  if (first.size() < kMagic || std::memcmp(first.data(), format.magic.data(), kMagic) != 0)
+    return make_error(Code::syntax, "this is not a " + std::string(format.what) + " of Animeme");
+  if (first.size() < kHeader || file_size < kHeader + kChecksum)
+    return make_error(Code::truncated, the(format) + " ends within its header");
+  ByteReader header(first.subspan(kMagic));
+  const auto major = header.next<std::uint16_t>(), minor = header.next<std::uint16_t>();
+  const auto size = header.next<std::uint64_t>();
+  if (major != format.major)
+    return make_error(Code::unsupported, the(format) + " has version " + std::to_string(major) +
+                                             "." + std::to_string(minor) + ", this program reads " +
+                                             std::to_string(format.major) + ".x; use a " +
+                                             (major > format.major ? "newer" : "matching") +
+                                             " version of Animeme or " +
+                                             std::string(format.remedy));
+  const std::size_t there = file_size - kHeader - kChecksum;
+  if (size > there) return make_error(Code::truncated, the(format) + " is cut off");
+  if (size < there) return damaged_file(format, "bytes behind its end");
+  return Header{size, minor > format.minor};
+}
+
 }  // namespace
 
 Error damaged_file(const FileFormat& format, const std::string& how) {
@@ -50,55 +78,29 @@ std::vector<std::uint8_t> frame_file(const FileFormat& format, std::span<const s
 }
 
 Result<FileBody> open_frame(const FileFormat& format, std::span<const std::uint8_t> file) {
-  if (file.size() < kMagic || std::memcmp(file.data(), format.magic.data(), kMagic) != 0)
-    return make_error(Code::syntax, "this is not a " + std::string(format.what) + " of Animeme");
-  if (file.size() < kHeader + kChecksum)
-    return make_error(Code::truncated, the(format) + " ends within its header");
-  ByteReader header(file.subspan(kMagic));
-  const auto major = header.next<std::uint16_t>(), minor = header.next<std::uint16_t>();
-  const auto size = header.next<std::uint64_t>();
-  if (major != format.major)
-    return make_error(Code::unsupported, the(format) + " has version " + std::to_string(major) +
-                                             "." + std::to_string(minor) + ", this program reads " +
-                                             std::to_string(format.major) + ".x; use a " +
-                                             (major > format.major ? "newer" : "matching") +
-                                             " version of Animeme or " +
-                                             std::string(format.remedy));
-  const std::size_t there = file.size() - kHeader - kChecksum;
-  if (size > there) return make_error(Code::truncated, the(format) + " is cut off");
-  if (size < there) return damaged_file(format, "bytes behind its end");
+  const auto header = read_header(format, file, file.size());
+  if (!header) return header.error();
   ByteReader checksum(file.last(kChecksum));
   if (crc32(file.first(file.size() - kChecksum)) != checksum.next<std::uint32_t>())
     return damaged_file(format, "its checksum does not match");
-  return FileBody{file.subspan(kHeader, there), minor > format.minor};
+  return FileBody{file.subspan(kHeader, std::size_t(header->size)), header->newer_minor};
 }
 
 Result<std::vector<std::uint8_t>> load_file(const FileFormat& format,
                                             const std::filesystem::path& path) {
-  const auto at = [&](Code code, const char* what) {
-    return Error{code, what + the(format), {path.string(), 0, 0, -1}};
+  fap::detail::WholeLimits limits;
+  limits.bytes = std::numeric_limits<std::int64_t>::max();  // its header says how many they are
+  limits.look = [&](std::span<const std::uint8_t> first) -> Result<void> {
+    std::error_code unknown;
+    const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+    const auto stated = read_header(format, first, unknown ? first.size() : std::size_t(size));
+    return stated ? Result<void>() : stated.error();
   };
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return at(Code::not_found, "cannot open ");
-  std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(in), {}};
-  if (in.bad()) return at(Code::io, "cannot read ");
-  return bytes;
-}
-
-Result<void> save_file(const FileFormat& format, std::span<const std::uint8_t> bytes,
-                       const std::filesystem::path& path) {
-  std::filesystem::path temporary = path;
-  temporary += ".part";
-  std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-  out.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-  out.close();
-  std::error_code error, ignored;
-  if (out) std::filesystem::rename(temporary, path, error);
-  if (out && !error) return {};
-  std::filesystem::remove(temporary, ignored);
-  return Error{Code::io,
-               "cannot write " + the(format) + "; check the folder and the free space",
-               {path.string(), 0, 0, -1}};
+  auto bytes = fap::detail::read_whole(path, limits);
+  if (bytes) return bytes;
+  Error error = bytes.error();
+  if (error.code == Code::not_found) error.message = "cannot open " + the(format);
+  return std::move(error).in_file(path.string());
 }
 
 }  // namespace animeme::dam

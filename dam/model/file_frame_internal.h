@@ -37,11 +37,10 @@ Result<FileBody> open_frame(const FileFormat& format, std::span<const std::uint8
 /// Code::syntax: the file is damaged, how, and what to do.
 Error damaged_file(const FileFormat& format, const std::string& how);
 
-/// Errors: not_found, io, with the path.
+/// All of a file, after a look at its header: another kind of file, or one whose size is not what
+/// its header says, is not read. Errors, with the path: those of open_frame() as far as the header
+/// tells; not_found, io.
 Result<std::vector<std::uint8_t>> load_file(const FileFormat& format,
                                             const std::filesystem::path& path);
-/// To a temporary file in the same folder that is renamed when complete. Error: io.
-Result<void> save_file(const FileFormat& format, std::span<const std::uint8_t> bytes,
-                       const std::filesystem::path& path);
 
 }  // namespace animeme::dam

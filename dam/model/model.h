@@ -266,10 +266,8 @@ std::vector<std::uint8_t> write_model(const Model& model);
 /// major version, or a method this build does not know).
 Result<Model> read_model(std::span<const std::uint8_t> bytes);
 
-/// The same from and to a path. Errors also: not_found, io. Saving goes to a temporary file in
-/// the same folder that is renamed when complete.
+/// The same from a path; a file whose beginning is none of a model is not read further. Errors
+/// also: not_found, io.
 Result<Model> load_model(const std::filesystem::path& path);
-/// Whole or not at all.
-Result<void> save_model(const Model& model, const std::filesystem::path& path);
 
 }  // namespace animeme::dam

@@ -68,9 +68,4 @@ Result<Model> load_model(const std::filesystem::path& path) {
   return model;
 }
 
-Result<void> save_model(const Model& model, const std::filesystem::path& path) {
-  if (auto ok = validate(model); !ok) return ok;
-  return save_file(kModelFormat, write_model(model), path);
-}
-
 }  // namespace animeme::dam

@@ -7,7 +7,7 @@
 ///
 ///     auto sums = TrainingSums::start(options, &base);       // base: a model, for its dominance
 ///     for (...) sums->add(utterance);                        // one at a time; memory as the sums
-///     save_training_sums(*sums, "part.stats");
+///     write(write_training_sums(*sums), "part.stats");
 ///     ...
 ///     auto all = merge_training_sums(paths);                 // any order, the same bytes
 ///     auto model = train_from_sums(std::move(*all), options, &summary);
@@ -104,11 +104,9 @@ std::vector<std::uint8_t> write_training_sums(const TrainingSums& sums);
 /// major version; a phone that this version does not know).
 Result<TrainingSums> read_training_sums(std::span<const std::uint8_t> bytes);
 
-/// The same from and to a path. Errors also: not_found, io. Saving goes to a temporary file in the
-/// same folder that is renamed when complete, so an interrupted run leaves the file as it was.
+/// The same from a path; a file whose beginning is none of sums is not read further. Errors also:
+/// not_found, io.
 Result<TrainingSums> load_training_sums(const std::filesystem::path& path);
-/// Whole or not at all.
-Result<void> save_training_sums(const TrainingSums& sums, const std::filesystem::path& path);
 
 /// Adds up files in the order of their digests, so the order of `paths` does not matter to a single
 /// bit. Memory: two of them. Errors: those of load_training_sums() and merge(), with the path;

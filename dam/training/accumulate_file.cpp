@@ -249,8 +249,4 @@ Result<TrainingSums> load_training_sums(const std::filesystem::path& path) {
   return sums;
 }
 
-Result<void> save_training_sums(const TrainingSums& sums, const std::filesystem::path& path) {
-  return save_file(kSumsFormat, write_training_sums(sums), path);
-}
-
 }  // namespace animeme::dam

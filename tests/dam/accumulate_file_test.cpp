@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "tests/dam/accumulate_support.h"
+#include "tests/support/files.h"
 #include "tests/support/sealed_model.h"
 #include "tests/support/temp_dir.h"
 
@@ -22,7 +23,7 @@ TEST(AccumulateFile, TheOrderOfFilesDoesNotMatterToABit) {
   const test::TempDir dir;
   const std::vector<std::filesystem::path> paths = {dir / "sums_a", dir / "sums_b", dir / "sums_c"};
   for (std::size_t i = 0; i < 3; ++i)
-    ASSERT_TRUE(save_training_sums(sums_of(all.subspan(8 * i, 8)), paths[i]));
+    test::write_bytes(paths[i], write_training_sums(sums_of(all.subspan(8 * i, 8))));
   std::vector<std::size_t> order = {0, 1, 2};
   std::vector<std::uint8_t> first;
   do {

@@ -6,6 +6,7 @@
 
 #include "dam/model/model.h"
 #include "dam/speaking/synthesise.h"
+#include "tests/support/files.h"
 #include "tests/support/sealed_model.h"
 #include "tests/support/temp_dir.h"
 
@@ -210,12 +211,15 @@ TEST(ModelFile, InvalidParametersOfTheBaselines) {
 TEST(ModelFile, OnDisk) {
   const test::TempDir dir;
   const std::filesystem::path path = dir / "a.dam";
-  ASSERT_TRUE(save_model(small_model(), path));
+  std::vector<std::uint8_t> bytes = write_model(small_model());
+  test::write_bytes(path, bytes);
   EXPECT_EQ(*load_model(path), small_model());
-  EXPECT_FALSE(std::filesystem::exists(path.string() + ".part"));
+  std::filesystem::resize_file(path, std::uintmax_t(1) << 36);  // a hole that nobody has to read
+  EXPECT_EQ(load_model(path).error().code, Code::syntax);
   std::filesystem::remove(path);
   EXPECT_EQ(load_model(path).error().code, Code::not_found);
-  EXPECT_EQ(save_model(small_model(), path / "no" / "folder").error().code, Code::io);
+  EXPECT_EQ(load_model(dir.path()).error().code, Code::io);
+  EXPECT_EQ(load_model("/dev/zero").error().code, Code::io);
 }
 
 }  // namespace model_file_test

@@ -48,7 +48,7 @@ inline constexpr Room kRooms[] = {
     {"tools/exchange", "codec/text dam/corpus"},
     {"tools/render", "fap/head"},
     {"tools/gltf", "fap/head"},
-    {"tools/media tools/media/live", "codec/decode fap/xml"},
+    {"tools/media tools/media/live", "codec/decode fap/xml tools/files"},
     {"tools/voice", "dam/script tools/media"},
     {"tools/speech", "dam/speaking codec/encode tools/voice tools/files"},
     {"tools/viewer", "dam/script tools/render tools/xml.h"},

@@ -19,9 +19,6 @@ struct AlignOptions {
 
 Result<int> run(const AlignOptions& options) {
   const std::string extension = extension_of(options.output);
-  if (extension != ".textgrid" && extension != ".tsv" && options.output != "-") {
-    return usage_error("--output must end in .TextGrid or .tsv, not " + options.output);
-  }
   Result<dam::Script> script =
       speech::align_file(options.audio, options.transcript, options.language, talk());
   if (!script) return script.error();
@@ -37,7 +34,9 @@ void add_options(CLI::App& app, AlignOptions& options) {
       ->required();
   app.add_option("--transcript", options.transcript, "What is said in it")->required();
   app.add_option("--lang", options.language, "Language of the transcript")->capture_default_str();
-  app.add_option("-o,--output", options.output, "Script to write: .TextGrid (Praat) or .tsv")
+  add_output(app.add_option("-o,--output", options.output,
+                            "Script to write: .TextGrid (Praat) or .tsv, - for standard output"),
+             {".TextGrid", ".tsv"})
       ->required();
 }
 

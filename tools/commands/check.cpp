@@ -164,8 +164,11 @@ void add_options(CLI::App& app, CheckOptions& options) {
   app.add_flag("--no-encode", options.no_encode,
                "Only decode; do not write the streams again from their parameters");
   app.add_flag("--coverage", options.coverage, "Run nothing, print which features the cases cover");
-  app.add_option("--json", options.json, "Results as JSON to this file, - for standard output");
-  app.add_option("--junit", options.junit, "Results as JUnit XML to this file");
+  add_output(
+      app.add_option("--json", options.json, "Results as JSON to this file, - for standard output"),
+      {".json"});
+  add_output(app.add_option("--junit", options.junit, "Results as JUnit XML to this file"),
+             {".xml"});
 }
 
 }  // namespace

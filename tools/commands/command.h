@@ -7,6 +7,7 @@
 #include <string>
 
 #include "fap/result.h"
+#include "tools/commands/outputs.h"
 #include "tools/exit_code.h"
 
 namespace CLI {

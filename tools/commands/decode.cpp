@@ -199,8 +199,12 @@ Result<int> run(DecodeOptions options) {
 void add_options(CLI::App& app, DecodeOptions& options) {
   app.add_option("input", options.input, "FBA stream, or an mp4, mkv or ts file with one")
       ->required();
-  app.add_option("-o,--output", options.output, "FAP text to write, - for standard output");
-  app.add_option("--bap", options.bap, "BAP text with the body to write, - for standard output");
+  add_output(
+      app.add_option("-o,--output", options.output, "FAP text to write, - for standard output"),
+      {".fap", ".txt"});
+  add_output(app.add_option("--bap", options.bap,
+                            "BAP text with the body to write, - for standard output"),
+             {".bap", ".txt"});
   FaceText& face = options.face;
   CLI::Option* coded = app.add_flag("--coded", face.coded,
                                     "The values as they are coded: sides that a stream leaves to "

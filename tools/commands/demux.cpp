@@ -66,8 +66,12 @@ Result<int> run(const DemuxOptions& options) {
 
 void add_options(CLI::App& app, DemuxOptions& options) {
   app.add_option("input", options.input, "mp4, mkv, ts, m3u8 or mpd file with a face")->required();
-  app.add_option("--face", options.face, "Raw FBA stream to write, - for standard output");
-  app.add_option("--audio", options.audio, "Sound to write: .wav, or .m4a and others as it is");
+  add_output(
+      app.add_option("--face", options.face, "Raw FBA stream to write, - for standard output"),
+      stream_endings());
+  add_output(
+      app.add_option("--audio", options.audio, "Sound to write: .wav, or .m4a and others as it is"),
+      {});
   app.add_flag("--es-headers", options.headers,
                "Begin the stream with its visual object headers (old decoders want none)");
   app.add_flag("--json", options.json, "Machine-readable summary on standard output");

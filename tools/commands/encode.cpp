@@ -265,7 +265,9 @@ Result<int> run(const EncodeOptions& given) {
 void add_options(CLI::App& app, EncodeOptions& options) {
   app.add_option("input", options.input, "FAP text (also .fba or a container, to code it anew)");
   app.add_option("--bap", options.bap, "BAP text (or a stream) with the body");
-  app.add_option("-o,--output", options.output, "FBA stream to write, - for standard output")
+  add_output(
+      app.add_option("-o,--output", options.output, "FBA stream to write, - for standard output"),
+      stream_endings())
       ->required();
   app.add_option("--epf", options.epf,
                  "Encoder parameter file: every decision comes from it, the bytes are determined");

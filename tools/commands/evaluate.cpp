@@ -227,9 +227,6 @@ Result<int> run(const EvaluateOptions& options) {
     return usage_error("--tracks takes the place of the model: evaluate --tracks DIR CORPUS");
   }
   if (corpus.folder.empty()) return usage_error("name a model and a corpus folder");
-  if (!options.picture.empty() && (options.picture == "-" || !plot::is_drawing(options.picture))) {
-    return usage_error("--picture must end in .svg or .png, not " + options.picture);
-  }
   Result<inspect::EvaluationReport> report = evaluate_all(options, corpus, path);
   if (!report) return report.error();
   std::fputs(options.json ? (inspect::evaluation_json(*report) + "\n").c_str()
@@ -275,8 +272,9 @@ void add_options(CLI::App& app, EvaluateOptions& options) {
       app.add_flag("--codec", options.codec, "Error of the codec apart, and its bit rate");
   add_coding_options(app, options.stream);
   for (const char* name : {"--quant", "--rms", "--kbps"}) app.get_option(name)->needs(codec);
-  app.add_option("--picture", options.picture,
-                 "Curves of the best, median and worst sentence, .svg or .png");
+  add_output(app.add_option("--picture", options.picture,
+                            "Curves of the best, median and worst sentence, .svg or .png"),
+             {".svg", ".png"}, OutputKind::file);
   add_thresholds(app, options);
   app.add_flag("--full", options.full, "Tables by control, phoneme, viseme, class and sentence");
   app.add_flag("--json", options.json, "Machine-readable result, with everything");

@@ -214,12 +214,14 @@ void add_options(CLI::App& app, ExportOptions& options) {
                  "FAP text, FBA stream or container; for visemes also a phoneme script (TSV, "
                  "TextGrid)")
       ->required();
-  app.add_option("-o,--output", options.output,
-                 "File to write: .csv (Live Link Face: Unreal, Blender, Maya), .json (the same "
-                 "curves for scripts), .glb (a head with morph targets and animation), "
-                 ".visemes.json or .visemes.csv (15 weights a frame under "
-                 "the names of Oculus and Ready Player Me), .tsv or .rhubarb.json (mouth shapes of "
-                 "Rhubarb Lip Sync)")
+  add_output(
+      app.add_option("-o,--output", options.output,
+                     "File to write: .csv (Live Link Face: Unreal, Blender, Maya), .json (the same "
+                     "curves for scripts), .glb (a head with morph targets and animation), "
+                     ".visemes.json or .visemes.csv (15 weights a frame under "
+                     "the names of Oculus and Ready Player Me), .tsv or .rhubarb.json (mouth "
+                     "shapes of Rhubarb Lip Sync)"),
+      {})
       ->required();
   app.add_option("--what", options.what,
                  "What to write, whatever the file is called: arkit (52 shapes and 9 angles), "

@@ -129,11 +129,20 @@ struct Output {
 };
 
 // Files that belong together: none is written without the others.
+Result<void> write_together(std::span<const OutputText> files) {
+  for (const OutputText& file : files.subspan(1)) {
+    if (const std::string text = problem_with_another_output(file.path); !text.empty()) {
+      return make_error(Code::invalid_argument, text);
+    }
+  }
+  return write_files(files);
+}
+
 Result<void> write_obj(const Output& out) {
   const std::string obj = head::write_obj(out.head);
   const std::string points = head::points_of(out.head);
   const OutputText files[] = {{out.path, obj}, {out.beside(out.name() + ".points.csv"), points}};
-  if (auto ok = write_files(files); !ok) return ok;
+  if (auto ok = write_together(files); !ok) return ok;
   say(out.path + " and its feature points " + files[1].path);
   return {};
 }
@@ -158,7 +167,7 @@ Result<void> write_fdp(const Output& out) {
   for (const head::FdpTexture& texture : made->textures) {
     files.push_back({out.beside(texture.name), texture.content});
   }
-  if (auto ok = write_files(files); !ok) return ok;
+  if (auto ok = write_together(files); !ok) return ok;
   say(out.path + ", its mesh " + files[1].path + " and " + std::to_string(made->textures.size()) +
       " textures (" + name + "_*.tga); keep them together");
   return {};
@@ -193,9 +202,6 @@ Result<int> run(const HeadOptions& options) {
   const Writer* const writer = std::find_if(
       std::begin(kWriters), std::end(kWriters),
       [kind = extension_of(options.output)](const Writer& each) { return each.extension == kind; });
-  if (!options.output.empty() && writer == std::end(kWriters)) {
-    return usage_error("the output " + options.output + " has to end in .fdp, .xmt, .glb or .obj");
-  }
   const Result<studio::LoadedHead> loaded = studio::load_head(options.head);
   if (!loaded) return loaded.error();
   const head::Rig rig = head::make_rig(loaded->head);
@@ -216,10 +222,12 @@ Result<int> run(const HeadOptions& options) {
 void add_options(CLI::App& app, HeadOptions& options) {
   app.add_option("head", options.head.head, kHeadHelp)->capture_default_str();
   app.add_option("--points", options.head.points, kPointsHelp);
-  app.add_option("-o,--output", options.output,
-                 "Write the head: .fdp (Xface; with its mesh, .wrl, and textures, .tga), .xmt "
-                 "(MPEG-4 scene with an FDP), "
-                 ".glb (with morph targets), .obj (with a list of feature points)");
+  add_output(
+      app.add_option("-o,--output", options.output,
+                     "Write the head: .fdp (Xface; with its mesh, .wrl, and textures, .tga), .xmt "
+                     "(MPEG-4 scene with an FDP), "
+                     ".glb (with morph targets), .obj (with a list of feature points)"),
+      {".xmta", ".fdp", ".xmt", ".glb", ".obj"}, OutputKind::file);
   app.add_flag("--json", options.json, "The same for scripts");
 }
 

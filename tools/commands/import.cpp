@@ -167,7 +167,9 @@ void add_options(CLI::App& app, ImportOptions& options) {
                  "468 or 478 points of MediaPipe, or feature points (8.1_x, 8.1_y ...); - for "
                  "standard input")
       ->required();
-  app.add_option("-o,--output", options.output, "FAP text to write, - for standard output")
+  add_output(
+      app.add_option("-o,--output", options.output, "FAP text to write, - for standard output"),
+      {".fap", ".txt"})
       ->required();
   app.add_option("--rate", options.rate,
                  "Frames a second of the clip, like 30 or 29.97; without it the times tell");

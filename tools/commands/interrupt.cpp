@@ -5,6 +5,8 @@
 #include <atomic>
 #include <csignal>
 
+#include "tools/files/unfinished.h"
+
 namespace animeme::tools {
 
 namespace {
@@ -13,7 +15,13 @@ std::atomic<bool> noted = false;
 int living = 0;
 struct sigaction old_interrupt, old_terminate, old_pipe;
 
-void note(int) { noted = true; }
+// The second one does what it always does.
+void note(int signal_number) {
+  if (!noted.exchange(true)) return;
+  remove_unfinished();
+  ::signal(signal_number, SIG_DFL);
+  ::raise(signal_number);
+}
 
 }  // namespace
 
@@ -22,12 +30,10 @@ Interrupt::Interrupt() {
   noted = false;
   struct sigaction action = {};
   action.sa_handler = note;
-  action.sa_flags = int(SA_RESETHAND);  // the second one does what it always does
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, &old_interrupt);
   sigaction(SIGTERM, &action, &old_terminate);
   action.sa_handler = SIG_IGN;
-  action.sa_flags = 0;
   sigaction(SIGPIPE, &action, &old_pipe);
 }
 

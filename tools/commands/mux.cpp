@@ -108,9 +108,10 @@ void add_options(CLI::App& app, MuxOptions& options) {
   app.add_option("face", options.face, "FAP text, FBA stream, or a container with a face")
       ->required();
   app.add_option("audio", options.audio, "Sound in any format that FFmpeg reads")->required();
-  app.add_option("-o,--output", options.output,
-                 "File to write: .mp4, .mkv, .ts; .m3u8 (HLS) or .mpd (DASH) with a "
-                 "folder of segments beside it")
+  add_output(app.add_option("-o,--output", options.output,
+                            "File to write: .mp4, .mkv, .ts; .m3u8 (HLS) or .mpd (DASH) with a "
+                            "folder of segments beside it"),
+             {})
       ->required();
   add_stream_options(app, options.stream);
   app.add_flag("--copy", options.copy,

@@ -25,9 +25,6 @@ struct PlotOptions {
 Result<int> run(const PlotOptions& options) {
   const Result<std::vector<int>> faps = fap_numbers(options.faps);
   if (!faps) return usage_error("--faps: " + faps.error().message);
-  if (!plot::is_drawing(options.output)) {
-    return usage_error("--output must end in .svg or .png, not " + options.output);
-  }
   if (options.to > 0 && options.to <= options.from) {
     return usage_error("--to has to lie behind --from");
   }
@@ -79,8 +76,9 @@ Result<int> run(const PlotOptions& options) {
 void add_options(CLI::App& app, PlotOptions& options) {
   app.add_option("a", options.a, "FAP text, FBA stream or container (blue line)")->required();
   app.add_option("b", options.b, "A second one to compare with (orange, dashed)");
-  app.add_option("-o,--output", options.output,
-                 "Picture to write: .svg or .png; - is SVG on standard output")
+  add_output(app.add_option("-o,--output", options.output,
+                            "Picture to write: .svg or .png; - is SVG on standard output"),
+             {".svg", ".png"})
       ->required();
   app.add_option("--script", options.script, "Phoneme script to show behind the curves");
   app.add_option("--faps", options.faps, "FAPs by number, name or range (3-13), one row each")

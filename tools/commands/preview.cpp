@@ -46,12 +46,10 @@ Result<int> write_preview(const std::string& path, const fba::AccessUnits& face,
 }
 
 void add_preview_option(CLI::App& app, std::string& path) {
-  app.add_option("--preview", path,
-                 "Also render a video that any player shows: .mp4 (H.264) or .webm (VP9)")
-      ->check([](const std::string& name) {
-        return studio::is_film(extension_of(name)) ? std::string()
-                                                   : "has to end in .mp4, .webm or .mkv: " + name;
-      });
+  add_output(
+      app.add_option("--preview", path,
+                     "Also render a video that any player shows: .mp4 (H.264) or .webm (VP9)"),
+      {".mp4", ".webm", ".mkv"}, OutputKind::file);
 }
 
 }  // namespace animeme::tools

@@ -188,9 +188,6 @@ Result<int> run(const RenderOptions& options) {
         ".png");
   }
   if (studio::is_film(extension)) return render_video(options, *plan);
-  if (extension != ".png" && options.output != "-") {
-    return usage_error("the output " + options.output + " has to end in .png, .mp4, .webm or .mkv");
-  }
   Result<std::vector<studio::ShownFrame>> frames = choose_frames(options, *plan);
   if (!frames) return frames.error();
   const int columns = options.sheet.empty() ? columns_for(frames->size()) : plan->sheet.x;
@@ -202,10 +199,10 @@ Result<int> run(const RenderOptions& options) {
 
 void add_options(CLI::App& app, RenderOptions& options) {
   app.add_option("input", options.input, "FAP text, FBA stream, container or table of curves");
-  app.add_option(
-         "-o,--output", options.output,
-         "File to write: .mp4 or .mkv (H.264), .webm (VP9), or a .png still or sheet; - is PNG on "
-         "standard output")
+  add_output(app.add_option("-o,--output", options.output,
+                            "File to write: .mp4 or .mkv (H.264), .webm (VP9), or a .png still or "
+                            "sheet; - is PNG on standard output"),
+             {".png", ".mp4", ".webm", ".mkv"})
       ->required();
   auto* shapes = app.add_option("--shapes", options.shapes,
                                 "Instead of a file: neutral and all visemes or expressions");

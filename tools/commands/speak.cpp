@@ -39,17 +39,6 @@ struct SpeakOptions {
   bool json = false;
 };
 
-bool is_container(const std::string& extension) {
-  return extension == ".mp4" || extension == ".mkv" || extension == ".ts" || extension == ".m3u8" ||
-         extension == ".mpd";
-}
-
-bool is_output(const std::string& path) {
-  const std::string extension = extension_of(path);
-  return is_container(extension) || extension == ".fap" || extension == ".fba" ||
-         extension == ".csv";
-}
-
 // The signal as it is, one column a control: for models of other rigs than FAPs.
 Result<int> write_curves(const std::string& path, const dam::Signal& signal) {
   std::string text = exchange::write_curve_header(signal.names);
@@ -126,11 +115,6 @@ void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam
 }
 
 Result<int> run(const SpeakOptions& options) {
-  if (!is_output(options.output)) {
-    return usage_error(
-        "--output must end in .mp4, .mkv, .ts, .m3u8, .mpd, .fba, .fap or .csv, not " +
-        options.output);
-  }
   if (const std::string missing = missing_options(options.spoken); !missing.empty()) {
     return usage_error(missing);
   }
@@ -186,16 +170,17 @@ Result<int> run(const SpeakOptions& options) {
 
 void add_options(CLI::App& app, SpeakOptions& options) {
   add_spoken_options(app, options.spoken);
-  app.add_option(
-         "-o,--output", options.output,
-         "What to write: .mp4 .mkv .ts .m3u8 .mpd (face and voice), .fba (stream), .fap (text), "
-         ".csv (curves)")
+  add_output(app.add_option("-o,--output", options.output,
+                            "What to write: .mp4 .mkv .ts .m3u8 .mpd (face and voice), .fba "
+                            "(stream), .fap (text), .csv (curves)"),
+             {".mp4", ".mkv", ".ts", ".m3u8", ".mpd", ".fba", ".fap", ".csv"}, OutputKind::file)
       ->required();
   app.add_option("--model", options.model, "Model file of a character; default: the built-in one");
   app.add_option("--rate", options.rate, "Frames a second: 25, 29.97, 60 ...")
       ->capture_default_str();
-  app.add_option("--save-script", options.save_script,
-                 "Also write the timed phones: .TextGrid (Praat) or .tsv");
+  add_output(app.add_option("--save-script", options.save_script,
+                            "Also write the timed phones: .TextGrid (Praat) or .tsv"),
+             {".TextGrid", ".tsv"}, OutputKind::file);
   app.add_option("--style", options.style,
                  "Intensity: 0 keeps the mouth at rest, 1 is as learned, 1.5 exaggerates")
       ->option_text("0..1.5=1")

@@ -277,8 +277,9 @@ void add_options(CLI::App& app, StreamOptions& options) {
          "serve browsers; may be repeated")
       ->required()
       ->allow_extra_args(false);
-  app.add_option("--sdp", options.sdp,
-                 "Session description to write for an rtp address; receivers need it")
+  add_output(app.add_option("--sdp", options.sdp,
+                            "Session description to write for an rtp address; receivers need it"),
+             {".sdp"})
       ->allow_extra_args(false);
   app.add_option("--mtu", options.sink.media.rtp.mtu, "Largest datagram, bytes")
       ->check(CLI::Range(256, 65000))

@@ -128,7 +128,7 @@ Action add_train(CLI::App& app) {
   auto options = std::make_shared<TrainOptions>();
   app.add_option("corpus", options->corpus.folder,
                  "Folder with utterances.tsv, phonemes/ID.tsv and fap/ID.csv");
-  app.add_option("-o,--output", options->output, "Model file to write");
+  add_output(app.add_option("-o,--output", options->output, "Model file to write"), {".dam"});
   app.add_option("--method", options->method, "Kind of model")
       ->check(CLI::IsMember(method_names()))
       ->capture_default_str();

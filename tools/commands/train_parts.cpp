@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dam/training/accumulate.h"
+#include "tools/files/file_lock.h"
 #include "tools/speech/spoken.h"
 
 namespace animeme::tools {
@@ -50,7 +51,7 @@ class Accumulator {
   bool unsaved() const { return added_ > saved_; }
 
   Result<void> save() {
-    auto done = dam::save_training_sums(sums_, parts_.accumulate);
+    auto done = write_file(parts_.accumulate, dam::write_training_sums(sums_));
     if (done) saved_ = added_;
     return done;
   }
@@ -93,6 +94,8 @@ void tell_training(const std::string& output, const dam::Model& model,
 
 Result<int> accumulate(const PartSettings& parts, const CorpusSettings& corpus,
                        const dam::TrainOptions& train, bool json) {
+  const Result<FileLock> lock = FileLock::take(parts.accumulate);
+  if (!lock) return lock.error();
   Result<dam::TrainingSums> sums = open_sums(parts, train);
   if (!sums) return sums.error();
   Accumulator accumulator(std::move(*sums), parts);

@@ -165,7 +165,9 @@ void add_options(CLI::App& app, ViewOptions& options) {
                  "FAP text, FBA stream, a container with a face, or a table of curves")
       ->required();
   app.add_option("second", options.second, "Another one to compare it with");
-  app.add_option("-o,--output", options.output, "HTML file to write, - for standard output")
+  add_output(
+      app.add_option("-o,--output", options.output, "HTML file to write, - for standard output"),
+      {".html", ".htm"})
       ->required();
   app.add_option("--audio", options.audio,
                  "Sound in any format that FFmpeg reads; default: that of a container. AAC and "

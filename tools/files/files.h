@@ -1,60 +1,28 @@
 /// @file
-/// Files as the tools read and write them: whole, by path, with "-" for the standard streams.
+/// Files as the tools read them: whole, by path, with "-" for standard input.
 #pragma once
 
 #include <cstdint>
-#include <fstream>
-#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "fap/result.h"
+#include "tools/files/output_file.h"
 
 namespace animeme::tools {
 
-/// All bytes of a file, or of standard input for "-". Errors: not_found, io.
-Result<std::vector<std::uint8_t>> read_file(const std::string& path);
-Result<std::string> read_text_file(const std::string& path);  ///< likewise, as text
+/// Most bytes of a text that a person or another program wrote down: a script, a transcript,
+/// settings. Days of speech fit in.
+inline constexpr std::uint64_t kMostWritten = std::uint64_t(64) << 20;
 
-/// Writes a file whole or not at all (temporary file beside it, then rename); "-" is standard
-/// output. Errors: io.
-Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes);
-Result<void> write_file(const std::string& path, std::string_view text);  ///< likewise, of a text
-
-/// A file that is written bit by bit: it lies beside its place until it is published, and is
-/// removed if it never is. "-" is standard output, which gets everything at once, as do devices and
-/// pipes.
-class OutputFile {
- public:
-  explicit OutputFile(std::string path);    ///< nothing is opened yet
-  OutputFile(OutputFile&& other) noexcept;  ///< the other one no longer writes
-  OutputFile(const OutputFile&) = delete;
-  ~OutputFile();
-
-  /// Appends. Errors: io, not_found (no such folder).
-  Result<void> write(std::span<const std::uint8_t> bytes);
-  Result<void> write(std::string_view text);  ///< likewise, of a text
-  /// All is written: the file takes its place. Errors: io.
-  Result<void> publish();
-
- private:
-  Result<void> open();
-
-  std::string path_;
-  std::string target_;
-  bool special_ = false;
-  bool waiting_ = false;
-  std::ofstream out_;
-};
-
-/// A file to be written; the text is borrowed.
-struct OutputText {
-  std::string path;       ///< where to
-  std::string_view text;  ///< borrowed
-};
-/// Writes several files: all of them whole, or none. Errors: io.
-Result<void> write_files(std::span<const OutputText> files);
+/// All bytes of a file, or of standard input for "-". Errors, with the path: not_found; io, also
+/// for folders and devices; out_of_range (more than `most` bytes, 1 GB: known from its size before
+/// anything is read); syntax (4 kB of zeros at its beginning: a hole, or no file at all).
+Result<std::vector<std::uint8_t>> read_file(const std::string& path,
+                                            std::uint64_t most = std::uint64_t(1) << 30);
+/// Likewise, as text; a zero byte at its beginning is an error, too (syntax), unless it is UTF-16.
+Result<std::string> read_text_file(const std::string& path, std::uint64_t most = std::uint64_t(1)
+                                                                                 << 30);
 
 /// Extension in lower case with its dot, ".mp4"; "-" gives "".
 std::string extension_of(const std::string& path);

@@ -4,13 +4,13 @@
 #include <string_view>
 #include <utility>
 
+#include "tools/files/output_file.h"
 #include "tools/media/audio.h"
 #include "tools/media/container.h"
 #include "tools/media/detail/audio_decoder.h"
 #include "tools/media/detail/extension.h"
 #include "tools/media/detail/face_track.h"
 #include "tools/media/detail/muxer.h"
-#include "tools/media/detail/output_file.h"
 #include "tools/media/detail/presentation.h"
 
 namespace animeme::media {
@@ -79,9 +79,10 @@ Result<void> copy_track(Input& input, const CopyTarget& target, const std::strin
   if (!takes(target, stream.codecpar->codec_id)) {
     return does_not_fit(target.extension, stream.codecpar->codec_id);
   }
-  Result<OutputFile> output = OutputFile::create(out);
-  if (!output) return output.error();
-  Result<std::unique_ptr<Muxer>> muxer = Muxer::open(output->temporary(), target.muxer);
+  tools::OutputFile output(out);
+  const Result<std::string> place = output.place();
+  if (!place) return place.error();
+  Result<std::unique_ptr<Muxer>> muxer = Muxer::open(*place, target.muxer);
   if (!muxer) return std::move(muxer.error()).in_file(out);
   av::Options header;
   if (target.extension == ".m4a" || target.extension == ".mp4") {
@@ -93,7 +94,7 @@ Result<void> copy_track(Input& input, const CopyTarget& target, const std::strin
   if (done) done = copy_packets(input, stream, **muxer);
   if (done) done = (*muxer)->finish();
   if (!done) return std::move(done.error()).in_file(out);
-  return output->commit();
+  return output.publish();
 }
 
 Result<void> decode_to_wav(const std::string& in, const std::string& out) {

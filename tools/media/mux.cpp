@@ -8,11 +8,11 @@
 #include <optional>
 #include <string_view>
 
+#include "tools/files/output_file.h"
 #include "tools/media/detail/extension.h"
 #include "tools/media/detail/interleaver.h"
 #include "tools/media/detail/mp4_fix.h"
 #include "tools/media/detail/mux_parts.h"
-#include "tools/media/detail/output_file.h"
 #include "tools/media/detail/plane_cutter.h"
 #include "tools/media/detail/segment_writer.h"
 #include "tools/media/detail/systems_movie.h"
@@ -218,13 +218,13 @@ Result<MuxResult> write_file(const std::string& path, const FileType& type, cons
   if (auto legal = check_type(type, input, options); !legal) return legal.error();
   const av::LogCapture log;
   if (type.is_segments()) return write_segments(path, input, options);
-  Result<OutputFile> out = OutputFile::create(path);
-  if (!out) return out.error();
-  Result<MuxResult> written = options.systems
-                                  ? write_systems(out->temporary(), input, options)
-                                  : write_streams(out->temporary(), type, input, options);
+  tools::OutputFile out(path);
+  const Result<std::string> place = out.place();
+  if (!place) return place.error();
+  Result<MuxResult> written = options.systems ? write_systems(*place, input, options)
+                                              : write_streams(*place, type, input, options);
   if (!written) return written;
-  if (auto committed = out->commit(); !committed) return committed.error();
+  if (auto published = out.publish(); !published) return published.error();
   return written;
 }
 

@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <cstring>
 
+#include "tools/files/output_file.h"
 #include "tools/media/audio.h"
 #include "tools/media/detail/ffmpeg.h"
-#include "tools/media/detail/output_file.h"
 
 namespace animeme::media {
 namespace {
@@ -66,9 +66,10 @@ Result<void> write(const std::string& path, const Pcm& pcm) {
   if (pcm.samples.size() > (0xffffffffu - kHeaderSize) / 2) {
     return make_error(Code::out_of_range, "a WAV file cannot be larger than 4 GB").in_file(path);
   }
-  Result<OutputFile> out = OutputFile::create(path);
-  if (!out) return out.error();
-  std::FILE* file = std::fopen(out->temporary().c_str(), "wb");
+  tools::OutputFile out(path);
+  const Result<std::string> place = out.place();
+  if (!place) return place.error();
+  std::FILE* file = std::fopen(place->c_str(), "wb");
   bool good = file != nullptr;
   if (good) {
     const Header header =
@@ -85,7 +86,7 @@ Result<void> write(const std::string& path, const Pcm& pcm) {
     return make_error(Code::io, std::string("cannot be written: ") + std::strerror(reason))
         .in_file(path);
   }
-  return out->commit();
+  return out.publish();
 }
 
 }  // namespace

@@ -69,8 +69,10 @@ Result<head::Source> read_xml_head(const HeadChoice& choice, Format format) {
   const Result<std::string> text = tools::read_text_file(choice.head);
   if (!text) return text.error();
   const std::filesystem::path folder = std::filesystem::path(choice.head).parent_path();
-  const auto load = [&](const std::string& name) {
-    return tools::read_text_file((folder / name).string());
+  const auto load = [&](const std::string& name) -> Result<std::string> {
+    const auto bytes = tools::read_file((folder / name).string());  // textures, too
+    if (!bytes) return bytes.error();
+    return std::string(bytes->begin(), bytes->end());
   };
   Result<head::Source> source =
       format == Format::fdp ? head::read_fdp(*text, load) : head::read_xmt(*text);

@@ -9,13 +9,13 @@
 #include <memory>
 #include <utility>
 
+#include "tools/files/output_file.h"
+#include "tools/files/output_folder.h"
 #include "tools/media/detail/boxes.h"
 #include "tools/media/detail/extension.h"
 #include "tools/media/detail/interleaver.h"
 #include "tools/media/detail/mp4_fix.h"
 #include "tools/media/detail/mux_parts.h"
-#include "tools/media/detail/output_file.h"
-#include "tools/media/detail/output_folder.h"
 #include "tools/media/detail/output_stream.h"
 #include "tools/media/detail/playlist_text.h"
 #include "tools/media/detail/presentation.h"
@@ -86,7 +86,7 @@ Result<void> copy_part(std::istream& in, std::uint64_t at, std::uint64_t size,
 }
 
 // The file of fragments as an initialization segment and one segment a fragment.
-Result<void> split(const OutputFolder& folder, Track& track, double end) {
+Result<void> split(const tools::OutputFolder& folder, Track& track, double end) {
   std::ifstream in(track.whole, std::ios::binary);
   SegmentedTrack& description = track.description;
   std::vector<std::uint64_t> begins;
@@ -127,8 +127,8 @@ class SegmentWriter {
   Result<MuxResult> write();
 
  private:
-  Result<void> open(const OutputFolder& folder);
-  Result<Track*> add_track(const OutputFolder& folder, const char* name);
+  Result<void> open(const tools::OutputFolder& folder);
+  Result<Track*> add_track(const tools::OutputFolder& folder, const char* name);
   Result<void> start(Track& track, const Mp4Contents& contents, std::unique_ptr<TrackFeed> feed);
   std::string text(const std::string& folder) const;
 
@@ -141,7 +141,7 @@ class SegmentWriter {
   std::vector<std::unique_ptr<TrackFeed>> feeds_;
 };
 
-Result<Track*> SegmentWriter::add_track(const OutputFolder& folder, const char* name) {
+Result<Track*> SegmentWriter::add_track(const tools::OutputFolder& folder, const char* name) {
   auto track = std::make_unique<Track>();
   track->description.name = name;
   track->whole = folder.file(std::string(name) + ".all");
@@ -173,7 +173,7 @@ Result<void> SegmentWriter::start(Track& track, const Mp4Contents& contents,
   return track.muxer->write_header(header);
 }
 
-Result<void> SegmentWriter::open(const OutputFolder& folder) {
+Result<void> SegmentWriter::open(const tools::OutputFolder& folder) {
   if (input_.face != nullptr) {
     Result<Track*> track = add_track(folder, "face");
     if (!track) return track.error();
@@ -212,10 +212,10 @@ std::string SegmentWriter::text(const std::string& folder) const {
 Result<MuxResult> SegmentWriter::write() {
   const std::filesystem::path target(path_);
   const std::string folder_name = target.stem().string() + (dash_ ? "_dash" : "_hls");
-  Result<OutputFile> playlist = OutputFile::create(path_);
-  if (!playlist) return playlist.error();
-  Result<OutputFolder> folder =
-      OutputFolder::create((target.parent_path() / folder_name).string(), is_ours);
+  tools::OutputFile playlist(path_);
+  if (auto place = playlist.place(); !place) return place.error();
+  Result<tools::OutputFolder> folder =
+      tools::OutputFolder::create((target.parent_path() / folder_name).string(), is_ours);
   if (!folder) return folder.error();
   if (auto opened = open(*folder); !opened) return opened.error();
   Result<Interleaved> done = interleave(feeds_, options_.stop, options_.progress);
@@ -231,9 +231,9 @@ Result<MuxResult> SegmentWriter::write() {
     }
     if (!step) return step.error();
   }
-  Result<void> step = write_text(playlist->temporary(), text(to_reference(folder_name)));
+  Result<void> step = playlist.write(text(to_reference(folder_name)));
   if (step) step = folder->commit();
-  if (step) step = playlist->commit();  // last: it is what readers look for
+  if (step) step = playlist.publish();  // last: it is what readers look for
   if (!step) return step.error();
   folder->keep();
   return MuxResult{done->seconds, sound_ ? sound_->seconds_so_far() : 0, done->stopped};

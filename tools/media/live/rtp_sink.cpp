@@ -1,7 +1,7 @@
 #include <fstream>
 #include <utility>
 
-#include "tools/media/detail/output_file.h"
+#include "tools/files/output_file.h"
 #include "tools/media/live/pacer.h"
 #include "tools/media/live/rtp.h"
 #include "tools/media/live/rtp_sender.h"
@@ -11,16 +11,6 @@ namespace animeme::media {
 namespace {
 
 constexpr int kPortsBehind = 3;  // RTCP of the face, RTP and RTCP of the sound
-
-Result<void> write_description(const std::string& path, const RtpSession& session) {
-  Result<OutputFile> file = OutputFile::create(path);
-  if (!file) return file.error();
-  std::ofstream out(file->temporary(), std::ios::binary);
-  out << write_sdp(session);
-  out.close();
-  if (!out) return make_error(Code::io, "the session description cannot be written").in_file(path);
-  return file->commit();
-}
 
 class RtpSink : public LiveSink {
  public:
@@ -38,7 +28,7 @@ class RtpSink : public LiveSink {
     sender_.emplace(info, options_, to_.host(), to_.port(),
                     options_.seed ? *options_.seed : random_number(), ntp_now());
     if (options_.sdp_path.empty()) return {};
-    return write_description(options_.sdp_path, sender_->session());
+    return tools::write_file(options_.sdp_path, write_sdp(sender_->session()));
   }
 
   Result<void> send(const LiveUnit& unit) override {

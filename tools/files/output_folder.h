@@ -1,4 +1,6 @@
-// A whole folder or none: files go into a temporary folder beside the wanted one.
+/// @file
+/// A whole folder or none: files go into a temporary folder beside the wanted one, whose name
+/// nobody can foresee.
 #pragma once
 
 #include <string>
@@ -6,17 +8,18 @@
 
 #include "fap/result.h"
 
-namespace animeme::media {
+namespace animeme::tools {
 
+/// A folder that takes its name when all its files are written.
 class OutputFolder {
  public:
   /// May a folder that is there be replaced? Told by the names of the files in it.
   using Replaceable = bool (*)(std::string_view file);
 
-  /// Creates "<path>.partN", empty. Errors: io (not writable; `path` is there and is no folder, or
+  /// Creates the temporary folder. Errors: io (not writable; `path` is there and is no folder, or
   /// holds a file that is not `replaceable`).
   static Result<OutputFolder> create(const std::string& path, Replaceable replaceable);
-  OutputFolder(OutputFolder&& other) noexcept;
+  OutputFolder(OutputFolder&& other) noexcept;  ///< the other one no longer removes anything
   OutputFolder& operator=(OutputFolder&&) = delete;
   ~OutputFolder();  ///< removes what has not been committed, and puts the old folder back
 
@@ -31,8 +34,9 @@ class OutputFolder {
   OutputFolder() = default;
   std::string path_;
   std::string temporary_;  // empty: has its name, or nothing to remove
+  std::size_t note_ = 0;   // in the list of unfinished files
   std::string old_;        // where the old folder is kept; empty: there is none
   bool committed_ = false;
 };
 
-}  // namespace animeme::media
+}  // namespace animeme::tools

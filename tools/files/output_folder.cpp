@@ -1,10 +1,16 @@
-#include "tools/media/detail/output_folder.h"
+#include "tools/files/output_folder.h"
 
+#include <sys/stat.h>
+
+#include <cerrno>
 #include <filesystem>
 #include <system_error>
 #include <utility>
 
-namespace animeme::media {
+#include "tools/files/unfinished.h"
+#include "tools/files/unforeseen_name_internal.h"
+
+namespace animeme::tools {
 namespace fs = std::filesystem;
 
 namespace {
@@ -13,13 +19,8 @@ Error cannot_write(const std::string& path, const std::string& reason) {
   return make_error(Code::io, "cannot be written: " + reason).in_file(path);
 }
 
-/// A name that nothing has yet: "<path>.<word>N".
-std::string free_name(const std::string& path, const char* word) {
-  std::error_code ignored;
-  for (int n = 0;; ++n) {
-    std::string name = path + "." + word + std::to_string(n);
-    if (!fs::exists(fs::symlink_status(name, ignored))) return name;
-  }
+std::string name_beside(const std::string& path) {
+  return (fs::path(path).parent_path() / unforeseen_name()).string();
 }
 
 }  // namespace
@@ -42,21 +43,27 @@ Result<OutputFolder> OutputFolder::create(const std::string& path, Replaceable r
   }
   OutputFolder out;
   out.path_ = path;
-  const std::string name = free_name(path, "part");
-  if (!fs::create_directory(name, status)) return cannot_write(path, status.message());
+  const std::string name = name_beside(path);
+  // create_directory() is content with a folder that is there already.
+  if (::mkdir(name.c_str(), 0777) != 0) {
+    return cannot_write(path, std::generic_category().message(errno));
+  }
   out.temporary_ = name;
+  out.note_ = note_unfinished(name);
   return out;
 }
 
 OutputFolder::OutputFolder(OutputFolder&& other) noexcept
     : path_(std::move(other.path_)),
       temporary_(std::exchange(other.temporary_, {})),
+      note_(std::exchange(other.note_, 0)),
       old_(std::exchange(other.old_, {})),
       committed_(std::exchange(other.committed_, false)) {}
 
 OutputFolder::~OutputFolder() {
   std::error_code ignored;
   if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
+  forget_unfinished(note_);
   if (committed_) fs::remove_all(path_, ignored);
   if (!old_.empty()) fs::rename(old_, path_, ignored);
 }
@@ -64,7 +71,7 @@ OutputFolder::~OutputFolder() {
 Result<void> OutputFolder::commit() {
   std::error_code status;
   if (fs::exists(path_, status)) {
-    const std::string aside = free_name(path_, "old");
+    const std::string aside = name_beside(path_);
     fs::rename(path_, aside, status);
     if (status) return cannot_write(path_, status.message());
     old_ = aside;
@@ -72,6 +79,7 @@ Result<void> OutputFolder::commit() {
   fs::rename(temporary_, path_, status);
   if (status) return cannot_write(path_, status.message());
   temporary_.clear();
+  forget_unfinished(std::exchange(note_, 0));
   committed_ = true;
   return {};
 }
@@ -83,4 +91,4 @@ void OutputFolder::keep() {
   committed_ = false;
 }
 
-}  // namespace animeme::media
+}  // namespace animeme::tools
