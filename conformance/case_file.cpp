@@ -1,11 +1,14 @@
 #include "conformance/case_file.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace animeme::conformance {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kLongestName = 200;  // bytes
 
 struct Role {
   const char* name;
@@ -46,9 +49,22 @@ void strings(const Json& json, const char* key, std::vector<std::string>& out) {
   for (const Json& one : json.at(key)) out.push_back(one.get<std::string>());
 }
 
+// Names become parts of paths and of command lines, and are shown in terminals.
+void check_name(const std::string& name) {
+  const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte >= 0x20 && byte != 0x7F && c != '/' && c != '\\';
+  });
+  if (!plain || name.empty() || name[0] == '-' || name == "." || name == ".." ||
+      name.size() > kLongestName) {
+    throw std::invalid_argument("\"" + name.substr(0, kLongestName) + "\" is no name of a file");
+  }
+}
+
 Case parse(const Json& json) {
   Case out;
   json.at("name").get_to(out.name);
+  check_name(out.name);
   json.at("title").get_to(out.title);
   json.at("note").get_to(out.note);
   json.at("origin").get_to(out.origin);
@@ -78,9 +94,7 @@ Case parse(const Json& json) {
     file.at("name").get_to(one.name);
     file.at("bytes").get_to(one.bytes);
     file.at("sha256").get_to(one.sha256);
-    if (one.name.find('/') != std::string::npos) {
-      throw std::invalid_argument("a file lies elsewhere: " + one.name);
-    }
+    check_name(one.name);
     out.files.push_back(std::move(one));
   }
   if (out.file("stream") == nullptr) throw std::invalid_argument("no file is the \"stream\"");

@@ -57,8 +57,9 @@ std::string extension_of_role(std::string_view role, bool damaged);
 /// All roles, in the order of case.json.
 const std::vector<std::string>& file_roles();
 
-/// Reads a case.json. Errors: syntax (no JSON, a member missing or of another type); the message
-/// names the member.
+/// Reads a case.json. Errors: syntax (no JSON, a member missing or of another type; a name that is
+/// none of a file: empty, longer than 200 bytes, with a control character, / or \, or - at its
+/// beginning); the message names the member.
 Result<Case> read_case(std::string_view json);
 
 /// The text of case.json, always the same for the same case.

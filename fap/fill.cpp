@@ -32,6 +32,15 @@ std::optional<Error> check(const Sequence& sequence, std::size_t rules,
                                               " frames: correct the frame numbers or raise "
                                               "max_frames");
   }
+  const std::int64_t missing = previous + 1 - std::int64_t(sequence.frames.size());
+  if (missing > options.max_missing) {
+    return make_error(Code::out_of_range,
+                      "the clip runs to frame " + std::to_string(previous) + " but has only " +
+                          std::to_string(sequence.frames.size()) + "; at most " +
+                          std::to_string(options.max_missing) +
+                          " frames that are missing are filled in: correct the frame numbers or "
+                          "allow more");
+  }
   return std::nullopt;
 }
 

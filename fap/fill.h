@@ -23,6 +23,9 @@ enum class GroupRule : std::uint8_t {
 /// The rules of one frame; index = group number - 1. All unknown by default.
 using GroupRules = std::array<GroupRule, kGroupCount>;
 
+/// Most frames that are filled in unless more are asked for.
+inline constexpr std::int64_t kMostMissing = 100'000;
+
 /// Which of the rules of the standard fill() follows.
 struct FillOptions {
   /// A side that was never sent takes the value of the other side (23 left/right pairs). Positive
@@ -53,8 +56,12 @@ struct FillOptions {
   /// (neutral), unless FAP 1 and 2 are all there is. That is what a receiver of a coded
   /// stream shows: an encoder leaves FAPs out that stay at 0.
   bool complete = false;
-  /// Most frames that the result may have: skipped frames cost memory, about 380 bytes each.
+  /// Most frames that the result may have, about 380 bytes each.
   std::int64_t max_frames = 1'000'000;
+  /// Most frames that may be missing, all together: they take no room in a file but as much in the
+  /// result, so a text of two lines could ask for all of the memory. More than an hour at 25 a
+  /// second.
+  std::int64_t max_missing = kMostMissing;
 };
 
 /// Fills `sequence`: the result has the frame numbers 0, 1, 2 ... up to the last one, and the same
@@ -67,7 +74,8 @@ struct FillOptions {
 /// events. Source: fap/semantics.md, section 6; a table sent in the scene (FIT) is not known here.
 ///
 /// Errors: Code::invalid_argument if the frame numbers are negative or do not ascend;
-/// Code::out_of_range if the result would have more than max_frames frames.
+/// Code::out_of_range if the result would have more than max_frames frames, or more than
+/// max_missing of them are not in `sequence`.
 Result<Sequence> fill(const Sequence& sequence, const FillOptions& options = {});
 
 /// The same where the rules are known: rules[i] are those of sequence.frames[i]. A FAP obeys the

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
+#include <new>
 #include <string>
 
 #include "tools/commands/common.h"
@@ -71,6 +72,10 @@ int main(int argc, char** argv) {
   animeme::tools::clean_up_on_signals();
   try {
     return run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    std::cerr << "animeme: error: there is not enough memory for this; close other programs, raise "
+                 "the limit (ulimit -v), or work on a part\n";
+    return animeme::tools::kInternal;
   } catch (const std::exception& error) {
     std::cerr << "animeme: internal error: " << error.what() << "\n";
     return animeme::tools::kInternal;

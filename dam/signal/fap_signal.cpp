@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "fap/fill.h"
 #include "fap/tables.h"
 
 namespace animeme::dam {
@@ -73,6 +74,12 @@ Result<Signal> to_signal(const fap::Sequence& sequence) {
     mask |= frame.mask;
     frames = frame.number + 1;
   }
+  if (const std::int64_t missing = frames - std::int64_t(sequence.frames.size());
+      missing > fap::kMostMissing)
+    return make_error(Code::out_of_range, std::to_string(missing) +
+                                              " frames are missing, at most " +
+                                              std::to_string(fap::kMostMissing) +
+                                              " are filled in; correct the frame numbers");
   std::vector<int> faps;
   for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap)
     if (mask[std::size_t(fap)]) faps.push_back(fap);

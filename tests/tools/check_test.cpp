@@ -33,10 +33,16 @@ test::ProgramResult check(std::vector<std::string> arguments) {
 }
 
 // A decoder: a shell script that is given the stream, the file for the face and one for the body.
-// All of them cheat, for the expected values lie beside the stream.
+// All of them cheat: by the sum of a stream they find the case that it is from, and the expected
+// values that lie beside it.
 std::string decoder(const TempDir& dir, const std::string& name, const std::string& script) {
-  const std::string path = dir / name;
-  spill(path, "#!/bin/sh\nexpected=${1%.fba}.dec.fap\n" + script + "\n");
+  const std::string path = dir / name, index = dir / (name + ".index");
+  test::run("cd " + test::quoted(kCases) + " && sha256sum */*.fba >" + test::quoted(index));
+  spill(path,
+        "#!/bin/sh\nsum=$(sha256sum <\"$1\" | cut -c1-64)\n"
+        "case=" +
+            test::quoted(kCases) + "/$(grep -m1 \"^$sum\" " + test::quoted(index) +
+            " | cut -c67-)\nexpected=${case%.fba}.dec.fap\n" + script + "\n");
   ::chmod(path.c_str(), 0700);
   return "'" + path + "' {in} {out} {bap}";
 }
@@ -120,7 +126,7 @@ TEST(Check, FindsADefectOfThisCodec) {
 TEST(Check, AForeignDecoderThatIsRight) {
   const TempDir dir;
   const std::string right = decoder(dir, "my decoder", kRightFace + R"(
-bap=${1%.fba}.dec.bap
+bap=${case%.fba}.dec.bap
 [ ! -f "$bap" ] || cp "$bap" "$3")");
   // The reference texts carry whole frame rates only.
   const Checked result = run(right, "object.*");
@@ -199,9 +205,9 @@ TEST(Check, ExitCodesSignalsAndTimeAreToldApart) {
 
 TEST(Check, ACrashInOneCaseDoesNotEndTheRun) {
   const TempDir dir;
-  const Checked result =
-      run(decoder(dir, "sometimes", "case $1 in *quant_05*) kill -ABRT $$;; esac\n" + kRightFace),
-          "quant_0[0-9]");
+  const Checked result = run(
+      decoder(dir, "sometimes", "case $case in *quant_05*) kill -ABRT $$;; esac\n" + kRightFace),
+      "quant_0[0-9]");
   EXPECT_EQ(result.program.exit_code, 1);
   ASSERT_EQ(result.result.size(), 10u);
   for (const auto& [name, one] : result.result) {
@@ -260,7 +266,7 @@ TEST(Check, DamagedStreams) {
   const TempDir dir;
   const std::string name = "bad_marker_in_masks";
   const auto verdict = [&](const std::string& program, const std::string& script) {
-    return run(decoder(dir, program, "base=${1%.fba}\n" + script), name).verdict(name);
+    return run(decoder(dir, program, "base=${case%.fba}\n" + script), name).verdict(name);
   };
   // Three planes before the damage, each of two lines behind the header.
   const std::string head = "head -n 7 $base.intact.fap >\"$2\"";
@@ -273,6 +279,32 @@ TEST(Check, DamagedStreams) {
       "; tail -n 2 $base.intact.fap | awk 'NR == 2 {$1 = 3; $NF = 77777} {print}' >>\"$2\"";
   EXPECT_EQ(verdict("garbage", head + one_more), "wrong");
   EXPECT_EQ(verdict("crashes", "kill -SEGV $$"), "crash");
+}
+
+// Users put {in} into shells, and cases come from strangers.
+TEST(Check, NamesOfAForeignSuiteReachNoShell) {
+  const TempDir dir;
+  const std::string evil = "$(touch evil)";
+  const fs::path one = copy_case(dir, "quant_07");
+  fs::rename(one / "quant_07.fba", one / (evil + ".fba"));
+  std::string text = slurp(one / "case.json");
+  text.replace(text.find("quant_07.fba"), 12, evil + ".fba");
+  spill(one / "case.json", text);
+  const std::string place = (dir.path() / "suite").string();
+  decoder(dir, "shell", "eval \"echo $1\"; " + kRightFace);
+  const Checked result = run("'" + (dir / "shell") + "' {in} {out}", "", {}, place);
+  EXPECT_EQ(result.verdict("quant_07"), "exact") << result.program.err;
+  EXPECT_FALSE(fs::exists("evil") || fs::exists(dir / "evil"));
+  for (const char* name : {"..", "../quant_07", "a/b", "a\\\\b", "-rf", "", "a\\u001b[31mb"}) {
+    std::string other = text;
+    const std::size_t at = other.find("\"quant_07\"");
+    ASSERT_NE(at, std::string::npos);
+    other.replace(at, 10, std::string("\"") + name + "\"");
+    spill(one / "case.json", other);
+    const auto refused = check({place});
+    EXPECT_EQ(refused.exit_code, 3) << name;
+    EXPECT_THAT(refused.err, HasSubstr("no name of a file"));
+  }
 }
 
 TEST(Check, ChangedFilesAreReported) {
@@ -348,7 +380,7 @@ TEST(Check, CommandsAreSplitLikeAShellDoes) {
   const Checked result =
       run(program + R"( {in} 'one "1"' "t\"w\\o" th\ ree '' x={out}y $HOME)", "quant_07");
   const std::string& said = result.detail("quant_07");
-  EXPECT_THAT(said, HasSubstr(R"(quant_07.fba|one "1"|t"w\o|th ree||x=/)"));
+  EXPECT_THAT(said, HasSubstr(R"(/0.fba|one "1"|t"w\o|th ree||x=/)"));
   EXPECT_THAT(said, EndsWith("fapy|$HOME|"));
 }
 

@@ -24,7 +24,8 @@ struct RunFiles {
 RunFiles files_of(const fs::path& scratch, std::size_t i, const SuiteCase& one,
                   const RunOptions& options) {
   const std::string base = (scratch / std::to_string(i)).string();
-  RunFiles files{fs::absolute(one.path.at("stream")).string(),
+  // A decoder of others gets a copy under a name that no shell can misread.
+  RunFiles files{options.command ? base + ".fba" : one.path.at("stream").string(),
                  base + ".fap",
                  base + ".bap",
                  base + ".out",
@@ -238,7 +239,9 @@ ChildJob job_for(const SuiteCase& one, const RunFiles& files, const RunOptions& 
   return job;
 }
 
-void remove_files(const RunFiles& files) {
+void remove_files(const RunFiles& files, const RunOptions& options) {
+  std::error_code kept;
+  if (options.command) fs::remove(files.stream, kept);
   for (const std::string& path :
        {files.face, files.body, files.out, files.err, files.errors, files.encoder}) {
     std::error_code ignored;
@@ -273,7 +276,7 @@ Result<std::vector<CaseResult>> run_suite(const std::vector<const SuiteCase*>& c
     CaseResult& result = results[finished.id];
     result.end = finished.end;
     Judge(*cases[finished.id], files[finished.id], options, result).judge();
-    remove_files(files[finished.id]);
+    remove_files(files[finished.id], options);
     finish(finished.id);
   };
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -293,6 +296,12 @@ Result<std::vector<CaseResult>> run_suite(const std::vector<const SuiteCase*>& c
     }
     while (children.running() >= std::max<std::size_t>(options.jobs, 1)) wait();
     files[i] = files_of((*scratch)->path(), i, one, options);
+    std::error_code unwritten;
+    if (options.command) fs::copy_file(one.path.at("stream"), files[i].stream, unwritten);
+    if (unwritten) {
+      return make_error(Code::io, "cannot be copied for the decoder: " + unwritten.message())
+          .in_file(one.path.at("stream").string());
+    }
     if (auto ok = children.start(i, job_for(one, files[i], options)); !ok) return ok.error();
   }
   while (children.running() > 0) wait();

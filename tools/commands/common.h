@@ -13,6 +13,8 @@
 #include "tools/commands/terminal.h"
 #include "tools/exchange/motion.h"
 #include "tools/files/files.h"
+#include "tools/media/container.h"
+#include "tools/speech/voice_file.h"
 
 /// The commands of the program and what they share.
 namespace animeme::tools {
@@ -27,10 +29,19 @@ using exchange::kind_of;
 struct MotionInput : exchange::Motion {
   double start = 0;  ///< of frame 0, seconds on the clock of a container's sound
 };
+/// The bytes of an input, for kind_of() and what follows. Of a container on disk only its first 4
+/// kB: open_container() reads the rest as it needs it. Errors: those of read_file().
+Result<std::vector<std::uint8_t>> read_input(const std::string& path);
+/// Whether an input is a file that can be read again, and from any place in it.
+bool is_on_disk(const std::string& path);
+/// The container or playlist that read_input() found. Errors: those of media::read_container().
+Result<media::Container> open_container(std::span<const std::uint8_t> bytes,
+                                        const std::string& path);
+
 /// "-" is standard input; errors name the path.
 Result<MotionInput> read_motion(const std::string& path,
                                 FrameNumbers numbers = FrameNumbers::from_zero);
-/// The same from bytes that were read already; `path` is for names and messages.
+/// The same from what read_input() gave.
 Result<MotionInput> parse_motion(std::vector<std::uint8_t> bytes, const std::string& path,
                                  FrameNumbers numbers = FrameNumbers::from_zero);
 
@@ -43,11 +54,24 @@ struct FaceInput {
 };
 /// As read_motion(). A stream or text with a body but no face is not_found.
 Result<FaceInput> read_face(const std::string& path);
+/// How long something may be that a small file asks for: a phone of a day in a script of one line,
+/// two frames of a text that are hours apart.
+struct LengthLimit {
+  double seconds = 0;  ///< --max-seconds; 0: not given
+  /// For speech::read_script().
+  double of_script() const { return seconds > 0 ? seconds : speech::kMostSeconds; }
+  /// For faces: missing frames are filled in up to this length.
+  fap::FillOptions filling(fap::FillOptions options, const fap::Rate& rate) const;
+};
+/// Adds --max-seconds.
+void add_length_option(CLI::App& app, LengthLimit& limit);
+
 /// The face as players show it: held and mirrored as the stream means it, FAP 1 and 2 as low-level
-/// FAPs unless they are kept. Errors: those of fap::fill(), with `path`.
+/// FAPs unless they are kept. Errors: those of fap::fill(), with `path` and the option that allows
+/// more.
 Result<fap::Sequence> shown_face(const FaceInput& input, const std::string& path,
-                                 fap::FillOptions options = {});
-/// As read_face(), from bytes that were read already.
+                                 fap::FillOptions options = {}, const LengthLimit& limit = {});
+/// As read_face(), from what read_input() gave.
 Result<FaceInput> parse_face(std::vector<std::uint8_t> bytes, const std::string& path);
 /// The face of an input that was read already, and the check for there being one.
 Result<FaceInput> face_of(MotionInput input, const std::string& path);

@@ -20,6 +20,7 @@ struct ExportOptions {
   std::string what;
   std::string script;
   std::string rate = "25";
+  LengthLimit length;
   double crossfade = 0.08;
   studio::HeadChoice head;
   std::string morphs = "arkit";
@@ -81,7 +82,7 @@ Result<fap::Sequence> read_filled(const ExportOptions& options, std::vector<std:
   fap::FillOptions filling;
   filling.interpolate = filling.complete = true;
   filling.keep_high_level = keep_high_level;
-  return shown_face(*input, options.input, filling);
+  return shown_face(*input, options.input, filling, options.length);
 }
 
 Result<int> write_arkit(const ExportOptions& options, std::vector<std::uint8_t> bytes) {
@@ -120,10 +121,8 @@ Result<int> write_head(const ExportOptions& options, std::vector<std::uint8_t> b
   return kOk;
 }
 
-Result<std::vector<exchange::VisemeEvent>> events_of_script(const std::string& text,
-                                                            const std::string& path) {
-  const Result<dam::Script> script = dam::read_script(text);
-  if (!script) return script.error().in_file(path);
+Result<std::vector<exchange::VisemeEvent>> events_of(const Result<dam::Script>& script) {
+  if (!script) return script.error();
   return exchange::script_events(*script);
 }
 
@@ -131,7 +130,8 @@ Result<exchange::VisemeTrack> track_of(const ExportOptions& options,
                                        std::vector<std::uint8_t> bytes, bool from_script,
                                        const fap::Rate& rate) {
   if (from_script) {
-    auto events = events_of_script({bytes.begin(), bytes.end()}, options.input);
+    auto events = events_of(speech::parse_script({bytes.begin(), bytes.end()}, options.input,
+                                                 options.length.of_script()));
     if (!events) return std::move(events).error();
     auto track = exchange::track_of_events(std::move(*events), rate, options.crossfade);
     if (!track) return std::move(track).error().in_file(options.input);
@@ -141,9 +141,7 @@ Result<exchange::VisemeTrack> track_of(const ExportOptions& options,
   if (!clip) return clip.error();
   exchange::VisemeTrack track = exchange::track_of_face(*clip);
   if (options.script.empty()) return track;
-  const Result<std::string> text = read_text_file(options.script);
-  if (!text) return text.error();
-  auto events = events_of_script(*text, options.script);
+  auto events = events_of(speech::read_script(options.script, options.length.of_script()));
   if (!events) return std::move(events).error();
   track.events = std::move(*events);
   return track;
@@ -180,7 +178,7 @@ Result<int> run(const ExportOptions& options) {
   if (const std::string wrong = wrong_extension(named, options.output); !wrong.empty()) {
     return usage_error(wrong);
   }
-  Result<std::vector<std::uint8_t>> bytes = read_file(options.input);
+  Result<std::vector<std::uint8_t>> bytes = read_input(options.input);
   if (!bytes) return bytes.error();
   const bool from_script = kind_of(*bytes) == FileKind::script;
   const std::string what = what_of(options, from_script);
@@ -237,6 +235,7 @@ void add_options(CLI::App& app, ExportOptions& options) {
                  "Seconds that one viseme of a script takes to fade into the next, at most")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1.0));
+  add_length_option(app, options.length);
   add_head_options(app, options.head);
   app.add_option("--morphs", options.morphs,
                  "glb: morph targets by the names of ARKit (jawOpen ...) or of FAPs (open_jaw ...)")

@@ -29,6 +29,7 @@ void add_stream_options(CLI::App& app, StreamSettings& settings) {
   add_coding_options(app, settings);
   app.add_option("--intra-seconds", settings.intra_seconds,
                  "Seconds between points where playing can begin, in containers; 0: one point")
+      ->option_text("SECONDS=5")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
 }
@@ -66,6 +67,7 @@ void add_sound_options(CLI::App& app, SoundSettings& settings, bool copy) {
       ->check(copy ? CLI::IsMember({"aac", "opus", "copy"}) : CLI::IsMember({"aac", "opus"}));
   app.add_option("--audio-bitrate", settings.bit_rate,
                  "Bits a second of the sound; default: 64000 for aac, 40000 for opus")
+      ->option_text("6000..320000")
       ->check(CLI::Range(6000, 320000));
 }
 

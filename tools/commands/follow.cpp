@@ -1,14 +1,15 @@
 // A face that follows a voice which is still being made.
 #include <CLI/CLI.hpp>
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
-#include <sstream>
 
-#include "dam/script/phones.h"
 #include "dam/speaking/stream.h"
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
 #include "tools/exchange/curves.h"
+#include "tools/speech/phone_line.h"
 #include "tools/speech/spoken.h"
 
 namespace animeme::tools {
@@ -20,31 +21,23 @@ struct FollowOptions {
   std::string rate = "25";
   double style = 1;
   double look_ahead = -1;
+  LengthLimit length;
 };
 
 Error in_line(std::int64_t line, const std::string& what) {
   return Error{Code::syntax, what, {"standard input", line, 0, -1}};
 }
 
-/// "start_s end_s phone", in seconds, by blanks or tabs; more fields are ignored.
-Result<dam::Phone> parse_phone(const std::string& text, std::int64_t line) {
-  std::istringstream fields(text);
-  dam::Phone phone;
-  std::string label;
-  if (!(fields >> phone.start >> phone.end >> label)) {
-    return in_line(line, "a line must hold start_s, end_s and a phone, as in: 0.21 0.25 B");
+// A line that never ends is none.
+Result<bool> next_line(std::istream& in, std::string& line) {
+  constexpr std::streamsize kLongest = 4096;
+  std::array<char, kLongest> buffer{};
+  if (!in.getline(buffer.data(), kLongest)) {
+    if (in.eof() || in.gcount() + 1 < kLongest) return false;
+    return make_error(Code::syntax, "a line of more than 4 kB holds no phone");
   }
-  phone.label = dam::arpabet_label(label);
-  if (phone.label.empty()) {
-    return in_line(line, "the phone " + label + " is not known; the nearest is " +
-                             std::string(dam::nearest_label(label)));
-  }
-  return phone;
-}
-
-bool is_to_be_skipped(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  return first == std::string::npos || text[first] == '#' || text.compare(first, 5, "start") == 0;
+  line = buffer.data();
+  return true;
 }
 
 Result<void> print_rows(const dam::Signal& signal) {
@@ -69,11 +62,21 @@ Result<int> run(const FollowOptions& options) {
   for (const dam::Control& control : model->controls) names.push_back(control.name);
   std::fputs(exchange::write_curve_header(names).c_str(), stdout);
   std::string text;
-  for (std::int64_t line = 1; std::getline(std::cin, text); ++line) {
-    if (is_to_be_skipped(text)) continue;
-    Result<dam::Phone> phone = parse_phone(text, line);
-    if (!phone) return phone.error();
-    if (auto ok = stream.push(*phone); !ok) return in_line(line, ok.error().message);
+  double known = 0;  // seconds
+  for (std::int64_t line = 1;; ++line) {
+    const Result<bool> more = next_line(std::cin, text);
+    if (!more) return in_line(line, more.error().message);
+    if (!*more) break;
+    const auto phone = speech::parse_phone_line(text);
+    if (!phone) return in_line(line, phone.error().message);
+    if (!*phone) continue;
+    if ((*phone)->end - known > options.length.of_script()) {
+      return in_line(line, "the phone ends " + std::to_string(std::llround((*phone)->end - known)) +
+                               " s after the last one; correct the times or allow more "
+                               "(--max-seconds)");
+    }
+    known = (*phone)->end;
+    if (auto ok = stream.push(**phone); !ok) return in_line(line, ok.error().message);
     Result<dam::Signal> signal = stream.pull();
     if (!signal) return signal.error();
     if (auto ok = print_rows(*signal); !ok) return ok.error();
@@ -91,6 +94,9 @@ void add_options(CLI::App& app, FollowOptions& options) {
   app.add_option("--style", options.style, "Intensity, 0 to 1.5")
       ->check(CLI::Range(0.0, dam::kMostStyle))
       ->capture_default_str();
+  app.add_option("--max-seconds", options.length.seconds, "Longest phone, or gap before one")
+      ->option_text("SECONDS=3600")
+      ->check(CLI::Range(1.0, dam::kMaxScriptSeconds));
   app.add_option("--look-ahead", options.look_ahead,
                  "Seconds of phones to wait for before a frame is given out; default: as many as "
                  "make it final (about half a second)")

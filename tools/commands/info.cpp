@@ -67,8 +67,8 @@ Json describe_track(const media::TrackInfo& track) {
 
 Result<Json> describe_media(const InfoOptions& options, std::span<const std::uint8_t> bytes,
                             Description& out) {
-  const bool playlist = is_playlist(bytes);
-  Result<media::ContainerInfo> info = playlist ? media::probe(options.input) : media::probe(bytes);
+  Result<media::ContainerInfo> info =
+      is_on_disk(options.input) ? media::probe(options.input) : media::probe(bytes);
   if (!info) return info.error();
   Json json = {{"kind", "media"},
                {"format", info->format},
@@ -77,8 +77,7 @@ Result<Json> describe_media(const InfoOptions& options, std::span<const std::uin
                {"tracks", json_list(info->tracks, describe_track)},
                {"warnings", info->warnings}};
   if (info->first(media::TrackKind::face) == nullptr) return json;
-  Result<media::Container> container =
-      playlist ? media::read_container(options.input) : media::read_container(bytes);
+  Result<media::Container> container = open_container(bytes, options.input);
   if (!container) return container.error();
   Result<Json> stream =
       describe_coded(options, PlaneFile(fba::join_access_units(container->face)), out);
@@ -107,7 +106,7 @@ Result<Description> describe(const InfoOptions& options) {
     out.json.update(*json);
     return out;
   }
-  Result<std::vector<std::uint8_t>> bytes = read_file(options.input);
+  Result<std::vector<std::uint8_t>> bytes = read_input(options.input);
   if (!bytes) return bytes.error();
   if (bytes->empty()) return make_error(Code::truncated, "the file is empty");
   switch (kind_of(*bytes)) {

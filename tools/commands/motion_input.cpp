@@ -1,5 +1,8 @@
 // Reading whatever holds motion: what the library exchange reads, and containers.
+#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <utility>
 
 #include "codec/decode/access_unit.h"
@@ -23,9 +26,7 @@ Result<MotionInput> tell_quirks(Result<exchange::Motion> motion, const std::stri
 }
 
 Result<MotionInput> read_media(const std::vector<std::uint8_t>& bytes, const std::string& path) {
-  const auto container = is_playlist(bytes)
-                             ? media::read_container(path)
-                             : media::read_container(std::span<const std::uint8_t>(bytes));
+  const auto container = open_container(bytes, path);
   if (!container) return container.error().in_file(path);
   for (const std::string& text : container->warnings) warn(path + ": " + text);
   const fba::AccessUnits& face = container->face;
@@ -38,8 +39,29 @@ Result<MotionInput> read_media(const std::vector<std::uint8_t>& bytes, const std
 
 }  // namespace
 
+bool is_on_disk(const std::string& path) {
+  std::error_code unknown;
+  return path != "-" && std::filesystem::is_regular_file(path, unknown);
+}
+
+Result<std::vector<std::uint8_t>> read_input(const std::string& path) {
+  if (is_on_disk(path)) {
+    std::ifstream in(path, std::ios::binary);
+    std::vector<std::uint8_t> first(4096);
+    in.read(reinterpret_cast<char*>(first.data()), std::streamsize(first.size()));
+    first.resize(std::size_t(in.gcount()));
+    if (!in.bad() && kind_of(first) == FileKind::media) return first;
+  }
+  return read_file(path);
+}
+
+Result<media::Container> open_container(std::span<const std::uint8_t> bytes,
+                                        const std::string& path) {
+  return is_on_disk(path) ? media::read_container(path) : media::read_container(bytes);
+}
+
 Result<MotionInput> read_motion(const std::string& path, FrameNumbers numbers) {
-  Result<std::vector<std::uint8_t>> bytes = read_file(path);
+  Result<std::vector<std::uint8_t>> bytes = read_input(path);
   if (!bytes) return bytes.error();
   return parse_motion(std::move(*bytes), path, numbers);
 }
@@ -74,11 +96,28 @@ Result<FaceInput> face_of(MotionInput input, const std::string& path) {
 }
 
 Result<fap::Sequence> shown_face(const FaceInput& input, const std::string& path,
-                                 fap::FillOptions options) {
+                                 fap::FillOptions options, const LengthLimit& limit) {
   options.expand = !options.keep_high_level;
+  options = limit.filling(options, input.clip.rate);
   Result<fap::Sequence> shown = fap::fill(input.clip, input.rules, options);
-  if (!shown) return std::move(shown).error().in_file(path);
-  return shown;
+  if (shown) return shown;
+  Error error = std::move(shown).error();
+  if (error.code == Code::out_of_range) error.message += " (--max-seconds)";
+  return std::move(error).in_file(path);
+}
+
+fap::FillOptions LengthLimit::filling(fap::FillOptions options, const fap::Rate& rate) const {
+  if (seconds <= 0) return options;
+  options.max_missing = std::int64_t(seconds * rate.frames_per_second());
+  options.max_frames = std::max(options.max_frames, options.max_missing);
+  return options;
+}
+
+void add_length_option(CLI::App& app, LengthLimit& limit) {
+  app.add_option("--max-seconds", limit.seconds,
+                 "Longest script, and longest time missing from a face, in seconds")
+      ->option_text("SECONDS=3600")
+      ->check(CLI::Range(1.0, dam::kMaxScriptSeconds));
 }
 
 Result<void> require_face(const MotionInput& input, const std::string& path) {

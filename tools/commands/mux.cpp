@@ -54,11 +54,10 @@ Result<fba::AccessUnits> for_segments(fba::AccessUnits units, const MuxOptions& 
 
 // A face out of a container keeps its times, which its planes alone would not tell.
 Result<fba::AccessUnits> read_units(const MuxOptions& options) {
-  Result<std::vector<std::uint8_t>> bytes = read_file(options.face);
+  Result<std::vector<std::uint8_t>> bytes = read_input(options.face);
   if (!bytes) return bytes.error();
   if (kind_of(*bytes) == FileKind::media) {
-    Result<media::Container> container =
-        is_playlist(*bytes) ? media::read_container(options.face) : media::read_container(*bytes);
+    Result<media::Container> container = open_container(*bytes, options.face);
     if (!container) return container.error();
     for (const std::string& text : container->warnings) warn(options.face + ": " + text);
     return std::move(container->face);

@@ -18,6 +18,7 @@ struct PlotOptions {
   std::string script;
   std::vector<std::string> faps = {"3", "4", "5", "6"};
   bool difference = false;
+  LengthLimit length;
   double from = 0;
   double to = -1;
 };
@@ -37,7 +38,7 @@ Result<int> run(const PlotOptions& options) {
     if (path.empty()) continue;
     Result<FaceInput> input = read_face(path);
     if (!input) return input.error();
-    Result<fap::Sequence> filled = shown_face(*input, path);
+    Result<fap::Sequence> filled = shown_face(*input, path, {}, options.length);
     if (!filled) return filled.error();
     clips.push_back({std::move(*filled), input->start});
     names.push_back(std::filesystem::path(path).filename().string());
@@ -85,6 +86,7 @@ void add_options(CLI::App& app, PlotOptions& options) {
       ->delimiter(',')
       ->capture_default_str();
   app.add_flag("--difference", options.difference, "A row with the second less the first for each");
+  add_length_option(app, options.length);
   app.add_option("--from", options.from, "Seconds at which the picture begins")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--to", options.to, "Seconds at which it ends")->check(CLI::PositiveNumber);

@@ -21,6 +21,7 @@ constexpr int kLargestPicture = 8192;  // pixels a side, a whole sheet
 constexpr int kMostPictures = 400;
 
 struct RenderOptions {
+  LengthLimit length;
   std::string input;
   std::string output;
   std::string shapes;
@@ -100,7 +101,7 @@ Result<std::vector<studio::ShownFrame>> choose_frames(const RenderOptions& optio
   if (!options.shapes.empty()) return studio::shape_frames(options.shapes);
   Result<FaceInput> input = read_face(options.input);
   if (!input) return input.error();
-  const Result<fap::Sequence> clip = shown_face(*input, options.input);
+  const Result<fap::Sequence> clip = shown_face(*input, options.input, {}, options.length);
   if (!clip) return clip.error();
   Result<std::vector<studio::ShownFrame>> frames =
       options.frame >= 0       ? studio::frame_number(*clip, options.frame)
@@ -152,7 +153,8 @@ Result<int> render_video(const RenderOptions& options, const Plan& plan) {
   preview.faps = std::move(*faps);
   Result<FaceInput> input = read_face(options.input);
   if (!input) return input.error();
-  const Result<fap::Sequence> clip = shown_face(*input, options.input, {.interpolate = true});
+  const Result<fap::Sequence> clip =
+      shown_face(*input, options.input, {.interpolate = true}, options.length);
   if (!clip) return clip.error();
   Result<dam::Script> script = dam::Script{};
   if (!options.script.empty()) {
@@ -214,6 +216,7 @@ void add_options(CLI::App& app, RenderOptions& options) {
                                "Contact sheet, COLUMNSxROWS: frames evenly over the clip");
   frame->excludes(time)->excludes(shapes)->excludes(sheet);
   time->excludes(shapes);
+  add_length_option(app, options.length);
   add_head_options(app, options.head);
   app.add_option("--view", options.view,
                  "front, three-quarter, side, or degrees to the person's left")

@@ -23,6 +23,10 @@ void add_spoken_options(CLI::App& app, speech::SpokenOptions& options) {
       ->excludes("--script");
   app.add_option("--lang", options.language, "Language of the text: en, de, fr, pt-br ...")
       ->capture_default_str();
+  app.add_option("--max-seconds", options.most_seconds, "Longest script that is spoken")
+      ->option_text("SECONDS=3600")
+      ->check(CLI::Range(1.0, dam::kMaxScriptSeconds))
+      ->capture_default_str();
   app.add_option("--speed", options.words_per_minute, "Words a minute of the synthetic voice")
       ->option_text("80..450=175")
       ->check(CLI::Range(80, 450))

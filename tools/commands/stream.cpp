@@ -116,14 +116,13 @@ Result<void> send_all(media::LiveInput& input, live::Sinks& sinks, media::Clock&
 // coded sound keep their bytes, but for what `coding` says.
 Result<live::Clip> load_clip(const std::string& path, const std::string& audio,
                              const live::Coding& coding) {
-  Result<std::vector<std::uint8_t>> bytes = read_file(path);
+  Result<std::vector<std::uint8_t>> bytes = read_input(path);
   if (!bytes) return bytes.error();
   live::Clip clip;
   const bool media = kind_of(*bytes) == FileKind::media;
   if (media) {
     // Its units with their own times.
-    Result<media::Container> container =
-        media::read_container(std::span<const std::uint8_t>(*bytes));
+    Result<media::Container> container = open_container(*bytes, path);
     if (!container) return container.error().in_file(path);
     clip.face = std::move(container->face);
     const bool own_sound = audio.empty() && coding.sound && container->audio.has_value();

@@ -28,6 +28,7 @@ struct ViewOptions {
   std::string audio;
   SoundSettings sound;
   std::string script;
+  LengthLimit length;
   studio::HeadChoice head;
 };
 
@@ -37,13 +38,13 @@ struct ViewedClip {
   bool container = false;
 };
 
-Result<ViewedClip> read_shown(const std::string& path) {
+Result<ViewedClip> read_shown(const std::string& path, const LengthLimit& length) {
   Result<MotionInput> input = read_motion(path);
   if (!input) return input.error();
   const bool container = input->kind == FileKind::media;
   const Result<FaceInput> face = face_of(std::move(*input), path);
   if (!face) return face.error();
-  Result<fap::Sequence> filled = shown_face(*face, path);
+  Result<fap::Sequence> filled = shown_face(*face, path, {}, length);
   if (!filled) return filled.error();
   const std::string name = std::filesystem::path(path).filename().string();
   return ViewedClip{{std::move(*filled), face->start, name}, container};
@@ -131,7 +132,7 @@ Result<int> run(const ViewOptions& options) {
   std::vector<std::string> containers;
   for (const std::string& path : {options.first, options.second}) {
     if (path.empty()) continue;
-    Result<ViewedClip> shown = read_shown(path);
+    Result<ViewedClip> shown = read_shown(path, options.length);
     if (!shown) return shown.error();
     if (shown->container && path == "-")
       warn("the sound of standard input is not read; give --audio");
@@ -175,6 +176,7 @@ void add_options(CLI::App& app, ViewOptions& options) {
   app.add_option("--script", options.script,
                  "Phoneme script (table or TextGrid) to show with the curves");
   add_sound_options(app, options.sound, false);
+  add_length_option(app, options.length);
   add_head_options(app, options.head);
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <barrier>
+#include <exception>
+#include <mutex>
 #include <thread>
 
 #include "tools/render/detail/tile.h"
@@ -145,17 +147,40 @@ const Image& Renderer::render(const Scene& scene, const Camera& camera) {
   }
   s.next_tile = 0;
   std::barrier step(s.threads);
+  std::atomic<int> next_shade = 0, next_bin = 0;  // part that no thread has taken yet
+  std::mutex mutex;
+  std::exception_ptr failure;  // the first one; no memory, most likely
+  const auto guarded = [&](const auto& phase) {
+    try {
+      phase();
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+    }
+  };
   const auto work = [&](int thread) {
-    s.shade_part(scene, view, thread);
+    guarded([&] {
+      for (int i = next_shade++; i < s.threads; i = next_shade++) s.shade_part(scene, view, i);
+    });
     step.arrive_and_wait();
-    s.bin_part(scene, thread);
+    guarded([&] {
+      for (int i = next_bin++; i < s.threads; i = next_bin++) s.bin_part(scene, i);
+    });
     step.arrive_and_wait();
-    s.draw_part(scene, view, thread);
+    guarded([&] { s.draw_part(scene, view, thread); });
   };
   std::vector<std::thread> others;
-  for (int t = 1; t < s.threads; ++t) others.emplace_back(work, t);
+  others.reserve(std::size_t(s.threads));
+  for (int t = 1; t < s.threads; ++t) {
+    try {
+      others.emplace_back(work, t);
+    } catch (const std::exception&) {
+      step.arrive_and_drop();  // no more threads to be had: the others do the work
+    }
+  }
   work(0);
   for (std::thread& thread : others) thread.join();
+  if (failure) std::rethrow_exception(failure);
   return s.image;
 }
 

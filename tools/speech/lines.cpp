@@ -7,43 +7,19 @@
 #include <array>
 #include <cerrno>
 #include <condition_variable>
+#include <exception>
 #include <mutex>
 #include <system_error>
 #include <thread>
 #include <utility>
 
-#include "tools/media/detail/words_internal.h"
+#include "tools/speech/line_cutter_internal.h"
 
 namespace animeme::speech {
 
 namespace {
 
-constexpr std::size_t kMostBytes = 4000;  // of a line
-constexpr std::size_t kMostDone = 4;      // lines that wait: a voice is faster than speech
-
-/// Cuts lines out of bytes as they come.
-class LineCutter {
- public:
-  std::vector<std::string> push(std::string_view bytes) {
-    rest_ += bytes;
-    std::vector<std::string> lines;
-    for (;;) {
-      std::size_t end = rest_.find('\n');
-      std::size_t next = end + 1;
-      if (end == std::string::npos) {
-        if (rest_.size() <= kMostBytes) return lines;
-        const std::size_t blank = rest_.rfind(' ', kMostBytes);
-        end = next = blank == std::string::npos || blank == 0 ? kMostBytes : blank;
-      }
-      lines.emplace_back(media::trim(rest_.substr(0, end)));
-      rest_.erase(0, next);
-    }
-  }
-  std::string rest() { return std::string(media::trim(std::exchange(rest_, {}))); }
-
- private:
-  std::string rest_;
-};
+constexpr std::size_t kMostDone = 4;  // lines that wait: a voice is faster than speech
 
 }  // namespace
 
@@ -57,6 +33,7 @@ struct VoiceLines::Impl {
   std::vector<SpokenLine> done;
   std::vector<std::string> warnings;
   bool over = false;
+  std::exception_ptr failure;  // no memory, most likely; goes to who asks whether it is over
   bool stopping = false;
   std::condition_variable room;  // in `done`
 
@@ -105,6 +82,16 @@ struct VoiceLines::Impl {
     }
   }
 
+  void run_to_the_end() {
+    try {
+      run();
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      over = true;
+      failure = std::current_exception();
+    }
+  }
+
   void run() {
     LineCutter cutter;
     std::array<char, 4096> buffer{};
@@ -140,7 +127,7 @@ Result<std::unique_ptr<VoiceLines>> VoiceLines::open(int descriptor,
     return make_error(Code::io, "no pipe can be made: too many open files");
   }
   try {
-    impl->thread = std::thread([raw = impl.get()] { raw->run(); });
+    impl->thread = std::thread([raw = impl.get()] { raw->run_to_the_end(); });
   } catch (const std::system_error&) {
     return make_error(Code::io, "no thread can be started for the voice");
   }
@@ -155,6 +142,7 @@ std::vector<SpokenLine> VoiceLines::take() {
 
 bool VoiceLines::ended() {
   const std::lock_guard lock(impl_->mutex);
+  if (impl_->failure) std::rethrow_exception(impl_->failure);
   return impl_->over && impl_->done.empty();
 }
 

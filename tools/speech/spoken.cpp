@@ -21,7 +21,7 @@ Result<Spoken> speak(const SpokenOptions& options, const std::string& text) {
 }
 
 Result<Spoken> follow_script(const SpokenOptions& options, const tools::Talk& talk) {
-  Result<dam::Script> script = read_script(options.script);
+  Result<dam::Script> script = read_script(options.script, options.most_seconds);
   if (!script) return script.error();
   Spoken spoken{std::move(*script), std::nullopt, {}};
   if (options.audio.empty()) return spoken;
@@ -64,7 +64,7 @@ bool has_source(const SpokenOptions& options) {
 
 Result<Spoken> get_spoken(const SpokenOptions& options, const tools::Talk& talk) {
   if (!options.text_file.empty()) {
-    Result<std::string> text = tools::read_text_file(options.text_file);
+    Result<std::string> text = tools::read_text_file(options.text_file, tools::kMostWritten);
     if (!text) return text.error();
     Result<Spoken> spoken = speak(options, *text);
     if (!spoken) return spoken.error().in_file(options.text_file);

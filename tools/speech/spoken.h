@@ -11,22 +11,24 @@
 #include "fap/result.h"
 #include "tools/files/talk.h"
 #include "tools/media/pcm.h"
+#include "tools/speech/voice_file.h"
 
 namespace animeme::speech {
 
 /// Where speech comes from: one of text, text_file, script, and audio with transcript. A script may
 /// have audio, too.
 struct SpokenOptions {
-  std::string text;             ///< what to say
-  bool has_text = false;        ///< text may be empty
-  std::string text_file;        ///< "-": standard input
-  std::string script;           ///< a phoneme script of any format
-  std::string audio;            ///< a recorded voice
-  std::string transcript;       ///< what is said in it
-  bool has_transcript = false;  ///< transcript may be empty
-  std::string language = "en";  ///< as espeak-ng names it
-  int words_per_minute = 175;   ///< of a synthetic voice, 80 to 450
-  int pitch = 50;               ///< of a synthetic voice, 0 to 100
+  std::string text;                    ///< what to say
+  bool has_text = false;               ///< text may be empty
+  std::string text_file;               ///< "-": standard input
+  std::string script;                  ///< a phoneme script of any format
+  std::string audio;                   ///< a recorded voice
+  std::string transcript;              ///< what is said in it
+  bool has_transcript = false;         ///< transcript may be empty
+  std::string language = "en";         ///< as espeak-ng names it
+  int words_per_minute = 175;          ///< of a synthetic voice, 80 to 450
+  int pitch = 50;                      ///< of a synthetic voice, 0 to 100
+  double most_seconds = kMostSeconds;  ///< longest script
 };
 
 /// Speech as phones, with its sound.

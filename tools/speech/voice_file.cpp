@@ -1,16 +1,30 @@
 #include "tools/speech/voice_file.h"
 
+#include <cmath>
+
 #include "tools/files/files.h"
 #include "tools/media/audio.h"
 #include "tools/media/container.h"
 
 namespace animeme::speech {
 
-Result<dam::Script> read_script(const std::string& path) {
-  const Result<std::string> text = tools::read_text_file(path);
+Result<dam::Script> read_script(const std::string& path, double most_seconds) {
+  const Result<std::string> text = tools::read_text_file(path, tools::kMostWritten);
   if (!text) return text.error();
-  Result<dam::Script> script = dam::read_script(*text);
+  return parse_script(*text, path, most_seconds);
+}
+
+Result<dam::Script> parse_script(const std::string& text, const std::string& path,
+                                 double most_seconds) {
+  Result<dam::Script> script = dam::read_script(text);
   if (!script) return script.error().in_file(path);
+  if (script->duration() > most_seconds) {
+    return make_error(Code::out_of_range,
+                      "the script lasts " + std::to_string(std::llround(script->duration())) +
+                          " s, at most " + std::to_string(std::llround(most_seconds)) +
+                          " s are spoken; correct its times or allow more (--max-seconds)")
+        .in_file(path);
+  }
   return script;
 }
 

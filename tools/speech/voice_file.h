@@ -16,8 +16,17 @@
 
 namespace animeme::speech {
 
-/// A phoneme script of any format. Errors: those of tools::read_text_file() and dam::read_script().
-Result<dam::Script> read_script(const std::string& path);
+/// Longest script that is spoken unless more is asked for: a phone of a day takes one line of text
+/// and two gigabytes of curves.
+inline constexpr double kMostSeconds = 3600;
+
+/// A phoneme script of any format. Errors: those of tools::read_text_file() and dam::read_script();
+/// out_of_range (it lasts more than `most_seconds`).
+Result<dam::Script> read_script(const std::string& path,
+                                double most_seconds = dam::kMaxScriptSeconds);
+/// The same from its text; `path` is for messages.
+Result<dam::Script> parse_script(const std::string& text, const std::string& path,
+                                 double most_seconds = dam::kMaxScriptSeconds);
 
 /// A recording as samples of one channel; `sample_rate` 0: its own. Errors: those of
 /// media::read_audio().
