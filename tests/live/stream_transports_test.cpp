@@ -16,6 +16,7 @@ using test::Streams;
 using test::TempDir;
 using test::wait_for;
 using testing::HasSubstr;
+using testing::Not;
 
 struct Way {
   const char* name;
@@ -88,6 +89,34 @@ TEST(Stream, WhatIsWrongIsSaidInASentence) {
   EXPECT_EQ(animeme({"stream", dir / "clip.fap"}).exit_code, 2);
   EXPECT_EQ(animeme({"stream", "--say", "-", "--fast", "--to", "rtp://127.0.0.1:5004"}).exit_code,
             2);
+}
+
+TEST(Stream, AServerForEverybodyIsWarnedOfOnce) {
+  const TempDir dir;
+  test::spill(dir / "clip.fap", fap::write_text(test::random_clip(1, 10)));
+  const auto served = [&](const std::string& host, std::vector<std::string> more = {}) {
+    std::vector<std::string> all = {
+        "stream", dir / "clip.fap", "--fast", "--to",
+        "http://" + host + ":" + std::to_string(test::free_ports())};
+    all.insert(all.end(), more.begin(), more.end());
+    return animeme(all);
+  };
+  const auto open = served("0.0.0.0");
+  if (open.exit_code == 3) GTEST_SKIP() << open.err;  // built without a web server
+  EXPECT_EQ(open.exit_code, 0) << open.err;
+  const std::size_t warning = open.err.find("open to every machine");
+  ASSERT_NE(warning, std::string::npos) << open.err;
+  EXPECT_THAT(open.err, HasSubstr("127.0.0.1:PORT"));
+  EXPECT_EQ(open.err.find("open to every machine", warning + 1), std::string::npos);
+  const auto closed = served("127.0.0.1", {"--max-clients", "3", "--max-per-address", "0",
+                                           "--allow-origin", "https://a.example", "--allow-origin",
+                                           "https://b.example", "--host-name", "talk.example"});
+  EXPECT_EQ(closed.exit_code, 0) << closed.err;
+  EXPECT_THAT(closed.err, Not(HasSubstr("open to every machine")));
+  EXPECT_EQ(served("127.0.0.1", {"--max-clients", "0"}).exit_code, 2);
+  const auto bad = served("127.0.0.1", {"--allow-origin", "a.example"});
+  EXPECT_EQ(bad.exit_code, 2);
+  EXPECT_THAT(bad.err, HasSubstr("https://example.org"));
 }
 
 TEST(Receive, WhatIsWrongIsSaidInASentence) {
