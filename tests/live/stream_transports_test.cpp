@@ -5,6 +5,7 @@
 #include "fap/text.h"
 #include "tests/live/stream_support.h"
 #include "tests/support/random_clip.h"
+#include "tools/media/audio.h"
 
 namespace animeme {
 namespace stream_transports_test {
@@ -72,6 +73,44 @@ INSTANTIATE_TEST_SUITE_P(
                         [](const std::string& port) { return "ws://127.0.0.1:" + port; }}),
     [](const auto& way) { return way.param.name; });
 
+// The number in front of "planes usable" in the last line that was told; 0: there is none.
+std::size_t planes_told(const std::string& text) {
+  const std::size_t end = text.rfind(" planes usable");
+  if (end == std::string::npos) return 0;
+  return std::stoul(text.substr(text.rfind(' ', end - 1) + 1));
+}
+
+// Killed in the middle, every kind of file has all but the last second.
+TEST_F(Streams, AReceiverThatIsKilledLeavesWhatCame) {
+  const std::string port = std::to_string(test::free_ports());
+  Running send({"stream", dir / "talk.mp4", "--loop", "--to", "http://127.0.0.1:" + port},
+               dir / "s.out", dir / "s.err");
+  ASSERT_TRUE(
+      wait_for([&] { return test::slurp(dir / "s.err").find("sending") != std::string::npos; }));
+  const std::vector<std::string> names = {"a.mp4", "a.mkv", "a.ts", "a.fba", "a.fap"};
+  std::vector<std::unique_ptr<Running>> receivers;
+  for (const std::string& name : names) {
+    test::spill(dir / name, "old");
+    receivers.push_back(std::make_unique<Running>(
+        std::vector<std::string>{"receive", "ws://127.0.0.1:" + port, "-o", dir / name, "--stats"},
+        dir / (name + ".out"), dir / (name + ".err")));
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    ASSERT_TRUE(wait_for([&] { return planes_told(test::slurp(dir / (names[i] + ".err"))) > 60; }));
+    receivers[i]->signal(SIGKILL);
+    EXPECT_EQ(receivers[i]->wait(), -1) << names[i];
+    const std::size_t came = planes_told(test::slurp(dir / (names[i] + ".err")));
+    const auto decoded = animeme({"decode", dir / names[i], "-o", dir / "decoded.fap"});
+    ASSERT_EQ(decoded.exit_code, 0) << names[i] << ": " << decoded.err;
+    const auto frames = fap::read_text(test::slurp(dir / "decoded.fap"));
+    ASSERT_TRUE(frames) << names[i];
+    EXPECT_GE(frames->frames.size() + 25, came) << names[i];
+    const bool sound = names[i] == "a.mp4" || names[i] == "a.mkv" || names[i] == "a.ts";
+    if (!sound) continue;
+    EXPECT_GT(media::read_audio(dir / names[i])->duration(), 1.2) << names[i];
+  }
+}
+
 TEST(Stream, WhatIsWrongIsSaidInASentence) {
   const TempDir dir;
   test::spill(dir / "clip.fap", fap::write_text(test::random_clip(1, 30)));
@@ -95,9 +134,8 @@ TEST(Stream, AServerForEverybodyIsWarnedOfOnce) {
   const TempDir dir;
   test::spill(dir / "clip.fap", fap::write_text(test::random_clip(1, 10)));
   const auto served = [&](const std::string& host, std::vector<std::string> more = {}) {
-    std::vector<std::string> all = {
-        "stream", dir / "clip.fap", "--fast", "--to",
-        "http://" + host + ":" + std::to_string(test::free_ports())};
+    std::vector<std::string> all = {"stream", dir / "clip.fap", "--fast", "--to",
+                                    "http://" + host + ":" + std::to_string(test::free_ports())};
     all.insert(all.end(), more.begin(), more.end());
     return animeme(all);
   };
