@@ -81,7 +81,7 @@ inline constexpr Library kLibraries[] = {
     {"espeak-ng", "espeak speak_lib", "tools/voice tests/voice"},
     {"pocketsphinx", "pocketsphinx sphinxbase", "tools/voice tests/voice"},
     {"libwebsockets", "libwebsockets", "tools/web/detail"},
-    {"zlib", "zlib", "tools/render tools/viewer tests"},
+    {"zlib", "zlib", "tools/render tools/viewer tools/web/detail tests"},
     {"stb", "stb", "tools/gltf"},
     {"nlohmann_json", "nlohmann/", "tools conformance tests"},
     {"CLI11", "CLI/", "tools/commands tools/main.cpp tests/bench"},

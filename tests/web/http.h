@@ -17,13 +17,17 @@ namespace animeme::test {
 
 class Connection {
  public:
-  explicit Connection(int port, int receive_buffer = 0)
+  /// `from`: address of this machine to come from ("127.0.0.2"); nullptr: any.
+  explicit Connection(int port, int receive_buffer = 0, const char* from = nullptr)
       : handle_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
     if (receive_buffer > 0) {
       setsockopt(handle_, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
     }
     sockaddr_in address{};
     address.sin_family = AF_INET;
+    if (from != nullptr && inet_pton(AF_INET, from, &address.sin_addr) == 1) {
+      (void)bind(handle_, reinterpret_cast<sockaddr*>(&address), sizeof address);
+    }
     address.sin_port = htons(std::uint16_t(port));
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     open_ = connect(handle_, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
@@ -79,6 +83,13 @@ inline std::string get(int port, const std::string& path, const std::string& hea
   return connection.read_all();
 }
 
+/// The answer to any request, whole: `request` is what stands in front of the empty line.
+inline std::string ask(int port, const std::string& request, const char* from = nullptr) {
+  Connection connection(port, 0, from);
+  connection.send(request + "Connection: close\r\n\r\n");
+  return connection.read_all();
+}
+
 /// The request that opens a WebSocket.
 inline std::string upgrade(int port, const std::string& path, const std::string& headers = "") {
   return "GET " + path + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) +
@@ -89,6 +100,21 @@ inline std::string upgrade(int port, const std::string& path, const std::string&
 
 inline int status_of(const std::string& response) {
   return response.compare(0, 5, "HTTP/") == 0 ? std::stoi(response.substr(9, 3)) : 0;
+}
+
+/// Value of a header, in the spelling of the server; empty: absent.
+inline std::string header_of(const std::string& response, const std::string& name) {
+  const std::size_t at = response.find("\r\n" + name + ": "), begin = at + name.size() + 4;
+  if (at == std::string::npos || at > response.find("\r\n\r\n")) return {};
+  return response.substr(begin, response.find("\r\n", begin) - begin);
+}
+
+/// Status of a WebSocket that is asked for with these headers and closed again.
+inline int status_of_socket(int port, const std::string& path, const std::string& headers = "") {
+  Connection socket(port);
+  socket.send(upgrade(port, path, headers));
+  const std::string text = socket.read([](const std::string& got) { return got.size() > 12; }, 5);
+  return text.compare(0, 5, "HTTP/") == 0 ? std::stoi(text.substr(9, 3)) : 0;
 }
 
 inline std::string body_of(const std::string& response) {

@@ -52,8 +52,12 @@ TEST_F(Http, ThePageIsSelfContained) {
   EXPECT_THAT(page, Not(HasSubstr("access-control-allow-origin")));
   const std::string body = body_of(page);
   EXPECT_THAT(body, HasSubstr("</html>")) << "whole";
-  EXPECT_THAT(body, Not(HasSubstr("https://")));
-  EXPECT_THAT(body, Not(HasSubstr("src=\"http")));
+  for (const char* path : {"/", "/live.css", "/live.js"}) {
+    const std::string part = get(port_, path);
+    EXPECT_EQ(status_of(part), 200) << path;
+    EXPECT_THAT(body_of(part), Not(HasSubstr("https://"))) << path;
+    EXPECT_THAT(body_of(part), Not(HasSubstr("src=\"http"))) << path;
+  }
 }
 
 TEST_F(Http, InfoIsJson) {
@@ -77,7 +81,8 @@ TEST_F(Http, AHeadIsServedIfThereIsOne) {
   sink_.reset();
   serve({.head_script = "class HeadView {}\n", .head_model = {1, 2, 3}});
   EXPECT_EQ(body_of(get(port_, "/head.bin")), std::string("\x01\x02\x03"));
-  EXPECT_THAT(body_of(get(port_, "/")), HasSubstr("<script type=\"module\">\nclass HeadView"));
+  EXPECT_THAT(body_of(get(port_, "/")), HasSubstr("<script type=\"module\" src=\"head.js\">"));
+  EXPECT_THAT(body_of(get(port_, "/head.js")), ::testing::StartsWith("class HeadView"));
   EXPECT_FALSE(web::make_web_sink("http://127.0.0.1:0/", {.head_script = "x"}));
 }
 
@@ -108,7 +113,7 @@ TEST_F(Http, OnlyGetIsServed) {
     Connection connection(port_);
     connection.send(
         std::string(method) +
-        " / HTTP/1.1\r\nHost: x\r\nContent-Length: 5\r\nConnection: close\r\n\r\nhello");
+        " / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 5\r\nConnection: close\r\n\r\nhello");
     const std::string response = connection.read_all(2);
     EXPECT_THAT(response, Not(HasSubstr("</html>\n"))) << method;
     EXPECT_NE(status_of(response), 200) << method;
@@ -120,36 +125,52 @@ TEST_F(Http, OriginsArePutInTheirPlace) {
   serve();
   const std::string own = "Origin: http://127.0.0.1:" + std::to_string(port_) + "\r\n";
   const auto opened = [&](const std::string& headers) {
-    Connection socket(port_);
-    socket.send(upgrade(port_, "/face", headers));
-    return status_of(socket.read([](const std::string& text) { return text.size() > 12; }, 2));
+    return status_of_socket(port_, "/face", headers);
   };
   EXPECT_EQ(opened(""), 101);
   EXPECT_EQ(opened(own), 101);
   EXPECT_EQ(opened("Origin: http://evil.example\r\n"), 403);
   EXPECT_EQ(opened("Origin: null\r\n"), 403);
   sink_.reset();
-  serve({.allow_origin = "https://good.example"});
-  EXPECT_EQ(opened("Origin: https://good.example\r\n"), 101);
+  serve({.allow_origins = {"https://good.example", "http://other.example:8000"}});
+  for (const std::string good : {"https://good.example", "http://other.example:8000"}) {
+    EXPECT_EQ(opened("Origin: " + good + "\r\n"), 101);
+    const std::string info = get(port_, "/info.json", "Origin: " + good + "\r\n");
+    EXPECT_EQ(header_of(info, "access-control-allow-origin"), good);
+  }
   EXPECT_EQ(opened("Origin: http://evil.example\r\n"), 403);
-  EXPECT_THAT(get(port_, "/info.json"),
-              HasSubstr("access-control-allow-origin: https://good.example"));
+  const std::string evil = get(port_, "/info.json", "Origin: http://evil.example\r\n");
+  EXPECT_EQ(header_of(evil, "access-control-allow-origin"), "");
+  EXPECT_EQ(header_of(evil, "cross-origin-resource-policy"), "same-origin");
+  sink_.reset();
+  serve({.allow_origins = {"*"}});
+  EXPECT_EQ(opened("Origin: http://evil.example\r\n"), 101);
+  const std::string all = get(port_, "/info.json", "Origin: http://evil.example\r\n");
+  EXPECT_EQ(header_of(all, "access-control-allow-origin"), "*");
 }
 
-TEST_F(Http, ClientsAreCounted) {
+// A page has two sockets and is one viewer.
+TEST_F(Http, ViewersAreCounted) {
   serve({.max_clients = 2});
   std::vector<std::unique_ptr<Connection>> sockets;
-  for (int i = 0; i < 4; ++i) {
+  const auto open = [&](const std::string& path) {
     sockets.push_back(std::make_unique<Connection>(port_));
-    sockets.back()->send(upgrade(port_, "/faps"));
-    const int status = status_of(
-        sockets.back()->read([](const std::string& text) { return text.size() > 12; }, 2));
-    EXPECT_EQ(status, i < 2 ? 101 : 503) << i;
-  }
+    sockets.back()->send(upgrade(port_, path));
+    return status_of(
+        sockets.back()->read([](const std::string& text) { return text.size() > 12; }, 5));
+  };
+  EXPECT_EQ(open("/faps"), 101);
+  EXPECT_EQ(open("/audio"), 101);
+  EXPECT_EQ(sink_->stats().receivers, 1);
+  EXPECT_EQ(open("/face"), 101);
+  EXPECT_EQ(open("/audio"), 101);
   EXPECT_EQ(sink_->stats().receivers, 2);
+  EXPECT_EQ(open("/faps"), 503);
+  EXPECT_EQ(open("/audio"), 503);
   EXPECT_EQ(status_of(get(port_, "/talk.mp4")), 503);
+  EXPECT_EQ(sink_->stats().receivers, 2);
   sockets.clear();
-  for (int i = 0; i < 100 && sink_->stats().receivers > 0; ++i) {
+  for (int i = 0; i < 500 && sink_->stats().receivers > 0; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   EXPECT_EQ(sink_->stats().receivers, 0) << "places become free";
@@ -247,7 +268,7 @@ TEST_F(Http, TheTalkIsAnMp4) {
     const std::size_t middle = sound->packets.size() / 2;
     send(0, middle);
     Connection player(port);
-    player.send("GET /talk.mp4 HTTP/1.1\r\nHost: x\r\n\r\n");
+    player.send("GET /talk.mp4 HTTP/1.1\r\nHost: localhost\r\n\r\n");
     std::string response = player.read([](const std::string& text) { return text.size() > 900; });
     EXPECT_THAT(response, HasSubstr("audio/mp4"));
     send(middle, sound->packets.size());

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "tools/commands/common.h"
 #include "tools/commands/face_text.h"
@@ -11,6 +12,7 @@
 #include "tools/live/receive_report.h"
 #include "tools/media/live/pacer.h"
 #include "tools/media/live/recorder.h"
+#include "tools/media/live/recording_file.h"
 
 namespace animeme::tools {
 
@@ -51,7 +53,8 @@ class Reception {
       : options_(options),
         source_(source),
         recorder_({.duration = options.duration, .keep = !live::is_fap_output(options.output)}),
-        text_(options.output, text_options(options)) {}
+        text_(options.output, text_options(options)),
+        file_(options.output) {}
 
   bool has_face() const { return recorder_.recovery().usable > 0; }
   bool has_sound() const { return recorder_.sound_seconds() > 0; }
@@ -60,17 +63,22 @@ class Reception {
   /// Until the sender ends, the time is over, or Ctrl-C. Errors: those of the source, of decoding
   /// and of standard output; what came before is kept.
   Result<void> run();
-  Result<void> write();
+  /// Completes what was written.
+  Result<void> finish();
   void report();
 
  private:
   Result<void> take(media::LiveEvent event);
+  Result<void> keep(const media::LiveUnit& unit);
+  Result<void> record(bool idle);
   void look(double now);
 
   const ReceiveOptions& options_;
   media::LiveSource& source_;
   media::Recorder recorder_;
   live::FapOutput text_;
+  media::RecordingFile file_;
+  bool told_of_recoding_ = false;
   StatusLine status_;
   std::vector<media::IntraInterval> intervals_;
   std::optional<double> first_;  // instant of the first unit
@@ -78,15 +86,30 @@ class Reception {
 };
 
 Result<void> Reception::take(media::LiveEvent event) {
+  const bool idle = std::holds_alternative<media::LiveIdle>(event);
   const std::optional<media::LiveUnit> unit = recorder_.accept(std::move(event));
   for (const media::IntraInterval& interval : recorder_.take_intervals()) {
     if (intervals_.size() < kMostIntervals) intervals_.push_back(interval);
   }
-  if (!unit) return {};
-  const std::string text = text_.push(*unit, recorder_.info()->timescale, recorder_.after_gap());
-  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (!text_.wanted()) return record(idle);
+  return unit ? keep(*unit) : Result<void>();
+}
+
+/// As text.
+Result<void> Reception::keep(const media::LiveUnit& unit) {
+  const auto text = text_.push(unit, recorder_.info()->timescale, recorder_.after_gap());
+  if (!text) return text.error();
+  const bool written = std::fwrite(text->data(), 1, text->size(), stdout) == text->size();
   if (written && std::fflush(stdout) == 0) return {};
   return make_error(Code::io, "the frames cannot be written: nobody reads standard output");
+}
+
+Result<void> Reception::record(bool idle) {
+  auto written = idle ? file_.flush() : file_.write(recorder_);
+  if (file_.recodes() && !std::exchange(told_of_recoding_, true)) {
+    say("the sound is coded again as aac, since .ts files take no opus");
+  }
+  return written;
 }
 
 void Reception::look(double now) {
@@ -118,7 +141,7 @@ Result<void> Reception::run() {
   return take(media::LiveEnd{});
 }
 
-Result<void> Reception::write() {
+Result<void> Reception::finish() {
   if (text_.wanted()) {
     if (!text_options(options_).exact) {
       warn_of_rate(name_of_output(options_.output), text_.rate(),
@@ -130,7 +153,7 @@ Result<void> Reception::write() {
     warn("a raw stream has no place for missing planes: " + options_.output +
          " is shorter than what was sent; mp4 keeps the times");
   }
-  return live::write_recording(options_.output, recorder_.recording(), talk());
+  return file_.finish();
 }
 
 void Reception::report() {
@@ -161,7 +184,7 @@ Result<int> run(const ReceiveOptions& options) {
   if (options.json && options.output == "-") {
     return usage_error("--json and the frames of -o - both go to standard output");
   }
-  if (auto ok = live::check_folder(options.output); !ok) return ok.error();
+  if (auto ok = live::check_place(options.output); !ok) return ok.error();
   auto source = live::open_source(options.source, options.receive);
   if (!source && source.error().code == Code::invalid_argument) {
     return usage_error(source.error().message);
@@ -173,7 +196,7 @@ Result<int> run(const ReceiveOptions& options) {
   const bool enough =
       reception.has_face() || (live::is_container_output(options.output) && reception.has_sound());
   if (enough) {
-    if (auto written = reception.write(); !written) return written.error();
+    if (auto written = reception.finish(); !written) return written.error();
   }
   reception.report();
   if (!received) return received.error().in_file(options.source);
@@ -235,7 +258,10 @@ const Command kReceive{
     "  animeme receive udp://239.1.2.3:5004 -o talk.fba --duration 60 --stats\n"
     "  animeme receive talk.sdp -o - --fill | my_avatar\n"
     "Ends when the sender says goodbye, at --duration, after --timeout, or at Ctrl-C (exit code "
-    "130);\nwhat was received till then is written whole.",
+    "130). What comes is on the disk within a second, under its name, and can be played "
+    "whatever ends the\nprogram; a file of that name is replaced when the first second is there. "
+    "An "
+    ".mp4 is fragmented.",
     set_up<ReceiveOptions>};
 
 }  // namespace animeme::tools

@@ -268,6 +268,26 @@ void add_coding_options(CLI::App& app, StreamOptions& options) {
       ->check(CLI::Range(6000, 320000));
 }
 
+void add_web_options(CLI::App& app, web::WebOptions& options) {
+  app.add_option("--max-clients", options.max_clients,
+                 "http: viewers at the same time, each with a face, a sound or both")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--max-per-address", options.per_address,
+                 "http: connections of one address at the same time, about two a viewer; 0: any "
+                 "number, behind a proxy")
+      ->check(CLI::Range(0, 10000))
+      ->capture_default_str();
+  app.add_option("--allow-origin", options.allow_origins,
+                 "http: pages elsewhere that may use the server, as https://example.org; may be "
+                 "repeated; *: all")
+      ->allow_extra_args(false);
+  app.add_option("--host-name", options.host_names,
+                 "http: a name by which browsers call the server, besides the names and addresses "
+                 "of its machine; may be repeated; *: any")
+      ->allow_extra_args(false);
+}
+
 void add_options(CLI::App& app, StreamOptions& options) {
   add_source_options(app, options);
   app.add_option(
@@ -291,6 +311,7 @@ void add_options(CLI::App& app, StreamOptions& options) {
                  "rtp: planes a packet; more save headers and cost delay")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();
+  add_web_options(app, options.sink.web);
   add_coding_options(app, options);
   app.add_flag("--fast", options.fast, "Do not wait for the clock, send as fast as it goes");
   app.add_flag("--stats", options.stats, "Tell once a second how it goes");

@@ -2,16 +2,22 @@
 
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <optional>
 #include <utility>
 
+#include "fap/receiver.h"
 #include "fap/text.h"
 #include "tools/files/files.h"
-#include "tools/media/mux.h"
 
 namespace animeme::live {
 
 namespace {
+
+constexpr int kFramesAtOnce = 500;
 
 std::string name_of(const std::string& output) {
   return output == "-" ? "live" : std::filesystem::path(output).stem().string();
@@ -21,6 +27,11 @@ std::optional<fap::FillOptions> shown_by(const FapOutputOptions& options) {
   if (options.coded) return std::nullopt;
   return fap::FillOptions{
       .keep_high_level = !options.fill, .expand = options.expand, .complete = options.fill};
+}
+
+Error not_written(const std::string& output) {
+  return make_error(Code::io, std::string("cannot be written: ") + std::strerror(errno))
+      .in_file(output);
 }
 
 }  // namespace
@@ -34,8 +45,12 @@ bool is_fap_output(const std::string& output) {
   return output == "-" || tools::extension_of(output) == ".fap";
 }
 
-Result<void> check_folder(const std::string& output) {
+Result<void> check_place(const std::string& output) {
   if (output == "-") return {};
+  std::error_code ignored;
+  if (std::filesystem::is_directory(output, ignored)) {
+    return make_error(Code::io, "this is a folder; give the name of a file").in_file(output);
+  }
   const std::filesystem::path folder = std::filesystem::path(output).parent_path();
   if (::access(folder.empty() ? "." : folder.c_str(), W_OK) == 0) return {};
   return make_error(Code::io, "cannot write into this folder").in_file(output);
@@ -46,54 +61,68 @@ FapOutput::FapOutput(const std::string& output, const FapOutputOptions& options)
   options_.exact = options.exact || options.coded || options.gap == media::GapRule::skip;
 }
 
-std::string FapOutput::push(const media::LiveUnit& unit, std::uint32_t timescale, bool after_gap) {
-  if (!wanted() || unit.track != media::LiveTrack::face) return {};
-  const std::vector<fap::Frame> frames = frames_.push(unit, timescale, after_gap);
-  clip_.rate = frames_.rate();
-  if (output_ != "-") {
-    clip_.frames.insert(clip_.frames.end(), frames.begin(), frames.end());
-    return {};
-  }
+std::string FapOutput::header(std::int64_t frames) const {
+  return fap::text_header(frames_.rate(), name_of(output_), frames,
+                          {.whole_rate = !options_.exact});
+}
+
+Result<std::string> FapOutput::push(const media::LiveUnit& unit, std::uint32_t timescale,
+                                    bool after_gap) {
   std::string text;
-  if (!begun_ && !frames.empty()) {
-    text = fap::text_header(clip_.rate, name_of(output_), 0, {.whole_rate = !options_.exact});
-    begun_ = true;
-  }
+  if (!wanted() || unit.track != media::LiveTrack::face) return text;
+  const std::vector<fap::Frame> frames = frames_.push(unit, timescale, after_gap);
+  if (frames.empty()) return text;
+  if (count_ == 0) text = header(0);
   for (const fap::Frame& frame : frames) fap::append_text(text, frame);
-  return text;
+  count_ += std::int64_t(frames.size());
+  mask_ = frames.back().mask;
+  if (output_ == "-") return text;
+  if (auto appended = append(text); !appended) return appended.error();
+  return std::string();
+}
+
+Result<void> FapOutput::append(const std::string& text) {
+  if (file_ == nullptr) {
+    // The first text takes the place of an old file as a whole; the rest is put behind it.
+    if (auto begun = tools::write_file(output_, text); !begun) return begun;
+    file_.reset(std::fopen(output_.c_str(), "ab"));
+    return file_ != nullptr ? Result<void>() : not_written(output_);
+  }
+  const bool written = std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size() &&
+                       std::fflush(file_.get()) == 0;
+  return written ? Result<void>() : not_written(output_);
+}
+
+/// Writes the file once more, with the count of frames and with one mask for all.
+Result<void> FapOutput::complete() {
+  std::ifstream in(output_, std::ios::binary);
+  tools::OutputFile out(output_);
+  std::string line, text;
+  std::getline(in, line);  // the header
+  if (auto ok = out.write(header(count_)); !ok) return ok;
+  while (in) {
+    text = header(0);
+    for (int lines = 0; lines < 2 * kFramesAtOnce && std::getline(in, line); ++lines) {
+      text += line + '\n';
+    }
+    Result<fap::Sequence> clip = fap::read_text(text, {.keep_numbers = true});
+    if (!clip) return clip.error().in_file(output_);
+    text.clear();
+    for (const fap::Frame& frame : clip->frames) {
+      fap::append_text(text, options_.coded ? frame : fap::with_mask(frame, mask_));
+    }
+    if (auto ok = out.write(text); !ok) return ok;
+    in.peek();
+  }
+  return out.publish();
 }
 
 Result<void> FapOutput::finish() {
-  if (output_ == "-") return {};
-  clip_.name = name_of(output_);
-  if (!options_.coded && !clip_.frames.empty()) {
-    const fap::Mask all = clip_.frames.back().mask;
-    for (fap::Frame& frame : clip_.frames) frame = fap::with_mask(frame, all);
-  }
-  return tools::write_file(output_, fap::write_text(clip_, {.whole_rate = !options_.exact}));
-}
-
-Result<void> write_recording(const std::string& output, const media::Recording& recording,
-                             const tools::Talk& talk) {
-  const bool face = !recording.face.units.empty(), sound = !recording.sound.packets.empty();
-  if (tools::extension_of(output) == ".fba")
-    return tools::write_file(output, fba::join_access_units(recording.face));
-  media::MuxInput input;
-  media::Pcm decoded;
-  if (face) input.face = &recording.face;
-  if (sound) input.encoded = &recording.sound;
-  const bool opus = sound && recording.sound.format.codec == media::AudioCodec::opus;
-  if (opus && tools::extension_of(output) == ".ts") {
-    Result<media::Pcm> pcm = media::decode_audio(recording.sound);
-    if (!pcm) return pcm.error();
-    talk.say("the sound is coded again as aac, since .ts files take no opus");
-    decoded = std::move(*pcm);
-    input.encoded = nullptr;
-    input.audio = &decoded;
-  }
-  const auto written = media::write_container(output, input);
-  if (!written) return written.error().in_file(output);
-  return {};
+  if (file_ == nullptr) return {};
+  file_.reset();
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(output_, ignored)) return {};  // a pipe
+  return complete();
 }
 
 }  // namespace animeme::live

@@ -46,6 +46,12 @@ Result<void> Sinks::each(Act act) {
 Result<void> Sinks::start(const media::LiveInfo& info) {
   for (Address& address : addresses_) {
     if (auto ok = address.sink->start(info); !ok) return ok.error().in_file(address.url);
+    if (!web::is_open_to_others(address.url)) continue;
+    talk_.warn(
+        address.url +
+        " is open to every machine that can reach this one: the page, the values and the "
+        "sound, without a password. http://127.0.0.1:PORT is for this machine alone; a proxy "
+        "in front of that one can ask for a password");
   }
   return {};
 }

@@ -29,7 +29,7 @@ class Sinks {
                             const std::vector<std::string>& sdp, const SinkOptions& options,
                             const tools::Talk& talk = {});
 
-  /// Errors: of any address.
+  /// A web server that is open to other machines is warned of. Errors: of any address.
   Result<void> start(const media::LiveInfo& info);
   /// Errors: when the last address breaks.
   Result<void> send(const media::LiveUnit& unit);

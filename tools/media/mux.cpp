@@ -17,7 +17,6 @@
 #include "tools/media/detail/segment_writer.h"
 #include "tools/media/detail/systems_movie.h"
 #include "tools/media/detail/ts_pmt.h"
-#include "tools/media/detail/ts_sections.h"
 
 namespace animeme::media {
 namespace {
@@ -96,23 +95,6 @@ OutputStream::Filter filter_of(const FileType& type, const MuxInput& input) {
   if (!type.is_ts() || input.face == nullptr) return nullptr;
   const auto filter = std::make_shared<ProgramMapFilter>(std::uint8_t(visual_profile(input)));
   return [filter](std::span<const std::uint8_t> bytes) { return filter->push(bytes); };
-}
-
-// libavformat takes nothing for a transport stream that has less than eleven packets.
-Result<void> fill_up_ts(const std::string& path) {
-  constexpr std::size_t kFewest = 16;
-  std::error_code status;
-  const auto size = std::size_t(std::filesystem::file_size(path, status));
-  if (status || size >= kFewest * kTsPacket) return {};
-  std::vector<char> packet(kTsPacket, char(0xFF));
-  const std::array<std::uint8_t, 4> header = {kTsSync, kTsNoPid >> 8, kTsNoPid & 0xFF, 0x10};
-  std::copy(header.begin(), header.end(), packet.begin());
-  std::ofstream out(path, std::ios::binary | std::ios::app);
-  for (std::size_t i = size / kTsPacket; i < kFewest; ++i) {
-    out.write(packet.data(), std::streamsize(packet.size()));
-  }
-  out.close();
-  return out ? Result<void>() : make_error(Code::io, "cannot write the file; check the free space");
 }
 
 Result<MuxResult> write_streams(const std::string& path, const FileType& type,

@@ -32,8 +32,12 @@ inline constexpr int kWebTimeZero = 1;
 
 /// For both directions.
 struct WebOptions {
-  /// WebSockets and /talk.mp4 at the same time, 1..1000; whoever comes then gets 503.
+  /// Viewers at the same time, 1..1000; whoever comes then gets 503. A viewer has a WebSocket for
+  /// the face, one for the sound (or /talk.mp4), or both.
   int max_clients = 64;
+  /// Connections of one address (of IPv6: of one network) at the same time; 0: any number, as a
+  /// proxy in front of the server wants it.
+  int per_address = 32;
   /// Bytes that may wait for one client. When it has more, they are thrown away
   /// (SendStats::dropped), and it goes on with the next intra plane or segment.
   std::size_t client_bytes = std::size_t(1) << 20;
@@ -44,9 +48,14 @@ struct WebOptions {
   bool catch_up = true;
   /// Packets of sound in a segment, 1..64. Less delay or less traffic: 4 of AAC are 85 ms.
   int packets_per_segment = 4;
-  /// Origin of pages elsewhere that may use this server ("https://example.org"; "*": all). Empty:
+  /// Origins of pages elsewhere that may use this server ("https://example.org"; "*": all). None:
   /// only pages of this server and programs that are no browsers.
-  std::string allow_origin;
+  std::vector<std::string> allow_origins;
+  /// Names and addresses by which this server may be called in the Host header of a request,
+  /// besides its own: localhost, the address at which it listens and, if that is open to others,
+  /// the names and addresses of this machine. Others get 421, since a page elsewhere could call
+  /// itself so (DNS rebinding). "*": any.
+  std::vector<std::string> host_names;
   /// A head for the page, in place of its schematic face: viewer::head_script() and the bytes of
   /// viewer::pack_head(), which the server then has as /head.bin. Both or none. Browsers without
   /// WebGL2 keep the schematic face.
@@ -55,6 +64,10 @@ struct WebOptions {
   /// Source: bytes that may wait for next(); the network waits when they are full.
   std::size_t queue_bytes = std::size_t(4) << 20;
 };
+
+/// Can other machines reach a server at this address ("http://0.0.0.0:8080/")? False for what is no
+/// such address.
+bool is_open_to_others(const std::string& url);
 
 /// A LiveSink that can tell where it is.
 class WebSink : public media::LiveSink {

@@ -12,6 +12,8 @@ Error absent() {
 
 }  // namespace
 
+bool is_open_to_others(const std::string&) { return false; }
+
 Result<std::unique_ptr<WebSink>> make_web_sink(const std::string&, const WebOptions&) {
   return absent();
 }

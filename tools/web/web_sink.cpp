@@ -4,6 +4,7 @@
 
 #include "tools/media/detail/words_internal.h"
 #include "tools/media/live/audio_segments.h"
+#include "tools/web/detail/headers.h"
 #include "tools/web/detail/messages.h"
 #include "tools/web/detail/server.h"
 #include "tools/web/detail/values.h"
@@ -19,6 +20,10 @@ constexpr double kSoundBefore = 0.25;  // seconds of it that newcomers get befor
 constexpr double kSoundAlone = 1;      // the same where there is no face
 
 Error invalid(const char* what) { return make_error(Code::invalid_argument, what); }
+
+bool is_plain(const std::string& text) {
+  return std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c <= '~'; });
+}
 
 template <class Body>
 Result<void> guarded(const Body& body) {
@@ -191,6 +196,11 @@ Result<void> Sink::flush() {
 
 }  // namespace
 
+bool is_open_to_others(const std::string& url) {
+  const Result<WebAddress> address = parse_web_address(url);
+  return address && listens_for_others(*address);
+}
+
 Result<std::unique_ptr<WebSink>> make_web_sink(const std::string& url, const WebOptions& options) {
   Result<WebAddress> address = parse_web_address(url);
   if (!address) return address.error();
@@ -206,8 +216,22 @@ Result<std::unique_ptr<WebSink>> make_web_sink(const std::string& url, const Web
   if (options.head_script.empty() != options.head_model.empty()) {
     return invalid("a head for the page needs its script and its model");
   }
-  for (const char c : options.allow_origin) {
-    if (c <= ' ' || c > '~') return invalid("the origin has characters that no origin has");
+  if (options.per_address < 0) return invalid("connections of an address cannot be negative");
+  for (const std::string& origin : options.allow_origins) {
+    const bool known =
+        origin == "*" || origin.starts_with("http://") || origin.starts_with("https://");
+    const bool whole = origin.find('/', origin.find("//") + 2) == std::string::npos;
+    if (!known || (origin != "*" && !whole) || !is_plain(origin)) {
+      return make_error(Code::invalid_argument,
+                        "'" + origin + "' is no origin; write it as https://example.org, or *");
+    }
+  }
+  for (const std::string& name : options.host_names) {
+    if (name.empty() || !is_plain(name) || name.find('/') != std::string::npos) {
+      return make_error(
+          Code::invalid_argument,
+          "'" + name + "' is no name of a host; write it as example.org, without http://");
+    }
   }
   return std::unique_ptr<WebSink>(new Sink(std::move(*address), options));
 }

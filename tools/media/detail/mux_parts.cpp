@@ -1,6 +1,9 @@
 #include "tools/media/detail/mux_parts.h"
 
 #include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <utility>
 
@@ -8,6 +11,7 @@
 #include "tools/media/detail/face_header.h"
 #include "tools/media/detail/invalid.h"
 #include "tools/media/detail/systems_scene.h"
+#include "tools/media/detail/ts_sections.h"
 #include "tools/media/detail/unit_facts.h"
 
 namespace animeme::media {
@@ -148,6 +152,22 @@ Result<std::optional<SoundSource>> open_sound(const MuxInput& input, const MuxOp
     sound.emplace(std::move(*opened));
   }
   return sound;
+}
+
+Result<void> fill_up_ts(const std::string& path) {
+  constexpr std::size_t kFewest = 16;
+  std::error_code status;
+  const auto size = std::size_t(std::filesystem::file_size(path, status));
+  if (status || size >= kFewest * kTsPacket) return {};
+  std::vector<char> packet(kTsPacket, char(0xFF));
+  const std::array<std::uint8_t, 4> header = {kTsSync, kTsNoPid >> 8, kTsNoPid & 0xFF, 0x10};
+  std::copy(header.begin(), header.end(), packet.begin());
+  std::ofstream out(path, std::ios::binary | std::ios::app);
+  for (std::size_t i = size / kTsPacket; i < kFewest; ++i) {
+    out.write(packet.data(), std::streamsize(packet.size()));
+  }
+  out.close();
+  return out ? Result<void>() : make_error(Code::io, "cannot write the file; check the free space");
 }
 
 }  // namespace animeme::media

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "tools/media/detail/ffmpeg.h"
 #include "tools/media/detail/sound_source.h"
@@ -36,6 +37,10 @@ void set_fragment_options(const char* cut, double seconds, av::Options& header);
 
 /// A transport stream; `shared_seconds` as in MuxOptions.
 void set_ts_options(double shared_seconds, av::Options& header);
+
+/// Adds empty packets to a transport stream at `path` that is very short: libavformat takes nothing
+/// for one that has less than eleven. Error: io.
+Result<void> fill_up_ts(const std::string& path);
 
 /// The sound of `input`, coded as `options` say; nothing: there is none. Errors: those of
 /// AudioEncoder::open() and AudioReader::open().

@@ -1,5 +1,9 @@
 #include "tools/media/detail/muxer.h"
 
+extern "C" {
+#include <libavutil/opt.h>
+}
+
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -58,7 +62,7 @@ bool Muxer::is(const char* format) const {
   return std::strcmp(context_->oformat->name, format) == 0;
 }
 
-Result<void> Muxer::add_face(const fba::AccessUnits& units) {
+Result<void> Muxer::add_face(const fba::AccessUnits& units, Whole whole) {
   AVStream* stream = avformat_new_stream(context_, nullptr);
   if (stream == nullptr) return av::no_memory();
   AVCodecParameters& parameters = *stream->codecpar;
@@ -66,7 +70,8 @@ Result<void> Muxer::add_face(const fba::AccessUnits& units) {
   parameters.codec_id = AV_CODEC_ID_MPEG4;
   parameters.width = 320;  // as the reference library writes it; 0 is refused
   parameters.height = 240;
-  if (!av::set_extradata(parameters, units.config) || !set_buffer_facts(*stream, units)) {
+  if (!av::set_extradata(parameters, units.config) ||
+      (whole == Whole::yes && !set_buffer_facts(*stream, units))) {
     return av::no_memory();
   }
   stream->time_base = {1, int(container_timescale(units.timescale))};
@@ -182,7 +187,13 @@ Result<void> Muxer::end_fragment() {
   Result<void> flushed = check(av_interleaved_write_frame(context_, nullptr));
   // With delay_moov the first call writes the contents only; one too many does nothing.
   for (int i = 0; flushed && i < 2; ++i) flushed = check(av_write_frame(context_, nullptr));
-  return flushed;
+  avio_flush(context_->pb);
+  return flushed ? check(0) : flushed;
+}
+
+void Muxer::allow_late_track() {
+  // Else libavformat 5.1 begins it at 0. Other formats do not know the option.
+  if (is("mp4")) av_opt_set(context_->priv_data, "movflags", "+frag_discont", 0);
 }
 
 Result<void> Muxer::finish() {

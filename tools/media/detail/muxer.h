@@ -24,8 +24,11 @@ class Muxer {
   Muxer(const Muxer&) = delete;
   Muxer& operator=(const Muxer&) = delete;
 
-  /// Adds the face stream. `units` must outlive the muxer.
-  Result<void> add_face(const fba::AccessUnits& units);
+  /// Are the units all there are? Else what a decoder is told of them is left open.
+  enum class Whole : bool { no, yes };
+  /// Adds the face stream. `units` must outlive the muxer; it has one at least, whose duration
+  /// tells the rate.
+  Result<void> add_face(const fba::AccessUnits& units, Whole whole = Whole::yes);
   /// Adds the pictures; before the face, so that players choose them. `video` must outlive the
   /// muxer.
   Result<void> add_video(const EncodedVideo& video);
@@ -41,8 +44,12 @@ class Muxer {
   Result<void> write_picture(const VideoPacket& packet);
   /// Takes the packet's content. Times in the time_base given to add_stream().
   Result<void> write_packet(AVPacket& packet);
-  /// mp4 with frag_custom: what comes next begins a fragment.
+  /// What was written goes to the disk, and what comes next begins a fragment (mp4 with
+  /// frag_custom) or a cluster.
   Result<void> end_fragment();
+  /// Before the first packet of a track that comes after the first fragment (mp4): it keeps its
+  /// time.
+  void allow_late_track();
   /// Completes the file and closes it.
   Result<void> finish();
 

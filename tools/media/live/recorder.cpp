@@ -1,27 +1,11 @@
 #include "tools/media/live/recorder.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
-
-#include "tools/media/detail/face_header.h"
 
 #include "tools/media/live/presentation.h"
 
 namespace animeme::media {
-
-namespace {
-
-constexpr std::size_t kCodeBytes = 4;
-
-// Streams begin with the object start code, planes in their middle do not.
-void add_object_start(std::vector<std::uint8_t>& bytes) {
-  const bool plane = bytes.size() >= kCodeBytes && bytes[0] == 0 && bytes[1] == 0 &&
-                     bytes[2] == 1 && bytes[3] == 0xBB;
-  if (plane) bytes.insert(bytes.begin(), kObjectStart.begin(), kObjectStart.end());
-}
-
-}  // namespace
 
 bool Recorder::take_info(const LiveInfo& info) {
   if (!info_) {
@@ -39,8 +23,7 @@ bool Recorder::take_info(const LiveInfo& info) {
 bool Recorder::beyond(const LiveUnit& unit) {
   const double seconds = seconds_of(*info_, unit.track, unit.time);
   if (!first_) first_ = seconds;
-  const bool late = options_.duration > 0 && seconds >= *first_ + options_.duration;
-  return late || bytes_ + unit.bytes.size() > options_.max_bytes;
+  return options_.duration > 0 && seconds >= *first_ + options_.duration;
 }
 
 bool Recorder::keep(const LiveUnit& unit) {
@@ -54,35 +37,38 @@ bool Recorder::keep(const LiveUnit& unit) {
     left_out_ = left_out;
     if (!last) face_begin_ = unit.time;
     face_end_ = unit.time + duration;
-    if (options_.keep) {
-      if (last) face_.units.back().duration = unit.time - *last;
-      face_.units.push_back({unit.bytes, unit.intra, unit.time, duration});
-    }
   } else {
     sound_samples_ += duration;
-    if (options_.keep) sound_.packets.push_back({unit.bytes, unit.time, duration});
   }
   last = unit.time;
-  if (options_.keep) bytes_ += unit.bytes.size();
+  if (options_.keep) {
+    LiveUnit own = unit;
+    own.duration = duration;
+    times_.push(*info_, std::move(own));
+  }
   return true;
 }
 
 std::optional<LiveUnit> Recorder::accept(LiveEvent event) {
   if (ended_) return std::nullopt;
   if (const auto* info = std::get_if<LiveInfo>(&event); info != nullptr && !take_info(*info)) {
-    ended_ = true;
     event = LiveEnd{};
   }
-  if (std::holds_alternative<LiveEnd>(event)) ended_ = true;
+  if (std::holds_alternative<LiveEnd>(event)) end();
   std::optional<LiveUnit> unit = recovery_.accept(std::move(event));
   if (!unit || !info_) return std::nullopt;
   if (beyond(*unit)) {
-    ended_ = true;
+    end();
     (void)recovery_.accept(LiveEnd{});
     return std::nullopt;
   }
   if (!keep(*unit)) return std::nullopt;
   return unit;
+}
+
+void Recorder::end() {
+  ended_ = true;
+  if (info_) times_.finish(*info_);
 }
 
 double Recorder::face_seconds() const {
@@ -91,31 +77,6 @@ double Recorder::face_seconds() const {
 
 double Recorder::sound_seconds() const {
   return info_ ? seconds_of(*info_, LiveTrack::audio, sound_samples_) : 0;
-}
-
-Recording Recorder::recording() const {
-  Recording out{face_, sound_};
-  if (!info_) return out;
-  out.face.config = info_->face_config;
-  out.face.timescale = info_->timescale;
-  const double scale = info_->timescale;
-  std::int64_t face_zero = face_.units.empty() ? 0 : face_.units.front().time;
-  std::int64_t sound_zero = 0;
-  if (!sound_.packets.empty()) {
-    out.sound.format = *info_->audio;
-    const double rate = out.sound.format.sample_rate;
-    sound_zero = sound_.packets.front().time + out.sound.format.priming;
-    const auto sound_tick = std::llround(double(sound_zero) / rate * scale);
-    if (face_.units.empty() || sound_tick <= face_zero) {
-      face_zero = sound_tick;
-    } else {
-      sound_zero = std::llround(double(face_zero) / scale * rate);
-    }
-  }
-  for (fba::AccessUnit& unit : out.face.units) unit.time -= face_zero;
-  for (AudioPacket& packet : out.sound.packets) packet.time -= sound_zero;
-  if (!out.face.units.empty()) add_object_start(out.face.units.front().bytes);
-  return out;
 }
 
 }  // namespace animeme::media

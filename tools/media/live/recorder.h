@@ -1,28 +1,27 @@
 /// @file
-/// What a source gives out, kept: a face and its sound as they can be written into a file.
+/// What a source gives out, as it can be shown and written into a file while it comes.
 ///
 ///     Recorder recorder;
+///     RecordingFile file("talk.mp4");
 ///     while (!recorder.ended()) {
 ///       auto event = source->next(0.1);
 ///       if (!event) break;
 ///       if (auto unit = recorder.accept(std::move(*event))) show(*unit);
+///       file.write(recorder);
 ///     }
-///     Recording talk = recorder.recording();
+///     file.finish();
 ///
 /// Planes and packets keep their bytes and their distances. After a loss the plane before it is
 /// held (it lasts longer) until the next plane that can be decoded; missing sound is a gap in the
 /// packets' times. Who joins in the middle begins with the first intra plane.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "codec/decode/access_unit.h"
-#include "tools/media/encoded_audio.h"
 #include "tools/media/live/live.h"
+#include "tools/media/live/recorded_times.h"
 #include "tools/media/live/recovery.h"
 
 namespace animeme::media {
@@ -31,22 +30,12 @@ namespace animeme::media {
 struct RecorderOptions {
   /// Seconds of presentation after which it ends; 0: never.
   double duration = 0;
-  /// More than this ends it, too (some 30 hours of face and sound).
-  std::size_t max_bytes = std::size_t(1) << 30;
-  /// False: units are given back but not kept, for who only wants to see them, however long.
+  /// False: take_units() has nothing, for who only wants to see them.
   bool keep = true;
 };
 
-/// Time 0 is where the first of both begins: the first plane, or the first sample that can be
-/// heard (behind the priming of the first packet). A presentation that was received from its begin
-/// on has the times of its sender. Where time 0 lies between two ticks of the other track, that is
-/// rounded to the nearest one, all of it alike.
-struct Recording {
-  fba::AccessUnits face;  ///< the first unit begins with the object start code
-  EncodedAudio sound;     ///< no packets: silent. `length`: to the end of the last packet
-};
-
-/// Collects what a source gives out, for a file.
+/// Sorts out what a source gives out. Its memory does not grow with time, as long as what there is
+/// is taken.
 class Recorder {
  public:
   /// Options as they are, unchecked.
@@ -69,25 +58,25 @@ class Recorder {
   double face_seconds() const;
   double sound_seconds() const;  ///< likewise
 
-  /// All that was kept so far. Both tracks may be empty.
-  Recording recording() const;
+  /// What a file gets next: units whose time and duration are certain by now, see RecordedTimes.
+  /// Each is given once; the last ones come when it has ended.
+  std::vector<LiveUnit> take_units() { return times_.take(); }
 
  private:
   bool take_info(const LiveInfo& info);
   bool keep(const LiveUnit& unit);
   bool beyond(const LiveUnit& unit);
+  void end();
 
   RecorderOptions options_;
   FaceRecovery recovery_;
   std::optional<LiveInfo> info_;
-  fba::AccessUnits face_;
-  EncodedAudio sound_;
+  RecordedTimes times_;
   std::optional<double> first_;                 // seconds of the first unit kept
   std::optional<std::int64_t> last_[2];         // times of the last units, by LiveTrack
   std::int64_t face_begin_ = 0, face_end_ = 0;  // ticks
   std::int64_t sound_samples_ = 0;
   std::int64_t left_out_ = 0;  // planes and losses known when the last plane was kept
-  std::size_t bytes_ = 0;
   bool after_gap_ = false;
   bool ended_ = false;
 };

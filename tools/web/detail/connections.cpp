@@ -2,6 +2,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <vector>
 
@@ -11,16 +12,13 @@
 namespace animeme::web {
 namespace {
 
+constexpr lws_usec_t kLookEvery = 250'000;      // microseconds
 constexpr std::size_t kPiece = 16384;           // of a body, at once
 constexpr std::size_t kMostFromClient = 65536;  // bytes; clients have nothing to say
 
 Channel channel_of(Resource resource) {
   if (resource == Resource::face) return Channel::face;
   return resource == Resource::faps ? Channel::faps : Channel::audio;
-}
-
-bool is_socket(Resource resource) {
-  return resource == Resource::face || resource == Resource::faps || resource == Resource::audio;
 }
 
 /// Writes `size` bytes with the room that libwebsockets wants in front of them.
@@ -44,8 +42,15 @@ int Server::callback(lws* wsi, lws_callback_reasons reason, void*, void* in, siz
 
 int Server::handle(lws* wsi, lws_callback_reasons reason, const char* in, std::size_t size) {
   switch (reason) {
+    case LWS_CALLBACK_FILTER_NETWORK_CONNECTION:  // `in` is the handle
+      entering_ = peer_of(int(reinterpret_cast<std::intptr_t>(in)));
+      return visitors_.may_enter(entering_) ? 0 : -1;
+    case LWS_CALLBACK_SERVER_NEW_CLIENT_INSTANTIATED:
+      visitors_.enter(wsi, entering_, Visitors::Clock::now());
+      disconnect_overdue();
+      return 0;
     case LWS_CALLBACK_HTTP:
-      return request(wsi, in == nullptr ? std::string() : std::string(in, size));
+      return request(wsi);
     case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION:
       return upgrade(wsi);
     case LWS_CALLBACK_ESTABLISHED:
@@ -70,8 +75,12 @@ int Server::handle(lws* wsi, lws_callback_reasons reason, const char* in, std::s
       return 0;
     case LWS_CALLBACK_CLOSED:
     case LWS_CALLBACK_CLOSED_HTTP:
+      leave(wsi);
+      return 0;
     case LWS_CALLBACK_WSI_DESTROY:
       leave(wsi);
+      visitors_.leave(wsi);
+      viewers_ = visitors_.viewers();
       return 0;
     default:
       return 0;
@@ -79,86 +88,133 @@ int Server::handle(lws* wsi, lws_callback_reasons reason, const char* in, std::s
 }
 
 bool Server::exists(Resource resource) const {
-  if (resource == Resource::none) return false;
-  if (resource == Resource::head) return !options_.head_model.empty();
-  const bool needs_sound = resource == Resource::audio || resource == Resource::talk;
-  return !needs_sound || sample_rate_ > 0;
+  if (documents_.contains(resource) || resource == Resource::info) return true;
+  if (resource == Resource::face || resource == Resource::faps) return true;
+  return (resource == Resource::audio || resource == Resource::talk) && sample_rate_ > 0;
+}
+
+/// Why it is not answered, whatever it asks for; 0: it is.
+unsigned Server::objection(lws* wsi, const Request& request) {
+  if (!visitors_.ask(wsi, Visitors::Clock::now())) return 429;
+  if (request.host.empty()) return HTTP_STATUS_BAD_REQUEST;
+  return names_.contains(request.host) ? 0 : 421;
+}
+
+/// The origin for which an answer is meant, too; empty: for that of the server alone.
+std::string Server::shared_with(const Request& request) const {
+  for (const std::string& allowed : options_.allow_origins) {
+    if (allowed == "*" || allowed == request.origin) return allowed;
+  }
+  return {};
 }
 
 /// A place in the hub. False: all are taken.
-bool Server::admit(Session& session) {
+bool Server::admit(lws* wsi, Session& session) {
+  const bool sound = channel_of(session.resource) == Channel::audio;
   const std::lock_guard lock(mutex_);
-  if (finishing_ || hub_.clients() >= std::size_t(options_.max_clients)) return false;
+  if (finishing_ || !visitors_.watch(wsi, sound)) return false;
+  viewers_ = visitors_.viewers();
   session.client = hub_.add(channel_of(session.resource));
   session.open = true;
   return true;
 }
 
-int Server::refuse(lws* wsi, unsigned status) {
-  if (lws_return_http_status(wsi, status, nullptr) != 0) return -1;
+/// The answer is complete.
+int Server::transaction_over(lws* wsi) {
+  leave(wsi);
+  visitors_.answered(wsi, Visitors::Clock::now());
   return lws_http_transaction_completed(wsi) != 0 ? -1 : 0;
 }
 
-int Server::request(lws* wsi, const std::string& path) {
-  if (lws_hdr_total_length(wsi, WSI_TOKEN_GET_URI) == 0) {
-    refuse(wsi, HTTP_STATUS_METHOD_NOT_ALLOWED);
-    return -1;  // whatever it wants to send, it stays unread
+int Server::refuse(lws* wsi, const Request& request, unsigned status) {
+  if (!send_refusal(wsi, status, request.method != Request::Method::head)) return -1;
+  // Whatever comes behind another method stays unread.
+  return request.method == Request::Method::other ? -1 : transaction_over(wsi);
+}
+
+int Server::request(lws* wsi) {
+  const Request request = request_of(wsi);
+  const unsigned status = objection(wsi, request);
+  if (status != 0) return refuse(wsi, request, status);
+  if (request.method == Request::Method::other) {
+    return refuse(wsi, request, HTTP_STATUS_METHOD_NOT_ALLOWED);
   }
-  const Resource resource = resource_of(path);
-  if (!exists(resource)) return refuse(wsi, HTTP_STATUS_NOT_FOUND);
-  if (is_socket(resource)) return refuse(wsi, 426);  // upgrade required
+  const Resource resource = resource_of(request.path);
+  if (!exists(resource)) return refuse(wsi, request, HTTP_STATUS_NOT_FOUND);
+  if (is_socket(resource)) return refuse(wsi, request, 426);  // upgrade required
   leave(wsi);
-  Session& session = sessions_[wsi];
-  session.resource = resource;
-  if (resource == Resource::talk) {
-    if (!admit(session)) return refuse(wsi, HTTP_STATUS_SERVICE_UNAVAILABLE);
-    if (!send_header(wsi, "audio/mp4", LWS_ILLEGAL_HTTP_CONTENT_LEN, options_.allow_origin)) {
-      return -1;
-    }
-    lws_set_timeout(wsi, NO_PENDING_TIMEOUT, 0);
+  return resource == Resource::talk ? talk(wsi, request) : serve(wsi, request, resource);
+}
+
+/// What there is as a whole.
+int Server::serve(lws* wsi, const Request& request, Resource resource) {
+  Session session{.resource = resource};
+  if (resource == Resource::info) {
+    const std::lock_guard lock(mutex_);
+    session.document = info_;
   } else {
-    const char* type = "application/json";
-    if (resource == Resource::page) {
-      session.body = page_;
-      type = "text/html; charset=utf-8";
-    } else if (resource == Resource::head) {
-      session.body.assign(options_.head_model.begin(), options_.head_model.end());
-      type = "application/octet-stream";
-    } else {
-      const std::lock_guard lock(mutex_);
-      session.body = info_;
-    }
-    if (!send_header(wsi, type, session.body.size(), options_.allow_origin)) return -1;
+    session.document = documents_.at(resource);
   }
+  const Document& document = *session.document;
+  session.packed = !document.packed.empty() && takes_gzip(request.accept_encoding);
+  Answer answer{.type = type_of(resource), .origin = shared_with(request)};
+  answer.embedded = answer.origin == "*";
+  answer.packed = session.packed;
+  answer.size = session.packed ? document.packed.size() : document.bytes.size();
+  if (!document.etag.empty()) answer.etag = document.etag_of(session.packed);
+  const bool known = !answer.etag.empty() && has_version(request.if_none_match, answer.etag);
+  if (known) answer.status = HTTP_STATUS_NOT_MODIFIED;
+  if (!send_header(wsi, answer)) return -1;
+  if (known || request.method == Request::Method::head) return transaction_over(wsi);
+  sessions_[wsi] = std::move(session);
+  lws_callback_on_writable(wsi);
+  return 0;
+}
+
+int Server::talk(lws* wsi, const Request& request) {
+  Answer answer{.type = type_of(Resource::talk),
+                .size = LWS_ILLEGAL_HTTP_CONTENT_LEN,
+                .origin = shared_with(request)};
+  answer.embedded = answer.origin == "*";
+  if (request.method == Request::Method::head) return send_header(wsi, answer), -1;
+  Session& session = sessions_[wsi];
+  session.resource = Resource::talk;
+  if (!admit(wsi, session)) return refuse(wsi, request, HTTP_STATUS_SERVICE_UNAVAILABLE);
+  if (!send_header(wsi, answer)) return -1;
+  lws_set_timeout(wsi, NO_PENDING_TIMEOUT, 0);
   lws_callback_on_writable(wsi);
   return 0;
 }
 
 int Server::upgrade(lws* wsi) {
-  const Resource resource = resource_of(header_of(wsi, WSI_TOKEN_GET_URI));
-  if (!is_socket(resource) || !exists(resource)) return refuse(wsi, HTTP_STATUS_NOT_FOUND), -1;
-  if (!may_use(wsi, options_.allow_origin)) return refuse(wsi, HTTP_STATUS_FORBIDDEN), -1;
+  const Request request = request_of(wsi);
+  const auto refused = [&](unsigned status) { return send_refusal(wsi, status, true), -1; };
+  const unsigned status = objection(wsi, request);
+  if (status != 0) return refused(status);
+  const Resource resource = resource_of(request.path);
+  if (!is_socket(resource) || !exists(resource)) return refused(HTTP_STATUS_NOT_FOUND);
+  if (request.has_origin && !origin_allowed(request.origin, request.host, options_.allow_origins)) {
+    return refused(HTTP_STATUS_FORBIDDEN);
+  }
   leave(wsi);
   Session& session = sessions_[wsi];
   session.resource = resource;
-  if (!admit(session)) return refuse(wsi, HTTP_STATUS_SERVICE_UNAVAILABLE), -1;
-  return 0;
+  return admit(wsi, session) ? 0 : refused(HTTP_STATUS_SERVICE_UNAVAILABLE);
 }
 
 int Server::write_body(lws* wsi, Session& session) {
-  const std::size_t size = std::min(kPiece, session.body.size() - session.at);
-  const bool last = session.at + size == session.body.size();
-  if (!send_bytes(wsi, session.body.data() + session.at, size,
+  const std::string& body = session.packed ? session.document->packed : session.document->bytes;
+  const std::size_t size = std::min(kPiece, body.size() - session.at);
+  const bool last = session.at + size == body.size();
+  if (!send_bytes(wsi, body.data() + session.at, size,
                   last ? LWS_WRITE_HTTP_FINAL : LWS_WRITE_HTTP)) {
     return -1;
   }
   session.at += size;
-  if (!last) {
-    lws_callback_on_writable(wsi);
-    return 0;
-  }
-  leave(wsi);
-  return lws_http_transaction_completed(wsi) != 0 ? -1 : 0;
+  visitors_.progress(wsi, Visitors::Clock::now());
+  if (last) return transaction_over(wsi);
+  lws_callback_on_writable(wsi);
+  return 0;
 }
 
 bool Server::send_message(lws* wsi, Session& session, const Message& message) {
@@ -204,6 +260,24 @@ void Server::look_around() {
     } else if (finishing_ || hub_.waiting(session.client)) {
       lws_callback_on_writable(wsi);
     }
+  }
+}
+
+/// Looks after those who do nothing, again and again.
+void Server::keep_looking() {
+  const auto look = [](lws_sorted_usec_list_t* entry) {
+    // The entry is the first member.
+    reinterpret_cast<Timer*>(entry)->server->keep_looking();
+  };
+  disconnect_overdue();
+  look_around();
+  lws_sul_schedule(service_.context(), 0, &timer_.entry, look, kLookEvery);
+}
+
+void Server::disconnect_overdue() {
+  for (const Visitors::Key key : visitors_.overdue(Visitors::Clock::now())) {
+    auto* wsi = const_cast<lws*>(static_cast<const lws*>(key));
+    lws_set_timeout(wsi, PENDING_TIMEOUT_CLOSE_SEND, LWS_TO_KILL_ASYNC);
   }
 }
 

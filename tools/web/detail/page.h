@@ -6,6 +6,8 @@
 namespace animeme::web {
 
 std::string_view page_text();
+std::string_view page_style();
+std::string_view page_script();
 
 /// What makes the page show a head; to follow viewer::head_script() in one module.
 std::string_view head_glue();

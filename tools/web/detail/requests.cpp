@@ -1,29 +1,87 @@
 #include "tools/web/detail/requests.h"
 
+#include <netinet/in.h>
+#include <sys/socket.h>
+
 #include <array>
+#include <cstring>
+#include <string_view>
 
 namespace animeme::web {
 namespace {
 
-// The page carries its own script and style and talks to this server alone.
+// The page talks to its server alone, and nothing in it runs that is not one of the server's files.
 constexpr const char* kPolicy =
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
-    "connect-src 'self' ws: wss:; media-src 'self' blob:; img-src 'self' data: blob:; "
-    "base-uri 'none'; form-action 'none'; frame-ancestors 'self'";
+    "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
+    "media-src 'self' blob:; img-src 'self' data: blob:; base-uri 'none'; form-action 'none'; "
+    "frame-ancestors 'self'";
 
-bool add(lws* wsi, const char* name, const std::string& value, unsigned char** at,
-         unsigned char* end) {
-  return lws_add_http_header_by_name(wsi, reinterpret_cast<const unsigned char*>(name),
-                                     reinterpret_cast<const unsigned char*>(value.data()),
-                                     int(value.size()), at, end) == 0;
+/// Value of a header, empty: absent or longer than 512 bytes.
+std::string header_of(lws* wsi, lws_token_indexes token) {
+  std::array<char, 513> text{};
+  const int size = lws_hdr_copy(wsi, text.data(), int(text.size()), token);
+  return size > 0 ? std::string(text.data(), std::size_t(size)) : std::string();
+}
+
+class Header {
+ public:
+  Header(lws* wsi, unsigned status) : wsi_(wsi) {
+    good_ = lws_add_http_header_status(wsi, status, &at_, end()) == 0;
+  }
+  void add(const char* name, std::string_view value) {
+    good_ =
+        good_ && lws_add_http_header_by_name(wsi_, reinterpret_cast<const unsigned char*>(name),
+                                             reinterpret_cast<const unsigned char*>(value.data()),
+                                             int(value.size()), &at_, end()) == 0;
+  }
+  void add_length(lws_filepos_t size) {
+    good_ = good_ && lws_add_http_header_content_length(wsi_, size, &at_, end()) == 0;
+  }
+  bool send() {
+    return good_ &&
+           lws_finalize_write_http_header(wsi_, buffer_.data() + LWS_PRE, &at_, end()) == 0;
+  }
+
+ private:
+  unsigned char* end() { return buffer_.data() + buffer_.size() - 1; }
+
+  lws* wsi_;
+  std::array<unsigned char, LWS_PRE + 3072> buffer_{};
+  unsigned char* at_ = buffer_.data() + LWS_PRE;
+  bool good_ = false;
+};
+
+std::string_view sentence_of(unsigned status) {
+  switch (status) {
+    case HTTP_STATUS_BAD_REQUEST:
+      return "The request names no host.\n";
+    case HTTP_STATUS_FORBIDDEN:
+      return "Pages of other servers need --allow-origin.\n";
+    case HTTP_STATUS_METHOD_NOT_ALLOWED:
+      return "There is GET and HEAD.\n";
+    case 421:
+      return "This server does not go by that name; it is started with --host-name NAME for others "
+             "than those of its machine.\n";
+    case 426:
+      return "This address is a WebSocket.\n";
+    case 429:
+      return "Too many requests from this address.\n";
+    case HTTP_STATUS_SERVICE_UNAVAILABLE:
+      return "All places are taken (--max-clients).\n";
+    default:
+      return "There is nothing here.\n";
+  }
 }
 
 }  // namespace
 
 Resource resource_of(const std::string& path) {
   if (path == "/" || path == "/index.html") return Resource::page;
-  if (path == "/info.json") return Resource::info;
+  if (path == "/live.css") return Resource::style;
+  if (path == "/live.js") return Resource::script;
+  if (path == "/head.js") return Resource::head_script;
   if (path == "/head.bin") return Resource::head;
+  if (path == "/info.json") return Resource::info;
   if (path == "/talk.mp4") return Resource::talk;
   if (path == "/face") return Resource::face;
   if (path == "/faps") return Resource::faps;
@@ -31,34 +89,97 @@ Resource resource_of(const std::string& path) {
   return Resource::none;
 }
 
-std::string header_of(lws* wsi, lws_token_indexes token) {
-  std::array<char, 513> text{};
-  const int size = lws_hdr_copy(wsi, text.data(), int(text.size()), token);
-  return size > 0 ? std::string(text.data(), std::size_t(size)) : std::string();
-}
-
-bool may_use(lws* wsi, const std::string& allow_origin) {
-  if (lws_hdr_total_length(wsi, WSI_TOKEN_ORIGIN) == 0) return true;
-  const std::string origin = header_of(wsi, WSI_TOKEN_ORIGIN);
-  if (allow_origin == "*" || (!origin.empty() && origin == allow_origin)) return true;
-  const std::string host = header_of(wsi, WSI_TOKEN_HOST);
-  return !host.empty() && (origin == "http://" + host || origin == "https://" + host);
-}
-
-bool send_header(lws* wsi, const char* type, lws_filepos_t size, const std::string& allow_origin) {
-  std::array<unsigned char, LWS_PRE + 2048> buffer{};
-  unsigned char* const begin = buffer.data() + LWS_PRE;
-  unsigned char* const end = buffer.data() + buffer.size() - 1;
-  unsigned char* at = begin;
-  if (lws_add_http_common_headers(wsi, HTTP_STATUS_OK, type, size, &at, end) != 0) return false;
-  bool added = add(wsi, "cache-control:", "no-store", &at, end) &&
-               add(wsi, "x-content-type-options:", "nosniff", &at, end) &&
-               add(wsi, "referrer-policy:", "no-referrer", &at, end) &&
-               add(wsi, "content-security-policy:", kPolicy, &at, end);
-  if (!allow_origin.empty()) {
-    added = added && add(wsi, "access-control-allow-origin:", allow_origin, &at, end);
+const char* type_of(Resource resource) {
+  switch (resource) {
+    case Resource::page:
+      return "text/html; charset=utf-8";
+    case Resource::style:
+      return "text/css; charset=utf-8";
+    case Resource::script:
+    case Resource::head_script:
+      return "text/javascript; charset=utf-8";
+    case Resource::info:
+      return "application/json";
+    case Resource::talk:
+      return "audio/mp4";
+    default:
+      return "application/octet-stream";
   }
-  return added && lws_finalize_write_http_header(wsi, begin, &at, end) == 0;
+}
+
+bool is_socket(Resource resource) {
+  return resource == Resource::face || resource == Resource::faps || resource == Resource::audio;
+}
+
+Request request_of(lws* wsi) {
+  Request request;
+  if (lws_hdr_total_length(wsi, WSI_TOKEN_GET_URI) > 0) {
+    request.method = Request::Method::get;
+    request.path = header_of(wsi, WSI_TOKEN_GET_URI);
+  } else if (lws_hdr_total_length(wsi, WSI_TOKEN_HEAD_URI) > 0) {
+    request.method = Request::Method::head;
+    request.path = header_of(wsi, WSI_TOKEN_HEAD_URI);
+  }
+  request.has_origin = lws_hdr_total_length(wsi, WSI_TOKEN_ORIGIN) > 0;
+  request.origin = header_of(wsi, WSI_TOKEN_ORIGIN);
+  request.host = header_of(wsi, WSI_TOKEN_HOST);
+  request.accept_encoding = header_of(wsi, WSI_TOKEN_HTTP_ACCEPT_ENCODING);
+  request.if_none_match = header_of(wsi, WSI_TOKEN_HTTP_IF_NONE_MATCH);
+  return request;
+}
+
+bool send_header(lws* wsi, const Answer& answer) {
+  Header header(wsi, answer.status);
+  if (!answer.type.empty()) header.add("content-type:", answer.type);
+  if (answer.status == HTTP_STATUS_NOT_MODIFIED) {
+  } else if (answer.size != LWS_ILLEGAL_HTTP_CONTENT_LEN) {
+    header.add_length(answer.size);
+  } else {
+    header.add("connection:", "close");
+  }
+  if (answer.packed) header.add("content-encoding:", "gzip");
+  if (answer.etag.empty()) {
+    header.add("cache-control:", "no-store");
+  } else {
+    header.add("cache-control:", "no-cache");  // kept, but asked for again each time
+    header.add("etag:", answer.etag);
+    header.add("vary:", "accept-encoding, origin");
+  }
+  if (answer.status == HTTP_STATUS_METHOD_NOT_ALLOWED) header.add("allow:", "GET, HEAD");
+  header.add("x-content-type-options:", "nosniff");
+  header.add("referrer-policy:", "no-referrer");
+  header.add("content-security-policy:", kPolicy);
+  header.add("cross-origin-resource-policy:", answer.embedded ? "cross-origin" : "same-origin");
+  if (!answer.origin.empty()) header.add("access-control-allow-origin:", answer.origin);
+  return header.send();
+}
+
+bool send_refusal(lws* wsi, unsigned status, bool with_body) {
+  const std::string_view text = sentence_of(status);
+  if (!send_header(wsi,
+                   {.status = status, .type = "text/plain; charset=utf-8", .size = text.size()})) {
+    return false;
+  }
+  if (!with_body) return true;
+  std::array<unsigned char, LWS_PRE + 256> buffer{};
+  std::memcpy(buffer.data() + LWS_PRE, text.data(), text.size());
+  return lws_write(wsi, buffer.data() + LWS_PRE, text.size(), LWS_WRITE_HTTP_FINAL) >=
+         int(text.size());
+}
+
+std::string peer_of(int handle) {
+  sockaddr_storage address{};
+  socklen_t size = sizeof address;
+  if (getpeername(handle, reinterpret_cast<sockaddr*>(&address), &size) != 0) return {};
+  if (address.ss_family == AF_INET) {
+    const auto& four = reinterpret_cast<const sockaddr_in&>(address).sin_addr;
+    return {reinterpret_cast<const char*>(&four), sizeof four};
+  }
+  if (address.ss_family != AF_INET6) return {};
+  const in6_addr& six = reinterpret_cast<const sockaddr_in6&>(address).sin6_addr;
+  const char* bytes = reinterpret_cast<const char*>(&six);
+  if (IN6_IS_ADDR_V4MAPPED(&six)) return {bytes + 12, 4};
+  return {bytes, 8};
 }
 
 }  // namespace animeme::web

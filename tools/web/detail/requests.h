@@ -1,29 +1,65 @@
-// What a request asks for, and whether it may have it. Nothing here opens a file: every address
-// that exists is in this list.
+// What a request asks for, and how it is answered. Nothing here opens a file: every address that
+// exists is in this list.
 #pragma once
 
 #include <libwebsockets.h>
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
-#include "tools/web/web.h"
+#include "tools/web/detail/documents.h"
 
 namespace animeme::web {
 
-enum class Resource : std::uint8_t { none, page, info, head, talk, face, faps, audio };
+enum class Resource : std::uint8_t {
+  none,
+  page,
+  style,
+  script,
+  head_script,
+  head,
+  info,
+  talk,
+  face,
+  faps,
+  audio
+};
 
 /// `path`: as in the request line, without the query.
 Resource resource_of(const std::string& path);
+/// Media type of what is served whole.
+const char* type_of(Resource resource);
+bool is_socket(Resource resource);
 
-/// Value of a header, empty: absent or longer than 512 bytes.
-std::string header_of(lws* wsi, lws_token_indexes token);
+/// The part of a request that counts here. Values are empty if they are absent or longer than 512
+/// bytes.
+struct Request {
+  enum class Method : std::uint8_t { get, head, other };
+  Method method = Method::other;
+  bool has_origin = false;
+  std::string path, host, origin, accept_encoding, if_none_match;
+};
+Request request_of(lws* wsi);
 
-/// May a page of this origin use the server? Programs that are no browsers send none.
-bool may_use(lws* wsi, const std::string& allow_origin);
+/// The header of an answer; what is empty is left out.
+struct Answer {
+  unsigned status = HTTP_STATUS_OK;
+  std::string type;
+  lws_filepos_t size = 0;  ///< LWS_ILLEGAL_HTTP_CONTENT_LEN: until the connection ends
+  std::string etag;        ///< caches may keep it and ask whether there is another version
+  bool packed = false;     ///< by gzip
+  std::string origin;      ///< pages there may read it; "*": all
+  bool embedded = false;   ///< pages elsewhere may show it without reading it
+};
 
-/// Sends the header of a response; `size` LWS_ILLEGAL_HTTP_CONTENT_LEN: until the connection ends.
-/// False: it could not.
-bool send_header(lws* wsi, const char* type, lws_filepos_t size, const std::string& allow_origin);
+/// False: it could not be sent.
+bool send_header(lws* wsi, const Answer& answer);
+/// Answers with a status and a sentence. The connection is to be closed if this is false.
+bool send_refusal(lws* wsi, unsigned status, bool with_body);
+
+/// Who is at the other end of a socket: an address of IPv4 or the network of one of IPv6, whose
+/// owner has all of it, as bytes. Empty: not known.
+std::string peer_of(int handle);
 
 }  // namespace animeme::web

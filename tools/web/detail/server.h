@@ -1,6 +1,7 @@
 // The HTTP and WebSocket server: which address gives what, and to whom.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <map>
 #include <memory>
@@ -9,9 +10,11 @@
 
 #include "fap/result.h"
 #include "tools/web/detail/address.h"
+#include "tools/web/detail/headers.h"
 #include "tools/web/detail/hub.h"
 #include "tools/web/detail/requests.h"
 #include "tools/web/detail/service.h"
+#include "tools/web/detail/visitors.h"
 #include "tools/web/web.h"
 
 namespace animeme::web {
@@ -21,7 +24,8 @@ struct Session {
   Resource resource = Resource::none;
   bool open = false;  // a WebSocket or /talk.mp4 with a place in the hub
   ClientId client = 0;
-  std::string body;  // of a page, what is left of it
+  DocumentPtr document;  // that is being sent
+  bool packed = false;   // in its form of gzip
   std::size_t at = 0;
   std::size_t received = 0;
   std::int64_t begin = -1;  // of /talk.mp4: time of its first segment, in samples
@@ -33,7 +37,7 @@ class Server {
   /// sound. Errors: io.
   static Result<std::unique_ptr<Server>> listen(const WebAddress& address,
                                                 const WebOptions& options, int sample_rate);
-  ~Server() { service_.stop(); }
+  ~Server() { stop(); }
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
@@ -50,33 +54,51 @@ class Server {
   void finish();
 
  private:
-  Server(const WebOptions& options, int sample_rate);
+  Server(const WebAddress& address, const WebOptions& options, int sample_rate);
+  void stop();
   static int callback(lws* wsi, lws_callback_reasons reason, void* user, void* in, size_t size);
   int handle(lws* wsi, lws_callback_reasons reason, const char* in, std::size_t size);
   bool exists(Resource resource) const;
-  bool admit(Session& session);
-  int refuse(lws* wsi, unsigned status);
-  int request(lws* wsi, const std::string& path);
+  unsigned objection(lws* wsi, const Request& request);
+  std::string shared_with(const Request& request) const;
+  bool admit(lws* wsi, Session& session);
+  int refuse(lws* wsi, const Request& request, unsigned status);
+  int request(lws* wsi);
+  int serve(lws* wsi, const Request& request, Resource resource);
+  int talk(lws* wsi, const Request& request);
   int upgrade(lws* wsi);
   int write_body(lws* wsi, Session& session);
+  int transaction_over(lws* wsi);
   bool send_message(lws* wsi, Session& session, const Message& message);
   int write_message(lws* wsi, Session& session);
   void look_around();
+  void keep_looking();
+  void disconnect_overdue();
   void leave(lws* wsi);
 
   const WebOptions options_;
   const int sample_rate_;  // of the sound, 0: there is none
-  const std::string page_;
+  const OwnNames names_;
+  std::map<Resource, DocumentPtr> documents_;  // but for info.json
   Service service_;
   int port_ = 0;
 
   mutable std::mutex mutex_;  // for what follows
   std::condition_variable changed_;
   Hub hub_;
-  std::string info_;
+  DocumentPtr info_;
   bool finishing_ = false;
 
-  std::map<lws*, Session> sessions_;  // of the service thread alone
+  // Of the service thread alone.
+  struct Timer {
+    lws_sorted_usec_list_t entry{};
+    Server* server = nullptr;
+  } timer_;
+  std::map<lws*, Session> sessions_;
+  Visitors visitors_;
+  std::string entering_;  // address of the connection that is just being accepted
+
+  std::atomic<int> viewers_ = 0;
 };
 
 }  // namespace animeme::web

@@ -36,10 +36,16 @@ class Service {
     if (context_ != nullptr) lws_cancel_service(context_);
   }
   void stop() {
+    stop([] {});
+  }
+  /// `before_end` is called between the end of the thread and that of the context.
+  template <class BeforeEnd>
+  void stop(const BeforeEnd& before_end) {
     if (context_ == nullptr) return;
     stopping_ = true;
     wake();
     if (thread_.joinable()) thread_.join();
+    before_end();
     lws_context_destroy(context_);
     context_ = nullptr;
   }
