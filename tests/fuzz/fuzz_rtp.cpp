@@ -85,9 +85,9 @@ void receive(Bytes input) {
     now += 0.01 * (head >> 2);
     const LiveTrack track = (head & 1) != 0 ? LiveTrack::audio : LiveTrack::face;
     if ((head & 2) != 0) {
-      receiver.rtcp(track, datagram, now);
+      receiver.rtcp(track, datagram, {}, now);
     } else {
-      receiver.rtp(track, datagram, now);
+      receiver.rtp(track, datagram, {}, now);
     }
     take();
     (void)receiver.reports(now);

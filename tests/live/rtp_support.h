@@ -140,9 +140,9 @@ inline void deliver(BadNetwork& network, media::RtpReceiver& receiver, double no
                     std::vector<media::LiveEvent>& events) {
   for (const auto& [at, datagram] : network.take(now)) {
     if (datagram.control) {
-      receiver.rtcp(datagram.track, datagram.bytes, at);
+      receiver.rtcp(datagram.track, datagram.bytes, {}, at);
     } else {
-      receiver.rtp(datagram.track, datagram.bytes, at);
+      receiver.rtp(datagram.track, datagram.bytes, {}, at);
     }
     while (auto event = receiver.next(at)) events.push_back(std::move(*event));
   }

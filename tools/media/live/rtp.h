@@ -46,14 +46,18 @@ struct RtpOptions {
 
 /// How a presentation is received.
 struct RtpReceiveOptions {
-  /// Longest time that a packet waits for an earlier one, seconds, 0..10. Has to be longer than a
-  /// plane for repeated packets to help.
+  /// Time that a packet waits for an earlier one, seconds, 0..10: at first, and at least. It grows
+  /// when packets, or their copies, come later than that, and shrinks slowly when they do no more.
   double reorder_seconds = 0.1;
-  int reorder_packets = 64;  ///< at most so many wait, 0..1000
+  double reorder_most_seconds = 1;  ///< what it grows to at most, 0..10
+  int reorder_packets = 256;        ///< at most so many wait, 0..1000
   /// Longest time to wait at the begin for the sender reports that tie face and sound together,
   /// 0..10. Not needed with a session description that has the media clock, as ours.
   double sync_seconds = 0.5;
   bool send_reports = true;  ///< receiver reports back to the sender
+  /// One sender may send from several addresses and ports (a farm of relays). Anybody who can see
+  /// what it sends can then speak in its place.
+  bool any_source = false;
   std::string interface;     ///< as RtpOptions::interface
 };
 
@@ -67,6 +71,11 @@ Result<std::unique_ptr<LiveSink>> make_rtp_sink(const std::string& url,
 /// Receives what a session description tells: a file, or "rtp://address:port", which binds the
 /// port (host empty, 0.0.0.0 or [::]: all addresses; a multicast address is joined) and takes a
 /// face alone, with the configuration in front of its intra planes.
+///
+/// Heard is one sender, from one address and port, as rtp_input.h has it: the first that proves to
+/// be one, the one that was described before all others. When it is silent for a second, another
+/// one that sends meanwhile takes over (LiveRestart). The description is read again when its file
+/// changes.
 ///
 /// Times: face times are in the timescale of the sender's LiveInfo if the description has it
 /// (ours do) and come back exactly as they were sent if that is at most 90000; other face times are
