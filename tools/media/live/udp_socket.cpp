@@ -188,8 +188,8 @@ bool UdpAddress::same_host(const UdpAddress& other) const {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-bool operator==(const UdpAddress& a, const UdpAddress& b) {
-  return a.same_host(b) && (a.size_ == 0 || a.port() == b.port());
+bool UdpAddress::is(const UdpAddress& other) const {
+  return same_host(other) && (size_ == 0 || port() == other.port());
 }
 
 Result<UdpSocket> UdpSocket::bind(const std::string& host, int port, const Multicast& multicast) {

@@ -30,8 +30,10 @@ class UdpAddress {
   bool is_loopback() const;                       ///< this machine
   bool is_ipv6() const;                           ///< true: IPv6, false: IPv4
   bool same_host(const UdpAddress& other) const;  ///< whatever the port
-  /// Same host and port. What was default constructed is nobody, and equal to itself.
-  friend bool operator==(const UdpAddress& a, const UdpAddress& b);
+  /// Same host and port. What was default constructed is nobody, and the same as itself.
+  bool is(const UdpAddress& other) const;
+  /// is()
+  friend bool operator==(const UdpAddress& a, const UdpAddress& b) { return a.is(b); }
   UdpAddress with_port(int port) const;  ///< the same host
 
  private:
