@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -48,14 +49,20 @@ class Running {
   int wait() {
     if (code_) return *code_;
     int status = 0;
-    ::waitpid(pid_, &status, 0);
+    rusage used{};
+    ::wait4(pid_, &status, 0, &used);
+    peak_mb_ = double(used.ru_maxrss) / 1024;
     code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     return *code_;
   }
 
+  /// Most memory that it ever had, after wait().
+  double peak_mb() const { return peak_mb_; }
+
  private:
   pid_t pid_;
   std::optional<int> code_;
+  double peak_mb_ = 0;
 };
 
 template <class Condition>

@@ -43,6 +43,7 @@ ReorderBuffer ReorderBuffer::renewed() const {
   ReorderBuffer fresh(limits_);
   fresh.lateness_ = lateness_;
   fresh.latest_ = latest_;
+  fresh.longest_wait_ = longest_wait_;
   return fresh;
 }
 
@@ -84,6 +85,7 @@ void ReorderBuffer::measure(std::int64_t sequence, double now) {
   if (late > kNoCopy) return;
   lateness_.worst = std::max(lateness_.worst, late);
   latest_ = std::max(latest_, late);
+  longest_wait_ = std::max(longest_wait_, wait());
 }
 
 bool ReorderBuffer::was_given(std::int64_t sequence) const {

@@ -62,7 +62,8 @@ class ReorderBuffer {
   void flush() { flushing_ = true; }
   /// An empty one for another sender on the same way: knows how late packets come here.
   ReorderBuffer renewed() const;
-  double wait() const;  ///< seconds that a packet waits by now
+  double longest_wait() const { return longest_wait_; }  ///< the most that wait() was
+  double wait() const;                                   ///< seconds that a packet waits by now
   double latest() const {
     return latest_;
   }  ///< seconds that one came behind its successor, or copy
@@ -111,7 +112,7 @@ class ReorderBuffer {
   std::array<double, kHistory> since_{};
   double last_new_ = 0;  // when highest_ came
   Lateness lateness_;
-  double latest_ = 0;
+  double latest_ = 0, longest_wait_ = 0;
   bool begun_ = false;
   double begin_until_ = 0;  // so long packets may come that are earlier than the first
   bool restarted_ = false;  // tell of a gap of unknown size

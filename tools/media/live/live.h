@@ -118,7 +118,7 @@ struct ReceiveStats {
   double jitter = 0;            ///< seconds, RFC 3550 section 6.4.1, of the face
   std::int64_t foreign = 0;     ///< datagrams of others than the sender, and damaged ones: ignored
   std::int64_t sessions = 0;    ///< senders, or begins of one
-  double wait = 0;              ///< seconds that a missing packet is waited for by now
+  double wait = 0;              ///< seconds that missing packets were waited for at most
   double latest = 0;            ///< seconds that a packet came behind one that was sent later
 };
 

@@ -65,7 +65,7 @@ RtpInput::Taken RtpInput::consider(const RtpPacket& packet, Early datagram) {
                                            return a.datagrams.back().at < b.datagrams.back().at;
                                          }));
     }
-    candidates_.push_back({packet.ssrc, datagram.from, {}});
+    candidates_.push_back({packet.ssrc, datagram.from, now, {}});
     found = std::prev(candidates_.end());
   }
   Candidate& who = *found;
@@ -93,13 +93,19 @@ bool RtpInput::proved(const Candidate& candidate) const {
 }
 
 bool RtpInput::may_take_over(const Candidate& candidate, double now) const {
-  const bool described = settings_.ssrc == candidate.ssrc && ssrc_ != candidate.ssrc;
-  return !ssrc_ || bye_at_ || now - last_heard_ > kSilence || described ||
-         (!settings_.any_source && ssrc_ != candidate.ssrc && candidate.from == from_ &&
-          from_ != UdpAddress());
+  const bool described = settings_.ssrc == candidate.ssrc;
+  if (!ssrc_) {
+    // The one that was described may be about to come.
+    const bool expected = settings_.ssrc && !renewed_;
+    return described || !expected || now - candidate.begin > kSilence;
+  }
+  if (now - last_heard_ > kSilence || (described && ssrc_ != candidate.ssrc)) return true;
+  return !settings_.any_source && ssrc_ != candidate.ssrc && candidate.from == from_ &&
+         from_ != UdpAddress();
 }
 
 void RtpInput::accept() {
+  renewed_ = ssrc_.has_value();
   before_ = counts();
   buffer_ = buffer_.renewed();
   jitter_ = {};

@@ -17,10 +17,10 @@ namespace animeme::media {
 
 /// Hears one sender at a time: an identifier (SSRC) at an address. It is the first that has sent
 /// two packets near to each other in sequence, one of them with the begin of a unit where that can
-/// be seen, or a single one with the identifier of the session description. Another one that has
-/// proved itself so takes over when the first has said goodbye or is silent for a second, if it
-/// comes from the very same address, or if it is the one described; what it has sent meanwhile is
-/// kept. All else is counted as foreign.
+/// be seen. The one of the session description needs a single packet and comes before all others,
+/// who wait a second for it. Another one takes over when the first has been silent for a second, or
+/// if it comes from the very same address; what it has sent meanwhile is kept. All else is counted
+/// as foreign.
 class RtpInput {
  public:
   /// What the session description says of the medium.
@@ -69,11 +69,11 @@ class RtpInput {
   ReportBlock report(double now);
   /// Totals over all senders.
   ReorderBuffer::Counts counts() const;
-  std::int64_t bytes() const { return bytes_; }       ///< of all RTP datagrams taken
-  std::int64_t foreign() const { return foreign_; }   ///< datagrams that were not
-  void ignore() { ++foreign_; }                       ///< one more of these
-  double wait() const { return buffer_.wait(); }      ///< ReorderBuffer::wait()
-  double latest() const { return buffer_.latest(); }  ///< ReorderBuffer::latest()
+  std::int64_t bytes() const { return bytes_; }           ///< of all RTP datagrams taken
+  std::int64_t foreign() const { return foreign_; }       ///< datagrams that were not
+  void ignore() { ++foreign_; }                           ///< one more of these
+  double wait() const { return buffer_.longest_wait(); }  ///< ReorderBuffer::longest_wait()
+  double latest() const { return buffer_.latest(); }      ///< ReorderBuffer::latest()
   /// Interarrival jitter.
   double jitter_seconds() const { return jitter_.ticks() / settings_.clock; }
 
@@ -90,6 +90,7 @@ class RtpInput {
   struct Candidate {
     std::uint32_t ssrc = 0;
     UdpAddress from;
+    double begin = 0;  // when it was heard first
     std::deque<Early> datagrams;
     std::size_t bytes = 0;
     std::uint16_t sequence = 0;  // of its last packet
@@ -116,6 +117,7 @@ class RtpInput {
   double control_heard_ = 0;
   std::vector<Candidate> candidates_;
   std::optional<Candidate> chosen_;
+  bool renewed_ = false;  // whoever was described has gone
   std::deque<EarlyReport> early_reports_;
   std::optional<double> bye_at_;
   double last_heard_ = 0;
