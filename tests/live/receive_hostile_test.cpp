@@ -14,28 +14,12 @@ namespace animeme {
 namespace receive_hostile_test {
 
 using test::container;
+using test::kMostMegabytes;
 using test::Running;
+using test::size_of;
 using test::Streams;
 using test::wait_for;
 using testing::HasSubstr;
-
-#if defined(__SANITIZE_ADDRESS__)
-constexpr double kMostMegabytes = 900;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-constexpr double kMostMegabytes = 900;
-#else
-constexpr double kMostMegabytes = 300;
-#endif
-#else
-constexpr double kMostMegabytes = 300;
-#endif
-
-std::uintmax_t size_of(const std::string& path) {
-  std::error_code none;
-  const auto size = std::filesystem::file_size(path, none);
-  return none ? 0 : size;
-}
 
 /// Sends datagrams to the four ports of a description, until the receiver has begun.
 class Sender {

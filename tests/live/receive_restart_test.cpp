@@ -25,6 +25,8 @@ struct Route {
   const char* output;
 };
 
+void PrintTo(const Route& route, std::ostream* out) { *out << route.name; }
+
 std::string fill_in(std::string text, int port, const std::string& dir) {
   const auto replace = [&](const std::string& what, const std::string& by) {
     if (const auto at = text.find(what); at != std::string::npos) text.replace(at, what.size(), by);
@@ -117,17 +119,17 @@ TEST(RestartsOfFfmpeg, AreRecordedOn) {
       arguments = "-map 0:v -c copy -f rtp rtp://127.0.0.1:" + first +
                   " -map 0:a -c copy -f rtp rtp://127.0.0.1:" + second;
     }
-    Running receive({"receive", from, "-o", dir / "got.mp4", "--json", "--timeout", "4"},
+    Running receive({"receive", from, "-o", dir / "got.mp4", "--json", "--timeout", "3"},
                     dir / "1.out", dir / "1.err");
     ASSERT_TRUE(wait_for([&] { return !media::UdpSocket::bind("127.0.0.1", port); }));
+    run_ffmpeg(arguments, 2);
     run_ffmpeg(arguments, 3);
-    run_ffmpeg(arguments, 4);
     EXPECT_EQ(receive.wait(), 1) << "it was killed: nobody said goodbye";
     const auto json = nlohmann::json::parse(test::slurp(dir / "1.out"));
     EXPECT_EQ(json["sessions"], 2) << rtp << test::slurp(dir / "1.err");
-    EXPECT_GT(json["planes_usable"].get<int>(), 100) << rtp << test::slurp(dir / "1.err");
-    EXPECT_GT(json["sound_seconds"].get<double>(), 4.5) << rtp << test::slurp(dir / "1.err");
-    EXPECT_NEAR(json["face_seconds"].get<double>(), 6.5, 1.5) << rtp << test::slurp(dir / "1.err");
+    EXPECT_GT(json["planes_usable"].get<int>(), 60) << rtp << test::slurp(dir / "1.err");
+    EXPECT_GT(json["sound_seconds"].get<double>(), 2.5) << rtp << test::slurp(dir / "1.err");
+    EXPECT_NEAR(json["face_seconds"].get<double>(), 4.5, 1.5) << rtp << test::slurp(dir / "1.err");
   }
 }
 

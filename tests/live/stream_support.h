@@ -22,6 +22,27 @@
 
 namespace animeme::test {
 
+/// What a receiver may take, whatever a sender says. A sanitizer has memory of its own.
+#if defined(__SANITIZE_ADDRESS__)
+#define ANIMEME_TEST_ADDRESSES 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define ANIMEME_TEST_ADDRESSES 1
+#endif
+#endif
+#ifdef ANIMEME_TEST_ADDRESSES
+inline constexpr double kMostMegabytes = 900;
+#else
+inline constexpr double kMostMegabytes = 300;
+#endif
+
+/// Of a file; 0 if it is not there.
+inline std::uintmax_t size_of(const std::string& path) {
+  std::error_code none;
+  const auto size = std::filesystem::file_size(path, none);
+  return none ? 0 : size;
+}
+
 /// The program running beside the test; ended with it.
 class Running {
  public:
