@@ -1,5 +1,5 @@
 // Whose transport stream is heard, by the addresses that datagrams come from; knows neither sockets
-// nor clocks. Source: tools/media/containers.md, section 4.2.
+// nor clocks. Source: tools/media/live/receiving.md, section 1.
 #pragma once
 
 #include <cstdint>

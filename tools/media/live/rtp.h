@@ -22,13 +22,17 @@ namespace animeme::media {
 /// How a presentation is sent.
 struct RtpOptions {
   int mtu = 1400;  ///< largest datagram, bytes of UDP payload, 256..65000; larger planes are split
-  /// How often each packet of the face is sent, 1..8. A copy follows its original by one further
-  /// packet of the face, the next copy by two, so a burst that swallows both has to last a plane.
-  /// Planes are smaller than the headers around them, and a lost one spoils the face up to the
-  /// next intra plane, hence 2. Receivers that do not drop duplicates want 1 (a bare
-  /// `rtpmp4vdepay` of GStreamer without `rtpjitterbuffer`; FFmpeg drops all but copies right
-  /// behind their original, which come where no plane follows for 0.2 s and at the end).
+  /// How often each packet of the face is sent, 1..8. Planes are smaller than the headers around
+  /// them, and a lost one spoils the face up to the next intra plane, hence 2. Receivers that do not
+  /// drop duplicates want 1 (a bare `rtpmp4vdepay` of GStreamer without `rtpjitterbuffer`; FFmpeg
+  /// drops all but copies right behind their original, which come where no plane follows for 0.2 s
+  /// and at the end).
   int repeat = 2;
+  /// A copy follows its original by so many further packets of the face, 1..50, the next copy by twice
+  /// as many, so that a burst of losses has to last that long to take them all. Where no plane
+  /// follows for 0.2 s, copies wait no longer. A loss costs that much delay; receivers of ours learn
+  /// to wait so long.
+  int repeat_after = 3;
   /// Planes a packet, 1..16. More save headers and cost delay. Their sizes and times go into an RTP
   /// header extension that the session description announces; receivers that do not know it see
   /// the planes in order, all with the time of the first. Intra planes begin a packet.

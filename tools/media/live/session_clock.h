@@ -13,7 +13,7 @@
 ///
 ///     auto source = make_steady(open_source("talk.sdp"));   // the same as a source
 ///
-/// Source: tools/media/containers.md, section 4.2.
+/// Source: tools/media/live/receiving.md, section 2.
 #pragma once
 
 #include <cstdint>
