@@ -98,16 +98,16 @@ std::vector<LiveEvent> over_sockets(const test::LiveTalk& talk, RtpOptions optio
   return events;
 }
 
-Row measure(const test::LiveTalk& talk, const Settings& settings, int loss, int repeat) {
+Row measure(const test::LiveTalk& talk, const Settings& settings, const test::Trouble& trouble,
+            const RtpOptions& options) {
   Row row;
-  const RtpOptions options{.repeat = repeat};
   count_bytes(talk, options, row);
   row.bytes *= settings.networks;
   for (int network = 1; network <= settings.networks; ++network) {
     const auto seed = std::uint64_t(network);
     add(talk,
-        settings.sockets ? over_sockets(talk, options, loss, seed)
-                         : test::transfer(talk, options, {.loss = loss}, seed),
+        settings.sockets ? over_sockets(talk, options, trouble.loss, seed)
+                         : test::transfer(talk, options, trouble, seed),
         row);
   }
   return row;
@@ -129,18 +129,43 @@ int main(int argc, char** argv) {
 
   test::LiveTalk talk = test::random_talk(settings.seconds * 25, settings.period);
   test::add_sound(talk, test::aac_format());
-  std::printf(
-      "| loss | repeat | planes right | freezes a minute | mean freeze | longest | face |\n");
-  std::printf("|---|---|---|---|---|---|---|\n");
+  const auto print = [](const std::string& name, const Row& row) {
+    std::printf("| %s | %.1f %% | %.1f | %.2f s | %.2f s | %.1f kbit/s |\n", name.c_str(),
+                100.0 * double(row.right) / double(row.sent),
+                60 * double(row.freezes) / row.seconds,
+                row.freezes > 0 ? row.frozen / double(row.freezes) : 0.0, row.longest,
+                row.bytes * 8 / 1000 / row.seconds);
+    std::fflush(stdout);
+  };
+  const std::string columns = " planes right | freezes a minute | mean freeze | longest | face |\n";
+  std::printf("| loss | repeat |%s|---|---|---|---|---|---|---|\n", columns.c_str());
   for (const int loss : {0, 1, 5, 10}) {
     for (const int repeat : {1, 2, 3}) {
-      const Row row = measure(talk, settings, loss, repeat);
-      std::printf("| %d %% | %d | %.1f %% | %.1f | %.2f s | %.2f s | %.1f kbit/s |\n", loss, repeat,
-                  100.0 * double(row.right) / double(row.sent),
-                  60 * double(row.freezes) / row.seconds,
-                  row.freezes > 0 ? row.frozen / double(row.freezes) : 0.0, row.longest,
-                  row.bytes * 8 / 1000 / row.seconds);
-      std::fflush(stdout);
+      print(std::to_string(loss) + " % | " + std::to_string(repeat),
+            measure(talk, settings, {.loss = loss}, {.repeat = repeat}));
+    }
+  }
+  if (settings.sockets) return ::testing::Test::HasFailure() ? 1 : 0;
+  std::printf("\n| loss | in bursts of | repeat, after |%s|---|---|---|---|---|---|---|---|\n",
+              columns.c_str());
+  for (const int loss : {1, 5}) {
+    for (const int burst : {6, 20}) {
+      for (const auto& [repeat, after] :
+           {std::pair(1, 1), std::pair(2, 1), std::pair(2, 2), std::pair(2, 3), std::pair(2, 5),
+            std::pair(2, 8), std::pair(3, 3)}) {
+        const std::string way = std::to_string(repeat) + ", " + std::to_string(after);
+        print(std::to_string(loss) + " % | " + std::to_string(burst) + " | " +
+                  (repeat == 1 ? "1" : way),
+              measure(talk, settings, {.loss = loss, .burst = burst},
+                      {.repeat = repeat, .repeat_after = after}));
+      }
+    }
+  }
+  std::printf("\n| jitter | repeat |%s|---|---|---|---|---|---|---|\n", columns.c_str());
+  for (const double jitter : {0.05, 0.3, 0.8, 2.0}) {
+    for (const int repeat : {1, 2}) {
+      print(std::to_string(int(1000 * jitter)) + " ms | " + std::to_string(repeat),
+            measure(talk, settings, {.jitter = jitter}, {.repeat = repeat}));
     }
   }
   return ::testing::Test::HasFailure() ? 1 : 0;

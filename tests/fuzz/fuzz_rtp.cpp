@@ -2,7 +2,8 @@
 // The first byte says which: 'd' a description, 'p' a packet, 'c' RTCP, else a receiver. For that
 // the second byte is the session (bit 0: sound is Opus, bit 1: no configuration, bit 2: no clock),
 // then come records: a byte (bit 0: sound, bit 1: RTCP, the others: 10 ms of time each), two bytes
-// of size, a datagram.
+// of size, whose two upper bits are the address, a datagram. Times on a SessionClock ascend and run
+// ahead of the arrival by no more than data and a few seconds.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -11,6 +12,7 @@
 
 #include "tools/media/live/recovery.h"
 #include "tools/media/live/rtp_receiver.h"
+#include "tools/media/live/session_clock.h"
 
 namespace {
 
@@ -61,10 +63,48 @@ RtpSession session_of(std::uint8_t flags) {
   return session;
 }
 
+/// What a recording would be made of.
+class Steady {
+ public:
+  void push(LiveEvent event, double now) {
+    std::deque<LiveEvent> out;
+    clock_.push(std::move(event), now, out);
+    for (LiveEvent& each : out) {
+      if (const auto* info = std::get_if<LiveInfo>(&each)) info_ = *info;
+      if (const auto* unit = std::get_if<LiveUnit>(&each)) look(*unit, now);
+    }
+  }
+
+ private:
+  void look(const LiveUnit& unit, double now) {
+    require(info_.has_value());
+    const bool face = unit.track == LiveTrack::face;
+    const double rate = face ? info_->timescale : info_->audio ? info_->audio->sample_rate : 1;
+    const double time = double(unit.time) / std::max(1.0, rate);
+    std::optional<std::int64_t>& last = last_[face ? 0 : 1];
+    require(!last || unit.time > *last);
+    last = unit.time;
+    if (!begin_) begin_ = time - now;
+    ++units_;
+    require(time <= *begin_ + now + 20 + 0.5 * units_);
+  }
+
+  SessionClock clock_;
+  std::optional<LiveInfo> info_;
+  std::optional<std::int64_t> last_[2];
+  std::optional<double> begin_;
+  double units_ = 0;
+};
+
 void receive(Bytes input) {
   if (input.empty()) return;
   RtpReceiver receiver(session_of(input[0]), {}, 1);
   FaceRecovery recovery;
+  Steady steady;
+  UdpAddress addresses[4];
+  for (int i = 1; i < 4; ++i) {
+    addresses[i] = *UdpAddress::resolve("192.0.2." + std::to_string(i & 2), 4000 + i);
+  }
   input = input.subspan(1);
   double now = 0;
   bool begun = false;
@@ -74,20 +114,23 @@ void receive(Bytes input) {
       if (const auto* unit = std::get_if<LiveUnit>(&*event)) {
         require(begun && !unit->bytes.empty() && unit->duration > 0);
       }
+      steady.push(*event, now);
       (void)recovery.accept(std::move(*event));
     }
   };
   while (input.size() >= 3) {
     const std::uint8_t head = input[0];
-    const std::size_t size = std::min<std::size_t>(input[1] * 256u + input[2], input.size() - 3);
+    const UdpAddress& from = addresses[input[1] >> 6];
+    const std::size_t size =
+        std::min<std::size_t>((input[1] & 63) * 256u + input[2], input.size() - 3);
     const Bytes datagram = input.subspan(3, size);
     input = input.subspan(3 + size);
     now += 0.01 * (head >> 2);
     const LiveTrack track = (head & 1) != 0 ? LiveTrack::audio : LiveTrack::face;
     if ((head & 2) != 0) {
-      receiver.rtcp(track, datagram, now);
+      receiver.rtcp(track, datagram, from, now);
     } else {
-      receiver.rtp(track, datagram, now);
+      receiver.rtp(track, datagram, from, now);
     }
     take();
     (void)receiver.reports(now);

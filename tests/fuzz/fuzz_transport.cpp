@@ -5,15 +5,18 @@
 #include <cstdint>
 #include <cstdlib>
 #include <deque>
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "tools/media/detail/ts_events.h"
+#include "tools/media/detail/ts_input.h"
 #include "tools/media/live/audio_segments.h"
+#include "tools/media/live/session_clock.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace animeme::media;
   if (size == 0) return 0;
+  std::optional<std::int64_t> ascending[2];
   const std::size_t piece = 1 + data[0];  // the cut of the bytes must not matter
   std::span<const std::uint8_t> rest(data + 1, size - 1);
   (void)read_audio_init(rest);
@@ -22,16 +25,32 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (packet.bytes.empty() || packet.duration <= 0) std::abort();
     }
   }
-  TsDemuxer demuxer;
-  TsEvents parser;
+  // The first byte of a piece says whose it is, where there are several senders.
+  const bool several = data[0] % 4 == 3;
+  UdpAddress addresses[4];
+  for (int i = 1; i < 4; ++i) addresses[i] = *UdpAddress::resolve("192.0.2.1", 4000 + i);
+  TsInput input;
+  SessionClock clock;
+  double now = 0;
   std::deque<LiveEvent> events;
   while (!rest.empty()) {
-    std::vector<TsEvent> found;
-    demuxer.push(rest.first(std::min(piece, rest.size())), found);
+    const UdpAddress& from = addresses[several ? rest[0] % 4 : 0];
+    std::deque<LiveEvent> found, steady;
+    input.push(rest.first(std::min(piece, rest.size())), from, now += 0.02, found);
     rest = rest.subspan(std::min(piece, rest.size()));
-    for (TsEvent& event : found) parser.push(std::move(event), events);
+    for (LiveEvent& event : found) {
+      events.push_back(event);
+      clock.push(std::move(event), now, steady);
+    }
+    for (const LiveEvent& event : steady) {
+      const auto* unit = std::get_if<LiveUnit>(&event);
+      if (unit == nullptr) continue;
+      std::optional<std::int64_t>& last = ascending[std::size_t(unit->track)];
+      if (last && unit->time <= *last) std::abort();
+      last = unit->time;
+    }
   }
-  parser.finish(events);
+  input.finish(events);
   std::size_t bytes = 0;
   bool described = false;
   for (const LiveEvent& event : events) {

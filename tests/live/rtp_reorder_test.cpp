@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "tests/live/rtp_support.h"
 #include "tools/media/live/jitter.h"
 
@@ -144,6 +146,68 @@ TEST(ReorderBuffer, FlushGivesUpWhatIsMissing) {
   add(buffer, 2, 0);
   buffer.flush();
   EXPECT_THAT(take(buffer, 0), ElementsAre(0, -1, 2));
+}
+
+// Every third packet comes 0.3 s late, as on a net with several ways: most of it is lost at first,
+// and nothing from the moment on when the buffer has seen how late they are.
+TEST(ReorderBuffer, WaitsLongerWherePacketsComeLate) {
+  ReorderBuffer buffer({.seconds = 0.1});
+  std::multimap<double, int> arrivals;
+  for (int i = 0; i < 500; ++i) arrivals.emplace(i * 0.04 + (i % 3 == 0 ? 0.3 : 0), i);
+  std::int64_t lost_early = 0;
+  for (const auto& [now, number] : arrivals) {
+    add(buffer, number, now);
+    take(buffer, now);
+    if (now < 1) lost_early = buffer.counts().lost;
+  }
+  EXPECT_GT(lost_early, 0);
+  EXPECT_EQ(buffer.counts().lost, lost_early);
+  EXPECT_NEAR(buffer.wait(), 0.3, 0.1);
+  EXPECT_NEAR(buffer.latest(), 0.28, 0.05);
+  for (int i = 500; i < 1500; ++i) {  // it becomes quiet: slowly, patience goes
+    add(buffer, i, i * 0.04);
+    take(buffer, i * 0.04);
+  }
+  EXPECT_EQ(buffer.wait(), 0.1);
+}
+
+TEST(ReorderBuffer, CopiesTellHowLongTheyTake) {
+  ReorderBuffer buffer({.seconds = 0.1});
+  double now = 0;
+  for (int i = 0; i < 50; ++i, now += 0.04) {
+    if (i != 40) add(buffer, i, now);
+    if (i >= 10) add(buffer, i - 10, now);  // 0.4 s behind
+    take(buffer, now);
+  }
+  take(buffer, now);
+  add(buffer, 40, now);
+  EXPECT_THAT(take(buffer, now), ElementsAre(40, 41, 42, 43, 44, 45, 46, 47, 48, 49));
+  EXPECT_EQ(buffer.counts().lost, 0);
+}
+
+TEST(ReorderBuffer, PatienceHasABound) {
+  ReorderBuffer buffer({.seconds = 0.1, .most_seconds = 1});
+  double now = 0;
+  for (int i = 0; i < 200; ++i, now += 0.04) {
+    if (i % 60 != 0 || i == 0) add(buffer, i, now);
+    if (i % 60 == 59 && i > 60) add(buffer, i - 59, now);
+    take(buffer, now);
+  }
+  EXPECT_EQ(buffer.wait(), 1);
+  EXPECT_EQ(ReorderBuffer({.seconds = 3}).wait(), 3);
+}
+
+TEST(ReorderBuffer, HoldsAtMostSoManyBytes) {
+  ReorderBuffer buffer = begun(0, {.seconds = 10, .bytes = 100000});
+  for (int i = 2; i < 20; ++i) {
+    RtpPacket packet;
+    packet.sequence = std::uint16_t(i);
+    packet.payload.resize(60000);
+    buffer.add(packet, 0);
+    if (i > 2) continue;
+    EXPECT_THAT(take(buffer, 0), IsEmpty());
+  }
+  EXPECT_EQ(take(buffer, 0).size(), 19u);
 }
 
 TEST(JitterMeter, IsZeroForEvenArrivalsAndThatOfTheRfcElse) {

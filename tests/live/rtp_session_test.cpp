@@ -81,22 +81,72 @@ TEST(RtpSession, BundlesSaveHeaders) {
   EXPECT_LT(packets({.mtu = 60000, .repeat = 1, .bundle = 5}), 40);
 }
 
-TEST(RtpSession, RepeatedPacketsFollowTheirPlaneByOneAndAreDropped) {
-  const LiveTalk talk = random_talk(4);
-  RtpSender sender(talk.info, {.mtu = 60000, .repeat = 2}, "192.0.2.1", 5004, 1, 0);
-  std::vector<std::uint16_t> sequence;
+// Numbers of the packets of a face as they are sent, from 0 on.
+std::vector<int> order_of_packets(const LiveTalk& talk, RtpOptions options) {
+  options.mtu = 60000;
+  RtpSender sender(talk.info, options, "192.0.2.1", 5004, 1, 0);
   RtpSender::Datagrams out;
   for (std::size_t i = 0; i < talk.units.size(); ++i) {
-    ASSERT_TRUE(sender.send(talk.units[i], 0.04 * double(i), out));
+    EXPECT_TRUE(sender.send(talk.units[i], 0.04 * double(i), out));
   }
-  sender.finish(0.2, out);
+  sender.finish(0.04 * double(talk.units.size()), out);
+  std::vector<int> order;
+  std::optional<std::uint16_t> first;
   for (const RtpDatagram& each : out) {
-    if (!each.control) sequence.push_back(read_rtp(each.bytes)->sequence);
+    if (each.control) continue;
+    const std::uint16_t sequence = read_rtp(each.bytes)->sequence;
+    if (!first) first = sequence;
+    order.push_back(std::uint16_t(sequence - *first));
   }
-  const std::uint16_t first = sequence.at(0);
-  for (std::uint16_t& each : sequence) each = std::uint16_t(each - first);
-  EXPECT_THAT(sequence, ::testing::ElementsAre(0, 1, 0, 2, 1, 3, 2, 3));
-  EXPECT_EQ(sender.stats(0).repeated, 4);
+  return order;
+}
+
+TEST(RtpSession, RepeatedPacketsFollowTheirPlanes) {
+  const LiveTalk talk = random_talk(4), longer = random_talk(6);
+  using ::testing::ElementsAre;
+  EXPECT_THAT(order_of_packets(talk, {.repeat = 2, .repeat_after = 1}),
+              ElementsAre(0, 1, 0, 2, 1, 3, 2, 3));
+  EXPECT_THAT(order_of_packets(longer, {.repeat = 2, .repeat_after = 3}),
+              ElementsAre(0, 1, 2, 3, 0, 4, 1, 5, 2, 3, 4, 5));
+  EXPECT_THAT(order_of_packets(talk, {.repeat = 3, .repeat_after = 2}),
+              ElementsAre(0, 1, 2, 0, 3, 1, 0, 1, 2, 2, 3, 3));
+}
+
+// A burst of six packets never has both, with sound in between or without.
+TEST(RtpSession, ABurstOfLossesDoesNotTakeACopy) {
+  LiveTalk silent = random_talk(100), talk = silent;
+  test::add_sound(talk, test::aac_format());
+  for (const LiveTalk* each : {&silent, &talk}) {
+    for (int begin = 60; begin < 100; ++begin) {
+      RtpSender sender(each->info, {}, "192.0.2.1", 5004, 1, 0);
+      RtpReceiver receiver(*read_sdp(write_sdp(sender.session())), {}, 1);
+      BadNetwork network(1, {});
+      std::vector<LiveEvent> events;
+      int packet = 0;
+      double now = 0;
+      for (const LiveUnit& unit : each->units) {
+        RtpSender::Datagrams out, kept;
+        now = 1 + test::seconds_of(*each, unit);
+        ASSERT_TRUE(sender.send(unit, now, out));
+        for (const RtpDatagram& datagram : out) {
+          if (++packet <= begin || packet > begin + 6) kept.push_back(datagram);
+        }
+        network.put(kept, now);
+        test::deliver(network, receiver, now, events);
+      }
+      test::deliver(network, receiver, now + 2, events);
+      EXPECT_EQ(test::only(units_in(events), LiveTrack::face).size(), 100u) << begin;
+    }
+  }
+}
+
+TEST(RtpSession, JitterIsAdaptedTo) {
+  const LiveTalk talk = random_talk(492);
+  FaceRecovery recovery;
+  const auto events = transfer(talk, {.repeat = 1}, {.jitter = 0.3});
+  const auto shown = test::recovered(events, recovery);
+  EXPECT_GT(shown.size(), 430u);
+  test::expect_right(talk, shown);
 }
 
 TEST(RtpSession, APauseDoesNotHoldRepetitionsAndBundlesBack) {
@@ -199,6 +249,7 @@ TEST(RtpSession, ASenderThatBeginsAnewIsFollowed) {
   std::vector<LiveEvent> events;
   double now = 0;
   for (RtpSender* sender : {&first, &second}) {  // the first one does not say goodbye
+    now += 2;
     for (const LiveUnit& unit : talk.units) {
       RtpSender::Datagrams out;
       ASSERT_TRUE(sender->send(unit, now += 0.04, out));
@@ -206,7 +257,8 @@ TEST(RtpSession, ASenderThatBeginsAnewIsFollowed) {
       test::deliver(network, receiver, now, events);
     }
   }
-  EXPECT_EQ(count_gaps(events), 1);
+  EXPECT_EQ(count_gaps(events), 0);
+  EXPECT_EQ(std::count(events.begin(), events.end(), LiveEvent(LiveRestart{})), 1);
   const auto units = units_in(events);
   ASSERT_EQ(units.size(), 100u);
   expect_same({units.begin(), units.begin() + 50}, talk.units);
@@ -231,7 +283,7 @@ TEST(RtpSession, AStrayPacketOfAnotherSenderChangesNothing) {
     stray.payload = {0, 0, 1, 0xBB, 0x20};
     network.put(out, double(i));
     test::deliver(network, receiver, double(i), events);
-    receiver.rtp(LiveTrack::face, write_rtp(stray), double(i));
+    receiver.rtp(LiveTrack::face, write_rtp(stray), {}, double(i));
   }
   expect_same(units_in(events), talk.units);
 }
@@ -275,7 +327,7 @@ TEST(RtpSession, OptionsHaveBounds) {
   EXPECT_TRUE(check(info, {}));
   for (const RtpOptions& bad :
        {RtpOptions{.mtu = 255}, RtpOptions{.repeat = 0}, RtpOptions{.bundle = 17},
-        RtpOptions{.audio_bundle = 0}, RtpOptions{.ttl = 256}}) {
+        RtpOptions{.repeat_after = 0}, RtpOptions{.audio_bundle = 0}, RtpOptions{.ttl = 256}}) {
     EXPECT_EQ(check(info, bad).error().code, Code::invalid_argument);
   }
   EXPECT_FALSE(check(LiveInfo{}, {}));

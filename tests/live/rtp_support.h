@@ -102,6 +102,8 @@ struct Trouble {
   int loss = 0;       ///< percent
   int duplicate = 0;  ///< percent
   int reorder = 0;    ///< percent that come 30 ms late
+  int burst = 1;      ///< so many packets in a row are lost at a time
+  double jitter = 0;  ///< seconds that a packet is delayed at most, each on its own
 };
 
 /// A network that does so, the same way for the same seed.
@@ -111,9 +113,12 @@ class BadNetwork {
 
   void put(const std::vector<media::RtpDatagram>& datagrams, double now) {
     for (const media::RtpDatagram& each : datagrams) {
-      const bool lost = random_.chance(trouble_.loss);
+      if (random_.range(1, 100 * trouble_.burst) <= trouble_.loss) losing_ = trouble_.burst;
+      const bool lost = losing_ > 0;
+      losing_ -= lost ? 1 : 0;
       const bool twice = random_.chance(trouble_.duplicate);
-      const double delay = random_.chance(trouble_.reorder) ? 0.03 : 0;
+      double delay = random_.chance(trouble_.reorder) ? 0.03 : 0;
+      if (trouble_.jitter > 0) delay += trouble_.jitter * random_.range(0, 1000) / 1000.0;
       if (lost) continue;
       for (int i = 0; i < (twice ? 2 : 1); ++i) under_way_.push_back({now + delay, each});
     }
@@ -132,6 +137,7 @@ class BadNetwork {
  private:
   Random random_;
   Trouble trouble_;
+  int losing_ = 0;  // packets of a burst that are still to be lost
   std::vector<std::pair<double, media::RtpDatagram>> under_way_;
 };
 
@@ -140,9 +146,9 @@ inline void deliver(BadNetwork& network, media::RtpReceiver& receiver, double no
                     std::vector<media::LiveEvent>& events) {
   for (const auto& [at, datagram] : network.take(now)) {
     if (datagram.control) {
-      receiver.rtcp(datagram.track, datagram.bytes, at);
+      receiver.rtcp(datagram.track, datagram.bytes, {}, at);
     } else {
-      receiver.rtp(datagram.track, datagram.bytes, at);
+      receiver.rtp(datagram.track, datagram.bytes, {}, at);
     }
     while (auto event = receiver.next(at)) events.push_back(std::move(*event));
   }

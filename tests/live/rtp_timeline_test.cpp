@@ -70,8 +70,25 @@ TEST(RtpTimeline, WithoutReportsWhatComesTogetherBelongsTogether) {
   // Later ones that differ by little do not.
   timeline.add_report(LiveTrack::audio, {1000ull << 32, 5 + 480, 0, 0});
   EXPECT_EQ(timeline.time(LiveTrack::audio, sound), 0);
+  // Nor does one that differs by much: three in a row have to agree.
+  for (const std::uint32_t off : {4800, 9600, 4800, 4800}) {
+    timeline.add_report(LiveTrack::audio, {1000ull << 32, 5 + off, 0, 0});
+    EXPECT_EQ(timeline.time(LiveTrack::audio, sound), 0);
+  }
   timeline.add_report(LiveTrack::audio, {1000ull << 32, 5 + 4800, 0, 0});
   EXPECT_EQ(timeline.time(LiveTrack::audio, sound), -4800);
+}
+
+TEST(RtpTimeline, ReportsThatContradictTheArrivalByFarAreNotBelieved) {
+  RtpTimeline timeline(kFace, kSound, 0.5);
+  const auto face = timeline.add(LiveTrack::face, 77, 10);
+  const auto sound = timeline.add(LiveTrack::audio, 5, 10);
+  timeline.add_report(LiveTrack::face, {1000ull << 32, 77, 0, 0});
+  for (int i = 0; i < 5; ++i) timeline.add_report(LiveTrack::audio, {5000ull << 32, 5, 0, 0});
+  ASSERT_TRUE(timeline.settle(11));
+  for (int i = 0; i < 5; ++i) timeline.add_report(LiveTrack::audio, {9000ull << 32, 5, 0, 0});
+  EXPECT_EQ(timeline.time(LiveTrack::face, face), 0);
+  EXPECT_EQ(timeline.time(LiveTrack::audio, sound), 0);
 }
 
 TEST(RtpTimeline, OneTrackBeginsAtZeroAtOnce) {

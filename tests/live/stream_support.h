@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -20,6 +21,27 @@
 #include "tools/media/container.h"
 
 namespace animeme::test {
+
+/// What a receiver may take, whatever a sender says. A sanitizer has memory of its own.
+#if defined(__SANITIZE_ADDRESS__)
+#define ANIMEME_TEST_ADDRESSES 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define ANIMEME_TEST_ADDRESSES 1
+#endif
+#endif
+#ifdef ANIMEME_TEST_ADDRESSES
+inline constexpr double kMostMegabytes = 900;
+#else
+inline constexpr double kMostMegabytes = 300;
+#endif
+
+/// Of a file; 0 if it is not there.
+inline std::uintmax_t size_of(const std::string& path) {
+  std::error_code none;
+  const auto size = std::filesystem::file_size(path, none);
+  return none ? 0 : size;
+}
 
 /// The program running beside the test; ended with it.
 class Running {
@@ -48,14 +70,20 @@ class Running {
   int wait() {
     if (code_) return *code_;
     int status = 0;
-    ::waitpid(pid_, &status, 0);
+    rusage used{};
+    ::wait4(pid_, &status, 0, &used);
+    peak_mb_ = double(used.ru_maxrss) / 1024;
     code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     return *code_;
   }
 
+  /// Most memory that it ever had, after wait().
+  double peak_mb() const { return peak_mb_; }
+
  private:
   pid_t pid_;
   std::optional<int> code_;
+  double peak_mb_ = 0;
 };
 
 template <class Condition>

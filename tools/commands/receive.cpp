@@ -8,11 +8,14 @@
 #include "tools/commands/face_text.h"
 #include "tools/commands/interrupt.h"
 #include "tools/live/address.h"
+#include "tools/live/patient_source.h"
 #include "tools/live/receive_output.h"
 #include "tools/live/receive_report.h"
 #include "tools/media/live/pacer.h"
 #include "tools/media/live/recorder.h"
 #include "tools/media/live/recording_file.h"
+#include "tools/media/live/session_clock.h"
+#include "tools/text.h"
 
 namespace animeme::tools {
 
@@ -25,6 +28,7 @@ struct ReceiveOptions {
   std::string source;
   std::string output;
   live::SourceOptions receive;
+  bool any_source = false;
   std::string gap = "hold";
   double duration = 0;
   double wait = 60;
@@ -59,6 +63,8 @@ class Reception {
   bool has_face() const { return recorder_.recovery().usable > 0; }
   bool has_sound() const { return recorder_.sound_seconds() > 0; }
   bool heard() const { return first_.has_value(); }
+  /// Why it ended although the sender did not say so; empty: it did, or it was asked to end.
+  const std::string& cut_short() const { return cut_short_; }
 
   /// Until the sender ends, the time is over, or Ctrl-C. Errors: those of the source, of decoding
   /// and of standard output; what came before is kept.
@@ -71,6 +77,7 @@ class Reception {
   Result<void> take(media::LiveEvent event);
   Result<void> keep(const media::LiveUnit& unit);
   Result<void> record(bool idle);
+  std::string why_full(bool described) const;
   void look(double now);
 
   const ReceiveOptions& options_;
@@ -82,6 +89,7 @@ class Reception {
   StatusLine status_;
   std::vector<media::IntraInterval> intervals_;
   std::optional<double> first_;  // instant of the first unit
+  std::string cut_short_;
   double told_ = 0;
 };
 
@@ -132,13 +140,23 @@ Result<void> Reception::run() {
     }
     const double patience = first_ ? options_.timeout : options_.wait;
     if (patience > 0 && now - last > patience) {
-      if (first_) say("nothing came for " + std::to_string(int(patience)) + " s: the end");
-      (void)take(media::LiveEnd{});
-      return {};
+      if (first_) cut_short_ = format("nothing came for %g s (--timeout)", patience);
+      return take(media::LiveEnd{});
     }
+    const bool goodbye = std::holds_alternative<media::LiveEnd>(*event);
+    const bool described = std::holds_alternative<media::LiveInfo>(*event);
     if (auto ok = take(std::move(*event)); !ok) return ok;
+    if (recorder_.ended() && !goodbye) cut_short_ = why_full(described);
   }
   return take(media::LiveEnd{});
+}
+
+/// The recorder has ended by itself; empty: as it was told to.
+std::string Reception::why_full(bool described) const {
+  if (described) {
+    return "the sender came back with another sound, which does not fit into the same recording";
+  }
+  return options_.duration > 0 ? "" : "the recording is as large as it may be";
 }
 
 Result<void> Reception::finish() {
@@ -163,10 +181,17 @@ void Reception::report() {
   std::printf("%s\n", live::receive_json(recorder_, source_.stats(), intervals_).c_str());
 }
 
-Error nothing_came(const ReceiveOptions& options, const Reception& reception) {
+Error nothing_came(const ReceiveOptions& options, const Reception& reception,
+                   const live::PatientSource& source) {
   if (!reception.heard()) {
-    return make_error(Code::not_found,
-                      "nothing came: is the sender running, and are address and port the same?")
+    if (source.waiting_for()) return *source.waiting_for();
+    const std::int64_t foreign = source.stats().foreign;
+    const std::string others =
+        foreign > 0 ? " (" + std::to_string(foreign) + " datagrams came that are of no sender)"
+                    : "";
+    return make_error(Code::not_found, "nothing came" + others +
+                                           ": is the sender running, and are address and port the "
+                                           "same?")
         .in_file(options.source);
   }
   return make_error(Code::not_found,
@@ -176,22 +201,22 @@ Error nothing_came(const ReceiveOptions& options, const Reception& reception) {
 }
 
 Result<int> run(const ReceiveOptions& options) {
-  if (!live::is_fap_output(options.output) && !live::is_container_output(options.output) &&
-      extension_of(options.output) != ".fba") {
-    return usage_error("--output must end in .fap, .fba, .mp4, .mkv or .ts, or be -, not " +
-                       options.output);
-  }
   if (options.json && options.output == "-") {
     return usage_error("--json and the frames of -o - both go to standard output");
   }
   if (auto ok = live::check_place(options.output); !ok) return ok.error();
-  auto source = live::open_source(options.source, options.receive);
-  if (!source && source.error().code == Code::invalid_argument) {
-    return usage_error(source.error().message);
+  live::SourceOptions receive = options.receive;
+  receive.media.rtp.any_source = receive.media.ts.any_source = options.any_source;
+  auto opened = live::open_patiently(options.source, receive);
+  if (!opened && opened.error().code == Code::invalid_argument) {
+    return usage_error(opened.error().message);
   }
-  if (!source) return source.error().in_file(options.source);
+  if (!opened) return opened.error().in_file(options.source);
+  const live::PatientSource& patient = **opened;
+  if (patient.waiting_for()) say("waiting: " + patient.waiting_for()->describe());
+  const std::unique_ptr<media::LiveSource> source = media::make_steady(std::move(*opened));
   const Interrupt interrupt;
-  Reception reception(options, **source);
+  Reception reception(options, *source);
   const auto received = reception.run();
   const bool enough =
       reception.has_face() || (live::is_container_output(options.output) && reception.has_sound());
@@ -202,9 +227,14 @@ Result<int> run(const ReceiveOptions& options) {
   if (!received) return received.error().in_file(options.source);
   if (!enough) {
     if (Interrupt::requested() && !reception.heard()) return kInterrupted;
-    return nothing_came(options, reception);
+    return nothing_came(options, reception, patient);
   }
-  return Interrupt::requested() ? kInterrupted : kOk;
+  if (Interrupt::requested()) return kInterrupted;
+  if (reception.cut_short().empty()) return kOk;
+  std::string why = reception.cut_short();
+  if (patient.waiting_for()) why += "; " + patient.waiting_for()->describe();
+  warn("the recording ended early: " + why + "; what came before is kept");
+  return kCheckFailed;
 }
 
 void add_options(CLI::App& app, ReceiveOptions& options) {
@@ -212,17 +242,21 @@ void add_options(CLI::App& app, ReceiveOptions& options) {
                  "Session description (.sdp) or address: rtp://host:port, udp://host:port, "
                  "srt://host:port, ws://host:port")
       ->required();
-  app.add_option("-o,--output", options.output,
-                 "What to write: .mp4 .mkv .ts (face and sound), .fba (stream), .fap (text), - for "
-                 "FAP text on standard output while it comes")
+  add_output(app.add_option("-o,--output", options.output,
+                            "What to write: .mp4 .mkv .ts (face and sound), .fba (stream), .fap "
+                            "(text), - for FAP text on standard output while it comes"),
+             {".fap", ".fba", ".mp4", ".mkv", ".ts"}, OutputKind::file)
       ->required();
   app.add_option("--duration", options.duration, "End after so many seconds of presentation")
       ->check(CLI::PositiveNumber);
-  app.add_option("--wait", options.wait, "Seconds to wait for the first packet; 0: for ever")
+  app.add_option("--wait", options.wait,
+                 "Seconds to wait for the session description, the server and the first packet; "
+                 "0: for ever")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_option("--timeout", options.timeout,
-                 "End when nothing came for so many seconds; 0: never")
+                 "End, with exit code 1, when nothing came for so many seconds; till then a sender "
+                 "that begins again is recorded on; 0: never")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_option(
@@ -242,9 +276,17 @@ void add_options(CLI::App& app, ReceiveOptions& options) {
       ->excludes(coded);
   add_exact_option(app, options.text.exact);
   app.add_option("--reorder-seconds", options.receive.media.rtp.reorder_seconds,
-                 "rtp: the longest time that a packet waits for an earlier one")
+                 "rtp: time that a packet waits for an earlier one; it grows with how late packets "
+                 "and copies come")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
+  app.add_option("--reorder-most", options.receive.media.rtp.reorder_most_seconds,
+                 "rtp: what that time grows to at most")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  app.add_flag("--any-source", options.any_source,
+               "rtp, udp: take datagrams from every address; else one sender is heard, from one "
+               "address, and the next one when it is silent for a second");
   app.add_flag("--stats", options.stats, "Tell once a second how it goes");
   app.add_flag("--json", options.json,
                "Machine-readable report on standard output, with a row for every intra interval");

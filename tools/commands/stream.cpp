@@ -307,6 +307,11 @@ void add_options(CLI::App& app, StreamOptions& options) {
                  "rtp: how often each packet of the face is sent, against loss")
       ->check(CLI::Range(1, 8))
       ->capture_default_str();
+  app.add_option("--repeat-after", options.sink.media.rtp.repeat_after,
+                 "rtp: a copy follows its original by so many packets of the face; more survive "
+                 "longer bursts of loss and cost that much delay where one is needed")
+      ->check(CLI::Range(1, 50))
+      ->capture_default_str();
   app.add_option("--bundle", options.sink.media.rtp.bundle,
                  "rtp: planes a packet; more save headers and cost delay")
       ->check(CLI::Range(1, 16))

@@ -22,6 +22,10 @@ IntervalShares shares_of(const std::vector<media::IntraInterval>& intervals);
 std::string receive_line(double seconds, const media::Recorder& recorder,
                          const media::ReceiveStats& stats);
 
+/// What is unusual, a sentence a line: senders that began again, datagrams of others, packets so
+/// late that an option helps. Empty as a rule.
+std::string receive_advice(const media::ReceiveStats& stats);
+
 /// Sentences at the end, one a line.
 std::string receive_summary(const media::Recorder& recorder, const media::ReceiveStats& stats,
                             const std::vector<media::IntraInterval>& intervals);

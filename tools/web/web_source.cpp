@@ -17,6 +17,7 @@ using media::LiveUnit;
 
 // Planes that wait for the first sound, which tells its priming.
 constexpr std::size_t kMostHeld = 64;
+constexpr std::int64_t kMostHeldBytes = 1 << 20;
 constexpr std::int64_t kLongestPriming = 4096;
 
 class Source : public media::LiveSource {
@@ -80,7 +81,7 @@ Result<void> Source::take(const Incoming& incoming) {
   ++stats_.packets;
   stats_.bytes += std::int64_t(incoming.bytes.size());
   Result<void> taken = incoming.sound ? take_sound(incoming.bytes) : take_face(incoming.bytes);
-  describe(events_.size() > kMostHeld);
+  describe(events_.size() > kMostHeld || stats_.bytes > kMostHeldBytes);
   return taken;
 }
 

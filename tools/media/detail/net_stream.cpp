@@ -14,6 +14,7 @@ using std::chrono::milliseconds;
 constexpr int kLargestDatagram = 65536;
 constexpr std::int64_t kSocketBuffer = std::int64_t(1) << 20;
 constexpr milliseconds kRetry{200};
+constexpr std::size_t kItem = 256;            // what a datagram costs beside its bytes
 constexpr std::int64_t kSrtLatency = 120000;  // microseconds, unless the address says otherwise
 
 /// Is this an address of this machine that a socket can be bound to?
@@ -76,8 +77,44 @@ void NetThread::stop() {
 
 NetReader::~NetReader() { stop(); }
 
+// These options only FFmpeg knows what to do with.
+bool NetReader::is_plain() const {
+  for (const char* name : {"sources", "block", "localport", "connect", "reuse", "timeout"}) {
+    if (!address_.option(name).empty()) return false;
+  }
+  return address_.scheme == "udp";
+}
+
+/// As FFmpeg binds: to a group, to an address of ours alone, or to all.
+Result<void> NetReader::bind() {
+  const std::string local = address_.option("localaddr");
+  const Result<UdpAddress> host =
+      UdpAddress::resolve(address_.host.empty() ? "0.0.0.0" : address_.host, address_.port);
+  if (!host) return host.error();
+  std::string at = host->host();
+  Multicast multicast;
+  if (host->is_multicast()) {
+    multicast.interface = local;
+  } else if (!local.empty()) {
+    at = local;
+  } else if (!is_own_address(at)) {
+    at = host->is_ipv6() ? "::" : "0.0.0.0";
+  }
+  Result<UdpSocket> socket = UdpSocket::bind(at, address_.port, multicast);
+  if (!socket) {
+    return make_error(Code::io, address_.text() + " cannot be opened: " + socket.error().message +
+                                    "; is the port in use, or the host no address of this "
+                                    "machine?");
+  }
+  socket_.emplace(std::move(*socket));
+  return {};
+}
+
 Result<void> NetReader::start() {
-  if (!address_.listener) {
+  if (is_plain()) {
+    Result<void> bound = bind();
+    if (!bound) return bound;
+  } else if (!address_.listener) {
     Result<void> opened = open(AVIO_FLAG_READ, address_.scheme == "udp" ? kLargestDatagram : 1456);
     if (!opened) return opened;
   }
@@ -88,7 +125,9 @@ Result<void> NetReader::start() {
 void NetReader::run() {
   av::LogCapture quiet;
   Error failure;
-  if (io_ == nullptr) {
+  if (socket_) {
+    read_socket();
+  } else if (io_ == nullptr) {
     Result<void> opened = open(AVIO_FLAG_READ, 1456);
     if (!opened) failure = opened.error();
   }
@@ -96,6 +135,27 @@ void NetReader::run() {
   const std::lock_guard lock(mutex_);
   failure_ = std::move(failure);
   ended_ = true;
+  changed_.notify_all();
+}
+
+void NetReader::read_socket() {
+  const UdpSocket* const sockets[] = {&*socket_};
+  while (!stopping_) {
+    UdpAddress from;
+    const auto got = socket_->receive(&from);
+    if (got && *got) {
+      queue(**got, from);
+    } else if (!got || !wait_for_any(sockets, 0.05)) {
+      std::this_thread::sleep_for(milliseconds(10));  // an error is one of a single datagram
+    }
+  }
+}
+
+void NetReader::queue(std::span<const std::uint8_t> bytes, const UdpAddress& from) {
+  const std::lock_guard lock(mutex_);
+  if (queued_ + bytes.size() + kItem > queue_bytes_) return;  // the counters will show it
+  queue_.push_back({{bytes.begin(), bytes.end()}, from});
+  queued_ += bytes.size() + kItem;
   changed_.notify_all();
 }
 
@@ -111,11 +171,7 @@ void NetReader::read_all() {
       std::this_thread::sleep_for(milliseconds(10));
       continue;
     }
-    const std::lock_guard lock(mutex_);
-    if (queued_ + std::size_t(count) > queue_bytes_) continue;  // the counters will show it
-    queue_.emplace_back(block.begin(), block.begin() + count);
-    queued_ += std::size_t(count);
-    changed_.notify_all();
+    queue(std::span(block).first(std::size_t(count)), {});
   }
 }
 
@@ -126,9 +182,9 @@ std::optional<NetReader::Datagram> NetReader::next(std::chrono::steady_clock::ti
     if (!ended_) return {};
     return Datagram{.end = true, .error = failure_};
   }
-  Datagram datagram{.bytes = std::move(queue_.front())};
+  Datagram datagram{.bytes = std::move(queue_.front().bytes), .from = queue_.front().from};
   queue_.pop_front();
-  queued_ -= datagram.bytes.size();
+  queued_ -= datagram.bytes.size() + kItem;
   return datagram;
 }
 
@@ -178,7 +234,7 @@ bool NetWriter::write_all() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return stopping_ || last_ || !queue_.empty(); });
     if (stopping_ || queue_.empty()) return true;
-    std::vector<std::uint8_t> datagram = std::move(queue_.front());
+    std::vector<std::uint8_t> datagram = std::move(queue_.front().bytes);
     queue_.pop_front();
     queued_ -= datagram.size();
     lock.unlock();
@@ -194,7 +250,7 @@ bool NetWriter::write(std::span<const std::uint8_t> bytes) {
   if (!connected_) return false;
   const std::lock_guard lock(mutex_);
   if (queued_ + bytes.size() > queue_bytes_) return false;
-  queue_.emplace_back(bytes.begin(), bytes.end());
+  queue_.push_back({{bytes.begin(), bytes.end()}, {}});
   queued_ += bytes.size();
   changed_.notify_all();
   return true;

@@ -1,5 +1,5 @@
 // FFmpeg's udp and srt protocols, each served by a thread of its own, so that nobody waits for the
-// network.
+// network. Datagrams are read from a socket of ours, as FFmpeg does not tell who has sent them.
 #pragma once
 
 #include <atomic>
@@ -15,6 +15,7 @@
 
 #include "fap/result.h"
 #include "tools/media/detail/net_address.h"
+#include "tools/media/live/udp_socket.h"
 
 struct AVIOContext;
 
@@ -44,7 +45,11 @@ class NetThread {
   std::thread thread_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<std::vector<std::uint8_t>> queue_;
+  struct Piece {
+    std::vector<std::uint8_t> bytes;
+    UdpAddress from;
+  };
+  std::deque<Piece> queue_;
   std::size_t queued_ = 0;  // bytes
 };
 
@@ -58,6 +63,7 @@ class NetReader : NetThread {
 
   struct Datagram {
     std::vector<std::uint8_t> bytes;
+    UdpAddress from;   ///< nobody where it is not known
     bool end = false;  ///< the connection is over, and nothing is left
     Error error;       ///< with `end`: message not empty if it never came about
   };
@@ -67,7 +73,12 @@ class NetReader : NetThread {
  private:
   void run();
   void read_all();
+  void read_socket();
+  bool is_plain() const;
+  Result<void> bind();
+  void queue(std::span<const std::uint8_t> bytes, const UdpAddress& from);
 
+  std::optional<UdpSocket> socket_;
   bool ended_ = false;
   Error failure_;
 };

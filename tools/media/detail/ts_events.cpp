@@ -14,6 +14,7 @@ namespace {
 constexpr std::int64_t kStampTurn = std::int64_t(1) << 33;
 constexpr std::int64_t kPatience = 3 * 90000;  // ticks for which units wait for the description
 constexpr std::size_t kMostHeld = 4096;
+constexpr std::size_t kMostHeldBytes = std::size_t(4) << 20;
 constexpr std::int64_t kTablesEvery = 45000;  // at least, by the standards that build on 13818-1
 constexpr std::int64_t kOtherTrack = 22500;   // further than it ever is behind
 constexpr int kLongestPriming = 4096;
@@ -32,7 +33,8 @@ void TsEvents::push(TsEvent event, std::deque<LiveEvent>& out) {
     pes->track == LiveTrack::face ? take_face(*pes) : take_sound(*pes);
   }
   if (std::holds_alternative<TsOver>(event)) return finish(out);
-  const bool waited_enough = held_to_ - held_from_ > kPatience || held_.size() > kMostHeld;
+  const bool waited_enough =
+      held_to_ - held_from_ > kPatience || held_.size() > kMostHeld || held_bytes_ > kMostHeldBytes;
   deliver(waited_enough, out);
 }
 
@@ -88,6 +90,7 @@ bool TsEvents::outage(const TsPes& pes, std::int64_t stamp, std::int64_t interva
 void TsEvents::hold(LiveUnit unit, std::int64_t stamp) {
   if (held_.empty() || held_from_ == 0) held_from_ = held_to_ = stamp;
   held_to_ = std::max(held_to_, stamp);
+  held_bytes_ += unit.bytes.size();
   held_.emplace_back(std::move(unit));
 }
 
@@ -172,6 +175,7 @@ void TsEvents::deliver(bool whatever_is_known, std::deque<LiveEvent>& out) {
   const bool all_known = known(LiveTrack::face) && known(LiveTrack::audio);
   if (held_.empty() || (!all_known && !whatever_is_known && !told_)) return;
   LiveInfo info = describe();
+  held_bytes_ = 0;
   if (info.face_config.empty() && !info.audio) return held_.clear();
   if (info != told_) {
     out.emplace_back(info);

@@ -48,6 +48,7 @@ class TsEvents {
   Clock clocks_[2];                         // by LiveTrack
   std::optional<std::int64_t> last_stamp_;  // unwrapped, of either track
   std::deque<LiveEvent> held_;
+  std::size_t held_bytes_ = 0;
   std::int64_t held_from_ = 0, held_to_ = 0;  // stamps
   std::optional<LiveInfo> told_;
 };

@@ -27,15 +27,20 @@ class Unwrapper {
 
 /// How long a packet may keep others waiting.
 struct ReorderLimits {
-  double seconds = 0.1;      ///< longest time that a packet waits for an earlier one
-  std::size_t packets = 64;  ///< at most so many wait
+  double seconds = 0.1;     ///< time that a packet waits for an earlier one, at first and at least
+  double most_seconds = 1;  ///< at most, however late packets come
+  std::size_t packets = 256;                 ///< at most so many wait
+  std::size_t bytes = std::size_t(1) << 20;  ///< with so much payload
 };
 
 /// One sender's packets in order of sequence numbers. The first packet waits, too: an earlier one,
 /// or its copy, may be on its way, and a face that begins with a loss begins an intra plane later.
-/// A jump of more than 3000 numbers is taken
-/// for a sender that has begun anew if the packet after it goes on from there; else the packet is
-/// dropped.
+/// How long packets wait follows from how late others came, copies included: a quarter longer than
+/// the worst of the last 15 to 30 seconds (receiving.md, section 3).
+///
+/// A jump of more than 3000 numbers, or back to numbers that came more than five seconds ago, is
+/// taken for a sender that has begun anew if the packet after it goes on from there; else the
+/// packet is dropped.
 class ReorderBuffer {
  public:
   /// So many packets are missing at this place; 0: not known.
@@ -55,6 +60,13 @@ class ReorderBuffer {
   std::optional<double> deadline() const;
   /// Nothing more will come: what is missing is lost.
   void flush() { flushing_ = true; }
+  /// An empty one for another sender on the same way: knows how late packets come here.
+  ReorderBuffer renewed() const;
+  double longest_wait() const { return longest_wait_; }  ///< the most that wait() was
+  double wait() const;                                   ///< seconds that a packet waits by now
+  double latest() const {
+    return latest_;
+  }  ///< seconds that one came behind its successor, or copy
 
   /// Totals over the life of the buffer.
   struct Counts {
@@ -76,9 +88,17 @@ class ReorderBuffer {
     double since = 0;
   };
   static constexpr std::size_t kHistory = 1024;
+  /// How late packets were.
+  struct Lateness {
+    double begin = 0;                    // of the window
+    double worst = 0, worst_before = 0;  // in it, and in the one before
+  };
 
   std::int64_t extend(std::uint16_t sequence) const;
   void begin_at(std::int64_t sequence);
+  bool is_elsewhere(std::int64_t sequence, double now) const;
+  void expect_up_to(std::int64_t sequence, double now);
+  void measure(std::int64_t sequence, double now);
   bool was_given(std::int64_t sequence) const;
   void count_old(std::int64_t sequence);
   bool must_go(double now) const;
@@ -86,7 +106,13 @@ class ReorderBuffer {
 
   ReorderLimits limits_;
   std::map<std::int64_t, Waiting> waiting_;
+  std::size_t waiting_bytes_ = 0;
   std::bitset<kHistory> given_;  // of the last numbers before next_
+  // When the last numbers up to highest_ came, or the first one behind them if they did not.
+  std::array<double, kHistory> since_{};
+  double last_new_ = 0;  // when highest_ came
+  Lateness lateness_;
+  double latest_ = 0, longest_wait_ = 0;
   bool begun_ = false;
   double begin_until_ = 0;  // so long packets may come that are earlier than the first
   bool restarted_ = false;  // tell of a gap of unknown size

@@ -88,6 +88,12 @@ struct LiveGap {
   friend bool operator==(const LiveGap&, const LiveGap&) = default;
 };
 
+/// What follows is of another sender, or of the same one that has begun anew: its times have nothing
+/// to do with those before, and its first planes may be predicted from others. LiveInfo comes again.
+struct LiveRestart {
+  friend bool operator==(const LiveRestart&, const LiveRestart&) = default;
+};
+
 /// The sender has ended the presentation.
 struct LiveEnd {
   friend bool operator==(const LiveEnd&, const LiveEnd&) = default;
@@ -99,7 +105,7 @@ struct LiveIdle {
 };
 
 /// Info comes first, and again if it changes.
-using LiveEvent = std::variant<LiveInfo, LiveUnit, LiveGap, LiveEnd, LiveIdle>;
+using LiveEvent = std::variant<LiveInfo, LiveUnit, LiveGap, LiveRestart, LiveEnd, LiveIdle>;
 
 /// Totals since the beginning.
 struct ReceiveStats {
@@ -110,10 +116,15 @@ struct ReceiveStats {
   std::int64_t duplicates = 0;  ///< came again (repetition)
   std::int64_t reordered = 0;   ///< came behind a later one
   double jitter = 0;            ///< seconds, RFC 3550 section 6.4.1, of the face
+  std::int64_t foreign = 0;     ///< datagrams of others than the sender, and damaged ones: ignored
+  std::int64_t sessions = 0;    ///< senders, or begins of one
+  double wait = 0;              ///< seconds that missing packets were waited for at most
+  double latest = 0;            ///< seconds that a packet came behind one that was sent later
 };
 
 /// Receives one presentation. Not thread safe. Safe for whatever comes over the network: memory
-/// stays bounded, damaged packets are counted and dropped.
+/// stays bounded, damaged packets are counted and dropped. Times are those of the sender, true or
+/// not; session_clock.h has a clock that goes on when the sender begins anew.
 class LiveSource {
  public:
   virtual ~LiveSource() = default;

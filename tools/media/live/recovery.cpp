@@ -18,12 +18,13 @@ std::optional<LiveUnit> FaceRecovery::accept(LiveEvent event) {
   if (LiveInfo* info = std::get_if<LiveInfo>(&event)) {
     if (!info_ || !same_face(*info_, *info)) {
       waiting_ = true;
-      shown_until_.reset();
+      if (info_ && info_->timescale != info->timescale) shown_until_.reset();
     }
     info_ = std::move(*info);
   } else if (const LiveGap* gap = std::get_if<LiveGap>(&event)) {
     if (gap->track == LiveTrack::face) lose(gap->packets);
-  } else if (std::holds_alternative<LiveEnd>(event)) {
+  } else if (std::holds_alternative<LiveEnd>(event) ||
+             std::holds_alternative<LiveRestart>(event)) {
     end_interval();
     waiting_ = true;
     shown_until_.reset();

@@ -49,7 +49,7 @@ class FaceRecovery {
  public:
   /// Takes the events of a source in their order. Gives back sound as it is, and planes that can be
   /// decoded: from the first intra plane on, and after a gap from the next one on. A new
-  /// configuration or time scale counts as a gap.
+  /// configuration or time scale counts as a gap, and so does another sender.
   std::optional<LiveUnit> accept(LiveEvent event);
 
   /// Is the face wrong or unknown since the last gap?

@@ -22,13 +22,17 @@ namespace animeme::media {
 /// How a presentation is sent.
 struct RtpOptions {
   int mtu = 1400;  ///< largest datagram, bytes of UDP payload, 256..65000; larger planes are split
-  /// How often each packet of the face is sent, 1..8. A copy follows its original by one further
-  /// packet of the face, the next copy by two, so a burst that swallows both has to last a plane.
-  /// Planes are smaller than the headers around them, and a lost one spoils the face up to the
-  /// next intra plane, hence 2. Receivers that do not drop duplicates want 1 (a bare
-  /// `rtpmp4vdepay` of GStreamer without `rtpjitterbuffer`; FFmpeg drops all but copies right
-  /// behind their original, which come where no plane follows for 0.2 s and at the end).
+  /// How often each packet of the face is sent, 1..8. Planes are smaller than the headers around
+  /// them, and a lost one spoils the face up to the next intra plane, hence 2. Receivers that do not
+  /// drop duplicates want 1 (a bare `rtpmp4vdepay` of GStreamer without `rtpjitterbuffer`; FFmpeg
+  /// drops all but copies right behind their original, which come where no plane follows for 0.2 s
+  /// and at the end).
   int repeat = 2;
+  /// A copy follows its original by so many further packets of the face, 1..50, the next copy by twice
+  /// as many, so that a burst of losses has to last that long to take them all. Where no plane
+  /// follows for 0.2 s, copies wait no longer. A loss costs that much delay; receivers of ours learn
+  /// to wait so long.
+  int repeat_after = 3;
   /// Planes a packet, 1..16. More save headers and cost delay. Their sizes and times go into an RTP
   /// header extension that the session description announces; receivers that do not know it see
   /// the planes in order, all with the time of the first. Intra planes begin a packet.
@@ -46,14 +50,18 @@ struct RtpOptions {
 
 /// How a presentation is received.
 struct RtpReceiveOptions {
-  /// Longest time that a packet waits for an earlier one, seconds, 0..10. Has to be longer than a
-  /// plane for repeated packets to help.
+  /// Time that a packet waits for an earlier one, seconds, 0..10: at first, and at least. It grows
+  /// when packets, or their copies, come later than that, and shrinks slowly when they do no more.
   double reorder_seconds = 0.1;
-  int reorder_packets = 64;  ///< at most so many wait, 0..1000
+  double reorder_most_seconds = 1;  ///< what it grows to at most, 0..10
+  int reorder_packets = 256;        ///< at most so many wait, 0..1000
   /// Longest time to wait at the begin for the sender reports that tie face and sound together,
   /// 0..10. Not needed with a session description that has the media clock, as ours.
   double sync_seconds = 0.5;
   bool send_reports = true;  ///< receiver reports back to the sender
+  /// One sender may send from several addresses and ports (a farm of relays). Anybody who can see
+  /// what it sends can then speak in its place.
+  bool any_source = false;
   std::string interface;     ///< as RtpOptions::interface
 };
 
@@ -67,6 +75,11 @@ Result<std::unique_ptr<LiveSink>> make_rtp_sink(const std::string& url,
 /// Receives what a session description tells: a file, or "rtp://address:port", which binds the
 /// port (host empty, 0.0.0.0 or [::]: all addresses; a multicast address is joined) and takes a
 /// face alone, with the configuration in front of its intra planes.
+///
+/// Heard is one sender, from one address and port, as rtp_input.h has it: the first that proves to
+/// be one, the one that was described before all others. When it is silent for a second, another
+/// one that sends meanwhile takes over (LiveRestart). The description is read again when its file
+/// changes.
 ///
 /// Times: face times are in the timescale of the sender's LiveInfo if the description has it
 /// (ours do) and come back exactly as they were sent if that is at most 90000; other face times are

@@ -30,16 +30,26 @@ RtpReceiver::RtpReceiver(const RtpSession& session, const RtpReceiveOptions& opt
                 options.sync_seconds),
       timescale_(session.face && session.face->timescale > 0 ? session.face->timescale
                                                              : kFaceClock) {
-  const ReorderLimits limits{options.reorder_seconds, std::size_t(options.reorder_packets)};
+  RtpInput::Settings settings;
+  settings.limits.seconds = options.reorder_seconds;
+  settings.limits.most_seconds = options.reorder_most_seconds;
+  settings.limits.packets = std::size_t(options.reorder_packets);
+  settings.any_source = options.any_source;
+  const auto add = [&](LiveTrack track, const RtpTrack& described) {
+    settings.payload_type = described.payload_type;
+    settings.clock = track == LiveTrack::face ? kFaceClock : described.clock;
+    settings.bundle_id = track == LiveTrack::face ? session.face->bundle_id : 0;
+    settings.ssrc = described.ssrc;
+    settings.face = track == LiveTrack::face;
+    sources_.push_back({track, RtpInput(settings)});
+  };
   if (session.face) {
     face_.emplace(session.face->config, timescale_);
-    sources_.push_back({LiveTrack::face, RtpInput({session.face->payload_type, kFaceClock,
-                                                   session.face->bundle_id, limits})});
+    add(LiveTrack::face, *session.face);
   }
   if (session.audio) {
     audio_.emplace(*session.audio);
-    sources_.push_back({LiveTrack::audio,
-                        RtpInput({session.audio->payload_type, session.audio->clock, 0, limits})});
+    add(LiveTrack::audio, *session.audio);
   }
 }
 
@@ -48,6 +58,18 @@ RtpReceiver::Source* RtpReceiver::source(LiveTrack track) {
     if (each.track == track) return &each;
   }
   return nullptr;
+}
+
+const RtpReceiver::Source* RtpReceiver::source(LiveTrack track) const {
+  for (const Source& each : sources_) {
+    if (each.track == track) return &each;
+  }
+  return nullptr;
+}
+
+std::vector<RtpInput::Early> RtpReceiver::early(LiveTrack track) const {
+  const Source* const from = source(track);
+  return from != nullptr ? from->input.early() : std::vector<RtpInput::Early>();
 }
 
 const RtpTrack& RtpReceiver::described(const Source& source) const {
@@ -69,26 +91,43 @@ void RtpReceiver::describe(const Source& source) {
   }
 }
 
-void RtpReceiver::rtp(LiveTrack track, std::span<const std::uint8_t> datagram, double now) {
-  Source* const from = source(track);
-  if (from == nullptr) return;
-  if (looks_like_rtcp(datagram)) return rtcp(track, datagram, now);
-  const RtpInput::Taken taken = from->input.add(datagram, now);
+void RtpReceiver::rtp(LiveTrack track, std::span<const std::uint8_t> datagram,
+                      const UdpAddress& from, double now) {
+  Source* const to = source(track);
+  if (to == nullptr) return;
+  if (looks_like_rtcp(datagram)) {
+    rtcp(track, datagram, from, now);
+    return;
+  }
+  const RtpInput::Taken taken = to->input.add(datagram, from, now);
   if (taken == RtpInput::Taken::no) return;
-  if (taken == RtpInput::Taken::restart) restart(*from, now);
-  if (!from->begun) describe(*from);
-  from->begun = true;
-  drain(*from, now);
+  if (taken == RtpInput::Taken::restart) restart(now);
+  if (!to->begun) {
+    describe(*to);
+    if (const auto report = to->input.take_report()) timeline_.add_report(track, *report);
+  }
+  to->begun = true;
+  sessions_ = std::max<std::int64_t>(1, sessions_);
+  drain(*to, now);
 }
 
-void RtpReceiver::rtcp(LiveTrack track, std::span<const std::uint8_t> datagram, double now) {
-  Source* const from = source(track);
+bool RtpReceiver::rtcp(LiveTrack track, std::span<const std::uint8_t> datagram,
+                       const UdpAddress& from, double now) {
+  Source* const to = source(track);
+  if (to == nullptr) return false;
   const std::optional<RtcpMessage> message = read_rtcp(datagram);
-  if (from == nullptr || !message) return;
-  for (const RtcpReport& report : message->reports) {
-    if (from->input.add_report(report, now)) timeline_.add_report(track, *report.sender);
+  if (!message) {
+    to->input.ignore();
+    return false;
   }
-  for (const std::uint32_t ssrc : message->byes) from->input.add_bye(ssrc, now);
+  bool ours = false;
+  for (const RtcpReport& report : message->reports) {
+    if (!to->input.add_report(report, from, now)) continue;
+    timeline_.add_report(track, *report.sender);
+    ours = true;
+  }
+  for (const std::uint32_t ssrc : message->byes) to->input.add_bye(ssrc, from, now);
+  return ours;
 }
 
 void RtpReceiver::drain(Source& source, double now) {
@@ -135,11 +174,17 @@ LiveEvent RtpReceiver::pop(std::deque<LiveEvent>& queue) {
   return event;
 }
 
-// The old sender's units get their times while its clock is known.
-void RtpReceiver::restart(Source& source, double now) {
-  source.input.flush();
-  drain(source, now);
+void RtpReceiver::flush(double now) {
+  for (Source& each : sources_) {
+    each.input.flush();
+    drain(each, now);
+  }
   timeline_.settle(std::numeric_limits<double>::infinity());
+}
+
+// The old sender's units get their times while its clock is known.
+void RtpReceiver::restart(double now) {
+  flush(now);
   if (!announced_ && !pending_.empty()) {
     ready_.push_back(info());
     waiting_bytes_ += cost(ready_.back());
@@ -149,12 +194,17 @@ void RtpReceiver::restart(Source& source, double now) {
     ready_.push_back(std::move(event));
   }
   pending_.clear();
-  source.input.accept(now);
-  source.track == LiveTrack::face ? face_->restart() : audio_->gap();
-  timeline_.restart(source.track);
-  announced_ = false;
-  for (Source& each : sources_) each.begun = false;
-  push(LiveGap{source.track, 0});
+  ready_.push_back(LiveRestart{});
+  waiting_bytes_ += cost(ready_.back());
+  timeline_.restart();
+  if (face_) face_->restart();
+  if (audio_) audio_->gap();
+  for (Source& each : sources_) {
+    each.input.accept();
+    each.begun = false;
+  }
+  announced_ = ended_ = false;
+  ++sessions_;
 }
 
 LiveUnit RtpReceiver::timed(LiveUnit unit) {
@@ -253,8 +303,12 @@ ReceiveStats RtpReceiver::stats() const {
     stats.late += counts.late;
     stats.duplicates += counts.duplicates;
     stats.reordered += counts.reordered;
+    stats.foreign += each.input.foreign();
+    stats.wait = std::max(stats.wait, each.input.wait());
+    stats.latest = std::max(stats.latest, each.input.latest());
     if (each.track == LiveTrack::face) stats.jitter = each.input.jitter_seconds();
   }
+  stats.sessions = sessions_;
   return stats;
 }
 

@@ -3,11 +3,13 @@
 /// takes out events and reports.
 ///
 ///     RtpReceiver receiver(*read_sdp(text), {}, 1);
-///     receiver.rtp(LiveTrack::face, datagram, seconds);
+///     receiver.rtp(LiveTrack::face, datagram, from, seconds);
 ///     while (auto event = receiver.next(seconds)) { ... }
 ///
-/// Safe for whatever comes in. At most 8 MB wait in it, besides `reorder_packets` datagrams a
-/// track; when the caller does not take them out, further units are dropped and reported as a gap.
+/// Safe for whatever comes in. At most 8 MB wait in it, besides what RtpInput keeps of a track (2
+/// MB at most); when the caller does not take them out, further units are dropped and reported as a
+/// gap. Whom it hears is said in rtp_input.h. When one track has a new sender, both begin anew: a
+/// LiveRestart stands between the events of the old and of the new one.
 #pragma once
 
 #include <cstdint>
@@ -31,9 +33,13 @@ class RtpReceiver {
   RtpReceiver(const RtpSession& session, const RtpReceiveOptions& options, std::uint32_t id);
 
   /// Takes an RTP datagram; anything may come.
-  void rtp(LiveTrack track, std::span<const std::uint8_t> datagram, double now);
-  /// Takes an RTCP datagram; anything may come.
-  void rtcp(LiveTrack track, std::span<const std::uint8_t> datagram, double now);
+  void rtp(LiveTrack track, std::span<const std::uint8_t> datagram, const UdpAddress& from,
+           double now);
+  /// Takes an RTCP datagram; anything may come. true: it was a report of the sender.
+  bool rtcp(LiveTrack track, std::span<const std::uint8_t> datagram, const UdpAddress& from,
+            double now);
+  /// Nobody is heard any more: what waits for others, or for a clock, is ready now.
+  void flush(double now);
   /// The next event, never LiveIdle. nullopt: nothing is ready.
   std::optional<LiveEvent> next(double now);
   /// When next() will have something without a further datagram; in the past: now.
@@ -43,6 +49,8 @@ class RtpReceiver {
 
   ReceiveStats stats() const;                        ///< of both media
   RtpSync sync() const { return timeline_.sync(); }  ///< how the two clocks were brought together
+  /// Datagrams of a track that nobody was heard in, RtpInput::early().
+  std::vector<RtpInput::Early> early(LiveTrack track) const;
 
  private:
   struct Source {
@@ -53,13 +61,14 @@ class RtpReceiver {
   };
 
   Source* source(LiveTrack track);
+  const Source* source(LiveTrack track) const;
   const RtpTrack& described(const Source& source) const;
   void describe(const Source& source);
   void drain(Source& source, double now);
   void add_units(Source& source, RtpUnits units);
   void push(LiveEvent event);
   LiveEvent pop(std::deque<LiveEvent>& queue);
-  void restart(Source& source, double now);
+  void restart(double now);
   LiveUnit timed(LiveUnit unit);
   LiveInfo info() const;
   std::optional<double> end_time() const;
@@ -80,6 +89,7 @@ class RtpReceiver {
   bool overflowed_ = false;
   bool announced_ = false;
   bool ended_ = false;
+  std::int64_t sessions_ = 0;
 };
 
 }  // namespace animeme::media

@@ -45,6 +45,9 @@ Result<void> check(const LiveInfo& info, const RtpOptions& options) {
   constexpr int kMaxAudioBundle = 32;
   if (options.mtu < 256 || options.mtu > 65000) return invalid("mtu must be 256..65000");
   if (options.repeat < 1 || options.repeat > 8) return invalid("repeat must be 1..8");
+  if (options.repeat_after < 1 || options.repeat_after > 50) {
+    return invalid("repeat_after must be 1..50");
+  }
   if (options.bundle < 1 || options.bundle > int(kMaxBundle)) {
     return invalid("bundle must be 1..16");
   }
@@ -146,7 +149,9 @@ void RtpSender::flush(Track& track, double now, Datagrams& out) {
   last_plane_ = now;
   send_copies(false, out);
   for (const RtpDatagram& packet : packets) {
-    for (int copy = 1; copy < options_.repeat; ++copy) copies_.push_back({packet, copy});
+    for (int copy = 1; copy < options_.repeat; ++copy) {
+      copies_.push_back({packet, copy * options_.repeat_after});
+    }
   }
 }
 

@@ -1,4 +1,7 @@
+#include <sys/stat.h>
+
 #include <algorithm>
+#include <deque>
 #include <fstream>
 #include <utility>
 
@@ -11,7 +14,8 @@
 namespace animeme::media {
 namespace {
 
-constexpr int kMostAtOnce = 256;  // datagrams of a socket before events are given out
+constexpr int kMostAtOnce = 256;    // datagrams of a socket before events are given out
+constexpr double kLookEvery = 0.2;  // at the file of the description, seconds
 
 struct Inlet {
   LiveTrack track = LiveTrack::face;
@@ -20,76 +24,27 @@ struct Inlet {
   std::optional<UdpAddress> reporter;  // where the last sender report came from
 };
 
-class RtpSource : public LiveSource {
- public:
-  RtpSource(RtpReceiver receiver, std::vector<Inlet> inlets)
-      : receiver_(std::move(receiver)), inlets_(std::move(inlets)) {}
-
-  Result<LiveEvent> next(double seconds) override {
-    const double end = now() + std::max(0.0, seconds);
-    for (;;) {
-      const Result<bool> came = read_all();
-      if (!came) return came.error();
-      if (auto ok = report(); !ok) return ok.error();
-      const double at = now();
-      if (std::optional<LiveEvent> event = receiver_.next(at)) return std::move(*event);
-      if (at >= end) return LiveEvent(LiveIdle{});
-      if (*came) continue;
-      const double until = std::min(end, receiver_.deadline().value_or(end));
-      const Result<bool> waited = wait_for_any(sockets(), until - at);
-      if (!waited) return waited.error();
-    }
-  }
-
-  ReceiveStats stats() const override { return receiver_.stats(); }
-
- private:
-  double now() const { return steady_clock().now() - begin_; }
-
-  std::vector<const UdpSocket*> sockets() const {
-    std::vector<const UdpSocket*> all;
-    for (const Inlet& inlet : inlets_) all.push_back(&inlet.socket);
-    return all;
-  }
-
-  Result<bool> read_all() {
-    bool any = false;
-    for (Inlet& inlet : inlets_) {
-      for (int i = 0; i < kMostAtOnce; ++i) {
-        UdpAddress from;
-        const auto got = inlet.socket.receive(&from);
-        if (!got) return got.error();
-        if (!*got) break;
-        any = true;
-        if (inlet.control) {
-          inlet.reporter = from;
-          receiver_.rtcp(inlet.track, **got, now());
-        } else {
-          receiver_.rtp(inlet.track, **got, now());
-        }
-      }
-    }
-    return any;
-  }
-
-  Result<void> report() {
-    for (const RtpDatagram& report : receiver_.reports(now())) {
-      for (Inlet& inlet : inlets_) {
-        if (inlet.track != report.track || !inlet.reporter) continue;
-        if (auto ok = inlet.socket.send(report.bytes, *inlet.reporter); !ok) return ok;
-      }
-    }
-    return {};
-  }
-
-  const double begin_ = steady_clock().now();
-  RtpReceiver receiver_;
-  std::vector<Inlet> inlets_;
+// What a description, or an address, says: read again when its file changes.
+struct Description {
+  std::string path;  // empty: an address, which does not change
+  struct stat file {};
+  RtpSession session;
 };
+
+bool has_changed(const Description& description) {
+  struct stat now {};
+  if (description.path.empty() || ::stat(description.path.c_str(), &now) != 0) return false;
+  const struct stat& was = description.file;
+  return now.st_ino != was.st_ino || now.st_size != was.st_size ||
+         now.st_mtim.tv_sec != was.st_mtim.tv_sec || now.st_mtim.tv_nsec != was.st_mtim.tv_nsec;
+}
 
 Result<void> check(const RtpReceiveOptions& options) {
   const auto within = [](double value, double most) { return value >= 0 && value <= most; };
   if (!within(options.reorder_seconds, 10)) return invalid("reorder_seconds must be 0..10");
+  if (!within(options.reorder_most_seconds, 10)) {
+    return invalid("reorder_most_seconds must be 0..10");
+  }
   if (!within(options.sync_seconds, 10)) return invalid("sync_seconds must be 0..10");
   if (!within(options.reorder_packets, 1000)) return invalid("reorder_packets must be 0..1000");
   return {};
@@ -105,8 +60,8 @@ Result<std::string> listening_address(const std::string& address) {
   return std::string(resolved->is_ipv6() ? "::" : "0.0.0.0");
 }
 
-Result<void> open_inlets(const RtpTrack& track, LiveTrack which, const std::string& interface,
-                         std::vector<Inlet>& inlets) {
+Result<void> open_inlets_of(const RtpTrack& track, LiveTrack which, const std::string& interface,
+                            std::vector<Inlet>& inlets) {
   for (const bool control : {false, true}) {
     Result<UdpSocket> socket = UdpSocket::bind(
         track.address, control ? track.rtcp_port : track.port, {.interface = interface});
@@ -116,25 +71,50 @@ Result<void> open_inlets(const RtpTrack& track, LiveTrack which, const std::stri
   return {};
 }
 
+Result<std::vector<Inlet>> open_inlets(const RtpSession& session, const std::string& interface) {
+  std::vector<Inlet> inlets;
+  if (session.face) {
+    auto ok = open_inlets_of(*session.face, LiveTrack::face, interface, inlets);
+    if (!ok) return ok.error();
+  }
+  if (session.audio) {
+    auto ok = open_inlets_of(*session.audio, LiveTrack::audio, interface, inlets);
+    if (!ok) return ok.error();
+  }
+  return inlets;
+}
+
+bool same_ports(const RtpSession& a, const RtpSession& b) {
+  const auto ports = [](const auto& track) {
+    return track ? track->address + ' ' + std::to_string(track->port) + ' ' +
+                       std::to_string(track->rtcp_port)
+                 : std::string();
+  };
+  return ports(a.face) == ports(b.face) && ports(a.audio) == ports(b.audio);
+}
+
 // A face alone, of which nothing is known but the port.
-Result<RtpSession> session_at(const std::string& url) {
+Result<Description> describe_address(const std::string& url) {
   const Result<HostPort> where = read_host_port(url, kRtpPort);
   if (!where) return where.error();
   if (where->port == 0 || where->port > 65534) {
     return make_error(Code::invalid_argument, "RTP wants a port from 1 to 65534");
   }
-  RtpSession session;
-  RtpFaceTrack& face = session.face.emplace();
+  Description description;
+  RtpFaceTrack& face = description.session.face.emplace();
   face.address = where->host.empty() ? "0.0.0.0" : where->host;
   face.port = where->port;
   face.rtcp_port = where->port + 1;
   face.payload_type = -1;
   face.clock = kFaceClock;
   face.bundle_id = kBundleExtensionId;
-  return session;
+  return description;
 }
 
-Result<RtpSession> session_in(const std::string& path) {
+Result<Description> describe_file(const std::string& path) {
+  Description description;
+  description.path = path;
+  (void)::stat(path.c_str(), &description.file);
   std::ifstream file(path, std::ios::binary);
   if (!file) {
     return make_error(Code::not_found, "there is no session description here").in_file(path);
@@ -152,8 +132,141 @@ Result<RtpSession> session_in(const std::string& path) {
     if (!address) return address.error().in_file(path);
     track->address = *address;
   }
-  return session;
+  description.session = std::move(*session);
+  return description;
 }
+
+class RtpSource : public LiveSource {
+ public:
+  RtpSource(Description description, const RtpReceiveOptions& options, std::vector<Inlet> inlets)
+      : options_(options),
+        id_(std::uint32_t(random_number())),
+        description_(std::move(description)),
+        receiver_(description_.session, options, id_),
+        inlets_(std::move(inlets)) {}
+
+  Result<LiveEvent> next(double seconds) override {
+    const double end = now() + std::max(0.0, seconds);
+    for (;;) {
+      if (auto ok = look_at_description(); !ok) return ok.error();
+      const Result<bool> came = read_all();
+      if (!came) return came.error();
+      if (auto ok = report(); !ok) return ok.error();
+      const double at = now();
+      if (!left_.empty()) {
+        LiveEvent event = std::move(left_.front());
+        left_.pop_front();
+        return event;
+      }
+      if (std::optional<LiveEvent> event = receiver_.next(at)) return std::move(*event);
+      if (at >= end) return LiveEvent(LiveIdle{});
+      if (*came) continue;
+      const double until = std::min({end, receiver_.deadline().value_or(end), look_at_});
+      const Result<bool> waited = wait_for_any(sockets(), until - at);
+      if (!waited) return waited.error();
+    }
+  }
+
+  ReceiveStats stats() const override {
+    ReceiveStats all = before_, now = receiver_.stats();
+    all.packets += now.packets;
+    all.bytes += now.bytes;
+    all.lost += now.lost;
+    all.late += now.late;
+    all.duplicates += now.duplicates;
+    all.reordered += now.reordered;
+    all.foreign += now.foreign;
+    all.sessions += now.sessions;
+    all.jitter = now.jitter;
+    all.wait = now.wait;
+    all.latest = std::max(all.latest, now.latest);
+    return all;
+  }
+
+ private:
+  double now() const { return steady_clock().now() - begin_; }
+
+  std::vector<const UdpSocket*> sockets() const {
+    std::vector<const UdpSocket*> all;
+    for (const Inlet& inlet : inlets_) all.push_back(&inlet.socket);
+    return all;
+  }
+
+  Result<void> look_at_description() {
+    const double at = now();
+    if (at < look_at_) return {};
+    look_at_ = description_.path.empty() ? 1e9 : at + kLookEvery;
+    if (!has_changed(description_)) return {};
+    Result<Description> fresh = describe_file(description_.path);
+    if (!fresh) return {};  // it is just being written, or gone
+    const bool same = fresh->session == description_.session;
+    description_.file = fresh->file;
+    if (same) return {};
+    return follow(std::move(*fresh), at);
+  }
+
+  // The old sender's events come first, then what the new one has sent already.
+  Result<void> follow(Description fresh, double at) {
+    if (!same_ports(fresh.session, description_.session)) {
+      inlets_.clear();  // it may want some of these ports
+      auto opened = open_inlets(fresh.session, options_.interface);
+      if (!opened) return opened.error();
+      inlets_ = std::move(*opened);
+    }
+    receiver_.flush(at);
+    while (std::optional<LiveEvent> event = receiver_.next(at)) left_.push_back(std::move(*event));
+    before_ = stats();
+    if (before_.sessions > 0) left_.emplace_back(LiveRestart{});
+    RtpReceiver next(fresh.session, options_, id_);
+    for (const LiveTrack track : {LiveTrack::face, LiveTrack::audio}) {
+      for (const RtpInput::Early& each : receiver_.early(track)) {
+        next.rtp(track, each.bytes, each.from, each.at);
+      }
+    }
+    receiver_ = std::move(next);
+    description_ = std::move(fresh);
+    return {};
+  }
+
+  Result<bool> read_all() {
+    bool any = false;
+    for (Inlet& inlet : inlets_) {
+      for (int i = 0; i < kMostAtOnce; ++i) {
+        UdpAddress from;
+        const auto got = inlet.socket.receive(&from);
+        if (!got) return got.error();
+        if (!*got) break;
+        any = true;
+        if (!inlet.control) {
+          receiver_.rtp(inlet.track, **got, from, now());
+        } else if (receiver_.rtcp(inlet.track, **got, from, now())) {
+          inlet.reporter = from;
+        }
+      }
+    }
+    return any;
+  }
+
+  Result<void> report() {
+    for (const RtpDatagram& report : receiver_.reports(now())) {
+      for (Inlet& inlet : inlets_) {
+        if (inlet.track != report.track || !inlet.reporter) continue;
+        if (auto ok = inlet.socket.send(report.bytes, *inlet.reporter); !ok) return ok;
+      }
+    }
+    return {};
+  }
+
+  const double begin_ = steady_clock().now();
+  RtpReceiveOptions options_;
+  std::uint32_t id_;
+  Description description_;
+  double look_at_ = 0;
+  RtpReceiver receiver_;
+  std::vector<Inlet> inlets_;
+  std::deque<LiveEvent> left_;  // of the sender before the description changed
+  ReceiveStats before_;         // likewise
+};
 
 }  // namespace
 
@@ -161,20 +274,12 @@ Result<std::unique_ptr<LiveSource>> make_rtp_source(const std::string& where,
                                                     const RtpReceiveOptions& options) {
   if (auto ok = check(options); !ok) return ok.error();
   const bool address = where.starts_with("rtp://");
-  const Result<RtpSession> session = address ? session_at(where) : session_in(where);
-  if (!session) return session.error();
-  std::vector<Inlet> inlets;
-  if (session->face) {
-    auto ok = open_inlets(*session->face, LiveTrack::face, options.interface, inlets);
-    if (!ok) return ok.error();
-  }
-  if (session->audio) {
-    auto ok = open_inlets(*session->audio, LiveTrack::audio, options.interface, inlets);
-    if (!ok) return ok.error();
-  }
-  RtpReceiver receiver(*session, options, std::uint32_t(random_number()));
+  Result<Description> description = address ? describe_address(where) : describe_file(where);
+  if (!description) return description.error();
+  auto inlets = open_inlets(description->session, options.interface);
+  if (!inlets) return inlets.error();
   return std::unique_ptr<LiveSource>(
-      std::make_unique<RtpSource>(std::move(receiver), std::move(inlets)));
+      std::make_unique<RtpSource>(std::move(*description), options, std::move(*inlets)));
 }
 
 }  // namespace animeme::media

@@ -7,6 +7,8 @@ namespace animeme::media {
 namespace {
 
 constexpr double kTolerance = 0.02;
+constexpr double kMostDelay = 10;  // of one track behind the other, seconds
+constexpr int kAgreeing = 3;       // reports
 // Priming and planes before time 0; more is a clock that has wrapped.
 constexpr std::uint32_t kSecondsBeforeZero = 60;
 
@@ -58,14 +60,10 @@ void RtpTimeline::describe(LiveTrack track, std::optional<std::uint32_t> offset)
   of(track).offset = offset;
 }
 
-void RtpTimeline::restart(LiveTrack which) {
-  Track& track = of(which);
-  track = Track{.clock = track.clock, .unwrapper = {}};
-  for (Track& each : tracks_) {
-    each.zero.reset();
-    each.heard = false;
-  }
+void RtpTimeline::restart() {
+  for (Track& track : tracks_) track = Track{.clock = track.clock, .unwrapper = {}};
   sync_ = RtpSync::none;
+  proposals_ = 0;
 }
 
 // From a track that has a zero to one that has none: the same instant on the sender's clock.
@@ -74,6 +72,12 @@ std::int64_t RtpTimeline::zero_by_reports(const Track& track, const Track& other
   const double between = double(std::int64_t(*track.ntp - *other.ntp)) / kNtpSecond;
   const double since_zero = double(other.reported - *other.zero) / other.clock;
   return track.reported - std::llround((between + since_zero) * track.clock);
+}
+
+std::int64_t RtpTimeline::zero_by_arrival(const Track& track, const Track& other) {
+  const double later = track.first_arrival - other.first_arrival;
+  const double other_time = double(other.first - *other.zero) / other.clock;
+  return track.first - std::llround((other_time + later) * track.clock);
 }
 
 void RtpTimeline::set_zero(Track& track) {
@@ -88,13 +92,20 @@ void RtpTimeline::set_zero(Track& track) {
   const Track& other = tracks_[&track == &tracks_[0] ? 1 : 0];
   if (!other.zero) {
     track.zero = track.first;
-  } else if (track.ntp && other.ntp) {
-    track.zero = zero_by_reports(track, other);
-  } else {
-    const double later = track.first_arrival - other.first_arrival;
-    const double other_time = double(other.first - *other.zero) / other.clock;
-    track.zero = track.first - std::llround((other_time + later) * track.clock);
+    return;
   }
+  if (track.ntp && other.ntp) {
+    const std::int64_t zero = zero_by_reports(track, other);
+    if (is_credible(track, other, zero)) {
+      track.zero = zero;
+      return;
+    }
+  }
+  track.zero = zero_by_arrival(track, other);
+}
+
+bool RtpTimeline::is_credible(const Track& track, const Track& other, std::int64_t zero) const {
+  return std::abs(double(zero - zero_by_arrival(track, other))) <= kMostDelay * track.clock;
 }
 
 bool RtpTimeline::settle(double now) {
@@ -128,8 +139,16 @@ void RtpTimeline::check_against_reports() {
   Track& audio = of(LiveTrack::audio);
   if (!face.zero || !audio.zero || !face.ntp || !audio.ntp) return;
   const std::int64_t zero = zero_by_reports(audio, face);
-  const double off = std::abs(double(zero - *audio.zero)) / audio.clock;
-  if (sync_ != RtpSync::arrival && off <= kTolerance) return;
+  if (!is_credible(audio, face, zero)) return;
+  const auto near = [&](std::int64_t other) {
+    return std::abs(double(zero - other)) <= kTolerance * audio.clock;
+  };
+  if (sync_ != RtpSync::arrival) {
+    proposals_ = near(*audio.zero) ? 0 : proposals_ > 0 && near(proposed_) ? proposals_ + 1 : 1;
+    proposed_ = zero;
+    if (proposals_ < kAgreeing) return;
+  }
+  proposals_ = 0;
   audio.zero = zero;
   if (sync_ == RtpSync::arrival) sync_ = RtpSync::reports;
 }

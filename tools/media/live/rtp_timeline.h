@@ -35,17 +35,17 @@ class RtpTimeline {
   /// RTP time at time 0 as the description has it; nothing: it is that of another sender. Counts if
   /// all tracks have it.
   void describe(LiveTrack track, std::optional<std::uint32_t> offset);
-  /// This track's sender has begun anew: forgets what was known, except reports of the other one.
-  void restart(LiveTrack track);
+  void restart();  ///< another sender: forgets all that was known
 
   /// Can times be given out? After the wait it can in any case.
   bool settle(double now);
   /// When settle() will say yes by itself; nothing: it does, or no packet came yet.
   std::optional<double> deadline() const;
   RtpSync sync() const { return sync_; }  ///< what the clock rests on
-  /// Ticks of the track's clock since time 0, of a time from add(). Only when settled. A report
-  /// that contradicts the clock in force by more than 20 ms moves the sound from then on; one that
-  /// comes after a guess by arrival moves it in any case.
+  /// Ticks of the track's clock since time 0, of a time from add(). Only when settled. Three
+  /// reports in a row that contradict the clock in force by more than 20 ms, and agree, move the
+  /// sound from then on; after a guess by arrival the first one does. Reports that put face and
+  /// sound that came together more than ten seconds apart are passed over.
   std::int64_t time(LiveTrack track, std::int64_t unwrapped);
 
  private:
@@ -67,11 +67,15 @@ class RtpTimeline {
   bool all(bool (*test)(const Track&)) const;
   void set_zero(Track& track);
   std::int64_t zero_by_reports(const Track& track, const Track& other) const;
+  static std::int64_t zero_by_arrival(const Track& track, const Track& other);
   void check_against_reports();
+  bool is_credible(const Track& track, const Track& other, std::int64_t zero) const;
 
   std::array<Track, 2> tracks_;
   double patience_;
   RtpSync sync_ = RtpSync::none;
+  std::int64_t proposed_ = 0;  // RTP time of the sound at time 0, by the last reports
+  int proposals_ = 0;          // how many reports in a row have said so
 };
 
 }  // namespace animeme::media

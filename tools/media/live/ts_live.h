@@ -7,8 +7,10 @@
 /// Addresses: udp://HOST:PORT, unicast or multicast, and srt://HOST:PORT?mode=caller (the default)
 /// or listener. Further options behind the question mark go to FFmpeg's protocol (udp: ttl,
 /// localaddr, buffer_size ...; srt: latency in microseconds, passphrase, streamid ...); one that
-/// it does not know is ignored by FFmpeg. A UDP source binds to HOST where that is an address of
-/// this machine or a multicast group; udp://0.0.0.0:PORT and udp://:PORT take all.
+/// it does not know is ignored by FFmpeg. (Of a UDP source only sources, block, localport, connect,
+/// reuse and timeout go there; FFmpeg does not tell then who sends, so that all are heard.) A UDP
+/// source binds to HOST where that is an address of this machine or a multicast group;
+/// udp://0.0.0.0:PORT and udp://:PORT take all.
 ///
 /// On the wire: stream type 0x10 with the configuration in front of each intra plane, AAC as ADTS
 /// (0x0F) or Opus (0x06). One PES packet for each unit, sent at once, with its length, so that
@@ -42,6 +44,9 @@ struct TsOptions {
   /// Sink: bytes that may wait for a slow network before units are dropped.
   /// Source: bytes that may wait for next().
   std::size_t queue_bytes = std::size_t(4) << 20;
+  /// Source, udp: datagrams of all addresses are one stream. Else the first address that sends a
+  /// program is heard, and another one when that is silent for a second (LiveRestart).
+  bool any_source = false;
 };
 
 /// Sends to `url`. Nothing is opened before start(). An SRT listener waits for its receiver in the
@@ -57,7 +62,8 @@ Result<std::unique_ptr<LiveSink>> make_ts_sink(const std::string& url,
 /// The end of an SRT connection is LiveEnd. Packets that never came are counted by the continuity
 /// counters of the two tracks: units that they damage are left out, with a LiveGap in front of the
 /// next one. LiveInfo waits for the configuration of the face and the first packet of the sound,
-/// for 3 seconds of stream at most; what comes later brings a second LiveInfo.
+/// for 3 seconds of stream at most; what comes later brings a second LiveInfo. What is no transport
+/// stream is passed over; over SRT, where nobody else can come, it is an error (syntax).
 /// Errors: invalid_argument, unsupported as above; io (port in use, no such group, nobody listens).
 /// A source in mode=listener returns at once and waits in next().
 Result<std::unique_ptr<LiveSource>> make_ts_source(const std::string& url,

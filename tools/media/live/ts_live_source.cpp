@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <deque>
 
 #include "tools/media/detail/ffmpeg.h"
 #include "tools/media/detail/net_stream.h"
-#include "tools/media/detail/ts_events.h"
+#include "tools/media/detail/ts_input.h"
 #include "tools/media/live/ts_live.h"
 
 namespace animeme::media {
@@ -13,12 +12,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A stream of so many bytes in which no program was found is none.
+/// A connection that has brought so many bytes without a program is none of ours.
 constexpr std::int64_t kEnoughToTell = std::int64_t(1) << 20;
 
 class TsSource : public LiveSource {
  public:
-  explicit TsSource(std::unique_ptr<NetReader> reader) : reader_(std::move(reader)) {}
+  /// `connection`: all bytes are of one sender, who is refused if they are no transport stream.
+  TsSource(std::unique_ptr<NetReader> reader, bool connection, bool any_source)
+      : reader_(std::move(reader)), connection_(connection), input_(any_source) {}
 
   Result<LiveEvent> next(double seconds) override {
     return av::guarded([&]() -> Result<LiveEvent> {
@@ -31,11 +32,12 @@ class TsSource : public LiveSource {
         if (datagram->end) {
           if (!datagram->error.message.empty()) return datagram->error;
           over_ = true;
-          parser_.finish(events_);
+          input_.finish(events_);
           break;
         }
-        take(datagram->bytes);
-        if (!program_found_ && demuxer_.stats().bytes > kEnoughToTell) {
+        bytes_ += std::int64_t(datagram->bytes.size());
+        input_.push(datagram->bytes, datagram->from, seconds_now(), events_);
+        if (connection_ && !input_.found() && bytes_ > kEnoughToTell) {
           return make_error(Code::syntax,
                             "what comes in is no transport stream with a face or sound");
         }
@@ -46,38 +48,19 @@ class TsSource : public LiveSource {
     });
   }
 
-  ReceiveStats stats() const override {
-    ReceiveStats stats = demuxer_.stats();
-    stats.jitter = jitter_;
-    return stats;
-  }
+  ReceiveStats stats() const override { return input_.stats(); }
 
  private:
-  void take(std::span<const std::uint8_t> bytes) {
-    std::vector<TsEvent> found;
-    demuxer_.push(bytes, found);
-    for (TsEvent& event : found) {
-      if (std::holds_alternative<TsMap>(event)) program_found_ = true;
-      if (const auto* pes = std::get_if<TsPes>(&event)) measure(*pes);
-      parser_.push(std::move(event), events_);
-    }
-  }
-
-  /// RFC 3550, section 6.4.1.
-  void measure(const TsPes& pes) {
-    if (pes.track != LiveTrack::face || !pes.stamp) return;
-    const double arrival = std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
-    const double transit = arrival - double(*pes.stamp) / 90000;
-    if (transit_ != 0) jitter_ += (std::min(std::abs(transit - transit_), 10.0) - jitter_) / 16;
-    transit_ = transit;
+  static double seconds_now() {
+    return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
   }
 
   std::unique_ptr<NetReader> reader_;
-  TsDemuxer demuxer_;
-  TsEvents parser_;
+  const bool connection_;
+  TsInput input_;
+  std::int64_t bytes_ = 0;
   std::deque<LiveEvent> events_;
-  bool over_ = false, program_found_ = false;
-  double jitter_ = 0, transit_ = 0;
+  bool over_ = false;
 };
 
 }  // namespace
@@ -87,10 +70,12 @@ Result<std::unique_ptr<LiveSource>> make_ts_source(const std::string& url,
   return av::guarded([&]() -> Result<std::unique_ptr<LiveSource>> {
     Result<NetAddress> address = parse_net_address(url, true);
     if (!address) return address.error();
+    const bool connection = address->scheme != "udp";
     auto reader = std::make_unique<NetReader>(std::move(*address), options.queue_bytes);
     Result<void> started = reader->start();
     if (!started) return started.error();
-    return std::unique_ptr<LiveSource>(new TsSource(std::move(reader)));
+    return std::unique_ptr<LiveSource>(
+        new TsSource(std::move(reader), connection, options.any_source));
   });
 }
 

@@ -177,6 +177,21 @@ bool UdpAddress::is_loopback() const {
   return ntohl(as<sockaddr_in>(bytes_).sin_addr.s_addr) >> 24 == 127;
 }
 
+bool UdpAddress::same_host(const UdpAddress& other) const {
+  if (size_ == 0 || other.size_ == 0) return size_ == other.size_;
+  if (is_ipv6() != other.is_ipv6()) return false;
+  if (!is_ipv6()) {
+    return as<sockaddr_in>(bytes_).sin_addr.s_addr == as<sockaddr_in>(other.bytes_).sin_addr.s_addr;
+  }
+  const in6_addr a = as<sockaddr_in6>(bytes_).sin6_addr;
+  const in6_addr b = as<sockaddr_in6>(other.bytes_).sin6_addr;
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+bool UdpAddress::is(const UdpAddress& other) const {
+  return same_host(other) && (size_ == 0 || port() == other.port());
+}
+
 Result<UdpSocket> UdpSocket::bind(const std::string& host, int port, const Multicast& multicast) {
   const Result<UdpAddress> address = UdpAddress::resolve(host.empty() ? "0.0.0.0" : host, port);
   if (!address) return address.error();
@@ -200,6 +215,10 @@ Result<UdpSocket> UdpSocket::open_for(const UdpAddress& to, const Multicast& mul
   if (!handle) return handle.error();
   UdpSocket socket(*handle);
   if (auto ok = prepare_sending(*handle, to, multicast); !ok) return ok.error();
+  if (to.is_loopback()) {  // nobody else is to answer
+    const UdpAddress from = to.with_port(0);
+    if (::bind(*handle, raw(from.bytes_), from.size_) != 0) return failed("no port is free");
+  }
   return socket;
 }
 

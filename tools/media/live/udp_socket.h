@@ -24,11 +24,16 @@ class UdpAddress {
   /// host), invalid_argument (port outside 0..65535).
   static Result<UdpAddress> resolve(const std::string& host, int port);
 
-  std::string host() const;              ///< as numbers, without brackets
-  int port() const;                      ///< 1..65535, 0 for any
-  bool is_multicast() const;             ///< a group, not a host
-  bool is_loopback() const;              ///< this machine
-  bool is_ipv6() const;                  ///< true: IPv6, false: IPv4
+  std::string host() const;                       ///< as numbers, without brackets
+  int port() const;                               ///< 1..65535, 0 for any
+  bool is_multicast() const;                      ///< a group, not a host
+  bool is_loopback() const;                       ///< this machine
+  bool is_ipv6() const;                           ///< true: IPv6, false: IPv4
+  bool same_host(const UdpAddress& other) const;  ///< whatever the port
+  /// Same host and port. What was default constructed is nobody, and the same as itself.
+  bool is(const UdpAddress& other) const;
+  /// is()
+  friend bool operator==(const UdpAddress& a, const UdpAddress& b) { return a.is(b); }
   UdpAddress with_port(int port) const;  ///< the same host
 
  private:
@@ -49,7 +54,8 @@ class UdpSocket {
   /// For receiving at an address of ours, or from a group (which is joined). Host empty: all
   /// addresses, IPv4. Port 0: any. Errors: io (address in use, not ours ...).
   static Result<UdpSocket> bind(const std::string& host, int port, const Multicast& multicast = {});
-  /// For sending to `to` and receiving answers. Errors: io.
+  /// For sending to `to` and receiving answers; if that is this machine, from this machine alone.
+  /// Errors: io.
   static Result<UdpSocket> open_for(const UdpAddress& to, const Multicast& multicast = {});
   UdpSocket(UdpSocket&& other) noexcept;  ///< movable
   UdpSocket& operator=(UdpSocket&& other) noexcept;

@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::chrono::seconds kPatience{5};
 constexpr std::size_t kLargestMessage = std::size_t(1) << 20;
+constexpr std::size_t kItem = 128;  // what a message costs beside its bytes
 
 }  // namespace
 
@@ -88,7 +89,7 @@ int Client::receive(Connection& connection) {
     }
   }
   const std::lock_guard lock(mutex_);
-  queued_ += connection.message.size();
+  queued_ += connection.message.size() + kItem;
   queue_.push_back({connection.sound, std::move(connection.message)});
   connection.message.clear();
   changed_.notify_all();
@@ -161,7 +162,7 @@ Result<std::optional<Incoming>> Client::next(Clock::time_point until) {
   }
   std::optional<Incoming> incoming(std::move(queue_.front()));
   queue_.pop_front();
-  queued_ -= incoming->bytes.size();
+  queued_ -= incoming->bytes.size() + kItem;
   const bool wake = paused_ && queued_ <= queue_bytes_ / 2;
   lock.unlock();
   if (wake) service_.wake();
