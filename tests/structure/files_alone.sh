@@ -12,7 +12,7 @@ turn=${ANIMEME_FILES:-$((day / 86400 % 64))}
 every=64 jobs=1
 [ "$turn" = all ] && every=1 turn=0 jobs=$(nproc)
 flags="-std=c++20 -fsyntax-only -Wall -Wextra -Wshadow -Werror -Wno-missing-field-initializers -I.
-  $(pkg-config --cflags-only-I --silence-errors eigen3 libxml-2.0 espeak-ng stb | sed 's/-I/-isystem /g')
+  $(pkg-config --cflags-only-I --silence-errors eigen3 libxml-2.0 espeak-ng | sed 's/-I/-isystem /g')
   -isystem /usr/include/pocketsphinx -DANIMEME_SOURCE_DIR=\"\" -DANIMEME_BINARY_DIR=\"\" -DANIMEME_VERSION=\"\""
 files=$(find fap codec dam conformance tools tests -name '*.cpp' ! -name '*_absent.cpp' ! -path '*/node_modules/*' \
   ! -path 'tests/package/*' | sort | awk -v every="$every" -v turn="$turn" 'NR % every == turn % every')

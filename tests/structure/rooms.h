@@ -82,7 +82,7 @@ inline constexpr Library kLibraries[] = {
     {"pocketsphinx", "pocketsphinx sphinxbase", "tools/voice tests/voice"},
     {"libwebsockets", "libwebsockets", "tools/web/detail"},
     {"zlib", "zlib", "tools/render tools/viewer tools/web/detail tests"},
-    {"stb", "stb", "tools/gltf"},
+    {"libpng, libjpeg, libwebp", "png jpeglib jerror webp/", "tools/gltf/detail tests"},
     {"nlohmann_json", "nlohmann/", "tools conformance tests"},
     {"CLI11", "CLI/", "tools/commands tools/main.cpp tests/bench"},
     {"GoogleTest", "gtest/ gmock/ benchmark/", "tests"},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <new>
 #include <set>
 
 #include "tools/gltf/detail/joints.h"
@@ -245,19 +246,35 @@ class HeadReader {
   std::vector<MeshVertices> meshes_;
 };
 
+Error no_memory_for_head() {
+  return make_error(Code::out_of_range,
+                    "there is not enough memory for this head: reduce its meshes and pictures");
+}
+
 }  // namespace
 
 Result<HeadFile> read_head_and_vertices(std::span<const std::uint8_t> bytes,
                                         const ReadOptions& options) {
-  Result<File> file = open_file(bytes, options.load);
-  if (!file) return file.error();
-  return HeadReader(*file, options).read();
+  try {
+    Result<File> file = open_file(bytes, options.load, options.limits);
+    if (!file) return file.error();
+    return HeadReader(*file, options).read();
+  } catch (const std::bad_alloc&) {
+    return no_memory_for_head();
+  }
 }
 
 Result<HeadFile> read_head_and_vertices(const std::string& path, ReadOptions options) {
-  Result<Bytes> bytes = bytes_of(path);
+  Result<Bytes> bytes = no_memory_for_head();
+  try {
+    bytes = bytes_of(path, options.limits.bytes);
+  } catch (const std::bad_alloc&) {
+  }
   if (!bytes) return std::move(bytes.error()).in_file(path);
-  if (!options.load) options.load = files_of(std::filesystem::path(path).parent_path().string());
+  if (!options.load) {
+    options.load =
+        files_of(std::filesystem::path(path).parent_path().string(), options.limits.bytes);
+  }
   Result<HeadFile> file = read_head_and_vertices(*bytes, options);
   if (!file) return std::move(file.error()).in_file(path);
   file->source.name = std::filesystem::path(path).stem().string();

@@ -43,9 +43,23 @@ enum class MouthShapes : std::uint8_t {
 /// does not give are left out with a note.
 using LoadFile = std::function<Result<std::vector<std::uint8_t>>(const std::string& uri)>;
 
-/// Loads files that lie in `folder` or below. Errors: not_found if there is no such file;
-/// unsupported for addresses of the web and for paths that leave the folder.
-LoadFile files_of(std::string folder);
+/// Limits of a file, against those that would take all memory. What is counted is what is used, as
+/// often as it is used: a mesh that ten nodes show counts ten times. Within these, what a small
+/// file claims takes less than 300 MB.
+struct ReadLimits {
+  /// Of the file; likewise of one file that it names, and of all its buffers together.
+  std::size_t bytes = 256'000'000;
+  /// Of all pictures together as they are in the file: eight of 4096 x 4096. Those beyond are left
+  /// out with a note.
+  std::size_t texels = 150'000'000;
+  std::size_t vertices = 500'000;  ///< also a quarter of the triangles
+  std::size_t moves = 4'000'000;   ///< of one vertex by one shape, where there is one
+};
+
+/// Loads files that lie in `folder` or below, links followed. Errors: not_found if there is no such
+/// file; unsupported for addresses of the web and for what lies outside of the folder, by its path
+/// or as a link leads; io for what is no ordinary file; out_of_range for more than `most` bytes.
+LoadFile files_of(std::string folder, std::size_t most = ReadLimits{}.bytes);
 
 /// What read_head() is told.
 struct ReadOptions {
@@ -54,6 +68,7 @@ struct ReadOptions {
   MouthShapes mouth = MouthShapes::automatic;
   /// Triangles are divided for the sake of their texture until there are as many vertices. 0: not.
   std::size_t vertices = 60000;
+  ReadLimits limits = {};  ///< what a file may hold
 };
 
 /// Reads a head. `bytes`: a .glb (also .vrm), or the text of a .gltf. Deterministic.
@@ -66,8 +81,9 @@ struct ReadOptions {
 /// Errors: syntax (no glTF; an index, a length or an enumeration that cannot be), truncated (the
 /// file ends too early), unsupported (glTF 1.0; Draco or meshopt compression and other required
 /// extensions: the sentence says what to export instead), not_found (a buffer that `load` does not
-/// give; no triangle), out_of_range (more than four million vertices). A head without any shape
-/// that is known is no error: the caller has to know its feature points.
+/// give; no triangle), out_of_range (more than ReadOptions::limits, a million values in its JSON,
+/// or all memory). A head without any shape that is known is no error: the caller has to know its
+/// feature points.
 Result<head::Source> read_head(std::span<const std::uint8_t> bytes,
                                const ReadOptions& options = {});
 

@@ -1,6 +1,7 @@
 #include "tools/studio/head_file.h"
 
 #include <filesystem>
+#include <new>
 
 #include "fap/head/obj.h"
 #include "fap/head/own_head.h"
@@ -69,8 +70,9 @@ Result<head::Source> read_xml_head(const HeadChoice& choice, Format format) {
   const Result<std::string> text = tools::read_text_file(choice.head);
   if (!text) return text.error();
   const std::filesystem::path folder = std::filesystem::path(choice.head).parent_path();
-  const auto load = [&](const std::string& name) -> Result<std::string> {
-    const auto bytes = tools::read_file((folder / name).string());  // textures, too
+  const auto load =
+      [files = gltf::files_of(folder.string())](const std::string& name) -> Result<std::string> {
+    const auto bytes = files(name);
     if (!bytes) return bytes.error();
     return std::string(bytes->begin(), bytes->end());
   };
@@ -127,13 +129,19 @@ Result<LoadedHead> load_head(const HeadChoice& choice) {
     loaded.head = std::move(*made);
     return loaded;
   }
-  Result<head::Source> source = read_source(choice);
-  if (!source) return source.error();
-  source->name = std::filesystem::path(choice.head).stem().string();
-  Result<head::Head> made = head::assemble(std::move(*source), &loaded.notes);
-  if (!made) return made.error().in_file(choice.head);
-  loaded.head = std::move(*made);
-  return loaded;
+  try {
+    Result<head::Source> source = read_source(choice);
+    if (!source) return source.error();
+    source->name = std::filesystem::path(choice.head).stem().string();
+    Result<head::Head> made = head::assemble(std::move(*source), &loaded.notes);
+    if (!made) return made.error().in_file(choice.head);
+    loaded.head = std::move(*made);
+    return loaded;
+  } catch (const std::bad_alloc&) {
+    return make_error(Code::out_of_range,
+                      "there is not enough memory for this head; reduce its meshes")
+        .in_file(choice.head);
+  }
 }
 
 Result<head::Head> load_head(const HeadChoice& choice, const tools::Talk& talk) {

@@ -28,8 +28,9 @@ struct LoadedHead {
 std::string problem_of(const HeadChoice& choice);
 
 /// Makes or reads a head. Files: .glb, .gltf, .vrm (moved by their shapes, or by points if they are
-/// given), .obj (with points), .fdp, .xmt and .xmta.
-/// Errors: invalid_argument with problem_of(), and those of the readers, with the file.
+/// given), .obj (with points), .fdp, .xmt and .xmta. Files that they name are read from their
+/// folder and below, see gltf::files_of(). Errors: invalid_argument with problem_of(), and those of
+/// the readers, with the file; out_of_range if memory does not do.
 Result<LoadedHead> load_head(const HeadChoice& choice);
 
 /// The same; each note goes to talk.say, behind the name of the file.

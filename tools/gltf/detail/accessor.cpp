@@ -1,5 +1,6 @@
 #include "tools/gltf/detail/accessor.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <map>
@@ -7,9 +8,6 @@
 
 namespace animeme::gltf {
 namespace {
-
-// More would not be a head: it keeps a few bytes that claim much from taking all memory.
-constexpr std::size_t kMostElements = 16'000'000;
 
 enum class Component : std::uint16_t {
   int8 = 5120,
@@ -148,9 +146,12 @@ Result<Layout> layout_of(const File& file, std::size_t accessor, std::size_t com
   return layout;
 }
 
-// Calls put(element, component, value) for all that is given; what is not stays 0.
+// Calls put(element, component, value) for what is given of the first `most`; the rest stays 0.
 template <class Put>
-Result<void> read(std::size_t accessor, const Layout& layout, Put put) {
+Result<void> read(const File& file, std::size_t accessor, const Layout& layout, std::size_t most,
+                  Put put) {
+  const std::size_t dense = layout.dense ? std::min(layout.count, most) : 0;
+  if (auto fine = file.budget->take_elements(dense + layout.sparse_count + 10); !fine) return fine;
   const double scale = layout.normalised ? 1 / info_of(layout.type).largest : 1;
   bool finite = true;
   const auto element = [&](const Block& block, std::size_t from, std::size_t to) {
@@ -161,12 +162,12 @@ Result<void> read(std::size_t accessor, const Layout& layout, Put put) {
       put(to, c, layout.normalised ? std::max(value, -1.0) : value);
     }
   };
-  for (std::size_t i = 0; layout.dense && i < layout.count; ++i) element(*layout.dense, i, i);
+  for (std::size_t i = 0; i < dense; ++i) element(*layout.dense, i, i);
   for (std::size_t k = 0; k < layout.sparse_count; ++k) {
     const Block& indices = layout.sparse_indices;
     const double to = number_at(indices.bytes.data() + k * indices.stride, indices.type);
     if (!(to >= 0 && to < double(layout.count))) return bad(accessor, "has a bad sparse index");
-    element(layout.sparse_values, k, std::size_t(to));
+    if (to < double(most)) element(layout.sparse_values, k, std::size_t(to));
   }
   if (!finite) return bad(accessor, "has a number that is not finite");
   return {};
@@ -179,37 +180,34 @@ Result<std::size_t> count_of(const File& file, std::size_t accessor) {
   if (!entry.is_object()) return bad(accessor, "does not exist");
   const std::optional<std::size_t> count = whole(member(entry, "count"));
   if (!count) return bad(accessor, "has no count");
-  if (*count > kMostElements) {
-    return make_error(Code::out_of_range,
-                      "accessor " + std::to_string(accessor) +
-                          " has more than 16 million elements: reduce the mesh");
-  }
   return *count;
 }
 
 Result<std::vector<float>> read_floats(const File& file, std::size_t accessor,
-                                       std::size_t components) {
+                                       std::size_t components, std::size_t most) {
   auto layout = layout_of(file, accessor, components);
   if (!layout) return layout.error();
-  std::vector<float> values(layout->count * components);
-  auto done = read(accessor, *layout, [&](std::size_t element, std::size_t c, double value) {
-    values[element * components + c] = float(value);
-  });
+  std::vector<float> values(std::min(layout->count, most) * components);
+  auto done =
+      read(file, accessor, *layout, most, [&](std::size_t element, std::size_t c, double value) {
+        values[element * components + c] = float(value);
+      });
   if (!done) return done.error();
   return values;
 }
 
 Result<std::vector<std::uint32_t>> read_wholes(const File& file, std::size_t accessor,
-                                               std::size_t components) {
+                                               std::size_t components, std::size_t most) {
   auto layout = layout_of(file, accessor, components);
   if (!layout) return layout.error();
   if (layout->type == Component::float32) return bad(accessor, "has to hold whole numbers");
-  std::vector<std::uint32_t> values(layout->count * components);
+  std::vector<std::uint32_t> values(std::min(layout->count, most) * components);
   bool fine = true;
-  auto done = read(accessor, *layout, [&](std::size_t element, std::size_t c, double value) {
-    fine = fine && value >= 0;
-    values[element * components + c] = fine ? std::uint32_t(value) : 0;
-  });
+  auto done =
+      read(file, accessor, *layout, most, [&](std::size_t element, std::size_t c, double value) {
+        fine = fine && value >= 0;
+        values[element * components + c] = fine ? std::uint32_t(value) : 0;
+      });
   if (!done) return done.error();
   if (!fine) return bad(accessor, "has a negative index");
   return values;
@@ -222,14 +220,21 @@ Result<Moves> read_moves(const File& file, std::size_t accessor, std::size_t ver
   const bool listed = !layout->dense;
   std::map<std::size_t, head::Vec3> few;
   std::vector<head::Vec3> all(listed ? 0 : vertices);
-  auto done = read(accessor, *layout, [&](std::size_t vertex, std::size_t c, double value) {
-    head::Vec3& move = listed ? few[vertex] : all[vertex];
-    (c == 0 ? move.x : c == 1 ? move.y : move.z) = float(value);
-  });
+  auto done =
+      read(file, accessor, *layout, vertices, [&](std::size_t vertex, std::size_t c, double value) {
+        head::Vec3& move = listed ? few[vertex] : all[vertex];
+        (c == 0 ? move.x : c == 1 ? move.y : move.z) = float(value);
+      });
   if (!done) return done.error();
+  const auto is_move = [](head::Vec3 move) { return !(move == head::Vec3{}); };
+  const std::size_t count =
+      listed ? few.size() : std::size_t(std::count_if(all.begin(), all.end(), is_move));
+  if (auto fine = file.budget->take_moves(count); !fine) return fine.error();
   Moves moves;
+  moves.vertices.reserve(count);
+  moves.deltas.reserve(count);
   const auto add = [&](std::size_t vertex, head::Vec3 move) {
-    if (move == head::Vec3{}) return;
+    if (!is_move(move)) return;
     moves.vertices.push_back(std::uint32_t(vertex));
     moves.deltas.push_back(move);
   };

@@ -7,6 +7,8 @@ namespace {
 
 using head::Vec3d;
 
+constexpr std::size_t kMostNodes = 100'000;
+
 Error bad_node(std::size_t node, const std::string& what) {
   return make_error(Code::syntax,
                     "node " + std::to_string(node) + " " + what + ": export the file again");
@@ -112,6 +114,11 @@ void add_scaled(Affine& sum, const Affine& map, double weight) {
 
 Result<std::vector<Node>> read_nodes(const File& file) {
   const std::vector<Json>& entries = list(file.root, "nodes");
+  if (entries.size() > kMostNodes) {
+    return make_error(Code::out_of_range,
+                      "the file has more than " + std::to_string(kMostNodes) +
+                          " nodes, the most that are read: leave out what is not the head");
+  }
   std::vector<Node> nodes(entries.size());
   if (auto done = set_parents(file, nodes); !done) return done.error();
   const std::vector<std::size_t> order = order_of(file, nodes);
@@ -150,8 +157,11 @@ std::vector<bool> nodes_below(const std::vector<Node>& nodes, std::size_t ancest
 
 Result<Skin> read_skin(const File& file, const std::vector<Node>& nodes, std::size_t skin) {
   const Json& entry = file.entry("skins", skin);
+  const std::vector<Json>& joints = list(entry, "joints");
+  // Several nodes may have the same skin.
+  if (auto fine = file.budget->take_elements(joints.size()); !fine) return fine.error();
   Skin out;
-  for (const Json& joint : list(entry, "joints")) {
+  for (const Json& joint : joints) {
     out.joints.push_back(whole_or(joint, kNoNode));
     if (out.joints.back() >= nodes.size()) {
       return make_error(Code::syntax,
@@ -165,7 +175,7 @@ Result<Skin> read_skin(const File& file, const std::vector<Node>& nodes, std::si
   }
   std::vector<float> inverse;
   if (const auto accessor = whole(member(entry, "inverseBindMatrices"))) {
-    auto read = read_floats(file, *accessor, 16);
+    auto read = read_floats(file, *accessor, 16, out.joints.size());
     if (!read) return read.error();
     inverse = std::move(*read);
   }

@@ -86,10 +86,9 @@ struct MeshReader::Place {
 };
 
 std::size_t ShapeNames::index_of(const std::string& name) {
-  const auto found = std::find(names_.begin(), names_.end(), name);
-  if (found != names_.end()) return std::size_t(found - names_.begin());
-  names_.push_back(name);
-  return names_.size() - 1;
+  const auto [place, is_new] = numbers_.try_emplace(name, names_.size());
+  if (is_new) names_.push_back(name);
+  return place->second;
 }
 
 Result<std::vector<RawPiece>> MeshReader::read(ShapeNames& names) {
@@ -154,7 +153,14 @@ Result<RawPiece> MeshReader::primitive(const Json& mesh, const Json& entry, cons
   std::vector<std::uint32_t> indices;
   const bool indexed = !member(entry, "indices").is_null();
   if (indexed) {
-    auto read = read_wholes(file_, whole_or(member(entry, "indices"), ~std::size_t(0)), 1);
+    const std::size_t accessor = whole_or(member(entry, "indices"), ~std::size_t(0));
+    const auto count = count_of(file_, accessor);
+    if (!count) return count.error();
+    const bool list_of_three = whole_or(member(entry, "mode"), kTriangles) == kTriangles;
+    if (auto fine = file_.budget->take_triangles(list_of_three ? *count / 3 : *count); !fine) {
+      return fine.error();
+    }
+    auto read = read_wholes(file_, accessor, 1, *count);
     if (!read) return read.error();
     indices = std::move(*read);
   } else {
@@ -181,15 +187,12 @@ Result<RawPiece> MeshReader::primitive(const Json& mesh, const Json& entry, cons
 Result<void> MeshReader::add_attributes(const Json& attributes, const Place& place, RawPiece& piece,
                                         std::vector<Affine>& maps) {
   const auto accessor = whole(member(attributes, "POSITION"));
-  if (!accessor) return {};
-  auto places = read_floats(file_, *accessor, 3);
+  const auto vertices = accessor ? count_of(file_, *accessor) : Result<std::size_t>(0);
+  if (!vertices) return vertices.error();
+  const std::size_t count = *vertices;
+  if (auto fine = file_.budget->take_vertices(count); !fine || !accessor) return fine;
+  auto places = read_floats(file_, *accessor, 3, count);
   if (!places) return places.error();
-  const std::size_t count = places->size() / 3;
-  vertices_ += count;
-  if (vertices_ > 4'000'000) {
-    return make_error(Code::out_of_range,
-                      "the file has more than four million vertices: reduce the meshes");
-  }
   if (place.skin != nullptr && !member(attributes, "JOINTS_0").is_null()) {
     auto skinned = skin_maps(attributes, *place.skin, count, piece);
     if (!skinned) return skinned.error();
@@ -208,7 +211,7 @@ Result<void> MeshReader::add_attributes(const Json& attributes, const Place& pla
   }
   const std::string uv_set = "TEXCOORD_" + std::to_string(piece.paint->uv_set);
   if (const auto uv = whole(member(attributes, uv_set.c_str())); uv && piece.paint->picture) {
-    auto read = read_floats(file_, *uv, 2);
+    auto read = read_floats(file_, *uv, 2, count);
     if (!read) return read.error();
     piece.uvs = uvs_of(*read);
     piece.uvs.resize(count);
@@ -217,7 +220,7 @@ Result<void> MeshReader::add_attributes(const Json& attributes, const Place& pla
   if (!colour) return {};
   const bool has_alpha = text_or(member(file_.entry("accessors", *colour), "type")) == "VEC4";
   const std::size_t parts = has_alpha ? 4 : 3;
-  auto read = read_floats(file_, *colour, parts);
+  auto read = read_floats(file_, *colour, parts, count);
   if (!read) return read.error();
   piece.colours.resize(count);
   for (std::size_t v = 0; v < std::min(count, read->size() / parts); ++v) {
@@ -238,9 +241,9 @@ Result<std::vector<Affine>> MeshReader::skin_maps(const Json& attributes, const 
     const auto joints = whole(member(attributes, ("JOINTS_" + number).c_str()));
     const auto weights = whole(member(attributes, ("WEIGHTS_" + number).c_str()));
     if (!joints || !weights) break;
-    auto numbers = read_wholes(file_, *joints, 4);
+    auto numbers = read_wholes(file_, *joints, 4, vertices);
     if (!numbers) return numbers.error();
-    auto shares = read_floats(file_, *weights, 4);
+    auto shares = read_floats(file_, *weights, 4, vertices);
     if (!shares) return shares.error();
     for (std::size_t i = 0; i < std::min({numbers->size(), shares->size(), vertices * 4}); ++i) {
       const double weight = double((*shares)[i]);

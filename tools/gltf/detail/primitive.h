@@ -1,6 +1,7 @@
 // Meshes of a file as triangles in the world at rest, with what moves them.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,7 @@ class ShapeNames {
 
  private:
   std::vector<std::string> names_;
+  std::map<std::string, std::size_t> numbers_;
 };
 
 /// Reads all meshes of the nodes that are shown; of levels of detail ("head_LOD0") the finest.
@@ -89,7 +91,6 @@ class MeshReader {
   Paints& paints_;
   std::map<std::pair<std::size_t, std::size_t>, std::string> expressions_;
   std::vector<RawPiece> pieces_;
-  std::size_t vertices_ = 0;
   std::uint32_t next_number_ = 0;  // of the node at hand
 };
 

@@ -5,9 +5,9 @@
 #include <span>
 #include <utility>
 
+#include "tools/files/output_file.h"
 #include "tools/media/detail/extension.h"
 #include "tools/media/detail/ffmpeg.h"
-#include "tools/media/detail/output_file.h"
 #include "tools/media/detail/recording_writer.h"
 #include "tools/media/live/presentation.h"
 
@@ -21,7 +21,7 @@ constexpr double kFlushEvery = 0.5;  // seconds of what is recorded
 
 struct RecordingFile::Impl {
   std::string path;
-  std::optional<OutputFile> place;  // until it has its name
+  std::optional<tools::OutputFile> place;  // until it has its name
   std::unique_ptr<RecordingWriter> writer;
   bool failed = false;
   bool waiting = false;                // something was written that is not on the disk
@@ -46,10 +46,9 @@ struct RecordingFile::Impl {
 };
 
 Result<void> RecordingFile::Impl::begin(const LiveInfo& info) {
-  Result<OutputFile> made = OutputFile::create(path);
-  if (!made) return made.error();
-  place.emplace(std::move(*made));
-  auto opened = open_recording(extension_of(path), place->temporary(), info);
+  const Result<std::string> temporary = place.emplace(path).place();
+  if (!temporary) return temporary.error();
+  auto opened = open_recording(extension_of(path), *temporary, info);
   if (!opened) return opened.error();
   writer = std::move(*opened);
   return {};
@@ -77,7 +76,7 @@ Result<void> RecordingFile::Impl::flush() {
   if (auto done = writer->flush(); !done) return done;
   if (!place) return {};
   // The name goes to what is there by now, and whatever is written then goes into the same file.
-  if (auto named = place->commit(); !named) return named;
+  if (auto named = place->publish(); !named) return named;
   place.reset();
   writer->moved(path);
   return {};
