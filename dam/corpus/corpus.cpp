@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "dam/corpus/rows_internal.h"
 #include "dam/script/table_text_internal.h"
 #include "dam/signal/fap_signal.h"
 #include "fap/detail/whole_file.h"
@@ -46,47 +47,8 @@ bool safe_id(std::string_view id) {
 Result<std::vector<Utterance>> read_rows(const fs::path& path, const CorpusOptions& options) {
   const auto text = read_file(path, "cannot open this table; a corpus is a folder that holds it");
   if (!text) return text.error();
-  const auto lines = table_lines(*text);
-  if (lines.empty()) return error_in(path, Code::truncated, "the table is empty");
-  const auto header = split_fields(lines[0].text, '\t');
-  const auto id = find_column(header, "id");
-  const auto words = find_column(header, "text");
-  const auto split = find_column(header, options.split_column);
-  if (!id) return error_in(path, Code::not_found, "the header has no column 'id'; add one", 1);
-  if (!options.split_value.empty() && !split)
-    return error_in(path, Code::not_found,
-                    "the header has no column '" + options.split_column +
-                        "'; choose another split column or read all rows",
-                    1);
-  std::vector<Utterance> rows;
-  std::set<std::string> seen;
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    const auto fields = split_fields(lines[i].text, '\t');
-    if (fields.size() != header.size())
-      return error_in(path, Code::syntax,
-                      std::to_string(fields.size()) +
-                          " fields where the "
-                          "header has " +
-                          std::to_string(header.size()) + "; complete the line",
-                      lines[i].number);
-    Utterance u;
-    u.id = trimmed(fields[*id]);
-    if (!safe_id(u.id) || !seen.insert(u.id).second)
-      return error_in(path, Code::syntax,
-                      "the id '" + u.id +
-                          "' is empty, used twice or not "
-                          "usable as a file name; change it",
-                      lines[i].number);
-    if (words) u.text = fields[*words];
-    for (std::size_t f = 0; f < fields.size(); ++f) u.fields.emplace_back(header[f], fields[f]);
-    if (options.split_value.empty() || trimmed(fields[*split]) == options.split_value)
-      rows.push_back(std::move(u));
-  }
-  if (rows.empty())
-    return error_in(path, Code::not_found,
-                    options.split_value.empty() ? "the table has no rows"
-                                                : "no row has '" + options.split_value +
-                                                      "' in column '" + options.split_column + "'");
+  auto rows = parse_rows(*text, options);
+  if (!rows) return std::move(rows).error().in_file(path.string());
   return rows;
 }
 
@@ -184,6 +146,51 @@ class CorpusReader {
 };
 
 }  // namespace
+
+Result<std::vector<Utterance>> parse_rows(std::string_view text, const CorpusOptions& options) {
+  const auto lines = table_lines(text);
+  if (lines.empty()) return make_error(Code::truncated, "the table is empty");
+  const auto header = split_fields(lines[0].text, '\t');
+  const auto id = find_column(header, "id");
+  const auto words = find_column(header, "text");
+  const auto split = find_column(header, options.split_column);
+  if (!id) return error_at_line(Code::not_found, "the header has no column 'id'; add one", 1);
+  if (!options.split_value.empty() && !split)
+    return error_at_line(Code::not_found,
+                         "the header has no column '" + options.split_column +
+                             "'; choose another split column or read all rows",
+                         1);
+  std::vector<Utterance> rows;
+  std::set<std::string> seen;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const auto fields = split_fields(lines[i].text, '\t');
+    if (fields.size() != header.size())
+      return error_at_line(Code::syntax,
+                           std::to_string(fields.size()) +
+                               " fields where the "
+                               "header has " +
+                               std::to_string(header.size()) + "; complete the line",
+                           std::int64_t(lines[i].number));
+    Utterance u;
+    u.id = trimmed(fields[*id]);
+    if (!safe_id(u.id) || !seen.insert(u.id).second)
+      return error_at_line(Code::syntax,
+                           "the id '" + u.id +
+                               "' is empty, used twice or not "
+                               "usable as a file name; change it",
+                           std::int64_t(lines[i].number));
+    if (words) u.text = fields[*words];
+    for (std::size_t f = 0; f < fields.size(); ++f) u.fields.emplace_back(header[f], fields[f]);
+    if (options.split_value.empty() || trimmed(fields[*split]) == options.split_value)
+      rows.push_back(std::move(u));
+  }
+  if (rows.empty())
+    return make_error(Code::not_found, options.split_value.empty()
+                                           ? "the table has no rows"
+                                           : "no row has '" + options.split_value +
+                                                 "' in column '" + options.split_column + "'");
+  return rows;
+}
 
 std::size_t Corpus::frames() const {
   std::size_t n = 0;

@@ -274,8 +274,8 @@ int UdpSocket::port() const {
 Result<bool> wait_for_any(std::span<const UdpSocket* const> sockets, double seconds) {
   std::vector<pollfd> waits;
   for (const UdpSocket* socket : sockets) waits.push_back({socket->handle(), POLLIN, 0});
-  constexpr double kLongest = 3600;
-  const int milliseconds = int(std::ceil(std::clamp(seconds, 0.0, kLongest) * 1000));
+  constexpr double kLongestWait = 3600;
+  const int milliseconds = int(std::ceil(std::clamp(seconds, 0.0, kLongestWait) * 1000));
   const int ready = ::poll(waits.data(), nfds_t(waits.size()), milliseconds);
   if (ready < 0 && errno != EINTR) return failed("waiting for packets failed");
   return ready > 0;

@@ -1,0 +1,77 @@
+// Feeds arbitrary bytes to the readers of tables: curves of controls, anything with a header line,
+// and the list of sentences of a corpus. The first byte chooses the options. Curves that were read
+// are written and read again.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "dam/corpus/corpus.h"
+#include "dam/corpus/rows_internal.h"
+#include "tools/exchange/curves.h"
+
+namespace {
+
+using namespace animeme;
+
+void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+void read_as_curves(std::string_view text) {
+  const auto signal = dam::read_curves(text);
+  if (!signal) return require(!signal.error().message.empty());
+  require(signal->rate.valid() && signal->frames() > 0 && !signal->names.empty());
+  require(signal->values.size() == signal->frames() * signal->names.size());
+  std::string again = exchange::write_curve_header(signal->names);
+  for (std::size_t frame = 0; frame < signal->frames(); ++frame) {
+    again += exchange::write_curve_row(*signal, frame);
+  }
+  const auto back = dam::read_curves(again);
+  // A rate is told by times with six digits, so the fastest ones may not come back.
+  if (back) require(back->names == signal->names && back->frames() == signal->frames());
+}
+
+void read_as_rows(std::string_view text, const dam::CorpusOptions& options) {
+  const auto rows = dam::parse_rows(text, options);
+  if (!rows) return require(!rows.error().message.empty());
+  require(!rows->empty());
+  std::set<std::string> seen;
+  for (const dam::Utterance& row : *rows) {
+    require(seen.insert(row.id).second);
+    require(!row.id.empty() && row.id != "." && row.id != "..");
+    require(row.id.find_first_of(std::string_view("/\\:\0", 4)) == std::string::npos);
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
+  switch (data[0] % 4) {
+    case 0:
+      read_as_curves(text);
+      break;
+    case 1: {
+      const auto table = exchange::read_any_table(text);
+      if (table) {
+        require(!table->clip.frames.empty() && table->clip.rate.valid());
+      } else {
+        require(!table.error().message.empty());
+      }
+      break;
+    }
+    case 2:
+      read_as_rows(text, {});
+      break;
+    default: {
+      dam::CorpusOptions options;
+      options.split_value = "train";
+      read_as_rows(text, options);
+    }
+  }
+  return 0;
+}

@@ -1,0 +1,68 @@
+// Lines that come while somebody speaks: text for a voice (stream --say) and phones (follow). The
+// first byte says in which pieces they come; the lines must not depend on it, and none is long.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/speech/line_cutter_internal.h"
+#include "tools/speech/phone_line.h"
+
+namespace {
+
+using namespace animeme;
+using speech::LineCutter;
+
+void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+std::vector<std::string> cut(std::string_view text, std::size_t piece) {
+  LineCutter cutter;
+  std::vector<std::string> lines;
+  while (!text.empty()) {
+    const std::string_view part = text.substr(0, piece);
+    text.remove_prefix(part.size());
+    for (std::string& line : cutter.push(part)) lines.push_back(std::move(line));
+  }
+  lines.push_back(cutter.rest());
+  return lines;
+}
+
+void check_phone(const std::string& line) {
+  const auto phone = speech::parse_phone_line(line);
+  if (!phone) return require(!phone.error().message.empty());
+  if (!*phone) return;
+  // NaN and infinity are no times.
+  require((*phone)->start - (*phone)->start == 0 && (*phone)->end - (*phone)->end == 0);
+  require(!(*phone)->label.empty());
+  // Told once more, it is the same phone.
+  const std::string again = std::to_string((*phone)->start) + "\t" + std::to_string((*phone)->end) +
+                            " " + (*phone)->label + " # word";
+  const auto back = speech::parse_phone_line(again);
+  require(back && *back && (*back)->label == (*phone)->label);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
+  const std::vector<std::string> lines = cut(text, std::size_t(data[0]) + 1);
+  for (const std::string& line : lines) {
+    require(line.size() <= LineCutter::kMostLineBytes);
+    check_phone(line);
+  }
+  // A line that is cut for its length may be cut elsewhere when it comes in larger pieces.
+  std::size_t longest = 0, begin = 0;
+  for (std::size_t end = text.find('\n'); begin <= text.size(); end = text.find('\n', begin)) {
+    end = std::min(end, text.size());
+    longest = std::max(longest, end - begin);
+    begin = end + 1;
+  }
+  if (longest <= LineCutter::kMostLineBytes) require(lines == cut(text, text.size() + 1));
+  return 0;
+}
