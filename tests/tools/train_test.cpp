@@ -97,6 +97,20 @@ TEST_F(TrainParts, TheSameCommandAgainAddsNothing) {
   EXPECT_EQ(test::slurp(dir_ / "a.stats"), before);
 }
 
+TEST_F(TrainParts, OneProgramAtATimeAddsToAFile) {
+  const test::TempDir dir;
+  const std::string sums = dir / "a.stats";
+  const std::string program = test::quoted(std::string(ANIMEME_BINARY_DIR) + "/bin/animeme");
+  // Somebody is at it.
+  const auto second = test::run_command(
+      {"sh", "-c",
+       "exec 9>" + test::quoted(dir / ".a.stats.lock") + "; flock 9; " + program + " train " +
+           test::quoted(dir.path().string()) + " --accumulate " + test::quoted(sums)});
+  EXPECT_EQ(second.exit_code, 3);
+  EXPECT_THAT(second.err, ::testing::HasSubstr("another program is adding to this file"));
+  EXPECT_FALSE(std::filesystem::exists(sums));
+}
+
 TEST_F(TrainParts, AnInterruptedRunGoesOn) {
   // A corpus whose last sentence cannot be read: what came before is kept.
   const auto copy = dir_.path() / "corpus";

@@ -71,9 +71,9 @@ Result<head::Source> read_xml_head(const HeadChoice& choice, Format format) {
   if (!text) return text.error();
   const std::filesystem::path folder = std::filesystem::path(choice.head).parent_path();
   const auto load =
-      [files = gltf::files_of(folder.string())](const std::string& name) -> Result<std::string> {
+      [&, files = gltf::files_of(folder.string())](const std::string& name) -> Result<std::string> {
     const auto bytes = files(name);
-    if (!bytes) return bytes.error();
+    if (!bytes) return bytes.error().in_file((folder / name).string());
     return std::string(bytes->begin(), bytes->end());
   };
   Result<head::Source> source =
