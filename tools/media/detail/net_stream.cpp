@@ -1,6 +1,8 @@
 #include "tools/media/detail/net_stream.h"
 
 #include <algorithm>
+#include <system_error>
+#include <utility>
 
 #include "tools/media/detail/ffmpeg.h"
 #include "tools/media/live/udp_socket.h"
@@ -75,6 +77,27 @@ void NetThread::stop() {
   close();
 }
 
+Result<void> NetThread::start_thread(std::function<void()> body) {
+  try {
+    thread_ = std::thread([this, body = std::move(body)] {
+      try {
+        body();
+      } catch (...) {
+        const std::lock_guard lock(mutex_);
+        failure_of_thread_ = std::current_exception();
+        changed_.notify_all();
+      }
+    });
+  } catch (const std::system_error&) {
+    return make_error(Code::io, "no thread can be started for the connection");
+  }
+  return {};
+}
+
+void NetThread::rethrow() {
+  if (failure_of_thread_) std::rethrow_exception(std::exchange(failure_of_thread_, nullptr));
+}
+
 NetReader::~NetReader() { stop(); }
 
 // These options only FFmpeg knows what to do with.
@@ -118,8 +141,7 @@ Result<void> NetReader::start() {
     Result<void> opened = open(AVIO_FLAG_READ, address_.scheme == "udp" ? kLargestDatagram : 1456);
     if (!opened) return opened;
   }
-  thread_ = std::thread([this] { run(); });
-  return {};
+  return start_thread([this] { run(); });
 }
 
 void NetReader::run() {
@@ -177,7 +199,9 @@ void NetReader::read_all() {
 
 std::optional<NetReader::Datagram> NetReader::next(std::chrono::steady_clock::time_point until) {
   std::unique_lock lock(mutex_);
-  changed_.wait_until(lock, until, [this] { return !queue_.empty() || ended_; });
+  changed_.wait_until(lock, until,
+                      [this] { return !queue_.empty() || ended_ || failure_of_thread_; });
+  rethrow();
   if (queue_.empty()) {
     if (!ended_) return {};
     return Datagram{.end = true, .error = failure_};
@@ -196,8 +220,7 @@ Result<void> NetWriter::start() {
     if (!opened) return opened;
     connected_ = true;
   }
-  thread_ = std::thread([this] { run(); });
-  return {};
+  return start_thread([this] { run(); });
 }
 
 void NetWriter::run() {
@@ -249,6 +272,7 @@ bool NetWriter::write_all() {
 bool NetWriter::write(std::span<const std::uint8_t> bytes) {
   if (!connected_) return false;
   const std::lock_guard lock(mutex_);
+  rethrow();
   if (queued_ + bytes.size() > queue_bytes_) return false;
   queue_.push_back({{bytes.begin(), bytes.end()}, {}});
   queued_ += bytes.size();

@@ -7,6 +7,8 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <exception>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -36,6 +38,9 @@ class NetThread {
   Result<void> open(int flags, int datagram_bytes);
   void close();
   void stop();
+  /// Errors: io (no more threads). What the thread throws, for want of memory, rethrow() throws.
+  Result<void> start_thread(std::function<void()> body);
+  void rethrow();  ///< under the mutex
   static int is_stopping(void* self);
 
   const NetAddress address_;
@@ -44,6 +49,7 @@ class NetThread {
   std::atomic<bool> stopping_ = false;
   std::thread thread_;
   std::mutex mutex_;
+  std::exception_ptr failure_of_thread_;
   std::condition_variable changed_;
   struct Piece {
     std::vector<std::uint8_t> bytes;
