@@ -11,6 +11,8 @@ namespace animeme::head {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r";
+constexpr std::size_t kMostObjVertices = 500'000;
+constexpr std::size_t kMostObjTriangles = 2'000'000;
 
 // The words of one line, one after the other.
 class Line {
@@ -34,8 +36,8 @@ class Line {
   }
 
   /// An error at the last word.
-  Error bad(std::string sentence) const {
-    return error_at_line(Code::syntax, std::move(sentence), number_, std::int64_t(start_) + 1);
+  Error bad(std::string sentence, Code code = Code::syntax) const {
+    return error_at_line(code, std::move(sentence), number_, std::int64_t(start_) + 1);
   }
 
  private:
@@ -83,6 +85,12 @@ class Reader {
     return std::nullopt;
   }
 
+  static Error too_large(const Line& line, std::size_t most, const char* things) {
+    return line.bad("the file has more than " + std::to_string(most) + " " + things +
+                        ", the most that are read; reduce its meshes",
+                    Code::out_of_range);
+  }
+
   std::optional<Error> read_vertex(Line& line) {
     std::vector<float> values;
     for (std::string_view word = line.word(); !word.empty(); word = line.word()) {
@@ -91,6 +99,7 @@ class Reader {
       values.push_back(*value);
     }
     if (values.size() < 3) return line.bad("a vertex needs x, y and z");
+    if (places_.size() == kMostObjVertices) return too_large(line, kMostObjVertices, "vertices");
     places_.push_back({values[0], values[1], values[2]});
     // Four numbers are a weight, six or seven are a colour.
     if (values.size() >= 6) {
@@ -118,6 +127,8 @@ class Reader {
       corners.push_back(std::uint32_t(index));
     }
     if (corners.size() < 3) return line.bad("a face needs three corners or more");
+    triangles_ += corners.size() - 2;
+    if (triangles_ > kMostObjTriangles) return too_large(line, kMostObjTriangles, "triangles");
     if (target_ < 0) target_ = target_of_names();
     if (target_ >= kPartCount) return std::nullopt;  // not to be shown
     Group& group = groups_[std::size_t(target_)];
@@ -178,6 +189,7 @@ class Reader {
   };
   std::vector<Vec3> places_, colours_;
   std::array<Group, kPartCount> groups_;
+  std::size_t triangles_ = 0;
   std::string name_, material_;
   Vec3 usual_ = kNoColour;
   int target_ = -1;  // part of the faces that come; -1: not looked up yet

@@ -30,7 +30,8 @@ struct ObjFile {
 /// Reads v, f, o, g, usemtl; all else (texture places, normals, curves) is passed over. Polygons
 /// are cut into triangles around their first corner. Negative vertex numbers count from the end.
 /// Errors: syntax with line:column (a number that is none, a face with less than three
-/// corners or with a vertex that does not exist yet), invalid_argument if there is no face.
+/// corners or with a vertex that does not exist yet), out_of_range (more than 500000 vertices or
+/// 2 million triangles), invalid_argument if there is no face.
 Result<ObjFile> read_obj(std::string_view text);
 
 /// Writes a head at rest: a group for each part with the part's name, colours at the vertices,

@@ -12,6 +12,8 @@
 namespace animeme::head {
 namespace {
 
+constexpr std::size_t kMostRows = 10'000;  // each is looked for on all vertices
+
 std::vector<std::string> fields_of(std::string_view line) {
   std::vector<std::string> fields;
   const bool marked = line.find_first_of(",;\t") != std::string_view::npos;
@@ -107,6 +109,12 @@ class Rows {
     if (place[0] && place[1] && place[2]) row.place = Vec3{*place[0], *place[1], *place[2]};
     if (!row.vertex && !row.place) {
       return bad("point " + row.id + " needs a vertex number, or x, y and z", number);
+    }
+    if (rows.size() == kMostRows) {
+      return error_at_line(Code::out_of_range,
+                           "the list has more than " + std::to_string(kMostRows) +
+                               " points; keep those that are feature points",
+                           number);
     }
     rows.push_back(std::move(row));
     return std::nullopt;

@@ -34,7 +34,7 @@ struct PointRow {
 /// any case: a column whose name has "point" or is "id"; one whose name has "vertex" or "index";
 /// "mesh" or "object"; and those that begin with x, y and z.
 /// Errors: syntax with line (a field that is no number, a row with neither vertex nor place),
-/// invalid_argument if no row is there.
+/// out_of_range (more than 10000 rows), invalid_argument if no row is there.
 Result<std::vector<PointRow>> read_points(std::string_view text);
 
 /// The points on the pieces of an OBJ file. Errors: not_found with the line if a vertex does not

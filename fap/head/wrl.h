@@ -25,7 +25,7 @@ namespace animeme::head {
 ///
 /// Errors, with line and column: syntax (no VRML97, a field that breaks the grammar, USE of an
 /// unknown name), truncated (the text ends within a node), out_of_range (an index that names no
-/// vertex, numbers that are not finite, more than 100 levels or 4 million vertices), unsupported
+/// vertex, numbers that are not finite, more than 100 levels or 500000 vertices), unsupported
 /// (VRML 1.0, compressed files), not_found (no mesh in it).
 Result<std::vector<Piece>> read_wrl(std::string_view text,
                                     std::vector<std::string>* notes = nullptr);

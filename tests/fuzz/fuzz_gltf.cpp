@@ -1,9 +1,11 @@
-// Any bytes as a glTF file; what is accepted must be whole, and a head or an error. Each input is
-// tried as it is and, cut at its first zero byte into JSON and buffer, as a .glb whose lengths are
-// right, else hardly any would get beyond these.
+// Any bytes as a glTF file; what is accepted must be whole, and a head or an error. What has a zero
+// byte and does not begin as .glb is cut there into JSON and buffer and tried as a .glb whose
+// lengths are right, else hardly any would get beyond these.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -49,17 +51,26 @@ void check(const Source& source) {
   }
 }
 
+// One in a thousand inputs, always the same ones, becomes a head: that takes as long as reading
+// some hundred.
+bool becomes_a_head(std::span<const std::uint8_t> bytes) {
+  std::uint32_t sum = 2166136261u;
+  for (const std::uint8_t byte : bytes) sum = (sum ^ byte) * 16777619u;
+  return sum % 1000 == 0;
+}
+
 void try_file(std::span<const std::uint8_t> bytes) {
-  auto source = animeme::gltf::read_head(bytes, {.vertices = 500});
+  const bool assembled = becomes_a_head(bytes);
+  auto source = animeme::gltf::read_head(
+      bytes, {.vertices = 100,
+              .limits = {.bytes = 1'000'000, .texels = 10'000, .vertices = 5000, .moves = 20'000}});
   if (!source) return;
   check(*source);
-  std::size_t vertices = 0;
+  if (!assembled) return;
   for (auto& piece : source->pieces) {
-    vertices += piece.mesh.positions.size();
     // Looking for shadows would take most of the time.
     piece.mesh.occlusion.assign(piece.mesh.positions.size(), 1);
   }
-  if (vertices > 5000) return;
   const bool shapes = !source->shapes.empty();
   const auto head = animeme::head::assemble(std::move(*source));
   if (!head || !shapes) return;
@@ -93,7 +104,12 @@ std::vector<std::uint8_t> sealed(std::span<const std::uint8_t> bytes) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  try_file({data, size});
-  try_file(sealed({data, size}));
+  const std::span<const std::uint8_t> bytes(data, size);
+  const bool on_disk = size >= 4 && std::memcmp(data, "glTF", 4) == 0;
+  if (on_disk || std::find(bytes.begin(), bytes.end(), 0) == bytes.end()) {
+    try_file(bytes);
+  } else {
+    try_file(sealed(bytes));
+  }
   return 0;
 }

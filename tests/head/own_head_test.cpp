@@ -226,6 +226,22 @@ TEST(ObjFile, ErrorsNameTheLine) {
   expect_error("v nan 0 0\n", "no number");
 }
 
+TEST(ObjFile, HasLimits) {
+  std::string vertices;
+  for (int i = 0; i < 500'001; ++i) vertices += "v 0 0 0\n";
+  const auto large = head::read_obj(vertices);
+  ASSERT_FALSE(large);
+  EXPECT_THAT(large.error().describe(), HasSubstr("line 500001"));
+  EXPECT_THAT(large.error().message, HasSubstr("more than 500000 vertices"));
+  std::string faces = "v 0 0 0\n";
+  for (int i = 0; i < 3; ++i) {
+    faces += "f";
+    for (int k = 0; k < 700'000; ++k) faces += " 1";
+    faces += "\n";
+  }
+  EXPECT_THAT(head::read_obj(faces).error().message, HasSubstr("more than 2000000 triangles"));
+}
+
 TEST(PointList, TakesTheUsualForms) {
   const auto with_heading = head::read_points(
       "\xEF\xBB\xBF"
@@ -250,6 +266,9 @@ TEST(PointList, TakesTheUsualForms) {
   expect_error("2.1,1,nan,3\n", "line 1: point 2.1 needs a vertex number, or x, y and z");
   expect_error("2.1\n", "needs a vertex number");
   expect_error("vertex,x\n1,2\n", "no column feature_point");
+  std::string many;
+  for (int i = 0; i < 10'001; ++i) many += "2.1 0\n";
+  expect_error(many.c_str(), "line 10001: the list has more than 10000 points");
 }
 
 // A head of other people, with the list of its landmarks.

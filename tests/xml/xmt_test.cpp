@@ -106,7 +106,7 @@ TEST(XmtRead, BombsAreRefused) {
                                                   "</faceDefMesh></FaceDefTables>" + begin));
   ASSERT_FALSE(source);
   EXPECT_EQ(source.error().code, Code::out_of_range);
-  EXPECT_THAT(source.error().message, HasSubstr("20 million"));
+  EXPECT_THAT(source.error().message, HasSubstr("4 million"));
 }
 
 class XmtErrors : public ::testing::TestWithParam<Damage> {};

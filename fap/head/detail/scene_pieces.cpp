@@ -7,7 +7,7 @@
 namespace animeme::head::detail {
 namespace {
 
-constexpr std::size_t kMostVertices = 4'000'000;
+constexpr std::size_t kMostVertices = 500'000;
 constexpr std::size_t kMostNodes = 200'000;  // reached, each use counts
 constexpr Vec3 kPlain{0.8f, 0.8f, 0.8f};     // default of Material, sRGB
 
@@ -185,7 +185,8 @@ class Flattener {
     const std::size_t count = points == nullptr ? 0 : points->values.size();
     vertices_ += count;
     if (vertices_ > kMostVertices) {
-      return Error{Code::out_of_range, "the scene has more than 4 million vertices", faces->where};
+      return Error{Code::out_of_range, "the scene has more than 500000 vertices; reduce its meshes",
+                   faces->where};
     }
     ScenePiece out;
     out.faces = faces;

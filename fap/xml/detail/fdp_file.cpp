@@ -12,7 +12,7 @@ namespace {
 using fap::detail::in_quotes;
 using fap::detail::lower_case;
 
-constexpr std::size_t kMostInfluences = 20'000'000;
+constexpr std::size_t kMostInfluences = 4'000'000;
 
 class Loader {
  public:
@@ -182,7 +182,9 @@ class Loader {
     item.region.erase(std::unique(item.region.begin(), item.region.end()), item.region.end());
     influences_ += item.region.size() * item.influences.size();
     if (influences_ > kMostInfluences) {
-      return element.error(Code::out_of_range, "the file has more than 20 million influences");
+      return element.error(
+          Code::out_of_range,
+          "the file has more than 4 million influences; reduce its meshes or regions");
     }
     file_.items.push_back(std::move(item));
     return {};

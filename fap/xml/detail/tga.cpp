@@ -24,6 +24,7 @@ Error cut_off() {
 // The texels of a file one after the other as its bytes, runs unpacked.
 Result<std::string> unpacked(std::string_view bytes, std::size_t depth, std::size_t texels) {
   std::string out;
+  out.reserve((texels + 128) * depth);
   while (out.size() < texels * depth) {
     if (bytes.empty()) return cut_off();
     const std::size_t count = std::size_t(byte_at(bytes, 0) & 127) + 1;

@@ -8,7 +8,7 @@
 namespace animeme::head::detail {
 namespace {
 
-constexpr std::size_t kMostMoves = 20'000'000;
+constexpr std::size_t kMostMoves = 4'000'000;
 
 // A FaceDefMesh as numbers. Displacements come vertex by vertex, for each its intervals.
 struct MeshTable {
@@ -144,7 +144,8 @@ class TableReader {
   Result<void> count_moves(const XmlElement& element, std::size_t more) {
     moves_ += more + 1;
     if (moves_ <= kMostMoves) return {};
-    return element.error(Code::out_of_range, "the tables have more than 20 million moves");
+    return element.error(Code::out_of_range,
+                         "the tables have more than 4 million moves; reduce the meshes");
   }
 
   Result<void> add_mesh(const XmlElement& element, const MeshTable& table, const ScenePiece& piece,
