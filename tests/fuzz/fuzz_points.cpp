@@ -38,7 +38,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(!rows->empty());
   for (const head::PointRow& row : *rows) {
     require(row.line > 0 && (row.vertex || row.place));
-    if (row.place) require(std::isfinite(row.place->x + row.place->y * 0 + row.place->z * 0));
+    if (!row.place) continue;
+    for (const float x : {row.place->x, row.place->y, row.place->z}) require(std::isfinite(x));
   }
   for (const head::PointRow& row : *rows) {
     const auto point = head::points_on(mesh, {row});
