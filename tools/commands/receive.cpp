@@ -300,10 +300,9 @@ const Command kReceive{
     "  animeme receive udp://239.1.2.3:5004 -o talk.fba --duration 60 --stats\n"
     "  animeme receive talk.sdp -o - --fill | my_avatar\n"
     "Ends when the sender says goodbye, at --duration, after --timeout, or at Ctrl-C (exit code "
-    "130). What comes is on the disk within a second, under its name, and can be played "
-    "whatever ends the\nprogram; a file of that name is replaced when the first second is there. "
-    "An "
-    ".mp4 is fragmented.",
+    "130).\nWhat comes is on the disk within a second, under its name, and can be played whatever "
+    "ends the\nprogram; a file of that name is replaced when the first second is there. An .mp4 is "
+    "fragmented.",
     set_up<ReceiveOptions>};
 
 }  // namespace animeme::tools

@@ -112,6 +112,7 @@ Result<void> Sink::begin(const media::LiveInfo& info) {
   if (!init.empty()) (*server)->set_hello(Channel::audio, {.bytes = std::move(init)});
   server_ = std::move(*server);
   describe();
+  server_->serve();
   return {};
 }
 

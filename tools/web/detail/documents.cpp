@@ -13,7 +13,8 @@ namespace {
 std::string gzip(const std::string& bytes) {
   z_stream stream{};
   constexpr int kGzip = 15 + 16;  // the largest window, and a header of gzip
-  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzip, 8, Z_DEFAULT_STRATEGY) != Z_OK) {
+  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzip, 8, Z_DEFAULT_STRATEGY) !=
+      Z_OK) {
     return {};
   }
   std::string out(deflateBound(&stream, uLong(bytes.size())), 0);

@@ -91,7 +91,6 @@ Result<std::unique_ptr<Server>> Server::listen(const WebAddress& address, const 
                           "; is the port in use, or the host no address of this machine?");
   }
   server->keep_looking();
-  server->service_.run();
   return server;
 }
 

@@ -33,8 +33,8 @@ struct Session {
 
 class Server {
  public:
-  /// Listens and serves in a thread. `sample_rate`: of `/audio` and `/talk.mp4`, 0: there is no
-  /// sound. Errors: io.
+  /// Listens. `sample_rate`: of `/audio` and `/talk.mp4`, 0: there is no sound. Errors: io,
+  /// invalid_argument (more viewers than files may be open).
   static Result<std::unique_ptr<Server>> listen(const WebAddress& address,
                                                 const WebOptions& options, int sample_rate);
   ~Server() { stop(); }
@@ -42,6 +42,9 @@ class Server {
   Server& operator=(const Server&) = delete;
 
   int port() const { return port_; }
+  /// From now on clients are served, in a thread. The first of them is to find everything: who
+  /// comes before waits.
+  void serve() { service_.run(); }
 
   // All of these may be called from any thread.
   void set_hello(Channel channel, Message hello);
