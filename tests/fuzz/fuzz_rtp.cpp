@@ -96,15 +96,19 @@ class Steady {
   double units_ = 0;
 };
 
+const UdpAddress& address(int number) {
+  static const UdpAddress all[4] = {{},
+                                    *UdpAddress::resolve("192.0.2.1", 4000),
+                                    *UdpAddress::resolve("192.0.2.1", 4001),
+                                    *UdpAddress::resolve("192.0.2.2", 4000)};
+  return all[number];
+}
+
 void receive(Bytes input) {
   if (input.empty()) return;
   RtpReceiver receiver(session_of(input[0]), {}, 1);
   FaceRecovery recovery;
   Steady steady;
-  UdpAddress addresses[4];
-  for (int i = 1; i < 4; ++i) {
-    addresses[i] = *UdpAddress::resolve("192.0.2." + std::to_string(i & 2), 4000 + i);
-  }
   input = input.subspan(1);
   double now = 0;
   bool begun = false;
@@ -120,7 +124,7 @@ void receive(Bytes input) {
   };
   while (input.size() >= 3) {
     const std::uint8_t head = input[0];
-    const UdpAddress& from = addresses[input[1] >> 6];
+    const UdpAddress& from = address(input[1] >> 6);
     const std::size_t size =
         std::min<std::size_t>((input[1] & 63) * 256u + input[2], input.size() - 3);
     const Bytes datagram = input.subspan(3, size);

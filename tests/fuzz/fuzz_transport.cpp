@@ -13,6 +13,20 @@
 #include "tools/media/live/audio_segments.h"
 #include "tools/media/live/session_clock.h"
 
+namespace {
+
+using animeme::media::UdpAddress;
+
+const UdpAddress& address(int number) {
+  static const UdpAddress all[4] = {{},
+                                    *UdpAddress::resolve("192.0.2.1", 4000),
+                                    *UdpAddress::resolve("192.0.2.1", 4001),
+                                    *UdpAddress::resolve("192.0.2.2", 4000)};
+  return all[number];
+}
+
+}  // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace animeme::media;
   if (size == 0) return 0;
@@ -27,14 +41,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   // The first byte of a piece says whose it is, where there are several senders.
   const bool several = data[0] % 4 == 3;
-  UdpAddress addresses[4];
-  for (int i = 1; i < 4; ++i) addresses[i] = *UdpAddress::resolve("192.0.2.1", 4000 + i);
   TsInput input;
   SessionClock clock;
   double now = 0;
   std::deque<LiveEvent> events;
   while (!rest.empty()) {
-    const UdpAddress& from = addresses[several ? rest[0] % 4 : 0];
+    const UdpAddress& from = address(several ? rest[0] % 4 : 0);
     std::deque<LiveEvent> found, steady;
     input.push(rest.first(std::min(piece, rest.size())), from, now += 0.02, found);
     rest = rest.subspan(std::min(piece, rest.size()));

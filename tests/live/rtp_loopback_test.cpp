@@ -170,6 +170,15 @@ TEST(RtpLoopback, ALossyRelayBetweenThem) {
   }
 }
 
+// What is sent on this machine is answered on this machine: the port is taken at one address only.
+TEST(RtpLoopback, SocketsForThisMachineListenToThisMachine) {
+  const auto socket = UdpSocket::open_for(*UdpAddress::resolve("127.0.0.1", 5004));
+  ASSERT_TRUE(socket);
+  EXPECT_GT(socket->port(), 0);
+  EXPECT_TRUE(UdpSocket::bind("127.0.0.2", socket->port()));
+  EXPECT_FALSE(UdpSocket::bind("127.0.0.1", socket->port()));
+}
+
 TEST(RtpLoopback, ErrorsSayWhatToDo) {
   const auto message = [](const auto& result) {
     return result ? std::string("no error") : result.error().describe();

@@ -161,8 +161,7 @@ TEST(Receive, WhatIsWrongIsSaidInASentence) {
   const TempDir dir;
   EXPECT_EQ(animeme({"receive", "rtp://127.0.0.1:5004", "-o", dir / "x.wav"}).exit_code, 2);
   EXPECT_EQ(animeme({"receive", "gopher://127.0.0.1:70", "-o", dir / "x.mp4"}).exit_code, 2);
-  const auto missing =
-      animeme({"receive", dir / "none.sdp", "-o", dir / "x.mp4", "--wait", "0.3"});
+  const auto missing = animeme({"receive", dir / "none.sdp", "-o", dir / "x.mp4", "--wait", "0.3"});
   EXPECT_EQ(missing.exit_code, 3);
   EXPECT_THAT(missing.err, HasSubstr("none.sdp"));
   const auto folder = animeme({"receive", "rtp://127.0.0.1:5004", "-o", dir / "no/x.mp4"});

@@ -77,7 +77,6 @@ class Reception {
   Result<void> take(media::LiveEvent event);
   Result<void> keep(const media::LiveUnit& unit);
   Result<void> record(bool idle);
-  std::string why_full(bool described) const;
   void look(double now);
 
   const ReceiveOptions& options_;
@@ -143,20 +142,13 @@ Result<void> Reception::run() {
       if (first_) cut_short_ = format("nothing came for %g s (--timeout)", patience);
       return take(media::LiveEnd{});
     }
-    const bool goodbye = std::holds_alternative<media::LiveEnd>(*event);
     const bool described = std::holds_alternative<media::LiveInfo>(*event);
     if (auto ok = take(std::move(*event)); !ok) return ok;
-    if (recorder_.ended() && !goodbye) cut_short_ = why_full(described);
+    if (described && recorder_.ended()) {
+      cut_short_ = "the sender came back with another sound, which does not fit into the recording";
+    }
   }
   return take(media::LiveEnd{});
-}
-
-/// The recorder has ended by itself; empty: as it was told to.
-std::string Reception::why_full(bool described) const {
-  if (described) {
-    return "the sender came back with another sound, which does not fit into the same recording";
-  }
-  return options_.duration > 0 ? "" : "the recording is as large as it may be";
 }
 
 Result<void> Reception::finish() {

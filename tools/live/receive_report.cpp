@@ -40,8 +40,9 @@ std::string receive_advice(const media::ReceiveStats& stats) {
                          (long long)(stats.foreign));
   }
   if (stats.wait <= 0 || stats.latest <= 0.01) return out;
-  out += tools::format("packets or copies came up to %.2f s late and were waited for up to %.2f s\n",
-                       stats.latest, stats.wait);
+  out +=
+      tools::format("packets or copies came up to %.2f s late and were waited for up to %.2f s\n",
+                    stats.latest, stats.wait);
   if (stats.late > 0 && stats.latest > stats.wait) {
     out += tools::format("%lld came too late: --reorder-most %.1f would have waited for them\n",
                          (long long)(stats.late), std::ceil(12.5 * stats.latest) / 10);

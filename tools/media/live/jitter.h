@@ -36,7 +36,7 @@ struct ReorderLimits {
 /// One sender's packets in order of sequence numbers. The first packet waits, too: an earlier one,
 /// or its copy, may be on its way, and a face that begins with a loss begins an intra plane later.
 /// How long packets wait follows from how late others came, copies included: a quarter longer than
-/// the worst of the last 15 to 30 seconds (receiving.md, section 3).
+/// the worst of the last 15 to 30 seconds (tools/media/live/receiving.md, section 3).
 ///
 /// A jump of more than 3000 numbers, or back to numbers that came more than five seconds ago, is
 /// taken for a sender that has begun anew if the packet after it goes on from there; else the

@@ -88,8 +88,9 @@ struct LiveGap {
   friend bool operator==(const LiveGap&, const LiveGap&) = default;
 };
 
-/// What follows is of another sender, or of the same one that has begun anew: its times have nothing
-/// to do with those before, and its first planes may be predicted from others. LiveInfo comes again.
+/// What follows is of another sender, or of the same one that has begun anew: its times have
+/// nothing to do with those before, and its first planes may be predicted from others. LiveInfo
+/// comes again.
 struct LiveRestart {
   friend bool operator==(const LiveRestart&, const LiveRestart&) = default;
 };

@@ -23,8 +23,7 @@ std::optional<LiveUnit> FaceRecovery::accept(LiveEvent event) {
     info_ = std::move(*info);
   } else if (const LiveGap* gap = std::get_if<LiveGap>(&event)) {
     if (gap->track == LiveTrack::face) lose(gap->packets);
-  } else if (std::holds_alternative<LiveEnd>(event) ||
-             std::holds_alternative<LiveRestart>(event)) {
+  } else if (std::holds_alternative<LiveEnd>(event) || std::holds_alternative<LiveRestart>(event)) {
     end_interval();
     waiting_ = true;
     shown_until_.reset();

@@ -23,15 +23,15 @@ namespace animeme::media {
 struct RtpOptions {
   int mtu = 1400;  ///< largest datagram, bytes of UDP payload, 256..65000; larger planes are split
   /// How often each packet of the face is sent, 1..8. Planes are smaller than the headers around
-  /// them, and a lost one spoils the face up to the next intra plane, hence 2. Receivers that do not
-  /// drop duplicates want 1 (a bare `rtpmp4vdepay` of GStreamer without `rtpjitterbuffer`; FFmpeg
-  /// drops all but copies right behind their original, which come where no plane follows for 0.2 s
-  /// and at the end).
+  /// them, and a lost one spoils the face up to the next intra plane, hence 2. Receivers that do
+  /// not drop duplicates want 1 (a bare `rtpmp4vdepay` of GStreamer without `rtpjitterbuffer`;
+  /// FFmpeg drops all but copies right behind their original, which come where no plane follows for
+  /// 0.2 s and at the end).
   int repeat = 2;
-  /// A copy follows its original by so many further packets of the face, 1..50, the next copy by twice
-  /// as many, so that a burst of losses has to last that long to take them all. Where no plane
-  /// follows for 0.2 s, copies wait no longer. A loss costs that much delay; receivers of ours learn
-  /// to wait so long.
+  /// A copy follows its original by so many further packets of the face, 1..50, the next copy by
+  /// twice as many, so that a burst of losses has to last that long to take them all. Where no
+  /// plane follows for 0.2 s, copies wait no longer. A loss costs that much delay; receivers of
+  /// ours learn to wait so long.
   int repeat_after = 3;
   /// Planes a packet, 1..16. More save headers and cost delay. Their sizes and times go into an RTP
   /// header extension that the session description announces; receivers that do not know it see
@@ -62,7 +62,7 @@ struct RtpReceiveOptions {
   /// One sender may send from several addresses and ports (a farm of relays). Anybody who can see
   /// what it sends can then speak in its place.
   bool any_source = false;
-  std::string interface;     ///< as RtpOptions::interface
+  std::string interface;  ///< as RtpOptions::interface
 };
 
 /// Sends to "rtp://host:port" (port even, default 5004; IPv6 in brackets; a multicast address will
