@@ -79,9 +79,9 @@ class RtpInput {
 
   /// A datagram that may prove to be of a sender.
   struct Early {
-    std::vector<std::uint8_t> bytes;
-    UdpAddress from;
-    double at = 0;
+    std::vector<std::uint8_t> bytes;  ///< as it came
+    UdpAddress from;                  ///< who sent it
+    double at = 0;                    ///< instant of its arrival, seconds
   };
   /// Of all who are not in force, in the order of their arrival.
   std::vector<Early> early() const;
