@@ -11,14 +11,14 @@ namespace animeme::media {
 namespace {
 
 // Units so far apart are data, not a gap: planes of four frames a second.
-constexpr double kStep = 0.25;
+constexpr double kDataStep = 0.25;
 constexpr double kMostSpare = 5;  // beyond the arrival clock, which a net may disturb
 // A track that begins later may begin earlier in time: priming, what a server keeps for newcomers.
 constexpr double kBefore = 10;
 constexpr double kLate = 1;            // so far back a unit is late, not elsewhere
 constexpr double kApart = 1;           // units that confirm each other
 constexpr std::size_t kConfirmed = 3;  // units
-constexpr double kLongest = 10;        // duration
+constexpr double kLongestUnit = 10;    // duration
 constexpr double kCorrection = 10;     // of one track by reports of its sender
 constexpr double kCentury = 3e9;       // a time beyond is none
 
@@ -72,7 +72,7 @@ void SessionClock::begin(const Held& first) {
     spare_ = kMostSpare;
     spare_at_ = first.arrival;
   } else {
-    anchor_ = begun_ ? std::max(horizon(first.arrival), reached_ + kStep) : 0;
+    anchor_ = begun_ ? std::max(horizon(first.arrival), reached_ + kDataStep) : 0;
   }
   if (!begun_) reached_ = anchor_;
   anchor_at_ = first.arrival;
@@ -99,7 +99,7 @@ bool SessionClock::give(Held& held, std::deque<LiveEvent>& out) {
   if (track.last ? ticks <= *track.last : ours < anchor_ - kBefore) return false;
   spare_ = std::min(kMostSpare, spare_ + std::max(0.0, held.arrival - spare_at_));
   spare_at_ = std::max(spare_at_, held.arrival);
-  const double ahead = ours - std::max(horizon(held.arrival), reached_ + kStep);
+  const double ahead = ours - std::max(horizon(held.arrival), reached_ + kDataStep);
   if (ahead > spare_) return false;
   spare_ -= std::max(0.0, ahead);
   track.last = ticks;
@@ -107,8 +107,8 @@ bool SessionClock::give(Held& held, std::deque<LiveEvent>& out) {
   reached_ = std::max(reached_, ours);
   LiveUnit unit = std::move(held.unit);
   unit.time = ticks;
-  const double duration = std::clamp(double(unit.duration) / from, 0.0, kLongest);
-  if (from != to || double(unit.duration) > kLongest * from) {
+  const double duration = std::clamp(double(unit.duration) / from, 0.0, kLongestUnit);
+  if (from != to || double(unit.duration) > kLongestUnit * from) {
     unit.duration = std::llround(duration * to);
   }
   out.emplace_back(std::move(unit));
