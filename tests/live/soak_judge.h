@@ -93,34 +93,47 @@ class Judge {
     plane_ = plane;
     return true;
   }
-  bool agrees(std::size_t run, std::int64_t plane, std::size_t i) const {
+  /// How many frames from `i` on are the planes from `plane` on. Those behind the end of what is
+  /// known of the run make it sure, too.
+  std::size_t agreeing(std::size_t run, std::int64_t plane, std::size_t i) const {
     const auto& planes = runs_[run].planes;
-    for (std::size_t k = 0; k < kSure && i + k < frames_.size(); ++k) {
+    for (std::size_t k = 0; i + k < frames_.size(); ++k) {
       const std::int64_t at = plane + frames_[i + k].number - frames_[i].number;
-      if (at >= std::int64_t(planes.size())) return k > 0;
-      if (planes[std::size_t(at)] != frames_[i + k].values) {
-        // The run ends, and the next one begins.
-        return k > 0 && at + kEdge >= std::int64_t(planes.size());
-      }
+      const bool beyond = at >= std::int64_t(planes.size());
+      if (!beyond && planes[std::size_t(at)] == frames_[i + k].values) continue;
+      const bool ends = beyond || at + kEdge >= std::int64_t(planes.size());
+      return k > 0 && ends ? std::max(k, kSure) : k;
     }
-    return true;
+    return std::max(frames_.size() - i, kSure);
   }
-  /// Frame `i` in what was sent, not before the place that was reached.
+  /// Frame `i` in what was sent, where most of what follows agrees: a face at rest is found
+  /// everywhere. Ahead of what was reached, if it is there.
   bool found(std::size_t i) {
-    for (std::size_t run = run_; run < runs_.size(); ++run) {
-      const std::int64_t begin = run == run_ && followed_ ? plane_ + 1 : 0;
-      for (std::int64_t plane = begin; plane < std::int64_t(runs_[run].planes.size()); ++plane) {
-        if (!agrees(run, plane, i)) continue;
-        const bool next = followed_ && run == run_ + 1;
-        run_ = run;
-        plane_ = plane;
-        followed_ = true;
-        verdict_.runs.insert(run);
-        if (next) verdict_.late.push_back(plane);
-        return true;
+    std::size_t most = 0, best_run = 0;
+    std::int64_t best_plane = 0;
+    const auto search = [&](std::size_t first_run, std::int64_t first_plane) {
+      for (std::size_t run = first_run; run < runs_.size(); ++run) {
+        const auto& planes = runs_[run].planes;
+        std::int64_t plane = run == first_run ? first_plane : 0;
+        for (; plane < std::int64_t(planes.size()); ++plane) {
+          const std::size_t count = agreeing(run, plane, i);
+          if (count <= most) continue;
+          most = count;
+          best_run = run;
+          best_plane = plane;
+        }
       }
-    }
-    return false;
+    };
+    search(run_, followed_ ? plane_ + 1 : 0);
+    if (most <= kSure) search(0, 0);
+    if (most < kSure) return false;
+    const bool next = followed_ && best_run == run_ + 1;
+    run_ = best_run;
+    plane_ = best_plane;
+    followed_ = true;
+    verdict_.runs.insert(run_);
+    if (next) verdict_.late.push_back(plane_);
+    return true;
   }
   /// Frames that nobody is known to have sent; the next one that is.
   std::size_t pass_over(std::size_t i) {
