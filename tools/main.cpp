@@ -33,8 +33,8 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "animeme " ANIMEME_VERSION);
   app.footer(
       "'animeme COMMAND --help' explains a command.\n"
-      "Exit codes: 0 ok, 1 a check failed or a recording ended early, 2 usage, 3 bad input, 4 internal error, 130 stopped by\n"
-      "Ctrl-C (what was written so far is complete).");
+      "Exit codes: 0 ok, 1 a check failed or a recording ended early, 2 usage, 3 bad input, 4\n"
+      "internal error, 130 stopped by Ctrl-C (what was written so far is complete).");
   bool quiet = false;
   app.add_flag("-q,--quiet", quiet, "No talk on standard error but errors");
   app.fallthrough();
