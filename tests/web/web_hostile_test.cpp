@@ -22,7 +22,8 @@ TEST(WebHostile, TimesThatMessagesClaimCostNothing) {
     ASSERT_TRUE(sink);
     ASSERT_TRUE((*sink)->start(show.info));
     const TempDir dir;
-    Running receive({"receive", (*sink)->address(), "-o", dir / name, "--fill", "--timeout", "1"},
+    Running receive({"receive", (*sink)->address(), "-o", dir / name, "--fill", "--timeout", "1",
+                     "--wait", "3"},
                     dir / "out", dir / "err");
     const auto heard = [&] { return (*sink)->stats().receivers > 0; };
     ASSERT_TRUE(wait_for(heard)) << slurp(dir / "err");

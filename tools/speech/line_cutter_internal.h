@@ -23,8 +23,8 @@ class LineCutter {
     for (;;) {
       std::size_t end = rest_.find('\n');
       std::size_t next = end + 1;
-      if (end == std::string::npos) {
-        if (rest_.size() <= kMostLineBytes) return lines;
+      if (end == std::string::npos && rest_.size() <= kMostLineBytes) return lines;
+      if (end > kMostLineBytes) {
         const std::size_t blank = rest_.rfind(' ', kMostLineBytes);
         end = next = blank == std::string::npos || blank == 0 ? kMostLineBytes : blank;
       }
