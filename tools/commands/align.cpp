@@ -36,7 +36,7 @@ void add_options(CLI::App& app, AlignOptions& options) {
   app.add_option("--lang", options.language, "Language of the transcript")->capture_default_str();
   add_output(app.add_option("-o,--output", options.output,
                             "Script to write: .TextGrid (Praat) or .tsv, - for standard output"),
-             {".TextGrid", ".tsv"})
+             {".TextGrid", ".tsv"}, OutputKind::file_or_dash)
       ->required();
 }
 

@@ -55,7 +55,7 @@ bool is_special(const std::string& path) {
 }
 
 std::string wrong_ending(const Given& output, const OutputRule& rule) {
-  if (rule.endings.empty()) return {};
+  if (rule.endings.empty() || (output.path == "-" && rule.kind != OutputKind::file)) return {};
   const std::string ending = extension_of(output.path);
   if (rule.kind == OutputKind::stream && (ending.empty() || is_special(output.path))) return {};
   for (const std::string& fits : rule.endings) {
@@ -116,14 +116,13 @@ std::string problem_with_outputs(const CLI::App& command) {
     if (option->empty() || option->get_expected_max() == 0) continue;
     const auto rule = rules().find(option);
     for (const std::string& value : option->results()) {
-      if (value == "-") continue;
       Given given{called(*option), value};
       if (rule == rules().end()) {
-        inputs().push_back(std::move(given));
+        if (value != "-") inputs().push_back(std::move(given));
         continue;
       }
       if (std::string text = wrong_ending(given, rule->second); !text.empty()) return text;
-      outputs.push_back(std::move(given));
+      if (value != "-") outputs.push_back(std::move(given));
     }
   }
   for (std::size_t i = 0; i < outputs.size(); ++i) {

@@ -15,8 +15,9 @@ namespace animeme::tools {
 
 /// Whether an output may be a stream.
 enum class OutputKind : unsigned char {
-  file,    ///< a file whose ending says what is written
-  stream,  ///< likewise, but "-", devices, pipes and names without an ending will do, too
+  file,          ///< a file whose ending says what is written, no "-"
+  file_or_dash,  ///< likewise, or "-"
+  stream,        ///< "-", devices, pipes and names without an ending will do, too
 };
 
 /// Notes that an option names a file to be written. `endings`: which fit, in lower case, as

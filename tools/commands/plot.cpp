@@ -79,7 +79,7 @@ void add_options(CLI::App& app, PlotOptions& options) {
   app.add_option("b", options.b, "A second one to compare with (orange, dashed)");
   add_output(app.add_option("-o,--output", options.output,
                             "Picture to write: .svg or .png; - is SVG on standard output"),
-             {".svg", ".png"})
+             {".svg", ".png"}, OutputKind::file_or_dash)
       ->required();
   app.add_option("--script", options.script, "Phoneme script to show behind the curves");
   app.add_option("--faps", options.faps, "FAPs by number, name or range (3-13), one row each")

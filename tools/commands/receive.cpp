@@ -237,7 +237,7 @@ void add_options(CLI::App& app, ReceiveOptions& options) {
   add_output(app.add_option("-o,--output", options.output,
                             "What to write: .mp4 .mkv .ts (face and sound), .fba (stream), .fap "
                             "(text), - for FAP text on standard output while it comes"),
-             {".fap", ".fba", ".mp4", ".mkv", ".ts"}, OutputKind::file)
+             {".fap", ".fba", ".mp4", ".mkv", ".ts"}, OutputKind::file_or_dash)
       ->required();
   app.add_option("--duration", options.duration, "End after so many seconds of presentation")
       ->check(CLI::PositiveNumber);

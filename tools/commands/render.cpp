@@ -204,7 +204,7 @@ void add_options(CLI::App& app, RenderOptions& options) {
   add_output(app.add_option("-o,--output", options.output,
                             "File to write: .mp4 or .mkv (H.264), .webm (VP9), or a .png still or "
                             "sheet; - is PNG on standard output"),
-             {".png", ".mp4", ".webm", ".mkv"})
+             {".png", ".mp4", ".webm", ".mkv"}, OutputKind::file_or_dash)
       ->required();
   auto* shapes = app.add_option("--shapes", options.shapes,
                                 "Instead of a file: neutral and all visemes or expressions");

@@ -10,20 +10,6 @@ namespace {
 
 constexpr double kFirstDelay = 0.1, kLongestDelay = 1, kGrowth = 1.5;  // seconds
 
-void add_to(media::ReceiveStats& sum, const media::ReceiveStats& more) {
-  sum.packets += more.packets;
-  sum.bytes += more.bytes;
-  sum.lost += more.lost;
-  sum.late += more.late;
-  sum.duplicates += more.duplicates;
-  sum.reordered += more.reordered;
-  sum.foreign += more.foreign;
-  sum.sessions += more.sessions;
-  sum.jitter = more.jitter;
-  sum.wait = more.wait;
-  sum.latest = std::max(sum.latest, more.latest);
-}
-
 bool is_empty_file(const std::string& path) {
   std::error_code failed;
   return std::filesystem::file_size(path, failed) == 0 && !failed;
@@ -67,7 +53,7 @@ Result<media::LiveEvent> PatientSource::next(double seconds) {
   }
   if (!passing_(event.error())) return event;
   problem_ = event.error();
-  add_to(before_, source_->stats());
+  before_ += source_->stats();
   source_.reset();
   delay_ = std::clamp(kGrowth * delay_, kFirstDelay, kLongestDelay);
   next_try_ = clock_.now() + delay_;
@@ -76,7 +62,7 @@ Result<media::LiveEvent> PatientSource::next(double seconds) {
 
 media::ReceiveStats PatientSource::stats() const {
   media::ReceiveStats sum = before_;
-  if (source_) add_to(sum, source_->stats());
+  if (source_) sum += source_->stats();
   return sum;
 }
 

@@ -14,6 +14,7 @@
 /// Source: tools/media/containers.md, section 4.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -121,6 +122,23 @@ struct ReceiveStats {
   std::int64_t sessions = 0;    ///< senders, or begins of one
   double wait = 0;              ///< seconds that missing packets were waited for at most
   double latest = 0;            ///< seconds that a packet came behind one that was sent later
+
+  /// Those of a sender and of the one after it: counts add up, the largest `latest` and the newest
+  /// jitter and wait count.
+  ReceiveStats& operator+=(const ReceiveStats& next) {
+    packets += next.packets;
+    bytes += next.bytes;
+    lost += next.lost;
+    late += next.late;
+    duplicates += next.duplicates;
+    reordered += next.reordered;
+    foreign += next.foreign;
+    sessions += next.sessions;
+    jitter = next.jitter;
+    wait = next.wait;
+    latest = std::max(latest, next.latest);
+    return *this;
+  }
 };
 
 /// Receives one presentation. Not thread safe. Safe for whatever comes over the network: memory

@@ -168,19 +168,8 @@ class RtpSource : public LiveSource {
   }
 
   ReceiveStats stats() const override {
-    ReceiveStats all = before_, now = receiver_.stats();
-    all.packets += now.packets;
-    all.bytes += now.bytes;
-    all.lost += now.lost;
-    all.late += now.late;
-    all.duplicates += now.duplicates;
-    all.reordered += now.reordered;
-    all.foreign += now.foreign;
-    all.sessions += now.sessions;
-    all.jitter = now.jitter;
-    all.wait = now.wait;
-    all.latest = std::max(all.latest, now.latest);
-    return all;
+    ReceiveStats all = before_;
+    return all += receiver_.stats();
   }
 
  private:
