@@ -9,6 +9,7 @@
 #include "tests/support/live_loop.h"
 #include "tests/support/reference_streams.h"
 #include "tests/support/shared.h"
+#include "tests/support/temp_dir.h"
 #include "tools/media/container.h"
 #include "tools/media/detail/ts_events.h"
 #include "tools/media/live/ts_live.h"

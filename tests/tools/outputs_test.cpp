@@ -5,6 +5,7 @@
 
 #include <thread>
 
+#include "tests/support/shared.h"
 #include "tests/tools/commands.h"
 
 namespace animeme {
