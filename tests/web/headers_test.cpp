@@ -19,7 +19,7 @@ TEST(Headers, NamesOfHosts) {
   EXPECT_EQ(host_name("example.org."), "example.org");
   EXPECT_EQ(host_name("[::1]:80"), "::1");
   EXPECT_EQ(host_name("::1"), "::1") << "as some programs write it";
-  for (const char* bad : {"", "[::1", "[::1]80", "a:b", ":80", "a:80x"}) {
+  for (const char* bad : {"", "[::1", "[::1]80", "a:b", ":80", "a:80x", "a b", "a\t."}) {
     EXPECT_EQ(host_name(bad), "") << bad;
   }
 }

@@ -112,6 +112,8 @@ std::string host_name(std::string_view host) {
     if (c < '0' || c > '9') return {};
   }
   if (!name.empty() && name.back() == '.') name.remove_suffix(1);
+  const auto is_none = [](char c) { return (c >= 0 && c <= ' ') || c == 127; };
+  if (std::any_of(name.begin(), name.end(), is_none)) return {};
   return lower(name);
 }
 
