@@ -7,9 +7,13 @@
 
 #include "dam/script/timeline_internal.h"
 #include "dam/signal/closure.h"
+#include "dam/signal/fap_signal.h"
 
 namespace animeme::dam {
 namespace {
+
+/// Two controls undo each other if what they have in common is less than this part of the larger.
+constexpr double kCommon = 0.01;
 
 constexpr double kConstant = 1e-9;  // a smaller standard deviation is no motion
 constexpr double kOpenestClosure = 25;
@@ -109,6 +113,43 @@ std::vector<Control> control_statistics(std::span<const Utterance* const> senten
   }
   settle_controls(controls);
   return controls;
+}
+
+ControlLimit limit_of_data(const ControlLimit& limit, const Control& control, double low,
+                           double high) {
+  if (!limit.free() || fap_of_channel(control.name) != 0 || control.sd == 0) return limit;
+  return low >= 0 && high <= 1 ? ControlLimit{0, 1, -1, 0} : limit;
+}
+
+std::vector<ControlLimit> control_limits(std::span<const Utterance* const> sentences,
+                                         std::span<const Control> controls) {
+  const std::size_t k = controls.size();
+  std::vector<double> low(k, std::numeric_limits<double>::infinity());
+  std::vector<double> high(k, -std::numeric_limits<double>::infinity());
+  for (const Utterance* u : sentences) {
+    for (std::size_t i = 0; i < u->signal.values.size(); ++i) {
+      if (!is_measured(u->signal, i / k)) continue;
+      low[i % k] = std::min(low[i % k], u->signal.values[i]);
+      high[i % k] = std::max(high[i % k], u->signal.values[i]);
+    }
+  }
+  std::vector<std::string> names;
+  for (const Control& control : controls) names.push_back(control.name);
+  std::vector<ControlLimit> limits = natural_limits(names);
+  untie(limits, [&](std::size_t a, std::size_t b) {
+    double common = 0, larger = 0;
+    for (const Utterance* u : sentences) {
+      for (std::size_t i = 0; i < u->signal.frames(); ++i) {
+        const double x = u->signal.at(i, a), y = u->signal.at(i, b);
+        common += std::max(0.0, std::min(x, y));
+        larger += std::max({0.0, x, y});
+      }
+    }
+    return common <= kCommon * larger;
+  });
+  for (std::size_t c = 0; c < k; ++c)
+    limits[c] = limit_of_data(limits[c], controls[c], low[c], high[c]);
+  return settled(std::move(limits));
 }
 
 std::vector<bool> speech_frames(const Utterance& utterance) {

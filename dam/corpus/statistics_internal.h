@@ -34,6 +34,17 @@ std::vector<FramePlace> frame_places(const Utterance& utterance, double pause_ed
 /// rest with the lips a little apart).
 void settle_controls(std::vector<Control>& controls);
 
+/// What a control that has no natural limits seems to be limited to: 0..1 if none of its values in
+/// the data, which are from `low` to `high`, is out of that, it is no FAP and it moves; else
+/// `limit` as it is.
+ControlLimit limit_of_data(const ControlLimit& limit, const Control& control, double low,
+                           double high);
+
+/// Limits of the controls of sentences: by name, or by limit_of_data(). Pairs undo each other only
+/// if they do in the data: some trackers let both of a pair stand above 0 all the time.
+std::vector<ControlLimit> control_limits(std::span<const Utterance* const> sentences,
+                                         std::span<const Control> controls);
+
 /// Names, mean and deviation over the speech, rest over the silences further than `pause_edge` from
 /// it (with closed lips; the mean of the speech if there is no silence). All sentences must have
 /// the controls of the first. Interpolated frames do not count.

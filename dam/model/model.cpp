@@ -34,6 +34,21 @@ Result<void> validate(const Model& model) {
     if (c.name.empty() || !std::isfinite(c.rest) || !std::isfinite(c.mean) ||
         !std::isfinite(c.sd) || c.sd < 0)
       return invalid_model("control '" + c.name + "' has no name or no finite statistics");
+  if (!model.limits.empty() && model.limits.size() != model.controls.size())
+    return invalid_model("its limits are not those of its controls");
+  for (std::size_t c = 0; c < model.limits.size(); ++c) {
+    const ControlLimit& limit = model.limits[c];
+    const auto other = std::size_t(std::max(0, limit.opposite));
+    if (!(limit.low <= limit.high))
+      return invalid_model("control '" + model.controls[c].name +
+                           "' has no value within its limits");
+    if (!(limit.shared >= 0) || !std::isfinite(limit.shared))
+      return invalid_model("what control '" + model.controls[c].name + "' shares is no value");
+    if (limit.opposite >= 0 && (other >= model.limits.size() || other == c ||
+                                model.limits[other].opposite != std::int32_t(c) ||
+                                model.limits[other].shared != limit.shared))
+      return invalid_model("the opposite of control '" + model.controls[c].name + "' is none");
+  }
   if (model.phones.empty()) return invalid_model("it has no phone");
   for (std::size_t p = 0; p < model.phones.size(); ++p) {
     if (p > 0 && !(model.phones[p - 1].label < model.phones[p].label))

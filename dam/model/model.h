@@ -26,6 +26,7 @@
 #include <variant>
 #include <vector>
 
+#include "dam/signal/limits.h"
 #include "fap/rate.h"
 #include "fap/result.h"
 
@@ -238,8 +239,11 @@ struct Model {
   double closure_gap = 25;  ///< FAP units: inner lip gap to which P, B, M close
   /// FAP units: how far F and V raise the inner lower lip (FAP 5) towards the teeth; none: unknown.
   std::optional<double> lip_tooth_raise;
-  fap::Rate rate;                  ///< of the training signal
-  std::vector<Control> controls;   ///< what it animates; all parameters are in this order
+  fap::Rate rate;                 ///< of the training signal
+  std::vector<Control> controls;  ///< what it animates; all parameters are in this order
+  /// What each control can be, in the order of `controls`, or nothing: all are free. (A list in
+  /// which all are free comes back from a file as nothing.)
+  std::vector<ControlLimit> limits;
   std::vector<PhoneModel> phones;  ///< sorted by label
   Parameters parameters;           ///< the alternative that the method needs
   std::string attribution;         ///< who has to be named when the model is passed on
@@ -257,7 +261,7 @@ struct Model {
 /// with a sentence that names the first fault. read_model() returns only models that pass.
 Result<void> validate(const Model& model);
 
-/// The model file: magic "ANIMEDAM", version 2.0, little endian, CRC-32 of everything.
+/// The model file: magic "ANIMEDAM", version 2.1, little endian, CRC-32 of everything.
 /// dam/model/README.md has the layout. The same model gives the same bytes.
 std::vector<std::uint8_t> write_model(const Model& model);
 

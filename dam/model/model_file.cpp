@@ -1,4 +1,6 @@
 // The model file. Layout: dam/model/README.md.
+#include <algorithm>
+
 #include "dam/model/bytes_internal.h"
 #include "dam/model/file_frame_internal.h"
 #include "dam/model/kind_internal.h"
@@ -7,9 +9,34 @@
 namespace animeme::dam {
 namespace {
 
-constexpr FileFormat kModelFormat{"ANIMEDAM", 2, 0, "model file", "train the model anew"};
+constexpr FileFormat kModelFormat{"ANIMEDAM", 2, 1, "model file", "train the model anew"};
 
 Error damaged_model(const std::string& how) { return damaged_file(kModelFormat, how); }
+
+/// Since 2.1: behind everything else, and only if something is limited.
+void write_limits(const Model& model, ByteWriter& out) {
+  const auto limited = std::count_if(model.limits.begin(), model.limits.end(),
+                                     [](const ControlLimit& limit) { return !limit.free(); });
+  out.count(std::size_t(limited));
+  for (std::size_t c = 0; c < model.limits.size(); ++c) {
+    const ControlLimit& limit = model.limits[c];
+    if (!limit.free())
+      out.put(std::uint32_t(c), limit.low, limit.high, limit.opposite, limit.shared);
+  }
+}
+
+bool read_limits(ByteReader& in, Model& model) {
+  const std::size_t limited = in.count(4 + 2 * 8 + 4 + 8);
+  if (limited > 0) model.limits.resize(model.controls.size());
+  for (std::size_t i = 0; i < limited; ++i) {
+    const auto control = in.next<std::uint32_t>();
+    ControlLimit limit;
+    in.get(limit.low, limit.high, limit.opposite, limit.shared);
+    if (in.failed() || control >= model.limits.size() || limit.free()) return false;
+    model.limits[control] = limit;
+  }
+  return true;
+}
 
 Result<Model> read_payload(ByteReader& in, bool newer_minor) {
   Model model;
@@ -31,6 +58,8 @@ Result<Model> read_payload(ByteReader& in, bool newer_minor) {
     in.get(p.label, p.examples, p.context_class, p.duration, p.longest);
   if (auto ok = kind_of(model.method).read(in, model); !ok)
     return damaged_model(ok.error().message);
+  if (!in.failed() && !in.at_end() && !read_limits(in, model))
+    return damaged_model("limits of a control that it has not");
   if (in.failed()) return damaged_model("its parts are larger than the file");
   if (!in.at_end() && !newer_minor) return damaged_model("something follows the model");
   if (auto ok = validate(model); !ok) return make_error(Code::syntax, ok.error().message);
@@ -50,6 +79,7 @@ std::vector<std::uint8_t> write_model(const Model& model) {
   for (const PhoneModel& p : model.phones)
     body.put(p.label, p.examples, p.context_class, p.duration, p.longest);
   kind_of(model.method).write(model, body);
+  write_limits(model, body);
   return frame_file(kModelFormat, body.bytes);
 }
 

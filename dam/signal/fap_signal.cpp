@@ -5,13 +5,30 @@
 #include <charconv>
 #include <cmath>
 
+#include "dam/signal/arkit_signal.h"
 #include "fap/fill.h"
 #include "fap/tables.h"
 
 namespace animeme::dam {
 namespace {
 constexpr std::int64_t kMaxFrames = 10'000'000;
+
+Result<fap::Sequence> from_arkit(const Signal& signal, const ArkitLayout& layout) {
+  fap::Sequence sequence;
+  sequence.rate = signal.rate;
+  const std::size_t controls = signal.names.size();
+  for (std::size_t i = 0; i < signal.frames(); ++i) {
+    const std::span row(&signal.values[i * controls], controls);
+    for (std::size_t c = 0; c < controls; ++c)
+      if (layout.channel[c] >= 0 && !std::isfinite(row[c]))
+        return make_error(Code::invalid_argument, "frame " + std::to_string(i) + " of " +
+                                                      signal.names[c] + " is not finite");
+    sequence.frames.push_back(fap::arkit_to_fap(layout.frame(row), layout.has));
+    sequence.frames.back().number = std::int64_t(i);
+  }
+  return sequence;
 }
+}  // namespace
 
 std::string fap_channel(int fap) {
   return "fap" + std::to_string(fap) + "_" + std::string(fap::info(fap).name);
@@ -40,9 +57,11 @@ Result<fap::Sequence> to_sequence(const Signal& signal) {
     channel[std::size_t(fap)] = std::ptrdiff_t(c);
     any = true;
   }
-  if (!any)
+  if (!any) {
+    if (const auto arkit = find_arkit_layout(signal.names)) return from_arkit(signal, *arkit);
     return make_error(Code::not_found,
                       "no channel is a FAP; FAP channels are called fapN_name, like fap3_open_jaw");
+  }
   fap::Sequence sequence;
   sequence.rate = signal.rate;
   sequence.frames.resize(signal.frames());

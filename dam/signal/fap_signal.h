@@ -17,11 +17,12 @@ std::string fap_channel(int fap);
 /// FAP number (1..68) of a channel called "fapN" or "fapN_anything", 0 for any other name.
 int fap_of_channel(std::string_view name);
 
-/// The FAP channels of a signal (3..68; other names are left out) as a clip, frame i numbered i.
+/// The FAP channels of a signal (3..68; other names are left out) as a clip, frame i numbered i. A
+/// signal without any, but with shapes of ARKit, becomes what fap::arkit_to_fap() makes of them.
 /// Values are rounded, halves away from zero, and clipped to the range that the standard's default
 /// tables can code: default_i_range * quant_step of fap/tables.h.
-/// Error: not_found if no channel is a low-level FAP; invalid_argument for a value that is not
-/// finite or two channels for one FAP.
+/// Error: not_found if no channel is a low-level FAP, nor a shape of ARKit; invalid_argument for a
+/// value that is not finite or two channels for one FAP.
 Result<fap::Sequence> to_sequence(const Signal& signal);
 
 /// All low-level FAPs that some frame of the clip has, by number. A FAP that a frame lacks keeps

@@ -10,7 +10,9 @@
 #include "dam/maths/random.h"
 #include "dam/script/phones.h"
 #include "dam/script/timeline_internal.h"
+#include "dam/signal/arkit_signal.h"
 #include "dam/signal/fap_signal.h"
+#include "fap/arkit.h"
 
 namespace animeme::dam {
 namespace {
@@ -19,6 +21,7 @@ constexpr double kPause = 0.25, kLeastInterval = 1, kShortInterval = 2, kLongInt
 constexpr double kClosing = 0.08, kClosed = 0.04, kOpening = 0.16;
 constexpr double kDrawnOut = 1.4, kAccentDistance = 0.6, kBefore = 0.15, kAfter = 0.35;
 constexpr double kUpperLid = 940, kLowerLid = 84;         // IRISD units, 1024 together: closed
+constexpr double kOuterBrow = 0.6;                        // of the inner end
 constexpr double kBrow = 60;                              // ENS units, about 3 mm
 constexpr double kDegree = std::numbers::pi / 180 * 1e5;  // in units of 1e-5 rad
 constexpr double kNod = 1.5;                              // degrees
@@ -150,11 +153,127 @@ double value_of(int fap, const Moment& m, double amount) {
     case 50:
       return amount * kDegree * m.roll;
     default:  // brows, the outer ends less
-      return amount * kBrow * m.accent * (fap >= 35 ? 0.6 : 1.0);
+      return amount * kBrow * m.accent * (fap >= 35 ? kOuterBrow : 1.0);
   }
 }
 
 constexpr int kLifeFaps[] = {19, 20, 21, 22, 31, 32, 33, 34, 35, 36, 48, 49, 50};
+
+/// A row of a signal with room for what is added.
+class Wider {
+ public:
+  Wider(Signal& signal, const std::vector<std::string>& added)
+      : signal_(signal), before_(signal.names.size()) {
+    const std::size_t frames = signal.frames();
+    signal.names.insert(signal.names.end(), added.begin(), added.end());
+    std::vector<double> values(frames * signal.names.size(), 0.0);
+    for (std::size_t i = 0; i < frames; ++i)
+      std::copy_n(&signal.values[i * before_], before_, &values[i * signal.names.size()]);
+    signal.values = std::move(values);
+  }
+  template <class Visit>
+  void each(const Visit& visit) {
+    for (std::size_t i = 0; i < signal_.frames(); ++i)
+      visit(signal_.time(i), &signal_.values[i * signal_.names.size()]);
+  }
+
+ private:
+  Signal& signal_;
+  std::size_t before_;
+};
+
+void live_faps(Signal& signal, const std::vector<int>& known, const Rules& rules, double amount) {
+  std::vector<int> added;
+  for (const int fap : kLifeFaps)
+    if (std::find(known.begin(), known.end(), fap) == known.end()) added.push_back(fap);
+  std::vector<std::string> names;
+  for (const int fap : added) names.push_back(fap_channel(fap));
+  const std::size_t first = signal.names.size();
+  Wider(signal, names).each([&](double time, double* row) {
+    const Moment moment = rules.at(time);
+    for (std::size_t a = 0; a < added.size(); ++a)
+      row[first + a] = value_of(added[a], moment, amount);
+  });
+}
+
+/// What a shape at 1 does to a FAP, in its units.
+double full(int shape, int fap) {
+  fap::ArkitFrame weights{};
+  weights[std::size_t(shape)] = 1;
+  return fap::arkit_to_fap(weights, fap::kAllArkit).value[std::size_t(fap)];
+}
+
+/// A channel of ARKit that lives.
+struct LivingShape {
+  enum class Part : std::uint8_t { lid, wide, brow, pitch, yaw, roll } part;
+  int channel;
+  double scale = 1;    ///< of what the moment says
+  std::size_t at = 0;  ///< column
+  bool own = false;    ///< the signal has it already
+};
+
+std::vector<LivingShape> living_shapes() {
+  using enum LivingShape::Part;
+  const auto number = [](std::string_view name) { return *fap::find_arkit(name); };
+  const int inner = number("browInnerUp"), left = number("browOuterUpLeft"),
+            right = number("browOuterUpRight");
+  // Each raises the other end of the brow a little, too.
+  const double inner_31 = full(inner, 31), inner_35 = full(inner, 35);
+  const double outer_31 = full(left, 31), outer_35 = full(left, 35);
+  const double size = kBrow / (inner_31 * outer_35 - inner_35 * outer_31);
+  const double inner_up = size * (outer_35 - kOuterBrow * outer_31);
+  const double outer_up = size * (kOuterBrow * inner_31 - inner_35);
+  return {{lid, number("eyeBlinkLeft")}, {lid, number("eyeBlinkRight")},
+          {wide, number("eyeWideLeft")}, {wide, number("eyeWideRight")},
+          {brow, inner, inner_up},       {brow, left, outer_up},
+          {brow, right, outer_up},       {pitch, number("headPitch")},
+          {yaw, number("headYaw")},      {roll, number("headRoll")}};
+}
+
+void live(const LivingShape& shape, const Moment& m, double amount, double& value) {
+  const double radians = amount * std::numbers::pi / 180;
+  switch (shape.part) {
+    case LivingShape::Part::lid:
+      value = std::max(value, m.lids);
+      return;
+    case LivingShape::Part::wide:
+      value *= 1 - m.lids;
+      return;
+    case LivingShape::Part::brow:
+      value = std::max(value, std::min(1.0, value + amount * shape.scale * m.accent));
+      return;
+    // Live Link Face turns to the right where FAPs turn to the left, and tilts likewise.
+    case LivingShape::Part::pitch:
+      if (!shape.own) value = radians * (m.pitch + kNod * m.accent);
+      return;
+    case LivingShape::Part::yaw:
+      if (!shape.own) value = -radians * m.yaw;
+      return;
+    case LivingShape::Part::roll:
+      if (!shape.own) value = -radians * m.roll;
+      return;
+  }
+}
+
+void live_arkit(Signal& signal, const ArkitLayout& layout, const Rules& rules, double amount) {
+  std::vector<LivingShape> shapes = living_shapes();
+  // Eyes that never open wide need not give way.
+  std::erase_if(shapes, [&](const LivingShape& shape) {
+    return shape.part == LivingShape::Part::wide && !layout.has[std::size_t(shape.channel)];
+  });
+  std::vector<std::string> added;
+  for (LivingShape& shape : shapes) {
+    const auto column = std::find(layout.channel.begin(), layout.channel.end(), shape.channel);
+    shape.own = column != layout.channel.end();
+    shape.at = shape.own ? std::size_t(column - layout.channel.begin())
+                         : signal.names.size() + added.size();
+    if (!shape.own) added.push_back(arkit_spelling(shape.channel, signal.names));
+  }
+  Wider(signal, added).each([&](double time, double* row) {
+    const Moment moment = rules.at(time);
+    for (const LivingShape& shape : shapes) live(shape, moment, amount, row[shape.at]);
+  });
+}
 
 }  // namespace
 
@@ -165,24 +284,18 @@ Result<LifeReport> add_life(Signal& signal, const Script& script, const LifeOpti
     return make_error(Code::invalid_argument, "life can be added to whole clips only");
   std::vector<int> known;
   for (const std::string& name : signal.names) known.push_back(fap_of_channel(name));
-  if (std::all_of(known.begin(), known.end(), [](int fap) { return fap == 0; }))
-    return make_error(Code::unsupported,
-                      "the controls are no FAPs, so blinks and nods have nothing to move");
-  std::vector<int> added;
-  for (const int fap : kLifeFaps)
-    if (std::find(known.begin(), known.end(), fap) == known.end()) added.push_back(fap);
-  const std::size_t frames = signal.frames(), controls = signal.names.size();
-  const Rules rules(script, signal.rate.seconds(double(frames)), options);
-  std::vector<double> values;
-  values.reserve(frames * (controls + added.size()));
-  for (std::size_t i = 0; i < frames; ++i) {
-    const auto row = signal.values.begin() + std::ptrdiff_t(i * controls);
-    values.insert(values.end(), row, row + std::ptrdiff_t(controls));
-    const Moment moment = rules.at(signal.time(i));
-    for (const int fap : added) values.push_back(value_of(fap, moment, options.amount));
-  }
-  for (const int fap : added) signal.names.push_back(fap_channel(fap));
-  signal.values = std::move(values);
+  const bool faps = std::any_of(known.begin(), known.end(), [](int fap) { return fap != 0; });
+  const auto arkit = find_arkit_layout(signal.names);
+  if (!faps && !arkit)
+    return make_error(
+        Code::unsupported,
+        "the controls are neither FAPs nor shapes of ARKit, so blinks and nods have nothing to "
+        "move; rename those that blink, like eyeBlinkLeft");
+  const Rules rules(script, signal.rate.seconds(double(signal.frames())), options);
+  if (faps)
+    live_faps(signal, known, rules, options.amount);
+  else
+    live_arkit(signal, *arkit, rules, options.amount);
   return rules.report();
 }
 

@@ -38,9 +38,16 @@ struct LifeReport {
 
 /// Adds channels for FAP 19 to 22 (lids), 31 to 36 (brows) and 48 to 50 (head) to a signal of FAPs,
 /// in FAP units. Channels that the signal already has are the character's own and stay as they are.
+///
+/// A signal of ARKit's shapes gets eyeBlink of both sides, browInnerUp, browOuterUp of both sides,
+/// and headYaw, headPitch and headRoll (radians), spelled as its own channels are. Of these it
+/// often has all, learned from speech, which knows nothing of blinks: lids close as far as one of
+/// the two wants, brows rise by the sum, at most to 1; eyeWide gives way; a head of its own stays
+/// as it is.
+///
 /// The signal must begin at frame 0. Errors: invalid_argument (amount out of range, a piece of a
-/// stream), unsupported (no channel of the signal is a FAP: the names of another rig are not
-/// known).
+/// stream), unsupported (the signal has neither FAPs nor shapes of ARKit: the names of another rig
+/// are not known).
 Result<LifeReport> add_life(Signal& signal, const Script& script, const LifeOptions& options = {});
 
 }  // namespace animeme::dam

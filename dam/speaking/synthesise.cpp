@@ -132,6 +132,7 @@ Result<Signal> synthesise_frames(const Model& model, const Script& script,
   const RestGate gate(*spoken, model.pause_edge, options.rest_at_ends, plan.last_frame);
   to_control_units(model, gate, options.style, signal);
   touch(model, script, options, signal, report);
+  apply_limits(signal, model.limits);
   return signal;
 }
 

@@ -32,6 +32,19 @@ std::vector<Control> controls_of(const SumsState& state) {
   return controls;
 }
 
+std::vector<ControlLimit> limits_of(const SumsState& state, std::span<const Control> controls) {
+  std::vector<std::string> names;
+  for (const Control& control : controls) names.push_back(control.name);
+  std::vector<ControlLimit> limits = natural_limits(names);
+  // The sums do not tell whether the two of a pair were ever above 0 together.
+  untie(limits, [](std::size_t, std::size_t) { return false; });
+  for (std::size_t c = 0; c < limits.size(); ++c) {
+    const ControlSums& sums = state.controls[c];
+    limits[c] = limit_of_data(limits[c], controls[c], sums.low, sums.high);
+  }
+  return settled(std::move(limits));
+}
+
 /// Phones that occurred, with their keys in `space` renumbered; dominance likewise.
 std::vector<PhoneModel> phones_of(const SumsState& state, std::vector<PhoneDominance>& dominance,
                                   TermSpace& space) {
@@ -117,6 +130,7 @@ Model start_model(const SumsState& state, const TrainOptions& options) {
   model.attribution = options.attribution;
   model.provenance = options.provenance;
   model.controls = controls_of(state);
+  model.limits = limits_of(state, model.controls);
   return model;
 }
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "dam/corpus/statistics_internal.h"
 #include "dam/corpus/training_set_internal.h"
 #include "dam/kinds/animeme/fit.h"
 #include "dam/model/kind_internal.h"
@@ -82,6 +83,7 @@ Result<Model> train(std::span<const Utterance> utterances, const TrainOptions& o
   model.attribution = options.attribution;
   model.provenance = options.provenance;
   model.controls = set->controls;
+  model.limits = control_limits(sentences, model.controls);
   model.phones = set->phones;
   auto parameters = kind_of(options.method).fit(*set, model, options, run);
   if (!parameters) return parameters.error();

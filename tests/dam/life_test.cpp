@@ -108,7 +108,7 @@ TEST(Life, MovesGentlyAndWithinWhatCanBeCoded) {
 }
 
 TEST(Life, ChecksWhatItGets) {
-  Signal rig = mouth(10, {"jawOpen"});
+  Signal rig = mouth(10, {"snout"});
   EXPECT_EQ(add_life(rig, phrases()).error().code, Code::unsupported);
   Signal signal = mouth(10);
   EXPECT_FALSE(add_life(signal, phrases(), {-1, 1}));
@@ -117,6 +117,53 @@ TEST(Life, ChecksWhatItGets) {
   EXPECT_FALSE(add_life(signal, phrases()));
   Signal still = mouth(100);
   EXPECT_TRUE(add_life(still, {{{0, 2, "SIL", ""}}}));  // silence blinks, too
+}
+
+TEST(Life, ArkitShapesHaveIt) {
+  Signal signal = mouth(500, {"JawOpen", "EyeBlinkLeft", "EyeWideLeft", "BrowInnerUp"});
+  for (std::size_t i = 0; i < 500; ++i) {
+    signal.at(i, 0) = 0.3;
+    signal.at(i, 1) = 0.1;
+    signal.at(i, 2) = 0.2;
+    signal.at(i, 3) = 0.05;
+  }
+  const auto report = add_life(signal, phrases());
+  ASSERT_TRUE(report) << report.error().describe();
+  const std::vector<std::string> wanted = {
+      "JawOpen",         "EyeBlinkLeft",     "EyeWideLeft", "BrowInnerUp", "EyeBlinkRight",
+      "BrowOuterUpLeft", "BrowOuterUpRight", "HeadPitch",   "HeadYaw",     "HeadRoll"};
+  EXPECT_EQ(signal.names, wanted);
+  double left = 0, right = 0, brow = 0, head = 0;
+  for (std::size_t i = 0; i < 500; ++i) {
+    EXPECT_EQ(signal.at(i, 0), 0.3);
+    EXPECT_GE(signal.at(i, 1), 0.1) << "its own lids stay at least as far closed";
+    EXPECT_NEAR(signal.at(i, 2), 0.2 * (1 - signal.at(i, 4)), 1e-12) << "wide gives way";
+    EXPECT_GE(signal.at(i, 3), 0.05);
+    left = std::max(left, signal.at(i, 1));
+    right = std::max(right, signal.at(i, 4));
+    brow = std::max(brow, signal.at(i, 3));
+    head = std::max(head, std::abs(signal.at(i, 7)));
+  }
+  EXPECT_DOUBLE_EQ(left, 1);
+  EXPECT_DOUBLE_EQ(right, 1);
+  EXPECT_GT(brow, 0.1);
+  EXPECT_LT(brow, 0.9);
+  EXPECT_GT(head, 0.01);
+  EXPECT_LT(head, 0.1) << "radians";
+}
+
+TEST(Life, ArkitAndFapsMoveAlike) {
+  Signal shapes = mouth(500, {"jawOpen"}), faps = mouth(500);
+  std::fill(shapes.values.begin(), shapes.values.end(), 0.0);
+  ASSERT_TRUE(add_life(shapes, phrases()));
+  ASSERT_TRUE(add_life(faps, phrases()));
+  const auto clip = to_sequence(shapes);
+  ASSERT_TRUE(clip);
+  for (const int fap : {31, 48, 49, 50}) {
+    for (std::size_t i = 0; i < 500; ++i)
+      EXPECT_NEAR(clip->frames[i].value[std::size_t(fap)], faps.at(i, channel(faps, fap)), 3)
+          << "FAP " << fap << ", frame " << i;
+  }
 }
 
 }  // namespace life_test

@@ -55,6 +55,25 @@ Result<std::vector<std::string>> control_names(const std::vector<std::string>& i
   return names;
 }
 
+Result<void> set_limits(const CorpusSettings& settings, dam::Model& model) {
+  std::filesystem::path path = settings.limits;
+  if (path.empty() && !settings.folder.empty()) {
+    path = std::filesystem::path(settings.folder) / "limits.tsv";
+    std::error_code none;
+    if (!std::filesystem::exists(path, none)) return {};
+  }
+  if (path.empty()) return {};
+  const Result<std::vector<std::uint8_t>> bytes = read_input(path.string());
+  if (!bytes) return bytes.error();
+  std::vector<std::string> names;
+  for (const dam::Control& control : model.controls) names.push_back(control.name);
+  auto limits =
+      dam::read_limits({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, names);
+  if (!limits) return std::move(limits).error().in_file(path.string());
+  model.limits = std::move(*limits);
+  return {};
+}
+
 Result<dam::Corpus> read_corpus(const CorpusSettings& settings) {
   const Result<dam::CorpusOptions> options = corpus_options(settings);
   if (!options) return options.error();

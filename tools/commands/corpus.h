@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dam/corpus/corpus.h"
+#include "dam/model/model.h"
 #include "tools/commands/common.h"
 
 namespace animeme::tools {
@@ -17,7 +18,8 @@ struct CorpusSettings {
   std::string split_column = "split";   ///< column of utterances.tsv
   std::string controls_folder = "fap";  ///< with ID.csv or ID.fap
   std::vector<std::string> controls;    ///< channel names; empty: all
-  bool skip_missing = false;            ///< leave out rows without a file
+  std::string limits;         ///< table of limits; empty: limits.tsv of the folder, if it is there
+  bool skip_missing = false;  ///< leave out rows without a file
 };
 
 /// Adds --split-column, --controls-folder and --skip-missing.
@@ -25,6 +27,10 @@ void add_corpus_options(CLI::App& app, CorpusSettings& settings);
 
 /// "3-13", "51" and names such as "jawOpen" to channel names ("fap3_open_jaw" ...).
 Result<std::vector<std::string>> control_names(const std::vector<std::string>& items);
+
+/// Limits of the controls of a model from a table (dam::read_limits()): settings.limits, else
+/// limits.tsv of the corpus folder if it has one. Without any, the model keeps its own.
+Result<void> set_limits(const CorpusSettings& settings, dam::Model& model);
 
 Result<dam::Corpus> read_corpus(const CorpusSettings& settings);  ///< all sentences at once
 /// One sentence at a time; returns how many rows were left out.

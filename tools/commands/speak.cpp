@@ -13,6 +13,7 @@
 #include "tools/commands/face_text.h"
 #include "tools/commands/preview.h"
 #include "tools/commands/spoken_options.h"
+#include "tools/exchange/arkit.h"
 #include "tools/exchange/curves.h"
 #include "tools/json.h"
 #include "tools/text.h"
@@ -39,6 +40,15 @@ struct SpeakOptions {
   bool json = false;
 };
 
+// A model of another rig can only be written as curves.
+Error not_faps(const Error& error) {
+  if (error.code != Code::not_found) return error;
+  return make_error(
+      Code::not_found,
+      "the controls of this model are neither FAPs nor shapes of ARKit; write them as curves "
+      "with -o NAME.csv");
+}
+
 // The signal as it is, one column a control: for models of other rigs than FAPs.
 Result<int> write_curves(const std::string& path, const dam::Signal& signal) {
   std::string text = exchange::write_curve_header(signal.names);
@@ -50,13 +60,27 @@ Result<int> write_curves(const std::string& path, const dam::Signal& signal) {
   return kOk;
 }
 
-// A model without FAPs can only be written as curves.
-Result<fap::Sequence> to_clip(const dam::Signal& signal) {
-  Result<fap::Sequence> clip = dam::to_sequence(signal);
-  if (clip || clip.error().code != Code::not_found) return clip;
-  return make_error(
-      Code::not_found,
-      "the controls of this model are no FAPs; write them as curves with -o NAME.csv");
+// Curves of ARKit's shapes: those of the model, or fitted to its FAPs.
+Result<int> write_arkit(const SpeakOptions& options, const dam::Signal& signal) {
+  ProgressLine progress("fitting");
+  const auto curves =
+      exchange::arkit_of_signal(signal, [&](double done) { progress.update(done); });
+  if (!curves) return not_faps(curves.error());
+  progress.clear();
+  const std::string sound = std::filesystem::path(options.spoken.audio).filename().string();
+  const std::string text = extension_of(options.output) == ".json"
+                               ? exchange::write_arkit_json(*curves, sound)
+                               : exchange::write_live_link(*curves);
+  if (auto done = write_file(options.output, text); !done) return done.error();
+  say(options.output + ": " + std::to_string(curves->frames.size()) + " frames of 52 shapes, " +
+      fap::format_rate(curves->rate) + " frames a second");
+  return kOk;
+}
+
+// talk.json, and talk.livelink.csv beside talk.csv, which has the controls of the model.
+bool is_arkit_output(const std::string& path) {
+  const std::string inner = extension_of(std::filesystem::path(path).stem().string());
+  return extension_of(path) == ".json" || (extension_of(path) == ".csv" && inner == ".livelink");
 }
 
 Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
@@ -118,7 +142,8 @@ Result<int> run(const SpeakOptions& options) {
   if (const std::string missing = missing_options(options.spoken); !missing.empty()) {
     return usage_error(missing);
   }
-  if (!options.visemes.empty() && extension_of(options.output) == ".csv") {
+  if (const std::string extension = extension_of(options.output);
+      !options.visemes.empty() && (extension == ".csv" || extension == ".json")) {
     return usage_error("--visemes is for FAPs; export writes tables of visemes (talk.visemes.csv)");
   }
   Result<fap::Rate> rate = fap::parse_rate(options.rate);
@@ -143,11 +168,13 @@ Result<int> run(const SpeakOptions& options) {
     if (!added) return added.error();
   }
   Result<int> written = kOk;
-  if (extension_of(options.output) == ".csv") {
+  if (is_arkit_output(options.output)) {
+    written = write_arkit(options, *signal);
+  } else if (extension_of(options.output) == ".csv") {
     written = write_curves(options.output, *signal);
   } else {
-    Result<fap::Sequence> clip = to_clip(*signal);
-    if (!clip) return clip.error();
+    Result<fap::Sequence> clip = dam::to_sequence(*signal);
+    if (!clip) return not_faps(clip.error());
     clip->name = std::filesystem::path(options.output).stem().string();
     if (!options.visemes.empty()) {
       const bool instead = options.visemes == "instead";
@@ -170,10 +197,13 @@ Result<int> run(const SpeakOptions& options) {
 
 void add_options(CLI::App& app, SpeakOptions& options) {
   add_spoken_options(app, options.spoken);
-  add_output(app.add_option("-o,--output", options.output,
-                            "What to write: .mp4 .mkv .ts .m3u8 .mpd (face and voice), .fba "
-                            "(stream), .fap (text), .csv (curves)"),
-             {".mp4", ".mkv", ".ts", ".m3u8", ".mpd", ".fba", ".fap", ".csv"}, OutputKind::file)
+  add_output(
+      app.add_option(
+          "-o,--output", options.output,
+          "What to write: .mp4 .mkv .ts .m3u8 .mpd (face and voice), .fba "
+          "(stream), .fap (text), .csv (curves of the model), .livelink.csv (Live Link Face), "
+          ".json (ARKit's shapes)"),
+      {".mp4", ".mkv", ".ts", ".m3u8", ".mpd", ".fba", ".fap", ".csv", ".json"}, OutputKind::file)
       ->required();
   app.add_option("--model", options.model, "Model file of a character; default: the built-in one");
   app.add_option("--rate", options.rate, "Frames a second: 25, 29.97, 60 ...")

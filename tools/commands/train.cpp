@@ -48,6 +48,7 @@ Result<int> run_whole(const TrainOptions& options) {
   Result<dam::Model> model = dam::train(corpus->utterances, train, &summary, progress);
   if (!model) return model.error().in_file(options.corpus.folder);
   line.clear();
+  if (auto done = set_limits(options.corpus, *model); !done) return done.error();
   for (const std::string& text : summary.warnings) warn(text);
   if (auto written = write_file(options.output, dam::write_model(*model)); !written) {
     return written.error();
@@ -98,7 +99,8 @@ Result<int> run(const CLI::App& app, const TrainOptions& options) {
     return usage_error(text);
   }
   if (!options.parts.merge.empty())
-    return merge(options.parts, options.output, train_options(options), options.json);
+    return merge(options.parts, options.output, options.corpus, train_options(options),
+                 options.json);
   if (!options.parts.accumulate.empty())
     return accumulate(options.parts, options.corpus, train_options(options), options.json);
   return run_whole(options);
@@ -137,6 +139,11 @@ Action add_train(CLI::App& app) {
   app.add_option("--controls", options->corpus.controls,
                  "Controls to learn: FAP numbers (3-13,51-60) or column names; default: all")
       ->delimiter(',');
+  app.add_option("--limits", options->corpus.limits,
+                 "Table of what controls can be: control, low, high, opposite; default: limits.tsv "
+                 "of the corpus, "
+                 "else 0..1 for ARKit's shapes and for what never leaves 0..1")
+      ->option_text("FILE");
   app.add_option("--order", options->train.animeme.order, "dam-paper: degree M of the polynomials")
       ->check(CLI::Range(0, 8))
       ->capture_default_str();

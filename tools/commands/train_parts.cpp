@@ -111,8 +111,8 @@ Result<int> accumulate(const PartSettings& parts, const CorpusSettings& corpus,
   return kOk;
 }
 
-Result<int> merge(const PartSettings& parts, const std::string& output, dam::TrainOptions train,
-                  bool json) {
+Result<int> merge(const PartSettings& parts, const std::string& output,
+                  const CorpusSettings& corpus, dam::TrainOptions train, bool json) {
   const std::vector<std::filesystem::path> paths(parts.merge.begin(), parts.merge.end());
   Result<dam::TrainingSums> sums = dam::merge_training_sums(paths);
   if (!sums) return sums.error();
@@ -122,6 +122,7 @@ Result<int> merge(const PartSettings& parts, const std::string& output, dam::Tra
   dam::TrainSummary summary;
   Result<dam::Model> model = dam::train_from_sums(std::move(*sums), train, &summary);
   if (!model) return model.error().in_file(parts.merge[0]);
+  if (auto done = set_limits(corpus, *model); !done) return done.error();
   for (const std::string& text : summary.warnings) warn(text);
   if (auto written = write_file(output, dam::write_model(*model)); !written) {
     return written.error();

@@ -29,7 +29,7 @@ Result<int> accumulate(const PartSettings& parts, const CorpusSettings& corpus,
                        const dam::TrainOptions& train, bool json);
 
 /// `train --merge`; the exit code.
-Result<int> merge(const PartSettings& parts, const std::string& output, dam::TrainOptions train,
-                  bool json);
+Result<int> merge(const PartSettings& parts, const std::string& output,
+                  const CorpusSettings& corpus, dam::TrainOptions train, bool json);
 
 }  // namespace animeme::tools

@@ -17,6 +17,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dam/signal/signal.h"
 #include "fap/arkit.h"
 #include "fap/frame.h"
 #include "fap/rate.h"
@@ -70,6 +71,11 @@ struct ArkitCurves {
 /// each other (fap::fill()). `progress`, if any, gets the share that is done after each frame,
 /// 0..1. About 0.1 ms a frame.
 ArkitCurves fit_arkit(const fap::Sequence& clip, const std::function<void(double)>& progress = {});
+
+/// The curves of a signal: its own channels, if they are ARKit's by name, missing ones 0; else what
+/// fit_arkit() makes of its FAPs, completed by fap::fill(). Errors: those of dam::to_sequence().
+Result<ArkitCurves> arkit_of_signal(const dam::Signal& signal,
+                                    const std::function<void(double)>& progress = {});
 
 /// The table that Live Link Face writes: Timecode (hh:mm:ss:ff.fff, frames of the next whole
 /// rate), BlendShapeCount 61, then the channels of fap::kArkitNames with a capital first letter,

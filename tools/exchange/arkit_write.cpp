@@ -1,7 +1,12 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 
+#include "dam/signal/arkit_signal.h"
+#include "dam/signal/fap_signal.h"
+#include "fap/fill.h"
+#include "fap/tables.h"
 #include "tools/exchange/arkit.h"
 #include "tools/exchange/detail/json_text.h"
 
@@ -38,6 +43,29 @@ ArkitCurves fit_arkit(const fap::Sequence& clip, const std::function<void(double
     curves.frames.push_back(fitter.fit(frame));
     if (progress) progress(double(curves.frames.size()) / double(clip.frames.size()));
   }
+  return curves;
+}
+
+Result<ArkitCurves> arkit_of_signal(const dam::Signal& signal,
+                                    const std::function<void(double)>& progress) {
+  const bool faps = std::any_of(
+      signal.names.begin(), signal.names.end(),
+      [](const std::string& name) { return dam::fap_of_channel(name) >= fap::kFirstLowLevel; });
+  const auto layout = dam::find_arkit_layout(signal.names);
+  if (faps || !layout) {
+    const auto clip = dam::to_sequence(signal);
+    if (!clip) return clip.error();
+    fap::FillOptions whole;
+    whole.complete = true;
+    whole.max_frames = std::int64_t(clip->frames.size()) + 1;
+    const auto face = fap::fill(*clip, whole);
+    if (!face) return face.error();
+    return fit_arkit(*face, progress);
+  }
+  ArkitCurves curves{signal.rate, {}};
+  const std::size_t controls = signal.names.size();
+  for (std::size_t i = 0; i < signal.frames(); ++i)
+    curves.frames.push_back(layout->frame({&signal.values[i * controls], controls}));
   return curves;
 }
 
