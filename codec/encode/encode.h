@@ -93,7 +93,7 @@ struct EncodeReport {
   std::size_t limited = 0;
   std::size_t retries = 0;  ///< how often the ranges were changed to avoid a trap (Encoder::trap)
   /// Traps that are left when 40 plans have been tried: 0 as a rule; FAP 1 and 2 alone can make one
-  /// that no range changes.
+  /// that no range changes, and so can many values in a row at the end of what can be told.
   std::size_t traps = 0;
 };
 
