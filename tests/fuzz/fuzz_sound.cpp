@@ -1,4 +1,5 @@
-// What decodes a file's sound, and what tells what a file is, on any bytes. The seeds are those of fuzz_container.
+// What decodes a file's sound, and what tells what a file is, on any bytes. The seeds are those of
+// fuzz_container.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

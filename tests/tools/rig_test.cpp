@@ -34,6 +34,13 @@ class Rig : public ::testing::Test {
     }
   }
   std::string corpus() const { return (dir_.path() / "corpus").string(); }
+  void keep_rows(std::size_t rows) const {
+    const std::string path = (dir_.path() / "corpus" / "utterances.tsv").string(),
+                      all = slurp(path);
+    std::size_t end = 0;
+    for (std::size_t i = 0; i <= rows; ++i) end = all.find('\n', end) + 1;
+    spill(path, all.substr(0, end));
+  }
   std::string train(const std::string& name, std::vector<std::string> more = {}) const {
     std::vector<std::string> arguments = {"train",     corpus(),           "-o",
                                           dir_ / name, "--max-iterations", "3"};
@@ -140,6 +147,30 @@ TEST_F(Rig, FapsBecomeShapesWhenWanted) {
   const auto none = animeme({"speak", "--text", "Papa", "--model", model, "-o", dir_ / "g.json"});
   EXPECT_EQ(none.exit_code, 3);
   EXPECT_THAT(none.err, HasSubstr("neither FAPs nor shapes of ARKit; write them as curves"));
+}
+
+TEST_F(Rig, LittleMaterialIsAddedToABase) {
+  keep_rows(7);
+  const Json rig = json_of({"train", corpus(), "--base", "builtin", "-o", dir_ / "rig.dam"});
+  EXPECT_EQ(rig["base"], "builtin");
+  EXPECT_EQ(rig["controls"].size(), 3u);
+  EXPECT_GT(double(rig["controls"][0]["explained_by_base"]), 0.5) << "jawOpen was made of FAP 3";
+  EXPECT_LT(double(rig["held_out_error"]), 0.5);
+  // Phones that the seven sentences lack are there, and shapes stay within 0..1.
+  const dam::Signal spoken = curves(dir_ / "rig.dam");
+  EXPECT_GE(least(spoken, 0), 0);
+  EXPECT_GT(most(spoken, 0), 0.2);
+  const auto text =
+      animeme({"train", corpus(), "--base", dir_ / "rig.dam", "-o", dir_ / "again.dam"});
+  EXPECT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_THAT(text.err, HasSubstr("error on sentences left out in turn"));
+  const auto merge =
+      animeme({"train", corpus(), "--base", "builtin", "--accumulate", dir_ / "a.sums"});
+  EXPECT_EQ(merge.exit_code, 2);
+  EXPECT_THAT(merge.err, HasSubstr("--base is for a corpus"));
+  const auto none = animeme({"train", corpus(), "--base", dir_ / "none.dam", "-o", dir_ / "b.dam"});
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_THAT(none.err, HasSubstr("none.dam"));
 }
 
 }  // namespace rig_test

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "tools/commands/train_base.h"
 #include "tools/commands/train_parts.h"
 
 namespace animeme::tools {
@@ -12,6 +13,7 @@ namespace {
 struct TrainOptions {
   CorpusSettings corpus;
   std::string output;
+  std::string base;
   std::string method = "dam";
   dam::TrainOptions train;
   PartSettings parts;
@@ -70,6 +72,8 @@ std::string misuse(const TrainOptions& options) {
                        : "-o is needed: the model file to write";
   if (!accumulates && !options.parts.dominance.empty())
     return "--dominance belongs to --accumulate; sums that are merged bring their own";
+  if (!options.base.empty() && (accumulates || merges || options.method != "dam"))
+    return "--base is for a corpus and --method dam, without --accumulate and --merge";
   if ((accumulates || merges) && options.method != "dam") return "sums exist for --method dam only";
   return {};
 }
@@ -103,6 +107,9 @@ Result<int> run(const CLI::App& app, const TrainOptions& options) {
                  options.json);
   if (!options.parts.accumulate.empty())
     return accumulate(options.parts, options.corpus, train_options(options), options.json);
+  if (!options.base.empty())
+    return train_on_base(options.base, options.corpus, options.output, train_options(options),
+                         options.json);
   return run_whole(options);
 }
 
@@ -134,6 +141,10 @@ Action add_train(CLI::App& app) {
   app.add_option("--method", options->method, "Kind of model")
       ->check(CLI::IsMember(method_names()))
       ->capture_default_str();
+  app.add_option("--base", options->base,
+                 "Little material: bend this model to it in place of learning everything: builtin, "
+                 "a model file, or "
+                 "a folder with a corpus of somebody else");
   app.add_option("--split", options->corpus.split, "Train on these rows only, e.g. train");
   add_corpus_options(app, options->corpus);
   app.add_option("--controls", options->corpus.controls,
@@ -181,6 +192,7 @@ Action add_train(CLI::App& app) {
 const Command kTrain{
     "train", "Learn how a character talks from aligned recordings",
     "  animeme train my_corpus -o me.dam\n"
+    "  animeme train half_a_minute --base builtin -o me.dam\n"
     "  animeme train grid_s1 --split train --controls 3-13,16,17,51-60 -o grid_s1.dam\n"
     "  animeme train large/a --accumulate a.stats --dominance base.dam   (here)\n"
     "  animeme train large/b --accumulate b.stats --dominance base.dam   (elsewhere)\n"
