@@ -54,11 +54,13 @@ inline constexpr Room kRooms[] = {
     {"tools/viewer", "dam/script tools/render tools/xml.h"},
     {"tools/web", "tools/media"},
     {"tools/plot", "dam/evaluation tools/media tools/files tools/xml.h"},
+    {"tools/sheet", "tools/plot tools/viewer"},
     {"tools/inspect", "codec/text dam/evaluation dam/training tools/xml.h"},
     {"tools/live", "tools/speech tools/viewer tools/web"},
     {"tools/studio", "fap/xml tools/gltf tools/plot tools/render"},
     {"tools/check", "conformance tools/files tools/xml.h", false},
-    {"tools/commands", "tools/exchange tools/inspect tools/live tools/studio tools/check", false},
+    {"tools/commands",
+     "tools/exchange tools/inspect tools/live tools/sheet tools/studio tools/check", false},
     {"tools", "tools/commands", false},
 
     // Tests of a room may use its neighbours to make what they test.

@@ -8,9 +8,11 @@
 
 #include "tools/commands/corpus.h"
 #include "tools/commands/face_stream.h"
+#include "tools/commands/page_sound.h"
 #include "tools/inspect/evaluation.h"
 #include "tools/plot/curves.h"
 #include "tools/plot/sentences.h"
+#include "tools/sheet/sheet.h"
 #include "tools/speech/spoken.h"
 #include "tools/text.h"
 
@@ -30,6 +32,7 @@ struct EvaluateOptions {
   bool codec = false;
   StreamSettings stream;
   std::string picture;
+  std::string report;
   bool json = false;
   bool full = false;
   double max_nrmse = -1;
@@ -173,6 +176,42 @@ std::vector<std::string> failed_checks(const EvaluateOptions& options,
   return failed;
 }
 
+// The recorded voice of a sentence, if the corpus has it.
+std::optional<viewer::Sound> sound_of(const CorpusSettings& corpus, const std::string& id) {
+  for (const char* ending : {".wav", ".flac", ".mp3", ".m4a", ".ogg"}) {
+    const auto path = std::filesystem::path(corpus.folder) / "audio" / (id + ending);
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(path, none)) continue;
+    Result<PageSound> sound = page_sound(path.string(), {});
+    if (sound) return std::move(sound->sound);
+    warn(sound.error().describe());
+  }
+  return std::nullopt;
+}
+
+Result<void> write_sheet(const std::string& output, const CorpusSettings& corpus,
+                         const System& system, const std::vector<dam::SentencePair>& pairs,
+                         const dam::Evaluation& evaluation) {
+  const Result<head::Head> face = head::make_head();
+  if (!face) return face.error();
+  const head::Rig rig = head::make_rig(*face);
+  sheet::Sheet sheet;
+  sheet.title = std::filesystem::path(system.path).filename().string();
+  sheet.corpus = std::filesystem::path(corpus.folder).filename().string() +
+                 (corpus.split.empty() ? "" : ", " + corpus.split_column + " " + corpus.split);
+  sheet.model = system.model ? &*system.model : nullptr;
+  sheet.pairs = &pairs;
+  sheet.evaluation = &evaluation;
+  sheet.head = &*face;
+  sheet.rig = &rig;
+  sheet.sound = [&](const std::string& id) { return sound_of(corpus, id); };
+  const Result<std::string> html = sheet::make_sheet(sheet);
+  if (!html) return html.error();
+  if (auto done = write_file(output, *html); !done) return done.error();
+  say(output + tools::format(": %.1f MB, open it in a browser", double(html->size()) / 1e6));
+  return {};
+}
+
 Result<inspect::EvaluationReport> evaluate_all(const EvaluateOptions& options,
                                                const CorpusSettings& corpus,
                                                const std::string& path) {
@@ -213,6 +252,12 @@ Result<inspect::EvaluationReport> evaluate_all(const EvaluateOptions& options,
     const auto drawing = plot::drawing_bytes(options.picture, *svg);
     if (!drawing) return drawing.error();
     if (auto done = write_file(options.picture, *drawing); !done) return done.error();
+  }
+  if (!options.report.empty()) {
+    if (auto done = write_sheet(options.report, corpus, *system, *pairs, report.evaluation);
+        !done) {
+      return done.error();
+    }
   }
   return report;
 }
@@ -275,6 +320,10 @@ void add_options(CLI::App& app, EvaluateOptions& options) {
   add_output(app.add_option("--picture", options.picture,
                             "Curves of the best, median and worst sentence, .svg or .png"),
              {".svg", ".png"}, OutputKind::file);
+  add_output(app.add_option(
+                 "--report", options.report,
+                 "All of it on one page for colleagues, with three sentences on the head: .html"),
+             {".html", ".htm"}, OutputKind::file);
   add_thresholds(app, options);
   app.add_flag("--full", options.full, "Tables by control, phoneme, viseme, class and sentence");
   app.add_flag("--json", options.json, "Machine-readable result, with everything");
@@ -286,6 +335,7 @@ const Command kEvaluate{
     "evaluate", "Error of synthesis against recorded motion",
     "  animeme evaluate builtin grid_s1 --split test --seen-split train --picture curves.svg\n"
     "  animeme evaluate a.dam grid_s1 --split test --against b.dam\n"
+    "  animeme evaluate me.dam my_corpus --split test --report me.html\n"
     "  animeme evaluate --tracks theirs grid_s1 --split test --json\n"
     "  animeme evaluate a.dam grid_s1 --split test --codec --kbps 2 --max-nrmse 0.6",
     set_up<EvaluateOptions>};

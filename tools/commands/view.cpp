@@ -8,6 +8,7 @@
 #include "tools/commands/common.h"
 #include "tools/commands/face_stream.h"
 #include "tools/commands/head_options.h"
+#include "tools/commands/page_sound.h"
 #include "tools/speech/voice_file.h"
 #include "tools/text.h"
 #include "tools/viewer/viewer.h"
@@ -48,34 +49,6 @@ Result<ViewedClip> read_shown(const std::string& path, const LengthLimit& length
   if (!filled) return filled.error();
   const std::string name = std::filesystem::path(path).filename().string();
   return ViewedClip{{std::move(*filled), face->start, name}, container};
-}
-
-struct PageSound {
-  viewer::Sound sound;
-  double seconds = 0;  // its length
-};
-
-// The sound of a file in an mp4 of its own, as browsers take it. AAC and Opus stay packet by packet
-// as they are, unless `settings` ask for something; anything else is coded, as AAC if nothing is
-// asked for.
-Result<PageSound> page_sound(const std::string& path, const SoundSettings& settings) {
-  const bool as_it_is = settings.codec.empty() && settings.bit_rate == 0;
-  Result<media::EncodedAudio> coded = speech::read_coded_sound(
-      path, [as_it_is](media::AudioCodec) { return as_it_is; },
-      audio_settings(settings, "sound.mp4"), talk());
-  if (!coded) return coded.error();
-  const speech::SoundInput sound{std::move(*coded), {}};
-  const auto folder = ScratchFolder::make();
-  if (!folder) {
-    return make_error(Code::io, "there is no folder for temporary files: set TMPDIR to one");
-  }
-  media::MuxInput input;
-  sound.give_to(input);
-  const std::string file = ((*folder)->path() / "sound.mp4").string();
-  if (const auto written = media::write_mp4(file, input); !written) return written.error();
-  Result<std::vector<std::uint8_t>> bytes = read_file(file);
-  if (!bytes) return bytes.error();
-  return PageSound{{std::move(*bytes), "audio/mp4"}, sound.seconds()};
 }
 
 std::string megabytes(double bytes) { return format("%.2f MB", bytes / 1e6); }
