@@ -54,9 +54,12 @@ exchange::LandmarkTableOptions table_options(const CaptureSettings& settings,
   return options;
 }
 
-Result<exchange::Imported> read_faps(const std::string& table) {
+Result<exchange::Imported> read_faps(const std::string& table, std::vector<std::int64_t>& made) {
   const Result<dam::Signal> signal = dam::read_curves(table);
   if (!signal) return signal.error();
+  for (std::size_t i = 0; i < signal->measured.size(); ++i) {
+    if (!signal->measured[i]) made.push_back(std::int64_t(i));
+  }
   auto clip = dam::to_sequence(*signal);
   if (!clip) return clip.error();
   return exchange::Imported{std::move(*clip), {}};
@@ -131,7 +134,7 @@ Result<Capture> parse_capture(const TrackedTable& tracked, const std::string& pa
                               const CaptureSettings& settings) {
   auto table = exchange::capture_table(tracked.text, settings.table);
   if (!table) return std::move(table).error().in_file(path);
-  Capture capture{path, {}, {}, std::move(table->warnings)};
+  Capture capture{path, {}, {}, {}, std::move(table->warnings)};
   switch (table->kind) {
     case CaptureKind::landmarks: {
       auto points = exchange::read_landmark_table(table->table,
@@ -149,7 +152,7 @@ Result<Capture> parse_capture(const TrackedTable& tracked, const std::string& pa
       return capture;
     }
     case CaptureKind::faps: {
-      auto motion = read_faps(table->table);
+      auto motion = read_faps(table->table, capture.made);
       if (!motion) return std::move(motion).error().in_file(path);
       capture.motion = std::move(*motion);
       return capture;
@@ -180,6 +183,7 @@ Result<CapturedFace> face_of_capture(Capture capture, const CaptureSettings& set
       face.warnings.push_back("frames without a face, put between their neighbours: " +
                               std::to_string(face.made.size()));
     }
+    face.made.insert(face.made.end(), capture.made.begin(), capture.made.end());
     return face;
   }
   exchange::LandmarkImportOptions options = settings.landmarks;

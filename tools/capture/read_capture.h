@@ -31,6 +31,7 @@ struct Capture {
   std::string path;
   std::optional<exchange::LandmarkTable> points;
   std::optional<exchange::Imported> motion;  ///< of shapes or FAPs
+  std::vector<std::int64_t> made;            ///< frames of FAPs that a table says were not measured
   std::vector<std::string> warnings;         ///< but those of `points` and `motion`
 };
 

@@ -18,6 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kMostApart = 10;                             // seconds: else a start is not stated
 constexpr std::size_t kLastWords = 600;                       // bytes of what a tracker said
 constexpr std::uint64_t kMostTable = std::uint64_t(1) << 30;  // bytes, as read_file()
 
@@ -62,10 +63,12 @@ Result<VideoFile> look_at_video(const std::string& path) {
   if (!info) return info.error();
   VideoFile video;
   const media::TrackInfo* picture = nullptr;
+  const media::TrackInfo* sound = nullptr;
   for (const media::TrackInfo& track : info->tracks) {
-    video.sound = video.sound || track.kind == media::TrackKind::audio;
+    if (sound == nullptr && track.kind == media::TrackKind::audio) sound = &track;
     if (picture == nullptr && track.kind == media::TrackKind::video) picture = &track;
   }
+  video.sound = sound != nullptr;
   if (picture == nullptr || picture->width <= 0 || picture->height <= 0) {
     return make_error(Code::not_found,
                       video.sound ? "this is sound without a picture; a face needs a video, or the "
@@ -77,6 +80,10 @@ Result<VideoFile> look_at_video(const std::string& path) {
   video.pixel_aspect = picture->pixel_aspect;
   video.shown = {picture->width * picture->pixel_aspect, double(picture->height)};
   video.seconds = info->duration;
+  if (sound != nullptr) {
+    const double after = picture->start - sound->start;
+    if (std::abs(after) <= kMostApart) video.picture_after_sound = after;
+  }
   if (picture->frame_rate > 0) {
     const auto rate = fap::parse_rate(format("%.3f", picture->frame_rate));
     if (rate && rate->valid()) video.rate = *rate;

@@ -20,11 +20,12 @@ namespace animeme::tools {
 
 /// What is known of a video before a tracker has seen it.
 struct VideoFile {
-  exchange::PictureSize shown;    ///< pixels as players show it: square ones
-  double pixel_aspect = 1;        ///< of the pixels that are stored
-  std::optional<fap::Rate> rate;  ///< pictures a second, if the file says it
-  double seconds = 0;             ///< 0: not stated
-  bool sound = false;             ///< has sound
+  exchange::PictureSize shown;     ///< pixels as players show it: square ones
+  double pixel_aspect = 1;         ///< of the pixels that are stored
+  std::optional<fap::Rate> rate;   ///< pictures a second, if the file says it
+  double seconds = 0;              ///< 0: not stated
+  bool sound = false;              ///< has sound
+  double picture_after_sound = 0;  ///< seconds from the first sample to the first picture
 
   /// "a video (mpeg1video, 360x288, 25 frames a second, 3 s)".
   std::string text;
