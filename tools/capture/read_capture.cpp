@@ -30,13 +30,13 @@ std::optional<Result<VideoFile>> video_at(const std::string& path) {
   std::vector<std::uint8_t> head(4096);
   file.read(reinterpret_cast<char*>(head.data()), std::streamsize(head.size()));
   head.resize(std::size_t(std::max<std::streamsize>(file.gcount(), 0)));
+  if (!exchange::foreign_sign(head).empty()) return std::nullopt;
   // A program stream (.mpg) begins as a raw FBA stream may.
   const exchange::FileKind kind = exchange::kind_of(head);
   if (kind != exchange::FileKind::media && kind != exchange::FileKind::fba_stream) {
     return std::nullopt;
   }
   if (exchange::is_playlist(head)) return std::nullopt;
-  // Of files that other programs know better, the sign says what they are.
   Result<VideoFile> video = look_at_video(path);
   if (!video && video.error().code != Code::not_found) return std::nullopt;
   return video;

@@ -13,6 +13,8 @@ namespace animeme::exchange {
 
 namespace {
 
+constexpr std::size_t kRowsToLookAt = 20;
+
 std::span<const std::uint8_t> bytes_of(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
@@ -29,18 +31,22 @@ bool is_numeric(std::string_view field) {
   return !field.empty() && field.find_first_not_of("+-0123456789.eE") == std::string_view::npos;
 }
 
-// Decimal commas in the first row behind the header, which has other separators.
-bool has_decimal_commas(std::string_view header, std::string_view row) {
-  const char separator = separator_of(header);
-  if (separator == ',' || row.find(',') == std::string_view::npos) return false;
-  for (const std::string_view field : dam::split_fields(row, separator)) {
-    const std::size_t comma = field.find(',');
-    if (comma == std::string_view::npos) continue;
-    std::string number(dam::trimmed(field));
-    number[number.find(',')] = '.';
-    if (!is_numeric(number)) return false;
+// Decimal commas in rows behind the header, which has other separators: some, and nothing else.
+bool has_decimal_commas(const std::vector<dam::TableLine>& lines) {
+  const char separator = separator_of(lines[0].text);
+  if (separator == ',') return false;
+  bool any = false;
+  for (std::size_t i = 1; i < std::min(lines.size(), kRowsToLookAt); ++i) {
+    for (const std::string_view field : dam::split_fields(lines[i].text, separator)) {
+      std::string number(dam::trimmed(field));
+      const std::size_t comma = number.find(',');
+      if (comma == std::string::npos) continue;
+      number[comma] = '.';
+      if (!is_numeric(number)) return false;
+      any = true;
+    }
   }
-  return true;
+  return any;
 }
 
 // The first line with content: readers leave empty lines out.
@@ -105,7 +111,7 @@ Result<CaptureTable> capture_table(std::string_view text, const CaptureTableOpti
   }
   auto lines = dam::table_lines(out.table);
   if (lines.empty()) return make_error(Code::truncated, "the file is empty");
-  if (lines.size() > 1 && has_decimal_commas(header_of(lines), lines[1].text)) {
+  if (lines.size() > 1 && has_decimal_commas(lines)) {
     const std::size_t body = std::size_t(lines[1].text.data() - out.table.data());
     std::replace(out.table.begin() + std::ptrdiff_t(body), out.table.end(), ',', '.');
     out.warnings.emplace_back("decimal commas are read as points");
@@ -130,6 +136,9 @@ Result<CaptureTable> capture_table(std::string_view text, const CaptureTableOpti
     out.kind = CaptureKind::landmarks;
   } else if (is_fap_header(header)) {
     out.kind = CaptureKind::faps;
+    // Their reader knows commas alone.
+    const char separator = separator_of(header);
+    if (separator != ',') std::replace(out.table.begin(), out.table.end(), separator, ',');
   } else if (has_numbered_points(header)) {
     out.kind = CaptureKind::landmarks;  // its reader says what is missing
   } else {

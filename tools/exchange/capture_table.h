@@ -67,5 +67,7 @@ bool has_times(std::string_view table);
 /// spreadsheets, arrays of numpy, pictures, sound, videos, scripts, heads, motion of bodies, text
 /// in UTF-16, FAP text and streams. Empty: nothing that is known.
 std::string foreign_file(std::span<const std::uint8_t> bytes);
+/// The same of files that say it with their first bytes: a video is none of them.
+std::string foreign_sign(std::span<const std::uint8_t> bytes);
 
 }  // namespace animeme::exchange

@@ -67,11 +67,17 @@ constexpr Sign kSigns[] = {
 
 }  // namespace
 
-std::string foreign_file(std::span<const std::uint8_t> bytes) {
+std::string foreign_sign(std::span<const std::uint8_t> bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   for (const Sign& sign : kSigns) {
     if (text.substr(std::min(sign.at, text.size())).starts_with(sign.bytes)) return sign.what;
   }
+  return {};
+}
+
+std::string foreign_file(std::span<const std::uint8_t> bytes) {
+  if (std::string what = foreign_sign(bytes); !what.empty()) return what;
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   switch (kind_of(bytes)) {
     case FileKind::fba_stream:
       return "this is a stream of FAPs (FBA) already; animeme decode makes text of it";

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "dam/script/table_text_internal.h"
+#include "tools/exchange/detail/table.h"
 #include "tools/exchange/landmarks.h"
 
 namespace animeme::exchange {
@@ -88,6 +89,28 @@ void tell_repairs(const Repairs& repairs, std::vector<std::string>& warnings) {
   warnings.emplace_back(text);
 }
 
+// Points without which a neutral face can neither be found nor measured have to come from a file.
+Error with_remedy(Error error, const fap::LandmarkTrack& track,
+                  const fap::LandmarkOptions& options) {
+  if (options.rest || error.code != Code::not_found) return error;
+  const auto has = [&](const char* id) {
+    return std::find(track.points.begin(), track.points.end(), id) != track.points.end();
+  };
+  std::vector<std::string> missing;
+  for (const char* id : {"2.2", "2.3", "8.3", "8.4", "9.15"}) {
+    if (!has(id)) missing.emplace_back(id);
+  }
+  if (!(has("3.1") && has("3.3")) && !(has("3.2") && has("3.4"))) {
+    missing.emplace_back("3.1 and 3.3 (lids)");
+  }
+  if (missing.empty()) return error;
+  return make_error(
+      Code::not_found,
+      "the points have no neutral face in them, as these are missing: " + list_of_names(missing) +
+          "; add them, or give the neutral face of another recording (--face-file, "
+          "--neutral-from)");
+}
+
 }  // namespace
 
 std::optional<PictureSize> parse_picture_size(std::string_view text) {
@@ -126,7 +149,7 @@ Result<LandmarkImport> import_landmarks(LandmarkTable table, const LandmarkImpor
     }
   }
   auto face = fap::landmarks_to_fap(table.track, settings);
-  if (!face) return std::move(face).error();
+  if (!face) return with_remedy(face.error(), table.track, settings);
   if (face->clip.frames.empty()) {
     return make_error(Code::not_found, "the head was not found in any frame");
   }
@@ -177,7 +200,7 @@ Result<fap::RestingFace> common_face(const std::vector<LandmarkTable>& tables,
   settings.neutral = *neutral;
   settings.rest.reset();
   auto face = fap::landmarks_to_fap(all, settings);
-  if (!face) return std::move(face).error();
+  if (!face) return with_remedy(face.error(), all, settings);
   return std::move(face->rest);
 }
 

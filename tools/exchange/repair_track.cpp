@@ -12,58 +12,65 @@ namespace animeme::exchange {
 
 namespace {
 
-constexpr double kLongestGap = 0.2;   // seconds
-constexpr double kLongestSlip = 0.1;  // seconds
-constexpr double kFar = 0.5;          // of the size of the face: elsewhere
-constexpr double kNear = 0.25;        // back again
-constexpr double kGrown = 1.25;       // of another size
-constexpr double kSlowest = 15;       // frames a second
+constexpr double kLongestGap = 0.2;       // seconds
+constexpr double kLongestSlip = 0.1;      // seconds
+constexpr double kFar = 0.5;              // of the size of the face: elsewhere
+constexpr double kNear = 0.25;            // back again
+constexpr double kGrown = 1.25;           // of another size
+constexpr double kSlowest = 15;           // frames a second
+constexpr std::size_t kFewestPoints = 6;  // that tell where a face is
 constexpr double kNotSeen = std::numeric_limits<double>::quiet_NaN();
 
 bool seen(const fap::Point& point) { return point[0] == point[0] && point[1] == point[1]; }
 
-// Where a face is in the picture, and how large.
-struct Spot {
-  double x = 0, y = 0, size = 0;
+// How a face has moved from one frame to another: medians of the points that both have, so that
+// neither a point that is elsewhere nor one that is hidden is another face.
+struct Shift {
+  double x = 0, y = 0;
+  double size = 0;   // of the face in the first frame: the median distance from the medians
+  double ratio = 1;  // of the sizes, >= 1
 };
 
-std::optional<Spot> spot_of(const fap::LandmarkFrame& frame) {
-  Spot spot;
-  std::size_t count = 0;
-  for (const fap::Point& point : frame.at) {
-    if (!seen(point)) continue;
-    spot.x += point[0];
-    spot.y += point[1];
-    ++count;
+double size_of(const std::vector<double>& x, const std::vector<double>& y) {
+  const double middle_x = median(x);
+  const double middle_y = median(y);
+  std::vector<double> distances;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    distances.push_back(std::hypot(x[i] - middle_x, y[i] - middle_y));
   }
-  if (count < frame.at.size() / 2 + 1) return std::nullopt;  // the rest would be another middle
-  spot.x /= double(count);
-  spot.y /= double(count);
-  for (const fap::Point& point : frame.at) {
-    if (!seen(point)) continue;
-    spot.size +=
-        (point[0] - spot.x) * (point[0] - spot.x) + (point[1] - spot.y) * (point[1] - spot.y);
-  }
-  spot.size = std::sqrt(spot.size / double(count));
-  if (!(spot.size > 0) || !std::isfinite(spot.size)) return std::nullopt;
-  return spot;
+  return median(std::move(distances));
 }
 
-bool is_elsewhere(const Spot& a, const Spot& b, double far) {
-  const double size = std::min(a.size, b.size);
-  const double ratio = std::max(a.size, b.size) / size;
-  return std::hypot(a.x - b.x, a.y - b.y) > far * size || ratio > kGrown;
+// Nothing: too few points to tell.
+std::optional<Shift> shift_between(const fap::LandmarkFrame& a, const fap::LandmarkFrame& b) {
+  std::vector<double> ax, ay, bx, by, dx, dy;
+  for (std::size_t k = 0; k < a.at.size(); ++k) {
+    if (!seen(a.at[k]) || !seen(b.at[k])) continue;
+    ax.push_back(a.at[k][0]);
+    ay.push_back(a.at[k][1]);
+    bx.push_back(b.at[k][0]);
+    by.push_back(b.at[k][1]);
+    dx.push_back(bx.back() - ax.back());
+    dy.push_back(by.back() - ay.back());
+  }
+  if (ax.size() < kFewestPoints) return std::nullopt;
+  const double before = size_of(ax, ay);
+  const double behind = size_of(bx, by);
+  if (!(before > 0) || !(behind > 0) || !std::isfinite(before + behind)) return std::nullopt;
+  return Shift{median(std::move(dx)), median(std::move(dy)), before,
+               std::max(before, behind) / std::min(before, behind)};
 }
 
-// Indices of what jumped away from where `at(i)` was last and came back within `most` numbers.
-template <class At, class Away>
+// Indices of frames that are away from the last one that was not, and back within `most` numbers.
+// `there` tells whether a frame counts, `away` whether one is away from another.
+template <class There, class Away>
 std::vector<std::size_t> excursions(const std::vector<fap::LandmarkFrame>& frames, double most,
-                                    const At& at, const Away& away) {
+                                    const There& there, const Away& away) {
   std::vector<std::size_t> out;
-  std::optional<std::size_t> good;  // the last frame that is where it was
+  std::optional<std::size_t> good;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (!at(i)) continue;
-    if (!good || !away(*at(*good), *at(i), kFar)) {
+    if (!there(i)) continue;
+    if (!good || !away(*good, i, kFar)) {
       good = i;
       continue;
     }
@@ -72,10 +79,10 @@ std::vector<std::size_t> excursions(const std::vector<fap::LandmarkFrame>& frame
     const auto soon = [&](std::size_t j) {
       return j < frames.size() && double(frames[j].number - frames[*good].number) <= most + 1;
     };
-    while (soon(back) && (!at(back) || away(*at(*good), *at(back), kNear))) ++back;
+    while (soon(back) && (!there(back) || away(*good, back, kNear))) ++back;
     if (soon(back)) {
       for (std::size_t j = i; j < back; ++j) {
-        if (at(j)) out.push_back(j);
+        if (there(j)) out.push_back(j);
       }
       i = back;
     }
@@ -85,11 +92,14 @@ std::vector<std::size_t> excursions(const std::vector<fap::LandmarkFrame>& frame
 }
 
 std::size_t drop_glitches(fap::LandmarkTrack& track) {
-  std::vector<std::optional<Spot>> spots;
-  for (const fap::LandmarkFrame& frame : track.frames) spots.push_back(spot_of(frame));
+  const auto& frames = track.frames;
   const auto bad = excursions(
-      track.frames, kLongestGap * track.rate.frames_per_second(),
-      [&](std::size_t i) -> const std::optional<Spot>& { return spots[i]; }, is_elsewhere);
+      frames, kLongestGap * track.rate.frames_per_second(), [](std::size_t) { return true; },
+      [&](std::size_t a, std::size_t b, double far) {
+        const auto shift = shift_between(frames[a], frames[b]);
+        return shift &&
+               (std::hypot(shift->x, shift->y) > far * shift->size || shift->ratio > kGrown);
+      });
   std::vector<fap::LandmarkFrame> kept;
   for (std::size_t i = 0; i < track.frames.size(); ++i) {
     if (!std::binary_search(bad.begin(), bad.end(), i)) kept.push_back(std::move(track.frames[i]));
@@ -98,26 +108,26 @@ std::size_t drop_glitches(fap::LandmarkTrack& track) {
   return bad.size();
 }
 
-// A point as it lies on the face, whose middle and size are taken off.
+// Points that move other than the face does.
 std::size_t drop_slips(fap::LandmarkTrack& track) {
-  std::vector<std::optional<Spot>> spots;
-  for (const fap::LandmarkFrame& frame : track.frames) spots.push_back(spot_of(frame));
+  const std::vector<fap::LandmarkFrame> frames = track.frames;
+  std::vector<std::optional<Shift>> steps;  // from the frame before: what is nearly always wanted
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    steps.push_back(i == 0 ? std::nullopt : shift_between(frames[i - 1], frames[i]));
+  }
   std::size_t count = 0;
-  std::vector<std::optional<Spot>> places(track.frames.size());
-  const auto away = [](const Spot& a, const Spot& b, double far) {
-    return std::hypot(a.x - b.x, a.y - b.y) > far;
-  };
   for (std::size_t k = 0; k < track.points.size(); ++k) {
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      places[i].reset();
-      const fap::Point& point = track.frames[i].at[k];
-      if (!spots[i] || !seen(point)) continue;
-      const Spot& spot = *spots[i];
-      places[i] = Spot{(point[0] - spot.x) / spot.size, (point[1] - spot.y) / spot.size, 1};
-    }
     const auto bad = excursions(
-        track.frames, kLongestSlip * track.rate.frames_per_second(),
-        [&](std::size_t i) -> const std::optional<Spot>& { return places[i]; }, away);
+        frames, kLongestSlip * track.rate.frames_per_second(),
+        [&](std::size_t i) { return seen(frames[i].at[k]); },
+        [&](std::size_t a, std::size_t b, double far) {
+          const auto shift = b == a + 1 ? steps[b] : shift_between(frames[a], frames[b]);
+          if (!shift) return false;
+          const fap::Point& from = frames[a].at[k];
+          const fap::Point& to = frames[b].at[k];
+          return std::hypot(to[0] - from[0] - shift->x, to[1] - from[1] - shift->y) >
+                 far * shift->size;
+        });
     for (const std::size_t i : bad) track.frames[i].at[k] = {kNotSeen, kNotSeen, kNotSeen};
     count += bad.size();
   }

@@ -294,6 +294,13 @@ Result<JsonTable> json_to_table(std::string_view text, bool shapes) {
                                   [](const Frame& frame) { return frame.points != nullptr; });
   const bool curves = std::any_of(frames.begin(), frames.end(),
                                   [](const Frame& frame) { return !frame.shapes.empty(); });
+  const bool asked = std::any_of(list->begin(), list->end(), [](const Json& one) {
+    return member(one, kPoints) != nullptr || member(one, kShapes) != nullptr;
+  });
+  if (!points && !curves && asked) {
+    return make_error(Code::truncated, "the tracker found no face in any of " +
+                                           std::to_string(frames.size()) + " frames");
+  }
   if (!points && !curves) {
     return make_error(Code::not_found,
                       "the JSON has neither landmarks (faceLandmarks, landmarks, keypoints: arrays "

@@ -184,7 +184,7 @@ bool has_depth_of_a_face(const std::vector<LandmarkRow>& rows, const LandmarkCol
   std::snprintf(text, sizeof text,
                 "z has another unit than x and y: the tip of the nose stands out by %.3g times the "
                 "distance of the eyes' outer corners, where 0.5 is usual; depth is left out "
-                "(--depth-scale %.3g would make it usual)",
+                "(--depth-scale %.4g would make it usual)",
                 out, out > 0 ? 0.5 / out : 1.0);
   warnings.emplace_back(text);
   return false;

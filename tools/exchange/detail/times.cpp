@@ -21,7 +21,7 @@ constexpr double kLongestStep = 3;       // seconds between frames that are not 
 constexpr double kShortestStep = 0.003;  // seconds between frames, 1/333
 constexpr double kUsualStep = 1.0;
 constexpr std::size_t kStepsToTell = 4;  // of a unit: two rows may be any time apart
-constexpr double kNtscFrom = 2.0;  // seconds: shorter clips cannot tell 29.97 from 30
+constexpr double kNtscFrom = 2.0;        // seconds: shorter clips cannot tell 29.97 from 30
 constexpr int kTimecodeRates[] = {24, 25, 30, 48, 50, 60, 100, 120};
 constexpr fap::Rate kRates[] = {{24, 1},       {25, 1}, {30, 1}, {50, 1}, {60, 1},  {30000, 1001},
                                 {60000, 1001}, {10, 1}, {12, 1}, {25, 2}, {15, 1},  {20, 1},
