@@ -62,15 +62,15 @@ void tell(const LeftOutRows& left_out, std::vector<std::string>& warnings) {
 
 // Frames between the first row of the file and the first one with a face: rows without one are left
 // out, but their time has passed.
-std::int64_t frames_before(const LandmarkRows& table, const fap::Rate& rate) {
+std::int64_t frames_before(const LandmarkRows& table, const PlacedRows& placed) {
   const auto& first = table.rows.front();
   double seconds = 0;
   if (table.first_time && first.time && !first.time->frames && !table.first_time->frames) {
-    seconds = first.time->seconds - table.first_time->seconds;
+    seconds = (first.time->seconds - table.first_time->seconds) * placed.unit;
   } else if (table.first_frame && first.frame && !first.time) {
-    seconds = rate.seconds(*first.frame - *table.first_frame);
+    seconds = placed.rate.seconds(*first.frame - *table.first_frame);
   }
-  const double frames = seconds * rate.frames_per_second();
+  const double frames = seconds * placed.rate.frames_per_second();
   return frames > 0 && frames < kMostBefore ? std::llround(frames) : 0;
 }
 
@@ -110,7 +110,7 @@ Result<LandmarkTable> read_landmark_table(std::string_view text,
   if (!placed) return placed.error();
   to_square_pixels(table->rows, columns, options, warnings);
   if (columns.depth && !has_depth_of_a_face(table->rows, columns, warnings)) columns.depth = false;
-  const std::int64_t lead = frames_before(*table, placed->rate);
+  const std::int64_t lead = frames_before(*table, *placed);
 
   fap::LandmarkTrack track{placed->rate, {}, columns.depth, {}};
   for (const PointFields& point : columns.points) track.points.push_back(point.point);

@@ -31,14 +31,18 @@ struct Shift {
   double ratio = 1;  // of the sizes, >= 1
 };
 
-double size_of(const std::vector<double>& x, const std::vector<double>& y) {
+std::vector<double> distances_of(const std::vector<double>& x, const std::vector<double>& y) {
   const double middle_x = median(x);
   const double middle_y = median(y);
   std::vector<double> distances;
   for (std::size_t i = 0; i < x.size(); ++i) {
     distances.push_back(std::hypot(x[i] - middle_x, y[i] - middle_y));
   }
-  return median(std::move(distances));
+  return distances;
+}
+
+double size_of(const std::vector<double>& x, const std::vector<double>& y) {
+  return median(distances_of(x, y));
 }
 
 // Nothing: too few points to tell.
@@ -59,6 +63,41 @@ std::optional<Shift> shift_between(const fap::LandmarkFrame& a, const fap::Landm
   if (!(before > 0) || !(behind > 0) || !std::isfinite(before + behind)) return std::nullopt;
   return Shift{median(std::move(dx)), median(std::move(dy)), before,
                std::max(before, behind) / std::min(before, behind)};
+}
+
+// How many times the size of the face its outer corners of the eyes are apart (9 cm), in the middle
+// of all frames; of a track without them, twice the distance within which nine of ten points lie.
+double reach_of(const fap::LandmarkTrack& track) {
+  const auto find = [&](const char* id) {
+    const auto at = std::find(track.points.begin(), track.points.end(), id);
+    return std::size_t(at - track.points.begin());
+  };
+  const std::size_t left = find("3.7");
+  const std::size_t right = find("3.12");
+  const bool eyes = left < track.points.size() && right < track.points.size();
+  std::vector<double> reaches;
+  for (const fap::LandmarkFrame& frame : track.frames) {
+    std::vector<double> x, y;
+    for (const fap::Point& point : frame.at) {
+      if (!seen(point)) continue;
+      x.push_back(point[0]);
+      y.push_back(point[1]);
+    }
+    if (x.size() < kFewestPoints) continue;
+    std::vector<double> distances = distances_of(x, y);
+    const double size = median(distances);
+    double reach = 0;
+    if (eyes) {
+      const fap::Point& a = frame.at[left];
+      const fap::Point& b = frame.at[right];
+      reach = std::hypot(a[0] - b[0], a[1] - b[1]);
+    } else {
+      std::sort(distances.begin(), distances.end());
+      reach = 2 * distances[distances.size() * 9 / 10];
+    }
+    if (std::isfinite(reach / size)) reaches.push_back(reach / size);
+  }
+  return reaches.empty() ? 0 : median(std::move(reaches));
 }
 
 // Indices of frames that are away from the last one that was not, and back within `most` numbers.
@@ -91,14 +130,14 @@ std::vector<std::size_t> excursions(const std::vector<fap::LandmarkFrame>& frame
   return out;
 }
 
-std::size_t drop_glitches(fap::LandmarkTrack& track) {
+std::size_t drop_glitches(fap::LandmarkTrack& track, double reach) {
   const auto& frames = track.frames;
   const auto bad = excursions(
       frames, kLongestGap * track.rate.frames_per_second(), [](std::size_t) { return true; },
       [&](std::size_t a, std::size_t b, double far) {
         const auto shift = shift_between(frames[a], frames[b]);
-        return shift &&
-               (std::hypot(shift->x, shift->y) > far * shift->size || shift->ratio > kGrown);
+        return shift && (std::hypot(shift->x, shift->y) > far * reach * shift->size ||
+                         shift->ratio > kGrown);
       });
   std::vector<fap::LandmarkFrame> kept;
   for (std::size_t i = 0; i < track.frames.size(); ++i) {
@@ -109,7 +148,7 @@ std::size_t drop_glitches(fap::LandmarkTrack& track) {
 }
 
 // Points that move other than the face does.
-std::size_t drop_slips(fap::LandmarkTrack& track) {
+std::size_t drop_slips(fap::LandmarkTrack& track, double reach) {
   const std::vector<fap::LandmarkFrame> frames = track.frames;
   std::vector<std::optional<Shift>> steps;  // from the frame before: what is nearly always wanted
   for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -126,7 +165,7 @@ std::size_t drop_slips(fap::LandmarkTrack& track) {
           const fap::Point& from = frames[a].at[k];
           const fap::Point& to = frames[b].at[k];
           return std::hypot(to[0] - from[0] - shift->x, to[1] - from[1] - shift->y) >
-                 far * shift->size;
+                 far * reach * shift->size;
         });
     for (const std::size_t i : bad) track.frames[i].at[k] = {kNotSeen, kNotSeen, kNotSeen};
     count += bad.size();
@@ -205,8 +244,10 @@ void fill_points(fap::LandmarkTrack& track, Repairs& repairs) {
 Repairs repair_track(fap::LandmarkTrack& track) {
   Repairs repairs;
   if (!track.rate.valid() || track.rate.frames_per_second() < kSlowest) return repairs;
-  repairs.glitches = drop_glitches(track);
-  repairs.slips = drop_slips(track);
+  if (const double reach = reach_of(track); reach > 0) {
+    repairs.glitches = drop_glitches(track, reach);
+    repairs.slips = drop_slips(track, reach);
+  }
   fill_points(track, repairs);
   fill_frames(track, repairs);
   return repairs;
