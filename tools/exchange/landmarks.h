@@ -102,11 +102,12 @@ struct Repairs {
 
 /// Repairs what trackers do wrong, and only what no face does:
 ///
-/// - The whole face is elsewhere, by 0.4 of the distance of the outer corners of its eyes (3.6 cm), or
-///   of another size, by a quarter, for at most 0.2 s, and back: these frames are left out.
-/// - A point is elsewhere on the face, by as much, for at most 0.1 s, and back: it is not seen there.
-///   No head and no jaw goes that far from one frame to the next. Of a track without eyes twice the
-///   distance within which nine of ten points lie takes the place of theirs (2 cm of lips).
+/// - The whole face is elsewhere, by 0.4 of the distance of the outer corners of its eyes (3.6 cm),
+///   or of another size, by a quarter, eyes included, for at most 0.2 s, and back: these frames are
+///   left out.
+/// - A point is elsewhere on the face, by as much, for at most 0.1 s, and back: it is not seen
+///   there. No head and no jaw goes that far from one frame to the next. Of a track without eyes
+///   twice the distance within which nine of ten points lie takes its place (2 cm of lips).
 /// - Missing frames and points of at most 0.2 s with neighbours on both sides lie on the line
 ///   between these; so do turns of the head and gazes.
 ///

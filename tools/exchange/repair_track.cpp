@@ -65,16 +65,31 @@ std::optional<Shift> shift_between(const fap::LandmarkFrame& a, const fap::Landm
                std::max(before, behind) / std::min(before, behind)};
 }
 
+// The outer corners of the eyes.
+struct Eyes {
+  std::size_t left, right;
+  bool known;
+
+  explicit Eyes(const fap::LandmarkTrack& track)
+      : left(find(track, "3.7")),
+        right(find(track, "3.12")),
+        known(left < track.points.size() && right < track.points.size()) {}
+  static std::size_t find(const fap::LandmarkTrack& track, const char* id) {
+    return std::size_t(std::find(track.points.begin(), track.points.end(), id) -
+                       track.points.begin());
+  }
+  // NaN: not seen.
+  double apart(const fap::LandmarkFrame& frame) const {
+    if (!known) return kNotSeen;
+    const fap::Point& a = frame.at[left];
+    const fap::Point& b = frame.at[right];
+    return std::hypot(a[0] - b[0], a[1] - b[1]);
+  }
+};
+
 // How many times the size of the face its outer corners of the eyes are apart (9 cm), in the middle
 // of all frames; of a track without them, twice the distance within which nine of ten points lie.
-double reach_of(const fap::LandmarkTrack& track) {
-  const auto find = [&](const char* id) {
-    const auto at = std::find(track.points.begin(), track.points.end(), id);
-    return std::size_t(at - track.points.begin());
-  };
-  const std::size_t left = find("3.7");
-  const std::size_t right = find("3.12");
-  const bool eyes = left < track.points.size() && right < track.points.size();
+double reach_of(const fap::LandmarkTrack& track, const Eyes& eyes) {
   std::vector<double> reaches;
   for (const fap::LandmarkFrame& frame : track.frames) {
     std::vector<double> x, y;
@@ -86,12 +101,8 @@ double reach_of(const fap::LandmarkTrack& track) {
     if (x.size() < kFewestPoints) continue;
     std::vector<double> distances = distances_of(x, y);
     const double size = median(distances);
-    double reach = 0;
-    if (eyes) {
-      const fap::Point& a = frame.at[left];
-      const fap::Point& b = frame.at[right];
-      reach = std::hypot(a[0] - b[0], a[1] - b[1]);
-    } else {
+    double reach = eyes.apart(frame);
+    if (!eyes.known) {
       std::sort(distances.begin(), distances.end());
       reach = 2 * distances[distances.size() * 9 / 10];
     }
@@ -130,14 +141,17 @@ std::vector<std::size_t> excursions(const std::vector<fap::LandmarkFrame>& frame
   return out;
 }
 
-std::size_t drop_glitches(fap::LandmarkTrack& track, double reach) {
+std::size_t drop_glitches(fap::LandmarkTrack& track, const Eyes& eyes, double reach) {
   const auto& frames = track.frames;
   const auto bad = excursions(
       frames, kLongestGap * track.rate.frames_per_second(), [](std::size_t) { return true; },
       [&](std::size_t a, std::size_t b, double far) {
         const auto shift = shift_between(frames[a], frames[b]);
-        return shift && (std::hypot(shift->x, shift->y) > far * reach * shift->size ||
-                         shift->ratio > kGrown);
+        if (!shift) return false;
+        // All of it is larger, the eyes included, which no mouth moves.
+        const double grown = eyes.apart(frames[b]) / eyes.apart(frames[a]);
+        const bool larger = shift->ratio > kGrown && std::max(grown, 1 / grown) > kGrown;
+        return larger || std::hypot(shift->x, shift->y) > far * reach * shift->size;
       });
   std::vector<fap::LandmarkFrame> kept;
   for (std::size_t i = 0; i < track.frames.size(); ++i) {
@@ -244,8 +258,9 @@ void fill_points(fap::LandmarkTrack& track, Repairs& repairs) {
 Repairs repair_track(fap::LandmarkTrack& track) {
   Repairs repairs;
   if (!track.rate.valid() || track.rate.frames_per_second() < kSlowest) return repairs;
-  if (const double reach = reach_of(track); reach > 0) {
-    repairs.glitches = drop_glitches(track, reach);
+  const Eyes eyes(track);
+  if (const double reach = reach_of(track, eyes); reach > 0) {
+    repairs.glitches = drop_glitches(track, eyes, reach);
     repairs.slips = drop_slips(track, reach);
   }
   fill_points(track, repairs);
