@@ -21,7 +21,7 @@ namespace animeme::tools {
 
 /// What a corpus is made of, and how.
 struct CorpusPlan {
-  CorpusPlaces places;
+  CorpusPlaces places;          ///< where the parts are
   std::string output;           ///< the folder; made if it is not there
   CaptureSettings capture;      ///< how captures are read and videos tracked
   NeutralSource neutral;        ///< none: one neutral face of all recordings
@@ -33,15 +33,15 @@ struct CorpusPlan {
 
 /// A sentence of the corpus.
 struct SentenceReport {
-  std::string id;
-  std::string text;
-  double seconds = 0;
-  std::size_t frames = 0;
-  std::size_t filled = 0;  ///< frames that were not measured: no face there
-  std::string source;      ///< "table", "tracked", or "tracked before"
-  std::string script;      ///< "given", or "aligned"
-  std::size_t phones = 0;
-  Closures closures;
+  std::string id;                      ///< name of its files
+  std::string text;                    ///< what is said
+  double seconds = 0;                  ///< of its curves
+  std::size_t frames = 0;              ///< likewise
+  std::size_t filled = 0;              ///< frames that were not measured: no face there
+  std::string source;                  ///< "table", "tracked", or "tracked before"
+  std::string script;                  ///< "given", or "aligned"
+  std::size_t phones = 0;              ///< silence included
+  Closures closures;                   ///< of P B M
   std::vector<std::string> doubts;     ///< see doubts_about(); also of the aligner
   std::vector<std::string> warnings;   ///< of the capture: repairs, guesses
   std::optional<fap::Fapu> own_units;  ///< of the neutral face it has alone; points only
@@ -50,15 +50,15 @@ struct SentenceReport {
 
 /// What came of it.
 struct CorpusReport {
-  std::string folder;
+  std::string folder;                     ///< of the corpus
   std::vector<SentenceReport> sentences;  ///< by their id
-  std::vector<LeftOut> left_out;
-  fap::Rate rate;
-  std::vector<std::string> controls;  ///< names of the curves
-  std::optional<fap::Fapu> units;     ///< of the neutral face of all; points only
-  std::string neutral;                ///< where it is from: "all recordings together" ...
-  std::optional<double> lag;          ///< see lag_of_lips()
-  std::vector<std::string> warnings;  ///< of the corpus as a whole
+  std::vector<LeftOut> left_out;          ///< and why
+  fap::Rate rate;                         ///< of all curves
+  std::vector<std::string> controls;      ///< names of the curves
+  std::optional<fap::Fapu> units;         ///< of the neutral face of all; points only
+  std::string neutral;                    ///< where it is from: "all recordings together" ...
+  std::optional<double> lag;              ///< see lag_of_lips()
+  std::vector<std::string> warnings;      ///< of the corpus as a whole
 };
 
 /// Makes the corpus:

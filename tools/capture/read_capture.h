@@ -28,17 +28,17 @@ struct CaptureSettings {
 
 /// A capture that was read: points, of which a neutral face makes FAPs, or FAPs.
 struct Capture {
-  std::string path;
-  std::optional<exchange::LandmarkTable> points;
-  std::optional<exchange::Imported> motion;  ///< of shapes or FAPs
-  std::vector<std::int64_t> made;            ///< frames of FAPs that a table says were not measured
-  std::vector<std::string> warnings;         ///< but those of `points` and `motion`
+  std::string path;                               ///< for messages
+  std::optional<exchange::LandmarkTable> points;  ///< of trackers
+  std::optional<exchange::Imported> motion;       ///< of shapes or FAPs
+  std::vector<std::int64_t> made;     ///< frames of FAPs that a table says were not measured
+  std::vector<std::string> warnings;  ///< but those of `points` and `motion`
 };
 
 /// What a tracker's table is of: the video, if it was tracked from one.
 struct TrackedTable {
-  std::string text;
-  std::optional<VideoFile> video;
+  std::string text;                ///< the table or JSON
+  std::optional<VideoFile> video;  ///< nothing: nobody knows one
 };
 
 /// The table of a capture: that of a file, of standard input ("-"), or of a tracker. Errors: those

@@ -12,7 +12,7 @@ namespace animeme::tools {
 
 /// A folder with ID.csv and ID.key; the key names the video, its size and time, and the command.
 struct TrackedCache {
-  std::string folder;
+  std::string folder;   ///< of all files
   bool forget = false;  ///< find() finds nothing
 
   /// The table of a video that is as it was then.

@@ -42,7 +42,7 @@ enum class CaptureKind : std::uint8_t {
 
 /// A capture as a table with a row a frame.
 struct CaptureTable {
-  CaptureKind kind = CaptureKind::landmarks;
+  CaptureKind kind = CaptureKind::landmarks;  ///< which reader is for it
   std::string table;                          ///< with a header line
   std::optional<PictureSize> size;            ///< as a JSON tells it
   std::optional<fap::LandmarkLayout> layout;  ///< likewise
