@@ -75,6 +75,11 @@ Result<Places> find_places(const ImportOptions& options) {
   const bool folder = options.inputs.size() > 1 || options.output.ends_with('/') ||
                       (options.output != "-" && std::filesystem::is_directory(path, ignored));
   if (!folder) return places;
+  if (options.output == "-") {
+    return make_error(Code::invalid_argument,
+                      "-o - is one stream for " + std::to_string(options.inputs.size()) +
+                          " inputs; name a folder, in which each gets a file of its name");
+  }
   if (!extension_of(options.output).empty() && !std::filesystem::is_directory(path, ignored)) {
     return make_error(Code::invalid_argument,
                       "-o " + options.output + " is one file for " +
