@@ -1,5 +1,5 @@
-// Feeds arbitrary bytes to what makes tables of captures, and to the readers that it names; the same
-// bytes are a column map and a neutral face, too. The last byte chooses.
+// Feeds arbitrary bytes to what makes tables of captures, and to the readers that it names; the
+// same bytes are a column map and a neutral face, too. The last byte chooses.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -59,7 +59,8 @@ inline constexpr Room kRooms[] = {
     {"tools/studio", "fap/xml tools/gltf tools/plot tools/render"},
     {"tools/check", "conformance tools/files tools/xml.h", false},
     {"tools/capture", "tools/exchange tools/speech tools/check", false},
-    {"tools/commands", "tools/capture tools/exchange tools/inspect tools/live tools/studio tools/check", false},
+    {"tools/commands",
+     "tools/capture tools/exchange tools/inspect tools/live tools/studio tools/check", false},
     {"tools", "tools/commands", false},
 
     // Tests of a room may use its neighbours to make what they test.
