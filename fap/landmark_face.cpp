@@ -24,11 +24,17 @@ constexpr Opposite kLeftRight[] = {{"3.7", "3.12"}, {"3.11", "3.8"}, {"3.1", "3.
                                    {"8.3", "8.4"},  {"2.4", "2.5"},  {"5.1", "5.2"}};
 constexpr Opposite kUpDown[] = {{"3.7", "8.3"}, {"3.12", "8.4"}, {"3.1", "8.1"},
                                 {"3.3", "2.2"}, {"3.4", "2.3"},  {kNasion, "9.15"}};
+// Of a track that has the mouth alone: the lips, and how their middle stands out before the
+// corners.
+constexpr Opposite kUpDownOfMouth[] = {{"8.1", "8.2"}, {"2.2", "2.1"}, {"8.1", "2.1"}};
+constexpr Opposite kFrontBackOfMouth[] = {{"8.1", "8.3"}, {"8.1", "8.4"}};
 constexpr Opposite kFrontBack[] = {{"9.3", "3.7"}, {"9.3", "3.12"}, {"9.3", "3.11"},
                                    {"9.3", "3.8"}, {"9.3", "3.1"},  {"9.3", "3.2"}};
 
-// -1 if the axis goes the other way: the median over the frames decides.
-double direction(const TrackedFace& face, std::span<const Opposite> pairs, std::size_t axis) {
+// -1 if the axis goes the other way: the median over the frames decides; of a track that has none
+// of the pairs, the `others`.
+double direction(const TrackedFace& face, std::span<const Opposite> pairs, std::size_t axis,
+                 std::span<const Opposite> others = {}) {
   std::vector<double> differences;
   for (std::size_t frame = 0; frame < face.frames(); ++frame) {
     for (const Opposite& pair : pairs) {
@@ -37,7 +43,8 @@ double direction(const TrackedFace& face, std::span<const Opposite> pairs, std::
       if (a && b) differences.push_back((*a)[axis] - (*b)[axis]);
     }
   }
-  return !differences.empty() && median_of(std::move(differences)) < 0 ? -1 : 1;
+  if (differences.empty()) return others.empty() ? 1 : direction(face, others, axis);
+  return median_of(std::move(differences)) < 0 ? -1 : 1;
 }
 
 Point median_point(const std::vector<Point>& points) {
@@ -76,7 +83,16 @@ double median_of(std::vector<double> values) {
   return (*middle + *std::max_element(values.begin(), middle)) / 2;
 }
 
-TrackedFace::TrackedFace(const LandmarkTrack& track) : ids_(track.points), depth_(track.depth) {
+bool has_head(const LandmarkTrack& track) {
+  const auto fixed = [](const std::string& id) {
+    return std::find(std::begin(kFixed), std::end(kFixed), id) != std::end(kFixed);
+  };
+  const auto count = std::count_if(track.points.begin(), track.points.end(), fixed);
+  return count >= (track.depth ? 3 : 2);
+}
+
+TrackedFace::TrackedFace(const LandmarkTrack& track, bool in_place)
+    : ids_(track.points), depth_(track.depth), in_place_(in_place) {
   for (const LandmarkFrame& frame : track.frames) {
     frames_.push_back(frame.at);
     for (Point& point : frames_.back()) {
@@ -93,8 +109,8 @@ TrackedFace::TrackedFace(const LandmarkTrack& track) : ids_(track.points), depth
 }
 
 void TrackedFace::turn_axes() {
-  const Point sign = {direction(*this, kLeftRight, 0), direction(*this, kUpDown, 1),
-                      depth_ ? direction(*this, kFrontBack, 2) : 1};
+  const Point sign = {direction(*this, kLeftRight, 0), direction(*this, kUpDown, 1, kUpDownOfMouth),
+                      depth_ ? direction(*this, kFrontBack, 2, kFrontBackOfMouth) : 1};
   for (std::vector<Point>& points : frames_) {
     for (Point& point : points) {
       for (std::size_t k = 0; k < 3; ++k) point[k] *= sign[k];
@@ -123,6 +139,7 @@ std::optional<double> TrackedFace::distance(std::size_t frame, std::string_view 
 
 std::optional<Similarity> TrackedFace::pose(const std::vector<Point>& shape,
                                             std::size_t frame) const {
+  if (in_place_) return Similarity{};
   std::vector<Point> from;
   std::vector<Point> to;
   for (const std::size_t i : fixed_) {

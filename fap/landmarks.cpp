@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fap/detail/landmark_face.h"
 #include "fap/detail/landmark_gaze.h"
@@ -23,57 +24,6 @@ using internal::ValueFrame;
 
 constexpr int kFirstOfEyes = 23, kLastOfEyes = 30;
 constexpr int kPitch = 48, kYaw = 49, kRoll = 50;
-
-bool is_point(std::string_view id) {
-  if (id == kNasion) return true;
-  return std::any_of(kFeaturePoints.begin(), kFeaturePoints.end(),
-                     [&](const FeaturePointInfo& point) { return point.id == id; });
-}
-
-Result<void> check_points(const std::vector<std::string>& points) {
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!is_point(points[i])) {
-      return make_error(Code::invalid_argument,
-                        "'" + points[i] + "' is no feature point; 2.1 to 11.6 are");
-    }
-    if (std::find(points.begin(), points.begin() + std::ptrdiff_t(i), points[i]) !=
-        points.begin() + std::ptrdiff_t(i)) {
-      return make_error(Code::invalid_argument,
-                        "the feature point " + points[i] + " is there twice; remove one");
-    }
-  }
-  return {};
-}
-
-Result<void> check(const LandmarkTrack& track, const LandmarkOptions& options) {
-  if (auto ok = check_points(track.points); !ok) return ok;
-  if (track.frames.empty()) {
-    return make_error(Code::invalid_argument, "a recording without frames has no face");
-  }
-  if (!track.rate.valid()) return make_error(Code::invalid_argument, "the frame rate is not valid");
-  if (!(options.smooth >= 0 && options.smooth <= 1)) {
-    return make_error(Code::invalid_argument, "smooth must be 0 to 1 seconds");
-  }
-  for (std::size_t i = 0; i < track.frames.size(); ++i) {
-    if (track.frames[i].at.size() != track.points.size()) {
-      return make_error(Code::invalid_argument, "frame " + std::to_string(i) + " has " +
-                                                    std::to_string(track.frames[i].at.size()) +
-                                                    " points where the track has " +
-                                                    std::to_string(track.points.size()));
-    }
-    if (i > 0 && track.frames[i].number <= track.frames[i - 1].number) {
-      return make_error(Code::invalid_argument, "the frame numbers do not ascend");
-    }
-  }
-  for (const std::size_t frame : options.neutral) {
-    if (frame >= track.frames.size()) {
-      return make_error(Code::invalid_argument, "the neutral frame " + std::to_string(frame) +
-                                                    " is not there; the recording has " +
-                                                    std::to_string(track.frames.size()));
-    }
-  }
-  return {};
-}
 
 // What points alone tell: FAPs that shift a point.
 std::vector<PointFap> point_faps(const LandmarkTrack& track) {
@@ -105,8 +55,13 @@ struct Seen {
 class Measurement {
  public:
   Measurement(const LandmarkTrack& track, const TrackedFace& face, const NeutralFace& neutral,
-              const Fapu& fapu)
-      : track_(track), face_(face), neutral_(neutral), fapu_(fapu), faps_(point_faps(track)) {}
+              const Fapu& fapu, bool in_place)
+      : track_(track),
+        face_(face),
+        neutral_(neutral),
+        fapu_(fapu),
+        faps_(point_faps(track)),
+        in_place_(in_place) {}
 
   // The frames whose head is found; the squares of what the fit leaves are added up.
   std::vector<Seen> look() {
@@ -115,7 +70,7 @@ class Measurement {
     for (std::size_t frame = 0; frame < face_.frames(); ++frame) {
       const std::optional<Similarity> pose = face_.pose(neutral_.shape, frame);
       if (!pose) continue;
-      Seen seen{frame, {}, {}, face_.depth(), {}};
+      Seen seen{frame, {}, {}, face_.depth() && !in_place_, {}};
       for (const Point& point : face_.at(frame)) seen.still.push_back(taken_off(*pose, point));
       for (const std::size_t i : face_.fixed()) add_error(seen.still[i], neutral_.shape[i]);
       Rotation head = pose->rotation;
@@ -144,7 +99,7 @@ class Measurement {
     }
     const auto head =
         internal::angles_of(internal::product(internal::transposed(neutral_turn), seen.turn));
-    set(kRoll, head.roll);
+    if (!in_place_ || seen.has_turn) set(kRoll, head.roll);
     if (seen.has_turn) {
       set(kPitch, head.pitch);
       set(kYaw, head.yaw);
@@ -172,6 +127,7 @@ class Measurement {
   const NeutralFace& neutral_;
   const Fapu& fapu_;
   std::vector<PointFap> faps_;
+  bool in_place_;
   double squares_ = 0;
   std::size_t count_ = 0;
 };
@@ -222,38 +178,80 @@ FeaturePoints named(const std::vector<std::string>& ids, const std::vector<Point
   return points;
 }
 
-}  // namespace
+// The neutral face of a recording, and what it says of turn and gaze.
+struct Neutral {
+  NeutralFace shape;
+  Fapu fapu;
+  std::vector<std::size_t> frames;  // none: told by LandmarkOptions::rest
+};
 
-Result<LandmarkFace> landmarks_to_fap(const LandmarkTrack& track, const LandmarkOptions& options) {
-  if (auto ok = check(track, options); !ok) return ok.error();
-  const TrackedFace tracked(track);
-  std::vector<std::size_t> frames = options.neutral;
-  std::sort(frames.begin(), frames.end());
-  if (frames.empty()) frames = find_neutral_frames(tracked);
-  if (frames.empty()) {
+Result<Neutral> neutral_of(const LandmarkTrack& track, const TrackedFace& tracked,
+                           const LandmarkOptions& options) {
+  Neutral neutral;
+  if (options.rest) {
+    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+    for (const std::string& id : track.points) {
+      const auto found = options.rest->points.find(id);
+      Point place = {kUnknown, kUnknown, kUnknown};
+      if (found != options.rest->points.end()) place = found->second;
+      if (!track.depth && internal::is_seen(place)) place[2] = 0;
+      neutral.shape.shape.push_back(place);
+    }
+    neutral.fapu = options.rest->fapu;
+    return neutral;
+  }
+  neutral.frames = options.neutral;
+  std::sort(neutral.frames.begin(), neutral.frames.end());
+  if (neutral.frames.empty()) neutral.frames = find_neutral_frames(tracked);
+  if (neutral.frames.empty()) {
     return make_error(Code::not_found,
                       "no frame shows open eyes and closed lips (3.1, 3.3, 2.2, 2.3, 8.3, 8.4 and "
                       "the corners of the eyes tell); say which one is neutral");
   }
-  const Result<NeutralFace> neutral = measure_neutral(tracked, frames);
-  if (!neutral) return neutral.error();
-  const Result<Fapu> fapu = measure_fapu(named(track.points, neutral->shape));
+  Result<NeutralFace> shape = measure_neutral(tracked, neutral.frames);
+  if (!shape) return std::move(shape).error();
+  neutral.shape = std::move(*shape);
+  const Result<Fapu> fapu = measure_fapu(named(track.points, neutral.shape.shape));
   if (!fapu) return fapu.error();
+  neutral.fapu = *fapu;
+  return neutral;
+}
 
-  Measurement measurement(track, tracked, *neutral, *fapu);
+RestingFace resting_face(const LandmarkTrack& track, const Neutral& neutral,
+                         const NeutralPose& pose) {
+  return {track.depth, named(track.points, neutral.shape.shape), neutral.fapu,
+          internal::angles_of(pose.turn), pose.eyes};
+}
+
+}  // namespace
+
+Result<LandmarkFace> landmarks_to_fap(const LandmarkTrack& track, const LandmarkOptions& options) {
+  if (auto ok = internal::check_landmarks(track, options); !ok) return ok.error();
+  const bool in_place = options.rest && !internal::has_head(track);
+  const TrackedFace tracked(track, in_place);
+  Result<Neutral> neutral = neutral_of(track, tracked, options);
+  if (!neutral) return std::move(neutral).error();
+
+  Measurement measurement(track, tracked, neutral->shape, neutral->fapu, in_place);
   const std::vector<Seen> all = measurement.look();
-  const NeutralPose pose = neutral_pose(all, frames);
+  NeutralPose pose;
+  if (options.rest) {
+    pose = {internal::rotation_of(options.rest->turn), options.rest->gaze};
+  } else {
+    pose = neutral_pose(all, neutral->frames);
+  }
   std::vector<ValueFrame> values;
   for (const Seen& seen : all) values.push_back(measurement.measure(seen, pose.turn, pose.eyes));
   values = internal::smoothed(values, track.rate, options.smooth);
 
   LandmarkFace face{{track.rate, {}, {}},
-                    *fapu,
+                    neutral->fapu,
                     {},
                     track.frames.size() - all.size(),
-                    measurement.error() / fapu->es};
+                    measurement.error() / neutral->fapu.es,
+                    options.rest ? *options.rest : resting_face(track, *neutral, pose)};
   for (const ValueFrame& one : values) face.clip.frames.push_back(rounded(one, options.mirrored));
-  for (const std::size_t frame : frames) {
+  for (const std::size_t frame : neutral->frames) {
     face.neutral_frames.push_back(track.frames[frame].number);
   }
   return face;

@@ -80,6 +80,22 @@ struct LandmarkTrack {
   std::vector<LandmarkFrame> frames;  ///< by ascending number
 };
 
+/// Where an eye looks, against the head, in rad.
+struct EyeTurn {
+  double yaw = 0;    ///< to the person's left
+  double pitch = 0;  ///< down
+};
+
+/// A neutral face on its own, so that several recordings of a person are measured against one face
+/// and in one set of units: each recording alone finds another one, and its units go with it.
+struct RestingFace {
+  bool depth = false;    ///< measured with depth; without, z is 0
+  FeaturePoints points;  ///< upright and facing +Z; in units of the track it was measured in
+  Fapu fapu;             ///< of these points, or told by others; all > 0
+  HeadPose turn;         ///< of the head against the camera, at rest
+  std::array<std::optional<EyeTurn>, 2> gaze;  ///< of the left and the right eye, at rest
+};
+
 /// What landmarks_to_fap() is told of a recording.
 struct LandmarkOptions {
   /// Frames (their indices) of the neutral face: eyes open, mouth closed, looking at the camera.
@@ -91,17 +107,22 @@ struct LandmarkOptions {
   /// motion at 5 Hz, 73 % at 9 Hz.
   double smooth = 0.014;
   bool mirrored = false;  ///< the picture was mirrored, as selfie cameras do: swap left and right
+  /// The neutral face, from another recording (LandmarkFace::rest); `neutral` is not used then. The
+  /// size of the head in the picture may be another one. Of a track that has not enough points of
+  /// the head (below), the head is taken to be off already, in place and size of this face.
+  std::optional<RestingFace> rest;
 };
 
 /// What landmarks_to_fap() found.
 struct LandmarkFace {
   Sequence clip;                             ///< frames of the track whose head was found
   Fapu fapu;                                 ///< in units of the track, at neutral
-  std::vector<std::int64_t> neutral_frames;  ///< numbers of the frames that were taken
+  std::vector<std::int64_t> neutral_frames;  ///< numbers of the frames that were taken, if any
   std::size_t lost = 0;                      ///< frames left out: too few points of the head seen
   /// Root mean square distance of the points that keep their place on the head from their place,
   /// as a share of ES: noise of the tracker, or a head that is measured wrongly.
   double head_error = 0;
+  RestingFace rest = {};  ///< the neutral face that values were measured against, with `fapu`
 };
 
 /// FAPs of a recording.
@@ -131,7 +152,8 @@ struct LandmarkFace {
 ///
 /// Errors: invalid_argument (no frames, an invalid rate, points that are unknown or twice there,
 /// frames of another size, numbers that do not ascend, neutral frames that are not there, smooth
-/// out of range; units of a neutral face that are not positive), not_found (points that the units
+/// out of range; units of a neutral face that are not positive; a `rest` without depth for a track
+/// with depth), not_found (points that the units
 /// or the head need are missing or never seen; no frame is neutral).
 Result<LandmarkFace> landmarks_to_fap(const LandmarkTrack& track,
                                       const LandmarkOptions& options = {});

@@ -21,8 +21,8 @@ double median_of(std::vector<double> values);
 /// Points by frame, in axes that go the way of FAPs.
 class TrackedFace {
  public:
-  /// The track must be well formed. z is 0 without depth.
-  explicit TrackedFace(const LandmarkTrack& track);
+  /// The track must be well formed. z is 0 without depth. `in_place`: the head is off already.
+  explicit TrackedFace(const LandmarkTrack& track, bool in_place = false);
 
   std::size_t frames() const { return frames_.size(); }
   bool depth() const { return depth_; }
@@ -44,9 +44,13 @@ class TrackedFace {
 
   const std::vector<std::string>& ids_;
   bool depth_;
+  bool in_place_;
   std::vector<std::vector<Point>> frames_;
   std::vector<std::size_t> fixed_;
 };
+
+/// Has a track the points of the head that TrackedFace::pose() needs, seen or not?
+bool has_head(const LandmarkTrack& track);
 
 /// The frames of a calm face with open eyes and closed lips, ascending; none: there is none.
 std::vector<std::size_t> find_neutral_frames(const TrackedFace& face);

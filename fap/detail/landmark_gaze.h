@@ -9,11 +9,7 @@
 
 namespace animeme::fap::internal {
 
-/// Turn of an eyeball against the head in rad: to the left, down.
-struct EyeAngles {
-  double yaw = 0;
-  double pitch = 0;
-};
+using EyeAngles = EyeTurn;
 /// Left and right.
 using Eyes = std::array<std::optional<EyeAngles>, 2>;
 

@@ -23,6 +23,9 @@ struct ValueFrame {
   std::array<double, kFapCount + 1> value{};
 };
 
+/// Errors: invalid_argument, see landmarks_to_fap().
+Result<void> check_landmarks(const LandmarkTrack& track, const LandmarkOptions& options);
+
 /// Averages of each FAP over the frames that have it, weighted by a bell of `width` seconds.
 std::vector<ValueFrame> smoothed(const std::vector<ValueFrame>& frames, const Rate& rate,
                                  double width);

@@ -59,8 +59,10 @@ inline constexpr Room kRooms[] = {
     {"tools/live", "tools/speech tools/viewer tools/web"},
     {"tools/studio", "fap/xml tools/gltf tools/plot tools/render"},
     {"tools/check", "conformance tools/files tools/xml.h", false},
+    {"tools/capture", "tools/exchange tools/speech tools/check", false},
     {"tools/commands",
-     "tools/exchange tools/inspect tools/live tools/sheet tools/studio tools/check", false},
+     "tools/capture tools/exchange tools/inspect tools/live tools/sheet tools/studio tools/check",
+     false},
     {"tools", "tools/commands", false},
 
     // Tests of a room may use its neighbours to make what they test.

@@ -181,14 +181,15 @@ TEST(FaceText, ImportsRepeatWhatIsMissing) {
   }
   spill(dir / "take.csv", table);
   const std::string said =
-      succeeds({"import", dir / "take.csv", "--rate", "29.97", "-o", dir / "a.fap"});
+      succeeds({"import", dir / "take.csv", "--rate", "29.97", "--no-repair", "-o", dir / "a.fap"});
   EXPECT_THAT(said, HasSubstr("--rate 30 makes it right"));
   EXPECT_THAT(said, HasSubstr("4 of them held"));
   expect_right(dir / "a.fap");
   const fap::Sequence held = read(dir / "a.fap");
   EXPECT_EQ(held.frames.size(), 20u);
   EXPECT_EQ(held.frames[11].value, held.frames[7].value);
-  succeeds({"import", dir / "take.csv", "--rate", "29.97", "--exact", "-o", dir / "b.fap"});
+  succeeds({"import", dir / "take.csv", "--rate", "29.97", "--no-repair", "--exact", "-o",
+            dir / "b.fap"});
   EXPECT_EQ(read(dir / "b.fap").frames.size(), 16u);
   EXPECT_THAT(slurp(dir / "b.fap"), HasSubstr(" 29.97 16\n"));
   EXPECT_EQ(read(dir / "b.fap").rate, held.rate);

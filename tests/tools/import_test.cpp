@@ -101,7 +101,7 @@ TEST(Import, RowsWithoutAFaceBecomeSkippedFrames) {
   const std::size_t begin = text.find("23:59:58:10");
   const std::size_t end = text.find("23:59:58:13");
   text.replace(begin, end - begin, "23:59:58:10.000,0\n23:59:58:11.000,0,,,\n");
-  const Imported take = import(text);
+  const Imported take = import(text, {"--no-repair"});
   EXPECT_EQ(take.clip.frames.size(), 97u);
   EXPECT_EQ(take.clip.frames[9].number, 9);
   EXPECT_EQ(take.clip.frames[10].number, 13);
@@ -140,7 +140,8 @@ TEST(Import, RatesFromSeconds) {
 TEST(Import, GapsAndCrowdsBecomeFrameNumbers) {
   const Imported take = import(
       "time,jawOpen,jawLeft\n5,0,0\n5.04,0.1,0\n5.08,0.2,0\n5.24,0.3,0\n5.28,0.4,0\n5.281,0.5,0\n"
-      "5.32,0.6,0\n");
+      "5.32,0.6,0\n",
+      {"--no-repair"});
   EXPECT_EQ(take.clip.rate, (fap::Rate{25, 1}));
   EXPECT_THAT(numbers(take.clip), ElementsAre(0, 1, 2, 6, 7, 8));
   EXPECT_EQ(take.clip.frames[4].value[3], 680);  // the last of the two rows

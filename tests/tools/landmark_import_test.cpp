@@ -91,7 +91,7 @@ TEST(ImportLandmarks, FeaturePointsByTheirNames) {
     }
     text += ",hello\n";
   }
-  const Imported take = import(text, {"--neutral", "0-0", "--smooth", "0"});
+  const Imported take = import(text, {"--neutral", "0-0", "--smooth", "0", "--no-repair"});
   expect_faps(take.clip, {3, 14, 15, 19, 20, 48, 49, 50}, 1);
   EXPECT_FALSE(take.clip.frames[4].mask[5]);
   EXPECT_TRUE(take.clip.frames[5].mask[5]);

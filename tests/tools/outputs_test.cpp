@@ -72,7 +72,7 @@ TEST(Outputs, EndingsFitWhatIsWritten) {
   refused({"encode", in, "-o", dir / "a.mp4"}, "must end in .fba");
   refused({"decode", in, "-o", dir / "a.mp4"}, "must end in .fap");
   refused({"decode", in, "--bap", dir / "a.fba"}, "must end in .bap");
-  refused({"import", in, "-o", dir / "a.csv"}, "must end in .fap");
+  refused({"import", in, "-o", dir / "a.wav"}, "must end in .fap");
   refused({"demux", in, "--face", dir / "a.mp4"}, "must end in .fba");
   refused({"view", in, "-o", dir / "a.mp4"}, "must end in .html");
   refused({"train", ".", "-o", dir / "a.fap"}, "must end in .dam");

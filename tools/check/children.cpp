@@ -15,8 +15,6 @@
 namespace animeme::tools {
 namespace {
 
-constexpr rlim_t kMostBytes = rlim_t(256) << 20;
-
 Error cannot(const std::string& what) {
   return make_error(Code::io, what + ": " + std::strerror(errno));
 }
@@ -40,7 +38,7 @@ void limit(int what, rlim_t most) {
   put_file(job.out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
   put_file(job.err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
   limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_FSIZE, kMostBytes);
+  limit(RLIMIT_FSIZE, rlim_t(job.most_bytes));
   if (job.arguments.empty()) {
     ::close(report);
     ::_exit(job.work());

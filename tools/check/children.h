@@ -17,10 +17,11 @@ namespace animeme::tools {
 
 /// What a child is to do: run `arguments`, or call `work` if there are none.
 struct ChildJob {
-  std::vector<std::string> arguments;  ///< program and arguments; empty: `work`
-  std::function<int()> work;           ///< its value is the exit code
-  std::string out,                     ///< empty: thrown away
-      err;                             ///< likewise
+  std::vector<std::string> arguments;                   ///< program and arguments; empty: `work`
+  std::function<int()> work;                            ///< its value is the exit code
+  std::string out,                                      ///< empty: thrown away
+      err;                                              ///< likewise
+  std::uint64_t most_bytes = std::uint64_t(256) << 20;  ///< that each of its files may have
 };
 
 /// How a child ended.
@@ -42,8 +43,8 @@ class Children {
   /// Ends what still runs.
   ~Children();
 
-  /// Starts one. Its standard input is empty, its files may have 256 MB each, and it leaves no core
-  /// file. `id` comes back from wait(). Errors, io: it cannot be started.
+  /// Starts one. Its standard input is empty, its files have a limit, and it leaves no core file.
+  /// `id` comes back from wait(). Errors, io: it cannot be started.
   Result<void> start(std::size_t id, const ChildJob& job);
   /// Started and not yet given out by wait().
   std::size_t running() const { return running_.size(); }

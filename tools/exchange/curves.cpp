@@ -41,4 +41,15 @@ std::string write_curve_row(const dam::Signal& signal, std::size_t frame) {
   return text + "\n";
 }
 
+std::string write_curves(const dam::Signal& signal) {
+  const bool marked = !signal.measured.empty();
+  std::string text = write_curve_header(signal.names);
+  if (marked) text.insert(text.size() - 1, ",measured");
+  for (std::size_t i = 0; i < signal.frames(); ++i) {
+    text += write_curve_row(signal, i);
+    if (marked) text.insert(text.size() - 1, signal.measured[i] ? ",1" : ",0");
+  }
+  return text;
+}
+
 }  // namespace animeme::exchange

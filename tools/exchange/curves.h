@@ -25,4 +25,7 @@ std::string write_curve_header(std::span<const std::string> names);
 /// One of its rows: time in seconds and all values of a frame of `signal`, and a line end.
 std::string write_curve_row(const dam::Signal& signal, std::size_t frame);
 
+/// Both, of all frames, with a last column `measured` (0: filled in) if the signal says so.
+std::string write_curves(const dam::Signal& signal);
+
 }  // namespace animeme::exchange

@@ -100,6 +100,7 @@ struct TrackInfo {
   int channels = 0;                   ///< audio
   int width = 0;                      ///< video
   int height = 0;                     ///< video
+  double pixel_aspect = 1;            ///< video: width of a pixel to its height as players show it
   double frame_rate = 0;              ///< video and face, frames a second; 0: not stated
   std::uint8_t visual_profile = 0;    ///< face; 0: not given
   std::vector<std::uint8_t> face_config;  ///< face; empty: in band

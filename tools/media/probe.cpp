@@ -50,6 +50,10 @@ TrackInfo describe(const AVStream& stream, const FaceTrack& face) {
   if (track.kind == TrackKind::video) {
     track.width = parameters.width;
     track.height = parameters.height;
+    // That of the container counts before that of the codec, as in FFmpeg's players.
+    for (const AVRational shape : {parameters.sample_aspect_ratio, stream.sample_aspect_ratio}) {
+      if (shape.num > 0 && shape.den > 0) track.pixel_aspect = av_q2d(shape);
+    }
   }
   if (track.kind == TrackKind::face) {
     track.face_config = face.config;

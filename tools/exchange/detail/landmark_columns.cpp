@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "fap/arkit.h"
 #include "fap/tables.h"
 
 namespace animeme::exchange {
@@ -16,6 +17,9 @@ constexpr std::string_view kPrefixes[] = {"",      "landmark", "landmarks", "lm"
 constexpr std::string_view kForeign[] = {"eye_lmk_", "au",     "p_",   "pose_t",
                                          "gaze_",    "pose_r", "face", "input"};
 constexpr int kMostLandmarks = 100000;
+constexpr int kIbugPoints = 68;
+constexpr int kMediapipePoints = 478;
+constexpr std::size_t kFewestPoints = 4;  // of a part of a layout
 
 // One coordinate of one landmark.
 struct Coordinate {
@@ -156,6 +160,20 @@ std::optional<fap::LandmarkLayout> layout_of(const std::map<int, Fields3>& point
   return std::nullopt;
 }
 
+// The layout that numbered points are a part of, if they are none as a whole: the numbers go beyond
+// the 68, or stay below, and four feature points at least are there.
+std::optional<fap::LandmarkLayout> part_of(const std::map<int, Fields3>& points) {
+  if (points.empty() || points.rbegin()->first >= kMediapipePoints) return std::nullopt;
+  const auto layout = points.rbegin()->first < kIbugPoints ? fap::LandmarkLayout::ibug68
+                                                           : fap::LandmarkLayout::mediapipe;
+  std::size_t known = 0;
+  for (const fap::LandmarkSource& source : fap::landmark_sources(layout)) {
+    known += points.contains(source.landmark) ? 1 : 0;
+  }
+  if (known < kFewestPoints) return std::nullopt;
+  return layout;
+}
+
 template <class Points>
 bool have_depth(const Points& points) {
   return !points.empty() && std::all_of(points.begin(), points.end(), [](const auto& one) {
@@ -184,7 +202,8 @@ Error no_points(const Row& header, std::size_t count) {
         Code::not_found,
         std::to_string(count) +
             " numbered points are no layout that is known: 68 (iBUG, OpenFace, dlib), 468 or 478 "
-            "(MediaPipe) are; say --layout 68 or mediapipe for a part of one",
+            "(MediaPipe) are, or parts of them with four feature points; --layout 68 or mediapipe "
+            "says whose they are",
         std::int64_t(header.line()));
   }
   return error_at_line(Code::not_found,
@@ -217,6 +236,35 @@ bool is_landmark_header(std::string_view header) {
          found->named.size() >= 4;
 }
 
+bool is_coordinate_name(std::string_view name) { return parse_coordinate(name).has_value(); }
+
+bool is_point_name(std::string_view name) { return is_number(name) || is_feature_point(name); }
+
+bool has_landmark_columns(std::string_view header) {
+  LandmarkColumns columns;
+  std::vector<std::string> unknown;
+  const auto found = sort_columns(Row({1, header}, separator_of(header)), columns, unknown);
+  if (!found) return is_landmark_header(header);
+  return found->numbered.size() >= kFewestPoints || found->capital.size() >= kFewestPoints ||
+         found->named.size() >= kFewestPoints;
+}
+
+bool has_numbered_points(std::string_view header) {
+  const Row names({1, header}, separator_of(header));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (is_coordinate_name(names.text(i))) return true;
+  }
+  return false;
+}
+
+bool has_shape(std::string_view header) {
+  const Row names({1, header}, separator_of(header));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (fap::find_arkit(names.text(i))) return true;
+  }
+  return false;
+}
+
 Result<LandmarkColumns> read_landmark_header(const Row& header, const LandmarkTableOptions& options,
                                              std::vector<std::string>& warnings) {
   LandmarkColumns columns;
@@ -227,9 +275,18 @@ Result<LandmarkColumns> read_landmark_header(const Row& header, const LandmarkTa
   const auto space = from_zero(found->capital);
   const bool in_space = picture.empty() || (have_depth(space) && !options.flat);
   const auto& points = in_space ? space : picture;
+  columns.in_space = in_space && found->named.empty() && !picture.empty();
   if (found->named.empty()) {
-    const auto layout = options.layout ? options.layout : layout_of(points);
-    if (!layout) return no_points(header, points.size());
+    auto layout = options.layout ? options.layout : layout_of(points);
+    if (!layout) {
+      layout = part_of(points);
+      if (!layout) return no_points(header, points.size());
+      warnings.push_back(std::to_string(points.size()) +
+                         " numbered points are taken to be a part "
+                         "of those of " +
+                         (layout == fap::LandmarkLayout::ibug68 ? "iBUG (68)" : "MediaPipe") +
+                         "; --layout says otherwise");
+    }
     take_layout(columns, points, *layout);
     columns.depth = have_depth(points) && !options.flat;
   } else {

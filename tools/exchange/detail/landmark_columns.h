@@ -30,12 +30,26 @@ struct LandmarkColumns {
   std::vector<std::string> names;  ///< of all fields
   std::vector<PointFields> points;
   bool depth = false;          ///< all of `points` have z
+  bool in_space = false;       ///< x, y, z are those of OpenFace in space, in millimetres
   bool may_be_shares = false;  ///< x and y may be shares of the picture's size (MediaPipe)
   Field time, frame, face, confidence, success;
   Fields3 pose;                     ///< OpenFace: pose_Rx, Ry, Rz
   std::array<Fields3, 2> gaze;      ///< OpenFace: gaze_0 (the person's right eye), gaze_1
   std::array<Field, 2> gaze_angle;  ///< OpenFace: gaze_angle_x, gaze_angle_y
 };
+
+/// True for a name that is a coordinate of a landmark or feature point: "x_12", "8.1_x".
+bool is_coordinate_name(std::string_view name);
+/// True for the name of a point alone: "12", "8.1", "nasion".
+bool is_point_name(std::string_view name);
+/// True if a header line has coordinates of four landmarks or feature points at least, be they a
+/// layout or a part of one.
+bool has_landmark_columns(std::string_view header);
+
+/// True if it has any, however few.
+bool has_numbered_points(std::string_view header);
+/// True if it has a column that is a shape of ARKit.
+bool has_shape(std::string_view header);
 
 /// True if a header line names all points of a layout, or four feature points of MPEG-4 at least.
 bool is_landmark_header(std::string_view header);

@@ -125,6 +125,7 @@ class Reader {
     for (std::size_t i = 1; i < lines.size(); ++i) {
       const Cells cells(lines[i], separator, columns_);
       if (auto ok = cells.check_size(columns_.names.size()); !ok) return ok.error();
+      if (i == 1) note_first(cells);
       const Result<bool> wanted = is_wanted(cells);
       if (!wanted) return wanted.error();
       if (!*wanted) continue;
@@ -136,8 +137,17 @@ class Reader {
   }
 
   const LeftOutRows& left_out() const { return left_out_; }
+  const std::optional<RowTime>& first_time() const { return first_time_; }
+  const std::optional<double>& first_frame() const { return first_frame_; }
 
  private:
+  void note_first(const Cells& cells) {
+    if (columns_.time) first_time_ = parse_time(cells.text(*columns_.time), cells.line());
+    if (!columns_.frame) return;
+    const Result<double> frame = cells.number(*columns_.frame);
+    if (frame && std::isfinite(*frame)) first_frame_ = *frame;
+  }
+
   Result<bool> is_wanted(const Cells& cells) {
     const Result<bool> unsure = is_unsure(cells, columns_, options_.confidence);
     if (!unsure) return unsure.error();
@@ -175,6 +185,8 @@ class Reader {
   const LandmarkTableOptions& options_;
   std::optional<int> face_;
   LeftOutRows left_out_;
+  std::optional<RowTime> first_time_;
+  std::optional<double> first_frame_;
 };
 
 }  // namespace
@@ -185,7 +197,8 @@ Result<LandmarkRows> read_landmark_rows(const std::vector<dam::TableLine>& lines
   Reader reader(columns, options);
   Result<std::vector<LandmarkRow>> rows = reader.read(lines, separator);
   if (!rows) return std::move(rows).error();
-  return LandmarkRows{std::move(*rows), reader.left_out()};
+  return LandmarkRows{std::move(*rows), reader.first_time(), reader.first_frame(),
+                      reader.left_out()};
 }
 
 }  // namespace animeme::exchange

@@ -29,8 +29,10 @@ struct LeftOutRows {
 
 /// What a table holds.
 struct LandmarkRows {
-  std::vector<LandmarkRow> rows;  ///< in the order of the file
-  LeftOutRows left_out;           ///< and why
+  std::vector<LandmarkRow> rows;      ///< in the order of the file
+  std::optional<RowTime> first_time;  ///< of the first row of all, be it left out or not
+  std::optional<double> first_frame;  ///< likewise
+  LeftOutRows left_out;               ///< and why
 };
 
 /// Reads all lines behind the first, whose fields `separator` divides. Errors: syntax, with line

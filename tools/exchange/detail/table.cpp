@@ -27,7 +27,8 @@ char separator_of(std::string_view header) {
 }
 
 bool is_time_name(std::string_view name) {
-  return name == "timecode" || name == "time_s" || name == "time" || name == "timestamp";
+  return name == "timecode" || name == "time_s" || name == "time" || name == "timestamp" ||
+         name == "time_ms" || name == "timestamp_ms";
 }
 
 std::string list_of_names(const std::vector<std::string>& names) {

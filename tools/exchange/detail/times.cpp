@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <utility>
 
 #include "fap/rate_text.h"
 #include "tools/exchange/detail/table.h"
@@ -13,9 +15,13 @@ namespace {
 
 constexpr double kDay = 86400;
 constexpr double kLargestFrame = 10'000'000;
-constexpr double kSlack = 0.75;    // of a frame
-constexpr double kSnap = 0.01;     // of a rate
-constexpr double kNtscFrom = 2.0;  // seconds: shorter clips cannot tell 29.97 from 30
+constexpr double kSlack = 0.75;          // of a frame
+constexpr double kSnap = 0.01;           // of a rate
+constexpr double kLongestStep = 3;       // seconds between frames that are not milliseconds
+constexpr double kShortestStep = 0.003;  // seconds between frames, 1/333
+constexpr double kUsualStep = 1.0;
+constexpr std::size_t kStepsToTell = 4;  // of a unit: two rows may be any time apart
+constexpr double kNtscFrom = 2.0;        // seconds: shorter clips cannot tell 29.97 from 30
 constexpr int kTimecodeRates[] = {24, 25, 30, 48, 50, 60, 100, 120};
 constexpr fap::Rate kRates[] = {{24, 1},       {25, 1}, {30, 1}, {50, 1}, {60, 1},  {30000, 1001},
                                 {60000, 1001}, {10, 1}, {12, 1}, {25, 2}, {15, 1},  {20, 1},
@@ -26,6 +32,12 @@ std::optional<double> plain_number(std::string_view text) {
     return std::nullopt;
   }
   return dam::parse_number(text);
+}
+
+std::string plain(double number) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.4g", number);
+  return text;
 }
 
 std::vector<double> steps_of(const std::vector<double>& seconds) {
@@ -95,6 +107,22 @@ std::vector<double> seconds_of(const std::vector<RowTime>& times, int per_second
     seconds.push_back(now);
   }
   return seconds;
+}
+
+// How many seconds a time counts: trackers write milliseconds (MediaPipe), micro- and nanoseconds.
+double tell_unit(const std::vector<double>& seconds, std::vector<std::string>& warnings) {
+  const std::vector<double> steps = steps_of(seconds);
+  if (steps.size() < kStepsToTell) return 1;
+  const double step = median(steps);
+  if (!(step > kLongestStep)) return 1;
+  constexpr std::pair<double, const char*> kUnits[] = {
+      {1e-3, "milliseconds"}, {1e-6, "microseconds"}, {1e-9, "nanoseconds"}};
+  for (const auto& [unit, name] : kUnits) {
+    if (step * unit < kShortestStep || step * unit > kUsualStep) continue;
+    warnings.push_back("the times are " + plain(step) + " apart and taken as " + name);
+    return unit;
+  }
+  return 1;
 }
 
 // Frames a second, counted over the whole recording: frames that were left out count.
@@ -175,14 +203,16 @@ Result<PlacedRows> place_rows(const std::vector<RowTime>& times, std::optional<f
   }
   const bool timecode = times.front().frames.has_value();
   const int per_second = timecode ? tell_timecode_rate(times, rate, warnings) : 1;
-  const std::vector<double> seconds = seconds_of(times, per_second);
+  std::vector<double> seconds = seconds_of(times, per_second);
+  const double unit = timecode ? 1 : tell_unit(seconds, warnings);
+  for (double& time : seconds) time *= unit;
   if (!rate) {
     Result<fap::Rate> told = tell_rate(seconds, timecode);
     if (!told) return std::move(told).error();
     rate = *told;
   }
   const double scale = timecode ? counted_rate(*rate) : rate->frames_per_second();
-  PlacedRows placed{*rate, {}};
+  PlacedRows placed{*rate, unit, {}};
   std::size_t merged = 0;
   std::int64_t number = -1;
   double before = 0;

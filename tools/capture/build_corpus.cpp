@@ -1,0 +1,413 @@
+#include "tools/capture/build_corpus.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "tools/capture/corpus_report.h"
+#include "tools/capture/corpus_signal.h"
+#include "tools/capture/folds.h"
+#include "tools/capture/tracked_cache.h"
+#include "tools/exchange/curves.h"
+#include "tools/exchange/face_file.h"
+#include "tools/files/file_lock.h"
+#include "tools/files/files.h"
+#include "tools/media/audio.h"
+#include "tools/speech/voice_file.h"
+#include "tools/text.h"
+#include "tools/voice/align.h"
+
+namespace animeme::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kLeastMeasured = 0.5;  // of the frames of a sentence
+constexpr double kSlackOfScript = 0.5;  // seconds that a script may differ, as dam/corpus has it
+
+// A recording on its way into the corpus.
+struct Sentence {
+  Take take;
+  SentenceReport report;
+  Capture capture;
+  double shift = 0;  // seconds of the first picture on the clock of the sound
+  std::optional<media::Pcm> sound;
+  dam::Script script;
+  dam::Signal signal;
+};
+
+class Builder {
+ public:
+  Builder(const CorpusPlan& plan, const Talk& talk, const Progress& progress)
+      : plan_(plan), talk_(talk), progress_(progress) {}
+
+  Result<CorpusReport> build() {
+    auto takes = find_takes(plan_.places);
+    if (!takes) return std::move(takes).error();
+    report_.folder = plan_.output;
+    report_.left_out = std::move(takes->left_out);
+    if (auto ok = make_folders(); !ok) return ok.error();
+    const auto lock = FileLock::take(plan_.output + "/corpus");
+    if (!lock) return lock.error();
+    if (auto ok = read(takes->takes); !ok) return ok.error();
+    if (auto ok = measure(); !ok) return ok.error();
+    listen();
+    same_rate();
+    check();
+    if (sentences_.empty()) return nothing_left();
+    if (auto ok = write(); !ok) return ok.error();
+    return std::move(report_);
+  }
+
+ private:
+  Result<void> make_folders() {
+    for (const char* folder : {"", "tracked", "fap", "phonemes", "audio"}) {
+      std::error_code error;
+      fs::create_directories(fs::path(plan_.output) / folder, error);
+      if (error) {
+        return make_error(Code::io, "the folder cannot be made: " + error.message())
+            .in_file(plan_.output);
+      }
+    }
+    return {};
+  }
+
+  std::string path(const char* folder, const std::string& name) const {
+    return (fs::path(plan_.output) / folder / name).string();
+  }
+
+  void leave_out(const Take& take, const char* stage, const Error& error) {
+    report_.left_out.push_back({take.id, stage, error.describe()});
+    talk_.warn(take.id + ": left out: " + error.describe());
+  }
+
+  // The tables, from files or trackers: most of the time goes here.
+  Result<void> read(const std::vector<Take>& takes) {
+    for (std::size_t i = 0; i < takes.size(); ++i) {
+      if (progress_.stop()) {
+        return make_error(Code::io, "stopped; what was tracked is kept, the same command goes on");
+      }
+      progress_.at(0.9 * double(i) / double(takes.size()));
+      Sentence sentence{takes[i], {}, {}, 0, {}, {}, {}};
+      sentence.report.id = takes[i].id;
+      const char* stage = "track";
+      if (auto ok = read_one(sentence, stage); !ok) {
+        leave_out(takes[i], stage, ok.error());
+      } else {
+        sentences_.push_back(std::move(sentence));
+      }
+    }
+    return {};
+  }
+
+  Result<void> read_one(Sentence& sentence, const char*& stage) {
+    const Take& take = sentence.take;
+    TrackedTable table;
+    std::optional<VideoFile> video;
+    if (!take.video.empty()) {
+      auto seen = look_at_video(take.video);
+      if (!seen && take.table.empty()) return seen.error();
+      if (seen) video = *seen;
+    }
+    if (video) sentence.shift = video->picture_after_sound;
+    TrackedCache cache{plan_.output + "/tracked", plan_.track_again};
+    if (!take.table.empty()) {
+      auto read = read_capture_table(take.table, plan_.capture, talk_);
+      if (!read) return read.error();
+      table.text = std::move(read->text);
+      sentence.report.source = "table";
+    } else if (auto before = cache.find(take.id, take.video, plan_.capture)) {
+      table.text = std::move(*before);
+      sentence.report.source = "tracked before";
+    } else {
+      auto read = read_capture_table(take.video, plan_.capture, talk_);
+      if (!read) return read.error();
+      table.text = std::move(read->text);
+      sentence.report.source = "tracked";
+    }
+    table.video = video;
+    stage = "import";
+    const std::string& name = take.table.empty() ? take.video : take.table;
+    auto capture = parse_capture(table, name, plan_.capture);
+    if (!capture) return capture.error();
+    sentence.capture = std::move(*capture);
+    if (sentence.report.source != "tracked") return {};
+    stage = "track";
+    return cache.keep(take.id, take.video, plan_.capture, table.text);
+  }
+
+  // FAPs of all, against one neutral face.
+  Result<void> measure() {
+    if (sentences_.empty()) return nothing_left();
+    std::vector<Capture> captures;
+    for (const Sentence& sentence : sentences_) captures.push_back(sentence.capture);
+    leave_out_other_points(captures);
+    const auto rest = neutral_face(plan_.neutral, captures, plan_.capture, talk_);
+    if (!rest) return rest.error();
+    rest_ = *rest;
+    report_.neutral = !plan_.neutral.face_file.empty() ? "of " + plan_.neutral.face_file
+                      : !plan_.neutral.from.empty()    ? "of " + plan_.neutral.from
+                                                       : "of all recordings together";
+    keep([&](Sentence& sentence) { return measure_one(sentence); }, "import");
+    return {};
+  }
+
+  // One neutral face is for the same points: those that most recordings have.
+  void leave_out_other_points(std::vector<Capture>& captures) {
+    std::map<std::vector<std::string>, std::size_t> counts;
+    for (const Capture& capture : captures) {
+      if (capture.points) ++counts[capture.points->track.points];
+    }
+    if (counts.size() < 2 || !plan_.neutral.face_file.empty() || !plan_.neutral.from.empty()) {
+      return;
+    }
+    const auto most =
+        std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) {
+          return a.second < b.second;
+        })->first;
+    captures.clear();
+    keep(
+        [&](Sentence& sentence) -> Result<void> {
+          const auto& points = sentence.capture.points;
+          if (points && points->track.points != most) {
+            return make_error(Code::invalid_argument,
+                              "it has other points than most recordings; --face-file or "
+                              "--neutral-from measures it all the same");
+          }
+          captures.push_back(sentence.capture);
+          return {};
+        },
+        "import");
+  }
+
+  Result<void> measure_one(Sentence& sentence) {
+    if (rest_ && sentence.capture.points) {
+      // What it would have been measured in alone.
+      const auto own = exchange::common_face({*sentence.capture.points}, plan_.capture.landmarks);
+      if (own) sentence.report.own_units = own->fapu;
+    }
+    const bool points = sentence.capture.points.has_value();
+    auto face = face_of_capture(std::move(sentence.capture), plan_.capture, rest_);
+    if (!face) return face.error();
+    sentence.report.warnings = face->warnings;
+    if (points && !rest_) rest_ = face->points->face.rest;
+    if (points && !report_.units) report_.units = rest_->fapu;
+    return take_curves(sentence, *face);
+  }
+
+  Result<void> take_curves(Sentence& sentence, const CapturedFace& face) {
+    const Take& take = sentence.take;
+    const std::string sound = !take.sound.empty() ? take.sound : take.video;
+    if (!sound.empty()) {
+      auto pcm = speech::read_voice(sound, talk_, voice::kAlignRate);
+      const bool silent = !pcm && pcm.error().code == Code::not_found && take.sound.empty();
+      if (!pcm && !silent) return pcm.error();
+      if (pcm && !pcm->samples.empty()) sentence.sound = std::move(*pcm);
+    }
+    // Times of a capture that lie within the sound are those of the recording.
+    const double length = face.clip.rate.seconds(double(face.clip.frames.back().number + 1));
+    double start = face.start.value_or(0);
+    const double end = sentence.sound ? sentence.sound->duration() + kSlackOfScript : length;
+    if (start < 0 || start + length > end + kSlackOfScript) start = 0;
+    const double seconds = sentence.sound ? sentence.sound->duration() : 0;
+    auto signal = curves_of(face, start + sentence.shift, seconds);
+    if (!signal) return signal.error();
+    sentence.signal = std::move(*signal);
+    const double share =
+        double(measured_frames(sentence.signal)) / double(sentence.signal.frames());
+    if (share < kLeastMeasured) {
+      return make_error(Code::truncated,
+                        format("there is a face in %.0f %% of its frames only", 100 * share));
+    }
+    return {};
+  }
+
+  // Scripts, given or by the aligner.
+  void listen() {
+    std::size_t done = 0;
+    const std::size_t count = sentences_.size();
+    keep(
+        [&](Sentence& sentence) {
+          progress_.at(0.9 + 0.1 * double(done++) / double(count));
+          return sentence.take.script.empty() ? align(sentence) : read_script(sentence);
+        },
+        "align");
+  }
+
+  Result<void> align(Sentence& sentence) {
+    sentence.report.text = *sentence.take.text;
+    sentence.report.script = "aligned";
+    if (!sentence.sound) {
+      return make_error(Code::not_found,
+                        "there is no sound to align its text with; name a folder of sounds "
+                        "(--audio), or give a script (TextGrid)");
+    }
+    voice::AlignOptions options;
+    options.language = plan_.language;
+    auto alignment = voice::align(*sentence.sound, *sentence.take.text, options);
+    if (!alignment) return alignment.error();
+    for (const std::string& text : alignment->warnings) {
+      (alignment->approximate ? sentence.report.doubts : sentence.report.warnings).push_back(text);
+    }
+    sentence.script = std::move(alignment->script);
+    return {};
+  }
+
+  Result<void> read_script(Sentence& sentence) {
+    sentence.report.script = "given";
+    auto script = speech::read_script(sentence.take.script);
+    if (!script) return script.error();
+    sentence.script = std::move(*script);
+    sentence.report.text =
+        sentence.take.text ? *sentence.take.text : words_of_script(sentence.script);
+    const double seconds = sentence.signal.rate.seconds(double(sentence.signal.frames()));
+    if (sentence.script.duration() > seconds + kSlackOfScript) {
+      return make_error(Code::out_of_range, format("its script lasts %.2f s, its capture %.2f s",
+                                                   sentence.script.duration(), seconds))
+          .in_file(sentence.take.script);
+    }
+    extend_with_silence(sentence.script, seconds);
+    return {};
+  }
+
+  // The rate and the curves that all sentences have.
+  void same_rate() {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> counts;
+    for (const Sentence& s : sentences_) ++counts[{s.signal.rate.num, s.signal.rate.den}];
+    if (counts.empty()) return;
+    const auto most =
+        std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) {
+          return a.second < b.second;
+        })->first;
+    report_.rate = fap::Rate{most.first, most.second};
+    std::vector<dam::Signal*> signals;
+    std::size_t widest = 0;
+    for (Sentence& sentence : sentences_) {
+      if (!(sentence.signal.rate == report_.rate)) {
+        sentence.report.warnings.push_back(
+            format("its %g frames a second are made %g, as most recordings have",
+                   sentence.signal.rate.frames_per_second(), report_.rate.frames_per_second()));
+        sentence.signal = at_rate(sentence.signal, report_.rate);
+      }
+      widest = std::max(widest, sentence.signal.names.size());
+      signals.push_back(&sentence.signal);
+    }
+    report_.controls = keep_common_controls(signals);
+    if (report_.controls.size() < widest) {
+      report_.warnings.push_back(format("%zu curves that not all recordings have are left out",
+                                        widest - report_.controls.size()));
+    }
+  }
+
+  void check() {
+    std::vector<double> rates;
+    for (const Sentence& sentence : sentences_) rates.push_back(phone_rate(sentence.script));
+    std::sort(rates.begin(), rates.end());
+    const double usual = rates.size() < 5 ? 0 : rates[rates.size() / 2];
+    keep(
+        [&](Sentence& sentence) -> Result<void> {
+          SentenceReport& report = sentence.report;
+          report.closures = closures_of(sentence.signal, sentence.script);
+          for (std::string& text : doubts_about(sentence.script, report.closures, usual)) {
+            report.doubts.push_back(std::move(text));
+          }
+          report.frames = sentence.signal.frames();
+          report.filled = report.frames - measured_frames(sentence.signal);
+          report.seconds = sentence.signal.rate.seconds(double(report.frames));
+          report.phones = sentence.script.phones.size();
+          if (plan_.strict && !report.doubts.empty()) {
+            return make_error(Code::invalid_argument, "doubtful: " + report.doubts.front());
+          }
+          return {};
+        },
+        "check");
+    std::vector<const dam::Signal*> signals;
+    std::vector<const dam::Script*> scripts;
+    for (const Sentence& sentence : sentences_) {
+      signals.push_back(&sentence.signal);
+      scripts.push_back(&sentence.script);
+    }
+    report_.lag = lag_of_lips(signals, scripts);
+  }
+
+  // Takes out what `work` fails for.
+  template <class Work>
+  void keep(Work work, const char* stage) {
+    std::vector<Sentence> kept;
+    for (Sentence& sentence : sentences_) {
+      if (auto ok = work(sentence); !ok) {
+        leave_out(sentence.take, stage, ok.error());
+      } else {
+        kept.push_back(std::move(sentence));
+      }
+    }
+    sentences_ = std::move(kept);
+  }
+
+  Error nothing_left() const {
+    std::string why;
+    if (!report_.left_out.empty()) {
+      const LeftOut& first = report_.left_out.front();
+      why = "; " + first.id + ": " + first.why;
+      if (report_.left_out.size() > 1) {
+        why += format(" (and %zu more)", report_.left_out.size() - 1);
+      }
+    }
+    return make_error(Code::not_found, "no recording is left" + why);
+  }
+
+  Result<void> write() {
+    std::vector<std::string> ids, texts;
+    for (const Sentence& sentence : sentences_) {
+      ids.push_back(sentence.take.id);
+      texts.push_back(sentence.report.text);
+    }
+    const std::vector<int> folds = split_into_folds(ids, texts, plan_.folds);
+    for (std::size_t i = 0; i < sentences_.size(); ++i) {
+      Sentence& sentence = sentences_[i];
+      sentence.report.fold = folds[i] + 1;
+      const std::string& id = sentence.take.id;
+      if (auto ok = write_file(path("fap", id + ".csv"), exchange::write_curves(sentence.signal));
+          !ok) {
+        return ok;
+      }
+      if (auto ok =
+              write_file(path("phonemes", id + ".tsv"), dam::write_script_tsv(sentence.script));
+          !ok) {
+        return ok;
+      }
+      if (sentence.sound) {
+        if (auto ok = media::write_wav(path("audio", id + ".wav"), *sentence.sound); !ok) return ok;
+      }
+      report_.sentences.push_back(std::move(sentence.report));
+    }
+    if (rest_) {
+      if (auto ok = write_file(path("", "neutral.face"), exchange::write_face_file(*rest_)); !ok) {
+        return ok;
+      }
+    }
+    const std::string text = report_text(report_);
+    const std::string json = report_json(report_).dump(1) + "\n";
+    if (auto ok = write_file(path("", "report.txt"), text); !ok) return ok;
+    if (auto ok = write_file(path("", "report.json"), json); !ok) return ok;
+    return write_file(path("", "utterances.tsv"),
+                      utterance_table(report_.sentences, hold_words_out(texts), plan_.folds));
+  }
+
+  const CorpusPlan& plan_;
+  const Talk& talk_;
+  const Progress& progress_;
+  std::vector<Sentence> sentences_;
+  std::optional<fap::RestingFace> rest_;
+  CorpusReport report_;
+};
+
+}  // namespace
+
+Result<CorpusReport> build_corpus(const CorpusPlan& plan, const Talk& talk,
+                                  const Progress& progress) {
+  return Builder(plan, talk, progress).build();
+}
+
+}  // namespace animeme::tools
