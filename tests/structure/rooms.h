@@ -29,6 +29,7 @@ inline constexpr Room kRooms[] = {
     {"dam/maths", ""},
     {"dam/script", "fap"},
     {"dam/signal", "dam/script dam/maths"},
+    {"dam/crossmap", "dam/signal"},
     {"dam/model", "dam/signal"},
     {"dam/corpus", "dam/model"},
     {"dam/speaking", "dam/model"},
@@ -45,7 +46,7 @@ inline constexpr Room kRooms[] = {
 
     {"tools/xml.h tools/json.h tools/text.h tools/exit_code.h", "fap", false},
     {"tools/files", "fap"},
-    {"tools/exchange", "codec/text dam/corpus"},
+    {"tools/exchange", "codec/text dam/corpus dam/crossmap"},
     {"tools/render", "fap/head"},
     {"tools/gltf", "fap/head"},
     {"tools/media tools/media/live", "codec/decode fap/xml tools/files"},
