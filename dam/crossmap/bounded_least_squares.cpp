@@ -20,22 +20,25 @@ BoundedLeastSquares::BoundedLeastSquares(std::span<const double> matrix, std::si
                                          std::size_t unknowns, const LeastSquaresLimits& limits)
     : rows_(rows), n_(unknowns) {
   matrix_.assign(matrix.begin(), matrix.begin() + std::ptrdiff_t(rows_ * n_));
-  const auto product = [&](std::size_t j, std::size_t k) {
-    double sum = 0;
-    for (std::size_t i = 0; i < rows_; ++i) sum += matrix_[i * n_ + j] * matrix_[i * n_ + k];
-    return sum;
-  };
+  gram_.assign(n_ * n_, 0.0);
+  for (std::size_t i = 0; i < rows_; ++i) {
+    const double* __restrict row = &matrix_[i * n_];
+    for (std::size_t j = 0; j < n_; ++j) {
+      const double value = row[j];
+      if (value == 0) continue;
+      double* __restrict sums = &gram_[j * n_];
+      for (std::size_t k = 0; k <= j; ++k) sums[k] += value * row[k];
+    }
+  }
   scale_.assign(n_, 0.0);
   for (std::size_t j = 0; j < n_; ++j) {
-    const double square = product(j, j);
-    if (square > 0) scale_[j] = 1 / std::sqrt(square);
+    if (gram_[j * n_ + j] > 0) scale_[j] = 1 / std::sqrt(gram_[j * n_ + j]);
   }
-  gram_.assign(n_ * n_, 0.0);
   for (std::size_t j = 0; j < n_; ++j) {
-    for (std::size_t k = 0; k <= j; ++k) {
-      gram_[j * n_ + k] = gram_[k * n_ + j] =
-          j == k ? (scale_[j] > 0 ? 1 + limits.ridge : 0) : product(j, k) * scale_[j] * scale_[k];
+    for (std::size_t k = 0; k < j; ++k) {
+      gram_[j * n_ + k] = gram_[k * n_ + j] = gram_[j * n_ + k] * scale_[j] * scale_[k];
     }
+    gram_[j * n_ + j] = scale_[j] > 0 ? 1 + limits.ridge : 0;
   }
   low_.resize(n_);
   room_.resize(n_);

@@ -58,8 +58,9 @@ inline constexpr Room kRooms[] = {
     {"tools/inspect", "codec/text dam/evaluation dam/training tools/xml.h"},
     {"tools/live", "tools/speech tools/viewer tools/web"},
     {"tools/studio", "fap/xml tools/gltf tools/plot tools/render"},
+    {"tools/crossmap", "tools/exchange tools/studio"},
     {"tools/check", "conformance tools/files tools/xml.h", false},
-    {"tools/commands", "tools/exchange tools/inspect tools/live tools/studio tools/check", false},
+    {"tools/commands", "tools/crossmap tools/exchange tools/inspect tools/live tools/studio tools/check", false},
     {"tools", "tools/commands", false},
 
     // Tests of a room may use its neighbours to make what they test.
@@ -84,6 +85,7 @@ inline constexpr Library kLibraries[] = {
     {"libwebsockets", "libwebsockets", "tools/web/detail"},
     {"zlib", "zlib", "tools/render tools/viewer tools/web/detail tests"},
     {"libpng, libjpeg, libwebp", "png jpeglib jerror webp/", "tools/gltf/detail tests"},
+    {"toml++", "toml++/", "tools/crossmap", true},
     {"nlohmann_json", "nlohmann/", "tools conformance tests"},
     {"CLI11", "CLI/", "tools/commands tools/main.cpp tests/bench"},
     {"GoogleTest", "gtest/ gmock/ benchmark/", "tests"},

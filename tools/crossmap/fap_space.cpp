@@ -1,0 +1,41 @@
+#include "tools/crossmap/fap_space_internal.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace animeme::crossmap {
+namespace {
+
+constexpr fap::Fapu kUsualFace = {0.993, 5.903, 4.821, 2.120, 5.070};  // cm, of ICT-FaceKit
+constexpr double kLips = 3;  // teeth that show in a P are seen at once
+constexpr std::pair<int, int> kMeet[] = {{4, 5}, {8, 10}, {9, 11}};
+
+}  // namespace
+
+FapSpace::FapSpace(std::vector<int> faps) : faps_(std::move(faps)) {
+  for (const int fap : faps_) unit_.push_back(fap::displacement(fap, 1, kUsualFace));
+  for (const auto& [upper, lower] : kMeet) {
+    const auto a = std::find(faps_.begin(), faps_.end(), upper);
+    const auto b = std::find(faps_.begin(), faps_.end(), lower);
+    if (a == faps_.end() || b == faps_.end()) continue;
+    pairs_.emplace_back(a - faps_.begin(), b - faps_.begin());
+  }
+}
+
+std::vector<double> FapSpace::lengths(const std::vector<double>& values) const {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < faps_.size(); ++i) out.push_back(values[i] * unit_[i]);
+  for (const auto& [upper, lower] : pairs_) out.push_back(kLips * (out[upper] + out[lower]));
+  return out;
+}
+
+std::vector<double> FapSpace::lengths(const fap::Frame& frame) const {
+  std::vector<double> values;
+  for (const int fap : faps_) {
+    const auto f = std::size_t(fap);
+    values.push_back(frame.mask[f] ? frame.value[f] : 0);
+  }
+  return lengths(values);
+}
+
+}  // namespace animeme::crossmap
