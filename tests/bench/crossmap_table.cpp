@@ -1,29 +1,26 @@
-// Prints the tables of dam/crossmap/README.md: grid_s1/lips by key shapes to FAPs and to the shapes of ARKit, beside
-// the FAPs that were measured on the same points. Key shapes are those of every other sentence; the rest is scored.
-//   build/release/bin/crossmap_table FOLDER_OF_GRID_S1
+// Prints the tables of tools/crossmap/README.md: grid_s1/lips by key shapes to FAPs, to ARKit's
+// shapes and to the mesh of ICT-FaceKit, beside the FAPs that were measured on the same points. Key
+// shapes are those of every other sentence; the rest is scored.
+//   build/release/bin/crossmap_table SHARED_DATA          (the folder with grid_s1 and ict_facekit)
+#include <zlib.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <map>
-#include <nlohmann/json.hpp>
+#include <fstream>
 
 #include "dam/corpus/corpus.h"
-#include "dam/crossmap/face_points.h"
-#include "dam/crossmap/key_shapes.h"
-#include "dam/crossmap/retarget.h"
 #include "dam/evaluation/evaluate.h"
-#include "dam/script/script.h"
 #include "dam/signal/fap_signal.h"
-#include "fap/arkit.h"
-#include "tests/support/files.h"
-#include "tools/exchange/points.h"
+#include "tests/support/temp_dir.h"
+#include "tools/crossmap/run.h"
 
 namespace {
 
 using namespace animeme;
-using namespace animeme::dam;
 namespace fs = std::filesystem;
+using crossmap::Project;
 
 template <class T>
 T need(Result<T> result) {
@@ -32,125 +29,166 @@ T need(Result<T> result) {
   std::exit(1);
 }
 
-struct Material {
-  std::vector<PointTrack> tracks;  // displacements
-  std::vector<Utterance> measured;
-  Face face;
-  std::vector<Contact> contacts;
+void unpack(const fs::path& from, const fs::path& to) {
+  gzFile in = gzopen(from.c_str(), "rb");
+  std::ofstream out(to, std::ios::binary);
+  char buffer[65536];
+  for (int got = 0; in != nullptr && (got = gzread(in, buffer, sizeof buffer)) > 0;) {
+    out.write(buffer, got);
+  }
+  if (in != nullptr) gzclose(in);
+}
+
+struct Halves {
+  Project search, fit;                   // inputs of the two
+  std::vector<dam::Utterance> measured;  // of the second
 };
 
-Material read(const fs::path& folder) {
-  Material out;
-  Corpus corpus = need(read_corpus(folder, {.split_value = ""}));
-  for (Utterance& utterance : corpus.utterances) {
-    const fs::path lips = folder / "lips" / (utterance.id + ".csv");
+Halves read_halves(const fs::path& grid) {
+  Halves out;
+  dam::Corpus corpus = need(dam::read_corpus(grid));
+  std::sort(corpus.utterances.begin(), corpus.utterances.end(),
+            [](const auto& a, const auto& b) { return a.id < b.id; });
+  bool first = false;
+  for (dam::Utterance& utterance : corpus.utterances) {
+    const fs::path lips = grid / "lips" / (utterance.id + ".csv");
     if (!fs::exists(lips)) continue;
-    out.tracks.push_back(need(exchange::read_point_table(test::slurp(lips.string()))).track);
-    out.tracks.back().name = utterance.id;
-    out.measured.push_back(std::move(utterance));
+    first = !first;
+    (first ? out.search : out.fit).inputs.push_back(lips.string());
+    if (!first) out.measured.push_back(std::move(utterance));
   }
-  const auto json = nlohmann::json::parse(test::slurp((folder / "neutral.json").string()));
-  const auto& names = out.tracks.front().names;
-  std::vector<double> neutral;
-  for (const std::string& name : names) {
-    for (std::size_t k = 0; k < 2; ++k) neutral.push_back(json["neutral_px"][name][k]);
-  }
-  const auto& px = json["fapu_px"];
-  FaceOptions options;
-  options.fapu = {px["IRISD"], px["ES"], px["ENS"], px["MNS"], px["MW"]};
-  const auto points = face_points(names);
-  out.face = need(make_face(names, 2, neutral, points, options));
-  out.contacts = lip_contacts(points);
-  for (PointTrack& track : out.tracks) subtract(track, neutral);
+  out.search.neutral = out.fit.neutral = (grid / "neutral.json").string();
   return out;
 }
 
-KeyShapes keys_of(const Material& material, const KeyShapeOptions& options, KeyFrames& found) {
-  std::vector<PointTrack> half;
-  for (std::size_t i = 0; i < material.tracks.size(); i += 2) half.push_back(material.tracks[i]);
-  found = need(find_key_frames(half, {}, options));
-  KeyShapes keys;
-  for (std::size_t k = 0; k < found.keys.size(); ++k) {
-    const auto shape = half[found.keys[k].track].frame(found.keys[k].frame);
-    keys.names.push_back("key" + std::to_string(k + 1));
-    keys.values.insert(keys.values.end(), shape.begin(), shape.end());
-  }
-  return keys;
-}
-
-Character faps_of(const Material& material, const KeyShapes& keys) {
-  Character out;
-  const std::size_t count = material.face.faps.size();
-  out.rows = count;
-  out.moves.assign(count * count, 0.0);
-  for (std::size_t i = 0; i < count; ++i) {
-    out.controls.push_back(fap_channel(material.face.faps[i]));
-    out.lows.push_back(-2000);
-    out.highs.push_back(2000);
-    out.moves[i * count + i] = 1;
-  }
-  const std::size_t size = keys.values.size() / keys.names.size();
-  for (std::size_t k = 0; k < keys.names.size(); ++k) {
-    const auto values = fap_values(material.face, {&keys.values[k * size], size});
-    out.keys.insert(out.keys.end(), values.begin(), values.end());
+// What a face would show: FAPs of the points, by the FAPs of the controls.
+dam::Signal shown(const crossmap::Target& target, const dam::Signal& made,
+                  const std::vector<int>& faps) {
+  dam::Signal out{made.rate, 0, {}, {}, {}};
+  for (const int fap : faps) out.names.push_back(dam::fap_channel(fap));
+  for (std::size_t i = 0; i < made.frames(); ++i) {
+    std::vector<double> values(69, 0.0);
+    const double* controls = &made.values[i * made.names.size()];
+    if (target.mesh) {
+      for (std::size_t c = 0; c < made.names.size(); ++c) {
+        const fap::Frame& full = target.mesh->controls[c].faps;
+        for (std::size_t f = 3; f < 69; ++f) values[f] += controls[c] * full.value[f];
+      }
+    } else {
+      const auto frame = crossmap::shown_faps(target, controls);
+      for (std::size_t f = 3; f < 69; ++f) values[f] = frame->value[f];
+    }
+    for (const int fap : faps) out.values.push_back(values[std::size_t(fap)]);
   }
   return out;
 }
 
-void row(const char* name, const Evaluation& e, double residual, std::size_t keys) {
-  double rms = 0;
-  std::size_t count = 0;
-  for (const SeriesScore& s : e.controls) {
-    if (!s.scored) continue;
-    rms += s.rmse * s.rmse;
-    ++count;
-  }
-  std::printf("| %s | %zu | %.2f | %.1f | %.3f | %.1f %% of %.1f %% |\n", name, keys, residual,
-              std::sqrt(rms / double(count)), e.correlation, 100 * e.closure.predicted,
-              100 * e.closure.measured);
-}
+struct Scored {
+  dam::Evaluation evaluation;
+  double residual = 0, seconds = 0;
+  std::size_t keys = 0, controls = 0;
+};
 
-Evaluation run(const Material& material, const KeyShapes& keys, const BlendOptions& options,
-               double& residual) {
-  const Character character = faps_of(material, keys);
-  std::vector<SentencePair> pairs;
-  residual = 0;
-  for (std::size_t i = 1; i < material.tracks.size(); i += 2) {
-    const Blend blend = need(fit_blend(material.tracks[i], keys, {}, options));
-    residual += blend.residual / double(material.tracks.size() / 2);
-    const Retarget made =
-        need(fit_controls(blend, material.tracks[i].rate, character, {.ridge = 0}));
-    pairs.push_back({material.measured[i], made.signal});
+Scored run(const Halves& halves, const Project& changes) {
+  Project search = changes, fit = changes;
+  search.inputs = halves.search.inputs;
+  fit.inputs = halves.fit.inputs;
+  search.neutral = fit.neutral = halves.fit.neutral;
+  const auto first = need(crossmap::load_capture(search, {}));
+  const auto keys = need(crossmap::load_keys(search, first, {}));
+  const auto second = need(crossmap::load_capture(fit, {}));
+  const auto target = need(crossmap::load_target(fit, second, keys, {}));
+  Scored out;
+  out.keys = keys.shapes.names.size();
+  out.controls = target.character.controls.size();
+  std::vector<dam::SentencePair> pairs;
+  std::vector<const dam::Utterance*> recorded;
+  for (std::size_t i = 0; i < second.tracks.size(); ++i) {
+    const auto blend =
+        need(dam::fit_blend(second.tracks[i], keys.shapes, second.regions, second.fit));
+    out.residual += blend.residual / double(second.tracks.size());
+    const auto made =
+        need(crossmap::fit_target(target, blend, second.tracks[i].rate, fit.controls_fit));
+    pairs.push_back({halves.measured[i], shown(target, made.signal, second.face->faps)});
+    recorded.push_back(&halves.measured[i]);
   }
-  std::vector<const Utterance*> all;
-  for (const auto& p : pairs) all.push_back(&p.recorded);
-  ScoreOptions score_options;
-  for (Control& c : recording_scale(all)) {
-    if (std::find(character.controls.begin(), character.controls.end(), c.name) !=
-        character.controls.end()) {
-      score_options.scale.push_back(c);
+  dam::ScoreOptions options;
+  const auto& names = pairs[0].made.names;
+  for (dam::Control& control : dam::recording_scale(recorded)) {
+    if (std::find(names.begin(), names.end(), control.name) != names.end()) {
+      options.scale.push_back(control);
     }
   }
-  return need(score(pairs, score_options));
+  out.evaluation = need(dam::score(pairs, options));
+  return out;
+}
+
+void print_row(const char* name, const Scored& scored) {
+  double squares = 0, count = 0;
+  for (const dam::SeriesScore& series : scored.evaluation.controls) {
+    if (!series.scored) continue;
+    squares += series.rmse * series.rmse;
+    ++count;
+  }
+  const dam::ClosureScore& closure = scored.evaluation.closure;
+  std::printf("| %s | %zu | %zu | %.2f | %.1f | %.3f | %.1f %% (%.1f %%) |\n", name, scored.keys,
+              scored.controls, scored.residual, std::sqrt(squares / count),
+              scored.evaluation.correlation, 100 * closure.predicted, 100 * closure.measured);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2) return 2;
-  const Material material = read(argv[1]);
-  std::printf("%zu sentences, %zu FAPs\n", material.tracks.size(), material.face.faps.size());
-  for (const std::size_t count : {0, 6, 10, 14, 20, 30}) {
-    KeyFrames found;
-    const KeyShapes keys = keys_of(material, {.count = count}, found);
-    for (int variant = 0; variant < 4; ++variant) {
-      BlendOptions options;
-      options.convex = variant >= 2;
-      if (variant % 2) options.contacts = material.contacts;
-      double residual = 0;
-      const Evaluation e = run(material, keys, options, residual);
-      const char* names[] = {"free", "free, contacts", "convex", "convex, contacts"};
-      row(names[variant], e, residual, keys.names.size());
+  if (argc != 2) {
+    std::fputs("usage: crossmap_table SHARED_DATA\n", stderr);
+    return 2;
+  }
+  const fs::path data = argv[1];
+  const Halves halves = read_halves(data / "grid_s1");
+  std::printf("%zu sentences for key shapes, %zu scored\n\n", halves.search.inputs.size(),
+              halves.fit.inputs.size());
+  std::printf(
+      "| target | key shapes | controls | residual, px | RMS, FAP units | correlation | closed "
+      "(measured) |\n|---|---|---|---|---|---|---|\n");
+  Project project;
+  const Scored faps = run(halves, project);
+  print_row("FAPs", faps);
+  for (const std::size_t count : {6, 10, 14, 30}) {
+    Project some = project;
+    some.search.count = count;
+    print_row("FAPs", run(halves, some));
+  }
+  Project other = project;
+  other.fit.contact_weight = 0;
+  print_row("FAPs, no contacts", run(halves, other));
+  other = project;
+  other.fit.convex = true;
+  print_row("FAPs, convex", run(halves, other));
+  other = project;
+  other.fit.smooth = 0.04;
+  print_row("FAPs, smoothed by 40 ms", run(halves, other));
+  other = project;
+  other.to = "arkit";
+  print_row("ARKit's shapes", run(halves, other));
+  const fs::path ict = data / "ict_facekit";
+  if (fs::exists(ict / "jawOpen.obj.gz")) {
+    const test::TempDir folder;
+    const auto file = [&](const std::string& name) {
+      unpack(ict / (name + ".obj.gz"), folder / (name + ".obj"));
+      return folder / (name + ".obj");
+    };
+    other.to = file("generic_neutral_mesh");
+    other.head_points = (ict / "ict_feature_points.csv").string();
+    for (const char* name :
+         {"jawOpen", "mouthClose", "mouthFunnel", "mouthPucker", "mouthSmile_L", "mouthSmile_R"}) {
+      other.shapes.push_back(file(name));
+    }
+    print_row("ICT-FaceKit, six shapes as meshes", run(halves, other));
+  }
+  std::printf("\n| FAP | RMS | correlation |\n|---|---|---|\n");
+  for (const dam::SeriesScore& series : faps.evaluation.controls) {
+    if (series.scored) {
+      std::printf("| %s | %.1f | %.3f |\n", series.name.c_str(), series.rmse, series.correlation);
     }
   }
 }

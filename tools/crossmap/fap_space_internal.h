@@ -19,6 +19,9 @@ class FapSpace {
   std::vector<double> lengths(const std::vector<double>& values) const;
   /// Of a frame; FAPs that it does not have are 0.
   std::vector<double> lengths(const fap::Frame& frame) const;
+  /// How much of what a frame does to a face lies in faps(): a share of squared lengths, 0..1; of
+  /// FAPs that move points. 1 if it does nothing.
+  double seen_share(const fap::Frame& frame) const;
 
  private:
   std::vector<int> faps_;

@@ -17,6 +17,12 @@ namespace {
 
 using Values = std::vector<double>;
 
+// A control that does most of its work where no point was captured is left alone unless it is
+// named: a cheek that squints raises the corner of the mouth a little, and would be used for that.
+// Of ARKit's shapes with points of lips and chin in a picture these are jawForward, cheekPuff and
+// cheekSquint (0.04 to 0.23); all others are above 0.4.
+constexpr double kSeenEnough = 0.3;
+
 struct Limits {
   double low = 0, high = 1;
 };
@@ -194,6 +200,7 @@ Result<Target> arkit_target(const Project& project, const Capture& capture, cons
     const fap::Frame frame = fap::arkit_to_fap(weights, fap::kAllArkit);
     const Values lengths = space.lengths(frame);
     if (std::all_of(lengths.begin(), lengths.end(), [](double v) { return v == 0; })) continue;
+    if (project.controls.empty() && space.seen_share(frame) < kSeenEnough) continue;
     add_control(out, name, {0, 1});
     frames.push_back(frame);
   }
@@ -299,14 +306,21 @@ Result<Target> mesh_target(const Project& project, const Capture& capture, const
   out.kind = TargetKind::mesh;
   auto mesh = load_mesh(project, talk);
   if (!mesh) return mesh.error();
+  // Without FAPs there is no guess, and with none of these controls nothing to be guessed.
+  const FapSpace space(capture.face ? capture.face->faps : std::vector<int>());
+  if (project.controls.empty() && capture.face) {
+    std::vector<MeshControl> seen;
+    for (const MeshControl& control : mesh->controls) {
+      if (space.seen_share(control.faps) >= kSeenEnough) seen.push_back(control);
+    }
+    if (!seen.empty()) mesh->controls = std::move(seen);
+  }
   out.mesh = std::move(*mesh);
   std::vector<fap::Frame> frames;
   for (const MeshControl& control : out.mesh->controls) {
     add_control(out, control.name, {control.low, control.high});
     frames.push_back(control.faps);
   }
-  // Without FAPs there is no guess, and with none of these controls nothing to be guessed.
-  const FapSpace space(capture.face ? capture.face->faps : std::vector<int>());
   const bool told = std::any_of(frames.begin(), frames.end(), [&](const fap::Frame& frame) {
     const Values lengths = space.lengths(frame);
     return std::any_of(lengths.begin(), lengths.end(), [](double v) { return v != 0; });

@@ -38,7 +38,10 @@ struct Target {
 /// A key shape looks like what the artist says: KEY.obj in the folder of key shapes (heads), else
 /// its row of controls.csv there. Of others the guess is: the FAPs of its captured points, and the
 /// controls whose FAPs come nearest to them (least squares over lengths on a usual face, with the
-/// distances of the lips three times, 0 <= c <= 1).
+/// distances of the lips six times, 0 <= c <= 1).
+///
+/// Controls that are not named (Project::controls) and do less than a third of their work where
+/// points were captured are left out.
 ///
 /// Errors: those of the readers, with the file; Capture::no_face and not_found (a shape that nobody
 /// adjusted and that cannot be guessed: the remedy is named).

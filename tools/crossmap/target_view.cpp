@@ -72,13 +72,20 @@ struct TargetView::State {
   std::vector<head::Triangle> triangles;
   std::vector<float> open_sky;
 
-  // Meshes of others are wound either way, and inside of a mouth both sides are seen.
+  // Meshes of others are wound either way. What of them looks at the camera is their outside.
   void prepare_mesh() {
     const TargetMesh& mesh = *target.mesh;
     aim = aim_of(mesh);
+    const float near = 0.5f * aim.size;
+    float forward = 0;
     for (const head::Triangle& t : mesh.triangles) {
-      triangles.push_back(t);
-      triangles.push_back({t[0], t[2], t[1]});
+      const Vec3 a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
+      const Vec3 off = a - aim.middle;
+      if (std::abs(off.x) < near && std::abs(off.y) < near) forward += cross(b - a, c - a).z;
+    }
+    triangles = mesh.triangles;
+    if (forward < 0) {
+      for (head::Triangle& t : triangles) std::swap(t[1], t[2]);
     }
     open_sky.assign(mesh.vertices.size(), 1.0f);
   }
@@ -91,15 +98,11 @@ struct TargetView::State {
     for (std::size_t v = 0; v < places.size(); ++v) {
       places[v] = (mesh.vertices[v] + moves[v] - aim.middle) * scale;
     }
-    for (const head::Triangle& t : mesh.triangles) {
+    for (const head::Triangle& t : triangles) {
       const Vec3 n = cross(places[t[1]] - places[t[0]], places[t[2]] - places[t[0]]);
       for (const std::uint32_t v : t) normals[v] += n;
     }
-    float forward = 0;  // of what is seen: outsides look at the camera
-    for (std::size_t v = 0; v < normals.size(); ++v) {
-      if (std::abs(places[v].x) < 5 && std::abs(places[v].y) < 5) forward += normals[v].z;
-    }
-    for (Vec3& n : normals) n = normalised(forward < 0 ? n * -1.0f : n);
+    for (Vec3& n : normals) n = normalised(n);
     render::Scene scene;
     scene.surfaces.push_back({places, normals, mesh.colours, open_sky, triangles,
                               head::Material::skin, head::Transform{}});
