@@ -181,43 +181,75 @@ Result<TargetMesh> load_obj(const Project& project) {
   return out;
 }
 
-// A control of each shape of a head, or of each FAP that moves it.
-void add_head_controls(const head::Head& head, TargetMesh& out) {
+constexpr float kFullFap = 256;  // units at which a FAP's moves are looked at
+
+// Numbers of the vertices of a head's parts in write_obj().
+std::array<std::uint32_t, head::kPartCount> first_vertices(const head::Head& head) {
   std::array<std::uint32_t, head::kPartCount> first{};
   std::uint32_t count = 0;
   for (std::size_t p = 0; p < head.parts.size(); ++p) {
     first[p] = count;
     count += std::uint32_t(head.parts[p].positions.size());
   }
-  const head::Rig rig = head::make_rig(head);
-  std::map<int, std::size_t> place;
-  for (std::size_t s = 0; s < head.shapes.size(); ++s) {
-    place[head::kFirstShape + int(s)] = out.controls.size();
-    out.controls.push_back({head.shapes[s].name, 0, 1, head.shapes[s].faps, {}});
+  return first;
+}
+
+// A control of each shape of a head.
+void add_shapes(const head::Head& head, const head::Rig& rig, TargetMesh& out) {
+  const auto first = first_vertices(head);
+  for (const head::ShapeControl& shape : head.shapes) {
+    out.controls.push_back({shape.name, 0, 1, shape.faps, {}});
   }
   for (const head::Target& target : rig.targets) {
-    const bool shape = target.control >= head::kFirstShape;
-    if (shape == head.shapes.empty()) continue;
-    if (!shape && !place.contains(target.control)) {
-      place[target.control] = out.controls.size();
-      const fap::FapInfo& info = fap::info(target.control);
-      const double reach = double(info.default_i_range) * info.quant_step;
-      MeshControl control{dam::fap_channel(target.control), -reach, reach, {}, {}};
-      control.faps.set(target.control, 1);
-      out.controls.push_back(std::move(control));
-    }
-    const auto at = place.find(target.control);
-    if (at == place.end()) continue;
-    // Curves of straight pieces are taken as the line to their value at 1, or at 256 FAP units.
-    const float full = shape ? head::kFullShape : 256.0f;
-    const float units = target.units(full) / (shape ? 1.0f : full);
-    if (units == 0) continue;
-    auto& moves = out.controls[at->second].moves;
+    if (target.control < head::kFirstShape) continue;
+    const float units = target.units(head::kFullShape);
+    auto& moves = out.controls[std::size_t(target.control - head::kFirstShape)].moves;
     for (std::size_t i = 0; i < target.vertices.size(); ++i) {
       moves.emplace_back(first[std::size_t(target.part)] + target.vertices[i],
                          target.deltas[i] * units);
     }
   }
+}
+
+// All vertices of a head in a pose.
+std::vector<Vec3> posed(const head::Head& head, const head::Rig& rig, const fap::Frame& frame) {
+  const head::Pose pose = head::pose(rig, frame, {.contact = false, .follow = false});
+  std::vector<Vec3> out;
+  for (std::size_t p = 0; p < head.parts.size(); ++p) {
+    const auto& places = pose.positions[p].empty() ? rig.parts[p].positions : pose.positions[p];
+    for (const Vec3& place : places) out.push_back(pose.transforms[p](place));
+  }
+  return out;
+}
+
+// A control of each FAP that moves a head and no bone: what the head does at kFullFap, as a line.
+void add_faps(const head::Head& head, const head::Rig& rig, TargetMesh& out) {
+  const std::vector<Vec3> rest = posed(head, rig, {});
+  for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+    const auto moves_it = [&](const head::Target& target) { return target.control == fap; };
+    if (std::none_of(rig.targets.begin(), rig.targets.end(), moves_it) ||
+        fap::move_of(fap).kind != fap::MoveKind::translate) {
+      continue;
+    }
+    fap::Frame frame;
+    frame.set(fap, std::int32_t(kFullFap));
+    const std::vector<Vec3> full = posed(head, rig, frame);
+    const fap::FapInfo& info = fap::info(fap);
+    const double reach = double(info.default_i_range) * info.quant_step;
+    MeshControl control{dam::fap_channel(fap), -reach, reach, {}, {}};
+    control.faps.set(fap, 1);
+    for (std::size_t v = 0; v < full.size(); ++v) {
+      const Vec3 move = (full[v] - rest[v]) * (1 / kFullFap);
+      if (length(move) > kStill) control.moves.emplace_back(std::uint32_t(v), move);
+    }
+    out.controls.push_back(std::move(control));
+  }
+}
+
+void add_head_controls(const head::Head& head, TargetMesh& out) {
+  const head::Rig rig = head::make_rig(head);
+  if (head.shapes.empty()) return add_faps(head, rig, out);
+  add_shapes(head, rig, out);
   for (MeshControl& control : out.controls) {
     auto& moves = control.moves;
     std::stable_sort(moves.begin(), moves.end(),
