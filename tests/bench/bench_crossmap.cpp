@@ -68,6 +68,33 @@ void controls_0_to_1_afresh(benchmark::State& state) { measure(state, 1, false);
 void nonnegative(benchmark::State& state) {
   measure(state, std::numeric_limits<double>::infinity(), true);
 }
+
+// As fit_controls() does it: vertices are mixtures of 21 key shapes, so that only their products
+// are mixed.
+void controls_of_mixtures(benchmark::State& state) {
+  const Material material(600);
+  BoundedLeastSquares fit(material.matrix, material.rows, kControls, {.high = 1});
+  constexpr std::size_t kKeys = 21;
+  std::vector<std::vector<double>> products;
+  for (std::size_t k = 0; k < kKeys; ++k) {
+    products.push_back(fit.products(material.target(k * kFrames / kKeys)));
+  }
+  std::vector<double> mixed(kControls);
+  std::size_t frame = 0;
+  for (auto _ : state) {
+    std::fill(mixed.begin(), mixed.end(), 0.0);
+    // Three shapes at a time, that fade into each other.
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t key = (frame / 10 + k) % kKeys;
+      const double share = k == 1 ? 0.5 : 0.25 + (k == 0 ? -0.025 : 0.025) * double(frame % 10);
+      for (std::size_t c = 0; c < kControls; ++c) mixed[c] += share * products[key][c];
+    }
+    benchmark::DoNotOptimize(fit.fit_products(mixed).data());
+    ++frame;
+  }
+  state.counters["frames/s"] = benchmark::Counter(double(frame), benchmark::Counter::kIsRate);
+}
+BENCHMARK(controls_of_mixtures);
 BENCHMARK(controls_0_to_1)->Arg(126)->Arg(600);
 BENCHMARK(controls_0_to_1_afresh)->Arg(126);
 BENCHMARK(nonnegative)->Arg(126);

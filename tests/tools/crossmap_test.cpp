@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "dam/evaluation/evaluate.h"
 #include "dam/signal/closure.h"
@@ -18,7 +17,6 @@ namespace crossmap_test {
 
 using namespace test;
 using testing::HasSubstr;
-using testing::Not;
 
 // A folder with six sentences as points.
 class CrossmapCommand : public testing::Test {
@@ -116,7 +114,7 @@ TEST_F(CrossmapCommand, AdjustedControlsAreWhatTheTargetDoes) {
   succeeds(command({"--csv", "--keys", dir / "keys", "-o", dir / "b.csv"}));
   const auto after = curves("b.csv");
   const auto frame = std::size_t(std::lround(keys[2]["at_s"].get<double>() * 25));
-  EXPECT_NEAR(after.at(frame, 0), 700, 15);  // alpha is 1 there
+  EXPECT_NEAR(after.at(frame, 0), 700, 35);  // alpha is about 1 there, the ridge shares a little
   EXPECT_THAT(slurp(dir / "keys/sheet.svg"), HasSubstr("<image"));
   ASSERT_EQ(before.frames(), after.frames());
 }
@@ -329,8 +327,10 @@ TEST_F(CrossmapCommand, RegionsAndWeightsOfAProject) {
 }
 
 TEST_F(CrossmapCommand, TheSameInputGivesTheSameBytes) {
-  succeeds(command({"--to", "arkit", "-o", dir / "one.csv", "--picture", dir / "one.svg"}));
-  succeeds(command({"--to", "arkit", "-o", dir / "two.csv", "--picture", dir / "two.svg"}));
+  for (const char* name : {"one", "two"}) {
+    succeeds(command({"--to", "arkit", "-o", dir / (std::string(name) + ".csv")}));
+    succeeds(command({"--to", "keys", "--picture", dir / (std::string(name) + ".svg")}));
+  }
   EXPECT_EQ(slurp(dir / "one.csv"), slurp(dir / "two.csv"));
   EXPECT_EQ(slurp(dir / "one.svg"), slurp(dir / "two.svg"));
   EXPECT_THAT(slurp(dir / "one.svg"), HasSubstr("Key shapes"));
