@@ -23,7 +23,8 @@ namespace animeme::dam {
 /// else that the controls move in proportion.
 struct Character {
   std::vector<std::string> controls;  ///< names
-  std::vector<double> lows, highs;    ///< of each control; as a rule 0 and 1
+  std::vector<double> lows;           ///< of each control, as a rule 0
+  std::vector<double> highs;          ///< of each control, as a rule 1
   std::size_t rows = 0;               ///< of a shape
   std::vector<double> moves;          ///< B: rows x controls, what 1 of each control does
   std::vector<double> keys;           ///< V: key shapes x rows

@@ -60,7 +60,8 @@ inline constexpr Room kRooms[] = {
     {"tools/studio", "fap/xml tools/gltf tools/plot tools/render"},
     {"tools/crossmap", "tools/exchange tools/studio"},
     {"tools/check", "conformance tools/files tools/xml.h", false},
-    {"tools/commands", "tools/crossmap tools/exchange tools/inspect tools/live tools/studio tools/check", false},
+    {"tools/commands",
+     "tools/crossmap tools/exchange tools/inspect tools/live tools/studio tools/check", false},
     {"tools", "tools/commands", false},
 
     // Tests of a room may use its neighbours to make what they test.

@@ -103,8 +103,7 @@ Result<Project> project_of(const CrossmapOptions& options) {
   if (options.convex) out.fit.convex = true;
   for (const std::string& text : options.fapu) {
     const std::size_t at = text.find('=');
-    const auto value =
-        at == std::string::npos ? std::nullopt : number_of_text(text.substr(at + 1));
+    const auto value = at == std::string::npos ? std::nullopt : number_of_text(text.substr(at + 1));
     if (!value) {
       return make_error(Code::invalid_argument,
                         "--fapu: '" + text + "' is no FAP unit; write MW=50");

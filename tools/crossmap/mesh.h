@@ -19,9 +19,10 @@ namespace animeme::crossmap {
 
 /// What one control does at 1.
 struct MeshControl {
-  std::string name;          ///< as its maker calls it, or of a FAP: "fap3_open_jaw"
-  double low = 0, high = 1;  ///< its limits; of FAPs those of streams
-  fap::Frame faps;           ///< the FAPs it shows at 1; none: not known
+  std::string name;  ///< as its maker calls it, or of a FAP: "fap3_open_jaw"
+  double low = 0;    ///< its lower limit
+  double high = 1;   ///< its upper limit; of FAPs both are those of streams
+  fap::Frame faps;   ///< the FAPs it shows at 1; none: not known
   std::vector<std::pair<std::uint32_t, head::Vec3>> moves;  ///< vertices, ascending
 };
 

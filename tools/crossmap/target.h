@@ -25,11 +25,11 @@ enum class TargetKind : std::uint8_t {
 
 /// A character that is ready to be fitted.
 struct Target {
-  TargetKind kind = TargetKind::faps;
-  dam::Character character;        ///< rows 0: its values are mixed, see dam::mix_controls()
-  std::vector<double> values;      ///< of each control in each key shape: keys x controls
-  std::vector<bool> adjusted;      ///< per key shape; false: the first guess
-  std::optional<TargetMesh> mesh;  ///< of heads
+  TargetKind kind = TargetKind::faps;  ///< what moves it
+  dam::Character character;            ///< rows 0: its values are mixed, see dam::mix_controls()
+  std::vector<double> values;          ///< of each control in each key shape: keys x controls
+  std::vector<bool> adjusted;          ///< per key shape; false: the first guess
+  std::optional<TargetMesh> mesh;      ///< of heads
   std::vector<std::vector<head::Vec3>> mesh_keys;  ///< of heads: displacements of all vertices
 };
 
