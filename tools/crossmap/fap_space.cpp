@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "fap/tables.h"
+
 namespace animeme::crossmap {
 namespace {
 
@@ -42,13 +44,21 @@ std::vector<double> FapSpace::lengths(const fap::Frame& frame) const {
 }
 
 double FapSpace::seen_share(const fap::Frame& frame) const {
+  // Inner and outer lips and the jaw are one neighbourhood.
+  const auto place = [](int fap) {
+    const int group = fap::info(fap).group;
+    return std::pair(group == 8 ? 2 : group, fap::move_of(fap).axis[2] != 0);
+  };
   double seen = 0, all = 0;
   for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
     const auto f = std::size_t(fap);
     if (!frame.mask[f] || fap::move_of(fap).kind != fap::MoveKind::translate) continue;
     const double length = fap::displacement(fap, frame.value[f], kUsualFace);
     all += length * length;
-    if (std::find(faps_.begin(), faps_.end(), fap) != faps_.end()) seen += length * length;
+    if (std::any_of(faps_.begin(), faps_.end(),
+                    [&](int captured) { return place(captured) == place(fap); })) {
+      seen += length * length;
+    }
   }
   return all > 0 ? seen / all : 1;
 }

@@ -19,8 +19,9 @@ class FapSpace {
   std::vector<double> lengths(const std::vector<double>& values) const;
   /// Of a frame; FAPs that it does not have are 0.
   std::vector<double> lengths(const fap::Frame& frame) const;
-  /// How much of what a frame does to a face lies in faps(): a share of squared lengths, 0..1; of
-  /// FAPs that move points. 1 if it does nothing.
+  /// How much of what a frame does to a face lies where points of faps() are: in the same groups
+  /// of FAPs (lips and jaw are one), and forwards only if some of faps() are forwards. A share of
+  /// squared lengths, 0..1; 1 if it does nothing.
   double seen_share(const fap::Frame& frame) const;
 
  private:

@@ -57,7 +57,8 @@ Result<Keys> found_keys(const Project& project, const Capture& capture, const to
     return make_error(Code::not_found, "nothing moves in the recordings: there is no key shape");
   }
   talk.say(std::to_string(out.shapes.names.size()) + " key shapes, by affinity propagation of " +
-           std::to_string(found->compared) + " frames");
+           std::to_string(found->compared) + " frames" +
+           (found->keys.size() > out.shapes.names.size() ? ", without the face at rest" : ""));
   if (!found->converged) {
     talk.warn(
         "affinity propagation did not come to rest; another number of key shapes or more "

@@ -20,7 +20,7 @@ using Values = std::vector<double>;
 // A control that does most of its work where no point was captured is left alone unless it is
 // named: a cheek that squints raises the corner of the mouth a little, and would be used for that.
 // Of ARKit's shapes with points of lips and chin in a picture these are jawForward, cheekPuff and
-// cheekSquint (0.04 to 0.23); all others are above 0.4.
+// cheekSquint (0.04 to 0.23); all others of jaw and mouth are above 0.4.
 constexpr double kSeenEnough = 0.3;
 
 struct Limits {
