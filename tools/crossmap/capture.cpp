@@ -255,7 +255,8 @@ Result<std::vector<dam::FacePoint>> mapped_points(const Project& project, const 
   }
   if (project.face.empty()) return dam::face_points(names, layout);
   std::vector<dam::FacePoint> out;
-  for (const auto& [id, name] : project.face) {
+  for (const auto& pair : project.face) {
+    const std::string &id = pair.first, &name = pair.second;
     const Names ids = {id};
     if (dam::face_points(ids).empty()) {
       return refused("face: '" + id +
