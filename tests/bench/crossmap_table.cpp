@@ -1,7 +1,8 @@
 // Prints the tables of tools/crossmap/README.md: grid_s1/lips by key shapes to FAPs, to ARKit's
 // shapes and to the mesh of ICT-FaceKit, beside the FAPs that were measured on the same points. Key
 // shapes are those of every other sentence; the rest is scored.
-//   build/release/bin/crossmap_table SHARED_DATA          (the folder with grid_s1 and ict_facekit)
+//   build/release/bin/crossmap_table SHARED_DATA [--swap]   (the folder with grid_s1 and
+//   ict_facekit; the halves change places)
 #include <zlib.h>
 
 #include <algorithm>
@@ -44,12 +45,12 @@ struct Halves {
   std::vector<dam::Utterance> measured;  // of the second
 };
 
-Halves read_halves(const fs::path& grid) {
+Halves read_halves(const fs::path& grid, bool swap) {
   Halves out;
   dam::Corpus corpus = need(dam::read_corpus(grid));
   std::sort(corpus.utterances.begin(), corpus.utterances.end(),
             [](const auto& a, const auto& b) { return a.id < b.id; });
-  bool first = false;
+  bool first = swap;
   for (dam::Utterance& utterance : corpus.utterances) {
     const fs::path lips = grid / "lips" / (utterance.id + ".csv");
     if (!fs::exists(lips)) continue;
@@ -139,12 +140,13 @@ void print_row(const char* name, const Scored& scored) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fputs("usage: crossmap_table SHARED_DATA\n", stderr);
+  const bool swap = argc == 3 && std::string_view(argv[2]) == "--swap";
+  if (argc != 2 && !swap) {
+    std::fputs("usage: crossmap_table SHARED_DATA [--swap]\n", stderr);
     return 2;
   }
   const fs::path data = argv[1];
-  const Halves halves = read_halves(data / "grid_s1");
+  const Halves halves = read_halves(data / "grid_s1", swap);
   std::printf("%zu sentences for key shapes, %zu scored\n\n", halves.search.inputs.size(),
               halves.fit.inputs.size());
   std::printf(
