@@ -12,6 +12,7 @@ here=$(cd "$(dirname "$0")/.." && pwd)
 packages="
   g++ cmake ninja-build pkg-config ca-certificates
   libeigen3-dev libcli11-dev nlohmann-json3-dev libpng-dev libjpeg-dev libwebp-dev
+  libtomlplusplus-dev
   libavformat-dev libavcodec-dev libavutil-dev libswresample-dev libswscale-dev
   libwebsockets-dev zlib1g-dev libxml2-dev
   libespeak-ng-dev espeak-ng-data

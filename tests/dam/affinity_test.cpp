@@ -1,4 +1,4 @@
-#include "dam/kinds/animeme/affinity.h"
+#include "dam/maths/affinity.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// Writes the seeds of fuzz_curves, fuzz_case and fuzz_lines: make_corpus_tables CORPUS
+// Writes the seeds of fuzz_curves, fuzz_case, fuzz_lines and fuzz_c3d: make_corpus_tables CORPUS
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "conformance/case_file.h"
+#include "tests/support/c3d_writer.h"
 
 namespace {
 
@@ -31,6 +33,48 @@ class Random {
  private:
   std::uint64_t state_ = 2026;
 };
+
+// Markers: each processor, both kinds of numbers, some of them hidden; and tables of points.
+void captured(Random& random) {
+  for (int i = 0; i < 12; ++i) {
+    test::C3dFile file;
+    file.processor = test::C3dFile::Processor(84 + i % 3);
+    file.scale = i % 2 == 0 ? -1 : 0.05;
+    file.rate = i % 4 == 3 ? 119.88 : 100;
+    file.analogue = i % 5 == 4 ? 6 : 0;
+    for (int m = 0; m <= i % 4; ++m) file.labels.push_back("M" + std::to_string(m % 3));
+    for (int frame = 0; frame < 3 + i; ++frame) {
+      file.frames.emplace_back();
+      for (std::size_t k = 0; k < 4 * file.labels.size(); ++k) {
+        file.frames.back().push_back(k % 4 == 3 ? double(random.next(3)) - 1
+                                                : double(random.next(2000)) / 10 - 100);
+      }
+    }
+    const auto bytes = file.bytes();
+    seed("c3d", "markers_" + std::to_string(i) + ".c3d", std::string(bytes.begin(), bytes.end()));
+  }
+  const char* headers[] = {"time_s,a_x,a_y", "time_s;x61;y61", "timestamp\tUL.x\tUL.y\tUL.z",
+                           "frame,timestamp,success,x_0,y_0,X_0,Y_0,Z_0", "a_x,a_y"};
+  for (int i = 0; i < 10; ++i) {
+    std::string text = headers[i % 5];
+    const std::size_t columns = 1 + std::size_t(std::count_if(text.begin(), text.end(), [](char c) {
+                                  return c == ',' || c == ';' || c == '\t';
+                                }));
+    const char separator = i % 5 == 1 ? ';' : i % 5 == 2 ? '\t' : ',';
+    for (int row = 0; row < 4; ++row) {
+      text += '\n';
+      for (std::size_t c = 0; c < columns; ++c) {
+        if (c > 0) text += separator;
+        if (c == 0 || (i % 5 == 3 && c == 1)) {
+          text += std::to_string(row * 0.04);
+        } else if (random.next(6) > 0) {
+          text += std::to_string(int(random.next(200)));
+        }
+      }
+    }
+    seed("c3d", "table_" + std::to_string(i) + ".csv", text + "\n");
+  }
+}
 
 // Curves as corpora hold them: rates, columns, endings and marks differ.
 void curves(Random& random) {
@@ -186,5 +230,7 @@ int main(int argc, char** argv) {
   rows();
   cases(random);
   lines();
+  Random own;  // so that the seeds above stay what they are
+  captured(own);
   return 0;
 }

@@ -29,6 +29,7 @@ inline constexpr Room kRooms[] = {
     {"dam/maths", ""},
     {"dam/script", "fap"},
     {"dam/signal", "dam/script dam/maths"},
+    {"dam/crossmap", "dam/signal"},
     {"dam/model", "dam/signal"},
     {"dam/corpus", "dam/model"},
     {"dam/speaking", "dam/model"},
@@ -45,7 +46,7 @@ inline constexpr Room kRooms[] = {
 
     {"tools/xml.h tools/json.h tools/text.h tools/exit_code.h", "fap", false},
     {"tools/files", "fap"},
-    {"tools/exchange", "codec/text dam/corpus"},
+    {"tools/exchange", "codec/text dam/corpus dam/crossmap"},
     {"tools/render", "fap/head"},
     {"tools/gltf", "fap/head"},
     {"tools/media tools/media/live", "codec/decode fap/xml tools/files"},
@@ -58,10 +59,12 @@ inline constexpr Room kRooms[] = {
     {"tools/inspect", "codec/text dam/evaluation dam/training tools/xml.h"},
     {"tools/live", "tools/speech tools/viewer tools/web"},
     {"tools/studio", "fap/xml tools/gltf tools/plot tools/render"},
+    {"tools/crossmap", "tools/exchange tools/studio"},
     {"tools/check", "conformance tools/files tools/xml.h", false},
     {"tools/capture", "tools/exchange tools/speech tools/check", false},
     {"tools/commands",
-     "tools/capture tools/exchange tools/inspect tools/live tools/sheet tools/studio tools/check",
+     "tools/capture tools/crossmap tools/exchange tools/inspect tools/live tools/sheet "
+     "tools/studio tools/check",
      false},
     {"tools", "tools/commands", false},
 
@@ -87,6 +90,7 @@ inline constexpr Library kLibraries[] = {
     {"libwebsockets", "libwebsockets", "tools/web/detail"},
     {"zlib", "zlib", "tools/render tools/viewer tools/web/detail tests"},
     {"libpng, libjpeg, libwebp", "png jpeglib jerror webp/", "tools/gltf/detail tests"},
+    {"toml++", "toml++/", "tools/crossmap", true},
     {"nlohmann_json", "nlohmann/", "tools conformance tests"},
     {"CLI11", "CLI/", "tools/commands tools/main.cpp tests/bench"},
     {"GoogleTest", "gtest/ gmock/ benchmark/", "tests"},

@@ -40,9 +40,9 @@ struct Command {
 
 /// @{
 /// The commands of the program, one file each.
-extern const Command kAlign, kCheck, kCompare, kCorpus, kDecode, kDemux, kEncode, kEvaluate,
-    kExport, kFollow, kHead, kImport, kInfo, kMux, kPlot, kReceive, kRender, kSpeak, kStats,
-    kStream, kTrain, kView;
+extern const Command kAlign, kCheck, kCompare, kCorpus, kCrossmap, kDecode, kDemux, kEncode,
+    kEvaluate, kExport, kFollow, kHead, kImport, kInfo, kMux, kPlot, kReceive, kRender, kSpeak,
+    kStats, kStream, kTrain, kView;
 /// @}
 
 /// Prints a usage error on standard error; returns kUsage for the command to return.

@@ -5,7 +5,7 @@
 #include <map>
 #include <tuple>
 
-#include "dam/kinds/animeme/affinity.h"
+#include "dam/maths/affinity.h"
 #include "dam/maths/parallel.h"
 #include "dam/maths/spline.h"
 
