@@ -71,8 +71,8 @@ struct Evaluation : RegionScore {  ///< the speech
   /// 7, 12, 13, 53, 54, 59, 60: means over those that are scored and move; only groups that have
   /// any.
   std::vector<DynamicsScore> group_dynamics;
-  Breakdown breakdown;                         ///< by phone, viseme and what training saw
-  std::vector<UtteranceScore> per_utterance;   ///< in the order given
+  Breakdown breakdown;                        ///< by phone, viseme and what training saw
+  std::vector<UtteranceScore> per_utterance;  ///< in the order given
   /// Mean of UtteranceScore::gap_correlation: how alike the motion is, however large a speaker
   /// makes it. The measure for speakers that the model does not know.
   double gap_correlation = 0;

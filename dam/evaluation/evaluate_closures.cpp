@@ -11,8 +11,8 @@
 namespace animeme::dam {
 namespace {
 
-constexpr double kFalseMargin = 0.060;  // seconds
-constexpr double kEdgeReach = 0.200;    // seconds from the least gap to the edge of the closure
+constexpr double kFalseMargin = 0.060;     // seconds
+constexpr double kEdgeReach = 0.200;       // seconds from the least gap to the edge of the closure
 constexpr double kLengthTolerance = 1e-9;  // seconds: 0.1 less 0.04 is 60 ms
 constexpr double kLengths[] = {0, 0.060, 0.100, std::numeric_limits<double>::infinity()};
 

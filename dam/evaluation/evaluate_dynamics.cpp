@@ -44,9 +44,9 @@ struct MouthPart {
   std::initializer_list<int> faps;
 };
 constexpr MouthPart kMouthParts[] = {{"jaw", {3}},
-                             {"upper lip", {4, 8, 9, 51, 55, 56}},
-                             {"lower lip", {5, 10, 11, 52, 57, 58}},
-                             {"corners", {6, 7, 12, 13, 53, 54, 59, 60}}};
+                                     {"upper lip", {4, 8, 9, 51, 55, 56}},
+                                     {"lower lip", {5, 10, 11, 52, 57, 58}},
+                                     {"corners", {6, 7, 12, 13, 53, 54, 59, 60}}};
 
 /// Means over the scored series that `wanted` says true of; nothing: there is none.
 template <class Wanted>

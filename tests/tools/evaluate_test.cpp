@@ -55,9 +55,9 @@ TempDir* Evaluate::dir_ = nullptr;
 TEST_F(Evaluate, ShortTextAndFullTables) {
   const auto brief = run({a(), corpus(), "--split", "test"});
   ASSERT_EQ(brief.exit_code, 0) << brief.err;
-  for (const char* word : {"mean NRMSE", "inner_gap", "corner_height", "P B M closed",
-                           "F V contact", "rounded", "lag", "dynamics", "in silence", "shut for",
-                           "velocity of     jaw"}) {
+  for (const char* word :
+       {"mean NRMSE", "inner_gap", "corner_height", "P B M closed", "F V contact", "rounded", "lag",
+        "dynamics", "in silence", "shut for", "velocity of     jaw"}) {
     EXPECT_THAT(brief.out, HasSubstr(word));
   }
   EXPECT_LT(std::count(brief.out.begin(), brief.out.end(), '\n'), 35);
