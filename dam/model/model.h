@@ -26,6 +26,7 @@
 #include <variant>
 #include <vector>
 
+#include "dam/signal/closure.h"
 #include "fap/rate.h"
 #include "fap/result.h"
 
@@ -141,6 +142,9 @@ enum class RefinedTerm : std::uint8_t {
   class_left_2 = 6,   ///< by class and class of the phone but one before
   class_right_2 = 7,  ///< by class and class of the phone but one behind
   phone_class = 8,    ///< by class: what a rare phone leans on
+  left = 9,           ///< by the phone before, whatever is between: what it does to all
+  right = 10,         ///< by the phone behind, likewise
+  triphone = 11,      ///< by the phone and both beside it: what the corpus has of its own
 };
 /// Largest number of Legendre coefficients of a term.
 inline constexpr std::size_t kRefinedOrders = 5;
@@ -149,7 +153,9 @@ inline constexpr std::size_t kRefinedOrders = 5;
 struct TermTable {
   RefinedTerm term = RefinedTerm::phone;  ///< which kind
   std::uint32_t orders = 0;               ///< 1..kRefinedOrders
-  std::vector<std::uint32_t> keys;  ///< ascending: phone, class, or own * 256 + class of neighbour
+  /// Ascending: phone, class, own * 256 + class of the neighbour, or (left * 256 + own) * 256 +
+  /// right.
+  std::vector<std::uint32_t> keys;
   std::vector<float> values;  ///< a_m of control c of row r at [(r * orders + m) * controls + c]
 
   friend bool operator==(const TermTable&, const TermTable&) = default;
@@ -238,6 +244,7 @@ struct Model {
   double closure_gap = 25;  ///< FAP units: inner lip gap to which P, B, M close
   /// FAP units: how far F and V raise the inner lower lip (FAP 5) towards the teeth; none: unknown.
   std::optional<double> lip_tooth_raise;
+  std::optional<ShutTime> shut;    ///< how long P, B and M keep the lips shut; none: unknown
   fap::Rate rate;                  ///< of the training signal
   std::vector<Control> controls;   ///< what it animates; all parameters are in this order
   std::vector<PhoneModel> phones;  ///< sorted by label
@@ -257,7 +264,7 @@ struct Model {
 /// with a sentence that names the first fault. read_model() returns only models that pass.
 Result<void> validate(const Model& model);
 
-/// The model file: magic "ANIMEDAM", version 2.0, little endian, CRC-32 of everything.
+/// The model file: magic "ANIMEDAM", version 2.1, little endian, CRC-32 of everything.
 /// dam/model/README.md has the layout. The same model gives the same bytes.
 std::vector<std::uint8_t> write_model(const Model& model);
 

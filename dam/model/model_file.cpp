@@ -7,7 +7,7 @@
 namespace animeme::dam {
 namespace {
 
-constexpr FileFormat kModelFormat{"ANIMEDAM", 2, 0, "model file", "train the model anew"};
+constexpr FileFormat kModelFormat{"ANIMEDAM", 2, 1, "model file", "train the model anew"};
 
 Error damaged_model(const std::string& how) { return damaged_file(kModelFormat, how); }
 
@@ -31,6 +31,13 @@ Result<Model> read_payload(ByteReader& in, bool newer_minor) {
     in.get(p.label, p.examples, p.context_class, p.duration, p.longest);
   if (auto ok = kind_of(model.method).read(in, model); !ok)
     return damaged_model(ok.error().message);
+  if (!in.at_end()) {  // since 2.1
+    const auto has_shut = in.next<std::uint8_t>();
+    ShutTime shut;
+    in.get(shut.base, shut.slope);
+    if (has_shut > 1) return damaged_model("unknown flag");
+    if (has_shut == 1) model.shut = shut;
+  }
   if (in.failed()) return damaged_model("its parts are larger than the file");
   if (!in.at_end() && !newer_minor) return damaged_model("something follows the model");
   if (auto ok = validate(model); !ok) return make_error(Code::syntax, ok.error().message);
@@ -50,6 +57,8 @@ std::vector<std::uint8_t> write_model(const Model& model) {
   for (const PhoneModel& p : model.phones)
     body.put(p.label, p.examples, p.context_class, p.duration, p.longest);
   kind_of(model.method).write(model, body);
+  const ShutTime shut = model.shut.value_or(ShutTime{});
+  body.put(std::uint8_t(model.shut ? 1 : 0), shut.base, shut.slope);
   return frame_file(kModelFormat, body.bytes);
 }
 
