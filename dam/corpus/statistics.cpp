@@ -17,6 +17,7 @@ constexpr double kCommon = 0.01;
 
 constexpr double kConstant = 1e-9;  // a smaller standard deviation is no motion
 constexpr double kOpenestClosure = 25;
+constexpr double kShutReach = 0.2;  // seconds from the least gap
 
 /// Mean and deviation of one set of frames.
 struct Moments {
@@ -174,6 +175,45 @@ void add_lip_tooth_contacts(const Utterance& utterance, std::vector<double>& low
 
 double closure_gap_of(std::optional<double> median) {
   return median ? std::clamp(*median, 0.0, kOpenestClosure) : kOpenestClosure;
+}
+
+void ShutSums::add(const Utterance& u) {
+  const auto lips = inner_lip_channels(u.signal.names);
+  if (!lips) return;
+  const auto& phones = u.script.phones;
+  for (std::size_t i = 1; i < phones.size(); ++i) {
+    const bool behind_silence =
+        phones[i - 1].label == kSilence || phones[i].start - phones[i - 1].end > kTimeTolerance;
+    if (behind_silence || !is_bilabial(phones[i].label)) continue;
+    const auto span = shut_span(u.signal, phones[i], *lips, kShutReach);
+    if (!span) continue;
+    const double d = phones[i].duration(), s = u.signal.rate.seconds(span->frames());
+    add({1, d, s, d * d, d * s});
+  }
+}
+
+void ShutSums::add(const ShutSums& o) {
+  count += o.count;
+  phone += o.phone;
+  shut += o.shut;
+  phone_squared += o.phone_squared;
+  both += o.both;
+}
+
+std::optional<ShutTime> ShutSums::line() const {
+  if (count < double(kFewContacts)) return std::nullopt;
+  // Few phones, or all of one length, tell little of the slope: as many seconds squared as ten of
+  // them spread by 50 ms hold it at 0.
+  constexpr double kPrior = 10 * 0.05 * 0.05;
+  const double spread = phone_squared - phone * phone / count;
+  const double slope = (both - phone * shut / count) / (spread + kPrior);
+  return ShutTime{(shut - slope * phone) / count, slope};
+}
+
+std::optional<ShutTime> measured_shut_time(std::span<const Utterance* const> sentences) {
+  ShutSums sums;
+  for (const Utterance* u : sentences) sums.add(*u);
+  return sums.line();
 }
 
 double measured_closure_gap(std::span<const Utterance* const> sentences) {

@@ -10,6 +10,7 @@
 
 #include "dam/corpus/corpus.h"
 #include "dam/model/model.h"
+#include "dam/signal/closure.h"
 
 namespace animeme::dam {
 
@@ -64,6 +65,18 @@ double closure_gap_of(std::optional<double> median);
 /// 0 and 25; 25 if there are no lip FAPs or fewer than five such phones. Source: dam/lipsync.md,
 /// section 6.
 double measured_closure_gap(std::span<const Utterance* const> sentences);
+
+/// Sums for ShutTime over P, B and M that do not follow a silence and shut the lips: seconds of the
+/// phone and of the closure.
+struct ShutSums {
+  double count = 0, phone = 0, shut = 0, phone_squared = 0, both = 0;
+
+  void add(const Utterance& utterance);
+  void add(const ShutSums& other);
+  /// The straight line through them; none with fewer than kFewContacts.
+  std::optional<ShutTime> line() const;
+};
+std::optional<ShutTime> measured_shut_time(std::span<const Utterance* const> sentences);
 
 /// Median over all F and V of the highest measured place of the inner lower lip (FAP 5) near the
 /// phone; none with fewer than five such phones or without lip FAPs.

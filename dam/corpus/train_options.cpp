@@ -35,7 +35,7 @@ Result<void> validate(const TrainOptions& o) {
       {"refined.offset_frames", r.offset_frames, 0.01, 1e9},
       {"refined.time_margin", r.time_margin, 0, 100},
       {"refined.duration_exponent", r.duration_exponent, 0, 2},
-      {"refined.terms", double(r.terms), 1, 0x1ff},
+      {"refined.terms", double(r.terms), 1, kAllTerms},
       {"trajectory.states", double(o.trajectory.states), 1, 8},
       {"trajectory.order", double(o.trajectory.order), 1, 4},
       {"trajectory.mean_prior", o.trajectory.mean_prior, 0, 1e6},

@@ -39,6 +39,9 @@ struct AnimemeOptions {
   double time_margin = 0.5;  ///< clamp of local time; infinity: free, as in the paper: 0..inf
 };
 
+/// One bit for each RefinedTerm.
+inline constexpr std::uint32_t kAllTerms = 0xfff;
+
 /// Settings of the method dam.
 struct RefinedOptions {
   /// Factor of all ridges: 0 chooses among 0.5, 1 and 2 by sentences that are held out, else
@@ -50,7 +53,7 @@ struct RefinedOptions {
   double duration_exponent = 0.3;  ///< strength of long phones: 0..2
   /// Terms that are learned: bit 1 << RefinedTerm. Without all of them the model is simpler, as for
   /// comparisons; RefinedTerm::phone must be among them.
-  std::uint32_t terms = 0x1ff;
+  std::uint32_t terms = kAllTerms;
 };
 
 /// Settings of the method mmm.

@@ -23,6 +23,7 @@ struct TrainingSet {
   fap::Rate rate;
   double closure_gap = 0;  ///< see Model
   std::optional<double> lip_tooth_raise;
+  std::optional<ShutTime> shut;
 };
 
 /// A training run as a kind sees it: what it may report to.

@@ -67,8 +67,12 @@ struct Evaluation : RegionScore {  ///< the speech
   TimingScore timing;      ///< lags
   DynamicsScore dynamics;  ///< mean over scored controls that move
   std::vector<DynamicsScore> series_dynamics;  ///< of `controls`, then of `measures`
-  Breakdown breakdown;                         ///< by phone, viseme and what training saw
-  std::vector<UtteranceScore> per_utterance;   ///< in the order given
+  /// "jaw" FAP 3, "upper lip" 4, 8, 9, 51, 55, 56, "lower lip" 5, 10, 11, 52, 57, 58, "corners" 6,
+  /// 7, 12, 13, 53, 54, 59, 60: means over those that are scored and move; only groups that have
+  /// any.
+  std::vector<DynamicsScore> group_dynamics;
+  Breakdown breakdown;                        ///< by phone, viseme and what training saw
+  std::vector<UtteranceScore> per_utterance;  ///< in the order given
   /// Mean of UtteranceScore::gap_correlation: how alike the motion is, however large a speaker
   /// makes it. The measure for speakers that the model does not know.
   double gap_correlation = 0;

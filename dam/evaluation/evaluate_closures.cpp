@@ -1,6 +1,7 @@
 // P, B and M, and closures where there should be none.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "dam/evaluation/evaluate_series_internal.h"
@@ -10,8 +11,10 @@
 namespace animeme::dam {
 namespace {
 
-constexpr double kFalseMargin = 0.060;  // seconds
-constexpr double kEdgeReach = 0.200;    // seconds from the least gap to the edge of the closure
+constexpr double kFalseMargin = 0.060;     // seconds
+constexpr double kEdgeReach = 0.200;       // seconds from the least gap to the edge of the closure
+constexpr double kLengthTolerance = 1e-9;  // seconds: 0.1 less 0.04 is 60 ms
+constexpr double kLengths[] = {0, 0.060, 0.100, std::numeric_limits<double>::infinity()};
 
 struct Gap {
   const std::vector<double>& values;
@@ -47,15 +50,37 @@ std::optional<std::size_t> closed_at(const Gap& gap, const FrameSpan& span) {
   return gap.closed(at) ? std::optional(at) : std::nullopt;
 }
 
+/// For how many frames the gap is below the threshold around `at`; 0: not closed.
+double shut_frames(const Gap& gap, std::optional<std::size_t> at, double reach) {
+  if (!at) return 0;
+  double frames = 0;
+  for (const std::ptrdiff_t step : {-1, 1}) {
+    const auto passed = edge(gap, *at, step, reach);
+    const double end = double(step < 0 ? *at : gap.values.size() - 1 - *at);
+    frames += passed ? std::abs(*passed - double(*at)) : std::min(reach, end);
+  }
+  return frames;
+}
+
 void add_phone(const PairSeries& pair, const Phone& phone, const Gap& made, const Gap& recorded,
-               ClosureSums& sums) {
+               bool behind_silence, ClosureSums& sums) {
   const FrameSpan span = frames_near(pair.signal(), phone, kClosureSearch);
   const auto by_made = closed_at(made, span), by_recorded = closed_at(recorded, span);
   ++sums.counts.phones;
   sums.counts.predicted += by_made ? 1 : 0;
   sums.counts.measured += by_recorded ? 1 : 0;
-  if (!by_made || !by_recorded) return;
   const double rate = pair.signal().rate.frames_per_second();
+  if (!behind_silence) {
+    const auto length = std::find_if(
+        sums.counts.shut.begin(), sums.counts.shut.end(),
+        [&](const ShutScore& one) { return phone.duration() < one.to - kLengthTolerance; });
+    ShutScore& shut = length == sums.counts.shut.end() ? sums.counts.shut.back() : *length;
+    const double reach = kEdgeReach * rate;
+    ++shut.phones;
+    shut.measured += pair.seconds(shut_frames(recorded, by_recorded, reach)) * 1000;
+    shut.predicted += pair.seconds(shut_frames(made, by_made, reach)) * 1000;
+  }
+  if (!by_made || !by_recorded) return;
   for (const std::ptrdiff_t step : {-1, 1}) {
     const auto a = edge(made, *by_made, step, kEdgeReach * rate);
     const auto b = edge(recorded, *by_recorded, step, kEdgeReach * rate);
@@ -94,6 +119,11 @@ StrayCount count_stray(const std::vector<bool>& elsewhere, const Gap& a, const G
   return count;
 }
 
+bool is_behind_silence(const std::vector<Phone>& phones, std::size_t at) {
+  return at == 0 || phones[at - 1].label == kSilence ||
+         phones[at].start - phones[at - 1].end > kTimeTolerance;
+}
+
 TimeSpread spread(const std::vector<double>& times) {
   Comparison sums;
   for (const double t : times) sums.add(t, 0);
@@ -108,11 +138,15 @@ void score_closures(const Layout& layout, const AllSeries& all, const ScoreOptio
   const auto gap = std::size_t(layout.gap);
   ClosureSums sums;
   ClosureScore& counts = sums.counts;
+  for (std::size_t i = 0; i + 1 < std::size(kLengths); ++i)
+    counts.shut.push_back({kLengths[i], kLengths[i + 1], 0, 0, 0});
   for (const PairSeries& pair : all) {
     const Gap made{pair.made[gap], options.closed_gap};
     const Gap recorded{pair.recorded[gap], options.closed_gap};
-    for (const Phone& phone : pair.script().phones)
-      if (is_bilabial(phone.label)) add_phone(pair, phone, made, recorded, sums);
+    const auto& phones = pair.script().phones;
+    for (std::size_t i = 0; i < phones.size(); ++i)
+      if (is_bilabial(phones[i].label))
+        add_phone(pair, phones[i], made, recorded, is_behind_silence(phones, i), sums);
     const auto elsewhere = frames_elsewhere(pair);
     const StrayCount predicted = count_stray(elsewhere, made, recorded);
     counts.false_closures += predicted.alone;
@@ -126,6 +160,10 @@ void score_closures(const Layout& layout, const AllSeries& all, const ScoreOptio
   counts.false_per_minute = double(counts.false_closures) / minutes;
   counts.stray_measured_per_minute = double(counts.stray_measured) / minutes;
   counts.stray_predicted_per_minute = double(counts.stray_predicted) / minutes;
+  for (ShutScore& shut : counts.shut) {
+    shut.measured /= std::max(1.0, double(shut.phones));
+    shut.predicted /= std::max(1.0, double(shut.phones));
+  }
   counts.onset = spread(sums.onset);
   counts.release = spread(sums.release);
   result.closure = counts;

@@ -1,6 +1,10 @@
 // Is the motion as lively as the recorded one? Over-smoothing shows as ratios below 1.
+#include <algorithm>
+#include <optional>
+
 #include "dam/evaluation/evaluate_series_internal.h"
 #include "dam/evaluation/evaluate_sums_internal.h"
+#include "dam/signal/fap_signal.h"
 
 namespace animeme::dam {
 namespace {
@@ -34,15 +38,24 @@ DynamicsScore score_series(const Layout& layout, const AllSeries& all, std::size
           sums[1].correlation()};
 }
 
-}  // namespace
+/// Controls that move together, as people look at a mouth.
+struct MouthPart {
+  const char* name;
+  std::initializer_list<int> faps;
+};
+constexpr MouthPart kMouthParts[] = {{"jaw", {3}},
+                                     {"upper lip", {4, 8, 9, 51, 55, 56}},
+                                     {"lower lip", {5, 10, 11, 52, 57, 58}},
+                                     {"corners", {6, 7, 12, 13, 53, 54, 59, 60}}};
 
-void score_dynamics(const Layout& layout, const AllSeries& all, Evaluation& result) {
+/// Means over the scored series that `wanted` says true of; nothing: there is none.
+template <class Wanted>
+std::optional<DynamicsScore> mean_of(const char* name, const std::vector<DynamicsScore>& all,
+                                     const Wanted& wanted) {
   double n = 0;
-  DynamicsScore mean{"mean", true, 0, 0, 0, 0, 0};
-  for (std::size_t s = 0; s < layout.series(); ++s) {
-    const DynamicsScore one = score_series(layout, all, s);
-    result.series_dynamics.push_back(one);
-    if (!one.scored) continue;
+  DynamicsScore mean{name, true, 0, 0, 0, 0, 0};
+  for (const DynamicsScore& one : all) {
+    if (!one.scored || !wanted(one)) continue;
     n += 1;
     mean.velocity += one.velocity;
     mean.acceleration += one.acceleration;
@@ -50,10 +63,29 @@ void score_dynamics(const Layout& layout, const AllSeries& all, Evaluation& resu
     mean.range += one.range;
     mean.velocity_correlation += one.velocity_correlation;
   }
+  if (n == 0) return std::nullopt;
   for (double* value :
        {&mean.velocity, &mean.acceleration, &mean.jerk, &mean.range, &mean.velocity_correlation})
-    *value /= std::max(1.0, n);
-  result.dynamics = mean;
+    *value /= n;
+  return mean;
+}
+
+}  // namespace
+
+void score_dynamics(const Layout& layout, const AllSeries& all, Evaluation& result) {
+  for (std::size_t s = 0; s < layout.series(); ++s)
+    result.series_dynamics.push_back(score_series(layout, all, s));
+  const auto any = [](const DynamicsScore&) { return true; };
+  result.dynamics = mean_of("mean", result.series_dynamics, any)
+                        .value_or(DynamicsScore{"mean", true, 0, 0, 0, 0, 0});
+  for (const MouthPart& group : kMouthParts) {
+    const auto in_group = [&](const DynamicsScore& one) {
+      return std::find(group.faps.begin(), group.faps.end(), fap_of_channel(one.name)) !=
+             group.faps.end();
+    };
+    if (const auto mean = mean_of(group.name, result.series_dynamics, in_group))
+      result.group_dynamics.push_back(*mean);
+  }
 }
 
 }  // namespace animeme::dam

@@ -43,6 +43,15 @@ struct TimeSpread {
   double sd = 0;          ///< ms
 };
 
+/// How long P, B and M of some length keep the lips shut.
+struct ShutScore {
+  double from = 0,         ///< seconds: phones at least so long
+      to = 0;              ///< and shorter than this; infinity for the longest
+  std::size_t phones = 0;  ///< that count
+  double measured = 0;     ///< ms: mean time for which the recorded gap is below the threshold
+  double predicted = 0;    ///< ms: the same of the motion that was made
+};
+
 /// P, B and M: is there a frame from 40 ms before to 40 ms after the phone with the lips closed?
 /// All zero without FAP 4 and 5.
 struct ClosureScore {
@@ -60,6 +69,9 @@ struct ClosureScore {
   /// (release) its least frame. Of phones that both close, where both have such an instant.
   TimeSpread onset,  ///< when the gap closes
       release;       ///< when it opens
+  /// Below 60 ms, 60 to 100 ms, and longer. From onset to release, both within the 0.2 s, and 0 for
+  /// a phone that does not close. Phones behind a silence do not count: lips may rest shut.
+  std::vector<ShutScore> shut;
 };
 
 /// F and V: the lower lip has to reach the upper teeth. FAP 5 (inner lower lip, upwards) tells it.

@@ -28,6 +28,8 @@ Result<void> validate(const Model& model) {
   if (!std::isfinite(model.closure_gap)) return invalid_model("its closure gap is not a number");
   if (model.lip_tooth_raise && !std::isfinite(*model.lip_tooth_raise))
     return invalid_model("its lip-tooth contact is not a number");
+  if (model.shut && !(std::abs(model.shut->base) <= 10 && std::abs(model.shut->slope) <= 100))
+    return invalid_model("the time that its lips are shut is out of range");
   if (!model.rate.valid()) return invalid_model("its frame rate is zero");
   if (model.controls.empty()) return invalid_model("it has no control");
   for (const Control& c : model.controls)

@@ -26,6 +26,7 @@
 #include <variant>
 #include <vector>
 
+#include "dam/signal/closure.h"
 #include "dam/signal/limits.h"
 #include "fap/rate.h"
 #include "fap/result.h"
@@ -142,6 +143,9 @@ enum class RefinedTerm : std::uint8_t {
   class_left_2 = 6,   ///< by class and class of the phone but one before
   class_right_2 = 7,  ///< by class and class of the phone but one behind
   phone_class = 8,    ///< by class: what a rare phone leans on
+  left = 9,           ///< by the phone before, whatever is between: what it does to all
+  right = 10,         ///< by the phone behind, likewise
+  triphone = 11,      ///< by the phone and both beside it: what the corpus has of its own
 };
 /// Largest number of Legendre coefficients of a term.
 inline constexpr std::size_t kRefinedOrders = 5;
@@ -150,7 +154,9 @@ inline constexpr std::size_t kRefinedOrders = 5;
 struct TermTable {
   RefinedTerm term = RefinedTerm::phone;  ///< which kind
   std::uint32_t orders = 0;               ///< 1..kRefinedOrders
-  std::vector<std::uint32_t> keys;  ///< ascending: phone, class, or own * 256 + class of neighbour
+  /// Ascending: phone, class, own * 256 + class of the neighbour, or (left * 256 + own) * 256 +
+  /// right.
+  std::vector<std::uint32_t> keys;
   std::vector<float> values;  ///< a_m of control c of row r at [(r * orders + m) * controls + c]
 
   friend bool operator==(const TermTable&, const TermTable&) = default;
@@ -239,6 +245,7 @@ struct Model {
   double closure_gap = 25;  ///< FAP units: inner lip gap to which P, B, M close
   /// FAP units: how far F and V raise the inner lower lip (FAP 5) towards the teeth; none: unknown.
   std::optional<double> lip_tooth_raise;
+  std::optional<ShutTime> shut;   ///< how long P, B and M keep the lips shut; none: unknown
   fap::Rate rate;                 ///< of the training signal
   std::vector<Control> controls;  ///< what it animates; all parameters are in this order
   /// What each control can be, in the order of `controls`, or nothing: all are free. (A list in

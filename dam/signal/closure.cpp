@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kHalfWidth = 0.050;  // seconds added to half the phone on both sides
 constexpr double kUpperShare = 0.3;
+constexpr double kLetGo = 0.050;  // seconds from a closure that lasts to where nothing is moved
 
 std::ptrdiff_t channel_of(std::span<const std::string> names, int fap) {
   for (std::size_t c = 0; c < names.size(); ++c)
@@ -64,13 +65,62 @@ void around_contact(const Signal& signal, const Phone& phone, std::size_t frame,
   }
 }
 
+std::size_t least_gap_at(const Signal& signal, const FrameSpan& search, const LipChannels& lips) {
+  std::size_t least = search.first;
+  for (std::size_t i = search.first; i < search.last; ++i)
+    if (inner_gap(signal, i, lips) < inner_gap(signal, least, lips)) least = i;
+  return least;
+}
+
+/// Frames from `from` to where the gap passes kShutGap going by `step`, `reach` at most. Counted
+/// from there, so that a piece of a clip gives the same numbers.
+double shut_frames_from(const Signal& signal, std::size_t from, int step, const LipChannels& lips,
+                        double reach) {
+  const auto at = [&](int away) {
+    return inner_gap(signal, std::size_t(std::ptrdiff_t(from) + step * away), lips);
+  };
+  const auto room = int(step < 0 ? from : signal.frames() - 1 - from);
+  int away = 0;
+  for (; away < room && away < reach; ++away) {
+    const double a = at(away), b = at(away + 1);
+    if (b >= kShutGap) return std::min(reach, away + (kShutGap - a) / (b - a));
+  }
+  return std::min(reach, double(away));
+}
+
+/// Holds lips that are shut around a phone together for the time that it takes.
+void hold_shut(Signal& signal, const Phone& phone, const std::vector<LipPair>& pairs,
+               const ClosureOptions& options) {
+  const double wanted = options.shut->of(phone.duration());
+  const auto now = shut_span(signal, phone, pairs[0].inner, wanted);
+  if (!now) return;
+  const double rate = signal.rate.frames_per_second(), half = wanted * rate / 2;
+  if (now->frames() >= 2 * half) return;
+  const double centre = (now->after - now->before) / 2, let_go = kLetGo * rate;  // from the least
+  const auto reach = std::ptrdiff_t(std::ceil(std::abs(centre) + half + let_go));
+  for (std::ptrdiff_t n = -reach; n <= reach; ++n) {
+    const std::ptrdiff_t frame = std::ptrdiff_t(now->least) + n;
+    if (frame < 0 || frame >= std::ptrdiff_t(signal.frames())) continue;
+    const auto i = std::size_t(frame);
+    const double away = std::abs(double(n) - centre);
+    // Shut in the middle, just open at the edge.
+    const double x = half > 0 ? away / half : 0;
+    const double level = options.target + (kShutGap - options.target) * x * x;
+    const double share = 1 - raised_step((away - half) / let_go);
+    for (const LipPair& pair : pairs) {
+      const double gap = inner_gap(signal, i, pair.inner) - level;
+      if (gap > 0)
+        close_pair(pair, share * gap, options,
+                   [&](std::size_t channel, double value) { signal.at(i, channel) += value; });
+    }
+  }
+}
+
 bool close_phone(Signal& signal, const Phone& phone, const std::vector<LipPair>& pairs,
                  const ClosureOptions& options) {
   const LipChannels& middle = pairs[0].inner;
   const FrameSpan search = frames_near(signal, phone, kClosureSearch);
-  std::size_t least = search.first;
-  for (std::size_t i = search.first; i < search.last; ++i)
-    if (inner_gap(signal, i, middle) < inner_gap(signal, least, middle)) least = i;
+  const std::size_t least = least_gap_at(signal, search, middle);
   if (search.first == search.last || !(inner_gap(signal, least, middle) > options.target))
     return false;
   for (const LipPair& pair : pairs) {
@@ -131,6 +181,21 @@ std::optional<LipChannels> inner_lip_channels(std::span<const std::string> names
   return channels_of(names, 4, 5);
 }
 
+double ShutTime::of(double duration) const {
+  return std::clamp(base + slope * duration, 0.0, kMostShut);
+}
+
+std::optional<ShutSpan> shut_span(const Signal& signal, const Phone& phone, const LipChannels& lips,
+                                  double reach) {
+  const FrameSpan search = frames_near(signal, phone, kClosureSearch);
+  if (search.first == search.last) return std::nullopt;
+  const std::size_t least = least_gap_at(signal, search, lips);
+  if (!(inner_gap(signal, least, lips) < kShutGap)) return std::nullopt;
+  const double frames = reach * signal.rate.frames_per_second();
+  return ShutSpan{least, shut_frames_from(signal, least, -1, lips, frames),
+                  shut_frames_from(signal, least, 1, lips, frames)};
+}
+
 FrameSpan frames_near(const Signal& signal, const Phone& phone, double margin) {
   const double rate = signal.rate.frames_per_second(), frames = double(signal.frames());
   const double first = double(signal.first_frame);
@@ -185,8 +250,11 @@ std::size_t apply_closure(Signal& signal, const Script& script, const ClosureOpt
   if (!inner_lip_channels(signal.names)) return 0;
   const auto pairs = lip_pairs(signal.names);
   std::size_t closed = 0;
-  for (const Phone& phone : script.phones)
-    if (is_bilabial(phone.label) && close_phone(signal, phone, pairs, options)) ++closed;
+  for (const Phone& phone : script.phones) {
+    if (!is_bilabial(phone.label)) continue;
+    if (close_phone(signal, phone, pairs, options)) ++closed;
+    if (options.shut) hold_shut(signal, phone, pairs, options);
+  }
   return closed;
 }
 

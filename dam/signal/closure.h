@@ -17,6 +17,22 @@ namespace animeme::dam {
 /// Seconds beside the phone in which a closure may lie.
 inline constexpr double kClosureSearch = 0.040;
 
+/// FAP units: lips with a smaller inner gap count as shut where times are measured.
+inline constexpr double kShutGap = 45;
+/// Seconds: lips are held shut for no longer than this.
+inline constexpr double kMostShut = 0.3;
+
+/// How long a P, B or M keeps the lips shut, in seconds: `base` + `slope` * its duration.
+struct ShutTime {
+  double base = 0;   ///< seconds
+  double slope = 0;  ///< seconds a second
+
+  /// Seconds for a phone, 0..kMostShut.
+  double of(double duration) const;
+
+  friend bool operator==(const ShutTime&, const ShutTime&) = default;
+};
+
 /// What counts as closed, and how a closure is made.
 struct ClosureOptions {
   double least = -15;  ///< FAP units: lips pressed together; they cannot pass through each other
@@ -24,6 +40,8 @@ struct ClosureOptions {
   double upper_follow =
       0.6;  ///< share of the inner upper lip's motion that its outer contour makes
   double lower_follow = 0.9;  ///< the same for the lower lip
+  /// How long P, B and M are shut; none: for as long as it comes about.
+  std::optional<ShutTime> shut;
 };
 
 /// Lets every P, B and M of the script close the lips in one frame at least. Where the least inner
@@ -32,6 +50,8 @@ struct ClosureOptions {
 /// moved together around that frame by a raised cosine of half-width duration / 2 + 50 ms: 30 % by
 /// the upper lip, 70 % by the lower, middle (FAP 4, 5) and sides (8, 10 and 9, 11: each by
 /// its own gap) alike. The outer contour (51, 55, 56; 52, 57, 58) follows.
+/// With `shut`, lips that are shut for a shorter time are held together for that time around the
+/// same moment, and let go over 50 ms on either side.
 /// Returns the number of phones closed. Does nothing if FAP 4 or 5 is missing.
 std::size_t apply_closure(Signal& signal, const Script& script, const ClosureOptions& options = {});
 
@@ -52,6 +72,19 @@ std::size_t apply_contact(Signal& signal, const ClosureOptions& options = {});
 /// 5. `pose` has one value per name.
 void close_pose(std::span<const std::string> names, std::span<double> pose,
                 const ClosureOptions& options = {});
+
+/// When lips are shut around a moment: the gap is below kShutGap, by straight lines between frames.
+struct ShutSpan {
+  std::size_t least = 0;                            ///< frame of the least gap
+  double before = 0,                                ///< frames by which they were shut before it
+      after = 0;                                    ///< frames by which they are shut after it
+  double frames() const { return before + after; }  ///< how long
+};
+struct LipChannels;
+/// Around the least gap from kClosureSearch before to as much after the phone, at most `reach`
+/// seconds from it; none: never shut.
+std::optional<ShutSpan> shut_span(const Signal& signal, const Phone& phone, const LipChannels& lips,
+                                  double reach);
 
 /// Channel indices of FAP 4 and 5.
 struct LipChannels {

@@ -12,8 +12,8 @@
 namespace animeme::dam {
 namespace {
 
-constexpr double kClosureReach = 0.35;  // seconds: half a phone, its search and its slopes
-constexpr double kBehind = 0.5;         // seconds made anew before a piece, for the closures in it
+constexpr double kClosureReach = 0.5;   // seconds: half a phone, its search, hold and slopes
+constexpr double kBehind = 0.7;         // seconds made anew before a piece, for the closures in it
 constexpr std::size_t kNeighbours = 2;  // phones on each side that a phone's shape depends on
 constexpr double kForever = std::numeric_limits<double>::infinity();
 

@@ -65,6 +65,7 @@ ClosureOptions closure_options(const Model& model) {
   };
   ClosureOptions options;
   options.target = model.closure_gap;
+  options.shut = model.shut;
   options.upper_follow =
       share("fap51_lower_t_midlip_o", "fap4_lower_t_midlip", options.upper_follow);
   options.lower_follow =

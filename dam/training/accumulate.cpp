@@ -72,6 +72,7 @@ void add_contacts(const Utterance& u, SumsState& state) {
   add_lip_tooth_contacts(u, lows);
   for (const double gap : gaps) state.closures.add(gap);
   for (const double low : lows) state.lip_tooth.add(low);
+  state.shut.add(u);
 }
 
 /// The normal equations of one sentence. Controls with rest 0 and deviation 1 keep its units.
@@ -92,6 +93,7 @@ FitSums sums_of(const Utterance& u, const std::vector<Occurrence>& timeline, con
   data.time_margin = base.refined.time_margin;
   data.duration_exponent = base.refined.duration_exponent;
   data.offset_frames = base.offset_frames;
+  data.terms = kSummedTerms;
   data.threads = 1;
   std::vector<double> sum(k, 0.0);
   double frames = 0;

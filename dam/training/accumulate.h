@@ -23,16 +23,18 @@
 /// a phone and soon known.
 ///
 /// What is summed, so that parts simply add up:
-///   - normal equations of all terms, in the units of the controls, apart for sentences that are
+///   - normal equations of all terms but triphones, in the units of the controls, apart for
+///   sentences that are
 ///     held out (one of eight, by the digest of id and content, so the same wherever it is summed);
 ///     means and deviations are applied when the sums are solved;
 ///   - per control: count, sum, sum of squares, least and largest value in the speech; sum in rest;
 ///   - per phone: count, sum of log durations, longest duration;
 ///   - counts of the least lip gaps of P B M and of the lower lip's heights in F V in bins of 0.5
-///     units from -1024 to 1024 (medians of train() that are not sums; here within 0.25 units).
+///     units from -1024 to 1024 (medians of train() that are not sums; here within 0.25 units);
+///   - what tells how long P B M are shut.
 ///
 /// Memory: 16 n^2 bytes, n the unknowns, and twice the file while it is saved; file: 8 n^2 bytes.
-/// All 41 phones in every surrounding have n = 4800 (file 185 MB), the sentences of one speaker
+/// All 41 phones in every surrounding have n = 5050 (file 204 MB), the sentences of one speaker
 /// 2000.
 #pragma once
 

@@ -11,7 +11,7 @@
 namespace animeme::dam {
 namespace {
 
-constexpr FileFormat kSumsFormat{"ANIMESUM", 1, 0, "file of sums", "accumulate its sentences anew"};
+constexpr FileFormat kSumsFormat{"ANIMESUM", 2, 0, "file of sums", "accumulate its sentences anew"};
 
 Error damaged_sums(const std::string& how) { return damaged_file(kSumsFormat, how); }
 
@@ -43,6 +43,8 @@ void write_statistics(const SumsState& state, ByteWriter& out) {
     out.put(c.name, c.low, c.high, c.sum, c.squares, c.rest_sum);
   write_pairs(state.closures.counts, out);
   write_pairs(state.lip_tooth.counts, out);
+  const ShutSums& shut = state.shut;
+  out.put(shut.count, shut.phone, shut.shut, shut.phone_squared, shut.both);
   write_pairs(state.sentences, out);
 }
 
@@ -127,6 +129,10 @@ Problem read_statistics(ByteReader& in, SumsState& state) {
   if (Problem p = read_controls(in, state); !p.empty()) return p;
   if (Problem p = read_histogram(in, state.closures); !p.empty()) return p;
   if (Problem p = read_histogram(in, state.lip_tooth); !p.empty()) return p;
+  ShutSums& shut = state.shut;
+  in.get(shut.count, shut.phone, shut.shut, shut.phone_squared, shut.both);
+  for (const double sum : {shut.count, shut.phone, shut.shut, shut.phone_squared, shut.both})
+    if (!between(sum, 0, 1e12)) return "its times of closures are out of range";
   for (std::size_t left = in.count(4 + 8); left > 0; --left) {
     std::pair<std::string, std::uint64_t> sentence;
     in.get(sentence.first, sentence.second);

@@ -47,6 +47,7 @@ void add_statistics(const SumsState& from, SumsState& to) {
   }
   to.closures.add(from.closures);
   to.lip_tooth.add(from.lip_tooth);
+  to.shut.add(from.shut);
   to.sentences.insert(from.sentences.begin(), from.sentences.end());
 }
 

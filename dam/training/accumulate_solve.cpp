@@ -126,6 +126,7 @@ Model start_model(const SumsState& state, const TrainOptions& options) {
   model.pause_edge = state.base.pause_edge;
   model.closure_gap = closure_gap_of(state.closures.median());
   if (const auto low = state.lip_tooth.median()) model.lip_tooth_raise = -*low;
+  model.shut = state.shut.line();
   model.rate = state.rate;
   model.attribution = options.attribution;
   model.provenance = options.provenance;

@@ -235,6 +235,7 @@ Result<Model> adapt(const Model& wanted_base, std::span<const Utterance> sentenc
   model.limits = control_limits(all, model.controls);
   model.closure_gap = measured_closure_gap(all);
   if (const auto raise = measured_lip_tooth_raise(all)) model.lip_tooth_raise = raise;
+  if (const auto shut = measured_shut_time(all)) model.shut = shut;
   model.attribution = joined(base.attribution, options.attribution);
   model.provenance = joined(options.provenance, "base: " + base.provenance);
   if (auto ok = validate(model); !ok)

@@ -94,7 +94,11 @@ std::uint32_t renumbered(RefinedTerm term, std::uint32_t key,
   switch (term) {
     case RefinedTerm::phone:
     case RefinedTerm::duration:
+    case RefinedTerm::left:
+    case RefinedTerm::right:
       return number[key];
+    case RefinedTerm::triphone:
+      return (number[key / 65536] * 256 + number[key / 256 % 256]) * 256 + number[key % 256];
     case RefinedTerm::phone_left:
     case RefinedTerm::phone_right:
       return number[key / 256] * 256 + key % 256;

@@ -79,6 +79,7 @@ Result<Model> train(std::span<const Utterance> utterances, const TrainOptions& o
   model.pause_edge = options.pause_edge;
   model.closure_gap = set->closure_gap;
   model.lip_tooth_raise = set->lip_tooth_raise;
+  model.shut = set->shut;
   model.rate = set->rate;
   model.attribution = options.attribution;
   model.provenance = options.provenance;

@@ -10,10 +10,16 @@
 #include <utility>
 #include <vector>
 
+#include "dam/corpus/statistics_internal.h"
+#include "dam/corpus/train_options.h"
 #include "dam/kinds/refined/curves_fit.h"
 #include "dam/model/model.h"
 
 namespace animeme::dam {
+
+/// Triphones are left out: which of them are frequent is known when all sentences are.
+inline constexpr std::uint32_t kSummedTerms =
+    kAllTerms & ~(std::uint32_t(1) << unsigned(RefinedTerm::triphone));
 
 /// What must not change while sums are taken. Phones are all of phones.h, by label; of PhoneModel,
 /// label, class and (usual) duration count.
@@ -69,6 +75,7 @@ struct SumsState {
   std::vector<ControlSums> controls;
   std::vector<PhoneSums> phones;  ///< as base.phones
   Histogram closures, lip_tooth;
+  ShutSums shut;
   /// Identifier and digest of every sentence. Merged parts may have two contents under one id.
   std::set<std::pair<std::string, std::uint64_t>> sentences;
   TermSpace space;  ///< of both sets

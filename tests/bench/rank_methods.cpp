@@ -11,6 +11,11 @@
 // Little data: five random draws of as many training rows as hold some seconds of speech.
 //
 //     build/release/bin/rank_methods grid_s1 --little 66
+//
+// Words never heard: random sets of five words; trained on the sentences without them, scored on
+// the frames inside them. All rows of the corpus.
+//
+//     build/release/bin/rank_methods grid_s1 --words 12
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -233,6 +238,129 @@ int run_little(const std::string& folder, const std::string& controls, double se
   return 0;
 }
 
+// ---- words never heard ----
+
+constexpr std::size_t kWordsOut = 5;
+constexpr double kLeastTraining = 0.3;  // of the rows
+
+using Words = std::set<std::string>;
+
+bool has_any(const dam::Utterance& row, const Words& words) {
+  const auto own = words_of(row);
+  return std::any_of(own.begin(), own.end(),
+                     [&](const std::string& word) { return words.contains(word); });
+}
+
+/// Whether enough is left without these words, and every phone of the corpus in it.
+bool can_do_without(const Sentences& rows, const Words& out) {
+  std::set<std::string> all, left;
+  std::size_t kept = 0;
+  for (const dam::Utterance& row : rows) {
+    const bool held = has_any(row, out);
+    kept += held ? 0 : 1;
+    for (const dam::Phone& phone : row.script.phones) {
+      all.insert(phone.label);
+      if (!held) left.insert(phone.label);
+    }
+  }
+  return left == all && double(kept) >= kLeastTraining * double(rows.size());
+}
+
+/// Sets of words, dealt from a shuffled pack that is renewed when it is empty.
+std::vector<Words> random_word_sets(const Sentences& rows, std::size_t count) {
+  Words vocabulary;
+  for (const dam::Utterance& row : rows) vocabulary.merge(words_of(row));
+  std::mt19937 random(2);
+  std::vector<std::string> pack;
+  std::vector<Words> sets;
+  while (sets.size() < count) {
+    Words set;
+    for (int tries = 0; tries < 200 && set.size() < kWordsOut; ++tries) {
+      if (pack.empty()) {
+        pack.assign(vocabulary.begin(), vocabulary.end());
+        for (std::size_t i = pack.size(); i-- > 1;) std::swap(pack[i], pack[random() % (i + 1)]);
+      }
+      Words trial = set;
+      trial.insert(pack.back());
+      pack.pop_back();
+      if (can_do_without(rows, trial)) set = std::move(trial);
+    }
+    sets.push_back(std::move(set));
+  }
+  return sets;
+}
+
+/// Errors inside the words held out and of whole sentences, one a set.
+struct WordScores {
+  std::vector<double> unseen, all;
+};
+
+/// The mean of `a` less that of `b` in percent of that of `b`, over sets drawn with replacement:
+/// as it is, and the ends of the interval that holds 95 % of 10000 draws.
+std::string more_than(const std::vector<double>& a, const std::vector<double>& b) {
+  constexpr int kDraws = 10000;
+  std::mt19937 random(1);
+  const auto percent = [&](const auto& at) {
+    double sum_a = 0, sum_b = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const std::size_t set = at(i);
+      sum_a += a[set];
+      sum_b += b[set];
+    }
+    return 100 * (sum_a / sum_b - 1);
+  };
+  std::vector<double> draws;
+  for (int d = 0; d < kDraws; ++d)
+    draws.push_back(percent([&](std::size_t) { return random() % a.size(); }));
+  std::sort(draws.begin(), draws.end());
+  char text[64];
+  std::snprintf(text, sizeof text, "%+.1f %% (%+.1f to %+.1f)",
+                percent([](std::size_t i) { return i; }), draws[kDraws / 40],
+                draws[kDraws - 1 - kDraws / 40]);
+  return text;
+}
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+}
+
+int run_words(const std::string& folder, const std::string& controls, std::size_t count) {
+  const Sentences rows = read(folder, controls).utterances;
+  const auto sets = random_word_sets(rows, count);
+  std::vector<Fold> folds;
+  for (const Words& set : sets) {
+    folds.push_back(fold_of(rows, [&](std::size_t i) { return has_any(rows[i], set); }));
+    std::printf("%zu / %zu:", folds.back().train.size(), folds.back().test.size());
+    for (const std::string& word : set) std::printf(" %s", word.c_str());
+    std::printf("\n");
+  }
+  std::printf(
+      "\n| method | inside words never heard: mean NRMSE | least | most | more than `dam` (95 %%) "
+      "| "
+      "whole sentences with such words | more than `dam` (95 %%) "
+      "|\n|---|---|---|---|---|---|---|\n");
+  std::optional<WordScores> first;
+  for (const Variant& variant : variants()) {
+    WordScores scores;
+    for (const Fold& fold : folds) {
+      const dam::Model model = need(dam::train(fold.train, variant.options));
+      dam::EvaluateOptions options;
+      options.score.seen = dam::seen_contexts(fold.train);
+      const dam::Evaluation e = need(dam::evaluate(model, fold.test, options));
+      scores.unseen.push_back(e.breakdown.words[1].nrmse);
+      scores.all.push_back(e.nrmse);
+    }
+    const auto [least, most] = std::minmax_element(scores.unseen.begin(), scores.unseen.end());
+    std::printf("| %s | %.4f | %.3f | %.3f | %s | %.4f | %s |\n", variant.name.c_str(),
+                mean(scores.unseen), *least, *most,
+                first ? more_than(scores.unseen, first->unseen).c_str() : "", mean(scores.all),
+                first ? more_than(scores.all, first->all).c_str() : "");
+    std::fflush(stdout);
+    if (!first) first = std::move(scores);
+  }
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -248,7 +376,12 @@ int main(int argc, char** argv) {
   double little = 0;
   app.add_option("--little", little, "Seconds of speech to train on: little data, five draws")
       ->check(CLI::PositiveNumber);
+  std::size_t words = 0;
+  app.add_option("--words", words,
+                 "Sets of five words to hold out: frames inside words never heard")
+      ->check(CLI::Range(2, 1000));
   CLI11_PARSE(app, argc, argv);
+  if (words > 0) return run_words(folder, controls, words);
   if (little > 0) return run_little(folder, controls, little);
   return only_steps ? run_steps(folder, controls) : run(folder, others, controls);
 }

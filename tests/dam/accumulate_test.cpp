@@ -1,5 +1,6 @@
 // Training in parts: the same model as in one go, every sentence once.
 #include "dam/training/accumulate.h"
+#include "dam/training/training_sums_internal.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -63,6 +64,7 @@ void expect_near(const Model& a, const Model& b, double tolerance) {
 TEST(Accumulate, GivesTheModelOfTrainForItsDominance) {
   TrainSummary whole_summary, summary;
   TrainOptions options;
+  options.refined.terms = kSummedTerms;
   const auto whole = train(sample(), options, &whole_summary);
   ASSERT_TRUE(whole);
   options.refined.ridge = whole_summary.ridge;  // other sentences are held out
@@ -76,6 +78,9 @@ TEST(Accumulate, GivesTheModelOfTrainForItsDominance) {
   EXPECT_EQ(whole_summary.occurrences, summary.occurrences);
   EXPECT_NEAR(whole->closure_gap, model->closure_gap, 0.25);
   EXPECT_NEAR(*whole->lip_tooth_raise, *model->lip_tooth_raise, 0.25);
+  ASSERT_TRUE(whole->shut && model->shut);
+  EXPECT_NEAR(whole->shut->base, model->shut->base, 1e-9);
+  EXPECT_NEAR(whole->shut->slope, model->shut->slope, 1e-9);
 }
 
 TEST(Accumulate, WithoutBaseItStartsFromTheStartValues) {

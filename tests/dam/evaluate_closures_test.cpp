@@ -75,6 +75,47 @@ TEST(Closures, TimingIsThatOfTheThresholdBetweenFrames) {
   EXPECT_EQ(w.closure.onset.sd, 0);
 }
 
+TEST(Closures, HowLongLipsAreShutByTheLengthOfThePhone) {
+  // Frames 5-7 B behind a silence; 10-12 AE; B of 50, 80 and 100 ms around frames 31, 56 and 81.
+  Script script;
+  const auto add = [&](double start, double end, const char* label) {
+    script.phones.push_back({start, end, label, label == kSilence ? "" : "word"});
+  };
+  add(0, 0.2, "SIL");
+  add(0.2, 0.3, "B");
+  add(0.3, 1.22, "AE");
+  add(1.22, 1.27, "B");
+  add(1.27, 2.2, "AE");
+  add(2.2, 2.28, "B");
+  add(2.28, 3.2, "AE");
+  add(3.2, 3.3, "B");
+  add(3.3, 4, "AE");
+  // A V-shaped gap: below 45 for 90 / slope frames of 40 ms.
+  const auto valleys = [](double slope) {
+    return [slope](int fap, int i) {
+      double gap = 400;
+      for (const int middle : {6, 31, 56, 81}) gap = std::min(gap, std::abs(i - middle) * slope);
+      return lips(fap, gap);
+    };
+  };
+  const Evaluation e = score_one(pair_of({4, 5}, script, valleys(50), valleys(90)), {4, 5});
+  EXPECT_EQ(e.closure.phones, 4u);
+  ASSERT_EQ(e.closure.shut.size(), 3u);
+  for (const ShutScore& shut : e.closure.shut) {
+    EXPECT_EQ(shut.phones, 1u) << shut.from;
+    EXPECT_NEAR(shut.measured, 72, 1e-9) << shut.from;
+    EXPECT_NEAR(shut.predicted, 40, 1e-9) << shut.from;
+  }
+  EXPECT_EQ(e.closure.shut[1].from, 0.060);
+  EXPECT_EQ(e.closure.shut[1].to, 0.100);
+  // What never closes is shut for no time; what never opens counts up to 0.2 s on each side.
+  const auto open = [](int fap, int) { return lips(fap, 200); };
+  const auto shut = [](int fap, int) { return lips(fap, 0); };
+  const Evaluation never = score_one(pair_of({4, 5}, script, open, shut), {4, 5});
+  EXPECT_EQ(never.closure.shut[2].measured, 0);
+  EXPECT_NEAR(never.closure.shut[2].predicted, 400, 1e-9);
+}
+
 TEST(Lips, ContactOfFAndV) {
   std::vector<std::string> labels(36, "AE");
   labels[10] = labels[20] = labels[30] = "F";  // 1.2 s, 2.2 s, 3.2 s: frames 30, 55, 80

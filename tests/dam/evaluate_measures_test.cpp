@@ -74,6 +74,23 @@ TEST(Measures, AScaledCopyHasItsFactorInTheDynamics) {
   EXPECT_EQ(e.series_dynamics[1].name, "jaw");
 }
 
+TEST(Measures, DynamicsOfThePartsOfAMouth) {
+  const std::vector<int> faps = {3, 4, 8, 6, 12, 14};  // FAP 14 is of no part and not scored
+  const auto recorded = [](int, int i) { return wave(i); };
+  const auto made = [](int fap, int i) {
+    return wave(i) * (fap == 3 ? 0.5 : fap == 4 ? 0.6 : fap == 8 ? 0.8 : fap == 6 ? 0.2 : 0.4);
+  };
+  const Evaluation e = score_one(pair_of(faps, vowels(), recorded, made), faps);
+  ASSERT_EQ(e.group_dynamics.size(), 3u);  // no lower lip
+  EXPECT_EQ(e.group_dynamics[0].name, "jaw");
+  EXPECT_NEAR(e.group_dynamics[0].velocity, 0.5, 1e-9);
+  EXPECT_EQ(e.group_dynamics[1].name, "upper lip");
+  EXPECT_NEAR(e.group_dynamics[1].velocity, 0.7, 1e-9);
+  EXPECT_EQ(e.group_dynamics[2].name, "corners");
+  EXPECT_NEAR(e.group_dynamics[2].velocity, 0.3, 1e-9);
+  EXPECT_NEAR(e.group_dynamics[2].range, 0.3, 1e-9);
+}
+
 TEST(Measures, TheRangeHeedsNoOutliers) {
   const auto ramp = [](int, int i) { return double(i); };
   // Four of a hundred frames are far off, two on each side.

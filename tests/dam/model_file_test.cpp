@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include <filesystem>
 #include <fstream>
 
@@ -140,6 +142,29 @@ TEST(ModelFile, NewerVersions) {
   EXPECT_TRUE(read_model(bytes));
 }
 
+TEST(ModelFile, OlderVersionsAreRead) {
+  Model model = small_model();
+  model.shut = ShutTime{0.07, 0.25};
+  auto bytes = write_model(model);
+  const auto same = read_model(bytes);
+  ASSERT_TRUE(same);
+  EXPECT_EQ(*same, model);
+  // 2.0 ended with the parameters of the method: without the flag and two numbers.
+  const std::size_t more = 1 + 8 + 8;
+  bytes.erase(bytes.end() - 4 - std::ptrdiff_t(more), bytes.end() - 4);
+  bytes[10] = 0;
+  std::uint64_t size = 0;
+  std::memcpy(&size, &bytes[12], 8);
+  size -= more;
+  std::memcpy(&bytes[12], &size, 8);
+  test::seal(bytes);
+  const auto old = read_model(bytes);
+  ASSERT_TRUE(old) << old.error().describe();
+  EXPECT_FALSE(old->shut);
+  model.shut.reset();
+  EXPECT_EQ(*old, model);
+}
+
 TEST(ModelFile, InvalidModels) {
   const auto broken = [](auto change) {
     Model model = small_model();
@@ -148,6 +173,8 @@ TEST(ModelFile, InvalidModels) {
   };
   EXPECT_TRUE(broken([](Model& m) { m.controls.clear(); }));
   EXPECT_TRUE(broken([](Model& m) { m.phones.clear(); }));
+  EXPECT_TRUE(broken([](Model& m) { m.shut = ShutTime{std::nan(""), 0}; }));
+  EXPECT_TRUE(broken([](Model& m) { m.shut = ShutTime{0, 101}; }));
   EXPECT_TRUE(broken([](Model& m) { animemes(m).phones[0].modes.clear(); }));
   EXPECT_TRUE(broken([](Model& m) { animemes(m).phones[0].modes[0].sigma = 0; }));
   EXPECT_TRUE(broken([](Model& m) { animemes(m).phones[0].modes[0].coefficients.pop_back(); }));

@@ -10,6 +10,7 @@
 #include "dam/kinds/refined/curves_fit.h"
 #include "dam/kinds/refined/dominance.h"
 #include "dam/kinds/refined/fit.h"
+#include "dam/kinds/refined/terms.h"
 #include "dam/maths/cholesky.h"
 #include "dam/speaking/synthesise.h"
 #include "dam/training/train.h"
@@ -116,7 +117,7 @@ Dense dense_problem(const Problem& problem, const TermSpace& space,
       for (const RefinedPart& part : design.frame(i)) {
         const auto uses = terms_of(data.phones, data.around[part.occurrence]);
         for (std::size_t t = 0; t < kTermCount; ++t)
-          for (std::size_t m = 0; m < kTermInfo[t].orders; ++m)
+          for (std::size_t m = 0; space.holds(t, uses[t]) && m < kTermInfo[t].orders; ++m)
             dense.x(row, Eigen::Index(space.at(t, uses[t].key) + m)) +=
                 uses[t].scale * part.weight * part.basis[m];
       }
@@ -359,15 +360,42 @@ TEST(Refined, LearnsWhatNeighboursDo) {
   EXPECT_LT(error, 0.35 * power);
 }
 
-TEST(Refined, ChoosesStrongerRidgesWhenThereIsNothingToLearn) {
+TEST(Refined, ChoosesRidgesByWhatIsHeldOut) {
   auto sentences = test::planted(40);
   TrainSummary clear, noisy;
-  ASSERT_TRUE(train(sentences, {}, &clear));
+  TrainOptions phones;  // which made these sentences, so that no ridge is needed
+  phones.refined.terms = 1;
+  ASSERT_TRUE(train(sentences, phones, &clear));
   test::Uniform random(8);
   for (Utterance& u : sentences)
     for (double& v : u.signal.values) v = random(-1, 1);
   ASSERT_TRUE(train(sentences, {}, &noisy));
-  EXPECT_GT(noisy.ridge, clear.ridge);
+  EXPECT_EQ(clear.ridge, 0.5);
+  EXPECT_EQ(noisy.ridge, 2);
+}
+
+TEST(Refined, TriphonesAreThoseThatOccurOften) {
+  TrainOptions options;
+  const auto model = train(test::planted(30), options);
+  ASSERT_TRUE(model);
+  const auto& tables = std::get<RefinedParameters>(model->parameters).tables;
+  ASSERT_EQ(tables.size(), kTermCount);
+  const auto& keys = tables[std::size_t(RefinedTerm::triphone)].keys;
+  EXPECT_GT(keys.size(), 5u);
+  EXPECT_LE(keys.size(), kMostTriphones);
+  options.refined.terms = kAllTerms & ~(1u << unsigned(RefinedTerm::triphone));
+  const auto without = train(test::planted(30), options);
+  ASSERT_TRUE(without);
+  EXPECT_TRUE(std::get<RefinedParameters>(without->parameters)
+                  .tables[std::size_t(RefinedTerm::triphone)]
+                  .keys.empty());
+  // Three sentences have hardly a triphone three times.
+  const auto few = train(test::planted(3));
+  ASSERT_TRUE(few);
+  EXPECT_LT(std::get<RefinedParameters>(few->parameters)
+                .tables[std::size_t(RefinedTerm::triphone)]
+                .keys.size(),
+            keys.size());
 }
 
 }  // namespace refined_test

@@ -275,6 +275,39 @@ TEST_F(Synthesis, HostileScriptsAndOptions) {
   EXPECT_EQ(synthesise(*model, good, options)->frames(), 1u);
 }
 
+TEST(Closure, LastsAsLongAsItShouldAtAnyRate) {
+  const Script script = {{{0, 0.4, "AE", ""}, {0.4, 0.5, "P", ""}, {0.5, 1, "AE", ""}}};
+  for (const std::uint32_t fps : {25u, 60u, 100u, 240u}) {
+    Signal signal;
+    signal.rate = {fps, 1};
+    signal.names = {"fap4_lower_t_midlip", "fap5_raise_b_midlip"};
+    for (std::uint32_t i = 0; i < fps; ++i) {  // a V that is below 45 for 27 ms
+      const double gap = 5 + 3000 * std::abs(double(i) / fps - 0.44);
+      signal.values.insert(signal.values.end(), {-gap / 2, -gap / 2});
+    }
+    const auto lips = inner_lip_channels(signal.names);
+    const auto shut_ms = [&] {
+      const auto span = shut_span(signal, script.phones[1], *lips, 0.2);
+      return span ? 1000 * span->frames() / fps : 0.0;
+    };
+    EXPECT_LT(shut_ms(), 32) << fps;
+    ClosureOptions options;
+    options.target = 10;
+    apply_closure(signal, script, options);
+    EXPECT_LT(shut_ms(), 45) << fps << ": no time was asked for";
+    options.shut = ShutTime{0.05, 0.4};  // 90 ms
+    apply_closure(signal, script, options);
+    EXPECT_NEAR(shut_ms(), 90, fps == 25 ? 15 : 5) << fps;
+    EXPECT_LT(inner_gap(signal, std::size_t(0.44 * fps), *lips), 45);
+    EXPECT_NEAR(inner_gap(signal, 0, *lips), 5 + 3000 * 0.44, 1e-9);  // far away nothing happens
+    const auto once = signal.values;
+    apply_closure(signal, script, {.target = 10, .shut = ShutTime{0.03, 0.1}});
+    EXPECT_EQ(signal.values, once) << "what is shut for longer stays";
+  }
+  EXPECT_EQ((ShutTime{-1, 0}.of(0.1)), 0);
+  EXPECT_EQ((ShutTime{0, 10}.of(5)), kMostShut);
+}
+
 TEST(Closure, MovesUpperAndLowerLipTowardsEachOther) {
   Signal signal;
   signal.rate = {100, 1};

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "tools/inspect/evaluation.h"
 #include "tools/json.h"
 
@@ -28,6 +30,14 @@ Json spread_json(const dam::TimeSpread& spread) {
   return {{"count", spread.count}, {"mean_ms", spread.mean}, {"sd_ms", spread.sd}};
 }
 
+Json shut_json(const dam::ShutScore& one) {
+  return {{"from_ms", 1000 * one.from},
+          {"to_ms", std::isfinite(one.to) ? Json(1000 * one.to) : Json(nullptr)},
+          {"phones", one.phones},
+          {"measured_ms", one.measured},
+          {"predicted_ms", one.predicted}};
+}
+
 Json closure_json(const dam::ClosureScore& closure) {
   return {{"phones", closure.phones},
           {"measured", closure.measured},
@@ -39,7 +49,8 @@ Json closure_json(const dam::ClosureScore& closure) {
           {"stray_predicted", closure.stray_predicted},
           {"stray_predicted_per_minute", closure.stray_predicted_per_minute},
           {"onset", spread_json(closure.onset)},
-          {"release", spread_json(closure.release)}};
+          {"release", spread_json(closure.release)},
+          {"shut", json_list(closure.shut, shut_json)}};
 }
 
 Json lag_json(const dam::LagScore& lag) {
@@ -74,6 +85,7 @@ Json all_dynamics_json(const dam::Evaluation& result) {
   Json json = dynamics_json(result.dynamics);
   json.erase("name");
   json.erase("scored");
+  json["groups"] = json_list(result.group_dynamics, dynamics_json);
   json["series"] = json_list(result.series_dynamics, dynamics_json);
   return json;
 }

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "tools/inspect/evaluation.h"
 #include "tools/text.h"
 
@@ -37,6 +39,22 @@ void add_mouth(std::string& out, const dam::Evaluation& e) {
         format("  inner_gap within sentences: correlation %.3f in the mean\n", e.gap_correlation);
 }
 
+std::string length_text(const dam::ShutScore& one) {
+  if (!std::isfinite(one.to)) return format("%.0f ms and more", 1000 * one.from);
+  if (one.from == 0) return format("under %.0f ms", 1000 * one.to);
+  return format("%.0f to %.0f ms", 1000 * one.from, 1000 * one.to);
+}
+
+void add_shut(std::string& out, const dam::ClosureScore& closure) {
+  const char* what = "shut for";
+  for (const dam::ShutScore& one : closure.shut) {
+    if (one.phones == 0) continue;
+    out += format("  %-15s %.0f ms (measured %.0f), phones of %s: %zu\n", what, one.predicted,
+                  one.measured, length_text(one).c_str(), one.phones);
+    what = "";
+  }
+}
+
 void add_lips(std::string& out, const EvaluationReport& report) {
   const dam::Evaluation& e = report.evaluation;
   if (e.closure.phones + e.contact.phones + e.rounding.phones > 0) out += format("\n");
@@ -46,6 +64,7 @@ void add_lips(std::string& out, const EvaluationReport& report) {
                   report.closed_gap);
     add_spread(out, "onset", e.closure.onset);
     add_spread(out, "release", e.closure.release);
+    add_shut(out, e.closure);
     out += format("false closures    %.1f a minute; closed elsewhere: made %.1f, measured %.1f\n",
                   e.closure.false_per_minute, e.closure.stray_predicted_per_minute,
                   e.closure.stray_measured_per_minute);
@@ -78,6 +97,13 @@ void add_motion(std::string& out, const dam::Evaluation& e) {
       "recording\n",
       e.dynamics.velocity, e.dynamics.acceleration, e.dynamics.jerk, e.dynamics.range);
   out += format("  correlation     %.3f of velocities\n", e.dynamics.velocity_correlation);
+  if (e.group_dynamics.size() < 2) return;
+  const char* before = "  velocity of     ";
+  for (const dam::DynamicsScore& one : e.group_dynamics) {
+    out += format("%s%s %.3f", before, one.name.c_str(), one.velocity);
+    before = ", ";
+  }
+  out += format("\n");
 }
 
 void add_context(std::string& out, const char* what, const std::vector<dam::GroupScore>& groups) {

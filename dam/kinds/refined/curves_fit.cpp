@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <set>
+#include <map>
 
 #include "dam/maths/cholesky.h"
 #include "dam/maths/parallel.h"
@@ -27,7 +27,7 @@ PlacedTerms place(const RefinedData& data, const TermSpace& space, std::size_t o
   const auto uses = terms_of(data.phones, data.around[occurrence]);
   PlacedTerms placed;
   for (std::size_t t = 0; t < kTermCount; ++t)
-    if (!space.tables[t].keys.empty())
+    if (space.holds(t, uses[t]))
       placed[t] = {space.at(t, uses[t].key), kTermInfo[t].orders, uses[t].scale};
   return placed;
 }
@@ -187,6 +187,11 @@ std::size_t TermSpace::at(std::size_t term, std::uint32_t key) const {
   return table.first + std::size_t(found - table.keys.begin()) * kTermInfo[term].orders;
 }
 
+bool TermSpace::holds(std::size_t term, const TermUse& use) const {
+  const Table& table = tables[term];
+  return use.scale != 0 && std::binary_search(table.keys.begin(), table.keys.end(), use.key);
+}
+
 void TermSpace::number() {
   size = 0;
   for (std::size_t t = 0; t < kTermCount; ++t) {
@@ -195,16 +200,35 @@ void TermSpace::number() {
   }
 }
 
+namespace {
+
+using KeyCounts = std::map<std::uint32_t, std::size_t>;
+
+/// Leaves the `most` most frequent keys that have `least` examples; of equals the lower ones.
+void thin_out(KeyCounts& counts, std::size_t least, std::size_t most) {
+  std::vector<std::pair<std::size_t, std::uint32_t>> order;
+  for (const auto& [key, count] : counts)
+    if (count >= least) order.emplace_back(count, key);
+  std::stable_sort(order.begin(), order.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  order.resize(std::min(order.size(), most));
+  counts.clear();
+  for (const auto& [count, key] : order) counts[key] = count;
+}
+
+}  // namespace
+
 TermSpace term_space(const RefinedData& data) {
-  std::array<std::set<std::uint32_t>, kTermCount> keys;
+  std::array<KeyCounts, kTermCount> keys;
   for (const Neighbourhood& here : data.around) {
     const auto uses = terms_of(data.phones, here);
     for (std::size_t t = 0; t < kTermCount; ++t)
-      if ((data.terms >> t & 1) != 0) keys[t].insert(uses[t].key);
+      if ((data.terms >> t & 1) != 0 && uses[t].scale != 0) ++keys[t][uses[t].key];
   }
+  thin_out(keys[std::size_t(RefinedTerm::triphone)], kLeastTriphones, kMostTriphones);
   TermSpace space;
   for (std::size_t t = 0; t < kTermCount; ++t)
-    space.tables[t].keys.assign(keys[t].begin(), keys[t].end());
+    for (const auto& [key, count] : keys[t]) space.tables[t].keys.push_back(key);
   space.number();
   return space;
 }

@@ -12,7 +12,8 @@
 
 namespace animeme::dam {
 
-/// Which unknowns there are: every neighbourhood that occurs. A table without keys is a term that
+/// Which unknowns there are: every neighbourhood that occurs, but of triphones only those of
+/// kMostTriphones. A table without keys is a term that
 /// is not learned.
 struct TermSpace {
   struct Table {
@@ -22,6 +23,8 @@ struct TermSpace {
   std::array<Table, kTermCount> tables;
   std::size_t size = 0;  ///< unknowns
 
+  /// Whether the term of an occurrence is one of the unknowns.
+  bool holds(std::size_t term, const TermUse& use) const;
   /// Number of the first unknown of a key; it must be there.
   std::size_t at(std::size_t term, std::uint32_t key) const;
   /// Numbers the unknowns of all tables.

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "dam/corpus/speech_data_internal.h"
+#include "dam/corpus/train_options.h"
 #include "dam/kinds/refined/terms.h"
 #include "dam/model/model.h"
 
@@ -30,7 +31,7 @@ struct RefinedData {
   double time_margin = 0.3;
   double duration_exponent = 0.3;
   double offset_frames = 10;
-  std::uint32_t terms = 0x1ff;  ///< see RefinedOptions
+  std::uint32_t terms = kAllTerms;  ///< see RefinedOptions
   int threads = 0;
 };
 

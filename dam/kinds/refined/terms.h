@@ -20,15 +20,18 @@ struct TermInfo {
 };
 
 inline constexpr TermInfo kTermInfo[] = {
-    {RefinedTerm::phone, 5, {1, 20, 40, 60, 80}},
-    {RefinedTerm::class_left, 3, {20, 20, 40}},
-    {RefinedTerm::class_right, 3, {20, 20, 40}},
-    {RefinedTerm::phone_left, 3, {20, 20, 40}},
-    {RefinedTerm::phone_right, 3, {20, 20, 40}},
-    {RefinedTerm::duration, 3, {20, 20, 40}},
-    {RefinedTerm::class_left_2, 2, {20, 20}},
-    {RefinedTerm::class_right_2, 2, {20, 20}},
-    {RefinedTerm::phone_class, 5, {0.5, 10, 20, 30, 40}},
+    {RefinedTerm::phone, 5, {15, 600, 1200, 1800, 2400}},
+    {RefinedTerm::class_left, 3, {50, 50, 100}},
+    {RefinedTerm::class_right, 3, {50, 50, 100}},
+    {RefinedTerm::phone_left, 3, {50, 50, 100}},
+    {RefinedTerm::phone_right, 3, {50, 50, 100}},
+    {RefinedTerm::duration, 3, {8, 8, 16}},
+    {RefinedTerm::class_left_2, 2, {50, 50}},
+    {RefinedTerm::class_right_2, 2, {50, 50}},
+    {RefinedTerm::phone_class, 5, {0.05, 3, 7, 10, 13}},
+    {RefinedTerm::left, 3, {8, 8, 16}},
+    {RefinedTerm::right, 3, {8, 8, 16}},
+    {RefinedTerm::triphone, 3, {5, 5, 10}},
 };
 inline constexpr std::size_t kTermCount = std::size(kTermInfo);
 
@@ -40,7 +43,7 @@ struct Neighbourhood {
   double duration = 0;  ///< seconds
 };
 
-/// One term of an occurrence.
+/// One term of an occurrence; a scale of 0: it has none of this kind.
 struct TermUse {
   std::uint32_t key = 0;
   double scale = 1;
@@ -57,5 +60,9 @@ std::uint32_t largest_key(RefinedTerm term, std::size_t phones);
 std::optional<std::uint32_t> phone_of_key(RefinedTerm term, std::uint32_t key);
 /// The same key, which must name a phone, for a phone that has another number.
 std::uint32_t key_with_phone(RefinedTerm term, std::uint32_t key, std::uint32_t phone);
+
+/// Of the triphones of a corpus, those that say something of their own: the most frequent of those
+/// with a few examples. Each costs unknowns, and rich text has more of them than memory.
+inline constexpr std::size_t kMostTriphones = 512, kLeastTriphones = 3;
 
 }  // namespace animeme::dam
