@@ -149,8 +149,9 @@ TEST(ModelFile, OlderVersionsAreRead) {
   const auto same = read_model(bytes);
   ASSERT_TRUE(same);
   EXPECT_EQ(*same, model);
-  // 2.0 ended with the parameters of the method: without the flag and two numbers.
-  const std::size_t more = 1 + 8 + 8;
+  // 2.0 ended with the parameters of the method: without the flag and two numbers, and without
+  // limits.
+  const std::size_t more = 1 + 8 + 8 + 4;
   bytes.erase(bytes.end() - 4 - std::ptrdiff_t(more), bytes.end() - 4);
   bytes[10] = 0;
   std::uint64_t size = 0;
