@@ -77,7 +77,13 @@ ClosureOptions closure_options(const Model& model) {
 std::vector<Occurrence> timeline_of(const Model& model, const Script& spoken) {
   auto timeline = make_timeline(spoken, model.pause_edge);
   // A model may lack silence only if it was made by hand; the mouth then rests in pauses.
-  std::erase_if(timeline, [&](const Occurrence& o) { return model.find_phone(o.label) < 0; });
+  const auto unknown = [&](const std::string& label) { return model.find_phone(label) < 0; };
+  std::erase_if(timeline, [&](const Occurrence& o) { return unknown(o.label); });
+  // Who stood beside such a pause now stands beside the resting mouth: there is nobody to look at.
+  for (Occurrence& o : timeline) {
+    if (unknown(o.left)) o.left.clear();
+    if (unknown(o.right)) o.right.clear();
+  }
   hold_drawn_out(timeline, [&](const std::string& label) {
     return model.phones[std::size_t(model.find_phone(label))].longest;
   });

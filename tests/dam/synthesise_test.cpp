@@ -418,5 +418,25 @@ TEST(LipTooth, RaisesTheLowerLipButKeepsTheLipsApart) {
   for (std::size_t i = 0; i < 60; ++i) EXPECT_GE(-(far.at(i, 0) + far.at(i, 1)), kLeastOpen - 1e-9);
 }
 
+TEST(Synthesise, ModelsWithoutSilenceRestInPauses) {
+  // Of method dam, whose curves look at the phones beside: a pause that is not there must not be
+  // looked at.
+  Model model;
+  model.method = Method::dam;
+  model.controls = {{"a", 0, 0, 1}};
+  model.phones = {{"AA", 20, 8, 0.1, 0.4}};
+  RefinedParameters parameters;
+  parameters.dominance = {{}};
+  for (const RefinedTerm term : {RefinedTerm::phone, RefinedTerm::class_left_2})
+    parameters.tables.push_back({term, 1, {0}, {1.0F}});
+  model.parameters = parameters;
+  ASSERT_TRUE(validate(model));
+  const Script script{
+      {{0, 0.3, "SIL", ""}, {0.3, 0.4, "AA", ""}, {0.4, 0.8, "SIL", ""}, {0.8, 1, "AA", ""}}};
+  const auto signal = synthesise(model, script);
+  ASSERT_TRUE(signal) << signal.error().describe();
+  for (const double value : signal->values) EXPECT_LE(std::abs(value), 2);
+}
+
 }  // namespace synthesise_test
 }  // namespace animeme::dam
