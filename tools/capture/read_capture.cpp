@@ -120,7 +120,7 @@ Result<TrackedTable> read_capture_table(const std::string& path, const CaptureSe
           .in_file(path);
     }
     talk.say(path + ": " + (*video)->text + ", tracking");
-    auto text = settings.tracker->run(path, settings.tracker_seconds);
+    auto text = settings.tracker->run(path, settings.tracker_seconds, settings.tracking);
     if (!text) return text.error();
     return TrackedTable{std::move(*text), **video};
   }

@@ -20,6 +20,7 @@ namespace animeme::tools {
 struct CaptureSettings {
   std::optional<Tracker> tracker;             ///< for videos; nothing: videos are refused
   double tracker_seconds = 3600;              ///< for one video
+  Progress tracking;                          ///< of the tracker, for each video anew
   exchange::CaptureTableOptions table;        ///< columns of other names
   exchange::LandmarkImportOptions landmarks;  ///< of points
   std::optional<fap::Rate> rate;              ///< --rate
