@@ -1,7 +1,7 @@
 /// @file
 /// Trackers of others: programs that find a face in a video and write a table.
 ///
-///     auto tracker = Tracker::parse("python3 track68.py model.dat {in} {out}");
+///     auto tracker = Tracker::parse("node track.js {in} {out}");
 ///     auto table = tracker->run("clip.mp4");
 ///
 /// What a tracker has to write is told in tools/trackers/README.md.
