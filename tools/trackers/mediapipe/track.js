@@ -8,7 +8,7 @@ const {openPage} = require('./page.js');
 const {Table} = require('./table.js');
 const {openVideo} = require('./video.js');
 
-const kLongest = 1280;  // pixels of a picture: the face in it is made 256 wide in any case
+const kLongest = 960;  // pixels of a picture: a face that is a quarter as wide has all that the model sees of it
 const kUsage = 'usage: track.js [--model face_landmarker.task [--shapes]] [--confidence 0.5]\n' +
     '                [--chromium PATH] VIDEO TABLE.csv';
 
