@@ -36,6 +36,7 @@ Result<int> run(const MakeCorpusOptions& options) {
     say(text);
   };
   talk.warn = [&](const std::string& text) {
+    if (Interrupt::requested()) return;  // of what was left unfinished
     line.clear();
     warn(text);
   };
