@@ -28,14 +28,15 @@ constexpr double kLeastMeasured = 0.5;  // of the frames of a sentence
 class Builder {
  public:
   Builder(const CorpusPlan& plan, const Talk& talk, const Progress& progress)
-      : plan_(plan), talk_(talk), progress_(progress) {}
+      : plan_(plan), talk_(talk), progress_(progress), capture_(plan.capture) {}
 
   Result<CorpusReport> build() {
     auto takes = find_takes(plan_.places);
     if (!takes) return std::move(takes).error();
     report_.folder = plan_.output;
     report_.left_out = std::move(takes->left_out);
-    if (auto ok = make_folders(); !ok) return ok.error();
+    if (auto ok = somebody_tracks(takes->takes); !ok) return ok.error();
+    if (auto ok = make_folder(plan_.output, ""); !ok) return ok.error();
     const auto lock = FileLock::take(plan_.output + "/corpus");
     if (!lock) return lock.error();
     if (auto ok = read(takes->takes); !ok) return ok.error();
@@ -50,11 +51,17 @@ class Builder {
   }
 
  private:
-  Result<void> make_folders() {
-    for (const char* folder : {"", "fap", "phonemes"}) {
-      if (auto ok = make_folder(plan_.output, folder); !ok) return ok;
+  // Videos alone, nobody who tracks them, and nothing that was tracked before: said once.
+  Result<void> somebody_tracks(const std::vector<Take>& takes) const {
+    std::error_code none;
+    if (plan_.capture.tracker || takes.empty() ||
+        fs::is_directory(fs::path(plan_.output) / "tracked", none) ||
+        std::any_of(takes.begin(), takes.end(), [](const Take& t) { return !t.table.empty(); })) {
+      return {};
     }
-    return {};
+    auto refused = read_capture_table(takes[0].video, plan_.capture, talk_);
+    if (refused) return {};
+    return std::move(refused).error();
   }
 
   void leave_out(const Take& take, const char* stage, const Error& error) {
@@ -68,7 +75,11 @@ class Builder {
       if (progress_.stop()) {
         return make_error(Code::io, "stopped; what was tracked is kept, the same command goes on");
       }
-      progress_.at(0.9 * double(i) / double(takes.size()));
+      const auto at = [&, i](double share) {
+        progress_.at(0.9 * (double(i) + share) / double(takes.size()));
+      };
+      at(0);
+      capture_.tracking = {at, progress_.stop};
       Sentence sentence{takes[i], {}, {}, 0, {}, {}, {}};
       sentence.report.id = takes[i].id;
       const char* stage = "track";
@@ -101,7 +112,7 @@ class Builder {
       table.text = std::move(*before);
       sentence.report.source = "tracked before";
     } else {
-      auto read = read_capture_table(take.video, plan_.capture, talk_);
+      auto read = read_capture_table(take.video, capture_, talk_);
       if (!read) return read.error();
       table.text = std::move(read->text);
       sentence.report.source = "tracked";
@@ -114,7 +125,6 @@ class Builder {
     sentence.capture = std::move(*capture);
     if (sentence.report.source != "tracked") return {};
     stage = "track";
-    if (auto ok = make_folder(plan_.output, "tracked"); !ok) return ok;
     return cache.keep(take.id, take.video, plan_.capture, table.text);
   }
 
@@ -314,7 +324,10 @@ class Builder {
   Error nothing_left() const {
     std::string why;
     if (!report_.left_out.empty()) {
-      const LeftOut& first = report_.left_out.front();
+      // Files without a partner may not have been meant.
+      const auto tried = std::find_if(report_.left_out.begin(), report_.left_out.end(),
+                                      [](const LeftOut& one) { return one.stage != "files"; });
+      const LeftOut& first = tried == report_.left_out.end() ? report_.left_out.front() : *tried;
       why = "; " + first.id + ": " + first.why;
       if (report_.left_out.size() > 1) {
         why += format(" (and %zu more)", report_.left_out.size() - 1);
@@ -326,6 +339,7 @@ class Builder {
   const CorpusPlan& plan_;
   const Talk& talk_;
   const Progress& progress_;
+  CaptureSettings capture_;  // with the progress of the tracker
   std::vector<Sentence> sentences_;
   std::optional<fap::RestingFace> rest_;
   CorpusReport report_;

@@ -92,6 +92,9 @@ Result<void> write_corpus(const CorpusPlan& plan, std::vector<Sentence>& sentenc
     ids.push_back(sentence.take.id);
     texts.push_back(sentence.report.text);
   }
+  for (const char* folder : {"fap", "phonemes"}) {
+    if (auto ok = make_folder(plan.output, folder); !ok) return ok;
+  }
   const std::vector<int> folds = split_into_folds(ids, texts, plan.folds);
   std::vector<std::pair<std::string, std::string>> files;
   for (std::size_t i = 0; i < sentences.size(); ++i) {

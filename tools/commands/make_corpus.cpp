@@ -41,13 +41,8 @@ Result<int> run(const MakeCorpusOptions& options) {
     warn(text);
   };
   Progress progress;
-  double done = 0;
-  progress.at = [&](double share) { line.update(done = share); };
+  progress.at = [&](double share) { line.update(share); };
   progress.stop = [] { return Interrupt::requested(); };
-  plan.capture.tracking.at = [&](double share) {
-    line.update(done, format("this video %.0f %%", 100 * share));
-  };
-  plan.capture.tracking.stop = progress.stop;
   const Result<CorpusReport> report = build_corpus(plan, talk, progress);
   line.clear();
   if (!report) {
