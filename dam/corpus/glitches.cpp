@@ -18,7 +18,7 @@ constexpr double kJump = 3, kJumpOfLittle = 4;     // usual spans from the middl
 constexpr double kSpike = 3, kSpikeShare = 0.995;
 constexpr double kStuck = 0.3;   // seconds
 constexpr double kHabit = 0.01;  // of the frames: a value where the control likes to be
-constexpr double kRepeats = 0.05;
+constexpr double kRepeats = 0.1;
 constexpr double kTooMany = 0.05;  // of the frames
 constexpr double kBridge = 0.12;   // seconds
 constexpr std::size_t kApart = 3;  // frames between two parts of one jump
@@ -54,6 +54,7 @@ struct Usual {
 struct Channel {
   const Signal& signal;
   std::size_t control;
+  const std::vector<bool>& speech;
 
   std::size_t frames() const { return signal.frames(); }
   double operator[](std::size_t i) const { return signal.at(i, control); }
@@ -68,19 +69,23 @@ std::size_t stuck_frames(fap::Rate rate) {
   return std::size_t(std::ceil(kStuck * rate.frames_per_second()));
 }
 
-Usual usual_of(std::span<const Utterance* const> sentences, std::size_t control) {
+using SpeechMasks = std::vector<std::vector<bool>>;
+
+Usual usual_of(std::span<const Utterance* const> sentences, const SpeechMasks& speech,
+               std::size_t control) {
   std::vector<double> values, bends;
   double seconds = 0;
-  std::size_t same = 0;
+  std::size_t same = 0, spoken = 0;
   const std::size_t longest = stuck_frames(sentences[0]->signal.rate);
-  for (const Utterance* u : sentences) {
-    const Channel channel{u->signal, control};
+  for (std::size_t s = 0; s < sentences.size(); ++s) {
+    const Channel channel{sentences[s]->signal, control, speech[s]};
     std::size_t held = 0;  // frames of the same value so far
     for (std::size_t i = 0; i < channel.frames(); ++i) {
       if (!channel.measured(i)) continue;
       values.push_back(channel[i]);
       held = i > 0 && channel[i] == channel[i - 1] ? held + 1 : 0;
-      if (held > 0 && held < longest) ++same;
+      if (channel.speech[i]) ++spoken;
+      if (channel.speech[i] && held > 0 && held < longest) ++same;
       if (channel.has_neighbours(i)) bends.push_back(std::abs(channel.bend(i)));
     }
   }
@@ -93,7 +98,7 @@ Usual usual_of(std::span<const Utterance* const> sentences, std::size_t control)
   usual.span = (high - low) / reach_ratio(share);
   usual.reach = usual.span * (share > kShare ? kJumpOfLittle : kJump);
   usual.bend = quantile(bends, std::min(kSpikeShare, 1 - share / 2));
-  usual.repeats = double(same) > kRepeats * double(values.size());
+  usual.repeats = double(same) > kRepeats * double(spoken);
   std::sort(values.begin(), values.end());
   usual.habit = std::max(2.0, kHabit * double(values.size()));
   for (std::size_t i = 0; i < values.size();) {
@@ -136,11 +141,21 @@ std::vector<Run> runs_of(const Channel& channel, const Usual& usual, const Contr
       runs.push_back({GlitchKind::spike, i, i + 1});
     }
   }
+  // Nonsense passes through the usual on its way in and out.
+  const auto odd = [&](std::size_t i) {
+    return channel.measured(i) && std::abs(channel[i] - usual.middle) > usual.span;
+  };
+  for (Run& run : runs) {
+    if (run.kind != GlitchKind::jump) continue;
+    for (std::size_t n = 0; n < kApart && run.first > 0 && odd(run.first - 1); ++n) --run.first;
+    for (std::size_t n = 0; n < kApart && run.last < channel.frames() && odd(run.last); ++n)
+      ++run.last;
+  }
   if (usual.repeats) return runs;
   const std::size_t least = stuck_frames(channel.signal.rate);
   for (std::size_t i = 0; i < channel.frames();) {
     std::size_t j = i;
-    while (j < channel.frames() && channel[j] == channel[i] && channel.measured(j)) ++j;
+    while (j < channel.frames() && channel[j] == channel[i] && channel.speech[j]) ++j;
     const auto often = usual.often.find(channel[i]);
     const bool habit = often != usual.often.end() && double(often->second - (j - i)) > usual.habit;
     if (j - i >= least && !habit) runs.push_back({GlitchKind::stuck, i, j});
@@ -209,14 +224,16 @@ Mended mend_glitches(std::span<const Utterance* const> sentences, Bridges bridge
   if (sentences.empty() || !sound(sentences)) return out;
   const std::vector<std::string>& names = sentences[0]->signal.names;
   const auto limits = natural_limits(names);
+  SpeechMasks speech;
+  for (const Utterance* u : sentences) speech.push_back(speech_frames(*u));
   std::vector<std::vector<Glitch>> found(sentences.size());
   for (std::size_t c = 0; c < names.size(); ++c) {
-    const Usual usual = usual_of(sentences, c);
+    const Usual usual = usual_of(sentences, speech, c);
     std::vector<std::vector<Run>> runs;
     double frames = 0, bad = 0;
-    for (const Utterance* u : sentences) {
-      runs.push_back(runs_of({u->signal, c}, usual, limits[c]));
-      frames += double(u->signal.frames());
+    for (std::size_t s = 0; s < sentences.size(); ++s) {
+      runs.push_back(runs_of({sentences[s]->signal, c, speech[s]}, usual, limits[c]));
+      frames += double(sentences[s]->signal.frames());
       for (const Run& run : runs.back()) bad += double(run.last - run.first);
     }
     const double nonsense = kNonsense * sentences[0]->signal.rate.frames_per_second();

@@ -59,12 +59,13 @@ enum class Bridges : std::uint8_t {
 /// - the usual span of a control is from its 5th to its 95th percentile (of less than 12 s of
 ///   material further in, so that 0.6 s of nonsense cannot be usual);
 /// - jump: beyond the middle by three such spans (four if there is less than 12 s), and beyond the
-///   natural limits of the control, if it has some (limits.h);
+///   natural limits of the control, if it has some (limits.h), with up to three frames on either
+///   side that are beyond it by one;
 /// - spike: off the mean of its neighbours by the usual span and by three times what 99.5 % of the
 ///   frames are, while these are alike;
-/// - stuck: 0.3 s of one value that is not one of the control's habits (1 % of its other frames),
-/// in a
-///   control that repeats its value, for less than that, in under 5 % of its frames.
+/// - stuck: in speech, 0.3 s of one value that is no habit of the control (1 % of its other
+/// frames),
+///   if it repeats values, for less than that, in under 10 % of the frames of speech.
 ///
 /// A control with glitches in more than 5 % of its frames, and 0.6 s, is like that; nothing is
 /// taken out of it.
