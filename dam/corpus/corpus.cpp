@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "dam/corpus/rows_internal.h"
@@ -98,7 +99,8 @@ class CorpusReader {
     return is_file(curves(id, ".csv")) || is_file(curves(id, ".fap"));
   }
 
-  Result<void> read(Utterance& u) {
+  /// False: no row of the sentence is without a blank.
+  Result<bool> read(Utterance& u) {
     const fs::path csv = curves(u.id, ".csv"), fap_text = curves(u.id, ".fap");
     const bool is_fap = !is_file(csv) && is_file(fap_text);
     const fs::path& path = is_fap ? fap_text : csv;
@@ -106,16 +108,48 @@ class CorpusReader {
     if (!script) return script.error();
     const auto text = read_file(path);
     if (!text) return text.error();
-    auto signal = is_fap ? read_fap_signal(*text) : read_curves(*text);
+    std::vector<BlankNote> blanks;
+    auto signal = is_fap ? read_fap_signal(*text) : read_curves(*text, &blanks);
     if (signal && names_.empty()) names_ = signal->names;
     if (signal) signal = keep_controls(std::move(*signal), names_);
     if (!signal) return std::move(signal).error().in_file(path.string());
     u.script = std::move(*script);
     u.signal = std::move(*signal);
-    return check(u, path);
+    note_blanks(u.id, std::move(blanks));
+    leave_out_blanks(u.signal);
+    if (auto ok = check(u, path); !ok) return ok.error();
+    const auto& measured = u.signal.measured;
+    const bool any =
+        measured.empty() || std::find(measured.begin(), measured.end(), true) != measured.end();
+    if (!any) ++left_out_.sentences;
+    return any;
+  }
+
+  /// At the end. An error if nothing but blanks was there of some control.
+  Result<LeftOut> left_out() && {
+    for (const std::string& name : names_)
+      if (const auto all = wholly_blank_.find(name);
+          all != wholly_blank_.end() && all->second == read_)
+        return error_in(
+            folder_ / options_.controls_folder, Code::not_found,
+            "the control '" + name + "' is blank in every sentence; choose other controls");
+    if (read_ > 0 && left_out_.sentences == read_)
+      return error_in(folder_ / options_.controls_folder, Code::not_found,
+                      "no sentence has a row without a blank; choose fewer controls");
+    return std::move(left_out_);
   }
 
  private:
+  void note_blanks(const std::string& id, std::vector<BlankNote> blanks) {
+    ++read_;
+    for (BlankNote& blank : blanks) {
+      if (std::find(names_.begin(), names_.end(), blank.control) == names_.end()) continue;
+      if (blank.rows == blank.of) ++wholly_blank_[blank.control];
+      blank.id = id;
+      left_out_.blanks.push_back(std::move(blank));
+    }
+  }
+
   fs::path curves(const std::string& id, const char* extension) const {
     return folder_ / options_.controls_folder / (id + extension);
   }
@@ -143,6 +177,9 @@ class CorpusReader {
   std::vector<std::string> names_;
   std::string first_;
   fap::Rate rate_;
+  LeftOut left_out_;
+  std::size_t read_ = 0;                             // sentences
+  std::map<std::string, std::size_t> wholly_blank_;  // sentences, by control
 };
 
 }  // namespace
@@ -204,18 +241,18 @@ double Corpus::duration() const {
 
 Result<Corpus> read_corpus(const fs::path& folder, const CorpusOptions& options) {
   Corpus corpus;
-  const auto skipped =
+  auto left_out =
       visit_corpus(folder, options, [&](Utterance u, std::size_t, std::size_t) -> Result<void> {
         corpus.utterances.push_back(std::move(u));
         return {};
       });
-  if (!skipped) return skipped.error();
-  corpus.skipped = *skipped;
+  if (!left_out) return left_out.error();
+  corpus.left_out = std::move(*left_out);
   return corpus;
 }
 
-Result<std::size_t> visit_corpus(const fs::path& folder, const CorpusOptions& options,
-                                 const SentenceVisitor& visit) {
+Result<LeftOut> visit_corpus(const fs::path& folder, const CorpusOptions& options,
+                             const SentenceVisitor& visit) {
   auto rows = read_rows(folder / "utterances.tsv", options);
   if (!rows) return rows.error();
   CorpusReader reader(folder, options);
@@ -226,13 +263,17 @@ Result<std::size_t> visit_corpus(const fs::path& folder, const CorpusOptions& op
       ++skipped;
       continue;
     }
-    if (auto ok = reader.read(u); !ok) return ok.error();
+    const auto complete = reader.read(u);
+    if (!complete) return complete.error();
+    if (!*complete) continue;
     if (auto ok = visit(std::move(u), row, rows->size()); !ok) return ok.error();
   }
   if (skipped == rows->size())
     return error_in(folder / options.controls_folder, Code::not_found,
                     "no row has a control file in this folder");
-  return skipped;
+  auto left_out = std::move(reader).left_out();
+  if (left_out) left_out->skipped = skipped;
+  return left_out;
 }
 
 std::vector<Utterance> select(const Corpus& corpus, std::string_view column,

@@ -5,9 +5,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "dam/corpus/glitches.h"
 #include "dam/model/model.h"
 #include "fap/result.h"
 
@@ -128,6 +130,36 @@ struct SentenceNote {
   double error = 0;   ///< the rest of its error, divided by the median of the sentences
 };
 
+/// By how much the motion comes after its script, as far as the sentences tell.
+struct LagEstimate {
+  double seconds = 0;  ///< below 0: the motion comes before it
+  double low = 0;      ///< least of the 95 % interval, by drawing sentences
+  double high = 0;     ///< largest of it
+
+  /// 40 ms or more, and surely above 20 ms: worth a shift.
+  bool notable() const;
+};
+
+/// A sentence whose motion does not follow its script as that of the others does.
+struct ScriptDoubt {
+  std::string id;    ///< the sentence
+  double fit = 0;    ///< correlation of its motion with what its script asks for
+  double usual = 0;  ///< median over all sentences of the best that they reach
+  /// Seconds by which its motion seems to come later than that of the others; none: another text.
+  std::optional<double> shift;
+};
+
+/// Whether scripts and motion belong together; see check_alignment().
+struct Alignment {
+  std::size_t sentences = 0;        ///< that were looked at
+  std::optional<LagEstimate> lag;   ///< none: too little to tell
+  double fit = 0;                   ///< share of the motion that a known speaker's mouth explains
+  double chance = 0;                ///< the same with scripts of other sentences: mean
+  double chance_sd = 0;             ///< and deviation; 0: too few sentences to tell
+  bool unrelated = false;           ///< scripts of other sentences would do as well
+  std::vector<ScriptDoubt> doubts;  ///< the worst first; none if `unrelated`
+};
+
 /// What happened during training.
 struct TrainSummary {
   std::vector<double> objective;  ///< start (dam-paper: once the modes are settled), then after
@@ -136,21 +168,25 @@ struct TrainSummary {
   std::vector<std::size_t>
       moved;  ///< dam-paper: occurrences that changed their mode, per round before that
   bool converged = false;       ///< false: stopped by max_iterations
-  double seconds = 0;           ///< wall clock
+  double seconds = 0;           ///< wall clock of the fit
   std::size_t utterances = 0;   ///< sentences used
   std::size_t frames = 0;       ///< frames fitted
+  double speech_seconds = 0;    ///< of these that lie within 0.2 s of speech
   std::size_t occurrences = 0;  ///< phones fitted
   std::size_t modes = 0;        ///< of all phones; 0: the method has none
   double ridge = 0;             ///< dam: the factor of the ridges
-  /// One for each control of the model. `explained` is of sentences that were held out if the
-  /// method is dam and there are 16 or more, else of the training sentences.
+  /// One for each control of the model. `explained` is of sentences that were held out: one of
+  /// eight if the method is dam and there are 16 or more, else four folds in turn (of 16 sentences
+  /// or more the first alone), by models trained without them. One sentence, or train_from_sums()
+  /// with fewer than 16: of the training sentences, which flatters.
   std::vector<ControlNote> controls;
   bool held_out = false;               ///< `explained` is of sentences that were held out
   std::vector<RarePhone> rare;         ///< under 12 examples
   std::vector<UnknownPhone> unknown;   ///< of the 41 of phones.h
   std::vector<SentenceNote> standing;  ///< the worst three, the worst first; see kStandsOut
-  double lag = 0;  ///< seconds by which the signal seems to come after the phonemes
-  std::vector<std::string> warnings;  ///< all of the above that wants attention, in sentences
+  Alignment alignment;                 ///< of scripts and motion
+  std::vector<Glitch> glitches;        ///< what was taken out, by mend_glitches()
+  std::vector<std::string> warnings;   ///< all of the above that wants attention, in sentences
 };
 
 /// A sentence is named in TrainSummary::standing if its offset is above three usual ones or its

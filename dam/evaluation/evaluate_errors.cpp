@@ -41,7 +41,15 @@ RegionSums sum_region(const Layout& layout, const AllSeries& all,
 }
 
 SeriesScore series_score(const std::string& name, bool scored, const Comparison& c, double sd) {
-  return {name, scored, c.rmse(), sd > 0 ? c.rmse() / sd : 0.0, c.largest, c.correlation()};
+  return {name,
+          scored,
+          c.rmse(),
+          sd > 0 ? c.rmse() / sd : 0.0,
+          c.largest,
+          c.correlation(),
+          c.gain(),
+          c.offset(),
+          c.fitted_nrmse()};
 }
 
 void finish_region(const Layout& layout, const RegionSums& sums, RegionScore& region) {
@@ -54,11 +62,13 @@ void finish_region(const Layout& layout, const RegionSums& sums, RegionScore& re
         series_score(layout.controls[c].name, layout.scored[c], sums.series[c], sd));
     if (!layout.scored[c]) continue;
     region.nrmse += region.controls.back().nrmse;
+    region.fitted_nrmse += region.controls.back().fitted_nrmse;
     region.still_nrmse += std::sqrt(sums.still[c] / frames) / sd;
     region.correlation += region.controls.back().correlation;
   }
   region.nrmse /= scored;
   region.still_nrmse /= scored;
+  region.fitted_nrmse /= scored;
   region.correlation /= scored;
   region.l2 = sums.l2 / frames;
   for (std::size_t m = 0; m < layout.measures.size(); ++m) {

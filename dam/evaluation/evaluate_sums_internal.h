@@ -30,6 +30,13 @@ struct Comparison {
   double deviation_a() const { return n > 0 ? std::sqrt(variation_a() / n) : 0; }
   double deviation_b() const { return n > 0 ? std::sqrt(variation_b() / n) : 0; }
   double mean_difference() const { return n > 0 ? (x - y) / n : 0; }
+  /// The line b = offset + gain a of least error, and that error.
+  double gain() const { return std::max(0.0, correlation()) * inverse_ratio(); }
+  double offset() const { return n > 0 ? (y - gain() * x) / n : 0; }
+  double fitted_nrmse() const {  ///< in deviations of b
+    const double r = std::max(0.0, correlation());
+    return deviation_b() > 0 ? std::sqrt(std::max(0.0, 1 - r * r)) : 0;
+  }
   /// Deviation of a over that of b, 0 if b does not move.
   double deviation_ratio() const { return deviation_b() > 0 ? deviation_a() / deviation_b() : 0; }
 
@@ -39,6 +46,7 @@ struct Comparison {
     const double v = squares - sum * sum / n;
     return n > 0 && v > 1e-12 * squares ? v : 0;
   }
+  double inverse_ratio() const { return deviation_a() > 0 ? deviation_b() / deviation_a() : 0; }
   double variation_a() const { return variation(n, x, xx); }
   double variation_b() const { return variation(n, y, yy); }
 };

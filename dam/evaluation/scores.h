@@ -21,6 +21,12 @@ struct SeriesScore {
                            ///< recordings in this region for a measure; 0 if that is 0
   double largest = 0;      ///< largest absolute error
   double correlation = 0;  ///< Pearson; 0 if one of the two does not move
+  /// The straight line from made to recorded that leaves the least error, one for all frames of the
+  /// region; the gain is not below 0.
+  double gain = 0;
+  double offset = 0;        ///< of that line, in the units of the control
+  double fitted_nrmse = 0;  ///< rmse of `offset + gain * made` / deviation of the recordings in
+                            ///< this region: 0..1, 1 is what a still face has
 };
 
 /// All frames of one kind: speech (within 0.2 s of it) or silence (the rest). Only measured frames.
@@ -28,6 +34,9 @@ struct RegionScore {
   std::size_t frames = 0;  ///< scored frames of this kind
   double nrmse = 0;        ///< mean over scored controls
   double still_nrmse = 0;  ///< the same for a face that keeps the mean pose of the scale
+  /// Mean of SeriesScore::fitted_nrmse over scored controls: what is left if only size and rest of
+  /// the motion are another speaker's.
+  double fitted_nrmse = 0;
   double l2 = 0;  ///< mean over frames of the Euclidean norm of the error in standard deviations
   double correlation = 0;             ///< mean over scored controls
   std::vector<SeriesScore> controls;  ///< in the order of the scale

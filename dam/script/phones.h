@@ -101,7 +101,8 @@ std::string_view nearest_label(std::string_view spelling);
 //   SH   CH | JH | ZH | S+R | S | Z                   ZH   JH | SH | CH | Z+R | Z | S
 //   R    ER | W | UH | L              W    UW | UH | OW | R
 //
-// A model that knows none of a list has to fall back on the mean of its class or on rest.
+// A model that knows none of a list asks the lists of those that are in it, and so on: from every
+// sound a way leads to every other, so that a model of few sounds speaks everything.
 // ---------------------------------------------------------------------------------------------
 
 /// Instead of a label in RelativePart: the phone has no mouth shape of its own and takes that of

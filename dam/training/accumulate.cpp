@@ -22,17 +22,6 @@ std::uint64_t digest_of(std::span<const std::uint8_t> bytes) {
   return h ^ (h >> 33);
 }
 
-/// Of all that is learned from: identifier, phones, curves.
-std::uint64_t sentence_digest(const Utterance& u) {
-  ByteWriter out;
-  out.bytes.reserve(9 * u.signal.values.size() + 64 * u.script.phones.size() + 1024);
-  out.put(u.id, u.signal.rate.num, u.signal.rate.den, u.signal.names, u.signal.values);
-  for (std::size_t i = 0; i < u.signal.frames(); ++i)
-    out.put(std::uint8_t(is_measured(u.signal, i) ? 1 : 0));
-  for (const Phone& phone : u.script.phones) out.put(phone.start, phone.end, phone.label);
-  return digest_of(out.bytes);
-}
-
 bool same_controls(const SumsState& state, const std::vector<std::string>& names) {
   return std::equal(state.controls.begin(), state.controls.end(), names.begin(), names.end(),
                     [](const ControlSums& c, const std::string& name) { return c.name == name; });
@@ -115,6 +104,16 @@ FitSums sums_of(const Utterance& u, const std::vector<Occurrence>& timeline, con
 
 }  // namespace
 
+std::uint64_t sentence_digest(const Utterance& u) {
+  ByteWriter out;
+  out.bytes.reserve(9 * u.signal.values.size() + 64 * u.script.phones.size() + 1024);
+  out.put(u.id, u.signal.rate.num, u.signal.rate.den, u.signal.names, u.signal.values);
+  for (std::size_t i = 0; i < u.signal.frames(); ++i)
+    out.put(std::uint8_t(is_measured(u.signal, i) ? 1 : 0));
+  for (const Phone& phone : u.script.phones) out.put(phone.start, phone.end, phone.label);
+  return digest_of(out.bytes);
+}
+
 TrainingSums::TrainingSums(std::unique_ptr<SumsState> state) : state_(std::move(state)) {}
 TrainingSums::TrainingSums(TrainingSums&&) noexcept = default;
 TrainingSums& TrainingSums::operator=(TrainingSums&&) noexcept = default;
@@ -163,8 +162,7 @@ Result<TrainingSums> TrainingSums::start(const TrainOptions& options, const Mode
   return TrainingSums(std::move(state));
 }
 
-Result<bool> TrainingSums::add(const Utterance& u) {
-  SumsState& state = *state_;
+Result<bool> add_to_sums(SumsState& state, const Utterance& u, std::uint64_t digest) {
   const bool first = state.controls.empty();
   const std::string sentence = "sentence '" + u.id + "': ";
   if (!first && !same_controls(state, u.signal.names))
@@ -174,7 +172,6 @@ Result<bool> TrainingSums::add(const Utterance& u) {
   if (!first && !(u.signal.rate == state.rate))
     return refused(sentence + "its frame rate is not that of the sums; resample it");
   if (auto ok = check_sentence(u, u.signal.names, u.signal.rate); !ok) return ok.error();
-  const std::uint64_t digest = sentence_digest(u);
   const auto same_id = state.sentences.lower_bound({u.id, 0});
   if (same_id != state.sentences.end() && same_id->first == u.id) {
     if (state.sentences.contains({u.id, digest})) return false;
@@ -198,6 +195,15 @@ Result<bool> TrainingSums::add(const Utterance& u) {
   add_contacts(u, state);
   state.sentences.insert({u.id, digest});
   return true;
+}
+
+Result<bool> TrainingSums::add(const Utterance& sentence, std::vector<Glitch>* glitches) {
+  const Utterance* const one[] = {&sentence};
+  const Mended mended = mend_glitches(one);
+  const auto added = add_to_sums(*state_, *mended.sentences[0], sentence_digest(sentence));
+  if (added && *added && glitches != nullptr)
+    glitches->insert(glitches->end(), mended.glitches.begin(), mended.glitches.end());
+  return added;
 }
 
 }  // namespace animeme::dam

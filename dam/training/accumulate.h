@@ -64,10 +64,12 @@ class TrainingSums {
   static Result<TrainingSums> start(const TrainOptions& options = {}, const Model* base = nullptr);
 
   /// Adds a sentence. The first sets controls and rate. False: it is there already, with the same
-  /// content, and was not added again. After an error the sums are as before. Errors, with the id
-  /// of the sentence: invalid_argument (another content under an id that is there; other controls
-  /// or another rate; NaN; a broken script).
-  Result<bool> add(const Utterance& sentence);
+  /// content, and was not added again. Glitches are taken out as mend_glitches() does for this
+  /// sentence alone: that finds less than a look at all of a corpus, but the same in whatever part
+  /// it is summed. They are appended to `glitches`. After an error the sums are as before. Errors,
+  /// with the id of the sentence: invalid_argument (another content under an id that is there;
+  /// other controls or another rate; NaN; a broken script).
+  Result<bool> add(const Utterance& sentence, std::vector<Glitch>* glitches = nullptr);
 
   std::size_t sentences() const;              ///< added, held-out ones included
   std::size_t frames() const;                 ///< that count in the fit

@@ -113,6 +113,7 @@ void warn_of_versions(const SumsState& state, TrainSummary& summary) {
 void summarise(const SumsState& state, const Model& model, TrainSummary& summary) {
   summary.utterances = state.sentences.size();
   summary.frames = state.kept.curves.frames + state.held.curves.frames;
+  summary.speech_seconds = state.rate.seconds(double(state.speech_frames));
   for (const PhoneSums& sums : state.phones) summary.occurrences += std::size_t(sums.examples);
   note_phones(model, summary);
   add_warnings(summary);

@@ -9,18 +9,19 @@
 #include "dam/speaking/synthesise.h"
 #include "dam/training/accumulate.h"
 #include "dam/training/adapt_internal.h"
+#include "dam/training/alignment.h"
 #include "dam/training/train.h"
+#include "dam/training/train_notes_internal.h"
 #include "dam/training/training_sums_internal.h"
 
 namespace animeme::dam {
 namespace {
 
+/// With so many sentences the first fold alone tells enough.
+constexpr std::size_t kManySentences = 100;
 /// Factors of the ridges that are tried: what is left of a stranger is held more firmly than what
 /// is all.
 constexpr double kRidges[] = {1, 4, 20, 100};
-constexpr std::size_t kFolds = 4;
-/// With so many sentences the first fold alone tells enough.
-constexpr std::size_t kManySentences = 100;
 
 using Sentences = std::vector<const Utterance*>;
 using Signals = std::vector<const Signal*>;
@@ -62,10 +63,9 @@ Result<void> check(const Utterance& u, const Utterance& first) {
   return {};
 }
 
-Result<Material> material_of(const Model& base, std::span<const Utterance> sentences) {
-  Material material{{sentences.begin(), sentences.end()}, {}};
-  std::stable_sort(material.sentences.begin(), material.sentences.end(),
-                   [](const Utterance& a, const Utterance& b) { return a.id < b.id; });
+Result<Material> material_of(const Model& base, std::span<const Utterance* const> sentences) {
+  Material material;
+  for (const Utterance* u : sentences) material.sentences.push_back(*u);
   for (Utterance& u : material.sentences) {
     if (auto ok = check(u, material.sentences[0]); !ok) return ok.error();
     auto script = replace_unknown_phones(base, u.script);
@@ -84,12 +84,13 @@ Result<TrainingSums> sums_of_rest(const Model& base, const Sentences& sentences,
                                   const TrainOptions& options) {
   auto sums = TrainingSums::start(options, &base);
   if (!sums) return sums;
+  auto state = std::move(*sums).release();
   for (std::size_t s = 0; s < sentences.size(); ++s) {
     Utterance rest{sentences[s]->id, "", sentences[s]->script, {}, {}};
     rest.signal = rest_of(sentences[s]->signal, *made[s], telling);
-    if (auto added = sums->add(rest); !added) return added.error();
+    if (auto added = add_to_sums(*state, rest, sentence_digest(rest)); !added) return added.error();
   }
-  return sums;
+  return TrainingSums(std::move(state));
 }
 
 Result<Model> solved(const TrainingSums& sums, TrainOptions options, double ridge) {
@@ -194,8 +195,10 @@ Result<Model> adapt(const Model& wanted_base, std::span<const Utterance> sentenc
   out = {};
   Model base = wanted_base;
   base.limits.clear();  // they are of its own face
-  const auto material = material_of(base, sentences);
+  const Mended mended = mend_glitches(sorted_sentences(sentences));
+  const auto material = material_of(base, mended.sentences);
   if (!material) return material.error();
+  out.glitches = mended.glitches;
   const auto [all, made] = material->part(0, 0, false);
   const std::vector<Control> controls = control_statistics(all, base.pause_edge);
   const Telling telling = tell_base(base, all, made, &out.controls);
@@ -207,6 +210,11 @@ Result<Model> adapt(const Model& wanted_base, std::span<const Utterance> sentenc
   const auto ridge = choose(base, *material, controls, options, out, progress);
   if (!ridge) return ridge.error();
   out.ridge = options.refined.ridge > 0 ? options.refined.ridge : *ridge;
+  if (report != nullptr) {
+    auto alignment = check_alignment(all, options.threads);
+    if (alignment) out.alignment = std::move(*alignment);
+    out.warnings = warnings_of(out.alignment, out.glitches);
+  }
   std::optional<Model> more;
   if (out.ridge > 0) {
     const auto sums = sums_of_rest(base, all, made, telling, options);

@@ -47,9 +47,12 @@ struct AdaptReport {
   /// best.
   double ridge = 0;
   /// Error on own sentences that were held out, as a share of their variance, 0 with one sentence:
-  double base_error = 0;  ///< of the base with gains alone
-  double error = 0;       ///< with the curves that were chosen
-  double own_error = 0;   ///< of models trained on the own sentences alone
+  double base_error = 0;              ///< of the base with gains alone
+  double error = 0;                   ///< with the curves that were chosen
+  double own_error = 0;               ///< of models trained on the own sentences alone
+  Alignment alignment;                ///< of scripts and motion, by check_alignment()
+  std::vector<Glitch> glitches;       ///< what was taken out, by mend_glitches()
+  std::vector<std::string> warnings;  ///< what of the two wants attention, in sentences
 };
 
 /// `base` must be of method dam. Controls are those of the sentences. The ridge is chosen by

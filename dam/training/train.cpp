@@ -2,78 +2,42 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
+#include "dam/corpus/glitches.h"
 #include "dam/corpus/statistics_internal.h"
 #include "dam/corpus/training_set_internal.h"
-#include "dam/kinds/animeme/fit.h"
 #include "dam/model/kind_internal.h"
+#include "dam/training/alignment.h"
 #include "dam/training/train_notes_internal.h"
 
 namespace animeme::dam {
 namespace {
 
-/// Sentences by their identifiers: the order in which they are given must not matter.
-std::vector<const Utterance*> sorted(std::span<const Utterance> utterances) {
-  std::vector<const Utterance*> list;
-  for (const Utterance& u : utterances) list.push_back(&u);
-  std::stable_sort(list.begin(), list.end(),
-                   [](const Utterance* a, const Utterance* b) { return a->id < b->id; });
-  return list;
-}
+constexpr std::size_t kEnoughForOneFold = 16;  // sentences; method dam holds some out by itself
 
-/// Seconds by which the signal comes after its labels (negative: before), from how well phones fit
-/// when all are moved by -120 to 120 ms. Rough: widths and neighbours take up a part of a true lag.
-/// `phones` is the number of phones that occurrences refer to.
-double estimate_lag(const SpeechData& speech, std::size_t phones, int threads) {
-  constexpr int kSteps = 3;
-  constexpr double kStep = 0.040;
-  FitData data{speech};  // one animeme a phone, with widths as wide as the phones are long
-  data.normalised = true;
-  for (FitOccurrence& o : data.occurrences) o.mode = std::uint32_t(o.phone);
-  FitWeights weights;
-  weights.threads = threads;
-  std::vector<double> objective;
-  for (int i = -kSteps; i <= kSteps; ++i) {
-    const double shift = i == -kSteps ? -kSteps * kStep : kStep;  // from the last place
-    for (FitOccurrence& o : data.occurrences) o.start += shift;
-    FitState trial;
-    trial.sigma.assign(phones, 1.0);
-    solve_coefficients(data, weights, trial);
-    objective.push_back(trial.objective);
-  }
-  const auto best =
-      std::size_t(std::min_element(objective.begin(), objective.end()) - objective.begin());
-  double lag = (double(best) - kSteps) * kStep;
-  if (best > 0 && best + 1 < objective.size()) {  // vertex of the parabola through three points
-    const double before = objective[best - 1], after = objective[best + 1];
-    const double bend = before + after - 2 * objective[best];
-    if (bend > 0) lag += kStep * 0.5 * (before - after) / bend;
-  }
-  return lag;
-}
-
-void summarise(const TrainingSet& set, int threads, TrainSummary& summary) {
+void summarise(const TrainingSet& set, std::span<const Utterance* const> sentences,
+               TrainSummary& summary) {
   summary.iterations = std::max(0, int(summary.objective.size()) - 1);
   summary.utterances = set.data.sentences.size();
   summary.frames = std::size_t(std::count(set.data.use.begin(), set.data.use.end(), 1));
   summary.occurrences = set.data.occurrences.size();
-  summary.lag = estimate_lag(set.data, set.phones.size(), threads);
+  for (const Utterance* u : sentences) {
+    const auto speech = speech_frames(*u);
+    summary.speech_seconds +=
+        set.rate.seconds(double(std::count(speech.begin(), speech.end(), true)));
+  }
 }
 
-}  // namespace
+/// What is fitted and what came out.
+struct Fitted {
+  TrainingSet set;
+  Model model;
+};
 
-Result<Model> train(std::span<const Utterance> utterances, const TrainOptions& options,
-                    TrainSummary* summary, const ProgressFunction& progress) {
-  const auto begin = std::chrono::steady_clock::now();
-  if (auto ok = validate(options); !ok) return ok.error();
-  const auto sentences = sorted(utterances);
+Result<Fitted> fit(std::span<const Utterance* const> sentences, const TrainOptions& options,
+                   TrainRun& run) {
   auto set = make_training_set(sentences, options);
   if (!set) return set.error();
-  TrainSummary own;
-  TrainSummary& out = summary != nullptr ? *summary : own;
-  out = {};
-  TrainRun run{out, progress};
   Model model;
   model.method = options.method;
   model.pause_edge = options.pause_edge;
@@ -89,12 +53,60 @@ Result<Model> train(std::span<const Utterance> utterances, const TrainOptions& o
   auto parameters = kind_of(options.method).fit(*set, model, options, run);
   if (!parameters) return parameters.error();
   model.parameters = std::move(*parameters);
-  summarise(*set, options.threads, out);
-  review_sentences(*set, model, sentences, options.threads, out);
+  return Fitted{std::move(*set), std::move(model)};
+}
+
+/// What models explain of sentences that they were not trained on, left out in turn.
+Result<void> hold_out(std::span<const Utterance* const> sentences,
+                      std::span<const Control> controls, const TrainOptions& options,
+                      const TrainRun& run) {
+  const std::size_t folds = std::min(kFolds, sentences.size());
+  const std::size_t tried = sentences.size() >= kEnoughForOneFold ? 1 : folds;
+  HeldOutShare share;
+  for (std::size_t fold = 0; folds > 1 && fold < tried; ++fold) {
+    if (!run.report("held out", double(fold) / double(tried))) return TrainRun::cancelled();
+    std::vector<const Utterance*> in, out;
+    for (std::size_t s = 0; s < sentences.size(); ++s)
+      (s % folds == fold ? out : in).push_back(sentences[s]);
+    TrainSummary none;
+    const ProgressFunction quiet;
+    TrainRun apart{none, quiet};
+    const auto fitted = fit(in, options, apart);
+    if (!fitted) continue;  // nothing is spoken in what is left
+    share.add(fitted->model, out, options.threads);
+  }
+  share.note(controls, run.summary);
+  return {};
+}
+
+}  // namespace
+
+Result<Model> train(std::span<const Utterance> utterances, const TrainOptions& options,
+                    TrainSummary* summary, const ProgressFunction& progress) {
+  const auto begin = std::chrono::steady_clock::now();
+  if (auto ok = validate(options); !ok) return ok.error();
+  const auto mended = mend_glitches(sorted_sentences(utterances));
+  const auto& sentences = mended.sentences;
+  TrainSummary own;
+  TrainSummary& out = summary != nullptr ? *summary : own;
+  out = {};
+  out.glitches = mended.glitches;
+  TrainRun run{out, progress};
+  auto fitted = fit(sentences, options, run);
+  if (!fitted) return fitted.error();
+  const auto& [set, model] = *fitted;
+  summarise(set, sentences, out);
+  review_sentences(set, model, sentences, options.threads, out);
   note_phones(model, out);
-  add_warnings(out);
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return model;
+  if (summary != nullptr) {  // what takes long is found out for those who ask
+    if (!out.held_out)
+      if (auto ok = hold_out(sentences, model.controls, options, run); !ok) return ok.error();
+    if (auto alignment = check_alignment(sentences, options.threads))
+      out.alignment = std::move(*alignment);
+  }
+  add_warnings(out);
+  return std::move(fitted->model);
 }
 
 }  // namespace animeme::dam

@@ -1,5 +1,6 @@
 #include "dam/training/train_notes_internal.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -10,7 +11,8 @@ namespace animeme::dam {
 namespace {
 
 constexpr std::size_t kFewExamples = 12;
-constexpr double kNotableLag = 0.050;  // seconds
+constexpr double kLittleSpeech = 60;  // seconds
+constexpr std::size_t kNamedDoubts = 10, kNamedGlitches = 8;
 
 std::string joined(const std::vector<std::string>& items, const char* between) {
   std::string text;
@@ -83,7 +85,70 @@ void warn_of_sentences(TrainSummary& summary) {
   warn_of("sentences that stand out; look at their labels and curves: ", standing, ", ", summary);
 }
 
+void warn_of_amount(TrainSummary& summary) {
+  if (summary.speech_seconds == 0 || summary.speech_seconds >= kLittleSpeech) return;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "%.0f s of speech are little to learn all sounds from: bend a model that is there "
+                "to them (--base builtin), or record more; two minutes are a start",
+                summary.speech_seconds);
+  summary.warnings.emplace_back(text);
+}
+
+std::string milliseconds(double seconds) {
+  return std::to_string(std::lround(std::abs(seconds) * 1000)) + " ms";
+}
+
+std::string lag_warning(const LagEstimate& lag) {
+  char text[240];
+  std::snprintf(
+      text, sizeof text,
+      "the motion comes %s %s the sound (95 %%: %+.0f to %+.0f ms); --lag auto shifts the "
+      "scripts, or --lag and a number of ms",
+      milliseconds(lag.seconds).c_str(), lag.seconds > 0 ? "after" : "before", 1000 * lag.low,
+      1000 * lag.high);
+  return text;
+}
+
+std::string doubts_warning(const Alignment& alignment) {
+  std::vector<std::string> named;
+  for (const ScriptDoubt& one : alignment.doubts) {
+    if (named.size() == kNamedDoubts) break;
+    named.push_back(one.id + (!one.shift ? " (another text?)"
+                                         : " (" + milliseconds(*one.shift) +
+                                               (*one.shift > 0 ? " late?)" : " early?)")));
+  }
+  const std::size_t count = alignment.doubts.size();
+  return std::to_string(count) + (count == 1 ? " sentence does" : " sentences do") +
+         " not move as the script says; look at text and times of: " + joined(named, ", ") +
+         (count > named.size() ? " ..." : "");
+}
+
 }  // namespace
+
+std::vector<const Utterance*> sorted_sentences(std::span<const Utterance> utterances) {
+  std::vector<const Utterance*> list;
+  for (const Utterance& u : utterances) list.push_back(&u);
+  std::stable_sort(list.begin(), list.end(),
+                   [](const Utterance* a, const Utterance* b) { return a->id < b->id; });
+  return list;
+}
+
+std::vector<std::string> warnings_of(const Alignment& alignment, std::span<const Glitch> glitches) {
+  std::vector<std::string> warnings;
+  for (const Glitch& glitch : glitches.first(std::min(glitches.size(), kNamedGlitches)))
+    warnings.push_back(describe(glitch));
+  if (glitches.size() > kNamedGlitches)
+    warnings.push_back("... and " + std::to_string(glitches.size() - kNamedGlitches) +
+                       " more glitches of the tracker (--json names them all)");
+  if (alignment.unrelated)
+    warnings.emplace_back(
+        "the scripts do not seem to belong to the motion: those of other sentences fit it as well; "
+        "check ids, texts and where each recording begins");
+  if (alignment.lag && alignment.lag->notable()) warnings.push_back(lag_warning(*alignment.lag));
+  if (!alignment.doubts.empty()) warnings.push_back(doubts_warning(alignment));
+  return warnings;
+}
 
 void note_phones(const Model& model, TrainSummary& summary) {
   for (const PhoneModel& phone : model.phones) {
@@ -100,10 +165,9 @@ void add_warnings(TrainSummary& summary) {
   warn_of_controls(summary);
   warn_of_phones(summary);
   warn_of_sentences(summary);
-  if (std::abs(summary.lag) > kNotableLag)
-    summary.warnings.push_back("the signal comes about " +
-                               std::to_string(std::lround(summary.lag * 1000)) +
-                               " ms after the phonemes; check the alignment of the corpus");
+  for (std::string& text : warnings_of(summary.alignment, summary.glitches))
+    summary.warnings.push_back(std::move(text));
+  warn_of_amount(summary);
 }
 
 }  // namespace animeme::dam

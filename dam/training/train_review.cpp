@@ -1,6 +1,7 @@
 // The training sentences as the model says them, beside the recordings.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "dam/corpus/training_set_internal.h"
 #include "dam/kinds/refined/solve.h"
@@ -16,14 +17,6 @@ constexpr std::size_t kFewSentences = 8;
 constexpr std::size_t kNamed = 3;
 constexpr double kLeastOffset = 0.1;     // standard deviations of the control
 constexpr double kToDeviation = 1.4826;  // of a normal distribution, from the median of |x|
-
-/// One sentence, per control.
-struct Review {
-  double frames = 0;
-  std::vector<double> offset;  ///< mean of recorded - made
-  std::vector<double> error;   ///< sum of squares around that
-  std::vector<double> energy;  ///< sum of squares of the recorded around their mean
-};
 
 Review review(const TrainingSet& set, const Model& model, const Utterance& u,
               const FitSentence& sentence) {
@@ -112,7 +105,36 @@ double strangeness(const SentenceNote& s) {
   return std::max(s.offset / kStandsOut, s.error / kErrorStandsOut);
 }
 
+/// A sentence that was not in the training, in the deviations of the model.
+std::optional<Review> review_other(const Model& model, const Utterance& sentence) {
+  auto script = replace_unknown_phones(model, sentence.script);
+  if (!script) return std::nullopt;
+  Utterance u = sentence;
+  u.script = std::move(*script);
+  TrainingSet set;
+  set.controls = model.controls;
+  set.phones = model.phones;
+  set.rate = u.signal.rate;
+  set.data.controls = set.controls.size();
+  add_sentence(u, make_timeline(u.script, model.pause_edge), model.pause_edge, set);
+  return review(set, model, u, set.data.sentences[0]);
+}
+
 }  // namespace
+
+void HeldOutShare::add(const Model& model, std::span<const Utterance* const> sentences,
+                       int threads) {
+  std::vector<std::optional<Review>> all(sentences.size());
+  parallel_for(all.size(), threads,
+               [&](std::size_t s) { all[s] = review_other(model, *sentences[s]); });
+  for (auto& one : all)
+    if (one) reviews_.push_back(std::move(*one));
+}
+
+void HeldOutShare::note(std::span<const Control> controls, TrainSummary& summary) const {
+  if (reviews_.empty()) return;
+  note_explained(controls, explained(reviews_, controls.size()), true, summary);
+}
 
 void review_sentences(const TrainingSet& set, const Model& model,
                       std::span<const Utterance* const> sentences, int threads,

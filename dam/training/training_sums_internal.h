@@ -88,6 +88,12 @@ inline Error refused(const std::string& what) { return make_error(Code::invalid_
 /// Every phone of phones.h, sorted by label, with start values.
 SumsBase start_base();
 
+/// Of all of a sentence that is learned from: identifier, phones, curves.
+std::uint64_t sentence_digest(const Utterance& sentence);
+
+/// TrainingSums::add() of a sentence whose glitches are out; `digest`: of the sentence as it came.
+Result<bool> add_to_sums(SumsState& state, const Utterance& sentence, std::uint64_t digest);
+
 /// The controls and the rate of the first sentence or part.
 void set_controls(SumsState& state, const std::vector<std::string>& names, fap::Rate rate);
 

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 
@@ -109,7 +111,7 @@ TEST_F(CorpusFolder, MissingFilesAreNamedOrSkipped) {
   options.skip_missing = true;
   const auto corpus = read_corpus(dir_, options);
   ASSERT_TRUE(corpus);
-  EXPECT_EQ(corpus->skipped, 1u);
+  EXPECT_EQ(corpus->left_out.skipped, 1u);
   fs::remove(dir_ / "fap/a.csv");
   EXPECT_EQ(error(options).code, Code::not_found);
   fs::remove(dir_ / "utterances.tsv");
@@ -180,6 +182,118 @@ TEST(Curves, BadTables) {
   EXPECT_EQ(code("time_s,x,measured\n0,1,1\n0.04,1,2\n"), Code::syntax);
   const auto late = read_curves("time_s,x\n0,1\n0.04,2\n0.08,zzz\n");
   EXPECT_EQ(late.error().where.line, 4);
+}
+
+// ---- blanks ----
+
+/// Rows from the fields behind the time, with the line ends of Windows.
+std::string table(const std::string& header, const std::vector<std::string>& rows) {
+  std::string text = header + "\r\n";
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    char time[16];
+    std::snprintf(time, sizeof time, "%.2f,", 0.04 * double(i));
+    text += time + rows[i] + "\r\n";
+  }
+  return text;
+}
+
+TEST(Curves, BlanksAreKeptOnlyIfAskedFor) {
+  for (const char* blank : {"", " ", "nan", "NaN", "-nan", "-nan(ind)", "NAN", "inf", "-Infinity",
+                            "#N/A", "#DIV/0!", "#NV", "NA", "n/a", "null", "None", "-", "\"\""}) {
+    const std::string text =
+        table("time_s,x,y", {"1,2", std::string(blank) + ",4", "5,6", "7," + std::string(blank)});
+    EXPECT_FALSE(read_curves(text)) << blank;
+    std::vector<BlankNote> blanks;
+    auto signal = read_curves(text, &blanks);
+    ASSERT_TRUE(signal) << blank << ": " << signal.error().describe();
+    EXPECT_TRUE(std::isnan(signal->at(1, 0)));
+    ASSERT_EQ(blanks.size(), 2u);
+    EXPECT_EQ(blanks[0].control, "x");
+    EXPECT_EQ(blanks[0].rows, 1u);
+    EXPECT_EQ(blanks[0].of, 4u);
+    EXPECT_EQ(blanks[0].first_line, 3u);
+    EXPECT_EQ(blanks[1].first_line, 5u);
+    leave_out_blanks(*signal);
+    EXPECT_EQ(signal->at(1, 0), 3);  // between 1 and 5
+    EXPECT_EQ(signal->at(3, 1), 6);  // as the last one
+    EXPECT_EQ(signal->measured, (std::vector<bool>{true, false, true, false}));
+  }
+}
+
+TEST(Curves, SpreadsheetsLeaveColumnsAndRows) {
+  std::vector<BlankNote> blanks;
+  // Columns without name and values, rows of commas, cells that are missing at the end.
+  auto signal =
+      read_curves("time_s,x,y,measured,,\n0,1,2,1,,\n0.04,3\n0.08,5,6,1\n,,,,,\n", &blanks);
+  ASSERT_TRUE(signal) << signal.error().describe();
+  EXPECT_THAT(signal->names, testing::ElementsAre("x", "y"));
+  EXPECT_EQ(signal->frames(), 3u);
+  ASSERT_EQ(blanks.size(), 1u);
+  EXPECT_EQ(blanks[0].control, "y");
+  EXPECT_FALSE(signal->measured[1]);  // its measured is blank, too
+  // A file that was cut off in the middle of a number.
+  blanks.clear();
+  signal = read_curves("time_s,x,y\n0,1,2\n0.04,3,4\n0.08,5", &blanks);
+  ASSERT_TRUE(signal);
+  EXPECT_EQ(signal->frames(), 2u);
+  EXPECT_TRUE(blanks.empty());
+  EXPECT_FALSE(read_curves("time_s,x,y\n0,1,2\n0.04,3,4\n0.08,5"));
+}
+
+TEST(Curves, WordsAndTimesAreNoBlanks) {
+  std::vector<BlankNote> blanks;
+  for (const char* text : {"time_s,x\n0,1\n0.04,abc\n", "time_s,x\n0,1\n0.04,1e999\n",
+                           "time_s,x\n0,1\n,2\n", "time_s,x\n0,1\nnan,2\n",
+                           "time_s,x\n0,1\n0.04,1,2\n", "time_s,x,measured\n0,1,1\n0.04,1,yes\n"}) {
+    const auto signal = read_curves(text, &blanks);
+    ASSERT_FALSE(signal) << text;
+    EXPECT_EQ(signal.error().where.line, 3) << text;
+  }
+}
+
+TEST_F(CorpusFolder, RowsWithBlanksAreLeftOutAndNamed) {
+  std::string text = curves();
+  text.replace(text.find(",3,7,"), 5, ",,7,");
+  write("fap/b.csv", text);
+  auto corpus = read_corpus(dir_);
+  ASSERT_TRUE(corpus) << corpus.error().describe();
+  const Signal& signal = corpus->utterances[1].signal;
+  EXPECT_EQ(signal.at(3, 0), 3);
+  EXPECT_FALSE(signal.measured[3]);
+  EXPECT_TRUE(signal.measured[2]);
+  ASSERT_EQ(corpus->left_out.blanks.size(), 1u);
+  const BlankNote& blank = corpus->left_out.blanks[0];
+  EXPECT_EQ(blank.id, "b");
+  EXPECT_EQ(blank.control, "fap3_open_jaw");
+  EXPECT_EQ(blank.rows, 1u);
+  EXPECT_EQ(blank.first_line, 5u);
+  CorpusOptions options;  // what is not wanted may be blank
+  options.controls = {"smile"};
+  corpus = read_corpus(dir_, options);
+  ASSERT_TRUE(corpus);
+  EXPECT_TRUE(corpus->utterances[1].signal.measured[3]);
+  EXPECT_TRUE(corpus->left_out.blanks.empty());
+}
+
+TEST_F(CorpusFolder, AControlThatIsBlankThroughout) {
+  const auto without_smile = [] {
+    std::string text = "time_s,fap3_open_jaw,smile\n";
+    for (int i = 0; i < 10; ++i) text += std::to_string(0.04 * i) + "," + std::to_string(i) + ",\n";
+    return text;
+  };
+  write("fap/b.csv", without_smile());
+  const auto corpus = read_corpus(dir_);
+  ASSERT_TRUE(corpus) << corpus.error().describe();
+  ASSERT_EQ(corpus->utterances.size(), 1u);  // the other one is as it was
+  EXPECT_EQ(corpus->utterances[0].signal.at(3, 1), 7);
+  EXPECT_EQ(corpus->left_out.sentences, 1u);
+  EXPECT_EQ(corpus->left_out.blanks[0].rows, 10u);
+  write("fap/a.csv", without_smile());
+  EXPECT_THAT(error().describe(),
+              testing::AllOf(HasSubstr("'smile'"), HasSubstr("every sentence")));
+  CorpusOptions options;
+  options.controls = {"fap3_open_jaw"};
+  EXPECT_EQ(read_corpus(dir_, options)->utterances.size(), 2u);
 }
 
 TEST(Corpus, TheSampleThatShips) {

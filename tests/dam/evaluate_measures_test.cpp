@@ -44,6 +44,21 @@ TEST(Measures, IdenticalMotionHasNoError) {
   EXPECT_EQ(e.closure.false_closures, 0u);
 }
 
+TEST(Measures, GainAndOffsetOfAnotherSpeakerAreTakenOff) {
+  const std::vector<int> faps = {3, 4};
+  const auto recorded = [](int fap, int i) { return 3 * wave(i + 3 * fap) + 500; };
+  const auto made = [](int fap, int i) { return fap == 3 ? wave(i + 9) : -wave(i + 12); };
+  const Evaluation e = score_one(pair_of(faps, vowels(), recorded, made), faps);
+  EXPECT_GT(e.controls[0].nrmse, 5);
+  EXPECT_NEAR(e.controls[0].gain, 3, 1e-9);
+  EXPECT_NEAR(e.controls[0].offset, 500, 1e-6);
+  EXPECT_NEAR(e.controls[0].fitted_nrmse, 0, 1e-6);
+  // What moves the wrong way is not turned round: a constant is all that is left of it.
+  EXPECT_EQ(e.controls[1].gain, 0);
+  EXPECT_EQ(e.controls[1].fitted_nrmse, 1);
+  EXPECT_NEAR(e.fitted_nrmse, 0.5, 1e-6);
+}
+
 TEST(Measures, DerivedMeasuresAreSumsOfFaps) {
   const std::vector<int> faps = {3, 4, 5, 6, 7, 12, 13};
   const auto recorded = [](int fap, int i) { return wave(i + 3 * fap); };

@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "dam/corpus/corpus.h"
 #include "dam/corpus/rows_internal.h"
@@ -24,7 +25,19 @@ void require(bool condition) {
   if (!condition) std::abort();
 }
 
+void read_with_blanks(std::string_view text) {
+  std::vector<dam::BlankNote> blanks;
+  auto signal = dam::read_curves(text, &blanks);
+  if (!signal) return require(!signal.error().message.empty());
+  dam::leave_out_blanks(*signal);
+  require(signal->measured.size() == signal->frames());
+  for (const double value : signal->values) require(std::isfinite(value));
+  for (const dam::BlankNote& note : blanks)
+    require(note.rows > 0 && note.rows <= note.of && note.of == signal->frames());
+}
+
 void read_as_curves(std::string_view text) {
+  read_with_blanks(text);
   const auto signal = dam::read_curves(text);
   if (!signal) return require(!signal.error().message.empty());
   require(signal->rate.valid() && signal->frames() > 0 && !signal->names.empty());

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "dam/corpus/corpus.h"
 #include "tests/support/shared.h"
 #include "tests/tools/commands.h"
@@ -96,6 +98,31 @@ TEST_F(Evaluate, JsonHasEverything) {
   const json own = run_json({a(), corpus(), "--split", "train", "--seen-split", "train"});
   EXPECT_EQ(own["by_triphone"][1]["phones"], 0);
   EXPECT_EQ(own["by_word"][1]["phones"], 0);
+}
+
+TEST_F(Evaluate, FoldsSpeakWhatTheyWereNotTrainedOn) {
+  const json all = run_json({"--folds", "4", corpus()});
+  EXPECT_EQ(all["utterances"], 24);
+  EXPECT_EQ(all["system"], "4 folds of dam");
+  EXPECT_GT(all["mean_nrmse"].get<double>(), 0.55);
+  EXPECT_LT(all["mean_nrmse"].get<double>(), 0.8);
+  const TempDir dir;
+  const json few = run_json({"--folds", "2", corpus(), "--split", "test", "--method", "triphone",
+                             "--controls", "3-5", "--report", dir / "me.html"});
+  EXPECT_EQ(few["utterances"], 6);
+  EXPECT_EQ(few["controls"].size(), 3u);
+  EXPECT_TRUE(std::filesystem::exists(dir / "me.html"));
+  EXPECT_EQ(run({"--folds", "3", a(), corpus()}).exit_code, 2);
+  EXPECT_EQ(run({a(), corpus(), "--base", "builtin"}).exit_code, 2);
+}
+
+TEST_F(Evaluate, WhatIsLeftWithGainAndOffset) {
+  const json all = run_json({a(), corpus(), "--split", "test"});
+  const double after = all["mean_nrmse_after_gain_and_offset"];
+  EXPECT_LT(after, all["mean_nrmse"].get<double>());
+  EXPECT_GT(after, 0.3);
+  EXPECT_GT(all["controls"][0]["gain"].get<double>(), 0.5);
+  EXPECT_THAT(run({a(), corpus(), "--split", "test"}).out, HasSubstr("gain and offset"));
 }
 
 TEST_F(Evaluate, TwoModels) {

@@ -4,8 +4,11 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "dam/model/model.h"
+#include "dam/script/script.h"
+#include "dam/training/alignment.h"
 #include "tests/support/program.h"
 #include "tests/support/shared.h"
 
@@ -56,6 +59,94 @@ TEST(Train, ReportsStepsAndWhatItFound) {
   EXPECT_THAT(text.err, AllOf(HasSubstr("step 1: objective"), HasSubstr("% less"),
                               HasSubstr("stopped after 1 steps"), HasSubstr("ridges times"),
                               HasSubstr("leans on"), HasSubstr("spoken by relatives")));
+}
+
+/// The sample with changes.
+class TrainOdd : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::filesystem::copy(corpus(), folder(), std::filesystem::copy_options::recursive);
+  }
+  std::string folder() const { return dir_ / "corpus"; }
+  std::filesystem::path curves(const std::string& id) const {
+    return std::filesystem::path(folder()) / "fap" / (id + ".csv");
+  }
+  /// One cell of a sentence's table, or a whole column; row 0 is the header.
+  void blank(const std::string& id, std::size_t column, std::size_t from, std::size_t to,
+             const std::string& with) const {
+    std::istringstream in(test::slurp(curves(id)));
+    std::string out, line;
+    for (std::size_t row = 0; std::getline(in, line); ++row) {
+      std::size_t begin = 0;
+      for (std::size_t c = 0; c < column; ++c) begin = line.find(',', begin) + 1;
+      if (row >= from && row < to) line.replace(begin, line.find(',', begin) - begin, with);
+      out += line + "\n";
+    }
+    test::spill(curves(id), out);
+  }
+  TempDir dir_;
+};
+
+TEST_F(TrainOdd, BlanksAreLeftOutAndNamed) {
+  blank("bgahzn", 1, 20, 23, "#N/A");
+  blank("bram3s", 3, 1, 1000, "");
+  const auto text = train({folder(), "-o", dir_ / "m.dam"});
+  ASSERT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_THAT(text.err, AllOf(HasSubstr("sentence 'bgahzn': fap3_open_jaw blank in 3 of 75 rows, "
+                                        "first in line 21; left out"),
+                              HasSubstr("sentence 'bram3s' is left out: fap5_raise_b_midlip is "
+                                        "blank throughout")));
+  const json all = train_json({folder(), "-o", dir_ / "m.dam"});
+  EXPECT_EQ(all["utterances"], 23);
+  ASSERT_EQ(all["blanks"].size(), 2u);
+  EXPECT_EQ(all["blanks"][0]["id"], "bgahzn");
+  EXPECT_EQ(all["blanks"][0]["first_line"], 21);
+  const json parts = train_json({folder(), "--accumulate", dir_ / "s.stats"});
+  EXPECT_EQ(parts["utterances"], 23);
+  EXPECT_EQ(parts["blanks"].size(), 2u);
+  const json bent =
+      train_json({folder(), "-o", dir_ / "b.dam", "--base", dir_ / "m.dam", "--controls", "3-5"});
+  EXPECT_EQ(bent["blanks"].size(), 2u);
+  const auto scored = animeme({"evaluate", "builtin", folder(), "--json"});
+  EXPECT_EQ(scored.exit_code, 0) << scored.err;
+  EXPECT_EQ(json::parse(scored.out)["blanks"].size(), 2u);
+  EXPECT_EQ(json::parse(scored.out)["utterances"], 23);
+}
+
+TEST_F(TrainOdd, AControlThatIsBlankEverywhereIsAnError) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(folder()) / "fap"))
+    blank(entry.path().stem().string(), 2, 1, 1000, "NaN");
+  const auto refused = train({folder(), "-o", dir_ / "m.dam"});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("'fap4_lower_t_midlip'"), HasSubstr("every sentence")));
+  EXPECT_EQ(train({folder(), "-o", dir_ / "m.dam", "--controls", "3,5"}).exit_code, 0);
+}
+
+TEST_F(TrainOdd, LagsAreFoundAndTakenOff) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(folder()) / "phonemes")) {
+    auto script = dam::read_script(test::slurp(entry.path()));
+    ASSERT_TRUE(script);
+    test::spill(entry.path(), dam::write_script_tsv(dam::shifted_script(*script, -0.16)));
+  }
+  const auto late = train({folder(), "-o", dir_ / "m.dam"});
+  EXPECT_THAT(late.err, HasSubstr(" ms after the sound"));
+  const auto text = train({folder(), "-o", dir_ / "m.dam", "--lag", "auto"});
+  EXPECT_THAT(text.err, AllOf(HasSubstr("scripts are shifted by +1"),
+                              HasSubstr("sound and motion are in time")));
+  const json given = train_json({folder(), "-o", dir_ / "m.dam", "--lag", "160"});
+  EXPECT_NEAR(given["alignment"]["lag_ms"].get<double>(), 0, 15);
+  const auto score = [&](const std::string& lag) {
+    const auto result = animeme({"evaluate", dir_ / "m.dam", folder(), "--json", "--lag", lag});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return json::parse(result.out)["mean_nrmse"].get<double>();
+  };
+  EXPECT_LT(score("auto"), 0.8 * score("0"));
+  EXPECT_NEAR(score("auto"), score("160"), 0.02);
+  EXPECT_EQ(train({folder(), "-o", dir_ / "m.dam", "--lag", "much"}).exit_code, 2);
+  EXPECT_EQ(train({folder(), "--accumulate", dir_ / "s", "--lag", "auto"}).exit_code, 2);
+  EXPECT_EQ(train({folder(), "--accumulate", dir_ / "s", "--lag", "160"}).exit_code, 0);
 }
 
 /// A base, and parts for two halves of the sample.

@@ -19,11 +19,15 @@ struct CorpusSettings {
   std::string controls_folder = "fap";  ///< with ID.csv or ID.fap
   std::vector<std::string> controls;    ///< channel names; empty: all
   std::string limits;         ///< table of limits; empty: limits.tsv of the folder, if it is there
+  std::string lag;            ///< "auto" or milliseconds by which scripts are shifted; empty: none
   bool skip_missing = false;  ///< leave out rows without a file
 };
 
 /// Adds --split-column, --controls-folder and --skip-missing.
 void add_corpus_options(CLI::App& app, CorpusSettings& settings);
+
+/// Adds --lag.
+void add_lag_option(CLI::App& app, CorpusSettings& settings);
 
 /// "3-13", "51" and names such as "jawOpen" to channel names ("fap3_open_jaw" ...).
 Result<std::vector<std::string>> control_names(const std::vector<std::string>& items);
@@ -32,8 +36,10 @@ Result<std::vector<std::string>> control_names(const std::vector<std::string>& i
 /// limits.tsv of the corpus folder if it has one. Without any, the model keeps its own.
 Result<void> set_limits(const CorpusSettings& settings, dam::Model& model);
 
-Result<dam::Corpus> read_corpus(const CorpusSettings& settings);  ///< all sentences at once
-/// One sentence at a time; returns how many rows were left out.
-Result<std::size_t> visit_corpus(const CorpusSettings& settings, const dam::SentenceVisitor& visit);
+/// All sentences at once, with their scripts shifted by the lag. Says what is left out.
+Result<dam::Corpus> read_corpus(const CorpusSettings& settings);
+/// One sentence at a time; the lag is none or a number. Says and returns what is left out.
+Result<dam::LeftOut> visit_corpus(const CorpusSettings& settings,
+                                  const dam::SentenceVisitor& visit);
 
 }  // namespace animeme::tools

@@ -9,7 +9,10 @@
 #include "tools/commands/corpus.h"
 #include "tools/commands/face_stream.h"
 #include "tools/commands/page_sound.h"
+#include "tools/commands/train_base.h"
+#include "tools/inspect/cross_validation.h"
 #include "tools/inspect/evaluation.h"
+#include "tools/inspect/left_out.h"
 #include "tools/plot/curves.h"
 #include "tools/plot/sentences.h"
 #include "tools/sheet/sheet.h"
@@ -25,6 +28,10 @@ struct EvaluateOptions {
   std::string tracks;
   CorpusSettings corpus;
   std::string seen_split;
+  int folds = 0;  // 0: a system that is there
+  std::string method = "dam";
+  std::string base;
+  std::vector<std::string> controls;
   dam::EvaluateOptions evaluate;
   bool no_closure = false;
   std::string against;
@@ -40,10 +47,12 @@ struct EvaluateOptions {
   double max_false = -1;
 };
 
-// A model, or somebody's tracks: ID.csv or ID.fap in a folder.
+// A model, or somebody's tracks: ID.csv or ID.fap in a folder, or models that are trained for this.
 struct System {
   std::string path;
-  std::optional<dam::Model> model;  // none: tracks
+  std::optional<dam::Model> model;  // none: tracks or folds
+  std::optional<inspect::CrossValidation> folds = std::nullopt;
+  std::optional<dam::Model> base = std::nullopt;  // of the folds
 };
 
 // A model file or "builtin"; a folder of tracks if it is one or `tracks` says so.
@@ -55,12 +64,54 @@ Result<System> open_system(const std::string& path, bool tracks) {
   return System{path, std::move(*model)};
 }
 
+// Models by cross validation.
+Result<System> open_folds(const EvaluateOptions& options) {
+  inspect::CrossValidation folds;
+  folds.folds = std::size_t(options.folds);
+  folds.train.method = *dam::find_method(options.method);
+  System system{std::to_string(options.folds) + " folds of " + options.method, std::nullopt, folds};
+  if (options.base.empty()) return system;
+  Result<dam::Model> base = load_base(options.base, options.corpus, folds.train);
+  if (!base) return base.error();
+  system.path += " on " + options.base;
+  system.base = std::move(*base);
+  return system;
+}
+
+Result<std::vector<dam::SentencePair>> pairs_of_folds(const System& system,
+                                                      const std::vector<dam::Utterance>& recorded,
+                                                      const dam::EvaluateOptions& options) {
+  inspect::CrossValidation folds = *system.folds;
+  folds.base = system.base ? &*system.base : nullptr;
+  folds.evaluate = options;
+  ProgressLine line("training");
+  folds.progress = [&](double done) {
+    line.update(done);
+    return true;
+  };
+  return inspect::cross_validate(recorded, folds);
+}
+
+// What the tracker did is no fault of the system's.
+std::vector<dam::Glitch> leave_out_glitches(std::vector<dam::SentencePair>& pairs) {
+  std::vector<const dam::Utterance*> recorded;
+  for (const dam::SentencePair& pair : pairs) recorded.push_back(&pair.recorded);
+  const dam::Mended mended = dam::mend_glitches(recorded, dam::Bridges::none);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (mended.sentences[i] != &pairs[i].recorded) pairs[i].recorded = *mended.sentences[i];
+  }
+  for (const std::string& text : inspect::glitches_text(mended.glitches)) warn(text);
+  return mended.glitches;
+}
+
 // The sentences with what the system makes of them.
 Result<std::vector<dam::SentencePair>> pairs_of(const System& system, const CorpusSettings& corpus,
                                                 const std::vector<dam::Utterance>& recorded,
                                                 const dam::EvaluateOptions& options) {
   if (system.model) return dam::synthesise_pairs(*system.model, recorded, options);
+  if (system.folds) return pairs_of_folds(system, recorded, options);
   CorpusSettings settings = corpus;
+  settings.lag.clear();
   settings.controls.clear();
   settings.controls_folder = std::filesystem::absolute(system.path).string();
   Result<dam::Corpus> tracks = read_corpus(settings);
@@ -79,24 +130,22 @@ Result<std::vector<dam::Control>> scale_of(const System& system,
 }
 
 // The recordings with the controls of the model; with all for tracks.
-Result<std::vector<dam::Utterance>> read_recordings(const CorpusSettings& corpus,
-                                                    const System& system) {
+Result<dam::Corpus> read_recordings(const CorpusSettings& corpus, const System& system) {
   CorpusSettings settings = corpus;
-  settings.controls.clear();
+  if (!system.folds) settings.controls.clear();
   if (system.model) {
     for (const dam::Control& control : system.model->controls) {
       settings.controls.push_back(control.name);
     }
   }
-  Result<dam::Corpus> read = read_corpus(settings);
-  if (!read) return read.error();
-  return std::move(read->utterances);
+  return read_corpus(settings);
 }
 
 Result<dam::SeenContexts> read_seen(const EvaluateOptions& options, const CorpusSettings& corpus) {
   if (options.seen_split.empty()) return dam::SeenContexts();
   CorpusSettings settings = corpus;
   settings.split = options.seen_split;
+  settings.lag.clear();
   settings.skip_missing = true;
   Result<dam::Corpus> read = read_corpus(settings);
   if (!read) return read.error();
@@ -215,24 +264,27 @@ Result<void> write_sheet(const std::string& output, const CorpusSettings& corpus
 Result<inspect::EvaluationReport> evaluate_all(const EvaluateOptions& options,
                                                const CorpusSettings& corpus,
                                                const std::string& path) {
-  Result<System> system = open_system(path, !options.tracks.empty());
+  Result<System> system =
+      options.folds > 0 ? open_folds(options) : open_system(path, !options.tracks.empty());
   if (!system) return system.error();
-  Result<std::vector<dam::Utterance>> recorded = read_recordings(corpus, *system);
+  Result<dam::Corpus> recorded = read_recordings(corpus, *system);
   if (!recorded) return recorded.error();
   dam::EvaluateOptions evaluate = options.evaluate;
   evaluate.synthesis.closure = !options.no_closure;
   Result<dam::SeenContexts> seen = read_seen(options, corpus);
   if (!seen) return seen.error();
   evaluate.score.seen = std::move(*seen);
-  auto pairs = pairs_of(*system, corpus, *recorded, evaluate);
+  auto pairs = pairs_of(*system, corpus, recorded->utterances, evaluate);
   if (!pairs) return pairs.error().in_file(corpus.folder);
+  inspect::EvaluationReport report;
+  report.left_out = std::move(recorded->left_out);
+  report.glitches = leave_out_glitches(*pairs);
   auto scale = scale_of(*system, *pairs);
   if (!scale) return scale.error();
   evaluate.score.scale = std::move(*scale);
   Result<dam::Evaluation> result = dam::score(*pairs, evaluate.score);
   if (!result) return result.error().in_file(corpus.folder);
-  inspect::EvaluationReport report;
-  report.system = path;
+  report.system = system->path;
   report.closed_gap = evaluate.score.closed_gap;
   report.evaluation = std::move(*result);
   if (!options.against.empty()) {
@@ -265,9 +317,21 @@ Result<inspect::EvaluationReport> evaluate_all(const EvaluateOptions& options,
 Result<int> run(const EvaluateOptions& options) {
   CorpusSettings corpus = options.corpus;
   std::string path = options.system;
+  if (options.folds > 0 && !options.tracks.empty())
+    return usage_error("--folds and --tracks are two systems; give one of them");
+  if (options.folds == 0 && (!options.base.empty() || !options.controls.empty()))
+    return usage_error("--base and --controls belong to --folds; a model has its own");
+  if (!options.base.empty() && options.method != "dam")
+    return usage_error("--base is for --method dam");
   if (!options.tracks.empty() && corpus.folder.empty()) {
     corpus.folder = options.system;
     path = options.tracks;
+  } else if (options.folds > 0 && corpus.folder.empty()) {
+    corpus.folder = options.system;
+    corpus.controls = options.controls;
+    path.clear();
+  } else if (options.folds > 0) {
+    return usage_error("--folds trains its own models: evaluate --folds N CORPUS");
   } else if (!options.tracks.empty()) {
     return usage_error("--tracks takes the place of the model: evaluate --tracks DIR CORPUS");
   }
@@ -295,12 +359,29 @@ void add_thresholds(CLI::App& app, EvaluateOptions& options) {
       ->check(CLI::NonNegativeNumber);
 }
 
+void add_folds(CLI::App& app, EvaluateOptions& options) {
+  app.add_option("--folds", options.folds,
+                 "In place of a model: train as many, each without its share of the sentences, "
+                 "which it then speaks")
+      ->check(CLI::Range(2, 1000));
+  app.add_option("--method", options.method, "With --folds: kind of model, see train")
+      ->check(CLI::IsMember(method_names()))
+      ->capture_default_str();
+  app.add_option("--base", options.base, "With --folds: bend this model, see train");
+  app.add_option("--controls", options.controls, "With --folds: controls to learn, see train")
+      ->delimiter(',');
+}
+
 void add_options(CLI::App& app, EvaluateOptions& options) {
-  app.add_option("model", options.system, "Model file, or 'builtin'")->required();
+  app.add_option("model", options.system,
+                 "Model file, or 'builtin'; the corpus with --folds or --tracks")
+      ->required();
   app.add_option("corpus", options.corpus.folder, "Corpus folder, see train");
   app.add_option("--tracks", options.tracks,
                  "Folder with ID.csv or ID.fap of another system, in place of the model");
+  add_folds(app, options);
   app.add_option("--split", options.corpus.split, "Use these rows only, e.g. test");
+  add_lag_option(app, options.corpus);
   add_corpus_options(app, options.corpus);
   app.add_option("--seen-split", options.seen_split,
                  "Rows the model was trained on: tells seen from unseen contexts");
@@ -336,6 +417,7 @@ const Command kEvaluate{
     "  animeme evaluate builtin grid_s1 --split test --seen-split train --picture curves.svg\n"
     "  animeme evaluate a.dam grid_s1 --split test --against b.dam\n"
     "  animeme evaluate me.dam my_corpus --split test --report me.html\n"
+    "  animeme evaluate --folds 5 my_corpus\n"
     "  animeme evaluate --tracks theirs grid_s1 --split test --json\n"
     "  animeme evaluate a.dam grid_s1 --split test --codec --kbps 2 --max-nrmse 0.6",
     set_up<EvaluateOptions>};

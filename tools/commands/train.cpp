@@ -55,7 +55,8 @@ Result<int> run_whole(const TrainOptions& options) {
   if (auto written = write_file(options.output, dam::write_model(*model)); !written) {
     return written.error();
   }
-  tell_training(options.output, *model, summary, {corpus->duration(), {}}, options.json);
+  tell_training(options.output, *model, summary, {corpus->duration(), {}, corpus->left_out},
+                options.json);
   return kOk;
 }
 
@@ -72,6 +73,10 @@ std::string misuse(const TrainOptions& options) {
                        : "-o is needed: the model file to write";
   if (!accumulates && !options.parts.dominance.empty())
     return "--dominance belongs to --accumulate; sums that are merged bring their own";
+  if (!options.corpus.lag.empty() && merges)
+    return "--lag belongs to the step that reads a corpus; sums cannot be shifted";
+  if (options.corpus.lag == "auto" && accumulates)
+    return "--lag auto looks at all sentences at once; give --accumulate a number of ms";
   if (!options.base.empty() && (accumulates || merges || options.method != "dam"))
     return "--base is for a corpus and --method dam, without --accumulate and --merge";
   if ((accumulates || merges) && options.method != "dam") return "sums exist for --method dam only";
@@ -113,12 +118,6 @@ Result<int> run(const CLI::App& app, const TrainOptions& options) {
   return run_whole(options);
 }
 
-std::vector<std::string> method_names() {
-  std::vector<std::string> names;
-  for (const dam::Method method : dam::methods()) names.emplace_back(dam::method_name(method));
-  return names;
-}
-
 void add_part_options(CLI::App& app, PartSettings& parts) {
   app.add_option("--accumulate", parts.accumulate,
                  "Add the sentences, one at a time, to this file of sums instead of training; a "
@@ -147,6 +146,7 @@ Action add_train(CLI::App& app) {
                  "a folder with a corpus of somebody else");
   app.add_option("--split", options->corpus.split, "Train on these rows only, e.g. train");
   add_corpus_options(app, options->corpus);
+  add_lag_option(app, options->corpus);
   app.add_option("--controls", options->corpus.controls,
                  "Controls to learn: FAP numbers (3-13,51-60) or column names; default: all")
       ->delimiter(',');
@@ -193,6 +193,7 @@ const Command kTrain{
     "train", "Learn how a character talks from aligned recordings",
     "  animeme train my_corpus -o me.dam\n"
     "  animeme train half_a_minute --base builtin -o me.dam\n"
+    "  animeme train late_takes --lag auto -o me.dam\n"
     "  animeme train grid_s1 --split train --controls 3-13,16,17,51-60 -o grid_s1.dam\n"
     "  animeme train large/a --accumulate a.stats --dominance base.dam   (here)\n"
     "  animeme train large/b --accumulate b.stats --dominance base.dam   (elsewhere)\n"

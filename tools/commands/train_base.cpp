@@ -37,14 +37,20 @@ Result<dam::Model> base_of_corpus(const std::string& folder, const CorpusSetting
   return model;
 }
 
+}  // namespace
+
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const dam::Method method : dam::methods()) names.emplace_back(dam::method_name(method));
+  return names;
+}
+
 Result<dam::Model> load_base(const std::string& base, const CorpusSettings& like,
                              const dam::TrainOptions& train) {
   std::error_code none;
   if (std::filesystem::is_directory(base, none)) return base_of_corpus(base, like, train);
   return speech::read_model(base);
 }
-
-}  // namespace
 
 Result<int> train_on_base(const std::string& base, const CorpusSettings& corpus,
                           const std::string& output, const dam::TrainOptions& train, bool json) {
@@ -67,8 +73,10 @@ Result<int> train_on_base(const std::string& base, const CorpusSettings& corpus,
   if (!model) return model.error().in_file(corpus.folder);
   if (auto done = set_limits(corpus, *model); !done) return done.error();
   if (auto done = write_file(output, dam::write_model(*model)); !done) return done.error();
+  for (const std::string& text : report.warnings) warn(text);
   if (json) {
-    std::printf("%s\n", inspect::adaptation_json(output, base, *model, report).c_str());
+    std::printf("%s\n",
+                inspect::adaptation_json(output, base, *model, report, own->left_out).c_str());
   } else {
     say(inspect::adaptation_text(output, base, *model, report));
   }

@@ -6,6 +6,7 @@
 
 #include "dam/training/accumulate.h"
 #include "tools/files/file_lock.h"
+#include "tools/inspect/left_out.h"
 #include "tools/speech/spoken.h"
 
 namespace animeme::tools {
@@ -42,7 +43,7 @@ class Accumulator {
   Result<void> add(const dam::Utterance& sentence, std::size_t row, std::size_t rows) {
     line_.update(double(row) / double(rows),
                  "sentence " + std::to_string(row + 1) + " of " + std::to_string(rows));
-    Result<bool> added = sums_.add(sentence);
+    Result<bool> added = sums_.add(sentence, &glitches_);
     if (!added) return added.error();
     ++(*added ? added_ : there_);
     return added_ >= saved_ + parts_.save_every ? save() : Result<void>();
@@ -56,16 +57,20 @@ class Accumulator {
     return done;
   }
 
-  void report(std::size_t skipped, bool json) {
+  void report(const dam::LeftOut& left_out, bool json) {
     line_.clear();
+    for (const std::string& text : inspect::glitches_text(glitches_)) warn(text);
     if (json) {
-      const nlohmann::ordered_json out = {{"sums", parts_.accumulate},
-                                          {"added", added_},
-                                          {"already_there", there_},
-                                          {"skipped", skipped},
-                                          {"utterances", sums_.sentences()},
-                                          {"frames", sums_.frames()},
-                                          {"controls", sums_.controls().size()}};
+      const nlohmann::ordered_json out = {
+          {"sums", parts_.accumulate},
+          {"added", added_},
+          {"already_there", there_},
+          {"skipped", left_out.skipped},
+          {"blanks", nlohmann::ordered_json::parse(inspect::blanks_json(left_out))},
+          {"glitches", nlohmann::ordered_json::parse(inspect::glitches_json(glitches_))},
+          {"utterances", sums_.sentences()},
+          {"frames", sums_.frames()},
+          {"controls", sums_.controls().size()}};
       std::printf("%s\n", out.dump(2).c_str());
       return;
     }
@@ -77,6 +82,7 @@ class Accumulator {
  private:
   dam::TrainingSums sums_;
   const PartSettings& parts_;
+  std::vector<dam::Glitch> glitches_;
   std::size_t added_ = 0, there_ = 0, saved_ = 0;
   ProgressLine line_{"accumulating"};
 };
@@ -99,15 +105,15 @@ Result<int> accumulate(const PartSettings& parts, const CorpusSettings& corpus,
   Result<dam::TrainingSums> sums = open_sums(parts, train);
   if (!sums) return sums.error();
   Accumulator accumulator(std::move(*sums), parts);
-  const Result<std::size_t> skipped =
+  const Result<dam::LeftOut> left_out =
       visit_corpus(corpus, [&](const dam::Utterance& sentence, std::size_t row, std::size_t rows) {
         return accumulator.add(sentence, row, rows);
       });
   // What came before a bad sentence is kept: after the repair the same command goes on.
   const Result<void> saved = accumulator.unsaved() ? accumulator.save() : Result<void>();
-  if (!skipped) return skipped.error().in_file(corpus.folder);
+  if (!left_out) return left_out.error().in_file(corpus.folder);
   if (!saved) return saved.error();
-  accumulator.report(*skipped, json);
+  accumulator.report(*left_out, json);
   return kOk;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tools/inspect/left_out.h"
+#include "tools/inspect/training.h"
 #include "tools/json.h"
 #include "tools/text.h"
 
@@ -17,7 +19,8 @@ constexpr double kLittle = 0.1;
 }  // namespace
 
 std::string adaptation_json(const std::string& output, const std::string& base,
-                            const dam::Model& model, const dam::AdaptReport& report) {
+                            const dam::Model& model, const dam::AdaptReport& report,
+                            const dam::LeftOut& left_out) {
   Json controls = Json::array();
   for (const dam::AdaptedControl& control : report.controls) {
     Json one = {{"name", control.name}, {"explained_by_base", control.base}};
@@ -36,6 +39,10 @@ std::string adaptation_json(const std::string& output, const std::string& base,
     json["held_out_error_of_base"] = report.base_error;
     json["held_out_error_of_own_alone"] = report.own_error;
   }
+  json["blanks"] = Json::parse(blanks_json(left_out));
+  json["glitches"] = Json::parse(glitches_json(report.glitches));
+  json["alignment"] = Json::parse(alignment_json(report.alignment));
+  json["warnings"] = report.warnings;
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 

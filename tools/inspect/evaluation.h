@@ -10,6 +10,7 @@
 
 #include "codec/encode/encode.h"
 #include "dam/corpus/corpus.h"
+#include "dam/corpus/glitches.h"
 #include "dam/evaluation/evaluate.h"
 #include "dam/evaluation/evaluate_bootstrap.h"
 #include "fap/result.h"
@@ -50,6 +51,8 @@ struct EvaluationReport {
   std::optional<dam::PairedDifference> difference;  ///< system less the other one
   std::size_t compared_controls = 0;                ///< scored ones that both systems have
   std::optional<CodecScore> codec;                  ///< nothing: not asked for
+  dam::LeftOut left_out;                            ///< of the recordings
+  std::vector<dam::Glitch> glitches;                ///< likewise
 };
 
 /// The report as JSON text.

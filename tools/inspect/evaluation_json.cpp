@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "tools/inspect/evaluation.h"
+#include "tools/inspect/left_out.h"
 #include "tools/json.h"
 
 namespace animeme::inspect {
@@ -11,8 +12,15 @@ using tools::json_list;
 namespace {
 
 Json series_json(const dam::SeriesScore& one) {
-  return {{"name", one.name},   {"scored", one.scored}, {"rmse", one.rmse},
-          {"nrmse", one.nrmse}, {"max", one.largest},   {"correlation", one.correlation}};
+  return {{"name", one.name},
+          {"scored", one.scored},
+          {"rmse", one.rmse},
+          {"nrmse", one.nrmse},
+          {"max", one.largest},
+          {"correlation", one.correlation},
+          {"gain", one.gain},
+          {"offset", one.offset},
+          {"nrmse_after_gain_and_offset", one.fitted_nrmse}};
 }
 
 // The measures of a region by name.
@@ -99,6 +107,7 @@ Json silence_json(const dam::RegionScore& silence) {
   return {{"frames", silence.frames},
           {"mean_nrmse", silence.nrmse},
           {"still_face_nrmse", silence.still_nrmse},
+          {"mean_nrmse_after_gain_and_offset", silence.fitted_nrmse},
           {"mean_l2", silence.l2},
           {"mean_correlation", silence.correlation},
           {"measures", measures_json(silence)},
@@ -116,6 +125,7 @@ Json scores_json(const dam::Evaluation& result) {
           {"seconds", result.seconds},
           {"mean_nrmse", result.nrmse},
           {"still_face_nrmse", result.still_nrmse},
+          {"mean_nrmse_after_gain_and_offset", result.fitted_nrmse},
           {"mean_l2", result.l2},
           {"mean_correlation", result.correlation},
           {"gap_correlation_within_sentences", result.gap_correlation},
@@ -153,6 +163,8 @@ Json difference_json(const dam::ErrorDifference& one) {
 
 std::string evaluation_json(const EvaluationReport& report) {
   Json json = {{"system", report.system}, {"closed_gap", report.closed_gap}};
+  json["blanks"] = Json::parse(blanks_json(report.left_out));
+  json["glitches"] = Json::parse(glitches_json(report.glitches));
   json.update(scores_json(report.evaluation));
   if (report.difference) {
     json["against"] = {{"system", report.against},

@@ -14,6 +14,9 @@ void add_head(std::string& out, const dam::Evaluation& e) {
                 e.seconds);
   out += format("mean NRMSE        %.4f   (RMSE / standard deviation, scored controls)\n", e.nrmse);
   out += format("  of a still face %.4f   (mean pose)\n", e.still_nrmse);
+  out += format(
+      "  gain and offset %.4f   (each control scaled and moved as suits it; a still face: 1)\n",
+      e.fitted_nrmse);
   if (e.silence.frames > 0) {
     out += format("  in silence      %.4f   (%zu frames)\n", e.silence.nrmse, e.silence.frames);
   }
@@ -149,8 +152,8 @@ void add_codec(std::string& out, const EvaluationReport& report) {
 }
 
 void add_controls(std::string& out, const dam::Evaluation& e) {
-  out += format("\n%-28s %8s %8s %8s %8s %9s %6s %6s %6s\n", "control", "RMSE", "NRMSE", "max",
-                "corr", "velocity", "accel", "jerk", "range");
+  out += format("\n%-28s %8s %8s %8s %8s %6s %8s %9s %6s %6s %6s\n", "control", "RMSE", "NRMSE",
+                "max", "corr", "gain", "after it", "velocity", "accel", "jerk", "range");
   std::vector<dam::SeriesScore> series = e.controls;
   series.insert(series.end(), e.measures.begin(), e.measures.end());
   for (std::size_t i = 0; i < series.size(); ++i) {
@@ -158,9 +161,10 @@ void add_controls(std::string& out, const dam::Evaluation& e) {
     const dam::DynamicsScore& motion = e.series_dynamics[i];
     const char* note = one.scored ? "" : "  (not scored)";
     if (i >= e.controls.size()) note = "  (measure)";
-    out += format("%-28s %8.2f %8.3f %8.1f %8.3f %9.3f %6.3f %6.3f %6.3f%s\n", one.name.c_str(),
-                  one.rmse, one.nrmse, one.largest, one.correlation, motion.velocity,
-                  motion.acceleration, motion.jerk, motion.range, note);
+    out += format("%-28s %8.2f %8.3f %8.1f %8.3f %6.2f %8.3f %9.3f %6.3f %6.3f %6.3f%s\n",
+                  one.name.c_str(), one.rmse, one.nrmse, one.largest, one.correlation, one.gain,
+                  one.fitted_nrmse, motion.velocity, motion.acceleration, motion.jerk, motion.range,
+                  note);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "tools/inspect/left_out.h"
 #include "tools/json.h"
 #include "tools/text.h"
 
@@ -41,7 +42,15 @@ std::string steps_text(const dam::TrainSummary& summary) {
                        summary.iterations);
 }
 
+std::string lag_text(const dam::Alignment& alignment) {
+  if (!alignment.lag || alignment.lag->notable()) return {};  // that one is a warning
+  return format("sound and motion are in time (%+.0f ms, 95 %%: %+.0f to %+.0f ms)\n",
+                1000 * alignment.lag->seconds, 1000 * alignment.lag->low,
+                1000 * alignment.lag->high);
+}
+
 std::string explained_text(const dam::TrainSummary& summary) {
+  if (!summary.held_out) return "too few sentences to tell what is explained of others\n";
   double sum = 0;
   std::size_t moving = 0;
   const dam::ControlNote* least = nullptr;
@@ -52,12 +61,31 @@ std::string explained_text(const dam::TrainSummary& summary) {
     if (least == nullptr || control.explained < least->explained) least = &control;
   }
   if (least == nullptr) return {};
-  return format("%.0f %% of the motion explained (%s sentences), least of %s: %.0f %%\n",
-                100 * sum / double(moving), summary.held_out ? "held-out" : "training",
-                least->name.c_str(), 100 * least->explained);
+  return format(
+      "%.0f %% of the motion explained of sentences that were held out, least of %s: %.0f %%\n",
+      100 * sum / double(moving), least->name.c_str(), 100 * least->explained);
 }
 
 }  // namespace
+
+std::string alignment_json(const dam::Alignment& alignment) {
+  Json json = {{"sentences", alignment.sentences},
+               {"fit", alignment.fit},
+               {"fit_of_other_scripts", alignment.chance},
+               {"unrelated", alignment.unrelated}};
+  json["lag_ms"] = nullptr;
+  if (alignment.lag) {
+    json["lag_ms"] = 1000 * alignment.lag->seconds;
+    json["lag_low_ms"] = 1000 * alignment.lag->low;
+    json["lag_high_ms"] = 1000 * alignment.lag->high;
+  }
+  json["doubts"] = json_list(alignment.doubts, [](const dam::ScriptDoubt& one) {
+    Json doubt = {{"id", one.id}, {"fit", one.fit}, {"usual", one.usual}};
+    doubt["shift_ms"] = one.shift ? Json(1000 * *one.shift) : Json(nullptr);
+    return doubt;
+  });
+  return json.dump();
+}
 
 std::string training_json(const std::string& output, const dam::Model& model,
                           const dam::TrainSummary& summary, const TrainingData& data) {
@@ -74,7 +102,6 @@ std::string training_json(const std::string& output, const dam::Model& model,
     json["converged"] = summary.converged;
     json["objective"] = summary.objective;
     json["steps"] = steps_json(summary);
-    json["lag_seconds"] = summary.lag;
   }
   if (summary.ridge > 0) json["ridge_factor"] = summary.ridge;
   json["explained_on"] = summary.held_out ? "held_out" : "training";
@@ -90,10 +117,14 @@ std::string training_json(const std::string& output, const dam::Model& model,
   json["standing_out"] = json_list(summary.standing, [](const dam::SentenceNote& one) {
     return Json{{"id", one.id}, {"offset", one.offset}, {"error", one.error}};
   });
+  json["glitches"] = Json::parse(glitches_json(summary.glitches));
+  json["alignment"] = Json::parse(alignment_json(summary.alignment));
+  json["speech_seconds"] = summary.speech_seconds;
   json["training_seconds"] = summary.seconds;
   json["warnings"] = summary.warnings;
   if (data.parts.empty()) {
     json["corpus_seconds"] = data.seconds;
+    json["blanks"] = Json::parse(blanks_json(data.left_out));
   } else {
     json["parts"] = data.parts;
   }
@@ -109,7 +140,7 @@ std::string training_text(const std::string& output, const dam::Model& model,
   if (summary.modes > 0) text += format(", %zu modes", summary.modes);
   text += "\n" + steps_text(summary);
   if (summary.ridge > 0) text += format("ridges times %g\n", summary.ridge);
-  text += explained_text(summary);
+  text += explained_text(summary) + lag_text(summary.alignment);
   std::string unknown;
   for (const dam::UnknownPhone& phone : summary.unknown) {
     if (!phone.spoken_as.empty()) unknown += " " + phone.label + " (" + phone.spoken_as + ")";

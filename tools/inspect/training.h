@@ -14,7 +14,11 @@ namespace animeme::inspect {
 struct TrainingData {
   double seconds = 0;              ///< of the corpus
   std::vector<std::string> parts;  ///< files of sums in place of a corpus; seconds is 0 then
+  dam::LeftOut left_out = {};      ///< of the corpus
 };
+
+/// How scripts and motion belong together, as JSON text.
+std::string alignment_json(const dam::Alignment& alignment);
 
 /// Everything of the summary that has a meaning for the model's method, as JSON text. `output` is
 /// the file of the model.
