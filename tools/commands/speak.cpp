@@ -218,7 +218,7 @@ void add_options(CLI::App& app, SpeakOptions& options) {
       ->option_text("0..1.5=1")
       ->check(CLI::Range(0.0, dam::kMostStyle));
   app.add_option("--sharpness", options.sharpness,
-                 "How quick motion is: 0 is the mean of many sentences, 1 more as people move")
+                 "Quickness: 0 as a mean of sentences, 1 more as people")
       ->option_text("0..3=1")
       ->check(CLI::Range(0.0, dam::kMostSharpness));
   app.add_flag("--no-closure", options.no_closure,

@@ -100,6 +100,7 @@ Panel panel_of(const char* place, const dam::SentencePair& pair, double nrmse) {
                           {points(pair.recorded.signal, curve), points(pair.made, curve)}});
     if (curve.title != kInnerGap) continue;
     const dam::Script& script = pair.recorded.script;
+    panel.rows.back().unit = "bars: P B M shut";
     panel.rows.back().bars = {closures(pair.recorded.signal, script), closures(pair.made, script)};
   }
   return panel;
