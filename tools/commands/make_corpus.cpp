@@ -64,9 +64,11 @@ void add_options(CLI::App& app, MakeCorpusOptions& options) {
                  "Folder of videos of one person, or of tables that a tracker wrote (.csv, .tsv, "
                  ".json), or one of them. A table counts before a video of the same name")
       ->required();
-  app.add_option("transcripts", plan.places.transcripts,
-                 "What is said: a folder of NAME.txt or .lab, or of scripts that are timed already "
-                 "(NAME.TextGrid and others), or a table of names and texts (tabs, | or commas)")
+  app.add_option(
+         "transcripts", plan.places.transcripts,
+         "What is said: a folder of NAME.txt or .lab, or of scripts that are timed already "
+         "(NAME.TextGrid and others), or a table of names and texts (tabs, | or commas); of "
+         "one video its .txt, .srt, .vtt or .TextGrid")
       ->required();
   app.add_option("-o,--output", plan.output, "Folder of the corpus; an earlier one is gone on with")
       ->required();
@@ -75,6 +77,11 @@ void add_options(CLI::App& app, MakeCorpusOptions& options) {
   app.add_option("--lang", plan.language, "Language of the transcripts")->capture_default_str();
   app.add_option("--folds", plan.folds, "Parts to test on; part 1 is `test` in the column split")
       ->check(CLI::Range(2, 100))
+      ->capture_default_str();
+  app.add_option("--cut", plan.longest,
+                 "Recordings of more seconds than this become sentences, cut at their pauses; 0: "
+                 "no cutting")
+      ->check(CLI::Range(0.0, 600.0))
       ->capture_default_str();
   app.add_flag("--strict", plan.strict, "Leave doubtful sentences out");
   app.add_flag("--track-again", plan.track_again, "Track videos that were tracked before, too");
@@ -89,6 +96,7 @@ const Command kCorpus{
     "corpus", "Make a corpus to train on from videos and what is said in them",
     "  animeme corpus videos/ texts/ -o me --tracker \"track {in} {out}\"\n"
     "  animeme corpus videos/ lines.tsv -o me        (ANIMEME_TRACKER names the tracker)\n"
+    "  animeme corpus ten_minutes.mp4 ten_minutes.txt -o me --tracker \"track {in} {out}\"\n"
     "  animeme corpus tables/ textgrids/ -o me --audio wavs/\n"
     "  animeme corpus more/ texts/ -o me2 --face-file me/neutral.face\n"
     "  animeme train me --split train -o me.dam",
