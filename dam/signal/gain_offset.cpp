@@ -12,6 +12,7 @@ namespace {
 constexpr double kTelling = 0.5;    // of what is typical
 constexpr double kNothing = 0.001;  // of the largest value
 constexpr double kRounding = 1e-6;  // of the largest value
+constexpr double kMost = 1e100;     // squares of more have no end
 
 std::string key_of(std::string_view label) {
   std::string key(label);
@@ -27,7 +28,7 @@ Result<void> check(const Poses& poses, const char* whose) {
   if (poses.values.size() != poses.names.size() * poses.labels.size())
     return fault(" poses have another number of values than poses times controls");
   for (const double value : poses.values)
-    if (std::isinf(value)) return fault(" poses have an infinite value");
+    if (std::abs(value) > kMost) return fault(" poses have a value beyond 1e100");
   std::set<std::string> seen;
   for (const std::string& name : poses.names)
     if (!seen.insert(name).second) return fault(" poses have the control " + name + " twice");
@@ -78,7 +79,7 @@ std::optional<double> gain_of(const std::vector<Pair>& pairs, const Pair& middle
     product += from * (pair.to - middle.to);
     largest = std::max(largest, std::abs(from));
   }
-  if (!(largest > 0) || largest < least) return std::nullopt;
+  if (!(square > 0) || largest < least) return std::nullopt;
   return product / square;
 }
 

@@ -58,8 +58,8 @@ struct GainOffset {
 /// none, is how far controls of the first face usually move (their standard deviation): what the
 /// poses move by less than half of it tells no gain. Without it that is a thousandth of the largest
 /// value of the control in either face. Offsets below a millionth of that value are 0.
-/// Errors: invalid_argument (sizes, names or labels twice, infinite values), not_found (no control
-/// or no pose in common; no pose moves any control).
+/// Errors: invalid_argument (sizes, names or labels twice, values beyond 1e100), not_found (no
+/// control or no pose in common; no pose moves any control).
 Result<std::vector<GainOffset>> fit_gain_offset(const Poses& from, const Poses& to,
                                                 std::span<const double> typical = {});
 

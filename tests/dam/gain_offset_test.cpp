@@ -81,7 +81,7 @@ TEST(GainOffset, SaysWhatIsWrong) {
   EXPECT_THAT(message(one, {{"jaw"}, {"a", "A"}, {1, 2}}), HasSubstr("A twice"));
   EXPECT_THAT(message(one, {{"jaw", "jaw"}, {"a"}, {1, 2}}), HasSubstr("jaw twice"));
   EXPECT_THAT(message(one, {{"jaw"}, {"a"}, {1, 2}}), HasSubstr("number of values"));
-  EXPECT_THAT(message(one, {{"jaw"}, {"a"}, {INFINITY}}), HasSubstr("infinite"));
+  EXPECT_THAT(message(one, {{"jaw"}, {"a"}, {INFINITY}}), HasSubstr("beyond 1e100"));
 }
 
 Script sentence() {

@@ -8,6 +8,7 @@
 #include "tools/commands/capture_options.h"
 #include "tools/commands/common.h"
 #include "tools/commands/interrupt.h"
+#include "tools/text.h"
 
 namespace animeme::tools {
 
@@ -35,12 +36,18 @@ Result<int> run(const MakeCorpusOptions& options) {
     say(text);
   };
   talk.warn = [&](const std::string& text) {
+    if (Interrupt::requested()) return;  // of what was left unfinished
     line.clear();
     warn(text);
   };
   Progress progress;
-  progress.at = [&](double share) { line.update(share); };
+  double done = 0;
+  progress.at = [&](double share) { line.update(done = share); };
   progress.stop = [] { return Interrupt::requested(); };
+  plan.capture.tracking.at = [&](double share) {
+    line.update(done, format("this video %.0f %%", 100 * share));
+  };
+  plan.capture.tracking.stop = progress.stop;
   const Result<CorpusReport> report = build_corpus(plan, talk, progress);
   line.clear();
   if (!report) {
