@@ -42,7 +42,7 @@ struct AnimemeOptions {
 };
 
 /// One bit for each RefinedTerm.
-inline constexpr std::uint32_t kAllTerms = 0xfff;
+inline constexpr std::uint32_t kAllTerms = 0xfffff;
 
 /// Settings of the method dam.
 struct RefinedOptions {

@@ -146,7 +146,20 @@ enum class RefinedTerm : std::uint8_t {
   left = 9,           ///< by the phone before, whatever is between: what it does to all
   right = 10,         ///< by the phone behind, likewise
   triphone = 11,      ///< by the phone and both beside it: what the corpus has of its own
+  kind_left = 12,     ///< by vowel, consonant or silence, and the phone before
+  kind_right = 13,    ///< by vowel, consonant or silence, and the phone behind
+  between = 14,       ///< by class of the phone before and class of the phone behind
+  /// By class, times ln(duration / usual duration of the phone), limited to +-1.
+  class_duration = 15,
+  /// By the phone before, times the same.
+  left_duration = 16,
+  /// By phone, times ln(duration / usual duration) of the phone behind, limited to +-1.
+  next_duration = 17,
+  since = 18,  ///< of all phones, times the seconds since the speech began, 0 to kLongestSince
+  onset = 19,  ///< of all phones, times exp(-seconds since the speech began / 0.3)
 };
+/// Seconds of speech that a phone remembers, for RefinedTerm::since.
+inline constexpr double kLongestSince = 1.5;
 /// Largest number of Legendre coefficients of a term.
 inline constexpr std::size_t kRefinedOrders = 5;
 
@@ -154,8 +167,8 @@ inline constexpr std::size_t kRefinedOrders = 5;
 struct TermTable {
   RefinedTerm term = RefinedTerm::phone;  ///< which kind
   std::uint32_t orders = 0;               ///< 1..kRefinedOrders
-  /// Ascending: phone, class, own * 256 + class of the neighbour, or (left * 256 + own) * 256 +
-  /// right.
+  /// Ascending: phone, class, own (phone, class, kind) * 256 + neighbour (phone or class), or (left
+  /// * 256 + own) * 256 + right; 0 where all phones share one. Kinds: 0 silence, 1 vowel, 2 other.
   std::vector<std::uint32_t> keys;
   std::vector<float> values;  ///< a_m of control c of row r at [(r * orders + m) * controls + c]
 
@@ -268,7 +281,7 @@ struct Model {
 /// with a sentence that names the first fault. read_model() returns only models that pass.
 Result<void> validate(const Model& model);
 
-/// The model file: magic "ANIMEDAM", version 2.1, little endian, CRC-32 of everything.
+/// The model file: magic "ANIMEDAM", version 2.2, little endian, CRC-32 of everything.
 /// dam/model/README.md has the layout. The same model gives the same bytes.
 std::vector<std::uint8_t> write_model(const Model& model);
 

@@ -142,7 +142,7 @@ void SpeechStream::lead_over(Signal& signal) const {
 void SpeechStream::forget() {
   const double time = options_.synthesis.rate.seconds(double(next_)) - kBehind - kClosureReach;
   std::size_t felt = 0;
-  while (felt < phones_.size() && phones_[felt].end < time - 2 * reach_) ++felt;
+  while (felt < phones_.size() && phones_[felt].end < time - 2 * reach_ - kLongestSince) ++felt;
   const std::size_t drop = felt - std::min(felt, kNeighbours + 1);
   phones_.erase(phones_.begin(), phones_.begin() + std::ptrdiff_t(drop));
 }

@@ -112,6 +112,8 @@ Result<void> validate(const SynthesisOptions& options) {
   if (!(options.tail >= 0 && options.tail <= 60)) return range("tail must lie between 0 and 60 s");
   if (!(options.style >= 0 && options.style <= kMostStyle))
     return range("style must lie between 0 and 1.5");
+  if (!(options.sharpness >= 0 && options.sharpness <= kMostSharpness))
+    return range("sharpness must lie between 0 and 3");
   if (!(options.context_weight >= 0 && options.context_weight <= 1e12))
     return range("context_weight must not be negative");
   if (!(options.smoothness_weight >= 0 && options.smoothness_weight <= 1e12))

@@ -78,7 +78,7 @@ FitSums sums_of(const Utterance& u, const std::vector<Occurrence>& timeline, con
   data.speech = &set.data;
   data.phones = set.phones;
   data.controls = data.prior_controls = k + 1;
-  data.around = neighbourhoods(set.data);
+  data.around = neighbourhoods(set.data, set.phones);
   data.time_margin = base.refined.time_margin;
   data.duration_exponent = base.refined.duration_exponent;
   data.offset_frames = base.offset_frames;

@@ -11,7 +11,7 @@
 namespace animeme::dam {
 namespace {
 
-constexpr FileFormat kSumsFormat{"ANIMESUM", 2, 0, "file of sums", "accumulate its sentences anew"};
+constexpr FileFormat kSumsFormat{"ANIMESUM", 3, 0, "file of sums", "accumulate its sentences anew"};
 
 Error damaged_sums(const std::string& how) { return damaged_file(kSumsFormat, how); }
 

@@ -47,6 +47,7 @@ SynthesisOptions as_learned(const Signal& like) {
   options.rate = like.rate;
   options.frames = like.frames();
   options.closure = false;
+  options.sharpness = 0;
   options.rest_at_ends = false;
   return options;
 }

@@ -91,24 +91,9 @@ double share_of(const Moments& m, std::size_t c, std::span<const double> gain) {
 /// A key of the tables, with the phones that it names numbered as in `number`.
 std::uint32_t renumbered(RefinedTerm term, std::uint32_t key,
                          std::span<const std::uint32_t> number) {
-  switch (term) {
-    case RefinedTerm::phone:
-    case RefinedTerm::duration:
-    case RefinedTerm::left:
-    case RefinedTerm::right:
-      return number[key];
-    case RefinedTerm::triphone:
-      return (number[key / 65536] * 256 + number[key / 256 % 256]) * 256 + number[key % 256];
-    case RefinedTerm::phone_left:
-    case RefinedTerm::phone_right:
-      return number[key / 256] * 256 + key % 256;
-    case RefinedTerm::class_left:
-    case RefinedTerm::class_right:
-    case RefinedTerm::class_left_2:
-    case RefinedTerm::class_right_2:
-    case RefinedTerm::phone_class:
-      return key;
-  }
+  if (term == RefinedTerm::triphone)
+    return (number[key / 65536] * 256 + number[key / 256 % 256]) * 256 + number[key % 256];
+  if (const auto phone = phone_of_key(term, key)) return key_with_phone(term, key, number[*phone]);
   return key;
 }
 

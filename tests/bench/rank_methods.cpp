@@ -15,7 +15,7 @@
 // Words never heard: random sets of five words; trained on the sentences without them, scored on
 // the frames inside them. All rows of the corpus.
 //
-//     build/release/bin/rank_methods grid_s1 --words 12
+//     build/release/bin/rank_methods grid_s1 --words 12 [--first 1]
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -25,6 +25,7 @@
 #include <optional>
 #include <random>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,9 @@ using bench::steps;
 using bench::Variant;
 using bench::variants;
 
+/// Of all that is scored.
+dam::SynthesisOptions g_speaking;
+
 [[noreturn]] void stop(const Error& error) {
   std::fprintf(stderr, "rank_methods: %s\n", error.describe().c_str());
   std::exit(3);
@@ -50,6 +54,14 @@ template <class T>
 T need(Result<T> result) {
   if (!result) stop(result.error());
   return std::move(*result);
+}
+
+Result<dam::Evaluation> score(const dam::Model& model, std::span<const dam::Utterance> rows,
+                              dam::SeenContexts seen = {}) {
+  dam::EvaluateOptions options;
+  options.synthesis = g_speaking;
+  options.score.seen = std::move(seen);
+  return dam::evaluate(model, rows, options);
 }
 
 dam::Corpus read(const std::string& folder, const std::string& controls) {
@@ -75,7 +87,8 @@ void print_cells(const dam::Evaluation& e, const dam::Evaluation& best, bool fir
     std::printf(" | | ");
 }
 
-int run(const std::string& folder, const std::string& others, const std::string& controls) {
+int run(const std::string& folder, const std::string& others, const std::string& controls,
+        std::span<const Variant> methods) {
   const dam::Corpus corpus = read(folder, controls);
   dam::Corpus other;
   if (!others.empty()) other = read(others, controls);
@@ -90,7 +103,7 @@ int run(const std::string& folder, const std::string& others, const std::string&
   std::printf("|---|---|---|---|---|---|---|---|---|---|%s\n", others.empty() ? "" : "---|");
   dam::Evaluation best[2];
   bool first = true;
-  for (const Variant& variant : variants()) {
+  for (const Variant& variant : methods) {
     std::printf("| %s", variant.name.c_str());
     double seconds = 0;
     std::optional<dam::Model> model;
@@ -99,15 +112,14 @@ int run(const std::string& folder, const std::string& others, const std::string&
       const auto rows = dam::select(corpus, columns[i], "train");
       dam::Model trained = need(dam::train(rows, variant.options, &summary));
       if (i == 0) seconds = summary.seconds;
-      const dam::Evaluation e =
-          need(dam::evaluate(trained, dam::select(corpus, columns[i], "test")));
+      const dam::Evaluation e = need(score(trained, dam::select(corpus, columns[i], "test")));
       if (first) best[i] = e;
       print_cells(e, best[i], first);
       if (i == 0) model = std::move(trained);
     }
     std::printf(" | %.1f", seconds);
     if (!others.empty())
-      std::printf(" | %.3f", need(dam::evaluate(*model, other.utterances)).gap_correlation);
+      std::printf(" | %.3f", need(score(*model, other.utterances)).gap_correlation);
     std::printf(" |\n");
     std::fflush(stdout);
     first = false;
@@ -174,7 +186,7 @@ double mean_nrmse(const std::vector<Fold>& folds, const Variant& variant) {
   double sum = 0;
   for (const Fold& fold : folds) {
     const dam::Model model = need(dam::train(fold.train, variant.options));
-    sum += need(dam::evaluate(model, fold.test)).nrmse / double(folds.size());
+    sum += need(score(model, fold.test)).nrmse / double(folds.size());
   }
   return sum;
 }
@@ -229,7 +241,7 @@ int run_little(const std::string& folder, const std::string& controls, double se
   for (const Variant& variant : variants()) {
     std::vector<double> nrmse;
     for (const Sentences& draw : draws)
-      nrmse.push_back(need(dam::evaluate(need(dam::train(draw, variant.options)), test)).nrmse);
+      nrmse.push_back(need(score(need(dam::train(draw, variant.options)), test)).nrmse);
     const auto [least, most] = std::minmax_element(nrmse.begin(), nrmse.end());
     std::printf("| %s | %.3f | %.3f | %.3f |\n", variant.name.c_str(),
                 std::accumulate(nrmse.begin(), nrmse.end(), 0.0) / kDraws, *least, *most);
@@ -324,7 +336,8 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
 }
 
-int run_words(const std::string& folder, const std::string& controls, std::size_t count) {
+int run_words(const std::string& folder, const std::string& controls, std::size_t count,
+              std::span<const Variant> methods) {
   const Sentences rows = read(folder, controls).utterances;
   const auto sets = random_word_sets(rows, count);
   std::vector<Fold> folds;
@@ -340,13 +353,11 @@ int run_words(const std::string& folder, const std::string& controls, std::size_
       "whole sentences with such words | more than `dam` (95 %%) "
       "|\n|---|---|---|---|---|---|---|\n");
   std::optional<WordScores> first;
-  for (const Variant& variant : variants()) {
+  for (const Variant& variant : methods) {
     WordScores scores;
     for (const Fold& fold : folds) {
       const dam::Model model = need(dam::train(fold.train, variant.options));
-      dam::EvaluateOptions options;
-      options.score.seen = dam::seen_contexts(fold.train);
-      const dam::Evaluation e = need(dam::evaluate(model, fold.test, options));
+      const dam::Evaluation e = need(score(model, fold.test, dam::seen_contexts(fold.train)));
       scores.unseen.push_back(e.breakdown.words[1].nrmse);
       scores.all.push_back(e.nrmse);
     }
@@ -380,8 +391,15 @@ int main(int argc, char** argv) {
   app.add_option("--words", words,
                  "Sets of five words to hold out: frames inside words never heard")
       ->check(CLI::Range(2, 1000));
+  std::size_t first = 100;
+  app.add_option("--first", first, "Only so many methods, from the top of the table")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--sharpness", g_speaking.sharpness, "As of speak; method dam")
+      ->check(CLI::Range(0.0, dam::kMostSharpness));
   CLI11_PARSE(app, argc, argv);
-  if (words > 0) return run_words(folder, controls, words);
+  const std::vector<Variant> all = variants();
+  const auto methods = std::span(all).first(std::min(first, all.size()));
+  if (words > 0) return run_words(folder, controls, words, methods);
   if (little > 0) return run_little(folder, controls, little);
-  return only_steps ? run_steps(folder, controls) : run(folder, others, controls);
+  return only_steps ? run_steps(folder, controls) : run(folder, others, controls, methods);
 }

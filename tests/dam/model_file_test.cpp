@@ -135,7 +135,7 @@ TEST(ModelFile, NewerVersions) {
   auto model = read_model(bytes);
   ASSERT_FALSE(model);
   EXPECT_EQ(model.error().code, Code::unsupported);
-  EXPECT_THAT(model.error().message, testing::HasSubstr("version 3.1"));
+  EXPECT_THAT(model.error().message, testing::HasSubstr("version 3.2"));
   bytes[8] = 2;
   bytes[10] = 7;  // a newer minor version may have more behind what we know
   test::seal(bytes);

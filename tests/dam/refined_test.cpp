@@ -62,7 +62,7 @@ struct Problem {
     data.phones = phones;
     data.controls = data.prior_controls = controls;
     data.target = speech.target;
-    data.around = neighbourhoods(speech);
+    data.around = neighbourhoods(speech, phones);
   }
 
   void add_sentence(test::Uniform& random) {
@@ -372,6 +372,88 @@ TEST(Refined, ChoosesRidgesByWhatIsHeldOut) {
   ASSERT_TRUE(train(sentences, {}, &noisy));
   EXPECT_EQ(clear.ridge, 0.5);
   EXPECT_EQ(noisy.ridge, 2);
+}
+
+TEST(Refined, TheClockOfSpeechBeginsAnewBehindPauses) {
+  SpeechClock clock;
+  EXPECT_LT(clock.since(-0.3, 0, true), 0);
+  EXPECT_EQ(clock.since(0, 0.5, false), 0);
+  EXPECT_EQ(clock.since(0.5, 0.75, false), 0.5);
+  EXPECT_LT(clock.since(0.75, 0.875, true), 0);  // too short to begin anew
+  EXPECT_EQ(clock.since(0.875, 1, false), 0.875);
+  EXPECT_LT(clock.since(1, 1.5, true), 0);
+  EXPECT_EQ(clock.since(1.5, 1.75, false), 0);
+  EXPECT_EQ(clock.since(2, 2.25, false), 0);  // nothing at all was between
+}
+
+TEST(Refined, TermsNameThePhonesThatTheyMean) {
+  const std::vector<PhoneModel> phones = {
+      {"IY", 10, 10, 0.1, 1}, {"M", 10, 1, 0.08, 1}, {"SIL", 10, 0, 0.3, 1}};
+  Neighbourhood here;
+  here.phone = 0;
+  here.left = 1;
+  here.right = 2;
+  here.duration = 0.1 * std::exp(0.5);
+  here.next_duration = 0.3 * std::exp(-2);
+  here.since = 0.6;
+  const auto uses = terms_of(phones, here);
+  const auto use = [&](RefinedTerm term) { return uses[std::size_t(term)]; };
+  EXPECT_EQ(use(RefinedTerm::kind_left).key, 1 * 256 + 1u);   // vowel, M
+  EXPECT_EQ(use(RefinedTerm::kind_right).key, 1 * 256 + 2u);  // vowel, SIL
+  EXPECT_EQ(use(RefinedTerm::between).key, 1 * 256 + 0u);     // lips, silence
+  EXPECT_EQ(use(RefinedTerm::class_duration).key, 10u);
+  EXPECT_NEAR(use(RefinedTerm::class_duration).scale, 0.5, 1e-12);
+  EXPECT_EQ(use(RefinedTerm::left_duration).key, 1u);
+  EXPECT_NEAR(use(RefinedTerm::left_duration).scale, 0.5, 1e-12);
+  EXPECT_EQ(use(RefinedTerm::next_duration).key, 0u);
+  EXPECT_EQ(use(RefinedTerm::next_duration).scale, -1);  // limited
+  EXPECT_EQ(use(RefinedTerm::since).scale, 0.6);
+  EXPECT_NEAR(use(RefinedTerm::onset).scale, std::exp(-2), 1e-12);
+  here.since = 7;
+  EXPECT_EQ(terms_of(phones, here)[std::size_t(RefinedTerm::since)].scale, kLongestSince);
+  here.right = kRestContext;
+  here.since = -1;
+  const auto silent = terms_of(phones, here);
+  for (const RefinedTerm none : {RefinedTerm::kind_right, RefinedTerm::next_duration,
+                                 RefinedTerm::since, RefinedTerm::onset})
+    EXPECT_EQ(silent[std::size_t(none)].scale, 0);
+  // Renumbering changes the phone of a key and nothing else.
+  const std::uint32_t key = use(RefinedTerm::kind_right).key;
+  EXPECT_EQ(phone_of_key(RefinedTerm::kind_right, key), 2u);
+  EXPECT_EQ(key_with_phone(RefinedTerm::kind_right, key, 7), 1 * 256 + 7u);
+  EXPECT_EQ(phone_of_key(RefinedTerm::phone_left, 5 * 256 + 3), 5u);
+  EXPECT_EQ(key_with_phone(RefinedTerm::phone_left, 5 * 256 + 3, 7), 7 * 256 + 3u);
+  for (const RefinedTerm none :
+       {RefinedTerm::between, RefinedTerm::class_duration, RefinedTerm::since})
+    EXPECT_FALSE(phone_of_key(none, 0));
+}
+
+TEST(Refined, SharperMotionIsQuickerAndHoldsWhatLasts) {
+  const auto model = train(test::planted(20));
+  ASSERT_TRUE(model);
+  Script script = test::planted(1)[0].script;
+  const double end = script.phones.back().end;
+  script.phones.push_back({end, end + 1, "AA", {}});  // longer than any
+  SynthesisOptions options;
+  options.closure = options.rest_at_ends = false;
+  options.rate = {50, 1};
+  double speed[3];
+  std::vector<Signal> made;
+  for (const int sharpness : {0, 1, 2}) {
+    options.sharpness = sharpness;
+    made.push_back(*synthesise(*model, script, options));
+    double& sum = speed[sharpness] = 0;
+    for (std::size_t i = 0; i + 1 < made.back().frames(); ++i)
+      sum += std::pow(made.back().at(i + 1, 0) - made.back().at(i, 0), 2);
+  }
+  EXPECT_GT(speed[1], 1.05 * speed[0]);
+  EXPECT_GT(speed[2], 1.05 * speed[1]);
+  // In the middle of a sound that is held nothing is to be sharpened, and twice is twice.
+  const auto middle = std::size_t((end + 0.5) * 50);
+  EXPECT_NEAR(made[1].at(middle, 0), made[0].at(middle, 0), 1e-4);
+  for (std::size_t i = 0; i < made[0].frames(); ++i)
+    EXPECT_NEAR(made[2].at(i, 0) - made[0].at(i, 0), 2 * (made[1].at(i, 0) - made[0].at(i, 0)),
+                1e-4);
 }
 
 TEST(Refined, TriphonesAreThoseThatOccurOften) {

@@ -265,6 +265,11 @@ TEST_F(Synthesis, HostileScriptsAndOptions) {
   options = {};
   options.context_weight = std::nan("");
   EXPECT_FALSE(synthesise(*model, good, options));
+  for (const double sharpness : {-0.1, 3.1, std::nan("")}) {
+    options = {};
+    options.sharpness = sharpness;
+    EXPECT_FALSE(synthesise(*model, good, options));
+  }
   for (const double style : {-0.1, 1.6, std::nan("")}) {
     options = {};
     options.style = style;

@@ -73,6 +73,24 @@ TEST(PlotSentences, FewSentencesHaveFewPanels) {
   EXPECT_THAT(*two, Not(HasSubstr("median: ")));
 }
 
+TEST(PlotSentences, BarsTellWhenTheLipsAreShut) {
+  // Gaps of 90, 40, 20, 40, 90: below 45 from 0.9 frames on, for 2.2.
+  Scored scored;
+  scored.add("b", 0.2,
+             signal_of({"fap4_lower_t_midlip", "fap5_raise_b_midlip"},
+                       {-90, 0, -40, 0, -20, 0, -40, 0, -90, 0}));
+  const auto plain = plot::sentences_svg(scored.pairs, scored.evaluation);
+  scored.pairs[0].recorded.script.phones = {{0.04, 0.12, "B", {}}};
+  for (double& value : scored.pairs[0].made.values) value -= 30;  // 60 at least: never shut
+  const auto svg = plot::sentences_svg(scored.pairs, scored.evaluation);
+  ASSERT_TRUE(plain && svg);
+  EXPECT_THAT(*plain, Not(HasSubstr("fill=\"#0072b2\"")));
+  EXPECT_THAT(*svg, HasSubstr("fill=\"#0072b2\""));
+  EXPECT_THAT(*svg, Not(HasSubstr("fill=\"#d55e00\"")));
+  // 600 pixels for 0.2 s from 150 on, and frame 0.9 is at 0.036 s.
+  EXPECT_THAT(*svg, HasSubstr("<rect x=\"258"));
+}
+
 TEST(PlotSentences, MoreThanTenMinutesAreNotDrawn) {
   Scored scored;
   scored.add("long", 0.2, signal_of({"smile"}, std::vector<double>(25 * 601)));

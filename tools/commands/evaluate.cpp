@@ -389,6 +389,10 @@ void add_options(CLI::App& app, EvaluateOptions& options) {
                  "Inner gap below which lips count as closed, FAP units")
       ->capture_default_str();
   app.add_flag("--no-closure", options.no_closure, "Leave out the closure of P, B and M");
+  app.add_option("--sharpness", options.evaluate.synthesis.sharpness,
+                 "As of speak: 0 has the least error, 1 moves more as people do")
+      ->option_text("0..3=1")
+      ->check(CLI::Range(0.0, dam::kMostSharpness));
   app.add_option("--against", options.against,
                  "A second model or folder of tracks: difference with its interval");
   app.add_option("--draws", options.draws, "Draws of the bootstrap over sentences")

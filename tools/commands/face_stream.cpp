@@ -64,6 +64,7 @@ void add_sound_options(CLI::App& app, SoundSettings& settings, bool copy) {
                  copy ? "Coding of the sound: aac, opus, or copy for sound that is one of them; "
                         "default: aac, where the file takes it"
                       : "Coding of the sound: aac or opus; default: aac, where the file takes it")
+      ->option_text("CODEC")
       ->check(copy ? CLI::IsMember({"aac", "opus", "copy"}) : CLI::IsMember({"aac", "opus"}));
   app.add_option("--audio-bitrate", settings.bit_rate,
                  "Bits a second of the sound; default: 64000 for aac, 40000 for opus")

@@ -32,6 +32,7 @@ struct SpeakOptions {
   StreamSettings stream;
   SoundSettings sound;
   double style = 1;
+  double sharpness = 1;
   bool no_closure = false;
   bool life = false;
   bool exact = false;
@@ -157,6 +158,7 @@ Result<int> run(const SpeakOptions& options) {
   settings.rate = *rate;
   settings.closure = !options.no_closure;
   settings.style = options.style;
+  settings.sharpness = options.sharpness;
   if (spoken->audio) {
     settings.tail = std::max(0.0, spoken->audio->duration() - spoken->script.duration());
   }
@@ -215,6 +217,10 @@ void add_options(CLI::App& app, SpeakOptions& options) {
                  "Intensity: 0 keeps the mouth at rest, 1 is as learned, 1.5 exaggerates")
       ->option_text("0..1.5=1")
       ->check(CLI::Range(0.0, dam::kMostStyle));
+  app.add_option("--sharpness", options.sharpness,
+                 "Quickness: 0 as a mean of sentences, 1 more as people")
+      ->option_text("0..3=1")
+      ->check(CLI::Range(0.0, dam::kMostSharpness));
   app.add_flag("--no-closure", options.no_closure,
                "Do not force the lips shut on p, b and m, nor to the teeth on f and v");
   app.add_flag("--life", options.life,

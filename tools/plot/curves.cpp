@@ -19,6 +19,7 @@ constexpr double kLeft = 150;
 constexpr double kRight = 34;
 constexpr double kRow = 110;
 constexpr double kBand = 26;
+constexpr double kBar = 5;
 constexpr double kHeading = 30;
 constexpr double kAxis = 30;
 constexpr double kLegendLine = 18;
@@ -199,6 +200,22 @@ std::string row_svg(const Row& row, const Axis& axis, double base, double width)
   return svg;
 }
 
+// Bars below the curves of a row.
+std::string bars_svg(const Row& row, const Axis& axis, double base) {
+  std::string svg;
+  for (std::size_t i = 0; i < row.bars.size(); ++i) {
+    const double y = base + kRow - 9 + kBar * double(i);
+    for (const auto& [begin, end] : row.bars[i]) {
+      if (end < axis.begin || begin > axis.end) continue;
+      const double from = axis.x(std::max(begin, axis.begin));
+      svg += "<rect x=\"" + drawn(from) + "\" y=\"" + drawn(y) + "\" width=\"" +
+             drawn(axis.x(std::min(end, axis.end)) - from) + "\" height=\"" + drawn(kBar - 1) +
+             "\" fill=\"" + kPens[row.first_colour + i].colour + "\"/>\n";
+    }
+  }
+  return svg;
+}
+
 // Lines of the legend one below the other, each with a piece of its curve.
 std::string legend_svg(const std::vector<std::string>& names, double top) {
   std::string svg;
@@ -223,7 +240,8 @@ std::string curves_svg(const std::vector<Panel>& panels, const std::vector<std::
     const Place at = place(panel, offset);
     body += heading(panel, at) + time_axis(panel, axis, at) + phones(panel, axis, at);
     for (std::size_t i = 0; i < panel.rows.size(); ++i) {
-      body += row_svg(panel.rows[i], axis, at.top + double(i) * kRow, width);
+      const double base = at.top + double(i) * kRow;
+      body += row_svg(panel.rows[i], axis, base, width) + bars_svg(panel.rows[i], axis, base);
     }
     offset = at.end;
   }

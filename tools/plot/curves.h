@@ -20,6 +20,9 @@ namespace animeme::plot {
 /// Seconds and value.
 using Points = std::vector<std::pair<double, double>>;
 
+/// Begin and end, in seconds.
+using Stretches = std::vector<std::pair<double, double>>;
+
 /// One curve a colour, in the order of the legend; together they share a scale.
 struct Row {
   std::string title;             ///< of the row
@@ -27,6 +30,9 @@ struct Row {
   std::string unit;              ///< of the values; empty: none is told
   std::vector<Points> curves;    ///< first_colour + their number: three at most
   std::size_t first_colour = 0;  ///< place in the legend of the first curve
+  /// Bars below the curves, one list for each of the first curves, in its colour: when something is
+  /// the case.
+  std::vector<Stretches> bars;
 };
 
 /// Rows over one time axis.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "dam/signal/closure.h"
 #include "dam/signal/fap_signal.h"
 #include "tools/plot/curves.h"
 #include "tools/text.h"
@@ -10,6 +11,8 @@
 namespace animeme::plot {
 
 namespace {
+
+constexpr const char* kInnerGap = "inner gap";
 
 // A curve of the picture: a weighted sum of channels.
 struct SentenceCurve {
@@ -42,7 +45,7 @@ std::vector<SentenceCurve> curves_of(const dam::SentencePair& pair) {
     curves.push_back(std::move(curve));
   };
   add("jaw", "FAP 3", {{3, 1}});
-  add("inner gap", "-(FAP 4 + FAP 5)", {{4, -1}, {5, -1}});
+  add(kInnerGap, "-(FAP 4 + FAP 5)", {{4, -1}, {5, -1}});
   add("width", "FAP 6 + FAP 7", {{6, 1}, {7, 1}});
   if (!curves.empty()) return curves;
   for (std::size_t i = 0; i < std::min<std::size_t>(3, both.size()); ++i) {
@@ -64,6 +67,23 @@ Points points(const dam::Signal& signal, const SentenceCurve& curve) {
   return out;
 }
 
+// When the lips are shut for P, B and M.
+Stretches closures(const dam::Signal& signal, const dam::Script& script) {
+  constexpr double kReach = 0.2;  // seconds from the least gap
+  Stretches stretches;
+  const auto lips = dam::inner_lip_channels(signal.names);
+  if (!lips) return stretches;
+  for (const dam::Phone& phone : script.phones) {
+    if (!dam::is_bilabial(phone.label)) continue;
+    const auto shut = dam::shut_span(signal, phone, *lips, kReach);
+    if (!shut) continue;
+    const double at = double(signal.first_frame + shut->least);
+    stretches.emplace_back(signal.rate.seconds(at - shut->before),
+                           signal.rate.seconds(at + shut->after));
+  }
+  return stretches;
+}
+
 Panel panel_of(const char* place, const dam::SentencePair& pair, double nrmse) {
   Panel panel;
   const std::string& text = pair.recorded.text;
@@ -78,6 +98,10 @@ Panel panel_of(const char* place, const dam::SentencePair& pair, double nrmse) {
                           curve.subtitle,
                           "",
                           {points(pair.recorded.signal, curve), points(pair.made, curve)}});
+    if (curve.title != kInnerGap) continue;
+    const dam::Script& script = pair.recorded.script;
+    panel.rows.back().unit = "bars: P B M shut";
+    panel.rows.back().bars = {closures(pair.recorded.signal, script), closures(pair.made, script)};
   }
   return panel;
 }

@@ -7,9 +7,11 @@
 
 namespace animeme::dam {
 
-std::vector<Neighbourhood> neighbourhoods(const SpeechData& speech) {
+std::vector<Neighbourhood> neighbourhoods(const SpeechData& speech,
+                                          std::span<const PhoneModel> phones) {
   std::vector<Neighbourhood> list(speech.occurrences.size());
-  for (const FitSentence& sentence : speech.sentences)
+  for (const FitSentence& sentence : speech.sentences) {
+    SpeechClock clock;
     for (std::size_t i = 0; i < sentence.occurrences; ++i) {
       const std::size_t j = sentence.first_occurrence + i;
       const FitOccurrence& o = speech.occurrences[j];
@@ -19,8 +21,12 @@ std::vector<Neighbourhood> neighbourhoods(const SpeechData& speech) {
       here.left = o.left;
       here.right = o.right;
       if (o.left != kRestContext) here.left_2 = speech.occurrences[j - 1].left;
-      if (o.right != kRestContext) here.right_2 = speech.occurrences[j + 1].right;
+      here.since = clock.since(o.start, o.end(), is_silence(phones, o.phone));
+      if (o.right == kRestContext) continue;
+      here.right_2 = speech.occurrences[j + 1].right;
+      here.next_duration = speech.occurrences[j + 1].duration;
     }
+  }
   return list;
 }
 

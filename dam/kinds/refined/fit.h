@@ -57,7 +57,8 @@ RefinedDesign make_refined_design(const RefinedData& data, const FitSentence& se
                                   std::span<const PhoneDominance> dominance);
 
 /// Neighbourhoods of all occurrences.
-std::vector<Neighbourhood> neighbourhoods(const SpeechData& speech);
+std::vector<Neighbourhood> neighbourhoods(const SpeechData& speech,
+                                          std::span<const PhoneModel> phones);
 
 // ---- dominance ----
 

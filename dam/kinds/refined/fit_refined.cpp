@@ -60,7 +60,7 @@ class RefinedTrainer {
     data_.target = set.data.target;
     for (std::size_t i = 0; i < data_.target.size(); ++i)
       data_.target[i] -= mean_[i % data_.controls];
-    data_.around = neighbourhoods(set.data);
+    data_.around = neighbourhoods(set.data, model.phones);
     data_.time_margin = own_.time_margin;
     data_.duration_exponent = own_.duration_exponent;
     data_.offset_frames = own_.offset_frames;

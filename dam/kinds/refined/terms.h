@@ -9,6 +9,7 @@
 #include <span>
 
 #include "dam/model/model.h"
+#include "dam/script/phones.h"
 
 namespace animeme::dam {
 
@@ -20,18 +21,26 @@ struct TermInfo {
 };
 
 inline constexpr TermInfo kTermInfo[] = {
-    {RefinedTerm::phone, 5, {15, 600, 1200, 1800, 2400}},
-    {RefinedTerm::class_left, 3, {50, 50, 100}},
-    {RefinedTerm::class_right, 3, {50, 50, 100}},
-    {RefinedTerm::phone_left, 3, {50, 50, 100}},
-    {RefinedTerm::phone_right, 3, {50, 50, 100}},
-    {RefinedTerm::duration, 3, {8, 8, 16}},
-    {RefinedTerm::class_left_2, 2, {50, 50}},
-    {RefinedTerm::class_right_2, 2, {50, 50}},
-    {RefinedTerm::phone_class, 5, {0.05, 3, 7, 10, 13}},
-    {RefinedTerm::left, 3, {8, 8, 16}},
-    {RefinedTerm::right, 3, {8, 8, 16}},
-    {RefinedTerm::triphone, 3, {5, 5, 10}},
+    {RefinedTerm::phone, 5, {26, 670, 1300, 2800, 3700}},
+    {RefinedTerm::class_left, 3, {110, 62, 190}},
+    {RefinedTerm::class_right, 3, {92, 61, 64}},
+    {RefinedTerm::phone_left, 3, {13, 25, 25}},
+    {RefinedTerm::phone_right, 3, {81, 70, 45}},
+    {RefinedTerm::duration, 3, {35, 45, 67}},
+    {RefinedTerm::class_left_2, 2, {26, 150}},
+    {RefinedTerm::class_right_2, 2, {5.3, 58}},
+    {RefinedTerm::phone_class, 5, {0.05, 3.2, 9.9, 15, 14}},
+    {RefinedTerm::left, 3, {11, 24, 13}},
+    {RefinedTerm::right, 3, {17, 6.2, 59}},
+    {RefinedTerm::triphone, 3, {31, 6.3, 30}},
+    {RefinedTerm::kind_left, 3, {100, 25, 140}},
+    {RefinedTerm::kind_right, 3, {16, 32, 53}},
+    {RefinedTerm::between, 3, {170, 87, 230}},
+    {RefinedTerm::class_duration, 3, {5.5, 79, 26}},
+    {RefinedTerm::left_duration, 2, {12, 36}},
+    {RefinedTerm::next_duration, 2, {9.8, 93}},
+    {RefinedTerm::since, 1, {0.67}},
+    {RefinedTerm::onset, 1, {1.5}},
 };
 inline constexpr std::size_t kTermCount = std::size(kTermInfo);
 
@@ -40,8 +49,26 @@ struct Neighbourhood {
   std::int32_t phone = 0;
   std::int32_t left = kRestContext, right = kRestContext;
   std::int32_t left_2 = kRestContext, right_2 = kRestContext;
-  double duration = 0;  ///< seconds
+  double duration = 0;       ///< seconds
+  double next_duration = 0;  ///< seconds of the phone behind; 0: there is none
+  double since = -1;         ///< seconds since the speech began; below 0: this is silence
 };
+
+/// Walks through the occurrences of a script in their order and tells how long the speech is going
+/// on: Neighbourhood::since. It begins anew behind kSpeechBreak seconds without.
+class SpeechClock {
+ public:
+  double since(double start, double end, bool silence);
+
+ private:
+  double begun_ = 0, ended_ = -1e9;  // seconds
+};
+inline constexpr double kSpeechBreak = 0.2;
+
+/// Whether a phone is silence.
+inline bool is_silence(std::span<const PhoneModel> phones, std::int32_t phone) {
+  return phones[std::size_t(phone)].context_class == std::uint32_t(PhoneClass::silence);
+}
 
 /// One term of an occurrence; a scale of 0: it has none of this kind.
 struct TermUse {
