@@ -256,7 +256,7 @@ class Builder {
 
   Result<void> read_script(Sentence& sentence) {
     sentence.report.script = "given";
-    auto script = speech::read_script(sentence.take.script);
+    auto script = speech::read_script(sentence.take.script, {plan_.script_reading, plan_.language});
     if (!script) return script.error();
     sentence.script = std::move(*script);
     sentence.report.text =
