@@ -115,7 +115,7 @@ const std::vector<Case>& cases() {
       {"elevenlabs.json", "elevenlabs", "<bin,> 250-500 <two.> 600-900"},
       {"elevenlabs_stream.json", "elevenlabs", "<bin> 250-500 <blue> 600-900"},
       {"inworld.json", "inworld",
-       "b 250-300 ɪ 300-400 n 400-500 b 600-650 l 650-720 uː 720-900 <2> 900-1000"},
+       " 0-250 b 250-300 ɪ 300-400 n 400-500 b 600-650 l 650-720 uː 720-900 <2> 900-1000"},
       {"kokoro.json", "kokoro",
        "SIL 0-250 B/bin 250-324 IH/bin 324-426 N/bin 426-500 SIL 500-600 G/go 600-707 OW/go "
        "707-900"},

@@ -102,6 +102,7 @@ Result<dam::Timings> read_json(std::string_view text, const dam::ScriptOptions& 
   if (!format) return format.error();
   JsonLabels out;
   auto done = (*format)->read(roots, options, out);
+  drop_unspoken(out.labels);
   if (!done) {
     Error error = done.error();
     place_labels(text, documents->offsets, out.paths, out.labels, &error);

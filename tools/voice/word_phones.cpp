@@ -78,6 +78,7 @@ Result<dam::Timings> words_to_phones(const dam::Timings& timings, const AlignOpt
       out.labels.push_back(label);
       continue;
     }
+    if (split_words(label.label).empty()) continue;  // punctuation
     if (!(label.end > label.start)) {
       return error_at_line(Code::syntax,
                            "the word \"" + label.label.substr(0, 40) +

@@ -91,7 +91,7 @@ Result<void> read_gentle(const std::vector<Node>& roots, const dam::ScriptOption
     const Node word = words.at(i);
     const auto start = word.member({"start"}).number(), end = word.member({"end"}).number();
     if (!start) continue;
-    const std::string text = word.member({"word"}).text().value_or("");
+    const std::string text = word.member({"word", "alignedword"}).text().value_or("");
     const Node phones = word.member({"phones"});
     // A word that is in no dictionary has one phone called "oov".
     const bool unknown =

@@ -80,9 +80,7 @@ std::vector<TimedLabel> join_characters(const std::vector<TimedLabel>& character
       inside = false;
       continue;
     }
-    const bool letter = (code >= U'0' && code <= U'9') ||
-                        ((code | 0x20) >= U'a' && (code | 0x20) <= U'z') ||
-                        (code >= 0xC0 && !(code >= 0x2000 && code <= 0x206F));
+    const bool letter = is_spoken(code);
     if (!inside && !letter) continue;
     if (!inside) {
       words.push_back(character);
@@ -95,7 +93,7 @@ std::vector<TimedLabel> join_characters(const std::vector<TimedLabel>& character
   return words;
 }
 
-// Inworld: the phones of some words.
+// Inworld: the phones of some words; "[silence]" is one of them, and blanks are words.
 Result<void> add_phones(const Node& node, std::vector<TimedLabel>& words, JsonLabels& out) {
   const Node details = node.member({"phoneticdetails"});
   std::vector<std::vector<TimedLabel>> phones(words.size());
@@ -114,10 +112,11 @@ Result<void> add_phones(const Node& node, std::vector<TimedLabel>& words, JsonLa
         return out.error(Code::syntax,
                          "a phone needs phoneSymbol, startTimeSeconds and durationSeconds", phone);
       }
+      if (*length <= 0) continue;
       out.paths.push_back(phone.path);
-      phones[std::size_t(*index)].push_back({*start, *start + *length, *symbol,
-                                             words[std::size_t(*index)].label,
-                                             std::int64_t(out.paths.size()), 0, false});
+      phones[std::size_t(*index)].push_back(
+          {*start, *start + *length, symbol->starts_with('[') ? "" : *symbol,
+           words[std::size_t(*index)].label, std::int64_t(out.paths.size()), 0, false});
     }
   }
   std::vector<TimedLabel> all;

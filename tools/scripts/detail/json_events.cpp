@@ -40,7 +40,9 @@ TimedLabel taken(JsonLabels& out) {
 // Azure: the arguments of events, as the libraries of its languages name them, or the messages that
 // they come from.
 
-Node offset_of(const Node& event) { return event.member({"audiooffset", "offset"}); }
+Node offset_of(const Node& event) {
+  return event.member({"audiooffset", "offset", "audiooffsetms", "offsetms"});
+}
 Node azure_text(const Node& event) {
   const Node text = event.member({"text"});
   return text.is_object() ? text.member({"text"}) : text;
@@ -55,15 +57,16 @@ bool is_azure(const std::vector<Node>& roots) {
   return !find_objects(roots, is_azure_event).empty();
 }
 
-// Most of Azure counts units of 100 ns, batch synthesis milliseconds. Events are 20 ms to a second
-// apart: 200,000 to 10,000,000 of the one, 20 to 1,000 of the other.
+// Most of Azure counts units of 100 ns, batch synthesis milliseconds, and who keeps events often
+// makes seconds of them. Events are 20 ms to a few seconds apart: 200,000 and more of the first, 20
+// and more of the second.
 double azure_rate(const std::vector<Node>& events) {
   std::vector<double> offsets;
   for (const Node& event : events) offsets.push_back(*offset_of(event).number());
   std::sort(offsets.begin(), offsets.end());
   if (offsets.size() < 2) return offsets.empty() || offsets[0] < 50000 ? 1000 : 1e7;
   const double apart = (offsets.back() - offsets.front()) / double(offsets.size() - 1);
-  return apart > 10000 ? 1e7 : 1000;
+  return apart > 20000 ? 1e7 : apart > 8 ? 1000 : 1;
 }
 
 Result<void> read_azure(const std::vector<Node>& roots, const dam::ScriptOptions& options,

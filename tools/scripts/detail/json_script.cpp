@@ -109,7 +109,25 @@ void attach_words(std::vector<dam::TimedLabel>& phones, const std::vector<dam::T
   }
 }
 
+bool is_spoken(char32_t code) {
+  if (code < 0x80) {
+    return (code >= U'0' && code <= U'9') || ((code | 0x20) >= U'a' && (code | 0x20) <= U'z');
+  }
+  return code >= 0xC0 && !(code >= 0x2000 && code <= 0x206F) && !(code >= 0x3000 && code <= 0x3003);
+}
+
+void drop_unspoken(std::vector<dam::TimedLabel>& labels) {
+  std::erase_if(labels, [](const dam::TimedLabel& label) {
+    if (!label.is_word) return false;
+    for (std::string_view rest = label.label; !rest.empty();) {
+      if (is_spoken(dam::take_code_point(rest))) return false;
+    }
+    return true;
+  });
+}
+
 void give_times(std::vector<dam::TimedLabel>& words) {
+  drop_unspoken(words);
   constexpr double kLeastOfWord = 0.06;  // seconds; in less nothing can be said
   const auto timed = [](const dam::TimedLabel& word) { return word.end > word.start; };
   std::vector<dam::TimedLabel> out;

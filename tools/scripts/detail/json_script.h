@@ -53,11 +53,18 @@ std::vector<Node> find_objects(const std::vector<Node>& roots,
 Result<std::string> viseme_label(JsonLabels& out, const Node& node, dam::VisemeSet set,
                                  const std::string& name);
 
+/// Whether a character is spoken: a letter or a digit, of any script.
+bool is_spoken(char32_t code);
+
+/// Drops words in which nothing is spoken: blanks and punctuation, which some services list as
+/// well.
+void drop_unspoken(std::vector<dam::TimedLabel>& labels);
+
 /// Names the words in whose time the middle of a phone lies.
 void attach_words(std::vector<dam::TimedLabel>& phones, const std::vector<dam::TimedLabel>& words);
 
 /// Words whose times are missing (end <= start) fill the time between their neighbours, or join the
-/// one before where there is none.
+/// one before where there is none. Those in which nothing is spoken go first.
 void give_times(std::vector<dam::TimedLabel>& words);
 
 /// Sets line and column of all labels, and of `error`, which may be nullptr, by walking through the
