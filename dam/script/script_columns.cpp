@@ -1,5 +1,6 @@
 // Tables of recognisers and voices: MBROLA, CTM, PocketSphinx.
 #include <algorithm>
+#include <set>
 
 #include "dam/script/script_readers_internal.h"
 #include "dam/script/script_timeline_internal.h"
@@ -8,6 +9,7 @@ namespace animeme::dam {
 namespace {
 
 constexpr double kSphinxRate = 100;  // frames
+constexpr double kLeastPhone = 3;    // ms, on average
 
 bool all_numbers(const LabelRow& row, std::size_t from) {
   for (std::size_t i = from; i < row.fields.size(); ++i) {
@@ -51,6 +53,13 @@ Result<Timings> read_pho(std::string_view text, const ScriptOptions& options) {
     if (*length == 0) continue;  // a diphone that is only passed through
     timings.labels.push_back(std::move(label));
   }
+  // Others have .pho files, too, which count seconds. Who names the format knows.
+  const bool told = !options.format.empty() || options.rate > 0;
+  if (!told && reached < kLeastPhone * double(timings.labels.size())) {
+    return make_error(Code::syntax,
+                      "these phones last less than 3 ms each; MBROLA counts milliseconds, for "
+                      "durations in seconds say --script-format pho@1");
+  }
   return timings;
 }
 
@@ -66,6 +75,7 @@ bool looks_like_ctm(std::string_view text) {
 
 Result<Timings> read_ctm(std::string_view text, const ScriptOptions& options) {
   std::vector<std::string> names;
+  std::set<std::string> seen;
   std::vector<std::pair<std::string, TimedLabel>> all;
   LabelRows reader(text, ";;");
   LabelRow row;
@@ -79,7 +89,7 @@ Result<Timings> read_ctm(std::string_view text, const ScriptOptions& options) {
     const auto length = row.seconds(3, "duration", rate_or(options, 1));
     if (!length) return length.error();
     std::string name(row.fields[0]);
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    if (seen.insert(name).second) names.push_back(name);
     all.emplace_back(std::move(name), row.label_at(4, *start, *start + *length));
   }
   if (names.empty()) return nothing_in("CTM");

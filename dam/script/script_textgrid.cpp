@@ -1,5 +1,6 @@
 // Which tiers of a TextGrid are the phones and the words, and the way back.
 #include <algorithm>
+#include <map>
 #include <span>
 
 #include "dam/script/script_readers_internal.h"
@@ -145,6 +146,7 @@ bool looks_like_mfa_table(std::string_view text) {
 // Begin, End, Label, Type, Speaker: tiers that are mixed. A label with a comma is in quotes.
 Result<Timings> read_mfa_table(std::string_view text, const ScriptOptions& options) {
   TextGrid grid;
+  std::map<std::string, std::size_t> tiers;
   LineReader reader(text);
   Line line;
   reader.next(line);
@@ -171,10 +173,10 @@ Result<Timings> read_mfa_table(std::string_view text, const ScriptOptions& optio
     }
     const std::string name =
         (speaker.empty() ? "" : std::string(speaker) + " - ") + std::string(type);
-    auto tier = std::find_if(grid.tiers.begin(), grid.tiers.end(),
-                             [&](const TextGridTier& t) { return t.name == name; });
-    if (tier == grid.tiers.end()) tier = grid.tiers.insert(tier, {name, false, {}});
-    tier->items.push_back({*start, *end, std::string(label), line.number, column(fields[2])});
+    const auto [tier, added] = tiers.try_emplace(name, grid.tiers.size());
+    if (added) grid.tiers.push_back({name, false, {}});
+    grid.tiers[tier->second].items.push_back(
+        {*start, *end, std::string(label), line.number, column(fields[2])});
   }
   return labels_of_tier(grid, options);
 }

@@ -181,23 +181,26 @@ std::vector<Node> tokens_of(const std::vector<Node>& roots) {
 
 bool is_kokoro(const std::vector<Node>& roots) { return first(tokens_of(roots)) != nullptr; }
 
+constexpr std::size_t kLongestWord = 1024;  // bytes of IPA
+
 // Misaki's capitals to IPA.
 std::string ipa_of_misaki(std::string_view phonemes) {
   constexpr std::pair<char, std::string_view> kCapitals[] = {
       {'A', "eɪ"}, {'I', "aɪ"}, {'W', "aʊ"}, {'Y', "ɔɪ"}, {'O', "oʊ"}, {'Q', "əʊ"}, {'T', "ɾ"}};
+  constexpr std::string_view kWeak = "ᵊ";  // the vowel of "rhythm"
   std::string out;
-  for (const char c : phonemes) {
+  while (!phonemes.empty()) {
     const auto found = std::find_if(std::begin(kCapitals), std::end(kCapitals),
-                                    [&](const auto& entry) { return entry.first == c; });
-    if (found != std::end(kCapitals)) {
+                                    [&](const auto& entry) { return entry.first == phonemes[0]; });
+    const bool weak = phonemes.starts_with(kWeak);
+    if (weak) {
+      out += "ə";
+    } else if (found != std::end(kCapitals)) {
       out += found->second;
     } else {
-      out += c;
+      out += phonemes[0];
     }
-  }
-  // The weak vowel of "rhythm" is written small.
-  for (std::size_t at; (at = out.find("ᵊ")) != std::string::npos;) {
-    out.replace(at, std::string_view("ᵊ").size(), "ə");
+    phonemes.remove_prefix(weak ? kWeak.size() : 1);
   }
   return out;
 }
@@ -211,7 +214,7 @@ Result<void> read_kokoro(const std::vector<Node>& roots, const dam::ScriptOption
     if (!start || !end || *end <= *start) continue;  // punctuation has no time
     const Node phonemes = token.member({"phonemes"});
     const std::string ipa = ipa_of_misaki(*phonemes.text());
-    const auto sounds = dam::parse_ipa(ipa);
+    const auto sounds = dam::parse_ipa(ipa, kLongestWord);
     if (!sounds) return out.error(sounds.error().code, sounds.error().message, phonemes);
     std::vector<std::string> labels;
     for (const dam::IpaPhone& sound : *sounds) labels.emplace_back(sound.label);
