@@ -10,27 +10,27 @@ struct VisemePhone {
   std::string_view name, label;
 };
 
-constexpr VisemePhone kRhubarb[] = {{"A", "M"},  {"B", "S"}, {"C", "EH"}, {"D", "AA"}, {"E", "AO"},
+constexpr VisemePhone kRhubarb[] = {{"A", "P"},  {"B", "S"}, {"C", "EH"}, {"D", "AA"}, {"E", "AO"},
                                     {"F", "UW"}, {"G", "F"}, {"H", "L"},  {"X", "SIL"}};
 
 constexpr VisemePhone kPrestonBlair[] = {{"AI", "AA"}, {"E", "EH"},    {"O", "AO"},  {"U", "UW"},
-                                         {"WQ", "W"},  {"L", "L"},     {"MBP", "M"}, {"FV", "F"},
+                                         {"WQ", "W"},  {"L", "L"},     {"MBP", "P"}, {"FV", "F"},
                                          {"etc", "S"}, {"rest", "SIL"}};
 
 constexpr VisemePhone kAzure[] = {
     {"0", "SIL"}, {"1", "AX"}, {"2", "AA"}, {"3", "AO"}, {"4", "EH"},  {"5", "ER"},
     {"6", "IY"},  {"7", "UW"}, {"8", "OW"}, {"9", "AW"}, {"10", "OY"}, {"11", "AY"},
     {"12", "HH"}, {"13", "R"}, {"14", "L"}, {"15", "S"}, {"16", "SH"}, {"17", "DH"},
-    {"18", "F"},  {"19", "T"}, {"20", "K"}, {"21", "M"}};
+    {"18", "F"},  {"19", "N"}, {"20", "K"}, {"21", "P"}};
 
 constexpr VisemePhone kPolly[] = {
-    {"p", "M"},  {"t", "T"},  {"S", "SH"}, {"T", "DH"}, {"f", "F"},  {"k", "K"},  {"i", "IY"},
+    {"p", "P"},  {"t", "N"},  {"S", "SH"}, {"T", "DH"}, {"f", "F"},  {"k", "K"},  {"i", "IY"},
     {"l", "L"},  {"r", "R"},  {"s", "S"},  {"u", "UW"}, {"a", "AA"}, {"@", "AX"}, {"e", "EY"},
     {"E", "EH"}, {"o", "OW"}, {"O", "AO"}, {"B", "B"},  {"J", "Y"},  {"x", "K"},  {"sil", "SIL"}};
 
 // In the order of the MPEG-4 visemes, whose names these are.
 constexpr VisemePhone kOculus[] = {
-    {"sil", "SIL"}, {"PP", "M"}, {"FF", "F"}, {"TH", "DH"}, {"DD", "T"},  {"kk", "K"},
+    {"sil", "SIL"}, {"PP", "P"}, {"FF", "F"}, {"TH", "DH"}, {"DD", "T"},  {"kk", "K"},
     {"CH", "CH"},   {"SS", "S"}, {"nn", "N"}, {"RR", "R"},  {"aa", "AA"}, {"E", "EH"},
     {"I", "IH"},    {"O", "AO"}, {"U", "UW"}, {"ih", "IH"}, {"oh", "AO"}, {"ou", "UW"}};
 

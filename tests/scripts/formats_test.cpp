@@ -93,23 +93,23 @@ const std::vector<Case>& cases() {
       {"audacity.txt", "labels", kPhones + kEnd},
       {"words.txt", "labels", kWords},
       {"rhubarb.tsv", "rhubarb",
-       "SIL 0-250 M 250-300 S 300-500 SIL 500-600 M 600-650 S 650-720 UW 720-900"},
+       "SIL 0-250 P 250-300 S 300-500 SIL 500-600 P 600-650 S 650-720 UW 720-900"},
       {"rhubarb.json", "rhubarb",
-       "SIL 0-250 M 250-300 S 300-500 SIL 500-600 M 600-650 S 650-720 UW 720-900 SIL 900-1000"},
+       "SIL 0-250 P 250-300 S 300-500 SIL 500-600 P 600-650 S 650-720 UW 720-900 SIL 900-1000"},
       {"rhubarb.xml", "rhubarb",
-       "SIL 0-250 M 250-300 S 300-500 SIL 500-600 M 600-650 S 650-720 UW 720-900 SIL 900-1000"},
+       "SIL 0-250 P 250-300 S 300-500 SIL 500-600 P 600-650 S 650-720 UW 720-900 SIL 900-1000"},
       {"moho.dat", "moho",
-       "SIL 0-250 M 250-292 S 292-500 SIL 500-583 M 583-625 L 625-708 UW 708-917"},
+       "SIL 0-250 P 250-292 S 292-500 SIL 500-583 P 583-625 L 625-708 UW 708-917"},
       {"words.srt", "subtitles", "<bin> 250-500 <blue.> 600-900"},
       {"highlighted.srt", "subtitles", "<Bin> 250-500 <blue.> 600-900"},
       {"karaoke.vtt", "subtitles", "<bin> 250-450 <a> 450-500 <blue> 600-800 <& so> 800-900"},
       {"azure_visemes.json", "azure",
-       "SIL 0-250 M 250-300 IY 300-400 T 400-500 SIL 500-600 M 600-650 L 650-720 UW 720-900"},
+       "SIL 0-250 P 250-300 IY 300-400 N 400-500 SIL 500-600 P 600-650 L 650-720 UW 720-900"},
       {"azure_messages.json", "azure", kWords},
       {"azure_batch.word.json", "azure", kWords},
       {"polly.json", "polly",
-       "SIL 0-250 M/bin 250-300 IY/bin 300-400 T/bin 400-500 SIL 500-600 M/blue 600-650 "
-       "T/blue 650-720 UW/blue 720-900"},
+       "SIL 0-250 P/bin 250-300 IY/bin 300-400 N/bin 400-500 SIL 500-600 P/blue 600-650 "
+       "N/blue 650-720 UW/blue 720-900"},
       // The last mark of a word has no end: 0.2 s and 0.1 s a letter, or the next word.
       {"polly_words.json", "polly", "<bin> 250-600 <blue> 600-1200"},
       {"elevenlabs.json", "elevenlabs", "<bin,> 250-500 <two.> 600-900"},
@@ -121,7 +121,7 @@ const std::vector<Case>& cases() {
        "707-900"},
       {"kokoro_fastapi.json", "words", kWords},
       {"headtts.json", "headtts",
-       "SIL 0-250 M/bin 250-300 IH/bin 300-400 N/bin 400-500 SIL 500-600 M/blue 600-650 "
+       "SIL 0-250 P/bin 250-300 IH/bin 300-400 N/bin 400-500 SIL 500-600 P/blue 600-650 "
        "N/blue 650-720 UW/blue 720-900"},
       {"cartesia.json", "cartesia", kPhones},
       {"latin1.tsv", "tsv", "<Tür> 250-500 <blau> 600-900"},
@@ -281,11 +281,11 @@ TEST(ScriptWriters, PhoAndWebVttComeBack) {
 
 TEST(VisemePhones, HaveTheMouthOfTheirViseme) {
   using dam::VisemeSet;
-  EXPECT_EQ(dam::phone_of_viseme(VisemeSet::azure, "21"), "M");
+  EXPECT_EQ(dam::phone_of_viseme(VisemeSet::azure, "21"), "P");
   EXPECT_EQ(dam::phone_of_viseme(VisemeSet::azure, "22"), std::nullopt);
   EXPECT_EQ(dam::phone_of_viseme(VisemeSet::polly, "S"), "SH");
   EXPECT_EQ(dam::phone_of_viseme(VisemeSet::polly, "s"), "S");
-  EXPECT_EQ(dam::phone_of_viseme(VisemeSet::oculus, "viseme_PP"), "M");
+  EXPECT_EQ(dam::phone_of_viseme(VisemeSet::oculus, "viseme_PP"), "P");
   EXPECT_EQ(dam::phone_of_viseme(VisemeSet::rhubarb, "X"), "SIL");
 }
 
