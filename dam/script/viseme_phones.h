@@ -2,8 +2,8 @@
 /// Scripts of visemes: the phone that stands for each mouth of other programs.
 ///
 /// A viseme is what several sounds look like, so that a phone for it is a choice: the one of its
-/// sounds that came nearest to recorded motion (P of "p b m", N of "d t n"), else the most common (AX
-/// of "ae ax ah"). Sources and what it costs: dam/script/phoneme_scripts.md, section 2.
+/// sounds that came nearest to recorded motion (P of "p b m", N of "d t n"), else the most common
+/// (AX of "ae ax ah"). Sources and what it costs: dam/script/phoneme_scripts.md, section 2.
 #pragma once
 
 #include <optional>
