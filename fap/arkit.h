@@ -90,7 +90,8 @@ struct ArkitFitOptions {
 ///   (shapes end at 1) and the inverse of arkit_to_fap().
 /// - All other shapes: the weights from 0 to 1 whose FAPs come nearest, by least squares over the
 ///   FAPs of the frame's mask, in lengths on the face (FAPU of the head the table was measured on).
-///   Lids of a blink count more, so that closed eyes are closed.
+///   Lids of a blink count more, so that closed eyes are closed; lips that would stay further apart
+///   than they should are drawn together, so that P, B and M close.
 /// - FAPs that no shape reaches (pupils, ears, ...) are lost; brows raised beyond the shapes stop
 ///   at 1. The same frames give the same weights on every machine.
 class ArkitFitter {

@@ -114,7 +114,8 @@ FapValues BoundedFit::weighed(const FapValues& values) const {
   }
   for (std::size_t k = 0; k < kLipPairs; ++k) {
     const auto upper = std::size_t(kLips[k].upper), lower = std::size_t(kLips[k].lower);
-    if (mask_[upper] && mask_[lower]) out[k] = lips_.weight * (out[upper] + out[lower]);
+    if (!lips_.always || !mask_[upper] || !mask_[lower]) continue;
+    out[k] = lips_.weight * (out[upper] + out[lower]);
   }
   return out;
 }
@@ -165,7 +166,8 @@ void BoundedFit::close_lips(const std::vector<double>& wanted, const FapValues& 
     if (!mask_[upper] || !mask_[lower]) continue;
     const double closing = target[upper] + target[lower];
     const double weight = kMeetingCounts * lips_.weight * std::clamp(1 + closing / kOpen, 0.0, 1.0);
-    goal[k] = std::min(soft_closing(closing) * lengths_[upper], lips_.at_rest[k]);
+    const double meant = lips_.always ? soft_closing(closing) : closing;
+    goal[k] = std::min(meant * lengths_[upper], lips_.at_rest[k]);
     pull[k] = weight * weight;
   }
   std::array<bool, kLipPairs> joined{};

@@ -39,10 +39,10 @@ int run(int argc, char** argv) {
   app.add_flag("-q,--quiet", quiet, "No talk on standard error but errors");
   app.fallthrough();
 
-  const Command* commands[] = {&kSpeak,  &kFollow,   &kAlign,  &kCorpus, &kTrain,  &kEvaluate,
-                               &kEncode, &kDecode,   &kMux,    &kDemux,  &kInfo,   &kCompare,
-                               &kCheck,  &kStats,    &kPlot,   &kView,   &kRender, &kHead,
-                               &kImport, &kCrossmap, &kExport, &kStream, &kReceive};
+  const Command* commands[] = {&kSpeak,  &kFollow,   &kAlign,    &kCorpus, &kTrain,  &kEvaluate,
+                               &kEncode, &kDecode,   &kMux,      &kDemux,  &kInfo,   &kCompare,
+                               &kCheck,  &kStats,    &kPlot,     &kView,   &kRender, &kHead,
+                               &kImport, &kCrossmap, &kRetarget, &kExport, &kStream, &kReceive};
   Action chosen;
   for (const Command* command : commands) {
     CLI::App* sub = app.add_subcommand(command->name, command->summary);

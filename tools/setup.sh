@@ -5,7 +5,7 @@
 #   tools/setup.sh check     tells what of that is missing
 #   tools/setup.sh tests     also what the tests need, and small programs of others that read our files
 #   tools/setup.sh full      also large ones: Chromium, GStreamer, mpv, Doxygen, and npm packages into
-#                            tests/readers/js/node_modules
+#                            tests/readers/js/node_modules and tools/trackers/mediapipe/node_modules
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 
@@ -56,11 +56,12 @@ install_packages() {
   $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "$@"
 }
 
+# install_npm_packages FOLDER: those of its lock file, without those that are optional.
 install_npm_packages() {
-  folder="$here/tests/readers/js"
+  folder="$here/$1"
   installed="$folder/node_modules/.package-lock.json"
   [ -z "$(find "$installed" -newer "$folder/package-lock.json" 2>/dev/null)" ] || return 0
-  (cd "$folder" && npm ci --ignore-scripts --no-audit --no-fund --fetch-retries=1)
+  (cd "$folder" && npm ci --omit=optional --ignore-scripts --no-audit --no-fund --fetch-retries=1)
 }
 
 # shellcheck disable=SC2086  # lists of words are meant
@@ -86,4 +87,6 @@ if [ -n "$missing" ]; then
   install_packages $missing || echo "warning: without$missing tests will skip" >&2
 fi
 [ "$mode" = full ] || exit 0
-install_npm_packages >&2 || echo "warning: without npm packages tests will skip" >&2
+for folder in tests/readers/js tools/trackers/mediapipe; do
+  install_npm_packages $folder >&2 || echo "warning: without npm packages of $folder tests will skip" >&2
+done

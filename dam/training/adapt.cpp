@@ -98,9 +98,9 @@ Result<Model> solved(const TrainingSums& sums, TrainOptions options, double ridg
   return train_from_sums(TrainingSums(std::make_unique<SumsState>(sums.state())), options);
 }
 
-/// Squared error as a share of the variance, mean over the controls that move; what a sentence is
-/// off as a whole does not count.
-double error_of(const Model& model, const Sentences& sentences) {
+/// Squared error as a share of the variance in `scale`, mean over the controls that move; what a
+/// sentence is off as a whole does not count.
+double error_of(const Model& model, const Sentences& sentences, std::span<const Control> scale) {
   const std::size_t k = model.controls.size();
   std::vector<double> error(k, 0.0);
   double frames = 0;
@@ -124,9 +124,9 @@ double error_of(const Model& model, const Sentences& sentences) {
   }
   double total = 0, moving = 0;
   for (std::size_t c = 0; c < k; ++c) {
-    if (model.controls[c].sd == 0) continue;
+    if (scale[c].sd == 0) continue;
     moving += 1;
-    total += error[c] / (std::max(1.0, frames) * model.controls[c].sd * model.controls[c].sd);
+    total += error[c] / (std::max(1.0, frames) * scale[c].sd * scale[c].sd);
   }
   return moving > 0 ? total / moving : 0;
 }
@@ -137,20 +137,6 @@ Result<Model> own_alone(const Sentences& sentences, TrainOptions options) {
   std::vector<Utterance> copies;
   for (const Utterance* u : sentences) copies.push_back(*u);
   return train(copies, options);
-}
-
-/// The same model, whose deviations error_of() takes for those of all sentences. Its curves are
-/// made larger as the deviations become smaller.
-Model in_units_of(Model model, const std::vector<Control>& controls) {
-  auto& tables = std::get<RefinedParameters>(model.parameters).tables;
-  const std::size_t k = controls.size();
-  for (TermTable& table : tables)
-    for (std::size_t i = 0; i < table.values.size(); ++i) {
-      const double sd = controls[i % k].sd;
-      table.values[i] = sd > 0 ? float(table.values[i] * model.controls[i % k].sd / sd) : 0.0F;
-    }
-  for (std::size_t c = 0; c < k; ++c) model.controls[c].sd = controls[c].sd;
-  return model;
 }
 
 /// Chooses by sentences that are left out in turn; 0: the base alone.
@@ -166,10 +152,10 @@ Result<double> choose(const Model& base, const Material& material,
     const auto [in, in_made] = material.part(fold, folds, false);
     const auto out = material.part(fold, folds, true).first;
     const Telling telling = tell_base(base, in, in_made);
-    alone += error_of(add_up(base, telling, controls, nullptr), out) / double(tried);
+    alone += error_of(add_up(base, telling, controls, nullptr), out, controls) / double(tried);
     const auto own = own_alone(in, options);
     if (!own) return own.error();
-    report.own_error += error_of(in_units_of(*own, controls), out) / double(tried);
+    report.own_error += error_of(*own, out, controls) / double(tried);
     const auto sums = sums_of_rest(base, in, in_made, telling, options);
     if (!sums) return sums.error();
     for (std::size_t r = 0; r < std::size(kRidges); ++r) {
@@ -178,7 +164,7 @@ Result<double> choose(const Model& base, const Material& material,
         return make_error(Code::invalid_argument, "cancelled");
       const auto more = solved(*sums, options, kRidges[r]);
       if (!more) return more.error();
-      error[r] += error_of(add_up(base, telling, controls, &*more), out) / double(tried);
+      error[r] += error_of(add_up(base, telling, controls, &*more), out, controls) / double(tried);
     }
   }
   const auto best = std::min_element(error.begin(), error.end());

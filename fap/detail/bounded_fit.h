@@ -25,6 +25,9 @@ struct Lips {
   double weight = 0;               ///< how much more than a FAP
   LipValues at_rest = {};          ///< distances of the neutral face, FAP units of MNS
   std::vector<LipValues> closing;  ///< by how much each shape really makes them less; may be empty
+  /// False: only where they would stay further apart than their FAPs say. True: always, and lips
+  /// that nearly meet are to meet.
+  bool always = true;
 };
 
 /// Low-level FAPs by number.

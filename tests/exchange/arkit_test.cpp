@@ -6,6 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "dam/corpus/corpus.h"
+#include "dam/signal/fap_signal.h"
+#include "tests/support/shared.h"
+
 namespace animeme::exchange {
 namespace arkit_test {
 
@@ -76,6 +80,27 @@ TEST(ExchangeArkit, WhatIsWrittenForLiveLinkFaceIsReadBack) {
     EXPECT_NEAR(back->clip.frames[i].value[3], clip.frames[i].value[3], 2);
     EXPECT_NEAR(back->clip.frames[i].value[49], clip.frames[i].value[49], 2);
   }
+}
+
+// Lips that meet in P, B and M still meet in the shapes, also where the jaw is open.
+TEST(ExchangeArkit, ClosedLipsStayClosed) {
+  std::size_t shut = 0, still = 0;
+  for (const char* name : {"bbbf9a", "pbwj4p", "bram3s"}) {
+    const auto signal =
+        dam::read_curves(test::data_file("grid_s1_sample/fap/" + std::string(name) + ".csv"));
+    ASSERT_TRUE(signal) << signal.error().describe();
+    const auto clip = dam::to_sequence(*signal);
+    ASSERT_TRUE(clip);
+    const auto curves = fit_arkit(*clip);
+    const auto gap = [](const fap::Frame& frame) { return -(frame.value[4] + frame.value[5]); };
+    for (std::size_t i = 0; i < clip->frames.size(); ++i) {
+      if (gap(clip->frames[i]) > 20) continue;
+      ++shut;
+      still += gap(fap::arkit_to_fap(curves.frames[i], fap::kAllArkit)) < 45 ? 1 : 0;
+    }
+  }
+  ASSERT_GT(shut, 60u);
+  EXPECT_GE(double(still), 0.95 * double(shut)) << still << " of " << shut;
 }
 
 TEST(ExchangeArkit, JsonIsForScripts) {

@@ -1,6 +1,8 @@
 // Feeds arbitrary bytes to the readers of tables: curves of controls, anything with a header line,
-// and the list of sentences of a corpus. The first byte chooses the options. Curves that were read
-// are written and read again.
+// the list of sentences of a corpus, and poses. The first byte chooses the options. Curves that
+// were read are written and read again; a face whose poses are its own keeps its values.
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -10,7 +12,9 @@
 
 #include "dam/corpus/corpus.h"
 #include "dam/corpus/rows_internal.h"
+#include "dam/signal/gain_offset.h"
 #include "tools/exchange/curves.h"
+#include "tools/exchange/pose_table.h"
 
 namespace {
 
@@ -46,12 +50,27 @@ void read_as_rows(std::string_view text, const dam::CorpusOptions& options) {
   }
 }
 
+void read_as_poses(std::string_view text, exchange::Blanks blanks) {
+  const auto poses = exchange::read_pose_table(text, blanks);
+  if (!poses) return require(!poses.error().message.empty());
+  require(!poses->names.empty() && !poses->labels.empty());
+  require(poses->values.size() == poses->names.size() * poses->labels.size());
+  double largest = 0;
+  for (const double value : poses->values) largest = std::max(largest, std::abs(value));
+  const auto gains = dam::fit_gain_offset(*poses, *poses);
+  if (!gains) return require(!gains.error().message.empty());
+  require(gains->size() == poses->names.size());
+  for (const dam::GainOffset& one : *gains) {
+    require(std::abs(one.gain - 1) < 1e-3 && std::abs(one.offset) <= 1e-3 * largest);
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
-  switch (data[0] % 4) {
+  switch (data[0] % 6) {
     case 0:
       read_as_curves(text);
       break;
@@ -66,6 +85,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     case 2:
       read_as_rows(text, {});
+      break;
+    case 4:
+      read_as_poses(text, exchange::Blanks::refused);
+      break;
+    case 5:
+      read_as_poses(text, exchange::Blanks::allowed);
       break;
     default: {
       dam::CorpusOptions options;

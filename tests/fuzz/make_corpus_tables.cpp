@@ -145,6 +145,26 @@ void rows() {
   }
 }
 
+void poses() {
+  const std::vector<std::string> tables = {
+      "pose,jawOpen,mouthPucker\nrest,0.02,0\nAA,0.8,0.05\nUW,0.2,0.9\n",
+      "key;jaw;lip\r\nNeutral;0;1\r\nM;;2\r\n",
+      "jaw\tpose\n1\ta\n2\tb\n",
+      "pose,jaw\nrest,0\nsil,1\n",
+      "pose,jaw\na,1\nA,2\n",
+      "pose,jaw,jaw\na,1,2\n",
+      "pose,key,jaw\na,b,1\n",
+      "pose,jaw\na,nan\nb,1e400\n",
+      "pose,jaw\n,1\n",
+      "pose,jaw\na,1e300\nb,-1e300\n",
+      "pose\na\n",
+      "pose,jaw\n"};
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    seed("curves", "poses_" + std::to_string(i),
+         std::string(1, i % 3 == 1 ? '\5' : '\4') + tables[i]);
+  }
+}
+
 void cases(Random& random) {
   for (int i = 0; i < 30; ++i) {
     conformance::Case one;
@@ -227,6 +247,7 @@ int main(int argc, char** argv) {
   g_folder = argv[1];
   Random random;
   curves(random);
+  poses();
   rows();
   cases(random);
   lines();

@@ -67,6 +67,7 @@ inline constexpr Room kRooms[] = {
      "tools/capture tools/crossmap tools/exchange tools/inspect tools/live tools/sheet "
      "tools/studio tools/check",
      false},
+    {"tools/trackers/dlib", "", false},  // a program for dlib's users, no part of ours
     {"tools", "tools/commands", false},
 
     // Tests of a room may use its neighbours to make what they test.

@@ -217,6 +217,22 @@ TEST(Captures, TrackersThatFail) {
                "--tracker-seconds", "0.2", "-o", dir / "a.fap"});
   EXPECT_EQ(slow.exit_code, 3);
   EXPECT_THAT(slow.err, HasSubstr("took more than 0.2 s"));
+  // How far it was is not why it failed.
+  const std::string far =
+      tracker(dir, "printf '7 %%\\nno light\\nx: 42.5 %%\\r43 %%' >&2; exit 7\n");
+  const auto dark = animeme({"import", video(), "--tracker", far, "-o", dir / "a.fap"});
+  EXPECT_THAT(dark.err, HasSubstr("it said: no light\n"));
+}
+
+TEST(Captures, ATrackerIsStoppedByCtrlC) {
+  const TempDir dir;
+  // It interrupts the program that runs it, and would go on.
+  const std::string kill =
+      tracker(dir, "kill -INT $PPID; sleep 20; echo late >'" + dir / "late" + "'\n");
+  const auto stopped = animeme({"import", video(), "--tracker", kill, "-o", dir / "a.fap"});
+  EXPECT_EQ(stopped.exit_code, 130) << stopped.err;
+  EXPECT_FALSE(std::filesystem::exists(dir / "a.fap"));
+  EXPECT_FALSE(std::filesystem::exists(dir / "late"));
 }
 
 // Lips alone, the head taken off by others: what a face file is needed for.

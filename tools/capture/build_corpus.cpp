@@ -5,8 +5,9 @@
 #include <map>
 
 #include "tools/capture/corpus_report.h"
+#include "tools/capture/corpus_sentence_internal.h"
 #include "tools/capture/corpus_signal.h"
-#include "tools/capture/folds.h"
+#include "tools/capture/cut.h"
 #include "tools/capture/tracked_cache.h"
 #include "tools/exchange/curves.h"
 #include "tools/exchange/face_file.h"
@@ -24,19 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kLeastMeasured = 0.5;  // of the frames of a sentence
-constexpr double kSlackOfScript = 0.5;  // seconds that a script may differ, as dam/corpus has it
-
-// A recording on its way into the corpus.
-struct Sentence {
-  Take take;
-  SentenceReport report;
-  Capture capture;
-  double shift = 0;  // seconds of the first picture on the clock of the sound
-  std::optional<media::Pcm> sound;
-  dam::Script script;
-  dam::Signal signal;
-};
-
 class Builder {
  public:
   Builder(const CorpusPlan& plan, const Talk& talk, const Progress& progress)
@@ -54,27 +42,19 @@ class Builder {
     if (auto ok = measure(); !ok) return ok.error();
     listen();
     same_rate();
+    cut();
     check();
     if (sentences_.empty()) return nothing_left();
-    if (auto ok = write(); !ok) return ok.error();
+    if (auto ok = write_corpus(plan_, sentences_, rest_, report_); !ok) return ok.error();
     return std::move(report_);
   }
 
  private:
   Result<void> make_folders() {
-    for (const char* folder : {"", "tracked", "fap", "phonemes", "audio"}) {
-      std::error_code error;
-      fs::create_directories(fs::path(plan_.output) / folder, error);
-      if (error) {
-        return make_error(Code::io, "the folder cannot be made: " + error.message())
-            .in_file(plan_.output);
-      }
+    for (const char* folder : {"", "fap", "phonemes"}) {
+      if (auto ok = make_folder(plan_.output, folder); !ok) return ok;
     }
     return {};
-  }
-
-  std::string path(const char* folder, const std::string& name) const {
-    return (fs::path(plan_.output) / folder / name).string();
   }
 
   void leave_out(const Take& take, const char* stage, const Error& error) {
@@ -134,6 +114,7 @@ class Builder {
     sentence.capture = std::move(*capture);
     if (sentence.report.source != "tracked") return {};
     stage = "track";
+    if (auto ok = make_folder(plan_.output, "tracked"); !ok) return ok;
     return cache.keep(take.id, take.video, plan_.capture, table.text);
   }
 
@@ -214,13 +195,15 @@ class Builder {
     auto signal = curves_of(face, start + sentence.shift, seconds);
     if (!signal) return signal.error();
     sentence.signal = std::move(*signal);
+    return check_measured(sentence);
+  }
+
+  Result<void> check_measured(const Sentence& sentence) {
     const double share =
         double(measured_frames(sentence.signal)) / double(sentence.signal.frames());
-    if (share < kLeastMeasured) {
-      return make_error(Code::truncated,
-                        format("there is a face in %.0f %% of its frames only", 100 * share));
-    }
-    return {};
+    if (share >= kLeastMeasured) return {};
+    return make_error(Code::truncated,
+                      format("there is a face in %.0f %% of its frames only", 100 * share));
   }
 
   // Scripts, given or by the aligner.
@@ -230,45 +213,9 @@ class Builder {
     keep(
         [&](Sentence& sentence) {
           progress_.at(0.9 + 0.1 * double(done++) / double(count));
-          return sentence.take.script.empty() ? align(sentence) : read_script(sentence);
+          return get_script(plan_, sentence);
         },
         "align");
-  }
-
-  Result<void> align(Sentence& sentence) {
-    sentence.report.text = *sentence.take.text;
-    sentence.report.script = "aligned";
-    if (!sentence.sound) {
-      return make_error(Code::not_found,
-                        "there is no sound to align its text with; name a folder of sounds "
-                        "(--audio), or give a script (TextGrid)");
-    }
-    voice::AlignOptions options;
-    options.language = plan_.language;
-    auto alignment = voice::align(*sentence.sound, *sentence.take.text, options);
-    if (!alignment) return alignment.error();
-    for (const std::string& text : alignment->warnings) {
-      (alignment->approximate ? sentence.report.doubts : sentence.report.warnings).push_back(text);
-    }
-    sentence.script = std::move(alignment->script);
-    return {};
-  }
-
-  Result<void> read_script(Sentence& sentence) {
-    sentence.report.script = "given";
-    auto script = speech::read_script(sentence.take.script, {plan_.script_reading, plan_.language});
-    if (!script) return script.error();
-    sentence.script = std::move(*script);
-    sentence.report.text =
-        sentence.take.text ? *sentence.take.text : words_of_script(sentence.script);
-    const double seconds = sentence.signal.rate.seconds(double(sentence.signal.frames()));
-    if (sentence.script.duration() > seconds + kSlackOfScript) {
-      return make_error(Code::out_of_range, format("its script lasts %.2f s, its capture %.2f s",
-                                                   sentence.script.duration(), seconds))
-          .in_file(sentence.take.script);
-    }
-    extend_with_silence(sentence.script, seconds);
-    return {};
   }
 
   // The rate and the curves that all sentences have.
@@ -298,6 +245,25 @@ class Builder {
       report_.warnings.push_back(format("%zu curves that not all recordings have are left out",
                                         widest - report_.controls.size()));
     }
+  }
+
+  // Long recordings become sentences, ID_001 and so on.
+  void cut() {
+    std::vector<Sentence> all;
+    for (Sentence& sentence : sentences_) {
+      const dam::Signal& signal = sentence.signal;
+      const auto parts =
+          cut_at_pauses(sentence.script, signal.rate, signal.frames(), plan_.longest);
+      if (parts.size() == 1) {
+        all.push_back(std::move(sentence));
+        continue;
+      }
+      for (std::size_t i = 0; i < parts.size(); ++i) {
+        all.push_back(part_of(sentence, parts[i], i));
+      }
+    }
+    sentences_ = std::move(all);
+    keep([&](Sentence& sentence) { return check_measured(sentence); }, "check");
   }
 
   void check() {
@@ -355,44 +321,6 @@ class Builder {
       }
     }
     return make_error(Code::not_found, "no recording is left" + why);
-  }
-
-  Result<void> write() {
-    std::vector<std::string> ids, texts;
-    for (const Sentence& sentence : sentences_) {
-      ids.push_back(sentence.take.id);
-      texts.push_back(sentence.report.text);
-    }
-    const std::vector<int> folds = split_into_folds(ids, texts, plan_.folds);
-    for (std::size_t i = 0; i < sentences_.size(); ++i) {
-      Sentence& sentence = sentences_[i];
-      sentence.report.fold = folds[i] + 1;
-      const std::string& id = sentence.take.id;
-      if (auto ok = write_file(path("fap", id + ".csv"), exchange::write_curves(sentence.signal));
-          !ok) {
-        return ok;
-      }
-      if (auto ok =
-              write_file(path("phonemes", id + ".tsv"), dam::write_script_tsv(sentence.script));
-          !ok) {
-        return ok;
-      }
-      if (sentence.sound) {
-        if (auto ok = media::write_wav(path("audio", id + ".wav"), *sentence.sound); !ok) return ok;
-      }
-      report_.sentences.push_back(std::move(sentence.report));
-    }
-    if (rest_) {
-      if (auto ok = write_file(path("", "neutral.face"), exchange::write_face_file(*rest_)); !ok) {
-        return ok;
-      }
-    }
-    const std::string text = report_text(report_);
-    const std::string json = report_json(report_).dump(1) + "\n";
-    if (auto ok = write_file(path("", "report.txt"), text); !ok) return ok;
-    if (auto ok = write_file(path("", "report.json"), json); !ok) return ok;
-    return write_file(path("", "utterances.tsv"),
-                      utterance_table(report_.sentences, hold_words_out(texts), plan_.folds));
   }
 
   const CorpusPlan& plan_;

@@ -28,6 +28,7 @@ struct CorpusPlan {
   std::string language = "en";        ///< of the transcripts
   dam::ScriptOptions script_reading;  ///< of scripts among them
   int folds = 5;                      ///< parts to test on, 2 to 100
+  double longest = 15;                ///< seconds: longer recordings are cut at pauses; 0: never
   bool strict = false;                ///< leave out what check doubts, too
   bool track_again = false;           ///< whatever was tracked before
 };
@@ -75,8 +76,9 @@ struct CorpusReport {
 ///
 /// A video is not tracked again while its name, size and time and the command are the same. Files
 /// take their names when they are whole; utterances.tsv comes last, and files of sentences that are
-/// no longer there are not removed. One program at a time (FileLock). The same input gives the same
-/// files. What fails for a recording leaves it out, and no other.
+/// no longer there are not removed. Recordings of more than CorpusPlan::longest are cut into
+/// sentences ID_001, ID_002 ... (cut.h). One program at a time (FileLock). The same input gives the
+/// same files. What fails for a recording leaves it out, and no other.
 ///
 /// Curves have the rate of most recordings; the others are interpolated. A sentence is as long as
 /// its sound, or its script; frames without a face hold the one before and are not `measured`; a

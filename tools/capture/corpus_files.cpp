@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kTables[] = {".csv", ".tsv", ".json", ".jsonl", ".ndjson"};
 constexpr std::string_view kSounds[] = {".wav", ".flac", ".ogg", ".opus", ".mp3", ".m4a", ".aac"};
-constexpr std::string_view kTexts[] = {".txt", ".lab"};
+constexpr std::string_view kTexts[] = {".txt", ".lab", ".srt", ".vtt"};
 constexpr std::string_view kScripts[] = {".textgrid", ".tsv", ".csv", ".json", ".pho",
                                          ".eaf",      ".ctm", ".phn", ".dat"};
 constexpr std::string_view kPictures[] = {".png", ".jpg", ".jpeg", ".gif", ".md", ".pdf", ".log"};
@@ -74,6 +74,43 @@ Result<void> add_sounds(const std::string& place, std::map<std::string, Take>& t
   return {};
 }
 
+// The words of subtitles: without numbers, times, notes and tags.
+std::string words_of_subtitles(std::string_view text) {
+  std::string words;
+  const auto lines = dam::table_lines(text);
+  const auto is_time = [&](std::size_t i) {
+    return i < lines.size() && lines[i].text.find("-->") != std::string_view::npos;
+  };
+  bool cue = false;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    cue = cue || is_time(i);
+    // A line right before a time is the name of the cue; text has an empty line behind it.
+    const bool name = is_time(i + 1) && lines[i + 1].number == lines[i].number + 1;
+    if (!cue || is_time(i) || name) continue;
+    char until = 0;
+    for (const char c : lines[i].text) {
+      if (until != 0) {
+        if (c == until) until = 0;
+      } else if (c == '<' || c == '[' || c == '{') {
+        until = c == '<' ? '>' : c == '[' ? ']' : '}';
+      } else {
+        words += c;
+      }
+    }
+    words += ' ';
+  }
+  return words;
+}
+
+Result<void> read_text(const std::string& path, Take& take) {
+  const auto text = read_text_file(path, kMostWritten);
+  if (!text) return text.error();
+  const std::string ending = extension_of(path);
+  const bool subtitles = ending == ".srt" || ending == ".vtt";
+  take.text = subtitles ? words_of_subtitles(*text) : std::string(dam::trimmed(*text));
+  return {};
+}
+
 Result<void> add_scripts(const std::string& place, std::map<std::string, Take>& takes,
                          std::vector<LeftOut>& left_out) {
   const auto files = files_at(place);
@@ -88,9 +125,7 @@ Result<void> add_scripts(const std::string& place, std::map<std::string, Take>& 
     if (take == takes.end()) {
       left_out.push_back({file.stem().string(), "files", "there is a transcript and no capture"});
     } else if (text) {
-      const auto words = read_text_file(file.string(), kMostWritten);
-      if (!words) return words.error();
-      take->second.text = std::string(dam::trimmed(*words));
+      if (auto ok = read_text(file.string(), take->second); !ok) return ok;
     } else if (take->second.script.empty() || ending == ".textgrid") {
       take->second.script = file.string();
     }
@@ -154,6 +189,22 @@ Result<void> add_list(const std::string& path, std::map<std::string, Take>& take
   return {};
 }
 
+// A file of one recording alone: a script, subtitles, or a text that does not begin with its name.
+Result<bool> add_single(const std::string& path, std::map<std::string, Take>& takes) {
+  if (takes.size() != 1) return false;
+  auto& [id, take] = *takes.begin();
+  const std::string ending = extension_of(path);
+  if (ending == ".textgrid" || (is_one(kScripts, ending) && ending != ".tsv" && ending != ".csv")) {
+    take.script = path;
+    return true;
+  }
+  if (!is_one(kTexts, ending)) return false;
+  if (auto ok = read_text(path, take); !ok) return ok.error();
+  if (!take.text->starts_with(id)) return true;
+  take.text.reset();
+  return false;
+}
+
 // What `utterances.tsv` of a corpus can have as id.
 bool is_safe(const std::string& id) {
   return id != "." && id != ".." && id.find_first_of("\\:\t") == std::string::npos;
@@ -173,10 +224,15 @@ Result<Takes> find_takes(const CorpusPlaces& places) {
         .in_file(places.captures);
   }
   std::error_code ignored;
-  auto ok = fs::is_directory(places.transcripts, ignored)
-                ? add_scripts(places.transcripts, takes, out.left_out)
-                : add_list(places.transcripts, takes, out.left_out);
-  if (!ok) return ok.error();
+  if (fs::is_directory(places.transcripts, ignored)) {
+    if (auto ok = add_scripts(places.transcripts, takes, out.left_out); !ok) return ok.error();
+  } else {
+    const auto single = add_single(places.transcripts, takes);
+    if (!single) return single.error();
+    if (!*single) {
+      if (auto ok = add_list(places.transcripts, takes, out.left_out); !ok) return ok.error();
+    }
+  }
   for (auto& [id, take] : takes) {
     take.id = id;
     if (!is_safe(id)) {

@@ -45,7 +45,9 @@ struct Takes {
 /// that dam/script/script.h reads are scripts, which count before texts. A file of transcripts has
 /// a line a recording: name and text between tabs, "|" or commas; a first line with the columns
 /// `id` (or name, file) and `text` (or transcript, sentence) says which is which. Names may have
-/// endings and folders there.
+/// endings and folders there. Subtitles (.srt, .vtt) are texts; their times are not used. Where
+/// there is one capture, a file may be its script, its subtitles, or its text alone (a .txt that
+/// does not begin with its name).
 ///
 /// Errors: not_found (a place that is not there; no capture at all), io, syntax (a line without a
 /// name and a text; a name twice).

@@ -20,7 +20,9 @@ namespace {
 
 using exchange::CaptureKind;
 
-constexpr double kLongestGap = 0.2;  // seconds of shapes that are filled, as of points
+constexpr double kUsualPatience = 3600;  // seconds for a tracker
+constexpr double kSlowest = 30;          // seconds of a tracker for one of the video
+constexpr double kLongestGap = 0.2;      // seconds of shapes that are filled, as of points
 
 // A video by its first bytes; nothing: no media file.
 std::optional<Result<VideoFile>> video_at(const std::string& path) {
@@ -120,7 +122,9 @@ Result<TrackedTable> read_capture_table(const std::string& path, const CaptureSe
           .in_file(path);
     }
     talk.say(path + ": " + (*video)->text + ", tracking");
-    auto text = settings.tracker->run(path, settings.tracker_seconds);
+    const double most = std::max(kUsualPatience, kSlowest * (*video)->seconds);
+    auto text =
+        settings.tracker->run(path, settings.tracker_seconds.value_or(most), settings.tracking);
     if (!text) return text.error();
     return TrackedTable{std::move(*text), **video};
   }

@@ -18,8 +18,10 @@ namespace animeme::tools {
 
 /// How captures are read.
 struct CaptureSettings {
-  std::optional<Tracker> tracker;             ///< for videos; nothing: videos are refused
-  double tracker_seconds = 3600;              ///< for one video
+  std::optional<Tracker> tracker;  ///< for videos; nothing: videos are refused
+  /// For one video; nothing: an hour, or thirty times its length if that is more.
+  std::optional<double> tracker_seconds;
+  Progress tracking;                          ///< of the tracker, for each video anew
   exchange::CaptureTableOptions table;        ///< columns of other names
   exchange::LandmarkImportOptions landmarks;  ///< of points
   std::optional<fap::Rate> rate;              ///< --rate

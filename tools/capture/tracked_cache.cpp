@@ -34,6 +34,11 @@ std::optional<std::string> TrackedCache::find(const std::string& id, const std::
 
 Result<void> TrackedCache::keep(const std::string& id, const std::string& video,
                                 const CaptureSettings& settings, const std::string& table) const {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    return make_error(Code::io, "the folder cannot be made: " + error.message()).in_file(folder);
+  }
   // The key last: without it the table is nobody's.
   if (auto ok = write_file(folder + "/" + id + ".csv", table); !ok) return ok;
   return write_file(folder + "/" + id + ".key", key_of(video, settings));

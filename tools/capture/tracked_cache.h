@@ -10,7 +10,8 @@
 
 namespace animeme::tools {
 
-/// A folder with ID.csv and ID.key; the key names the video, its size and time, and the command.
+/// A folder, made when the first table comes, with ID.csv and ID.key; the key names the video, its
+/// size and time, and the command.
 struct TrackedCache {
   std::string folder;   ///< of all files
   bool forget = false;  ///< find() finds nothing

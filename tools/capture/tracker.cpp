@@ -2,10 +2,13 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <string_view>
 
+#include "dam/script/table_text_internal.h"
 #include "fap/rate_text.h"
 #include "tools/check/children.h"
 #include "tools/files/files.h"
@@ -20,6 +23,8 @@ namespace fs = std::filesystem;
 
 constexpr double kMostApart = 10;                             // seconds: else a start is not stated
 constexpr std::size_t kLastWords = 600;                       // bytes of what a tracker said
+constexpr std::streamoff kLastRead = 16384;                   // of which those are found
+constexpr double kLook = 0.2;                                 // seconds between looks at it
 constexpr std::uint64_t kMostTable = std::uint64_t(1) << 30;  // bytes, as read_file()
 
 // A folder that goes with all its files.
@@ -43,12 +48,51 @@ class Scratch {
   fs::path path_;
 };
 
+// How far a tracker is, if a line of it ends in "42 %".
+std::optional<double> share_told(std::string_view line) {
+  const auto trim = [&line] { line = line.substr(0, line.find_last_not_of(" \t") + 1); };
+  trim();
+  if (!line.ends_with('%')) return std::nullopt;
+  line.remove_suffix(1);
+  trim();
+  line.remove_prefix(line.find_last_not_of("0123456789.") + 1);  // none: the whole line
+  const std::optional<double> percent = dam::parse_number(line);
+  if (!percent || *percent > 100) return std::nullopt;
+  return *percent / 100;
+}
+
+// What a tracker said last: how far it is, and the rest.
+struct Said {
+  std::optional<double> share;
+  std::string words;
+};
+
+Said said_in(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file ? std::streamoff(file.tellg()) : 0;
+  std::string text(std::size_t(std::min(size, kLastRead)), '\0');
+  file.seekg(size - std::streamoff(text.size()));
+  file.read(text.data(), std::streamsize(text.size()));
+  text.resize(std::size_t(std::max<std::streamsize>(file.gcount(), 0)));
+  Said said;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find_first_of("\r\n", begin), text.size());
+    const std::string line = text.substr(begin, end - begin);
+    begin = end + 1;
+    if (const auto share = share_told(line)) {
+      said.share = share;
+    } else if (!line.empty()) {
+      said.words += (said.words.empty() ? "" : "\n") + line;
+    }
+  }
+  return said;
+}
+
 std::string last_words(const std::string& path) {
-  const auto text = read_text_file(path, kMostTable);
-  if (!text) return {};
-  std::string words = text->size() > kLastWords ? text->substr(text->size() - kLastWords) : *text;
-  while (!words.empty() && (words.back() == '\n' || words.back() == '\r')) words.pop_back();
-  return words.empty() ? std::string() : "; it said: " + words;
+  const std::string words = said_in(path).words;
+  if (words.empty()) return {};
+  return "; it said: " +
+         (words.size() > kLastWords ? words.substr(words.size() - kLastWords) : words);
 }
 
 std::string how(const ChildEnd& end) {
@@ -112,7 +156,8 @@ Result<Tracker> Tracker::parse(const std::string& command) {
   return tracker;
 }
 
-Result<std::string> Tracker::run(const std::string& video, double seconds) const {
+Result<std::string> Tracker::run(const std::string& video, double seconds,
+                                 const Progress& progress) const {
   const Scratch scratch;
   if (!scratch.good()) {
     return make_error(Code::io, "no folder for temporary files can be made; set TMPDIR");
@@ -128,7 +173,14 @@ Result<std::string> Tracker::run(const std::string& video, double seconds) const
   job.most_bytes = kMostTable;
   Children children(seconds);
   if (auto started = children.start(0, job); !started) return started.error().in_file(video);
-  const ChildEnd end = children.wait().end;
+  std::optional<Children::Finished> finished;
+  while (!(finished = children.wait_for(kLook))) {
+    if (progress.stop()) {
+      return make_error(Code::io, "the tracker was stopped before its end").in_file(video);
+    }
+    if (const auto share = said_in(said).share) progress.at(*share);
+  }
+  const ChildEnd end = finished->end;
   if (end.how == ChildEnd::How::timed_out) {
     return make_error(Code::out_of_range,
                       format("the tracker took more than %g s and was stopped; --tracker-seconds "

@@ -1,7 +1,7 @@
 /// @file
 /// Trackers of others: programs that find a face in a video and write a table.
 ///
-///     auto tracker = Tracker::parse("python3 track68.py model.dat {in} {out}");
+///     auto tracker = Tracker::parse("node track.js {in} {out}");
 ///     auto table = tracker->run("clip.mp4");
 ///
 /// What a tracker has to write is told in tools/trackers/README.md.
@@ -42,9 +42,12 @@ class Tracker {
   static Result<Tracker> parse(const std::string& command);
 
   /// What it writes to {out} (a file whose name ends in .csv), or to standard output if the command
-  /// has no {out}. Errors, with the path of the video: not_found (the program failed, with the last
-  /// lines it said; it wrote nothing), out_of_range (longer than `seconds`), io.
-  Result<std::string> run(const std::string& video, double seconds) const;
+  /// has no {out}. `progress` is told how far it is by the lines of its standard error that end in
+  /// "N %", and asked whether it is to be stopped. Errors, with the path of the video: not_found
+  /// (the program failed, with the last lines it said; it wrote nothing), out_of_range (longer than
+  /// `seconds`), io (also: stopped).
+  Result<std::string> run(const std::string& video, double seconds,
+                          const Progress& progress = {}) const;
 
   const std::string& command() const { return line_; }  ///< as given
 

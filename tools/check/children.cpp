@@ -91,32 +91,47 @@ Result<void> Children::start(std::size_t id, const ChildJob& job) {
   return {};
 }
 
+// The first that has ended or has to.
+std::optional<Children::Finished> Children::look() {
+  for (std::size_t i = 0; i < running_.size(); ++i) {
+    const Child child = running_[i];
+    siginfo_t info{};
+    const int known = ::waitid(P_PID, id_t(child.pid), &info, WEXITED | WNOHANG | WNOWAIT);
+    const bool ended = known == 0 && info.si_pid == child.pid;
+    const double seconds = std::chrono::duration<double>(Clock::now() - child.start).count();
+    if (!ended && seconds < timeout_) continue;
+    ::kill(-child.pid, SIGKILL);  // also what it left running
+    int status = 0;
+    while (::waitpid(child.pid, &status, 0) < 0 && errno == EINTR) {
+    }
+    running_.erase(running_.begin() + std::ptrdiff_t(i));
+    Finished finished{child.id, {}};
+    finished.end.seconds = seconds;
+    if (!ended) {
+      finished.end.how = ChildEnd::How::timed_out;
+    } else if (WIFSIGNALED(status)) {
+      finished.end.how = ChildEnd::How::crashed;
+      finished.end.code = WTERMSIG(status);
+    } else {
+      finished.end.code = WEXITSTATUS(status);
+    }
+    return finished;
+  }
+  return std::nullopt;
+}
+
 Children::Finished Children::wait() {
   for (;;) {
-    for (std::size_t i = 0; i < running_.size(); ++i) {
-      const Child child = running_[i];
-      siginfo_t info{};
-      const int known = ::waitid(P_PID, id_t(child.pid), &info, WEXITED | WNOHANG | WNOWAIT);
-      const bool ended = known == 0 && info.si_pid == child.pid;
-      const double seconds = std::chrono::duration<double>(Clock::now() - child.start).count();
-      if (!ended && seconds < timeout_) continue;
-      ::kill(-child.pid, SIGKILL);  // also what it left running
-      int status = 0;
-      while (::waitpid(child.pid, &status, 0) < 0 && errno == EINTR) {
-      }
-      running_.erase(running_.begin() + std::ptrdiff_t(i));
-      Finished finished{child.id, {}};
-      finished.end.seconds = seconds;
-      if (!ended) {
-        finished.end.how = ChildEnd::How::timed_out;
-      } else if (WIFSIGNALED(status)) {
-        finished.end.how = ChildEnd::How::crashed;
-        finished.end.code = WTERMSIG(status);
-      } else {
-        finished.end.code = WEXITSTATUS(status);
-      }
-      return finished;
-    }
+    if (const auto finished = look()) return *finished;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+std::optional<Children::Finished> Children::wait_for(double seconds) {
+  const Clock::time_point start = Clock::now();
+  for (;;) {
+    if (const auto finished = look()) return finished;
+    if (std::chrono::duration<double>(Clock::now() - start).count() >= seconds) return std::nullopt;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 }

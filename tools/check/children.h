@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,8 @@ class Children {
   /// Waits until one has ended or was stopped at its time limit, with all the children that it had
   /// itself. running() must not be 0.
   Finished wait();
+  /// The same, but nothing if all still run after `seconds`.
+  std::optional<Finished> wait_for(double seconds);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -65,6 +68,8 @@ class Children {
     pid_t pid;
     Clock::time_point start;
   };
+
+  std::optional<Finished> look();
 
   double timeout_;
   std::vector<Child> running_;

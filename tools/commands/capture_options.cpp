@@ -105,8 +105,8 @@ void add_capture_options(CLI::App& app, CaptureOptions& options) {
       "it writes (else its standard output). Without it: the environment variable "
       "ANIMEME_TRACKER. No shell is run");
   app.add_option("--tracker-seconds", options.settings.tracker_seconds,
-                 "Longest that a tracker may take for a video")
-      ->capture_default_str()
+                 "Longest that a tracker may take for a video. Without it: an hour, or thirty "
+                 "times the length of the video if that is more")
       ->check(CLI::Range(0.1, 1e6));
   add_landmark_options(app, options);
 }

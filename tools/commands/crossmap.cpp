@@ -12,6 +12,7 @@
 #include "tools/crossmap/run.h"
 #include "tools/crossmap/sheet.h"
 #include "tools/exchange/curves.h"
+#include "tools/exchange/pose_table.h"
 #include "tools/json.h"
 #include "tools/plot/curves.h"
 #include "tools/text.h"
@@ -206,9 +207,10 @@ Result<void> write_key_folder(const std::string& folder, const Mapped& mapped) {
   const auto file = [&](const fs::path& name) { return (fs::path(folder) / name).string(); };
   texts.emplace_back(file("keys.csv"), crossmap::write_keys(mapped.keys, mapped.capture));
   if (mapped.target.kind != crossmap::TargetKind::keys) {
-    texts.emplace_back(file("controls.csv"), crossmap::write_control_table(
-                                                 {mapped.target.character.controls,
-                                                  mapped.keys.shapes.names, mapped.target.values}));
+    texts.emplace_back(file("controls.csv"),
+                       exchange::write_pose_table({mapped.target.character.controls,
+                                                   mapped.keys.shapes.names, mapped.target.values},
+                                                  "key"));
   }
   const auto sheet = crossmap::sheet_svg(mapped);
   if (!sheet) return sheet.error();

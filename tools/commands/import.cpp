@@ -8,6 +8,7 @@
 #include "tools/commands/capture_options.h"
 #include "tools/commands/common.h"
 #include "tools/commands/face_text.h"
+#include "tools/commands/interrupt.h"
 #include "tools/exchange/curves.h"
 #include "tools/exchange/face_file.h"
 #include "tools/text.h"
@@ -140,8 +141,15 @@ Result<void> write_clip(const std::string& path, const CapturedFace& captured, b
 Result<std::vector<Capture>> read_captures(const ImportOptions& options,
                                            const CaptureSettings& settings) {
   std::vector<Capture> captures;
+  ProgressLine line("tracking");
+  std::optional<Interrupt> interrupt;  // who types a table ends it as ever
+  if (settings.tracker) interrupt.emplace();
+  CaptureSettings watched = settings;
+  watched.tracking.at = [&](double share) { line.update(share); };
+  watched.tracking.stop = [] { return Interrupt::requested(); };
   for (const std::string& input : options.inputs) {
-    Result<Capture> capture = read_capture(input, settings, talk());
+    Result<Capture> capture = read_capture(input, watched, talk());
+    line.clear();
     if (!capture) return std::move(capture).error();
     captures.push_back(std::move(*capture));
   }
@@ -160,7 +168,10 @@ Result<int> run(const ImportOptions& options) {
     return places.error();
   }
   Result<std::vector<Capture>> captures = read_captures(options, *settings);
-  if (!captures) return captures.error();
+  if (!captures) {
+    if (Interrupt::requested()) return kInterrupted;
+    return captures.error();
+  }
   bool points = false;
   for (const Capture& capture : *captures) {
     points = points || capture.points;

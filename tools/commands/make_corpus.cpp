@@ -9,6 +9,7 @@
 #include "tools/commands/common.h"
 #include "tools/commands/interrupt.h"
 #include "tools/commands/script_options.h"
+#include "tools/text.h"
 
 namespace animeme::tools {
 
@@ -36,12 +37,18 @@ Result<int> run(const MakeCorpusOptions& options) {
     say(text);
   };
   talk.warn = [&](const std::string& text) {
+    if (Interrupt::requested()) return;  // of what was left unfinished
     line.clear();
     warn(text);
   };
   Progress progress;
-  progress.at = [&](double share) { line.update(share); };
+  double done = 0;
+  progress.at = [&](double share) { line.update(done = share); };
   progress.stop = [] { return Interrupt::requested(); };
+  plan.capture.tracking.at = [&](double share) {
+    line.update(done, format("this video %.0f %%", 100 * share));
+  };
+  plan.capture.tracking.stop = progress.stop;
   const Result<CorpusReport> report = build_corpus(plan, talk, progress);
   line.clear();
   if (!report) {
@@ -65,9 +72,11 @@ void add_options(CLI::App& app, MakeCorpusOptions& options) {
                  "Folder of videos of one person, or of tables that a tracker wrote (.csv, .tsv, "
                  ".json), or one of them. A table counts before a video of the same name")
       ->required();
-  app.add_option("transcripts", plan.places.transcripts,
-                 "What is said: a folder of NAME.txt or .lab, or of scripts that are timed already "
-                 "(NAME.TextGrid and others), or a table of names and texts (tabs, | or commas)")
+  app.add_option(
+         "transcripts", plan.places.transcripts,
+         "What is said: a folder of NAME.txt or .lab, or of scripts that are timed already "
+         "(NAME.TextGrid and others), or a table of names and texts (tabs, | or commas); of "
+         "one video its .txt, .srt, .vtt or .TextGrid")
       ->required();
   app.add_option("-o,--output", plan.output, "Folder of the corpus; an earlier one is gone on with")
       ->required();
@@ -77,6 +86,11 @@ void add_options(CLI::App& app, MakeCorpusOptions& options) {
   add_script_options(app, plan.script_reading);
   app.add_option("--folds", plan.folds, "Parts to test on; part 1 is `test` in the column split")
       ->check(CLI::Range(2, 100))
+      ->capture_default_str();
+  app.add_option("--cut", plan.longest,
+                 "Recordings of more seconds than this become sentences, cut at their pauses; 0: "
+                 "no cutting")
+      ->check(CLI::Range(0.0, 600.0))
       ->capture_default_str();
   app.add_flag("--strict", plan.strict, "Leave doubtful sentences out");
   app.add_flag("--track-again", plan.track_again, "Track videos that were tracked before, too");
@@ -91,6 +105,7 @@ const Command kCorpus{
     "corpus", "Make a corpus to train on from videos and what is said in them",
     "  animeme corpus videos/ texts/ -o me --tracker \"track {in} {out}\"\n"
     "  animeme corpus videos/ lines.tsv -o me        (ANIMEME_TRACKER names the tracker)\n"
+    "  animeme corpus ten_minutes.mp4 ten_minutes.txt -o me --tracker \"track {in} {out}\"\n"
     "  animeme corpus tables/ textgrids/ -o me --audio wavs/\n"
     "  animeme corpus more/ texts/ -o me2 --face-file me/neutral.face\n"
     "  animeme train me --split train -o me.dam",

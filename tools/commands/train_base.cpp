@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "dam/model/builtin.h"
 #include "dam/training/adapt.h"
 #include "tools/inspect/adaptation.h"
+#include "tools/speech/spoken.h"
 
 namespace animeme::tools {
 
@@ -40,9 +40,8 @@ Result<dam::Model> base_of_corpus(const std::string& folder, const CorpusSetting
 Result<dam::Model> load_base(const std::string& base, const CorpusSettings& like,
                              const dam::TrainOptions& train) {
   std::error_code none;
-  if (base == "builtin") return dam::builtin_model();
   if (std::filesystem::is_directory(base, none)) return base_of_corpus(base, like, train);
-  return dam::load_model(base);
+  return speech::read_model(base);
 }
 
 }  // namespace

@@ -37,17 +37,4 @@ Result<Keys> load_keys(const Project& project, const Capture& capture, const too
 /// keys.csv of a folder: a row a shape; key, input, at_s, share and the displacement of each point.
 std::string write_keys(const Keys& keys, const Capture& capture);
 
-/// A table with a row a key shape and a column a control: "key,jawOpen,..." and numbers.
-struct ControlTable {
-  std::vector<std::string> controls;  ///< names of the columns
-  std::vector<std::string> keys;      ///< names of the rows
-  std::vector<double> values;         ///< keys x controls
-};
-
-/// Reads one. Errors, with line and column: truncated, syntax (fields, numbers, names twice),
-/// not_found (no column "key").
-Result<ControlTable> read_control_table(std::string_view text);
-/// Writes one, six digits behind the point.
-std::string write_control_table(const ControlTable& table);
-
 }  // namespace animeme::crossmap

@@ -10,6 +10,7 @@
 #include "fap/arkit.h"
 #include "fap/tables.h"
 #include "tools/crossmap/fap_space_internal.h"
+#include "tools/exchange/pose_table.h"
 #include "tools/files/files.h"
 
 namespace animeme::crossmap {
@@ -42,29 +43,28 @@ void add_control(Target& out, const std::string& name, Limits limits) {
 }
 
 // What the artist wrote down: controls.csv in the folder of key shapes.
-Result<std::optional<ControlTable>> adjusted_values(const Project& project) {
-  if (project.keys.empty()) return std::optional<ControlTable>();
+Result<std::optional<dam::Poses>> adjusted_values(const Project& project) {
+  if (project.keys.empty()) return std::optional<dam::Poses>();
   const std::filesystem::path path = std::filesystem::path(project.keys) / "controls.csv";
-  if (!std::filesystem::is_regular_file(path)) return std::optional<ControlTable>();
+  if (!std::filesystem::is_regular_file(path)) return std::optional<dam::Poses>();
   const Result<std::string> text = tools::read_text_file(path.string(), tools::kMostWritten);
   if (!text) return text.error();
-  Result<ControlTable> table = read_control_table(*text);
+  Result<dam::Poses> table = exchange::read_pose_table(*text);
   if (!table) return std::move(table).error().in_file(path.string());
-  return std::optional<ControlTable>(std::move(*table));
+  return std::optional<dam::Poses>(std::move(*table));
 }
 
 // The row of a key shape in the order of the target's controls; those that the table lacks are 0.
-std::optional<Values> row_of(const ControlTable& table, const std::string& key,
+std::optional<Values> row_of(const dam::Poses& table, const std::string& key,
                              const std::vector<std::string>& controls) {
-  const auto row = std::find(table.keys.begin(), table.keys.end(), key);
-  if (row == table.keys.end()) return std::nullopt;
-  const std::size_t first = std::size_t(row - table.keys.begin()) * table.controls.size();
+  const auto row = std::find(table.labels.begin(), table.labels.end(), key);
+  if (row == table.labels.end()) return std::nullopt;
+  const std::size_t first = std::size_t(row - table.labels.begin()) * table.names.size();
   Values out;
   for (const std::string& name : controls) {
-    const auto at = std::find(table.controls.begin(), table.controls.end(), name);
-    out.push_back(at == table.controls.end()
-                      ? 0
-                      : table.values[first + std::size_t(at - table.controls.begin())]);
+    const auto at = std::find(table.names.begin(), table.names.end(), name);
+    out.push_back(
+        at == table.names.end() ? 0 : table.values[first + std::size_t(at - table.names.begin())]);
   }
   return out;
 }
@@ -72,11 +72,11 @@ std::optional<Values> row_of(const ControlTable& table, const std::string& key,
 Result<Target> table_target(const Project& project, const Keys& keys) {
   const Result<std::string> text = tools::read_text_file(project.to, tools::kMostWritten);
   if (!text) return text.error();
-  const Result<ControlTable> table = read_control_table(*text);
+  const Result<dam::Poses> table = exchange::read_pose_table(*text);
   if (!table) return table.error().in_file(project.to);
   Target out;
   out.kind = TargetKind::table;
-  for (const std::string& name : table->controls) add_control(out, name, limits_of(name));
+  for (const std::string& name : table->names) add_control(out, name, limits_of(name));
   for (const std::string& key : keys.shapes.names) {
     const auto row = row_of(*table, key, out.character.controls);
     if (!row) {
@@ -121,13 +121,13 @@ Error no_guess(const Capture& capture, const std::string& key) {
 }
 
 Result<Target> fap_target(const Capture& capture, const Keys& keys,
-                          const std::optional<ControlTable>& table) {
+                          const std::optional<dam::Poses>& table) {
   Target out;
   out.kind = TargetKind::faps;
   std::vector<int> faps;
   if (capture.face) faps = capture.face->faps;
   if (table) {
-    for (const std::string& name : table->controls) {
+    for (const std::string& name : table->names) {
       const int fap = dam::fap_of_channel(name);
       if (fap >= fap::kFirstLowLevel && std::find(faps.begin(), faps.end(), fap) == faps.end()) {
         faps.push_back(fap);
@@ -183,7 +183,7 @@ class ByFaps {
 };
 
 Result<Target> arkit_target(const Project& project, const Capture& capture, const Keys& keys,
-                            const std::optional<ControlTable>& table) {
+                            const std::optional<dam::Poses>& table) {
   Target out;
   out.kind = TargetKind::arkit;
   if (!capture.face) return no_guess(capture, keys.shapes.names[0]);
@@ -301,7 +301,7 @@ void add_rows(Target& out) {
 }
 
 Result<Target> mesh_target(const Project& project, const Capture& capture, const Keys& keys,
-                           const std::optional<ControlTable>& table, const tools::Talk& talk) {
+                           const std::optional<dam::Poses>& table, const tools::Talk& talk) {
   Target out;
   out.kind = TargetKind::mesh;
   auto mesh = load_mesh(project, talk);

@@ -84,18 +84,23 @@ Panel panel_of(const char* place, const dam::SentencePair& pair, double nrmse) {
 
 }  // namespace
 
-Result<std::string> sentences_svg(const std::vector<dam::SentencePair>& pairs,
-                                  const dam::Evaluation& evaluation) {
-  std::vector<std::size_t> order(pairs.size());
+std::vector<ChosenSentence> chosen_sentences(const dam::Evaluation& evaluation) {
+  std::vector<std::size_t> order(evaluation.per_utterance.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return evaluation.per_utterance[a].nrmse < evaluation.per_utterance[b].nrmse;
   });
-  std::vector<std::pair<const char*, std::size_t>> shown = {{"best", order.front()}};
-  if (order.size() > 2) shown.emplace_back("median", order[order.size() / 2]);
-  if (order.size() > 1) shown.emplace_back("worst", order.back());
+  std::vector<ChosenSentence> chosen;
+  if (!order.empty()) chosen.push_back({"best", order.front()});
+  if (order.size() > 2) chosen.push_back({"median", order[order.size() / 2]});
+  if (order.size() > 1) chosen.push_back({"worst", order.back()});
+  return chosen;
+}
+
+Result<std::string> sentences_svg(const std::vector<dam::SentencePair>& pairs,
+                                  const dam::Evaluation& evaluation) {
   std::vector<Panel> panels;
-  for (const auto& [place, index] : shown) {
+  for (const auto& [place, index] : chosen_sentences(evaluation)) {
     panels.push_back(panel_of(place, pairs[index], evaluation.per_utterance[index].nrmse));
     if (panels.back().seconds > kLongest) {
       return make_error(Code::out_of_range,

@@ -2,6 +2,7 @@
 /// Pictures of evaluations: recorded and made motion of a few sentences.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,15 @@
 
 namespace animeme::plot {
 
-/// Best, median and worst sentence by NRMSE, one below the other (of two sentences the best and the
+/// A sentence that stands for others.
+struct ChosenSentence {
+  const char* place = "";  ///< "best", "median", "worst"
+  std::size_t number = 0;  ///< index of Evaluation::per_utterance
+};
+/// Best, median and worst sentence by NRMSE; of two the best and the worst, of one that one.
+std::vector<ChosenSentence> chosen_sentences(const dam::Evaluation& evaluation);
+
+/// chosen_sentences(), one below the other (of two sentences the best and the
 /// worst, of one that one): recorded and made curves of jaw (FAP 3), inner gap (-(FAP 4 + FAP 5))
 /// and width (FAP 6 + FAP 7), as far as both sides have these FAPs; if there is none of them, of
 /// the first three controls. `pairs` is not empty, and `evaluation` is that of these pairs, in

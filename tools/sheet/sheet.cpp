@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kStyle = R"(
 :root { color-scheme: light dark; --line: #8884; --bar: #3b7dd8; --rare: #c2410c; }
 body { font: 16px/1.45 system-ui, sans-serif; max-width: 1000px; margin: 2rem auto; padding: 0 1rem; }
-h1 { margin-bottom: 0; } h2 { margin-top: 2.2rem; border-bottom: 1px solid var(--line); }
+h1 { margin-bottom: 0; } h3::first-letter { text-transform: uppercase; } h2 { margin-top: 2.2rem; border-bottom: 1px solid var(--line); }
 p.about { margin-top: .2rem; opacity: .75; }
 table { border-collapse: collapse; } th { text-align: left; font-weight: 600; }
 th, td { padding: .15rem .8rem .15rem 0; vertical-align: top; } td.n { text-align: right; font-variant-numeric: tabular-nums; }
@@ -67,12 +67,9 @@ Result<std::string> samples(const Sheet& sheet) {
     return begin +
            "<p>The controls of this character are neither FAPs nor shapes of ARKit, so no head "
            "shows them here.</p>\n";
-  constexpr const char* kThree[] = {"Best", "Median", "Worst"};
-  constexpr const char* kTwo[] = {"Best", "Worst"};
-  const auto numbers = chosen(*sheet.evaluation);
   std::string html = begin;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const auto one = sample(sheet, numbers[i], numbers.size() == 3 ? kThree[i] : kTwo[i]);
+  for (const auto& [place, number] : plot::chosen_sentences(*sheet.evaluation)) {
+    const auto one = sample(sheet, number, place);
     if (!one) return one;
     html += *one;
   }

@@ -140,14 +140,4 @@ std::string sentences(const dam::Evaluation& e, const std::vector<dam::SentenceP
   return html + "</table>\n";
 }
 
-std::vector<std::size_t> chosen(const dam::Evaluation& e) {
-  std::vector<std::size_t> order(e.per_utterance.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return e.per_utterance[a].nrmse < e.per_utterance[b].nrmse;
-  });
-  if (order.size() < 3) return order;
-  return {order.front(), order[order.size() / 2], order.back()};
-}
-
 }  // namespace animeme::sheet

@@ -26,7 +26,4 @@ std::string controls(const dam::Evaluation& evaluation);
 std::string sentences(const dam::Evaluation& evaluation,
                       const std::vector<dam::SentencePair>& pairs);
 
-/// Numbers of the best, the median and the worst sentence by NRMSE; fewer if there are not three.
-std::vector<std::size_t> chosen(const dam::Evaluation& evaluation);
-
 }  // namespace animeme::sheet

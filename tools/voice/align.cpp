@@ -25,8 +25,7 @@ Result<void> check_audio(const media::Pcm& audio) {
     return make_error(Code::truncated, "less than 0.1 s of audio to align; is the file complete?");
   }
   if (audio.duration() > kMaxAlignSeconds) {
-    return make_error(Code::out_of_range,
-                      "more than 300 s of audio to align; cut it into sentences");
+    return make_error(Code::out_of_range, "more than four hours of sound to align; part it");
   }
   return {};
 }
@@ -118,7 +117,10 @@ std::size_t least_phones(const std::vector<SpokenWord>& words) {
 Result<Alignment> align(const media::Pcm& audio, std::string_view transcript,
                         const AlignOptions& options) {
   if (auto good = check_audio(audio); !good) return good.error();
-  const auto texts = split_words(transcript.substr(0, 100000));
+  if (transcript.size() > kMostTranscript) {
+    return make_error(Code::out_of_range, "a transcript of more than 1 MB; part it");
+  }
+  const auto texts = split_words(transcript);
   Alignment result;
   if (texts.empty()) {
     return make_error(Code::invalid_argument, "the transcript has no words; give what is said");

@@ -9,6 +9,7 @@
 /// Source: tools/voice/engines.md, section 1.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,16 +42,19 @@ struct Alignment {
 
 /// The rate that align() wants.
 inline constexpr int kAlignRate = 16000;
-/// Longer recordings have to be cut into sentences.
-inline constexpr double kMaxAlignSeconds = 300.0;
+/// Longer recordings have to be parted.
+inline constexpr double kMaxAlignSeconds = 4 * 3600.0;
+/// Bytes of the longest transcript.
+inline constexpr std::size_t kMostTranscript = 1000000;
 
 /// Aligns. Pauses between words are found; a text that is not what was said is not noticed.
+/// Recordings of more than a minute are aligned in pieces of up to 40 s that end in pauses.
 ///
 /// Errors: invalid_argument (audio that is not 16000 Hz - resample it first -, a transcript
 /// without words), truncated (less than 0.1 s of audio), out_of_range (more than
-/// kMaxAlignSeconds, or too short for so many phones), not_found (model or dictionary; a word
-/// without pronunciation where espeak-ng is not built in), unsupported (built without
-/// pocketsphinx), plus those of pronounce().
+/// kMaxAlignSeconds or kMostTranscript, or too short for so many phones), not_found (model or
+/// dictionary; a word without pronunciation where espeak-ng is not built in), unsupported (built
+/// without pocketsphinx), plus those of pronounce().
 Result<Alignment> align(const media::Pcm& audio, std::string_view transcript,
                         const AlignOptions& options = {});
 

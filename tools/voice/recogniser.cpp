@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <span>
 
 #include "dam/script/phones.h"
 
@@ -19,6 +20,13 @@ double frame_time(int frame) { return frame == 0 ? 0.0 : double(frame * 100 + 12
 
 constexpr const char* kSil = "<sil>";
 constexpr const char* kBeams[] = {"1e-48", "1e-80"};
+
+constexpr std::size_t kHop = 160;  // samples a frame
+// What is longer is aligned in pieces, which end in pauses: the search costs as much as there are
+// states times frames, and a path that is lost is found again behind the next pause.
+constexpr double kWhole = 60, kPiece = 40;               // seconds
+constexpr double kMostPhones = 25;                       // a second: more nobody says
+constexpr double kEarliestCut = 0.4, kLatestCut = 0.95;  // of a piece
 
 struct Free {
   void operator()(cmd_ln_t* config) const { cmd_ln_free_r(config); }
@@ -51,7 +59,7 @@ Decoder make_decoder(const std::string& model, const char* beam) {
 }
 
 // The search loops over all states in every frame: the number must be exact.
-int count_states(const std::vector<SpokenWord>& words) {
+int count_states(std::span<const SpokenWord> words) {
   std::size_t count = 2;  // before and after the first optional silence
   for (const SpokenWord& word : words) {
     for (const Labels& variant : word.variants) count += variant.size() - 1;
@@ -61,7 +69,8 @@ int count_states(const std::vector<SpokenWord>& words) {
 }
 
 // start -<sil>- { word: one branch a variant } -<sil>- { word } ... ; every silence can be skipped.
-Grammar make_grammar(ps_decoder_t* decoder, const std::vector<SpokenWord>& words) {
+// With an open end, the sound may stop behind any word.
+Grammar make_grammar(ps_decoder_t* decoder, std::span<const SpokenWord> words, bool open_end) {
   Grammar grammar(fsg_model_init("text", ps_get_logmath(decoder), 1.0f, count_states(words)));
   if (!grammar) return nullptr;
   fsg_model_t* fsg = grammar.get();
@@ -73,6 +82,7 @@ Grammar make_grammar(ps_decoder_t* decoder, const std::vector<SpokenWord>& words
     fsg_model_null_trans_add(fsg, from, to, 0);
     return to;
   };
+  std::vector<int> ends;
   int state = optional_silence(0);
   for (const SpokenWord& word : words) {
     const int end = next++;
@@ -85,6 +95,12 @@ Grammar make_grammar(ps_decoder_t* decoder, const std::vector<SpokenWord>& words
       }
     }
     state = optional_silence(end);
+    ends.push_back(state);
+  }
+  if (open_end) {
+    for (const int end : ends) {
+      if (end != state) fsg_model_null_trans_add(fsg, end, state, 0);
+    }
   }
   fsg->start_state = 0;
   fsg->final_state = state;
@@ -105,27 +121,25 @@ std::vector<Segment> read_segments(ps_decoder_t* decoder) {
   return segments;
 }
 
-std::vector<Segment> search(const std::vector<std::int16_t>& samples,
-                            const std::vector<SpokenWord>& words, const std::string& model,
-                            const char* beam) {
-  const Decoder decoder = make_decoder(model, beam);
-  if (!decoder) return {};
-  const Grammar grammar = make_grammar(decoder.get(), words);
-  if (!grammar || ps_set_fsg(decoder.get(), "text", grammar.get()) < 0 ||
-      ps_set_search(decoder.get(), "text") < 0) {
+std::vector<Segment> search(ps_decoder_t* decoder, std::span<const std::int16_t> samples,
+                            std::span<const SpokenWord> words, bool open_end) {
+  const Grammar grammar = make_grammar(decoder, words, open_end);
+  if (!grammar || ps_set_fsg(decoder, "text", grammar.get()) < 0 ||
+      ps_set_search(decoder, "text") < 0) {
     return {};
   }
-  if (ps_start_utt(decoder.get()) < 0) return {};
-  ps_process_raw(decoder.get(), samples.data(), samples.size(), FALSE, TRUE);
-  ps_end_utt(decoder.get());
+  if (ps_start_utt(decoder) < 0) return {};
+  ps_process_raw(decoder, samples.data(), samples.size(), FALSE, TRUE);
+  ps_end_utt(decoder);
   int score = 0;
-  if (ps_get_hyp(decoder.get(), &score) == nullptr) return {};
-  return read_segments(decoder.get());
+  if (ps_get_hyp(decoder, &score) == nullptr) return {};
+  return read_segments(decoder);
 }
 
 // Which variant of which word made the phones: dynamic programming over word borders, where
 // from[i][k] is the border after word i - 1 from which word i reached position k.
-bool assign_words(std::vector<Segment>& segments, const std::vector<SpokenWord>& words) {
+bool assign_words(std::vector<Segment>& segments, std::span<const SpokenWord> words,
+                  bool open_end) {
   std::vector<std::size_t> sounds;
   for (std::size_t i = 0; i < segments.size(); ++i) {
     if (segments[i].label != dam::kSilence) sounds.push_back(i);
@@ -149,14 +163,89 @@ bool assign_words(std::vector<Segment>& segments, const std::vector<SpokenWord>&
       }
     }
   }
-  std::size_t end = sounds.size();
-  if (from[words.size()][end] == kNoWord) return false;  // the search did not reach the end
-  for (std::size_t w = words.size(); w > 0; --w) {
+  std::size_t end = sounds.size(), last = words.size();
+  while (open_end && last > 0 && from[last][end] == kNoWord) --last;
+  if (from[last][end] == kNoWord) return false;  // the search did not reach the end
+  for (std::size_t w = last; w > 0; --w) {
     const std::size_t begin = from[w][end];
     for (std::size_t i = begin; i < end; ++i) segments[sounds[i]].word = w - 1;
     end = begin;
   }
   return true;
+}
+
+std::vector<Segment> align_whole(ps_decoder_t* decoder, std::span<const std::int16_t> samples,
+                                 std::span<const SpokenWord> words, bool open_end = false) {
+  auto segments = search(decoder, samples, words, open_end);
+  if (!segments.empty() && assign_words(segments, words, open_end)) return segments;
+  return {};
+}
+
+// As many words as can be said in so many seconds.
+std::size_t words_within(std::span<const SpokenWord> words, double seconds) {
+  double phones = 0;
+  std::size_t count = 0;
+  while (count < words.size() && phones < seconds * kMostPhones) {
+    phones += double(words[count++].variants[0].size());
+  }
+  return count;
+}
+
+// The segment to stop before: the longest pause that is neither early nor at the very end, where
+// the path still leans on words that were not heard whole; without one a word that begins there.
+std::size_t cut_of(const std::vector<Segment>& segments, double seconds) {
+  std::size_t best = 0;
+  double longest = 0;
+  for (std::size_t i = 1; i < segments.size(); ++i) {
+    const Segment& one = segments[i];
+    if (one.start < kEarliestCut * seconds || one.start > kLatestCut * seconds) continue;
+    const double end = i + 1 < segments.size() ? segments[i + 1].start : seconds;
+    const bool pause = one.word == kNoWord && i + 1 < segments.size();
+    const double length = pause ? end - one.start : 0;
+    if (length > longest || (best == 0 && one.word != segments[i - 1].word)) {
+      best = i;
+      longest = length;
+    }
+  }
+  return best;
+}
+
+std::vector<Segment> align_in_pieces(ps_decoder_t* decoder, std::span<const std::int16_t> samples,
+                                     std::span<const SpokenWord> words) {
+  std::vector<Segment> all;
+  std::size_t at = 0, word = 0;
+  const auto add = [&](Segment segment) {
+    segment.start += double(at) / double(kAlignRate);
+    if (segment.word != kNoWord) segment.word += word;
+    all.push_back(std::move(segment));
+  };
+  while (true) {
+    const double left = double(samples.size() - at) / double(kAlignRate);
+    if (left <= kWhole) {
+      const auto rest = align_whole(decoder, samples.subspan(at), words.subspan(word));
+      for (const Segment& segment : rest) add(segment);
+      return rest.empty() ? rest : all;
+    }
+    const auto some = words.subspan(word, words_within(words.subspan(word), kPiece));
+    const auto piece = align_whole(
+        decoder, samples.subspan(at, std::size_t(kPiece * double(kAlignRate))), some, true);
+    const std::size_t cut = cut_of(piece, kPiece);
+    if (cut == 0) return {};
+    std::size_t next = word;
+    for (std::size_t i = 0; i < cut; ++i) {
+      if (piece[i].word != kNoWord) next = word + piece[i].word + 1;
+      add(piece[i]);
+    }
+    const bool pause = piece[cut].word == kNoWord;
+    if (pause) add(piece[cut]);  // both pieces have a part of it
+    const double end = pause ? 0.5 * (piece[cut].start + piece[cut + 1].start) : piece[cut].start;
+    at += std::size_t(end * double(kAlignRate)) / kHop * kHop;
+    word = next;
+    if (word == words.size()) {  // nothing is left to be said
+      if (!pause) add({0, std::string(dam::kSilence), kNoWord});
+      return all;
+    }
+  }
 }
 
 }  // namespace
@@ -183,9 +272,13 @@ Result<std::vector<Segment>> recognise(const std::vector<std::int16_t>& samples,
   const std::lock_guard lock(mutex);
   err_set_logfp(nullptr);                     // the configuration goes there,
   err_set_callback(ignore_message, nullptr);  // all else here
+  const bool whole = double(samples.size()) <= kWhole * double(kAlignRate);
   for (const char* beam : kBeams) {
-    auto segments = search(samples, words, options.model_path, beam);
-    if (!segments.empty() && assign_words(segments, words)) return segments;
+    const Decoder decoder = make_decoder(options.model_path, beam);
+    if (!decoder) continue;
+    auto segments = whole ? align_whole(decoder.get(), samples, words)
+                          : align_in_pieces(decoder.get(), samples, words);
+    if (!segments.empty()) return segments;
   }
   return std::vector<Segment>();
 }

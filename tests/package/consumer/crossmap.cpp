@@ -1,7 +1,9 @@
-// A table of controls, as the artist edits it.
-#include <animeme/crossmap/keys.h>
+// A project is read, and a word that is not known refused with its line.
+#include <animeme/crossmap/project.h>
 
 int main() {
-  const auto table = animeme::crossmap::read_control_table("key,jawOpen\nrest,0\nAA,0.7\n");
-  return table && !animeme::crossmap::write_control_table(*table).empty() ? 0 : 1;
+  using animeme::crossmap::read_project;
+  const auto project = read_project("inputs = [\"take.csv\"]\nto = \"arkit\"\n", "");
+  const auto wrong = read_project("tow = \"arkit\"\n", "");
+  return project && project->to == "arkit" && !wrong ? 0 : 1;
 }
