@@ -11,8 +11,6 @@
 namespace animeme::dam {
 namespace {
 
-constexpr std::size_t kMaxBytes = 64;
-
 constexpr char32_t kRaised = 0x31D;       // r with it is the Czech fricative
 constexpr char32_t kCedilla = 0x327;      // c with it is a letter
 constexpr char32_t kNonSyllabic = 0x32F;  // a vowel with it is a glide
@@ -136,10 +134,11 @@ void add(std::vector<std::string_view>& labels, std::string_view label) {
 
 }  // namespace
 
-Result<std::vector<IpaPhone>> parse_ipa(std::string_view text) {
-  if (text.size() > kMaxBytes) {
+Result<std::vector<IpaPhone>> parse_ipa(std::string_view text, std::size_t most_bytes) {
+  if (text.size() > most_bytes) {
     return make_error(Code::out_of_range,
-                      "more than 64 bytes of IPA for one sound; give one label a sound");
+                      "more than " + std::to_string(most_bytes) +
+                          " bytes of IPA for one sound; give one label a sound");
   }
   const std::u32string codes = prepare(text);
   std::vector<std::string_view> labels;

@@ -12,6 +12,7 @@
 /// dictionaries (aw, ej, tʃʰ). Source: dam/script/phoneme_scripts.md, section 3.
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -33,7 +34,7 @@ struct IpaPhone {
 ///
 /// Empty if the text has no letter at all: a lone modifier belongs to the sound before it.
 /// Errors: not_found (a letter that is in no table, named in the message), out_of_range (more
-/// than 64 bytes: not one segment).
-Result<std::vector<IpaPhone>> parse_ipa(std::string_view text);
+/// than `most_bytes`: not one segment; a word may have more).
+Result<std::vector<IpaPhone>> parse_ipa(std::string_view text, std::size_t most_bytes = 64);
 
 }  // namespace animeme::dam

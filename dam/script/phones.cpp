@@ -73,7 +73,9 @@ struct Alias {
 // Allophones of TIMIT and of older ARPAbet dictionaries.
 constexpr Alias kAliases[] = {{"AXR", "ER"}, {"IX", "IH"}, {"UX", "UW"},   {"DX", "D"},
                               {"NX", "N"},   {"EL", "L"},  {"EM", "M"},    {"EN", "N"},
-                              {"ENG", "NG"}, {"HV", "HH"}, {"AX-H", "AX"}, {"OH", "AO"}};
+                              {"ENG", "NG"}, {"HV", "HH"}, {"AX-H", "AX"}, {"OH", "AO"},
+                              {"Q", "HH"},   {"BCL", "B"}, {"PCL", "P"},   {"DCL", "D"},
+                              {"TCL", "T"},  {"GCL", "G"}, {"KCL", "K"}};
 
 char upper(char c) { return c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c; }
 
@@ -114,6 +116,10 @@ bool is_silence_spelling(std::string_view spelling) {
 }
 
 std::string_view arpabet_label(std::string_view spelling) {
+  // Kaldi says where in a word a phone stands: hh_B, ih1_I, t_E, ax_S.
+  const bool placed = spelling.size() > 2 && spelling[spelling.size() - 2] == '_' &&
+                      std::string_view("BIES").find(spelling.back()) != std::string_view::npos;
+  if (placed) spelling.remove_suffix(2);
   if (is_silence_spelling(spelling)) return kPhones[0].label;
   if (spelling.size() > 5) return {};
   std::string text(spelling);

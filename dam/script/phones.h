@@ -61,7 +61,8 @@ std::string_view phone_class_name(PhoneClass phone_class);
 /// The ARPAbet label that an aligner's spelling stands for, empty if it is none.
 ///
 /// Upper or lower case; a stress digit 0..3 at the end of a vowel is dropped; AXR IX UX DX NX EL
-/// EM EN ENG HV (TIMIT) become the nearest of the 41. Every usual way to write a pause gives
+/// EM EN ENG HV Q and the closures BCL ... (TIMIT) become the nearest of the 41, and Kaldi's
+/// endings _B _I _E _S are dropped. Every usual way to write a pause gives
 /// SIL: nothing, `sil silence sp spn nsn pau h# # _ __ epi brth <sil> <eps> <p:>` and the like.
 /// IPA and X-SAMPA are not looked at; see dam/script/ipa.h.
 std::string_view arpabet_label(std::string_view spelling);

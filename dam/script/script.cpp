@@ -1,47 +1,108 @@
 #include "dam/script/script.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "dam/script/phones.h"
-#include "dam/script/script_text_internal.h"
+#include "dam/script/script_readers_internal.h"
 #include "dam/script/script_timeline_internal.h"
+#include "dam/script/timings.h"
 
 namespace animeme::dam {
 namespace {
 
 struct Format {
-  std::string_view name;
+  ScriptFormat shown;
   bool (*looks_like)(std::string_view text);
-  Result<Script> (*read)(std::string_view text, const ScriptOptions& options);
+  ReadLabels read;
 };
 
 // The first that recognises the text reads it: strict tests before lenient ones.
 constexpr Format kFormats[] = {
-    {"Praat TextGrid", looks_like_textgrid, read_textgrid},
-    {"TSV with a header line (start_s, end_s, phone)", looks_like_tsv, read_tsv},
+    {{"textgrid", "Praat TextGrid, long or short"}, looks_like_textgrid, read_textgrid},
+    {{"subtitles", "SubRip and WebVTT"}, looks_like_subtitles, read_subtitles},
+    {{"rhubarb", "mouth cues of Rhubarb Lip Sync"}, looks_like_rhubarb_xml, read_rhubarb_xml},
+    {{"moho", "switch data of Moho, Papagayo and Rhubarb"}, looks_like_moho, read_moho},
+    {{"mfa", "Montreal Forced Aligner"}, looks_like_mfa_table, read_mfa_table},
+    {{"esps", "ESPS labels, as Festival writes them"}, looks_like_esps, read_esps},
+    {{"phseg", "phones or words of PocketSphinx"}, looks_like_phseg, read_phseg},
+    {{"tsv", "a table whose header names start_s, end_s and phone or word"},
+     looks_like_tsv,
+     read_tsv},
+    {{"rhubarb", {}}, looks_like_rhubarb_tsv, read_rhubarb_tsv},
+    {{"ctm", "CTM of NIST and Kaldi"}, looks_like_ctm, read_ctm},
+    {{"htk", "HTK labels and master label files"}, looks_like_htk, read_htk},
+    {{"timit", "TIMIT, in samples"}, looks_like_timit, read_timit},
+    {{"labels", "lines of start, end and label in seconds, as Audacity writes them"},
+     looks_like_plain_labels,
+     read_plain_labels},
+    {{"pho", "MBROLA"}, looks_like_pho, read_pho},
 };
+
+std::vector<ScriptFormat> shown_formats() {
+  std::vector<ScriptFormat> shown;
+  for (const Format& format : kFormats) {
+    if (!format.shown.title.empty()) shown.push_back(format.shown);
+  }
+  return shown;
+}
 
 Error unknown_format() {
   std::string names;
-  for (const Format& format : kFormats) {
-    if (!names.empty()) names += ", ";
-    names += format.name;
+  for (const ScriptFormat& format : text_script_formats()) {
+    names += (names.empty() ? "" : ", ") + std::string(format.name);
   }
-  return error_at_line(Code::syntax, "not a phoneme script of a known format; these are: " + names,
-                       1);
+  return error_at_line(Code::syntax,
+                       "not a phoneme script of a known format; of text, these are: " + names, 1);
+}
+
+// The one that is named and recognises the text, else the one that is named.
+Result<const Format*> choose_format(std::string_view utf8, std::string_view name) {
+  const Format* named = nullptr;
+  for (const Format& format : kFormats) {
+    if (!name.empty() && format.shown.name != name) continue;
+    if (named == nullptr) named = &format;
+    if (format.looks_like(utf8)) return &format;
+  }
+  if (!name.empty() && named != nullptr) return named;
+  if (name.empty()) return unknown_format();
+  return make_error(Code::invalid_argument, "there is no format of scripts named " +
+                                                in_quotes(name) + "; " + unknown_format().message);
 }
 
 }  // namespace
 
-Result<Script> read_script(std::string_view text, const ScriptOptions& options) {
+std::span<const ScriptFormat> text_script_formats() {
+  static const std::vector<ScriptFormat> shown = shown_formats();
+  return shown;
+}
+
+bool looks_like_script(std::string_view utf8) {
+  return std::any_of(std::begin(kFormats), std::end(kFormats),
+                     [&](const Format& format) { return format.looks_like(utf8); });
+}
+
+Result<Timings> read_timings(std::string_view text, const ScriptOptions& options) {
+  if (!(options.rate >= 0) || !std::isfinite(options.rate)) {
+    return make_error(Code::invalid_argument, "the rate of a script is a number above 0");
+  }
   const std::string utf8 = to_utf8(text);
   if (utf8.find_first_not_of(" \t\r\n") == std::string::npos) {
     return make_error(Code::truncated, "the script is empty; align or type at least one phone");
   }
-  for (const Format& format : kFormats) {
-    if (format.looks_like(utf8)) return format.read(utf8, options);
-  }
-  return unknown_format();
+  const auto format = choose_format(utf8, options.format);
+  if (!format) return format.error();
+  auto timings = (*format)->read(utf8, options);
+  if (!timings) return timings.error();
+  timings->format = (*format)->shown.name;
+  if (options.alphabet != Alphabet::automatic) timings->alphabet = options.alphabet;
+  return timings;
+}
+
+Result<Script> read_script(std::string_view text, const ScriptOptions& options) {
+  const auto timings = read_timings(text, options);
+  if (!timings) return timings.error();
+  return make_script(*timings);
 }
 
 Result<void> check_script(const Script& script) {

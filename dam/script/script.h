@@ -5,20 +5,27 @@
 ///     auto script = animeme::dam::read_script(text);
 ///     if (!script) std::cerr << std::move(script).error().in_file(path).describe();
 ///
-/// Formats read, told apart by their content:
+/// Formats read, told apart by their content (dam/script/phoneme_scripts.md, section 1, has all of
+/// them with their units):
 ///
-/// - TSV: tab separated, a header line that names the columns in any order: start_s (or start),
-/// end_s
-///   (or end) or duration_s (or duration), phone (or phoneme, label), optionally word. Other
-///   columns are ignored, lines that begin with # too.
+/// - TSV, our own: tab separated, a header line that names the columns in any order: start_s (or
+///   start), end_s (or end) or duration_s (or duration), phone (or phoneme, label) or word, or
+///   both. Other columns are ignored, lines that begin with # too.
 ///
 ///       start_s	end_s	phone	word
 ///       0	0.21	SIL
 ///       0.21	0.25	B	bin
 ///
-/// - TextGrid: Praat's text form, long or short, UTF-8 or UTF-16 with a byte order mark. The tier
-///   named phones, phone, phonemes or "NAME - phones" (any case) gives the phones; the tier words,
-///   word or "NAME - words", if there is one, the words.
+/// - TextGrid: Praat's text form, long or short. The tier named phones, phone, phonemes or "NAME -
+///   phones" (any case) gives the phones; the tier words, word or "NAME - words", if there is one,
+///   the words.
+/// - Label files: HTK (.lab, .mlf), Festival and ESPS (.lab), TIMIT (.phn, .wrd), Audacity, lines
+/// of
+///   start, end and label; MBROLA (.pho); CTM; PocketSphinx (.phseg); Montreal aligner (.csv);
+///   Rhubarb Lip Sync (.tsv, .xml) and Moho (.dat), whose mouths become phones; SubRip and WebVTT.
+///
+/// Text is UTF-8, UTF-16 with or without a byte order mark, or else Latin-1. What JSON there is
+/// (Montreal aligner, Gentle, WhisperX, speech services) reads tools/scripts/script_text.h.
 ///
 /// Source: dam/script/phoneme_scripts.md, sections 1 and 3.
 #pragma once
@@ -66,11 +73,25 @@ enum class Alphabet : std::uint8_t {
   ipa,        ///< IPA or X-SAMPA, see dam/script/ipa.h
 };
 
-/// What read_script() is told of a file.
+/// What the labels of a file are.
+enum class LabelUnit : std::uint8_t {
+  automatic,  ///< what the format says; where it may hold both, words if most labels can only be
+              ///< words
+  phones,     ///< sounds
+  words,      ///< words, whose phones are not in the file
+};
+
+/// What read_script() is told of a file. What is empty or 0 is told by the content.
 struct ScriptOptions {
   Alphabet alphabet = Alphabet::automatic;  ///< of the labels
-  /// TextGrid: the exact name of the tier to read. Empty: chosen by the names above.
+  /// The exact name of the tier to read (TextGrid, Montreal aligner), or of the recording, where a
+  /// file holds several (HTK .mlf, CTM). Empty: chosen by the names above, or the only one.
   std::string tier;
+  std::string format;                     ///< a name of text_script_formats() (timings.h)
+  LabelUnit unit = LabelUnit::automatic;  ///< of the labels
+  /// Times a second that the numbers of the file count, > 0, where they count: 16000 (samples of
+  /// TIMIT), 100 (frames of PocketSphinx), 24 (frames of Moho), 10000000 (HTK). 0: these.
+  double rate = 0;
 };
 
 /// Reads a script in any format of the list above.
@@ -80,11 +101,12 @@ struct ScriptOptions {
 /// two phones for ("ts") becomes two phones that share its time; one that stands for no sound of
 /// its own (a lone length mark) lengthens the phone before it.
 ///
-/// Errors, with the line: syntax (unknown format, missing column or tier, a field that is no
+/// Errors, with line and column: syntax (unknown format, missing column or tier, a field that is no
 /// number, phones that overlap by more than kTimeTolerance or run backwards, end <= start, a
-/// negative time), not_found (unknown label; no such tier), out_of_range (infinite times, beyond
-/// kMaxScriptSeconds), truncated (nothing in it, or the file ends early), unsupported (a binary
-/// TextGrid).
+/// negative time), not_found (unknown label; no such tier or recording), out_of_range (infinite
+/// times, beyond kMaxScriptSeconds), truncated (nothing in it, or the file ends early), unsupported
+/// (a binary TextGrid; words without phones), invalid_argument (no such format, a rate that is no
+/// number above 0).
 Result<Script> read_script(std::string_view text, const ScriptOptions& options = {});
 
 /// TSV with the header "start_s end_s phone word". Times are written with as many digits as it
@@ -95,6 +117,21 @@ std::string write_script_tsv(const Script& script);
 /// Praat TextGrid, long form, UTF-8, tiers "words" and "phones"; silence has empty text. Reads
 /// back equal as write_script_tsv() does.
 std::string write_textgrid(const Script& script);
+
+/// MBROLA's .pho: a phone and its milliseconds a line, "_" is silence. The labels are ARPAbet,
+/// which a voice of MBROLA has to be told (its option -C); words are lost. Reads back with the same
+/// labels and times within a microsecond.
+std::string write_pho(const Script& script);
+
+/// WebVTT: a cue for what is said between two pauses, with the time of each word; phones are lost.
+/// Where no word is known the phones are shown. Words read back with times within a millisecond.
+std::string write_webvtt(const Script& script);
+
+/// The endings that write_script() knows, as ".tsv".
+std::vector<std::string> script_endings();
+
+/// The format of an ending in any case: .TextGrid, .tsv, .pho, .vtt; a TextGrid for any other.
+std::string write_script(const Script& script, std::string_view ending);
 
 /// Tests what read_script() promises of its result, for scripts that come from elsewhere: times
 /// finite, ascending and without overlap beyond kTimeTolerance, known labels, not empty.

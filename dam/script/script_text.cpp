@@ -30,6 +30,15 @@ std::string from_utf16(std::string_view bytes, bool big_endian) {
   return out;
 }
 
+bool is_utf8(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const std::string_view before = bytes;
+    const bool replaced = take_code_point(bytes) == kReplacement;
+    if (replaced && !before.starts_with("\xEF\xBF\xBD")) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 void append_utf8(std::string& out, char32_t code) {
@@ -81,9 +90,13 @@ std::string to_utf8(std::string_view bytes) {
   if (bytes.starts_with("\xFF\xFE")) return from_utf16(bytes.substr(2), false);
   if (bytes.starts_with("\xFE\xFF")) return from_utf16(bytes.substr(2), true);
   if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
+  // In a few bytes a zero is a fault.
+  const auto big_endian = fap::detail::unmarked_utf16(bytes);
+  if (big_endian && bytes.size() >= 8) return from_utf16(bytes, *big_endian);
+  if (is_utf8(bytes)) return std::string(bytes);
   std::string out;
-  out.reserve(bytes.size());
-  while (!bytes.empty()) append_utf8(out, take_code_point(bytes));
+  out.reserve(bytes.size() * 2);
+  for (const char c : bytes) append_utf8(out, char32_t(static_cast<unsigned char>(c)));
   return out;
 }
 

@@ -10,8 +10,8 @@
 
 namespace animeme::dam {
 
-/// UTF-8 without byte order mark. Input: UTF-8 with or without mark, or UTF-16 of either byte
-/// order with mark. What is not valid becomes U+FFFD.
+/// UTF-8 without byte order mark. Input: UTF-8 or UTF-16 of either byte order, both with or without
+/// mark; a text that is none of these is Latin-1. What is no UTF-16 becomes U+FFFD.
 std::string to_utf8(std::string_view bytes);
 
 /// Appends one code point as UTF-8.

@@ -1,13 +1,17 @@
 #include "dam/script/script_timeline_internal.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "dam/script/ipa.h"
 #include "dam/script/phones.h"
 #include "dam/script/script_text_internal.h"
+#include "dam/script/timings.h"
 
 namespace animeme::dam {
 namespace {
@@ -21,9 +25,12 @@ bool may_be_arpabet(std::string_view label) {
 
 // Labels that only one of the two alphabets has decide which one the script is written in:
 // consonants like "s" are in both.
-Alphabet guess_alphabet(const std::map<std::string_view, std::int64_t>& labels) {
+Alphabet guess_alphabet(const std::vector<TimedLabel>& labels) {
+  std::set<std::string_view> seen;
   std::size_t only_arpabet = 0, only_ipa = 0;
-  for (const auto& [label, line] : labels) {
+  for (const TimedLabel& timed : labels) {
+    const std::string_view label = timed.label;
+    if (timed.alphabet != Alphabet::automatic || !seen.insert(label).second) continue;
     if (is_silence_spelling(label)) continue;
     const std::string_view known = arpabet_label(label);
     if (known.size() == 2 && label.size() >= 2) {
@@ -35,15 +42,38 @@ Alphabet guess_alphabet(const std::map<std::string_view, std::int64_t>& labels) 
   return only_ipa > only_arpabet ? Alphabet::ipa : Alphabet::arpabet;
 }
 
-Error unknown_label(std::string_view label, std::int64_t line, Alphabet alphabet) {
+Error unknown_label(const TimedLabel& timed, Alphabet alphabet) {
+  const std::string_view label = timed.label;
   std::string message = "unknown phone label " + in_quotes(label);
   if (alphabet == Alphabet::arpabet) {
     message += "; the nearest ARPAbet label is " + std::string(nearest_label(label));
   } else {
     const auto parsed = parse_ipa(label);
-    if (!parsed) message += ": " + parsed.error().message;
+    message += parsed ? "; a label is one sound, these letters are several"
+                      : ": " + parsed.error().message;
   }
-  return error_at_line(Code::not_found, message, line);
+  return error_at_line(Code::not_found, message, timed.line, timed.column);
+}
+
+// A label is a vowel with its glides, or consonants that are said together ("ts"), not a syllable
+// and not any word that can be spelt: "qqq" and "abc" are no sounds.
+bool is_one_sound(std::string_view label, const Labels& labels) {
+  for (std::size_t i = 2; i < label.size(); ++i) {
+    const bool letter = static_cast<unsigned char>(label[i] | 0x20) - unsigned('a') < 26;
+    if (letter && label[i] == label[i - 1] && label[i] == label[i - 2]) return false;
+  }
+  std::size_t consonants = 0, vowels = 0, after_vowel = 0;
+  for (const IpaPhone& phone : labels) {
+    const std::string_view name = phone.label;
+    const bool vowel = find_phone(name)->vowel;
+    const bool glide = name == "W" || name == "Y" || name == "R";
+    const bool nasal = name == "L" || name == "N" || name == "M" || name == "NG";
+    if (vowel && (consonants > 0 || after_vowel > 0)) return false;
+    if (!vowel && !glide && vowels > 0 && (!nasal || ++after_vowel > 1)) return false;
+    vowels += vowel ? 1 : 0;
+    consonants += vowel || glide || vowels > 0 ? 0 : 1;
+  }
+  return consonants <= 2 && vowels <= 3;
 }
 
 std::optional<Labels> map_label(std::string_view label, Alphabet alphabet) {
@@ -57,56 +87,60 @@ std::optional<Labels> map_label(std::string_view label, Alphabet alphabet) {
     if (ascii) return std::nullopt;
   }
   auto parsed = parse_ipa(label);
-  if (!parsed) return std::nullopt;
+  if (!parsed || !is_one_sound(label, *parsed)) return std::nullopt;
   return *std::move(parsed);
+}
+
+std::string place_of(const TimedLabel& label) {
+  std::string place = "line " + std::to_string(label.line);
+  if (label.column > 0) place += ", column " + std::to_string(label.column);
+  return place;
 }
 
 std::string seconds_text(double seconds) { return format_seconds(seconds) + " s"; }
 
-std::optional<Error> check_times(const RawPhone& phone) {
+std::optional<Error> check_times(const TimedLabel& phone) {
   const std::string name = "phone " + in_quotes(phone.label);
   if (!std::isfinite(phone.start) || !std::isfinite(phone.end)) {
     return error_at_line(Code::out_of_range, name + " has a time that is not a finite number",
-                         phone.line);
+                         phone.line, phone.column);
   }
   if (phone.start < 0) {
     return error_at_line(Code::syntax,
                          name + " starts at " + seconds_text(phone.start) +
                              ", before the audio; times count from its start and are not negative",
-                         phone.line);
+                         phone.line, phone.column);
   }
   if (phone.end <= phone.start) {
     return error_at_line(Code::syntax,
                          name + " ends at " + seconds_text(phone.end) +
                              ", not after its start at " + seconds_text(phone.start) +
                              "; give it a duration or remove it",
-                         phone.line);
+                         phone.line, phone.column);
   }
   if (phone.end > kMaxScriptSeconds) {
     return error_at_line(Code::out_of_range,
                          name + " ends at " + seconds_text(phone.end) +
                              ", beyond one day; times are in seconds (not samples or ms), and "
                              "longer scripts have to be split",
-                         phone.line);
+                         phone.line, phone.column);
   }
   return std::nullopt;
 }
 
-std::optional<Error> check_order(const RawPhone& before, const RawPhone& phone) {
+std::optional<Error> check_order(const TimedLabel& before, const TimedLabel& phone) {
   const std::string names = "phone " + in_quotes(phone.label) + " starts at " +
                             seconds_text(phone.start) + ", before " + in_quotes(before.label);
   if (phone.start <= before.start) {
-    return error_at_line(
-        Code::syntax,
-        names + " (line " + std::to_string(before.line) + ") or with it; sort the phones by time",
-        phone.line);
+    return error_at_line(Code::syntax,
+                         names + " (" + place_of(before) + ") or with it; sort the phones by time",
+                         phone.line, phone.column);
   }
   if (phone.start < before.end - kTimeTolerance - 1e-9) {
     return error_at_line(Code::syntax,
-                         names + " (line " + std::to_string(before.line) + ") ends at " +
-                             seconds_text(before.end) +
+                         names + " (" + place_of(before) + ") ends at " + seconds_text(before.end) +
                              "; phones must not overlap, so move one of the two times",
-                         phone.line);
+                         phone.line, phone.column);
   }
   return std::nullopt;
 }
@@ -118,6 +152,39 @@ std::string clean_word(std::string_view word) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
   }
   return std::string(trimmed(out));
+}
+
+// A pause that takes no time says nothing.
+void drop_empty_pauses(std::vector<TimedLabel>& labels) {
+  std::erase_if(labels, [](const TimedLabel& label) {
+    return label.start == label.end && is_silence_spelling(label.label);
+  });
+}
+
+// TIMIT tells the closure of a stop from its burst; one stop that begins at the closure is what the
+// lips do.
+bool closes_for(std::string_view closure, std::string_view stop) {
+  if (closure.size() != 3 || !closure.ends_with("cl")) return false;
+  return stop.substr(0, 1) == closure.substr(0, 1)
+             ? stop.size() == 1
+             : (closure == "tcl" && stop == "ch") || (closure == "dcl" && stop == "jh");
+}
+
+void join_closures(std::vector<TimedLabel>& labels) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (kept > 0) {
+      const TimedLabel& before = labels[kept - 1];
+      const bool touches = std::abs(labels[i].start - before.end) <= kTimeTolerance;
+      if (touches && closes_for(lower_case(before.label), lower_case(labels[i].label))) {
+        labels[i].start = before.start;
+        --kept;
+      }
+    }
+    if (kept != i) labels[kept] = std::move(labels[i]);
+    ++kept;
+  }
+  labels.resize(kept);
 }
 
 void append(std::vector<Phone>& phones, Phone phone) {
@@ -138,7 +205,7 @@ void move_end(std::vector<Phone>& phones, double end) {
 }
 
 // One interval with the phones that its label stands for.
-void append(std::vector<Phone>& phones, const RawPhone& raw, double start, const Labels& labels) {
+void append(std::vector<Phone>& phones, const TimedLabel& raw, double start, const Labels& labels) {
   if (labels.empty()) {  // a lone length mark: the sound before it goes on
     if (phones.empty()) {
       append(phones, {start, raw.end, std::string(kSilence), {}});
@@ -174,7 +241,8 @@ std::string format_seconds(double seconds) {
   return {buffer, end};
 }
 
-Result<double> parse_seconds(std::string_view field, std::int64_t line, std::string_view what) {
+Result<double> parse_seconds(std::string_view field, std::int64_t line, std::string_view what,
+                             std::int64_t column) {
   std::string_view digits = field;
   if (digits.starts_with('+')) digits.remove_prefix(1);
   double value = 0;
@@ -183,33 +251,49 @@ Result<double> parse_seconds(std::string_view field, std::int64_t line, std::str
     return error_at_line(Code::out_of_range,
                          "the " + std::string(what) + " time " + in_quotes(field) +
                              " is not a finite number of seconds",
-                         line);
+                         line, column);
   }
   if (error != std::errc() || end != digits.data() + digits.size()) {
     std::string message = "the " + std::string(what) + " time " + in_quotes(field) +
                           " is not a number; write seconds with a decimal point, like 0.25";
-    return error_at_line(Code::syntax, message, line);
+    return error_at_line(Code::syntax, message, line, column);
   }
   return value == 0 ? 0.0 : value;  // no negative zero
 }
 
-Result<Script> make_script(const std::vector<RawPhone>& raw, Alphabet alphabet) {
+bool has_words(const Timings& timings) {
+  return std::any_of(timings.labels.begin(), timings.labels.end(),
+                     [](const TimedLabel& label) { return label.is_word; });
+}
+
+Result<Script> make_script(const Timings& timings) {
+  std::vector<TimedLabel> raw = timings.labels;
+  drop_empty_pauses(raw);
   if (raw.empty()) {
     return make_error(Code::truncated, "the script holds no phones; align or type at least one");
   }
-  std::map<std::string_view, std::int64_t> lines;
-  for (const RawPhone& phone : raw) lines.try_emplace(phone.label, phone.line);
-  if (alphabet == Alphabet::automatic) alphabet = guess_alphabet(lines);
-  std::map<std::string_view, Labels> mapped;
-  for (const RawPhone& phone : raw) {
-    if (mapped.contains(phone.label)) continue;
+  if (has_words(timings)) {
+    return make_error(Code::unsupported,
+                      "these are words with times and no phones; their pronunciation is found by "
+                      "`animeme speak --script`");
+  }
+  join_closures(raw);
+  Alphabet usual = timings.alphabet;
+  if (usual == Alphabet::automatic) usual = guess_alphabet(raw);
+  const auto alphabet_of = [&](const TimedLabel& phone) {
+    return phone.alphabet == Alphabet::automatic ? usual : phone.alphabet;
+  };
+  std::map<std::pair<std::string_view, Alphabet>, Labels> mapped;
+  for (const TimedLabel& phone : raw) {
+    const Alphabet alphabet = alphabet_of(phone);
+    if (mapped.contains({phone.label, alphabet})) continue;
     auto labels = map_label(phone.label, alphabet);
-    if (!labels) return unknown_label(phone.label, phone.line, alphabet);
-    mapped.emplace(phone.label, *std::move(labels));
+    if (!labels) return unknown_label(phone, alphabet);
+    mapped.emplace(std::pair(std::string_view(phone.label), alphabet), *std::move(labels));
   }
   Script script;
-  const RawPhone* before = nullptr;
-  for (const RawPhone& phone : raw) {
+  const TimedLabel* before = nullptr;
+  for (const TimedLabel& phone : raw) {
     if (const auto error = check_times(phone)) return *error;
     if (before != nullptr) {
       if (const auto error = check_order(*before, phone)) return *error;
@@ -223,7 +307,7 @@ Result<Script> make_script(const std::vector<RawPhone>& raw, Alphabet alphabet) 
     } else {
       move_end(script.phones, start);
     }
-    append(script.phones, phone, start, mapped[phone.label]);
+    append(script.phones, phone, start, mapped[{phone.label, alphabet_of(phone)}]);
     before = &phone;
   }
   return script;

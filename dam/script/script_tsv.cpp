@@ -1,7 +1,7 @@
 // The corpus format: tab separated, columns named by a header line.
 #include <optional>
 
-#include "dam/script/script_text_internal.h"
+#include "dam/script/script_readers_internal.h"
 #include "dam/script/script_timeline_internal.h"
 
 namespace animeme::dam {
@@ -51,38 +51,48 @@ std::string_view field_at(const std::vector<std::string_view>& fields, std::size
   return column < fields.size() ? fields[column] : std::string_view();
 }
 
-Result<RawPhone> read_row(const Line& line, const TsvColumns& columns) {
+Result<TimedLabel> read_row(const Line& line, const TsvColumns& columns) {
   const auto fields = split_tabs(line.text);
-  RawPhone phone;
+  TimedLabel phone;
   phone.line = line.number;
-  const auto start = parse_seconds(field_at(fields, columns.start), line.number, "start");
+  const auto column = [&](std::string_view field) {
+    return field.empty() ? 0 : field.data() - line.text.data() + 1;
+  };
+  const std::string_view first = field_at(fields, columns.start);
+  const auto start = parse_seconds(first, line.number, "start", column(first));
   if (!start) return start.error();
   phone.start = *start;
   const bool has_end = columns.end != kAbsent;
-  const auto second = parse_seconds(field_at(fields, has_end ? columns.end : columns.duration),
-                                    line.number, has_end ? "end" : "duration");
+  const std::string_view other = field_at(fields, has_end ? columns.end : columns.duration);
+  const auto second =
+      parse_seconds(other, line.number, has_end ? "end" : "duration", column(other));
   if (!second) return second.error();
   phone.end = has_end ? *second : *start + *second;
   // An empty label is silence; one that is not there at all is a damaged line.
-  if (columns.phone >= fields.size()) {
+  const bool words = columns.phone == kAbsent;
+  const std::size_t at = words ? columns.word : columns.phone;
+  if (at >= fields.size()) {
     return error_at_line(Code::syntax,
                          "the line has " + std::to_string(fields.size()) +
-                             " fields and lacks the phone; fields are separated by tabs",
+                             " fields and lacks the " + (words ? "word" : "phone") +
+                             "; fields are separated by tabs",
                          line.number);
   }
-  phone.label = field_at(fields, columns.phone);
-  phone.word = field_at(fields, columns.word);
+  phone.label = fields[at];
+  phone.column = column(fields[at]);
+  phone.is_word = words && !phone.label.empty();
+  if (!words) phone.word = field_at(fields, columns.word);
   return phone;
 }
 
 std::optional<Error> check_columns(const TsvColumns& columns, std::int64_t line) {
-  if (columns.start != kAbsent && columns.phone != kAbsent &&
+  if (columns.start != kAbsent && (columns.phone != kAbsent || columns.word != kAbsent) &&
       (columns.end != kAbsent || columns.duration != kAbsent)) {
     return std::nullopt;
   }
   return error_at_line(Code::syntax,
                        "the header line must name the columns start_s, end_s (or duration_s) and "
-                       "phone, separated by tabs",
+                       "phone (or word), separated by tabs",
                        line);
 }
 
@@ -96,19 +106,20 @@ bool looks_like_tsv(std::string_view text) {
   return columns.start != kAbsent || columns.phone != kAbsent;
 }
 
-Result<Script> read_tsv(std::string_view text, const ScriptOptions& options) {
+Result<Timings> read_tsv(std::string_view text, const ScriptOptions& options) {
   LineReader reader(text);
   Line line;
-  if (!next_content_line(reader, line)) return make_script({}, options.alphabet);
+  if (!next_content_line(reader, line)) return nothing_in("table");
   const TsvColumns columns = name_columns(line.text);
   if (const auto error = check_columns(columns, line.number)) return *error;
-  std::vector<RawPhone> raw;
+  Timings timings;
   while (next_content_line(reader, line)) {
     auto phone = read_row(line, columns);
     if (!phone) return phone.error();
-    raw.push_back(*std::move(phone));
+    timings.labels.push_back(*std::move(phone));
   }
-  return make_script(raw, options.alphabet);
+  if (options.unit != LabelUnit::automatic) decide_unit(timings.labels, options.unit);
+  return timings;
 }
 
 std::string write_script_tsv(const Script& script) {

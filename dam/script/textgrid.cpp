@@ -15,14 +15,14 @@ struct Token {
   TokenKind kind = TokenKind::end;
   double number = 0;
   std::string text;
-  std::int64_t line = 0;
+  std::int64_t line = 0, column = 0;
 };
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 class Tokens {
  public:
-  explicit Tokens(std::string_view text) : rest_(text) {}
+  explicit Tokens(std::string_view text) : rest_(text), line_begin_(text.data()) {}
 
   Result<Token> next() {
     while (skip_space()) {
@@ -33,7 +33,7 @@ class Tokens {
         advance(std::min(rest_.find_first_of("\r\n"), rest_.size()));
       } else if (c == '<') {
         const std::string_view flag = advance(std::min(rest_.find('>'), rest_.size() - 1) + 1);
-        return Token{TokenKind::flag, 0, std::string(flag), line};
+        return Token{TokenKind::flag, 0, std::string(flag), line, 0};
       } else {
         const std::string_view word =
             advance(std::min(rest_.find_first_of(" \t\r\n"), rest_.size()));
@@ -45,11 +45,11 @@ class Tokens {
             return error_at_line(Code::out_of_range,
                                  in_quotes(word) + " is not a finite number of seconds", line);
           }
-          return Token{TokenKind::number, number, {}, line};
+          return Token{TokenKind::number, number, {}, line, 0};
         }
       }
     }
-    return Token{TokenKind::end, 0, {}, line_};
+    return Token{TokenKind::end, 0, {}, line_, 0};
   }
 
  private:
@@ -60,7 +60,11 @@ class Tokens {
 
   std::string_view advance(std::size_t count) {
     const std::string_view taken = rest_.substr(0, count);
-    for (const char c : taken) line_ += c == '\n' ? 1 : 0;
+    for (const char& c : taken) {
+      if (c != '\n') continue;
+      ++line_;
+      line_begin_ = &c + 1;
+    }
     rest_.remove_prefix(count);
     return taken;
   }
@@ -73,7 +77,7 @@ class Tokens {
   }
 
   Result<Token> string() {
-    Token token{TokenKind::string, 0, {}, line_};
+    Token token{TokenKind::string, 0, {}, line_, rest_.data() - line_begin_ + 1};
     std::size_t at = 1;
     for (;; ++at) {
       if (at >= rest_.size()) {
@@ -92,6 +96,7 @@ class Tokens {
   }
 
   std::string_view rest_;
+  const char* line_begin_;
   std::int64_t line_ = 1;
 };
 
@@ -161,6 +166,7 @@ TextGridTier read_tier(Parser& parser) {
     Token text = parser.take(TokenKind::string, "the text of an interval");
     item.text = std::move(text.text);
     item.line = text.line;
+    item.column = text.column;
     if (!parser.failed()) tier.items.push_back(std::move(item));
   }
   return tier;

@@ -11,16 +11,18 @@
 #include <string_view>
 #include <vector>
 
+#include "dam/script/timings.h"
 #include "fap/result.h"
 
 namespace animeme::dam {
 
 /// One interval; a point has end == start.
 struct TextGridItem {
-  double start = 0;       ///< seconds
-  double end = 0;         ///< seconds
-  std::string text;       ///< UTF-8, doubled quotes undone
-  std::int64_t line = 0;  ///< of the text in the file, from 1; 0: not from a file
+  double start = 0;         ///< seconds
+  double end = 0;           ///< seconds
+  std::string text;         ///< UTF-8, doubled quotes undone
+  std::int64_t line = 0;    ///< of the text in the file, from 1; 0: not from a file
+  std::int64_t column = 0;  ///< in the line, from 1; 0: not known
 };
 
 /// One tier: intervals without gaps, or points.
@@ -42,6 +44,12 @@ struct TextGrid {
 /// Errors with line: syntax, out_of_range (a number that is not finite), truncated (the text
 /// ends early), unsupported (a binary file).
 Result<TextGrid> parse_textgrid(std::string_view utf8);
+
+/// The labels of one tier: options.tier, or the phones with their words, or the words alone, by the
+/// names of script.h. Points, where a tier has them, are no labels.
+/// Errors: not_found (no such tier, none of these names, several; the message has all names),
+/// unsupported (a tier of points).
+Result<Timings> labels_of_tier(const TextGrid& grid, const ScriptOptions& options = {});
 
 /// The long form, in UTF-8.
 std::string format_textgrid(const TextGrid& grid);

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <string_view>
 
+#include "fap/detail/text_scanner.h"
+
 namespace animeme::fap::detail {
 
 namespace fs = std::filesystem;
@@ -34,7 +36,8 @@ Result<void> look_at(std::span<const std::uint8_t> first, const WholeLimits& lim
   }
   if (limits.text) {
     const std::string_view text(reinterpret_cast<const char*>(first.data()), first.size());
-    const bool wide = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
+    const bool wide = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") ||
+                      unmarked_utf16(text).has_value();
     const std::size_t at = text.find('\0');
     if (!wide && at != std::string_view::npos) {
       return make_error(Code::syntax, "is no text: byte " + std::to_string(at + 1) +

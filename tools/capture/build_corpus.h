@@ -21,15 +21,16 @@ namespace animeme::tools {
 
 /// What a corpus is made of, and how.
 struct CorpusPlan {
-  CorpusPlaces places;          ///< where the parts are
-  std::string output;           ///< the folder; made if it is not there
-  CaptureSettings capture;      ///< how captures are read and videos tracked
-  NeutralSource neutral;        ///< none: one neutral face of all recordings
-  std::string language = "en";  ///< of the transcripts
-  int folds = 5;                ///< parts to test on, 2 to 100
-  double longest = 15;          ///< seconds: longer recordings are cut at pauses; 0: never
-  bool strict = false;          ///< leave out what check doubts, too
-  bool track_again = false;     ///< whatever was tracked before
+  CorpusPlaces places;                ///< where the parts are
+  std::string output;                 ///< the folder; made if it is not there
+  CaptureSettings capture;            ///< how captures are read and videos tracked
+  NeutralSource neutral;              ///< none: one neutral face of all recordings
+  std::string language = "en";        ///< of the transcripts
+  dam::ScriptOptions script_reading;  ///< of scripts among them
+  int folds = 5;                      ///< parts to test on, 2 to 100
+  double longest = 15;                ///< seconds: longer recordings are cut at pauses; 0: never
+  bool strict = false;                ///< leave out what check doubts, too
+  bool track_again = false;           ///< whatever was tracked before
 };
 
 /// A sentence of the corpus.

@@ -37,9 +37,9 @@ Result<void> align(const CorpusPlan& plan, Sentence& sentence) {
   return {};
 }
 
-Result<void> read_script(Sentence& sentence) {
+Result<void> read_script(const CorpusPlan& plan, Sentence& sentence) {
   sentence.report.script = "given";
-  auto script = speech::read_script(sentence.take.script);
+  auto script = speech::read_script(sentence.take.script, {plan.script_reading, plan.language});
   if (!script) return script.error();
   sentence.script = std::move(*script);
   sentence.report.text =
@@ -57,7 +57,7 @@ Result<void> read_script(Sentence& sentence) {
 }  // namespace
 
 Result<void> get_script(const CorpusPlan& plan, Sentence& sentence) {
-  return sentence.take.script.empty() ? align(plan, sentence) : read_script(sentence);
+  return sentence.take.script.empty() ? align(plan, sentence) : read_script(plan, sentence);
 }
 
 Sentence part_of(const Sentence& sentence, Stretch stretch, std::size_t number) {

@@ -18,12 +18,10 @@ struct AlignOptions {
 };
 
 Result<int> run(const AlignOptions& options) {
-  const std::string extension = extension_of(options.output);
   Result<dam::Script> script =
       speech::align_file(options.audio, options.transcript, options.language, talk());
   if (!script) return script.error();
-  const std::string text =
-      extension == ".tsv" ? dam::write_script_tsv(*script) : dam::write_textgrid(*script);
+  const std::string text = dam::write_script(*script, extension_of(options.output));
   if (auto written = write_file(options.output, text); !written) return written.error();
   say(name_of_output(options.output) + ": " + std::to_string(script->phones.size()) + " phones");
   return kOk;
@@ -34,9 +32,11 @@ void add_options(CLI::App& app, AlignOptions& options) {
       ->required();
   app.add_option("--transcript", options.transcript, "What is said in it")->required();
   app.add_option("--lang", options.language, "Language of the transcript")->capture_default_str();
-  add_output(app.add_option("-o,--output", options.output,
-                            "Script to write: .TextGrid (Praat) or .tsv, - for standard output"),
-             {".TextGrid", ".tsv"}, OutputKind::file_or_dash)
+  add_output(
+      app.add_option("-o,--output", options.output,
+                     "Script to write: .TextGrid (Praat), .tsv, .pho (MBROLA), .vtt (WebVTT), - "
+                     "for a TextGrid on standard output"),
+      dam::script_endings(), OutputKind::file_or_dash)
       ->required();
 }
 

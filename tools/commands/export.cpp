@@ -5,6 +5,7 @@
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
 #include "tools/commands/head_options.h"
+#include "tools/commands/script_options.h"
 #include "tools/exchange/arkit.h"
 #include "tools/exchange/visemes.h"
 #include "tools/gltf/glb.h"
@@ -19,6 +20,7 @@ struct ExportOptions {
   std::string audio;
   std::string what;
   std::string script;
+  speech::ScriptInput reading;
   std::string rate = "25";
   LengthLimit length;
   double crossfade = 0.08;
@@ -126,12 +128,18 @@ Result<std::vector<exchange::VisemeEvent>> events_of(const Result<dam::Script>& 
   return exchange::script_events(*script);
 }
 
+speech::ScriptInput input_of(const ExportOptions& options) {
+  speech::ScriptInput input = options.reading;
+  input.most_seconds = options.length.of_script();
+  return input;
+}
+
 Result<exchange::VisemeTrack> track_of(const ExportOptions& options,
                                        std::vector<std::uint8_t> bytes, bool from_script,
                                        const fap::Rate& rate) {
   if (from_script) {
     auto events = events_of(speech::parse_script({bytes.begin(), bytes.end()}, options.input,
-                                                 options.length.of_script()));
+                                                 input_of(options), talk()));
     if (!events) return std::move(events).error();
     auto track = exchange::track_of_events(std::move(*events), rate, options.crossfade);
     if (!track) return std::move(track).error().in_file(options.input);
@@ -141,7 +149,7 @@ Result<exchange::VisemeTrack> track_of(const ExportOptions& options,
   if (!clip) return clip.error();
   exchange::VisemeTrack track = exchange::track_of_face(*clip);
   if (options.script.empty()) return track;
-  auto events = events_of(speech::read_script(options.script, options.length.of_script()));
+  auto events = events_of(speech::read_script(options.script, input_of(options), talk()));
   if (!events) return std::move(events).error();
   track.events = std::move(*events);
   return track;
@@ -209,8 +217,7 @@ Result<int> run(const ExportOptions& options) {
 
 void add_options(CLI::App& app, ExportOptions& options) {
   app.add_option("input", options.input,
-                 "FAP text, FBA stream or container; for visemes also a phoneme script (TSV, "
-                 "TextGrid)")
+                 "FAP text, FBA stream or container; for visemes also a phoneme script")
       ->required();
   add_output(
       app.add_option("-o,--output", options.output,
@@ -229,6 +236,7 @@ void add_options(CLI::App& app, ExportOptions& options) {
   app.add_option("--script", options.script,
                  "Phoneme script of the face: the events of visemes are its sounds; without it, "
                  "what the face shows most");
+  add_script_options(app, options.reading.reading, options.reading.language);
   app.add_option("--rate", options.rate, "Frames a second of visemes of a script")
       ->capture_default_str();
   app.add_option("--crossfade", options.crossfade,

@@ -9,6 +9,7 @@
 #include "tools/inspect/stream_internal.h"
 #include "tools/json.h"
 #include "tools/media/container.h"
+#include "tools/scripts/script_text.h"
 
 namespace animeme::tools {
 
@@ -86,6 +87,13 @@ Result<Json> describe_media(const InfoOptions& options, std::span<const std::uin
   return json;
 }
 
+Result<Json> describe_script_file(std::span<const std::uint8_t> bytes) {
+  const auto timings =
+      scripts::read_labels({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  if (!timings) return timings.error();
+  return inspect::describe_script(*timings);
+}
+
 Result<Json> describe_text(const InfoOptions& options, std::vector<std::uint8_t> bytes) {
   Result<MotionInput> motion = parse_motion(std::move(bytes), options.input);
   if (!motion) return motion.error();
@@ -121,7 +129,7 @@ Result<Description> describe(const InfoOptions& options) {
       json = inspect::describe_model(*bytes);
       break;
     case FileKind::script:
-      json = inspect::describe_script(*bytes);
+      json = describe_script_file(*bytes);
       break;
     default:
       json = describe_text(options, std::move(*bytes));

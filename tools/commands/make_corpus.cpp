@@ -8,6 +8,7 @@
 #include "tools/commands/capture_options.h"
 #include "tools/commands/common.h"
 #include "tools/commands/interrupt.h"
+#include "tools/commands/script_options.h"
 #include "tools/text.h"
 
 namespace animeme::tools {
@@ -77,6 +78,7 @@ void add_options(CLI::App& app, MakeCorpusOptions& options) {
   app.add_option("--audio", plan.places.audio,
                  "Folder of the sounds; without it those beside the captures, or in the videos");
   app.add_option("--lang", plan.language, "Language of the transcripts")->capture_default_str();
+  add_script_options(app, plan.script_reading);
   app.add_option("--folds", plan.folds, "Parts to test on; part 1 is `test` in the column split")
       ->check(CLI::Range(2, 100))
       ->capture_default_str();

@@ -4,6 +4,7 @@
 #include "dam/script/script.h"
 #include "tools/commands/common.h"
 #include "tools/commands/fap_names.h"
+#include "tools/commands/script_options.h"
 #include "tools/plot/clips.h"
 #include "tools/speech/voice_file.h"
 
@@ -16,6 +17,7 @@ struct PlotOptions {
   std::string b;
   std::string output;
   std::string script;
+  speech::ScriptInput reading;
   std::vector<std::string> faps = {"3", "4", "5", "6"};
   bool difference = false;
   LengthLimit length;
@@ -58,7 +60,7 @@ Result<int> run(const PlotOptions& options) {
   }
   dam::Script script;
   if (!options.script.empty()) {
-    Result<dam::Script> read = speech::read_script(options.script);
+    Result<dam::Script> read = speech::read_script(options.script, options.reading, talk());
     if (!read) return read.error();
     script = std::move(*read);
     panel.script = &script;
@@ -82,6 +84,7 @@ void add_options(CLI::App& app, PlotOptions& options) {
              {".svg", ".png"}, OutputKind::file_or_dash)
       ->required();
   app.add_option("--script", options.script, "Phoneme script to show behind the curves");
+  add_script_options(app, options.reading.reading, options.reading.language);
   app.add_option("--faps", options.faps, "FAPs by number, name or range (3-13), one row each")
       ->delimiter(',')
       ->capture_default_str();

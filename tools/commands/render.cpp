@@ -7,6 +7,7 @@
 #include "tools/commands/fap_names.h"
 #include "tools/commands/head_options.h"
 #include "tools/commands/preview.h"
+#include "tools/commands/script_options.h"
 #include "tools/render/png.h"
 #include "tools/render/scene.h"
 #include "tools/speech/voice_file.h"
@@ -35,6 +36,7 @@ struct RenderOptions {
   std::string size = "640x640";
   std::string audio;
   std::string script;
+  speech::ScriptInput reading;
   std::string rate;
   std::vector<std::string> curves;
   int quality = 20;
@@ -158,7 +160,7 @@ Result<int> render_video(const RenderOptions& options, const Plan& plan) {
   if (!clip) return clip.error();
   Result<dam::Script> script = dam::Script{};
   if (!options.script.empty()) {
-    script = speech::read_script(options.script);
+    script = speech::read_script(options.script, options.reading, talk());
     if (!script) return script.error();
     preview.script = &*script;
   }
@@ -232,6 +234,7 @@ void add_options(CLI::App& app, RenderOptions& options) {
   app.add_option("--audio", options.audio,
                  "Video: sound beside the face; default: that of the input, if it has any");
   app.add_option("--script", options.script, "Video: phones to show below the face");
+  add_script_options(app, options.reading.reading, options.reading.language);
   app.add_option("--curves", options.curves,
                  "Video: FAPs to draw below the face, three at most, by number or name")
       ->delimiter(',')

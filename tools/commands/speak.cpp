@@ -188,9 +188,7 @@ Result<int> run(const SpeakOptions& options) {
   if (!written) return written;
   // Last, so that a failure leaves no file behind.
   if (!options.save_script.empty()) {
-    const bool table = extension_of(options.save_script) == ".tsv";
-    const std::string text =
-        table ? dam::write_script_tsv(spoken->script) : dam::write_textgrid(spoken->script);
+    const std::string text = dam::write_script(spoken->script, extension_of(options.save_script));
     if (auto done = write_file(options.save_script, text); !done) return done.error();
   }
   report(options, *spoken, *signal, synthesis);
@@ -211,8 +209,8 @@ void add_options(CLI::App& app, SpeakOptions& options) {
   app.add_option("--rate", options.rate, "Frames a second: 25, 29.97, 60 ...")
       ->capture_default_str();
   add_output(app.add_option("--save-script", options.save_script,
-                            "Also write the timed phones: .TextGrid (Praat) or .tsv"),
-             {".TextGrid", ".tsv"}, OutputKind::file);
+                            "Also write the timed phones: .TextGrid, .tsv, .pho or .vtt"),
+             dam::script_endings(), OutputKind::file);
   app.add_option("--style", options.style,
                  "Intensity: 0 keeps the mouth at rest, 1 is as learned, 1.5 exaggerates")
       ->option_text("0..1.5=1")

@@ -2,18 +2,25 @@
 
 #include <CLI/CLI.hpp>
 
+#include "tools/commands/script_options.h"
+
 namespace animeme::tools {
 
 void add_spoken_options(CLI::App& app, speech::SpokenOptions& options) {
   app.add_option("--text", options.text, "Text to speak with a synthetic voice")
+      ->option_text("TEXT")
       ->each([&options](const std::string&) { options.has_text = true; });
   app.add_option("--text-file", options.text_file, "The same from a file, - for standard input")
+      ->option_text("FILE")
       ->excludes("--text");
   app.add_option("--script", options.script,
-                 "Timed phones of a recording: TSV (start_s end_s phone) or Praat TextGrid")
+                 "Timed phones or words: TextGrid, labels, subtitles, what speech services give")
       ->excludes("--text")
       ->excludes("--text-file");
+  add_script_options(app, options.script_reading);
+  for (const char* name : {"--tier", "--script-format"}) app.get_option(name)->needs("--script");
   app.add_option("--audio", options.audio, "Recorded voice in any format that FFmpeg reads")
+      ->option_text("FILE")
       ->excludes("--text")
       ->excludes("--text-file");
   app.add_option("--transcript", options.transcript,

@@ -12,7 +12,8 @@ class App;
 
 namespace animeme::tools {
 
-/// Adds --text, --text-file, --script, --audio, --transcript, --lang, --speed, --pitch.
+/// Adds --text, --text-file, --script, --tier, --script-format, --audio, --transcript, --lang,
+/// --speed, --pitch.
 void add_spoken_options(CLI::App& app, speech::SpokenOptions& options);
 
 /// A sentence about what is missing on the command line, empty if nothing is.

@@ -9,6 +9,7 @@
 #include "tools/commands/face_stream.h"
 #include "tools/commands/head_options.h"
 #include "tools/commands/page_sound.h"
+#include "tools/commands/script_options.h"
 #include "tools/speech/voice_file.h"
 #include "tools/text.h"
 #include "tools/viewer/viewer.h"
@@ -29,6 +30,7 @@ struct ViewOptions {
   std::string audio;
   SoundSettings sound;
   std::string script;
+  speech::ScriptInput reading;
   LengthLimit length;
   studio::HeadChoice head;
 };
@@ -117,7 +119,7 @@ Result<int> run(const ViewOptions& options) {
   const double seconds = *sound ? (*sound)->seconds : 0;
   if (*sound) page.sound = std::move((*sound)->sound);
   if (!options.script.empty()) {
-    Result<dam::Script> script = speech::read_script(options.script);
+    Result<dam::Script> script = speech::read_script(options.script, options.reading, talk());
     if (!script) return script.error();
     page.script = std::move(*script);
   }
@@ -147,7 +149,8 @@ void add_options(CLI::App& app, ViewOptions& options) {
                  "Sound in any format that FFmpeg reads; default: that of a container. AAC and "
                  "Opus stay as they are unless one of the options below is given");
   app.add_option("--script", options.script,
-                 "Phoneme script (table or TextGrid) to show with the curves");
+                 "Phoneme script (of any format) to show with the curves");
+  add_script_options(app, options.reading.reading, options.reading.language);
   add_sound_options(app, options.sound, false);
   add_length_option(app, options.length);
   add_head_options(app, options.head);

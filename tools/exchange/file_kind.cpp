@@ -16,6 +16,18 @@ std::string_view text_of(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+// Label files and MBROLA's have a word at the end or at the beginning of a line, a header of FAP
+// text has numbers at both.
+bool ends_in_a_word(std::string_view line) {
+  line = line.substr(0, line.find(" #"));  // a comment
+  const std::size_t last = line.find_last_not_of(" \t\r");
+  if (last == std::string_view::npos) return false;
+  const std::size_t begin = line.find_last_of(" \t", last);
+  const std::string_view word =
+      line.substr(begin == std::string_view::npos ? 0 : begin + 1, last - (begin + 1) + 1);
+  return word.find_first_of("0123456789") == std::string_view::npos;
+}
+
 }  // namespace
 
 bool is_playlist(std::span<const std::uint8_t> bytes) {
@@ -34,7 +46,7 @@ FileKind kind_of(std::span<const std::uint8_t> bytes) {
                      code == 0x01 || code == 0x03;
     if (fba) return FileKind::fba_stream;
   }
-  // Text has no control bytes but blanks; UTF-16 scripts have a byte order mark.
+  // Text has no control bytes but blanks, and of texts only scripts come as UTF-16.
   if (whole.starts_with("\xFF\xFE") || whole.starts_with("\xFE\xFF")) return FileKind::script;
   std::string_view view = whole.substr(0, kHead);
   const bool text = std::none_of(view.begin(), view.end(), [](char c) {
@@ -43,7 +55,9 @@ FileKind kind_of(std::span<const std::uint8_t> bytes) {
   if (!text) return FileKind::media;
   if (view.starts_with("\xEF\xBB\xBF")) view.remove_prefix(3);
   if (view.find("ooTextFile") != std::string_view::npos) return FileKind::script;
-  // A table with a header line of words is a script; FAP text is numbers from its first word on.
+  if (view.starts_with("WEBVTT")) return FileKind::script;
+  // A table with a header line of words is a script; FAP text is numbers from its first word on,
+  // and to its last.
   while (!view.empty()) {
     const std::size_t end = view.find('\n');
     const std::string_view line = view.substr(0, end);
@@ -57,7 +71,9 @@ FileKind kind_of(std::span<const std::uint8_t> bytes) {
       }
       const char c = line[first];
       const bool number = (c >= '0' && c <= '9') || c == '-' || c == '.';
-      if (!number) return FileKind::script;
+      if (!number || ends_in_a_word(line) || view.find("-->") != std::string_view::npos) {
+        return FileKind::script;
+      }
       const std::string_view version =
           line.substr(first, line.find_first_of(" \t\r", first) - first);
       return version == "3.1" || version == "3.2" ? FileKind::bap_text : FileKind::fap_text;

@@ -1,5 +1,4 @@
 #include "dam/model/model.h"
-#include "dam/script/script.h"
 #include "fap/rate_text.h"
 #include "tools/inspect/file_internal.h"
 #include "tools/json.h"
@@ -74,12 +73,18 @@ Result<Json> describe_model(std::span<const std::uint8_t> bytes) {
   return json;
 }
 
-Result<Json> describe_script(std::span<const std::uint8_t> bytes) {
-  Result<dam::Script> script =
-      dam::read_script({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+Result<Json> describe_script(const dam::Timings& timings) {
+  Json json = {{"kind", "script"}, {"format", timings.format}};
+  if (dam::has_words(timings)) {
+    json["words"] = timings.labels.size();
+    json["seconds"] = timings.labels.back().end;
+    return json;
+  }
+  Result<dam::Script> script = dam::make_script(timings);
   if (!script) return script.error();
-  return Json{
-      {"kind", "script"}, {"phones", script->phones.size()}, {"seconds", script->duration()}};
+  json["phones"] = script->phones.size();
+  json["seconds"] = script->duration();
+  return json;
 }
 
 std::string tree_text(const Json& object) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "dam/script/timings.h"
 #include "fap/result.h"
 
 namespace animeme::inspect {
@@ -14,8 +15,8 @@ namespace animeme::inspect {
 /// A model file: method, phones, controls. Errors: those of dam::read_model().
 Result<nlohmann::ordered_json> describe_model(std::span<const std::uint8_t> bytes);
 
-/// A phoneme script of any format. Errors: those of dam::read_script().
-Result<nlohmann::ordered_json> describe_script(std::span<const std::uint8_t> bytes);
+/// A script of phones, or of words. Errors: those of dam::make_script().
+Result<nlohmann::ordered_json> describe_script(const dam::Timings& timings);
 
 /// An object as indented "name: value" lines; lists of objects as one line each. What is empty is
 /// left out.

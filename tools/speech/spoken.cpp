@@ -21,7 +21,8 @@ Result<Spoken> speak(const SpokenOptions& options, const std::string& text) {
 }
 
 Result<Spoken> follow_script(const SpokenOptions& options, const tools::Talk& talk) {
-  Result<dam::Script> script = read_script(options.script, options.most_seconds);
+  Result<dam::Script> script = read_script(
+      options.script, {options.script_reading, options.language, options.most_seconds}, talk);
   if (!script) return script.error();
   Spoken spoken{std::move(*script), std::nullopt, {}};
   if (options.audio.empty()) return spoken;

@@ -21,7 +21,8 @@ struct SpokenOptions {
   std::string text;                    ///< what to say
   bool has_text = false;               ///< text may be empty
   std::string text_file;               ///< "-": standard input
-  std::string script;                  ///< a phoneme script of any format
+  std::string script;                  ///< a script of any format
+  dam::ScriptOptions script_reading;   ///< how it is read
   std::string audio;                   ///< a recorded voice
   std::string transcript;              ///< what is said in it
   bool has_transcript = false;         ///< transcript may be empty

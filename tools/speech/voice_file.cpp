@@ -5,23 +5,37 @@
 #include "tools/files/files.h"
 #include "tools/media/audio.h"
 #include "tools/media/container.h"
+#include "tools/scripts/script_text.h"
+#include "tools/voice/word_phones.h"
 
 namespace animeme::speech {
 
-Result<dam::Script> read_script(const std::string& path, double most_seconds) {
+Result<dam::Script> read_script(const std::string& path, const ScriptInput& input,
+                                const tools::Talk& talk) {
   const Result<std::string> text = tools::read_text_file(path, tools::kMostWritten);
   if (!text) return text.error();
-  return parse_script(*text, path, most_seconds);
+  return parse_script(*text, path, input, talk);
 }
 
 Result<dam::Script> parse_script(const std::string& text, const std::string& path,
-                                 double most_seconds) {
-  Result<dam::Script> script = dam::read_script(text);
+                                 const ScriptInput& input, const tools::Talk& talk) {
+  Result<dam::Timings> timings = scripts::read_labels(text, input.reading);
+  if (!timings) return timings.error().in_file(path);
+  if (dam::has_words(*timings)) {
+    std::vector<std::string> warnings;
+    voice::AlignOptions settings;
+    settings.language = input.language;
+    timings = voice::words_to_phones(*timings, settings, warnings);
+    if (!timings) return timings.error().in_file(path);
+    for (const std::string& warning : warnings) talk.warn(path + ": " + warning);
+    talk.say(path + ": words with times; their phones are guessed by pronunciation");
+  }
+  Result<dam::Script> script = dam::make_script(*timings);
   if (!script) return script.error().in_file(path);
-  if (script->duration() > most_seconds) {
+  if (script->duration() > input.most_seconds) {
     return make_error(Code::out_of_range,
                       "the script lasts " + std::to_string(std::llround(script->duration())) +
-                          " s, at most " + std::to_string(std::llround(most_seconds)) +
+                          " s, at most " + std::to_string(std::llround(input.most_seconds)) +
                           " s are spoken; correct its times or allow more (--max-seconds)")
         .in_file(path);
   }

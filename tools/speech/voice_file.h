@@ -20,13 +20,22 @@ namespace animeme::speech {
 /// and two gigabytes of curves.
 inline constexpr double kMostSeconds = 3600;
 
-/// A phoneme script of any format. Errors: those of tools::read_text_file() and dam::read_script();
-/// out_of_range (it lasts more than `most_seconds`).
-Result<dam::Script> read_script(const std::string& path,
-                                double most_seconds = dam::kMaxScriptSeconds);
+/// How a script is read.
+struct ScriptInput {
+  dam::ScriptOptions reading;   ///< its format, tier, unit; nothing: by its content
+  std::string language = "en";  ///< of words that come without phones
+  double most_seconds = dam::kMaxScriptSeconds;  ///< longer ones are refused
+};
+
+/// A script of any format (tools/scripts/script_text.h). Words with times get their phones by
+/// pronunciation, with a sentence to talk.say() that says so. Errors: those of
+/// tools::read_text_file(), scripts::read_labels(), dam::make_script() and
+/// voice::words_to_phones(); out_of_range (it lasts more than `most_seconds`).
+Result<dam::Script> read_script(const std::string& path, const ScriptInput& input = {},
+                                const tools::Talk& talk = {});
 /// The same from its text; `path` is for messages.
 Result<dam::Script> parse_script(const std::string& text, const std::string& path,
-                                 double most_seconds = dam::kMaxScriptSeconds);
+                                 const ScriptInput& input = {}, const tools::Talk& talk = {});
 
 /// A recording as samples of one channel; `sample_rate` 0: its own. Errors: those of
 /// media::read_audio().

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "dam/script/phones.h"
+#include "dam/script/timings.h"
 #include "tools/voice/pronunciation.h"
 #include "tools/voice/recogniser.h"
 #include "tools/voice/transcript.h"
@@ -40,13 +40,6 @@ std::vector<std::int16_t> to_int16(const std::vector<float>& samples) {
   return out;
 }
 
-// Usual relative durations, for the case that there is nothing better.
-double usual_duration(std::string_view label) {
-  const dam::PhoneInfo* phone = dam::find_phone(label);
-  if (phone == nullptr || !phone->vowel) return 1.0;
-  return phone->viseme_start != phone->viseme_end ? 1.8 : 1.4;
-}
-
 struct Stretch {
   double start = 0, end = 0;
 };
@@ -72,7 +65,7 @@ std::vector<Segment> spread_evenly(const std::vector<std::int16_t>& samples,
                                    const std::vector<SpokenWord>& words) {
   double total = 0;
   for (const SpokenWord& word : words) {
-    for (const std::string& label : word.variants[0]) total += usual_duration(label);
+    for (const std::string& label : word.variants[0]) total += dam::usual_duration(label);
   }
   const Stretch loud = loud_part(samples);
   std::vector<Segment> segments;
@@ -81,7 +74,7 @@ std::vector<Segment> spread_evenly(const std::vector<std::int16_t>& samples,
   for (std::size_t w = 0; w < words.size(); ++w) {
     for (const std::string& label : words[w].variants[0]) {
       segments.push_back({loud.start + (loud.end - loud.start) * done / total, label, w});
-      done += usual_duration(label);
+      done += dam::usual_duration(label);
     }
   }
   segments.push_back({loud.end, std::string(dam::kSilence), kNoWord});

@@ -1,0 +1,141 @@
+// Tables of recognisers and voices: MBROLA, CTM, PocketSphinx.
+#include <algorithm>
+#include <set>
+
+#include "dam/script/script_readers_internal.h"
+#include "dam/script/script_timeline_internal.h"
+
+namespace animeme::dam {
+namespace {
+
+constexpr double kSphinxRate = 100;  // frames
+constexpr double kLeastPhone = 3;    // ms, on average
+
+bool all_numbers(const LabelRow& row, std::size_t from) {
+  for (std::size_t i = from; i < row.fields.size(); ++i) {
+    if (!row.is_number(i)) return false;
+  }
+  return row.fields.size() > from;
+}
+
+// "EXCUSE(2)" is the second way to say it.
+std::string_view without_variant(std::string_view word) {
+  const std::size_t bracket = word.rfind('(');
+  const bool variant = bracket != std::string_view::npos && bracket > 0 && word.ends_with(')');
+  return variant ? word.substr(0, bracket) : word;
+}
+
+}  // namespace
+
+bool looks_like_pho(std::string_view text) {
+  const auto rows = first_rows(text, 20, ";");
+  return !rows.empty() && std::all_of(rows.begin(), rows.end(), [](const LabelRow& row) {
+    return row.fields[0] == "#" || (all_numbers(row, 1) && !row.is_number(0)) ||
+           (row.fields.size() == 2 && row.is_number(1));
+  }) && std::any_of(rows.begin(), rows.end(), [](const LabelRow& row) {
+    return !row.is_number(0) && row.fields.size() > 1;
+  });
+}
+
+Result<Timings> read_pho(std::string_view text, const ScriptOptions& options) {
+  Timings timings;
+  LabelRows reader(text, ";");
+  LabelRow row;
+  double reached = 0;  // milliseconds, so that their sum is exact where they are whole numbers
+  while (reader.next(row)) {
+    if (row.fields[0] == "#" && row.fields.size() == 1) continue;  // "speak now"
+    const auto length = row.seconds(1, "duration");
+    if (!length) return length.error();
+    const double end = reached + *length;
+    const double rate = rate_or(options, 1000);
+    TimedLabel label = row.label_at(0, reached / rate, end / rate);
+    reached = end;
+    if (*length == 0) continue;  // a diphone that is only passed through
+    timings.labels.push_back(std::move(label));
+  }
+  // Others have .pho files, too, which count seconds. Who names the format knows.
+  const bool told = !options.format.empty() || options.rate > 0;
+  if (!told && reached < kLeastPhone * double(timings.labels.size())) {
+    return make_error(Code::syntax,
+                      "these phones last less than 3 ms each; MBROLA counts milliseconds, for "
+                      "durations in seconds say --script-format pho@1");
+  }
+  return timings;
+}
+
+bool looks_like_ctm(std::string_view text) {
+  const auto rows = first_rows(text, 20, ";;");
+  const bool shaped = std::all_of(rows.begin(), rows.end(), [](const LabelRow& row) {
+    return row.fields.size() >= 5 && row.fields.size() <= 8 && row.is_number(2) && row.is_number(3);
+  });
+  // A word may be a number; not all of them. MBROLA's pitches are.
+  return shaped && std::any_of(rows.begin(), rows.end(),
+                               [](const LabelRow& row) { return !row.is_number(4); });
+}
+
+Result<Timings> read_ctm(std::string_view text, const ScriptOptions& options) {
+  std::vector<std::string> names;
+  std::set<std::string> seen;
+  std::vector<std::pair<std::string, TimedLabel>> all;
+  LabelRows reader(text, ";;");
+  LabelRow row;
+  while (reader.next(row)) {
+    if (row.fields.size() < 5) {
+      return row.error(Code::syntax,
+                       "a line of a CTM holds recording, channel, start, duration and label", 5);
+    }
+    const auto start = row.seconds(2, "start", rate_or(options, 1));
+    if (!start) return start.error();
+    const auto length = row.seconds(3, "duration", rate_or(options, 1));
+    if (!length) return length.error();
+    std::string name(row.fields[0]);
+    if (seen.insert(name).second) names.push_back(name);
+    all.emplace_back(std::move(name), row.label_at(4, *start, *start + *length));
+  }
+  if (names.empty()) return nothing_in("CTM");
+  const auto name = choose_recording(names, options.tier);
+  if (!name) return name.error();
+  Timings timings;
+  for (auto& [of, label] : all) {
+    if (of == *name) timings.labels.push_back(std::move(label));
+  }
+  decide_unit(timings.labels, options.unit);
+  return timings;
+}
+
+bool looks_like_phseg(std::string_view text) {
+  const auto rows = first_rows(text, 1);
+  return !rows.empty() && rows[0].fields[0] == "SFrm";
+}
+
+Result<Timings> read_phseg(std::string_view text, const ScriptOptions& options) {
+  Timings timings;
+  LabelRows reader(text);
+  LabelRow row;
+  const double rate = rate_or(options, kSphinxRate);
+  bool words = false;
+  while (reader.next(row)) {
+    if (row.fields[0] == "SFrm") {
+      words = row.fields.back() == "Word";
+      continue;
+    }
+    if (row.fields[0] == "Total") break;  // "Total score"
+    const auto start = row.seconds(0, "start", rate);
+    if (!start) return start.error();
+    const auto last = row.seconds(1, "end");
+    if (!last) return last.error();
+    if (row.fields.size() < 4) {
+      return row.error(Code::syntax, "a line holds first frame, last frame, score and phone", 4);
+    }
+    TimedLabel label = row.label_at(3, *start, (*last + 1) / rate);  // the last frame belongs to it
+    label.label = std::string(without_variant(row.fields[3]));
+    // Fillers are called <sil>, ++NOISE++ or +SPN+.
+    if (label.label.starts_with('<') || label.label.starts_with('+')) label.label.clear();
+    label.is_word = words && !label.label.empty();
+    timings.labels.push_back(std::move(label));
+  }
+  if (options.unit != LabelUnit::automatic) decide_unit(timings.labels, options.unit);
+  return timings;
+}
+
+}  // namespace animeme::dam

@@ -1,0 +1,25 @@
+/// @file
+/// The options of commands that read a script: which of its tiers, and in what format it is.
+#pragma once
+
+#include <string>
+
+#include "dam/script/script.h"
+
+namespace CLI {
+class App;
+}
+
+namespace animeme::tools {
+
+/// Adds --tier and --script-format.
+void add_script_options(CLI::App& app, dam::ScriptOptions& reading);
+
+/// The same for commands that have no --lang: adds it for words that come without phones.
+void add_script_options(CLI::App& app, dam::ScriptOptions& reading, std::string& language);
+
+/// Reads "FORMAT", "FORMAT:words", "FORMAT:phones", "FORMAT@RATE" or several of them; a sentence
+/// about what is wrong, empty if nothing is.
+std::string parse_script_format(const std::string& text, dam::ScriptOptions& reading);
+
+}  // namespace animeme::tools

@@ -1,0 +1,34 @@
+/// @file
+/// Scripts of all formats, JSON included: what aligners, recognisers and speech services write
+/// about when which sound or word is spoken.
+///
+///     auto timings = animeme::scripts::read_labels(text);
+///     if (timings && !animeme::dam::has_words(*timings)) script =
+///     animeme::dam::make_script(*timings);
+///
+/// JSON is told apart by its members: Montreal aligner, Gentle, WhisperX and other lists of words
+/// with times, Rhubarb Lip Sync, events of Azure Speech, speech marks of Amazon Polly (a JSON a
+/// line), characters of ElevenLabs, words and phones of Inworld, tokens of Kokoro, visemes of
+/// HeadTTS. Members may be spelt in any case, with or without "_", since each language's library
+/// has its own way. Times, units and silence of each: dam/script/phoneme_scripts.md, section 1.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "dam/script/timings.h"
+#include "fap/result.h"
+
+/// Scripts of other programs.
+namespace animeme::scripts {
+
+/// The formats of dam::text_script_formats() and those of JSON, each name once.
+std::span<const dam::ScriptFormat> script_formats();
+
+/// Reads the labels of a script of any format. Labels of visemes are the phones that stand for them
+/// (dam/script/viseme_phones.h). Errors: those of dam::read_timings(); for JSON, with line and
+/// column, syntax (no JSON, none of these formats, a member that is no text or no time), not_found
+/// (an unknown viseme, no such tier), truncated (nothing in it).
+Result<dam::Timings> read_labels(std::string_view text, const dam::ScriptOptions& options = {});
+
+}  // namespace animeme::scripts
