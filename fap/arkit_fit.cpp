@@ -30,7 +30,7 @@ constexpr Direct kDirect[] = {
 
 // The distance of the lips beside the FAPs that make it: without it, one of three closed P B M of
 // the sample comes back as closed, at 1 all but one of 39; at 2 faces are seen to be less alike.
-constexpr double kLipsCount = 1;
+constexpr double kMeetingOfShapes = 1;
 
 double effect(std::size_t channel, int fap) {
   for (const ArkitWeight& weight : arkit_weights()[channel]) {
@@ -66,7 +66,7 @@ std::vector<std::vector<ArkitWeight>> weights_of(const std::vector<std::size_t>&
 
 // What the shapes do to the distance of the lips.
 internal::Lips lips_of(const std::vector<std::vector<ArkitWeight>>& weights) {
-  internal::Lips lips{kLipsCount, {}, {}, false};
+  internal::Lips lips{kMeetingOfShapes, {}, {}, false};
   lips.at_rest.fill(std::numeric_limits<double>::max());
   for (const std::vector<ArkitWeight>& shape : weights) {
     internal::LipValues& closing = lips.closing.emplace_back();

@@ -25,12 +25,12 @@ const char* glitch_name(GlitchKind kind);
 
 /// Frames of one control of one sentence that cannot be what the face did.
 struct Glitch {
-  std::string id;       ///< of the sentence
-  std::string control;  ///< the channel
-  GlitchKind kind = GlitchKind::jump;
-  std::size_t first = 0;   ///< frame
-  std::size_t frames = 0;  ///< so many from there
-  double time = 0;         ///< seconds of the first
+  std::string id;                      ///< of the sentence
+  std::string control;                 ///< the channel
+  GlitchKind kind = GlitchKind::jump;  ///< what is wrong
+  std::size_t first = 0;               ///< frame
+  std::size_t frames = 0;              ///< so many from there
+  double time = 0;                     ///< seconds of the first
   /// Up to 0.12 s, as with Bridges::build: a straight line is in its place. Else its frames do not
   /// count as measured.
   bool bridged = false;

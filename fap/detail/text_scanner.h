@@ -103,8 +103,8 @@ inline std::string in_quotes(std::string_view token) {
 
 /// Whether bytes are UTF-16 without a byte order mark, and then whether the high byte is the first.
 /// Digits, blanks and line ends, of which every file of numbers has many, have a zero byte there,
-/// always on the same side; other encodings of text have no zero bytes. The first 4 kB are looked
-/// at.
+/// always on the same side; other encodings of text have no zero bytes, and a single one is damage.
+/// The first 4 kB are looked at.
 inline std::optional<bool> unmarked_utf16(std::string_view bytes) {
   bytes = bytes.substr(0, 4096);
   std::size_t zeros[2] = {0, 0};
@@ -112,7 +112,7 @@ inline std::optional<bool> unmarked_utf16(std::string_view bytes) {
     if (bytes[i] == 0) ++zeros[i % 2];
   }
   if ((zeros[0] == 0) == (zeros[1] == 0)) return std::nullopt;
-  if (16 * (zeros[0] + zeros[1]) < bytes.size()) return std::nullopt;
+  if (zeros[0] + zeros[1] < 2 || 16 * (zeros[0] + zeros[1]) < bytes.size()) return std::nullopt;
   return zeros[0] > 0;
 }
 

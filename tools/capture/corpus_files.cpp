@@ -5,6 +5,7 @@
 #include <map>
 
 #include "dam/script/table_text_internal.h"
+#include "dam/script/timings.h"
 #include "fap/detail/text_scanner.h"
 #include "tools/files/files.h"
 
@@ -74,40 +75,20 @@ Result<void> add_sounds(const std::string& place, std::map<std::string, Take>& t
   return {};
 }
 
-// The words of subtitles: without numbers, times, notes and tags.
-std::string words_of_subtitles(std::string_view text) {
-  std::string words;
-  const auto lines = dam::table_lines(text);
-  const auto is_time = [&](std::size_t i) {
-    return i < lines.size() && lines[i].text.find("-->") != std::string_view::npos;
-  };
-  bool cue = false;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    cue = cue || is_time(i);
-    // A line right before a time is the name of the cue; text has an empty line behind it.
-    const bool name = is_time(i + 1) && lines[i + 1].number == lines[i].number + 1;
-    if (!cue || is_time(i) || name) continue;
-    char until = 0;
-    for (const char c : lines[i].text) {
-      if (until != 0) {
-        if (c == until) until = 0;
-      } else if (c == '<' || c == '[' || c == '{') {
-        until = c == '<' ? '>' : c == '[' ? ']' : '}';
-      } else {
-        words += c;
-      }
-    }
-    words += ' ';
-  }
-  return words;
-}
-
 Result<void> read_text(const std::string& path, Take& take) {
   const auto text = read_text_file(path, kMostWritten);
   if (!text) return text.error();
   const std::string ending = extension_of(path);
-  const bool subtitles = ending == ".srt" || ending == ".vtt";
-  take.text = subtitles ? words_of_subtitles(*text) : std::string(dam::trimmed(*text));
+  if (ending != ".srt" && ending != ".vtt") {
+    take.text = std::string(dam::trimmed(*text));
+    return {};
+  }
+  dam::ScriptOptions options;
+  options.format = "subtitles";
+  const auto timings = dam::read_timings(*text, options);
+  if (!timings) return timings.error().in_file(path);
+  take.text.emplace();
+  for (const dam::TimedLabel& label : timings->labels) *take.text += label.label + " ";
   return {};
 }
 

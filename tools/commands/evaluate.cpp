@@ -350,12 +350,15 @@ Result<int> run(const EvaluateOptions& options) {
 
 void add_thresholds(CLI::App& app, EvaluateOptions& options) {
   app.add_option("--max-nrmse", options.max_nrmse, "Exit code 1 if the mean NRMSE is above this")
+      ->option_text("ERROR")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--min-closed", options.min_closed,
                  "Exit code 1 if less than this percentage of P B M is closed")
+      ->option_text("SHARE")
       ->check(CLI::Range(0.0, 100.0));
   app.add_option("--max-false-per-minute", options.max_false,
                  "Exit code 1 if there are more false closures")
+      ->option_text("N")
       ->check(CLI::NonNegativeNumber);
 }
 
@@ -363,6 +366,7 @@ void add_folds(CLI::App& app, EvaluateOptions& options) {
   app.add_option("--folds", options.folds,
                  "In place of a model: train as many, each without its share of the sentences, "
                  "which it then speaks")
+      ->option_text("N")
       ->check(CLI::Range(2, 1000));
   app.add_option("--method", options.method, "With --folds: kind of model, see train")
       ->check(CLI::IsMember(method_names()))
@@ -396,8 +400,8 @@ void add_options(CLI::App& app, EvaluateOptions& options) {
   app.add_option("--against", options.against,
                  "A second model or folder of tracks: difference with its interval");
   app.add_option("--draws", options.draws, "Draws of the bootstrap over sentences")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
+      ->option_text("N=1000")
+      ->check(CLI::Range(1, 1000000));
   CLI::Option* codec =
       app.add_flag("--codec", options.codec, "Error of the codec apart, and its bit rate");
   add_coding_options(app, options.stream);

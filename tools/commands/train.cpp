@@ -156,12 +156,12 @@ Action add_train(CLI::App& app) {
                  "else 0..1 for ARKit's shapes and for what never leaves 0..1")
       ->option_text("FILE");
   app.add_option("--order", options->train.animeme.order, "dam-paper: degree M of the polynomials")
-      ->check(CLI::Range(0, 8))
-      ->capture_default_str();
+      ->option_text("0..8=4")
+      ->check(CLI::Range(0, 8));
   app.add_option("--states", options->train.trajectory.states,
                  "mmm: Gaussians a phone, one for each part of its time")
-      ->check(CLI::Range(1, 8))
-      ->capture_default_str();
+      ->option_text("1..8=3")
+      ->check(CLI::Range(1, 8));
   app.add_flag("--single-mode", options->single_mode, "dam-paper: one mode a phone");
   app.add_flag("--plain-sum", options->plain_sum,
                "Methods of the paper: plain sum of Eq. 2, not divided by the sum of dominances");

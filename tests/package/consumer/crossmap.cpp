@@ -3,7 +3,7 @@
 
 int main() {
   using animeme::crossmap::read_project;
-  const auto project = read_project("inputs = [\"take.csv\"]\nto = \"arkit\"\n", "");
+  const auto project = read_project("inputs = [\"take.csv\"]\n[target]\nto = \"arkit\"\n", "");
   const auto wrong = read_project("tow = \"arkit\"\n", "");
   return project && project->to == "arkit" && !wrong ? 0 : 1;
 }
