@@ -145,11 +145,13 @@ Result<Model> own_alone(const Sentences& sentences, TrainOptions options) {
 Result<double> choose(const Model& base, const Material& material,
                       const std::vector<Control>& controls, const TrainOptions& options,
                       AdaptReport& report, const ProgressFunction& progress) {
+  const std::span<const double> ridges =
+      options.refined.ridge > 0 ? std::span(&options.refined.ridge, 1) : std::span(kRidges);
   const std::size_t folds = std::min(kFolds, material.sentences.size());
-  if (folds < 2) return kRidges[std::size(kRidges) - 1];
+  if (folds < 2) return ridges.back();
   const std::size_t tried = material.sentences.size() >= kManySentences ? 1 : folds;
   double alone = 0;
-  std::vector<double> error(std::size(kRidges), 0.0);
+  std::vector<double> error(ridges.size(), 0.0);
   for (std::size_t fold = 0; fold < tried; ++fold) {
     const auto [in, in_made] = material.part(fold, folds, false);
     const auto out = material.part(fold, folds, true).first;
@@ -160,11 +162,11 @@ Result<double> choose(const Model& base, const Material& material,
     report.own_error += error_of(*own, out, controls) / double(tried);
     const auto sums = sums_of_rest(base, in, in_made, telling, options);
     if (!sums) return sums.error();
-    for (std::size_t r = 0; r < std::size(kRidges); ++r) {
-      const double done = (double(fold) + double(r) / std::size(kRidges)) / double(tried);
+    for (std::size_t r = 0; r < ridges.size(); ++r) {
+      const double done = (double(fold) + double(r) / double(ridges.size())) / double(tried);
       if (progress && !progress({"base", done, 0}))
         return make_error(Code::invalid_argument, "cancelled");
-      const auto more = solved(*sums, options, kRidges[r]);
+      const auto more = solved(*sums, options, ridges[r]);
       if (!more) return more.error();
       error[r] += error_of(add_up(base, telling, controls, &*more), out, controls) / double(tried);
     }
@@ -172,7 +174,7 @@ Result<double> choose(const Model& base, const Material& material,
   const auto best = std::min_element(error.begin(), error.end());
   report.base_error = alone;
   report.error = std::min(alone, *best);
-  return *best < alone ? kRidges[best - error.begin()] : 0;
+  return *best < alone ? ridges[std::size_t(best - error.begin())] : 0;
 }
 
 std::string joined(const std::string& first, const std::string& second) {
