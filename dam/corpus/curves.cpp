@@ -6,6 +6,7 @@
 
 #include "dam/corpus/corpus.h"
 #include "dam/script/table_text_internal.h"
+#include "fap/detail/text_scanner.h"
 
 namespace animeme::dam {
 namespace {
@@ -51,8 +52,7 @@ struct CurveColumns {
 bool is_blank(std::string_view field) {
   field = trimmed(field);
   if (field.empty() || field == "\"\"" || field.starts_with('#')) return true;
-  std::string word;
-  for (const char c : field) word += c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+  const std::string word = fap::detail::lower_case(field);
   for (const std::string_view blank : {"na", "n/a", "null", "none", "-"})
     if (word == blank) return true;
   const auto number = parse_number(word);

@@ -6,6 +6,8 @@
 #include <set>
 #include <utility>
 
+#include "fap/detail/text_scanner.h"
+
 namespace animeme::dam {
 namespace {
 
@@ -15,9 +17,7 @@ constexpr double kRounding = 1e-6;  // of the largest value
 constexpr double kMost = 1e100;     // squares of more have no end
 
 std::string key_of(std::string_view label) {
-  std::string key(label);
-  for (char& c : key)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+  const std::string key = fap::detail::lower_case(label);
   return key == "neutral" || key == "sil" ? "rest" : key;
 }
 
