@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs what is missing, builds everything and runs all tests: once as released, once under
-# the address and undefined behaviour sanitizers. Ends with the time of each part and the tests that
-# were skipped.
+# the address and undefined behaviour sanitizers. Ends with the tests that were skipped,
+# the slowest steps and tests, and the time of each part.
 #   tests/run.sh             with the programs that read most of our files
 #   tests/run.sh full        also with those that take long to install: browsers, players, npm packages
 #   tests/run.sh quick       the release build only
@@ -36,6 +36,9 @@ finish() {
   # shellcheck disable=SC2046  # the logs that there are
   "$here/tests/skipped.sh" $(ls build/release/Testing/Temporary/LastTest.log \
     build/asan/Testing/Temporary/LastTest.log 2>/dev/null) || true
+  for preset in release asan; do
+    [ ! -f "build/$preset/tests.xml" ] || { echo "== $preset"; "$here/tests/slowest.sh" "$preset"; } || true
+  done
   echo "== Time"
   cat "$times"
   exit "$status"
@@ -43,7 +46,7 @@ finish() {
 
 run() {
   preset=$1 more=$2
-  rm -f "build/$preset/Testing/Temporary/LastTest.log"
+  rm -f "build/$preset/Testing/Temporary/LastTest.log" "build/$preset/tests.xml"
   part "$preset: configure" cmake --preset "$preset" --log-level=STATUS || finish
   part "$preset: build" cmake --build "build/$preset" || finish
   # More than there are cores, since live streams and pages mostly wait. What times out gets a second try,

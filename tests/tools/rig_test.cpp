@@ -42,8 +42,8 @@ class Rig : public ::testing::Test {
     spill(path, all.substr(0, end));
   }
   std::string train(const std::string& name, std::vector<std::string> more = {}) const {
-    std::vector<std::string> arguments = {"train",     corpus(),           "-o",
-                                          dir_ / name, "--max-iterations", "3"};
+    std::vector<std::string> arguments = {
+        "train", corpus(), "-o", dir_ / name, "--max-iterations", "3", "--ridge-factor", "1"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     succeeds(arguments);
     return dir_ / name;
@@ -160,8 +160,8 @@ TEST_F(Rig, LittleMaterialIsAddedToABase) {
   const dam::Signal spoken = curves(dir_ / "rig.dam");
   EXPECT_GE(least(spoken, 0), 0);
   EXPECT_GT(most(spoken, 0), 0.2);
-  const auto text =
-      animeme({"train", corpus(), "--base", dir_ / "rig.dam", "-o", dir_ / "again.dam"});
+  const auto text = animeme({"train", corpus(), "--base", dir_ / "rig.dam", "--ridge-factor", "1",
+                             "-o", dir_ / "again.dam"});
   EXPECT_EQ(text.exit_code, 0) << text.err;
   EXPECT_THAT(text.err, HasSubstr("error on sentences left out in turn"));
   const auto merge =
