@@ -14,7 +14,8 @@ namespace animeme::dam {
 namespace {
 
 // What a step of each feature is worth. Found by hand so that the nearest phones of the letters of
-// the chart have the visemes of phoneme_scripts.md, section 3; tests/dam/ipa_test.cpp holds them.
+// the chart have the visemes of dam/script/phoneme_scripts.md, section 3; tests/dam/ipa_test.cpp
+// holds them.
 constexpr double kOfClosure = 4, kOfRounding = 2, kOfVowelRounding = 2.5, kOfHeight = 1.5,
                  kOfSpreading = 0.8, kOfBackness = 0.5, kOfPlace = 0.5, kOfRhotic = 1,
                  kOfNasal = 0.3, kOfLateral = 0.6, kOfTeeth = 0.8, kOfVoice = 0.1;

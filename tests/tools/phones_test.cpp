@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "tests/tools/commands.h"
-#include "tools/json.h"
 
 namespace animeme {
 namespace phones_command_test {
 
 using test::animeme;
+using Json = nlohmann::json;
 using test::TempDir;
 using testing::HasSubstr;
 using testing::Not;

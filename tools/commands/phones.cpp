@@ -127,7 +127,7 @@ Result<int> run_all(const PhonesOptions& options) {
     const auto symbols = voice::voice_symbols(voice);
     if (!symbols) return symbols.error();
     const voice::SymbolCounts counts = voice::count_symbols(*symbols);
-    all += counts;
+    voice::add_counts(counts, all);
     if (options.json) {
       list.push_back({{"voice", info.identifier}, {"counts", json_of(counts)}});
     } else {

@@ -42,18 +42,23 @@ bool is_flat(const Features& f) {
   return is_vowel(f) && f.rounding == 0 && f.height == 1 && f.backness >= 0.5;
 }
 
-bool hears(const VoiceSymbol& symbol, bool (*what)(const Features&)) {
+template <class Test>
+bool hears(const VoiceSymbol& symbol, Test test) {
   return std::any_of(symbol.sounds.begin(), symbol.sounds.end(), [&](const IpaSound& sound) {
-    return std::any_of(sound.heard.begin(), sound.heard.end(), what);
+    return std::any_of(sound.heard.begin(), sound.heard.end(), test);
   });
 }
 
-bool says(const VoiceSymbol& symbol, bool dam::PhoneInfo::*what) {
+template <class Test>
+bool says(const VoiceSymbol& symbol, Test test) {
   return std::any_of(symbol.sounds.begin(), symbol.sounds.end(), [&](const IpaSound& sound) {
     const dam::PhoneInfo* phone = dam::find_phone(sound.label);
-    return phone != nullptr && phone->*what;
+    return phone != nullptr && test(*phone);
   });
 }
+
+bool closes(const dam::PhoneInfo& phone) { return phone.bilabial; }
+bool rounds(const dam::PhoneInfo& phone) { return phone.rounded; }
 
 }  // namespace
 
@@ -86,14 +91,17 @@ Result<std::vector<VoiceSymbol>> voice_symbols(const VoiceOptions& options) {
   return symbols;
 }
 
-SymbolCounts& SymbolCounts::operator+=(const SymbolCounts& other) {
-  for (const auto member :
-       {&SymbolCounts::exact, &SymbolCounts::features, &SymbolCounts::marks, &SymbolCounts::unknown,
-        &SymbolCounts::bilabial, &SymbolCounts::closed, &SymbolCounts::round,
-        &SymbolCounts::rounded, &SymbolCounts::flat, &SymbolCounts::unrounded}) {
-    this->*member += other.*member;
-  }
-  return *this;
+void add_counts(const SymbolCounts& more, SymbolCounts& all) {
+  all.exact += more.exact;
+  all.features += more.features;
+  all.marks += more.marks;
+  all.unknown += more.unknown;
+  all.bilabial += more.bilabial;
+  all.closed += more.closed;
+  all.round += more.round;
+  all.rounded += more.rounded;
+  all.flat += more.flat;
+  all.unrounded += more.unrounded;
 }
 
 SymbolCounts count_symbols(const std::vector<VoiceSymbol>& symbols) {
@@ -108,12 +116,12 @@ SymbolCounts count_symbols(const std::vector<VoiceSymbol>& symbols) {
     // espeak-ng has phonemes that it says nothing for.
     const bool bilabial = symbol.bilabial && !(symbol.known && symbol.sounds.empty());
     counts.bilabial += bilabial;
-    counts.closed += bilabial && says(symbol, &dam::PhoneInfo::bilabial);
+    counts.closed += bilabial && says(symbol, closes);
     const bool round = hears(symbol, is_round), flat = hears(symbol, is_flat);
     counts.round += round;
-    counts.rounded += round && says(symbol, &dam::PhoneInfo::rounded);
+    counts.rounded += round && says(symbol, rounds);
     counts.flat += flat && !round;
-    counts.unrounded += flat && !round && !says(symbol, &dam::PhoneInfo::rounded);
+    counts.unrounded += flat && !round && !says(symbol, rounds);
   }
   return counts;
 }

@@ -27,17 +27,20 @@ Result<std::vector<VoiceSymbol>> voice_symbols(const VoiceOptions& options = {})
 
 /// How the symbols of a voice are spoken.
 struct SymbolCounts {
-  std::size_t exact = 0;                 ///< letters of the phones that models know
-  std::size_t features = 0;              ///< the phone that looks most alike, or several
-  std::size_t marks = 0;                 ///< without a sound of their own
-  std::size_t unknown = 0;               ///< a letter is in no table
-  std::size_t bilabial = 0, closed = 0;  ///< espeak-ng's bilabials; of them those with P B M
-  std::size_t round = 0, rounded = 0;    ///< rounded vowels; of them those with a rounded phone
-  std::size_t flat = 0, unrounded = 0;   ///< ɨ ɯ; of them those whose phones are all unrounded
-
-  /// Adds those of another voice.
-  SymbolCounts& operator+=(const SymbolCounts& other);
+  std::size_t exact = 0;      ///< letters of the phones that models know
+  std::size_t features = 0;   ///< the phone that looks most alike, or several
+  std::size_t marks = 0;      ///< without a sound of their own
+  std::size_t unknown = 0;    ///< a letter is in no table
+  std::size_t bilabial = 0;   ///< espeak-ng calls them consonants of both lips
+  std::size_t closed = 0;     ///< of those: P, B or M is spoken
+  std::size_t round = 0;      ///< rounded vowels
+  std::size_t rounded = 0;    ///< of those: a rounded phone is spoken
+  std::size_t flat = 0;       ///< ɨ and ɯ
+  std::size_t unrounded = 0;  ///< of those: no rounded phone is spoken
 };
+
+/// Adds those of another voice.
+void add_counts(const SymbolCounts& more, SymbolCounts& all);
 
 /// Counts.
 SymbolCounts count_symbols(const std::vector<VoiceSymbol>& symbols);
