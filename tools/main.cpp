@@ -37,12 +37,14 @@ int run(int argc, char** argv) {
       "internal error, 130 stopped by Ctrl-C (what was written so far is complete).");
   bool quiet = false;
   app.add_flag("-q,--quiet", quiet, "No talk on standard error but errors");
+  bool verbose = false;
+  app.add_flag("-v,--verbose", verbose, "More talk: which sounds a model lacks, and what is said");
   app.fallthrough();
 
-  const Command* commands[] = {&kSpeak,  &kFollow,   &kAlign,    &kCorpus, &kTrain,  &kEvaluate,
-                               &kEncode, &kDecode,   &kMux,      &kDemux,  &kInfo,   &kCompare,
-                               &kCheck,  &kStats,    &kPlot,     &kView,   &kRender, &kHead,
-                               &kImport, &kCrossmap, &kRetarget, &kExport, &kStream, &kReceive};
+  const Command* commands[] = {
+      &kSpeak,  &kFollow,   &kAlign,    &kCorpus, &kTrain,  &kEvaluate, &kEncode, &kDecode, &kMux,
+      &kDemux,  &kInfo,     &kCompare,  &kCheck,  &kStats,  &kPlot,     &kView,   &kRender, &kHead,
+      &kImport, &kCrossmap, &kRetarget, &kExport, &kStream, &kReceive,  &kPhones};
   Action chosen;
   for (const Command* command : commands) {
     CLI::App* sub = app.add_subcommand(command->name, command->summary);
@@ -56,6 +58,7 @@ int run(int argc, char** argv) {
     return app.exit(error) == 0 ? kOk : kUsage;
   }
   set_quiet(quiet);
+  set_verbose(verbose);
   for (const CLI::App* command : app.get_subcommands()) {
     if (const std::string text = problem_with_outputs(*command); !text.empty()) {
       return usage_error(text);

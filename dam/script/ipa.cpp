@@ -1,117 +1,74 @@
 #include "dam/script/ipa.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <string>
 
-#include "dam/script/ipa_table_internal.h"
+#include "dam/script/ipa_letters_internal.h"
 #include "dam/script/phones.h"
 #include "dam/script/script_text_internal.h"
 
 namespace animeme::dam {
 namespace {
 
-constexpr char32_t kRaised = 0x31D;       // r with it is the Czech fricative
-constexpr char32_t kCedilla = 0x327;      // c with it is a letter
-constexpr char32_t kNonSyllabic = 0x32F;  // a vowel with it is a glide
-constexpr char32_t kLabialised = U'ʷ';
+constexpr char32_t kCedilla = 0x327;  // c with it is a letter
 
-bool is_combining(char32_t code) { return code >= 0x300 && code <= 0x36F; }
-bool is_digit(char32_t code) { return code >= U'0' && code <= U'9'; }
-bool is_ignored(char32_t code) {
-  return is_combining(code) || kIpaIgnored.find(code) != std::u32string_view::npos;
-}
+// A letter with its marks.
+struct HeardLetter {
+  char32_t letter = 0;
+  Features features;
+  bool lengthened = false;
+  bool changed = false;    // a mark says that the letter is not what it is by itself
+  std::string_view after;  // what the end of the sound adds: W, R, nothing
+};
 
-char32_t decompose(char32_t code) {
-  const auto found =
-      std::find_if(std::begin(kComposedLetters), std::end(kComposedLetters),
-                   [&](const ComposedLetter& candidate) { return candidate.letter == code; });
-  return found == std::end(kComposedLetters) ? code : found->base;
-}
-
-// Code points with ç composed; X-SAMPA diacritics and tone digits are gone.
-std::u32string prepare(std::string_view text) {
-  std::u32string out;
-  bool has_letter = false;
+std::u32string code_points(std::string_view text) {
+  std::u32string codes;
   while (!text.empty()) {
-    const char32_t code = decompose(take_code_point(text));
-    if (code == kCedilla && !out.empty() && out.back() == U'c') {
-      out.back() = U'ç';
-    } else if (code == U'_') {  // an X-SAMPA diacritic: the sign and the one behind it
-      if (!text.empty()) take_code_point(text);
-    } else if (!(is_digit(code) && has_letter)) {  // a digit behind a letter is a tone
-      out += code;
-      has_letter = has_letter || !is_ignored(code);
+    const char32_t code = without_accent(take_code_point(text));
+    if (code == kCedilla && !codes.empty() && codes.back() == U'c') {
+      codes.back() = U'ç';
+    } else if (code == U'ʦ' || code == U'ʣ') {  // ligatures that ARPAbet has no phone for
+      codes += code == U'ʦ' ? U"ts" : U"dz";
+    } else {
+      codes += code;
     }
   }
-  return out;
+  return codes;
 }
 
-struct WideEntry {
-  std::u32string letters;
-  const IpaEntry* entry;
-};
-
-const std::vector<WideEntry>& wide_entries() {
-  static const std::vector<WideEntry> entries = [] {
-    std::vector<WideEntry> all;
-    for (const IpaEntry& entry : kIpaEntries) {
-      std::string_view rest = entry.letters;
-      WideEntry& wide = all.emplace_back(WideEntry{{}, &entry});
-      while (!rest.empty()) wide.letters += take_code_point(rest);
+const XSampa* longest_x_sampa(std::u32string_view rest) {
+  const XSampa* best = nullptr;
+  for (const XSampa& row : x_sampa()) {
+    if (rest.starts_with(row.text) && (best == nullptr || row.text.size() > best->text.size())) {
+      best = &row;
     }
-    return all;
-  }();
-  return entries;
-}
-
-// How many code points from `at` the letters cover, marks between them skipped; 0: no fit.
-std::size_t match(std::u32string_view text, std::size_t at, std::u32string_view letters) {
-  std::size_t i = at;
-  for (const char32_t letter : letters) {
-    while (i > at && i < text.size() && text[i] != letter && is_ignored(text[i])) ++i;
-    if (i >= text.size() || text[i] != letter) return 0;
-    ++i;
-  }
-  return i - at;
-}
-
-struct Match {
-  const IpaEntry* entry = nullptr;
-  std::size_t letters = 0, length = 0;
-};
-
-Match longest_match(std::u32string_view text, std::size_t at) {
-  Match best;
-  for (const WideEntry& wide : wide_entries()) {
-    if (wide.letters.size() <= best.letters) continue;
-    const std::size_t length = match(text, at, wide.letters);
-    if (length > 0) best = {wide.entry, wide.letters.size(), length};
   }
   return best;
 }
 
-bool has_mark(std::u32string_view text, std::size_t at, char32_t mark) {
-  for (; at < text.size() && is_ignored(text[at]); ++at) {
-    if (text[at] == mark) return true;
+// IPA alone; tone digits are gone.
+std::u32string prepare(std::string_view text) {
+  const std::u32string codes = code_points(text);
+  std::u32string out;
+  bool has_letter = false;
+  for (std::size_t at = 0; at < codes.size();) {
+    const char32_t code = codes[at];
+    if (has_letter && code >= U'0' && code <= U'9') {  // a digit behind a letter is a tone
+      ++at;
+      continue;
+    }
+    const XSampa* row = longest_x_sampa(std::u32string_view(codes).substr(at));
+    if (row == nullptr && code == U'_') {  // a diacritic that lips do not show: two characters
+      at += 2;
+      continue;
+    }
+    out += row != nullptr ? row->ipa : code;
+    at += row != nullptr ? row->text.size() : 1;
+    has_letter = has_letter || find_ipa_letter(out.back()) != nullptr;
   }
-  return false;
-}
-
-// The label of a match, changed by the marks that follow it.
-std::string_view label_of(const Match& found, std::u32string_view text, std::size_t after) {
-  const std::string_view label = found.entry->label;
-  if (label == "R" && has_mark(text, after, kRaised)) return "ZH";
-  if (has_mark(text, after, kNonSyllabic)) {
-    if (label == "IY" || label == "IH") return "Y";
-    if (label == "UW" || label == "UH") return "W";
-  }
-  return label;
-}
-
-bool can_be_aspirated(std::string_view label) {
-  constexpr std::string_view kStops[] = {"P", "B", "T", "D", "K", "G", "CH", "JH"};
-  return std::find(std::begin(kStops), std::end(kStops), label) != std::end(kStops);
+  return out;
 }
 
 Error unknown_letter(char32_t code) {
@@ -127,39 +84,248 @@ Error unknown_letter(char32_t code) {
                                          "letters of the IPA chart");
 }
 
-void add(std::vector<std::string_view>& labels, std::string_view label) {
-  if (label.empty()) return;
-  if (labels.empty() || labels.back() != label) labels.push_back(label);
+void round_end(HeardLetter& heard) {
+  if (heard.features.manner == Manner::vowel) {
+    heard.features.rounding = 1;
+    heard.changed = true;
+  } else if (heard.features.rounding < 0.5) {
+    heard.after = "W";
+  }
+}
+
+// The vowel of "bird" is one sound with its r, others are followed by one.
+void colour(HeardLetter& heard) {
+  Features& f = heard.features;
+  if (f.manner != Manner::vowel || f.rhotic) return;
+  const bool like_bird = f.height > 0.3 && f.height < 0.6 && f.backness == 0.5 && f.rounding == 0;
+  heard.changed = true;
+  if (like_bird) {
+    f = find_ipa_letter(U'ɝ')->features;
+  } else {
+    heard.after = "R";
+  }
+}
+
+void make_glide(HeardLetter& heard) {
+  const Features& f = heard.features;
+  if (f.manner != Manner::vowel || f.height < 0.8) return;
+  const char32_t letter = f.rounding < 0.5 ? U'j' : f.backness < 0.36 ? U'ɥ' : U'w';
+  heard.letter = letter;
+  heard.features = find_ipa_letter(letter)->features;
+}
+
+// Raised as in Czech ř, an r becomes a fricative.
+void raise(HeardLetter& heard, double by) {
+  Features& f = heard.features;
+  heard.changed = true;
+  if (f.manner == Manner::vowel) f.height = std::clamp(f.height + by, 0.0, 1.0);
+  if (f.manner != Manner::vowel && f.rhotic && by > 0) {
+    const bool voiced = f.voiced;
+    f = find_ipa_letter(U'ʒ')->features;
+    f.voiced = voiced;
+  }
+}
+
+void change(HeardLetter& heard, IpaMark mark) {
+  constexpr double kStep = 0.1, kLipStep = 0.3;
+  Features& f = heard.features;
+  const Features before = f;
+  const double drawn = f.manner == Manner::vowel ? 0.15 : 0;
+  if (mark == IpaMark::lengthened) heard.lengthened = true;
+  if (mark == IpaMark::labialised) round_end(heard);
+  if (mark == IpaMark::more_rounded) f.rounding = std::min(f.rounding + kLipStep, 1.0);
+  if (mark == IpaMark::less_rounded) f.rounding = std::max(f.rounding - kLipStep, 0.0);
+  if (mark == IpaMark::raised) raise(heard, kStep);
+  if (mark == IpaMark::lowered) raise(heard, -kStep);
+  if (mark == IpaMark::advanced) f.backness = std::max(f.backness - drawn, 0.0);
+  if (mark == IpaMark::retracted) f.backness = std::min(f.backness + drawn, 1.0);
+  if (mark == IpaMark::centralised && drawn > 0) f.backness = (f.backness + 0.5) / 2;
+  if (mark == IpaMark::voiceless) f.voiced = false;
+  if (mark == IpaMark::voiced) f.voiced = true;
+  if (mark == IpaMark::non_syllabic) make_glide(heard);
+  if (mark == IpaMark::rhotic) colour(heard);
+  heard.changed = heard.changed || !(f == before);
+}
+
+// A raised nasal behind a letter is how that one ends.
+bool is_release(char32_t code) { return code == U'ⁿ' || code == U'ᵐ' || code == U'ᵑ'; }
+
+Result<std::vector<HeardLetter>> hear(std::u32string_view codes) {
+  std::vector<HeardLetter> heard;
+  for (const char32_t code : codes) {
+    if (const IpaLetter* letter = find_ipa_letter(code)) {
+      if (is_release(code) && !heard.empty()) continue;
+      heard.push_back({code, letter->features, false, false, {}});
+    } else if (const IpaMark* mark = find_ipa_mark(code)) {
+      if (!heard.empty()) change(heard.back(), *mark);
+    } else {
+      return unknown_letter(code);
+    }
+  }
+  return heard;
+}
+
+struct EnglishSpelling {
+  std::u32string_view letters;  // ː asks for a long vowel
+  std::string_view label, second;
+};
+
+// Vowels of English that dictionaries write otherwise than PhoneInfo::ipa.
+constexpr EnglishSpelling kEnglish[] = {{U"ɜː", "ER", {}},
+                                        {U"ɜːɹ", "ER", {}},
+                                        {U"əɹ", "ER", {}},
+                                        {U"əʊ", "OW", {}},
+                                        {U"oːɹ", "AO", "R"}};
+
+using Heard = std::span<const HeardLetter>;
+
+// How many letters of `heard` the spelling takes; 0: it is another one.
+std::size_t spelled(Heard heard, std::u32string_view letters) {
+  std::size_t count = 0;
+  for (const char32_t letter : letters) {
+    if (letter == U'ː') {
+      if (!heard[count - 1].lengthened) return 0;
+    } else if (count == heard.size() || heard[count].letter != letter || heard[count].changed) {
+      return 0;
+    } else {
+      ++count;
+    }
+  }
+  return count;
+}
+
+struct Match {
+  std::size_t letters = 0;
+  std::string_view label, second;
+};
+
+Match match_spelling(Heard heard) {
+  Match best;
+  const auto offer = [&](std::u32string_view letters, std::string_view label,
+                         std::string_view second) {
+    const std::size_t count = spelled(heard, letters);
+    if (count > best.letters) best = {count, label, second};
+  };
+  for (const EnglishSpelling& row : kEnglish) offer(row.letters, row.label, row.second);
+  for (const PhoneInfo& phone : phones()) {
+    if (phone.ipa.empty()) continue;
+    const std::u32string letters = code_points(phone.ipa);
+    offer(letters, phone.label, {});
+    if (letters == U"ɡ") offer(U"g", phone.label, {});
+  }
+  return best;
+}
+
+bool is_stop(const Features& f) { return f.manner == Manner::stop; }
+bool is_affricate_end(const Features& f) {
+  return f.manner == Manner::fricative && f.place > Place::alveolar && f.place < Place::palatal;
+}
+
+// A stop of the tip of the tongue and a hushing fricative are CH or JH.
+std::string_view affricate_of(const Features& stop, const Features& end) {
+  const bool tip = stop.place >= Place::dental && stop.place < Place::palatal;
+  if (!is_stop(stop) || !tip || !is_affricate_end(end)) return {};
+  return end.voiced ? "JH" : "CH";
+}
+
+// Two vowels that are one movement of ARPAbet, seen from the front: where the first is, and that
+// the second is a close one. Lips tell u from i, and hardly how far back a vowel is.
+std::string_view diphthong_of(const HeardLetter& first, const HeardLetter& second) {
+  constexpr double kNear = 0.52, kNearEnd = 0.4, kOfSide = 0.3, kOpen = 0.2;
+  const auto gap = [](const Features& a, const Features& b) {
+    return 2 * std::abs(std::max(a.rounding, 0.0) - b.rounding) +
+           1.5 * std::abs(a.height - b.height) + kOfSide * std::abs(a.backness - b.backness);
+  };
+  const bool glide = second.letter == U'j' || second.letter == U'w';
+  const bool closing = second.features.height > first.features.height + 0.05;
+  if (first.features.manner != Manner::vowel || first.features.rhotic || second.lengthened ||
+      !closing || (second.features.manner != Manner::vowel && !glide)) {
+    return {};
+  }
+  std::string_view best;
+  double least = kNear;
+  for (const std::string_view label : {"AW", "AY", "EY", "OW", "OY"}) {
+    const auto parts = phone_features(label);
+    const Features& from = first.features;
+    const bool alike = parts[0].height < kOpen ? from.height <= kOpen
+                                               : std::abs(parts[0].backness - from.backness) < 0.5;
+    const double start = gap(from, parts[0]);
+    if (alike && start < least && gap(second.features, parts[1]) < kNearEnd) {
+      best = label;
+      least = start;
+    }
+  }
+  return best;
+}
+
+void add(std::vector<IpaSound>& sounds, IpaSound sound) {
+  if (sound.label.empty()) return;
+  if (sounds.empty() || sounds.back().label != sound.label) sounds.push_back(std::move(sound));
+}
+
+std::vector<Features> features_of(Heard heard) {
+  std::vector<Features> features;
+  for (const HeardLetter& one : heard) features.push_back(one.features);
+  return features;
+}
+
+// Adds the sound that `heard` begins with; how many letters it has.
+std::size_t add_sound(Heard heard, std::vector<IpaSound>& sounds) {
+  const Match found = match_spelling(heard);
+  if (found.letters < 2 && heard.size() > 1) {
+    std::string_view label = affricate_of(heard[0].features, heard[1].features);
+    if (label.empty()) label = diphthong_of(heard[0], heard[1]);
+    if (!label.empty()) {
+      add(sounds, {label, false, features_of(heard.first(2))});
+      return 2;
+    }
+  }
+  if (found.letters == 0) {
+    add(sounds, {nearest_phone(heard[0].features), false, features_of(heard.first(1))});
+    return 1;
+  }
+  const Heard said = heard.first(found.letters);
+  add(sounds, {found.label, true, features_of(found.second.empty() ? said : said.first(1))});
+  add(sounds, {found.second, true, features_of(said.last(1))});
+  return found.letters;
+}
+
+bool can_be_aspirated(const Features& f) {
+  return f.manner == Manner::stop || f.manner == Manner::affricate;
 }
 
 }  // namespace
 
-Result<std::vector<IpaPhone>> parse_ipa(std::string_view text, std::size_t most_bytes) {
+Result<std::vector<IpaSound>> parse_ipa_sounds(std::string_view text, std::size_t most_bytes) {
   if (text.size() > most_bytes) {
     return make_error(Code::out_of_range,
                       "more than " + std::to_string(most_bytes) +
                           " bytes of IPA for one sound; give one label a sound");
   }
-  const std::u32string codes = prepare(text);
-  std::vector<std::string_view> labels;
-  std::size_t at = 0;
-  while (at < codes.size()) {
-    const Match found = longest_match(codes, at);
-    if (found.entry == nullptr) {
-      if (!is_ignored(codes[at])) return unknown_letter(codes[at]);
-      ++at;
-      continue;
-    }
-    at += found.length;
-    add(labels, label_of(found, codes, at));
-    add(labels, found.entry->second);
-    const PhoneInfo* phone = find_phone(labels.back());
-    if (!phone->vowel && has_mark(codes, at, kLabialised)) add(labels, "W");
-    if (at < codes.size() && codes[at] == U'h' && can_be_aspirated(phone->label)) ++at;
+  const auto heard = hear(prepare(text));
+  if (!heard) return heard.error();
+  std::vector<IpaSound> sounds;
+  for (std::size_t at = 0; at < heard->size();) {
+    const std::size_t first = at;
+    at += add_sound(Heard(*heard).subspan(at), sounds);
+    const HeardLetter& last = (*heard)[at - 1];
+    if (last.after == "W") add(sounds, {"W", false, {find_ipa_letter(U'w')->features}});
+    if (last.after == "R") add(sounds, {"R", false, {find_ipa_letter(U'ɹ')->features}});
+    // "ph", "tʃh", "tsh": breath behind a stop.
+    const bool stopped = can_be_aspirated((*heard)[first].features) ||
+                         (first > 0 && last.features.manner == Manner::fricative &&
+                          can_be_aspirated((*heard)[first - 1].features));
+    if (at < heard->size() && (*heard)[at].letter == U'h' && stopped) ++at;
   }
+  return sounds;
+}
+
+Result<std::vector<IpaPhone>> parse_ipa(std::string_view text, std::size_t most_bytes) {
+  const auto sounds = parse_ipa_sounds(text, most_bytes);
+  if (!sounds) return sounds.error();
   std::vector<IpaPhone> phones;
-  for (const std::string_view label : labels) {
-    phones.push_back({label, 1.0 / double(labels.size())});
+  for (const IpaSound& sound : *sounds) {
+    phones.push_back({sound.label, 1.0 / double(sounds->size())});
   }
   return phones;
 }

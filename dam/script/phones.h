@@ -78,41 +78,24 @@ std::string_view nearest_label(std::string_view spelling);
 // phones (the GRID sentences have no ER HH NG OY SH UH ZH), so this is the normal case.
 //
 // Each label has an ordered list of alternatives, nearest first; take the first one all of whose
-// parts the model knows. An alternative is one phone for the whole duration, or two phones one
-// after the other with their shares of it. The lips decide, not the ear:
-//
-//   SIL  M | B | P                                    lips together, no gesture
-//   AA   AH | AE | AO | AY            AE   EH | AA | AH | EY        AH   AX | AA | EH | AE
-//   AX   AH | EH | IH | UH            EH   AE | EY | AX | IH        IH   IY | EH | Y | AX
-//   IY   IH | Y | EY | EH             AO   OW | AA+UW | AA | UH     UH   UW | OW | W | AX
-//   UW   UH | W | OW | AO             ER   AX+R | AH+R | R | UH | AH | EH
-//   AW   AA+UW | AA+UH | AH+UW | AE+UW | AA+W | OW | AA | AH
-//   AY   AA+IY | AA+IH | AH+IY | AE+IY | AH+IH | AE | AA | EY
-//   EY   EH+IY | EH+IH | AE+IY | AE+IH | EH | IH | IY
-//   OW   AO+UW | AO+UH | AH+UW | AO+W | AO | UW | UH
-//   OY   AO+IY | AO+IH | OW+IY | OW+IH | AO+EY | UW+IY | AO | OW
-//   P    B | M | F | V                B    P | M | V | F            M    B | P | V | F
-//   F    V | TH | P | B               V    F | DH | B | P
-//   TH   DH | T | S | L | D           DH   TH | D | L | Z | T
-//   T    D | N | S | L                D    T | N | Z | L            N    D | T | L | NG
-//   L    N | D | T | DH               S    Z | T | D | N            Z    S | D | T | N
-//   K    G | NG | HH | N | T          G    K | NG | HH | N | D      NG   G | K | N | D
-//   HH   next vowel | AX | AH | EH | K | G            Y    IY | IH | EY | G | K
-//   CH   JH | T+SH | SH | ZH | T+R | S                JH   CH | D+ZH | ZH | SH | D+R | Z
-//   SH   CH | JH | ZH | S+R | S | Z                   ZH   JH | SH | CH | Z+R | Z | S
-//   R    ER | W | UH | L              W    UW | UH | OW | R
-//
-// A model that knows none of a list asks the lists of those that are in it, and so on: from every
-// sound a way leads to every other, so that a model of few sounds speaks everything.
+// parts the model knows. All other phones are in it, so that a model of few sounds speaks
+// everything. An alternative is one phone for the whole duration, or two phones one after the
+// other with their shares of it: for diphthongs, affricates and ER, which is a schwa and an r. The
+// order is that of lip_distance() (dam/script/features.h): SH and ZH are rounded as CH and JH are.
+// HH and NG come first to the vowels beside them.
 // ---------------------------------------------------------------------------------------------
 
-/// Instead of a label in RelativePart: the phone has no mouth shape of its own and takes that of
-/// the next vowel of the script (none before the next silence: skip this alternative).
+/// Instead of a label in RelativePart: the phone has no mouth shape of its own and takes that in
+/// which the next vowel of the script begins (none before the next silence: skip this
+/// alternative).
 inline constexpr std::string_view kNextVowel = "<next vowel>";
+
+/// The same of the vowel before, as it ends.
+inline constexpr std::string_view kVowelBefore = "<vowel before>";
 
 /// One piece of an alternative.
 struct RelativePart {
-  std::string_view label;  ///< one of the 41, or kNextVowel
+  std::string_view label;  ///< one of the 41, kNextVowel or kVowelBefore
   double share = 1;        ///< of the duration of the phone that is replaced, 0..1
 };
 
@@ -125,7 +108,7 @@ struct Relative {
   std::span<const RelativePart> parts() const { return {part.data(), count}; }
 };
 
-/// The alternatives for `label`, nearest first; empty only for unknown labels.
+/// The alternatives for `label`, nearest first; empty for SIL and unknown labels.
 std::span<const Relative> phone_relatives(std::string_view label);
 
 }  // namespace animeme::dam

@@ -1,139 +1,110 @@
-// The table of dam/script/phones.h. Shares: a diphthong stays a little longer on its open half;
-// affricates are closed for two fifths.
+// Who stands in for whom (dam/script/phones.h): every other phone by the distance of the lips, and
+// pairs for the phones that are two sounds in turn.
 #include <algorithm>
-#include <iterator>
+#include <map>
+#include <vector>
 
+#include "dam/script/features.h"
 #include "dam/script/phones.h"
 
 namespace animeme::dam {
 namespace {
 
-struct RelativesText {
-  std::string_view label;
-  /// Separated by blanks. "AA:55:UW": AA for 55 % of the time, then UW; "*": kNextVowel.
-  std::string_view alternatives;
+using Ranked = std::vector<std::pair<double, Relative>>;
+
+constexpr std::size_t kPairs = 10;  // the nearest of them are enough: single phones follow
+// A pair of phones makes two gestures where one would do.
+constexpr double kOfPair = 0.15;
+// A phone that moves for one that does not, or the other way round.
+constexpr double kOfMovement = 0.4;
+
+// Two sounds in turn, and how long the first one lasts. The second of an affricate is on the lips
+// from its beginning.
+struct InTurn {
+  std::vector<Features> sounds;
+  double first_share = 1;
+  double first_weight = 1;
 };
 
-constexpr RelativesText kRelatives[] = {
-    // SIL: lips together and at rest, so the nearest are the sounds made with closed lips.
-    {"SIL", "M B P"},
-    // AA: the other open unrounded vowels; AO as open but rounded; AY starts here.
-    {"AA", "AH AE AO AY"},
-    // AE: the next more closed front vowel, then the open ones.
-    {"AE", "EH AA AH EY"},
-    // AH: its unstressed twin, then a little more open, then a little more spread.
-    {"AH", "AX AA EH AE"},
-    // AO: OW starts with it; else an open mouth that rounds.
-    {"AO", "OW AA:50:UW AA UH"},
-    // AW: a glide from open to rounded.
-    {"AW", "AA:55:UW AA:55:UH AH:55:UW AE:55:UW AA:55:W OW AA AH"},
-    // AX: a short half-open vowel without gesture.
-    {"AX", "AH EH IH UH"},
-    // AY: a glide from open to spread.
-    {"AY", "AA:55:IY AA:55:IH AH:55:IY AE:55:IY AH:55:IH AE AA EY"},
-    // B: same closure; F and V at least raise the lower lip.
-    {"B", "P M V F"},
-    // CH: same protrusion; T then R keeps teeth and rounding in turn.
-    {"CH", "JH T:40:SH SH ZH T:40:R S"},
-    // D: same place, the other voicing, then nasal, fricative, lateral.
-    {"D", "T N Z L"},
-    // DH: same place; then alveolars, which show the tongue less.
-    {"DH", "TH D L Z T"},
-    // EH: neighbours in opening, both unrounded.
-    {"EH", "AE EY AX IH"},
-    // ER: a vowel opening with the lips of R; R alone; a weakly rounded vowel.
-    {"ER", "AX:35:R AH:35:R R UH AH EH"},
-    // EY: a glide from half open to spread.
-    {"EY", "EH:50:IY EH:50:IH AE:50:IY AE:50:IH EH IH IY"},
-    // F: same contact; TH shows the teeth over a low lip; a closure is further off.
-    {"F", "V TH P B"},
-    // G: velars have neutral lips; so have HH and N.
-    {"G", "K NG HH N D"},
-    // HH: breath through the mouth of the vowel that follows; else a neutral mouth.
-    {"HH", "* AX AH EH K G"},
-    // IH: the same spread, less open; then more open.
-    {"IH", "IY EH Y AX"},
-    // IY: the same spread; EY ends here.
-    {"IY", "IH Y EY EH"},
-    // JH: same protrusion; D then R keeps teeth and rounding in turn.
-    {"JH", "CH D:40:ZH ZH SH D:40:R Z"},
-    // K: velars have neutral lips; so have HH and N.
-    {"K", "G NG HH N T"},
-    // L: tongue behind the teeth, lips neutral.
-    {"L", "N D T DH"},
-    // M: same closure; V and F at least raise the lower lip.
-    {"M", "B P V F"},
-    // N: same place, lips neutral.
-    {"N", "D T L NG"},
-    // NG: velar with neutral lips; N is as neutral.
-    {"NG", "G K N D"},
-    // OW: a glide from open rounded to closed rounded.
-    {"OW", "AO:50:UW AO:50:UH AH:40:UW AO:50:W AO UW UH"},
-    // OY: a glide from rounded to spread.
-    {"OY", "AO:50:IY AO:50:IH OW:50:IY OW:50:IH AO:50:EY UW:50:IY AO OW"},
-    // P: same closure; F and V at least raise the lower lip.
-    {"P", "B M F V"},
-    // R: the vowel of the same shape, then the rounded glide, then a weak rounding.
-    {"R", "ER W UH L"},
-    // S: same place and opening, then the stops, teeth nearly together.
-    {"S", "Z T D N"},
-    // SH: same protrusion and teeth; S then R keeps them in turn.
-    {"SH", "CH JH ZH S:50:R S Z"},
-    // T: same place, the other voicing, then nasal, fricative, lateral.
-    {"T", "D N S L"},
-    // TH: same place; then alveolars, which show the tongue less.
-    {"TH", "DH T S L D"},
-    // UH: the same rounding, tighter; OW ends here.
-    {"UH", "UW OW W AX"},
-    // UW: the same rounding, laxer; the glide made with it.
-    {"UW", "UH W OW AO"},
-    // V: same contact; DH shows the teeth over a low lip; a closure is further off.
-    {"V", "F DH B P"},
-    // W: the vowel of the same rounding; R is the weaker one.
-    {"W", "UW UH OW R"},
-    // Y: the vowel of the same spread; velars are at least neutral.
-    {"Y", "IY IH EY G K"},
-    // Z: same place and opening, then the stops, teeth nearly together.
-    {"Z", "S D T N"},
-    // ZH: same protrusion and teeth; Z then R keeps them in turn.
-    {"ZH", "JH SH CH Z:50:R Z S"},
-};
-
-struct RelativesRow {
-  std::string_view label;
-  std::array<Relative, 8> alternatives{};
-  std::size_t count = 0;
-};
-
-constexpr Relative relative(std::string_view text) {
-  const std::string_view first = text.substr(0, text.find(':'));
-  if (text == first) return {{{{text == "*" ? kNextVowel : text, 1.0}, {}}}, 1};
-  const std::string_view digits = text.substr(first.size() + 1, 2);
-  const double share = (10 * (digits[0] - '0') + digits[1] - '0') / 100.0;
-  return {{{{first, share}, {text.substr(first.size() + 4), 1.0 - share}}}, 2};
+InTurn in_turn(const PhoneInfo& phone) {
+  const auto sounds = phone_features(phone.label);
+  if (phone.label == "ER") {  // a schwa and an r
+    return {{phone_features("AX")[0], phone_features("R")[0]}, 0.35, 0.35};
+  }
+  if (sounds.size() < 2) return {{sounds.begin(), sounds.end()}, 1, 1};
+  return {{sounds.begin(), sounds.end()}, phone.vowel ? 0.5 : 0.4, phone.vowel ? 0.5 : 0.25};
 }
 
-constexpr auto kRows = [] {
-  std::array<RelativesRow, std::size(kRelatives)> rows;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    rows[i].label = kRelatives[i].label;
-    for (std::string_view rest = kRelatives[i].alternatives; !rest.empty();) {
-      const std::string_view text = rest.substr(0, rest.find(' '));
-      rows[i].alternatives[rows[i].count++] = relative(text);
-      rest.remove_prefix(std::min(text.size() + 1, rest.size()));
+double distance(const PhoneInfo& a, const PhoneInfo& b) {
+  const auto from = phone_features(a.label), to = phone_features(b.label);
+  const bool affricate = (from.size() > 1 && !a.vowel) || (to.size() > 1 && !b.vowel);
+  const double first = affricate ? 0.25 : 0.5;
+  return first * lip_distance(from.front(), to.front()) +
+         (1 - first) * lip_distance(from.back(), to.back()) +
+         (from.size() != to.size() ? kOfMovement : 0);
+}
+
+// A diphthong closes; what stands for it does, too.
+bool moves_alike(const InTurn& parts, const Features& first, const Features& second) {
+  const bool closes = parts.sounds[0].height < parts.sounds[1].height;
+  return !closes || first.height < second.height;
+}
+
+void add_pairs(const PhoneInfo& phone, Ranked& ranked) {
+  const InTurn parts = in_turn(phone);
+  if (parts.sounds.size() < 2) return;
+  Ranked pairs;
+  for (const PhoneInfo& first : phones()) {
+    const auto from = phone_features(first.label);
+    if (from.size() != 1) continue;
+    for (const PhoneInfo& second : phones()) {
+      const auto to = phone_features(second.label);
+      if (to.size() != 1 || first.label == phone.label || second.label == phone.label) continue;
+      if (!moves_alike(parts, from[0], to[0])) continue;
+      const double cost = kOfPair + parts.first_weight * lip_distance(parts.sounds[0], from[0]) +
+                          (1 - parts.first_weight) * lip_distance(parts.sounds[1], to[0]);
+      pairs.push_back(
+          {cost, {{{{first.label, parts.first_share}, {second.label, 1 - parts.first_share}}}, 2}});
     }
   }
-  return rows;
-}();
+  const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
+  std::stable_sort(pairs.begin(), pairs.end(), nearer);
+  pairs.resize(std::min(pairs.size(), kPairs));
+  ranked.insert(ranked.end(), pairs.begin(), pairs.end());
+}
+
+Relative single(std::string_view label) { return {{{{label, 1.0}, {}}}, 1}; }
+
+std::vector<Relative> relatives_of(const PhoneInfo& phone) {
+  Ranked ranked;
+  // Breath goes through the mouth of a vowel, and a velar nasal leaves the lips alone.
+  if (phone.label == "HH") ranked = {{-2, single(kNextVowel)}, {-1, single(kVowelBefore)}};
+  if (phone.label == "NG") ranked = {{-2, single(kVowelBefore)}, {-1, single(kNextVowel)}};
+  for (const PhoneInfo& other : phones()) {
+    if (other.label == phone.label || other.label == phones()[0].label) continue;
+    ranked.push_back({distance(phone, other), single(other.label)});
+  }
+  add_pairs(phone, ranked);
+  const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
+  std::stable_sort(ranked.begin(), ranked.end(), nearer);
+  std::vector<Relative> relatives;
+  for (const auto& [cost, relative] : ranked) relatives.push_back(relative);
+  return relatives;
+}
+
+std::map<std::string_view, std::vector<Relative>> all_relatives() {
+  std::map<std::string_view, std::vector<Relative>> all;
+  for (const PhoneInfo& phone : phones().subspan(1)) all[phone.label] = relatives_of(phone);
+  return all;
+}
 
 }  // namespace
 
 std::span<const Relative> phone_relatives(std::string_view label) {
-  const auto row = std::find_if(kRows.begin(), kRows.end(), [&](const RelativesRow& candidate) {
-    return candidate.label == label;
-  });
-  if (row == kRows.end()) return {};
-  return std::span(row->alternatives).first(row->count);
+  static const auto all = all_relatives();
+  const auto found = all.find(label);
+  if (found == all.end()) return {};
+  return found->second;
 }
 
 }  // namespace animeme::dam

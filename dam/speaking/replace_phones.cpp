@@ -1,19 +1,32 @@
 #include <algorithm>
 
+#include "dam/script/features.h"
 #include "dam/script/phones.h"
 #include "dam/speaking/synthesise.h"
 
 namespace animeme::dam {
 namespace {
 
-/// The vowel after phone `at`, before the next silence, that the model knows; empty if none.
-std::string_view next_vowel(const Model& model, const Script& script, std::size_t at) {
-  for (std::size_t i = at + 1; i < script.phones.size(); ++i) {
+/// The label itself or the nearest phone that the model has for it; empty: the model has none.
+std::string_view known_like(const Model& model, std::string_view label) {
+  if (model.find_phone(label) >= 0) return label;
+  for (const Relative& relative : phone_relatives(label))
+    if (relative.count == 1 && model.find_phone(relative.part[0].label) >= 0)
+      return relative.part[0].label;
+  return {};
+}
+
+/// What the mouth does beside phone `at`: how the next vowel begins, or how the one before ends.
+/// Empty: there is none before the next silence.
+std::string_view vowel_beside(const Model& model, const Script& script, std::size_t at, bool next) {
+  const std::size_t count = script.phones.size();
+  for (std::size_t i = next ? at + 1 : at - 1; i < count; i += next ? 1 : std::size_t(-1)) {
     const std::string& label = script.phones[i].label;
     if (label == kSilence) break;
     const PhoneInfo* info = find_phone(label);
-    if (info != nullptr && info->vowel)
-      return model.find_phone(label) >= 0 ? label : std::string_view{};
+    if (info == nullptr || !info->vowel) continue;
+    const auto sounds = phone_features(label);
+    return known_like(model, nearest_phone(next ? sounds.front() : sounds.back()));
   }
   return {};
 }
@@ -23,8 +36,9 @@ std::vector<std::string_view> labels_of(const Model& model, const Script& script
                                         const Relative& relative) {
   std::vector<std::string_view> labels;
   for (const RelativePart& part : relative.parts()) {
+    const bool next = part.label == kNextVowel;
     const std::string_view label =
-        part.label == kNextVowel ? next_vowel(model, script, at) : part.label;
+        next || part.label == kVowelBefore ? vowel_beside(model, script, at, next) : part.label;
     if (label.empty() || model.find_phone(label) < 0) return {};
     labels.push_back(label);
   }
@@ -45,20 +59,12 @@ struct Stand {
   std::vector<std::string_view> labels;
 };
 
-/// The nearest relative that the model can say; if it has none, one of the relatives' relatives,
-/// and so on: a model of few sounds speaks everything, with the mouth that comes nearest.
+/// The nearest relative that the model can say. All other phones are relatives: a model of few
+/// sounds speaks everything, with the mouth that comes nearest.
 Stand stand_in(const Model& model, const Script& script, std::size_t at) {
-  std::vector<std::string_view> asked = {script.phones[at].label};
-  for (std::size_t i = 0; i < asked.size(); ++i) {
-    for (const Relative& relative : phone_relatives(asked[i]))
-      if (auto labels = labels_of(model, script, at, relative); !labels.empty())
-        return {&relative, std::move(labels)};
-    for (const Relative& relative : phone_relatives(asked[i]))
-      for (const RelativePart& part : relative.parts())
-        if (part.label != kNextVowel &&
-            std::find(asked.begin(), asked.end(), part.label) == asked.end())
-          asked.push_back(part.label);
-  }
+  for (const Relative& relative : phone_relatives(script.phones[at].label))
+    if (auto labels = labels_of(model, script, at, relative); !labels.empty())
+      return {&relative, std::move(labels)};
   return {};
 }
 

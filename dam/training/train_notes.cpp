@@ -28,7 +28,9 @@ void warn_of(const char* start, const std::vector<std::string>& items, const cha
 
 std::string spoken_instead(const Model& model, std::string_view label) {
   const auto relatives = phone_relatives(label);
-  if (!relatives.empty() && relatives[0].part[0].label == kNextVowel) return "the next vowel";
+  const std::string_view first = relatives.empty() ? "" : relatives[0].part[0].label;
+  if (first == kNextVowel) return "the next vowel";
+  if (first == kVowelBefore) return "the vowel before";
   Script script;
   script.phones = {{0, 1, std::string(label), ""}};
   SynthesisReport report;

@@ -106,6 +106,41 @@ TEST(Ipa, MarksThatMatterAndMarksThatDoNot) {
   EXPECT_EQ(labels(""), "");
 }
 
+TEST(Ipa, MarksChangeFeatures) {
+  EXPECT_EQ(labels("r̝̊"), "SH");
+  EXPECT_EQ(labels("a˞"), "AA R");
+  EXPECT_EQ(labels("ə˞"), "ER");
+  EXPECT_EQ(labels("b̥"), "P");
+  EXPECT_EQ(labels("ɔ̜̜̜"), "AH");  // rounding taken away
+  EXPECT_EQ(labels("ᵐb"), "M B");
+  EXPECT_EQ(labels("dⁿ"), "D");
+  EXPECT_EQ(labels("t_w"), "T W");  // X-SAMPA
+  EXPECT_EQ(labels("u_^"), "W");
+  EXPECT_EQ(labels("tsh"), "T S");
+}
+
+TEST(Ipa, DiphthongsAreToldByWhereTheyBeginAndEnd) {
+  EXPECT_EQ(labels("aɨ"), "AY");
+  EXPECT_EQ(labels("æʊ"), "AW");
+  EXPECT_EQ(labels("ɔø"), "AO UH");  // ends rounded: not OY
+  EXPECT_EQ(labels("ie"), "IY EY");
+  EXPECT_EQ(labels("aɪʊ"), "AY UH");
+  EXPECT_EQ(labels("yɪ"), "UW IH");
+}
+
+TEST(Ipa, WhatIsExactAndWhatIsNearest) {
+  const auto sounds = [](std::string_view ipa) { return parse_ipa_sounds(ipa).value(); };
+  for (const char* exact : {"p", "ʃ", "tʃ", "aɪ", "uː", "ɝ", "g", "ɡ"}) {
+    EXPECT_TRUE(sounds(exact)[0].exact) << exact;
+  }
+  for (const char* other : {"y", "r", "tɕ", "aj", "e", "b̥"}) {
+    EXPECT_FALSE(sounds(other)[0].exact) << other;
+  }
+  EXPECT_EQ(describe(sounds("y")[0].heard[0]), "close front rounded vowel");
+  EXPECT_EQ(describe(sounds("ɣ")[0].heard[0]), "voiced velar fricative");
+  EXPECT_EQ(sounds("tɕ")[0].heard.size(), 2u);
+}
+
 TEST(Ipa, XSampaIsASecondAlphabet) {
   EXPECT_EQ(labels("S"), "SH");
   EXPECT_EQ(labels("tS"), "CH");
@@ -151,8 +186,9 @@ TEST(Ipa, AllLettersKeepTheirViseme) {
   if (shared.empty()) GTEST_SKIP() << "needs the reference data (ANIMEME_SHARED)";
   std::ifstream file(shared / "spec" / "phonemes" / "ipa_to_mpeg4.csv");
   ASSERT_TRUE(file);
-  // Bilabial fricatives close like the stops of their place; an affricate starts as its stop.
-  const std::map<std::string, int> exceptions = {{"ɸ", 1}, {"Φ", 1}, {"ʦ", 4}, {"ʣ", 4}};
+  // Bilabial fricatives close like the stops of their place; an affricate starts as its stop; a
+  // tap is a short stop wherever the tip of the tongue is.
+  const std::map<std::string, int> exceptions = {{"ɸ", 1}, {"Φ", 1}, {"ʦ", 4}, {"ʣ", 4}, {"ɽ", 4}};
   std::string line;
   std::getline(file, line);
   int rows = 0;

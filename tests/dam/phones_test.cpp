@@ -110,12 +110,17 @@ TEST(Phones, NearestLabelLooksAlike) {
 TEST(PhoneRelatives, EveryLabelHasWellFormedOnes) {
   for (const PhoneInfo& phone : phones()) {
     const auto relatives = phone_relatives(phone.label);
-    ASSERT_GE(relatives.size(), 3u) << phone.label;
+    if (phone.label == "SIL") {
+      EXPECT_TRUE(relatives.empty());  // every model knows it
+      continue;
+    }
+    ASSERT_GE(relatives.size(), kPhoneCount - 2) << phone.label;  // all others
     for (const Relative& relative : relatives) {
       double total = 0;
       for (const RelativePart& part : relative.parts()) {
         EXPECT_NE(part.label, phone.label) << phone.label;
-        EXPECT_TRUE(part.label == kNextVowel || find_phone(part.label) != nullptr)
+        EXPECT_TRUE(part.label == kNextVowel || part.label == kVowelBefore ||
+                    find_phone(part.label) != nullptr)
             << phone.label << " -> " << part.label;
         EXPECT_GT(part.share, 0);
         total += part.share;
@@ -152,13 +157,14 @@ TEST(PhoneRelatives, AGridLikeModelKnowsAnAlternativeForEveryPhone) {
   for (const char* missing : {"AX", "ER", "HH", "NG", "OY", "SH", "UH", "ZH"}) known.erase(missing);
   const auto usable = [&](const Relative& relative) {
     for (const RelativePart& part : relative.parts()) {
-      if (part.label != kNextVowel && !known.contains(part.label)) return false;
+      const bool beside = part.label == kNextVowel || part.label == kVowelBefore;
+      if (!beside && !known.contains(part.label)) return false;
     }
     return true;
   };
   const std::map<std::string, std::string> expected = {
-      {"AX", "AH"}, {"ER", "AH"}, {"NG", "G"},  {"OY", "AO"},
-      {"SH", "CH"}, {"UH", "UW"}, {"ZH", "JH"}, {"HH", std::string(kNextVowel)}};
+      {"AX", "AH"}, {"ER", "AH"}, {"NG", std::string(kVowelBefore)}, {"OY", "AO"}, {"SH", "CH"},
+      {"UH", "UW"}, {"ZH", "JH"}, {"HH", std::string(kNextVowel)}};
   for (const auto& [label, first_part] : expected) {
     const auto relatives = phone_relatives(label);
     const auto found = std::find_if(relatives.begin(), relatives.end(), usable);

@@ -65,7 +65,7 @@ TEST(Train, ReportsStepsAndWhatItFound) {
   EXPECT_EQ(all["unknown_phones"][0]["spoken_as"], "AH");
   EXPECT_FALSE(all["rare_phones"].empty());
   const auto text =
-      train({corpus(), "--split", "test", "-o", dir / "m.dam", "--max-iterations", "1"});
+      train({corpus(), "--split", "test", "-o", dir / "m.dam", "--max-iterations", "1", "-v"});
   EXPECT_THAT(text.err, AllOf(HasSubstr("step 1: objective"), HasSubstr("% less"),
                               HasSubstr("stopped after 1 steps"), HasSubstr("ridges times"),
                               HasSubstr("leans on"), HasSubstr("spoken by relatives")));

@@ -122,7 +122,7 @@ Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
 void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam::Signal& signal,
             const dam::SynthesisReport& synthesis) {
   for (const auto& [label, by] : synthesis.replaced) {
-    if (!options.json) say("the model has no " + label + ", spoken as " + by);
+    say_more("the model has no " + label + ", spoken as " + by);
   }
   if (!options.json) return;
   Json replaced = Json::object();

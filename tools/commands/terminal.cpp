@@ -12,11 +12,13 @@ namespace animeme::tools {
 
 namespace {
 
-bool quiet_setting = false;
+bool quiet_setting = false, verbose_setting = false;
 
 }  // namespace
 
 void set_quiet(bool quiet) { quiet_setting = quiet; }
+
+void set_verbose(bool verbose) { verbose_setting = verbose; }
 
 void warn(const std::string& text) {
   if (!quiet_setting) std::cerr << "animeme: warning: " << text << "\n";
@@ -24,6 +26,10 @@ void warn(const std::string& text) {
 
 void say(const std::string& text) {
   if (!quiet_setting) std::cerr << text << "\n";
+}
+
+void say_more(const std::string& text) {
+  if (verbose_setting) say(text);
 }
 
 Talk talk() { return {say, warn}; }

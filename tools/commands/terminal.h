@@ -16,6 +16,10 @@ void say(const std::string& text);
 Talk talk();
 /// Set by main() from --quiet.
 void set_quiet(bool quiet);
+/// Prints a line of talk if --verbose was given, and not --quiet.
+void say_more(const std::string& text);
+/// Set by main() from --verbose.
+void set_verbose(bool verbose);
 
 /// A line on standard error that shows how far long work is; silent if that is no terminal.
 class ProgressLine {

@@ -95,6 +95,7 @@ void tell_training(const std::string& output, const dam::Model& model,
     std::printf("%s\n", inspect::training_json(output, model, summary, data).c_str());
   } else {
     say(inspect::training_text(output, model, summary, data));
+    if (const std::string ties = inspect::ties_text(summary); !ties.empty()) say_more(ties);
   }
 }
 

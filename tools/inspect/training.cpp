@@ -141,12 +141,15 @@ std::string training_text(const std::string& output, const dam::Model& model,
   text += "\n" + steps_text(summary);
   if (summary.ridge > 0) text += format("ridges times %g\n", summary.ridge);
   text += explained_text(summary) + lag_text(summary.alignment);
-  std::string unknown;
-  for (const dam::UnknownPhone& phone : summary.unknown) {
-    if (!phone.spoken_as.empty()) unknown += " " + phone.label + " (" + phone.spoken_as + ")";
-  }
-  if (!unknown.empty()) text += "not in the data, spoken by relatives:" + unknown + "\n";
   return text + output + format(": trained in %.1f s", summary.seconds);
+}
+
+std::string ties_text(const dam::TrainSummary& summary) {
+  std::string ties;
+  for (const dam::UnknownPhone& phone : summary.unknown) {
+    if (!phone.spoken_as.empty()) ties += " " + phone.label + " (" + phone.spoken_as + ")";
+  }
+  return ties.empty() ? ties : "not in the data, spoken by relatives:" + ties;
 }
 
 }  // namespace animeme::inspect

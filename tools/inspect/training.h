@@ -25,9 +25,12 @@ std::string alignment_json(const dam::Alignment& alignment);
 std::string training_json(const std::string& output, const dam::Model& model,
                           const dam::TrainSummary& summary, const TrainingData& data);
 
-/// Lines of talk: size, steps, ridge, what is explained, phones that others stand in for; not the
-/// warnings. No line end behind the last one.
+/// Lines of talk: size, steps, ridge, what is explained; not the warnings. No line end behind the
+/// last one.
 std::string training_text(const std::string& output, const dam::Model& model,
                           const dam::TrainSummary& summary, const TrainingData& data);
+
+/// The phones that the data lack with those that stand in for them, in one line; empty: none.
+std::string ties_text(const dam::TrainSummary& summary);
 
 }  // namespace animeme::inspect

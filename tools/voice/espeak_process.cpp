@@ -18,6 +18,7 @@ enum Tag : std::uint32_t {
   kTextEnd,  // one text is spoken
   kVoice,    // name, identifier, language, language ... each ended by a zero byte
   kVariant,  // identifier
+  kDataPath,
   kFailure,  // a sentence for people
 };
 
@@ -72,9 +73,10 @@ bool speak_all(Sender& sender, const EspeakJob& job) {
   espeak_SetParameter(espeakPITCH, job.options.pitch, 0);
   espeak_SetParameter(espeakRANGE, job.options.pitch_range, 0);
   espeak_SetParameter(espeakWORDGAP, job.options.word_gap, 0);
+  const unsigned flags = espeakCHARS_UTF8 | (job.mnemonics ? espeakPHONEMES : 0);
   for (const std::string& text : job.texts) {
-    if (espeak_Synth(text.c_str(), text.size() + 1, 0, POS_CHARACTER, 0, espeakCHARS_UTF8, nullptr,
-                     nullptr) != EE_OK) {
+    if (espeak_Synth(text.c_str(), text.size() + 1, 0, POS_CHARACTER, 0, flags, nullptr, nullptr) !=
+        EE_OK) {
       return sender.send(kFailure, "espeak-ng failed to speak the text");
     }
     if (!sender.send(kTextEnd, {})) return false;
@@ -84,6 +86,9 @@ bool speak_all(Sender& sender, const EspeakJob& job) {
 
 bool send_voices(Sender& sender, const std::string& data_path) {
   if (!start(sender, data_path)) return sender.send(kFailure, kNoData);
+  const char* data = nullptr;
+  espeak_Info(&data);
+  if (data != nullptr && !sender.send(kDataPath, data)) return false;
   const espeak_VOICE** list = espeak_ListVoices(nullptr);
   for (; list != nullptr && *list != nullptr; ++list) {
     const espeak_VOICE& voice = **list;
@@ -186,6 +191,7 @@ Result<VoiceLists> read_espeak_voices(const std::string& data_path) {
       const bool usable = !voice.name.empty() && !voice.identifier.starts_with("mb/");
       if (usable) lists.voices.push_back(std::move(voice));
     }
+    if (tag == kDataPath) lists.data_path = bytes;
     if (tag == kVariant) lists.variants.push_back(bytes.substr(bytes.rfind('/') + 1));
     return true;
   };

@@ -20,7 +20,8 @@ struct VoiceEvent {
   std::int64_t sample = 0;              ///< when, from the start of the sound
   std::int32_t text_position = 0;       ///< word: first character of it in the text, from 1
   std::int32_t text_length = 0;         ///< word: in characters
-  std::string ipa;                      ///< phoneme: at most 8 bytes, may end in half a character
+  std::string ipa;  ///< phoneme: at most 8 bytes as espeak-ng has it, may end in half a
+                    ///< character
 };
 
 /// Sound and events of one text.
@@ -34,6 +35,7 @@ struct EspeakJob {
   std::string voice;                ///< identifier, with variant
   std::vector<std::string> texts;   ///< UTF-8 without NUL, spoken one after the other
   VoiceOptions options;             ///< rate, pitch, range, gap, data path
+  bool mnemonics = false;           ///< texts name phonemes in [[ ]]
   std::int64_t max_seconds = 3600;  ///< of sound, all texts together
 };
 
@@ -50,6 +52,7 @@ Result<EspeakResult> run_espeak(const EspeakJob& job);
 struct VoiceLists {
   std::vector<VoiceInfo> voices;      ///< languages and dialects
   std::vector<std::string> variants;  ///< "f3", "croak" ...
+  std::string data_path;              ///< the folder espeak-ng-data
 };
 
 /// Errors: unsupported, io.

@@ -2,40 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <map>
-#include <mutex>
 
 #include "dam/script/script_text_internal.h"
-#include "tools/voice/espeak_process.h"
-#include "tools/voice/voice_choice.h"
 #include "tools/voice/voice_events.h"
+#include "tools/voice/voice_job.h"
 
 namespace animeme::voice {
 namespace {
 
 constexpr std::size_t kMaxTextBytes = 400000;  // of UTF-8
 constexpr std::size_t kMaxCharacters = 100000;
-constexpr double kMaxSilence = 10.0;
-
-Result<void> check(const VoiceOptions& options) {
-  const auto range = [](std::string_view name, int low, int high) {
-    return make_error(
-        Code::invalid_argument,
-        std::string(name) + " must be from " + std::to_string(low) + " to " + std::to_string(high));
-  };
-  const auto outside = [](int value, int low, int high) { return value < low || value > high; };
-  if (outside(options.words_per_minute, 80, 450)) return range("words per minute", 80, 450);
-  if (outside(options.pitch, 0, 100)) return range("the pitch", 0, 100);
-  if (outside(options.pitch_range, 0, 100)) return range("the pitch range", 0, 100);
-  if (outside(options.word_gap, 0, 100)) return range("the word gap", 0, 100);
-  for (const double silence : {options.lead_silence, options.tail_silence}) {
-    if (!(silence >= 0 && silence <= kMaxSilence)) {
-      return range("the silence before and after the speech (seconds)", 0, 10);
-    }
-  }
-  return {};
-}
 
 // UTF-8 that espeak-ng can be trusted with: valid, no control characters.
 Result<std::string> clean_text(std::string_view text) {
@@ -59,39 +35,6 @@ Result<std::string> clean_text(std::string_view text) {
     return make_error(Code::invalid_argument, "there is no text to speak; give at least one word");
   }
   return out;
-}
-
-// Voice files do not change while a program runs, and reading them all takes a while.
-Result<VoiceLists> cached_lists(const std::string& data_path) {
-  static std::mutex mutex;
-  static std::map<std::string, VoiceLists> cache;
-  const std::lock_guard lock(mutex);
-  const auto known = cache.find(data_path);
-  if (known != cache.end()) return known->second;
-  auto lists = read_espeak_voices(data_path);
-  if (lists) cache.emplace(data_path, *lists);
-  return lists;
-}
-
-// espeak-ng would silently use another folder.
-Result<void> check_data(const std::string& data_path) {
-  const std::filesystem::path path(data_path);
-  std::error_code ignored;
-  if (data_path.empty() || std::filesystem::exists(path / "espeak-ng-data" / "phontab", ignored) ||
-      std::filesystem::exists(path / "phontab", ignored)) {
-    return {};
-  }
-  return make_error(Code::not_found, "no espeak-ng-data in " + data_path +
-                                         "; set the data path to the folder that contains it or "
-                                         "leave it empty");
-}
-
-Result<ChosenVoice> choose(const VoiceOptions& options) {
-  if (auto good = check(options); !good) return good.error();
-  if (auto good = check_data(options.data_path); !good) return good.error();
-  const auto lists = cached_lists(options.data_path);
-  if (!lists) return lists.error();
-  return choose_voice(options.language, *lists);
 }
 
 // Silence before and after; the events move along.
@@ -120,7 +63,7 @@ Error nothing_to_say(const std::string& voice) {
 }  // namespace
 
 Result<Speech> speak_text(std::string_view text, const VoiceOptions& options) {
-  const auto voice = choose(options);
+  const auto voice = find_voice(options);
   if (!voice) return voice.error();
   const auto cleaned = clean_text(text);
   if (!cleaned) return cleaned.error();
@@ -128,7 +71,7 @@ Result<Speech> speak_text(std::string_view text, const VoiceOptions& options) {
   job.voice = voice->identifier;
   job.texts = {*cleaned};
   job.options = options;
-  auto spoken = run_espeak(job);
+  auto spoken = run_voice(job);
   if (!spoken) return spoken.error();
   const int rate = spoken->sample_rate;
   RawSpeech& raw = spoken->speech.front();
@@ -146,16 +89,9 @@ Result<Speech> speak_text(std::string_view text, const VoiceOptions& options) {
   return speech;
 }
 
-Result<std::vector<VoiceInfo>> list_voices(const std::string& data_path) {
-  if (auto good = check_data(data_path); !good) return good.error();
-  const auto lists = cached_lists(data_path);
-  if (!lists) return lists.error();
-  return lists->voices;
-}
-
 Result<std::vector<std::vector<std::string>>> pronounce(const std::vector<std::string>& texts,
                                                         const VoiceOptions& options) {
-  const auto voice = choose(options);
+  const auto voice = find_voice(options);
   if (!voice) return voice.error();
   EspeakJob job;
   job.voice = voice->identifier;
@@ -165,7 +101,7 @@ Result<std::vector<std::vector<std::string>>> pronounce(const std::vector<std::s
     if (!cleaned) return cleaned.error();
     job.texts.push_back(*std::move(cleaned));
   }
-  const auto spoken = run_espeak(job);
+  const auto spoken = run_voice(job);
   if (!spoken) return spoken.error();
   std::vector<std::vector<std::string>> all;
   for (const RawSpeech& raw : spoken->speech) {
