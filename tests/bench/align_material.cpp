@@ -37,7 +37,8 @@ Result<std::vector<Sentence>> read_sentences(const std::string& corpus, std::siz
   std::getline(table, line);  // id and text come first
   for (std::size_t number = 0; std::getline(table, line);) {
     const std::size_t tab = line.find('\t');
-    Sentence one{line.substr(0, tab), line.substr(tab + 1, line.find('\t', tab + 1) - tab - 1), {}, {}};
+    Sentence one{
+        line.substr(0, tab), line.substr(tab + 1, line.find('\t', tab + 1) - tab - 1), {}, {}};
     const auto wav = folder / "audio" / (one.id + ".wav");
     if (!std::filesystem::exists(wav)) continue;
     if (number++ % every != first % every) continue;

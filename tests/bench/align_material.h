@@ -23,17 +23,17 @@ Result<std::vector<Sentence>> read_sentences(const std::string& corpus, std::siz
 
 // What alignments are worth, over many sentences.
 struct Score {
-  std::vector<double> errors;       // ms, found minus label, of the starts of phones in words
-  std::size_t phones = 0;           // found
-  std::size_t shortest = 0;         // of these as short as can be
-  double false_pause_seconds = 0;   // between the first and last word, where the labels have none
+  std::vector<double> errors;      // ms, found minus label, of the starts of phones in words
+  std::size_t phones = 0;          // found
+  std::size_t shortest = 0;        // of these as short as can be
+  double false_pause_seconds = 0;  // between the first and last word, where the labels have none
   std::size_t sentences = 0, none = 0;
 
   void add(const dam::Script& labels, const dam::Script& found);
-  double median() const;         // of the distances
+  double median() const;  // of the distances
   double mean() const;
-  double ninety() const;         // 90 % are within
-  double bias() const;           // the median with its sign
+  double ninety() const;  // 90 % are within
+  double bias() const;    // the median with its sign
   double shortest_share() const;
 };
 
