@@ -16,7 +16,7 @@ packages="
   libavformat-dev libavcodec-dev libavutil-dev libswresample-dev libswscale-dev
   libwebsockets-dev zlib1g-dev libxml2-dev
   libespeak-ng-dev espeak-ng-data
-  libpocketsphinx-dev libsphinxbase-dev pocketsphinx-en-us
+  libpocketsphinx-dev libsphinxbase-dev libspeexdsp-dev pocketsphinx-en-us
 "
 mode=${1:-}
 # Only the tests need these.

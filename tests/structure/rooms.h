@@ -89,6 +89,7 @@ inline constexpr Library kLibraries[] = {
     {"FFmpeg", "libav libsw libpost", "tools/media tests/media"},
     {"espeak-ng", "espeak speak_lib", "tools/voice tests/voice"},
     {"pocketsphinx", "pocketsphinx sphinxbase", "tools/voice tests/voice"},
+    {"speexdsp", "speex", "tools/voice"},
     {"libwebsockets", "libwebsockets", "tools/web/detail"},
     {"zlib", "zlib", "tools/render tools/viewer tools/web/detail tests"},
     {"libpng, libjpeg, libwebp", "png jpeglib jerror webp/", "tools/gltf/detail tests"},

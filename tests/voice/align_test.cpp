@@ -76,6 +76,21 @@ std::string missing_part() {
   return !tried && tried.error().code == Code::unsupported ? tried.error().describe() : "";
 }
 
+AlignOptions everything() {
+  AlignOptions options;
+  options.least_confidence = 0;
+  return options;
+}
+
+// White noise of the same numbers on every machine.
+void add_noise(media::Pcm& audio, float level) {
+  std::uint32_t state = 1;
+  for (float& sample : audio.samples) {
+    state = state * 1664525u + 1013904223u;
+    sample += level * (float(state >> 8) / 8388608.0f - 1.0f);
+  }
+}
+
 #define SKIP_WITHOUT_ALIGNER() \
   if (const std::string why = missing_part(); !why.empty()) GTEST_SKIP() << why
 
@@ -191,7 +206,7 @@ TEST(Align, PrintsNothing) {
   SKIP_WITHOUT_ALIGNER();
   testing::internal::CaptureStderr();
   testing::internal::CaptureStdout();
-  const auto aligned = align(silence(2), "some words");
+  const auto aligned = align(silence(2), "some words", everything());
   EXPECT_TRUE(testing::internal::GetCapturedStderr().empty());
   EXPECT_TRUE(testing::internal::GetCapturedStdout().empty());
   ASSERT_TRUE(aligned) << aligned.error().describe();
@@ -204,7 +219,9 @@ TEST(Align, FallsBackToUsualDurations) {
   for (std::size_t i = 4800; i < 11200; ++i) {
     audio.samples[i] = 0.3f * std::sin(0.05f * float(i));
   }
-  const auto aligned = align(audio, "nobody can say this long sentence in a second, not even you");
+  const std::string text = "nobody can say this long sentence in a second, not even you";
+  EXPECT_EQ(align(audio, text).error().code, Code::out_of_range);
+  const auto aligned = align(audio, text, everything());
   ASSERT_TRUE(aligned) << aligned.error().describe();
   EXPECT_TRUE(aligned->approximate);
   ASSERT_EQ(aligned->warnings.size(), 1u);
@@ -215,6 +232,46 @@ TEST(Align, FallsBackToUsualDurations) {
   EXPECT_NEAR(script.phones.front().end, 0.3, 0.03);
   EXPECT_NEAR(script.phones.back().start, 0.7, 0.03);
   EXPECT_EQ(script.duration(), 1.0);
+}
+
+TEST(Align, ARoomMovesNothingFar) {
+  SKIP_WITHOUT_ALIGNER();
+  const std::string text = "please put the small blue book on the table by the window";
+  const auto speech = speak_text(text);
+  SKIP_WITHOUT_VOICE(speech);
+  media::Pcm audio = resample(speech->audio, kAlignRate);
+  add_noise(audio, 0.05f);
+  const auto aligned = align(audio, text);
+  ASSERT_TRUE(aligned) << aligned.error().describe();
+  const auto errors = start_errors(speech->script, aligned->script);
+  ASSERT_GE(errors.size(), 25u);
+  print(errors);
+  EXPECT_LT(median(errors), 40);
+}
+
+TEST(Align, KnowsATextThatIsNotSaid) {
+  SKIP_WITHOUT_ALIGNER();
+  const std::string text = "please put the small blue book on the table by the window";
+  const auto speech = speak_text(text);
+  SKIP_WITHOUT_VOICE(speech);
+  const media::Pcm audio = resample(speech->audio, kAlignRate);
+  const auto right = align(audio, text);
+  ASSERT_TRUE(right) << right.error().describe();
+  ASSERT_EQ(right->words.size(), 12u);
+  EXPECT_EQ(right->words[5].text, "book");
+  EXPECT_GT(right->words[5].end, right->words[5].start);
+  const std::string other = "nine years ago our uncle never knew how many letters she wrote";
+  const auto wrong = align(audio, other);
+  ASSERT_FALSE(wrong);
+  EXPECT_EQ(wrong.error().code, Code::out_of_range);
+  const auto forced = align(audio, other, everything());
+  ASSERT_TRUE(forced) << forced.error().describe();
+  EXPECT_LT(forced->confidence, right->confidence);
+
+  media::Pcm noise = silence(3);
+  add_noise(noise, 0.1f);
+  EXPECT_FALSE(align(noise, text));
+  EXPECT_FALSE(align(silence(3), text));
 }
 
 TEST(Align, RefusesWithAReason) {
@@ -244,7 +301,7 @@ TEST(Align, HostileSamples) {
     const float wild[] = {std::nanf(""), INFINITY, -INFINITY, 1e30f, -5.0f};
     audio.samples[i] = wild[i % 5];
   }
-  const auto aligned = align(audio, "yes");
+  const auto aligned = align(audio, "yes", everything());
   ASSERT_TRUE(aligned) << aligned.error().describe();
   EXPECT_TRUE(dam::check_script(aligned->script));
 }

@@ -28,8 +28,14 @@ Result<void> align(const CorpusPlan& plan, Sentence& sentence) {
   }
   voice::AlignOptions options;
   options.language = plan.language;
+  const double sure = options.least_confidence;
+  options.least_confidence = 0;  // a doubt, which --strict leaves out
   auto alignment = voice::align(*sentence.sound, *sentence.take.text, options);
   if (!alignment) return alignment.error();
+  if (!alignment->approximate && alignment->confidence < sure) {
+    sentence.report.doubts.push_back(
+        format("the text hardly fits the sound (confidence %.2f)", alignment->confidence));
+  }
   for (const std::string& text : alignment->warnings) {
     (alignment->approximate ? sentence.report.doubts : sentence.report.warnings).push_back(text);
   }

@@ -1,9 +1,12 @@
 #include <CLI/CLI.hpp>
+#include <cstdio>
 
 #include "dam/script/script.h"
 #include "tools/commands/command.h"
+#include "tools/commands/script_options.h"
 #include "tools/commands/terminal.h"
 #include "tools/files/files.h"
+#include "tools/json.h"
 #include "tools/speech/spoken.h"
 
 namespace animeme::tools {
@@ -13,31 +16,92 @@ namespace {
 struct AlignOptions {
   std::string audio;
   std::string transcript;
-  std::string language = "en";
+  std::string script;
+  dam::ScriptOptions reading;
+  voice::AlignOptions aligner;
+  std::optional<double> least;
   std::string output;
+  bool json = false;
 };
 
+// The words that are less sure than they have to be.
+Result<void> check_words(const voice::Alignment& alignment, double least) {
+  std::string list;
+  for (const voice::AlignedWord& word : alignment.words) {
+    if (word.confidence >= least) continue;
+    char where[64];
+    std::snprintf(where, sizeof where, " (%.2f s, %.2f)", word.start, word.confidence);
+    list += (list.empty() ? "" : ", ") + word.text + where;
+  }
+  if (list.empty()) return {};
+  return make_error(Code::out_of_range, "words below --min-confidence: " + list);
+}
+
+void print_json(const voice::Alignment& alignment) {
+  Json json = {{"phones", alignment.script.phones.size()},
+               {"confidence", alignment.confidence},
+               {"approximate", alignment.approximate},
+               {"warnings", alignment.warnings},
+               {"words", Json::array()}};
+  for (const voice::AlignedWord& word : alignment.words) {
+    json["words"].push_back({{"word", word.text},
+                             {"start", word.start},
+                             {"end", word.end},
+                             {"confidence", word.confidence}});
+  }
+  std::printf("%s\n", json.dump(1).c_str());
+}
+
 Result<int> run(const AlignOptions& options) {
-  Result<dam::Script> script =
-      speech::align_file(options.audio, options.transcript, options.language, talk());
-  if (!script) return script.error();
-  const std::string text = dam::write_script(*script, extension_of(options.output));
+  std::string transcript = options.transcript;
+  if (!options.script.empty()) {
+    auto words = speech::words_of_file(options.script, options.reading);
+    if (!words) return words.error();
+    transcript = std::move(*words);
+  }
+  voice::AlignOptions settings = options.aligner;
+  if (options.least && *options.least == 0) settings.least_confidence = 0;
+  const auto alignment = speech::align_file(options.audio, transcript, settings, talk());
+  if (!alignment) return alignment.error();
+  if (options.least) {
+    if (auto sure = check_words(*alignment, *options.least); !sure) {
+      return sure.error().in_file(options.audio);
+    }
+  }
+  const dam::Script& script = alignment->script;
+  const std::string text = dam::write_script(script, extension_of(options.output));
   if (auto written = write_file(options.output, text); !written) return written.error();
-  say(name_of_output(options.output) + ": " + std::to_string(script->phones.size()) + " phones");
+  if (options.json) print_json(*alignment);
+  char sure[32];
+  std::snprintf(sure, sizeof sure, "%.2f", alignment->confidence);
+  say(name_of_output(options.output) + ": " + std::to_string(script.phones.size()) +
+      " phones, confidence " + sure);
   return kOk;
 }
 
 void add_options(CLI::App& app, AlignOptions& options) {
   app.add_option("--audio", options.audio, "Recorded voice in any format that FFmpeg reads")
       ->required();
-  app.add_option("--transcript", options.transcript, "What is said in it")->required();
-  app.add_option("--lang", options.language, "Language of the transcript")->capture_default_str();
+  auto* said = app.add_option_group("what is said");
+  said->add_option("--transcript", options.transcript, "What is said in it");
+  said->add_option("--script", options.script,
+                   "The same as a script of words: subtitles, what a recogniser wrote; its times "
+                   "are not used");
+  said->require_option(1);
+  add_script_options(app, options.reading);
+  app.add_option("--lang", options.aligner.language, "Language of the transcript")
+      ->capture_default_str();
+  app.add_option("--min-confidence", options.least,
+                 "Refuse words that are less sure, 0 to 1, by name; 0: refuse nothing at all. "
+                 "Without it a recording is refused whose text does not fit on the whole")
+      ->check(CLI::Range(0.0, 1.0));
   add_output(
       app.add_option("-o,--output", options.output,
                      "Script to write: .TextGrid (Praat), .tsv, .pho (MBROLA), .vtt (WebVTT), - "
                      "for a TextGrid on standard output"),
       dam::script_endings(), OutputKind::file_or_dash)
       ->required();
+  app.add_flag("--json", options.json, "Words with times and confidences on standard output");
 }
 
 }  // namespace
@@ -45,7 +109,7 @@ void add_options(CLI::App& app, AlignOptions& options) {
 const Command kAlign{"align", "Find the timed phones of a recording from its text",
                      "  animeme align --audio voice.wav --transcript \"what she said\" "
                      "-o voice.TextGrid\n"
-                     "  animeme align --audio voice.mp3 --transcript \"what she said\" -o - -q",
+                     "  animeme align --audio voice.wav --script voice.srt --json -o voice.tsv",
                      set_up<AlignOptions>};
 
 }  // namespace animeme::tools

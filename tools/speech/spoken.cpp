@@ -2,6 +2,7 @@
 
 #include "dam/model/builtin.h"
 #include "tools/files/files.h"
+#include "tools/scripts/script_text.h"
 #include "tools/speech/voice_file.h"
 #include "tools/voice/align.h"
 #include "tools/voice/voice.h"
@@ -36,26 +37,46 @@ Result<Spoken> follow_script(const SpokenOptions& options, const tools::Talk& ta
 }
 
 Result<Spoken> align_voice(const SpokenOptions& options, const tools::Talk& talk) {
-  Result<dam::Script> script =
-      align_file(options.audio, options.transcript, options.language, talk);
-  if (!script) return script.error();
+  voice::AlignOptions settings;
+  settings.language = options.language;
+  Result<voice::Alignment> aligned = align_file(options.audio, options.transcript, settings, talk);
+  if (!aligned) return aligned.error();
   Result<media::Pcm> audio = read_voice(options.audio, talk);
   if (!audio) return audio.error();
-  return Spoken{std::move(*script), std::move(*audio), {}};
+  return Spoken{std::move(aligned->script), std::move(*audio), {}};
 }
 
 }  // namespace
 
-Result<dam::Script> align_file(const std::string& audio, const std::string& transcript,
-                               const std::string& language, const tools::Talk& talk) {
+Result<voice::Alignment> align_file(const std::string& audio, const std::string& transcript,
+                                    const voice::AlignOptions& options, const tools::Talk& talk) {
   Result<media::Pcm> pcm = read_voice(audio, talk, voice::kAlignRate);
   if (!pcm) return pcm.error();
-  voice::AlignOptions settings;
-  settings.language = language;
-  Result<voice::Alignment> alignment = voice::align(*pcm, transcript, settings);
+  Result<voice::Alignment> alignment = voice::align(*pcm, transcript, options);
   if (!alignment) return alignment.error().in_file(audio);
   for (const std::string& text : alignment->warnings) talk.warn(audio + ": " + text);
-  return std::move(alignment->script);
+  return alignment;
+}
+
+Result<std::string> words_of_file(const std::string& path, const dam::ScriptOptions& reading) {
+  Result<std::string> text = tools::read_text_file(path, tools::kMostWritten);
+  if (!text) return text.error();
+  Result<dam::Timings> timings = scripts::read_labels(*text, reading);
+  if (!timings) return timings.error().in_file(path);
+  std::string words;
+  const dam::TimedLabel* before = nullptr;
+  for (const dam::TimedLabel& label : timings->labels) {
+    // The phones of a word follow each other without a gap.
+    const bool same = before != nullptr && !label.is_word && label.word == before->word &&
+                      label.start <= before->end + dam::kTimeTolerance;
+    before = &label;
+    if (!same) words += (label.is_word ? label.label : label.word) + " ";
+  }
+  if (words.find_first_not_of(' ') == std::string::npos) {
+    return make_error(Code::not_found, "the script has no words to align, only phones")
+        .in_file(path);
+  }
+  return words;
 }
 
 bool has_source(const SpokenOptions& options) {

@@ -12,6 +12,7 @@
 #include "tools/files/talk.h"
 #include "tools/media/pcm.h"
 #include "tools/speech/voice_file.h"
+#include "tools/voice/align.h"
 
 namespace animeme::speech {
 
@@ -46,10 +47,15 @@ bool has_source(const SpokenOptions& options);
 /// dam::check_against_audio() and align_file().
 Result<Spoken> get_spoken(const SpokenOptions& options, const tools::Talk& talk = {});
 
-/// The timed phones of a recording and its text in `language`. What the aligner doubts goes to
-/// talk.warn. Errors: those of read_voice() and voice::align().
-Result<dam::Script> align_file(const std::string& audio, const std::string& transcript,
-                               const std::string& language, const tools::Talk& talk = {});
+/// The timed phones of a recording and its text. What the aligner doubts goes to talk.warn.
+/// Errors: those of read_voice() and voice::align().
+Result<voice::Alignment> align_file(const std::string& audio, const std::string& transcript,
+                                    const voice::AlignOptions& options,
+                                    const tools::Talk& talk = {});
+
+/// The words of a script of any format, in order, with blanks between. Errors: those of reading it,
+/// not_found (it has phones only).
+Result<std::string> words_of_file(const std::string& path, const dam::ScriptOptions& reading);
 
 /// A model file, or the built-in model for "" and "builtin". Errors: those of dam::load_model().
 Result<dam::Model> read_model(const std::string& path);

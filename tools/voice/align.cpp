@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 
 #include "dam/script/timings.h"
+#include "tools/voice/confidence.h"
+#include "tools/voice/denoise.h"
 #include "tools/voice/pronunciation.h"
 #include "tools/voice/recogniser.h"
 #include "tools/voice/transcript.h"
@@ -13,6 +16,7 @@ namespace animeme::voice {
 namespace {
 
 constexpr double kMinSeconds = 0.1;
+constexpr std::size_t kMostNamed = 10;     // words of a warning
 constexpr double kMinPhoneSeconds = 0.01;  // one frame: less cannot be
 
 Result<void> check_audio(const media::Pcm& audio) {
@@ -69,15 +73,15 @@ std::vector<Segment> spread_evenly(const std::vector<std::int16_t>& samples,
   }
   const Stretch loud = loud_part(samples);
   std::vector<Segment> segments;
-  if (loud.start > 0) segments.push_back({0, std::string(dam::kSilence), kNoWord});
+  if (loud.start > 0) segments.push_back({0, std::string(dam::kSilence), kNoWord, 0, 1});
   double done = 0;
   for (std::size_t w = 0; w < words.size(); ++w) {
     for (const std::string& label : words[w].variants[0]) {
-      segments.push_back({loud.start + (loud.end - loud.start) * done / total, label, w});
+      segments.push_back({loud.start + (loud.end - loud.start) * done / total, label, w, 0, 1});
       done += dam::usual_duration(label);
     }
   }
-  segments.push_back({loud.end, std::string(dam::kSilence), kNoWord});
+  segments.push_back({loud.end, std::string(dam::kSilence), kNoWord, 0, 1});
   return segments;
 }
 
@@ -100,6 +104,32 @@ dam::Script to_script(const std::vector<Segment>& segments, const std::vector<Sp
   }
   if (!script.phones.empty()) script.phones.back().end = duration;
   return script;
+}
+
+std::string two_digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", value);
+  return text;
+}
+
+Error refusal(double confidence, const AlignOptions& options) {
+  return make_error(Code::out_of_range, "the transcript does not fit the recording (confidence " +
+                                            two_digits(confidence) + ", at least " +
+                                            two_digits(options.least_confidence) +
+                                            "): another text, too much noise, or nobody speaks");
+}
+
+void warn_of_doubts(Alignment& alignment) {
+  std::string list;
+  std::size_t count = 0;
+  for (const AlignedWord& word : alignment.words) {
+    if (word.confidence >= kDoubtful) continue;
+    if (++count > kMostNamed) continue;
+    list += (list.empty() ? "" : ", ") + word.text + " (" + two_digits(word.start) + " s)";
+  }
+  if (count == 0) return;
+  if (count > kMostNamed) list += " and " + std::to_string(count - kMostNamed) + " more";
+  alignment.warnings.push_back("the sound hardly fits these words; are they said? " + list);
 }
 
 std::size_t least_phones(const std::vector<SpokenWord>& words) {
@@ -138,15 +168,29 @@ Result<Alignment> align(const media::Pcm& audio, std::string_view transcript,
                                               std::to_string(least_phones(*words)) +
                                               " phones; does the text belong to this recording?");
   }
-  const auto samples = to_int16(audio.samples);
+  const auto samples = to_int16(denoised(audio.samples));
   auto segments = recognise(samples, *words, options);
   if (!segments) return segments.error();
   if (segments->empty()) {
+    if (options.least_confidence > 0) {
+      return make_error(Code::out_of_range,
+                        "the recogniser cannot fit the transcript to the recording; check that the "
+                        "text is what is said, and that somebody speaks");
+    }
     result.approximate = true;
     result.warnings.push_back(
         "the recogniser cannot fit the transcript to the recording, so the phones are spread over "
         "its loud part; check that the text is what is said");
     segments = spread_evenly(samples, *words);
+  } else {
+    result.confidence = rate_recording(*segments);
+  }
+  if (result.confidence < options.least_confidence) return refusal(result.confidence, options);
+  result.words = rate_words(*segments, *words, audio.duration());
+  if (result.approximate) {
+    for (AlignedWord& word : result.words) word.confidence = 0;
+  } else {
+    warn_of_doubts(result);
   }
   result.script = to_script(*segments, *words, audio.duration());
   return result;

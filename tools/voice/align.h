@@ -28,6 +28,20 @@ struct AlignOptions {
   /// Pronunciations: "word PH PH ..." a line, further ones as "word(2) ...". Not read when the
   /// language is not English.
   std::string dictionary_path = "/usr/share/pocketsphinx/model/en-us/cmudict-en-us.dict";
+  /// Alignments that are less sure on the whole (Alignment::confidence), 0..1, are refused: noise,
+  /// silence, the text of another recording. 0: nothing is.
+  double least_confidence = 0.5;
+};
+
+/// A word where it was found.
+struct AlignedWord {
+  std::string text;  ///< as the transcript spells it
+  double start = 0;  ///< seconds
+  double end = 0;    ///< seconds
+  /// How well the sound fits, 0..1: its frames are compared with the phones that fit best when
+  /// nobody says which. At 0.5 right and wrong texts are as likely, of whole recordings; a single
+  /// short word may be right far below. 0 where Alignment::approximate.
+  double confidence = 0;
 };
 
 /// What align() found.
@@ -37,6 +51,8 @@ struct Alignment {
   /// True if the recogniser found no path: the phones are then spread over the loud part of
   /// the recording in proportion to their usual durations.
   bool approximate = false;
+  std::vector<AlignedWord> words;     ///< in order
+  double confidence = 0;              ///< of the whole recording, as AlignedWord::confidence
   std::vector<std::string> warnings;  ///< sentences for people; empty if all went well
 };
 
@@ -44,17 +60,21 @@ struct Alignment {
 inline constexpr int kAlignRate = 16000;
 /// Longer recordings have to be parted.
 inline constexpr double kMaxAlignSeconds = 4 * 3600.0;
+/// Words that are less sure are named in the warnings.
+inline constexpr double kDoubtful = 0.05;
 /// Bytes of the longest transcript.
 inline constexpr std::size_t kMostTranscript = 1000000;
 
-/// Aligns. Pauses between words are found; a text that is not what was said is not noticed.
+/// Aligns. Pauses between words are found. Noise that stays is taken out before, as much as there
+/// is (tools/voice/engines.md, section 1). Words below kDoubtful are named in the warnings.
 /// Recordings of more than a minute are aligned in pieces of up to 40 s that end in pauses.
 ///
 /// Errors: invalid_argument (audio that is not 16000 Hz - resample it first -, a transcript
 /// without words), truncated (less than 0.1 s of audio), out_of_range (more than
 /// kMaxAlignSeconds or kMostTranscript, or too short for so many phones), not_found (model or
 /// dictionary; a word without pronunciation where espeak-ng is not built in), unsupported (built
-/// without pocketsphinx), plus those of pronounce().
+/// without pocketsphinx), out_of_range also for an alignment below least_confidence, plus those of
+/// pronounce().
 Result<Alignment> align(const media::Pcm& audio, std::string_view transcript,
                         const AlignOptions& options = {});
 

@@ -26,9 +26,10 @@ std::string_view take_field(std::string_view& line) {
 // One line, if it is about a word of `wanted`. "read(2) R EH D" is a further way to say "read".
 void read_line(std::string_view line, const std::set<std::string, std::less<>>& wanted,
                Dictionary& dictionary) {
-  std::string_view word = take_field(line);
-  const std::size_t bracket = word.find('(');
-  if (bracket != std::string_view::npos && bracket > 0) word = word.substr(0, bracket);
+  std::string_view name = take_field(line);
+  const std::size_t bracket = name.find('(');
+  if (bracket != std::string_view::npos && bracket > 0) name = name.substr(0, bracket);
+  const std::string word = dam::lower_case(name);
   if (!wanted.contains(word)) return;
   Labels labels;
   for (std::string_view field = take_field(line); !field.empty(); field = take_field(line)) {
@@ -37,7 +38,7 @@ void read_line(std::string_view line, const std::set<std::string, std::less<>>& 
     labels.emplace_back(label);
   }
   if (labels.empty()) return;
-  std::vector<Labels>& variants = dictionary[std::string(word)];
+  std::vector<Labels>& variants = dictionary[word];
   if (variants.size() < kMaxVariants) variants.push_back(std::move(labels));
 }
 
@@ -53,7 +54,7 @@ Result<Dictionary> read_dictionary(const std::string& path, const std::vector<st
   Dictionary dictionary;
   for (std::string line; std::getline(file, line);) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
-    read_line(dam::lower_case(line), wanted, dictionary);
+    read_line(line, wanted, dictionary);
   }
   return dictionary;
 }

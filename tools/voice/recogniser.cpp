@@ -4,6 +4,7 @@
 #include <sphinxbase/err.h>
 #include <sphinxbase/fsg_model.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -14,14 +15,20 @@
 namespace animeme::voice {
 namespace {
 
-// A frame is 10 ms and speaks for the middle of its window of 25.6 ms. One division, so that
-// the times are short decimal numbers.
-double frame_time(int frame) { return frame == 0 ? 0.0 : double(frame * 100 + 128) / 10000.0; }
+// A frame is 10 ms and speaks for the middle of its window of 25.6 ms. A phone begins half way
+// between the middle of its first frame and that of the frame before: 12.8 - 5 ms. One division,
+// so that the times are short decimal numbers.
+double frame_time(int frame) { return frame == 0 ? 0.0 : double(frame * 100 + 78) / 10000.0; }
 
 constexpr const char* kSil = "<sil>";
 constexpr const char* kBeams[] = {"1e-48", "1e-80"};
 
 constexpr std::size_t kHop = 160;  // samples a frame
+// How likely a pause behind a word is thought before the sound is heard. In noise closures and weak
+// sounds are much like silence for the model, which is far too sure of every frame: so few that a
+// real pause, of a hundred frames or of ten, wins all the same.
+constexpr double kPause = 1e-20;
+constexpr double kAnyPhone = 0.01;  // of the free search: as likely as each other
 // What is longer is aligned in pieces, which end in pauses: the search costs as much as there are
 // states times frames, and a path that is lost is found again behind the next pause.
 constexpr double kWhole = 60, kPiece = 40;               // seconds
@@ -41,12 +48,13 @@ void ignore_message(void*, err_lvl_t, const char*, ...) {}
 
 Decoder make_decoder(const std::string& model, const char* beam) {
   // No best-path search (it gives impossible durations), no removal of silence or noise (frame
-  // numbers would skip it), no dither (results would vary).
+  // numbers would skip it), no dither (results would vary). All senones are scored, so that a score
+  // is the distance to the best of them all.
   Config config(cmd_ln_init(nullptr, ps_args(), TRUE, "-hmm", model.c_str(), "-samprate", "16000",
                             "-fsgusefiller", "no", "-fsgusealtpron", "no", "-bestpath", "no",
-                            "-remove_silence", "no", "-remove_noise", "no", "-dither", "no", "-lw",
-                            "1", "-wip", "1", "-beam", beam, "-wbeam", beam, "-pbeam", beam,
-                            nullptr));
+                            "-remove_silence", "no", "-remove_noise", "no", "-dither", "no",
+                            "-compallsen", "yes", "-lw", "1", "-wip", "1", "-beam", beam, "-wbeam",
+                            beam, "-pbeam", beam, nullptr));
   if (!config) return nullptr;
   Decoder decoder(ps_init(config.get()));
   if (!decoder) return nullptr;
@@ -76,14 +84,15 @@ Grammar make_grammar(ps_decoder_t* decoder, std::span<const SpokenWord> words, b
   fsg_model_t* fsg = grammar.get();
   const int silence = fsg_model_word_add(fsg, kSil);
   int next = 1;
-  const auto optional_silence = [&](int from) {
+  const int pause = int(logmath_log(ps_get_logmath(decoder), kPause));
+  const auto optional_silence = [&](int from, bool inside) {
     const int to = next++;
-    fsg_model_trans_add(fsg, from, to, 0, silence);
+    fsg_model_trans_add(fsg, from, to, inside ? pause : 0, silence);
     fsg_model_null_trans_add(fsg, from, to, 0);
     return to;
   };
   std::vector<int> ends;
-  int state = optional_silence(0);
+  int state = optional_silence(0, false);
   for (const SpokenWord& word : words) {
     const int end = next++;
     for (const Labels& variant : word.variants) {
@@ -94,7 +103,7 @@ Grammar make_grammar(ps_decoder_t* decoder, std::span<const SpokenWord> words, b
         from = to;
       }
     }
-    state = optional_silence(end);
+    state = optional_silence(end, &word != &words.back());
     ends.push_back(state);
   }
   if (open_end) {
@@ -108,6 +117,22 @@ Grammar make_grammar(ps_decoder_t* decoder, std::span<const SpokenWord> words, b
   return grammar;
 }
 
+// Any phone after any phone: what the sound is when nobody says what it is.
+Grammar make_loop(ps_decoder_t* decoder) {
+  Grammar grammar(fsg_model_init("loop", ps_get_logmath(decoder), 1.0f, 1));
+  if (!grammar) return nullptr;
+  const int chance = int(logmath_log(ps_get_logmath(decoder), kAnyPhone));
+  for (const dam::PhoneInfo& phone : dam::phones()) {
+    const std::string label(phone.label);
+    if (label == "AX") continue;
+    const char* word = label == dam::kSilence ? kSil : label.c_str();
+    fsg_model_trans_add(grammar.get(), 0, 0, chance, fsg_model_word_add(grammar.get(), word));
+  }
+  grammar->start_state = 0;
+  grammar->final_state = 0;
+  return grammar;
+}
+
 std::vector<Segment> read_segments(ps_decoder_t* decoder) {
   std::vector<Segment> segments;
   for (ps_seg_t* seg = ps_seg_iter(decoder); seg != nullptr; seg = ps_seg_next(seg)) {
@@ -116,14 +141,17 @@ std::vector<Segment> read_segments(ps_decoder_t* decoder) {
     const std::string name = ps_seg_word(seg);
     if (name.empty() || (name[0] == '(' && name != kSil)) continue;  // an empty transition
     const bool silent = name == kSil;
-    segments.push_back({frame_time(first), silent ? std::string(dam::kSilence) : name, kNoWord});
+    std::int32_t heard = 0, grammar = 0, back = 0;
+    ps_seg_prob(seg, &heard, &grammar, &back);
+    segments.push_back({frame_time(first), silent ? std::string(dam::kSilence) : name, kNoWord,
+                        double(heard) / double(std::max(last - first + 1, 1)),
+                        std::size_t(std::max(last - first + 1, 1))});
   }
   return segments;
 }
 
 std::vector<Segment> search(ps_decoder_t* decoder, std::span<const std::int16_t> samples,
-                            std::span<const SpokenWord> words, bool open_end) {
-  const Grammar grammar = make_grammar(decoder, words, open_end);
+                            const Grammar& grammar) {
   if (!grammar || ps_set_fsg(decoder, "text", grammar.get()) < 0 ||
       ps_set_search(decoder, "text") < 0) {
     return {};
@@ -174,11 +202,25 @@ bool assign_words(std::vector<Segment>& segments, std::span<const SpokenWord> wo
   return true;
 }
 
+// Takes off what the free search is worth in the same frames.
+void compare(std::vector<Segment>& segments, const std::vector<Segment>& free) {
+  std::vector<double> best;
+  for (const Segment& one : free) best.insert(best.end(), one.frames, one.score);
+  std::size_t at = 0;
+  for (Segment& one : segments) {
+    double sum = 0;
+    for (std::size_t i = at; i < at + one.frames && i < best.size(); ++i) sum += best[i];
+    one.score -= sum / double(one.frames);
+    at += one.frames;
+  }
+}
+
 std::vector<Segment> align_whole(ps_decoder_t* decoder, std::span<const std::int16_t> samples,
                                  std::span<const SpokenWord> words, bool open_end = false) {
-  auto segments = search(decoder, samples, words, open_end);
-  if (!segments.empty() && assign_words(segments, words, open_end)) return segments;
-  return {};
+  auto segments = search(decoder, samples, make_grammar(decoder, words, open_end));
+  if (segments.empty() || !assign_words(segments, words, open_end)) return {};
+  compare(segments, search(decoder, samples, make_loop(decoder)));
+  return segments;
 }
 
 // As many words as can be said in so many seconds.
@@ -242,7 +284,7 @@ std::vector<Segment> align_in_pieces(ps_decoder_t* decoder, std::span<const std:
     at += std::size_t(end * double(kAlignRate)) / kHop * kHop;
     word = next;
     if (word == words.size()) {  // nothing is left to be said
-      if (!pause) add({0, std::string(dam::kSilence), kNoWord});
+      if (!pause) add({0, std::string(dam::kSilence), kNoWord, 0, 1});
       return all;
     }
   }

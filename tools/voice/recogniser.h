@@ -17,6 +17,9 @@ struct Segment {
   double start = 0;      ///< seconds; the bias of the analysis window is already taken off
   std::string label;     ///< ARPAbet or SIL
   std::size_t word = 0;  ///< index into the words; kNoWord for silence
+  /// How well the sound fits, <= 0 a frame: the distance to the sound of the model that fits best.
+  double score = 0;
+  std::size_t frames = 1;  ///< of 10 ms
 };
 
 inline constexpr std::size_t kNoWord = ~std::size_t(0);  ///< no word: silence
