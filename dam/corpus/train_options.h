@@ -46,7 +46,7 @@ inline constexpr std::uint32_t kAllTerms = 0xfffff;
 
 /// Settings of the method dam.
 struct RefinedOptions {
-  /// Factor of all ridges: 0 chooses among 0.5, 1, 2 and 4 by sentences that are held out, else
+  /// Factor of all ridges: 0 chooses among 0.5, 1 and 2 by sentences that are held out, else
   /// 0.001..1000.
   double ridge = 0;
   /// How much more a frame of a rare word counts: 1 / (frames of the word) ^ this, 0..1; 0: all

@@ -375,7 +375,7 @@ TEST(Refined, ChoosesRidgesByWhatIsHeldOut) {
     for (double& v : u.signal.values) v = random(-1, 1);
   ASSERT_TRUE(train(sentences, {}, &noisy));
   EXPECT_EQ(clear.ridge, 0.5);
-  EXPECT_EQ(noisy.ridge, 4);
+  EXPECT_EQ(noisy.ridge, 2);
 }
 
 TEST(Refined, TheClockOfSpeechBeginsAnewBehindPauses) {

@@ -6,10 +6,10 @@
 namespace animeme::dam {
 namespace {
 
-constexpr double kRidgeFactors[] = {4, 2, 1, 0.5};
+constexpr double kRidgeFactors[] = {2, 1, 0.5};
 /// What a firmer ridge may cost. Held-out sentences are made of words that were heard; where words
 /// are new, firmer is better than they tell (dam/measured.md).
-constexpr double kFirmer = 1.01;
+constexpr double kFirmer = 1.005;
 
 }  // namespace
 

@@ -25,8 +25,8 @@ inline constexpr double kUsualRidge = 2;
 /// Per control: 1 - error / energy of the sentences that were summed, 0 for a constant control.
 std::vector<double> explained_by(const CurveSums& sums, const std::vector<double>& errors);
 
-/// The largest factor among 4, 2, 1 and 0.5 whose curves for `kept` have an error on `held` within
-/// 1 % of the least; only `wanted`, if it is above 0.
+/// The largest factor among 2, 1 and 0.5 whose curves for `kept` have an error on `held` within
+/// 0.5 % of the least; only `wanted`, if it is above 0.
 RidgeChoice choose_ridge(const CurveSums& kept, const CurveSums& held, const TermSpace& space,
                          std::size_t controls, double wanted, int threads);
 
