@@ -31,6 +31,7 @@ Result<void> validate(const TrainOptions& o) {
       {"animeme.width_prior", a.width_prior, 0, 1e6},
       {"animeme.time_margin", a.time_margin, 0, infinity},
       {"refined.ridge", r.ridge, 0, 1000},
+      {"refined.rare_words", r.rare_words, 0, 1},
       {"refined.width_prior", r.width_prior, 0, 1e6},
       {"refined.offset_frames", r.offset_frames, 0.01, 1e9},
       {"refined.time_margin", r.time_margin, 0, 100},

@@ -49,6 +49,9 @@ struct RefinedOptions {
   /// Factor of all ridges: 0 chooses among 0.5, 1 and 2 by sentences that are held out, else
   /// 0.001..1000.
   double ridge = 0;
+  /// How much more a frame of a rare word counts: 1 / (frames of the word) ^ this, 0..1; 0: all
+  /// alike. Training in parts, which does not know the words of the other parts, counts all alike.
+  double rare_words = 0.5;
   double width_prior = 50;         ///< on log widths and log strength, per control, frames: 0..1e6
   double offset_frames = 10;       ///< prior weight of a sentence's own offset: 0.01..1e9
   double time_margin = 0.3;        ///< clamp of local time: 0..100

@@ -38,6 +38,21 @@ std::vector<PhoneModel> phone_table(const Timelines& timelines) {
   return phones;
 }
 
+/// SpeechData::word of the frames of a sentence.
+void number_words(const Utterance& u, TrainingSet& set) {
+  std::vector<std::uint32_t>& word = set.data.word;
+  const std::size_t first = word.size();
+  word.resize(first + u.signal.frames(), 0);
+  std::size_t i = 0;
+  for (const Phone& phone : u.script.phones) {
+    while (i < u.signal.frames() && u.signal.time(i) < phone.start) ++i;
+    if (phone.word.empty()) continue;
+    const auto number =
+        set.words.try_emplace(phone.word, std::uint32_t(set.words.size() + 1)).first->second;
+    for (; i < u.signal.frames() && u.signal.time(i) < phone.end; ++i) word[first + i] = number;
+  }
+}
+
 }  // namespace
 
 std::uint32_t context_class_of(std::string_view label) {
@@ -86,6 +101,7 @@ void add_sentence(const Utterance& u, const std::vector<Occurrence>& timeline, d
           control.sd > 0 ? (u.signal.values[i * k + c] - control.rest) / control.sd : 0.0);
     }
   }
+  number_words(u, set);
   for (const Occurrence& o : timeline)
     data.occurrences.push_back({o.start, o.duration, index_of(set.phones, o.label),
                                 index_of(set.phones, o.left), index_of(set.phones, o.right), 0});

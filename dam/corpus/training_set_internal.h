@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,6 +22,7 @@ struct TrainingSet {
   SpeechData data;
   std::vector<Control> controls;
   std::vector<PhoneModel> phones;  ///< by label
+  std::map<std::string, std::uint32_t> words;  ///< numbers of SpeechData::word, from 1
   fap::Rate rate;
   double closure_gap = 0;  ///< see Model
   std::optional<double> lip_tooth_raise;

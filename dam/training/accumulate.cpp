@@ -97,7 +97,8 @@ FitSums sums_of(const Utterance& u, const std::vector<Occurrence>& timeline, con
   space = term_space(data);
   FitSums fit;
   fit.sentences = 1;
-  fit.curves = sum_curves(data, space, base.refined.dominance, {true});
+  const std::vector<float> weight(set.data.use.begin(), set.data.use.end());
+  fit.curves = sum_curves(data, space, base.refined.dominance, weight);
   for (const double s : sum) fit.level.push_back(s * (1 - frames / (frames + base.offset_frames)));
   return fit;
 }

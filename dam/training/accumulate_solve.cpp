@@ -161,7 +161,7 @@ Result<Model> train_from_sums(TrainingSums sums, const TrainOptions& options,
                       state->held.sentences > 0;
   CurveSums all = standardised(std::move(state->kept), model.controls);
   const CurveSums held = standardised(std::move(state->held), model.controls);
-  RidgeChoice choice{options.refined.ridge > 0 ? options.refined.ridge : 1.0, {}};
+  RidgeChoice choice{options.refined.ridge > 0 ? options.refined.ridge : kUsualRidge, {}};
   if (choose) choice = choose_ridge(all, held, space, k, options.refined.ridge, options.threads);
   all.add(held);
   const auto curves = solve_curves(all, space, k, choice.factor, options.threads);

@@ -138,7 +138,7 @@ TEST(RefinedCurves, SumsAreThoseOfTheWholeDesignWithOffsets) {
   const Problem problem(random, 2);
   const auto dominance = random_dominance(random, 5);
   const TermSpace space = term_space(problem.data);
-  const std::vector<bool> all(problem.speech.sentences.size(), true);
+  const std::vector<float> all(problem.speech.use.begin(), problem.speech.use.end());
   const CurveSums sums = sum_curves(problem.data, space, dominance, all);
   const auto curves = solve_curves(sums, space, 2, 1, 1);
 
@@ -164,8 +164,12 @@ TEST(RefinedCurves, PartsOfACorpusAddUp) {
   const auto dominance = random_dominance(random, 5);
   const TermSpace space = term_space(problem.data);
   const auto some = [&](std::size_t a, std::size_t b) {
-    std::vector<bool> wanted(6, false);
-    for (std::size_t s = a; s < b; ++s) wanted[s] = true;
+    std::vector<float> wanted(problem.speech.use.size(), 0.0F);
+    for (std::size_t s = a; s < b; ++s) {
+      const FitSentence& sentence = problem.speech.sentences[s];
+      for (std::size_t i = 0; i < sentence.frames; ++i)
+        wanted[sentence.first_frame + i] = float(problem.speech.use[sentence.first_frame + i]);
+    }
     return sum_curves(problem.data, space, dominance, wanted);
   };
   CurveSums sum = some(0, 2);

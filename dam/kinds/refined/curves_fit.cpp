@@ -34,10 +34,12 @@ PlacedTerms place(const RefinedData& data, const TermSpace& space, std::size_t o
 
 class Summer {
  public:
-  Summer(const RefinedData& data, const TermSpace& space, std::span<const PhoneDominance> dominance)
+  Summer(const RefinedData& data, const TermSpace& space, std::span<const PhoneDominance> dominance,
+         std::span<const float> weight)
       : data_(data),
         space_(space),
         dominance_(dominance),
+        weight_(weight),
         n_(Eigen::Index(space.size)),
         k_(Eigen::Index(data.controls)),
         column_sums_(RowMatrix::Zero(kSentences, n_)),
@@ -48,13 +50,15 @@ class Summer {
   }
 
   void add(const FitSentence& sentence) {
+    const auto weights = weight_.subspan(sentence.first_frame, sentence.frames);
+    if (std::all_of(weights.begin(), weights.end(), [](float w) { return w == 0; })) return;
     const RefinedDesign design = make_refined_design(data_, sentence, dominance_);
     collect(sentence, design);
     expand(sentence);
-    const double share = 1 / (double(frames_) + data_.offset_frames);
+    const double share = 1 / (frames_ + data_.offset_frames);
     for (Eigen::Index c = 0; c < k_; ++c)
       sums.energy[std::size_t(c)] -= share * target_sums_(waiting_, c) * target_sums_(waiting_, c);
-    sums.frames += frames_;
+    sums.frames += used_;
     column_sums_.row(waiting_) *= std::sqrt(share);
     target_sums_.row(waiting_) *= std::sqrt(share);
     if (++waiting_ == kSentences) flush();
@@ -88,30 +92,33 @@ class Summer {
     own_sum_.assign(count * kRefinedOrders, 0.0);
     own_target_ = RowMatrix::Zero(Eigen::Index(count * kRefinedOrders), k_);
     frames_ = 0;
+    used_ = 0;
     for (std::size_t i = 0; i < sentence.frames; ++i) {
       const std::size_t frame = sentence.first_frame + i;
-      if (data_.speech->use[frame] == 0) continue;
-      ++frames_;
+      const double weight = weight_[frame];
+      if (weight == 0) continue;
+      ++used_;
+      frames_ += weight;
       const Eigen::Map<const Eigen::RowVectorXd> y(&data_.target[frame * data_.controls], k_);
-      for (Eigen::Index c = 0; c < k_; ++c) sums.energy[std::size_t(c)] += y[c] * y[c];
-      target_sums_.row(waiting_) += y;
-      add_frame(sentence, design.frame(i), y);
+      for (Eigen::Index c = 0; c < k_; ++c) sums.energy[std::size_t(c)] += weight * y[c] * y[c];
+      target_sums_.row(waiting_) += weight * y;
+      add_frame(sentence, design.frame(i), y, weight);
     }
   }
 
   void add_frame(const FitSentence& sentence, std::span<const RefinedPart> parts,
-                 const Eigen::Map<const Eigen::RowVectorXd>& y) {
+                 const Eigen::Map<const Eigen::RowVectorXd>& y, double weight) {
     for (const RefinedPart& a : parts) {
       const std::size_t ja = a.occurrence - sentence.first_occurrence;
       for (std::size_t m = 0; m < kRefinedOrders; ++m) {
-        const double x = a.weight * a.basis[m];
+        const double x = weight * a.weight * a.basis[m];
         own_sum_[ja * kRefinedOrders + m] += x;
         own_target_.row(Eigen::Index(ja * kRefinedOrders + m)) += x * y;
       }
       for (const RefinedPart& b : parts) {
         const std::size_t jb = b.occurrence - sentence.first_occurrence;
         if (jb > ja) continue;
-        const double w = a.weight * b.weight;
+        const double w = weight * a.weight * b.weight;
         Square& square = products_[slot_of(ja, jb)];
         for (std::size_t n = 0; n < kRefinedOrders; ++n)
           for (std::size_t m = 0; m < kRefinedOrders; ++m)
@@ -168,10 +175,12 @@ class Summer {
   const RefinedData& data_;
   const TermSpace& space_;
   std::span<const PhoneDominance> dominance_;
+  std::span<const float> weight_;
   Eigen::Index n_, k_;
   RowMatrix column_sums_, target_sums_;  // of the sentences that wait, scaled
   Eigen::Index waiting_ = 0;
-  std::size_t frames_ = 0;
+  double frames_ = 0;      // weights of the sentence
+  std::size_t used_ = 0;  // its frames that have one
   std::vector<std::vector<std::pair<std::size_t, std::size_t>>> meet_;
   std::vector<Square> products_;
   std::vector<std::pair<std::size_t, std::size_t>> pairs_;
@@ -241,13 +250,13 @@ void CurveSums::add(const CurveSums& other) {
 }
 
 CurveSums sum_curves(const RefinedData& data, const TermSpace& space,
-                     std::span<const PhoneDominance> dominance, const std::vector<bool>& wanted) {
+                     std::span<const PhoneDominance> dominance, std::span<const float> weight) {
   const std::size_t count = data.speech->sentences.size();
   std::vector<CurveSums> parts(std::min(kCurveParts, count));
   parallel_for(parts.size(), data.threads, [&](std::size_t p) {
-    Summer summer(data, space, dominance);
+    Summer summer(data, space, dominance, weight);
     for (std::size_t s = p * count / parts.size(); s < (p + 1) * count / parts.size(); ++s)
-      if (wanted[s]) summer.add(data.speech->sentences[s]);
+      summer.add(data.speech->sentences[s]);
     summer.flush();
     parts[p] = std::move(summer.sums);
   });

@@ -44,9 +44,9 @@ struct CurveSums {
   void add(const CurveSums& other);
 };
 
-/// Sums over the sentences of which `wanted` says true.
+/// Sums over the frames, each times its weight; 0 leaves it out.
 CurveSums sum_curves(const RefinedData& data, const TermSpace& space,
-                     std::span<const PhoneDominance> dominance, const std::vector<bool>& wanted);
+                     std::span<const PhoneDominance> dominance, std::span<const float> weight);
 
 /// Ridge of every unknown, times `factor`.
 std::vector<double> ridge_of(const TermSpace& space, double factor);

@@ -3,6 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 
 #include "dam/corpus/training_set_internal.h"
 #include "dam/kinds/refined/curves_fit.h"
@@ -43,6 +45,27 @@ std::vector<double> rotated(const std::vector<double>& rows, const Eigen::Matrix
   const RowMatrix result =
       Eigen::Map<const RowMatrix>(rows.data(), count, k).lazyProduct(directions);
   return {result.data(), result.data() + result.size()};
+}
+
+/// How much a frame counts: 1 / (frames of its word) ^ exponent, 1 in the mean of the frames whose
+/// word is known, and 1 for the others. A word that comes often says hardly more about other words
+/// than a rare one.
+std::vector<float> frame_weights(const SpeechData& speech, double exponent) {
+  std::vector<float> weights(speech.use.begin(), speech.use.end());
+  if (exponent == 0) return weights;
+  const auto known = [&](std::size_t i) { return speech.use[i] != 0 && speech.word[i] != 0; };
+  std::map<std::uint32_t, double> by_word;
+  double frames = 0, sum = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    if (known(i)) by_word[speech.word[i]] += 1;
+  for (auto& [word, weight] : by_word) {
+    frames += weight;
+    sum += std::pow(weight, 1 - exponent);
+    weight = std::pow(weight, -exponent);
+  }
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    if (known(i)) weights[i] = float(by_word[speech.word[i]] * frames / sum);
+  return weights;
 }
 
 class RefinedTrainer {
@@ -98,14 +121,18 @@ class RefinedTrainer {
   }
 
   Result<Parameters> finish(const TermSpace& space, std::vector<PhoneDominance> dominance) {
-    const std::size_t count = data_.speech->sentences.size();
-    std::vector<bool> held(count, false);
-    const bool choose = count >= kLeastToChoose;
-    for (std::size_t s = kHeldOut / 2; choose && s < count; s += kHeldOut) held[s] = true;
-    std::vector<bool> kept = held;
-    kept.flip();
+    const auto& sentences = data_.speech->sentences;
+    const bool choose = sentences.size() >= kLeastToChoose;
+    std::vector<float> kept = frame_weights(*data_.speech, own_.rare_words);
+    std::vector<float> held(kept.size(), 0.0F);
+    for (std::size_t s = kHeldOut / 2; choose && s < sentences.size(); s += kHeldOut) {
+      const auto first = std::ptrdiff_t(sentences[s].first_frame);
+      std::swap_ranges(kept.begin() + first,
+                       kept.begin() + first + std::ptrdiff_t(sentences[s].frames),
+                       held.begin() + first);
+    }
     CurveSums sums = sum_curves(data_, space, dominance, kept);
-    RidgeChoice choice{own_.ridge > 0 ? own_.ridge : 1.0, {}};
+    RidgeChoice choice{own_.ridge > 0 ? own_.ridge : kUsualRidge, {}};
     if (choose) {
       const CurveSums apart = sum_curves(data_, space, dominance, held);
       choice = choose_ridge(sums, apart, space, data_.controls, own_.ridge, options_.threads);

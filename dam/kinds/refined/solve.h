@@ -19,12 +19,14 @@ struct RidgeChoice {
 /// One sentence of so many is held out to choose the ridge, if there are twice as many at least.
 inline constexpr std::size_t kHeldOut = 8;
 inline constexpr std::size_t kLeastToChoose = 2 * kHeldOut;
+/// The factor where there are too few.
+inline constexpr double kUsualRidge = 2;
 
 /// Per control: 1 - error / energy of the sentences that were summed, 0 for a constant control.
 std::vector<double> explained_by(const CurveSums& sums, const std::vector<double>& errors);
 
-/// The factor among 1, 0.5 and 2 (a tie goes to the first) whose curves for `kept` have the least
-/// error on `held`; only `wanted`, if it is above 0.
+/// The largest factor among 2, 1 and 0.5 whose curves for `kept` have an error on `held` within
+/// 0.5 % of the least; only `wanted`, if it is above 0.
 RidgeChoice choose_ridge(const CurveSums& kept, const CurveSums& held, const TermSpace& space,
                          std::size_t controls, double wanted, int threads);
 
