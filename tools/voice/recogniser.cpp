@@ -27,7 +27,7 @@ constexpr std::size_t kHop = 160;  // samples a frame
 // How likely a pause behind a word is thought before the sound is heard. In noise closures and weak
 // sounds are much like silence for the model, which is far too sure of every frame: so few that a
 // real pause, of a hundred frames or of ten, wins all the same.
-constexpr double kPause = 1e-20;
+constexpr double kPauseProbability = 1e-20;
 constexpr double kAnyPhone = 0.01;  // of the free search: as likely as each other
 // What is longer is aligned in pieces, which end in pauses: the search costs as much as there are
 // states times frames, and a path that is lost is found again behind the next pause.
@@ -84,7 +84,7 @@ Grammar make_grammar(ps_decoder_t* decoder, std::span<const SpokenWord> words, b
   fsg_model_t* fsg = grammar.get();
   const int silence = fsg_model_word_add(fsg, kSil);
   int next = 1;
-  const int pause = int(logmath_log(ps_get_logmath(decoder), kPause));
+  const int pause = int(logmath_log(ps_get_logmath(decoder), kPauseProbability));
   const auto optional_silence = [&](int from, bool inside) {
     const int to = next++;
     fsg_model_trans_add(fsg, from, to, inside ? pause : 0, silence);
