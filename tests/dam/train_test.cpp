@@ -108,7 +108,7 @@ TEST(TrainNotes, PhonesLeanOnTheirClassAndOnRelatives) {
       if (p.label == label) return p.spoken_as;
     return std::string("known");
   };
-  EXPECT_EQ(spoken("NG"), "G");
+  EXPECT_EQ(spoken("NG"), "the vowel before");
   EXPECT_EQ(spoken("HH"), "the next vowel");
   EXPECT_EQ(spoken("B"), "known");
 }
