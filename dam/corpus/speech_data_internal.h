@@ -26,9 +26,9 @@ struct FitSentence {
 
 struct SpeechData {
   std::size_t controls = 0;
-  double rate = 25;               ///< frames per second
-  std::vector<double> target;     ///< frames x controls
-  std::vector<std::uint8_t> use;  ///< per frame: 0 is left out
+  double rate = 25;                 ///< frames per second
+  std::vector<double> target;       ///< frames x controls
+  std::vector<std::uint8_t> use;    ///< per frame: 0 is left out
   std::vector<std::uint32_t> word;  ///< per frame: number of the word that is spoken, 0: none known
   std::vector<FitSentence> sentences;
   std::vector<FitOccurrence> occurrences;

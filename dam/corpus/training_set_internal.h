@@ -21,7 +21,7 @@ namespace animeme::dam {
 struct TrainingSet {
   SpeechData data;
   std::vector<Control> controls;
-  std::vector<PhoneModel> phones;  ///< by label
+  std::vector<PhoneModel> phones;              ///< by label
   std::map<std::string, std::uint32_t> words;  ///< numbers of SpeechData::word, from 1
   fap::Rate rate;
   double closure_gap = 0;  ///< see Model

@@ -179,7 +179,7 @@ class Summer {
   Eigen::Index n_, k_;
   RowMatrix column_sums_, target_sums_;  // of the sentences that wait, scaled
   Eigen::Index waiting_ = 0;
-  double frames_ = 0;      // weights of the sentence
+  double frames_ = 0;     // weights of the sentence
   std::size_t used_ = 0;  // its frames that have one
   std::vector<std::vector<std::pair<std::size_t, std::size_t>>> meet_;
   std::vector<Square> products_;
