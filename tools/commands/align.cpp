@@ -37,19 +37,20 @@ Result<void> check_words(const voice::Alignment& alignment, double least) {
   return make_error(Code::out_of_range, "words below --min-confidence: " + list);
 }
 
+Json json_of_word(const voice::AlignedWord& word) {
+  return {{"word", word.text},
+          {"start", word.start},
+          {"end", word.end},
+          {"confidence", word.confidence}};
+}
+
 void print_json(const voice::Alignment& alignment) {
-  Json json = {{"phones", alignment.script.phones.size()},
-               {"confidence", alignment.confidence},
-               {"approximate", alignment.approximate},
-               {"warnings", alignment.warnings},
-               {"words", Json::array()}};
-  for (const voice::AlignedWord& word : alignment.words) {
-    json["words"].push_back({{"word", word.text},
-                             {"start", word.start},
-                             {"end", word.end},
-                             {"confidence", word.confidence}});
-  }
-  std::printf("%s\n", json.dump(1).c_str());
+  const Json json = {{"phones", alignment.script.phones.size()},
+                     {"confidence", alignment.confidence},
+                     {"approximate", alignment.approximate},
+                     {"warnings", alignment.warnings},
+                     {"words", json_list(alignment.words, json_of_word)}};
+  std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
 }
 
 Result<int> run(const AlignOptions& options) {
