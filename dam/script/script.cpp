@@ -30,6 +30,7 @@ constexpr Format kFormats[] = {
      looks_like_tsv,
      read_tsv},
     {{"rhubarb", {}}, looks_like_rhubarb_tsv, read_rhubarb_tsv},
+    {{"flite", "phones and their ends, as flite -psdur says them"}, looks_like_flite, read_flite},
     {{"ctm", "CTM of NIST and Kaldi"}, looks_like_ctm, read_ctm},
     {{"htk", "HTK labels and master label files"}, looks_like_htk, read_htk},
     {{"timit", "TIMIT, in samples"}, looks_like_timit, read_timit},

@@ -21,7 +21,8 @@
 ///   the words.
 /// - Label files: HTK (.lab, .mlf), Festival and ESPS (.lab), TIMIT (.phn, .wrd), Audacity, lines
 /// of
-///   start, end and label; MBROLA (.pho); CTM; PocketSphinx (.phseg); Montreal aligner (.csv);
+///   start, end and label; MBROLA (.pho); CTM; PocketSphinx (.phseg); flite; Montreal aligner
+///   (.csv);
 ///   Rhubarb Lip Sync (.tsv, .xml) and Moho (.dat), whose mouths become phones; SubRip and WebVTT.
 ///
 /// Text is UTF-8, UTF-16 with or without a byte order mark, or else Latin-1. What JSON there is

@@ -4,6 +4,7 @@
 
 #include "dam/script/script_readers_internal.h"
 #include "dam/script/script_timeline_internal.h"
+#include "dam/script/table_text_internal.h"
 
 namespace animeme::dam {
 namespace {
@@ -135,6 +136,43 @@ Result<Timings> read_phseg(std::string_view text, const ScriptOptions& options) 
     timings.labels.push_back(std::move(label));
   }
   if (options.unit != LabelUnit::automatic) decide_unit(timings.labels, options.unit);
+  return timings;
+}
+
+// "pau:0.224 m:0.260": where a label ends and its number begins; npos: no such field.
+static std::size_t colon_in(std::string_view field) {
+  const std::size_t colon = field.rfind(':');
+  if (colon == 0 || colon == std::string_view::npos) return std::string_view::npos;
+  return parse_number(field.substr(colon + 1)) ? colon : std::string_view::npos;
+}
+
+bool looks_like_flite(std::string_view text) {
+  const auto rows = first_rows(text, 1);
+  return !rows.empty() &&
+         std::all_of(rows[0].fields.begin(), rows[0].fields.end(), [](std::string_view field) {
+           return colon_in(field) != std::string_view::npos;
+         });
+}
+
+Result<Timings> read_flite(std::string_view text, const ScriptOptions& options) {
+  Timings timings;
+  LabelRows reader(text);
+  LabelRow row;
+  const double rate = rate_or(options, 1);
+  double start = 0;
+  while (reader.next(row)) {
+    for (std::size_t i = 0; i < row.fields.size(); ++i) {
+      const std::size_t colon = colon_in(row.fields[i]);
+      if (colon == std::string_view::npos) {
+        return row.error(Code::syntax, "flite writes phone:end, as m:0.26", i);
+      }
+      const double end = *parse_number(row.fields[i].substr(colon + 1)) / rate;
+      TimedLabel label = row.label_at(i, start, end);
+      label.label = std::string(row.fields[i].substr(0, colon));
+      timings.labels.push_back(std::move(label));
+      start = end;
+    }
+  }
   return timings;
 }
 

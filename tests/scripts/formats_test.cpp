@@ -84,6 +84,7 @@ const std::vector<Case>& cases() {
       {"timit.phn", "timit", kPhones + kEnd},
       {"timit.wrd", "timit", kWords},
       {"mbrola.pho", "pho", kPhones + kEnd},
+      {"flite.txt", "flite", kPhones + kEnd},
       {"phones.ctm", "ctm", kPhones + kEnd},
       {"words.ctm", "ctm", kWords},
       {"gentle.json", "gentle", kBoth},

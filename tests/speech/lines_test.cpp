@@ -14,10 +14,12 @@ class Lines : public testing::Test {
  protected:
   void SetUp() override {
     ASSERT_EQ(::pipe(ends), 0);
-    auto opened = VoiceLines::open(ends[0], {}, media::steady_clock());
-    if (!opened && opened.error().code == Code::unsupported) {
-      GTEST_SKIP() << opened.error().message;
+    auto maker = voice_lines({});
+    if (!maker && maker.error().code == Code::unsupported) {
+      GTEST_SKIP() << maker.error().message;
     }
+    ASSERT_TRUE(maker) << maker.error().describe();
+    auto opened = VoiceLines::open(ends[0], std::move(*maker), media::steady_clock());
     ASSERT_TRUE(opened) << opened.error().describe();
     lines = std::move(*opened);
   }
@@ -118,7 +120,7 @@ TEST_F(Lines, CanBeLeftWhileTheInputStaysOpen) {
 }
 
 TEST(VoiceLinesOpen, AVoiceThatIsMissingIsKnownAtOnce) {
-  const auto opened = VoiceLines::open(0, {.language = "no such voice"}, media::steady_clock());
+  const auto opened = voice_lines({.language = "no such voice"});
   ASSERT_FALSE(opened);
   EXPECT_THAT(opened.error().code, testing::AnyOf(Code::not_found, Code::unsupported));
 }

@@ -151,6 +151,88 @@ TEST_F(Speaker, ALineIsSeenAndHeardAtTheSameInstant) {
   }
 }
 
+// A piece of a tone that goes on from one piece to the next, with lips closed in its middle.
+SpokenLine make_piece(double begin, double end, int rate) {
+  SpokenLine piece;
+  piece.joins = true;
+  const double middle = (end - begin) / 2;
+  piece.speech.script.phones = {{0, middle - 0.06, "AA", {}},
+                                {middle - 0.06, middle + 0.06, "B", {}},
+                                {middle + 0.06, end - begin, "AA", {}}};
+  piece.speech.audio.sample_rate = rate;
+  for (int i = int(std::lround(begin * rate)); i < int(std::lround(end * rate)); ++i) {
+    piece.speech.audio.samples.push_back(
+        float(0.5 * std::sin(double(i) / rate * 2 * 3.14159265358979 * 200)));
+  }
+  return piece;
+}
+
+TEST_F(Speaker, PiecesJoinWithoutAGap) {
+  open();
+  run(1.01);
+  const int rate = 22050;
+  lines.waiting = {make_piece(0, 0.613, rate), make_piece(0.613, 1.3, rate)};
+  run(1.2);
+  lines.waiting.push_back(make_piece(1.3, 2, rate));  // comes while they speak
+  lines.over = true;
+  run(100);
+  const media::Pcm pcm = sound();
+  const double heard = first_sound(pcm);
+  // 0.1 s after the frame that is made next, or where the encoder has not been.
+  EXPECT_GE(heard, 1.139);
+  EXPECT_LE(heard, 1.19);
+  // A gap of one sample would break the tone.
+  const auto begin = std::size_t((heard + 0.1) * pcm.sample_rate);
+  const auto end = std::size_t((heard + 1.9) * pcm.sample_rate);
+  const double turn = 2 * 3.14159265358979 * 200 / pcm.sample_rate;
+  double worst = 0;
+  for (std::size_t i = begin; i < end; ++i) {
+    const double expected = 2 * std::cos(turn) * pcm.samples[i - 1] - pcm.samples[i - 2];
+    worst = std::max(worst, std::abs(pcm.samples[i] - expected));
+  }
+  EXPECT_LT(worst, 0.02);
+  const fap::Sequence clip = face();
+  const auto gap = [&](double time) {
+    const fap::Frame& frame = clip.frames[std::size_t(std::lround(time * 25))];
+    return -(frame.value[4] + frame.value[5]);
+  };
+  for (const double middle : {0.3065, 0.9565, 1.65}) EXPECT_LT(gap(heard + middle), 45) << middle;
+  for (const double open : {0.6, 1.3}) EXPECT_GT(gap(heard + open), 100) << open;
+  EXPECT_NEAR(clip.duration(), heard + 2, 0.05);
+}
+
+TEST_F(Speaker, APieceThatComesLateBeginsAsSoonAsItCan) {
+  open();
+  run(1);
+  lines.waiting.push_back(make_piece(0, 0.5, 16000));
+  run(2.2);
+  lines.waiting.push_back(make_piece(0, 0.5, 16000));
+  lines.over = true;
+  run(100);
+  const media::Pcm pcm = sound();
+  const auto quiet = [&](double from, double to) {
+    for (auto i = std::size_t(from * pcm.sample_rate); i < std::size_t(to * pcm.sample_rate); ++i) {
+      if (std::abs(pcm.samples[i]) > 0.05F) return false;
+    }
+    return true;
+  };
+  EXPECT_TRUE(quiet(1.7, 2.28));
+  EXPECT_FALSE(quiet(2.28, 2.4));
+  EXPECT_NEAR(face().duration(), 2.2 + 0.15 + 0.5, 0.09);
+}
+
+TEST_F(Speaker, APieceWithTimesAloneMovesTheFace) {
+  open();
+  run(1);
+  SpokenLine piece = make_piece(0, 0.6, 16000);
+  piece.speech.audio.samples.clear();
+  lines.waiting = {piece, piece};
+  lines.over = true;
+  run(100);
+  for (const float sample : sound().samples) ASSERT_LT(std::abs(sample), 1e-3F);
+  EXPECT_NEAR(face().duration(), 1.15 + 1.2, 0.09);
+}
+
 TEST_F(Speaker, WithoutSoundTheFaceSpeaksAllTheSame) {
   SpeakerOptions options;
   options.audio.reset();

@@ -12,9 +12,9 @@
 
 #include "fap/rate.h"
 #include "fap/result.h"
-#include "tools/check/command_template.h"
 #include "tools/exchange/landmarks.h"
 #include "tools/files/talk.h"
+#include "tools/programs/command_template.h"
 
 namespace animeme::tools {
 

@@ -32,7 +32,7 @@ RunFiles files_of(const fs::path& scratch, std::size_t i, const SuiteCase& one,
                  base + ".err",
                  base + ".errors",
                  base + ".encoder"};
-  if (options.command && !options.command->names_out) files.face = files.out;
+  if (options.command && !options.command->names("out")) files.face = files.out;
   return files;
 }
 
@@ -111,7 +111,7 @@ class Judge {
  public:
   Judge(const SuiteCase& one, const RunFiles& files, const RunOptions& options, CaseResult& result)
       : one_(one), files_(files), own_(!options.command), result_(result) {
-    with_body_ = own_ || options.command->names_bap;
+    with_body_ = own_ || options.command->names("bap");
   }
 
   void judge() {
@@ -232,7 +232,8 @@ ChildJob job_for(const SuiteCase& one, const RunFiles& files, const RunOptions& 
   job.out = files.out;
   job.err = files.err;
   if (options.command) {
-    job.arguments = fill_in(*options.command, files.stream, files.face, files.body);
+    const std::string in = files.stream, out = files.face, bap = files.body;
+    job.arguments = fill_in(*options.command, {{{"in", in}, {"out", out}, {"bap", bap}}});
   } else {
     job.work = [&one, files, encode = options.encode] { return run_own(one, files, encode); };
   }
@@ -289,7 +290,7 @@ Result<std::vector<CaseResult>> run_suite(const std::vector<const SuiteCase*>& c
       finish(i);
       continue;
     }
-    if (one.info.object == "body" && options.command && !options.command->names_bap) {
+    if (one.info.object == "body" && options.command && !options.command->names("bap")) {
       result.detail = "a body alone, and the command has no {bap}";
       finish(i);
       continue;

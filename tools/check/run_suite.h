@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "tools/check/children.h"
 #include "tools/check/coded_values.h"
-#include "tools/check/command_template.h"
 #include "tools/check/suite.h"
+#include "tools/programs/children.h"
+#include "tools/programs/command_template.h"
 
 namespace animeme::tools {
 

@@ -1,13 +1,10 @@
 #include "tools/check/suite.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdlib>
 
 #include "conformance/sha256.h"
-#include "tools/check/children.h"
 #include "tools/files/files.h"
+#include "tools/programs/children.h"
 
 namespace animeme::tools {
 namespace {
@@ -100,21 +97,6 @@ bool bare_case(const fs::path& stream, SuiteCase& one) {
 }
 
 }  // namespace
-
-Result<std::unique_ptr<ScratchFolder>> ScratchFolder::make() {
-  std::error_code error;
-  fs::path base = fs::temp_directory_path(error);
-  std::string pattern = ((error ? fs::path("/tmp") : base) / "animeme-check-XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr) {
-    return make_error(Code::io, "no folder for temporary files can be made; set TMPDIR");
-  }
-  return std::make_unique<ScratchFolder>(fs::path(pattern));
-}
-
-ScratchFolder::~ScratchFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
 
 Result<Suite> load_suite(const std::string& place) {
   std::error_code ignored;

@@ -10,24 +10,9 @@
 
 #include "conformance/case_file.h"
 #include "fap/result.h"
+#include "tools/programs/scratch_folder.h"
 
 namespace animeme::tools {
-
-/// A folder that is removed with its content at the end.
-class ScratchFolder {
- public:
-  /// Errors: io.
-  static Result<std::unique_ptr<ScratchFolder>> make();
-  /// Takes over a folder that exists.
-  explicit ScratchFolder(std::filesystem::path path) : path_(std::move(path)) {}
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder();
-  const std::filesystem::path& path() const { return path_; }  ///< removed by the destructor
-
- private:
-  std::filesystem::path path_;
-};
 
 /// A case and where its files are.
 struct SuiteCase {

@@ -92,6 +92,10 @@ Result<int> run(const CheckOptions& options) {
   if (!options.decoder.empty()) {
     Result<CommandTemplate> command = parse_command(options.decoder);
     if (!command) return usage_error(command.error().message);
+    if (!command->names("in")) {
+      return usage_error(
+          "the command needs {in} where the stream's file goes, as in 'player {in} {out}'");
+    }
     run.command = std::move(*command);
   }
   Result<Suite> suite = load_suite(options.places.front());

@@ -1,7 +1,7 @@
 #include "tools/commands/page_sound.h"
 
-#include "tools/check/suite.h"
 #include "tools/commands/common.h"
+#include "tools/programs/scratch_folder.h"
 #include "tools/speech/voice_file.h"
 
 namespace animeme::tools {

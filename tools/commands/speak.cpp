@@ -119,6 +119,29 @@ Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
   return write_preview(options.preview, *units, input);
 }
 
+// Phones inside words, or all of them, lie where they usually do instead of where they were heard.
+bool is_approximate(const speech::Spoken& spoken) {
+  return spoken.times == speech::TimesFrom::words ||
+         (spoken.alignment && spoken.alignment->approximate);
+}
+
+Json confidence_of(const speech::Spoken& spoken) {
+  return spoken.alignment ? Json(spoken.alignment->confidence) : Json(nullptr);
+}
+
+Json doubtful_words(const speech::Spoken& spoken) {
+  Json list = Json::array();
+  if (!spoken.alignment) return list;
+  for (const voice::AlignedWord& word : spoken.alignment->words) {
+    if (word.confidence >= voice::kDoubtful) continue;
+    list.push_back({{"word", word.text},
+                    {"start", word.start},
+                    {"end", word.end},
+                    {"confidence", word.confidence}});
+  }
+  return list;
+}
+
 void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam::Signal& signal,
             const dam::SynthesisReport& synthesis) {
   for (const auto& [label, by] : synthesis.replaced) {
@@ -129,6 +152,10 @@ void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam
   for (const auto& [label, by] : synthesis.replaced) replaced[label] = by;
   const Json json = {{"output", options.output},
                      {"voice", spoken.voice},
+                     {"times", speech::name_of(spoken.times)},
+                     {"approximate", is_approximate(spoken)},
+                     {"confidence", confidence_of(spoken)},
+                     {"doubtful_words", doubtful_words(spoken)},
                      {"seconds", signal.rate.seconds(double(signal.frames()))},
                      {"frames", signal.frames()},
                      {"phones", synthesis.phones},
@@ -245,6 +272,7 @@ const Command kSpeak{
     "  animeme speak --text \"Guten Tag\" --lang de --rate 30 -o tag.mp4\n"
     "  animeme speak --text \"Hello world\" --visemes instead -o hello.fap    # for Xface\n"
     "  animeme speak --audio voice.wav --transcript \"what she said\" -o talk.mp4\n"
+    "  animeme speak --text Hello --tts \"piper -m en.onnx -f {wav}\" -o hello.mp4   # your voice\n"
     "  animeme speak --script voice.TextGrid --audio voice.wav --model me.dam -o talk.fba",
     set_up<SpeakOptions>};
 

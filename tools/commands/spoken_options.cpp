@@ -18,7 +18,6 @@ void add_spoken_options(CLI::App& app, speech::SpokenOptions& options) {
       ->excludes("--text")
       ->excludes("--text-file");
   add_script_options(app, options.script_reading);
-  for (const char* name : {"--tier", "--script-format"}) app.get_option(name)->needs("--script");
   app.add_option("--audio", options.audio, "Recorded voice in any format that FFmpeg reads")
       ->option_text("FILE")
       ->excludes("--text")
@@ -30,6 +29,16 @@ void add_spoken_options(CLI::App& app, speech::SpokenOptions& options) {
       ->excludes("--script");
   app.add_option("--lang", options.language, "Language of the text: en, de, fr, pt-br ...")
       ->capture_default_str();
+  app.add_option("--tts", options.tts,
+                 "Voice of yours for the text: a program that writes sound to {wav}; it reads the "
+                 "text, which is also {text}, and may tell times (see the README)")
+      ->option_text("COMMAND")
+      ->excludes("--script")
+      ->excludes("--audio");
+  app.add_option("--tts-seconds", options.tts_seconds, "Longest time that it may take")
+      ->option_text("SECONDS=300")
+      ->check(CLI::Range(0.1, 86400.0))
+      ->needs("--tts");
   app.add_option("--max-seconds", options.most_seconds, "Longest script that is spoken")
       ->option_text("SECONDS=3600")
       ->check(CLI::Range(1.0, dam::kMaxScriptSeconds))
@@ -45,6 +54,11 @@ void add_spoken_options(CLI::App& app, speech::SpokenOptions& options) {
 }
 
 std::string missing_options(const speech::SpokenOptions& options) {
+  const dam::ScriptOptions& reading = options.script_reading;
+  if (options.script.empty() && options.tts.empty() &&
+      !(reading.tier.empty() && reading.format.empty())) {
+    return "--tier and --script-format say how a --script is read, or what a --tts tells";
+  }
   if (has_source(options)) return {};
   return options.audio.empty()
              ? "nothing to say: give --text, --script, or --audio with --transcript"

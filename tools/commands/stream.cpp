@@ -34,19 +34,20 @@ struct StreamOptions {
 constexpr double kPollSeconds = 0.05;  // sinks are looked after so often
 
 std::string bad_options(const StreamOptions& options) {
-  const bool spoken = speech::has_source(options.program.spoken);
-  const int sources = int(!options.input.empty()) + int(!options.program.say.empty()) + int(spoken);
+  const live::ProgramOptions& what = options.program;
+  const bool spoken = speech::has_source(what.spoken);
+  const bool said = !what.say.empty() || !what.say_json.empty();
+  const int sources = int(!options.input.empty()) + int(said) + int(spoken);
   if (sources > 1) return "name one thing to stream: a file, --say, or --text and its like";
-  if (!options.program.say.empty() && !options.program.spoken.audio.empty()) {
-    return "--audio goes with a face, not with --say, whose voice is synthetic";
+  if (said && !what.spoken.audio.empty()) {
+    return "--audio goes with a face, not with --say, whose voice speaks as the lines come";
   }
-  if (sources == 0 && options.program.spoken.audio.empty()) {
+  if (sources == 0 && what.spoken.audio.empty()) {
     return "nothing to stream: name a file with a face, or give --text, --script or --say -";
   }
   if (sources == 0) return "--audio needs a face beside it, --transcript or --script";
-  if (!options.program.say.empty() && options.program.loop)
-    return "--loop repeats clips, --say is none";
-  if (!options.program.say.empty() && options.fast) {
+  if (said && what.loop) return "--loop repeats clips, --say is none";
+  if (said && options.fast) {
     return "--fast does not go with --say, whose lines come in their own time";
   }
   std::size_t rtp = 0;
@@ -159,7 +160,9 @@ Result<live::Clip> load_clip(const std::string& path, const std::string& audio,
 
 Result<void> open_program(const StreamOptions& options, fap::Rate rate, live::Program& program) {
   const live::ProgramOptions& what = options.program;
-  if (!what.say.empty()) return live::open_speaker(what, rate, program);
+  if (!what.say.empty() || !what.say_json.empty()) {
+    return live::open_speaker(what, rate, program);
+  }
   Result<live::Clip> clip = options.input.empty()
                                 ? live::spoken_clip(what, rate, talk())
                                 : load_clip(options.input, what.spoken.audio, what.coding);
@@ -207,7 +210,8 @@ Result<int> run(StreamOptions& options) {
   options.program.coding.codec_given = !options.codec.empty();
   options.program.coding.sound = !options.no_sound;
   // Opus packets are shorter, which is what counts when sound is made while it is sent.
-  const bool opus = options.codec.empty() ? !options.program.say.empty() : options.codec == "opus";
+  const bool said = !options.program.say.empty() || !options.program.say_json.empty();
+  const bool opus = options.codec.empty() ? said : options.codec == "opus";
   options.program.coding.audio.codec = opus ? media::AudioCodec::opus : media::AudioCodec::aac;
   auto sinks = live::Sinks::open(options.to, options.sdp, options.sink, talk());
   if (!sinks && sinks.error().code == Code::invalid_argument) {
@@ -229,6 +233,12 @@ void add_source_options(CLI::App& app, StreamOptions& options) {
   app.add_option("--say", options.program.say,
                  "Lines of text to speak as they come, - for standard input; between them the face "
                  "idles");
+  app.add_option("--say-json", options.program.say_json,
+                 "Pieces of sound with text, words or visemes and their times, one JSON a line, "
+                 "as speech services give them")
+      ->option_text("FILE")
+      ->excludes("--say")
+      ->excludes("--tts");
   app.add_flag("--loop", options.program.loop, "Begin the clip again at its end; times go on");
   app.add_option("--duration", options.program.duration, "End after so many seconds")
       ->check(CLI::PositiveNumber);

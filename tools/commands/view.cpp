@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "fap/head/rig.h"
-#include "tools/check/suite.h"
 #include "tools/commands/common.h"
 #include "tools/commands/face_stream.h"
 #include "tools/commands/head_options.h"

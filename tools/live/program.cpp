@@ -8,6 +8,7 @@
 
 #include "dam/signal/fap_signal.h"
 #include "dam/speaking/life.h"
+#include "tools/speech/pieces.h"
 
 namespace animeme::live {
 
@@ -22,6 +23,25 @@ dam::SynthesisOptions synthesis_of(const ProgramOptions& options, fap::Rate rate
   settings.rate = rate;
   settings.style = options.style;
   return settings;
+}
+
+voice::VoiceOptions voice_of(const speech::SpokenOptions& spoken) {
+  voice::VoiceOptions voice;
+  voice.language = spoken.language;
+  voice.words_per_minute = spoken.words_per_minute;
+  voice.pitch = spoken.pitch;
+  voice.lead_silence = kLiveLead;
+  voice.tail_silence = kLiveTail;
+  return voice;
+}
+
+Result<speech::LineMaker> maker_of(const ProgramOptions& options) {
+  const speech::SpokenOptions& spoken = options.spoken;
+  if (!options.say_json.empty()) {
+    return speech::piece_lines(voice_of(spoken), {spoken.script_reading, spoken.language});
+  }
+  if (!spoken.tts.empty()) return speech::command_lines(speech::voice_command(spoken));
+  return speech::voice_lines(voice_of(spoken));
 }
 
 }  // namespace
@@ -50,20 +70,17 @@ Result<void> open_speaker(const ProgramOptions& options, fap::Rate rate, Program
   Result<dam::Model> model = speech::read_model(options.model);
   if (!model) return model.error();
   program.model = std::move(*model);
-  if (options.say != "-") {
-    program.descriptor = ::open(options.say.c_str(), O_RDONLY | O_CLOEXEC);
+  const std::string& say = options.say.empty() ? options.say_json : options.say;
+  if (say != "-") {
+    program.descriptor = ::open(say.c_str(), O_RDONLY | O_CLOEXEC);
     if (program.descriptor < 0) {
-      return make_error(Code::not_found, "cannot open the lines to say").in_file(options.say);
+      return make_error(Code::not_found, "cannot open the lines to say").in_file(say);
     }
   }
-  voice::VoiceOptions voice;
-  voice.language = options.spoken.language;
-  voice.words_per_minute = options.spoken.words_per_minute;
-  voice.pitch = options.spoken.pitch;
-  voice.lead_silence = kLiveLead;
-  voice.tail_silence = kLiveTail;
-  const int descriptor = options.say == "-" ? STDIN_FILENO : program.descriptor;
-  auto lines = speech::VoiceLines::open(descriptor, voice, media::steady_clock());
+  const int descriptor = say == "-" ? STDIN_FILENO : program.descriptor;
+  Result<speech::LineMaker> maker = maker_of(options);
+  if (!maker) return maker.error();
+  auto lines = speech::VoiceLines::open(descriptor, std::move(*maker), media::steady_clock());
   if (!lines) return lines.error();
   program.lines = std::move(*lines);
 

@@ -19,6 +19,7 @@ namespace animeme::live {
 /// What is said, how it looks and how it is coded.
 struct ProgramOptions {
   std::string say;               ///< file of lines to speak as they come, "-": standard input
+  std::string say_json;          ///< likewise, of pieces (tools/speech/pieces.h); one of the two
   speech::SpokenOptions spoken;  ///< text, script or voice
   Coding coding;                 ///< of face and sound
   std::string model;             ///< as speech::read_model() takes it
@@ -52,8 +53,9 @@ Result<Clip> spoken_clip(const ProgramOptions& options, fap::Rate rate,
 /// Makes `program` play a clip.
 void play_clip(Clip clip, const ProgramOptions& options, Program& program);
 
-/// Makes `program` a head that speaks the lines of options.say. `program` must stay where it is.
-/// Errors: those of speech::read_model(), VoiceLines and LiveSpeaker; not_found (no such file).
+/// Makes `program` a head that speaks the lines of options.say or say_json. `program` must stay
+/// where it is. Errors: those of speech::read_model(), VoiceLines and LiveSpeaker; not_found (no
+/// such file).
 Result<void> open_speaker(const ProgramOptions& options, fap::Rate rate, Program& program);
 
 }  // namespace animeme::live

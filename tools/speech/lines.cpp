@@ -20,14 +20,16 @@ namespace animeme::speech {
 namespace {
 
 constexpr std::size_t kMostDone = 4;  // lines that wait: a voice is faster than speech
+constexpr std::size_t kShown = 60;    // bytes of a line that is left out
 
 }  // namespace
 
 struct VoiceLines::Impl {
   int descriptor = -1;
   std::array<int, 2> wake = {-1, -1};  // a pipe: closing its end stops the thread
-  voice::VoiceOptions options;
+  LineMaker maker;
   media::Clock* clock = nullptr;
+  std::size_t number = 0;  // of the line, from 1; the thread's
 
   std::mutex mutex;  // guards what follows
   std::vector<SpokenLine> done;
@@ -56,7 +58,7 @@ struct VoiceLines::Impl {
   }
 
   /// Bytes read; 0 at the end or when it is to stop.
-  ssize_t read_some(std::array<char, 4096>& buffer) const {
+  ssize_t read_some(std::array<char, 65536>& buffer) const {
     for (;;) {
       pollfd fds[2] = {{descriptor, POLLIN, 0}, {wake[0], POLLIN, 0}};
       if (::poll(fds, 2, -1) < 0) {
@@ -71,15 +73,26 @@ struct VoiceLines::Impl {
 
   void speak(std::string text, double arrived) {
     if (text.empty() || stopped()) return;
-    Result<voice::Speech> speech = voice::speak_text(text, options);
+    ++number;
+    const std::string begin = text.substr(0, kShown);
+    const bool fits = text.size() <= maker.most_bytes;
+    Result<SpokenLine> made = fits ? maker.make(std::move(text)) : too_long();
     const double spoken = clock->now();
     std::unique_lock lock(mutex);
     room.wait(lock, [this] { return stopping || done.size() < kMostDone; });
-    if (speech) {
-      done.push_back({std::move(text), std::move(*speech), arrived, spoken});
-    } else {
-      warnings.push_back("\"" + text.substr(0, 60) + "\" is left out: " + speech.error().message);
+    const std::string name = "line " + std::to_string(number) + ", \"" + begin + "\"";
+    if (!made) {
+      warnings.push_back(name + ", is left out: " + made.error().describe());
+      return;
     }
+    if (!made->doubt.empty()) warnings.push_back(name + ": " + made->doubt);
+    made->arrived = arrived;
+    made->spoken = spoken;
+    done.push_back(std::move(*made));
+  }
+  Error too_long() const {
+    return make_error(Code::out_of_range, "it has more than " + std::to_string(maker.most_bytes) +
+                                              " bytes; send shorter pieces");
   }
 
   void run_to_the_end() {
@@ -93,8 +106,8 @@ struct VoiceLines::Impl {
   }
 
   void run() {
-    LineCutter cutter;
-    std::array<char, 4096> buffer{};
+    LineCutter cutter(maker.most_bytes, maker.cut);
+    std::array<char, 65536> buffer{};
     for (;;) {
       const ssize_t count = read_some(buffer);
       const double arrived = clock->now();
@@ -114,14 +127,28 @@ VoiceLines::VoiceLines(std::unique_ptr<Impl> impl, int sample_rate)
 
 VoiceLines::~VoiceLines() = default;
 
-Result<std::unique_ptr<VoiceLines>> VoiceLines::open(int descriptor,
-                                                     const voice::VoiceOptions& options,
-                                                     media::Clock& clock) {
+Result<LineMaker> voice_lines(const voice::VoiceOptions& options) {
   const Result<voice::Speech> probe = voice::speak_text("1", options);
   if (!probe) return probe.error();
+  LineMaker maker;
+  maker.sample_rate = probe->audio.sample_rate;
+  maker.make = [options](std::string line) -> Result<SpokenLine> {
+    Result<voice::Speech> speech = voice::speak_text(line, options);
+    if (!speech) return speech.error();
+    SpokenLine spoken;
+    spoken.text = std::move(line);
+    spoken.speech = std::move(*speech);
+    return spoken;
+  };
+  return maker;
+}
+
+Result<std::unique_ptr<VoiceLines>> VoiceLines::open(int descriptor, LineMaker maker,
+                                                     media::Clock& clock) {
+  const int sample_rate = maker.sample_rate;
   auto impl = std::make_unique<Impl>();
   impl->descriptor = descriptor;
-  impl->options = options;
+  impl->maker = std::move(maker);
   impl->clock = &clock;
   if (::pipe(impl->wake.data()) != 0) {
     return make_error(Code::io, "no pipe can be made: too many open files");
@@ -129,9 +156,9 @@ Result<std::unique_ptr<VoiceLines>> VoiceLines::open(int descriptor,
   try {
     impl->thread = std::thread([raw = impl.get()] { raw->run_to_the_end(); });
   } catch (const std::system_error&) {
-    return make_error(Code::io, "no thread can be started for the voice");
+    return make_error(Code::io, "no thread can be started for the lines");
   }
-  return std::unique_ptr<VoiceLines>(new VoiceLines(std::move(impl), probe->audio.sample_rate));
+  return std::unique_ptr<VoiceLines>(new VoiceLines(std::move(impl), sample_rate));
 }
 
 std::vector<SpokenLine> VoiceLines::take() {

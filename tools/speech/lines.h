@@ -1,13 +1,16 @@
 /// @file
-/// Lines of text that become speech while they arrive.
+/// Lines that become speech while they arrive: text, or pieces of sound with their times.
 ///
-///     auto lines = VoiceLines::open(STDIN_FILENO, {}, media::steady_clock());
+///     auto maker = voice_lines({});
+///     auto lines = VoiceLines::open(STDIN_FILENO, *maker, media::steady_clock());
 ///     for (;;) for (SpokenLine& line : (*lines)->take()) ...      // never waits
 ///
 /// Reading and the voice run in a thread of their own, so that the clock of a presentation never
 /// stands still for them.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,7 +27,25 @@ struct SpokenLine {
   voice::Speech speech;  ///< sound and phones
   double arrived = 0;    ///< when its last character was read
   double spoken = 0;     ///< when the voice was done with it
+  /// Its sound follows that of the line before without a gap, if it comes in time; else 0.1 s after
+  /// it came, in which the mouth opens. False: it brings silence of its own.
+  bool joins = false;
+  std::string doubt;  ///< what is not sure about it, a sentence; empty: nothing
 };
+
+/// Makes speech of lines as they come.
+struct LineMaker {
+  /// Called in the thread of the lines. Sets all but the instants. An error leaves the line out.
+  std::function<Result<SpokenLine>(std::string line)> make;
+  int sample_rate = 22050;        ///< Hz; lines may have others, which are converted
+  std::size_t most_bytes = 4000;  ///< of a line
+  bool cut = true;                ///< longer ones are cut at a blank; false: they are left out
+};
+
+/// Speaks each line. Says something once, so that a voice that is missing is known at once and the
+/// first line finds everything warm. Errors: those of voice::speak_text() except a text without
+/// words.
+Result<LineMaker> voice_lines(const voice::VoiceOptions& options);
 
 /// Where lines come from. To be used from one thread.
 class LineSource {
@@ -36,25 +57,22 @@ class LineSource {
   virtual bool ended() = 0;
 };
 
-/// Text by the line from a file descriptor, spoken by tools/voice. Empty lines are skipped; a last
-/// line without its end counts. A line longer than 4000 bytes is cut at a blank. While four lines
-/// wait to be taken, no more are spoken, so that a whole book at once needs no more memory.
+/// Lines from a file descriptor, made into speech in a thread of their own. Empty lines are
+/// skipped; a last line without its end counts. While four lines wait to be taken, no more are
+/// made, so that a whole book at once needs no more memory.
 class VoiceLines : public LineSource {
  public:
-  /// Says something once, so that a voice that is missing is known at once and the first line finds
-  /// everything warm. `descriptor` is borrowed; the clock must outlive the lines.
-  /// Errors: those of voice::speak_text() except a text without words; io (no thread).
-  static Result<std::unique_ptr<VoiceLines>> open(int descriptor,
-                                                  const voice::VoiceOptions& options,
+  /// `descriptor` is borrowed; the clock must outlive the lines. Errors: io (no thread).
+  static Result<std::unique_ptr<VoiceLines>> open(int descriptor, LineMaker maker,
                                                   media::Clock& clock);
-  /// Stops reading. A line that is just being spoken is waited for.
+  /// Stops reading. A line that is just being made is waited for.
   ~VoiceLines() override;
 
   std::vector<SpokenLine> take() override;
   bool ended() override;
-  /// Sample rate of all lines, Hz.
+  /// LineMaker::sample_rate.
   int sample_rate() const { return sample_rate_; }
-  /// One sentence for every line that could not be spoken, since the last call.
+  /// One sentence for every line that was left out or is in doubt, since the last call.
   std::vector<std::string> take_warnings();
 
  private:

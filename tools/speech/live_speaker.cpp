@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "codec/decode/access_unit.h"
@@ -15,6 +16,7 @@ namespace {
 using media::LiveTrack;
 using media::LiveUnit;
 
+constexpr double kOpening = 0.1;    // seconds in which the mouth opens before sound that is late
 constexpr float kAudible = 0.003F;  // of full scale
 constexpr std::size_t kMostTraces = 1000;
 // What is still to be said is not known, so the level is the one that allows the higher rate.
@@ -74,6 +76,20 @@ std::int64_t first_sample(const std::vector<float>& samples, Heard heard) {
   return std::find_if(samples.begin(), samples.end(), heard) - samples.begin();
 }
 
+// Silence of so many seconds before a script.
+void delay(dam::Script& script, double seconds) {
+  if (seconds <= 0 || script.phones.empty()) return;
+  for (dam::Phone& phone : script.phones) {
+    phone.start += seconds;
+    phone.end += seconds;
+  }
+  if (script.phones.front().label == dam::kSilence) {
+    script.phones.front().start = 0;
+  } else {
+    script.phones.insert(script.phones.begin(), {0, seconds, std::string(dam::kSilence), {}});
+  }
+}
+
 }  // namespace
 
 struct LiveSpeaker::Impl {
@@ -86,7 +102,14 @@ struct LiveSpeaker::Impl {
   media::LiveInfo info;
   std::int64_t frame_ticks = 1;
 
-  std::deque<std::pair<SpokenLine, bool>> waiting;  // with LineTrace::waited
+  struct Waiting {
+    SpokenLine line;
+    bool waited = false;                // LineTrace::waited
+    std::optional<std::int64_t> start;  // sample where its sound has been laid
+    std::int64_t sound_sign = 0;        // then
+  };
+  std::deque<Waiting> waiting;
+  std::int64_t sound_end = 0;  // sample after the last line's sound
   std::deque<LineTrace> traces;
   // Of the last trace: where its first signs are, face in ticks, sound in samples.
   std::int64_t face_sign = 0;
@@ -103,7 +126,11 @@ struct LiveSpeaker::Impl {
 
   void collect();
   void begin_lines();
-  Result<void> begin(SpokenLine& line, LineTrace& trace);
+  Result<void> convert(media::Pcm& audio) const;
+  std::int64_t lay(std::int64_t start, SpokenLine& line);
+  std::int64_t place_after_the_last() const;
+  bool has_to_wait(Waiting& next);
+  Result<void> begin(Waiting& next, LineTrace& trace);
   Result<LiveUnit> make_plane();
   Result<LiveUnit> make_packet();
 };
@@ -112,23 +139,66 @@ void LiveSpeaker::Impl::collect() {
   if (waiting.size() > 1) return;  // the source keeps what is not wanted yet
   for (SpokenLine& line : lines->take()) {
     const bool waited = !waiting.empty() || face.speaking();
-    waiting.emplace_back(std::move(line), waited);
+    waiting.push_back({std::move(line), waited, std::nullopt});
   }
+}
+
+// Where a line goes that joins the one before: at its end, if that has not been made.
+std::int64_t LiveSpeaker::Impl::place_after_the_last() const {
+  const auto now = std::llround(frame_due() * options.voice_rate);
+  const std::int64_t made = sound ? sound->made() : 0;
+  if (sound_end >= std::max<std::int64_t>(made, now) && sound_end > 0) return sound_end;
+  return std::max<std::int64_t>(made, now + std::llround(kOpening * options.voice_rate));
+}
+
+// Gives where its first sign will be.
+std::int64_t LiveSpeaker::Impl::lay(std::int64_t start, SpokenLine& line) {
+  std::vector<float>& samples = line.speech.audio.samples;
+  const double seconds = line.speech.script.duration();
+  const auto length = std::max<std::int64_t>(std::int64_t(samples.size()),
+                                             std::llround(seconds * options.voice_rate));
+  sound_end = start + length;
+  if (!sound) return 0;
+  const auto audible = first_sample(samples, [](float x) { return std::abs(x) >= kAudible; });
+  sound->add(start, std::move(samples));
+  return std::llround(double(start + audible) / options.voice_rate * info.audio->sample_rate);
+}
+
+Result<void> LiveSpeaker::Impl::convert(media::Pcm& audio) const {
+  if (audio.sample_rate == options.voice_rate || audio.samples.empty()) return {};
+  Result<media::Pcm> converted = media::resample(audio, options.voice_rate);
+  if (!converted) return converted.error();
+  audio = std::move(*converted);
+  return {};
+}
+
+bool LiveSpeaker::Impl::has_to_wait(Waiting& next) {
+  const media::Pcm& audio = next.line.speech.audio;
+  if (!next.line.joins) {
+    if (face.speaking()) return true;
+    // Its first sound must not lie where the sound has been made already.
+    const auto silence = first_sample(audio.samples, [](float x) { return x != 0; });
+    return sound_made() - double(silence) / audio.sample_rate > frame_due();
+  }
+  // Its sound is laid in time, its face begins with the last frame before that.
+  if (!next.start) {
+    if (!convert(next.line.speech.audio)) return false;  // begin() says why
+    next.start = place_after_the_last();
+    next.sound_sign = lay(*next.start, next.line);
+  }
+  const double frame = double(frame_ticks) / info.timescale;
+  return face.speaking() && double(*next.start) / options.voice_rate >= frame_due() + frame;
 }
 
 // A line that cannot be shown is left out; the next one may be shown.
 void LiveSpeaker::Impl::begin_lines() {
-  while (!waiting.empty() && !face.speaking()) {
-    SpokenLine& line = waiting.front().first;
-    // Its first sound must not lie where the sound has been made already.
-    const media::Pcm& audio = line.speech.audio;
-    const auto silence = first_sample(audio.samples, [](float x) { return x != 0; });
-    if (sound_made() - double(silence) / audio.sample_rate > frame_due()) return;
+  while (!waiting.empty() && !has_to_wait(waiting.front())) {
+    const SpokenLine& line = waiting.front().line;
     LineTrace trace;
-    trace.waited = waiting.front().second;
+    trace.waited = waiting.front().waited;
     trace.arrived = line.arrived;
     trace.spoken = line.spoken;
-    if (auto ok = begin(line, trace); ok) {
+    if (auto ok = begin(waiting.front(), trace); ok) {
       traces.push_back(trace);
       if (traces.size() > kMostTraces) traces.pop_front();
     } else {
@@ -138,25 +208,19 @@ void LiveSpeaker::Impl::begin_lines() {
   }
 }
 
-Result<void> LiveSpeaker::Impl::begin(SpokenLine& line, LineTrace& trace) {
+Result<void> LiveSpeaker::Impl::begin(Waiting& next, LineTrace& trace) {
   trace.begun = clock->now();
-  const int rate = options.voice_rate;
-  if (line.speech.audio.sample_rate != rate) {
-    Result<media::Pcm> converted = media::resample(line.speech.audio, rate);
-    if (!converted) return converted.error();
-    line.speech.audio = std::move(*converted);
-  }
-  const Result<Line> shown = face.say(line.speech.script);
+  if (auto ok = convert(next.line.speech.audio); !ok) return ok;
+  dam::Script& script = next.line.speech.script;
+  if (next.start) delay(script, double(*next.start) / options.voice_rate - frame_due());
+  const Result<Line> shown = face.say(script);
   if (!shown) return shown.error();
   face_sign = shown->first_moved * frame_ticks;
-  if (sound) {
+  if (!next.start) {
     const double first = double(shown->first * frame_ticks) / info.timescale;
-    const std::int64_t start = std::llround(first * rate);
-    const auto audible =
-        first_sample(line.speech.audio.samples, [](float x) { return std::abs(x) >= kAudible; });
-    sound->add(start, std::move(line.speech.audio.samples));
-    sound_sign = std::llround(double(start + audible) / rate * info.audio->sample_rate);
+    next.sound_sign = lay(std::llround(first * options.voice_rate), next.line);
   }
+  sound_sign = next.sound_sign;
   trace.synthesised = clock->now();
   return {};
 }

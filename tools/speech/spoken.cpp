@@ -1,5 +1,7 @@
 #include "tools/speech/spoken.h"
 
+#include <utility>
+
 #include "dam/model/builtin.h"
 #include "tools/files/files.h"
 #include "tools/scripts/script_text.h"
@@ -11,21 +13,36 @@ namespace animeme::speech {
 
 namespace {
 
-Result<Spoken> speak(const SpokenOptions& options, const std::string& text) {
+Result<Spoken> speak(const SpokenOptions& options, const std::string& text,
+                     const tools::Talk& talk) {
+  if (!options.tts.empty()) {
+    Result<TimedSpeech> timed = run_voice_command(text, voice_command(options), talk);
+    if (!timed) return timed.error();
+    voice::Speech& speech = timed->speech;
+    return Spoken{std::move(speech.script), std::move(speech.audio), std::move(speech.voice),
+                  timed->times, std::move(timed->alignment)};
+  }
   voice::VoiceOptions settings;
   settings.language = options.language;
   settings.words_per_minute = options.words_per_minute;
   settings.pitch = options.pitch;
   Result<voice::Speech> speech = voice::speak_text(text, settings);
   if (!speech) return speech.error();
-  return Spoken{std::move(speech->script), std::move(speech->audio), speech->voice};
+  return Spoken{std::move(speech->script), std::move(speech->audio), speech->voice,
+                TimesFrom::voice, std::nullopt};
 }
 
 Result<Spoken> follow_script(const SpokenOptions& options, const tools::Talk& talk) {
-  Result<dam::Script> script = read_script(
-      options.script, {options.script_reading, options.language, options.most_seconds}, talk);
+  bool words = false;
+  Result<dam::Script> script =
+      read_script(options.script, {options.script_reading, options.language, options.most_seconds},
+                  talk, &words);
   if (!script) return script.error();
-  Spoken spoken{std::move(*script), std::nullopt, {}};
+  Spoken spoken{std::move(*script),
+                std::nullopt,
+                {},
+                words ? TimesFrom::words : TimesFrom::script,
+                std::nullopt};
   if (options.audio.empty()) return spoken;
   Result<media::Pcm> audio = read_voice(options.audio, talk);
   if (!audio) return audio.error();
@@ -43,10 +60,18 @@ Result<Spoken> align_voice(const SpokenOptions& options, const tools::Talk& talk
   if (!aligned) return aligned.error();
   Result<media::Pcm> audio = read_voice(options.audio, talk);
   if (!audio) return audio.error();
-  return Spoken{std::move(aligned->script), std::move(*audio), {}};
+  dam::Script script = std::exchange(aligned->script, {});
+  return Spoken{
+      std::move(script), std::move(*audio), {}, TimesFrom::alignment, std::move(*aligned)};
 }
 
 }  // namespace
+
+VoiceCommand voice_command(const SpokenOptions& options) {
+  return {options.tts,
+          {options.script_reading, options.language, options.most_seconds},
+          options.tts_seconds};
+}
 
 Result<voice::Alignment> align_file(const std::string& audio, const std::string& transcript,
                                     const voice::AlignOptions& options, const tools::Talk& talk) {
@@ -88,11 +113,11 @@ Result<Spoken> get_spoken(const SpokenOptions& options, const tools::Talk& talk)
   if (!options.text_file.empty()) {
     Result<std::string> text = tools::read_text_file(options.text_file, tools::kMostWritten);
     if (!text) return text.error();
-    Result<Spoken> spoken = speak(options, *text);
+    Result<Spoken> spoken = speak(options, *text, talk);
     if (!spoken) return spoken.error().in_file(options.text_file);
     return spoken;
   }
-  if (options.has_text) return speak(options, options.text);
+  if (options.has_text) return speak(options, options.text, talk);
   if (!options.script.empty()) return follow_script(options, talk);
   return align_voice(options, talk);
 }

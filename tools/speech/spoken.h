@@ -11,6 +11,8 @@
 #include "fap/result.h"
 #include "tools/files/talk.h"
 #include "tools/media/pcm.h"
+#include "tools/speech/timed_sound.h"
+#include "tools/speech/voice_command.h"
 #include "tools/speech/voice_file.h"
 #include "tools/voice/align.h"
 
@@ -28,6 +30,8 @@ struct SpokenOptions {
   std::string transcript;              ///< what is said in it
   bool has_transcript = false;         ///< transcript may be empty
   std::string language = "en";         ///< as espeak-ng names it
+  std::string tts;                     ///< command of a voice for text; empty: espeak-ng
+  double tts_seconds = 300;            ///< that it may take
   int words_per_minute = 175;          ///< of a synthetic voice, 80 to 450
   int pitch = 50;                      ///< of a synthetic voice, 0 to 100
   double most_seconds = kMostSeconds;  ///< longest script
@@ -35,16 +39,21 @@ struct SpokenOptions {
 
 /// Speech as phones, with its sound.
 struct Spoken {
-  dam::Script script;               ///< timed phones
-  std::optional<media::Pcm> audio;  ///< nothing: a script without sound
-  std::string voice;                ///< of synthetic speech
+  dam::Script script;                         ///< timed phones
+  std::optional<media::Pcm> audio;            ///< nothing: a script without sound
+  std::string voice;                          ///< of synthetic speech
+  TimesFrom times = TimesFrom::voice;         ///< where the script is from
+  std::optional<voice::Alignment> alignment;  ///< where it was aligned; without its script
 };
 
 /// Whether one of the four sources is named, and all that it needs.
 bool has_source(const SpokenOptions& options);
 
+/// The voice that options.tts names, and how its times are read.
+VoiceCommand voice_command(const SpokenOptions& options);
+
 /// Speaks, reads or aligns. Errors: those of reading the files, of voice::speak_text(),
-/// dam::check_against_audio() and align_file().
+/// run_voice_command(), dam::check_against_audio() and align_file().
 Result<Spoken> get_spoken(const SpokenOptions& options, const tools::Talk& talk = {});
 
 /// The timed phones of a recording and its text. What the aligner doubts goes to talk.warn.

@@ -11,16 +11,18 @@
 namespace animeme::speech {
 
 Result<dam::Script> read_script(const std::string& path, const ScriptInput& input,
-                                const tools::Talk& talk) {
+                                const tools::Talk& talk, bool* from_words) {
   const Result<std::string> text = tools::read_text_file(path, tools::kMostWritten);
   if (!text) return text.error();
-  return parse_script(*text, path, input, talk);
+  return parse_script(*text, path, input, talk, from_words);
 }
 
 Result<dam::Script> parse_script(const std::string& text, const std::string& path,
-                                 const ScriptInput& input, const tools::Talk& talk) {
+                                 const ScriptInput& input, const tools::Talk& talk,
+                                 bool* from_words) {
   Result<dam::Timings> timings = scripts::read_labels(text, input.reading);
   if (!timings) return timings.error().in_file(path);
+  if (from_words != nullptr) *from_words = dam::has_words(*timings);
   if (dam::has_words(*timings)) {
     std::vector<std::string> warnings;
     voice::AlignOptions settings;

@@ -32,10 +32,12 @@ struct ScriptInput {
 /// tools::read_text_file(), scripts::read_labels(), dam::make_script() and
 /// voice::words_to_phones(); out_of_range (it lasts more than `most_seconds`).
 Result<dam::Script> read_script(const std::string& path, const ScriptInput& input = {},
-                                const tools::Talk& talk = {});
-/// The same from its text; `path` is for messages.
+                                const tools::Talk& talk = {}, bool* from_words = nullptr);
+/// The same from its text; `path` is for messages. `from_words`, if not null, is told whether the
+/// phones are guessed.
 Result<dam::Script> parse_script(const std::string& text, const std::string& path,
-                                 const ScriptInput& input = {}, const tools::Talk& talk = {});
+                                 const ScriptInput& input = {}, const tools::Talk& talk = {},
+                                 bool* from_words = nullptr);
 
 /// A recording as samples of one channel; `sample_rate` 0: its own. Errors: those of
 /// media::read_audio().

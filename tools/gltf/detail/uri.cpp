@@ -1,39 +1,9 @@
 #include "tools/gltf/detail/uri.h"
 
-#include <array>
+#include "tools/files/base64.h"
 
 namespace animeme::gltf {
 namespace {
-
-std::array<int, 256> base64_values() {
-  std::array<int, 256> values;
-  values.fill(-1);
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  for (std::size_t i = 0; i < kDigits.size(); ++i) values[std::uint8_t(kDigits[i])] = int(i);
-  values['-'] = 62;  // of URLs
-  values['_'] = 63;
-  return values;
-}
-
-Result<std::vector<std::uint8_t>> base64(std::string_view text) {
-  static const std::array<int, 256> values = base64_values();
-  while (!text.empty() && text.back() == '=') text.remove_suffix(1);
-  std::vector<std::uint8_t> out;
-  out.reserve(text.size() / 4 * 3 + 3);
-  std::uint32_t bits = 0;
-  int count = 0;
-  for (const char c : text) {
-    const int value = values[std::uint8_t(c)];
-    if (value < 0) return make_error(Code::syntax, "a data URI is not base64");
-    bits = bits << 6 | std::uint32_t(value);
-    count += 6;
-    if (count < 8) continue;
-    count -= 8;
-    out.push_back(std::uint8_t(bits >> count));
-  }
-  return out;
-}
 
 int hex(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -63,7 +33,9 @@ Result<std::vector<std::uint8_t>> resolve(std::string_view uri, const LoadFile& 
     if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(";base64")) {
       return make_error(Code::syntax, "a data URI is not base64");
     }
-    return base64(uri.substr(comma + 1));
+    auto bytes = tools::decode_base64(uri.substr(comma + 1));
+    if (!bytes) return make_error(Code::syntax, "a data URI is not base64");
+    return std::move(*bytes);
   }
   const std::string path = percent_decoded(uri);
   if (!load) {

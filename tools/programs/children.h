@@ -20,6 +20,7 @@ namespace animeme::tools {
 struct ChildJob {
   std::vector<std::string> arguments;                   ///< program and arguments; empty: `work`
   std::function<int()> work;                            ///< its value is the exit code
+  std::string in;                                       ///< read by it; empty: nothing to read
   std::string out,                                      ///< empty: thrown away
       err;                                              ///< likewise
   std::uint64_t most_bytes = std::uint64_t(256) << 20;  ///< that each of its files may have
@@ -34,7 +35,8 @@ struct ChildEnd {
   double seconds = 0;     ///< wall clock
 };
 
-/// Some children at once. Not thread safe, and no other thread may run: it forks.
+/// Some children at once. Not thread safe. Jobs with `work` want that no other thread runs: they
+/// fork and go on.
 class Children {
  public:
   /// `timeout_seconds` for each child.
@@ -44,7 +46,7 @@ class Children {
   /// Ends what still runs.
   ~Children();
 
-  /// Starts one. Its standard input is empty, its files have a limit, and it leaves no core file.
+  /// Starts one. Its files have a limit, and it leaves no core file.
   /// `id` comes back from wait(). Errors, io: it cannot be started.
   Result<void> start(std::size_t id, const ChildJob& job);
   /// Started and not yet given out by wait().

@@ -1,4 +1,4 @@
-#include "tools/check/children.h"
+#include "tools/programs/children.h"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -34,7 +34,7 @@ void limit(int what, rlim_t most) {
 [[noreturn]] void run_child(const ChildJob& job, std::vector<char*>& argv, int report) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  put_file("/dev/null", O_RDONLY, STDIN_FILENO);
+  put_file(job.in.empty() ? "/dev/null" : job.in.c_str(), O_RDONLY, STDIN_FILENO);
   put_file(job.out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
   put_file(job.err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
   limit(RLIMIT_CORE, 0);

@@ -1,7 +1,8 @@
-#include "tools/check/command_template.h"
+#include "tools/programs/command_template.h"
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
@@ -58,13 +59,6 @@ bool is_found(const std::string& program) {
   }
 }
 
-bool has(const std::vector<std::string>& arguments, const char* place) {
-  for (const std::string& one : arguments) {
-    if (one.find(place) != std::string::npos) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 Result<CommandTemplate> parse_command(std::string_view line) {
@@ -73,30 +67,34 @@ Result<CommandTemplate> parse_command(std::string_view line) {
   if (arguments->empty() || arguments->front().empty()) return bad("the command names no program");
   CommandTemplate command;
   command.arguments = std::move(*arguments);
-  if (!has(command.arguments, "{in}")) {
-    return bad("the command needs {in} where the stream's file goes, as in 'player {in} {out}'");
-  }
   const std::string& program = command.arguments.front();
   if (!is_found(program)) return bad("there is no program " + program + " that can be run");
-  command.names_out = has(command.arguments, "{out}");
-  command.names_bap = has(command.arguments, "{bap}");
   return command;
 }
 
-std::vector<std::string> fill_in(const CommandTemplate& command, const std::string& in,
-                                 const std::string& out, const std::string& bap) {
+bool CommandTemplate::names(std::string_view place) const {
+  const std::string braced = "{" + std::string(place) + "}";
+  return std::any_of(arguments.begin(), arguments.end(),
+                     [&](const std::string& one) { return one.find(braced) != std::string::npos; });
+}
+
+std::vector<std::string> fill_in(const CommandTemplate& command, std::span<const Place> places) {
   std::vector<std::string> result;
   for (const std::string& argument : command.arguments) {
     std::string filled;
     for (std::size_t i = 0; i < argument.size();) {
-      const auto place = [&](std::string_view name, const std::string& file) {
-        if (argument.compare(i, name.size(), name) != 0) return false;
-        filled += file;
-        i += name.size();
-        return true;
+      const auto here = [&](const Place& place) {
+        const std::size_t end = i + place.name.size() + 1;
+        return argument[i] == '{' && argument.compare(i + 1, place.name.size(), place.name) == 0 &&
+               end < argument.size() && argument[end] == '}';
       };
-      if (place("{in}", in) || place("{out}", out) || place("{bap}", bap)) continue;
-      filled += argument[i++];
+      const auto place = std::find_if(places.begin(), places.end(), here);
+      if (place == places.end()) {
+        filled += argument[i++];
+      } else {
+        filled += place->text;
+        i += place->name.size() + 2;
+      }
     }
     result.push_back(std::move(filled));
   }

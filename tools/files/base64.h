@@ -1,0 +1,16 @@
+/// @file
+/// Bytes that came as text.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace animeme::tools {
+
+/// The bytes of base64 (RFC 4648), in the alphabet of files or of URLs, with or without "=" at its
+/// end. Nothing: another character.
+std::optional<std::vector<std::uint8_t>> decode_base64(std::string_view text);
+
+}  // namespace animeme::tools
