@@ -3,8 +3,6 @@
 /// ours in a forked copy, so that nothing a child does can end the parent.
 #pragma once
 
-#include <sys/types.h>
-
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -67,7 +65,7 @@ class Children {
   using Clock = std::chrono::steady_clock;
   struct Child {
     std::size_t id;
-    pid_t pid;
+    int pid;
     Clock::time_point start;
   };
 
