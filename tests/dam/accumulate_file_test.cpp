@@ -57,6 +57,12 @@ std::vector<std::uint8_t> small_file(bool speech = true) {
   return write_training_sums(sums_of(std::vector{u}));
 }
 
+#ifdef ANIMEME_SANITIZED
+constexpr bool kSlow = true;
+#else
+constexpr bool kSlow = false;
+#endif
+
 /// Every byte of the small file, some of the other.
 template <class Visit>
 void each_byte(Visit visit) {
@@ -116,7 +122,9 @@ TEST(AccumulateFile, SealedNonsenseIsRefusedWithoutHarm) {
   int refused = 0;
   each_byte([&](const std::vector<std::uint8_t>& good, std::size_t i) {
     if (i < 20 || i + 4 >= good.size()) return;
+    int number = int(i);
     for (const int value : {0x00, 0x7F, 0xFF}) {
+      if (kSlow && ++number % 3 != 0) continue;  // trains from each that is not refused
       auto bytes = good;
       bytes[i] = std::uint8_t(value);
       test::seal(bytes);
@@ -130,7 +138,7 @@ TEST(AccumulateFile, SealedNonsenseIsRefusedWithoutHarm) {
       }
     }
   });
-  EXPECT_GT(refused, 100);
+  EXPECT_GT(refused, kSlow ? 30 : 100);
 }
 
 }  // namespace accumulate_file_test
