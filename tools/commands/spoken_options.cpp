@@ -19,7 +19,10 @@ void add_spoken_options(CLI::App& app, speech::SpokenOptions& options) {
       ->excludes("--text-file");
   add_script_options(app, options.script_reading);
   for (const char* name : {"--tier", "--script-format"}) app.get_option(name)->needs("--script");
-  app.add_option("--audio", options.audio, "Recorded voice in any format that FFmpeg reads")
+  app.add_option("--audio", options.audio,
+                 options.listen
+                     ? "Recorded voice in any format that FFmpeg reads; alone, it is listened to"
+                     : "Recorded voice in any format that FFmpeg reads")
       ->option_text("FILE")
       ->excludes("--text")
       ->excludes("--text-file");

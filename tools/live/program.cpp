@@ -35,7 +35,7 @@ Result<Clip> spoken_clip(const ProgramOptions& options, fap::Rate rate, const to
   if (spoken->audio) {
     settings.tail = std::max(0.0, spoken->audio->duration() - spoken->script.duration());
   }
-  Result<dam::Signal> signal = dam::synthesise(*model, spoken->script, settings);
+  Result<dam::Signal> signal = speech::move_face(*model, *spoken, settings);
   if (!signal) return signal.error();
   if (options.life) {
     auto added = dam::add_life(*signal, spoken->script, {1, options.seed});

@@ -1,6 +1,7 @@
 #include "tools/speech/spoken.h"
 
 #include "dam/model/builtin.h"
+#include "dam/speaking/readings.h"
 #include "tools/files/files.h"
 #include "tools/scripts/script_text.h"
 #include "tools/speech/voice_file.h"
@@ -18,14 +19,14 @@ Result<Spoken> speak(const SpokenOptions& options, const std::string& text) {
   settings.pitch = options.pitch;
   Result<voice::Speech> speech = voice::speak_text(text, settings);
   if (!speech) return speech.error();
-  return Spoken{std::move(speech->script), std::move(speech->audio), speech->voice};
+  return Spoken{std::move(speech->script), std::move(speech->audio), speech->voice, {}};
 }
 
 Result<Spoken> follow_script(const SpokenOptions& options, const tools::Talk& talk) {
   Result<dam::Script> script = read_script(
       options.script, {options.script_reading, options.language, options.most_seconds}, talk);
   if (!script) return script.error();
-  Spoken spoken{std::move(*script), std::nullopt, {}};
+  Spoken spoken{std::move(*script), std::nullopt, {}, {}};
   if (options.audio.empty()) return spoken;
   Result<media::Pcm> audio = read_voice(options.audio, talk);
   if (!audio) return audio.error();
@@ -43,7 +44,19 @@ Result<Spoken> align_voice(const SpokenOptions& options, const tools::Talk& talk
   if (!aligned) return aligned.error();
   Result<media::Pcm> audio = read_voice(options.audio, talk);
   if (!audio) return audio.error();
-  return Spoken{std::move(aligned->script), std::move(*audio), {}};
+  return Spoken{std::move(aligned->script), std::move(*audio), {}, {}};
+}
+
+Result<Spoken> hear_voice(const SpokenOptions& options, const tools::Talk& talk) {
+  voice::ListenOptions settings;
+  settings.language = options.language;
+  settings.progress = options.heard;
+  Result<voice::Heard> heard = listen_to_file(options.audio, settings, talk);
+  if (!heard) return heard.error();
+  Result<media::Pcm> audio = read_voice(options.audio, talk);
+  if (!audio) return audio.error();
+  dam::Script script = heard->script;
+  return Spoken{std::move(script), std::move(*audio), {}, std::move(*heard)};
 }
 
 }  // namespace
@@ -56,6 +69,22 @@ Result<voice::Alignment> align_file(const std::string& audio, const std::string&
   if (!alignment) return alignment.error().in_file(audio);
   for (const std::string& text : alignment->warnings) talk.warn(audio + ": " + text);
   return alignment;
+}
+
+Result<voice::Heard> listen_to_file(const std::string& audio, const voice::ListenOptions& options,
+                                    const tools::Talk& talk) {
+  Result<media::Pcm> pcm = read_voice(audio, talk, voice::kAlignRate);
+  if (!pcm) return pcm.error();
+  Result<voice::Heard> heard = voice::listen(*pcm, options);
+  if (!heard) return heard.error().in_file(audio);
+  for (const std::string& text : heard->warnings) talk.warn(audio + ": " + text);
+  return heard;
+}
+
+Result<dam::Signal> move_face(const dam::Model& model, const Spoken& spoken,
+                              const dam::SynthesisOptions& options, dam::SynthesisReport* report) {
+  if (!spoken.heard) return dam::synthesise(model, spoken.script, options, report);
+  return dam::synthesise_readings(model, spoken.heard->readings, spoken.script, options, report);
 }
 
 Result<std::string> words_of_file(const std::string& path, const dam::ScriptOptions& reading) {
@@ -81,7 +110,7 @@ Result<std::string> words_of_file(const std::string& path, const dam::ScriptOpti
 
 bool has_source(const SpokenOptions& options) {
   return options.has_text || !options.text_file.empty() || !options.script.empty() ||
-         options.has_transcript;
+         options.has_transcript || (options.listen && !options.audio.empty());
 }
 
 Result<Spoken> get_spoken(const SpokenOptions& options, const tools::Talk& talk) {
@@ -94,6 +123,7 @@ Result<Spoken> get_spoken(const SpokenOptions& options, const tools::Talk& talk)
   }
   if (options.has_text) return speak(options, options.text);
   if (!options.script.empty()) return follow_script(options, talk);
+  if (options.listen && !options.has_transcript) return hear_voice(options, talk);
   return align_voice(options, talk);
 }
 
