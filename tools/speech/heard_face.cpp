@@ -16,7 +16,7 @@ constexpr double kReach = 0.8;         // seconds of speech behind a frame that 
 constexpr double kLipReach = 0.24;     // seconds about a frame in which a closure may lie
 constexpr double kSettle = 0.1;        // seconds of silence by which the ears come to the end
 constexpr std::size_t kReadings = 16;
-constexpr std::size_t kBlock = 800;    // samples that are heard at once: frames are looked for between
+constexpr int kBlocks = 50;            // a second: frames are looked for between them
 constexpr double kKept = 0.25;         // of the last frame: readings that change must not twitch
 
 class Follower : public HeardFace {
@@ -35,9 +35,10 @@ class Follower : public HeardFace {
     dam::Signal made = nothing();
     std::size_t at = 0;
     // Block by block, so that frames do not depend on how many samples came at once.
-    while (waiting_.size() - at >= kBlock) {
-      hear(std::span(waiting_).subspan(at, kBlock));
-      at += kBlock;
+    const std::size_t block = std::size_t(rate_) / kBlocks;
+    while (waiting_.size() - at >= block) {
+      hear(std::span(waiting_).subspan(at, block));
+      at += block;
       if (auto ok = make_until(seconds_ - options_.delay, made); !ok) return ok.error();
     }
     waiting_.erase(waiting_.begin(), waiting_.begin() + std::ptrdiff_t(at));
