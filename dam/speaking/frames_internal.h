@@ -19,4 +19,9 @@ Result<Signal> synthesise_frames(const Model& model, const Script& script,
                                  const SynthesisOptions& options, const FramePlan& plan,
                                  SynthesisReport& report);
 
+/// Where the script says P, B, M, F or V the lips meet each other or the teeth, unless the options
+/// say no; times of the script are those of the signal.
+void touch_lips(const Model& model, const Script& script, const SynthesisOptions& options,
+                Signal& signal, SynthesisReport& report);
+
 }  // namespace animeme::dam

@@ -90,8 +90,10 @@ std::vector<Occurrence> timeline_of(const Model& model, const Script& spoken) {
   return timeline;
 }
 
-void touch(const Model& model, const Script& script, const SynthesisOptions& options,
-           Signal& signal, SynthesisReport& report) {
+}  // namespace
+
+void touch_lips(const Model& model, const Script& script, const SynthesisOptions& options,
+                Signal& signal, SynthesisReport& report) {
   if (!options.closure) return;
   const ClosureOptions closure = closure_options(model);
   if (model.lip_tooth_raise)
@@ -100,8 +102,6 @@ void touch(const Model& model, const Script& script, const SynthesisOptions& opt
   report.closures = apply_closure(signal, script, closure);
   apply_contact(signal, closure);
 }
-
-}  // namespace
 
 Result<void> validate(const SynthesisOptions& options) {
   const auto range = [](const char* what) {
@@ -140,7 +140,7 @@ Result<Signal> synthesise_frames(const Model& model, const Script& script,
              report);
   const RestGate gate(*spoken, model.pause_edge, options.rest_at_ends, plan.last_frame);
   to_control_units(model, gate, options.style, signal);
-  touch(model, script, options, signal, report);
+  touch_lips(model, script, options, signal, report);
   apply_limits(signal, model.limits);
   return signal;
 }

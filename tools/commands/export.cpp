@@ -8,6 +8,8 @@
 #include "tools/commands/script_options.h"
 #include "tools/exchange/arkit.h"
 #include "tools/exchange/visemes.h"
+#include "tools/media/container.h"
+#include "tools/speech/spoken.h"
 #include "tools/gltf/glb.h"
 
 namespace animeme::tools {
@@ -22,6 +24,9 @@ struct ExportOptions {
   std::string script;
   speech::ScriptInput reading;
   std::string rate = "25";
+  std::string format;  // of Rhubarb
+  std::string dialog_file;
+  exchange::RhubarbOptions rhubarb;
   LengthLimit length;
   double crossfade = 0.08;
   studio::HeadChoice head;
@@ -51,9 +56,12 @@ std::string idle_options(const ExportOptions& options, const std::string& what, 
 // What a name like talk.visemes.json asks for.
 std::string what_of(const ExportOptions& options, bool from_script) {
   if (!options.what.empty()) return options.what;
+  if (!options.format.empty()) return "rhubarb";
   const std::string extension = extension_of(options.output);
   const std::string inner = extension_of(std::filesystem::path(options.output).stem().string());
-  if (inner == ".rhubarb" || extension == ".tsv") return "rhubarb";
+  if (inner == ".rhubarb" || extension == ".tsv" || extension == ".xml" || extension == ".dat") {
+    return "rhubarb";
+  }
   if (extension == ".glb") return "head";
   if (inner == ".visemes" || from_script) return "visemes";
   return "arkit";
@@ -65,8 +73,9 @@ std::string wrong_extension(const std::string& what, const std::string& path) {
   if (what == "head") {
     return extension == ".glb" ? "" : "--output must end in .glb for a head, not " + path;
   }
-  if (extension == ".json" || extension == (what == "rhubarb" ? ".tsv" : ".csv")) return {};
-  const char* wanted = what == "rhubarb"   ? ".tsv or .json"
+  const bool of_rhubarb = extension == ".tsv" || extension == ".xml" || extension == ".dat";
+  if (extension == ".json" || (what == "rhubarb" ? of_rhubarb : extension == ".csv")) return {};
+  const char* wanted = what == "rhubarb"   ? ".tsv, .xml, .json or .dat"
                        : what == "visemes" ? ".csv or .json"
                                            : ".csv (Live Link Face), .json or .glb";
   return "--output must end in " + std::string(wanted) + " for " + what + ", not " + path;
@@ -134,6 +143,33 @@ speech::ScriptInput input_of(const ExportOptions& options) {
   return input;
 }
 
+// A recorded voice: its text, if there is one, else what is heard.
+Result<exchange::VisemeTrack> track_of_voice(const ExportOptions& options, const fap::Rate& rate) {
+  speech::SpokenOptions source;
+  source.audio = options.input;
+  source.language = options.reading.language;
+  source.listen = true;
+  ProgressLine progress("listening");
+  source.heard = [&](double done) { progress.update(done); };
+  if (!options.dialog_file.empty()) {
+    auto text = read_text_file(options.dialog_file, kMostWritten);
+    if (!text) return text.error();
+    source.transcript = std::move(*text);
+    source.has_transcript = true;
+  }
+  const auto spoken = speech::get_spoken(source, talk());
+  progress.clear();
+  if (!spoken) return spoken.error();
+  return exchange::track_of_events(exchange::script_events(spoken->script), rate,
+                                   options.crossfade);
+}
+
+// Media without a face.
+bool is_voice(const ExportOptions& options, std::span<const std::uint8_t> bytes) {
+  if (kind_of(bytes) != FileKind::media || options.input == "-") return false;
+  return !open_container({bytes.begin(), bytes.end()}, options.input);
+}
+
 Result<exchange::VisemeTrack> track_of(const ExportOptions& options,
                                        std::vector<std::uint8_t> bytes, bool from_script,
                                        const fap::Rate& rate) {
@@ -158,16 +194,21 @@ Result<exchange::VisemeTrack> track_of(const ExportOptions& options,
 Result<int> write_visemes(const ExportOptions& options, const std::string& what,
                           exchange::VisemeTrack track) {
   const std::string sound = std::filesystem::path(options.audio).filename().string();
-  const bool json = extension_of(options.output) == ".json";
+  const std::string format =
+      options.format.empty() ? extension_of(options.output) : "." + options.format;
+  const bool json = format == ".json";
   std::string text;
   if (what == "rhubarb") {
-    text = json ? exchange::write_rhubarb_json(track, sound) : exchange::write_rhubarb_tsv(track);
+    text = json               ? exchange::write_rhubarb_json(track, sound, options.rhubarb)
+           : format == ".xml" ? exchange::write_rhubarb_xml(track, sound, options.rhubarb)
+           : format == ".dat" ? exchange::write_rhubarb_dat(track, options.rhubarb)
+                              : exchange::write_rhubarb_tsv(track, options.rhubarb);
   } else {
     text = json ? exchange::write_visemes_json(track, sound) : exchange::write_visemes_csv(track);
   }
   if (auto written = write_file(options.output, text); !written) return written.error();
   if (what == "rhubarb") {
-    say(options.output + ": mouth shapes of " + std::to_string(track.events.size()) + " visemes");
+    say(name_of_output(options.output) + ": mouth shapes of " + std::to_string(track.events.size()) + " visemes");
   } else {
     say(options.output + ": " + std::to_string(track.events.size()) + " events, " +
         std::to_string(track.frames.size()) + " frames of 15 visemes, " +
@@ -176,18 +217,37 @@ Result<int> write_visemes(const ExportOptions& options, const std::string& what,
   return kOk;
 }
 
-Result<int> run(const ExportOptions& options) {
+Result<int> run(const ExportOptions& given) {
+  ExportOptions options = given;
+  if (options.output.empty() && !options.format.empty()) options.output = "-";
+  if (options.output.empty()) return usage_error("name what to write: -o talk.csv");
+  if (options.output == "-" && options.format.empty()) {
+    return usage_error("for standard output name a format: -f tsv, xml, json or dat");
+  }
   const Result<fap::Rate> rate = fap::parse_rate(options.rate);
   if (!rate || !rate->valid()) {
     return usage_error("--rate: '" + options.rate + "' is no frame rate; write 30 or 29.97");
   }
   // Before the input is read, so that a wrong name is told at once.
   const std::string named = what_of(options, false);
-  if (const std::string wrong = wrong_extension(named, options.output); !wrong.empty()) {
+  if (!options.format.empty() && named != "rhubarb") {
+    return usage_error("-f is for mouth shapes of Rhubarb (--what rhubarb)");
+  }
+  if (const std::string wrong = wrong_extension(named, options.output);
+      options.format.empty() && !wrong.empty()) {
     return usage_error(wrong);
   }
   Result<std::vector<std::uint8_t>> bytes = read_input(options.input);
   if (!bytes) return bytes.error();
+  if ((named == "rhubarb" || named == "visemes") && is_voice(options, *bytes)) {
+    if (options.audio.empty()) options.audio = options.input;
+    auto track = track_of_voice(options, *rate);
+    if (!track) return track.error();
+    return write_visemes(options, named, std::move(*track));
+  }
+  if (!options.dialog_file.empty()) {
+    return usage_error("--dialog-file is for a recorded voice, whose mouth shapes are written");
+  }
   const bool from_script = kind_of(*bytes) == FileKind::script;
   const std::string what = what_of(options, from_script);
   if (const std::string idle = idle_options(options, what, from_script); !idle.empty()) {
@@ -217,17 +277,33 @@ Result<int> run(const ExportOptions& options) {
 
 void add_options(CLI::App& app, ExportOptions& options) {
   app.add_option("input", options.input,
-                 "FAP text, FBA stream or container; for visemes also a phoneme script")
+                 "FAP text, FBA stream or container; for visemes also a phoneme script or a "
+                 "recorded voice")
       ->required();
   add_output(
       app.add_option("-o,--output", options.output,
                      "File to write: .csv (Live Link Face: Unreal, Blender, Maya), .json (the same "
                      "curves for scripts), .glb (a head with morph targets and animation), "
                      ".visemes.json or .visemes.csv (15 weights a frame under "
-                     "the names of Oculus and Ready Player Me), .tsv or .rhubarb.json (mouth "
-                     "shapes of Rhubarb Lip Sync)"),
-      {})
-      ->required();
+                     "the names of Oculus and Ready Player Me), .tsv, .xml, .rhubarb.json or .dat "
+                     "(mouth shapes of Rhubarb Lip Sync)"),
+      {}, OutputKind::file_or_dash);
+  app.add_option("-f,--format,--exportFormat", options.format,
+                 "Mouth shapes in a format of Rhubarb; without -o to standard output")
+      ->check(CLI::IsMember({"tsv", "xml", "json", "dat"}));
+  app.add_option("-d,--dialog-file,--dialogFile", options.dialog_file,
+                 "What is said in a recorded voice, as text; else its sounds are recognised");
+  app.add_option("--extended-shapes,--extendedShapes", options.rhubarb.extended,
+                 "Which of Rhubarb's shapes G, H and X there are")
+      ->option_text("SHAPES=GHX")
+      ->check([](const std::string& text) {
+        return text.find_first_not_of("GHX") == std::string::npos ? "" : "only G, H and X";
+      });
+  app.add_option("--dat-rate,--datFrameRate", options.rhubarb.dat_rate, "Frames a second of .dat")
+      ->option_text("RATE=24")
+      ->check(CLI::Range(1.0, 1000.0));
+  app.add_flag("--preston-blair,--datUsePrestonBlair", options.rhubarb.preston_blair,
+               "Name mouths in .dat MBP, etc, E, AI, O, U, FV, L, rest");
   app.add_option("--what", options.what,
                  "What to write, whatever the file is called: arkit (52 shapes and 9 angles), "
                  "visemes, rhubarb, head (.glb)")
@@ -270,6 +346,7 @@ const Command kExport{
     "  animeme export talk.fap --script words.tsv --audio voice.wav -o talk.visemes.json\n"
     "  animeme export words.tsv --rate 60 -o words.visemes.csv\n"
     "  animeme export words.tsv -o words.rhubarb.json\n"
+    "  animeme export voice.wav -f xml -o voice.xml       # as rhubarb -f xml voice.wav\n"
     "\n"
     "Visemes are viseme_sil, PP, FF, TH, DD, kk, CH, SS, nn, RR, aa, E, I, O, U: the morph "
     "targets\n"

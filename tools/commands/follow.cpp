@@ -1,6 +1,10 @@
 // A face that follows a voice which is still being made.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -9,7 +13,9 @@
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
 #include "tools/exchange/curves.h"
+#include "tools/speech/heard_face.h"
 #include "tools/speech/phone_line.h"
+#include "tools/speech/sound_bytes.h"
 #include "tools/speech/spoken.h"
 
 namespace animeme::tools {
@@ -21,6 +27,10 @@ struct FollowOptions {
   std::string rate = "25";
   double style = 1;
   double look_ahead = -1;
+  std::string audio;
+  std::string pcm;
+  std::string language = "en";
+  double delay = speech::HeardFaceOptions().delay;
   LengthLimit length;
 };
 
@@ -48,19 +58,88 @@ Result<void> print_rows(const dam::Signal& signal) {
   return make_error(Code::io, "the curves cannot be written: nobody reads standard output");
 }
 
+void print_header(const dam::Model& model) {
+  std::vector<std::string> names;
+  for (const dam::Control& control : model.controls) names.push_back(control.name);
+  std::fputs(exchange::write_curve_header(names).c_str(), stdout);
+  std::fflush(stdout);
+}
+
+// A file that is closed, unless it is standard input.
+struct Descriptor {
+  int number = -1;
+  ~Descriptor() {
+    if (number > STDIN_FILENO) ::close(number);
+  }
+};
+
+// The sound as it comes: a pipe gives what there is.
+Result<int> follow_sound(const FollowOptions& options, const dam::Model& model,
+                         const fap::Rate& rate) {
+  std::optional<speech::BareSound> bare;
+  if (!options.pcm.empty()) {
+    auto parsed = speech::parse_bare_sound(options.pcm);
+    if (!parsed) return usage_error("--pcm: " + parsed.error().message);
+    bare = *parsed;
+  }
+  const std::string name = options.audio == "-" ? "standard input" : options.audio;
+  const Descriptor from{options.audio == "-" ? STDIN_FILENO
+                                             : ::open(options.audio.c_str(), O_RDONLY | O_CLOEXEC)};
+  if (from.number < 0) return make_error(Code::not_found, "it cannot be opened").in_file(name);
+  speech::SoundBytes sound(bare);
+  std::unique_ptr<speech::HeardFace> face;
+  print_header(model);
+  std::array<std::uint8_t, 8192> bytes;
+  std::vector<float> samples;
+  std::uint64_t count = 0;
+  for (;;) {
+    const ssize_t got = ::read(from.number, bytes.data(), bytes.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return make_error(Code::io, "it cannot be read").in_file(name);
+    if (got == 0) break;
+    samples.clear();
+    if (auto ok = sound.push(std::span(bytes).first(std::size_t(got)), samples); !ok) {
+      return ok.error().in_file(name);
+    }
+    if (samples.empty()) continue;
+    count += samples.size();
+    if (!face) {
+      speech::HeardFaceOptions settings;
+      settings.synthesis.rate = rate;
+      settings.synthesis.style = options.style;
+      settings.language = options.language;
+      settings.delay = options.delay;
+      auto opened = speech::HeardFace::open(model, sound.sample_rate(), settings);
+      if (!opened) return opened.error();
+      face = std::move(*opened);
+    }
+    face->push(samples);
+    const auto signal = face->pull();
+    if (!signal) return signal.error();
+    if (auto ok = print_rows(*signal); !ok) return ok.error();
+  }
+  if (!face) {
+    return make_error(Code::truncated, "it ended before there was any sound").in_file(name);
+  }
+  const auto signal = face->finish();
+  if (!signal) return signal.error();
+  if (auto ok = print_rows(*signal); !ok) return ok.error();
+  say_more(name + ": " + std::to_string(count) + " samples");
+  return kOk;
+}
+
 Result<int> run(const FollowOptions& options) {
   Result<fap::Rate> rate = fap::parse_rate(options.rate);
   if (!rate) return usage_error("--rate " + options.rate + ": " + rate.error().message);
   Result<dam::Model> model = speech::read_model(options.model);
   if (!model) return model.error();
+  if (!options.audio.empty()) return follow_sound(options, *model, *rate);
   dam::StreamOptions settings;
   settings.synthesis.rate = *rate;
   settings.synthesis.style = options.style;
   if (options.look_ahead >= 0) settings.look_ahead = options.look_ahead;
   dam::SpeechStream stream(*model, settings);
-  std::vector<std::string> names;
-  for (const dam::Control& control : model->controls) names.push_back(control.name);
-  std::fputs(exchange::write_curve_header(names).c_str(), stdout);
+  print_header(*model);
   std::string text;
   double known = 0;  // seconds
   for (std::int64_t line = 1;; ++line) {
@@ -101,14 +180,34 @@ void add_options(CLI::App& app, FollowOptions& options) {
                  "Seconds of phones to wait for before a frame is given out; default: as many as "
                  "make it final (about half a second)")
       ->check(CLI::Range(0.0, 60.0));
+  app.add_option("--audio", options.audio,
+                 "Listen to a voice in place of phones: WAV from - (standard input), a pipe, a file")
+      ->option_text("FILE")
+      ->excludes("--look-ahead")
+      ->excludes("--max-seconds");
+  app.add_option("--pcm", options.pcm,
+                 "The sound is bare samples of 16 bit, little endian, of this rate, as 16000 or "
+                 "48000:2 (two channels)")
+      ->option_text("RATE[:CHANNELS]")
+      ->needs("--audio");
+  app.add_option("--delay", options.delay,
+                 "Seconds of sound to wait for before a frame is given out")
+      ->option_text("0.08..2=0.25")
+      ->check(CLI::Range(0.08, 2.0))
+      ->needs("--audio");
+  app.add_option("--lang", options.language, "Of the voice: en, or any other")
+      ->option_text("LANG=en")
+      ->needs("--audio");
 }
 
 }  // namespace
 
 const Command kFollow{
-    "follow", "Speak while the phones are still coming: timed phones in, curves out, line by line",
+    "follow", "Speak while phones or a voice are still coming: curves out, line by line",
     "  my_tts --phones | animeme follow --model me.dam | my_player\n"
-    "  printf '0 0.3 SIL\\n0.3 0.42 HH\\n0.42 0.6 AY\\n' | animeme follow --look-ahead 0.1",
+    "  printf '0 0.3 SIL\\n0.3 0.42 HH\\n0.42 0.6 AY\\n' | animeme follow --look-ahead 0.1\n"
+    "  arecord -q -f S16_LE -r 16000 | animeme follow --audio - | my_player\n"
+    "  ffmpeg -v error -i voice.mp3 -f wav - | animeme follow --audio - > curves.csv",
     set_up<FollowOptions>};
 
 }  // namespace animeme::tools

@@ -126,6 +126,7 @@ bool is_approximate(const speech::Spoken& spoken) {
 }
 
 Json confidence_of(const speech::Spoken& spoken) {
+  if (spoken.heard) return spoken.heard->confidence;
   return spoken.alignment ? Json(spoken.alignment->confidence) : Json(nullptr);
 }
 
@@ -142,6 +143,19 @@ Json doubtful_words(const speech::Spoken& spoken) {
   return list;
 }
 
+struct HeardPhone {
+  dam::Phone phone;
+  double confidence = 0;
+};
+
+std::vector<HeardPhone> heard_phones(const speech::Spoken& spoken) {
+  std::vector<HeardPhone> all;
+  for (std::size_t i = 0; i < spoken.script.phones.size(); ++i) {
+    all.push_back({spoken.script.phones[i], spoken.heard->confidences[i]});
+  }
+  return all;
+}
+
 void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam::Signal& signal,
             const dam::SynthesisReport& synthesis) {
   for (const auto& [label, by] : synthesis.replaced) {
@@ -150,7 +164,8 @@ void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam
   if (!options.json) return;
   Json replaced = Json::object();
   for (const auto& [label, by] : synthesis.replaced) replaced[label] = by;
-  const Json json = {{"output", options.output},
+  const bool heard = spoken.heard.has_value();
+  Json json = {{"output", options.output},
                      {"voice", spoken.voice},
                      {"times", speech::name_of(spoken.times)},
                      {"approximate", is_approximate(spoken)},
@@ -162,7 +177,17 @@ void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam
                      {"replaced_phones", synthesis.replaced_phones},
                      {"replaced", replaced},
                      {"closures_forced", synthesis.closures},
-                     {"lip_tooth_forced", synthesis.lip_tooth_contacts}};
+               {"lip_tooth_forced", synthesis.lip_tooth_contacts},
+               {"recognised", heard}};
+  if (heard) {
+    json["warnings"] = spoken.heard->warnings;
+    json["heard"] = json_list(heard_phones(spoken), [](const HeardPhone& one) -> Json {
+      return {{"start", one.phone.start},
+              {"end", one.phone.end},
+              {"phone", one.phone.label},
+              {"confidence", one.confidence}};
+    });
+  }
   std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
 }
 
@@ -178,8 +203,16 @@ Result<int> run(const SpeakOptions& options) {
   if (!rate) return usage_error("--rate " + options.rate + ": " + rate.error().message);
   Result<dam::Model> model = speech::read_model(options.model);
   if (!model) return model.error();
-  Result<speech::Spoken> spoken = speech::get_spoken(options.spoken, talk());
+  ProgressLine progress("listening");
+  speech::SpokenOptions source = options.spoken;
+  source.heard = [&](double done) { progress.update(done); };
+  Result<speech::Spoken> spoken = speech::get_spoken(source, talk());
+  progress.clear();
   if (!spoken) return spoken.error();
+  if (spoken->heard) {
+    say_more(options.spoken.audio + ": " + std::to_string(spoken->script.phones.size()) +
+             format(" phones heard, confidence %.2f", spoken->heard->confidence));
+  }
 
   dam::SynthesisOptions settings;
   settings.rate = *rate;
@@ -190,8 +223,10 @@ Result<int> run(const SpeakOptions& options) {
     settings.tail = std::max(0.0, spoken->audio->duration() - spoken->script.duration());
   }
   dam::SynthesisReport synthesis;
-  Result<dam::Signal> signal = dam::synthesise(*model, spoken->script, settings, &synthesis);
-  if (!signal) return signal.error().in_file(options.spoken.script);
+  Result<dam::Signal> signal = speech::move_face(*model, *spoken, settings, &synthesis);
+  if (!signal) {
+    return signal.error().in_file(spoken->heard ? options.spoken.audio : options.spoken.script);
+  }
   if (options.life) {
     auto added = dam::add_life(*signal, spoken->script, {1, options.seed});
     if (!added) return added.error();
@@ -223,6 +258,7 @@ Result<int> run(const SpeakOptions& options) {
 }
 
 void add_options(CLI::App& app, SpeakOptions& options) {
+  options.spoken.listen = true;
   add_spoken_options(app, options.spoken);
   add_output(
       app.add_option(
@@ -267,12 +303,13 @@ void add_options(CLI::App& app, SpeakOptions& options) {
 }  // namespace
 
 const Command kSpeak{
-    "speak", "Make a face talk: from text, or from a recorded voice and its phonemes or text",
+    "speak", "Make a face talk: from text, from a recorded voice, best with its phonemes or text",
     "  animeme speak --text \"Hello world\" -o hello.mp4\n"
     "  animeme speak --text \"Guten Tag\" --lang de --rate 30 -o tag.mp4\n"
     "  animeme speak --text \"Hello world\" --visemes instead -o hello.fap    # for Xface\n"
     "  animeme speak --audio voice.wav --transcript \"what she said\" -o talk.mp4\n"
     "  animeme speak --text Hello --tts \"piper -m en.onnx -f {wav}\" -o hello.mp4   # your voice\n"
+    "  animeme speak --audio voice.wav --save-script heard.TextGrid -o talk.mp4\n"
     "  animeme speak --script voice.TextGrid --audio voice.wav --model me.dam -o talk.fba",
     set_up<SpeakOptions>};
 

@@ -18,7 +18,10 @@ void add_spoken_options(CLI::App& app, speech::SpokenOptions& options) {
       ->excludes("--text")
       ->excludes("--text-file");
   add_script_options(app, options.script_reading);
-  app.add_option("--audio", options.audio, "Recorded voice in any format that FFmpeg reads")
+  app.add_option("--audio", options.audio,
+                 options.listen
+                     ? "Recorded voice in any format that FFmpeg reads; alone, it is listened to"
+                     : "Recorded voice in any format that FFmpeg reads")
       ->option_text("FILE")
       ->excludes("--text")
       ->excludes("--text-file");
@@ -35,10 +38,6 @@ void add_spoken_options(CLI::App& app, speech::SpokenOptions& options) {
       ->option_text("COMMAND")
       ->excludes("--script")
       ->excludes("--audio");
-  app.add_option("--tts-seconds", options.tts_seconds, "Longest time that it may take")
-      ->option_text("SECONDS=300")
-      ->check(CLI::Range(0.1, 86400.0))
-      ->needs("--tts");
   app.add_option("--max-seconds", options.most_seconds, "Longest script that is spoken")
       ->option_text("SECONDS=3600")
       ->check(CLI::Range(1.0, dam::kMaxScriptSeconds))

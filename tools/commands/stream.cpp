@@ -25,6 +25,7 @@ struct StreamOptions {
   live::ProgramOptions program;
   std::string codec;
   std::string rate = "25";
+  std::string pcm;
   bool no_sound = false;
   bool fast = false;
   bool stats = false;
@@ -37,8 +38,16 @@ std::string bad_options(const StreamOptions& options) {
   const live::ProgramOptions& what = options.program;
   const bool spoken = speech::has_source(what.spoken);
   const bool said = !what.say.empty() || !what.say_json.empty();
-  const int sources = int(!options.input.empty()) + int(said) + int(spoken);
-  if (sources > 1) return "name one thing to stream: a file, --say, or --text and its like";
+  const bool voice = !what.say_audio.empty();
+  const int sources = int(!options.input.empty()) + int(said) + int(voice) + int(spoken);
+  if (sources > 1) {
+    return "name one thing to stream: a file, --say, --say-audio, or --text and its like";
+  }
+  if (voice && !what.spoken.audio.empty()) return "--say-audio is the sound, not --audio";
+  if (voice && (what.loop || options.fast)) {
+    return "--loop and --fast are for clips, --say-audio comes in its own time";
+  }
+  if (voice && what.life) return "--life is for clips and --say";
   if (said && !what.spoken.audio.empty()) {
     return "--audio goes with a face, not with --say, whose voice speaks as the lines come";
   }
@@ -64,6 +73,7 @@ class Watch {
 
   void look(const live::Sinks& sinks, const media::Pacer& pacer, double now) {
     if (program_.lines) tell(program_.lines->take_warnings());
+    if (program_.voice) tell(program_.voice->take_warnings());
     if (program_.speaker) tell(program_.speaker->take_warnings());
     if (!options_.stats || now < next_) return;
     next_ = std::floor(now) + 1;
@@ -163,6 +173,7 @@ Result<void> open_program(const StreamOptions& options, fap::Rate rate, live::Pr
   if (!what.say.empty() || !what.say_json.empty()) {
     return live::open_speaker(what, rate, program);
   }
+  if (!what.say_audio.empty()) return live::open_voice(what, rate, program);
   Result<live::Clip> clip = options.input.empty()
                                 ? live::spoken_clip(what, rate, talk())
                                 : load_clip(options.input, what.spoken.audio, what.coding);
@@ -207,11 +218,17 @@ Result<int> run(StreamOptions& options) {
   if (const std::string bad = bad_options(options); !bad.empty()) return usage_error(bad);
   Result<fap::Rate> rate = fap::parse_rate(options.rate);
   if (!rate) return usage_error("--rate " + options.rate + ": " + rate.error().message);
+  if (!options.pcm.empty()) {
+    const auto bare = speech::parse_bare_sound(options.pcm);
+    if (!bare) return usage_error("--pcm: " + bare.error().message);
+    options.program.bare = *bare;
+  }
   options.program.coding.codec_given = !options.codec.empty();
   options.program.coding.sound = !options.no_sound;
   // Opus packets are shorter, which is what counts when sound is made while it is sent.
-  const bool said = !options.program.say.empty() || !options.program.say_json.empty();
-  const bool opus = options.codec.empty() ? said : options.codec == "opus";
+  const live::ProgramOptions& what = options.program;
+  const bool live = !what.say.empty() || !what.say_json.empty() || !what.say_audio.empty();
+  const bool opus = options.codec.empty() ? live : options.codec == "opus";
   options.program.coding.audio.codec = opus ? media::AudioCodec::opus : media::AudioCodec::aac;
   auto sinks = live::Sinks::open(options.to, options.sdp, options.sink, talk());
   if (!sinks && sinks.error().code == Code::invalid_argument) {
@@ -239,6 +256,17 @@ void add_source_options(CLI::App& app, StreamOptions& options) {
       ->option_text("FILE")
       ->excludes("--say")
       ->excludes("--tts");
+  app.add_option("--say-audio", options.program.say_audio,
+                 "A voice as it comes, which the face follows: WAV, - for standard input")
+      ->option_text("FILE");
+  app.add_option("--pcm", options.pcm, "--say-audio is bare samples of 16 bit: 16000, 48000:2 ...")
+      ->option_text("RATE[:CHANNELS]")
+      ->needs("--say-audio");
+  app.add_option("--delay", options.program.delay,
+                 "Seconds from sound that comes to its face and its being heard")
+      ->option_text("0.25..2=0.3")
+      ->check(CLI::Range(0.25, 2.0))
+      ->needs("--say-audio");
   app.add_flag("--loop", options.program.loop, "Begin the clip again at its end; times go on");
   app.add_option("--duration", options.program.duration, "End after so many seconds")
       ->check(CLI::PositiveNumber);
@@ -342,6 +370,7 @@ const Command kStream{
     "  animeme stream --text \"Hello\" --to srt://192.0.2.7:5005 --to http://127.0.0.1:8080\n"
     "  my_chat_bot | animeme stream --say - --life --to rtp://192.0.2.7:5004 --sdp bot.sdp "
     "--stats\n"
+    "  arecord -q -f S16_LE -r 16000 | animeme stream --say-audio - --to http://127.0.0.1:8080\n"
     "Ctrl-C ends it in good order: receivers are told, the summary is printed; exit code 130.",
     set_up<StreamOptions>};
 

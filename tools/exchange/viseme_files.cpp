@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
 #include "fap/tables.h"
 #include "tools/exchange/detail/json_text.h"
 #include "tools/exchange/visemes.h"
@@ -8,16 +12,37 @@ namespace {
 
 std::string_view morph(int viseme) { return fap::kVisemes[std::size_t(viseme)].morph; }
 
+// Bytes that XML cannot hold are left out.
+std::string xml_text(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&') out += "&amp;";
+    else if (c == '<') out += "&lt;";
+    else if (c == '>') out += "&gt;";
+    else if (static_cast<unsigned char>(c) >= 0x20) out += c;
+  }
+  return out;
+}
+
 struct Cue {
   double start;
   double end;
   char shape;
 };
 
-std::vector<Cue> cues_of(const VisemeTrack& track) {
+// What is drawn for a shape.
+char drawn(char shape, const RhubarbOptions& options) {
+  constexpr std::string_view kExtended = "GHX", kInstead = "ACA";
+  const std::size_t which = kExtended.find(shape);
+  const bool there = which == std::string_view::npos ||
+                     options.extended.find(shape) != std::string::npos;
+  return there ? shape : kInstead[which];
+}
+
+std::vector<Cue> cues_of(const VisemeTrack& track, const RhubarbOptions& options) {
   std::vector<Cue> cues;
   for (const VisemeEvent& event : track.events) {
-    const char shape = rhubarb_shape(event);
+    const char shape = drawn(rhubarb_shape(event), options);
     const double end = event.time + event.duration;
     if (!cues.empty() && cues.back().shape == shape) {
       cues.back().end = end;
@@ -66,8 +91,9 @@ char rhubarb_shape(const VisemeEvent& event) {
   return kShapes[std::size_t(event.viseme)];
 }
 
-std::string write_rhubarb_json(const VisemeTrack& track, std::string_view audio) {
-  const std::vector<Cue> cues = cues_of(track);
+std::string write_rhubarb_json(const VisemeTrack& track, std::string_view audio,
+                               const RhubarbOptions& options) {
+  const std::vector<Cue> cues = cues_of(track, options);
   std::string text = "{\n  \"metadata\": {\n    \"soundFile\": " + json_text(audio) +
                      ",\n    \"duration\": " + decimals(cues.empty() ? 0 : cues.back().end, 2) +
                      "\n  },\n  \"mouthCues\": [";
@@ -78,12 +104,55 @@ std::string write_rhubarb_json(const VisemeTrack& track, std::string_view audio)
   return text + "\n  ]\n}\n";
 }
 
-std::string write_rhubarb_tsv(const VisemeTrack& track) {
+std::string write_rhubarb_tsv(const VisemeTrack& track, const RhubarbOptions& options) {
   std::string text;
-  const std::vector<Cue> cues = cues_of(track);
+  const std::vector<Cue> cues = cues_of(track, options);
   for (const Cue& cue : cues) text += decimals(cue.start, 2) + "\t" + cue.shape + "\n";
-  if (!cues.empty()) text += decimals(cues.back().end, 2) + "\tX\n";
+  if (!cues.empty()) {
+    text += decimals(cues.back().end, 2) + "\t" + drawn('X', options) + "\n";
+  }
   return text;
+}
+
+std::string write_rhubarb_xml(const VisemeTrack& track, std::string_view audio,
+                              const RhubarbOptions& options) {
+  const std::vector<Cue> cues = cues_of(track, options);
+  std::string text =
+      "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<rhubarbResult>\n  <metadata>\n    <soundFile>" +
+      xml_text(audio) + "</soundFile>\n    <duration>" +
+      decimals(cues.empty() ? 0 : cues.back().end, 2) +
+      "</duration>\n  </metadata>\n  <mouthCues>\n";
+  for (const Cue& cue : cues) {
+    text += "    <mouthCue start=\"" + decimals(cue.start, 2) + "\" end=\"" +
+            decimals(cue.end, 2) + "\">" + cue.shape + "</mouthCue>\n";
+  }
+  return text + "  </mouthCues>\n</rhubarbResult>\n";
+}
+
+std::string write_rhubarb_dat(const VisemeTrack& track, const RhubarbOptions& options) {
+  constexpr std::string_view kLetters = "ABCDEFGHX";
+  constexpr std::string_view kPrestonBlair[] = {"MBP", "etc", "E", "AI", "O",
+                                                "U",   "FV",  "L", "rest"};
+  const auto name = [&](char shape) {
+    return options.preston_blair ? std::string(kPrestonBlair[kLetters.find(shape)])
+                                 : std::string(1, shape);
+  };
+  // Times count in hundredths of a second, as in the other formats.
+  const auto frame_of = [&](double time) {
+    return 1 + std::int64_t(std::floor(options.dat_rate * std::round(time * 100) / 100 + 1e-9));
+  };
+  const std::vector<Cue> cues = cues_of(track, options);
+  std::string text = "MohoSwitch1\n";
+  std::int64_t last = 0;
+  for (const Cue& cue : cues) {
+    const std::int64_t frame = frame_of(cue.start);
+    if (frame == last) continue;
+    text += std::to_string(frame) + " " + name(cue.shape) + "\n";
+    last = frame;
+  }
+  if (cues.empty()) return text;
+  const std::int64_t end = std::max(frame_of(cues.back().end), last + 1);
+  return text + std::to_string(end) + " " + name(drawn('X', options)) + "\n";
 }
 
 }  // namespace animeme::exchange

@@ -69,11 +69,27 @@ std::string write_visemes_csv(const VisemeTrack& track);
 /// C E, D aa, E oh RR, F ou, G FF; H for the sound L, if sounds are known.
 char rhubarb_shape(const VisemeEvent& event);
 
+/// What Rhubarb Lip Sync lets its users choose.
+struct RhubarbOptions {
+  std::string extended = "GHX";  ///< which of the shapes G, H, X are drawn; else A, C, A are shown
+  double dat_rate = 24;          ///< frames a second of .dat, > 0
+  bool preston_blair = false;    ///< .dat: "MBP", "etc" ... in place of letters
+};
+
 /// {"metadata": {"soundFile": "", "duration": 2.5}, "mouthCues": [{"start": 0.00, "end": 0.05,
 /// "value": "X"}, ...]}, as Rhubarb writes it. Equal neighbours are one cue.
-std::string write_rhubarb_json(const VisemeTrack& track, std::string_view audio = {});
+std::string write_rhubarb_json(const VisemeTrack& track, std::string_view audio = {},
+                               const RhubarbOptions& options = {});
 
-/// Start and shape, tab between; the end is a last X.
-std::string write_rhubarb_tsv(const VisemeTrack& track);
+/// Start and shape, tab between; the end is a last X (A without it).
+std::string write_rhubarb_tsv(const VisemeTrack& track, const RhubarbOptions& options = {});
+
+/// <rhubarbResult> with <metadata> and <mouthCues>, as Rhubarb writes it.
+std::string write_rhubarb_xml(const VisemeTrack& track, std::string_view audio = {},
+                              const RhubarbOptions& options = {});
+
+/// Switch data of Moho (Anime Studio), also read by OpenToonz: "MohoSwitch1", then a frame, counted
+/// from 1, and a mouth a line, the end last.
+std::string write_rhubarb_dat(const VisemeTrack& track, const RhubarbOptions& options = {});
 
 }  // namespace animeme::exchange

@@ -55,7 +55,7 @@ Result<Clip> spoken_clip(const ProgramOptions& options, fap::Rate rate, const to
   if (spoken->audio) {
     settings.tail = std::max(0.0, spoken->audio->duration() - spoken->script.duration());
   }
-  Result<dam::Signal> signal = dam::synthesise(*model, spoken->script, settings);
+  Result<dam::Signal> signal = speech::move_face(*model, *spoken, settings);
   if (!signal) return signal.error();
   if (options.life) {
     auto added = dam::add_life(*signal, spoken->script, {1, options.seed});
@@ -100,13 +100,44 @@ Result<void> open_speaker(const ProgramOptions& options, fap::Rate rate, Program
   return {};
 }
 
+Result<void> open_voice(const ProgramOptions& options, fap::Rate rate, Program& program) {
+  Result<dam::Model> model = speech::read_model(options.model);
+  if (!model) return model.error();
+  program.model = std::move(*model);
+  const std::string name = options.say_audio == "-" ? "standard input" : options.say_audio;
+  if (options.say_audio != "-") {
+    program.descriptor = ::open(options.say_audio.c_str(), O_RDONLY | O_CLOEXEC);
+    if (program.descriptor < 0) {
+      return make_error(Code::not_found, "cannot open the voice").in_file(name);
+    }
+  }
+  speech::LiveVoiceOptions settings;
+  settings.synthesis = synthesis_of(options, rate);
+  settings.language = options.spoken.language;
+  settings.bare = options.bare;
+  settings.delay = options.delay;
+  settings.fap_quant = options.coding.quant;
+  settings.intra_seconds = options.coding.intra_seconds;
+  settings.audio_ahead = kAhead;
+  settings.audio.reset();
+  if (options.coding.sound) settings.audio = options.coding.audio;
+  settings.duration = options.duration;
+  auto voice = speech::LiveVoice::open(
+      program.model, options.say_audio == "-" ? STDIN_FILENO : program.descriptor, settings);
+  if (!voice) return voice.error().in_file(name);
+  program.voice = std::move(*voice);
+  return {};
+}
+
 Program::~Program() {
+  voice.reset();
   speaker.reset();
   lines.reset();
   if (descriptor >= 0) ::close(descriptor);
 }
 
 media::LiveInput& Program::input() const {
+  if (voice) return *voice;
   return speaker ? static_cast<media::LiveInput&>(*speaker) : *clip;
 }
 

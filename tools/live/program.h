@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "dam/model/model.h"
@@ -12,6 +13,7 @@
 #include "tools/live/clip.h"
 #include "tools/media/live/presentation.h"
 #include "tools/speech/live_speaker.h"
+#include "tools/speech/live_voice.h"
 #include "tools/speech/spoken.h"
 
 namespace animeme::live {
@@ -20,6 +22,9 @@ namespace animeme::live {
 struct ProgramOptions {
   std::string say;               ///< file of lines to speak as they come, "-": standard input
   std::string say_json;          ///< likewise, of pieces (tools/speech/pieces.h); one of the two
+  std::string say_audio;         ///< sound of a voice as it comes, "-": standard input
+  std::optional<speech::BareSound> bare;  ///< how its samples lie; nothing: WAV
+  double delay = speech::LiveVoiceOptions().delay;  ///< seconds, of a voice as it comes
   speech::SpokenOptions spoken;  ///< text, script or voice
   Coding coding;                 ///< of face and sound
   std::string model;             ///< as speech::read_model() takes it
@@ -36,13 +41,14 @@ struct Program {
   int descriptor = -1;                           ///< of the lines, if it is ours to close
   std::unique_ptr<speech::VoiceLines> lines;     ///< null: a clip plays
   std::unique_ptr<speech::LiveSpeaker> speaker;  ///< null: a clip plays
-  std::unique_ptr<media::ClipInput> clip;        ///< null: lines are spoken
+  std::unique_ptr<speech::LiveVoice> voice;      ///< null: no voice is listened to
+  std::unique_ptr<media::ClipInput> clip;        ///< null: lines are spoken, or a voice speaks
 
   Program() = default;
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
   ~Program();
-  media::LiveInput& input() const;  ///< the clip or the speaker
+  media::LiveInput& input() const;  ///< the clip, the speaker or the voice
 };
 
 /// Text, script or recorded voice as a clip of `rate`, as `animeme speak` makes it. Errors: those
@@ -57,5 +63,10 @@ void play_clip(Clip clip, const ProgramOptions& options, Program& program);
 /// where it is. Errors: those of speech::read_model(), VoiceLines and LiveSpeaker; not_found (no
 /// such file).
 Result<void> open_speaker(const ProgramOptions& options, fap::Rate rate, Program& program);
+
+/// Makes `program` a head that follows the voice of options.say_audio; waits for its first bytes.
+/// `program` must stay where it is. Errors: those of speech::read_model() and LiveVoice; not_found
+/// (no such file).
+Result<void> open_voice(const ProgramOptions& options, fap::Rate rate, Program& program);
 
 }  // namespace animeme::live

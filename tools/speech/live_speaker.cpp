@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "codec/decode/access_unit.h"
 #include "tools/media/audio.h"
+#include "tools/speech/face_coding_internal.h"
 #include "tools/speech/live_sound.h"
 
 namespace animeme::speech {
@@ -19,57 +19,6 @@ using media::LiveUnit;
 constexpr double kOpening = 0.1;    // seconds in which the mouth opens before sound that is late
 constexpr float kAudible = 0.003F;  // of full scale
 constexpr std::size_t kMostTraces = 1000;
-// What is still to be said is not known, so the level is the one that allows the higher rate.
-constexpr std::uint8_t kSimpleFaceLevel2 = 0x62;
-constexpr std::size_t kProfileByte = 4;  // of the configuration
-
-// How fast a face moves each FAP, on an example: the phones of its model, each between open mouths,
-// at a quick pace.
-fba::PredictiveRanges ranges_of_face(const dam::Model& model, const SpeakerOptions& options,
-                                     TalkingFace face) {
-  constexpr double kSeconds = 0.08;
-  dam::Script script;
-  const auto add = [&script](const std::string& label) {
-    const double start = script.duration();
-    script.phones.push_back({start, start + kSeconds, label, {}});
-  };
-  for (const dam::PhoneModel& phone : model.phones) {
-    add("AA");
-    add(phone.label);
-  }
-  fap::Sequence clip;
-  if (!face.say(script)) return {};
-  while (face.speaking()) {
-    const Result<fap::Frame> frame = face.next();
-    if (!frame) return {};
-    clip.frames.push_back(*frame);
-  }
-  return fba::ranges_of(clip, options.fap_quant);
-}
-
-fba::LiveOptions coding(const dam::Model& model, const SpeakerOptions& options,
-                        const TalkingFace& face) {
-  fba::LiveOptions coding;
-  coding.rate = options.face.synthesis.rate;
-  coding.fap_quant = options.fap_quant;
-  coding.intra_seconds = options.intra_seconds;
-  coding.faps = face.mask();
-  coding.ranges = ranges_of_face(model, options, face);
-  return coding;
-}
-
-// Configuration and clock of the stream, from its first plane.
-Result<fba::AccessUnits> shape_of(const fba::LiveOptions& options, TalkingFace face) {
-  const Result<fap::Frame> frame = face.next();
-  if (!frame) return frame.error();
-  fba::LiveEncoder encoder(options);
-  Result<std::vector<std::uint8_t>> stream = encoder.write(*frame);
-  if (!stream) return stream.error();
-  const auto end = encoder.finish();
-  stream->insert(stream->end(), end.begin(), end.end());
-  return fba::split_access_units(*stream);
-}
-
 // Index of the first sample for which `heard` holds, the size if there is none.
 template <class Heard>
 std::int64_t first_sample(const std::vector<float>& samples, Heard heard) {
@@ -270,19 +219,17 @@ Result<std::unique_ptr<LiveSpeaker>> LiveSpeaker::open(const dam::Model& model, 
     if (!opened) return opened.error();
     sound = std::move(*opened);
   }
-  const fba::LiveOptions live = coding(model, options, *face);
-  const Result<fba::AccessUnits> shape = shape_of(live, *face);
+  const fba::LiveOptions live =
+      coding_of_face(model, *face, options.face.synthesis.rate, options.fap_quant,
+                     options.intra_seconds);
+  Result<FaceShape> shape = shape_of_face(live, *face);
   if (!shape) return shape.error();
-  media::LiveInfo info;
-  info.face_config = shape->config;
-  info.face_config[kProfileByte] = kSimpleFaceLevel2;
-  info.visual_profile = kSimpleFaceLevel2;
-  info.timescale = shape->timescale;
+  media::LiveInfo info = std::move(shape->info);
   if (sound) info.audio = sound->format();
   fba::LiveEncoder encoder(live);
   auto impl = std::make_unique<Impl>(Impl{options, &lines, &clock, std::move(*face),
                                           std::move(sound), std::move(encoder), std::move(info),
-                                          shape->units.front().duration});
+                                          shape->frame_ticks});
   return std::unique_ptr<LiveSpeaker>(new LiveSpeaker(std::move(impl)));
 }
 

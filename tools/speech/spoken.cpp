@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "dam/model/builtin.h"
+#include "dam/speaking/readings.h"
 #include "tools/files/files.h"
 #include "tools/scripts/script_text.h"
 #include "tools/speech/voice_file.h"
@@ -20,7 +21,7 @@ Result<Spoken> speak(const SpokenOptions& options, const std::string& text,
     if (!timed) return timed.error();
     voice::Speech& speech = timed->speech;
     return Spoken{std::move(speech.script), std::move(speech.audio), std::move(speech.voice),
-                  timed->times, std::move(timed->alignment)};
+                  timed->times, std::move(timed->alignment), {}};
   }
   voice::VoiceOptions settings;
   settings.language = options.language;
@@ -29,7 +30,7 @@ Result<Spoken> speak(const SpokenOptions& options, const std::string& text,
   Result<voice::Speech> speech = voice::speak_text(text, settings);
   if (!speech) return speech.error();
   return Spoken{std::move(speech->script), std::move(speech->audio), speech->voice,
-                TimesFrom::voice, std::nullopt};
+                TimesFrom::voice, {}, {}};
 }
 
 Result<Spoken> follow_script(const SpokenOptions& options, const tools::Talk& talk) {
@@ -42,7 +43,8 @@ Result<Spoken> follow_script(const SpokenOptions& options, const tools::Talk& ta
                 std::nullopt,
                 {},
                 words ? TimesFrom::words : TimesFrom::script,
-                std::nullopt};
+                {},
+                {}};
   if (options.audio.empty()) return spoken;
   Result<media::Pcm> audio = read_voice(options.audio, talk);
   if (!audio) return audio.error();
@@ -62,15 +64,25 @@ Result<Spoken> align_voice(const SpokenOptions& options, const tools::Talk& talk
   if (!audio) return audio.error();
   dam::Script script = std::exchange(aligned->script, {});
   return Spoken{
-      std::move(script), std::move(*audio), {}, TimesFrom::alignment, std::move(*aligned)};
+      std::move(script), std::move(*audio), {}, TimesFrom::alignment, std::move(*aligned), {}};
+}
+
+Result<Spoken> hear_voice(const SpokenOptions& options, const tools::Talk& talk) {
+  voice::ListenOptions settings;
+  settings.language = options.language;
+  settings.progress = options.heard;
+  Result<voice::Heard> heard = listen_to_file(options.audio, settings, talk);
+  if (!heard) return heard.error();
+  Result<media::Pcm> audio = read_voice(options.audio, talk);
+  if (!audio) return audio.error();
+  dam::Script script = heard->script;
+  return Spoken{std::move(script), std::move(*audio), {}, TimesFrom::sound, {}, std::move(*heard)};
 }
 
 }  // namespace
 
 VoiceCommand voice_command(const SpokenOptions& options) {
-  return {options.tts,
-          {options.script_reading, options.language, options.most_seconds},
-          options.tts_seconds};
+  return {options.tts, {options.script_reading, options.language, options.most_seconds}};
 }
 
 Result<voice::Alignment> align_file(const std::string& audio, const std::string& transcript,
@@ -81,6 +93,22 @@ Result<voice::Alignment> align_file(const std::string& audio, const std::string&
   if (!alignment) return alignment.error().in_file(audio);
   for (const std::string& text : alignment->warnings) talk.warn(audio + ": " + text);
   return alignment;
+}
+
+Result<voice::Heard> listen_to_file(const std::string& audio, const voice::ListenOptions& options,
+                                    const tools::Talk& talk) {
+  Result<media::Pcm> pcm = read_voice(audio, talk, voice::kAlignRate);
+  if (!pcm) return pcm.error();
+  Result<voice::Heard> heard = voice::listen(*pcm, options);
+  if (!heard) return heard.error().in_file(audio);
+  for (const std::string& text : heard->warnings) talk.warn(audio + ": " + text);
+  return heard;
+}
+
+Result<dam::Signal> move_face(const dam::Model& model, const Spoken& spoken,
+                              const dam::SynthesisOptions& options, dam::SynthesisReport* report) {
+  if (!spoken.heard) return dam::synthesise(model, spoken.script, options, report);
+  return dam::synthesise_readings(model, spoken.heard->readings, spoken.script, options, report);
 }
 
 Result<std::string> words_of_file(const std::string& path, const dam::ScriptOptions& reading) {
@@ -106,7 +134,7 @@ Result<std::string> words_of_file(const std::string& path, const dam::ScriptOpti
 
 bool has_source(const SpokenOptions& options) {
   return options.has_text || !options.text_file.empty() || !options.script.empty() ||
-         options.has_transcript;
+         options.has_transcript || (options.listen && !options.audio.empty());
 }
 
 Result<Spoken> get_spoken(const SpokenOptions& options, const tools::Talk& talk) {
@@ -119,6 +147,7 @@ Result<Spoken> get_spoken(const SpokenOptions& options, const tools::Talk& talk)
   }
   if (options.has_text) return speak(options, options.text, talk);
   if (!options.script.empty()) return follow_script(options, talk);
+  if (options.listen && !options.has_transcript) return hear_voice(options, talk);
   return align_voice(options, talk);
 }
 

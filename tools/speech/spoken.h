@@ -1,13 +1,16 @@
 /// @file
-/// What is said and when: from text (a synthetic voice), from an aligned script, or from a
-/// recorded voice and its text. And who says it.
+/// What is said and when: from text (a synthetic voice), from an aligned script, from a recorded
+/// voice and its text, or from the voice alone. And who says it.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
 #include "dam/model/model.h"
 #include "dam/script/script.h"
+#include "dam/signal/signal.h"
+#include "dam/speaking/synthesise.h"
 #include "fap/result.h"
 #include "tools/files/talk.h"
 #include "tools/media/pcm.h"
@@ -15,11 +18,12 @@
 #include "tools/speech/voice_command.h"
 #include "tools/speech/voice_file.h"
 #include "tools/voice/align.h"
+#include "tools/voice/listen.h"
 
 namespace animeme::speech {
 
-/// Where speech comes from: one of text, text_file, script, and audio with transcript. A script may
-/// have audio, too.
+/// Where speech comes from: one of text, text_file, script, and audio with transcript, or with
+/// `listen`. A script may have audio, too.
 struct SpokenOptions {
   std::string text;                    ///< what to say
   bool has_text = false;               ///< text may be empty
@@ -29,9 +33,10 @@ struct SpokenOptions {
   std::string audio;                   ///< a recorded voice
   std::string transcript;              ///< what is said in it
   bool has_transcript = false;         ///< transcript may be empty
+  bool listen = false;                 ///< audio alone: what is said is recognised
+  std::function<void(double)> heard;   ///< told how much has been recognised, 0..1; may be empty
   std::string language = "en";         ///< as espeak-ng names it
   std::string tts;                     ///< command of a voice for text; empty: espeak-ng
-  double tts_seconds = 300;            ///< that it may take
   int words_per_minute = 175;          ///< of a synthetic voice, 80 to 450
   int pitch = 50;                      ///< of a synthetic voice, 0 to 100
   double most_seconds = kMostSeconds;  ///< longest script
@@ -44,16 +49,18 @@ struct Spoken {
   std::string voice;                          ///< of synthetic speech
   TimesFrom times = TimesFrom::voice;         ///< where the script is from
   std::optional<voice::Alignment> alignment;  ///< where it was aligned; without its script
+  /// Where the sound was all there was: `script` is its best guess.
+  std::optional<voice::Heard> heard;
 };
 
-/// Whether one of the four sources is named, and all that it needs.
+/// Whether one of the sources is named, and all that it needs.
 bool has_source(const SpokenOptions& options);
 
 /// The voice that options.tts names, and how its times are read.
 VoiceCommand voice_command(const SpokenOptions& options);
 
-/// Speaks, reads or aligns. Errors: those of reading the files, of voice::speak_text(),
-/// run_voice_command(), dam::check_against_audio() and align_file().
+/// Speaks, reads, aligns or listens. Errors: those of reading the files, of voice::speak_text(),
+/// run_voice_command(), dam::check_against_audio(), align_file() and listen_to_file().
 Result<Spoken> get_spoken(const SpokenOptions& options, const tools::Talk& talk = {});
 
 /// The timed phones of a recording and its text. What the aligner doubts goes to talk.warn.
@@ -61,6 +68,17 @@ Result<Spoken> get_spoken(const SpokenOptions& options, const tools::Talk& talk 
 Result<voice::Alignment> align_file(const std::string& audio, const std::string& transcript,
                                     const voice::AlignOptions& options,
                                     const tools::Talk& talk = {});
+
+/// The phones of a recording alone. What is to be told of it goes to talk.warn. Errors: those of
+/// read_voice() and voice::listen().
+Result<voice::Heard> listen_to_file(const std::string& audio, const voice::ListenOptions& options,
+                                    const tools::Talk& talk = {});
+
+/// The motion: of the script, or the mean of all that may have been heard. Errors: those of
+/// dam::synthesise() and dam::synthesise_readings().
+Result<dam::Signal> move_face(const dam::Model& model, const Spoken& spoken,
+                              const dam::SynthesisOptions& options,
+                              dam::SynthesisReport* report = nullptr);
 
 /// The words of a script of any format, in order, with blanks between. Errors: those of reading it,
 /// not_found (it has phones only).

@@ -61,9 +61,11 @@ const char* name_of(TimesFrom times) {
     case TimesFrom::words:
       return "words";
     case TimesFrom::alignment:
+      return "alignment";
+    case TimesFrom::sound:
       break;
   }
-  return "alignment";
+  return "sound";
 }
 
 Result<TimedSpeech> time_sound(TimedSound sound, const ScriptInput& input,

@@ -23,9 +23,10 @@ enum class TimesFrom : std::uint8_t {
   script,     ///< a script with phones, or with visemes
   words,      ///< a script with words: phones inside a word are a guess
   alignment,  ///< a recording was aligned with its text
+  sound,      ///< they were recognised in a recording, without a text
 };
 
-/// "voice", "script", "words" or "alignment".
+/// "voice", "script", "words", "alignment" or "sound".
 const char* name_of(TimesFrom times);
 
 /// A sound and what is known of it.

@@ -1,0 +1,52 @@
+/// @file
+/// What listen() and SoundListener share. Internal.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dam/script/phones.h"
+#include "dam/script/script.h"
+#include "fap/result.h"
+#include "tools/voice/cepstra.h"
+#include "tools/voice/listen.h"
+#include "tools/voice/phone_paths.h"
+#include "tools/voice/sound_model.h"
+
+namespace animeme::voice {
+
+inline constexpr std::size_t kFeatureReach = 3;  ///< frames that features look back and ahead
+
+/// All that is read from files.
+struct HearingModel {
+  SoundModel sound;
+  std::vector<double> pairs;
+  PathOptions weights;
+  std::vector<std::string> labels;        ///< of each phone; noises are silence
+  std::vector<dam::PhoneClass> classes;   ///< of each phone
+};
+
+/// Errors: those of read_sound_model() and read_phone_pairs(), invalid_argument (options).
+Result<HearingModel> load_hearing(const ListenOptions& options);
+
+/// Features of frame `at`, which has kFeatureReach neighbours on either side or the ends of `frames`.
+Features features_of(const std::vector<Cepstrum>& frames, std::size_t at, const Cepstrum& mean);
+
+/// Of each frame and phone: how many of the paths are there, 0..1.
+using Votes = std::vector<std::vector<float>>;
+Votes count_votes(const std::vector<Path>& paths, std::size_t phones);
+
+/// The path that the votes agree on, of phones of three frames and more. Votes for phones of the
+/// same shape of the mouth count in part.
+Path agreed_path(const HearingModel& model, const Votes& votes);
+
+/// The phones of a path whose frame 0 is frame `first` of a sound; times are from `origin`
+/// (seconds), from 0 to `end` (seconds). Without gaps, no two silences in a row. `confidences`, if
+/// not null, gets the mean share of the votes of each.
+dam::Script script_of_path(const HearingModel& model, const Path& path, std::size_t first,
+                           double origin, double end, const Votes* votes = nullptr,
+                           std::vector<double>* confidences = nullptr);
+
+}  // namespace animeme::voice
