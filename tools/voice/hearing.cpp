@@ -45,6 +45,18 @@ Result<HearingModel> load_hearing(const ListenOptions& options) {
   return model;
 }
 
+void to_whole(std::span<const float> samples, std::uint64_t& number,
+              std::vector<std::int16_t>& whole) {
+  whole.reserve(whole.size() + samples.size());
+  for (const float sample : samples) {
+    std::uint64_t z = ++number * 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    const long noise = long((z ^ (z >> 27)) >> 60) - 8;  // -8..7
+    whole.push_back(
+        std::int16_t(std::clamp(std::lround(sample * 32768) + noise, -32768l, 32767l)));
+  }
+}
+
 Features features_of(const std::vector<Cepstrum>& frames, std::size_t at, const Cepstrum& mean) {
   const auto near = [&](int step) -> const Cepstrum& {
     const auto wanted = std::int64_t(at) + step;
@@ -139,7 +151,7 @@ dam::Script script_of_path(const HearingModel& model, const Path& path, std::siz
   }
   if (confidences != nullptr) {
     confidences->clear();
-    for (std::size_t i = 0; i < sums.size(); ++i) confidences->push_back(sums[i] / counts[i]);
+    for (std::size_t i = 0; i < sums.size(); ++i) confidences->push_back(std::min(sums[i] / counts[i], 1.0));
   }
   return script;
 }

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,6 +32,11 @@ struct HearingModel {
 
 /// Errors: those of read_sound_model() and read_phone_pairs(), invalid_argument (options).
 Result<HearingModel> load_hearing(const ListenOptions& options);
+
+/// Samples as the model wants them, with a trace of noise: what is cut to zeros is no silence to it,
+/// as no room is. The noise belongs to the number of the sample, which is counted on.
+void to_whole(std::span<const float> samples, std::uint64_t& number,
+              std::vector<std::int16_t>& whole);
 
 /// Features of frame `at`, which has kFeatureReach neighbours on either side or the ends of `frames`.
 Features features_of(const std::vector<Cepstrum>& frames, std::size_t at, const Cepstrum& mean);

@@ -21,10 +21,8 @@ constexpr double kQuiet = 0.3;
 
 std::vector<Cepstrum> cepstra_of(CepstraReader& reader, const std::vector<float>& samples) {
   std::vector<std::int16_t> whole;
-  whole.reserve(samples.size());
-  for (const float sample : samples) {
-    whole.push_back(std::int16_t(std::clamp(std::lround(double(sample) * 32768), -32768l, 32767l)));
-  }
+  std::uint64_t number = 0;
+  to_whole(samples, number, whole);
   std::vector<Cepstrum> frames;
   reader.push(whole, frames);
   reader.finish(frames);

@@ -38,13 +38,13 @@ class Listener : public SoundListener {
     changed_.clear();
     rate_->push(clean_, changed_);
     whole_.clear();
-    for (const float one : changed_) {
-      whole_.push_back(std::int16_t(std::clamp(std::lround(one * 32768), -32768l, 32767l)));
-    }
-    const std::size_t before = frames_.size();
-    reader_->push(whole_, frames_);
-    for (std::size_t i = before; i < frames_.size(); ++i) follow(frames_[i]);
-    while (next_ + kFeatureReach < frames_.size()) {
+    to_whole(changed_, samples_, whole_);
+    new_.clear();
+    reader_->push(whole_, new_);
+    for (const Cepstrum& frame : new_) {  // one by one, so that it does not matter how many came
+      frames_.push_back(frame);
+      follow(frame);
+      if (next_ + kFeatureReach >= frames_.size()) continue;
       Cepstrum mean;
       for (std::size_t i = 0; i < kCepstra; ++i) mean[i] = float(sums_[i] / count_);
       score_states(model_.sound, features_of(frames_, next_, mean), scores_);
@@ -108,7 +108,8 @@ class Listener : public SoundListener {
   PhonePaths paths_;
   std::vector<float> scores_, clean_, changed_;
   std::vector<std::int16_t> whole_;
-  std::vector<Cepstrum> frames_;  // the last ones
+  std::vector<Cepstrum> new_, frames_;  // of a piece; the last ones
+  std::uint64_t samples_ = 0;
   std::size_t next_ = 0;          // of frames_: the first that is not scored
   std::array<double, kCepstra> sums_{};
   double count_ = 0;

@@ -29,7 +29,8 @@ class SoundListener {
 
   /// The next samples, full scale +-1, one channel; those that are no numbers count as 0.
   virtual void push(std::span<const float> samples) = 0;
-  /// Seconds of sound up to which is heard: all of it but the last 60 ms or so.
+  /// Seconds of sound up to which is heard: all of it but the last 70 ms, at the
+  /// beginning but the last 120 ms.
   virtual double heard() const = 0;
   /// What was heard from `from` (seconds of sound, not before what forget() named) on. The scripts
   /// begin at 0, which is `from`, and end at heard(). Empty scripts if there is nothing yet.
