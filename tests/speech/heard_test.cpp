@@ -150,7 +150,9 @@ const dam::Model& face_model() {
   return model;
 }
 
-bool no_ears() { return speech().audio.samples.empty() || !HeardFace::open(face_model(), 16000, {}); }
+bool no_ears() {
+  return speech().audio.samples.empty() || !HeardFace::open(face_model(), 16000, {});
+}
 
 TEST(HeardFace, ClosesItsLipsInTime) {
   if (no_ears()) GTEST_SKIP() << "no pocketsphinx or no espeak-ng";

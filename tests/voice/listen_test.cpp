@@ -26,9 +26,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 // Nothing where the build has no ears.
-bool deaf() {
-  return !SoundListener::open(kAlignRate, {});
-}
+bool deaf() { return !SoundListener::open(kAlignRate, {}); }
 
 // Straight lines between samples: good enough for a test.
 media::Pcm at_rate(const media::Pcm& audio, int rate) {
@@ -66,8 +64,7 @@ std::pair<int, int> met(const dam::Script& one, const dam::Script& other) {
     if (!bilabial(phone.label)) continue;
     ++count;
     found += std::any_of(other.phones.begin(), other.phones.end(), [&](const dam::Phone& near) {
-      return bilabial(near.label) && near.start < phone.end + 0.06 &&
-             near.end > phone.start - 0.06;
+      return bilabial(near.label) && near.start < phone.end + 0.06 && near.end > phone.start - 0.06;
     });
   }
   return {found, count};
@@ -81,8 +78,9 @@ double spoken_seconds(const dam::Script& script) {
   return sum;
 }
 
-#define ANIMEME_WANTS_EARS()                                                   \
-  if (deaf() || sentence().sound.samples.empty()) GTEST_SKIP() << "no pocketsphinx or no espeak-ng"
+#define ANIMEME_WANTS_EARS()                                                               \
+  if (deaf() || sentence().sound.samples.empty()) GTEST_SKIP() << "no pocketsphinx or no " \
+                                                                  "espeak-ng"
 
 TEST(Listen, HearsLipsThatClose) {
   ANIMEME_WANTS_EARS();
@@ -208,9 +206,9 @@ TEST(Listen, DamagedModelsAreRefused) {
     ASSERT_FALSE(whole.empty());
     std::string wild = whole;
     for (std::size_t i = 0; i < wild.size(); i += 3) wild[i] = char(0xff);
-    for (const std::string& bad : {std::string(), whole.substr(0, 20),
-                                   whole.substr(0, whole.size() / 3), wild,
-                                   std::string(1000, 'x')}) {
+    for (const std::string& bad :
+         {std::string(), whole.substr(0, 20), whole.substr(0, whole.size() / 3), wild,
+          std::string(1000, 'x')}) {
       // Of the definition nothing but its beginning is read.
       if (std::string_view(name) == "mdef" && bad.size() > whole.size() / 4) continue;
       const TempDir dir;

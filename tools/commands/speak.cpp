@@ -142,13 +142,13 @@ void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam
   for (const auto& [label, by] : synthesis.replaced) replaced[label] = by;
   const bool heard = spoken.heard.has_value();
   Json json = {{"output", options.output},
-                     {"voice", spoken.voice},
-                     {"seconds", signal.rate.seconds(double(signal.frames()))},
-                     {"frames", signal.frames()},
-                     {"phones", synthesis.phones},
-                     {"replaced_phones", synthesis.replaced_phones},
-                     {"replaced", replaced},
-                     {"closures_forced", synthesis.closures},
+               {"voice", spoken.voice},
+               {"seconds", signal.rate.seconds(double(signal.frames()))},
+               {"frames", signal.frames()},
+               {"phones", synthesis.phones},
+               {"replaced_phones", synthesis.replaced_phones},
+               {"replaced", replaced},
+               {"closures_forced", synthesis.closures},
                {"lip_tooth_forced", synthesis.lip_tooth_contacts},
                {"recognised", heard}};
   if (heard) {

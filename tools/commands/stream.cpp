@@ -37,12 +37,13 @@ constexpr double kPollSeconds = 0.05;  // sinks are looked after so often
 std::string bad_options(const StreamOptions& options) {
   const bool spoken = speech::has_source(options.program.spoken);
   const bool voice = !options.program.say_audio.empty();
-  const int sources = int(!options.input.empty()) + int(!options.program.say.empty()) +
-                      int(voice) + int(spoken);
+  const int sources =
+      int(!options.input.empty()) + int(!options.program.say.empty()) + int(voice) + int(spoken);
   if (sources > 1) {
     return "name one thing to stream: a file, --say, --say-audio, or --text and its like";
   }
-  if (voice && !options.program.spoken.audio.empty()) return "--say-audio is the sound, not --audio";
+  if (voice && !options.program.spoken.audio.empty())
+    return "--say-audio is the sound, not --audio";
   if (voice && (options.program.loop || options.fast)) {
     return "--loop and --fast are for clips, --say-audio comes in its own time";
   }

@@ -26,19 +26,25 @@ struct HearingModel {
   SoundModel sound;
   std::vector<double> pairs;
   PathOptions weights;
-  std::vector<std::string> labels;        ///< of each phone; noises are silence
-  std::vector<dam::PhoneClass> classes;   ///< of each phone
+  std::vector<std::string> labels;       ///< of each phone; noises are silence
+  std::vector<dam::PhoneClass> classes;  ///< of each phone
 };
 
 /// Errors: those of read_sound_model() and read_phone_pairs(), invalid_argument (options).
 Result<HearingModel> load_hearing(const ListenOptions& options);
 
-/// Samples as the model wants them, with a trace of noise: what is cut to zeros is no silence to it,
-/// as no room is. The noise belongs to the number of the sample, which is counted on.
-void to_whole(std::span<const float> samples, std::uint64_t& number,
-              std::vector<std::int16_t>& whole);
+/// A trace of noise that is laid under a sound. Rooms have some, and to a model that has learned
+/// from rooms what is cut to zeros is no silence, and weak sounds beside it are none.
+struct Trace {
+  float loud = 0;  ///< how loud the voice is, full scale +-1; the noise is far below; 0: not known
+  std::uint64_t number = 0;  ///< of the sample: the noise belongs to it
+};
 
-/// Features of frame `at`, which has kFeatureReach neighbours on either side or the ends of `frames`.
+/// Samples as the model wants them.
+void to_whole(std::span<const float> samples, Trace& trace, std::vector<std::int16_t>& whole);
+
+/// Features of frame `at`, which has kFeatureReach neighbours on either side or the ends of
+/// `frames`.
 Features features_of(const std::vector<Cepstrum>& frames, std::size_t at, const Cepstrum& mean);
 
 /// Of each frame and phone: how many of the paths are there, 0..1.

@@ -18,7 +18,7 @@ constexpr float kLoudPart = 0.35f;
 constexpr float kForgetLevel = 0.002f;  // a frame, of the distance of the levels
 // Before anything is heard: the mean of GRID and of espeak-ng's voices lies about there, and so
 // does that of the recordings that the model is made from (its feat.params).
-constexpr Cepstrum kFirstMean{41.0f, -5.29f, -0.12f, 5.09f,  2.48f,  -4.07f, -1.37f,
+constexpr Cepstrum kFirstMean{41.0f,  -5.29f, -0.12f, 5.09f,  2.48f,  -4.07f, -1.37f,
                               -1.78f, -5.08f, -2.05f, -6.45f, -1.42f, 1.17f};
 
 class Listener : public SoundListener {
@@ -38,7 +38,7 @@ class Listener : public SoundListener {
     changed_.clear();
     rate_->push(clean_, changed_);
     whole_.clear();
-    to_whole(changed_, samples_, whole_);
+    to_whole(changed_, trace_, whole_);
     new_.clear();
     reader_->push(whole_, new_);
     for (const Cepstrum& frame : new_) {  // one by one, so that it does not matter how many came
@@ -109,8 +109,8 @@ class Listener : public SoundListener {
   std::vector<float> scores_, clean_, changed_;
   std::vector<std::int16_t> whole_;
   std::vector<Cepstrum> new_, frames_;  // of a piece; the last ones
-  std::uint64_t samples_ = 0;
-  std::size_t next_ = 0;          // of frames_: the first that is not scored
+  Trace trace_;
+  std::size_t next_ = 0;  // of frames_: the first that is not scored
   std::array<double, kCepstra> sums_{};
   double count_ = 0;
   float highest_ = 0, lowest_ = 0;

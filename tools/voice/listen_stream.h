@@ -7,8 +7,9 @@
 ///       const voice::Heard tail = (*listener)->hear(from);      // from `from` seconds to the end
 ///     }
 ///
-/// Each answer is about all that has been heard so far; what lies 0.2 s back hardly changes any more.
-/// Memory and the cost of a second do not grow with time. Source: tools/voice/engines.md, section 3.
+/// Each answer is about all that has been heard so far; what lies 0.2 s back hardly changes any
+/// more. Memory and the cost of a second do not grow with time. Source: tools/voice/engines.md,
+/// section 3.
 #pragma once
 
 #include <memory>

@@ -1,7 +1,7 @@
 /// @file
 /// The acoustic model of pocketsphinx, read by ourselves: how well a frame of sound fits each state
-/// of each phone. The library gives paths only, and a face needs to know what else it may have been.
-/// Internal. Source: tools/voice/engines.md, section 3.
+/// of each phone. The library gives paths only, and a face needs to know what else it may have
+/// been. Internal. Source: tools/voice/engines.md, section 3.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@
 
 namespace animeme::voice {
 
-inline constexpr std::size_t kCepstra = 13;         ///< numbers of a frame of sound
-inline constexpr std::size_t kStreams = 3;          ///< them, their slope, the slope of that
-inline constexpr std::size_t kStatesPerPhone = 3;   ///< beginning, middle, end
-using Cepstrum = std::array<float, kCepstra>;       ///< of 10 ms
-using Features = std::array<Cepstrum, kStreams>;    ///< what a state is compared with
+inline constexpr std::size_t kCepstra = 13;        ///< numbers of a frame of sound
+inline constexpr std::size_t kStreams = 3;         ///< them, their slope, the slope of that
+inline constexpr std::size_t kStatesPerPhone = 3;  ///< beginning, middle, end
+using Cepstrum = std::array<float, kCepstra>;      ///< of 10 ms
+using Features = std::array<Cepstrum, kStreams>;   ///< what a state is compared with
 
 /// Phones without context, three states each.
 struct SoundModel {
