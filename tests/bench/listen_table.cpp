@@ -72,6 +72,7 @@ struct Made {
 
 // P, B and M of the labels with a closure of the motion near, and closures of the motion without.
 struct Closures {
+  bool guessed = true;  // there is a script
   std::size_t phones = 0, met = 0, heard = 0, false_heard = 0, all_heard = 0;
 };
 
@@ -87,6 +88,7 @@ bool near_bilabial(const dam::Script& script, const dam::Phone& phone) {
 
 void count(const dam::Utterance& sentence, const Made& made, Closures& out) {
   const auto lips = dam::inner_lip_channels(made.motion.names);
+  out.guessed = !made.script.phones.empty();
   for (const dam::Phone& phone : sentence.script.phones) {
     if (!dam::is_bilabial(phone.label)) continue;
     ++out.phones;
@@ -132,10 +134,14 @@ void print(const Material& material, const std::string& name,
   dam::ScoreOptions scoring;
   scoring.scale = material.model.controls;
   const auto e = need(dam::score(pairs, scoring));
-  std::printf("| %s | %.3f | %.2f | %.2f | %.0f | %.0f | %zu of %zu | %.1f | %.2f | %.0f |",
-              name.c_str(), e.nrmse, e.correlation, e.gap_correlation,
-              percent(closures.heard, closures.phones), percent(closures.met, closures.phones),
-              closures.false_heard, closures.all_heard, e.closure.false_per_minute,
+  char heard[16] = "-", in_vain[32] = "-";  // of a live face no script is known
+  if (closures.guessed) {
+    std::snprintf(heard, sizeof heard, "%.0f", percent(closures.heard, closures.phones));
+    std::snprintf(in_vain, sizeof in_vain, "%zu of %zu", closures.false_heard, closures.all_heard);
+  }
+  std::printf("| %s | %.3f | %.2f | %.2f | %s | %.0f | %s | %.1f | %.2f | %.0f |", name.c_str(),
+              e.nrmse, e.correlation, e.gap_correlation, heard,
+              percent(closures.met, closures.phones), in_vain, e.closure.false_per_minute,
               e.dynamics.velocity, seconds / taken.count());
   std::printf(refused > 0 ? " %zu refused\n" : "\n", refused);
   std::fflush(stdout);
