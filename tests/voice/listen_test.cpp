@@ -78,12 +78,10 @@ double spoken_seconds(const dam::Script& script) {
   return sum;
 }
 
-#define ANIMEME_WANTS_EARS()                                                               \
-  if (deaf() || sentence().sound.samples.empty()) GTEST_SKIP() << "no pocketsphinx or no " \
-                                                                  "espeak-ng"
+bool no_ears() { return deaf() || sentence().sound.samples.empty(); }
 
 TEST(Listen, HearsLipsThatClose) {
-  ANIMEME_WANTS_EARS();
+  if (no_ears()) GTEST_SKIP() << "no pocketsphinx or no espeak-ng";
   const auto heard = listen(sentence().sound);
   ASSERT_TRUE(heard) << heard.error().message;
   const auto [found, count] = met(sentence().script, heard->script);
@@ -105,7 +103,7 @@ TEST(Listen, HearsLipsThatClose) {
 }
 
 TEST(Listen, GivesTheSameTwice) {
-  ANIMEME_WANTS_EARS();
+  if (no_ears()) GTEST_SKIP() << "no pocketsphinx or no espeak-ng";
   const auto one = listen(sentence().sound), other = listen(sentence().sound);
   ASSERT_TRUE(one && other);
   EXPECT_EQ(one->readings, other->readings);
@@ -113,7 +111,7 @@ TEST(Listen, GivesTheSameTwice) {
 }
 
 TEST(Listen, OtherLanguagesHaveOtherPairs) {
-  ANIMEME_WANTS_EARS();
+  if (no_ears()) GTEST_SKIP() << "no pocketsphinx or no espeak-ng";
   ListenOptions german;
   german.language = "de";
   const auto one = listen(sentence().sound), other = listen(sentence().sound, german);
@@ -122,7 +120,7 @@ TEST(Listen, OtherLanguagesHaveOtherPairs) {
 }
 
 TEST(Listen, WhatIsNoSpeechStaysStill) {
-  ANIMEME_WANTS_EARS();
+  if (no_ears()) GTEST_SKIP() << "no pocketsphinx or no espeak-ng";
   std::vector<float> noise(2 * kAlignRate), hum = noise, none = noise;
   std::uint32_t seed = 1;
   for (std::size_t i = 0; i < noise.size(); ++i) {
@@ -143,7 +141,7 @@ TEST(Listen, WhatIsNoSpeechStaysStill) {
 
 // More than one block of paths, each of which looks beyond its end.
 TEST(Listen, LongSoundsAreHeardAsShortOnes) {
-  ANIMEME_WANTS_EARS();
+  if (no_ears()) GTEST_SKIP() << "no pocketsphinx or no espeak-ng";
   media::Pcm sound{kAlignRate, {}};
   const auto& one = sentence().sound.samples;
   const std::size_t times = 22 * std::size_t(kAlignRate) / one.size() + 1;
@@ -229,7 +227,7 @@ TEST(Listen, DamagedModelsAreRefused) {
 
 // What comes piece by piece is heard the same, however it is cut.
 TEST(SoundListener, DoesNotDependOnPieces) {
-  ANIMEME_WANTS_EARS();
+  if (no_ears()) GTEST_SKIP() << "no pocketsphinx or no espeak-ng";
   const auto& samples = sentence().sound.samples;
   std::vector<Heard> all;
   for (const std::size_t piece : {std::size_t(37), std::size_t(160), samples.size()}) {
@@ -259,7 +257,7 @@ TEST(SoundListener, DoesNotDependOnPieces) {
 
 // A path stays where it is when more is heard, but for its end.
 TEST(SoundListener, WhatLiesBackStays) {
-  ANIMEME_WANTS_EARS();
+  if (no_ears()) GTEST_SKIP() << "no pocketsphinx or no espeak-ng";
   const auto& samples = sentence().sound.samples;
   auto listener = SoundListener::open(kAlignRate, {});
   ASSERT_TRUE(listener);
@@ -282,7 +280,7 @@ TEST(SoundListener, WhatLiesBackStays) {
 }
 
 TEST(SoundListener, ForgetsWhatIsToldAndTakesAnyRate) {
-  ANIMEME_WANTS_EARS();
+  if (no_ears()) GTEST_SKIP() << "no pocketsphinx or no espeak-ng";
   for (const int rate : {8000, 44100, 48000}) {
     const media::Pcm sound = at_rate(sentence().sound, rate);
     auto listener = SoundListener::open(rate, {});

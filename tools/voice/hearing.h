@@ -23,9 +23,9 @@ inline constexpr std::size_t kFeatureReach = 3;  ///< frames that features look 
 
 /// All that is read from files.
 struct HearingModel {
-  SoundModel sound;
-  std::vector<double> pairs;
-  PathOptions weights;
+  SoundModel sound;                      ///< how phones sound
+  std::vector<double> pairs;             ///< which follow each other, see read_phone_pairs()
+  PathOptions weights;                   ///< how much either is believed
   std::vector<std::string> labels;       ///< of each phone; noises are silence
   std::vector<dam::PhoneClass> classes;  ///< of each phone
 };
@@ -49,6 +49,7 @@ Features features_of(const std::vector<Cepstrum>& frames, std::size_t at, const 
 
 /// Of each frame and phone: how many of the paths are there, 0..1.
 using Votes = std::vector<std::vector<float>>;
+/// Counts them; the paths are equally long.
 Votes count_votes(const std::vector<Path>& paths, std::size_t phones);
 
 /// The path that the votes agree on, of phones of three frames and more. Votes for phones of the

@@ -26,6 +26,7 @@ using Path = std::vector<std::uint8_t>;
 /// Frames go in one by one; what is older than `forget()` says is gone.
 class PhonePaths {
  public:
+  /// `pairs` as of read_phone_pairs().
   PhonePaths(const SoundModel& model, std::vector<double> pairs, const PathOptions& options);
   /// The scores of the next frame.
   void push(std::span<const float> scores);

@@ -24,11 +24,11 @@ using Features = std::array<Cepstrum, kStreams>;   ///< what a state is compared
 struct SoundModel {
   std::vector<std::string> phones;  ///< "AA" ... "SIL", and noises as "+NSN+"
   std::size_t densities = 0;        ///< Gaussians of a phone and stream
-  /// phone, stream, dimension, density.
-  std::vector<float> means, precisions;
-  std::vector<float> constants;  ///< phone, stream, density: log of the factor
-  std::vector<float> weights;    ///< phone, stream, state, density
-  std::vector<float> stay;       ///< phone, state: probability to stay for a frame
+  std::vector<float> means;         ///< phone, stream, dimension, density
+  std::vector<float> precisions;    ///< the same: half of one through the variance
+  std::vector<float> constants;     ///< phone, stream, density: log of the factor
+  std::vector<float> weights;       ///< phone, stream, state, density
+  std::vector<float> stay;          ///< phone, state: probability to stay for a frame
 
   std::size_t states() const { return phones.size() * kStatesPerPhone; }  ///< of all phones
 };
