@@ -35,9 +35,8 @@ Result<Signal> mean_motion(std::span<const Script> readings, const MakeReading& 
 Result<Signal> synthesise_readings(const Model& model, std::span<const Script> readings,
                                    const Script& agreed, const SynthesisOptions& options,
                                    SynthesisReport* report) {
-  auto mean = mean_motion(readings, [&](const Script& reading) {
-    return synthesise(model, reading, options);
-  });
+  auto mean = mean_motion(
+      readings, [&](const Script& reading) { return synthesise(model, reading, options); });
   if (!mean) return mean;
   SynthesisReport own;
   SynthesisReport& out = report != nullptr ? *report : own;

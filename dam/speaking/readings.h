@@ -21,9 +21,9 @@ struct ReadingFrames {
   std::size_t count = 0;  ///< how many
 };
 
-/// The mean of synthesise() over `readings`, all equally likely, with the lips closed where `agreed`
-/// has P, B or M and at the teeth where it has F or V. All scripts last equally long. The report is
-/// that of `agreed`. Errors: invalid_argument (no reading), those of synthesise().
+/// The mean of synthesise() over `readings`, all equally likely, with the lips closed where
+/// `agreed` has P, B or M and at the teeth where it has F or V. All scripts last equally long. The
+/// report is that of `agreed`. Errors: invalid_argument (no reading), those of synthesise().
 Result<Signal> synthesise_readings(const Model& model, std::span<const Script> readings,
                                    const Script& agreed, const SynthesisOptions& options = {},
                                    SynthesisReport* report = nullptr);

@@ -59,7 +59,8 @@ Material read(const std::string& folder, const std::string& wanted, std::size_t 
   std::size_t number = 0;
   for (const auto& one : dam::select(corpus, column, wanted)) {
     if (!std::filesystem::exists(wav(one)) || number++ % every != 0) continue;
-    material.rows.push_back({one, need(media::read_audio(wav(one).string(), {16000, 3600, nullptr}))});
+    material.rows.push_back(
+        {one, need(media::read_audio(wav(one).string(), {16000, 3600, nullptr}))});
   }
   return material;
 }
@@ -71,12 +72,14 @@ struct Made {
 
 // P, B and M of the labels with a closure of the motion near, and closures of the motion without.
 struct Closures {
+  bool guessed = true;  // there is a script
   std::size_t phones = 0, met = 0, heard = 0, false_heard = 0, all_heard = 0;
 };
 
 bool near_bilabial(const dam::Script& script, const dam::Phone& phone) {
   for (const dam::Phone& one : script.phones) {
-    if (dam::is_bilabial(one.label) && one.start < phone.end + kNear && one.end > phone.start - kNear) {
+    if (dam::is_bilabial(one.label) && one.start < phone.end + kNear &&
+        one.end > phone.start - kNear) {
       return true;
     }
   }
@@ -85,6 +88,7 @@ bool near_bilabial(const dam::Script& script, const dam::Phone& phone) {
 
 void count(const dam::Utterance& sentence, const Made& made, Closures& out) {
   const auto lips = dam::inner_lip_channels(made.motion.names);
+  out.guessed = !made.script.phones.empty();
   for (const dam::Phone& phone : sentence.script.phones) {
     if (!dam::is_bilabial(phone.label)) continue;
     ++out.phones;
@@ -130,10 +134,15 @@ void print(const Material& material, const std::string& name,
   dam::ScoreOptions scoring;
   scoring.scale = material.model.controls;
   const auto e = need(dam::score(pairs, scoring));
-  std::printf("| %s | %.3f | %.2f | %.2f | %.0f | %.0f | %zu of %zu | %.1f | %.2f | %.0f |", name.c_str(),
-              e.nrmse, e.correlation, e.gap_correlation, percent(closures.heard, closures.phones),
-              percent(closures.met, closures.phones), closures.false_heard, closures.all_heard,
-              e.closure.false_per_minute, e.dynamics.velocity, seconds / taken.count());
+  char heard[16] = "-", in_vain[32] = "-";  // of a live face no script is known
+  if (closures.guessed) {
+    std::snprintf(heard, sizeof heard, "%.0f", percent(closures.heard, closures.phones));
+    std::snprintf(in_vain, sizeof in_vain, "%zu of %zu", closures.false_heard, closures.all_heard);
+  }
+  std::printf("| %s | %.3f | %.2f | %.2f | %s | %.0f | %s | %.1f | %.2f | %.0f |", name.c_str(),
+              e.nrmse, e.correlation, e.gap_correlation, heard,
+              percent(closures.met, closures.phones), in_vain, e.closure.false_per_minute,
+              e.dynamics.velocity, seconds / taken.count());
   std::printf(refused > 0 ? " %zu refused\n" : "\n", refused);
   std::fflush(stdout);
 }
@@ -175,7 +184,8 @@ int main(int argc, char** argv) {
   CLI::App app{"Faces from sound alone, from text, and from labels"};
   std::string corpus, rows = "test", column = "split";
   std::size_t every = 1;
-  app.add_option("corpus", corpus, "Folder with utterances.tsv, audio/, phonemes/, fap/")->required();
+  app.add_option("corpus", corpus, "Folder with utterances.tsv, audio/, phonemes/, fap/")
+      ->required();
   app.add_option("--rows", rows, "Value of the column: test, or train (then a model without them)");
   app.add_option("--column", column, "split, heldout_word_split");
   app.add_option("--every", every, "Only every n-th of them")->check(CLI::PositiveNumber);
@@ -184,9 +194,11 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   const Material material = read(corpus, rows, every, column);
   const dam::Model& model = material.model;
-  std::printf("%zu sentences\n\n| from | NRMSE | corr | gap corr | P B M heard %% | lips closed %% | P B M "
-              "heard in vain | false closures a minute | velocity | x real time |\n"
-              "|---|---|---|---|---|---|---|---|---|---|\n", material.rows.size());
+  std::printf(
+      "%zu sentences\n\n| from | NRMSE | corr | gap corr | P B M heard %% | lips closed %% | P B M "
+      "heard in vain | false closures a minute | velocity | x real time |\n"
+      "|---|---|---|---|---|---|---|---|---|---|\n",
+      material.rows.size());
   print(material, "labels of the corpus",
         [&](const Row& row) { return by_script(model, row, row.sentence.script); });
   print(material, "text, aligned", [&](const Row& row) -> std::optional<Made> {
@@ -198,7 +210,8 @@ int main(int argc, char** argv) {
   print(material, "sound, best guess alone", [&](const Row& row) {
     return by_script(model, row, need(voice::listen(row.sound)).script);
   });
-  print(material, "sound, any language", [&](const Row& row) { return by_sound(model, row, "xx"); });
+  print(material, "sound, any language",
+        [&](const Row& row) { return by_sound(model, row, "xx"); });
   for (const double delay : delays) {
     char name[64];
     std::snprintf(name, sizeof name, "sound as it comes, %.2f s late", delay);

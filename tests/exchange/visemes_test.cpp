@@ -87,6 +87,24 @@ TEST(ExchangeVisemes, MouthShapesOfRhubarb) {
   const auto track = track_of_events(script_events(kScript), {25, 1}, 0.08);
   ASSERT_TRUE(track);
   EXPECT_EQ(write_rhubarb_tsv(*track), "0.00\tX\n0.20\tA\n0.32\tD\n0.44\tB\n0.64\tH\n0.80\tX\n");
+  EXPECT_EQ(write_rhubarb_xml(*track, "a & b.wav"),
+            "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<rhubarbResult>\n  <metadata>\n"
+            "    <soundFile>a &amp; b.wav</soundFile>\n    <duration>0.80</duration>\n"
+            "  </metadata>\n  <mouthCues>\n"
+            "    <mouthCue start=\"0.00\" end=\"0.20\">X</mouthCue>\n"
+            "    <mouthCue start=\"0.20\" end=\"0.32\">A</mouthCue>\n"
+            "    <mouthCue start=\"0.32\" end=\"0.44\">D</mouthCue>\n"
+            "    <mouthCue start=\"0.44\" end=\"0.64\">B</mouthCue>\n"
+            "    <mouthCue start=\"0.64\" end=\"0.80\">H</mouthCue>\n"
+            "  </mouthCues>\n</rhubarbResult>\n");
+  EXPECT_EQ(write_rhubarb_dat(*track), "MohoSwitch1\n1 X\n5 A\n8 D\n11 B\n16 H\n20 X\n");
+  RhubarbOptions basic;
+  basic.extended = "";
+  basic.preston_blair = true;
+  basic.dat_rate = 10;
+  EXPECT_EQ(write_rhubarb_tsv(*track, basic), "0.00\tA\n0.32\tD\n0.44\tB\n0.64\tC\n0.80\tA\n");
+  EXPECT_EQ(write_rhubarb_dat(*track, basic), "MohoSwitch1\n1 MBP\n4 AI\n5 etc\n7 E\n9 MBP\n");
+  EXPECT_EQ(write_rhubarb_dat({{25, 1}, {}, {}}), "MohoSwitch1\n");
   const auto json = nlohmann::json::parse(write_rhubarb_json(*track, "x.wav"));
   EXPECT_EQ(json["metadata"]["soundFile"], "x.wav");
   EXPECT_EQ(json["mouthCues"].size(), 5U);

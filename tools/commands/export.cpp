@@ -8,9 +8,9 @@
 #include "tools/commands/script_options.h"
 #include "tools/exchange/arkit.h"
 #include "tools/exchange/visemes.h"
+#include "tools/gltf/glb.h"
 #include "tools/media/container.h"
 #include "tools/speech/spoken.h"
-#include "tools/gltf/glb.h"
 
 namespace animeme::tools {
 
@@ -208,7 +208,8 @@ Result<int> write_visemes(const ExportOptions& options, const std::string& what,
   }
   if (auto written = write_file(options.output, text); !written) return written.error();
   if (what == "rhubarb") {
-    say(name_of_output(options.output) + ": mouth shapes of " + std::to_string(track.events.size()) + " visemes");
+    say(name_of_output(options.output) + ": mouth shapes of " +
+        std::to_string(track.events.size()) + " visemes");
   } else {
     say(options.output + ": " + std::to_string(track.events.size()) + " events, " +
         std::to_string(track.frames.size()) + " frames of 15 visemes, " +

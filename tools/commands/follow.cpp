@@ -180,8 +180,9 @@ void add_options(CLI::App& app, FollowOptions& options) {
                  "Seconds of phones to wait for before a frame is given out; default: as many as "
                  "make it final (about half a second)")
       ->check(CLI::Range(0.0, 60.0));
-  app.add_option("--audio", options.audio,
-                 "Listen to a voice in place of phones: WAV from - (standard input), a pipe, a file")
+  app.add_option(
+         "--audio", options.audio,
+         "Listen to a voice in place of phones: WAV from - (standard input), a pipe, a file")
       ->option_text("FILE")
       ->excludes("--look-ahead")
       ->excludes("--max-seconds");

@@ -166,17 +166,17 @@ void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam
   for (const auto& [label, by] : synthesis.replaced) replaced[label] = by;
   const bool heard = spoken.heard.has_value();
   Json json = {{"output", options.output},
-                     {"voice", spoken.voice},
-                     {"times", speech::name_of(spoken.times)},
-                     {"approximate", is_approximate(spoken)},
-                     {"confidence", confidence_of(spoken)},
-                     {"doubtful_words", doubtful_words(spoken)},
-                     {"seconds", signal.rate.seconds(double(signal.frames()))},
-                     {"frames", signal.frames()},
-                     {"phones", synthesis.phones},
-                     {"replaced_phones", synthesis.replaced_phones},
-                     {"replaced", replaced},
-                     {"closures_forced", synthesis.closures},
+               {"voice", spoken.voice},
+               {"times", speech::name_of(spoken.times)},
+               {"approximate", is_approximate(spoken)},
+               {"confidence", confidence_of(spoken)},
+               {"doubtful_words", doubtful_words(spoken)},
+               {"seconds", signal.rate.seconds(double(signal.frames()))},
+               {"frames", signal.frames()},
+               {"phones", synthesis.phones},
+               {"replaced_phones", synthesis.replaced_phones},
+               {"replaced", replaced},
+               {"closures_forced", synthesis.closures},
                {"lip_tooth_forced", synthesis.lip_tooth_contacts},
                {"recognised", heard}};
   if (heard) {
@@ -305,8 +305,7 @@ void add_options(CLI::App& app, SpeakOptions& options) {
 const Command kSpeak{
     "speak", "Make a face talk: from text, from a recorded voice, best with its phonemes or text",
     "  animeme speak --text \"Hello world\" -o hello.mp4\n"
-    "  animeme speak --text \"Guten Tag\" --lang de --rate 30 -o tag.mp4\n"
-    "  animeme speak --text \"Hello world\" --visemes instead -o hello.fap    # for Xface\n"
+    "  animeme speak --text \"Guten Tag\" --lang de --visemes instead -o tag.fap    # for Xface\n"
     "  animeme speak --audio voice.wav --transcript \"what she said\" -o talk.mp4\n"
     "  animeme speak --text Hello --tts \"piper -m en.onnx -f {wav}\" -o hello.mp4   # your voice\n"
     "  animeme speak --audio voice.wav --save-script heard.TextGrid -o talk.mp4\n"

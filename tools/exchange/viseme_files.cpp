@@ -16,10 +16,14 @@ std::string_view morph(int viseme) { return fap::kVisemes[std::size_t(viseme)].m
 std::string xml_text(std::string_view text) {
   std::string out;
   for (const char c : text) {
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else if (static_cast<unsigned char>(c) >= 0x20) out += c;
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (static_cast<unsigned char>(c) >= 0x20)
+      out += c;
   }
   return out;
 }
@@ -34,8 +38,8 @@ struct Cue {
 char drawn(char shape, const RhubarbOptions& options) {
   constexpr std::string_view kExtended = "GHX", kInstead = "ACA";
   const std::size_t which = kExtended.find(shape);
-  const bool there = which == std::string_view::npos ||
-                     options.extended.find(shape) != std::string::npos;
+  const bool there =
+      which == std::string_view::npos || options.extended.find(shape) != std::string::npos;
   return there ? shape : kInstead[which];
 }
 
@@ -123,15 +127,15 @@ std::string write_rhubarb_xml(const VisemeTrack& track, std::string_view audio,
       decimals(cues.empty() ? 0 : cues.back().end, 2) +
       "</duration>\n  </metadata>\n  <mouthCues>\n";
   for (const Cue& cue : cues) {
-    text += "    <mouthCue start=\"" + decimals(cue.start, 2) + "\" end=\"" +
-            decimals(cue.end, 2) + "\">" + cue.shape + "</mouthCue>\n";
+    text += "    <mouthCue start=\"" + decimals(cue.start, 2) + "\" end=\"" + decimals(cue.end, 2) +
+            "\">" + cue.shape + "</mouthCue>\n";
   }
   return text + "  </mouthCues>\n</rhubarbResult>\n";
 }
 
 std::string write_rhubarb_dat(const VisemeTrack& track, const RhubarbOptions& options) {
   constexpr std::string_view kLetters = "ABCDEFGHX";
-  constexpr std::string_view kPrestonBlair[] = {"MBP", "etc", "E", "AI", "O",
+  constexpr std::string_view kPrestonBlair[] = {"MBP", "etc", "E", "AI",  "O",
                                                 "U",   "FV",  "L", "rest"};
   const auto name = [&](char shape) {
     return options.preston_blair ? std::string(kPrestonBlair[kLetters.find(shape)])

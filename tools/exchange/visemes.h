@@ -84,7 +84,7 @@ std::string write_rhubarb_json(const VisemeTrack& track, std::string_view audio 
 /// Start and shape, tab between; the end is a last X (A without it).
 std::string write_rhubarb_tsv(const VisemeTrack& track, const RhubarbOptions& options = {});
 
-/// <rhubarbResult> with <metadata> and <mouthCues>, as Rhubarb writes it.
+/// XML as Rhubarb writes it: metadata, then a mouthCue each.
 std::string write_rhubarb_xml(const VisemeTrack& track, std::string_view audio = {},
                               const RhubarbOptions& options = {});
 

@@ -20,18 +20,18 @@ namespace animeme::live {
 
 /// What is said, how it looks and how it is coded.
 struct ProgramOptions {
-  std::string say;               ///< file of lines to speak as they come, "-": standard input
-  std::string say_json;          ///< likewise, of pieces (tools/speech/pieces.h); one of the two
-  std::string say_audio;         ///< sound of a voice as it comes, "-": standard input
-  std::optional<speech::BareSound> bare;  ///< how its samples lie; nothing: WAV
+  std::string say;        ///< file of lines to speak as they come, "-": standard input
+  std::string say_json;   ///< likewise, of pieces (tools/speech/pieces.h); one of the two
+  std::string say_audio;  ///< sound of a voice as it comes, "-": standard input
+  std::optional<speech::BareSound> bare;            ///< how its samples lie; nothing: WAV
   double delay = speech::LiveVoiceOptions().delay;  ///< seconds, of a voice as it comes
-  speech::SpokenOptions spoken;  ///< text, script or voice
-  Coding coding;                 ///< of face and sound
-  std::string model;             ///< as speech::read_model() takes it
-  double style = 1;              ///< as dam::SynthesisOptions::style
-  bool life = false;             ///< blinks, and brows and head that move a little
-  std::uint64_t seed = 1;        ///< of life
-  bool loop = false;             ///< clips begin again at their end
+  speech::SpokenOptions spoken;                     ///< text, script or voice
+  Coding coding;                                    ///< of face and sound
+  std::string model;                                ///< as speech::read_model() takes it
+  double style = 1;                                 ///< as dam::SynthesisOptions::style
+  bool life = false;       ///< blinks, and brows and head that move a little
+  std::uint64_t seed = 1;  ///< of life
+  bool loop = false;       ///< clips begin again at their end
   double duration = std::numeric_limits<double>::infinity();  ///< seconds
 };
 

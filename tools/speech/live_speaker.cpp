@@ -219,17 +219,16 @@ Result<std::unique_ptr<LiveSpeaker>> LiveSpeaker::open(const dam::Model& model, 
     if (!opened) return opened.error();
     sound = std::move(*opened);
   }
-  const fba::LiveOptions live =
-      coding_of_face(model, *face, options.face.synthesis.rate, options.fap_quant,
-                     options.intra_seconds);
+  const fba::LiveOptions live = coding_of_face(model, *face, options.face.synthesis.rate,
+                                               options.fap_quant, options.intra_seconds);
   Result<FaceShape> shape = shape_of_face(live, *face);
   if (!shape) return shape.error();
   media::LiveInfo info = std::move(shape->info);
   if (sound) info.audio = sound->format();
   fba::LiveEncoder encoder(live);
-  auto impl = std::make_unique<Impl>(Impl{options, &lines, &clock, std::move(*face),
-                                          std::move(sound), std::move(encoder), std::move(info),
-                                          shape->frame_ticks});
+  auto impl =
+      std::make_unique<Impl>(Impl{options, &lines, &clock, std::move(*face), std::move(sound),
+                                  std::move(encoder), std::move(info), shape->frame_ticks});
   return std::unique_ptr<LiveSpeaker>(new LiveSpeaker(std::move(impl)));
 }
 

@@ -209,9 +209,18 @@ Result<std::unique_ptr<LiveVoice>> LiveVoice::open(const dam::Model& model, int 
   if (!shape) return shape.error();
   media::LiveInfo info = std::move(shape->info);
   if (sound) info.audio = sound->format();
-  auto impl = std::make_unique<Impl>(Impl{options, std::move(pipe), *rate, std::move(*face),
-                                          std::move(sound), fba::LiveEncoder(coding),
-                                          std::move(info), shape->frame_ticks, {}, 0, 0, {}});
+  auto impl = std::make_unique<Impl>(Impl{options,
+                                          std::move(pipe),
+                                          *rate,
+                                          std::move(*face),
+                                          std::move(sound),
+                                          fba::LiveEncoder(coding),
+                                          std::move(info),
+                                          shape->frame_ticks,
+                                          {},
+                                          0,
+                                          0,
+                                          {}});
   return std::unique_ptr<LiveVoice>(new LiveVoice(std::move(impl)));
 }
 

@@ -19,7 +19,8 @@ constexpr int kWavPcm = 1, kWavFloat = 3, kWavExtensible = 0xfffe;
 template <class T>
 T little(const std::uint8_t* bytes) {
   T value = 0;
-  std::memcpy(&value, bytes, sizeof value);  // the machines that this is built for are little endian
+  std::memcpy(&value, bytes,
+              sizeof value);  // the machines that this is built for are little endian
   return value;
 }
 
@@ -44,8 +45,9 @@ Result<BareSound> parse_bare_sound(const std::string& text) {
                             : whole_number(std::string_view(text).substr(colon + 1));
   if (!rate || !channels || !rate_fits(*rate) || *channels < 1 || *channels > kMostChannels) {
     return make_error(Code::invalid_argument,
-                      "'" + text + "' is no rate of samples; write 16000, or 48000:2 for two "
-                                   "channels");
+                      "'" + text +
+                          "' is no rate of samples; write 16000, or 48000:2 for two "
+                          "channels");
   }
   return BareSound{*rate, *channels};
 }
@@ -67,9 +69,9 @@ Result<void> SoundBytes::read_format(std::span<const std::uint8_t> chunk) {
   bits_ = little<std::uint16_t>(&chunk[14]);
   if (format_ == kWavExtensible && chunk.size() >= 26) format_ = little<std::uint16_t>(&chunk[24]);
   is_float_ = format_ == kWavFloat;
-  const bool known = is_float_ ? bits_ == 32 || bits_ == 64
-                               : format_ == kWavPcm && (bits_ == 8 || bits_ == 16 || bits_ == 24 ||
-                                                        bits_ == 32);
+  const bool known =
+      is_float_ ? bits_ == 32 || bits_ == 64
+                : format_ == kWavPcm && (bits_ == 8 || bits_ == 16 || bits_ == 24 || bits_ == 32);
   if (!known) {
     return make_error(Code::unsupported,
                       "WAV of another coding than PCM; convert it: ffmpeg -i IN -f wav -");
@@ -133,9 +135,8 @@ float SoundBytes::sample(const std::uint8_t* bytes) const {
   if (bits_ == 8) return (float(*bytes) - 128) / 128;
   if (bits_ == 16) return float(little<std::int16_t>(bytes)) / 32768;
   if (bits_ == 32) return float(double(little<std::int32_t>(bytes)) / 2147483648.0);
-  const std::int32_t value = std::int32_t(std::uint32_t(bytes[0]) << 8 |
-                                          std::uint32_t(bytes[1]) << 16 |
-                                          std::uint32_t(bytes[2]) << 24);
+  const std::int32_t value = std::int32_t(
+      std::uint32_t(bytes[0]) << 8 | std::uint32_t(bytes[1]) << 16 | std::uint32_t(bytes[2]) << 24);
   return float(double(value) / 2147483648.0);
 }
 

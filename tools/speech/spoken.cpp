@@ -20,8 +20,9 @@ Result<Spoken> speak(const SpokenOptions& options, const std::string& text,
     Result<TimedSpeech> timed = run_voice_command(text, voice_command(options), talk);
     if (!timed) return timed.error();
     voice::Speech& speech = timed->speech;
-    return Spoken{std::move(speech.script), std::move(speech.audio), std::move(speech.voice),
-                  timed->times, std::move(timed->alignment), {}};
+    return Spoken{std::move(speech.script),    std::move(speech.audio),
+                  std::move(speech.voice),     timed->times,
+                  std::move(timed->alignment), {}};
   }
   voice::VoiceOptions settings;
   settings.language = options.language;
@@ -29,8 +30,8 @@ Result<Spoken> speak(const SpokenOptions& options, const std::string& text,
   settings.pitch = options.pitch;
   Result<voice::Speech> speech = voice::speak_text(text, settings);
   if (!speech) return speech.error();
-  return Spoken{std::move(speech->script), std::move(speech->audio), speech->voice,
-                TimesFrom::voice, {}, {}};
+  return Spoken{
+      std::move(speech->script), std::move(speech->audio), speech->voice, TimesFrom::voice, {}, {}};
 }
 
 Result<Spoken> follow_script(const SpokenOptions& options, const tools::Talk& talk) {
@@ -39,12 +40,8 @@ Result<Spoken> follow_script(const SpokenOptions& options, const tools::Talk& ta
       read_script(options.script, {options.script_reading, options.language, options.most_seconds},
                   talk, &words);
   if (!script) return script.error();
-  Spoken spoken{std::move(*script),
-                std::nullopt,
-                {},
-                words ? TimesFrom::words : TimesFrom::script,
-                {},
-                {}};
+  Spoken spoken{
+      std::move(*script), std::nullopt, {}, words ? TimesFrom::words : TimesFrom::script, {}, {}};
   if (options.audio.empty()) return spoken;
   Result<media::Pcm> audio = read_voice(options.audio, talk);
   if (!audio) return audio.error();
@@ -63,8 +60,8 @@ Result<Spoken> align_voice(const SpokenOptions& options, const tools::Talk& talk
   Result<media::Pcm> audio = read_voice(options.audio, talk);
   if (!audio) return audio.error();
   dam::Script script = std::exchange(aligned->script, {});
-  return Spoken{
-      std::move(script), std::move(*audio), {}, TimesFrom::alignment, std::move(*aligned), {}};
+  return Spoken{std::move(script),    std::move(*audio),   {},
+                TimesFrom::alignment, std::move(*aligned), {}};
 }
 
 Result<Spoken> hear_voice(const SpokenOptions& options, const tools::Talk& talk) {

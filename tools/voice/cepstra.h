@@ -28,8 +28,8 @@ class CepstraReader {
   virtual void finish(std::vector<Cepstrum>& frames) = 0;
 };
 
-/// Probabilities that a phone is followed by another: row by row, of the phones named, by a language
-/// model of phones. Errors: unsupported, not_found (no such file), syntax (it is none).
+/// Probabilities that a phone is followed by another: row by row, of the phones named, by a
+/// language model of phones. Errors: unsupported, not_found (no such file), syntax (it is none).
 Result<std::vector<double>> read_phone_pairs(const std::string& path,
                                              const std::vector<std::string>& phones);
 

@@ -10,10 +10,14 @@ namespace {
 // Chosen on 42 sentences of GRID talker 1 that are not those of the tables.
 constexpr PathOptions kEnglish{0.2, 0.5, 1};
 constexpr PathOptions kAnyLanguage{0.2, 0, 0.03};
-constexpr float kKin = 0.7f;        // of a vote counts for phones of the same shape of the mouth
-constexpr float kBilabials = 1.6f;  // lips that stay open are seen sooner than lips that close once more
-constexpr float kChange = 0.1f;     // of a vote: what another phone has to be better by
+constexpr float kKin = 0.7f;  // of a vote counts for phones of the same shape of the mouth
+constexpr float kBilabials =
+    1.6f;  // lips that stay open are seen sooner than lips that close once more
+constexpr float kChange = 0.1f;       // of a vote: what another phone has to be better by
 constexpr std::size_t kShortest = 3;  // frames
+// The trace of noise lies about 47 dB below speech of such peaks, and above what 16 bit cannot
+// tell.
+constexpr float kTraceOfLoud = 0.002f, kLeastTrace = 0.00025f;
 
 // A frame begins half way between the middle of its window and that of the frame before. 10 ms are
 // taken off, by which the model hears phones late (the bias of the tables in README.md).
@@ -45,10 +49,23 @@ Result<HearingModel> load_hearing(const ListenOptions& options) {
   return model;
 }
 
+void to_whole(std::span<const float> samples, Trace& trace, std::vector<std::int16_t>& whole) {
+  whole.reserve(whole.size() + samples.size());
+  for (const float sample : samples) {
+    std::uint64_t z = ++trace.number * 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    const float noise = float((z ^ (z >> 27)) >> 40) / 8388608.0f - 1;  // -1..1
+    const float level = std::max(kTraceOfLoud * trace.loud, kLeastTrace);
+    whole.push_back(
+        std::int16_t(std::clamp(std::lround((sample + level * noise) * 32768), -32768l, 32767l)));
+  }
+}
+
 Features features_of(const std::vector<Cepstrum>& frames, std::size_t at, const Cepstrum& mean) {
   const auto near = [&](int step) -> const Cepstrum& {
     const auto wanted = std::int64_t(at) + step;
-    return frames[std::size_t(std::clamp<std::int64_t>(wanted, 0, std::int64_t(frames.size()) - 1))];
+    return frames[std::size_t(
+        std::clamp<std::int64_t>(wanted, 0, std::int64_t(frames.size()) - 1))];
   };
   Features features;
   for (std::size_t i = 0; i < kCepstra; ++i) {
@@ -81,7 +98,8 @@ Path agreed_path(const HearingModel& model, const Votes& votes) {
       if (shape == dam::PhoneClass::bilabial) gain[p] *= kBilabials;
     }
     std::size_t leader = kShortest - 1;  // the best that may end
-    for (std::size_t s = leader; s < states; s += kShortest) leader = best[s] > best[leader] ? s : leader;
+    for (std::size_t s = leader; s < states; s += kShortest)
+      leader = best[s] > best[leader] ? s : leader;
     for (std::size_t s = 0; s < states; ++s) {
       const std::size_t part = s % kShortest;
       std::size_t before = part == 0 ? leader : s - 1;
@@ -139,7 +157,8 @@ dam::Script script_of_path(const HearingModel& model, const Path& path, std::siz
   }
   if (confidences != nullptr) {
     confidences->clear();
-    for (std::size_t i = 0; i < sums.size(); ++i) confidences->push_back(sums[i] / counts[i]);
+    for (std::size_t i = 0; i < sums.size(); ++i)
+      confidences->push_back(std::min(sums[i] / counts[i], 1.0));
   }
   return script;
 }

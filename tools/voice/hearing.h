@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,21 +23,33 @@ inline constexpr std::size_t kFeatureReach = 3;  ///< frames that features look 
 
 /// All that is read from files.
 struct HearingModel {
-  SoundModel sound;
-  std::vector<double> pairs;
-  PathOptions weights;
-  std::vector<std::string> labels;        ///< of each phone; noises are silence
-  std::vector<dam::PhoneClass> classes;   ///< of each phone
+  SoundModel sound;                      ///< how phones sound
+  std::vector<double> pairs;             ///< which follow each other, see read_phone_pairs()
+  PathOptions weights;                   ///< how much either is believed
+  std::vector<std::string> labels;       ///< of each phone; noises are silence
+  std::vector<dam::PhoneClass> classes;  ///< of each phone
 };
 
 /// Errors: those of read_sound_model() and read_phone_pairs(), invalid_argument (options).
 Result<HearingModel> load_hearing(const ListenOptions& options);
 
-/// Features of frame `at`, which has kFeatureReach neighbours on either side or the ends of `frames`.
+/// A trace of noise that is laid under a sound. Rooms have some, and to a model that has learned
+/// from rooms what is cut to zeros is no silence, and weak sounds beside it are none.
+struct Trace {
+  float loud = 0;  ///< how loud the voice is, full scale +-1; the noise is far below; 0: not known
+  std::uint64_t number = 0;  ///< of the sample: the noise belongs to it
+};
+
+/// Samples as the model wants them.
+void to_whole(std::span<const float> samples, Trace& trace, std::vector<std::int16_t>& whole);
+
+/// Features of frame `at`, which has kFeatureReach neighbours on either side or the ends of
+/// `frames`.
 Features features_of(const std::vector<Cepstrum>& frames, std::size_t at, const Cepstrum& mean);
 
 /// Of each frame and phone: how many of the paths are there, 0..1.
 using Votes = std::vector<std::vector<float>>;
+/// Counts them; the paths are equally long.
 Votes count_votes(const std::vector<Path>& paths, std::size_t phones);
 
 /// The path that the votes agree on, of phones of three frames and more. Votes for phones of the

@@ -12,19 +12,30 @@ namespace animeme::voice {
 namespace {
 
 constexpr double kLeastSeconds = 0.1;
-constexpr double kLeastSpeech = 0.1;   // seconds; less is a click
-constexpr double kUnsure = 0.25;       // of the whole: below, it may be no speech at all
+constexpr double kLeastSpeech = 0.1;        // seconds; less is a click
+constexpr double kUnsure = 0.25;            // of the whole: below, it may be no speech at all
 constexpr std::size_t kBlockFrames = 2000;  // drawn at once
 constexpr std::size_t kLookAhead = 100;     // frames beyond, which settle how a block ends
 // Quiet frames tell the room, not the voice: the mean is that of the louder seven of ten.
 constexpr double kQuiet = 0.3;
+constexpr std::size_t kPeakBlock = 160;  // samples
+
+// The peak that one block of ten is above: speech, not a click.
+float loudness_of(const std::vector<float>& samples) {
+  std::vector<float> peaks;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (i % kPeakBlock == 0) peaks.push_back(0);
+    peaks.back() = std::max(peaks.back(), std::abs(samples[i]));
+  }
+  const auto high = peaks.begin() + std::ptrdiff_t(0.9 * double(peaks.size() - 1));
+  std::nth_element(peaks.begin(), high, peaks.end());
+  return *high;
+}
 
 std::vector<Cepstrum> cepstra_of(CepstraReader& reader, const std::vector<float>& samples) {
   std::vector<std::int16_t> whole;
-  whole.reserve(samples.size());
-  for (const float sample : samples) {
-    whole.push_back(std::int16_t(std::clamp(std::lround(double(sample) * 32768), -32768l, 32767l)));
-  }
+  Trace trace{loudness_of(samples), 0};
+  to_whole(samples, trace, whole);
   std::vector<Cepstrum> frames;
   reader.push(whole, frames);
   reader.finish(frames);
@@ -125,8 +136,8 @@ Result<Heard> listen(const media::Pcm& audio, const ListenOptions& options) {
   Heard heard;
   if (frames.empty()) return make_error(Code::truncated, "there is nothing to hear");
   const Drawn drawn = draw_all(*model, frames, options);
-  heard.script = script_of_path(*model, drawn.agreed, 0, 0, seconds, &drawn.votes,
-                                &heard.confidences);
+  heard.script =
+      script_of_path(*model, drawn.agreed, 0, 0, seconds, &drawn.votes, &heard.confidences);
   for (const Path& path : drawn.readings) {
     heard.readings.push_back(script_of_path(*model, path, 0, 0, seconds));
   }

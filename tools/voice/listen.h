@@ -9,9 +9,9 @@
 /// shows that. So there are `readings`, too: what may have been said, each as often as it is
 /// probable. The mean of the motions that they give errs least (tools/speech/heard_face.h).
 ///
-/// The sounds are those of the US English model of pocketsphinx (Debian packages libpocketsphinx-dev
-/// to build, pocketsphinx-en-us to run); other languages are heard through it, by the sounds that
-/// are nearest. Source: tools/voice/engines.md, section 3.
+/// The sounds are those of the US English model of pocketsphinx (Debian packages
+/// libpocketsphinx-dev to build, pocketsphinx-en-us to run); other languages are heard through it,
+/// by the sounds that are nearest. Source: tools/voice/engines.md, section 3.
 #pragma once
 
 #include <cstddef>
@@ -38,11 +38,13 @@ struct ListenOptions {
   std::function<void(double)> progress;
 };
 
-/// What listen() heard. All scripts cover the sound exactly, their labels are ARPAbet, without words.
+/// What listen() heard. All scripts cover the sound exactly, their labels are ARPAbet, without
+/// words.
 struct Heard {
-  dam::Script script;                 ///< what most readings agree on
-  std::vector<double> confidences;    ///< of each phone of `script`: the share of readings that agree, 0..1
-  double confidence = 0;              ///< their mean over time, silence left out; 0: nothing was heard
+  dam::Script script;  ///< what most readings agree on
+  std::vector<double>
+      confidences;        ///< of each phone of `script`: the share of readings that agree, 0..1
+  double confidence = 0;  ///< their mean over time, silence left out; 0: nothing was heard
   std::vector<dam::Script> readings;  ///< each as likely as the others
   std::vector<std::string> warnings;  ///< sentences for people; empty if all went well
 };

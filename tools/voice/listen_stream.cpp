@@ -18,7 +18,7 @@ constexpr float kLoudPart = 0.35f;
 constexpr float kForgetLevel = 0.002f;  // a frame, of the distance of the levels
 // Before anything is heard: the mean of GRID and of espeak-ng's voices lies about there, and so
 // does that of the recordings that the model is made from (its feat.params).
-constexpr Cepstrum kFirstMean{41.0f, -5.29f, -0.12f, 5.09f,  2.48f,  -4.07f, -1.37f,
+constexpr Cepstrum kFirstMean{41.0f,  -5.29f, -0.12f, 5.09f,  2.48f,  -4.07f, -1.37f,
                               -1.78f, -5.08f, -2.05f, -6.45f, -1.42f, 1.17f};
 
 class Listener : public SoundListener {
@@ -38,13 +38,13 @@ class Listener : public SoundListener {
     changed_.clear();
     rate_->push(clean_, changed_);
     whole_.clear();
-    for (const float one : changed_) {
-      whole_.push_back(std::int16_t(std::clamp(std::lround(one * 32768), -32768l, 32767l)));
-    }
-    const std::size_t before = frames_.size();
-    reader_->push(whole_, frames_);
-    for (std::size_t i = before; i < frames_.size(); ++i) follow(frames_[i]);
-    while (next_ + kFeatureReach < frames_.size()) {
+    to_whole(changed_, trace_, whole_);
+    new_.clear();
+    reader_->push(whole_, new_);
+    for (const Cepstrum& frame : new_) {  // one by one, so that it does not matter how many came
+      frames_.push_back(frame);
+      follow(frame);
+      if (next_ + kFeatureReach >= frames_.size()) continue;
       Cepstrum mean;
       for (std::size_t i = 0; i < kCepstra; ++i) mean[i] = float(sums_[i] / count_);
       score_states(model_.sound, features_of(frames_, next_, mean), scores_);
@@ -108,8 +108,9 @@ class Listener : public SoundListener {
   PhonePaths paths_;
   std::vector<float> scores_, clean_, changed_;
   std::vector<std::int16_t> whole_;
-  std::vector<Cepstrum> frames_;  // the last ones
-  std::size_t next_ = 0;          // of frames_: the first that is not scored
+  std::vector<Cepstrum> new_, frames_;  // of a piece; the last ones
+  Trace trace_;
+  std::size_t next_ = 0;  // of frames_: the first that is not scored
   std::array<double, kCepstra> sums_{};
   double count_ = 0;
   float highest_ = 0, lowest_ = 0;

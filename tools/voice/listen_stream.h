@@ -7,8 +7,9 @@
 ///       const voice::Heard tail = (*listener)->hear(from);      // from `from` seconds to the end
 ///     }
 ///
-/// Each answer is about all that has been heard so far; what lies 0.2 s back hardly changes any more.
-/// Memory and the cost of a second do not grow with time. Source: tools/voice/engines.md, section 3.
+/// Each answer is about all that has been heard so far; what lies 0.2 s back hardly changes any
+/// more. Memory and the cost of a second do not grow with time. Source: tools/voice/engines.md,
+/// section 3.
 #pragma once
 
 #include <memory>
@@ -29,7 +30,8 @@ class SoundListener {
 
   /// The next samples, full scale +-1, one channel; those that are no numbers count as 0.
   virtual void push(std::span<const float> samples) = 0;
-  /// Seconds of sound up to which is heard: all of it but the last 60 ms or so.
+  /// Seconds of sound up to which is heard: all of it but the last 70 ms, at the
+  /// beginning but the last 120 ms.
   virtual double heard() const = 0;
   /// What was heard from `from` (seconds of sound, not before what forget() named) on. The scripts
   /// begin at 0, which is `from`, and end at heard(). Empty scripts if there is nothing yet.

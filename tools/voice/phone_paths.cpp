@@ -92,8 +92,8 @@ Path PhonePaths::draw(std::size_t from, std::uint64_t number) const {
         double sum = held;
         for (std::size_t before = 0; before < phones_; ++before) {
           const std::size_t last = before * kParts + kParts - 1;
-          chances[before] = double(now[last]) * double(1 - stay_[last]) *
-                            pairs_[phone * phones_ + before];
+          chances[before] =
+              double(now[last]) * double(1 - stay_[last]) * pairs_[phone * phones_ + before];
           sum += chances[before];
         }
         luck *= sum;

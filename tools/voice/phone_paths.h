@@ -15,9 +15,9 @@ namespace animeme::voice {
 
 /// How much the sound and the language are believed.
 struct PathOptions {
-  double sound = 0.3;     ///< exponent of likelihoods: frames that follow each other tell the same
-  double language = 1;    ///< exponent of the probabilities of pairs
-  double insertion = 1;   ///< factor of every new phone
+  double sound = 0.3;    ///< exponent of likelihoods: frames that follow each other tell the same
+  double language = 1;   ///< exponent of the probabilities of pairs
+  double insertion = 1;  ///< factor of every new phone
 };
 
 /// A frame of each path is a phone; index of SoundModel::phones.
@@ -26,6 +26,7 @@ using Path = std::vector<std::uint8_t>;
 /// Frames go in one by one; what is older than `forget()` says is gone.
 class PhonePaths {
  public:
+  /// `pairs` as of read_phone_pairs().
   PhonePaths(const SoundModel& model, std::vector<double> pairs, const PathOptions& options);
   /// The scores of the next frame.
   void push(std::span<const float> scores);
@@ -43,7 +44,7 @@ class PhonePaths {
  private:
   std::size_t phones_;
   PathOptions options_;
-  std::vector<double> pairs_;      // to, from: with language and insertion
+  std::vector<double> pairs_;  // to, from: with language and insertion
   std::vector<float> stay_;
   std::size_t first_ = 0;
   std::deque<std::vector<float>> past_;  // of each frame, phone and state

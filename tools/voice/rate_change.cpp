@@ -59,8 +59,8 @@ Result<std::unique_ptr<RateChange>> RateChange::open(int rate) {
     return change;
   }
   int error = 0;
-  SpeexResamplerState* state = speex_resampler_init(1, spx_uint32_t(rate),
-                                                    spx_uint32_t(kAlignRate), kQuality, &error);
+  SpeexResamplerState* state =
+      speex_resampler_init(1, spx_uint32_t(rate), spx_uint32_t(kAlignRate), kQuality, &error);
   if (state == nullptr) return make_error(Code::io, "the change of the rate cannot be set up");
   change = std::make_unique<SpeexRate>(state);
   return change;

@@ -1,7 +1,7 @@
 /// @file
 /// The acoustic model of pocketsphinx, read by ourselves: how well a frame of sound fits each state
-/// of each phone. The library gives paths only, and a face needs to know what else it may have been.
-/// Internal. Source: tools/voice/engines.md, section 3.
+/// of each phone. The library gives paths only, and a face needs to know what else it may have
+/// been. Internal. Source: tools/voice/engines.md, section 3.
 #pragma once
 
 #include <array>
@@ -14,21 +14,21 @@
 
 namespace animeme::voice {
 
-inline constexpr std::size_t kCepstra = 13;         ///< numbers of a frame of sound
-inline constexpr std::size_t kStreams = 3;          ///< them, their slope, the slope of that
-inline constexpr std::size_t kStatesPerPhone = 3;   ///< beginning, middle, end
-using Cepstrum = std::array<float, kCepstra>;       ///< of 10 ms
-using Features = std::array<Cepstrum, kStreams>;    ///< what a state is compared with
+inline constexpr std::size_t kCepstra = 13;        ///< numbers of a frame of sound
+inline constexpr std::size_t kStreams = 3;         ///< them, their slope, the slope of that
+inline constexpr std::size_t kStatesPerPhone = 3;  ///< beginning, middle, end
+using Cepstrum = std::array<float, kCepstra>;      ///< of 10 ms
+using Features = std::array<Cepstrum, kStreams>;   ///< what a state is compared with
 
 /// Phones without context, three states each.
 struct SoundModel {
   std::vector<std::string> phones;  ///< "AA" ... "SIL", and noises as "+NSN+"
   std::size_t densities = 0;        ///< Gaussians of a phone and stream
-  /// phone, stream, dimension, density.
-  std::vector<float> means, precisions;
-  std::vector<float> constants;  ///< phone, stream, density: log of the factor
-  std::vector<float> weights;    ///< phone, stream, state, density
-  std::vector<float> stay;       ///< phone, state: probability to stay for a frame
+  std::vector<float> means;         ///< phone, stream, dimension, density
+  std::vector<float> precisions;    ///< the same: half of one through the variance
+  std::vector<float> constants;     ///< phone, stream, density: log of the factor
+  std::vector<float> weights;       ///< phone, stream, state, density
+  std::vector<float> stay;          ///< phone, state: probability to stay for a frame
 
   std::size_t states() const { return phones.size() * kStatesPerPhone; }  ///< of all phones
 };
