@@ -305,7 +305,6 @@ void add_options(CLI::App& app, SpeakOptions& options) {
 const Command kSpeak{
     "speak", "Make a face talk: from text, from a recorded voice, best with its phonemes or text",
     "  animeme speak --text \"Hello world\" -o hello.mp4\n"
-    "  animeme speak --text \"Guten Tag\" --lang de --visemes instead -o tag.fap    # for Xface\n"
     "  animeme speak --audio voice.wav --transcript \"what she said\" -o talk.mp4\n"
     "  animeme speak --text Hello --tts \"piper -m en.onnx -f {wav}\" -o hello.mp4   # your voice\n"
     "  animeme speak --audio voice.wav --save-script heard.TextGrid -o talk.mp4\n"
