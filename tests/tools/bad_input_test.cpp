@@ -181,7 +181,6 @@ TEST(Usage, IsExitCode2) {
            {"sing"},
            {"speak", "--text", "hi"},
            {"speak", "-o", dir / "a.mp4"},
-           {"speak", "--audio", "a.wav", "-o", dir / "a.mp4"},
            {"speak", "--text", "hi", "-o", dir / "a.avi"},
            {"speak", "--text", "hi", "--rate", "fast", "-o", dir / "a.mp4"},
            {"encode", "a.fap", "--quant", "32", "-o", "b.fba"},
