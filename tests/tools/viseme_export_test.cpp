@@ -193,7 +193,7 @@ TEST(ExportVisemes, WhatCannotBeWrittenIsSaid) {
        "--head is for a head"},
       {{dir / "words.tsv", "-o", dir / "a.fbx"}, 2, ".csv"},
       {{dir / "talk.fap", "--what", "visemes", "-o", dir / "a.tsv"}, 2, ".csv or .json"},
-      {{dir / "talk.fap", "--what", "rhubarb", "-o", dir / "a.csv"}, 2, ".tsv or .json"},
+      {{dir / "talk.fap", "--what", "rhubarb", "-o", dir / "a.csv"}, 2, ".tsv, .xml, .json or .dat"},
       {{dir / "talk.fap", "--what", "phonemes", "-o", dir / "a.csv"}, 2, "--what"},
       {{dir / "talk.fap", "--script", dir / "words.tsv", "-o", dir / "a.json"},
        2,
