@@ -7,7 +7,7 @@
 #include "fap/head/model.h"
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
-#include "tools/gltf/animate_file.h"
+#include "tools/gltf/vrm_animation.h"
 #include "tools/media/audio.h"
 #include "tools/programs/scratch_folder.h"
 
@@ -60,12 +60,17 @@ Result<gltf::FileSound> sound_of(const std::string& path, const AvatarClip& clip
   return gltf::FileSound{"audio/wav", std::move(*bytes)};
 }
 
+bool is_vrma(const std::string& path) { return extension_of(path) == ".vrma"; }
+
 // Empty: nothing is wrong.
 std::string problem_of_files(const AvatarExport& job) {
   const bool text = extension_of(job.head) == ".gltf";
+  if (is_vrma(job.output)) {
+    return job.sounds.empty() ? "" : "a .vrma has no sound: leave --sound out, or write a .vrm";
+  }
   if (text != (extension_of(job.output) == ".gltf")) {
     return job.head + " stays the kind of file that it is: --output must end in " +
-           (text ? ".gltf" : ".glb or .vrm") + ", not " + job.output;
+           (text ? ".gltf" : ".glb or .vrm (.vrma: the motion alone)") + ", not " + job.output;
   }
   std::error_code unknown;
   const auto folder_of = [&](const std::string& path) {
@@ -91,12 +96,25 @@ Result<void> write_parts(const std::string& path, const gltf::AnimatedFile& file
   return out.publish();
 }
 
+void say_animations(const AvatarExport& job, const std::vector<gltf::NamedClip>& clips,
+                    const std::vector<std::string>& names, const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) say(job.head + ": " + note);
+  for (std::size_t i = 0; i < clips.size(); ++i) {
+    const fap::Sequence& clip = clips[i].clip;
+    say(job.output + ": animation \"" + names[i] + "\", " + std::to_string(clip.frames.size()) +
+        " keys, " + fap::format_rate(clip.rate) + " a second" +
+        (clips[i].sound ? ", with its sound" : ""));
+  }
+}
+
 }  // namespace
 
 bool is_gltf_name(const std::string& path) {
   const std::string kind = extension_of(path);
   return kind == ".glb" || kind == ".gltf" || kind == ".vrm";
 }
+
+bool is_head_output(const std::string& path) { return is_gltf_name(path) || is_vrma(path); }
 
 bool moves_by_itself(const studio::HeadChoice& choice) {
   return choice.points.empty() && !head::head_parameters(choice.head) && is_gltf_name(choice.head);
@@ -131,17 +149,21 @@ Result<int> export_avatar(const AvatarExport& job) {
   const auto bytes = read_file(job.head, options.reading.limits.bytes);
   if (!bytes) return bytes.error();
   options.reading.load = gltf::files_of(fs::path(job.head).parent_path().string());
+  if (is_vrma(job.output)) {
+    const auto file = gltf::vrm_animation(*bytes, clips, options);
+    if (!file) return file.error().in_file(job.head);
+    if (auto written = write_file(job.output, file->file); !written) return written.error();
+    progress.clear();
+    say_animations(job, clips, file->names, file->notes);
+    say(job.output + ": " + std::to_string(file->expressions.size()) + " expressions, " +
+        std::to_string(file->file.size() / 1000) + " kB");
+    return kOk;
+  }
   const auto file = gltf::animate_file(*bytes, clips, options);
   if (!file) return file.error().in_file(job.head);
   if (auto written = write_parts(job.output, *file); !written) return written.error();
   progress.clear();
-  for (const std::string& note : file->notes) say(job.head + ": " + note);
-  for (std::size_t i = 0; i < clips.size(); ++i) {
-    const fap::Sequence& clip = clips[i].clip;
-    say(job.output + ": animation \"" + file->names[i] + "\", " +
-        std::to_string(clip.frames.size()) + " keys, " + fap::format_rate(clip.rate) + " a second" +
-        (clips[i].sound ? ", with its sound" : ""));
-  }
+  say_animations(job, clips, file->names, file->notes);
   say(job.output + ": " + std::to_string(file->shapes) + " shapes on " +
       std::to_string(file->meshes) + " meshes, " + std::to_string(file->bones) + " bones, " +
       std::to_string(file->size() / 1000) + " kB");

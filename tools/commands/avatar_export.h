@@ -14,6 +14,9 @@ namespace animeme::tools {
 /// True for names of glTF files: .glb, .gltf, .vrm.
 bool is_gltf_name(const std::string& path);
 
+/// True for what can be written for a head: those, and .vrma.
+bool is_head_output(const std::string& path);
+
 /// True for a glTF file that is moved by its own shapes (no --points).
 bool moves_by_itself(const studio::HeadChoice& choice);
 
@@ -30,14 +33,14 @@ struct AvatarClip {
 /// What is to be done.
 struct AvatarExport {
   std::string head;                 ///< .glb, .gltf or .vrm
-  std::string output;               ///< likewise
+  std::string output;               ///< likewise, or .vrma
   std::string audio;                ///< name of the sound to mention; empty: none
   std::vector<std::string> sounds;  ///< files to put in, one a clip; empty: none
   std::vector<AvatarClip> clips;    ///< at least one
 };
 
-/// Writes the file and prints what was done. Errors: those of gltf::animate_file() and of reading
-/// and writing; usage errors.
+/// Writes the file and prints what was done. Errors: those of gltf::animate_file() or
+/// gltf::vrm_animation(), of reading and writing; usage errors.
 Result<int> export_avatar(const AvatarExport& job);
 
 }  // namespace animeme::tools

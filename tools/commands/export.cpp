@@ -65,7 +65,7 @@ std::string what_of(const ExportOptions& options, bool from_script) {
   if (inner == ".rhubarb" || extension == ".tsv" || extension == ".xml" || extension == ".dat") {
     return "rhubarb";
   }
-  if (is_gltf_name(options.output)) return "head";
+  if (is_head_output(options.output)) return "head";
   if (inner == ".visemes" || from_script) return "visemes";
   return "arkit";
 }
@@ -74,8 +74,8 @@ std::string what_of(const ExportOptions& options, bool from_script) {
 std::string wrong_extension(const std::string& what, const std::string& path) {
   const std::string extension = extension_of(path);
   if (what == "head") {
-    if (is_gltf_name(path)) return {};
-    return "--output must end in .glb (.gltf, .vrm) for a head, not " + path;
+    if (is_head_output(path)) return {};
+    return "--output must end in .glb (.gltf, .vrm, .vrma) for a head, not " + path;
   }
   const bool of_rhubarb = extension == ".tsv" || extension == ".xml" || extension == ".dat";
   if (extension == ".json" || (what == "rhubarb" ? of_rhubarb : extension == ".csv")) return {};
@@ -321,13 +321,15 @@ void add_options(CLI::App& app, ExportOptions& options) {
   app.add_option("more", options.more,
                  "Further clips, for a head of your own: each becomes an animation");
   add_output(
-      app.add_option("-o,--output", options.output,
-                     "File to write: .csv (Live Link Face: Unreal, Blender, Maya), .json (the same "
-                     "curves for scripts), .glb (a head with morph targets and animation; your own "
-                     "file with the animation added, also .vrm and .gltf), "
-                     ".visemes.json or .visemes.csv (15 weights a frame under "
-                     "the names of Oculus and Ready Player Me), .tsv, .xml, .rhubarb.json or .dat "
-                     "(mouth shapes of Rhubarb Lip Sync)"),
+      app.add_option(
+          "-o,--output", options.output,
+          "File to write: .csv (Live Link Face: Unreal, Blender, Maya), .json (the same "
+          "curves for scripts), .glb (a head with morph targets and animation; your own "
+          "file with the animation added, also .vrm and .gltf), .vrma (motion for your VRM 1.0 "
+          "avatar), "
+          ".visemes.json or .visemes.csv (15 weights a frame under "
+          "the names of Oculus and Ready Player Me), .tsv, .xml, .rhubarb.json or .dat "
+          "(mouth shapes of Rhubarb Lip Sync)"),
       {}, OutputKind::file_or_dash);
   app.add_option("-f,--format,--exportFormat", options.format,
                  "Mouth shapes in a format of Rhubarb; without -o to standard output")

@@ -1,9 +1,9 @@
 #include "tools/gltf/animate_file.h"
 
-#include <algorithm>
 #include <new>
 #include <set>
 
+#include "tools/gltf/detail/clip_names.h"
 #include "tools/gltf/detail/file_actor.h"
 #include "tools/gltf/detail/file_edit.h"
 #include "tools/gltf/detail/file_motion.h"
@@ -12,16 +12,6 @@ namespace animeme::gltf {
 namespace {
 
 constexpr const char* kAudio = "KHR_audio_emitter";
-
-// A name that no animation has yet.
-std::string free_name(const std::string& wanted, std::set<std::string>& taken) {
-  const std::string base = wanted.empty() ? "talk" : wanted;
-  std::string name = base;
-  for (int number = 2; !taken.insert(name).second; ++number) {
-    name = base + " " + std::to_string(number);
-  }
-  return name;
-}
 
 // A sound that can be heard everywhere in the scene, once somebody starts it.
 void add_sound(FileEdit& edit, const FileSound& sound, const std::string& name) {
@@ -77,10 +67,7 @@ Result<AnimatedFile> animated(std::span<const std::uint8_t> bytes, std::span<con
 
 Result<AnimatedFile> animate_file(std::span<const std::uint8_t> bytes,
                                   std::span<const NamedClip> clips, const AnimateOptions& options) {
-  const bool fine = std::all_of(clips.begin(), clips.end(), [](const NamedClip& clip) {
-    return !clip.clip.frames.empty() && clip.clip.rate.valid();
-  });
-  if (clips.empty() || !fine) {
+  if (!is_motion(clips)) {
     return make_error(Code::invalid_argument, "there is no motion to export");
   }
   try {

@@ -67,7 +67,9 @@ FileActor actor_by_names(const File& file, const std::vector<Node>& nodes, Mouth
 
 Result<FileActor> file_actor(std::span<const std::uint8_t> bytes, const File& file,
                              const std::vector<Node>& nodes, const ReadOptions& options) {
-  Result<MovedHead> moved = read_moved_head(bytes, options);
+  ReadOptions reading = options;
+  reading.vertices = 0;  // nobody sees its colours
+  Result<MovedHead> moved = read_moved_head(bytes, reading);
   std::string reason;
   FileActor actor;
   if (moved) {

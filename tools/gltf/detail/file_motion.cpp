@@ -33,11 +33,6 @@ std::vector<float> resting_weights(const File& file, const Node& node, std::size
   return std::vector<float>(count, 0);
 }
 
-Quaternion turn_of(const BoneKey& key) {
-  const auto& q = key.rotation;
-  return {q[0], q[1], q[2], q[3]};
-}
-
 }  // namespace
 
 FileMotion::FileMotion(FileEdit& edit, const std::vector<Node>& nodes, const FileActor& actor,
@@ -126,29 +121,22 @@ void FileMotion::add_weights(Json& animation, std::size_t times,
   }
 }
 
-void FileMotion::add_turns(Json& animation, std::size_t times,
-                           const std::vector<std::array<BoneKey, kBoneCount>>& keys) {
+void FileMotion::add_turns(Json& animation, std::size_t times, const ClipKeys& keys) {
   const auto rest = bones_of(actor_.rig, head::pose(actor_.rig, {}));
   for (const MovedBone& bone : bones_) {
-    std::vector<float> turns, places;
-    bool turned = false, shifted = false;
-    Quaternion last = bone.turn.rotation({0, 0, 0, 1});
-    for (const auto& frame : keys) {
-      const BoneKey& key = frame[std::size_t(bone.bone)];
-      Quaternion q = bone.turn.rotation(share_of(turn_of(key), bone.share));
-      // The shorter way from key to key.
-      double along = 0;
-      for (std::size_t i = 0; i < 4; ++i) along += q[i] * last[i];
-      for (double& part : q) part *= along < 0 ? -1 : 1;
-      last = q;
-      for (const double part : q) turns.push_back(float(part));
-      turned = turned || std::abs(key.rotation[3]) < 1 - 1e-9;
-      head::Vec3 shift = (key.place - rest[std::size_t(bone.bone)].place) * (1 / kMetres);
+    std::vector<float> places;
+    bool shifted = false;
+    for (const auto& frame : keys.bones) {
+      const auto which = std::size_t(bone.bone);
+      head::Vec3 shift = (frame[which].place - rest[which].place) * (1 / kMetres);
       if (bone.bone == Bone::neck) shift = {};
       shifted = shifted || head::length(shift) > 1e-4f;
       for (const double part : bone.turn.translation(shift)) places.push_back(float(part));
     }
-    if (turned) add_channel(animation, times, edit_.floats(turns, "VEC4"), bone.node, "rotation");
+    if (turns(keys, bone.bone)) {
+      const auto values = rotation_keys(bone.turn, keys, bone.bone, bone.share);
+      add_channel(animation, times, edit_.floats(values, "VEC4"), bone.node, "rotation");
+    }
     if (shifted) {
       add_channel(animation, times, edit_.floats(places, "VEC3"), bone.node, "translation");
     }
@@ -157,24 +145,10 @@ void FileMotion::add_turns(Json& animation, std::size_t times,
 
 void FileMotion::add(const fap::Sequence& clip, const std::string& name, const std::string& audio,
                      const std::function<void(double)>& progress) {
-  std::vector<float> times;
-  std::vector<std::vector<float>> weights;
-  std::vector<std::array<BoneKey, kBoneCount>> keys;
-  head::Pose pose;
-  for (const fap::Frame& frame : clip.frames) {
-    times.push_back(float(clip.rate.seconds(double(frame.number - clip.frames[0].number))));
-    const head::ControlValues values = head::control_values(actor_.rig, frame);
-    weights.emplace_back();
-    for (std::size_t i = 0; i < actor_.rig.shapes.size(); ++i) {
-      weights.back().push_back(values[head::kFirstShape + i] / head::kFullShape);
-    }
-    head::pose(actor_.rig, frame, pose);
-    keys.push_back(bones_of(actor_.rig, pose));
-    progress(double(times.size()) / double(clip.frames.size()));
-  }
-  const std::size_t input = edit_.floats(times, "SCALAR", true);
+  const ClipKeys keys = keys_of_clip(actor_.rig, clip, progress);
+  const std::size_t input = edit_.floats(keys.times, "SCALAR", true);
   Json animation = {{"name", name}, {"channels", Json::array()}, {"samplers", Json::array()}};
-  add_weights(animation, input, weights);
+  add_weights(animation, input, keys.weights);
   add_turns(animation, input, keys);
   if (!audio.empty()) animation["extras"] = {{"audio", audio}};
   edit_.add("animations", animation);

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "tools/gltf/detail/clip_keys.h"
 #include "tools/gltf/detail/file_actor.h"
 #include "tools/gltf/detail/file_edit.h"
-#include "tools/gltf/detail/node_turn.h"
 
 namespace animeme::gltf {
 
@@ -46,8 +46,7 @@ class FileMotion {
                    const char* path);
   void add_weights(Json& animation, std::size_t times,
                    const std::vector<std::vector<float>>& weights);
-  void add_turns(Json& animation, std::size_t times,
-                 const std::vector<std::array<BoneKey, kBoneCount>>& keys);
+  void add_turns(Json& animation, std::size_t times, const ClipKeys& keys);
 
   FileEdit& edit_;
   const std::vector<Node>& nodes_;
