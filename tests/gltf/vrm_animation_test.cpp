@@ -48,7 +48,7 @@ TEST(VrmAnimation, HasTheSkeletonExpressionsAndGaze) {
   EXPECT_FALSE(bones.contains("leftEye"));  // the gaze turns it
   // Places are those of the avatar, upright.
   File old, now;
-  old.root = Avatar().file.root;
+  old.root = Parts(avatar).root;
   now.root = file.root;
   const auto before = read_nodes(old), after = read_nodes(now);
   for (const auto& [name, node] : std::map<std::string, std::size_t>{{"hips", 1}, {"head", 3}}) {

@@ -45,7 +45,7 @@ struct FileSound {
 struct NamedClip {
   std::string name;    ///< of the animation; one that is taken gets a number behind it
   fap::Sequence clip;  ///< complete (fap::fill()); its first frame is at 0 s
-  std::optional<FileSound> sound = {};
+  std::optional<FileSound> sound = {};  ///< to put into the file
   std::string audio = {};  ///< name of its sound, for `extras.audio` of the animation; empty: none
 };
 
@@ -57,15 +57,16 @@ struct AnimateOptions {
 
 /// The file, in three parts that follow each other.
 struct AnimatedFile {
-  std::vector<std::uint8_t> front;
+  std::vector<std::uint8_t> front;       ///< header and text
   std::span<const std::uint8_t> middle;  ///< borrowed from what was read
-  std::vector<std::uint8_t> back;
-  std::vector<std::string> names;  ///< of the animations that were added
-  std::size_t shapes = 0;          ///< that the clips may use
-  std::size_t meshes = 0;          ///< nodes that have any of them
-  std::size_t bones = 0;           ///< that the head has, whether they move or not
-  std::vector<std::string> notes;  ///< what was guessed or left out, a sentence each
+  std::vector<std::uint8_t> back;        ///< what is new
+  std::vector<std::string> names;        ///< of the animations that were added
+  std::size_t shapes = 0;                ///< that the clips may use
+  std::size_t meshes = 0;                ///< nodes that have any of them
+  std::size_t bones = 0;                 ///< that the head has, whether they move or not
+  std::vector<std::string> notes;        ///< what was guessed or left out, a sentence each
 
+  /// Bytes of all three.
   std::size_t size() const { return front.size() + middle.size() + back.size(); }
 };
 
