@@ -1,0 +1,14 @@
+// Signs of units and currencies. Inside of written.cpp.
+#pragma once
+
+#include <string_view>
+
+namespace animeme::text {
+
+/// The name of a unit or currency for spell_amount(), empty for anything else.
+std::string_view unit_of(std::u32string_view sign);
+
+/// The same for signs that stand before their number: $ € £ ¥.
+std::string_view currency_of(char32_t sign);
+
+}  // namespace animeme::text
