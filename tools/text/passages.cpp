@@ -166,7 +166,9 @@ class Parting {
         !language.empty() && (!speakers_.find || speakers_.find(language).has_value());
     if (!voiced)
       return make_error(Code::invalid_argument, text + "espeak-ng has no voice for them");
-    text += "--lang " + language + ", or --lang " + speakers_.list[0].language + "+" + language;
+    const bool either = ideas && language == "zh";
+    text += "--lang " + language + (either ? " (Japanese: ja)" : "") + ", or --lang " +
+            speakers_.list[0].language + "+" + language;
     return make_error(Code::invalid_argument, text);
   }
 

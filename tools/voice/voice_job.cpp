@@ -65,7 +65,10 @@ text::Speaker speaker_of(const ChosenVoice& voice) {
   const std::string_view rest =
       std::string_view(voice.identifier).substr(std::min(mandarin.size(), voice.identifier.size()));
   const bool plain = voice.identifier.starts_with(mandarin) && (rest.empty() || rest[0] == '+');
-  if (plain && text::unicode_here()) speaker.voice = mandarin + "-Latn-pinyin" + std::string(rest);
+  if (plain && text::unicode_here()) {
+    speaker.voice = mandarin + "-Latn-pinyin" + std::string(rest);
+    speaker.name = "Chinese (Mandarin)";
+  }
   return speaker;
 }
 
