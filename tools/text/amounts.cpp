@@ -234,6 +234,14 @@ Amount amount_at(std::u32string_view text, std::size_t at, const std::string& la
   if (!all.digit(at)) return {};
   if (Amount date = all.date(at); date.end > 0) return date;
   if (Amount telephone = all.telephone(at); telephone.end > 0) return telephone;
+  if (const std::size_t hours = all.digits_end(at); language.starts_with("fr") && hours - at <= 2 &&
+                                                    all.at(hours) == U'h' && all.digit(hours + 1)) {
+    const std::size_t end = all.digits_end(hours + 1);
+    std::u32string words(text.substr(at, hours - at));
+    words += U" heures ";
+    words += text.substr(hours + 1, end - hours - 1);
+    if (end - hours == 3 && all.free_at(end)) return {end, words};
+  }
   if (const std::size_t end = all.time_end(at); end > 0) {
     const bool half = is_letter(all.at(end));
     return {half ? end : 0, half ? std::u32string(text.substr(at, end - at)) + U" " : U""};

@@ -52,7 +52,9 @@ Result<Said> read_japanese(const Said& said, std::u32string& unread, const std::
     at = word.last;
     const Place place = spelled.place(word.first, word.last);
     const bool reads = is_letter_or_digit(spelled.text[word.first]);
-    if (reads && !word.leans && !out.text.empty() && is_letter_or_digit(out.text.back())) {
+    // は behind a word in Latin letters would be spelled with it.
+    const bool leans = word.leans && !out.text.empty() && script_of(out.text.back()) != "Latn";
+    if (reads && !leans && !out.text.empty() && is_letter_or_digit(out.text.back())) {
       out.add(U" ", {place.first, place.first});
     }
     if (!word.kana.empty()) {

@@ -7,6 +7,7 @@
 
 #include "dam/script/ipa.h"
 #include "dam/script/script_text_internal.h"
+#include "tools/text/unicode.h"
 #include "tools/voice/transcript.h"
 
 namespace animeme::voice {
@@ -53,8 +54,18 @@ std::vector<IpaPhone> labels_of(std::string_view ipa) {
 // The word of the source that an event names.
 std::string word_of(const VoiceEvent& event, const text::Utterance& utterance) {
   const text::Place place = place_of(event, utterance);
-  return std::string(strip_punctuation(
-      text::utf8(utterance.source.substr(place.first, place.last - place.first))));
+  const std::u32string& source = utterance.source;
+  std::size_t first = place.first, last = place.last;
+  // The parts of a number come one by one: "2024", then "024".
+  const auto digit = [&](std::size_t at) { return text::digit_value(source[at]) >= 0; };
+  while (first < last && first > 0 && digit(first) && digit(first - 1)) --first;
+  while (first < last && last < source.size() && digit(last - 1) && digit(last)) ++last;
+  const auto sign = [&](std::size_t at) {
+    return source[at] >= 0x80 && text::kind_of(source[at]) == text::Kind::punctuation;
+  };
+  while (first < last && sign(first)) ++first;
+  while (first < last && sign(last - 1)) --last;
+  return std::string(strip_punctuation(text::utf8(source.substr(first, last - first))));
 }
 
 void add_segment(std::vector<VoicedSegment>& segments, const RawSpeech& raw, VoicedSegment segment,
