@@ -16,10 +16,17 @@ bool is_english(std::string_view language) {
   return language == "en" || language.starts_with("en-");
 }
 
+bool locale_is_chinese(std::string_view language) {
+  return language.starts_with("zh") || language.starts_with("cmn") || language.starts_with("yue");
+}
+
 class Amounts {
  public:
   Amounts(std::u32string_view text, const std::string& language)
-      : text_(text), language_(language), point_(char32_t(decimal_point(language))) {}
+      : text_(text),
+        language_(language),
+        point_(char32_t(decimal_point(language))),
+        groups_by_blank_(groups_by_blank(language)) {}
 
   char32_t at(std::size_t i) const { return i < text_.size() ? text_[i] : U' '; }
   bool digit(std::size_t i) const { return digit_value(at(i)) >= 0; }
@@ -32,7 +39,9 @@ class Amounts {
     while (i < text_.size() && (text_[i] == U' ' || text_[i] == 0xA0 || text_[i] == 0x202F)) ++i;
     return i;
   }
-  bool free_at(std::size_t i) const { return !is_letter(at(i)) && !digit(i); }
+  bool free_at(std::size_t i) const {
+    return (!is_letter(at(i)) || is_unparted(at(i))) && !digit(i);
+  }
   std::string ascii(std::size_t first, std::size_t last) const {
     std::string out;
     for (; first < last; ++first) {
@@ -90,7 +99,8 @@ class Amounts {
     bool fraction = false;
     for (;;) {
       const char32_t sign = at(i);
-      const bool group_blank = (sign == 0xA0 || sign == 0x202F) && digits_end(i + 1) == i + 4;
+      const bool blank = sign == 0xA0 || sign == 0x202F || (sign == U' ' && parts_by_blanks(from));
+      const bool group_blank = blank && digits_end(i + 1) == i + 4;
       if ((sign != U'.' && sign != U',' && !group_blank) || !digit(i + 1) || fraction) break;
       const std::size_t next = digits_end(i + 1);
       const bool again = at(next) == sign && digit(next + 1);
@@ -104,6 +114,11 @@ class Amounts {
     }
     end = i;
     return out;
+  }
+
+  // 100 000 in languages that write so.
+  bool parts_by_blanks(std::size_t from) const {
+    return groups_by_blank_ && digits_end(from) - from <= 3 && at(from) != U'0';
   }
 
   // The longest sign of a unit; 0 if there is none.
@@ -133,14 +148,21 @@ class Amounts {
     std::size_t end = 0;
     const std::string value = number(first_digit, end);
     if (!free_at(end)) return {};
+    // The yen and the yuan share a sign.
+    const bool chinese = locale_is_chinese(language_);
+    if (chinese && currency == "JPY") currency = "CNY";
     std::string words = spell_amount(value, currency, language_);
     if (words.empty()) return {};
+    // People say "yuan", CLDR the name of the money.
+    if (chinese && currency == "CNY") words = value + "元";
     if (const std::size_t more = multiple_end(end); more != 0) {
       // Number, "million", name of the currency.
       const std::string plural = spell_amount("5", currency, language_);
       const std::size_t name = plural.find_first_not_of("5 ");
       words = utf8(text_.substr(first_digit, more - first_digit)) + " " +
-              (name == std::string::npos ? "" : plural.substr(name));
+              (chinese && currency == "CNY" ? "元"
+               : name == std::string::npos  ? ""
+                                            : plural.substr(name));
       end = more;
     }
     (void)from;
@@ -206,6 +228,7 @@ class Amounts {
   std::u32string_view text_;
   const std::string& language_;
   char32_t point_;
+  bool groups_by_blank_;
 };
 
 // Digits of any script as those of ASCII, a number in words if the voice says none.
@@ -218,6 +241,14 @@ std::u32string in_words(const std::string& number, const std::string& language) 
 }
 
 }  // namespace
+
+bool is_unparted(char32_t c) {
+  if (c < 0x0E00 || !is_letter(c)) return false;
+  const std::string script = script_of(c);
+  constexpr std::string_view kUnparted[] = {"Hani", "Hira", "Kana", "Hang", "Bopo",
+                                            "Thai", "Laoo", "Khmr", "Mymr"};
+  return std::find(std::begin(kUnparted), std::end(kUnparted), script) != std::end(kUnparted);
+}
 
 Amount amount_at(std::u32string_view text, std::size_t at, const std::string& language,
                  bool spell_digits) {
@@ -254,7 +285,14 @@ Amount amount_at(std::u32string_view text, std::size_t at, const std::string& la
         spell_amount(number, unit_of(text.substr(sign, unit - sign)), language);
     if (!words.empty()) return {unit, code_points(words)};
   }
-  if (!spell_digits || !all.free_at(end)) return {};
+  if (!all.free_at(end)) return {};
+  if (!spell_digits) {
+    // A voice would take the parts of 100 000 for two numbers.
+    if (text.substr(at, end - at).find(U' ') == std::u32string_view::npos) return {};
+    std::u32string whole(text.substr(at, end - at));
+    std::erase(whole, U' ');
+    return {end, whole};
+  }
   std::u32string words = in_words(number, language);
   return {words.empty() ? 0 : end, words};
 }

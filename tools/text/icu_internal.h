@@ -2,9 +2,8 @@
 // that use it.
 #pragma once
 
-#include <unicode/utypes.h>
-
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -22,16 +21,17 @@ struct Closer {
 template <class T, auto Close>
 using Owned = std::unique_ptr<T, Closer<Close>>;
 
-std::string utf8_of(const UChar* text, std::int32_t length);
+std::string utf8_of(const char16_t* text, std::int32_t length);
 std::u16string utf16_of(std::string_view text);
 
-/// What a function writes into a buffer of fixed size; what does not fit is nothing.
-template <class Write>
+/// What a function writes into a buffer of fixed size; what does not fit is nothing. Status is
+/// UErrorCode, which the files that use this include: failures are above 0.
+template <class Status, class Write>
 std::string written(Write write) {
-  std::array<UChar, 400> buffer{};
-  UErrorCode status = U_ZERO_ERROR;
+  std::array<char16_t, 400> buffer{};
+  Status status{};
   const std::int32_t length = write(buffer.data(), std::int32_t(buffer.size()), &status);
-  if (U_FAILURE(status) || length < 0 || length > std::int32_t(buffer.size())) return {};
+  if (status > 0 || length < 0 || length > std::int32_t(buffer.size())) return {};
   return utf8_of(buffer.data(), length);
 }
 

@@ -80,7 +80,7 @@ std::string spell_number(std::string_view digits, std::string_view language, Num
       unum_open(style, nullptr, 0, locale.c_str(), nullptr, &status));
   if (U_FAILURE(status)) return {};
   const std::string ascii(digits);
-  return written([&](UChar* out, std::int32_t size, UErrorCode* error) {
+  return written<UErrorCode>([&](UChar* out, std::int32_t size, UErrorCode* error) {
     return unum_formatDecimal(format.get(), ascii.c_str(), std::int32_t(ascii.size()), out, size,
                               nullptr, error);
   });
@@ -108,7 +108,7 @@ std::string spell_date(int year, int month, int day, std::string_view language) 
   ucal_setDateTime(calendar.get(), year, month - 1, day, 12, 0, 0, &status);
   const UDate when = ucal_getMillis(calendar.get(), &status);
   if (U_FAILURE(status)) return {};
-  return written([&](UChar* out, std::int32_t size, UErrorCode* error) {
+  return written<UErrorCode>([&](UChar* out, std::int32_t size, UErrorCode* error) {
     return udat_format(format.get(), when, out, size, nullptr, error);
   });
 }
@@ -119,9 +119,10 @@ std::string date_order(std::string_view language) {
   const Owned<UDateFormat, &udat_close> format(
       udat_open(UDAT_NONE, UDAT_SHORT, locale.c_str(), nullptr, 0, nullptr, 0, &status));
   if (U_FAILURE(status)) return "dmy";
-  const std::string pattern = written([&](UChar* out, std::int32_t size, UErrorCode* error) {
-    return udat_toPattern(format.get(), 0, out, size, error);
-  });
+  const std::string pattern =
+      written<UErrorCode>([&](UChar* out, std::int32_t size, UErrorCode* error) {
+        return udat_toPattern(format.get(), 0, out, size, error);
+      });
   std::string order;
   for (const char c : dam::lower_case(pattern)) {
     const char part = c == 'l' ? 'm' : c;
@@ -152,7 +153,7 @@ std::string spell_amount(std::string_view number, std::string_view unit,
   unumf_formatDecimal(format.get(), ascii.c_str(), std::int32_t(ascii.size()), result.get(),
                       &status);
   if (U_FAILURE(status)) return {};
-  return written([&](UChar* out, std::int32_t size, UErrorCode* error) {
+  return written<UErrorCode>([&](UChar* out, std::int32_t size, UErrorCode* error) {
     return unumf_resultToString(result.get(), out, size, error);
   });
 }
@@ -163,10 +164,24 @@ char decimal_point(std::string_view language) {
   const Owned<UNumberFormat, &unum_close> format(
       unum_open(UNUM_DECIMAL, nullptr, 0, locale.c_str(), nullptr, &status));
   if (U_FAILURE(status)) return '.';
-  const std::string point = written([&](UChar* out, std::int32_t size, UErrorCode* error) {
-    return unum_getSymbol(format.get(), UNUM_DECIMAL_SEPARATOR_SYMBOL, out, size, error);
-  });
+  const std::string point =
+      written<UErrorCode>([&](UChar* out, std::int32_t size, UErrorCode* error) {
+        return unum_getSymbol(format.get(), UNUM_DECIMAL_SEPARATOR_SYMBOL, out, size, error);
+      });
   return point == "," ? ',' : '.';
+}
+
+bool groups_by_blank(std::string_view language) {
+  const std::string locale = locale_of(language);
+  UErrorCode status = U_ZERO_ERROR;
+  const Owned<UNumberFormat, &unum_close> format(
+      unum_open(UNUM_DECIMAL, nullptr, 0, locale.c_str(), nullptr, &status));
+  if (U_FAILURE(status)) return false;
+  const std::string sign =
+      written<UErrorCode>([&](UChar* out, std::int32_t size, UErrorCode* error) {
+        return unum_getSymbol(format.get(), UNUM_GROUPING_SEPARATOR_SYMBOL, out, size, error);
+      });
+  return sign == "\u00A0" || sign == "\u202F";
 }
 
 }  // namespace animeme::text

@@ -229,7 +229,7 @@ Speaker make_speaker(std::string language, std::string voice, std::string name) 
   if (code == "ja" && unicode_here()) speaker.letters = Letters::kana;
   const auto& scripts = speaker.scripts;
   const bool latin = std::find(scripts.begin(), scripts.end(), "Latn") != scripts.end();
-  speaker.latin_by_itself = !latin && speaker.letters != Letters::pinyin;
+  speaker.latin_by_itself = !latin && speaker.letters == Letters::as_written;
   constexpr std::string_view kWithoutDigits[] = {"he", "cv", "chr", "nog", "qya", "sjn", "tk"};
   speaker.says_digits = std::find(std::begin(kWithoutDigits), std::end(kWithoutDigits),
                                   first_part(code)) == std::end(kWithoutDigits);

@@ -36,8 +36,9 @@ struct Said {
 /// Each character stands for itself; the first one is number `first` of the text.
 Said as_written(std::u32string_view text, std::size_t first = 0);
 
-/// UTF-8 to code points and back. Invalid bytes become U+FFFD.
+/// UTF-8 to code points. Invalid bytes become U+FFFD.
 std::u32string code_points(std::string_view utf8);
+/// Code points to UTF-8.
 std::string utf8(std::u32string_view text);
 
 }  // namespace animeme::text

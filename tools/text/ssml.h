@@ -29,7 +29,7 @@ struct Manner {
 /// What a part is.
 enum class ItemKind : std::uint8_t {
   text,   ///< words
-  pause,  ///< silence, also the ends of <p> and <s>
+  pause,  ///< silence, also the ends of paragraphs and sentences
   mark,   ///< a place with a name
 };
 
@@ -40,8 +40,8 @@ enum class SayAs : std::uint8_t { words, characters, digits, telephone, ordinal,
 struct Item {
   ItemKind kind = ItemKind::text;
   std::u32string text;   ///< as it stands in the document, blanks as they are
-  std::u32string alias;  ///< said instead, by <sub>; empty: nothing
-  std::string ipa;       ///< of <phoneme>; empty: nothing
+  std::u32string alias;  ///< said instead, by `sub`; empty: nothing
+  std::string ipa;       ///< of `phoneme`; empty: nothing
   SayAs say_as = SayAs::words;
   std::string format;  ///< of a date: "dmy"
   Manner manner;
@@ -55,7 +55,7 @@ struct Document {
   std::vector<std::string> warnings;  ///< what is not known or left out, each once
 };
 
-/// True if a text claims to be SSML: it begins with <speak> or with <?xml and has <speak next.
+/// True if a text claims to be SSML: its first element is `speak`, also behind an XML declaration.
 bool is_ssml(std::string_view text);
 
 /// The deepest nesting that is read.

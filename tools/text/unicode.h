@@ -96,4 +96,7 @@ std::string spell_amount(std::string_view number, std::string_view unit, std::st
 /// The decimal point of a language: '.' or ','.
 char decimal_point(std::string_view language);
 
+/// Whether thousands are parted by blanks: 100 000.
+bool groups_by_blank(std::string_view language);
+
 }  // namespace animeme::text

@@ -30,5 +30,6 @@ bool is_date(int, int, int) { return false; }
 std::string date_order(std::string_view) { return "dmy"; }
 std::string spell_amount(std::string_view, std::string_view, std::string_view) { return {}; }
 char decimal_point(std::string_view) { return '.'; }
+bool groups_by_blank(std::string_view) { return false; }
 
 }  // namespace animeme::text

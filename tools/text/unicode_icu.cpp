@@ -150,9 +150,10 @@ std::string language_of_script(std::string_view script) {
 
 std::string language_name(std::string_view language) {
   const std::string locale = locale_of(language);
-  const std::string name = written([&](UChar* out, std::int32_t size, UErrorCode* status) {
-    return uloc_getDisplayLanguage(locale.c_str(), "en", out, size, status);
-  });
+  const std::string name =
+      written<UErrorCode>([&](UChar* out, std::int32_t size, UErrorCode* status) {
+        return uloc_getDisplayLanguage(locale.c_str(), "en", out, size, status);
+      });
   return name.empty() ? std::string(language) : name;
 }
 

@@ -48,6 +48,7 @@ constexpr Unit kUnits[] = {
     {U"$", "USD"},
     {U"£", "GBP"},
     {U"¥", "JPY"},
+    {U"￥", "JPY"},
     {U"₽", "RUB"},
     {U"₹", "INR"},
     {U"₩", "KRW"},
@@ -85,7 +86,7 @@ std::string_view unit_of(std::u32string_view sign) {
 
 std::string_view currency_of(char32_t sign) {
   const bool before =
-      std::u32string_view(U"$€£¥₽₹₩₺₴₪").find(sign) != std::u32string_view::npos;
+      std::u32string_view(U"$€£¥￥₽₹₩₺₴₪").find(sign) != std::u32string_view::npos;
   return before ? unit_of({&sign, 1}) : std::string_view();
 }
 

@@ -5,6 +5,7 @@
 #include "dam/script/script_text_internal.h"
 #include "tools/text/chinese.h"
 #include "tools/text/japanese.h"
+#include "tools/text/say_as_internal.h"
 #include "tools/text/ssml.h"
 #include "tools/text/unicode.h"
 #include "tools/text/written.h"
@@ -27,68 +28,6 @@ Said narrow(const Said& said) {
 }
 
 void replace_brackets(Said& said) { std::replace(said.text.begin(), said.text.end(), U'[', U' '); }
-
-Said apart(const Said& said, std::u32string_view between) {
-  Said out;
-  for (std::size_t i = 0; i < said.size(); ++i) {
-    if (!is_letter_or_digit(said.text[i])) continue;
-    if (out.size() > 0) out.add(between, said.places[i]);
-    out.add(said, i, i + 1);
-  }
-  return out;
-}
-
-// Digits one by one, with a pause where something else is between.
-Said telephone(const Said& said) {
-  Said out;
-  bool gap = false;
-  for (std::size_t i = 0; i < said.size(); ++i) {
-    if (digit_value(said.text[i]) < 0) {
-      gap = true;
-      continue;
-    }
-    if (out.size() > 0) out.add(gap ? U", " : U" ", said.places[i]);
-    out.add(said, i, i + 1);
-    gap = false;
-  }
-  return out;
-}
-
-std::string digits_of(const Said& said) {
-  std::string digits;
-  for (const char32_t c : said.text) {
-    if (digit_value(c) >= 0) digits += char('0' + digit_value(c));
-  }
-  return digits;
-}
-
-Said replaced(const Said& said, const std::string& words) {
-  if (words.empty() || said.size() == 0) return said;
-  Said out;
-  out.add(code_points(words), said.place(0, said.size()));
-  return out;
-}
-
-// By the order of its format: <say-as interpret-as="date" format="dmy">.
-Said date(const Said& said, const std::string& format, const std::string& language) {
-  std::vector<int> values;
-  bool inside = false;
-  for (const char32_t c : said.text) {
-    const int digit = digit_value(c);
-    if (digit >= 0 && !inside) values.push_back(0);
-    if (digit >= 0 && values.back() < 100000) values.back() = values.back() * 10 + digit;
-    inside = digit >= 0;
-  }
-  std::string order = format;
-  std::erase_if(order, [](char c) { return c != 'd' && c != 'm' && c != 'y'; });
-  order.erase(std::unique(order.begin(), order.end()), order.end());
-  if (order.size() != 3 || values.size() != 3) return said;
-  const auto part = [&](char name) { return values[std::min(order.find(name), std::size_t(2))]; };
-  int year = part('y');
-  if (year < 100) year += year < 70 ? 2000 : 1900;
-  if (!is_date(year, part('m'), part('d'))) return said;
-  return replaced(said, spell_date(year, part('m'), part('d'), language));
-}
 
 class Maker {
  public:
@@ -122,7 +61,7 @@ class Maker {
       if (item.kind != ItemKind::text) continue;
       Said said = as_written(item.text, at);
       at += item.text.size();
-      if (!item.alias.empty() && said.size() > 0) said = replaced(said, utf8(item.alias));
+      if (!item.alias.empty() && said.size() > 0) said = say_instead(said, utf8(item.alias));
       if (auto done = add_text(item, said); !done) return done;
     }
     close();
@@ -223,18 +162,16 @@ class Maker {
         tag("</say-as>");
         return {};
       case SayAs::digits:
-        passage.said = apart(passage.said, U" ");
+        passage.said = say_apart(passage.said);
         break;
       case SayAs::telephone:
-        passage.said = telephone(passage.said);
+        passage.said = say_telephone(passage.said);
         break;
       case SayAs::ordinal:
-        passage.said = replaced(
-            passage.said,
-            spell_number(digits_of(passage.said), speaker.language, NumberForm::ordinal_digits));
+        passage.said = say_ordinal(passage.said, speaker.language);
         break;
       case SayAs::date:
-        passage.said = date(passage.said, item.format, speaker.language);
+        passage.said = say_date(passage.said, item.format, speaker.language);
         break;
       case SayAs::words:
         break;

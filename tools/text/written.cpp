@@ -26,7 +26,7 @@ constexpr std::u32string_view kInvisible =
     U"\uFE0E"
     U"\u20E3\uFEFF";
 // Symbols outside of ASCII that are words.
-constexpr std::u32string_view kSaidSymbols = U"€£¥₽₹₩₺₴₪¢°±×÷№℃℉§";
+constexpr std::u32string_view kSaidSymbols = U"€£¥￥₽₹₩₺₴₪¢°±×÷№℃℉§";
 
 class WrittenReader {
  public:
@@ -42,6 +42,8 @@ class WrittenReader {
   char32_t at(std::size_t i) const { return i < in_.size() ? in_.text[i] : U' '; }
   char32_t before() const { return at_ > 0 ? in_.text[at_ - 1] : U' '; }
   bool starts_word() const { return !in_word(before()) && !is_digit(before()); }
+  // Chinese and others put no blank before a number.
+  bool starts_amount() const { return starts_word() || is_unparted(before()); }
   void drop() {
     out_.text.pop_back();
     out_.places.pop_back();
@@ -64,7 +66,7 @@ class WrittenReader {
 
   void step() {
     if (address()) return;
-    if (starts_word()) {
+    if (starts_amount()) {
       const Amount amount = amount_at(in_.text, at_, writing_.language, writing_.spell_digits);
       if (amount.end > at_) return say(amount.words, amount.end);
     }

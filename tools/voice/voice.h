@@ -53,7 +53,7 @@ struct SpokenLanguage {
   bool by_itself = false;
 };
 
-/// A place of an SSML document, <mark name="...">.
+/// A place of an SSML document, `mark name="..."`.
 struct SpeechMark {
   double time = 0;   ///< seconds
   std::string name;  ///< as in the document

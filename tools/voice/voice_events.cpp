@@ -18,6 +18,7 @@ using dam::IpaPhone;
 constexpr int kSilentLevel = 8;            // of 32768: what espeak-ng leaves between sounds
 constexpr double kMaxClosure = 0.2;        // seconds of silence before a burst that are closure
 constexpr double kMaxFirstClosure = 0.08;  // the same after a pause: the rest is rest
+constexpr std::size_t kMostSigns = 3;      // between the place of an event and its word
 constexpr double kMinPhone = 0.01;         // seconds that the phone before keeps
 
 // A stretch of sound with its labels. No labels: silence.
@@ -56,6 +57,14 @@ std::string word_of(const VoiceEvent& event, const text::Utterance& utterance) {
   const text::Place place = place_of(event, utterance);
   const std::u32string& source = utterance.source;
   std::size_t first = place.first, last = place.last;
+  // Behind "z. B." a word is said to begin at the sign before it.
+  const auto spoken = [&](std::size_t at) { return text::is_letter_or_digit(source[at]); };
+  std::size_t next = first;
+  while (next < source.size() && !spoken(next)) ++next;
+  if (first < last && next >= last && next < source.size() && next - first <= kMostSigns) {
+    first = next;
+    for (last = next; last < source.size() && spoken(last);) ++last;
+  }
   // The parts of a number come one by one: "2024", then "024".
   const auto digit = [&](std::size_t at) { return text::digit_value(source[at]) >= 0; };
   while (first < last && first > 0 && digit(first) && digit(first - 1)) --first;
