@@ -56,6 +56,7 @@ TEST(Passages, DigitsGoWithTheirNeighbours) {
   EXPECT_EQ(parted("MP3 很好", {"cmn"}), "en:MP3 |cmn:很好");
   EXPECT_EQ(parted("I have 我有3个 here", {"en", "cmn"}), "en:I have |cmn:我有3个 |en:here");
   EXPECT_EQ(parted("重5 kg。", {"cmn"}), "cmn:重5 kg。");
+  EXPECT_EQ(parted("25°C和60km/h", {"cmn"}), "cmn:25°C和60km/h");
 }
 
 TEST(Passages, RefusalsNameTheVoiceToTake) {
@@ -96,7 +97,7 @@ TEST(Utterance, MarkupIsEscapedAndKnowsItsPlaces) {
   const auto made = make_utterance("мир & 2 < 3 hi", speakers({"en", "ru"}), {});
   ASSERT_TRUE(made) << made.error().describe();
   EXPECT_EQ(utf8(made->input.text),
-            "<voice name=\"x/ru\">мир </voice><voice name=\"x/en\">&amp; 2 &lt; 3 hi</voice>");
+            "<voice name=\"x/ru\">мир</voice><voice name=\"x/en\"> &amp; 2 &lt; 3 hi</voice>");
   EXPECT_EQ(made->input.places[19], (Place{0, 1}));
   ASSERT_EQ(made->stretches.size(), 2u);
 }

@@ -107,9 +107,9 @@ TEST(WordReadings, TranscriptsWithoutBlanks) {
   SKIP_WITHOUT_CHINESE();
   const auto words = word_readings("我去银行。", "zh");
   ASSERT_TRUE(words);
-  ASSERT_EQ(words->size(), 3u);
-  EXPECT_EQ((*words)[2].text, "银行");
-  EXPECT_EQ((*words)[2].reading, "yin2hang2");
+  ASSERT_GE(words->size(), 2u);  // 我去 may be one
+  EXPECT_EQ(words->back().text, "银行");
+  EXPECT_EQ(words->back().reading, "yin2hang2");
   EXPECT_FALSE(has_unparted_words("de"));
 }
 

@@ -48,6 +48,21 @@ TEST(Written, AmountsInTheLanguage) {
   EXPECT_EQ(read("1,234,567 and 3.14 and 50%"), "1,234,567 and 3.14 and 50%");
 }
 
+TEST(Written, NumbersTouchLettersOfScriptsWithoutBlanks) {
+  SKIP_WITHOUT_ICU();
+  EXPECT_EQ(read("票价¥258.5。", "cmn"), "票价258.5元。");
+  EXPECT_EQ(read("约20kg的米", "cmn"), "约20千克的米");
+  EXPECT_EQ(read("₩1,200입니다", "ko"), "1200대한민국 원입니다");
+  EXPECT_EQ(read("x2m", "en"), "x2m");
+}
+
+TEST(Written, ThousandsPartedByBlanks) {
+  SKIP_WITHOUT_ICU();
+  EXPECT_EQ(read("всего 100 000 штук", "ru"), "всего 100000 штук");
+  EXPECT_TRUE(read("за 100 000 ₽", "ru").starts_with("за 100000 "));
+  EXPECT_EQ(read("in 2020 100 men and 100 200", "en"), "in 2020 100 men and 100 200");
+}
+
 TEST(Written, TimesTelephonesAddresses) {
   SKIP_WITHOUT_ICU();
   EXPECT_EQ(read("at 3:45pm"), "at 3:45 pm");

@@ -71,12 +71,12 @@ class Amounts {
     for (std::size_t k = 0; k < 3; ++k) value[k] = std::atoi(ascii(first[k], last[k]).c_str());
     std::string order = date_order(language_);
     const bool year_first = last[0] - first[0] == 4, year_last = last[2] - first[2] == 4;
+    // 1.2.3 is no day.
+    if (!year_first && !year_last && last[2] - first[2] != 2) return {};
     if (year_first)
       order = "ymd";
     else if (separator == U'.' || (year_last && order == "ymd"))
       order = "dmy";
-    else if (!year_last && last[2] - first[2] != 2)
-      return {};
     std::string words = named(value, order, !year_first && !year_last);
     if (words.empty() && order != "ymd")
       words = named(value, order == "mdy" ? "dmy" : "mdy", !year_last);

@@ -167,6 +167,12 @@ bool has_words(std::u32string_view text) {
 }
 
 bool is_unit(std::u32string_view text, std::size_t first, std::size_t last) {
+  // Of °C and km/h the letters come one by one.
+  const auto part = [&](std::size_t at) {
+    return text[at] == U'°' || text[at] == U'/' || (text[at] < 0x80 && is_letter(text[at]));
+  };
+  while (first > 0 && part(first - 1)) --first;
+  while (last < text.size() && part(last)) ++last;
   std::size_t number = first;
   while (number > 0 && text[number - 1] == U' ') --number;
   const std::u32string_view sign = text.substr(first, last - first);
