@@ -52,7 +52,7 @@ TEST(Passages, ByScript) {
 
 TEST(Passages, DigitsGoWithTheirNeighbours) {
   SKIP_WITHOUT_ICU();
-  EXPECT_EQ(parted("iPhone 15 很好", {"cmn"}), "en:iPhone |cmn:15 很好");
+  EXPECT_EQ(parted("iPhone 15 很好", {"cmn"}), "en:iPhone|cmn: 15 很好");
   EXPECT_EQ(parted("MP3 很好", {"cmn"}), "en:MP3 |cmn:很好");
   EXPECT_EQ(parted("I have 我有3个 here", {"en", "cmn"}), "en:I have |cmn:我有3个 |en:here");
   EXPECT_EQ(parted("重5 kg。", {"cmn"}), "cmn:重5 kg。");

@@ -242,14 +242,6 @@ std::u32string in_words(const std::string& number, const std::string& language) 
 
 }  // namespace
 
-bool is_unparted(char32_t c) {
-  if (c < 0x0E00 || !is_letter(c)) return false;
-  const std::string script = script_of(c);
-  constexpr std::string_view kUnparted[] = {"Hani", "Hira", "Kana", "Hang", "Bopo",
-                                            "Thai", "Laoo", "Khmr", "Mymr"};
-  return std::find(std::begin(kUnparted), std::end(kUnparted), script) != std::end(kUnparted);
-}
-
 Amount amount_at(std::u32string_view text, std::size_t at, const std::string& language,
                  bool spell_digits) {
   // Told before the language is asked for its decimal point, which takes a while.

@@ -6,10 +6,6 @@
 
 namespace animeme::text {
 
-/// A letter of a script that is written without blanks (or, Korean, with endings behind numbers):
-/// numbers touch it.
-bool is_unparted(char32_t c);
-
 /// What is said instead of the characters up to `end`.
 struct Amount {
   std::size_t end = 0;

@@ -1,5 +1,10 @@
 #include "tools/text/units_internal.h"
 
+#include <algorithm>
+#include <string>
+
+#include "tools/text/unicode.h"
+
 namespace animeme::text {
 namespace {
 
@@ -88,6 +93,14 @@ std::string_view currency_of(char32_t sign) {
   const bool before =
       std::u32string_view(U"$€£¥￥₽₹₩₺₴₪").find(sign) != std::u32string_view::npos;
   return before ? unit_of({&sign, 1}) : std::string_view();
+}
+
+bool is_unparted(char32_t c) {
+  if (c < 0x0E00 || !is_letter(c)) return false;
+  const std::string script = script_of(c);
+  constexpr std::string_view kUnparted[] = {"Hani", "Hira", "Kana", "Hang", "Bopo",
+                                            "Thai", "Laoo", "Khmr", "Mymr"};
+  return std::find(std::begin(kUnparted), std::end(kUnparted), script) != std::end(kUnparted);
 }
 
 }  // namespace animeme::text

@@ -11,4 +11,8 @@ std::string_view unit_of(std::u32string_view sign);
 /// The same for signs that stand before their number: $ € £ ¥.
 std::string_view currency_of(char32_t sign);
 
+/// A letter of a script that is written without blanks (or, Korean, with endings behind numbers):
+/// numbers touch it.
+bool is_unparted(char32_t c);
+
 }  // namespace animeme::text
