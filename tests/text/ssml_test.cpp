@@ -28,6 +28,7 @@ TEST(Ssml, IsToldByContent) {
   EXPECT_TRUE(is_ssml("<speak>hi</speak>"));
   EXPECT_TRUE(
       is_ssml("\xEF\xBB\xBF <?xml version=\"1.0\"?>\n<!-- a > b --><speak version='1.1'/>"));
+  EXPECT_TRUE(is_ssml("<!DOCTYPE speak [<!ENTITY a 'b'>]><speak>&a;</speak>"));
   EXPECT_FALSE(is_ssml("<speaker>"));
   EXPECT_FALSE(is_ssml("say <speak>"));
   EXPECT_FALSE(is_ssml(""));

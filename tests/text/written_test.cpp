@@ -38,7 +38,8 @@ TEST(Written, WhatIsNoDate) {
 
 TEST(Written, AmountsInTheLanguage) {
   SKIP_WITHOUT_ICU();
-  EXPECT_EQ(read("$5.20"), "5.20 US dollars");
+  EXPECT_EQ(read("$5.20"), "5 dollars and 20 cents");
+  EXPECT_EQ(read("£0.99 or €1.00", "en-gb"), "99 pence or 1 euro");
   EXPECT_EQ(read("$5 million now"), "5 million US dollars now");
   EXPECT_EQ(read("20 °C"), "20 degrees Celsius");
   EXPECT_EQ(read("60 km/h and 5 km"), "60 kilometers per hour and 5 kilometers");

@@ -11,7 +11,7 @@
 namespace animeme::voice {
 namespace languages_test {
 
-#define SKIP_WITHOUT_VOICES()                                          \
+#define SKIP_WITHOUT_SCRIPTS()                                         \
   if (const auto voices_here = list_voices();                          \
       !voices_here && voices_here.error().code == Code::unsupported) { \
     GTEST_SKIP() << voices_here.error().describe();                    \
@@ -33,7 +33,7 @@ struct Sentence {
 };
 
 TEST(OwnScript, ASentenceALanguage) {
-  SKIP_WITHOUT_VOICES();
+  SKIP_WITHOUT_SCRIPTS();
   const Sentence sentences[] = {
       {"ru", "Привет, сегодня хорошая погода.", {"Привет", "сегодня", "погода"}, "P"},
       {"uk", "Привіт, сьогодні гарна погода.", {"Привіт", "сьогодні", "погода"}, "P"},
@@ -80,7 +80,7 @@ TEST(OwnScript, ASentenceALanguage) {
 }
 
 TEST(OwnScript, WordsBehindAnAbbreviationAreNamed) {
-  SKIP_WITHOUT_VOICES();
+  SKIP_WITHOUT_SCRIPTS();
   const auto speech = speak("Das ist z. B. so.", "de");
   ASSERT_TRUE(speech) << speech.error().describe();
   std::string last;
@@ -91,7 +91,7 @@ TEST(OwnScript, WordsBehindAnAbbreviationAreNamed) {
 }
 
 TEST(OwnScript, WhereTheLanguageChanges) {
-  SKIP_WITHOUT_VOICES();
+  SKIP_WITHOUT_SCRIPTS();
   const auto speech = speak("Hello привет", "en+ru");
   ASSERT_TRUE(speech) << speech.error().describe();
   ASSERT_EQ(speech->languages.size(), 2u);
@@ -104,7 +104,7 @@ TEST(OwnScript, WhereTheLanguageChanges) {
 }
 
 TEST(OwnScript, MarksOfSsmlHaveTimes) {
-  SKIP_WITHOUT_VOICES();
+  SKIP_WITHOUT_SCRIPTS();
   const auto speech = speak(
       "<speak>One<mark name=\"a\"/><break time=\"600ms\"/>two<mark name=\"b\"/></speak>", "en");
   if (!speech && speech.error().code == Code::unsupported)

@@ -144,7 +144,7 @@ class Amounts {
     return 0;
   }
 
-  Amount money(std::size_t from, std::size_t first_digit, std::string_view currency) const {
+  Amount money(std::size_t first_digit, std::string_view currency) const {
     std::size_t end = 0;
     const std::string value = number(first_digit, end);
     if (!free_at(end)) return {};
@@ -164,8 +164,8 @@ class Amounts {
                : name == std::string::npos  ? ""
                                             : plural.substr(name));
       end = more;
-    }
-    (void)from;
+    } else if (is_english(language_) && !english_money(value, currency).empty())
+      words = english_money(value, currency);
     return {end, code_points(words)};
   }
 
@@ -251,7 +251,7 @@ Amount amount_at(std::u32string_view text, std::size_t at, const std::string& la
   const Amounts all(text, language);
   if (!currency.empty()) {
     const std::size_t first = all.blanks_end(at + 1);
-    return all.digit(first) ? all.money(at, first, currency) : Amount{};
+    return all.digit(first) ? all.money(first, currency) : Amount{};
   }
   if (all.at(at) == U'+' || all.at(at) == U'(') return all.telephone(at);
   if (!all.digit(at)) return {};

@@ -13,7 +13,11 @@ bool is_ssml(std::string_view text) {
   // What XML allows before the root: a declaration, comments, a document type.
   while (text.starts_with("<?") || text.starts_with("<!")) {
     const std::string_view end = text.starts_with("<!--") ? "-->" : ">";
-    const std::size_t close = text.find(end);
+    // A document type may declare entities, in brackets.
+    const std::size_t bracket = text.find('[');
+    const bool inside = text.starts_with("<!DOCTYPE") && bracket < text.find('>');
+    const std::size_t from = inside ? text.find(']') : 0;
+    const std::size_t close = text.find(end, std::min(from, text.size()));
     if (close == std::string_view::npos) break;
     text.remove_prefix(close + end.size());
     skip();

@@ -1,6 +1,7 @@
 #include "tools/text/units_internal.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
 
 #include "tools/text/unicode.h"
@@ -101,6 +102,22 @@ bool is_unparted(char32_t c) {
   constexpr std::string_view kUnparted[] = {"Hani", "Hira", "Kana", "Hang", "Bopo",
                                             "Thai", "Laoo", "Khmr", "Mymr"};
   return std::find(std::begin(kUnparted), std::end(kUnparted), script) != std::end(kUnparted);
+}
+
+std::string english_money(const std::string& value, std::string_view currency) {
+  const std::size_t point = value.find('.');
+  const bool known = currency == "USD" || currency == "EUR" || currency == "GBP";
+  if (!known || point == std::string::npos || value.size() != point + 3) return {};
+  const int parts = std::atoi(value.c_str() + point + 1);
+  const std::string whole = value.substr(0, point);
+  std::string words = whole + (currency == "EUR"   ? " euro"
+                               : currency == "GBP" ? " pound"
+                                                   : " dollar");
+  if (whole != "1") words += "s";
+  if (parts == 0) return words;
+  const std::string small =
+      currency == "GBP" ? (parts == 1 ? " penny" : " pence") : (parts == 1 ? " cent" : " cents");
+  return (whole == "0" ? "" : words + " and ") + std::to_string(parts) + small;
 }
 
 }  // namespace animeme::text
