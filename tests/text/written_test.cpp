@@ -53,7 +53,7 @@ TEST(Written, NumbersTouchLettersOfScriptsWithoutBlanks) {
   SKIP_WITHOUT_ICU();
   EXPECT_EQ(read("票价¥258.5。", "cmn"), "票价258.5元。");
   EXPECT_EQ(read("约20kg的米", "cmn"), "约20千克的米");
-  EXPECT_EQ(read("₩1,200입니다", "ko"), "1200대한민국 원입니다");
+  EXPECT_EQ(read("₩1,200입니다", "ko"), "1200원입니다");
   EXPECT_EQ(read("x2m", "en"), "x2m");
 }
 

@@ -153,8 +153,9 @@ class Amounts {
     if (chinese && currency == "JPY") currency = "CNY";
     std::string words = spell_amount(value, currency, language_);
     if (words.empty()) return {};
-    // People say "yuan", CLDR the name of the money.
+    // People say "yuan" and "won", CLDR the names of the money.
     if (chinese && currency == "CNY") words = value + "元";
+    if (language_ == "ko" && currency == "KRW") words = value + "원";
     if (const std::size_t more = multiple_end(end); more != 0) {
       // Number, "million", name of the currency.
       const std::string plural = spell_amount("5", currency, language_);

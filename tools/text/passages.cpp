@@ -250,17 +250,21 @@ std::string language_for(std::string_view script, std::u32string_view text) {
   for (const char32_t c : text) {
     if (is_letter(c) && script_of(c) == script) used.insert(c);
   }
+  // The one whose alphabet lacks the fewest of them: CLDR's Urdu has no آ.
+  const std::string* best = &languages.front();
+  auto fewest = std::ptrdiff_t(used.size()) + 1;
   for (const std::string& language : languages) {
     std::set<char32_t> known;
     for (const std::u32string& letter : letters_of_language(language)) {
       known.insert(letter.begin(), letter.end());
     }
-    const bool all = std::all_of(used.begin(), used.end(), [&](char32_t c) {
-      return known.contains(c) || known.contains(lower(c));
+    const auto unknown = std::count_if(used.begin(), used.end(), [&](char32_t c) {
+      return !known.contains(c) && !known.contains(lower(c));
     });
-    if (all) return language;
+    if (unknown < fewest) best = &language;
+    fewest = std::min(fewest, unknown);
   }
-  return languages.front();
+  return *best;
 }
 
 std::string first_language(std::u32string_view text) {
