@@ -19,6 +19,7 @@ inline constexpr const char* kRimeFolder = "/usr/share/rime-data";
 
 /// A word of a Chinese text.
 struct ChineseWord {
+  /// characters, from 0, one behind
   std::size_t first = 0, last = 0;  ///< characters of the text
   std::string pinyin;               ///< "yin2hang2"; empty: no Chinese word, or no reading
 };

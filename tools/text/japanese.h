@@ -19,6 +19,7 @@ inline constexpr const char* kJapaneseFolder = "/var/lib/mecab/dic/ipadic-utf8";
 
 /// A word of a Japanese text.
 struct JapaneseWord {
+  /// characters, from 0, one behind
   std::size_t first = 0, last = 0;  ///< characters of the text
   std::u32string kana;  ///< as it is spoken: ワ for は as a particle; empty: no reading
   bool leans = false;   ///< a particle or ending, spoken with the word before it

@@ -22,6 +22,7 @@ struct Speaker {
   std::string voice;                 ///< identifier with variant: "gmw/en-US+f3"
   std::string name;                  ///< "English (America)"
   std::vector<std::string> scripts;  ///< ISO 15924; empty: nothing is known, all is given to it
+  /// what it wants to be given
   Letters letters = Letters::as_written;
   bool latin_by_itself = false;  ///< changes to English for words in Latin letters, and says so
   bool says_digits = true;       ///< false: numbers have to be words
@@ -42,6 +43,7 @@ struct Speakers {
 
 /// A part of a text, spoken by one voice.
 struct Passage {
+  /// what is spoken, with its places
   Said said;
   std::size_t speaker = 0;  ///< in Speakers::list
 };

@@ -19,9 +19,12 @@ struct Place {
 
 /// What is said for a text. Both have the same length.
 struct Said {
+  /// characters
   std::u32string text;
+  /// of each character
   std::vector<Place> places;
 
+  /// Count of characters.
   std::size_t size() const { return text.size(); }
   /// Adds characters that all stand for `place`.
   void add(std::u32string_view more, Place place);

@@ -38,12 +38,15 @@ enum class SayAs : std::uint8_t { words, characters, digits, telephone, ordinal,
 
 /// A part of a document.
 struct Item {
+  /// which of the three it is
   ItemKind kind = ItemKind::text;
   std::u32string text;   ///< as it stands in the document, blanks as they are
   std::u32string alias;  ///< said instead, by `sub`; empty: nothing
   std::string ipa;       ///< of `phoneme`; empty: nothing
+  /// how its text is read
   SayAs say_as = SayAs::words;
   std::string format;  ///< of a date: "dmy"
+  /// how it is spoken
   Manner manner;
   double seconds = 0;  ///< of a pause, 0..10
   std::string name;    ///< of a mark

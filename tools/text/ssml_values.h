@@ -18,6 +18,7 @@ std::optional<double> break_strength(std::string_view strength);
 /// A rate, pitch, range or volume in percent, on top of what is around it; nothing if it is none.
 std::optional<int> rate_of(std::string_view value, int around);
 std::optional<int> pitch_of(std::string_view value, int around);  ///< also of a range
+/// A loudness in percent, around what it was; nothing if it is none.
 std::optional<int> volume_of(std::string_view value, int around);
 
 /// Changes what `emphasis level="..."` means; false if there is no such level.

@@ -29,6 +29,7 @@ enum class Kind : std::uint8_t {
   symbol,       ///< © → ★, currencies, ASCII's + = ~ ...
   punctuation,  ///< all the rest
 };
+/// The kind of a character.
 Kind kind_of(char32_t code);
 
 inline bool is_letter(char32_t code) { return kind_of(code) == Kind::letter; }  ///< without marks

@@ -16,6 +16,7 @@ namespace animeme::text {
 
 /// Which characters of Utterance::input are spoken by whom.
 struct Stretch {
+  /// characters, from 0, one behind
   std::size_t first = 0, last = 0;  ///< code points of the input, from 0, one behind
   std::size_t speaker = 0;          ///< in Utterance::speakers
 };
@@ -26,6 +27,7 @@ struct Utterance {
   Said input;              ///< for espeak-ng; markup stands for empty places
   bool markup = false;     ///< the input is SSML for espeak-ng
   bool mnemonics = false;  ///< [[ ]] in the input are phonemes
+  /// who speaks
   std::vector<Speaker> speakers;
   std::vector<Stretch> stretches;     ///< ascending
   std::vector<std::string> marks;     ///< mark number N of the input is called "N"

@@ -16,6 +16,7 @@ enum class EventKind : std::uint8_t { word, phoneme, mark };
 
 /// What happens at one sample of the sound.
 struct VoiceEvent {
+  /// what it is
   EventKind kind = EventKind::phoneme;
   std::int64_t sample = 0;         ///< when, from the start of the sound
   std::int32_t text_position = 0;  ///< word: first character of it in the text, from 1

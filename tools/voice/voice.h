@@ -44,6 +44,7 @@ struct VoiceOptions {
 
 /// A part of speech that one voice speaks in one language.
 struct SpokenLanguage {
+  /// when, in seconds
   double start = 0, end = 0;  ///< seconds
   std::string language;       ///< "en-us", "cmn-latn-pinyin"
   std::string voice;  ///< its name; for words that a voice itself takes as another language,
