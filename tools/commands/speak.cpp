@@ -16,6 +16,7 @@
 #include "tools/exchange/arkit.h"
 #include "tools/exchange/curves.h"
 #include "tools/json.h"
+#include "tools/speech/marks.h"
 #include "tools/text.h"
 
 namespace animeme::tools {
@@ -156,6 +157,11 @@ std::vector<HeardPhone> heard_phones(const speech::Spoken& spoken) {
   return all;
 }
 
+Json json_of(const voice::SpokenLanguage& part) {
+  return {{"start", part.start}, {"end", part.end},   {"language", part.language},
+          {"voice", part.voice}, {"text", part.text}, {"by_itself", part.by_itself}};
+}
+
 void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam::Signal& signal,
             const dam::SynthesisReport& synthesis) {
   for (const auto& [label, by] : synthesis.replaced) {
@@ -178,7 +184,13 @@ void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam
                {"replaced", replaced},
                {"closures_forced", synthesis.closures},
                {"lip_tooth_forced", synthesis.lip_tooth_contacts},
-               {"recognised", heard}};
+               {"recognised", heard},
+               {"languages", json_list(spoken.languages, json_of)},
+               {"marks", json_list(spoken.marks,
+                                   [](const voice::SpeechMark& mark) -> Json {
+                                     return {{"time", mark.time}, {"name", mark.name}};
+                                   })},
+               {"warnings", spoken.warnings}};
   if (heard) {
     json["warnings"] = spoken.heard->warnings;
     json["heard"] = json_list(heard_phones(spoken), [](const HeardPhone& one) -> Json {
@@ -250,7 +262,8 @@ Result<int> run(const SpeakOptions& options) {
   if (!written) return written;
   // Last, so that a failure leaves no file behind.
   if (!options.save_script.empty()) {
-    const std::string text = dam::write_script(spoken->script, extension_of(options.save_script));
+    const std::string text = speech::write_marked_script(spoken->script, spoken->marks,
+                                                         extension_of(options.save_script));
     if (auto done = write_file(options.save_script, text); !done) return done.error();
   }
   report(options, *spoken, *signal, synthesis);
@@ -304,6 +317,8 @@ void add_options(CLI::App& app, SpeakOptions& options) {
 
 const Command kSpeak{
     "speak", "Make a face talk: from text, from a recorded voice, best with its phonemes or text",
+    "  animeme speak --lang zh+en --text \"我喜欢 Python\" -o wo.mp4   # two languages, two "
+    "voices\n"
     "  animeme speak --text \"Hello world\" -o hello.mp4\n"
     "  animeme speak --audio voice.wav --transcript \"what she said\" -o talk.mp4\n"
     "  animeme speak --text Hello --tts \"piper -m en.onnx -f {wav}\" -o hello.mp4   # your voice\n"
