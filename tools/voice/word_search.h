@@ -30,7 +30,8 @@ struct WordFiles {
   std::string dictionary_path;
 };
 
-/// Half a second is taken by opening it. Not thread safe, but several may be used at once.
+/// Half a second is taken by opening the first one of a process; one that is closed waits (100 MB)
+/// for the next. Not thread safe, but several may be used at once.
 class WordSearch {
  public:
   /// Errors: unsupported (built without pocketsphinx), not_found (a file), syntax (one is damaged).
