@@ -13,6 +13,7 @@
 #include "dam/signal/closure.h"
 #include "dam/speaking/readings.h"
 #include "tests/bench/listen_material.h"
+#include "tests/bench/noises.h"
 #include "tools/speech/heard_face.h"
 #include "tools/voice/align.h"
 #include "tools/voice/listen.h"
@@ -181,6 +182,19 @@ std::optional<Made> live(const dam::Model& model, const Voice& row, double delay
   return Made{std::move(motion), {}, {}};
 }
 
+// The voices in the four kinds of noise, one after the other, at so many dB.
+Voices in_noises(const Voices& clean, double db) {
+  std::vector<std::vector<float>> others;
+  for (const Voice& row : clean.rows) others.push_back(row.sound.samples);
+  Voices noisy = clean;
+  for (std::size_t i = 0; i < noisy.rows.size(); ++i) {
+    std::vector<float>& samples = noisy.rows[i].sound.samples;
+    samples =
+        bench::in_noise(samples, 0, samples.size() - 1, bench::kNoises[i % 4], db, i + 1, others);
+  }
+  return noisy;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -199,6 +213,9 @@ int main(int argc, char** argv) {
   app.add_option("--from", choice.from, "Number of the first, below n");
   std::vector<double> delays{0.15, 0.2, 0.25, 0.3, 0.5};
   app.add_option("--delays", delays, "Of the live face, seconds")->delimiter(',');
+  std::vector<double> levels;
+  app.add_option("--levels", levels, "Of noise in which the voices are heard, too, dB")
+      ->delimiter(',');
   bool brief = false;
   app.add_flag("--brief", brief, "Sound alone, nothing else");
   CLI11_PARSE(app, argc, argv);
@@ -230,6 +247,12 @@ int main(int argc, char** argv) {
     });
   }
   sound("sound", own);
+  for (const double db : levels) {
+    char name[64];
+    std::snprintf(name, sizeof name, "sound, in noise of %.0f dB", db);
+    print(in_noises(material, db), name,
+          [&](const Voice& row) { return by_sound(model, row, own); });
+  }
   if (brief) return 0;
   print(material, "sound, best guess alone", [&](const Voice& row) {
     return by_script(model, row, need(voice::listen(row.sound, own)).script);

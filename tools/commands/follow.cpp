@@ -205,10 +205,11 @@ void add_options(CLI::App& app, FollowOptions& options) {
 
 const Command kFollow{
     "follow", "Speak while phones or a voice are still coming: curves out, line by line",
+    "  animeme follow --audio voice.wav > curves.csv\n"
     "  my_tts --phones | animeme follow --model me.dam | my_player\n"
     "  printf '0 0.3 SIL\\n0.3 0.42 HH\\n0.42 0.6 AY\\n' | animeme follow --look-ahead 0.1\n"
     "  arecord -q -f S16_LE -r 16000 | animeme follow --audio - | my_player\n"
-    "  ffmpeg -v error -i voice.mp3 -f wav - | animeme follow --audio - > curves.csv",
+    "  ffmpeg -v error -i voice.mp3 -f wav - | animeme follow --audio - | my_player",
     set_up<FollowOptions>};
 
 }  // namespace animeme::tools

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "fap/rate_text.h"
+#include "tools/commands/brief_help.h"
 #include "tools/commands/common.h"
 #include "tools/commands/interrupt.h"
 #include "tools/commands/spoken_options.h"
@@ -362,6 +363,11 @@ void add_options(CLI::App& app, StreamOptions& options) {
   app.add_flag("--fast", options.fast, "Do not wait for the clock, send as fast as it goes");
   app.add_flag("--stats", options.stats, "Tell once a second how it goes");
   app.add_flag("--json", options.json, "Machine-readable summary on standard output at the end");
+  show_in_help_all(
+      app, "Details of voices, coding and transport",
+      {"--tier", "--script-format", "--max-seconds", "--speed", "--pitch", "--seed", "--mtu",
+       "--repeat", "--repeat-after", "--bundle", "--max-clients", "--max-per-address",
+       "--allow-origin", "--host-name", "--copy", "--quant", "--audio-codec", "--audio-bitrate"});
 }
 
 }  // namespace

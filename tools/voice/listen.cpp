@@ -19,6 +19,9 @@ namespace {
 constexpr double kLeastSeconds = 0.1;
 constexpr double kLeastSpeech = 0.1;        // seconds; less is a click
 constexpr double kUnsure = 0.25;            // of the whole: below, it may be no speech at all
+constexpr double kGuessed = 0.5;            // clear voices of any language have 0.55 and more
+constexpr double kFull = 0.999;             // of full scale: a sample that may be cut off
+constexpr double kMostFull = 0.01;          // of all samples
 constexpr double kBelieved = 0.25;          // words that are named
 constexpr std::size_t kBlockFrames = 2000;  // drawn at once
 constexpr std::size_t kLookAhead = 100;     // frames beyond, which settle how a block ends
@@ -193,7 +196,16 @@ void sum_up(Heard& heard) {
   heard.confidence = sum / seconds;
   if (heard.confidence < kUnsure) {
     heard.warnings.push_back("this may be no speech: the readings hardly agree");
+  } else if (heard.confidence < kGuessed) {
+    heard.warnings.push_back(
+        "much of what is heard is a guess; a clearer recording, or what is said in it, helps");
   }
+}
+
+bool is_clipped(const std::vector<float>& samples) {
+  const auto full = std::count_if(samples.begin(), samples.end(),
+                                  [](float one) { return std::abs(double(one)) >= kFull; });
+  return double(full) > kMostFull * double(samples.size());
 }
 
 }  // namespace
@@ -231,6 +243,10 @@ Result<Heard> listen(const media::Pcm& audio, const ListenOptions& options) {
   }
   take_words(drawn.words, seconds, heard);
   sum_up(heard);
+  if (is_clipped(audio.samples)) {
+    heard.warnings.push_back(
+        "the sound is cut off at full scale in many places; record it more softly");
+  }
   return heard;
 }
 
