@@ -93,7 +93,7 @@ TEST(ListenCommands, EnglishWordsAreFound) {
     EXPECT_GT(one["confidence"], 0);
   }
   EXPECT_THAT(words, HasSubstr("please try")) << words;
-  EXPECT_THAT(slurp(dir / "heard.tsv"), HasSubstr("\ttemporary"));
+  EXPECT_THAT(slurp(dir / "heard.tsv"), HasSubstr("\tplease\n"));
   // In another language there are none.
   const auto other =
       animeme({"speak", "--audio", voice, "--lang", "it", "--json", "-o", dir / "other.fap"});
@@ -106,7 +106,9 @@ TEST(ListenCommands, StreamSendsAVoiceAlone) {
   const auto out = animeme(
       {"stream", "--audio", dir / "voice.mp4", "--fast", "--to", "udp://127.0.0.1:9", "--json"});
   ASSERT_EQ(out.exit_code, 0) << out.err;
-  EXPECT_THAT(out.out, HasSubstr("planes"));
+  const json report = json::parse(out.out);
+  EXPECT_GT(report["face"]["units"], 20);
+  EXPECT_GT(report["sound"]["units"], 20);
 }
 
 TEST(ListenCommands, SilenceIsAStillFace) {
