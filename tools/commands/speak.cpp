@@ -199,6 +199,12 @@ void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam
               {"phone", one.phone.label},
               {"confidence", one.confidence}};
     });
+    json["words"] = json_list(spoken.heard->words, [](const voice::HeardWord& one) -> Json {
+      return {{"word", one.text},
+              {"start", one.start},
+              {"end", one.end},
+              {"confidence", one.confidence}};
+    });
   }
   std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
 }

@@ -1,16 +1,15 @@
 #include "tools/voice/recogniser.h"
 
 #include <pocketsphinx.h>
-#include <sphinxbase/err.h>
 #include <sphinxbase/fsg_model.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <span>
 
 #include "dam/script/phones.h"
+#include "tools/voice/sphinx.h"
 
 namespace animeme::voice {
 namespace {
@@ -43,8 +42,6 @@ struct Free {
 using Config = std::unique_ptr<cmd_ln_t, Free>;
 using Decoder = std::unique_ptr<ps_decoder_t, Free>;
 using Grammar = std::unique_ptr<fsg_model_t, Free>;
-
-void ignore_message(void*, err_lvl_t, const char*, ...) {}
 
 Decoder make_decoder(const std::string& model, const char* beam) {
   // No best-path search (it gives impossible durations), no removal of silence or noise (frame
@@ -310,10 +307,7 @@ Result<std::vector<Segment>> recognise(const std::vector<std::int16_t>& samples,
                                        const std::vector<SpokenWord>& words,
                                        const AlignOptions& options) {
   if (auto good = check_recogniser(options); !good) return good.error();
-  static std::mutex mutex;  // the library's message handlers are global
-  const std::lock_guard lock(mutex);
-  err_set_logfp(nullptr);                     // the configuration goes there,
-  err_set_callback(ignore_message, nullptr);  // all else here
+  const auto lock = quiet_sphinx();
   const bool whole = double(samples.size()) <= kWhole * double(kAlignRate);
   for (const char* beam : kBeams) {
     const Decoder decoder = make_decoder(options.model_path, beam);
