@@ -323,8 +323,6 @@ void add_options(CLI::App& app, SpeakOptions& options) {
 
 const Command kSpeak{
     "speak", "Make a face talk: from text, from a recorded voice, best with its phonemes or text",
-    "  animeme speak --lang zh+en --text \"我喜欢 Python\" -o wo.mp4   # two languages, two "
-    "voices\n"
     "  animeme speak --text \"Hello world\" -o hello.mp4\n"
     "  animeme speak --audio voice.wav --transcript \"what she said\" -o talk.mp4\n"
     "  animeme speak --text Hello --tts \"piper -m en.onnx -f {wav}\" -o hello.mp4   # your voice\n"

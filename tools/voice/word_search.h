@@ -18,16 +18,17 @@ namespace animeme::voice {
 struct FoundWord {
   std::string text;                 ///< as the dictionary writes it
   std::vector<std::string> phones;  ///< how it is spoken; "AA" ... as in SoundModel::phones
-  std::size_t first = 0, end = 0;   ///< its frames: from `first` to before `end`
+  std::size_t first = 0;            ///< its first frame
+  std::size_t end = 0;              ///< the frame behind its last one
   double language = 0;              ///< log probability of its place in the sentence
   double belief = 0;                ///< against other words in its place, 0..1
 };
 
 /// What a search needs.
 struct WordFiles {
-  std::string model_path;  ///< folder of the acoustic model
-  std::string words_path;  ///< which words follow each other
-  std::string dictionary_path;
+  std::string model_path;       ///< folder of the acoustic model
+  std::string words_path;       ///< which words follow each other
+  std::string dictionary_path;  ///< how they are spoken
 };
 
 /// Half a second is taken by opening the first one of a process; one that is closed waits (100 MB)
