@@ -95,6 +95,7 @@ inline constexpr Library kLibraries[] = {
     {"ICU", "unicode/", "tools/text", true},
     {"expat", "expat", "tools/text", true},
     {"MeCab", "mecab", "tools/text", true},
+    {"CLD2", "cld2/", "tools/text", true},
     {"libwebsockets", "libwebsockets", "tools/web/detail"},
     {"zlib", "zlib", "tools/render tools/viewer tools/web/detail tests"},
     {"libpng, libjpeg, libwebp", "png jpeglib jerror webp/", "tools/gltf/detail tests"},
