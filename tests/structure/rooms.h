@@ -96,6 +96,8 @@ inline constexpr Library kLibraries[] = {
     {"expat", "expat", "tools/text", true},
     {"MeCab", "mecab", "tools/text", true},
     {"CLD2", "cld2/", "tools/text", true},
+    {"Draco", "draco/", "tools/gltf", true},
+    {"meshoptimizer", "meshoptimizer.h", "tools/gltf", true},
     {"libwebsockets", "libwebsockets", "tools/web/detail"},
     {"zlib", "zlib", "tools/render tools/viewer tools/web/detail tests"},
     {"libpng, libjpeg, libwebp", "png jpeglib jerror webp/", "tools/gltf/detail tests"},
