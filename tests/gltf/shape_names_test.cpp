@@ -70,6 +70,11 @@ TEST(ShapeNames, Visemes) {
 
 TEST(ShapeNames, OtherUsualNames) {
   EXPECT_EQ(arkit_of("eyesClosed"), "eyeBlinkLeft+eyeBlinkRight");
+  EXPECT_EQ(arkit_of("Face.M_F00_000_00_Fcl_BRW_Angry"), "browDownLeft+browDownRight");
+  EXPECT_EQ(arkit_of("Fcl_BRW_Sorrow"), "browInnerUp");
+  EXPECT_EQ(arkit_of("Fcl_BRW_Joy"), "browOuterUpLeft+browOuterUpRight");
+  EXPECT_EQ(arkit_of("Fcl_EYE_Surprised"), "eyeWideLeft+eyeWideRight");
+  EXPECT_EQ(arkit_of("困る"), "browInnerUp");
   EXPECT_EQ(arkit_of("Blink"), "eyeBlinkLeft+eyeBlinkRight");
   EXPECT_EQ(arkit_of("Fcl_EYE_Close_R"), "eyeBlinkRight");
   EXPECT_EQ(arkit_of("まばたき"), "eyeBlinkLeft+eyeBlinkRight");

@@ -1,6 +1,8 @@
 // Curves as SVG, and rows of FAPs.
 #include <gmock/gmock.h>
+
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "tools/plot/clips.h"
 #include "tools/plot/curves.h"
@@ -72,6 +74,41 @@ TEST(PlotCurves, WhatLiesOutsideIsNotDrawn) {
   EXPECT_THAT(svg, Not(HasSubstr(">900<")));
 }
 
+TEST(PlotCurves, TicksAreRoundAndRowsOfAUnitShareThem) {
+  const std::string svg = plot::curves_svg(
+      {panel_of({{"a", "", "mm", {{{0, -38}, {1, 195}}}}, {"b", "", "mm", {{{0, 5}, {1, 10}}}}},
+                1)},
+      {});
+  for (const char* tick : {">-50<", ">0<", ">50<", ">100<", ">200<"}) {
+    EXPECT_EQ(count(svg, tick), 2u) << tick << " in both rows";
+  }
+  EXPECT_THAT(svg, Not(HasSubstr(">195<")));
+  EXPECT_THAT(svg, HasSubstr(">Time (s)<"));
+  const std::string degrees =
+      plot::curves_svg({panel_of({{"yaw", "", "degrees", {{{0, 0.1}, {1, 1.3}}}}}, 1)}, {});
+  for (const char* tick : {">0.0<", ">0.5<", ">1.0<", ">1.5<"}) {
+    EXPECT_EQ(count(degrees, tick) >= 1, true) << tick;
+  }
+}
+
+TEST(PlotCurves, WhatIsAbsentIsNotDrawn) {
+  const double absent = std::nan("");
+  const std::string svg = plot::curves_svg(
+      {panel_of({{"a", "", "", {{{0, 1}, {0.2, absent}, {0.4, absent}, {0.6, 2}, {0.8, 1}}}}}, 1)},
+      {});
+  EXPECT_EQ(count(svg, "<polyline"), 2u) << "a line on either side of the gap";
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+  fap::Sequence clip;
+  clip.frames.resize(2);
+  clip.frames[1].number = 1;
+  clip.frames[0].set(3, 100);
+  clip.frames[1].set(48, 100000);
+  const plot::Row jaw = plot::fap_row(3, {{clip}}), head = plot::fap_row(48, {{clip}});
+  EXPECT_EQ(jaw.curves[0][0].second, 100);
+  EXPECT_TRUE(std::isnan(jaw.curves[0][1].second));
+  EXPECT_NEAR(head.curves[0][1].second, 57.29578, 1e-4) << "a radian in degrees";
+}
+
 TEST(PlotCurves, PhonesAreBandsAndClosuresStandOut) {
   dam::Script script;
   script.phones = {{0, 0.4, "P"}, {0.4, 0.8, "AA"}, {0.8, 1, std::string(dam::kSilence)}};
@@ -109,7 +146,7 @@ TEST(PlotClips, RowsHaveACurveAClip) {
   ASSERT_EQ(row.curves.size(), 2u);
   EXPECT_THAT(row.curves[0], ElementsAre(Pair(0, 1), Pair(0.04, 2)));
   EXPECT_THAT(row.curves[1], ElementsAre(Pair(0.5, 7)));
-  EXPECT_EQ(plot::fap_row(48, {}).unit, "0.00001 rad");
+  EXPECT_EQ(plot::fap_row(48, {}).unit, "degrees");
 }
 
 TEST(PlotClips, DifferencesAreSecondLessFirst) {

@@ -99,6 +99,22 @@ TEST(Render, FramesAndViewsDiffer) {
   draw(dir, {high, "--frame", "0", "--size", "60x60"});
 }
 
+TEST(Render, JpegAndWebp) {
+  const TempDir dir;
+  const auto begins = [&](const char* name, std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"render", clip(), "-o", dir / name, "--size", "60x60"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto result = animeme(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return test::slurp(dir / name);
+  };
+  EXPECT_EQ(begins("a.jpg", {"--frame", "0"}).substr(0, 3), "\xFF\xD8\xFF");
+  const std::string still = begins("a.webp", {"--frame", "0"}), moving = begins("b.webp", {});
+  for (const std::string& file : {still, moving}) EXPECT_EQ(file.substr(8, 4), "WEBP");
+  EXPECT_EQ(still.find("ANIM"), std::string::npos);
+  EXPECT_NE(moving.find("ANMF"), std::string::npos);
+}
+
 TEST(Render, ContainersAreFaces) {
   const TempDir dir;
   const auto movie = test::data_dir() / "containers" / "std_aac.mp4";
@@ -122,7 +138,7 @@ TEST(Render, SaysWhatIsWrong) {
   usage({"render", clip(), "--sheet", "100x4", "-o", out}, "larger than 8192 pixels");
   usage({"render", clip(), "--head", "dragon", "-o", out}, "--head is woman, man or child");
   usage({"render", clip(), "--view", "behind", "-o", out}, "--view is front");
-  usage({"render", clip(), "-o", dir / "out.jpg"}, "must end in .png");
+  usage({"render", clip(), "-o", dir / "out.gif"}, "must end in .png");
   usage({"render", clip(), "--frame", "1", "--sheet", "2x2", "-o", out}, "--sheet");
   const auto input = [&](const std::vector<std::string>& arguments, const char* text) {
     const auto result = animeme(arguments);

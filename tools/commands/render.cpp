@@ -8,6 +8,7 @@
 #include "tools/commands/head_options.h"
 #include "tools/commands/preview.h"
 #include "tools/commands/script_options.h"
+#include "tools/render/picture_file.h"
 #include "tools/render/png.h"
 #include "tools/render/scene.h"
 #include "tools/speech/voice_file.h"
@@ -113,9 +114,10 @@ Result<std::vector<studio::ShownFrame>> choose_frames(const RenderOptions& optio
   return frames;
 }
 
-// All pictures in rows of `columns`, as a PNG file.
+// All pictures in rows of `columns`, as a file.
 Result<std::vector<std::uint8_t>> draw(const Plan& plan,
-                                       const std::vector<studio::ShownFrame>& frames, int columns) {
+                                       const std::vector<studio::ShownFrame>& frames, int columns,
+                                       const RenderOptions& options) {
   Result<studio::HeadView> view = studio::HeadView::make(plan.look, talk());
   if (!view) return view.error();
   std::vector<render::Image> pictures;
@@ -123,7 +125,8 @@ Result<std::vector<std::uint8_t>> draw(const Plan& plan,
   Result<render::Image> sheet =
       render::contact_sheet(pictures, std::min(columns, int(pictures.size())));
   if (!sheet) return sheet.error();
-  return render::png_of(*sheet);
+  const std::string extension = options.output == "-" ? ".png" : extension_of(options.output);
+  return render::picture_of(*sheet, extension, studio::picture_quality(options.quality));
 }
 
 // The sound of the video, copied where the file takes it; nothing where the face has none.
@@ -186,27 +189,29 @@ Result<int> run(const RenderOptions& options) {
   if (!plan) return usage_error(plan.error().message);
   const std::string extension = extension_of(options.output);
   const bool still = options.frame >= 0 || !options.times.empty() || !options.sheet.empty();
-  if (studio::is_film(extension) && (still || !options.shapes.empty())) {
+  const bool pictures = still || !options.shapes.empty();
+  if (pictures && studio::is_film(extension) && !render::is_picture(extension)) {
     return usage_error(
         "a video shows the whole clip; --frame, --time, --sheet and --shapes are for "
-        ".png");
+        ".png, .jpg and .webp");
   }
-  if (studio::is_film(extension)) return render_video(options, *plan);
+  if (studio::is_film(extension) && !pictures) return render_video(options, *plan);
   Result<std::vector<studio::ShownFrame>> frames = choose_frames(options, *plan);
   if (!frames) return frames.error();
   const int columns = options.sheet.empty() ? columns_for(frames->size()) : plan->sheet.x;
-  const auto png = draw(*plan, *frames, columns);
-  if (!png) return png.error();
-  if (auto written = write_file(options.output, *png); !written) return written.error();
+  const auto file = draw(*plan, *frames, columns, options);
+  if (!file) return file.error();
+  if (auto written = write_file(options.output, *file); !written) return written.error();
   return kOk;
 }
 
 void add_options(CLI::App& app, RenderOptions& options) {
   app.add_option("input", options.input, "FAP text, FBA stream, container or table of curves");
   add_output(app.add_option("-o,--output", options.output,
-                            "File to write: .mp4 or .mkv (H.264), .webm (VP9), or a .png still or "
-                            "sheet; - is PNG on standard output"),
-             {".png", ".mp4", ".webm", ".mkv"}, OutputKind::file_or_dash)
+                            "File to write: .mp4 or .mkv (H.264), .webm (VP9), .webp (moves, "
+                            "silent); a still or sheet as .png, .jpg or .webp (with --time and the "
+                            "like); - is PNG on standard output"),
+             {".png", ".jpg", ".jpeg", ".webp", ".mp4", ".webm", ".mkv"}, OutputKind::file_or_dash)
       ->required();
   auto* shapes = app.add_option("--shapes", options.shapes,
                                 "Instead of a file: neutral and all visemes or expressions");
@@ -240,7 +245,7 @@ void add_options(CLI::App& app, RenderOptions& options) {
       ->delimiter(',')
       ->expected(1, 3);
   app.add_option("--rate", options.rate, "Video: pictures a second; default: those of the clip");
-  app.add_option("--quality", options.quality, "Video: 0 (best) to 51 (smallest)")
+  app.add_option("--quality", options.quality, "Video, .jpg and .webp: 0 (best) to 51 (smallest)")
       ->check(CLI::Range(0, 51))
       ->capture_default_str();
   app.add_option("--audio-bitrate", options.audio_bit_rate, "Video: bits a second of its sound")
@@ -249,14 +254,16 @@ void add_options(CLI::App& app, RenderOptions& options) {
 
 }  // namespace
 
-const Command kRender{"render", "Videos and pictures of a face",
-                      "  animeme render talk.mp4 -o video.mp4\n"
-                      "  animeme render talk.fba --audio voice.wav --script talk.TextGrid --curves "
-                      "open_jaw,raise_b_midlip -o talk.webm\n"
-                      "  animeme render talk.fap --time 1.5 -o still.png\n"
-                      "  animeme render talk.mp4 --sheet 4x3 --head man --view three-quarter "
-                      "-o sheet.png\n"
-                      "  animeme render --shapes visemes --size 200x200 -o visemes.png",
-                      set_up<RenderOptions>};
+const Command kRender{
+    "render", "Videos and pictures of a face",
+    "  animeme render talk.mp4 -o video.mp4\n"
+    "  animeme render talk.fba --audio voice.wav --script talk.TextGrid --curves "
+    "open_jaw,raise_b_midlip -o talk.webm\n"
+    "  animeme render talk.fap --time 1.5 -o still.png     # .jpg, .webp\n"
+    "  animeme render talk.fap --size 256x256 -o talk.webp    # moves in READMEs and chats\n"
+    "  animeme render talk.mp4 --sheet 4x3 --head man --view three-quarter "
+    "-o sheet.png\n"
+    "  animeme render --shapes visemes --size 200x200 -o visemes.png",
+    set_up<RenderOptions>};
 
 }  // namespace animeme::tools

@@ -70,11 +70,16 @@ constexpr OtherName kOthers[] = {
     {"smileleft", {"mouthSmileLeft"}},
     {"smileright", {"mouthSmileRight"}},
     {"frown", {"mouthFrownLeft", "mouthFrownRight"}},
-    {"browsup browup browraise browsraise eyebrowsup",
+    // VRoid's brows are "BRW_Angry" and so on; MMD has a word for each.
+    {"browsup browup browraise browsraise eyebrowsup brwsurprised 上",
      {"browInnerUp", "browOuterUpLeft", "browOuterUpRight"}},
+    {"brwsorrow browssad browsad 困る", {"browInnerUp"}},
+    {"brwjoy brwfun browshappy", {"browOuterUpLeft", "browOuterUpRight"}},
+    {"eyesurprised びっくり", {"eyeWideLeft", "eyeWideRight"}},
     {"browraiseouterleft", {"browOuterUpLeft"}},
     {"browraiseouterright", {"browOuterUpRight"}},
-    {"browsdown eyebrowsdown", {"browDownLeft", "browDownRight"}},
+    {"browsdown eyebrowsdown browsangry browangry brwangry 怒り 下",
+     {"browDownLeft", "browDownRight"}},
 };
 
 // Spellings of visemes beside their names in the table of FAP 1.

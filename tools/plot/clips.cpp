@@ -1,5 +1,7 @@
 #include "tools/plot/clips.h"
 
+#include <limits>
+#include <numbers>
 #include <string>
 
 #include "fap/tables.h"
@@ -8,18 +10,24 @@ namespace animeme::plot {
 
 namespace {
 
+constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
+constexpr double kDegrees = 1e-5 * 180 / std::numbers::pi;  // of the unit of angles
+
 Points points_of(int fap, const TimedClip& shown) {
   Points points;
+  const bool angle = fap::info(fap).unit == fap::Unit::angle;
+  const double unit = angle ? kDegrees : 1;
   for (const fap::Frame& frame : shown.clip.frames) {
+    const bool there = frame.mask[std::size_t(fap)];
     points.emplace_back(shown.start + shown.clip.rate.seconds(double(frame.number)),
-                        frame.value[std::size_t(fap)]);
+                        there ? unit * frame.value[std::size_t(fap)] : kAbsent);
   }
   return points;
 }
 
 std::string unit_of(int fap) {
   const fap::Unit unit = fap::info(fap).unit;
-  if (unit == fap::Unit::angle) return "0.00001 rad";
+  if (unit == fap::Unit::angle) return "degrees";
   return "1/1024 " + std::string(fap::unit_name(unit));
 }
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "tools/files/files.h"
 #include "tools/media/picture.h"
+#include "tools/plot/scale_internal.h"
 #include "tools/text.h"
 #include "tools/xml.h"
 
@@ -15,13 +17,13 @@ using tools::escape_xml;
 
 namespace {
 
-constexpr double kLeft = 150;
 constexpr double kRight = 34;
 constexpr double kRow = 110;
 constexpr double kBand = 26;
 constexpr double kBar = 5;
 constexpr double kHeading = 30;
 constexpr double kAxis = 30;
+constexpr double kTitle = 20;  // of the time axis, below it
 constexpr double kLegendLine = 18;
 constexpr double kLeastPixelsPerSecond = 19;
 constexpr double kNarrow = 600;
@@ -40,16 +42,6 @@ struct Pen {
 };
 constexpr Pen kPens[] = {
     {"#0072b2", ""}, {"#d55e00", " stroke-dasharray=\"7 3\""}, {"#00875f", ""}};
-
-// The time axis that all panels share.
-struct Axis {
-  double begin = 0;
-  double end = 0;
-  double scale = 1;  // pixels a second
-
-  double x(double seconds) const { return kLeft + (seconds - begin) * scale; }
-  bool shows(double seconds) const { return seconds >= begin && seconds <= end; }
-};
 
 Axis axis_of(const std::vector<Panel>& panels) {
   Axis axis{panels.empty() ? 0 : panels.front().begin, 0, 1};
@@ -115,7 +107,7 @@ std::string time_axis(const Panel& panel, const Axis& axis, const Place& at) {
     svg += "<line x1=\"" + column + "\" x2=\"" + column + "\" y1=\"" + drawn(at.top) + "\" y2=\"" +
            drawn(at.rows_end() + 4) + "\" stroke=\"#dddddd\"/>\n<text x=\"" + column + "\" y=\"" +
            drawn(at.end - 10) + "\" text-anchor=\"middle\" fill=\"#555555\">" +
-           seconds_of(double(i) * step, step) + " s</text>\n";
+           seconds_of(double(i) * step, step) + "</text>\n";
   }
   return svg;
 }
@@ -164,38 +156,45 @@ std::string row_names(const Row& row, double middle) {
   return svg;
 }
 
-std::string row_svg(const Row& row, const Axis& axis, double base, double width) {
-  double low = 0;
-  double high = 0;
-  for (const Points& curve : row.curves) {
-    for (const auto& [time, value] : curve) {
-      if (!axis.shows(time)) continue;
-      low = std::min(low, value);
-      high = std::max(high, value);
+// Pieces of a curve, which is broken where its value is no number.
+std::string curve_svg(const Points& curve, const Axis& axis, const Pen& pen,
+                      const std::function<double(double)>& y) {
+  std::string svg;
+  bool open = false;
+  for (const auto& [time, value] : curve) {
+    const bool shown = axis.shows(time) && !std::isnan(value);
+    if (shown && !open) {
+      svg += std::string(
+                 "<polyline fill=\"none\" stroke-width=\"2\" stroke-linejoin=\"round\" "
+                 "stroke=\"") +
+             pen.colour + "\"" + pen.dashes + " points=\"";
     }
+    if (!shown && open) svg += "\"/>\n";
+    open = shown;
+    if (shown) svg += drawn(axis.x(time)) + "," + drawn(y(value)) + " ";
   }
-  if (high - low < 1) high = low + 1;
+  return open ? svg + "\"/>\n" : svg;
+}
+
+std::string row_svg(const Row& row, const Scale& scale, const Axis& axis, double base,
+                    double width) {
   const auto y = [&](double value) {
-    return base + kRow - 12 - (value - low) / (high - low) * (kRow - 24);
+    return base + kRow - 12 - (value - scale.low) / (scale.high - scale.low) * (kRow - 24);
   };
-  std::string svg = row_names(row, base + kRow / 2) + "<line x1=\"" + drawn(kLeft) + "\" x2=\"" +
-                    drawn(width - kRight) + "\" y1=\"" + drawn(y(0)) + "\" y2=\"" + drawn(y(0)) +
-                    "\" stroke=\"#888888\"/>\n<text x=\"" + drawn(width - kRight + 4) + "\" y=\"" +
-                    drawn(y(0) + 4) + "\" fill=\"#555555\" font-size=\"11\">0</text>\n";
-  for (const double edge : {low, high}) {
-    svg += "<text x=\"" + drawn(kLeft - 6) + "\" y=\"" + drawn(y(edge) + 4) +
+  std::string svg = row_names(row, base + kRow / 2);
+  const auto first = std::lround(scale.low / scale.step);
+  const auto last = std::lround(scale.high / scale.step);
+  for (auto i = first; i <= last; ++i) {
+    const std::string at = drawn(y(double(i) * scale.step));
+    const double value = double(i) * scale.step;
+    svg += "<line x1=\"" + drawn(kLeft) + "\" x2=\"" + drawn(width - kRight) + "\" y1=\"" + at +
+           "\" y2=\"" + at + "\" stroke=\"" + (i == 0 ? "#888888" : "#eeeeee") +
+           "\"/>\n<text x=\"" + drawn(kLeft - 6) + "\" y=\"" + drawn(y(value) + 4) +
            "\" text-anchor=\"end\" fill=\"#555555\" font-size=\"11\">" +
-           std::to_string(std::lround(edge)) + "</text>\n";
+           tools::format(scale.step < 0.99 ? "%.1f" : "%.0f", value) + "</text>\n";
   }
   for (std::size_t i = 0; i < row.curves.size(); ++i) {
-    const Pen& pen = kPens[row.first_colour + i];
-    svg += std::string(
-               "<polyline fill=\"none\" stroke-width=\"2\" stroke-linejoin=\"round\" stroke=\"") +
-           pen.colour + "\"" + pen.dashes + " points=\"";
-    for (const auto& [time, value] : row.curves[i]) {
-      if (axis.shows(time)) svg += drawn(axis.x(time)) + "," + drawn(y(value)) + " ";
-    }
-    svg += "\"/>\n";
+    svg += curve_svg(row.curves[i], axis, kPens[row.first_colour + i], y);
   }
   return svg;
 }
@@ -239,12 +238,17 @@ std::string curves_svg(const std::vector<Panel>& panels, const std::vector<std::
   for (const Panel& panel : panels) {
     const Place at = place(panel, offset);
     body += heading(panel, at) + time_axis(panel, axis, at) + phones(panel, axis, at);
+    const std::vector<Scale> scales = scales_of(panel, axis);
     for (std::size_t i = 0; i < panel.rows.size(); ++i) {
       const double base = at.top + double(i) * kRow;
-      body += row_svg(panel.rows[i], axis, base, width) + bars_svg(panel.rows[i], axis, base);
+      body += row_svg(panel.rows[i], scales[i], axis, base, width) +
+              bars_svg(panel.rows[i], axis, base);
     }
     offset = at.end;
   }
+  body += "<text x=\"" + drawn((kLeft + width - kRight) / 2) + "\" y=\"" + drawn(offset + 8) +
+          "\" text-anchor=\"middle\">Time (s)</text>\n";
+  offset += kTitle;
   const std::string size[2] = {drawn(width),
                                drawn(offset + kLegendLine * double(legend.size()) + 8)};
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + size[0] + "\" height=\"" + size[1] +

@@ -23,7 +23,8 @@ using Points = std::vector<std::pair<double, double>>;
 /// Begin and end, in seconds.
 using Stretches = std::vector<std::pair<double, double>>;
 
-/// One curve a colour, in the order of the legend; together they share a scale.
+/// One curve a colour, in the order of the legend. Rows of a panel that have the same unit share a
+/// scale. A curve is broken where a value is no number.
 struct Row {
   std::string title;             ///< of the row
   std::string subtitle;          ///< smaller, behind it

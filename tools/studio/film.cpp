@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <span>
 
 #include "tools/files/files.h"
 #include "tools/media/video.h"
 #include "tools/plot/strip.h"
+#include "tools/render/picture_file.h"
 
 namespace animeme::studio {
 
@@ -40,23 +43,15 @@ fap::Frame face_at(const fap::Sequence& clip, double seconds) {
 // Encoders halve the colour, so sides are even.
 int even(int side) { return side - side % 2; }
 
-struct Rendered {
-  media::EncodedVideo video;
-  bool stopped = false;
-};
+// Takes the pictures one by one, with their numbers.
+using TakePicture = std::function<Result<void>(std::span<const std::uint8_t> rgba, std::int64_t)>;
 
-Result<Rendered> render_all(const std::string& path, const fap::Sequence& clip, double seconds,
-                            const FilmOptions& options, const tools::Talk& talk,
-                            const tools::Progress& progress) {
-  Result<media::VideoCodec> codec = media::video_codec_for(tools::extension_of(path));
-  if (!codec) return codec.error();
-  HeadLook look = options.look;
-  look.width = even(look.width);
-  look.height = even(look.height);
+// The film as it will be; `pictures` counts what was drawn when it ended.
+Result<Film> render_all(const fap::Sequence& clip, double seconds, const FilmOptions& options,
+                        const TakePicture& take, const tools::Talk& talk,
+                        const tools::Progress& progress) {
+  const HeadLook& look = options.look;
   const fap::Rate rate = options.rate.value_or(clip.rate);
-  Result<media::VideoEncoder> encoder =
-      media::VideoEncoder::open({*codec, look.width, look.height, rate, options.quality});
-  if (!encoder) return encoder.error();
   const bool has_strip = options.script != nullptr || !options.faps.empty();
   HeadLook above = look;  // the head keeps clear of the strip
   const int strip_height = has_strip ? std::min(kStripHeight, look.height / 3) : 0;
@@ -66,7 +61,7 @@ Result<Rendered> render_all(const std::string& path, const fap::Sequence& clip, 
   plot::Strip strip(clip, {look.width, strip_height, options.faps, options.script,
                            std::clamp(seconds, 0.5, kLongestPage)});
   const auto pictures = std::int64_t(std::ceil(seconds * rate.frames_per_second() - 1e-6));
-  Rendered out;
+  Film out{.width = look.width, .height = look.height, .rate = rate};
   for (std::int64_t i = 0; i < std::max<std::int64_t>(pictures, 1); ++i) {
     if (i > 0 && progress.stop()) {
       out.stopped = true;
@@ -74,51 +69,97 @@ Result<Rendered> render_all(const std::string& path, const fap::Sequence& clip, 
     }
     const double time = rate.seconds(double(i));
     const render::Image& image = view->draw(face_at(clip, time));
-    Result<void> pushed;
+    Result<void> taken;
     if (has_strip) {
       std::vector<std::uint8_t> rgba = image.rgba;
       rgba.resize(std::size_t(look.width) * std::size_t(look.height) * 4);
       if (auto drawn = strip.draw(time, look.height, rgba); !drawn) return drawn.error();
-      pushed = encoder->push(rgba);
+      taken = take(rgba, i);
     } else {
-      pushed = encoder->push(image.rgba);
+      taken = take(image.rgba, i);
     }
-    if (!pushed) return pushed.error();
+    if (!taken) return taken.error();
+    ++out.pictures;
     progress.at(double(i + 1) / double(pictures));
   }
+  out.seconds = rate.seconds(double(out.pictures));
+  return out;
+}
+
+Result<Film> write_video(const std::string& path, const fap::Sequence& clip,
+                         const media::MuxInput& sound, const FilmOptions& options,
+                         const tools::Talk& talk, const tools::Progress& progress) {
+  Result<media::VideoCodec> codec = media::video_codec_for(tools::extension_of(path));
+  if (!codec) return codec.error();
+  const fap::Rate rate = options.rate.value_or(clip.rate);
+  Result<media::VideoEncoder> encoder = media::VideoEncoder::open(
+      {*codec, options.look.width, options.look.height, rate, options.quality});
+  if (!encoder) return encoder.error();
+  Result<Film> film = render_all(
+      clip, std::max(clip.duration(), seconds_of(sound)), options,
+      [&](std::span<const std::uint8_t> rgba, std::int64_t) { return encoder->push(rgba); }, talk,
+      progress);
+  if (!film) return film;
   Result<media::EncodedVideo> video = encoder->finish();
   if (!video) return video.error();
-  out.video = std::move(*video);
-  return out;
+  media::MuxInput input = sound;
+  input.video = &*video;
+  media::MuxOptions mux;
+  mux.audio = {media::usual_codec(path), options.audio_bit_rate};
+  Result<media::MuxResult> written = media::write_container(path, input, mux);
+  if (!written) return written.error();
+  film->codec = name_of(video->codec);
+  return film;
+}
+
+// Without sound.
+Result<Film> write_animation(const std::string& path, const fap::Sequence& clip,
+                             const FilmOptions& options, const tools::Talk& talk,
+                             const tools::Progress& progress) {
+  Result<render::Animation> animation = render::Animation::open(
+      options.look.width, options.look.height, picture_quality(options.quality));
+  if (!animation) return animation.error();
+  const fap::Rate rate = options.rate.value_or(clip.rate);
+  const auto instant = [&](std::int64_t picture) {
+    return int(std::lround(rate.seconds(double(picture)) * 1000));
+  };
+  Result<Film> film = render_all(
+      clip, clip.duration(), options,
+      [&](std::span<const std::uint8_t> rgba, std::int64_t picture) {
+        return animation->push(rgba, instant(picture));
+      },
+      talk, progress);
+  if (!film) return film;
+  const auto file = animation->finish(instant(std::int64_t(film->pictures)));
+  if (!file) return file.error();
+  if (auto done = tools::write_file(path, *file); !done) return done.error();
+  film->codec = "animated WebP";
+  return film;
 }
 
 }  // namespace
 
+bool is_animation(const std::string& extension) { return extension == ".webp"; }
+
+int picture_quality(int quality) { return std::clamp(100 - quality, 1, 100); }
+
 bool is_film(const std::string& extension) {
-  return extension == ".mp4" || extension == ".webm" || extension == ".mkv";
+  return extension == ".mp4" || extension == ".webm" || extension == ".mkv" ||
+         is_animation(extension);
 }
 
 Result<Film> write_film(const std::string& path, const fap::Sequence& clip,
                         const media::MuxInput& sound, const FilmOptions& options,
                         const tools::Talk& talk, const tools::Progress& progress) {
   if (clip.frames.empty()) return make_error(Code::not_found, "there is no frame to show");
-  const double seconds = std::max(clip.duration(), seconds_of(sound));
-  Result<Rendered> rendered = render_all(path, clip, seconds, options, talk, progress);
-  if (!rendered) return rendered.error().in_file(path);
-  const media::EncodedVideo& video = rendered->video;
-  media::MuxInput input = sound;
-  input.video = &video;
-  media::MuxOptions mux;
-  mux.audio = {media::usual_codec(path), options.audio_bit_rate};
-  Result<media::MuxResult> written = media::write_container(path, input, mux);
-  if (!written) return written.error().in_file(path);
-  return Film{.pictures = video.packets.size(),
-              .width = video.width,
-              .height = video.height,
-              .rate = video.rate,
-              .codec = name_of(video.codec),
-              .seconds = video.rate.seconds(double(video.packets.size())),
-              .stopped = rendered->stopped};
+  FilmOptions own = options;
+  own.look.width = even(options.look.width);
+  own.look.height = even(options.look.height);
+  Result<Film> film = is_animation(tools::extension_of(path))
+                          ? write_animation(path, clip, own, talk, progress)
+                          : write_video(path, clip, sound, own, talk, progress);
+  if (!film) return film.error().in_file(path);
+  return film;
 }
 
 }  // namespace animeme::studio

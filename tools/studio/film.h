@@ -37,14 +37,20 @@ struct Film {
   bool stopped = false;      ///< before the end
 };
 
-/// The extensions that write_film() takes: .mp4, .webm, .mkv; in lower case.
+/// The extension of an animation, which has no sound: .webp; in lower case.
+bool is_animation(const std::string& extension);
+
+/// The quality of JPEG and WebP, 1..100, for one of FilmOptions.
+int picture_quality(int quality);
+
+/// The extensions that write_film() takes: .mp4, .webm, .mkv, and .webp; in lower case.
 bool is_film(const std::string& extension);
 
 /// Renders `clip` (filled) and writes it with the sound that `sound` names (audio or encoded; its
-/// face goes along as a track of its own). The film lasts as long as the clip or the sound,
-/// whatever is longer. What the head notes is said. Errors: not_found (no frames), unsupported
-/// (extension, no encoder), those of load_head(), VideoEncoder and write_container(), with the
-/// path.
+/// face goes along as a track of its own; an animation has the pictures alone). The film lasts as
+/// long as the clip or the sound, whatever is longer. What the head notes is said. Errors:
+/// not_found (no frames), unsupported (extension, no encoder), those of load_head(), VideoEncoder
+/// and write_container(), with the path.
 Result<Film> write_film(const std::string& path, const fap::Sequence& clip,
                         const media::MuxInput& sound, const FilmOptions& options,
                         const tools::Talk& talk = {}, const tools::Progress& progress = {});
