@@ -69,7 +69,7 @@ TEST(Plot, HighLevelFapsAreShownAsTheHeadShowsThem) {
   const auto out = animeme(
       {"plot", ANIMEME_SOURCE_DIR "/tests/data/fap/high_level.fap", "--faps", "3", "-o", "-"});
   ASSERT_EQ(out.exit_code, 0) << out.err;
-  EXPECT_THAT(out.out, HasSubstr(">674<"));
+  EXPECT_THAT(out.out, HasSubstr("150.0,93.9 450.0,33.5 "));
 }
 
 TEST(Plot, RefusesWhatItCannotDraw) {
@@ -91,7 +91,8 @@ TEST(Plot, TheDifferenceHasItsOwnRow) {
       animeme({"plot", dir / "a.fap", dir / "b.fap", "--faps", "3", "--difference", "-o", "-"});
   ASSERT_EQ(out.exit_code, 0) << out.err;
   EXPECT_EQ(count(out.out, "<polyline"), 3);
-  EXPECT_THAT(out.out, HasSubstr(">-30<"));
+  // At its largest 30 of the 250 units, 86 pixels, that both rows show below its 0.
+  EXPECT_THAT(out.out, HasSubstr("150.0,198.8 162.0,209.1"));
   EXPECT_EQ(animeme({"plot", dir / "a.fap", "--difference", "-o", "-"}).exit_code, 2);
 }
 

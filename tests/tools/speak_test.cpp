@@ -270,7 +270,7 @@ TEST(Speak, StyleAndLife) {
   const TempDir dir;
   const auto clip_of = [&](std::vector<std::string> more) {
     const std::string path = dir / "clip.fap";
-    std::vector<std::string> arguments = {"speak", "--text", "A lovely evening.", "-o", path};
+    std::vector<std::string> arguments = {"speak", "--text", "A lovely room.", "-o", path};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const auto result = animeme(arguments);
     EXPECT_EQ(result.exit_code, 0) << result.err;

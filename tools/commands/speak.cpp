@@ -243,8 +243,10 @@ Result<int> run(const SpeakOptions& options) {
   if (!signal) {
     return signal.error().in_file(spoken->heard ? options.spoken.audio : options.spoken.script);
   }
+  // A model's curves are its own, and who knows visemes only knows no brows.
   const bool curves = extension_of(options.output) == ".csv" && !is_arkit_output(options.output);
-  if (options.life || !(options.no_life || curves)) {
+  const bool plain = options.no_life || curves || options.visemes == "instead";
+  if (options.life || !plain) {
     // Without being asked: where the names of a rig are not known, writing will say what it needs.
     auto added = dam::add_life(*signal, spoken->script, {1, options.seed});
     if (!added && options.life) return added.error();
@@ -322,7 +324,6 @@ const Command kSpeak{
     "  animeme speak --text \"Hello world\" -o hello.mp4\n"
     "  animeme speak --audio voice.wav --transcript \"what she said\" -o talk.mp4\n"
     "  animeme speak --text Hello --tts \"piper -m en.onnx -f {wav}\" -o hello.mp4   # your voice\n"
-    "  animeme speak --audio voice.wav --save-script heard.TextGrid -o talk.mp4\n"
     "  animeme speak --script voice.TextGrid --audio voice.wav --model me.dam -o talk.fba",
     set_up<SpeakOptions>};
 
