@@ -52,6 +52,7 @@ inline constexpr Room kRooms[] = {
     {"tools/scripts", "dam/script"},
     {"tools/gltf", "fap/head tools/files"},
     {"tools/media tools/media/live", "codec/decode fap/xml tools/files"},
+    {"tools/media/late", "tools/media tools/exit_code.h", false},
     {"tools/text", "dam/script"},
     {"tools/voice", "tools/text tools/media"},
     {"tools/speech", "dam/speaking codec/encode tools/voice tools/scripts tools/programs"},
