@@ -2,22 +2,16 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdlib>
 #include <memory>
-#include <new>
 #include <span>
 
 namespace animeme::dam {
 
-/// n x n numbers, column by column, zero at first. Memory that nobody writes to is none: of sums
-/// that have a lower triangle alone, half is never there.
+/// n x n numbers, column by column, zero at first. Throws std::bad_alloc.
 class SquareMatrix {
  public:
   SquareMatrix() = default;
-  explicit SquareMatrix(std::size_t n)
-      : n_(n), values_(static_cast<double*>(std::calloc(n * n + 1, sizeof(double)))) {
-    if (!values_) throw std::bad_alloc();
-  }
+  explicit SquareMatrix(std::size_t n) : n_(n), values_(zeros(n * n)) {}
 
   std::size_t rows() const { return n_; }
   double& operator[](std::size_t i) { return values_.get()[i]; }
@@ -35,8 +29,10 @@ class SquareMatrix {
 
  private:
   struct Free {
-    void operator()(double* values) const { std::free(values); }
+    void operator()(double* values) const;
   };
+  static double* zeros(std::size_t count);
+
   std::size_t n_ = 0;
   std::unique_ptr<double, Free> values_;
 };
