@@ -103,7 +103,7 @@ inline constexpr Library kLibraries[] = {
     {"nlohmann_json", "nlohmann/", "tools conformance tests"},
     {"CLI11", "CLI/", "tools/commands tools/main.cpp tests/bench"},
     {"GoogleTest", "gtest/ gmock/ benchmark/", "tests"},
-    {"the system", "", "tools tests"},
+    {"the system", "", "tools tests dam/maths/square_matrix.cpp"},  // pages of memory
 };
 
 }  // namespace animeme::test
