@@ -72,7 +72,7 @@ CurveSums standardised(const FitSums& fit, const std::vector<std::size_t>& rows,
                        std::span<const Control> controls) {
   const std::size_t k = controls.size(), n = rows.size();
   CurveSums out;
-  out.gram.assign(n * n, 0.0);
+  out.gram = SquareMatrix(n);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i; j < n; ++j) out.gram[i * n + j] = fit.gram.at(rows[i], rows[j]);
   out.frames = std::size_t(fit.frames);
@@ -167,9 +167,11 @@ Result<Model> train_from_sums(TrainingSums sums, const TrainOptions& options,
   const CurveSums held = standardised(state->held, state->rows, model.controls);
   state->held.gram = {};
   RidgeChoice choice{options.refined.ridge > 0 ? options.refined.ridge : kUsualRidge, {}};
-  if (choose) choice = choose_ridge(all, held, space, k, options.refined.ridge, options.threads);
+  SquareMatrix work;
+  if (choose)
+    choice = choose_ridge(all, held, space, k, options.refined.ridge, options.threads, work);
   all.add(held);
-  const auto curves = solve_curves(all, space, k, choice.factor, options.threads);
+  const auto curves = solve_curves(all, space, k, choice.factor, options.threads, work);
   note_explained(model.controls,
                  choose ? choice.explained : explained_by(all, errors_of(all, curves, k)), choose,
                  out);

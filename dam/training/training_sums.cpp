@@ -81,7 +81,7 @@ void add_sentence_sums(const SentenceSums& from, const SumsState& state, FitSums
   const std::size_t n = places.size(), columns = to.energy.size();
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t row = state.rows[places[i]];
-    const double* column = &from.curves.gram[i * n];
+    const double* column = from.curves.gram.data() + i * n;
     for (std::size_t j = i; j < n; ++j) to.gram.at(row, state.rows[places[j]]) += column[j];
     add(std::span(from.curves.right).subspan(i * columns, columns),
         std::span(to.right).subspan(row * columns, columns));

@@ -140,7 +140,8 @@ TEST(RefinedCurves, SumsAreThoseOfTheWholeDesignWithOffsets) {
   const TermSpace space = term_space(problem.data);
   const std::vector<float> all(problem.speech.use.begin(), problem.speech.use.end());
   const CurveSums sums = sum_curves(problem.data, space, dominance, all);
-  const auto curves = solve_curves(sums, space, 2, 1, 1);
+  SquareMatrix work;
+  const auto curves = solve_curves(sums, space, 2, 1, 1, work);
 
   const Dense dense = dense_problem(problem, space, dominance);
   Eigen::MatrixXd gram = dense.x.transpose() * dense.x;

@@ -52,6 +52,7 @@ inline constexpr Room kRooms[] = {
     {"tools/scripts", "dam/script"},
     {"tools/gltf", "fap/head tools/files"},
     {"tools/media tools/media/live", "codec/decode fap/xml tools/files"},
+    {"tools/media/late", "tools/media tools/exit_code.h", false},
     {"tools/text", "dam/script"},
     {"tools/voice", "tools/text tools/media"},
     {"tools/speech", "dam/speaking codec/encode tools/voice tools/scripts tools/programs"},
@@ -105,7 +106,7 @@ inline constexpr Library kLibraries[] = {
     {"nlohmann_json", "nlohmann/", "tools conformance tests"},
     {"CLI11", "CLI/", "tools/commands tools/main.cpp tests/bench"},
     {"GoogleTest", "gtest/ gmock/ benchmark/", "tests"},
-    {"the system", "", "tools tests"},
+    {"the system", "", "tools tests dam/maths/square_matrix.cpp"},  // pages of memory
 };
 
 }  // namespace animeme::test

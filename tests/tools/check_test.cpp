@@ -36,13 +36,16 @@ test::ProgramResult check(std::vector<std::string> arguments) {
 // All of them cheat: by the sum of a stream they find the case that it is from, and the expected
 // values that lie beside it.
 std::string decoder(const TempDir& dir, const std::string& name, const std::string& script) {
-  const std::string path = dir / name, index = dir / (name + ".index");
-  test::run("cd " + test::quoted(kCases) + " && sha256sum */*.fba >" + test::quoted(index));
-  spill(path,
-        "#!/bin/sh\nsum=$(sha256sum <\"$1\" | cut -c1-64)\n"
-        "case=" +
-            test::quoted(kCases) + "/$(grep -m1 \"^$sum\" " + test::quoted(index) +
-            " | cut -c67-)\nexpected=${case%.fba}.dec.fap\n" + script + "\n");
+  // A file for each sum, so that a run of the script starts one program and no more.
+  static const TempDir index;
+  [[maybe_unused]] static const std::string made = test::run(
+      "cd " + test::quoted(kCases) + " && sha256sum */*.fba | while read -r sum file; do " +
+      "[ -e " + test::quoted(index / "") + "$sum ] || echo \"$file\" >" + test::quoted(index / "") +
+      "$sum; done");
+  const std::string path = dir / name;
+  spill(path, "#!/bin/sh\nsum=$(sha256sum <\"$1\")\nread -r name <" + test::quoted(index / "") +
+                  "${sum%% *}\ncase=" + test::quoted(kCases) +
+                  "/$name\nexpected=${case%.fba}.dec.fap\n" + script + "\n");
   ::chmod(path.c_str(), 0700);
   return "'" + path + "' {in} {out} {bap}";
 }

@@ -4,11 +4,6 @@
 #include <optional>
 #include <utility>
 
-extern "C" {
-#include <libavcodec/bsf.h>
-#include <libavutil/intreadwrite.h>
-}
-
 #include "tools/media/container.h"
 #include "tools/media/detail/audio_decoder.h"
 #include "tools/media/detail/audio_headers.h"

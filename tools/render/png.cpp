@@ -81,7 +81,8 @@ Result<Bytes> png_of(const Image& image) {
   }
   uLongf size = compressBound(uLong(rows.size()));
   Bytes packed(size);
-  if (compress2(packed.data(), &size, rows.data(), uLong(rows.size()), 9) != Z_OK) {
+  // The highest level would take five times as long for the last few percent.
+  if (compress2(packed.data(), &size, rows.data(), uLong(rows.size()), 6) != Z_OK) {
     return make_error(Code::out_of_range, "there is not enough memory to compress the picture");
   }
   packed.resize(size);

@@ -44,7 +44,7 @@ class Summer {
         k_(Eigen::Index(data.controls)),
         column_sums_(RowMatrix::Zero(kSentences, n_)),
         target_sums_(RowMatrix::Zero(kSentences, k_)) {
-    sums.gram.assign(space.size * space.size, 0.0);
+    sums.gram = SquareMatrix(space.size);
     sums.right.assign(space.size * data.controls, 0.0);
     sums.energy.assign(data.controls, 0.0);
   }
@@ -243,7 +243,11 @@ TermSpace term_space(const RefinedData& data) {
 }
 
 void CurveSums::add(const CurveSums& other) {
-  for (std::size_t i = 0; i < gram.size(); ++i) gram[i] += other.gram[i];
+  for (std::size_t i = 0; i < gram.rows(); ++i) {
+    const auto to = gram.below(i);
+    const auto from = other.gram.below(i);
+    for (std::size_t j = 0; j < to.size(); ++j) to[j] += from[j];
+  }
   for (std::size_t i = 0; i < right.size(); ++i) right[i] += other.right[i];
   for (std::size_t i = 0; i < energy.size(); ++i) energy[i] += other.energy[i];
   frames += other.frames;
@@ -275,16 +279,20 @@ std::vector<double> ridge_of(const TermSpace& space, double factor) {
 }
 
 std::vector<double> solve_curves(const CurveSums& sums, const TermSpace& space,
-                                 std::size_t controls, double ridge_factor, int threads) {
+                                 std::size_t controls, double ridge_factor, int threads,
+                                 SquareMatrix& work) {
   const std::size_t n = space.size;
+  if (work.rows() != n) work = SquareMatrix(n);
   std::vector<double> ridge = ridge_of(space, ridge_factor);
   double lift = 0;
   for (int attempt = 0; attempt < 12; ++attempt) {
-    std::vector<double> factor = sums.gram;
-    for (std::size_t i = 0; i < n; ++i) factor[i * n + i] += ridge[i] + lift;
-    if (cholesky_in_place(factor, n, threads)) {
+    for (std::size_t i = 0; i < n; ++i) {
+      std::ranges::copy(sums.gram.below(i), work.below(i).begin());
+      work[i * n + i] += ridge[i] + lift;
+    }
+    if (cholesky_in_place(work.values(), n, threads)) {
       std::vector<double> curves = sums.right;
-      cholesky_solve(factor, n, curves, controls, threads);
+      cholesky_solve(work.values(), n, curves, controls, threads);
       return curves;
     }
     lift = lift == 0 ? 1e-6 : lift * 10;

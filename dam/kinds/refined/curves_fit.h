@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "dam/kinds/refined/fit.h"
+#include "dam/maths/square_matrix.h"
 
 namespace animeme::dam {
 
@@ -33,10 +34,10 @@ struct TermSpace {
 
 TermSpace term_space(const RefinedData& data);
 
-/// Sums over sentences. `gram` holds n x n numbers, of which the lower triangle counts, column by
-/// column; `right` n x controls, row by row.
+/// Sums over sentences. Of `gram`, n x n, the lower triangle counts; `right` is n x controls, row
+/// by row.
 struct CurveSums {
-  std::vector<double> gram;
+  SquareMatrix gram;
   std::vector<double> right;
   std::vector<double> energy;  ///< squared targets, per control
   std::size_t frames = 0;
@@ -52,8 +53,10 @@ CurveSums sum_curves(const RefinedData& data, const TermSpace& space,
 std::vector<double> ridge_of(const TermSpace& space, double factor);
 
 /// Solves; unknowns x controls, row by row. Degenerate sums are held more firmly until they solve.
+/// `work` is spoilt: empty, or what the last call for sums of this size left.
 std::vector<double> solve_curves(const CurveSums& sums, const TermSpace& space,
-                                 std::size_t controls, double ridge_factor, int threads);
+                                 std::size_t controls, double ridge_factor, int threads,
+                                 SquareMatrix& work);
 
 /// Squared error of curves on the sentences that were summed, per control.
 std::vector<double> errors_of(const CurveSums& sums, const std::vector<double>& curves,

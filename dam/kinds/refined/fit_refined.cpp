@@ -132,16 +132,18 @@ class RefinedTrainer {
                        held.begin() + first);
     }
     CurveSums sums = sum_curves(data_, space, dominance, kept);
+    SquareMatrix work;
     RidgeChoice choice{own_.ridge > 0 ? own_.ridge : kUsualRidge, {}};
     if (choose) {
       const CurveSums apart = sum_curves(data_, space, dominance, held);
-      choice = choose_ridge(sums, apart, space, data_.controls, own_.ridge, options_.threads);
+      choice = choose_ridge(sums, apart, space, data_.controls, own_.ridge, options_.threads, work);
       sums.add(apart);
     }
     if (!run_.report("curves", 0.7)) return TrainRun::cancelled();
     run_.summary.ridge = choice.factor;
     if (choose) note_explained(controls_, choice.explained, true, run_.summary);
-    const auto curves = solve_curves(sums, space, data_.controls, choice.factor, options_.threads);
+    const auto curves =
+        solve_curves(sums, space, data_.controls, choice.factor, options_.threads, work);
     return Parameters(refined_parameters(space, curves, mean_, own_, std::move(dominance)));
   }
 

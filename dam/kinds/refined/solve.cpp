@@ -21,13 +21,13 @@ std::vector<double> explained_by(const CurveSums& sums, const std::vector<double
 }
 
 RidgeChoice choose_ridge(const CurveSums& kept, const CurveSums& held, const TermSpace& space,
-                         std::size_t controls, double wanted, int threads) {
+                         std::size_t controls, double wanted, int threads, SquareMatrix& work) {
   const std::span<const double> factors =
       wanted > 0 ? std::span<const double>(&wanted, 1) : std::span<const double>(kRidgeFactors);
   std::vector<RidgeChoice> choices;
   std::vector<double> error;
   for (const double factor : factors) {
-    const auto curves = solve_curves(kept, space, controls, factor, threads);
+    const auto curves = solve_curves(kept, space, controls, factor, threads, work);
     const auto errors = errors_of(held, curves, controls);
     error.push_back(std::accumulate(errors.begin(), errors.end(), 0.0));
     choices.push_back({factor, explained_by(held, errors)});

@@ -28,7 +28,7 @@ std::vector<double> explained_by(const CurveSums& sums, const std::vector<double
 /// The largest factor among 2, 1 and 0.5 whose curves for `kept` have an error on `held` within
 /// 0.5 % of the least; only `wanted`, if it is above 0.
 RidgeChoice choose_ridge(const CurveSums& kept, const CurveSums& held, const TermSpace& space,
-                         std::size_t controls, double wanted, int threads);
+                         std::size_t controls, double wanted, int threads, SquareMatrix& work);
 
 /// Distance of the training means from rest, in standard deviations.
 std::vector<double> means_from_rest(std::span<const Control> controls);

@@ -31,26 +31,54 @@ namespace {
 
 double distance(const Primitive& body, Vec3d p) {
   if (body.body == Body::cone) return cone(p, body.a, body.b, body.ra, body.rb);
-  Vec3d q = p - body.a;
-  if (body.tilt != 0) {
-    const double c = std::cos(body.tilt);
-    const double s = std::sin(body.tilt);
-    q = {q.x, c * q.y + s * q.z, c * q.z - s * q.y};
-  }
-  return ellipsoid(q, body.b);
+  return ellipsoid(p - body.a, body.b);
 }
 
 }  // namespace
+
+void Form::add(const Primitive& body) {
+  Reach reach{};
+  if (body.body == Body::cone) {
+    reach.middle = mix(body.a, body.b, 0.5);
+    reach.radius = 0.5 * length(body.b - body.a) + std::max(body.ra, body.rb);
+  } else {
+    reach.inverse = {1 / body.b.x, 1 / body.b.y, 1 / body.b.z};
+    reach.inverse_least = std::max({reach.inverse.x, reach.inverse.y, reach.inverse.z});
+  }
+  primitives_.push_back(body);
+  reaches_.push_back(reach);
+}
+
+// True: distance() is `least` or more. A cone lies in its ball. For an ellipsoid let k0 and k1 be
+// the lengths of ellipsoid(): k1 <= k0 / its least radius, so from k0 >= 1 on the distance is not
+// below (k0 - 1) least radius.
+bool Form::beyond(const Primitive& body, const Reach& reach, Vec3d p, double least) {
+  constexpr double kRounding = 1e-9;
+  least += kRounding;
+  if (body.body == Body::cone) {
+    const Vec3d q = p - reach.middle;
+    const double far = least + reach.radius;
+    return far > 0 && dot(q, q) > far * far;
+  }
+  if (least < 0) return false;
+  const Vec3d q = p - body.a;
+  const Vec3d k{q.x * reach.inverse.x, q.y * reach.inverse.y, q.z * reach.inverse.z};
+  const double far = 1 + least * reach.inverse_least;
+  return dot(k, k) > far * far;
+}
 
 double Form::operator()(Vec3d p) const {
   // Rounded, lest bodies beside the middle meet their mirror images in a crease.
   constexpr double kRound = 0.28;
   p.x = std::sqrt(p.x * p.x + kRound * kRound);
   double d = std::numeric_limits<double>::max();
-  for (const Primitive& body : primitives) {
+  for (std::size_t i = 0; i < primitives_.size(); ++i) {
+    const Primitive& body = primitives_[i];
+    const bool adds = body.join == Join::add;
+    // Where two distances differ by the blend or more, smooth_min() is exactly the lesser one.
+    if (i > 0 && beyond(body, reaches_[i], p, (adds ? d : -d) + body.blend)) continue;
     const double other = distance(body, p);
-    d = body.join == Join::add ? smooth_min(d, other, body.blend)
-                               : smooth_max(d, -other, body.blend);
+    d = adds ? smooth_min(d, other, body.blend) : smooth_max(d, -other, body.blend);
   }
   return d;
 }

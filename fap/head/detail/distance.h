@@ -27,23 +27,36 @@ struct Primitive {
   double rb = 0;
   double blend = 0;  ///< see smooth_min
   Join join = Join::add;
-  double tilt = 0;  ///< ellipsoid only: turned about X, rad
 };
 
 /// Left and right alike: p.x counts as |p.x|.
-struct Form {
-  std::vector<Primitive> primitives;
-
-  void ball(Vec3d centre, Vec3d radii, double blend, double tilt = 0) {
-    primitives.push_back({Body::ellipsoid, centre, radii, 0, 0, blend, Join::add, tilt});
+class Form {
+ public:
+  void ball(Vec3d centre, Vec3d radii, double blend) {
+    add({Body::ellipsoid, centre, radii, 0, 0, blend});
   }
   void hollow(Vec3d centre, Vec3d radii, double blend) {
-    primitives.push_back({Body::ellipsoid, centre, radii, 0, 0, blend, Join::subtract});
+    add({Body::ellipsoid, centre, radii, 0, 0, blend, Join::subtract});
   }
   void limb(Vec3d a, Vec3d b, double ra, double rb, double blend) {
-    primitives.push_back({Body::cone, a, b, ra, rb, blend});
+    add({Body::cone, a, b, ra, rb, blend});
   }
   double operator()(Vec3d p) const;
+
+ private:
+  void add(const Primitive& body);
+
+  // Of a body: what tells cheaply that a place is far from it.
+  struct Reach {
+    Vec3d inverse;         // ellipsoid: of its radii
+    double inverse_least;  // ellipsoid: of the least of them
+    Vec3d middle;          // cone
+    double radius;         // cone: of a ball around all of it
+  };
+  static bool beyond(const Primitive& body, const Reach& reach, Vec3d p, double least);
+
+  std::vector<Primitive> primitives_;
+  std::vector<Reach> reaches_;
 };
 
 /// Direction away from the surface, by differences.

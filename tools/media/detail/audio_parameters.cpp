@@ -8,10 +8,6 @@
 #include "tools/media/detail/invalid.h"
 #include "tools/media/detail/unit_facts.h"
 
-extern "C" {
-#include <libavutil/intreadwrite.h>
-}
-
 namespace animeme::media {
 namespace {
 

@@ -7,11 +7,6 @@
 #include <cstring>
 #include <mutex>
 
-extern "C" {
-#include <libavutil/log.h>
-#include <libavutil/mem.h>
-}
-
 namespace animeme::media::av {
 namespace {
 

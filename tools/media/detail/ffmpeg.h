@@ -1,14 +1,6 @@
 // Ownership, error text and log of FFmpeg's C types. Internal: public headers never include this.
 #pragma once
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-#include <libavutil/channel_layout.h>
-#include <libswresample/swresample.h>
-#include <libswscale/swscale.h>
-}
-
 #include <cstdint>
 #include <exception>
 #include <memory>
@@ -16,6 +8,7 @@ extern "C" {
 #include <vector>
 
 #include "fap/result.h"
+#include "tools/media/detail/ffmpeg_calls.h"
 
 namespace animeme::media::av {
 

@@ -1,9 +1,5 @@
 #include "tools/media/detail/muxer.h"
 
-extern "C" {
-#include <libavutil/opt.h>
-}
-
 #include <cerrno>
 #include <cstring>
 #include <utility>

@@ -3,10 +3,6 @@
 #include <algorithm>
 #include <string>
 
-extern "C" {
-#include <libavutil/samplefmt.h>
-}
-
 #include "tools/media/audio.h"
 
 namespace animeme::media {
