@@ -112,7 +112,8 @@ Result<std::vector<SpokenWord>> find_pronunciations(const std::vector<std::strin
   for (const std::string& word : words) {
     const auto known = dictionary.find(dam::lower_case(word));
     if (known == dictionary.end()) {
-      warnings.push_back("no pronunciation for \"" + word + "\"; the word is left out");
+      warnings.push_back("no pronunciation for \"" + word + "\"; it gets what is heard there");
+      spoken.push_back({word, {}});
     } else {
       spoken.push_back({word, known->second});
     }

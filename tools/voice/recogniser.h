@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -17,9 +16,11 @@ struct Segment {
   double start = 0;      ///< seconds; the bias of the analysis window is already taken off
   std::string label;     ///< ARPAbet or SIL
   std::size_t word = 0;  ///< index into the words; kNoWord for silence
-  /// How well the sound fits, <= 0 a frame: the distance to the sound of the model that fits best.
+  /// How well the sound fits, a frame: 0 is as well as the phones that fit best when nobody says
+  /// which; logarithm of the likelihood.
   double score = 0;
   std::size_t frames = 1;  ///< of 10 ms
+  bool foreign = false;    ///< heard, not of the text
 };
 
 inline constexpr std::size_t kNoWord = ~std::size_t(0);  ///< no word: silence
@@ -27,9 +28,9 @@ inline constexpr std::size_t kNoWord = ~std::size_t(0);  ///< no word: silence
 /// Is there a recogniser and the model it needs? Errors: unsupported, not_found.
 Result<void> check_recogniser(const AlignOptions& options);
 
-/// Places the words in 16 kHz samples. Empty if no path was found with any beam.
+/// Places the words in samples of 16 kHz. Empty if no path was found.
 /// Errors as check_recogniser().
-Result<std::vector<Segment>> recognise(const std::vector<std::int16_t>& samples,
+Result<std::vector<Segment>> recognise(const std::vector<float>& samples,
                                        const std::vector<SpokenWord>& words,
                                        const AlignOptions& options);
 

@@ -1,0 +1,26 @@
+/// @file
+/// The words of a text in a sound of any length: in pieces, by find_path(). Internal.
+/// Source: tools/voice/engines.md, section 1.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "tools/voice/word_paths.h"
+
+namespace animeme::voice {
+
+/// A part of the path, with frames of the whole sound.
+struct PlacedPart {
+  PathPart part;
+  std::vector<std::uint8_t> heard;  ///< of foreign sound: the phone of each frame
+};
+
+/// Places them. More than a minute is taken in pieces that end in pauses: the search costs as much
+/// as there are states times frames, and where a path is lost it is found again. Foreign sound that
+/// is short, or quiet beside the voice, is a pause. Memory: 10 MB, and some of the words.
+std::vector<PlacedPart> place_words(const SoundModel& model, const MeasuredSound& sound,
+                                    std::span<const WordModel> words);
+
+}  // namespace animeme::voice
