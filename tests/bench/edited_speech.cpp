@@ -10,7 +10,6 @@ namespace animeme::bench {
 
 namespace {
 
-constexpr double kRate = 16000;
 constexpr std::size_t kFade = 80;  // samples over which a cut is smoothed
 
 // A word of a script: its phones, and when.
@@ -36,7 +35,7 @@ std::vector<Word> words_of(const dam::Script& script) {
   return words;
 }
 
-std::size_t sample_at(double seconds) { return std::size_t(std::lround(seconds * kRate)); }
+std::size_t sample_at(double seconds) { return std::size_t(std::lround(seconds * kSpeechRate)); }
 
 // Behind each other, with a short fade from one to the other.
 void join(std::vector<float>& sound, std::vector<float> more) {
@@ -118,7 +117,7 @@ EditedSpeech edit_speech(const Sentence& one, const Sentence& two, const Sentenc
   const std::size_t behind = speech.labels.phones.size();
   speech.labels.phones.insert(speech.labels.phones.end(), two.labels.phones.begin(),
                               two.labels.phones.end());
-  move_phones(speech.labels, behind, double(one.sound.size()) / kRate);
+  move_phones(speech.labels, behind, double(one.sound.size()) / kSpeechRate);
   const auto words = words_of(speech.labels);
   for (const Word& word : words) speech.words.push_back(word.text);
   const std::size_t which = random.below(words.size());
