@@ -249,6 +249,46 @@ TEST(Align, ARoomMovesNothingFar) {
   EXPECT_LT(median(errors), 40);
 }
 
+TEST(Align, WordsLeftOutAndPutInAreTold) {
+  SKIP_WITHOUT_ALIGNER();
+  const auto speech = speak_text("please put the small blue book on the table by the window");
+  SKIP_WITHOUT_VOICE(speech);
+  const media::Pcm audio = resample(speech->audio, kAlignRate);
+  const auto more =
+      align(audio, "please put the small yesterday blue book on the table by the window");
+  ASSERT_TRUE(more) << more.error().describe();
+  ASSERT_EQ(more->words.size(), 13u);
+  EXPECT_FALSE(more->words[4].said);
+  EXPECT_EQ(more->words[4].confidence, 0);
+  ASSERT_EQ(more->confidences.size(), more->script.phones.size());
+  ASSERT_FALSE(more->warnings.empty());
+  EXPECT_THAT(more->warnings[0], HasSubstr("'yesterday'"));
+  EXPECT_THAT(more->warnings[0], HasSubstr("not said"));
+
+  const auto less = align(audio, "please put the small blue book by the window");
+  ASSERT_TRUE(less) << less.error().describe();
+  ASSERT_EQ(less->put_in.size(), 1u);
+  EXPECT_GE(less->put_in[0].phones.size(), 3u);
+  EXPECT_NEAR(double(less->put_in[0].before), 6, 1);
+}
+
+TEST(Align, OneBadTokenCostsItsWordOnly) {
+  SKIP_WITHOUT_ALIGNER();
+  const auto speech = speak_text("please put the small blue book on the table");
+  SKIP_WITHOUT_VOICE(speech);
+  const media::Pcm audio = resample(speech->audio, kAlignRate);
+  for (const char* token : {"\xF0\x9F\x98\x80", "@#$", "\xE3\x81\x82", "xkcdqq"}) {
+    const auto found =
+        align(audio, std::string("please put the small ") + token + " blue book on the table");
+    ASSERT_TRUE(found) << token << ": " << found.error().describe();
+    for (const char* word : {"please", "small", "blue", "table"}) {
+      EXPECT_TRUE(std::any_of(found->words.begin(), found->words.end(),
+                              [&](const AlignedWord& one) { return one.text == word && one.said; }))
+          << token << ", " << word;
+    }
+  }
+}
+
 TEST(Align, KnowsATextThatIsNotSaid) {
   SKIP_WITHOUT_ALIGNER();
   const std::string text = "please put the small blue book on the table by the window";

@@ -82,11 +82,23 @@ std::string two_digits(double value) {
   return text;
 }
 
-Error refusal(double confidence, const AlignOptions& options) {
-  return make_error(Code::out_of_range, "the transcript does not fit the recording (confidence " +
-                                            two_digits(confidence) + ", at least " +
-                                            two_digits(options.least_confidence) +
-                                            "): another text, too much noise, or nobody speaks");
+// How many words of the text are found is what helps whoever looks for the mistake.
+Error refusal(const Alignment& found, const AlignOptions& options) {
+  std::size_t unsaid = 0;
+  std::string first;
+  for (const AlignedWord& word : found.words) {
+    if (word.said || !word.known) continue;
+    if (++unsaid == 1) first = word.text;
+  }
+  std::string what = "the transcript does not fit the recording (confidence " +
+                     two_digits(found.confidence) + ", at least " +
+                     two_digits(options.least_confidence) + "): ";
+  if (unsaid > 0) {
+    what += std::to_string(unsaid) + " of " + std::to_string(found.words.size()) +
+            (unsaid == 1 ? " words is" : " words are") + " not found in it, the first is '" +
+            first + "'; ";
+  }
+  return make_error(Code::out_of_range, what + "another text, too much noise, or nobody speaks");
 }
 
 std::size_t least_phones(const std::vector<SpokenWord>& words) {
@@ -146,8 +158,8 @@ Result<Alignment> align(const media::Pcm& audio, std::string_view transcript,
   } else {
     result.confidence = rate_recording(*segments, *words);
   }
-  if (result.confidence < options.least_confidence) return refusal(result.confidence, options);
   result.words = rate_words(*segments, *words, audio.duration());
+  if (result.confidence < options.least_confidence) return refusal(result, options);
   add_script(*segments, *words, audio.duration(), result);
   add_put_in(*segments, audio.duration(), result);
   if (result.approximate) {

@@ -80,6 +80,7 @@ double rate_recording(const std::vector<Segment>& segments, const std::vector<Sp
   Mean mean;
   double phones = 0, said = 0, foreign = 0;
   std::size_t last = kNoWord;
+  std::vector<bool> found(words.size());
   for (const Segment& segment : segments) {
     if (segment.foreign) {
       foreign += segment.label == dam::kSilence ? 0 : double(segment.frames);
@@ -87,11 +88,14 @@ double rate_recording(const std::vector<Segment>& segments, const std::vector<Sp
     }
     if (segment.word == kNoWord) continue;
     mean.add(segment);
+    found[segment.word] = true;
     if (segment.word != last) said += double(words[segment.word].variants[0].size());
     last = segment.word;
   }
-  for (const SpokenWord& word : words) {
-    phones += word.variants.empty() ? 0 : double(word.variants[0].size());
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    // A guess that is not found may be a wrong guess: it costs its word only.
+    if (words[i].variants.empty() || (words[i].guessed && !found[i])) continue;
+    phones += double(words[i].variants[0].size());
   }
   if (mean.frames == 0) return 0;
   const double share = said / phones;
