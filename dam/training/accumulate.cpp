@@ -65,8 +65,8 @@ void add_contacts(const Utterance& u, SumsState& state) {
 }
 
 /// The normal equations of one sentence. Controls with rest 0 and deviation 1 keep its units.
-FitSums sums_of(const Utterance& u, const std::vector<Occurrence>& timeline, const SumsBase& base,
-                TermSpace& space) {
+SentenceSums sums_of(const Utterance& u, const std::vector<Occurrence>& timeline,
+                     const SumsBase& base) {
   TrainingSet set;
   for (const std::string& name : u.signal.names) set.controls.push_back({name, 0, 0, 1});
   set.phones = base.phones;
@@ -94,11 +94,10 @@ FitSums sums_of(const Utterance& u, const std::vector<Occurrence>& timeline, con
     frames += 1;
     for (std::size_t c = 0; c < k; ++c) sum[c] += row[c];
   }
-  space = term_space(data);
-  FitSums fit;
-  fit.sentences = 1;
+  SentenceSums fit;
+  fit.space = term_space(data);
   const std::vector<float> weight(set.data.use.begin(), set.data.use.end());
-  fit.curves = sum_curves(data, space, base.refined.dominance, weight);
+  fit.curves = sum_curves(data, fit.space, base.refined.dominance, weight);
   for (const double s : sum) fit.level.push_back(s * (1 - frames / (frames + base.offset_frames)));
   return fit;
 }
@@ -124,7 +123,7 @@ std::unique_ptr<SumsState> TrainingSums::release() && { return std::move(state_)
 
 std::size_t TrainingSums::sentences() const { return state_->sentences.size(); }
 std::size_t TrainingSums::frames() const {
-  return state_->kept.curves.frames + state_->held.curves.frames;
+  return std::size_t(state_->kept.frames + state_->held.frames);
 }
 fap::Rate TrainingSums::rate() const { return state_->rate; }
 std::uint64_t TrainingSums::digest() const { return digest_of(write_training_sums(*this)); }
@@ -182,14 +181,12 @@ Result<bool> add_to_sums(SumsState& state, const Utterance& u, std::uint64_t dig
   }
   if (first) set_controls(state, u.signal.names, u.signal.rate);
   const auto timeline = make_timeline(u.script, state.base.pause_edge);
-  TermSpace space;
   if (!timeline.empty()) {
-    const FitSums fit = sums_of(u, timeline, state.base, space);
-    widen(state, space);
-    FitSums& set = digest % kHeldOut == 0 ? state.held : state.kept;
-    add_fit(fit, space, set, state.space, state.controls.size() + 1);
+    const SentenceSums fit = sums_of(u, timeline, state.base);
+    widen(state, fit.space);
+    add_sentence_sums(fit, state, digest % kHeldOut == 0 ? state.held : state.kept);
   } else {
-    widen(state, space);
+    widen(state, {});
   }
   add_moments(u, state);
   add_phones(timeline, state);

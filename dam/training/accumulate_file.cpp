@@ -1,6 +1,7 @@
 // The file of sums. Layout: dam/training/README.md.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "dam/kinds/refined/terms.h"
 #include "dam/model/bytes_internal.h"
@@ -48,11 +49,19 @@ void write_statistics(const SumsState& state, ByteWriter& out) {
   write_pairs(state.sentences, out);
 }
 
-void write_fit(const FitSums& fit, std::size_t n, ByteWriter& out) {
-  out.put(fit.sentences, std::uint64_t(fit.curves.frames), fit.curves.energy, fit.level,
-          fit.curves.right);
+/// In the order of the space, whatever order its unknowns came in.
+void write_fit(const FitSums& fit, const std::vector<std::size_t>& rows, ByteWriter& out) {
+  out.put(fit.sentences, fit.frames, fit.energy, fit.level);
+  const std::size_t n = rows.size(), columns = fit.energy.size();
+  std::vector<double> right;
+  right.reserve(fit.right.size());
+  for (const std::size_t row : rows) {
+    const auto first = fit.right.begin() + std::ptrdiff_t(row * columns);
+    right.insert(right.end(), first, first + std::ptrdiff_t(columns));
+  }
+  out.put(right);
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i; j < n; ++j) out.put(fit.curves.gram[i * n + j]);
+    for (std::size_t j = i; j < n; ++j) out.put(fit.gram.at(rows[i], rows[j]));
 }
 
 // ---- reading ----
@@ -172,6 +181,8 @@ Problem read_space(ByteReader& in, const std::vector<std::uint32_t>& number, Sum
   if (heard != state.space.tables[std::size_t(RefinedTerm::phone)].keys)
     return "its phones and their terms do not belong together";
   state.space.number();
+  state.rows.resize(state.space.size);
+  std::iota(state.rows.begin(), state.rows.end(), std::size_t(0));
   if (state.controls.empty() && state.space.size > 0) return "there are terms but no controls";
   return {};
 }
@@ -185,19 +196,18 @@ bool read_reals(ByteReader& in, std::size_t count, std::vector<double>& values) 
 
 Problem read_fit(ByteReader& in, std::size_t n, std::size_t k, FitSums& fit) {
   in.get(fit.sentences);
-  fit.curves.frames = std::size_t(in.next<std::uint64_t>());
+  in.get(fit.frames);
   std::vector<double> triangle;
-  if (!read_reals(in, k + 1, fit.curves.energy) || !read_reals(in, k, fit.level) ||
-      !read_reals(in, n * (k + 1), fit.curves.right) || !read_reals(in, n * (n + 1) / 2, triangle))
+  if (!read_reals(in, k + 1, fit.energy) || !read_reals(in, k, fit.level) ||
+      !read_reals(in, n * (k + 1), fit.right) || !read_reals(in, n * (n + 1) / 2, triangle))
     return "its parts are larger than the file";
-  if (!all_finite(fit.curves.energy) || !all_finite(fit.level) || !all_finite(fit.curves.right) ||
+  if (!all_finite(fit.energy) || !all_finite(fit.level) || !all_finite(fit.right) ||
       !all_finite(triangle))
     return "a sum has no value";
-  fit.curves.gram.assign(n * n, 0.0);
+  fit.gram.grow(n);
   auto from = triangle.begin();
-  for (std::size_t i = 0; i < n; ++i, from += std::ptrdiff_t(n - i + 1))
-    std::copy(from, from + std::ptrdiff_t(n - i),
-              fit.curves.gram.begin() + std::ptrdiff_t(i * n + i));
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i; j < n; ++j) fit.gram.at(i, j) = *from++;
   return {};
 }
 
@@ -232,7 +242,7 @@ std::vector<std::uint8_t> write_training_sums(const TrainingSums& sums) {
     body.put(state.space.tables[t].keys);
   }
   if (!state.controls.empty())
-    for (const FitSums* fit : {&state.kept, &state.held}) write_fit(*fit, n, body);
+    for (const FitSums* fit : {&state.kept, &state.held}) write_fit(*fit, state.rows, body);
   return frame_file(kSumsFormat, body.bytes);
 }
 

@@ -75,9 +75,8 @@ Result<void> TrainingSums::merge(const TrainingSums& other) {
                    "part only");
   if (to.controls.empty()) set_controls(to, other.controls(), from.rate);
   widen(to, from.space);
-  const std::size_t columns = to.controls.size() + 1;
-  add_fit(from.kept, from.space, to.kept, to.space, columns);
-  add_fit(from.held, from.space, to.held, to.space, columns);
+  add_fit(from.kept, from, to, to.kept);
+  add_fit(from.held, from, to, to.held);
   add_statistics(from, to);
   return {};
 }

@@ -66,23 +66,26 @@ std::vector<PhoneModel> phones_of(const SumsState& state, std::vector<PhoneDomin
   return phones;
 }
 
-/// Measured from the mean in standard deviations; the column of ones is used up.
-CurveSums standardised(FitSums fit, std::span<const Control> controls) {
-  const std::size_t k = controls.size(), n = fit.curves.right.size() / (k + 1);
+/// Measured from the mean in standard deviations, in the order of the space; the column of ones is
+/// used up.
+CurveSums standardised(const FitSums& fit, const std::vector<std::size_t>& rows,
+                       std::span<const Control> controls) {
+  const std::size_t k = controls.size(), n = rows.size();
   CurveSums out;
-  out.gram = std::move(fit.curves.gram);
-  out.frames = fit.curves.frames;
+  out.gram.assign(n * n, 0.0);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i; j < n; ++j) out.gram[i * n + j] = fit.gram.at(rows[i], rows[j]);
+  out.frames = std::size_t(fit.frames);
   out.right.assign(n * k, 0.0);
   out.energy.assign(k, 0.0);
   for (std::size_t c = 0; c < k; ++c) {
     const double mean = controls[c].mean, sd = controls[c].sd;
     if (sd == 0) continue;
     for (std::size_t i = 0; i < n; ++i) {
-      const double* row = &fit.curves.right[i * (k + 1)];
+      const double* row = &fit.right[rows[i] * (k + 1)];
       out.right[i * k + c] = (row[c] - mean * row[k]) / sd;
     }
-    const double energy =
-        fit.curves.energy[c] - 2 * mean * fit.level[c] + mean * mean * fit.curves.energy[k];
+    const double energy = fit.energy[c] - 2 * mean * fit.level[c] + mean * mean * fit.energy[k];
     out.energy[c] = std::max(0.0, energy) / (sd * sd);
   }
   return out;
@@ -112,7 +115,7 @@ void warn_of_versions(const SumsState& state, TrainSummary& summary) {
 
 void summarise(const SumsState& state, const Model& model, TrainSummary& summary) {
   summary.utterances = state.sentences.size();
-  summary.frames = state.kept.curves.frames + state.held.curves.frames;
+  summary.frames = std::size_t(state.kept.frames + state.held.frames);
   summary.speech_seconds = state.rate.seconds(double(state.speech_frames));
   for (const PhoneSums& sums : state.phones) summary.occurrences += std::size_t(sums.examples);
   note_phones(model, summary);
@@ -159,8 +162,10 @@ Result<Model> train_from_sums(TrainingSums sums, const TrainOptions& options,
   const std::size_t k = model.controls.size();
   const bool choose = state->sentences.size() >= kLeastToChoose && state->kept.sentences > 0 &&
                       state->held.sentences > 0;
-  CurveSums all = standardised(std::move(state->kept), model.controls);
-  const CurveSums held = standardised(std::move(state->held), model.controls);
+  CurveSums all = standardised(state->kept, state->rows, model.controls);
+  state->kept.gram = {};
+  const CurveSums held = standardised(state->held, state->rows, model.controls);
+  state->held.gram = {};
   RidgeChoice choice{options.refined.ridge > 0 ? options.refined.ridge : kUsualRidge, {}};
   if (choose) choice = choose_ridge(all, held, space, k, options.refined.ridge, options.threads);
   all.add(held);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <span>
 
 #include "dam/corpus/statistics_internal.h"
 #include "dam/corpus/training_set_internal.h"
@@ -11,7 +12,7 @@
 namespace animeme::dam {
 namespace {
 
-/// Where the unknowns of one space are in another that has them all. Ascending, as keys are.
+/// Where the unknowns of one space are in another that has them all.
 std::vector<std::size_t> places_in(const TermSpace& from, const TermSpace& to) {
   std::vector<std::size_t> places(from.size);
   for (std::size_t t = 0; t < kTermCount; ++t)
@@ -22,13 +23,16 @@ std::vector<std::size_t> places_in(const TermSpace& from, const TermSpace& to) {
   return places;
 }
 
-FitSums zero_fit(std::size_t unknowns, std::size_t columns) {
-  FitSums fit;
-  fit.curves.gram.assign(unknowns * unknowns, 0.0);
-  fit.curves.right.assign(unknowns * columns, 0.0);
-  fit.curves.energy.assign(columns, 0.0);
-  fit.level.assign(columns - 1, 0.0);
-  return fit;
+/// Makes room for `rows` unknowns.
+void grow(FitSums& fit, std::size_t rows, std::size_t columns) {
+  fit.gram.grow(rows);
+  fit.right.resize(rows * columns, 0.0);
+  fit.energy.resize(columns, 0.0);
+  fit.level.resize(columns - 1, 0.0);
+}
+
+void add(std::span<const double> from, std::span<double> to) {
+  for (std::size_t i = 0; i < from.size(); ++i) to[i] += from[i];
 }
 
 }  // namespace
@@ -72,20 +76,36 @@ void set_controls(SumsState& state, const std::vector<std::string>& names, fap::
   state.rate = rate;
 }
 
-void add_fit(const FitSums& from, const TermSpace& from_space, FitSums& to,
-             const TermSpace& to_space, std::size_t columns) {
-  const auto places = places_in(from_space, to_space);
-  const std::size_t n = places.size();
+void add_sentence_sums(const SentenceSums& from, const SumsState& state, FitSums& to) {
+  const auto places = places_in(from.space, state.space);
+  const std::size_t n = places.size(), columns = to.energy.size();
   for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t row = state.rows[places[i]];
     const double* column = &from.curves.gram[i * n];
-    double* out = &to.curves.gram[places[i] * to_space.size];
-    for (std::size_t j = i; j < n; ++j) out[places[j]] += column[j];
-    for (std::size_t c = 0; c < columns; ++c)
-      to.curves.right[places[i] * columns + c] += from.curves.right[i * columns + c];
+    for (std::size_t j = i; j < n; ++j) to.gram.at(row, state.rows[places[j]]) += column[j];
+    add(std::span(from.curves.right).subspan(i * columns, columns),
+        std::span(to.right).subspan(row * columns, columns));
   }
-  for (std::size_t c = 0; c < columns; ++c) to.curves.energy[c] += from.curves.energy[c];
-  for (std::size_t c = 0; c + 1 < columns; ++c) to.level[c] += from.level[c];
-  to.curves.frames += from.curves.frames;
+  add(from.curves.energy, to.energy);
+  add(from.level, to.level);
+  to.frames += from.curves.frames;
+  ++to.sentences;
+}
+
+void add_fit(const FitSums& from, const SumsState& from_state, const SumsState& state,
+             FitSums& to) {
+  const auto places = places_in(from_state.space, state.space);
+  const std::size_t n = places.size(), columns = to.energy.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t out = state.rows[places[i]], in = from_state.rows[i];
+    for (std::size_t j = i; j < n; ++j)
+      to.gram.at(out, state.rows[places[j]]) += from.gram.at(in, from_state.rows[j]);
+    add(std::span(from.right).subspan(in * columns, columns),
+        std::span(to.right).subspan(out * columns, columns));
+  }
+  add(from.energy, to.energy);
+  add(from.level, to.level);
+  to.frames += from.frames;
   to.sentences += from.sentences;
 }
 
@@ -96,15 +116,16 @@ void widen(SumsState& state, const TermSpace& space) {
     std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all.tables[t].keys));
   }
   all.number();
-  const std::size_t columns = state.controls.size() + 1;
-  const bool fresh = state.kept.curves.energy.empty();
-  if (all.size == state.space.size && !fresh) return;
-  for (FitSums* fit : {&state.kept, &state.held}) {
-    FitSums wide = zero_fit(all.size, columns);
-    if (!fresh) add_fit(*fit, state.space, wide, all, columns);
-    *fit = std::move(wide);
-  }
+  constexpr std::size_t kNone = ~std::size_t(0);
+  std::vector<std::size_t> rows(all.size, kNone);
+  const auto places = places_in(state.space, all);
+  for (std::size_t i = 0; i < places.size(); ++i) rows[places[i]] = state.rows[i];
+  std::size_t next = places.size();
+  for (std::size_t& row : rows)
+    if (row == kNone) row = next++;
+  for (FitSums* fit : {&state.kept, &state.held}) grow(*fit, all.size, state.controls.size() + 1);
   state.space = std::move(all);
+  state.rows = std::move(rows);
 }
 
 }  // namespace animeme::dam

@@ -60,12 +60,37 @@ class Histogram {
   std::map<std::int32_t, std::uint64_t> counts;  ///< number of the bin: value / kBin, rounded
 };
 
+/// The lower triangle of a symmetric matrix that grows: rows stay where they are.
+class Triangle {
+ public:
+  double& at(std::size_t a, std::size_t b) { return values_[place(a, b)]; }
+  double at(std::size_t a, std::size_t b) const { return values_[place(a, b)]; }
+  void grow(std::size_t rows) { values_.resize(rows * (rows + 1) / 2, 0.0); }
+
+ private:
+  static std::size_t place(std::size_t a, std::size_t b) {
+    return a >= b ? a * (a + 1) / 2 + b : b * (b + 1) / 2 + a;
+  }
+  std::vector<double> values_;
+};
+
 /// Normal equations in the units of the controls. Behind the controls there is one more column, of
-/// ones: its right side is what a change of all targets by a constant adds.
+/// ones: its right side is what a change of all targets by a constant adds. Unknowns have a row in
+/// the order in which they came (SumsState::rows), so that a sentence with new ones costs no more
+/// than itself.
 struct FitSums {
-  std::uint64_t sentences = 0;
+  std::uint64_t sentences = 0, frames = 0;
+  Triangle gram;
+  std::vector<double> right;   ///< rows x (controls + 1), row by row
+  std::vector<double> energy;  ///< per control, and of the column of ones
+  std::vector<double> level;   ///< per control: product with the column of ones
+};
+
+/// The same of one sentence, in the order of its own space.
+struct SentenceSums {
+  TermSpace space;
   CurveSums curves;           ///< for controls + 1 columns
-  std::vector<double> level;  ///< per control: product with the column of ones
+  std::vector<double> level;  ///< as FitSums::level
 };
 
 struct SumsState {
@@ -78,7 +103,8 @@ struct SumsState {
   ShutSums shut;
   /// Identifier and digest of every sentence. Merged parts may have two contents under one id.
   std::set<std::pair<std::string, std::uint64_t>> sentences;
-  TermSpace space;  ///< of both sets
+  TermSpace space;                ///< of both sets
+  std::vector<std::size_t> rows;  ///< of each unknown of `space`, in both sets
   FitSums kept, held;
 };
 
@@ -100,8 +126,10 @@ void set_controls(SumsState& state, const std::vector<std::string>& names, fap::
 /// Makes room for more unknowns: the union of both spaces.
 void widen(SumsState& state, const TermSpace& space);
 
-/// Adds sums over some unknowns of `to`, which `space` must have.
-void add_fit(const FitSums& from, const TermSpace& from_space, FitSums& to,
-             const TermSpace& to_space, std::size_t columns);
+/// Adds a sentence to one of the sets of `state`, whose space must have all unknowns.
+void add_sentence_sums(const SentenceSums& from, const SumsState& state, FitSums& to);
+
+/// Adds a set of another state.
+void add_fit(const FitSums& from, const SumsState& from_state, const SumsState& state, FitSums& to);
 
 }  // namespace animeme::dam

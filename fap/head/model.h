@@ -130,6 +130,7 @@ struct Target {
 /// A head at rest: meshes in cm, feature points, and what is known of how it moves.
 struct Head {
   std::string name;                    ///< for people
+  double centimetres = 1;              ///< of one unit of the file that it comes from
   std::array<Mesh, kPartCount> parts;  ///< by Part; absent ones are empty
   std::array<Eye, 2> eyes;             ///< left, right
   /// All 84 points of the standard, in the order of fap::kFeaturePoints. 7.1, the top of the spine,

@@ -127,6 +127,7 @@ class Assembler {
         say("lengths are taken for " + std::string(unit.name));
       }
     }
+    head_.centimetres = scale;
     es_ = float(distance * scale);
     // Between the centres of the eyes, which lie as far before the ears as those of usual heads.
     Vec3 middle = mix(eyes[0], eyes[1], 0.5f);

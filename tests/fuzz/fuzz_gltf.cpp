@@ -11,6 +11,7 @@
 
 #include "fap/head/own_head.h"
 #include "fap/head/rig.h"
+#include "tools/gltf/detail/file_edit.h"
 #include "tools/gltf/read_head.h"
 
 namespace {
@@ -59,7 +60,38 @@ bool becomes_a_head(std::span<const std::uint8_t> bytes) {
   return sum % 1000 == 0;
 }
 
+// What grows can be read again, and is longer by what was added.
+void write_back(std::span<const std::uint8_t> bytes) {
+  using animeme::gltf::FileEdit;
+  using animeme::gltf::Json;
+  auto edit = FileEdit::open(bytes, {});
+  if (!edit) return;
+  const std::vector<float> values = {1, 2, 3};
+  const std::size_t accessor = edit->floats(values, "SCALAR", true);
+  const std::size_t animation = edit->add("animations", {{"name", "x"}});
+  edit->add_to_extension("X", "list", 1);
+  if (!animeme::gltf::list(edit->file().root, "scenes").empty()) {
+    edit->add_to_scene(0, "X", "list", 1);
+  }
+  edit->replace_matrix(0, "\"scale\":[1,1,1]");
+  edit->use("X");
+  const auto file = edit->finish();
+  if (!file) return;
+  std::vector<std::uint8_t> whole = file->front;
+  whole.insert(whole.end(), file->middle.begin(), file->middle.end());
+  whole.insert(whole.end(), file->back.begin(), file->back.end());
+  const auto again = FileEdit::open(whole, {});
+  require(again || again.error().code == animeme::Code::out_of_range);
+  if (!again) return;
+  const Json& root = again->file().root;
+  require(animeme::gltf::list(root, "accessors").size() == accessor + 1);
+  require(animeme::gltf::list(root, "animations").size() == animation + 1);
+  require(animeme::gltf::list(root, "animations").back() == Json{{"name", "x"}});
+  require(again->file().uses("X"));
+}
+
 void try_file(std::span<const std::uint8_t> bytes) {
+  write_back(bytes);
   const bool assembled = becomes_a_head(bytes);
   auto source = animeme::gltf::read_head(
       bytes, {.vertices = 100,

@@ -194,14 +194,18 @@ TEST(Usage, IsExitCode2) {
 }
 
 TEST(Usage, HelpFitsAndHasExamples) {
-  for (const char* command : {"speak", "align", "train", "evaluate", "encode", "decode", "mux",
-                              "demux", "info", "compare", "check", "stats", "plot", "render"}) {
+  for (const char* command :
+       {"speak", "align", "train", "evaluate", "encode", "decode", "mux", "demux", "info",
+        "compare", "check", "stats", "plot", "render", "stream", "follow"}) {
     const auto result = animeme({command, "--help"});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.out, HasSubstr("Examples:\n  animeme ")) << command;
     EXPECT_LT(std::count(result.out.begin(), result.out.end(), '\n'), 50) << command;
   }
   EXPECT_THAT(animeme({"--version"}).out, HasSubstr("animeme 0."));
+  const std::string all = animeme({"stream", "--help-all"}).out;
+  EXPECT_THAT(all, HasSubstr("--mtu"));
+  EXPECT_THAT(all, HasSubstr("--say-audio"));
 }
 
 }  // namespace bad_input_test

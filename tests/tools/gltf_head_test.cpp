@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 
 #include "tests/support/png_reader.h"
 #include "tests/support/program.h"
@@ -49,12 +50,41 @@ TEST(GltfHead, LooksLikeTheOneThatWasExported) {
   EXPECT_LT(off, 0.75 * far);  // the camera stands a little elsewhere
 }
 
-TEST(GltfHead, IsExportedAgainWithItsOwnShapes) {
+TEST(GltfHead, KeepsItsFileWhenItIsExported) {
   const TempDir dir;
-  const auto made = animeme({"export", clip(), "--head", child(dir), "-o", dir / "again.glb"});
+  const std::string head = child(dir);
+  test::spill(dir / "voice.mp3", "ID3 voice");
+  const auto made = animeme({"export", clip(), clip(), "--head", head, "--sound", dir / "voice.mp3",
+                             "--sound", dir / "voice.mp3", "-o", dir / "again.vrm"});
   EXPECT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_THAT(made.err, HasSubstr("head \"anna\""));
-  EXPECT_THAT(slurp(dir / "again.glb"), HasSubstr("\"mouthSmileLeft\""));
+  EXPECT_THAT(made.err, HasSubstr("animation \"plain 2\""));
+  const std::string before = slurp(head), after = slurp(dir / "again.vrm");
+  EXPECT_GT(after.size(), before.size());
+  const auto binary = [](const std::string& file) {
+    std::uint32_t size = 0;
+    std::memcpy(&size, file.data() + 12, 4);
+    return file.substr(28 + size);
+  };
+  EXPECT_EQ(binary(after).substr(0, binary(before).size()), binary(before));
+  EXPECT_THAT(after, HasSubstr("ID3 voice"));
+  EXPECT_EQ(picture(dir, dir / "again.vrm"), picture(dir, head));
+}
+
+TEST(GltfHead, ExportSaysWhatDoesNotFit) {
+  const TempDir dir;
+  const std::string head = child(dir);
+  const auto expect = [&](const std::vector<std::string>& arguments, const std::string& text) {
+    std::vector<std::string> all = {"export", clip()};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const auto result = animeme(all);
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(text));
+  };
+  expect({"--head", head, "-o", dir / "x.gltf"}, "must end in .glb or .vrm");
+  expect({"--head", "man", "-o", dir / "x.vrm"}, "must end in .glb for head man");
+  expect({clip(), "--head", "man", "-o", dir / "x.glb"}, "several clips");
+  expect({clip(), "--head", head, "--sound", "a.wav", "-o", dir / "x.glb"}, "one sound for each");
+  expect({"--head", "man", "--sound", "a.wav", "-o", dir / "x.glb"}, "--sound");
 }
 
 TEST(GltfHead, IsSeenInAPage) {

@@ -75,6 +75,42 @@ TEST(ListenCommands, SpeakHearsAVoiceAlone) {
             0);
 }
 
+// A recording of Debian, where asterisk-core-sounds-en-g722 is installed: its words are found.
+TEST(ListenCommands, EnglishWordsAreFound) {
+  const std::string voice = "/usr/share/asterisk/sounds/en_US_f_Allison/invalid.g722";
+  if (deaf() || slurp(voice).empty()) {
+    GTEST_SKIP() << "no ears, or no asterisk-core-sounds-en-g722";
+  }
+  const TempDir dir;
+  const auto out = animeme({"speak", "--audio", voice, "--save-script", dir / "heard.tsv", "--json",
+                            "-o", dir / "face.fap"});
+  ASSERT_EQ(out.exit_code, 0) << out.err;
+  const json report = json::parse(out.out);
+  std::string words;
+  for (const json& one : report["words"]) {
+    words += one["word"].get<std::string>() + " ";
+    EXPECT_LT(one["start"], one["end"]);
+    EXPECT_GT(one["confidence"], 0);
+  }
+  EXPECT_THAT(words, HasSubstr("please try")) << words;
+  EXPECT_THAT(slurp(dir / "heard.tsv"), HasSubstr("\tplease\n"));
+  // In another language there are none.
+  const auto other =
+      animeme({"speak", "--audio", voice, "--lang", "it", "--json", "-o", dir / "other.fap"});
+  EXPECT_TRUE(json::parse(other.out)["words"].empty());
+}
+
+TEST(ListenCommands, StreamSendsAVoiceAlone) {
+  const TempDir dir;
+  if (deaf() || !make_voice(dir / "voice.mp4")) GTEST_SKIP() << "no voice or no ears";
+  const auto out = animeme(
+      {"stream", "--audio", dir / "voice.mp4", "--fast", "--to", "udp://127.0.0.1:9", "--json"});
+  ASSERT_EQ(out.exit_code, 0) << out.err;
+  const json report = json::parse(out.out);
+  EXPECT_GT(report["face"]["units"], 20);
+  EXPECT_GT(report["sound"]["units"], 20);
+}
+
 TEST(ListenCommands, SilenceIsAStillFace) {
   if (deaf()) GTEST_SKIP() << "no ears";
   const TempDir dir;

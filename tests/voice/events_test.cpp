@@ -98,15 +98,15 @@ TEST(VoiceChoice, NamesTheNearest) {
                   {"English (America)", "en-us", "gmw/en-US", {"en"}},
                   {"Norwegian", "nb", "gmq/nb", {"no"}}};
   lists.variants = {"f3"};
-  EXPECT_EQ(choose_voice("fr", lists)->identifier, "roa/fr");
-  EXPECT_EQ(choose_voice("no", lists)->identifier, "gmq/nb");
-  EXPECT_EQ(choose_voice("en", lists)->identifier, "gmw/en-US");
-  EXPECT_EQ(choose_voice("en-us+F3", lists)->identifier, "gmw/en-US+f3");
-  const auto unknown = choose_voice("germ", lists);
+  EXPECT_EQ(choose_voices("fr", lists)->voices.front().identifier, "roa/fr");
+  EXPECT_EQ(choose_voices("no", lists)->voices.front().identifier, "gmq/nb");
+  EXPECT_EQ(choose_voices("en", lists)->voices.front().identifier, "gmw/en-US");
+  EXPECT_EQ(choose_voices("en-us+F3", lists)->voices.front().identifier, "gmw/en-US+f3");
+  const auto unknown = choose_voices("germ", lists);
   ASSERT_FALSE(unknown);
   EXPECT_NE(unknown.error().message.find("nearest are de (German)"), std::string::npos);
-  EXPECT_FALSE(choose_voice("", lists));
-  EXPECT_FALSE(choose_voice(std::string(100000, '-'), lists));
+  EXPECT_FALSE(choose_voices("", lists));
+  EXPECT_FALSE(choose_voices(std::string(100000, '-'), lists));
 }
 
 }  // namespace events_test

@@ -140,6 +140,18 @@ TEST(Listen, WhatIsNoSpeechStaysStill) {
 }
 
 // More than one block of paths, each of which looks beyond its end.
+TEST(Listen, WarnsOfSoundThatIsCutOff) {
+  if (no_ears()) GTEST_SKIP() << "no pocketsphinx or no espeak-ng";
+  media::Pcm loud = sentence().sound;
+  for (float& sample : loud.samples) sample = std::clamp(sample * 30, -1.0F, 1.0F);
+  const auto heard = listen(loud, {});
+  ASSERT_TRUE(heard) << heard.error().describe();
+  EXPECT_THAT(heard->warnings, testing::Contains(HasSubstr("cut off at full scale")));
+  const auto clean = listen(sentence().sound, {});
+  ASSERT_TRUE(clean) << clean.error().describe();
+  EXPECT_THAT(clean->warnings, testing::Not(testing::Contains(HasSubstr("cut off"))));
+}
+
 TEST(Listen, LongSoundsAreHeardAsShortOnes) {
   if (no_ears()) GTEST_SKIP() << "no pocketsphinx or no espeak-ng";
   media::Pcm sound{kAlignRate, {}};

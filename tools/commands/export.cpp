@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "fap/rate_text.h"
+#include "tools/commands/avatar_export.h"
 #include "tools/commands/common.h"
 #include "tools/commands/head_options.h"
 #include "tools/commands/script_options.h"
@@ -32,6 +33,8 @@ struct ExportOptions {
   studio::HeadChoice head;
   std::string morphs = "arkit";
   bool normals = false;
+  std::vector<std::string> more;  // inputs, for a head of the user's own
+  std::vector<std::string> sounds;
   std::vector<const CLI::Option*> of_scripts;  // options that are for visemes of scripts alone
   std::vector<const CLI::Option*> of_heads;    // for .glb alone
 };
@@ -62,7 +65,7 @@ std::string what_of(const ExportOptions& options, bool from_script) {
   if (inner == ".rhubarb" || extension == ".tsv" || extension == ".xml" || extension == ".dat") {
     return "rhubarb";
   }
-  if (extension == ".glb") return "head";
+  if (is_head_output(options.output)) return "head";
   if (inner == ".visemes" || from_script) return "visemes";
   return "arkit";
 }
@@ -71,7 +74,8 @@ std::string what_of(const ExportOptions& options, bool from_script) {
 std::string wrong_extension(const std::string& what, const std::string& path) {
   const std::string extension = extension_of(path);
   if (what == "head") {
-    return extension == ".glb" ? "" : "--output must end in .glb for a head, not " + path;
+    if (is_head_output(path)) return {};
+    return "--output must end in .glb (.gltf, .vrm, .vrma) for a head, not " + path;
   }
   const bool of_rhubarb = extension == ".tsv" || extension == ".xml" || extension == ".dat";
   if (extension == ".json" || (what == "rhubarb" ? of_rhubarb : extension == ".csv")) return {};
@@ -110,7 +114,37 @@ Result<int> write_arkit(const ExportOptions& options, std::vector<std::uint8_t> 
   return kOk;
 }
 
+// A head of the user's own: its file, with the clips in it.
+Result<int> write_avatar(const ExportOptions& options, std::vector<std::uint8_t> bytes) {
+  AvatarExport job{options.head.head, options.output, options.audio, options.sounds, {}};
+  ExportOptions each = options;
+  for (std::size_t i = 0; i <= options.more.size(); ++i) {
+    if (i > 0) {
+      each.input = options.more[i - 1];
+      auto next = read_input(each.input);
+      if (!next) return next.error();
+      bytes = std::move(*next);
+    }
+    auto input = parse_face(std::move(bytes), each.input);
+    if (!input) return input.error();
+    fap::FillOptions filling;
+    filling.interpolate = filling.complete = true;
+    auto clip = shown_face(*input, each.input, filling, options.length);
+    if (!clip) return clip.error();
+    job.clips.push_back({each.input, input->start, std::move(*clip)});
+  }
+  return export_avatar(job);
+}
+
 Result<int> write_head(const ExportOptions& options, std::vector<std::uint8_t> bytes) {
+  if (moves_by_itself(options.head)) return write_avatar(options, std::move(bytes));
+  if (!options.sounds.empty()) {
+    return usage_error("--sound is for a head of your own (.glb, .vrm); --audio names a sound");
+  }
+  if (const std::string wrong = problem_of_built_head(options.output, options.head);
+      !wrong.empty()) {
+    return usage_error(wrong);
+  }
   const Result<fap::Sequence> clip = read_filled(options, std::move(bytes), false);
   if (!clip) return clip.error();
   const Result<head::Head> head = studio::load_head(options.head, talk());
@@ -254,6 +288,9 @@ Result<int> run(const ExportOptions& given) {
   if (const std::string idle = idle_options(options, what, from_script); !idle.empty()) {
     return usage_error(idle);
   }
+  if (!options.more.empty() && !(what == "head" && moves_by_itself(options.head))) {
+    return usage_error("several clips are for a head of your own: --head me.glb -o talk.glb");
+  }
   if (what == "arkit" || what == "head") {
     if (!options.script.empty()) {
       return usage_error("--script is for visemes; add --what visemes");
@@ -281,13 +318,18 @@ void add_options(CLI::App& app, ExportOptions& options) {
                  "FAP text, FBA stream or container; for visemes also a phoneme script or a "
                  "recorded voice")
       ->required();
+  app.add_option("more", options.more,
+                 "Further clips, for a head of your own: each becomes an animation");
   add_output(
-      app.add_option("-o,--output", options.output,
-                     "File to write: .csv (Live Link Face: Unreal, Blender, Maya), .json (the same "
-                     "curves for scripts), .glb (a head with morph targets and animation), "
-                     ".visemes.json or .visemes.csv (15 weights a frame under "
-                     "the names of Oculus and Ready Player Me), .tsv, .xml, .rhubarb.json or .dat "
-                     "(mouth shapes of Rhubarb Lip Sync)"),
+      app.add_option(
+          "-o,--output", options.output,
+          "File to write: .csv (Live Link Face: Unreal, Blender, Maya), .json (the same "
+          "curves for scripts), .glb (a head with morph targets and animation; your own "
+          "file with the animation added, also .vrm and .gltf), .vrma (motion for your VRM 1.0 "
+          "avatar), "
+          ".visemes.json or .visemes.csv (15 weights a frame under "
+          "the names of Oculus and Ready Player Me), .tsv, .xml, .rhubarb.json or .dat "
+          "(mouth shapes of Rhubarb Lip Sync)"),
       {}, OutputKind::file_or_dash);
   app.add_option("-f,--format,--exportFormat", options.format,
                  "Mouth shapes in a format of Rhubarb; without -o to standard output")
@@ -331,7 +373,10 @@ void add_options(CLI::App& app, ExportOptions& options) {
   for (const char* name : {"--rate", "--crossfade"}) {
     options.of_scripts.push_back(app.get_option(name));
   }
-  for (const char* name : {"--head", "--points", "--morphs", "--normals"}) {
+  app.add_option("--sound", options.sounds,
+                 "Sound to put into your own .glb or .vrm, one a clip: any sound file, or the clip "
+                 "itself (talk.mp4); see the README of tools/gltf for who plays it");
+  for (const char* name : {"--head", "--points", "--morphs", "--normals", "--sound"}) {
     options.of_heads.push_back(app.get_option(name));
   }
 }
@@ -343,6 +388,8 @@ const Command kExport{
     "  animeme export talk.mp4 -o talk.csv\n"
     "  animeme export talk.fap --audio voice.wav -o talk.json\n"
     "  animeme export talk.fba --head man -o talk.glb\n"
+    "  animeme export hello.mp4 bye.fba --head me.glb -o me_talks.glb    # your file, with both in "
+    "it\n"
     "  animeme export talk.fap -o talk.visemes.json\n"
     "  animeme export talk.fap --script words.tsv --audio voice.wav -o talk.visemes.json\n"
     "  animeme export words.tsv --rate 60 -o words.visemes.csv\n"

@@ -88,6 +88,21 @@ Result<int> follow_sound(const FollowOptions& options, const dam::Model& model,
   if (from.number < 0) return make_error(Code::not_found, "it cannot be opened").in_file(name);
   speech::SoundBytes sound(bare);
   std::unique_ptr<speech::HeardFace> face;
+  const auto open = [&](int sample_rate) -> Result<void> {
+    speech::HeardFaceOptions settings;
+    settings.synthesis.rate = rate;
+    settings.synthesis.style = options.style;
+    settings.language = options.language;
+    settings.delay = options.delay;
+    auto opened = speech::HeardFace::open(model, sample_rate, settings);
+    if (!opened) return opened.error();
+    face = std::move(*opened);
+    return {};
+  };
+  // Tables are read before there is a voice that waits, where its rate is known.
+  if (bare) {
+    if (auto ok = open(bare->sample_rate); !ok) return ok.error();
+  }
   print_header(model);
   std::array<std::uint8_t, 8192> bytes;
   std::vector<float> samples;
@@ -104,21 +119,14 @@ Result<int> follow_sound(const FollowOptions& options, const dam::Model& model,
     if (samples.empty()) continue;
     count += samples.size();
     if (!face) {
-      speech::HeardFaceOptions settings;
-      settings.synthesis.rate = rate;
-      settings.synthesis.style = options.style;
-      settings.language = options.language;
-      settings.delay = options.delay;
-      auto opened = speech::HeardFace::open(model, sound.sample_rate(), settings);
-      if (!opened) return opened.error();
-      face = std::move(*opened);
+      if (auto ok = open(sound.sample_rate()); !ok) return ok.error();
     }
     face->push(samples);
     const auto signal = face->pull();
     if (!signal) return signal.error();
     if (auto ok = print_rows(*signal); !ok) return ok.error();
   }
-  if (!face) {
+  if (count == 0) {
     return make_error(Code::truncated, "it ended before there was any sound").in_file(name);
   }
   const auto signal = face->finish();
@@ -205,10 +213,11 @@ void add_options(CLI::App& app, FollowOptions& options) {
 
 const Command kFollow{
     "follow", "Speak while phones or a voice are still coming: curves out, line by line",
+    "  animeme follow --audio voice.wav > curves.csv\n"
     "  my_tts --phones | animeme follow --model me.dam | my_player\n"
     "  printf '0 0.3 SIL\\n0.3 0.42 HH\\n0.42 0.6 AY\\n' | animeme follow --look-ahead 0.1\n"
     "  arecord -q -f S16_LE -r 16000 | animeme follow --audio - | my_player\n"
-    "  ffmpeg -v error -i voice.mp3 -f wav - | animeme follow --audio - > curves.csv",
+    "  ffmpeg -v error -i voice.mp3 -f wav - | animeme follow --audio - | my_player",
     set_up<FollowOptions>};
 
 }  // namespace animeme::tools

@@ -1,9 +1,11 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 
 #include "tools/commands/common.h"
 #include "tools/json.h"
 #include "tools/text.h"
+#include "tools/voice/letters.h"
 #include "tools/voice/symbols.h"
 
 namespace animeme::tools {
@@ -81,11 +83,29 @@ std::string padded(std::string text, std::size_t width) {
   return text;
 }
 
-void print_row(const std::string& name, const voice::SymbolCounts& c) {
-  std::printf("%s %5zu %8zu %5zu %7zu %9s %7s %9s\n", padded(name, 24).c_str(), c.exact, c.features,
-              c.marks, c.unknown, format("%zu/%zu", c.closed, c.bilabial).c_str(),
+// Letters that are not spoken in the language of the voice, the first of them.
+std::string foreign_letters(const voice::LetterCounts& letters) {
+  constexpr std::size_t kShown = 8;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(letters.foreign.size(), kShown); ++i) {
+    text += " " + letters.foreign[i];
+  }
+  return letters.foreign.size() > kShown ? text + " ..." : text;
+}
+
+void print_row(const std::string& name, const voice::SymbolCounts& c,
+               const voice::LetterCounts& letters) {
+  const std::string own =
+      letters.letters == 0 ? "-" : format("%zu/%zu", letters.spoken, letters.letters);
+  std::printf("%s %5zu %8zu %5zu %7zu %9s %9s %9s %9s%s\n", padded(name, 24).c_str(), c.exact,
+              c.features, c.marks, c.unknown, format("%zu/%zu", c.closed, c.bilabial).c_str(),
               format("%zu/%zu", c.rounded, c.round).c_str(),
-              format("%zu/%zu", c.unrounded, c.flat).c_str());
+              format("%zu/%zu", c.unrounded, c.flat).c_str(), own.c_str(),
+              foreign_letters(letters).c_str());
+}
+
+Json json_of(const voice::LetterCounts& letters) {
+  return {{"letters", letters.letters}, {"spoken", letters.spoken}, {"foreign", letters.foreign}};
 }
 
 Result<int> run_one(const PhonesOptions& options) {
@@ -116,11 +136,12 @@ Result<int> run_all(const PhonesOptions& options) {
   const auto voices = voice::list_voices();
   if (!voices) return voices.error();
   if (!options.json) {
-    std::printf("%s %5s %8s %5s %7s %9s %7s %9s\n", padded("voice", 24).c_str(), "exact",
-                "features", "marks", "unknown", "bilabials", "u o y", "flat");
+    std::printf("%s %5s %8s %5s %7s %9s %9s %9s %9s\n", padded("voice", 24).c_str(), "exact",
+                "features", "marks", "unknown", "bilabials", "u o y", "flat", "letters");
   }
   Json list = Json::array();
   voice::SymbolCounts all;
+  voice::LetterCounts all_letters;
   for (const voice::VoiceInfo& info : *voices) {
     voice::VoiceOptions voice;
     voice.language = info.identifier;
@@ -128,16 +149,22 @@ Result<int> run_all(const PhonesOptions& options) {
     if (!symbols) return symbols.error();
     const voice::SymbolCounts counts = voice::count_symbols(*symbols);
     voice::add_counts(counts, all);
+    const auto letters = voice::count_letters(voice);
+    if (!letters) return letters.error();
+    all_letters.letters += letters->letters;
+    all_letters.spoken += letters->spoken;
     if (options.json) {
-      list.push_back({{"voice", info.identifier}, {"counts", json_of(counts)}});
+      list.push_back({{"voice", info.identifier},
+                      {"counts", json_of(counts)},
+                      {"letters", json_of(*letters)}});
     } else {
-      print_row(info.identifier, counts);
+      print_row(info.identifier, counts, *letters);
     }
   }
   if (options.json) {
-    print({{"counts", json_of(all)}, {"voices", list}});
+    print({{"counts", json_of(all)}, {"letters", json_of(all_letters)}, {"voices", list}});
   } else {
-    print_row(format("all %zu", voices->size()), all);
+    print_row(format("all %zu", voices->size()), all, all_letters);
   }
   return kOk;
 }
@@ -154,7 +181,7 @@ void add_options(CLI::App& app, PhonesOptions& options) {
          "--all-languages", options.all,
          "A row a voice: how many symbols are phones of the models, spoken by features, marks "
          "or unknown; how many bilabials close the lips, how many rounded vowels are rounded, "
-         "how many close unrounded ones (flat) are not")
+         "how many close unrounded ones (flat) are not; how many letters of its language it reads")
       ->excludes(language);
   app.add_flag("--json", options.json, "Machine-readable, on standard output");
 }

@@ -16,6 +16,7 @@
 #include "tools/exchange/arkit.h"
 #include "tools/exchange/curves.h"
 #include "tools/json.h"
+#include "tools/speech/marks.h"
 #include "tools/text.h"
 
 namespace animeme::tools {
@@ -156,6 +157,11 @@ std::vector<HeardPhone> heard_phones(const speech::Spoken& spoken) {
   return all;
 }
 
+Json json_of(const voice::SpokenLanguage& part) {
+  return {{"start", part.start}, {"end", part.end},   {"language", part.language},
+          {"voice", part.voice}, {"text", part.text}, {"by_itself", part.by_itself}};
+}
+
 void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam::Signal& signal,
             const dam::SynthesisReport& synthesis) {
   for (const auto& [label, by] : synthesis.replaced) {
@@ -178,13 +184,25 @@ void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam
                {"replaced", replaced},
                {"closures_forced", synthesis.closures},
                {"lip_tooth_forced", synthesis.lip_tooth_contacts},
-               {"recognised", heard}};
+               {"recognised", heard},
+               {"languages", json_list(spoken.languages, json_of)},
+               {"marks", json_list(spoken.marks,
+                                   [](const voice::SpeechMark& mark) -> Json {
+                                     return {{"time", mark.time}, {"name", mark.name}};
+                                   })},
+               {"warnings", spoken.warnings}};
   if (heard) {
     json["warnings"] = spoken.heard->warnings;
     json["heard"] = json_list(heard_phones(spoken), [](const HeardPhone& one) -> Json {
       return {{"start", one.phone.start},
               {"end", one.phone.end},
               {"phone", one.phone.label},
+              {"confidence", one.confidence}};
+    });
+    json["words"] = json_list(spoken.heard->words, [](const voice::HeardWord& one) -> Json {
+      return {{"word", one.text},
+              {"start", one.start},
+              {"end", one.end},
               {"confidence", one.confidence}};
     });
   }
@@ -250,7 +268,8 @@ Result<int> run(const SpeakOptions& options) {
   if (!written) return written;
   // Last, so that a failure leaves no file behind.
   if (!options.save_script.empty()) {
-    const std::string text = dam::write_script(spoken->script, extension_of(options.save_script));
+    const std::string text = speech::write_marked_script(spoken->script, spoken->marks,
+                                                         extension_of(options.save_script));
     if (auto done = write_file(options.save_script, text); !done) return done.error();
   }
   report(options, *spoken, *signal, synthesis);

@@ -7,7 +7,7 @@
 namespace animeme::tools {
 
 void add_spoken_options(CLI::App& app, speech::SpokenOptions& options) {
-  app.add_option("--text", options.text, "Text to speak with a synthetic voice")
+  app.add_option("--text", options.text, "Text to speak with a synthetic voice, plain or SSML")
       ->option_text("TEXT")
       ->each([&options](const std::string&) { options.has_text = true; });
   app.add_option("--text-file", options.text_file, "The same from a file, - for standard input")
@@ -30,7 +30,9 @@ void add_spoken_options(CLI::App& app, speech::SpokenOptions& options) {
       ->each([&options](const std::string&) { options.has_transcript = true; })
       ->needs("--audio")
       ->excludes("--script");
-  app.add_option("--lang", options.language, "Language of the text: en, de, fr, pt-br ...")
+  app.add_option(
+         "--lang", options.language,
+         "Language of the text: en, de, pt-br; zh+en: further ones by script; auto; en+f3: variant")
       ->capture_default_str();
   app.add_option("--tts", options.tts,
                  "Voice of yours for the text: a program that writes sound to {wav}; it reads the "

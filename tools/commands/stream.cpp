@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "fap/rate_text.h"
+#include "tools/commands/brief_help.h"
 #include "tools/commands/common.h"
 #include "tools/commands/interrupt.h"
 #include "tools/commands/spoken_options.h"
@@ -36,9 +37,11 @@ constexpr double kPollSeconds = 0.05;  // sinks are looked after so often
 
 std::string bad_options(const StreamOptions& options) {
   const live::ProgramOptions& what = options.program;
-  const bool spoken = speech::has_source(what.spoken);
   const bool said = !what.say.empty() || !what.say_json.empty();
   const bool voice = !what.say_audio.empty();
+  speech::SpokenOptions source = what.spoken;
+  source.listen = options.input.empty() && !said && !voice;  // else it is the sound of that
+  const bool spoken = speech::has_source(source);
   const int sources = int(!options.input.empty()) + int(said) + int(voice) + int(spoken);
   if (sources > 1) {
     return "name one thing to stream: a file, --say, --say-audio, or --text and its like";
@@ -51,10 +54,10 @@ std::string bad_options(const StreamOptions& options) {
   if (said && !what.spoken.audio.empty()) {
     return "--audio goes with a face, not with --say, whose voice speaks as the lines come";
   }
-  if (sources == 0 && what.spoken.audio.empty()) {
-    return "nothing to stream: name a file with a face, or give --text, --script or --say -";
+  if (sources == 0) {
+    return "nothing to stream: name a file with a face, or give --text, --script, --audio or --say "
+           "-";
   }
-  if (sources == 0) return "--audio needs a face beside it, --transcript or --script";
   if (said && what.loop) return "--loop repeats clips, --say is none";
   if (said && options.fast) {
     return "--fast does not go with --say, whose lines come in their own time";
@@ -246,6 +249,7 @@ Result<int> run(StreamOptions& options) {
 void add_source_options(CLI::App& app, StreamOptions& options) {
   app.add_option("input", options.input,
                  "File with a face: mp4, mkv, ts (with its sound), .fba, .fap");
+  options.program.spoken.listen = true;
   add_spoken_options(app, options.program.spoken);
   app.add_option("--say", options.program.say,
                  "Lines of text to speak as they come, - for standard input; between them the face "
@@ -359,6 +363,11 @@ void add_options(CLI::App& app, StreamOptions& options) {
   app.add_flag("--fast", options.fast, "Do not wait for the clock, send as fast as it goes");
   app.add_flag("--stats", options.stats, "Tell once a second how it goes");
   app.add_flag("--json", options.json, "Machine-readable summary on standard output at the end");
+  show_in_help_all(
+      app, "Details of voices, coding and transport",
+      {"--tier", "--script-format", "--max-seconds", "--speed", "--pitch", "--seed", "--mtu",
+       "--repeat", "--repeat-after", "--bundle", "--max-clients", "--max-per-address",
+       "--allow-origin", "--host-name", "--copy", "--quant", "--audio-codec", "--audio-bitrate"});
 }
 
 }  // namespace

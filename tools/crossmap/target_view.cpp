@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "tools/files/base64.h"
 #include "tools/render/png.h"
 #include "tools/render/raster.h"
 #include "tools/studio/head_view.h"
@@ -13,26 +14,10 @@ namespace {
 
 using head::Vec3;
 
-std::string base64_text(const std::vector<std::uint8_t>& bytes) {
-  constexpr const char* kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t three = std::uint32_t(bytes[i]) << 16;
-    if (left > 1) three |= std::uint32_t(bytes[i + 1]) << 8;
-    if (left > 2) three |= bytes[i + 2];
-    for (std::size_t k = 0; k < 4; ++k) {
-      out += k <= left ? kDigits[three >> (18 - 6 * k) & 63] : '=';
-    }
-  }
-  return out;
-}
-
 Result<std::string> address_of(const render::Image& image) {
   const auto png = render::png_of(image);
   if (!png) return png.error();
-  return "data:image/png;base64," + base64_text(*png);
+  return "data:image/png;base64," + tools::base64_of(*png);
 }
 
 // What the camera of a mesh looks at: the part that its controls move most.

@@ -1,5 +1,7 @@
 #include "tools/files/base64.h"
 
+#include <algorithm>
+
 #include <array>
 
 namespace animeme::tools {
@@ -36,6 +38,21 @@ std::optional<std::vector<std::uint8_t>> decode_base64(std::string_view text) {
     out.push_back(std::uint8_t(bits >> count));
   }
   return out;
+}
+
+std::string base64_of(std::span<const std::uint8_t> bytes) {
+  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t there = std::min<std::size_t>(bytes.size() - i, 3);
+    std::uint32_t word = 0;
+    for (std::size_t k = 0; k < 3; ++k) word = word << 8 | (k < there ? bytes[i + k] : 0u);
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += k > there ? '=' : kDigits[word >> (18 - 6 * k) & 63];
+    }
+  }
+  return text;
 }
 
 }  // namespace animeme::tools

@@ -127,7 +127,8 @@ class Writer {
     for (const Vec3& v : rig_.parts[number].positions) places.push_back((v - origin) * kMetres);
     json attributes = part == Part::skin ? skin_attributes(places.size()) : json::object();
     attributes["POSITION"] = buffer_.vectors(places, BufferUse::vertices, true);
-    attributes["NORMAL"] = buffer_.vectors(rig_.parts[number].normals, BufferUse::vertices, false);
+    attributes["NORMAL"] =
+        buffer_.vectors(unit_normals(rig_.parts[number].normals), BufferUse::vertices, false);
     attributes["COLOR_0"] = buffer_.colours(shaded(mesh));
     std::vector<std::uint32_t> indices;
     for (const head::Triangle& triangle : mesh.triangles) {
@@ -150,6 +151,14 @@ class Writer {
       scene_.push_back(index);
     }
     if (!used_[number].empty()) morphed_.emplace_back(number, index);
+  }
+
+  // Vertices of triangles without area have none, which glTF does not want.
+  static std::vector<Vec3> unit_normals(std::vector<Vec3> normals) {
+    for (Vec3& n : normals) {
+      if (!(head::length(n) > 0.9f)) n = {0, 0, 1};
+    }
+    return normals;
   }
 
   // Players have no baked light: hollows are darkened by colour.

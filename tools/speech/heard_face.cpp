@@ -16,7 +16,7 @@ constexpr double kReach = 0.8;      // seconds of speech behind a frame that sti
 constexpr double kLipReach = 0.24;  // seconds about a frame in which a closure may lie
 constexpr double kSettle = 0.1;     // seconds of silence by which the ears come to the end
 constexpr std::size_t kReadings = 16;
-constexpr int kBlocks = 50;     // a second: frames are looked for between them
+constexpr int kBlocks = 100;    // a second: frames are looked for between them
 constexpr double kKept = 0.25;  // of the last frame: readings that change must not twitch
 
 class Follower : public HeardFace {

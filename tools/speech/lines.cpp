@@ -137,6 +137,9 @@ Result<LineMaker> voice_lines(const voice::VoiceOptions& options) {
     if (!speech) return speech.error();
     SpokenLine spoken;
     spoken.text = std::move(line);
+    for (const std::string& warning : speech->warnings) {
+      spoken.doubt += (spoken.doubt.empty() ? "" : "; ") + warning;
+    }
     spoken.speech = std::move(*speech);
     return spoken;
   };

@@ -27,7 +27,10 @@ using media::LiveTrack;
 using media::LiveUnit;
 
 constexpr double kLeastLiveDelay = 0.25, kMostLiveDelay = 2;
-constexpr double kJitter = 0.1;  // of the delay: sound may come so much later than the sound before
+// Of the delay: sound may come so much later than the sound before. What comes later still moves
+// the sound back, up to the whole of the delay.
+constexpr double kJitter = 0.06;
+constexpr double kGrain = 0.015;    // of the delay: frames are looked for every 10 ms
 constexpr double kKeptAhead = 0.5;  // seconds of sound that are read before they are wanted
 constexpr double kEndRest = 0.4;    // seconds after the last sound, to close the mouth
 constexpr int kWaitMs = 50;         // for sound; then a wish to stop is looked for
@@ -194,7 +197,7 @@ Result<std::unique_ptr<LiveVoice>> LiveVoice::open(const dam::Model& model, int 
   const Result<int> rate = pipe->wait_for_rate();
   if (!rate) return rate.error();
   if (*rate == 0) return make_error(Code::truncated, "it ended before there was any sound");
-  HeardFaceOptions following{options.synthesis, options.language, options.delay - kJitter - 0.03};
+  HeardFaceOptions following{options.synthesis, options.language, options.delay - kJitter - kGrain};
   auto face = HeardFace::open(model, *rate, following);
   if (!face) return face.error();
   std::optional<LiveSound> sound;

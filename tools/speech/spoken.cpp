@@ -30,8 +30,13 @@ Result<Spoken> speak(const SpokenOptions& options, const std::string& text,
   settings.pitch = options.pitch;
   Result<voice::Speech> speech = voice::speak_text(text, settings);
   if (!speech) return speech.error();
-  return Spoken{
+  for (const std::string& warning : speech->warnings) talk.warn(warning);
+  Spoken spoken{
       std::move(speech->script), std::move(speech->audio), speech->voice, TimesFrom::voice, {}, {}};
+  spoken.languages = std::move(speech->languages);
+  spoken.marks = std::move(speech->marks);
+  spoken.warnings = std::move(speech->warnings);
+  return spoken;
 }
 
 Result<Spoken> follow_script(const SpokenOptions& options, const tools::Talk& talk) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "dam/model/model.h"
 #include "dam/script/script.h"
@@ -19,6 +20,7 @@
 #include "tools/speech/voice_file.h"
 #include "tools/voice/align.h"
 #include "tools/voice/listen.h"
+#include "tools/voice/voice.h"
 
 namespace animeme::speech {
 
@@ -35,7 +37,7 @@ struct SpokenOptions {
   bool has_transcript = false;         ///< transcript may be empty
   bool listen = false;                 ///< audio alone: what is said is recognised
   std::function<void(double)> heard;   ///< told how much has been recognised, 0..1; may be empty
-  std::string language = "en";         ///< as espeak-ng names it
+  std::string language = "en";         ///< as voice::VoiceOptions::language
   std::string tts;                     ///< command of a voice for text; empty: espeak-ng
   int words_per_minute = 175;          ///< of a synthetic voice, 80 to 450
   int pitch = 50;                      ///< of a synthetic voice, 0 to 100
@@ -51,6 +53,9 @@ struct Spoken {
   std::optional<voice::Alignment> alignment;  ///< where it was aligned; without its script
   /// Where the sound was all there was: `script` is its best guess.
   std::optional<voice::Heard> heard;
+  std::vector<voice::SpokenLanguage> languages;  ///< of synthetic speech by espeak-ng
+  std::vector<voice::SpeechMark> marks;          ///< of SSML
+  std::vector<std::string> warnings;             ///< what was left out or spelled
 };
 
 /// Whether one of the sources is named, and all that it needs.
@@ -59,8 +64,9 @@ bool has_source(const SpokenOptions& options);
 /// The voice that options.tts names, and how its times are read.
 VoiceCommand voice_command(const SpokenOptions& options);
 
-/// Speaks, reads, aligns or listens. Errors: those of reading the files, of voice::speak_text(),
-/// run_voice_command(), dam::check_against_audio(), align_file() and listen_to_file().
+/// Speaks, reads, aligns or listens. What a voice left out or spelled goes to talk.warn. Errors:
+/// those of reading the files, of voice::speak_text(), run_voice_command(),
+/// dam::check_against_audio(), align_file() and listen_to_file().
 Result<Spoken> get_spoken(const SpokenOptions& options, const tools::Talk& talk = {});
 
 /// The timed phones of a recording and its text. What the aligner doubts goes to talk.warn.

@@ -8,6 +8,7 @@
 #include "tools/voice/alignment_report.h"
 #include "tools/voice/confidence.h"
 #include "tools/voice/denoise.h"
+#include "tools/voice/parted_words.h"
 #include "tools/voice/pronunciation.h"
 #include "tools/voice/recogniser.h"
 #include "tools/voice/transcript.h"
@@ -119,7 +120,9 @@ Result<Alignment> align(const media::Pcm& audio, std::string_view transcript,
   if (transcript.size() > kMostTranscript) {
     return make_error(Code::out_of_range, "a transcript of more than 1 MB; part it");
   }
-  const auto texts = split_words(transcript);
+  const auto parted = parted_words(transcript, options.language);
+  if (!parted) return parted.error();
+  const std::vector<std::string>& texts = *parted;
   Alignment result;
   if (texts.empty()) {
     return make_error(Code::invalid_argument, "the transcript has no words; give what is said");

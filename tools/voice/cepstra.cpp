@@ -1,7 +1,6 @@
 #include "tools/voice/cepstra.h"
 
 #include <pocketsphinx.h>
-#include <sphinxbase/err.h>
 #include <sphinxbase/fe.h>
 #include <sphinxbase/logmath.h>
 #include <sphinxbase/ngram_model.h>
@@ -9,7 +8,8 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <mutex>
+
+#include "tools/voice/sphinx.h"
 
 namespace animeme::voice {
 
@@ -23,17 +23,6 @@ struct FreeSphinx {
   void operator()(logmath_t* maths) const { logmath_free(maths); }
   void operator()(ngram_model_t* model) const { ngram_model_free(model); }
 };
-
-void no_message(void*, err_lvl_t, const char*, ...) {}
-
-// The handlers of messages and some tables of the library are global.
-std::unique_lock<std::mutex> quiet_sphinx() {
-  static std::mutex mutex;
-  std::unique_lock lock(mutex);
-  err_set_logfp(nullptr);
-  err_set_callback(no_message, nullptr);
-  return lock;
-}
 
 class FrontEnd : public CepstraReader {
  public:

@@ -42,10 +42,20 @@ int on_speech(short* samples, int count, espeak_EVENT* events) {
     good = g_sender->send(kSamples, bytes_of(samples, std::size_t(count)));
   }
   for (; good && events != nullptr && events->type != espeakEVENT_LIST_TERMINATED; ++events) {
-    const bool word = events->type == espeakEVENT_WORD;
-    if (!word && events->type != espeakEVENT_PHONEME) continue;
-    WireEvent wire{word ? 0 : 1, events->sample, events->text_position, events->length, {}};
-    if (!word) std::memcpy(wire.name, events->id.string, sizeof wire.name);
+    const bool word = events->type == espeakEVENT_WORD, mark = events->type == espeakEVENT_MARK;
+    if (!word && !mark && events->type != espeakEVENT_PHONEME) continue;
+    WireEvent wire{word   ? 0
+                   : mark ? 2
+                          : 1,
+                   events->sample,
+                   events->text_position,
+                   events->length,
+                   {}};
+    if (mark && events->id.name != nullptr) {
+      std::strncpy(wire.name, events->id.name, sizeof wire.name - 1);
+    } else if (!word) {
+      std::memcpy(wire.name, events->id.string, sizeof wire.name);
+    }
     good = g_sender->send(kEvents, bytes_of(&wire, 1));
   }
   return good ? 0 : 1;
@@ -73,7 +83,8 @@ bool speak_all(Sender& sender, const EspeakJob& job) {
   espeak_SetParameter(espeakPITCH, job.options.pitch, 0);
   espeak_SetParameter(espeakRANGE, job.options.pitch_range, 0);
   espeak_SetParameter(espeakWORDGAP, job.options.word_gap, 0);
-  const unsigned flags = espeakCHARS_UTF8 | (job.mnemonics ? espeakPHONEMES : 0);
+  const unsigned flags =
+      espeakCHARS_UTF8 | (job.mnemonics ? espeakPHONEMES : 0) | (job.markup ? espeakSSML : 0);
   for (const std::string& text : job.texts) {
     if (espeak_Synth(text.c_str(), text.size() + 1, 0, POS_CHARACTER, 0, flags, nullptr, nullptr) !=
         EE_OK) {
@@ -111,11 +122,13 @@ bool send_voices(Sender& sender, const std::string& data_path) {
 
 VoiceEvent unpack(const WireEvent& wire) {
   VoiceEvent event;
-  event.kind = wire.kind == 0 ? EventKind::word : EventKind::phoneme;
+  event.kind = wire.kind == 0   ? EventKind::word
+               : wire.kind == 2 ? EventKind::mark
+                                : EventKind::phoneme;
   event.sample = wire.sample;
   event.text_position = wire.text_position;
   event.text_length = wire.text_length;
-  if (event.kind == EventKind::phoneme) {
+  if (event.kind != EventKind::word) {
     event.ipa.assign(wire.name, ::strnlen(wire.name, sizeof wire.name));
   }
   return event;

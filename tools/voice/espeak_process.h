@@ -12,16 +12,17 @@
 namespace animeme::voice {
 
 /// What the voice announces.
-enum class EventKind : std::uint8_t { word, phoneme };
+enum class EventKind : std::uint8_t { word, phoneme, mark };
 
 /// What happens at one sample of the sound.
 struct VoiceEvent {
-  EventKind kind = EventKind::phoneme;  ///< word or phoneme
-  std::int64_t sample = 0;              ///< when, from the start of the sound
-  std::int32_t text_position = 0;       ///< word: first character of it in the text, from 1
-  std::int32_t text_length = 0;         ///< word: in characters
+  /// what it is
+  EventKind kind = EventKind::phoneme;
+  std::int64_t sample = 0;         ///< when, from the start of the sound
+  std::int32_t text_position = 0;  ///< word: first character of it in the text, from 1
+  std::int32_t text_length = 0;    ///< word: in characters
   std::string ipa;  ///< phoneme: at most 8 bytes as espeak-ng has it, may end in half a
-                    ///< character
+                    ///< character. mark: its name, at most 7 bytes
 };
 
 /// Sound and events of one text.
@@ -36,6 +37,7 @@ struct EspeakJob {
   std::vector<std::string> texts;   ///< UTF-8 without NUL, spoken one after the other
   VoiceOptions options;             ///< rate, pitch, range, gap, data path
   bool mnemonics = false;           ///< texts name phonemes in [[ ]]
+  bool markup = false;              ///< texts are SSML; positions count its characters, too
   std::int64_t max_seconds = 3600;  ///< of sound, all texts together
 };
 

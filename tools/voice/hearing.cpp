@@ -19,6 +19,8 @@ constexpr std::size_t kShortest = 3;  // frames
 // tell.
 constexpr float kTraceOfLoud = 0.002f, kLeastTrace = 0.00025f;
 
+}  // namespace
+
 // A frame begins half way between the middle of its window and that of the frame before. 10 ms are
 // taken off, by which the model hears phones late (the bias of the tables in README.md).
 double time_of(std::size_t frame) { return frame == 0 ? 0 : double(frame) * 0.01 - 0.0022; }
@@ -26,8 +28,6 @@ double time_of(std::size_t frame) { return frame == 0 ? 0 : double(frame) * 0.01
 bool speaks_english(const std::string& language) {
   return language.substr(0, 2) == "en" && (language.size() == 2 || language[2] == '-');
 }
-
-}  // namespace
 
 Result<HearingModel> load_hearing(const ListenOptions& options) {
   if (options.readings < 1 || options.readings > 200) {
@@ -61,7 +61,7 @@ void to_whole(std::span<const float> samples, Trace& trace, std::vector<std::int
   }
 }
 
-Features features_of(const std::vector<Cepstrum>& frames, std::size_t at, const Cepstrum& mean) {
+Features features_of(std::span<const Cepstrum> frames, std::size_t at, const Cepstrum& mean) {
   const auto near = [&](int step) -> const Cepstrum& {
     const auto wanted = std::int64_t(at) + step;
     return frames[std::size_t(

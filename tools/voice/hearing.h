@@ -21,6 +21,9 @@ namespace animeme::voice {
 
 inline constexpr std::size_t kFeatureReach = 3;  ///< frames that features look back and ahead
 
+/// When a frame begins, in seconds of the sound.
+double time_of(std::size_t frame);
+
 /// All that is read from files.
 struct HearingModel {
   SoundModel sound;                      ///< how phones sound
@@ -29,6 +32,9 @@ struct HearingModel {
   std::vector<std::string> labels;       ///< of each phone; noises are silence
   std::vector<dam::PhoneClass> classes;  ///< of each phone
 };
+
+/// "en", "en-gb" ...
+bool speaks_english(const std::string& language);
 
 /// Errors: those of read_sound_model() and read_phone_pairs(), invalid_argument (options).
 Result<HearingModel> load_hearing(const ListenOptions& options);
@@ -45,7 +51,7 @@ void to_whole(std::span<const float> samples, Trace& trace, std::vector<std::int
 
 /// Features of frame `at`, which has kFeatureReach neighbours on either side or the ends of
 /// `frames`.
-Features features_of(const std::vector<Cepstrum>& frames, std::size_t at, const Cepstrum& mean);
+Features features_of(std::span<const Cepstrum> frames, std::size_t at, const Cepstrum& mean);
 
 /// Of each frame and phone: how many of the paths are there, 0..1.
 using Votes = std::vector<std::vector<float>>;

@@ -33,18 +33,33 @@ struct ListenOptions {
   std::string model_path = "/usr/share/pocketsphinx/model/en-us/en-us";
   /// Which phones follow each other: a language model of phones in any format of pocketsphinx.
   std::string phones_path = "/usr/share/pocketsphinx/model/en-us/en-us-phone.lm.bin";
+  /// English words are searched for, too, where the two files that follow are there. They are
+  /// followed as far as they are believed: the more of them make a sentence and fit, the more.
+  bool words = true;
+  /// Which words follow each other: a language model in any format of pocketsphinx.
+  std::string words_path = "/usr/share/pocketsphinx/model/en-us/en-us.lm.bin";
+  /// How they are spoken, see AlignOptions::dictionary_path.
+  std::string dictionary_path = "/usr/share/pocketsphinx/model/en-us/cmudict-en-us.dict";
   std::size_t readings = 24;  ///< how many are drawn, 1..200
   /// Told the share that is done, 0..1; may be empty.
   std::function<void(double)> progress;
 };
 
-/// What listen() heard. All scripts cover the sound exactly, their labels are ARPAbet, without
-/// words.
+/// A word of English that may have been said.
+struct HeardWord {
+  std::string text;       ///< in small letters
+  double start = 0;       ///< seconds
+  double end = 0;         ///< seconds
+  double confidence = 0;  ///< 0..1
+};
+
+/// What listen() heard. All scripts cover the sound exactly, their labels are ARPAbet.
 struct Heard {
-  dam::Script script;  ///< what most readings agree on
+  dam::Script script;  ///< what most readings agree on; with the words of `words`
   std::vector<double>
       confidences;        ///< of each phone of `script`: the share of readings that agree, 0..1
   double confidence = 0;  ///< their mean over time, silence left out; 0: nothing was heard
+  std::vector<HeardWord> words;       ///< English ones that are believable, in order
   std::vector<dam::Script> readings;  ///< each as likely as the others
   std::vector<std::string> warnings;  ///< sentences for people; empty if all went well
 };

@@ -90,6 +90,34 @@ Result<std::vector<VoiceSymbol>> voice_symbols(const VoiceOptions& options) {
   return symbols;
 }
 
+std::string mnemonics_of(const std::string& voice, std::string_view ipa,
+                         const VoiceOptions& options) {
+  VoiceOptions wanted = options;
+  wanted.language = voice;
+  const auto symbols = voice_symbols(wanted);
+  if (!symbols) return {};
+  std::string out;
+  while (!ipa.empty()) {
+    std::string_view best, name;
+    const auto consider = [&](std::string_view text, std::string_view mnemonic) {
+      if (!text.empty() && text.size() > best.size() && ipa.starts_with(text)) {
+        best = text;
+        name = mnemonic;
+      }
+    };
+    for (const VoiceSymbol& symbol : *symbols) consider(symbol.ipa, symbol.mnemonic);
+    // Marks of IPA that espeak-ng writes otherwise, and letters that are written in two ways.
+    constexpr std::pair<std::string_view, std::string_view> kMarks[] = {
+        {"ˈ", "'"}, {"ˌ", ","},  {".", ""}, {"ː", ":"},    {"g", "g"},
+        {"r", "r"}, {" ", "||"}, {"‿", ""}, {"\u0361", ""}};
+    for (const auto& [text, mnemonic] : kMarks) consider(text, mnemonic);
+    if (best.empty()) return {};
+    out += name;
+    ipa.remove_prefix(best.size());
+  }
+  return out;
+}
+
 void add_counts(const SymbolCounts& more, SymbolCounts& all) {
   all.exact += more.exact;
   all.features += more.features;

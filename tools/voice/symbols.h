@@ -25,6 +25,11 @@ struct VoiceSymbol {
 /// Errors: those of speak_text(); not_found, truncated, syntax (data of another version).
 Result<std::vector<VoiceSymbol>> voice_symbols(const VoiceOptions& options = {});
 
+/// IPA as the names of phonemes of a voice, for [[ ]] of espeak-ng: the longest ones that fit, left
+/// to right. Empty if a letter is none of the voice's sounds.
+std::string mnemonics_of(const std::string& voice, std::string_view ipa,
+                         const VoiceOptions& options);
+
 /// How the symbols of a voice are spoken.
 struct SymbolCounts {
   std::size_t exact = 0;      ///< letters of the phones that models know

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 
 #include "dam/script/script_text_internal.h"
+#include "tools/text/utterance.h"
 #include "tools/voice/voice_events.h"
 #include "tools/voice/voice_job.h"
+#include "tools/voice/voice_languages.h"
 
 namespace animeme::voice {
 namespace {
@@ -60,27 +64,42 @@ Error nothing_to_say(const std::string& voice) {
                         "choose another voice");
 }
 
+EspeakJob job_of(const text::Utterance& utterance, const VoiceOptions& options) {
+  EspeakJob job;
+  job.voice = utterance.speakers.front().voice;
+  job.texts = {text::utf8(utterance.input.text)};
+  job.options = options;
+  job.markup = utterance.markup;
+  job.mnemonics = utterance.mnemonics;
+  return job;
+}
+
 }  // namespace
 
 Result<Speech> speak_text(std::string_view text, const VoiceOptions& options) {
-  const auto voice = find_voice(options);
-  if (!voice) return voice.error();
   const auto cleaned = clean_text(text);
+  auto speakers = find_speakers(options, cleaned ? text::code_points(*cleaned) : std::u32string());
+  if (!speakers) return speakers.error();
   if (!cleaned) return cleaned.error();
-  EspeakJob job;
-  job.voice = voice->identifier;
-  job.texts = {*cleaned};
-  job.options = options;
+  auto utterance = text::make_utterance(*cleaned, *std::move(speakers), helpers_of(options));
+  if (!utterance) return utterance.error();
+  Speech speech;
+  speech.voice = utterance->speakers.front().name;
+  speech.warnings = std::move(utterance->warnings);
+  EspeakJob job = job_of(*utterance, options);
   auto spoken = run_voice(job);
   if (!spoken) return spoken.error();
   const int rate = spoken->sample_rate;
   RawSpeech& raw = spoken->speech.front();
+  if (job.markup) correct_ipa(raw, *utterance);
   pad(raw, std::size_t(std::lround(options.lead_silence * rate)),
       std::size_t(std::lround(options.tail_silence * rate)));
-  Speech speech;
-  speech.voice = voice->name;
-  speech.script = make_voice_script(raw, rate, *cleaned);
-  if (!has_sound(speech.script)) return nothing_to_say(voice->name);
+  speech.script = make_voice_script(raw, rate, *utterance);
+  if (!has_sound(speech.script)) return nothing_to_say(speech.voice);
+  speech.languages = find_languages(raw, rate, *utterance);
+  speech.marks = find_marks(raw, rate, *utterance);
+  std::string letters = warn_of_letters(raw, *utterance, speech.languages);
+  if (!letters.empty()) speech.warnings.push_back(std::move(letters));
   speech.audio.sample_rate = rate;
   speech.audio.samples.reserve(raw.samples.size());
   for (const std::int16_t sample : raw.samples) {
@@ -91,24 +110,43 @@ Result<Speech> speak_text(std::string_view text, const VoiceOptions& options) {
 
 Result<std::vector<std::vector<std::string>>> pronounce(const std::vector<std::string>& texts,
                                                         const VoiceOptions& options) {
-  const auto voice = find_voice(options);
-  if (!voice) return voice.error();
-  EspeakJob job;
-  job.voice = voice->identifier;
-  job.options = options;
+  // Texts that one voice speaks as they are go together; the others have markup, or another voice.
+  std::map<std::pair<std::string, bool>, std::vector<std::size_t>> together;
+  std::vector<text::Utterance> utterances;
+  std::optional<text::Speakers> known;
   for (const std::string& text : texts) {
     auto cleaned = clean_text(text);
-    if (!cleaned) return cleaned.error();
-    job.texts.push_back(*std::move(cleaned));
-  }
-  const auto spoken = run_voice(job);
-  if (!spoken) return spoken.error();
-  std::vector<std::vector<std::string>> all;
-  for (const RawSpeech& raw : spoken->speech) {
-    std::vector<std::string>& labels = all.emplace_back();
-    for (const dam::Phone& phone : make_voice_script(raw, spoken->sample_rate, {}).phones) {
-      if (phone.label != dam::kSilence) labels.push_back(phone.label);
+    if (!known || known->automatic) {
+      auto speakers =
+          find_speakers(options, cleaned ? text::code_points(*cleaned) : std::u32string());
+      if (!speakers) return speakers.error();
+      known = *std::move(speakers);
     }
+    if (!cleaned) return cleaned.error();
+    auto utterance = text::make_utterance(*cleaned, *known, helpers_of(options));
+    if (!utterance) return utterance.error();
+    together[{utterance->speakers.front().voice, utterance->markup}].push_back(utterances.size());
+    utterances.push_back(*std::move(utterance));
+  }
+  std::vector<std::vector<std::string>> all(texts.size());
+  for (const auto& [key, numbers] : together) {
+    EspeakJob job = job_of(utterances[numbers.front()], options);
+    job.texts.clear();
+    for (const std::size_t i : numbers) job.texts.push_back(text::utf8(utterances[i].input.text));
+    auto spoken = run_voice(job);
+    if (!spoken) return spoken.error();
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      RawSpeech& raw = spoken->speech[k];
+      const text::Utterance& utterance = utterances[numbers[k]];
+      if (utterance.markup) correct_ipa(raw, utterance);
+      for (const dam::Phone& phone :
+           make_voice_script(raw, spoken->sample_rate, utterance).phones) {
+        if (phone.label != dam::kSilence) all[numbers[k]].push_back(phone.label);
+      }
+    }
+  }
+  if (texts.empty()) {
+    if (const auto voice = find_voice(options); !voice) return voice.error();
   }
   return all;
 }

@@ -27,7 +27,10 @@ namespace animeme::voice {
 struct VoiceOptions {
   /// A language ("en", "de", "pt-br"), an espeak-ng voice name ("English (Scotland)") or
   /// identifier ("gmw/en-US"), in any case; "+f3" and the like select a variant. "en" is "en-us".
-  /// A region that is not there falls back to its language ("de-at" to "de").
+  /// A region that is not there falls back to its language ("de-at" to "de"). Further languages
+  /// behind a + speak the passages in their scripts: "zh+en", "en+ru+f3" (what is a language is no
+  /// variant). "auto": by script, and where that does not tell, by the locale of the environment
+  /// (LC_ALL, LC_MESSAGES, LANG), else "en".
   std::string language = "en";
   int words_per_minute = 175;  ///< 80..450
   int pitch = 50;              ///< 0..100
@@ -39,23 +42,51 @@ struct VoiceOptions {
   std::string data_path;
 };
 
+/// A part of speech that one voice speaks in one language.
+struct SpokenLanguage {
+  /// when, in seconds
+  double start = 0, end = 0;  ///< seconds
+  std::string language;       ///< "en-us", "cmn-latn-pinyin"
+  std::string voice;  ///< its name; for words that a voice itself takes as another language,
+                      ///< the name of that voice
+  std::string text;   ///< what it speaks, as it was written
+  /// The voice changed by itself, which it does for words that it does not know how to read.
+  bool by_itself = false;
+};
+
+/// A place of an SSML document, `mark name="..."`.
+struct SpeechMark {
+  double time = 0;   ///< seconds
+  std::string name;  ///< as in the document
+};
+
 /// What speak_text() makes. The script begins at 0 and ends with the audio; its first and last
 /// phones are SIL (unless a silence of 0 was asked for). Phone::word is filled.
 struct Speech {
   media::Pcm audio;    ///< 22050 Hz with the voices of espeak-ng 1.51
   dam::Script script;  ///< phones and words of the sound
-  std::string voice;   ///< name of the voice that spoke, "English (America)"
+  std::string voice;   ///< name of the voice that spoke, the first of several: "English (America)"
+  std::vector<SpokenLanguage> languages;  ///< ascending; at least one
+  std::vector<SpeechMark> marks;          ///< of SSML, ascending
+  std::vector<std::string> warnings;      ///< what was left out or spelled, sentences for people
 };
 
-/// Speaks UTF-8 text (plain text: no SSML, no phoneme codes).
+/// Speaks UTF-8 text: plain, or an SSML document, told by its content (tools/text/ssml.h). What is
+/// written is read as people say it: dates, amounts, characters of Chinese and Japanese
+/// (tools/text). Words of the script are as they were written.
+///
+/// Letters of a script that no chosen voice reads are an error, which names the voice to take.
+/// Words that a voice takes for another language, or spells, are told by `languages` and
+/// `warnings`.
 ///
 /// A stop begins at its closure, not at its burst: the silence before it is taken from the phone
 /// before. A sound whose IPA letter is unknown becomes AX.
 /// Errors: invalid_argument (text without anything to say, or an option out of range),
 /// out_of_range (more than 100000 characters or an hour of sound: speak it in parts), not_found
-/// (no such voice, the nearest ones are named; no voices at data_path), unsupported (built without
-/// espeak-ng), io (the child process could not be started, or espeak-ng failed, e.g. without its
-/// data).
+/// (no such voice, the nearest ones are named; no voices at data_path; a dictionary of Japanese),
+/// syntax with line and column (SSML that is not well formed), unsupported (built without
+/// espeak-ng, or SSML without expat), io (the child process could not be started, or espeak-ng
+/// failed, e.g. without its data).
 Result<Speech> speak_text(std::string_view text, const VoiceOptions& options = {});
 
 /// An installed voice.
@@ -71,7 +102,8 @@ struct VoiceInfo {
 Result<std::vector<VoiceInfo>> list_voices(const std::string& data_path = {});
 
 /// Letters to phones: the ARPAbet labels of each text, spoken by itself, without SIL. An empty
-/// entry is a text that the voice says nothing for. Errors as speak_text().
+/// entry is a text that the voice says nothing for. Chinese and Japanese words may be characters.
+/// Errors as speak_text().
 Result<std::vector<std::vector<std::string>>> pronounce(const std::vector<std::string>& texts,
                                                         const VoiceOptions& options = {});
 

@@ -70,26 +70,52 @@ std::string nearest(const std::string& wanted, const std::vector<VoiceInfo>& voi
 
 }  // namespace
 
-Result<ChosenVoice> choose_voice(std::string_view wanted, const VoiceLists& lists) {
-  const std::string lower = lower_case(wanted.substr(0, 100));
-  const std::size_t plus = lower.find('+');
-  const std::string base = lower.substr(0, plus);
+Result<ChosenVoice> choose_voice(std::string_view language, std::string_view variant,
+                                 const VoiceLists& lists) {
+  const std::string base = lower_case(language.substr(0, 100));
   const VoiceInfo* voice = find_voice(base, lists.voices);
   if (voice == nullptr) {
     return make_error(Code::not_found, "no voice \"" + base + "\"; the nearest are " +
                                            nearest(base, lists.voices) +
                                            "; espeak-ng --voices lists all");
   }
-  ChosenVoice chosen{voice->identifier, voice->name};
-  if (plus == std::string::npos) return chosen;
-  const std::string variant = lower.substr(plus + 1);
-  const auto known = std::find_if(lists.variants.begin(), lists.variants.end(),
-                                  [&](const std::string& v) { return lower_case(v) == variant; });
-  if (known == lists.variants.end()) {
-    return make_error(Code::not_found,
-                      "no voice variant \"" + variant + "\"; espeak-ng --voices=variant lists all");
+  return ChosenVoice{voice->identifier + std::string(variant), voice->name, voice->language};
+}
+
+Result<ChosenVoices> choose_voices(std::string_view wanted, const VoiceLists& lists) {
+  std::vector<std::string> parts(1);
+  for (const char c : lower_case(wanted.substr(0, 100))) {
+    if (c == '+') {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
   }
-  chosen.identifier += "+" + *known;
+  ChosenVoices chosen;
+  std::vector<std::string> languages;
+  for (const std::string& part : parts) {
+    if (part == "auto") {
+      chosen.automatic = true;
+      continue;
+    }
+    if (&part == &parts.front() || find_voice(part, lists.voices) != nullptr) {
+      languages.push_back(part);
+      continue;
+    }
+    const auto known = std::find_if(lists.variants.begin(), lists.variants.end(),
+                                    [&](const std::string& v) { return lower_case(v) == part; });
+    if (known == lists.variants.end()) {
+      return make_error(Code::not_found,
+                        "no language and no voice variant \"" + part +
+                            "\"; espeak-ng --voices and espeak-ng --voices=variant list all");
+    }
+    if (chosen.variant.empty()) chosen.variant = "+" + *known;
+  }
+  for (const std::string& language : languages) {
+    auto voice = choose_voice(language, chosen.variant, lists);
+    if (!voice) return voice.error();
+    chosen.voices.push_back(*std::move(voice));
+  }
   return chosen;
 }
 

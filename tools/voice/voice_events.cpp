@@ -7,6 +7,7 @@
 
 #include "dam/script/ipa.h"
 #include "dam/script/script_text_internal.h"
+#include "tools/text/unicode.h"
 #include "tools/voice/transcript.h"
 
 namespace animeme::voice {
@@ -17,6 +18,7 @@ using dam::IpaPhone;
 constexpr int kSilentLevel = 8;            // of 32768: what espeak-ng leaves between sounds
 constexpr double kMaxClosure = 0.2;        // seconds of silence before a burst that are closure
 constexpr double kMaxFirstClosure = 0.08;  // the same after a pause: the rest is rest
+constexpr std::size_t kMostSigns = 3;      // between the place of an event and its word
 constexpr double kMinPhone = 0.01;         // seconds that the phone before keeps
 
 // A stretch of sound with its labels. No labels: silence.
@@ -50,31 +52,30 @@ std::vector<IpaPhone> labels_of(std::string_view ipa) {
   return *std::move(parsed);
 }
 
-// Word positions count characters of the text, from 1.
-class WordFinder {
- public:
-  explicit WordFinder(std::string_view text) {
-    std::string_view rest = text;
-    while (!rest.empty()) {
-      starts_.push_back(text.size() - rest.size());
-      dam::take_code_point(rest);
-    }
-    starts_.push_back(text.size());
-    text_ = text;
+// The word of the source that an event names.
+std::string word_of(const VoiceEvent& event, const text::Utterance& utterance) {
+  const text::Place place = place_of(event, utterance);
+  const std::u32string& source = utterance.source;
+  std::size_t first = place.first, last = place.last;
+  // Behind "z. B." a word is said to begin at the sign before it.
+  const auto spoken = [&](std::size_t at) { return text::is_letter_or_digit(source[at]); };
+  std::size_t next = first;
+  while (next < source.size() && !spoken(next)) ++next;
+  if (first < last && next >= last && next < source.size() && next - first <= kMostSigns) {
+    first = next;
+    for (last = next; last < source.size() && spoken(last);) ++last;
   }
-
-  std::string word(std::int32_t position, std::int32_t length) const {
-    const auto count = std::int64_t(starts_.size()) - 1;
-    const std::int64_t first = std::clamp<std::int64_t>(position - 1, 0, count);
-    const std::int64_t last = std::clamp<std::int64_t>(first + length, first, count);
-    const std::size_t begin = starts_[std::size_t(first)];
-    return std::string(strip_punctuation(text_.substr(begin, starts_[std::size_t(last)] - begin)));
-  }
-
- private:
-  std::string_view text_;
-  std::vector<std::size_t> starts_;
-};
+  // The parts of a number come one by one: "2024", then "024".
+  const auto digit = [&](std::size_t at) { return text::digit_value(source[at]) >= 0; };
+  while (first < last && first > 0 && digit(first) && digit(first - 1)) --first;
+  while (first < last && last < source.size() && digit(last - 1) && digit(last)) ++last;
+  const auto sign = [&](std::size_t at) {
+    return source[at] >= 0x80 && text::kind_of(source[at]) == text::Kind::punctuation;
+  };
+  while (first < last && sign(first)) ++first;
+  while (first < last && sign(last - 1)) --last;
+  return std::string(strip_punctuation(text::utf8(source.substr(first, last - first))));
+}
 
 void add_segment(std::vector<VoicedSegment>& segments, const RawSpeech& raw, VoicedSegment segment,
                  std::string_view ipa) {
@@ -92,17 +93,18 @@ void add_segment(std::vector<VoicedSegment>& segments, const RawSpeech& raw, Voi
   }
 }
 
-std::vector<VoicedSegment> cut(const RawSpeech& raw, std::string_view text) {
-  const WordFinder words(text);
+std::vector<VoicedSegment> cut(const RawSpeech& raw, const text::Utterance& utterance) {
   const auto size = std::int64_t(raw.samples.size());
   std::vector<VoicedSegment> segments;
   VoicedSegment current{0, 0, {}, {}};
   std::string ipa = "_", word;
   for (const VoiceEvent& event : raw.events) {
     if (event.kind == EventKind::word) {
-      word = words.word(event.text_position, event.text_length);
+      // Of markup there are words of no length.
+      if (!utterance.markup || event.text_length > 0) word = word_of(event, utterance);
       continue;
     }
+    if (event.kind == EventKind::mark) continue;
     current.end = std::clamp(event.sample, current.start, size);
     const std::int64_t next = current.end;
     add_segment(segments, raw, std::move(current), ipa);
@@ -144,8 +146,31 @@ void append(std::vector<dam::Phone>& phones, dam::Phone phone) {
 
 }  // namespace
 
+text::Place place_of(const VoiceEvent& event, const text::Utterance& utterance) {
+  // Positions count characters of the input, from 1.
+  const auto count = std::int64_t(utterance.input.size());
+  const std::int64_t first = std::clamp<std::int64_t>(event.text_position - 1, 0, count);
+  const std::int64_t last = std::clamp<std::int64_t>(first + event.text_length, first, count);
+  text::Place all;
+  for (std::int64_t i = first; i < last; ++i) {
+    const text::Place place = utterance.input.places[std::size_t(i)];
+    if (place.last <= place.first) continue;
+    all.first = all.last == 0 ? place.first : std::min(all.first, place.first);
+    all.last = std::max(all.last, place.last);
+  }
+  return all;
+}
+
 dam::Script make_voice_script(const RawSpeech& raw, int sample_rate, std::string_view text) {
-  std::vector<VoicedSegment> segments = cut(raw, text);
+  text::Utterance utterance;
+  utterance.source = text::code_points(text);
+  utterance.input = text::as_written(utterance.source);
+  return make_voice_script(raw, sample_rate, utterance);
+}
+
+dam::Script make_voice_script(const RawSpeech& raw, int sample_rate,
+                              const text::Utterance& utterance) {
+  std::vector<VoicedSegment> segments = cut(raw, utterance);
   move_stops_to_closure(segments, raw, sample_rate);
   dam::Script script;
   const auto seconds = [&](double sample) { return sample / double(sample_rate); };

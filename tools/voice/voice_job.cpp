@@ -4,7 +4,9 @@
 #include <map>
 #include <mutex>
 
+#include "tools/text/unicode.h"
 #include "tools/voice/espeak_ipa.h"
+#include "tools/voice/symbols.h"
 #include "tools/voice/voice_choice.h"
 
 namespace animeme::voice {
@@ -56,6 +58,20 @@ Result<void> check_data(const std::string& data_path) {
                                          "leave it empty");
 }
 
+// Mandarin by pinyin, whatever voice of it is asked for: that of characters reads them in English.
+text::Speaker speaker_of(const ChosenVoice& voice) {
+  text::Speaker speaker = text::make_speaker(voice.language, voice.identifier, voice.name);
+  const std::string mandarin = "sit/cmn";
+  const std::string_view rest =
+      std::string_view(voice.identifier).substr(std::min(mandarin.size(), voice.identifier.size()));
+  const bool plain = voice.identifier.starts_with(mandarin) && (rest.empty() || rest[0] == '+');
+  if (plain && text::unicode_here()) {
+    speaker.voice = mandarin + "-Latn-pinyin" + std::string(rest);
+    speaker.name = "Chinese (Mandarin)";
+  }
+  return speaker;
+}
+
 }  // namespace
 
 Result<FoundVoice> find_voice(const VoiceOptions& options) {
@@ -63,16 +79,65 @@ Result<FoundVoice> find_voice(const VoiceOptions& options) {
   if (auto good = check_data(options.data_path); !good) return good.error();
   const auto lists = cached_lists(options.data_path);
   if (!lists) return lists.error();
-  const auto voice = choose_voice(options.language, *lists);
+  const auto chosen = choose_voices(options.language, *lists);
+  if (!chosen) return chosen.error();
+  const auto voice = chosen->voices.empty() ? choose_voice(text::locale_language(), {}, *lists)
+                                            : chosen->voices.front();
   if (!voice) return voice.error();
   const std::string file = voice->identifier.substr(0, voice->identifier.find('+'));
-  return FoundVoice{voice->identifier, voice->name, file, lists->data_path};
+  return FoundVoice{voice->identifier, voice->name, voice->language, file, lists->data_path};
+}
+
+Result<text::Speakers> find_speakers(const VoiceOptions& options, std::u32string_view text) {
+  if (auto main = find_voice(options); !main) return main.error();
+  const auto lists = cached_lists(options.data_path);
+  if (!lists) return lists.error();
+  const auto chosen = choose_voices(options.language, *lists);
+  if (!chosen) return chosen.error();
+  text::Speakers speakers;
+  speakers.automatic = chosen->automatic;
+  speakers.find = [lists = *lists, variant = chosen->variant](
+                      const std::string& language) -> std::optional<text::Speaker> {
+    auto voice = choose_voice(language, variant, lists);
+    if (!voice) return std::nullopt;
+    return speaker_of(*voice);
+  };
+  for (const ChosenVoice& voice : chosen->voices) speakers.list.push_back(speaker_of(voice));
+  if (!speakers.list.empty()) return speakers;
+  // Nobody is named: the first letters tell who is the main voice.
+  for (const std::string& language : {text::first_language(text), text::locale_language()}) {
+    auto found = language.empty() ? std::nullopt : speakers.find(language);
+    if (found && speakers.list.empty()) speakers.list.push_back(*std::move(found));
+  }
+  if (speakers.list.empty()) speakers.list.push_back(*speakers.find("en"));
+  return speakers;
+}
+
+text::Helpers helpers_of(const VoiceOptions& options) {
+  text::Helpers helpers;
+  helpers.find = [options](const std::string& language,
+                           const std::string& name) -> std::optional<text::Speaker> {
+    const auto lists = cached_lists(options.data_path);
+    if (!lists) return std::nullopt;
+    // A variant of the language, else a voice by its name.
+    for (const std::string& wanted : {language + (name.empty() ? "" : "+" + name), name}) {
+      const auto chosen = choose_voices(wanted, *lists);
+      if (wanted.empty() || !chosen || chosen->voices.empty()) continue;
+      return speaker_of(chosen->voices.back());
+    }
+    return std::nullopt;
+  };
+  helpers.mnemonics = [options](const text::Speaker& speaker, const std::string& ipa) {
+    return mnemonics_of(speaker.voice, ipa, options);
+  };
+  return helpers;
 }
 
 Result<EspeakResult> run_voice(const EspeakJob& job) {
   auto result = run_espeak(job);
   if (!result) return result;
   for (RawSpeech& raw : result->speech) {
+    if (job.markup) break;
     for (VoiceEvent& event : raw.events) event.ipa = meant_ipa(job.voice, event.ipa);
   }
   return result;

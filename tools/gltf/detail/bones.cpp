@@ -9,44 +9,36 @@ using head::Part;
 using head::Transform;
 using head::Vec3;
 
-// The unit quaternion of a rotation, w not negative.
-std::array<float, 4> quaternion(const Transform& t) {
-  const double m00 = t.row_x.x, m11 = t.row_y.y, m22 = t.row_z.z;
+// A bone at `pivot` under a parent at `parent` that does what `move` does to points of the head.
+BoneKey key(const Transform& move, Vec3 pivot, Vec3 parent) {
+  const auto row = [](Vec3 v) { return std::array<double, 3>{v.x, v.y, v.z}; };
+  const auto q = quaternion_of({row(move.row_x), row(move.row_y), row(move.row_z)});
+  return {{float(q[0]), float(q[1]), float(q[2]), float(q[3])}, (move(pivot) - parent) * kMetres};
+}
+
+}  // namespace
+
+std::array<double, 4> quaternion_of(const std::array<std::array<double, 3>, 3>& m) {
   // The largest of the four parts is found first: dividing by it is safe.
-  const std::array<double, 4> squares = {1 + m00 - m11 - m22, 1 - m00 + m11 - m22,
-                                         1 - m00 - m11 + m22, 1 + m00 + m11 + m22};
+  const std::array<double, 4> squares = {
+      1 + m[0][0] - m[1][1] - m[2][2], 1 - m[0][0] + m[1][1] - m[2][2],
+      1 - m[0][0] - m[1][1] + m[2][2], 1 + m[0][0] + m[1][1] + m[2][2]};
   std::size_t best = 3;
   for (std::size_t i = 0; i < 4; ++i) {
     if (squares[i] > squares[best] + 1e-6) best = i;
   }
   const double s = 0.5 / std::sqrt(squares[best]);
-  const double yx = double(t.row_y.x), xy = double(t.row_x.y);
-  const double zx = double(t.row_z.x), xz = double(t.row_x.z);
-  const double zy = double(t.row_z.y), yz = double(t.row_y.z);
-  std::array<double, 4> q = {};
-  switch (best) {
-    case 0:
-      q = {squares[0] * s, (xy + yx) * s, (xz + zx) * s, (zy - yz) * s};
-      break;
-    case 1:
-      q = {(xy + yx) * s, squares[1] * s, (yz + zy) * s, (xz - zx) * s};
-      break;
-    case 2:
-      q = {(xz + zx) * s, (yz + zy) * s, squares[2] * s, (yx - xy) * s};
-      break;
-    default:
-      q = {(zy - yz) * s, (xz - zx) * s, (yx - xy) * s, squares[3] * s};
+  const double x = m[2][1] - m[1][2], y = m[0][2] - m[2][0], z = m[1][0] - m[0][1];
+  const double xy = m[0][1] + m[1][0], xz = m[0][2] + m[2][0], yz = m[1][2] + m[2][1];
+  std::array<double, 4> q = {x * s, y * s, z * s, squares[3] * s};
+  if (best == 0) q = {squares[0] * s, xy * s, xz * s, x * s};
+  if (best == 1) q = {xy * s, squares[1] * s, yz * s, y * s};
+  if (best == 2) q = {xz * s, yz * s, squares[2] * s, z * s};
+  if (q[3] < 0) {
+    for (double& part : q) part = -part;
   }
-  const double sign = q[3] < 0 ? -1 : 1;
-  return {float(sign * q[0]), float(sign * q[1]), float(sign * q[2]), float(sign * q[3])};
+  return q;
 }
-
-// A bone at `pivot` under a parent at `parent` that does what `move` does to points of the head.
-BoneKey key(const Transform& move, Vec3 pivot, Vec3 parent) {
-  return {quaternion(move), (move(pivot) - parent) * kMetres};
-}
-
-}  // namespace
 
 Vec3 pivot_of(const head::Rig& rig, Bone bone) {
   switch (bone) {

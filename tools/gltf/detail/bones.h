@@ -22,6 +22,9 @@ struct BoneKey {
   head::Vec3 place;
 };
 
+/// The unit quaternion of a rotation, by its rows; w not negative.
+std::array<double, 4> quaternion_of(const std::array<std::array<double, 3>, 3>& rotation);
+
 /// The point about which a bone turns, cm in the space of the head.
 head::Vec3 pivot_of(const head::Rig& rig, Bone bone);
 

@@ -54,6 +54,7 @@ Result<Chunks> chunks_of_glb(std::span<const std::uint8_t> bytes) {
     if (is_first) chunks.json = file.subspan(at, size);
     if (type == kBinChunk && !chunks.binary) chunks.binary = file.subspan(at, size);
     at += size;
+    if (type == kBinChunk && chunks.others.empty()) chunks.others = file.subspan(at);
   }
   return chunks;
 }
@@ -71,6 +72,33 @@ Result<Chunks> chunks_of(std::span<const std::uint8_t> bytes) {
     return make_error(Code::syntax, "this is no glTF file: it begins neither as .glb nor as JSON");
   }
   return Chunks{bytes, std::nullopt};
+}
+
+Result<std::vector<std::uint8_t>> glb_front(std::string_view json, std::uint64_t binary,
+                                            std::uint64_t others) {
+  const std::size_t text = (json.size() + 3) / 4 * 4;
+  const std::uint64_t total =
+      kHeader + kChunkHeader + text + (binary > 0 ? kChunkHeader + binary : 0) + others;
+  if (total > UINT32_MAX) {
+    return make_error(Code::out_of_range, "the file would be larger than 4 GB");
+  }
+  std::vector<std::uint8_t> front;
+  front.reserve(kHeader + 2 * kChunkHeader + text);
+  const auto put = [&](std::uint64_t value) {
+    for (int byte = 0; byte < 4; ++byte) front.push_back(std::uint8_t(value >> (8 * byte)));
+  };
+  put(kMagic);
+  put(2);
+  put(total);
+  put(text);
+  put(kJsonChunk);
+  front.insert(front.end(), json.begin(), json.end());
+  front.insert(front.end(), text - json.size(), ' ');
+  if (binary > 0) {
+    put(binary);
+    put(kBinChunk);
+  }
+  return front;
 }
 
 bool looks_like_json(std::span<const std::uint8_t> bytes) {

@@ -82,11 +82,7 @@ bool File::uses(std::string_view extension) const {
   return false;
 }
 
-Result<File> open_file(std::span<const std::uint8_t> bytes, const LoadFile& load,
-                       const ReadLimits& limits) {
-  const Result<Chunks> chunks = chunks_of(bytes);
-  if (!chunks) return chunks.error();
-  const auto json = chunks->json;
+Result<File> open_json(std::span<const std::uint8_t> json, const ReadLimits& limits) {
   if (auto fine = check_values({reinterpret_cast<const char*>(json.data()), json.size()}); !fine) {
     return fine.error();
   }
@@ -99,8 +95,17 @@ Result<File> open_file(std::span<const std::uint8_t> bytes, const LoadFile& load
   if (!text_or(member(file.root, "asset", "version")).starts_with("2.")) {
     return make_error(Code::unsupported, "only glTF 2.0 can be read: export it again as glTF 2.0");
   }
-  if (auto fine = check_extensions(file.root); !fine) return fine.error();
-  if (auto done = BufferReader(file, *chunks, load).read(); !done) return done.error();
+  return file;
+}
+
+Result<File> open_file(std::span<const std::uint8_t> bytes, const LoadFile& load,
+                       const ReadLimits& limits) {
+  const Result<Chunks> chunks = chunks_of(bytes);
+  if (!chunks) return chunks.error();
+  Result<File> file = open_json(chunks->json, limits);
+  if (!file) return file;
+  if (auto fine = check_extensions(file->root); !fine) return fine.error();
+  if (auto done = BufferReader(*file, *chunks, load).read(); !done) return done.error();
   return file;
 }
 

@@ -42,6 +42,10 @@ struct File {
 /// (more than `most`).
 Result<Bytes> bytes_of(const std::string& path, std::size_t most);
 
+/// What the JSON of a file says, of whatever extensions and without any buffer. Errors: syntax,
+/// unsupported (another version), out_of_range (more values than are read).
+Result<File> open_json(std::span<const std::uint8_t> json, const ReadLimits& limits);
+
 /// `bytes` have to outlive the result. Errors: see read_head().
 Result<File> open_file(std::span<const std::uint8_t> bytes, const LoadFile& load,
                        const ReadLimits& limits);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "tools/gltf/detail/container.h"
+
 namespace animeme::gltf {
 namespace {
 
@@ -138,26 +140,9 @@ int GlbBuffer::sparse(std::size_t count, std::span<const std::uint32_t> vertices
 Result<std::vector<std::uint8_t>> GlbBuffer::file(nlohmann::json root) {
   while (bytes_.size() % 4 != 0) bytes_.push_back(0);
   root["buffers"] = {{{"byteLength", bytes_.size()}}};
-  std::string text = root.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  while (text.size() % 4 != 0) text += ' ';
-  const std::uint64_t total = 12 + 8 + text.size() + 8 + bytes_.size();
-  if (total > UINT32_MAX) {
-    return make_error(Code::out_of_range, "the file would be larger than 4 GB");
-  }
-  std::vector<std::uint8_t> file;
-  file.reserve(total);
-  const auto put = [&](std::uint32_t value) {
-    for (int byte = 0; byte < 4; ++byte) file.push_back(std::uint8_t(value >> (8 * byte)));
-  };
-  put(0x46546C67);  // "glTF"
-  put(2);
-  put(std::uint32_t(total));
-  put(std::uint32_t(text.size()));
-  put(0x4E4F534A);  // "JSON"
-  file.insert(file.end(), text.begin(), text.end());
-  put(std::uint32_t(bytes_.size()));
-  put(0x004E4942);  // "BIN"
-  file.insert(file.end(), bytes_.begin(), bytes_.end());
+  const std::string text = root.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  Result<std::vector<std::uint8_t>> file = glb_front(text, bytes_.size());
+  if (file) file->insert(file->end(), bytes_.begin(), bytes_.end());
   return file;
 }
 

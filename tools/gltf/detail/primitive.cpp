@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "tools/gltf/detail/extensions.h"
+#include "tools/gltf/detail/target_names.h"
 #include "tools/gltf/detail/words.h"
-#include "tools/gltf/shape_names.h"
 
 namespace animeme::gltf {
 namespace {
@@ -35,21 +35,6 @@ Result<std::vector<head::Triangle>> triangles_of(const std::vector<std::uint32_t
     if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);
   }
   return triangles;
-}
-
-// Names: of the mesh, as nearly all programs write them; of the primitive (UniGLTF); of the
-// accessors.
-std::string target_name(const File& file, const Json& mesh, const Json& primitive,
-                        std::size_t target) {
-  for (const Json* from : {&member(mesh, "extras"), &member(primitive, "extras")}) {
-    const std::vector<Json>& names = list(*from, "targetNames");
-    if (target < names.size() && names[target].is_string()) return text_or(names[target]);
-  }
-  const std::vector<Json>& targets = list(primitive, "targets");
-  const auto accessor = whole(member(targets[target], "POSITION"));
-  const std::string name =
-      accessor ? text_or(member(file.entry("accessors", *accessor), "name")) : "";
-  return name.empty() ? "target " + std::to_string(target) : name;
 }
 
 std::vector<Uv> uvs_of(const std::vector<float>& values) {
@@ -83,6 +68,7 @@ struct MeshReader::Place {
   const Node* node = nullptr;
   const Skin* skin = nullptr;
   std::optional<float> share;  ///< of a mesh that hangs on a bone
+  bool on_jaw = false;         ///< likewise
 };
 
 std::size_t ShapeNames::index_of(const std::string& name) {
@@ -119,6 +105,7 @@ Result<void> MeshReader::add_node(std::size_t index, ShapeNames& names) {
   next_number_ = 0;
   Place place{index, &node, skin ? &*skin : nullptr, {}};
   if (!skin && !shares_.empty() && shares_[index] > 0) place.share = shares_[index];
+  place.on_jaw = !skin && jaw_[index];
   for (const Json& entry : list(mesh, "primitives")) {
     const std::size_t mode = whole_or(member(entry, "mode"), kTriangles);
     if (mode < kTriangles || mode > kTriangleFan) continue;  // points and lines
@@ -133,6 +120,7 @@ Result<RawPiece> MeshReader::primitive(const Json& mesh, const Json& entry, cons
                                        ShapeNames& names) {
   RawPiece piece;
   piece.node = place.index;
+  piece.on_jaw = place.on_jaw;
   piece.name = place.node->name;
   const std::string mesh_name = text_or(member(mesh, "name"));
   // Both may tell which part it is: "Anna", "Teeth".
@@ -180,7 +168,7 @@ Result<RawPiece> MeshReader::primitive(const Json& mesh, const Json& entry, cons
   if (!maps.empty() && mirrors(maps[0])) {
     for (head::Triangle& t : piece.triangles) std::swap(t[1], t[2]);
   }
-  if (auto done = add_morphs(mesh, entry, maps, piece, names); !done) return done.error();
+  if (auto done = add_morphs(entry, maps, piece, names); !done) return done.error();
   return piece;
 }
 
@@ -255,6 +243,7 @@ Result<std::vector<Affine>> MeshReader::skin_maps(const Json& attributes, const 
       }
       add_scaled(maps[i / 4], skin.bind[joint], weight);
       sums[i / 4] += weight;
+      piece.on_jaw = piece.on_jaw || (jaw_[skin.joints[joint]] && weight > 0.02);
       if (!shares_.empty()) turns[i / 4] += weight * double(shares_[skin.joints[joint]]);
     }
   }
@@ -273,18 +262,8 @@ Result<std::vector<Affine>> MeshReader::skin_maps(const Json& attributes, const 
   return maps;
 }
 
-// Its own name if that is known; else what a VRM file uses it for.
-std::string MeshReader::name_of(const Json& mesh, const Json& entry, std::size_t mesh_number,
-                                std::size_t target) const {
-  std::string name = target_name(file_, mesh, entry, target);
-  const auto expression = expressions_.find({mesh_number, target});
-  if (expression == expressions_.end() || meaning_of(name)) return name;
-  return expression->second;
-}
-
-Result<void> MeshReader::add_morphs(const Json& mesh, const Json& entry,
-                                    const std::vector<Affine>& maps, RawPiece& piece,
-                                    ShapeNames& names) {
+Result<void> MeshReader::add_morphs(const Json& entry, const std::vector<Affine>& maps,
+                                    RawPiece& piece, ShapeNames& names) {
   const std::vector<Json>& targets = list(entry, "targets");
   for (std::size_t t = 0; t < targets.size(); ++t) {
     const auto accessor = whole(member(targets[t], "POSITION"));
@@ -301,7 +280,8 @@ Result<void> MeshReader::add_morphs(const Json& mesh, const Json& entry,
       }
     }
     piece.morphs.push_back(
-        {names.index_of(name_of(mesh, entry, *nodes_[piece.node].mesh, t)), std::move(*moves)});
+        {names.index_of(target_name(file_, expressions_, *nodes_[piece.node].mesh, entry, t)),
+         std::move(*moves)});
   }
   std::stable_sort(piece.morphs.begin(), piece.morphs.end(),
                    [](const PieceMorph& a, const PieceMorph& b) { return a.shape < b.shape; });

@@ -7,6 +7,7 @@
 
 #include "fap/head/model.h"
 #include "tools/gltf/detail/accessor.h"
+#include "tools/gltf/detail/joints.h"
 #include "tools/gltf/detail/nodes.h"
 #include "tools/gltf/detail/texture.h"
 #include "tools/gltf/detail/vrm.h"
@@ -37,6 +38,7 @@ struct RawPiece {
   std::vector<Uv> uvs;
   std::vector<Colour> colours;      ///< COLOR_0
   std::vector<float> neck_weights;  ///< see head::Piece
+  bool on_jaw = false;              ///< some of it hangs on the jaw
   std::vector<PieceMorph> morphs;   ///< by shape
   /// Numbers in the file: through the primitives of the node's mesh, of each the vertices that have
   /// a triangle, as Blender counts them. kNewVertex: divided triangles made it.
@@ -59,12 +61,12 @@ class ShapeNames {
 /// Reads all meshes of the nodes that are shown; of levels of detail ("head_LOD0") the finest.
 class MeshReader {
  public:
-  /// `shares`: see neck_shares().
-  MeshReader(const File& file, const std::vector<Node>& nodes, const std::vector<float>& shares,
+  MeshReader(const File& file, const std::vector<Node>& nodes, const HeadJoints& joints,
              Paints& paints)
       : file_(file),
         nodes_(nodes),
-        shares_(shares),
+        shares_(neck_shares(nodes, joints)),
+        jaw_(nodes_below(nodes, joints.jaw)),
         paints_(paints),
         expressions_(vrm_expressions(file, nodes)) {}
 
@@ -80,16 +82,15 @@ class MeshReader {
                               std::vector<Affine>& maps);
   Result<std::vector<Affine>> skin_maps(const Json& attributes, const Skin& skin,
                                         std::size_t vertices, RawPiece& piece);
-  std::string name_of(const Json& mesh, const Json& entry, std::size_t mesh_number,
-                      std::size_t target) const;
-  Result<void> add_morphs(const Json& mesh, const Json& entry, const std::vector<Affine>& maps,
-                          RawPiece& piece, ShapeNames& names);
+  Result<void> add_morphs(const Json& entry, const std::vector<Affine>& maps, RawPiece& piece,
+                          ShapeNames& names);
 
   const File& file_;
   const std::vector<Node>& nodes_;
-  const std::vector<float>& shares_;
+  std::vector<float> shares_;
+  std::vector<bool> jaw_;  // nodes that it carries
   Paints& paints_;
-  std::map<std::pair<std::size_t, std::size_t>, std::string> expressions_;
+  TargetNames expressions_;
   std::vector<RawPiece> pieces_;
   std::uint32_t next_number_ = 0;  // of the node at hand
 };

@@ -3,15 +3,13 @@
 namespace animeme::gltf {
 namespace {
 
-using Names = std::map<std::pair<std::size_t, std::size_t>, std::string>;
-
 struct Bind {
   std::size_t mesh = 0;
   std::size_t target = 0;
   double weight = 0;  // 0..1
 };
 
-void add(const std::string& name, const std::vector<Bind>& binds, Names& names) {
+void add(const std::string& name, const std::vector<Bind>& binds, TargetNames& names) {
   for (const Bind& bind : binds) {
     int same_mesh = 0;
     for (const Bind& other : binds) same_mesh += other.mesh == bind.mesh;
@@ -21,8 +19,8 @@ void add(const std::string& name, const std::vector<Bind>& binds, Names& names) 
 
 }  // namespace
 
-Names vrm_expressions(const File& file, const std::vector<Node>& nodes) {
-  Names names;
+TargetNames vrm_expressions(const File& file, const std::vector<Node>& nodes) {
+  TargetNames names;
   const Json& old = member(file.root, "extensions", "VRM", "blendShapeMaster");
   for (const Json& group : list(old, "blendShapeGroups")) {
     std::vector<Bind> binds;
