@@ -20,8 +20,10 @@ void require(bool condition) {
   if (!condition) std::abort();
 }
 
-std::vector<std::string> cut(std::string_view text, std::size_t piece) {
-  LineCutter cutter;
+constexpr std::size_t kMost = 1000;  // bytes of a line
+
+std::vector<std::string> cut(std::string_view text, std::size_t piece, bool long_ones) {
+  LineCutter cutter(kMost, long_ones);
   std::vector<std::string> lines;
   while (!text.empty()) {
     const std::string_view part = text.substr(0, piece);
@@ -51,11 +53,13 @@ void check_phone(const std::string& line) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
-  const std::vector<std::string> lines = cut(text, std::size_t(data[0]) + 1);
-  for (const std::string& line : lines) {
-    require(line.size() <= LineCutter::kMostLineBytes);
-    check_phone(line);
+  for (const bool long_ones : {true, false}) {
+    const std::vector<std::string> lines = cut(text, std::size_t(data[0]) + 1, long_ones);
+    for (const std::string& line : lines) {
+      require(line.size() <= (long_ones ? kMost : kMost + 1));
+      check_phone(line);
+    }
+    require(lines == cut(text, text.size() + 1, long_ones));
   }
-  require(lines == cut(text, text.size() + 1));
   return 0;
 }

@@ -118,8 +118,9 @@ TEST(AnimateFile, TakesASoundAlong) {
   const json& view = file.root["bufferViews"][audio["audio"][0]["bufferView"].get<std::size_t>()];
   EXPECT_EQ(view["byteLength"], 3);
   EXPECT_EQ(file.binary[view["byteOffset"].get<std::size_t>() + 2], 3);
-  EXPECT_EQ(file.root["scenes"][0]["extensions"]["KHR_audio_emitter"]["emitters"], json({0}));
-  EXPECT_EQ(file.root["extensionsUsed"], json({"KHR_audio_emitter"}));
+  EXPECT_EQ(file.root["scenes"][0]["extensions"]["KHR_audio_emitter"]["emitters"],
+            json::array({0}));
+  EXPECT_EQ(file.root["extensionsUsed"], json::array({"KHR_audio_emitter"}));
   EXPECT_FALSE(file.root.contains("extensionsRequired"));
   EXPECT_EQ(file.root["animations"][0]["extras"]["audio"], "voice.wav");
 }
