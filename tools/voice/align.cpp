@@ -142,9 +142,10 @@ Result<Alignment> align(const media::Pcm& audio, std::string_view transcript,
                                               " phones; does the text belong to this recording?");
   }
   const auto samples = denoised(audio.samples);
-  auto segments = recognise(samples, *words, options);
-  if (!segments) return segments.error();
-  const bool any = std::any_of(segments->begin(), segments->end(), [](const Segment& segment) {
+  auto recognised = recognise(samples, *words, options);
+  if (!recognised) return recognised.error();
+  auto& segments = recognised->segments;
+  const bool any = std::any_of(segments.begin(), segments.end(), [](const Segment& segment) {
     return segment.word != kNoWord && !segment.foreign;
   });
   if (!any) {
@@ -159,12 +160,12 @@ Result<Alignment> align(const media::Pcm& audio, std::string_view transcript,
         "its loud part; check that the text is what is said");
     segments = spread_evenly(samples, *words);
   } else {
-    result.confidence = rate_recording(*segments, *words);
+    result.confidence = rate_recording(*recognised, *words, is_english(options.language));
   }
-  result.words = rate_words(*segments, *words, audio.duration());
+  result.words = rate_words(segments, *words, audio.duration());
   if (result.confidence < options.least_confidence) return refusal(result, options);
-  add_script(*segments, *words, audio.duration(), result);
-  add_put_in(*segments, audio.duration(), result);
+  add_script(segments, *words, audio.duration(), result);
+  add_put_in(segments, audio.duration(), result);
   if (result.approximate) {
     for (AlignedWord& word : result.words) word.confidence = 0;
   } else {

@@ -18,7 +18,7 @@ double rate_phone(const Segment& segment);
 std::vector<AlignedWord> rate_words(const std::vector<Segment>& segments,
                                     const std::vector<SpokenWord>& words, double duration);
 
-/// Of the recording, 0..1.
-double rate_recording(const std::vector<Segment>& segments, const std::vector<SpokenWord>& words);
+/// Of the recording, 0..1. Words of other languages than English fit less well.
+double rate_recording(const Recognised& found, const std::vector<SpokenWord>& words, bool english);
 
 }  // namespace animeme::voice

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tools/voice/review_words.h"
+
 namespace animeme::voice {
 
 namespace {
@@ -18,20 +20,28 @@ constexpr std::size_t kFurther = 4;
 // quiet, and how much more is asked for where the voice stands out less.
 constexpr PathCosts kQuietCosts{46, 30, 10, 30, 2.5f, 2};
 constexpr float kQuietRange = 42, kNoisyRange = 27;  // dB
+constexpr float kForeignWords = 1;  // words of other languages fit as those of English in noise
 constexpr float kNoisySkip = 2, kNoisyForeign = 1.5f, kNoisyFrame = 0.5f;
 
 // Foreign sound is speech if it is no shorter, and no nearer to the room than to the voice.
 constexpr std::size_t kLeastForeign = 12;  // frames
 constexpr float kLoudEnough = 0.6f;
 
-PathCosts costs_of(const FrameScores& scores) {
+PathCosts costs_of(const FrameScores& scores, bool foreign) {
   PathCosts costs = kQuietCosts;
   const float noisy =
-      std::clamp((kQuietRange - scores.range) / (kQuietRange - kNoisyRange), 0.0f, 1.0f);
+      foreign ? kForeignWords
+              : std::clamp((kQuietRange - scores.range) / (kQuietRange - kNoisyRange), 0.0f, 1.0f);
   costs.skip *= 1 + (kNoisySkip - 1) * noisy;
   costs.foreign *= 1 + (kNoisyForeign - 1) * noisy;
   costs.foreign_frame += kNoisyFrame * noisy;
   return costs;
+}
+
+double costs_to_skip(std::span<const WordModel> words, const PathCosts& costs) {
+  const auto known = std::count_if(words.begin(), words.end(),
+                                   [](const WordModel& word) { return !word.variants.empty(); });
+  return known == 0 ? 0 : double(costs.skip) + double(known) * double(costs.skip_word);
 }
 
 PlacedPart placed(const FrameScores& scores, const PathPart& part) {
@@ -92,29 +102,46 @@ std::size_t cut_of(const std::vector<PathPart>& parts, std::size_t frames) {
   return std::clamp<std::size_t>(best > 0 ? best : word, 1, frames);
 }
 
+// The path, without words that are squeezed in.
+FoundPath find_words(const SoundModel& model, const FrameScores& scores,
+                     std::span<const WordModel> words, const PathCosts& costs, bool open_end) {
+  FoundPath path = find_path(model, scores, words, costs, open_end);
+  const auto squeezed = squeezed_words(model, scores, words, path.parts, costs);
+  if (squeezed.empty()) return path;
+  std::vector<WordModel> rest(words.begin(), words.end());
+  for (const std::size_t word : squeezed) rest[word].left_out = true;
+  return find_path(model, scores, rest, costs, open_end);
+}
+
 }  // namespace
 
-std::vector<PlacedPart> place_words(const SoundModel& model, const MeasuredSound& sound,
-                                    std::span<const WordModel> words) {
-  std::vector<PlacedPart> all;
+Placement place_words(const SoundModel& model, const MeasuredSound& sound,
+                      std::span<const WordModel> words, bool foreign) {
+  Placement all;
+  double saved = 0, without = 0;
   for (std::size_t at = 0, word = 0; at < sound.cepstra.size();) {
     const std::size_t left = sound.cepstra.size() - at;
     const bool last = left <= kWhole;
     const std::size_t frames = last ? left : kPiece;
     const FrameScores scores = score_frames(model, sound, at, frames);
-    const PathCosts costs = costs_of(scores);
+    const PathCosts costs = costs_of(scores, foreign);
     const auto rest = words.subspan(word);
     // What is behind the end of the sound is left out, and never more than that searched.
     const double reach = double(last ? kWhole : kPiece);
     std::size_t some = words_within(rest, last ? double(kFurther) * reach : reach);
     const auto find = [&] {
-      return find_path(model, scores, rest.first(some), costs, !last || some < rest.size());
+      return find_words(model, scores, rest.first(some), costs, !last || some < rest.size());
     };
-    auto parts = find();
+    FoundPath path = find();
+    const auto& parts = path.parts;
     if (!last && some < rest.size() && share_of_words(parts, frames) < kLost) {
       some = words_within(rest, double(kFurther) * reach);
-      parts = find();
+      path = find();
     }
+    const double nothing = double(find_path(model, scores, {}, costs, false).total) -
+                           (last ? costs_to_skip(words.subspan(word), costs) : 0);
+    saved += double(path.total) - nothing;
+    without -= nothing;
     const std::size_t cut = last ? frames : cut_of(parts, frames);
     std::size_t next = word;
     for (PathPart part : parts) {
@@ -126,11 +153,12 @@ std::vector<PlacedPart> place_words(const SoundModel& model, const MeasuredSound
         one.part.word += word;
         next = one.part.word + 1;
       }
-      all.push_back(std::move(one));
+      all.parts.push_back(std::move(one));
     }
     at += cut;
     word = next;
   }
+  all.explained = without > 0 ? saved / without : 0;
   return all;
 }
 

@@ -65,12 +65,6 @@ Labels for_recogniser(Labels labels) {
   return labels;
 }
 
-bool is_english(std::string_view language) {
-  const std::string lower = dam::lower_case(language);
-  return lower == "en" || lower.starts_with("en-") || lower.starts_with("en_") ||
-         lower.starts_with("english");
-}
-
 // Pictures and signs have no sound that all people agree on, and nor have, to an English voice,
 // letters of other scripts than Latin: espeak-ng reads out their names.
 bool can_be_said(std::string_view word, bool english) {
@@ -105,6 +99,12 @@ Result<void> add_spoken(const std::vector<std::string>& missing, const AlignOpti
 }
 
 }  // namespace
+
+bool is_english(std::string_view language) {
+  const std::string lower = dam::lower_case(language);
+  return lower == "en" || lower.starts_with("en-") || lower.starts_with("en_") ||
+         lower.starts_with("english");
+}
 
 Result<std::vector<SpokenWord>> find_pronunciations(const std::vector<std::string>& words,
                                                     const AlignOptions& options,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fap/result.h"
@@ -18,6 +19,9 @@ struct SpokenWord {
   std::vector<Labels> variants;  ///< ARPAbet
   bool guessed = false;          ///< an English word that the dictionary lacks, spelled out by rule
 };
+
+/// Is it the language of the dictionary and of the model?
+bool is_english(std::string_view language);
 
 /// One for each word. Of those that a voice says nothing for, and of pictures, a warning tells.
 /// Errors as align().

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "dam/script/phones.h"
+#include "dam/script/script_text_internal.h"
 #include "tools/voice/place_words.h"
 
 namespace animeme::voice {
@@ -17,7 +18,25 @@ double frame_time(std::size_t frame) {
   return frame == 0 ? 0.0 : double(frame * 100 + 78) / 10000.0;
 }
 
-std::vector<WordModel> models_of(const SoundModel& model, const std::vector<SpokenWord>& words) {
+// Words that English says with less than their sounds. Of other languages: all short ones.
+constexpr std::string_view kWeakWords[] = {
+    "a",     "am",    "an",   "and",  "are",   "as",   "at",   "be",  "but",  "by",
+    "can",   "could", "do",   "does", "for",   "from", "had",  "has", "have", "he",
+    "her",   "him",   "his",  "i",    "i'm",   "if",   "in",   "is",  "it",   "it's",
+    "its",   "just",  "me",   "must", "my",    "nor",  "not",  "of",  "on",   "or",
+    "our",   "shall", "she",  "so",   "some",  "than", "that", "the", "them", "then",
+    "there", "they",  "this", "to",   "up",    "us",   "was",  "we",  "were", "what",
+    "when",  "who",   "will", "with", "would", "you",  "your"};
+constexpr std::size_t kShortPhones = 3;
+
+bool is_weak(const SpokenWord& word, bool english) {
+  if (!english) return word.variants.empty() || word.variants[0].size() <= kShortPhones;
+  return std::binary_search(std::begin(kWeakWords), std::end(kWeakWords),
+                            dam::lower_case(word.text));
+}
+
+std::vector<WordModel> models_of(const SoundModel& model, const std::vector<SpokenWord>& words,
+                                 bool english) {
   std::map<std::string, std::uint8_t> numbers;
   for (std::size_t i = 0; i < model.phones.size(); ++i) {
     numbers[model.phones[i]] = std::uint8_t(i);
@@ -25,6 +44,7 @@ std::vector<WordModel> models_of(const SoundModel& model, const std::vector<Spok
   std::vector<WordModel> models;
   for (const SpokenWord& word : words) {
     WordModel one;
+    one.weak = is_weak(word, english);
     for (const Labels& labels : word.variants) {
       std::vector<std::uint8_t> phones;
       for (const std::string& label : labels) {
@@ -85,19 +105,18 @@ Result<void> check_recogniser(const AlignOptions& options) {
   return {};
 }
 
-Result<std::vector<Segment>> recognise(const std::vector<float>& samples,
-                                       const std::vector<SpokenWord>& words,
-                                       const AlignOptions& options) {
+Result<Recognised> recognise(const std::vector<float>& samples,
+                             const std::vector<SpokenWord>& words, const AlignOptions& options) {
   const auto model = read_sound_model(options.model_path);
   if (!model) return model.error();
   const auto reader = CepstraReader::open(options.model_path);
   if (!reader) return reader.error();
-  const auto models = models_of(*model, words);
-  std::vector<Segment> segments;
-  for (const PlacedPart& part : place_words(*model, measure_sound(**reader, samples), models)) {
-    append(*model, part, models, segments);
-  }
-  return segments;
+  const bool english = is_english(options.language);
+  const auto models = models_of(*model, words, english);
+  const auto placed = place_words(*model, measure_sound(**reader, samples), models, !english);
+  Recognised result{{}, placed.explained};
+  for (const PlacedPart& part : placed.parts) append(*model, part, models, result.segments);
+  return result;
 }
 
 }  // namespace animeme::voice

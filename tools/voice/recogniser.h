@@ -28,10 +28,14 @@ inline constexpr std::size_t kNoWord = ~std::size_t(0);  ///< no word: silence
 /// Is there a recogniser and the model it needs? Errors: unsupported, not_found.
 Result<void> check_recogniser(const AlignOptions& options);
 
-/// Places the words in samples of 16 kHz. Empty if no path was found.
-/// Errors as check_recogniser().
-Result<std::vector<Segment>> recognise(const std::vector<float>& samples,
-                                       const std::vector<SpokenWord>& words,
-                                       const AlignOptions& options);
+/// What is recognised.
+struct Recognised {
+  std::vector<Segment> segments;  ///< empty if no path was found
+  double explained = 0;           ///< Placement::explained
+};
+
+/// Places the words in samples of 16 kHz. Errors as check_recogniser().
+Result<Recognised> recognise(const std::vector<float>& samples,
+                             const std::vector<SpokenWord>& words, const AlignOptions& options);
 
 }  // namespace animeme::voice

@@ -62,7 +62,7 @@ Graph make_graph(const SoundModel& model, std::span<const WordModel> words,
     graph.ends_from.push_back(graph.ends.size());
     if (hub > 0) {
       const WordModel& word = words[hub - 1];
-      for (std::size_t v = 0; v < word.variants.size(); ++v) {
+      for (std::size_t v = 0; v < word.variants.size() && !word.left_out; ++v) {
         chain(hub - 1, 0, word.variants[v], PartKind::phone, hub - 1, v);
         graph.ends.push_back({graph.nodes.size() - 1, hub, std::uint8_t(v)});
       }
@@ -121,8 +121,9 @@ class Hubs {
         by[hub] = end.by;
       }
       if (hub > 0) {
-        // Words that nobody can say may be missing for nothing.
-        const bool known = !words_[hub - 1].variants.empty();
+        // Words that nobody can say, or says, are missing for nothing.
+        const WordModel& word = words_[hub - 1];
+        const bool known = !word.variants.empty() && !word.left_out;
         const float anew = best[hub - 1] - (known ? costs_.skip : 0);
         const bool goes_on = chain >= anew;
         chain = std::max(chain, anew) - (known ? costs_.skip_word : 0);
@@ -148,9 +149,8 @@ class Hubs {
 
 }  // namespace
 
-std::vector<PathPart> find_path(const SoundModel& model, const FrameScores& scores,
-                                std::span<const WordModel> words, const PathCosts& costs,
-                                bool open_end) {
+FoundPath find_path(const SoundModel& model, const FrameScores& scores,
+                    std::span<const WordModel> words, const PathCosts& costs, bool open_end) {
   const std::size_t frames = scores.frames();
   if (frames == 0) return {};
   const Graph graph = make_graph(model, words, costs);
@@ -177,7 +177,9 @@ std::vector<PathPart> find_path(const SoundModel& model, const FrameScores& scor
   std::size_t hub = words.size();
   if (open_end)
     hub = std::size_t(std::max_element(hubs.best.begin(), hubs.best.end()) - hubs.best.begin());
-  std::vector<PathPart> parts;
+  FoundPath path;
+  path.total = hubs.best[hub];
+  std::vector<PathPart>& parts = path.parts;
   for (std::size_t t = frames; t > 0;) {  // hub is reached after t frames
     const std::uint8_t how = by[t * borders + hub];
     if (how == kByNothing) return {};
@@ -211,7 +213,7 @@ std::vector<PathPart> find_path(const SoundModel& model, const FrameScores& scor
     }
   }
   std::reverse(parts.begin(), parts.end());
-  return parts;
+  return path;
 }
 
 }  // namespace animeme::voice

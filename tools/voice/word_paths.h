@@ -15,6 +15,8 @@ namespace animeme::voice {
 /// A word as the search wants it: ways to say it, in phones of the model.
 struct WordModel {
   std::vector<std::vector<std::uint8_t>> variants;  ///< none: any sound at all, or nothing
+  bool weak = false;      ///< often said with less than its sounds, as "with", "at"
+  bool left_out = false;  ///< it is known that nobody says it
 };
 
 /// What is paid, in logarithms of likelihoods (which are far too sure of themselves).
@@ -40,10 +42,15 @@ struct PathPart {
 
 inline constexpr std::size_t kNone = ~std::size_t(0);
 
+/// What find_path() finds.
+struct FoundPath {
+  std::vector<PathPart> parts;  ///< one behind the other
+  float total = 0;              ///< what all frames score, less the costs
+};
+
 /// Finds it. With an open end words may be left over behind the sound at no cost. Empty if the
 /// sound has no frames.
-std::vector<PathPart> find_path(const SoundModel& model, const FrameScores& scores,
-                                std::span<const WordModel> words, const PathCosts& costs,
-                                bool open_end);
+FoundPath find_path(const SoundModel& model, const FrameScores& scores,
+                    std::span<const WordModel> words, const PathCosts& costs, bool open_end);
 
 }  // namespace animeme::voice
