@@ -13,12 +13,16 @@
 #include "tools/media/audio.h"
 #include "tools/voice/align.h"
 #include "tools/voice/parted_words.h"
+#include "tools/voice/voice.h"
 
 namespace animeme::bench {
 
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kLeastLine = 40, kMostLines = 60;  // bytes; sentences
+constexpr const char* kUnsaid = "[]<>(){}0123456789;";   // not said, or read in several ways
 
 struct LabelledWord {
   std::string text;
@@ -74,6 +78,46 @@ double share_within(const std::vector<double>& errors, double limit) {
 double median_distance(std::vector<double> errors) {
   for (double& error : errors) error = std::abs(error);
   return percentile(std::move(errors), 0.5);
+}
+
+// How far alignments are from labels.
+struct Distances {
+  std::size_t sentences = 0, refused = 0, other = 0;  // of other words than the labels have
+  std::size_t all = 0, unsaid = 0;
+  std::vector<double> words, phones;  // ms, found minus label
+};
+
+void add(const std::vector<LabelledWord>& labels, const Result<voice::Alignment>& found,
+         Distances& sum) {
+  ++sum.sentences;
+  if (!found || found->words.size() != labels.size()) {
+    ++(found ? sum.other : sum.refused);
+    return;
+  }
+  const auto starts = found_starts(*found);
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    sum.all += labels[i].starts.size();
+    sum.unsaid += found->words[i].said ? 0 : 1;
+    if (starts[i].empty() || labels[i].starts.empty()) continue;
+    sum.words.push_back(1000 * (starts[i][0] - labels[i].starts[0]));
+    if (starts[i].size() != labels[i].starts.size()) continue;
+    for (std::size_t k = 0; k < starts[i].size(); ++k) {
+      sum.phones.push_back(1000 * (starts[i][k] - labels[i].starts[k]));
+    }
+  }
+}
+
+void print_distances(const std::string& language, const Distances& sum) {
+  std::printf(
+      "| language | sentences | refused | of other words | phones compared | median ms | within 20 "
+      "%% | 50 %% | bias | words | median ms | within 50 %% | taken for left out |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n"
+      "| %s | %zu | %zu | %zu | %zu of %zu | %.1f | %.0f | %.0f | %+.1f | %zu | %.1f | %.0f | %zu "
+      "|\n",
+      language.c_str(), sum.sentences, sum.refused, sum.other, sum.phones.size(), sum.all,
+      median_distance(sum.phones), share_within(sum.phones, 20), share_within(sum.phones, 50),
+      percentile(sum.phones, 0.5), sum.words.size(), median_distance(sum.words),
+      share_within(sum.words, 50), sum.unsaid);
 }
 
 // What alignments make of one kind of text.
@@ -139,8 +183,8 @@ Result<void> score_labelled(const std::string& folder, const LanguageRows& rows)
   std::istringstream table(test::slurp(fs::path(folder) / "utterances.tsv"));
   voice::AlignOptions options;
   options.language = rows.language;
-  std::vector<double> words, phones;
-  std::size_t sentences = 0, refused = 0, other = 0, all = 0, unsaid = 0, number = 0;
+  Distances sum;
+  std::size_t number = 0;
   std::string line;
   std::getline(table, line);
   while (std::getline(table, line)) {
@@ -152,37 +196,51 @@ Result<void> score_labelled(const std::string& folder, const LanguageRows& rows)
     if (!sound) return sound.error();
     const auto labels = read_labels(fs::path(folder) / "phonemes" / (id + ".tsv"));
     const auto found = voice::align({16000, *sound}, text, options);
-    ++sentences;
-    if (!found) {
-      ++refused;
-      continue;
-    }
-    if (found->words.size() != labels.size()) {
-      ++other;
-      continue;
-    }
-    const auto starts = found_starts(*found);
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-      all += labels[i].starts.size();
-      unsaid += found->words[i].said ? 0 : 1;
-      if (starts[i].empty() || labels[i].starts.empty()) continue;
-      words.push_back(1000 * (starts[i][0] - labels[i].starts[0]));
-      if (starts[i].size() != labels[i].starts.size()) continue;
-      for (std::size_t k = 0; k < starts[i].size(); ++k) {
-        phones.push_back(1000 * (starts[i][k] - labels[i].starts[k]));
-      }
-    }
+    add(labels, found, sum);
   }
-  if (sentences == 0) return make_error(Code::not_found, "no sentence with sound in " + folder);
-  std::printf(
-      "| language | sentences | refused | of other words | phones compared | median ms | within 20 "
-      "%% | 50 %% | bias | words | median ms | within 50 %% | taken for left out |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n"
-      "| %s | %zu | %zu | %zu | %zu of %zu | %.1f | %.0f | %.0f | %+.1f | %zu | %.1f | %.0f | %zu "
-      "|\n",
-      rows.language.c_str(), sentences, refused, other, phones.size(), all, median_distance(phones),
-      share_within(phones, 20), share_within(phones, 50), percentile(phones, 0.5), words.size(),
-      median_distance(words), share_within(words, 50), unsaid);
+  if (sum.sentences == 0) return make_error(Code::not_found, "no sentence with sound in " + folder);
+  print_distances(rows.language, sum);
+  return {};
+}
+
+Result<void> score_spoken(const std::string& list, const LanguageRows& rows) {
+  std::istringstream in(test::slurp(list));
+  voice::AlignOptions options;
+  options.language = rows.language;
+  voice::VoiceOptions speaking;
+  speaking.language = rows.language;
+  Distances sum;
+  std::size_t number = 0;
+  for (std::string line; std::getline(in, line);) {
+    if (line.size() < kLeastLine || line.find_first_of(kUnsaid) != std::string::npos ||
+        number++ % rows.every != rows.from) {
+      continue;
+    }
+    const std::size_t colon = line.find(": ");
+    const std::string text = colon == std::string::npos ? line : line.substr(colon + 2);
+    const auto said = voice::speak_text(text, speaking);
+    if (!said) return said.error();
+    const auto wav = fs::temp_directory_path() / "align_table.wav";
+    if (auto written = media::write_wav(wav.string(), said->audio); !written) {
+      return written.error();
+    }
+    const auto sound = sound_of(wav);
+    fs::remove(wav);
+    if (!sound) return sound.error();
+    std::vector<LabelledWord> labels;
+    for (std::size_t i = 0; i < said->script.phones.size(); ++i) {
+      const dam::Phone& phone = said->script.phones[i];
+      if (phone.word.empty()) continue;
+      if (i == 0 || said->script.phones[i - 1].word != phone.word) {
+        labels.push_back({phone.word, {}});
+      }
+      labels.back().starts.push_back(phone.start);
+    }
+    add(labels, voice::align({16000, *sound}, text, options), sum);
+    if (sum.sentences == kMostLines) break;
+  }
+  if (sum.sentences == 0) return make_error(Code::not_found, "no sentence in " + list);
+  print_distances(rows.language, sum);
   return {};
 }
 

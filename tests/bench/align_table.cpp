@@ -146,8 +146,9 @@ int main(int count, char** arguments) {
   CLI11_PARSE(app, count, arguments);
   if (!language.empty()) {
     const LanguageRows rows{language, every, first};
-    const auto scored =
-        list.empty() ? score_labelled(corpus, rows) : score_recorded(corpus, list, rows);
+    const auto scored = list.empty()            ? score_labelled(corpus, rows)
+                        : corpus == "espeak-ng" ? score_spoken(list, rows)
+                                                : score_recorded(corpus, list, rows);
     if (!scored) std::fprintf(stderr, "%s\n", scored.error().describe().c_str());
     return scored ? 0 : 3;
   }

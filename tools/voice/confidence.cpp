@@ -18,7 +18,7 @@ struct Weights {
   double score, explained, most_explained, constant;
 };
 // What more than `most_explained` tells is told by the score; texts said by half stay below 1.
-constexpr Weights kEnglishWeights{3, 10, 1, 4.1}, kOtherWeights{3, 74, 0.12, 5};
+constexpr Weights kEnglishWeights{3, 10, 1, 4.5}, kOtherWeights{3, 74, 0.12, 5};
 constexpr double kLeastScore = -4.2;  // below, nothing is told any more
 // A word that is not said counts as badly as one that does not fit at all; speech that the text
 // does not have less: it may be right as far as it goes.

@@ -32,16 +32,14 @@ float loudness_of_voice(const std::vector<float>& samples) {
 
 // dB over 0.1 s around the middle of each frame.
 std::vector<float> smooth_levels(const std::vector<std::int16_t>& samples, std::size_t frames) {
-  std::vector<double> sums{0};
-  for (const std::int16_t sample : samples) {
-    sums.push_back(sums.back() + double(sample) * double(sample));
-  }
   std::vector<float> levels;
   for (std::size_t t = 0; t < frames; ++t) {
     const std::size_t middle = std::min(t * kFrameHop + kHalfWindow, samples.size());
     const std::size_t first = middle > kLevelReach ? middle - kLevelReach : 0;
     const std::size_t last = std::min(middle + kLevelReach, samples.size());
-    const double mean = (sums[last] - sums[first]) / double(std::max<std::size_t>(last - first, 1));
+    double sum = 0;
+    for (std::size_t i = first; i < last; ++i) sum += double(samples[i]) * double(samples[i]);
+    const double mean = sum / double(std::max<std::size_t>(last - first, 1));
     levels.push_back(float(10 * std::log10(mean + 1)));
   }
   return levels;

@@ -78,10 +78,17 @@ std::vector<std::size_t> squeezed_words(const SoundModel& model, const FrameScor
   std::nth_element(sorted.begin(), middle, sorted.end());
   PathCosts all = costs;
   all.skip = all.skip_word = kForbidden;
-  std::vector<std::size_t> squeezed;
+  std::vector<double> losses(said.size(), 0);
   for (std::size_t i = 0; i < said.size(); ++i) {
     if (words[said[i].word].weak || lengths[i] >= kSqueezed * *middle) continue;
-    if (gain_of(model, scores, words, said, i, all) < kLoss) squeezed.push_back(said[i].word);
+    losses[i] = std::min(0.0, gain_of(model, scores, words, said, i, all) - kLoss);
+  }
+  // Of neighbours that squeeze each other only the worse one: the other then has its place.
+  std::vector<std::size_t> squeezed;
+  for (std::size_t i = 0; i < said.size(); ++i) {
+    const bool worse_before = i > 0 && losses[i - 1] < losses[i];
+    const bool worse_behind = i + 1 < said.size() && losses[i + 1] <= losses[i];
+    if (losses[i] < 0 && !worse_before && !worse_behind) squeezed.push_back(said[i].word);
   }
   return squeezed;
 }
