@@ -10,15 +10,15 @@ namespace animeme::voice {
 namespace {
 
 // The confidence of a recording is logistic in its score a frame and in the share of the sound that
-// the text explains. Fitted to right texts, wrong ones and noise: twenty sentences of grid_s1,
-// clean and at 10 and 5 dB, and 48 recordings of Spanish, French and Italian (`align_table --every
-// 12 --texts`,
-// `--lines --every 6`, both from 0); others are reported (tools/voice/README.md, "Measured").
+// the text explains. Fitted to right texts, wrong ones and noise: forty sentences of grid_s1, clean
+// and at 10 and 5 dB (`align_table --texts --every 12`, from 0 and 7), and to 48 recordings of
+// Spanish, French and Italian (`--lines --every 6`). Others are reported (tools/voice/README.md,
+// "Measured"). What more than `most_explained` tells is told by the score; texts said by half stay
+// below 1.
 struct Weights {
   double score, explained, most_explained, constant;
 };
-// What more than `most_explained` tells is told by the score; texts said by half stay below 1.
-constexpr Weights kEnglishWeights{3, 10, 1, 4.5}, kOtherWeights{3, 74, 0.12, 5};
+constexpr Weights kEnglishWeights{3.5, 6, 1, 5.4}, kOtherWeights{2.6, 58, 0.12, 3};
 constexpr double kLeastScore = -4.2;  // below, nothing is told any more
 // A word that is not said counts as badly as one that does not fit at all; speech that the text
 // does not have less: it may be right as far as it goes.
