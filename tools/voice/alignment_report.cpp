@@ -36,6 +36,29 @@ void add_rest(std::size_t count, const char* what, Alignment& alignment) {
   alignment.warnings.push_back("and " + std::to_string(count - kMostNamed) + " more " + what);
 }
 
+std::string phones_of(const PutIn& one) {
+  std::string phones;
+  for (std::size_t k = 0; k < one.phones.size() && k < kPhonesNamed; ++k) {
+    phones += (k > 0 ? " " : "") + one.phones[k];
+  }
+  return phones + (one.phones.size() > kPhonesNamed ? " ..." : "");
+}
+
+std::string span_of(const PutIn& one) {
+  return in_seconds(one.start) + " to " + in_seconds(one.end) + " s";
+}
+
+// What is said where the words from `first` on are not: another word, or they sound otherwise than
+// the dictionary has them.
+std::string instead_of(const Alignment& alignment, std::size_t first) {
+  std::string what;
+  for (const PutIn& one : alignment.put_in) {
+    if (one.before != first) continue;
+    what += (what.empty() ? "; there is " : ", ") + phones_of(one) + " (" + span_of(one) + ")";
+  }
+  return what;
+}
+
 void warn_of_left_out(Alignment& alignment) {
   const auto& words = alignment.words;
   std::size_t count = 0;
@@ -51,7 +74,8 @@ void warn_of_left_out(Alignment& alignment) {
     }
     if (++count <= kMostNamed) {
       alignment.warnings.push_back(what + (end - i > 1 ? " are" : " is") + " not said (" +
-                                   place_of(words, i, end) + in_seconds(words[i].start) + " s)");
+                                   place_of(words, i, end) + in_seconds(words[i].start) + " s)" +
+                                   instead_of(alignment, i));
     }
     i = end - 1;
   }
@@ -59,19 +83,16 @@ void warn_of_left_out(Alignment& alignment) {
 }
 
 void warn_of_put_in(Alignment& alignment) {
-  for (std::size_t i = 0; i < alignment.put_in.size() && i < kMostNamed; ++i) {
-    const PutIn& one = alignment.put_in[i];
-    std::string phones;
-    for (std::size_t k = 0; k < one.phones.size() && k < kPhonesNamed; ++k) {
-      phones += (k > 0 ? " " : "") + one.phones[k];
-    }
-    if (one.phones.size() > kPhonesNamed) phones += " ...";
+  std::size_t count = 0;
+  for (const PutIn& one : alignment.put_in) {
+    const auto& words = alignment.words;
+    if (one.before < words.size() && !words[one.before].said && words[one.before].known) continue;
+    if (++count > kMostNamed) continue;
     alignment.warnings.push_back("something is said that the transcript does not have (" +
-                                 place_of(alignment.words, one.before, one.before) +
-                                 in_seconds(one.start) + " to " + in_seconds(one.end) +
-                                 " s); the face says what is heard, about " + phones);
+                                 place_of(words, one.before, one.before) + span_of(one) +
+                                 "); the face says what is heard, about " + phones_of(one));
   }
-  add_rest(alignment.put_in.size(), "places where more is said than the transcript has", alignment);
+  add_rest(count, "places where more is said than the transcript has", alignment);
 }
 
 void warn_of_doubts(Alignment& alignment) {

@@ -26,7 +26,7 @@ constexpr float kNoisySkip = 2.5f, kNoisyForeign = 1.5f, kNoisyFrame = 0.5f;
 constexpr std::size_t kReviews = 3;  // a word that is taken out gives its neighbours room
 
 // Foreign sound is speech if it is no shorter, and no nearer to the room than to the voice.
-constexpr std::size_t kLeastForeign = 12;  // frames
+constexpr std::size_t kLeastForeign = 15;  // frames
 constexpr float kLoudEnough = 0.6f;
 
 PathCosts costs_of(const FrameScores& scores, bool foreign) {
