@@ -1,4 +1,4 @@
-// Prints the tables of tools/voice/README.md: how far alignments are from the labels of a corpus
+// Prints the tables of tools/voice/measured.md: how far alignments are from the labels of a corpus
 // (grid_s1), clean and in noise.
 //   build/release/bin/align_table CORPUS [--every 4] [--from 2] [--levels 15,10,5] [--texts |
 //   --edits | --long 30]

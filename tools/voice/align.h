@@ -42,7 +42,9 @@ struct AlignedWord {
   /// nobody says which. At 0.5 right and wrong texts are as likely, of whole recordings; a single
   /// short word may be right far below. 0 where Alignment::approximate, and if it is not said.
   double confidence = 0;
-  bool said = true;   ///< false: the recording goes from the word before to the one behind
+  /// False: the recording goes from the word before to the one behind, or there is so little room
+  /// between them that it is there for the text only.
+  bool said = true;
   bool known = true;  ///< false: nobody knows how it is pronounced; it has what is heard there
 };
 

@@ -12,9 +12,8 @@ namespace {
 // The confidence of a recording is logistic in its score a frame and in the share of the sound that
 // the text explains. Fitted to right texts, wrong ones and noise: forty sentences of grid_s1, clean
 // and at 10 and 5 dB (`align_table --texts --every 12`, from 0 and 7), and to 48 recordings of
-// Spanish, French and Italian (`--lines --every 6`). Others are reported (tools/voice/README.md,
-// "Measured"). What more than `most_explained` tells is told by the score; texts said by half stay
-// below 1.
+// Spanish, French and Italian (`--lines --every 6`). Others are reported (tools/voice/measured.md).
+// What more than `most_explained` tells is told by the score; texts said by half stay below 1.
 struct Weights {
   double score, explained, most_explained, constant;
 };

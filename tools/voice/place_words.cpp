@@ -16,7 +16,7 @@ constexpr double kWordCut = 0.8;                         // where there is no pa
 constexpr double kLost = 0.3;
 constexpr std::size_t kFurther = 4;
 
-// Chosen on 40 sentences of grid_s1 with words too many and missing (tools/voice/README.md): in
+// Chosen on 40 sentences of grid_s1 with words too many and missing (tools/voice/measured.md): in
 // quiet, and how much more is asked for where the voice stands out less.
 constexpr PathCosts kQuietCosts{46, 20, 20, 30, 2.5f, 2};
 constexpr float kQuietRange = 42, kNoisyRange = 27;  // dB

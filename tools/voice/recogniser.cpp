@@ -13,7 +13,8 @@ namespace {
 
 // A frame is 10 ms and speaks for the middle of its window of 25.6 ms, so that a phone should begin
 // half way between the middle of its first frame and that of the frame before: 12.8 - 5 = 7.8 ms.
-// Labels disagree about that by 14 ms; in the middle of eight sets (engines.md, section 1) lie 5.
+// Labels disagree about that by 14 ms; in the middle of eight sets (tools/voice/engines.md, section
+// 1) lie 5.
 double frame_time(std::size_t frame) { return frame == 0 ? 0.0 : double(frame * 2 + 1) / 200.0; }
 
 // Words that English says with less than their sounds. Of other languages: all short ones.
