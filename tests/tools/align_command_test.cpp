@@ -19,7 +19,7 @@ using testing::HasSubstr;
 constexpr const char* kText = "please put the small blue book on the table by the window";
 
 test::ProgramResult align(const TempDir& dir, const std::string& text,
-                      std::vector<std::string> more = {}) {
+                          std::vector<std::string> more = {}) {
   std::vector<std::string> arguments{"align",  "--audio", dir / "voice.mp4", "--transcript", text,
                                      "--json", "-o",      dir / "voice.tsv"};
   arguments.insert(arguments.end(), more.begin(), more.end());

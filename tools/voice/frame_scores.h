@@ -17,8 +17,8 @@ namespace animeme::voice {
 
 /// What is measured of a recording.
 struct MeasuredSound {
-  std::vector<Cepstrum> cepstra;
-  std::vector<float> levels;  ///< of the same frames, dB, over 0.1 s
+  std::vector<Cepstrum> cepstra;  ///< of each frame
+  std::vector<float> levels;      ///< of the same frames, dB, over 0.1 s
 };
 
 /// Log likelihoods of frames of 10 ms, less those of the free path: 0 is as good as the best phone.
@@ -29,7 +29,9 @@ struct FrameScores {
   std::vector<float> levels;       ///< dB above what is quiet here
   float range = 0;                 ///< dB from what is quiet here to what is loud
 
+  /// How many.
   std::size_t frames() const { return states == 0 ? 0 : values.size() / states; }
+  /// The scores of all states in one of them.
   std::span<const float> operator[](std::size_t frame) const {
     return std::span(values).subspan(frame * states, states);
   }

@@ -13,13 +13,13 @@ namespace animeme::voice {
 
 /// A part of the path, with frames of the whole sound.
 struct PlacedPart {
-  PathPart part;
+  PathPart part;                    ///< what it is
   std::vector<std::uint8_t> heard;  ///< of foreign sound: the phone of each frame
 };
 
 /// What a text amounts to in a sound.
 struct Placement {
-  std::vector<PlacedPart> parts;
+  std::vector<PlacedPart> parts;  ///< one behind the other
   /// How far the path is from that of a text of which nothing is said, 0, to a perfect one, 1: how
   /// much of what the sound costs without the text the text saves.
   double explained = 0;

@@ -29,17 +29,21 @@ struct PathCosts {
   float unknown_frame = 2;  ///< a frame of a word that nobody knows how to say
 };
 
+/// Silence, a sound of a word, a sound of none.
 enum class PartKind { pause, phone, foreign };
 
 /// A stretch of the path.
 struct PathPart {
-  PartKind kind = PartKind::pause;
-  std::size_t first = 0, frames = 0;  ///< which it takes
-  std::size_t word = 0;               ///< of phones, and of foreign sound that is a word; else none
-  std::size_t variant = 0, index = 0;  ///< of phones
-  float score = 0;                     ///< sum over its frames
+  PartKind kind = PartKind::pause;  ///< what it is
+  std::size_t first = 0;            ///< frame
+  std::size_t frames = 0;           ///< that it takes
+  std::size_t word = 0;             ///< of phones, and of foreign sound that is a word; else none
+  std::size_t variant = 0;          ///< of phones: the way to say the word
+  std::size_t index = 0;            ///< of phones: their number in it
+  float score = 0;                  ///< sum over its frames
 };
 
+/// No word.
 inline constexpr std::size_t kNone = ~std::size_t(0);
 
 /// What find_path() finds.
