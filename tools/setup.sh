@@ -16,7 +16,7 @@ packages="
   libavformat-dev libavcodec-dev libavutil-dev libswresample-dev libswscale-dev
   libwebsockets-dev zlib1g-dev libxml2-dev
   libespeak-ng-dev espeak-ng-data
-  libicu-dev libexpat1-dev libmecab-dev mecab-ipadic-utf8 rime-data-pinyin-simp rime-data-terra-pinyin
+  libicu-dev libexpat1-dev libcld2-dev libdraco-dev libmeshoptimizer-dev libmecab-dev mecab-ipadic-utf8 rime-data-pinyin-simp rime-data-terra-pinyin
   libpocketsphinx-dev libsphinxbase-dev libspeexdsp-dev pocketsphinx-en-us
 "
 mode=${1:-}

@@ -139,8 +139,8 @@ std::string write_script(const Script& script, std::string_view ending);
 /// Error: invalid_argument with the number of the phone (from 1) in the message, or truncated.
 Result<void> check_script(const Script& script);
 
-/// Fails (out_of_range) if the audio is more than 50 ms shorter than the script. Longer audio is
-/// fine: the rest is silence.
+/// Fails (out_of_range) if the audio ends more than 50 ms before the last sound of the script, the
+/// silence behind it not counted. Longer audio is fine: the rest is silence.
 Result<void> check_against_audio(const Script& script, double audio_seconds);
 
 }  // namespace animeme::dam

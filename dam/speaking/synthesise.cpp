@@ -7,6 +7,7 @@
 #include "dam/model/kind_internal.h"
 #include "dam/script/timeline_internal.h"
 #include "dam/signal/closure.h"
+#include "dam/signal/rounding.h"
 #include "dam/speaking/frames_internal.h"
 
 namespace animeme::dam {
@@ -114,6 +115,8 @@ Result<void> validate(const SynthesisOptions& options) {
     return range("style must lie between 0 and 1.5");
   if (!(options.sharpness >= 0 && options.sharpness <= kMostSharpness))
     return range("sharpness must lie between 0 and 3");
+  if (!(options.articulation >= 0 && options.articulation <= kMostArticulation))
+    return range("articulation must lie between 0 and 2");
   if (!(options.context_weight >= 0 && options.context_weight <= 1e12))
     return range("context_weight must not be negative");
   if (!(options.smoothness_weight >= 0 && options.smoothness_weight <= 1e12))
@@ -142,6 +145,11 @@ Result<Signal> synthesise_frames(const Model& model, const Script& script,
   to_control_units(model, gate, options.style, signal);
   touch_lips(model, script, options, signal, report);
   apply_limits(signal, model.limits);
+  if (options.articulation > 0) {
+    add_rounding(
+        LipRounding(script), options.articulation,
+        [&](double time) { return options.style * gate(time); }, signal);
+  }
   return signal;
 }
 

@@ -28,13 +28,18 @@ struct SynthesisOptions {
   /// slower. 0: the mean as learned, with the least error; 1: quicker by a tenth;
   /// 0..kMostSharpness.
   double sharpness = 1;
+  /// Roundness added to what is learned in O, U, W, SH and the like (dam/signal/rounding.h), for
+  /// models of FAPs: corners inwards, lips forward. 0: as learned; 1: on heads of everybody O and U
+  /// are round. 0..kMostArticulation.
+  double articulation = 0;
   bool rest_at_ends = true;      ///< first and last frame are the resting mouth
   double context_weight = 1000;  ///< w_c of Eq. 10, >= 0
   double smoothness_weight = 1;  ///< w_s of Eq. 10, >= 0
 };
 
-inline constexpr double kMostStyle = 1.5;    ///< largest SynthesisOptions::style
-inline constexpr double kMostSharpness = 3;  ///< largest SynthesisOptions::sharpness
+inline constexpr double kMostStyle = 1.5;       ///< largest SynthesisOptions::style
+inline constexpr double kMostSharpness = 3;     ///< largest SynthesisOptions::sharpness
+inline constexpr double kMostArticulation = 2;  ///< largest SynthesisOptions::articulation
 
 /// Code::invalid_argument with the name and the range of the first bad option.
 Result<void> validate(const SynthesisOptions& options);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tools/text/guess.h"
 #include "tools/text/unicode.h"
 #include "tools/text/utterance.h"
 
@@ -77,6 +78,28 @@ TEST(Passages, AutomaticByAlphabet) {
   EXPECT_EQ(parted("پگاه", {"en"}, true), "fa:پگاه");
   EXPECT_EQ(first_language(U"123 こんにちは"), "ja");
   EXPECT_EQ(first_language(U"hello"), "");
+}
+
+TEST(Passages, SentencesOfOneAlphabetByTheirWords) {
+  if (!unicode_here() || !can_guess()) GTEST_SKIP() << "built without ICU or CLD2";
+  const std::string two = "We wait for the train. Wir warten auf den Zug.";
+  EXPECT_EQ(parted(two, {"en"}, true), "en:We wait for the train. |de:Wir warten auf den Zug.");
+  EXPECT_EQ(parted(two, {"de", "en"}), "en:We wait for the train. |de:Wir warten auf den Zug.");
+  EXPECT_EQ(parted(two, {"en"}), "en:" + two) << "nobody else may speak";
+  EXPECT_EQ(parted(two, {"en", "fr"}), "en:" + two) << "nobody else speaks German";
+  EXPECT_EQ(first_language(U"Wir warten auf den Zug."), "de");
+  // A document that names the language is believed.
+  const auto made = make_utterance(
+      "<speak><lang xml:lang=\"en\">Wir warten auf den Zug.</lang> Wir warten auf den Zug.</speak>",
+      speakers({"fr"}, true),
+      {[](const std::string& language, const std::string&) -> std::optional<Speaker> {
+         return make_speaker(language, "x/" + language, language);
+       },
+       {}});
+  ASSERT_TRUE(made) << made.error().describe();
+  std::string who;
+  for (const Stretch& part : made->stretches) who += made->speakers[part.speaker].language + " ";
+  EXPECT_EQ(who, "en de ");
 }
 
 TEST(Passages, AGreekLetterIsSpokenByItsName) {

@@ -281,14 +281,15 @@ TEST(Speak, StyleAndLife) {
     for (const fap::Frame& frame : clip.frames) most = std::max(most, frame.value[3]);
     return most;
   };
-  const fap::Sequence plain = clip_of({});
+  const fap::Sequence plain = clip_of({"--no-life"});
   EXPECT_GT(largest_jaw(clip_of({"--style", "1.4"})), largest_jaw(plain));
   EXPECT_LT(largest_jaw(clip_of({"--style", "0.5"})), largest_jaw(plain));
   EXPECT_FALSE(plain.frames[0].mask[19]);
-  const fap::Sequence alive = clip_of({"--life"});
+  EXPECT_NE(clip_of({"--no-life", "--articulate", "0"}).frames, plain.frames);
+  const fap::Sequence alive = clip_of({});
   EXPECT_TRUE(alive.frames[0].mask[19] && alive.frames[0].mask[48]);
   EXPECT_EQ(largest_jaw(alive), largest_jaw(plain));
-  EXPECT_NE(clip_of({"--life", "--seed", "5"}).frames, alive.frames);
+  EXPECT_NE(clip_of({"--seed", "5"}).frames, alive.frames);
   EXPECT_EQ(animeme({"speak", "--text", "A", "--style", "2", "-o", dir / "x.fap"}).exit_code, 2);
 }
 

@@ -397,6 +397,10 @@ void add_options(CLI::App& app, EvaluateOptions& options) {
                  "As of speak: 0 has the least error, 1 moves more as people do")
       ->option_text("0..3=1")
       ->check(CLI::Range(0.0, dam::kMostSharpness));
+  app.add_option("--articulate", options.evaluate.synthesis.articulation,
+                 "As of speak: rounder o, u, w than learned")
+      ->option_text("0..2=0")
+      ->check(CLI::Range(0.0, dam::kMostArticulation));
   app.add_option("--against", options.against,
                  "A second model or folder of tracks: difference with its interval");
   app.add_option("--draws", options.draws, "Draws of the bootstrap over sentences")

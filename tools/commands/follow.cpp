@@ -12,6 +12,7 @@
 #include "dam/speaking/stream.h"
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
+#include "tools/commands/motion_options.h"
 #include "tools/exchange/curves.h"
 #include "tools/speech/heard_face.h"
 #include "tools/speech/phone_line.h"
@@ -25,7 +26,7 @@ namespace {
 struct FollowOptions {
   std::string model;
   std::string rate = "25";
-  double style = 1;
+  dam::SynthesisOptions motion;
   double look_ahead = -1;
   std::string audio;
   std::string pcm;
@@ -90,8 +91,8 @@ Result<int> follow_sound(const FollowOptions& options, const dam::Model& model,
   std::unique_ptr<speech::HeardFace> face;
   const auto open = [&](int sample_rate) -> Result<void> {
     speech::HeardFaceOptions settings;
+    settings.synthesis = options.motion;
     settings.synthesis.rate = rate;
-    settings.synthesis.style = options.style;
     settings.language = options.language;
     settings.delay = options.delay;
     auto opened = speech::HeardFace::open(model, sample_rate, settings);
@@ -143,8 +144,8 @@ Result<int> run(const FollowOptions& options) {
   if (!model) return model.error();
   if (!options.audio.empty()) return follow_sound(options, *model, *rate);
   dam::StreamOptions settings;
+  settings.synthesis = options.motion;
   settings.synthesis.rate = *rate;
-  settings.synthesis.style = options.style;
   if (options.look_ahead >= 0) settings.look_ahead = options.look_ahead;
   dam::SpeechStream stream(*model, settings);
   print_header(*model);
@@ -178,9 +179,7 @@ void add_options(CLI::App& app, FollowOptions& options) {
   app.add_option("--model", options.model, "Model file of a character; default: the built-in one");
   app.add_option("--rate", options.rate, "Frames a second: 25, 29.97, 60 ...")
       ->capture_default_str();
-  app.add_option("--style", options.style, "Intensity, 0 to 1.5")
-      ->check(CLI::Range(0.0, dam::kMostStyle))
-      ->capture_default_str();
+  add_motion_options(app, options.motion);
   app.add_option("--max-seconds", options.length.seconds, "Longest phone, or gap before one")
       ->option_text("SECONDS=3600")
       ->check(CLI::Range(1.0, dam::kMaxScriptSeconds));

@@ -11,6 +11,7 @@
 #include "tools/commands/common.h"
 #include "tools/commands/face_stream.h"
 #include "tools/commands/face_text.h"
+#include "tools/commands/motion_options.h"
 #include "tools/commands/preview.h"
 #include "tools/commands/spoken_options.h"
 #include "tools/exchange/arkit.h"
@@ -32,10 +33,9 @@ struct SpeakOptions {
   std::string save_script;
   StreamSettings stream;
   SoundSettings sound;
-  double style = 1;
-  double sharpness = 1;
+  dam::SynthesisOptions motion;
   bool no_closure = false;
-  bool life = false;
+  bool life = false, no_life = false;  // neither: where it can be had
   bool exact = false;
   std::string visemes;
   std::uint64_t seed = 1;
@@ -232,11 +232,9 @@ Result<int> run(const SpeakOptions& options) {
              format(" phones heard, confidence %.2f", spoken->heard->confidence));
   }
 
-  dam::SynthesisOptions settings;
+  dam::SynthesisOptions settings = options.motion;
   settings.rate = *rate;
   settings.closure = !options.no_closure;
-  settings.style = options.style;
-  settings.sharpness = options.sharpness;
   if (spoken->audio) {
     settings.tail = std::max(0.0, spoken->audio->duration() - spoken->script.duration());
   }
@@ -245,9 +243,11 @@ Result<int> run(const SpeakOptions& options) {
   if (!signal) {
     return signal.error().in_file(spoken->heard ? options.spoken.audio : options.spoken.script);
   }
-  if (options.life) {
+  const bool curves = extension_of(options.output) == ".csv" && !is_arkit_output(options.output);
+  if (options.life || !(options.no_life || curves)) {
+    // Without being asked: where the names of a rig are not known, writing will say what it needs.
     auto added = dam::add_life(*signal, spoken->script, {1, options.seed});
-    if (!added) return added.error();
+    if (!added && options.life) return added.error();
   }
   Result<int> written = kOk;
   if (is_arkit_output(options.output)) {
@@ -293,18 +293,14 @@ void add_options(CLI::App& app, SpeakOptions& options) {
   add_output(app.add_option("--save-script", options.save_script,
                             "Also write the timed phones: .TextGrid, .tsv, .pho or .vtt"),
              dam::script_endings(), OutputKind::file);
-  app.add_option("--style", options.style,
-                 "Intensity: 0 keeps the mouth at rest, 1 is as learned, 1.5 exaggerates")
-      ->option_text("0..1.5=1")
-      ->check(CLI::Range(0.0, dam::kMostStyle));
-  app.add_option("--sharpness", options.sharpness,
-                 "Quickness: 0 as a mean of sentences, 1 more as people")
-      ->option_text("0..3=1")
-      ->check(CLI::Range(0.0, dam::kMostSharpness));
+  add_motion_options(app, options.motion);
   app.add_flag("--no-closure", options.no_closure,
                "Do not force the lips shut on p, b and m, nor to the teeth on f and v");
-  app.add_flag("--life", options.life,
-               "Add blinks, and brows and head that move a little at stresses");
+  app.add_flag(
+      "--life,!--no-life",
+      [&options](std::int64_t on) { (on > 0 ? options.life : options.no_life) = true; },
+      "Blinks, and brows and head that move a little at stresses, or none; default: yes, but not "
+      "in the model's curves (.csv)");
   app.add_option("--visemes", options.visemes,
                  "FAP 1, for players that know visemes only: 'instead' of jaw, lips and tongue, or "
                  "'beside' them")
@@ -312,7 +308,7 @@ void add_options(CLI::App& app, SpeakOptions& options) {
       ->check(CLI::IsMember({"instead", "beside"}));
   add_exact_option(app, options.exact);
   app.add_option("--seed", options.seed, "Other times of blinks and another sway of the head")
-      ->needs("--life");
+      ->option_text("NUMBER=1");
   add_stream_options(app, options.stream);
   add_preview_option(app, options.preview);
   add_sound_options(app, options.sound, false);

@@ -35,8 +35,9 @@ void add_spoken_options(CLI::App& app, speech::SpokenOptions& options) {
          "Language of the text: en, de, pt-br; zh+en: further ones by script; auto; en+f3: variant")
       ->capture_default_str();
   app.add_option("--tts", options.tts,
-                 "Voice of yours for the text: a program that writes sound to {wav}; it reads the "
-                 "text, which is also {text}, and may tell times (see the README)")
+                 "Voice of yours for the text: a program that writes sound to {wav} and may write "
+                 "times to {script}; it reads the text, which is also {text} (see "
+                 "tools/speech/README.md)")
       ->option_text("COMMAND")
       ->excludes("--script")
       ->excludes("--audio");

@@ -8,6 +8,7 @@
 #include "tools/commands/brief_help.h"
 #include "tools/commands/common.h"
 #include "tools/commands/interrupt.h"
+#include "tools/commands/motion_options.h"
 #include "tools/commands/spoken_options.h"
 #include "tools/live/address.h"
 #include "tools/live/program.h"
@@ -279,10 +280,7 @@ void add_source_options(CLI::App& app, StreamOptions& options) {
                  "Model file of a character; default: the built-in one");
   app.add_option("--rate", options.rate, "Frames a second of a face made from text or script")
       ->capture_default_str();
-  app.add_option("--style", options.program.style,
-                 "Intensity: 0 at rest, 1 as learned, 1.5 exaggerated")
-      ->check(CLI::Range(0.0, dam::kMostStyle))
-      ->capture_default_str();
+  add_motion_options(app, options.program.motion);
   app.add_flag("--life", options.program.life, "Add blinks, and brows and head that move a little");
   app.add_option("--seed", options.program.seed,
                  "Other times of blinks and another sway of the head")

@@ -19,9 +19,8 @@ constexpr double kLiveLead = 0.1;  // silence before a live line, time to open t
 constexpr double kLiveTail = 0.3;  // after it, to close it
 
 dam::SynthesisOptions synthesis_of(const ProgramOptions& options, fap::Rate rate) {
-  dam::SynthesisOptions settings;
+  dam::SynthesisOptions settings = options.motion;
   settings.rate = rate;
-  settings.style = options.style;
   return settings;
 }
 

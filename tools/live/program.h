@@ -28,7 +28,7 @@ struct ProgramOptions {
   speech::SpokenOptions spoken;                     ///< text, script or voice
   Coding coding;                                    ///< of face and sound
   std::string model;                                ///< as speech::read_model() takes it
-  double style = 1;                                 ///< as dam::SynthesisOptions::style
+  dam::SynthesisOptions motion;                     ///< its rate, frames and tail are not used
   bool life = false;       ///< blinks, and brows and head that move a little
   std::uint64_t seed = 1;  ///< of life
   bool loop = false;       ///< clips begin again at their end

@@ -17,26 +17,14 @@ using media::LiveTrack;
 using media::LiveUnit;
 
 constexpr double kOpening = 0.1;    // seconds in which the mouth opens before sound that is late
+constexpr double kLead = 0.5;       // seconds before its sound in which a piece bears on the mouth
 constexpr float kAudible = 0.003F;  // of full scale
 constexpr std::size_t kMostTraces = 1000;
+constexpr std::size_t kMostOpen = 20;  // pieces in kLead
 // Index of the first sample for which `heard` holds, the size if there is none.
 template <class Heard>
 std::int64_t first_sample(const std::vector<float>& samples, Heard heard) {
   return std::find_if(samples.begin(), samples.end(), heard) - samples.begin();
-}
-
-// Silence of so many seconds before a script.
-void delay(dam::Script& script, double seconds) {
-  if (seconds <= 0 || script.phones.empty()) return;
-  for (dam::Phone& phone : script.phones) {
-    phone.start += seconds;
-    phone.end += seconds;
-  }
-  if (script.phones.front().label == dam::kSilence) {
-    script.phones.front().start = 0;
-  } else {
-    script.phones.insert(script.phones.begin(), {0, seconds, std::string(dam::kSilence), {}});
-  }
 }
 
 }  // namespace
@@ -60,9 +48,11 @@ struct LiveSpeaker::Impl {
   std::deque<Waiting> waiting;
   std::int64_t sound_end = 0;  // sample after the last line's sound
   std::deque<LineTrace> traces;
-  // Of the last trace: where its first signs are, face in ticks, sound in samples.
-  std::int64_t face_sign = 0;
-  std::int64_t sound_sign = 0;
+  // Where the first signs of a line are, face in ticks, sound in samples.
+  struct Signs {
+    std::int64_t face = 0, sound = 0;
+  };
+  std::deque<Signs> signs;  // of the traces
   std::vector<std::string> warnings;
 
   double frame_due() const { return double(face.number() * frame_ticks) / info.timescale; }
@@ -75,6 +65,12 @@ struct LiveSpeaker::Impl {
 
   void collect();
   void begin_lines();
+  // Of the lines whose signs may still come: short pieces are begun before the last one is heard.
+  template <class Look>
+  void each_trace(Look look) {
+    const std::size_t count = std::min<std::size_t>(traces.size(), kMostOpen);
+    for (std::size_t i = traces.size() - count; i < traces.size(); ++i) look(traces[i], signs[i]);
+  }
   Result<void> convert(media::Pcm& audio) const;
   std::int64_t lay(std::int64_t start, SpokenLine& line);
   std::int64_t place_after_the_last() const;
@@ -129,14 +125,14 @@ bool LiveSpeaker::Impl::has_to_wait(Waiting& next) {
     const auto silence = first_sample(audio.samples, [](float x) { return x != 0; });
     return sound_made() - double(silence) / audio.sample_rate > frame_due();
   }
-  // Its sound is laid in time, its face begins with the last frame before that.
+  // Its sound is laid in time. Its face is made with that of the piece before, shortly before that,
+  // so that the mouth goes from one to the other as within a sentence.
   if (!next.start) {
     if (!convert(next.line.speech.audio)) return false;  // begin() says why
     next.start = place_after_the_last();
     next.sound_sign = lay(*next.start, next.line);
   }
-  const double frame = double(frame_ticks) / info.timescale;
-  return face.speaking() && double(*next.start) / options.voice_rate >= frame_due() + frame;
+  return face.speaking() && double(*next.start) / options.voice_rate >= frame_due() + kLead;
 }
 
 // A line that cannot be shown is left out; the next one may be shown.
@@ -149,7 +145,10 @@ void LiveSpeaker::Impl::begin_lines() {
     trace.spoken = line.spoken;
     if (auto ok = begin(waiting.front(), trace); ok) {
       traces.push_back(trace);
-      if (traces.size() > kMostTraces) traces.pop_front();
+      if (traces.size() > kMostTraces) {
+        traces.pop_front();
+        signs.pop_front();
+      }
     } else {
       warnings.push_back("\"" + line.text.substr(0, 60) + "\" is left out: " + ok.error().message);
     }
@@ -160,16 +159,16 @@ void LiveSpeaker::Impl::begin_lines() {
 Result<void> LiveSpeaker::Impl::begin(Waiting& next, LineTrace& trace) {
   trace.begun = clock->now();
   if (auto ok = convert(next.line.speech.audio); !ok) return ok;
-  dam::Script& script = next.line.speech.script;
-  if (next.start) delay(script, double(*next.start) / options.voice_rate - frame_due());
-  const Result<Line> shown = face.say(script);
+  const dam::Script& script = next.line.speech.script;
+  const double start = next.start ? double(*next.start) / options.voice_rate - frame_due() : 0;
+  const Result<Line> shown =
+      next.start ? face.join(script, std::max(start, 0.0)) : face.say(script);
   if (!shown) return shown.error();
-  face_sign = shown->first_moved * frame_ticks;
   if (!next.start) {
     const double first = double(shown->first * frame_ticks) / info.timescale;
     next.sound_sign = lay(std::llround(first * options.voice_rate), next.line);
   }
-  sound_sign = next.sound_sign;
+  signs.push_back({shown->first_moved * frame_ticks, next.sound_sign});
   trace.synthesised = clock->now();
   return {};
 }
@@ -184,10 +183,12 @@ Result<LiveUnit> LiveSpeaker::Impl::make_plane() {
   const double begun = clock->now();
   Result<std::vector<std::uint8_t>> bytes = encoder.write(*frame);
   if (!bytes) return bytes.error();
-  if (!traces.empty() && unit.time == face_sign) {
-    traces.back().face_begun = begun;
-    traces.back().face_coded = clock->now();
-  }
+  const double coded = clock->now();
+  each_trace([&](LineTrace& trace, const Signs& sign) {
+    if (unit.time != sign.face) return;
+    trace.face_begun = begun;
+    trace.face_coded = coded;
+  });
   unit.bytes = std::move(*bytes);
   unit.intra = encoder.intra();
   return unit;
@@ -198,10 +199,12 @@ Result<LiveUnit> LiveSpeaker::Impl::make_packet() {
   Result<media::AudioPacket> packet = sound->next();
   if (!packet) return packet.error();
   LiveUnit unit{LiveTrack::audio, std::move(packet->bytes), false, packet->time, packet->duration};
-  if (!traces.empty() && unit.time + unit.duration > sound_sign && traces.back().sound_coded == 0) {
-    traces.back().sound_begun = begun;
-    traces.back().sound_coded = clock->now();
-  }
+  const double coded = clock->now();
+  each_trace([&](LineTrace& trace, const Signs& sign) {
+    if (unit.time + unit.duration <= sign.sound || trace.sound_coded != 0) return;
+    trace.sound_begun = begun;
+    trace.sound_coded = coded;
+  });
   return unit;
 }
 
@@ -258,14 +261,14 @@ Result<std::vector<LiveUnit>> LiveSpeaker::take(double now) {
 }
 
 void LiveSpeaker::sent(const LiveUnit& unit, double instant) {
-  if (impl_->traces.empty()) return;
-  LineTrace& trace = impl_->traces.back();
-  if (unit.track == LiveTrack::face) {
-    if (unit.time == impl_->face_sign && trace.face_coded > 0) trace.face_sent = instant;
-  } else if (trace.sound_coded > 0 && trace.sound_sent == 0 &&
-             unit.time + unit.duration > impl_->sound_sign) {
-    trace.sound_sent = instant;
-  }
+  impl_->each_trace([&](LineTrace& trace, const Impl::Signs& sign) {
+    if (unit.track == LiveTrack::face) {
+      if (unit.time == sign.face && trace.face_coded > 0) trace.face_sent = instant;
+    } else if (trace.sound_coded > 0 && trace.sound_sent == 0 &&
+               unit.time + unit.duration > sign.sound) {
+      trace.sound_sent = instant;
+    }
+  });
 }
 
 const std::deque<LineTrace>& LiveSpeaker::traces() const { return impl_->traces; }

@@ -7,14 +7,15 @@
 ///
 /// Members, in any case, with or without "_":
 ///
-/// | member | what it is |
-/// |---|---|
-/// | audio, audio_base64, audio_content, data | the sound, base64: a file (WAV, MP3, Ogg, FLAC
-/// ...), or samples | | file, audio_file | the sound as the path of a file | | sample_rate | Hz of
-/// samples: 16 bits, little-endian, one channel | | encoding, format | of samples: s16le,
-/// pcm_s16le, linear16, or f32le, pcm_f32le; another name: a file | | script | times: a text in any
-/// format of scripts, or JSON of one | | text | what is said; where there are no times the sound is
-/// aligned with it | | language, lang | of the text |
+/// - audio, audio_base64, audio_content, data: the sound, base64: a file (WAV, MP3, Ogg, FLAC ...),
+///   or samples
+/// - file, audio_file: the sound as the path of a file
+/// - sample_rate: Hz of samples: 16 bits, little-endian, one channel
+/// - encoding, format: of samples: s16le, pcm_s16le, linear16, or f32le, pcm_f32le; another name: a
+///   file
+/// - script: times: a text in any format of scripts, or JSON of one
+/// - text: what is said; where there are no times the sound is aligned with it
+/// - language, lang: of the text
 ///
 /// Without `script` the piece itself may be JSON of any format that scripts::read_labels() knows:
 /// words with times, events of Azure, characters of ElevenLabs, visemes. Times count from the begin

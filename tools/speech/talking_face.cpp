@@ -1,5 +1,7 @@
 #include "tools/speech/talking_face.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -13,7 +15,7 @@ namespace {
 
 constexpr double kFade = 0.25;       // seconds
 constexpr double kIdleSeconds = 20;  // of one piece
-constexpr std::size_t kNoFrame = ~std::size_t(0);
+constexpr double kHistory = 1;       // seconds of a line that may still bear on what follows
 
 dam::Script silence() {
   dam::Script script;
@@ -21,25 +23,52 @@ dam::Script silence() {
   return script;
 }
 
-/// `last` is what was shown before row 0: the difference fades.
-void lead_over(const std::vector<double>& last, dam::Signal& signal) {
-  const std::size_t controls = signal.names.size();
-  if (last.size() != controls || signal.frames() == 0) return;
-  std::vector<double> offset(controls);
-  for (std::size_t c = 0; c < controls; ++c) offset[c] = last[c] - signal.at(0, c);
-  for (std::size_t i = 0; i < signal.frames(); ++i) {
-    // Row 0 comes one frame after `last`.
-    const double share = dam::raised_bell(signal.rate.seconds(double(i + 1)) / kFade);
-    if (share <= 0) return;
-    for (std::size_t c = 0; c < controls; ++c) signal.at(i, c) += share * offset[c];
+/// Channels first..last of a signal, whose row `at` follows or replaces `shown`: the difference
+/// fades.
+void lead_over(const std::vector<double>& shown, std::size_t first, std::size_t last,
+               dam::Signal& signal, std::size_t at) {
+  if (shown.size() < last || at >= signal.frames()) return;
+  for (std::size_t c = first; c < last; ++c) {
+    const double offset = shown[c] - signal.at(at, c);
+    for (std::size_t i = at; i < signal.frames(); ++i) {
+      const double share = dam::raised_bell(signal.rate.seconds(double(i - at + 1)) / kFade);
+      if (share <= 0) break;
+      signal.at(i, c) += share * offset;
+    }
   }
 }
 
 std::vector<double> row(const dam::Signal& signal, std::size_t frame) {
-  if (frame == kNoFrame || frame >= signal.frames()) return {};
+  if (frame >= signal.frames()) return {};  // also before the first one
   const std::size_t controls = signal.names.size();
   const auto begin = signal.values.begin() + std::ptrdiff_t(frame * controls);
   return {begin, begin + std::ptrdiff_t(controls)};
+}
+
+// What is left of a script from `cut` seconds on, and behind it another one that begins at `start`.
+dam::Script joint(const dam::Script& before, double cut, const dam::Script& after, double start) {
+  dam::Script script;
+  for (dam::Phone phone : before.phones) {
+    phone.start = std::max(phone.start, cut) - cut;
+    phone.end = std::min(phone.end, start) - cut;
+    if (phone.end > phone.start) script.phones.push_back(std::move(phone));
+  }
+  start -= cut;
+  if (start > script.duration()) {
+    script.phones.push_back({script.duration(), start, std::string(dam::kSilence), {}});
+  }
+  for (dam::Phone phone : after.phones) {
+    phone.start += start;
+    phone.end += start;
+    // Two silences in a row are one.
+    if (phone.label == dam::kSilence && !script.phones.empty() &&
+        script.phones.back().label == dam::kSilence) {
+      script.phones.back().end = phone.end;
+    } else {
+      script.phones.push_back(std::move(phone));
+    }
+  }
+  return script;
 }
 
 bool mouth_differs(const fap::Frame& a, const fap::Frame& b, const fap::Mask& mouth) {
@@ -58,43 +87,99 @@ Result<TalkingFace> TalkingFace::open(const dam::Model& model, const FaceOptions
   return face;
 }
 
-Result<void> TalkingFace::begin(const dam::Script& script) {
+Result<dam::Signal> TalkingFace::synthesise(const dam::Script& script) const {
   dam::SynthesisOptions synthesis = options_.synthesis;
   synthesis.frames = 0;
   synthesis.tail = 0;
-  Result<dam::Signal> signal = dam::synthesise(*model_, script, synthesis);
+  return dam::synthesise(*model_, script, synthesis);
+}
+
+// The next frame will be row `at`.
+Result<void> TalkingFace::show(dam::Signal signal, std::size_t at) {
+  Result<fap::Sequence> clip = dam::to_sequence(signal);
+  if (!clip) return clip.error();
+  if (clip->frames.size() <= at) {
+    return make_error(Code::invalid_argument, "the script lasts no time");
+  }
+  ++pieces_;
+  signal_ = std::move(signal);
+  clip_ = std::move(*clip);
+  at_ = at;
+  return {};
+}
+
+Result<void> TalkingFace::begin(const dam::Script& script) {
+  Result<dam::Signal> signal = synthesise(script);
   if (!signal) return signal.error();
   if (options_.life) {
     auto added = dam::add_life(*signal, script, {1, options_.seed + pieces_});
     if (!added) return added.error();
   }
-  lead_over(row(signal_, at_ == 0 ? kNoFrame : at_ - 1), *signal);
-  Result<fap::Sequence> clip = dam::to_sequence(*signal);
-  if (!clip) return clip.error();
-  if (clip->frames.empty()) return make_error(Code::invalid_argument, "the script lasts no time");
-  ++pieces_;
-  signal_ = std::move(*signal);
-  clip_ = std::move(*clip);
-  at_ = 0;
+  lead_over(row(signal_, at_ - 1), 0, signal->names.size(), *signal, 0);
+  if (auto ok = show(std::move(*signal), 0); !ok) return ok;
+  script_ = script;
   return {};
+}
+
+// Of the clip from its row `first` on.
+Line TalkingFace::line_from(std::size_t first, const fap::Frame& before) const {
+  fap::Mask mouth;
+  for (const dam::Control& control : model_->controls) {
+    const int fap = dam::fap_of_channel(control.name);
+    if (fap > 0) mouth.set(std::size_t(fap));
+  }
+  const std::int64_t number = number_ + std::int64_t(first - at_);
+  Line line{number, std::int64_t(clip_.frames.size() - first), number};
+  for (std::size_t i = first; i < clip_.frames.size(); ++i) {
+    if (!mouth_differs(clip_.frames[i], before, mouth)) continue;
+    line.first_moved += std::int64_t(i - first);
+    break;
+  }
+  return line;
 }
 
 Result<Line> TalkingFace::say(const dam::Script& script) {
   const fap::Frame before = at_ == 0 ? clip_.frames.front() : clip_.frames[at_ - 1];
   if (auto ok = begin(script); !ok) return ok.error();
   speaking_ = true;
-  fap::Mask mouth;
-  for (const dam::Control& control : model_->controls) {
-    const int fap = dam::fap_of_channel(control.name);
-    if (fap > 0) mouth.set(std::size_t(fap));
+  return line_from(0, before);
+}
+
+Result<Line> TalkingFace::join(const dam::Script& script, double start) {
+  if (!(start >= 0)) return make_error(Code::invalid_argument, "a line begins in the past");
+  if (!speaking()) {
+    return say(joint({}, 0, script, start));
   }
-  Line line{number_, std::int64_t(clip_.frames.size()), number_};
-  for (std::size_t i = 0; i < clip_.frames.size(); ++i) {
-    if (!mouth_differs(clip_.frames[i], before, mouth)) continue;
-    line.first_moved += std::int64_t(i);
-    break;
+  const fap::Rate rate = signal_.rate;
+  const auto kept = std::size_t(std::ceil(kHistory * rate.frames_per_second()));
+  const std::size_t cut = at_ > kept ? at_ - kept : 0;
+  const double begin = rate.seconds(double(at_)) + start;  // in the piece that is shown
+  const dam::Script both = joint(script_, rate.seconds(double(cut)), script, begin);
+  Result<dam::Signal> signal = synthesise(both);
+  if (!signal) return signal.error();
+  const std::size_t at = at_ - cut, mouth = signal->names.size();
+  if (options_.life) {
+    // What lids, brows and head are about to do they do; the new line has its own.
+    dam::Signal alone = *signal;
+    auto added = dam::add_life(alone, joint({}, 0, script, begin - rate.seconds(double(cut))),
+                               {1, options_.seed + pieces_});
+    if (!added) return added.error();
+    const std::size_t old = std::min(signal_.frames() - cut, alone.frames());
+    for (std::size_t i = 0; i < old; ++i) {
+      for (std::size_t c = mouth; c < alone.names.size(); ++c) {
+        alone.at(i, c) = signal_.at(cut + i, c);
+      }
+    }
+    lead_over(row(alone, old - 1), mouth, alone.names.size(), alone, old);
+    signal = std::move(alone);
   }
-  return line;
+  // From the frame that was to come: its motion goes on.
+  lead_over(row(signal_, at_), 0, mouth, *signal, at);
+  const fap::Frame before = at_ == 0 ? clip_.frames.front() : clip_.frames[at_ - 1];
+  if (auto ok = show(std::move(*signal), at); !ok) return ok.error();
+  script_ = both;
+  const auto first = std::size_t(start * rate.frames_per_second());
+  return line_from(std::min(at + first, clip_.frames.size() - 1), before);
 }
 
 Result<fap::Frame> TalkingFace::next() {

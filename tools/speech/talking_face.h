@@ -56,6 +56,11 @@ class TalkingFace {
   /// Begins a line with the next frame; what is left of the line before is dropped.
   /// Errors: those of dam::synthesise() and dam::add_life().
   Result<Line> say(const dam::Script& script);
+  /// Goes on with a line: `script` begins `start` seconds after the next frame (0 or more; not
+  /// before the end of what is said so far) and is coarticulated with what is left of that, which
+  /// is made anew. If nothing is being said it is a line of its own. Errors: as say();
+  /// invalid_argument (`start` is negative or no number).
+  Result<Line> join(const dam::Script& script, double start);
   /// The next frame. Errors: as say().
   Result<fap::Frame> next();
 
@@ -63,11 +68,15 @@ class TalkingFace {
   TalkingFace(const dam::Model& model, const FaceOptions& options)
       : model_(&model), options_(options) {}
   Result<void> begin(const dam::Script& script);
+  Result<dam::Signal> synthesise(const dam::Script& script) const;
+  Result<void> show(dam::Signal signal, std::size_t at);
+  Line line_from(std::size_t first, const fap::Frame& before) const;
 
   const dam::Model* model_;
   FaceOptions options_;
   fap::Mask mask_;
-  dam::Signal signal_;  // of the piece that is shown, faded
+  dam::Script script_;  // of the piece that is shown
+  dam::Signal signal_;  // of it, faded
   fap::Sequence clip_;  // the same as FAPs
   std::size_t at_ = 0;  // frame of the piece
   std::int64_t number_ = 0;

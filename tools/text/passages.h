@@ -37,7 +37,8 @@ using FindSpeaker = std::function<std::optional<Speaker>(const std::string& lang
 /// Who may speak.
 struct Speakers {
   std::vector<Speaker> list;  ///< the first one is the main one
-  bool automatic = false;     ///< further ones are found by script
+  bool automatic = false;     ///< further ones are found by script and words
+  bool by_words = true;       ///< false: the main one has all letters that it reads
   FindSpeaker find;           ///< may be empty
 };
 
@@ -52,15 +53,20 @@ struct Passage {
 /// (digits, punctuation) to that of the letters around it, else to the main one. Latin letters in a
 /// text of another script are spoken by the voice itself where espeak-ng changes to English for
 /// them, else by a voice of "en", which is added to the list. With `automatic` voices are added by
-/// script: the language whose alphabet has all letters of the text, the usual one first.
+/// script: the language whose alphabet has all letters of the text, by its words (guess.h) where
+/// several have, else the usual one. Sentences in Latin letters go to the voice of their language
+/// where several voices of the list read them; with `automatic` voices are added for them, too.
 ///
 /// A single Greek letter stays with the voice, which says its name (µ, π).
 ///
 /// Errors: invalid_argument, a script that no voice reads: text, script, and the voice to take.
 Result<std::vector<Passage>> part_passages(const Said& said, Speakers& speakers);
 
-/// The language of the first letters of a text; empty for Latin letters and where no voice is
-/// known.
+/// The language of a tag without country and variant, in small letters: "en" of "en-US+f3".
+std::string main_language(std::string_view tag);
+
+/// The language of the first letters of a text; empty where it is not sure (guess.h) or no voice
+/// is known.
 std::string first_language(std::u32string_view text);
 
 /// The language of the environment, "de-DE" for LANG=de_DE.UTF-8; "en" for C and POSIX.

@@ -137,6 +137,7 @@ class Maker {
     }
     around.list.clear();
     for (const std::size_t i : numbers) around.list.push_back(speakers_.list[i]);
+    around.by_words = item.manner.language.empty() && item.manner.voice.empty();
     auto passages = part_passages(narrow(said), around);
     if (!passages) return passages.error();
     for (std::size_t i = numbers.size(); i < around.list.size(); ++i) {

@@ -13,10 +13,6 @@
 namespace animeme::voice {
 namespace {
 
-std::string first_part(std::string_view language) {
-  return dam::lower_case(language.substr(0, language.find_first_of("-_")));
-}
-
 // "(en-us)" is "en-us".
 std::string changed_to(std::string_view ipa) {
   ipa.remove_prefix(1);
@@ -99,7 +95,8 @@ std::vector<SpokenLanguage> find_languages(const RawSpeech& raw, int sample_rate
     } else if (event.kind == EventKind::phoneme) {
       if (event.ipa.starts_with('(')) {
         const std::string to = changed_to(event.ipa);
-        const bool home = first_part(to) == first_part(utterance.speakers[speaker].language);
+        const bool home =
+            text::main_language(to) == text::main_language(utterance.speakers[speaker].language);
         foreign = home ? std::string() : to;
       } else if (fresh && !event.ipa.empty() && !event.ipa.starts_with('_')) {
         begin(double(event.sample) / rate);
@@ -108,7 +105,12 @@ std::vector<SpokenLanguage> find_languages(const RawSpeech& raw, int sample_rate
     }
   }
   std::vector<SpokenLanguage> out;
-  for (Open& part : parts) {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    Open& part = parts[i];
+    // With what follows the last word that the voice told of: "-vous" of "allez-vous", "?".
+    const auto next =
+        i + 1 < parts.size() ? parts[i + 1].place.first : std::uint32_t(utterance.source.size());
+    part.place.last = std::max(part.place.last, next);
     part.language.text = text_of(part.place, utterance);
     out.push_back(std::move(part.language));
   }

@@ -4,6 +4,8 @@
 #include <array>
 #include <string_view>
 
+#include "tools/gltf/detail/unpack.h"
+
 namespace animeme::gltf {
 namespace {
 
@@ -50,17 +52,21 @@ Error compressed_error(const std::string& what) {
   if (what == kDraco) {
     return make_error(
         Code::unsupported,
-        "the meshes are compressed by Draco: export them without compression (in Blender: "
-        "Export glTF 2.0, switch Compression off)");
+        "the meshes are compressed by Draco, which this build cannot read: export them without "
+        "compression (in Blender: Export glTF 2.0, switch Compression off), or build with the "
+        "Debian package libdraco-dev");
   }
-  return make_error(Code::unsupported,
-                    "the meshes are compressed by meshopt: export them without compression "
-                    "(gltfpack: without -c and -cc)");
+  return make_error(
+      Code::unsupported,
+      "the meshes are compressed by meshopt, which this build cannot read: export them "
+      "without compression (gltfpack: without -c and -cc), or build with the Debian "
+      "package libmeshoptimizer-dev");
 }
 
 Result<void> check_extensions(const Json& root) {
   for (const Json& entry : list(root, "extensionsRequired")) {
     const std::string name = text_or(entry);
+    if (name == kDraco ? can_unpack_draco() : is_meshopt(name) && can_unpack_meshopt()) continue;
     if (name == kDraco || is_meshopt(name)) return compressed_error(name);
     if (std::find(kKnown.begin(), kKnown.end(), name) == kKnown.end()) {
       return make_error(Code::unsupported, "the file requires the glTF extension \"" + name +
@@ -74,6 +80,14 @@ bool is_fallback_buffer(const Json& buffer) {
   return std::any_of(kMeshopt.begin(), kMeshopt.end(), [&](std::string_view name) {
     return is_true(member(buffer, "extensions", std::string(name).c_str(), "fallback"));
   });
+}
+
+const Json& meshopt_of(const Json& view) {
+  for (const std::string_view name : kMeshopt) {
+    const Json& found = member(view, "extensions", std::string(name).c_str());
+    if (found.is_object()) return found;
+  }
+  return member(view, "");
 }
 
 bool is_compressed(const Json& entry) {

@@ -12,6 +12,9 @@ Result<void> check_extensions(const Json& root);
 /// A buffer whose bytes are given only in a compressed form, which may be missing.
 bool is_fallback_buffer(const Json& buffer);
 
+/// What meshopt says of a buffer view; null: nothing.
+const Json& meshopt_of(const Json& view);
+
 /// True if the view or primitive is given in a compressed form alone.
 bool is_compressed(const Json& entry);
 

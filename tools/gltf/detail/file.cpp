@@ -4,6 +4,7 @@
 
 #include "tools/gltf/detail/container.h"
 #include "tools/gltf/detail/extensions.h"
+#include "tools/gltf/detail/unpack.h"
 
 namespace animeme::gltf {
 namespace {
@@ -106,6 +107,8 @@ Result<File> open_file(std::span<const std::uint8_t> bytes, const LoadFile& load
   if (!file) return file;
   if (auto fine = check_extensions(file->root); !fine) return fine.error();
   if (auto done = BufferReader(*file, *chunks, load).read(); !done) return done.error();
+  if (auto done = unpack_meshopt(*file); !done) return done.error();
+  if (auto done = unpack_draco(*file); !done) return done.error();
   return file;
 }
 

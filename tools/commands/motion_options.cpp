@@ -1,0 +1,21 @@
+#include "tools/commands/motion_options.h"
+
+namespace animeme::tools {
+
+void add_motion_options(CLI::App& app, dam::SynthesisOptions& options) {
+  options.articulation = 1;
+  app.add_option("--style", options.style,
+                 "Intensity: 0 keeps the mouth at rest, 1 is as learned, 1.5 exaggerates")
+      ->option_text("0..1.5=1")
+      ->check(CLI::Range(0.0, dam::kMostStyle));
+  app.add_option("--sharpness", options.sharpness,
+                 "Quickness: 0 as a mean of sentences, 1 more as people")
+      ->option_text("0..3=1")
+      ->check(CLI::Range(0.0, dam::kMostSharpness));
+  app.add_option("--articulate", options.articulation,
+                 "Roundness of o, u, w and sh beyond what is learned: 0 none, 1 as most people")
+      ->option_text("0..2=1")
+      ->check(CLI::Range(0.0, dam::kMostArticulation));
+}
+
+}  // namespace animeme::tools

@@ -1,0 +1,15 @@
+/// @file
+/// How a face that speaks moves: options of speak, stream and follow.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "dam/speaking/synthesise.h"
+
+namespace animeme::tools {
+
+/// Adds --style, --sharpness and --articulate, with the program's defaults: as learned, but O, U
+/// and W rounder (SynthesisOptions::articulation is 1).
+void add_motion_options(CLI::App& app, dam::SynthesisOptions& options);
+
+}  // namespace animeme::tools
