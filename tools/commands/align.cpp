@@ -111,11 +111,13 @@ void add_options(CLI::App& app, AlignOptions& options) {
                    "are not used");
   said->require_option(1);
   add_script_options(app, options.reading);
-  app.add_option("--lang", options.aligner.language, "Language of the transcript")
+  app.add_option("--lang", options.aligner.language,
+                 "Language of the transcript, as en, it or es-419")
       ->capture_default_str();
   app.add_option("--min-confidence", options.least,
-                 "Refuse words that are less sure, 0 to 1, by name; 0: refuse nothing at all. "
-                 "Without it a recording is refused whose text does not fit on the whole")
+                 "Refuse words that are less sure, 0 to 1 (0.05: those that hardly fit), by name; "
+                 "0: refuse nothing at all. Without it a recording is refused whose text does not "
+                 "fit on the whole: another text, noise, nobody speaks")
       ->check(CLI::Range(0.0, 1.0));
   add_output(
       app.add_option("-o,--output", options.output,
