@@ -9,6 +9,8 @@
 
 namespace animeme::bench {
 
+inline constexpr double kSpeechRate = 16000;
+
 struct Sentence {
   std::string id, text;
   std::vector<float> sound;  // 16 kHz

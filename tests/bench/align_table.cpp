@@ -1,9 +1,15 @@
-// Prints the tables of tools/voice/README.md: how far alignments are from the labels of a corpus
+// Prints the tables of tools/voice/measured.md: how far alignments are from the labels of a corpus
 // (grid_s1), clean and in noise.
-//   build/release/bin/align_table CORPUS [--every 4] [--from 2] [--levels 15,10,5] [--texts]
+//   build/release/bin/align_table CORPUS [--every 4] [--from 2] [--levels 15,10,5] [--texts |
+//   --edits | --long 30]
+//   build/release/bin/align_table FOLDER --lang it             # made by festival_corpus.sh
+//   build/release/bin/align_table FOLDER --lang it --lines LIST    # recordings, list of their
+//   texts
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "tests/bench/align_edits.h"
+#include "tests/bench/align_languages.h"
 #include "tests/bench/align_material.h"
 #include "tests/bench/noises.h"
 #include "tools/voice/align.h"
@@ -130,7 +136,22 @@ int main(int count, char** arguments) {
   app.add_option("--levels", levels, "Levels of the noise, dB")->delimiter(',');
   bool texts = false;
   app.add_flag("--texts", texts, "What is refused: right and wrong texts, noise");
+  bool edits = false;
+  app.add_flag("--edits", edits, "What is noticed of words left out and put in");
+  double minutes = 0;
+  app.add_option("--long", minutes, "All behind each other, so many minutes, with gaps");
+  std::string language, list;
+  app.add_option("--lang", language, "Of words and labels that are compared by number");
+  app.add_option("--lines", list, "Recordings of the folder and their texts: ID: text");
   CLI11_PARSE(app, count, arguments);
+  if (!language.empty()) {
+    const LanguageRows rows{language, every, first};
+    const auto scored = list.empty()            ? score_labelled(corpus, rows)
+                        : corpus == "espeak-ng" ? score_spoken(list, rows)
+                                                : score_recorded(corpus, list, rows);
+    if (!scored) std::fprintf(stderr, "%s\n", scored.error().describe().c_str());
+    return scored ? 0 : 3;
+  }
   const auto sentences = read_sentences(corpus, every, first);
   if (!sentences) {
     std::fprintf(stderr, "%s\n", sentences.error().describe().c_str());
@@ -140,6 +161,12 @@ int main(int count, char** arguments) {
     score_texts(*sentences, levels);
     return 0;
   }
-  score_noises(*sentences, levels);
+  if (edits) {
+    score_edits(*sentences, levels);
+  } else if (minutes > 0) {
+    score_long(*sentences, minutes);
+  } else {
+    score_noises(*sentences, levels);
+  }
   return 0;
 }

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <sstream>
 #include <string_view>
 
 #include "dam/model/builtin.h"
 #include "dam/speaking/synthesise.h"
 #include "dam/training/train.h"
-#include "tests/support/files.h"
+#include "tests/bench/recorded_lists.h"
 #include "tools/media/audio.h"
 #include "tools/voice/align.h"
 
@@ -19,8 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLeastText = 60;  // bytes
-constexpr double kSure = 0.6;           // alignments below are no truth
+constexpr double kSure = 0.6;  // alignments below are no truth
 
 Result<media::Pcm> sound_of(const fs::path& path) {
   return media::read_audio(path.string(), {16000, 3600, nullptr});
@@ -47,29 +45,6 @@ std::vector<std::string> words_of(const std::string& text) {
   }
   end_word();
   return words;
-}
-
-struct Line {
-  std::string id, text;
-};
-
-std::vector<Line> read_list(const std::string& path) {
-  std::istringstream in(test::slurp(path));
-  std::vector<Line> lines;
-  for (std::string line; std::getline(in, line);) {
-    const std::size_t colon = line.find(':');
-    if (line.starts_with(";") || colon == std::string::npos) continue;
-    const std::size_t begin = std::min(line.find_first_not_of(' ', colon + 1), line.size());
-    Line one{line.substr(0, colon), line.substr(begin)};
-    while (!one.text.empty() && std::isspace(static_cast<unsigned char>(one.text.back())) != 0) {
-      one.text.pop_back();
-    }
-    // Brackets hold what is not said.
-    if (one.text.size() < kLeastText || one.text.find_first_of("[<(") != std::string::npos)
-      continue;
-    lines.push_back(std::move(one));
-  }
-  return lines;
 }
 
 }  // namespace
@@ -107,11 +82,9 @@ Result<Voices> read_recordings(const std::string& folder, const std::string& lis
   voice::AlignOptions aligning;
   aligning.language = choice.language;
   std::size_t number = 0;
-  for (const Line& line : read_list(list)) {
-    fs::path file = fs::path(folder) / (line.id + ".g722");
-    if (!fs::exists(file)) file.replace_extension(".wav");
-    if (!fs::exists(file) || number++ % choice.every != choice.from) continue;
-    auto sound = sound_of(file);
+  for (const Recorded& line : recorded_lines(folder, list)) {
+    if (number++ % choice.every != choice.from) continue;
+    auto sound = sound_of(line.file);
     if (!sound) return sound.error();
     auto aligned = voice::align(*sound, line.text, aligning);
     if (!aligned || aligned->confidence < kSure) continue;

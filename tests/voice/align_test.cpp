@@ -13,32 +13,13 @@
 #include <sstream>
 
 #include "tests/support/shared.h"
-#include "tools/voice/voice.h"
+#include "tests/voice/align_support.h"
 
 namespace animeme::voice {
 namespace align_test {
 
+using namespace align_support;  // NOLINT: as if they were here
 using testing::HasSubstr;
-
-media::Pcm silence(double seconds, int rate = kAlignRate) {
-  return {rate, std::vector<float>(std::size_t(seconds * rate), 0.0f)};
-}
-
-// Good enough for a test: linear interpolation after a running mean over one output sample.
-media::Pcm resample(const media::Pcm& audio, int rate) {
-  media::Pcm out{rate, {}};
-  const double step = double(audio.sample_rate) / rate;
-  const auto count = std::size_t(audio.duration() * rate);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double at = double(i) * step;
-    const auto first = std::size_t(at);
-    const double part = at - double(first);
-    const float a = audio.samples[first];
-    const float b = first + 1 < audio.samples.size() ? audio.samples[first + 1] : a;
-    out.samples.push_back(float((1 - part) * double(a) + part * double(b)));
-  }
-  return out;
-}
 
 // Distances in ms between the starts of phones that both scripts have, in order.
 std::vector<double> start_errors(const dam::Script& expected, const dam::Script& found) {
@@ -67,37 +48,6 @@ void print(const std::vector<double>& errors) {
   std::cout << "starts: " << errors.size() << ", median " << median(errors) << " ms, 90 % within "
             << percentile(errors, 90) << " ms\n";
 }
-
-// Why there is nothing to test: the part is not built, or its model is not installed.
-std::string missing_part() {
-  const AlignOptions defaults;
-  if (!std::filesystem::exists(defaults.dictionary_path)) return "pocketsphinx-en-us is missing";
-  const auto tried = align(silence(1), "yes");
-  return !tried && tried.error().code == Code::unsupported ? tried.error().describe() : "";
-}
-
-AlignOptions everything() {
-  AlignOptions options;
-  options.least_confidence = 0;
-  return options;
-}
-
-// White noise of the same numbers on every machine.
-void add_noise(media::Pcm& audio, float level) {
-  std::uint32_t state = 1;
-  for (float& sample : audio.samples) {
-    state = state * 1664525u + 1013904223u;
-    sample += level * (float(state >> 8) / 8388608.0f - 1.0f);
-  }
-}
-
-#define SKIP_WITHOUT_ALIGNER() \
-  if (const std::string why = missing_part(); !why.empty()) GTEST_SKIP() << why
-
-#define SKIP_WITHOUT_VOICE(speech)                         \
-  if (!speech && speech.error().code == Code::unsupported) \
-    GTEST_SKIP() << speech.error().describe();             \
-  ASSERT_TRUE(speech) << speech.error().describe()
 
 std::string file_text(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -247,31 +197,6 @@ TEST(Align, ARoomMovesNothingFar) {
   ASSERT_GE(errors.size(), 25u);
   print(errors);
   EXPECT_LT(median(errors), 40);
-}
-
-TEST(Align, KnowsATextThatIsNotSaid) {
-  SKIP_WITHOUT_ALIGNER();
-  const std::string text = "please put the small blue book on the table by the window";
-  const auto speech = speak_text(text);
-  SKIP_WITHOUT_VOICE(speech);
-  const media::Pcm audio = resample(speech->audio, kAlignRate);
-  const auto right = align(audio, text);
-  ASSERT_TRUE(right) << right.error().describe();
-  ASSERT_EQ(right->words.size(), 12u);
-  EXPECT_EQ(right->words[5].text, "book");
-  EXPECT_GT(right->words[5].end, right->words[5].start);
-  const std::string other = "nine years ago our uncle never knew how many letters she wrote";
-  const auto wrong = align(audio, other);
-  ASSERT_FALSE(wrong);
-  EXPECT_EQ(wrong.error().code, Code::out_of_range);
-  const auto forced = align(audio, other, everything());
-  ASSERT_TRUE(forced) << forced.error().describe();
-  EXPECT_LT(forced->confidence, right->confidence);
-
-  media::Pcm noise = silence(3);
-  add_noise(noise, 0.1f);
-  EXPECT_FALSE(align(noise, text));
-  EXPECT_FALSE(align(silence(3), text));
 }
 
 TEST(Align, RefusesWithAReason) {

@@ -28,7 +28,7 @@ struct AlignOptions {
 Result<void> check_words(const voice::Alignment& alignment, double least) {
   std::string list;
   for (const voice::AlignedWord& word : alignment.words) {
-    if (word.confidence >= least) continue;
+    if (!word.known || word.confidence >= least) continue;
     char where[64];
     std::snprintf(where, sizeof where, " (%.2f s, %.2f)", word.start, word.confidence);
     list += (list.empty() ? "" : ", ") + word.text + where;
@@ -41,7 +41,26 @@ Json json_of_word(const voice::AlignedWord& word) {
   return {{"word", word.text},
           {"start", word.start},
           {"end", word.end},
-          {"confidence", word.confidence}};
+          {"confidence", word.confidence},
+          {"said", word.said}};
+}
+
+Json json_of_put_in(const voice::PutIn& one) {
+  return {
+      {"start", one.start}, {"end", one.end}, {"phones", one.phones}, {"before_word", one.before}};
+}
+
+Json phone_list(const voice::Alignment& alignment) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < alignment.script.phones.size(); ++i) {
+    const dam::Phone& phone = alignment.script.phones[i];
+    list.push_back({{"phone", phone.label},
+                    {"start", phone.start},
+                    {"end", phone.end},
+                    {"word", phone.word},
+                    {"confidence", alignment.confidences[i]}});
+  }
+  return list;
 }
 
 void print_json(const voice::Alignment& alignment) {
@@ -49,7 +68,9 @@ void print_json(const voice::Alignment& alignment) {
                      {"confidence", alignment.confidence},
                      {"approximate", alignment.approximate},
                      {"warnings", alignment.warnings},
-                     {"words", json_list(alignment.words, json_of_word)}};
+                     {"words", json_list(alignment.words, json_of_word)},
+                     {"put_in", json_list(alignment.put_in, json_of_put_in)},
+                     {"timed_phones", phone_list(alignment)}};
   std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
 }
 
@@ -90,11 +111,13 @@ void add_options(CLI::App& app, AlignOptions& options) {
                    "are not used");
   said->require_option(1);
   add_script_options(app, options.reading);
-  app.add_option("--lang", options.aligner.language, "Language of the transcript")
+  app.add_option("--lang", options.aligner.language,
+                 "Language of the transcript, as en, it or es-419")
       ->capture_default_str();
   app.add_option("--min-confidence", options.least,
-                 "Refuse words that are less sure, 0 to 1, by name; 0: refuse nothing at all. "
-                 "Without it a recording is refused whose text does not fit on the whole")
+                 "Refuse words that are less sure, 0 to 1 (0.05: those that hardly fit), by name; "
+                 "0: refuse nothing at all. Without it a recording is refused whose text does not "
+                 "fit on the whole: another text, noise, nobody speaks")
       ->check(CLI::Range(0.0, 1.0));
   add_output(
       app.add_option("-o,--output", options.output,
@@ -102,7 +125,10 @@ void add_options(CLI::App& app, AlignOptions& options) {
                      "for a TextGrid on standard output"),
       dam::script_endings(), OutputKind::file_or_dash)
       ->required();
-  app.add_flag("--json", options.json, "Words with times and confidences on standard output");
+  app.add_flag(
+      "--json", options.json,
+      "On standard output: words with times, confidences and whether they are said; speech "
+      "that the transcript does not have (put_in); each phone with its confidence");
 }
 
 }  // namespace

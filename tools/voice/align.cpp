@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
 
 #include "dam/script/timings.h"
+#include "tools/voice/alignment_report.h"
 #include "tools/voice/confidence.h"
 #include "tools/voice/denoise.h"
 #include "tools/voice/parted_words.h"
@@ -17,7 +17,6 @@ namespace animeme::voice {
 namespace {
 
 constexpr double kMinSeconds = 0.1;
-constexpr std::size_t kMostNamed = 10;     // words of a warning
 constexpr double kMinPhoneSeconds = 0.01;  // one frame: less cannot be
 
 Result<void> check_audio(const media::Pcm& audio) {
@@ -35,22 +34,12 @@ Result<void> check_audio(const media::Pcm& audio) {
   return {};
 }
 
-std::vector<std::int16_t> to_int16(const std::vector<float>& samples) {
-  std::vector<std::int16_t> out;
-  out.reserve(samples.size());
-  for (const float sample : samples) {
-    const float scaled = std::isfinite(sample) ? sample * 32768.0f : 0.0f;
-    out.push_back(std::int16_t(std::lround(std::clamp(scaled, -32768.0f, 32767.0f))));
-  }
-  return out;
-}
-
 struct Stretch {
   double start = 0, end = 0;
 };
 
 // From the first to the last 20 ms that are louder than a twentieth of the loudest.
-Stretch loud_part(const std::vector<std::int16_t>& samples) {
+Stretch loud_part(const std::vector<float>& samples) {
   constexpr std::size_t kBlock = kAlignRate / 50;
   std::vector<double> levels;
   for (std::size_t at = 0; at + kBlock <= samples.size(); at += kBlock) {
@@ -66,10 +55,11 @@ Stretch loud_part(const std::vector<std::int16_t>& samples) {
   return {double(first - levels.begin()) * seconds, double(levels.rend() - last) * seconds};
 }
 
-std::vector<Segment> spread_evenly(const std::vector<std::int16_t>& samples,
+std::vector<Segment> spread_evenly(const std::vector<float>& samples,
                                    const std::vector<SpokenWord>& words) {
   double total = 0;
   for (const SpokenWord& word : words) {
+    if (word.variants.empty()) continue;
     for (const std::string& label : word.variants[0]) total += dam::usual_duration(label);
   }
   const Stretch loud = loud_part(samples);
@@ -77,6 +67,7 @@ std::vector<Segment> spread_evenly(const std::vector<std::int16_t>& samples,
   if (loud.start > 0) segments.push_back({0, std::string(dam::kSilence), kNoWord, 0, 1});
   double done = 0;
   for (std::size_t w = 0; w < words.size(); ++w) {
+    if (words[w].variants.empty()) continue;
     for (const std::string& label : words[w].variants[0]) {
       segments.push_back({loud.start + (loud.end - loud.start) * done / total, label, w, 0, 1});
       done += dam::usual_duration(label);
@@ -86,57 +77,35 @@ std::vector<Segment> spread_evenly(const std::vector<std::int16_t>& samples,
   return segments;
 }
 
-dam::Script to_script(const std::vector<Segment>& segments, const std::vector<SpokenWord>& words,
-                      double duration) {
-  dam::Script script;
-  for (std::size_t i = 0; i < segments.size(); ++i) {
-    const Segment& segment = segments[i];
-    const double start = i == 0 ? 0.0 : script.phones.empty() ? 0.0 : script.phones.back().end;
-    const double next = i + 1 == segments.size() ? duration : segments[i + 1].start;
-    const double end = std::min(next, duration);
-    if (end <= start) continue;
-    const bool silent = segment.label == dam::kSilence;
-    if (silent && !script.phones.empty() && script.phones.back().label == dam::kSilence) {
-      script.phones.back().end = end;
-    } else {
-      script.phones.push_back(
-          {start, end, segment.label, silent ? std::string() : words[segment.word].text});
-    }
-  }
-  if (!script.phones.empty()) script.phones.back().end = duration;
-  return script;
-}
-
 std::string two_digits(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2f", value);
   return text;
 }
 
-Error refusal(double confidence, const AlignOptions& options) {
-  return make_error(Code::out_of_range, "the transcript does not fit the recording (confidence " +
-                                            two_digits(confidence) + ", at least " +
-                                            two_digits(options.least_confidence) +
-                                            "): another text, too much noise, or nobody speaks");
-}
-
-void warn_of_doubts(Alignment& alignment) {
-  std::string list;
-  std::size_t count = 0;
-  for (const AlignedWord& word : alignment.words) {
-    if (word.confidence >= kDoubtful) continue;
-    if (++count > kMostNamed) continue;
-    list += (list.empty() ? "" : ", ") + word.text + " (" + two_digits(word.start) + " s)";
+// How many words of the text are found is what helps whoever looks for the mistake.
+Error refusal(const Alignment& found, const AlignOptions& options) {
+  std::size_t unsaid = 0;
+  std::string first;
+  for (const AlignedWord& word : found.words) {
+    if (word.said || !word.known) continue;
+    if (++unsaid == 1) first = word.text;
   }
-  if (count == 0) return;
-  if (count > kMostNamed) list += " and " + std::to_string(count - kMostNamed) + " more";
-  alignment.warnings.push_back("the sound hardly fits these words; are they said? " + list);
+  std::string what = "the transcript does not fit the recording (confidence " +
+                     two_digits(found.confidence) + ", at least " +
+                     two_digits(options.least_confidence) + "): ";
+  if (unsaid > 0) {
+    what += std::to_string(unsaid) + " of " + std::to_string(found.words.size()) +
+            (unsaid == 1 ? " words is" : " words are") + " not found in it, the first is '" +
+            first + "'; ";
+  }
+  return make_error(Code::out_of_range, what + "another text, too much noise, or nobody speaks");
 }
 
 std::size_t least_phones(const std::vector<SpokenWord>& words) {
   std::size_t count = 0;
   for (const SpokenWord& word : words) {
-    std::size_t least = word.variants[0].size();
+    std::size_t least = word.variants.empty() ? 0 : word.variants[0].size();
     for (const Labels& variant : word.variants) least = std::min(least, variant.size());
     count += least;
   }
@@ -161,7 +130,8 @@ Result<Alignment> align(const media::Pcm& audio, std::string_view transcript,
   if (auto good = check_recogniser(options); !good) return good.error();
   const auto words = find_pronunciations(texts, options, result.warnings);
   if (!words) return words.error();
-  if (words->empty()) {
+  if (std::all_of(words->begin(), words->end(),
+                  [](const SpokenWord& word) { return word.variants.empty(); })) {
     return make_error(Code::invalid_argument,
                       "no word of the transcript can be pronounced; is "
                       "the language right?");
@@ -171,10 +141,14 @@ Result<Alignment> align(const media::Pcm& audio, std::string_view transcript,
                                               std::to_string(least_phones(*words)) +
                                               " phones; does the text belong to this recording?");
   }
-  const auto samples = to_int16(denoised(audio.samples));
-  auto segments = recognise(samples, *words, options);
-  if (!segments) return segments.error();
-  if (segments->empty()) {
+  const auto samples = denoised(audio.samples);
+  auto recognised = recognise(samples, *words, options);
+  if (!recognised) return recognised.error();
+  auto& segments = recognised->segments;
+  const bool any = std::any_of(segments.begin(), segments.end(), [](const Segment& segment) {
+    return segment.word != kNoWord && !segment.foreign;
+  });
+  if (!any) {
     if (options.least_confidence > 0) {
       return make_error(Code::out_of_range,
                         "the recogniser cannot fit the transcript to the recording; check that the "
@@ -186,16 +160,17 @@ Result<Alignment> align(const media::Pcm& audio, std::string_view transcript,
         "its loud part; check that the text is what is said");
     segments = spread_evenly(samples, *words);
   } else {
-    result.confidence = rate_recording(*segments);
+    result.confidence = rate_recording(*recognised, *words, is_english(options.language));
   }
-  if (result.confidence < options.least_confidence) return refusal(result.confidence, options);
-  result.words = rate_words(*segments, *words, audio.duration());
+  result.words = rate_words(segments, *words, audio.duration());
+  if (result.confidence < options.least_confidence) return refusal(result, options);
+  add_script(segments, *words, audio.duration(), result);
+  add_put_in(segments, audio.duration(), result);
   if (result.approximate) {
     for (AlignedWord& word : result.words) word.confidence = 0;
   } else {
-    warn_of_doubts(result);
+    add_warnings(result);
   }
-  result.script = to_script(*segments, *words, audio.duration());
   return result;
 }
 

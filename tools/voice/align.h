@@ -37,21 +37,37 @@ struct AlignOptions {
 struct AlignedWord {
   std::string text;  ///< as the transcript spells it
   double start = 0;  ///< seconds
-  double end = 0;    ///< seconds
+  double end = 0;    ///< seconds; `start` if it is not said
   /// How well the sound fits, 0..1: its frames are compared with the phones that fit best when
   /// nobody says which. At 0.5 right and wrong texts are as likely, of whole recordings; a single
-  /// short word may be right far below. 0 where Alignment::approximate.
+  /// short word may be right far below. 0 where Alignment::approximate, and if it is not said.
   double confidence = 0;
+  /// False: the recording goes from the word before to the one behind, or there is so little room
+  /// between them that it is there for the text only.
+  bool said = true;
+  bool known = true;  ///< false: nobody knows how it is pronounced; it has what is heard there
+};
+
+/// Speech that the transcript does not have.
+struct PutIn {
+  double start = 0;                 ///< seconds
+  double end = 0;                   ///< seconds
+  std::vector<std::string> phones;  ///< what it sounds like, ARPAbet; often wrong one by one
+  std::size_t before = 0;           ///< number of the word that follows, of Alignment::words
 };
 
 /// What align() found.
 struct Alignment {
-  /// Covers the audio exactly; labels are ARPAbet, words as the transcript spells them.
+  /// Covers the audio exactly; labels are ARPAbet, words as the transcript spells them. Speech that
+  /// the transcript does not have has the phones that are heard, without a word.
   dam::Script script;
+  /// Of each phone of `script`, as AlignedWord::confidence, of its own frames: few are less sure.
+  std::vector<double> confidences;
   /// True if the recogniser found no path: the phones are then spread over the loud part of
   /// the recording in proportion to their usual durations.
   bool approximate = false;
-  std::vector<AlignedWord> words;     ///< in order
+  std::vector<AlignedWord> words;     ///< all of the transcript, in order
+  std::vector<PutIn> put_in;          ///< in order
   double confidence = 0;              ///< of the whole recording, as AlignedWord::confidence
   std::vector<std::string> warnings;  ///< sentences for people; empty if all went well
 };

@@ -65,10 +65,19 @@ Labels for_recogniser(Labels labels) {
   return labels;
 }
 
-bool is_english(std::string_view language) {
-  const std::string lower = dam::lower_case(language);
-  return lower == "en" || lower.starts_with("en-") || lower.starts_with("en_") ||
-         lower.starts_with("english");
+// Pictures and signs have no sound that all people agree on, and nor have, to an English voice,
+// letters of other scripts than Latin: espeak-ng reads out their names.
+bool can_be_said(std::string_view word, bool english) {
+  constexpr char32_t kLatinEnds = 0x250, kArrows = 0x2190, kLettersAgain = 0x2C00,
+                     kPictures = 0x1F000, kIdeographsAgain = 0x20000;
+  while (!word.empty()) {
+    const char32_t code = dam::take_code_point(word);
+    if (english && code >= kLatinEnds) continue;
+    if (code >= kArrows && code < kLettersAgain) continue;
+    if (code >= kPictures && code < kIdeographsAgain) continue;
+    return true;
+  }
+  return false;
 }
 
 Result<void> add_spoken(const std::vector<std::string>& missing, const AlignOptions& options,
@@ -91,18 +100,26 @@ Result<void> add_spoken(const std::vector<std::string>& missing, const AlignOpti
 
 }  // namespace
 
+bool is_english(std::string_view language) {
+  const std::string lower = dam::lower_case(language);
+  return lower == "en" || lower.starts_with("en-") || lower.starts_with("en_") ||
+         lower.starts_with("english");
+}
+
 Result<std::vector<SpokenWord>> find_pronunciations(const std::vector<std::string>& words,
                                                     const AlignOptions& options,
                                                     std::vector<std::string>& warnings) {
   Dictionary dictionary;
-  if (is_english(options.language)) {
+  const bool english = is_english(options.language);
+  if (english) {
     auto read = read_dictionary(options.dictionary_path, words);
     if (!read) return read.error();
     dictionary = *std::move(read);
   }
   std::set<std::string> missing;
   for (const std::string& word : words) {
-    if (!dictionary.contains(dam::lower_case(word))) missing.insert(word);
+    if (dictionary.contains(dam::lower_case(word)) || !can_be_said(word, english)) continue;
+    missing.insert(word);
   }
   if (!missing.empty()) {
     const auto added = add_spoken({missing.begin(), missing.end()}, options, dictionary);
@@ -112,9 +129,10 @@ Result<std::vector<SpokenWord>> find_pronunciations(const std::vector<std::strin
   for (const std::string& word : words) {
     const auto known = dictionary.find(dam::lower_case(word));
     if (known == dictionary.end()) {
-      warnings.push_back("no pronunciation for \"" + word + "\"; the word is left out");
+      warnings.push_back("no pronunciation for \"" + word + "\"; it gets what is heard there");
+      spoken.push_back({word, {}, true});
     } else {
-      spoken.push_back({word, known->second});
+      spoken.push_back({word, known->second, english && missing.contains(word)});
     }
   }
   return spoken;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -17,9 +16,11 @@ struct Segment {
   double start = 0;      ///< seconds; the bias of the analysis window is already taken off
   std::string label;     ///< ARPAbet or SIL
   std::size_t word = 0;  ///< index into the words; kNoWord for silence
-  /// How well the sound fits, <= 0 a frame: the distance to the sound of the model that fits best.
+  /// How well the sound fits, a frame: 0 is as well as the phones that fit best when nobody says
+  /// which; logarithm of the likelihood.
   double score = 0;
   std::size_t frames = 1;  ///< of 10 ms
+  bool foreign = false;    ///< heard, not of the text
 };
 
 inline constexpr std::size_t kNoWord = ~std::size_t(0);  ///< no word: silence
@@ -27,10 +28,14 @@ inline constexpr std::size_t kNoWord = ~std::size_t(0);  ///< no word: silence
 /// Is there a recogniser and the model it needs? Errors: unsupported, not_found.
 Result<void> check_recogniser(const AlignOptions& options);
 
-/// Places the words in 16 kHz samples. Empty if no path was found with any beam.
-/// Errors as check_recogniser().
-Result<std::vector<Segment>> recognise(const std::vector<std::int16_t>& samples,
-                                       const std::vector<SpokenWord>& words,
-                                       const AlignOptions& options);
+/// What is recognised.
+struct Recognised {
+  std::vector<Segment> segments;  ///< empty if no path was found
+  double explained = 0;           ///< Placement::explained
+};
+
+/// Places the words in samples of 16 kHz. Errors as check_recogniser().
+Result<Recognised> recognise(const std::vector<float>& samples,
+                             const std::vector<SpokenWord>& words, const AlignOptions& options);
 
 }  // namespace animeme::voice

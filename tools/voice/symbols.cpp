@@ -11,7 +11,6 @@
 namespace animeme::voice {
 namespace {
 
-using dam::Features;
 using dam::IpaSound;
 
 Result<std::string> read_data(const std::string& path) {
@@ -36,9 +35,9 @@ std::string joined(const RawSpeech& raw) {
   return ipa;
 }
 
-bool is_vowel(const Features& f) { return f.manner == dam::Manner::vowel; }
-bool is_round(const Features& f) { return is_vowel(f) && f.rounding > 0.5; }
-bool is_flat(const Features& f) {
+bool is_vowel(const dam::Features& f) { return f.manner == dam::Manner::vowel; }
+bool is_round(const dam::Features& f) { return is_vowel(f) && f.rounding > 0.5; }
+bool is_flat(const dam::Features& f) {
   return is_vowel(f) && f.rounding == 0 && f.height == 1 && f.backness >= 0.5;
 }
 

@@ -25,7 +25,9 @@ Result<Known> pronounce_all(const dam::Timings& timings, const AlignOptions& opt
   if (words.empty()) return known;
   const auto spoken = find_pronunciations(words, options, warnings);
   if (spoken) {
-    for (const SpokenWord& word : *spoken) known[word.text] = word.variants[0];
+    for (const SpokenWord& word : *spoken) {
+      if (!word.variants.empty()) known[word.text] = word.variants[0];
+    }
     return known;
   }
   if (spoken.error().code != Code::not_found) return spoken.error();

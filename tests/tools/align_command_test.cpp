@@ -1,0 +1,76 @@
+// Alignment as a user has it: what is told of words that the text has and nobody says, and the
+// other way round.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/support/program.h"
+
+namespace animeme {
+namespace align_command_test {
+
+using nlohmann::json;
+using test::animeme;
+using test::TempDir;
+using testing::HasSubstr;
+
+constexpr const char* kText = "please put the small blue book on the table by the window";
+
+test::ProgramResult align(const TempDir& dir, const std::string& text,
+                          std::vector<std::string> more = {}) {
+  std::vector<std::string> arguments{"align",  "--audio", dir / "voice.mp4", "--transcript", text,
+                                     "--json", "-o",      dir / "voice.tsv"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return animeme(arguments);
+}
+
+// Empty, or why there is nothing to test.
+std::string no_aligner(const TempDir& dir) {
+  if (animeme({"speak", "--text", kText, "-o", dir / "voice.mp4"}).exit_code != 0)
+    return "no voice";
+  const auto out = align(dir, kText);
+  return out.exit_code != 0 && out.err.find("install") != std::string::npos ? out.err : "";
+}
+
+TEST(AlignCommand, TellsWhatIsNotSaidAndWhatIsSaidMore) {
+  const TempDir dir;
+  if (const auto why = no_aligner(dir); !why.empty()) GTEST_SKIP() << why;
+  const auto out = align(dir, "please put the small yesterday blue book on the table");
+  ASSERT_EQ(out.exit_code, 0) << out.err;
+  EXPECT_THAT(out.err, HasSubstr("'yesterday' is not said (between 'small' and 'blue'"));
+  EXPECT_THAT(out.err,
+              HasSubstr("something is said that the transcript does not have (behind 'table'"));
+  const json found = json::parse(out.out);
+  ASSERT_EQ(found["words"].size(), 10u);
+  for (const json& word : found["words"]) {
+    EXPECT_EQ(word["said"].get<bool>(), word["word"] != "yesterday") << word;
+  }
+  ASSERT_EQ(found["put_in"].size(), 1u);
+  EXPECT_EQ(found["put_in"][0]["before_word"], 10);
+  ASSERT_EQ(found["timed_phones"].size(), found["phones"].get<std::size_t>());
+  double before = 0;
+  for (const json& phone : found["timed_phones"]) {
+    EXPECT_EQ(phone["start"].get<double>(), before);
+    before = phone["end"];
+  }
+}
+
+TEST(AlignCommand, MinConfidenceRefusesByName) {
+  const TempDir dir;
+  if (const auto why = no_aligner(dir); !why.empty()) GTEST_SKIP() << why;
+  const auto sure = align(dir, kText, {"--min-confidence", "0.05"});
+  EXPECT_EQ(sure.exit_code, 0) << sure.err;
+  const auto unsure =
+      align(dir, "please put the small yesterday blue book on the table by the window",
+            {"--min-confidence", "0.05"});
+  EXPECT_EQ(unsure.exit_code, 3);
+  EXPECT_THAT(unsure.err, HasSubstr("words below --min-confidence: yesterday"));
+  const auto other = align(dir, "nine years ago our uncle never knew how many letters she wrote");
+  EXPECT_EQ(other.exit_code, 3);
+  EXPECT_THAT(other.err, HasSubstr("does not fit the recording"));
+}
+
+}  // namespace align_command_test
+}  // namespace animeme
