@@ -33,6 +33,7 @@ struct RoundingOptions {
 /// mean.
 class LipRounding {
  public:
+  /// Of all phones of a script.
   explicit LipRounding(const Script& script, const RoundingOptions& options = {});
   /// Times may come in any order; cheap if they ascend.
   double operator()(double time) const;
