@@ -47,8 +47,9 @@ Result<int> write_preview(const std::string& path, const fba::AccessUnits& face,
 
 void add_preview_option(CLI::App& app, std::string& path) {
   add_output(
-      app.add_option("--preview", path,
-                     "Also render a video that any player shows: .mp4 (H.264), .webm (VP9) or .webp (silent)"),
+      app.add_option(
+          "--preview", path,
+          "Also render a video that any player shows: .mp4 (H.264), .webm (VP9) or .webp (silent)"),
       {".mp4", ".webm", ".mkv", ".webp"}, OutputKind::file);
 }
 

@@ -44,7 +44,8 @@ struct ShapeMeaning {
 /// "blendShape1." or "A14_" and the spelling of the side ("_L", "Left"). A shape of ARKit with two
 /// sides may be split ("browInnerUp_L"); one with sides may come without ("mouthSmile"): both
 /// together. Other names: blink and eyesClosed, winks, mouthOpen, smile, gaze up, down, left,
-/// right, brows up and down, the brows of VRoid (BRW_Angry ...) and MMD; the vowels A I U E O of VRM, VRoid and MMD are visemes.
+/// right, brows up and down, the brows of VRoid (BRW_Angry ...) and MMD; the vowels A I U E O of
+/// VRM, VRoid and MMD are visemes.
 std::optional<ShapeMeaning> meaning_of(std::string_view name);
 
 /// A shape that a head uses.

@@ -1,5 +1,7 @@
 #include "tools/plot/clips.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -35,7 +37,13 @@ std::string unit_of(int fap) {
 
 Row fap_row(int fap, const std::vector<TimedClip>& clips) {
   Row row{"FAP " + std::to_string(fap), std::string(fap::info(fap).name), unit_of(fap), {}};
-  for (const TimedClip& clip : clips) row.curves.push_back(points_of(fap, clip));
+  bool there = clips.empty();
+  for (const TimedClip& clip : clips) {
+    row.curves.push_back(points_of(fap, clip));
+    there = there || std::any_of(row.curves.back().begin(), row.curves.back().end(),
+                                 [](const auto& point) { return !std::isnan(point.second); });
+  }
+  if (!there) row.subtitle += ", absent";
   return row;
 }
 

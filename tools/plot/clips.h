@@ -17,7 +17,8 @@ struct TimedClip {
   double end() const { return start + clip.duration(); }  ///< seconds
 };
 
-/// FAP `fap`, 3 to 68, of up to three clips, a curve each in the order of the clips.
+/// FAP `fap`, 3 to 68, of up to three clips, a curve each in the order of the clips; no number
+/// where a frame does not have it, and a row without any says so.
 Row fap_row(int fap, const std::vector<TimedClip>& clips);
 
 /// b less a in the third colour, at the times of a; what b shows at a time is its last frame so
