@@ -102,7 +102,7 @@ inline constexpr Library kLibraries[] = {
     {"libwebsockets", "libwebsockets", "tools/web/detail"},
     {"zlib", "zlib", "tools/render tools/viewer tools/web/detail tests"},
     {"libpng, libjpeg, libwebp", "png jpeglib jerror webp/",
-     "tools/gltf/detail tools/render tests"},
+     "tools/gltf/detail tools/studio tests"},
     {"toml++", "toml++/", "tools/crossmap", true},
     {"nlohmann_json", "nlohmann/", "tools conformance tests"},
     {"CLI11", "CLI/", "tools/commands tools/main.cpp tests/bench"},

@@ -8,12 +8,12 @@
 #include "tools/commands/head_options.h"
 #include "tools/commands/preview.h"
 #include "tools/commands/script_options.h"
-#include "tools/render/picture_file.h"
 #include "tools/render/png.h"
 #include "tools/render/scene.h"
 #include "tools/speech/voice_file.h"
 #include "tools/studio/frames.h"
 #include "tools/studio/head_view.h"
+#include "tools/studio/picture_file.h"
 
 namespace animeme::tools {
 
@@ -126,7 +126,7 @@ Result<std::vector<std::uint8_t>> draw(const Plan& plan,
       render::contact_sheet(pictures, std::min(columns, int(pictures.size())));
   if (!sheet) return sheet.error();
   const std::string extension = options.output == "-" ? ".png" : extension_of(options.output);
-  return render::picture_of(*sheet, extension, studio::picture_quality(options.quality));
+  return studio::picture_of(*sheet, extension, studio::picture_quality(options.quality));
 }
 
 // The sound of the video, copied where the file takes it; nothing where the face has none.
@@ -190,7 +190,7 @@ Result<int> run(const RenderOptions& options) {
   const std::string extension = extension_of(options.output);
   const bool still = options.frame >= 0 || !options.times.empty() || !options.sheet.empty();
   const bool pictures = still || !options.shapes.empty();
-  if (pictures && studio::is_film(extension) && !render::is_picture(extension)) {
+  if (pictures && studio::is_film(extension) && !studio::is_picture(extension)) {
     return usage_error(
         "a video shows the whole clip; --frame, --time, --sheet and --shapes are for "
         ".png, .jpg and .webp");

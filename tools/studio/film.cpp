@@ -8,7 +8,7 @@
 #include "tools/files/files.h"
 #include "tools/media/video.h"
 #include "tools/plot/strip.h"
-#include "tools/render/picture_file.h"
+#include "tools/studio/picture_file.h"
 
 namespace animeme::studio {
 
@@ -116,8 +116,8 @@ Result<Film> write_video(const std::string& path, const fap::Sequence& clip,
 Result<Film> write_animation(const std::string& path, const fap::Sequence& clip,
                              const FilmOptions& options, const tools::Talk& talk,
                              const tools::Progress& progress) {
-  Result<render::Animation> animation = render::Animation::open(
-      options.look.width, options.look.height, picture_quality(options.quality));
+  Result<Animation> animation =
+      Animation::open(options.look.width, options.look.height, picture_quality(options.quality));
   if (!animation) return animation.error();
   const fap::Rate rate = options.rate.value_or(clip.rate);
   const auto instant = [&](std::int64_t picture) {

@@ -1,16 +1,16 @@
-#include "tools/render/picture_file.h"
+#include "tools/studio/picture_file.h"
 
 #include <webp/encode.h>
 
-#include "tools/render/detail/jpeg_writer.h"
 #include "tools/render/png.h"
+#include "tools/studio/jpeg_writer_internal.h"
 
-namespace animeme::render {
+namespace animeme::studio {
 namespace {
 
 constexpr int kLargestJpeg = 65535;
 
-Result<std::vector<std::uint8_t>> webp_of(const Image& image, int quality) {
+Result<std::vector<std::uint8_t>> webp_of(const render::Image& image, int quality) {
   std::uint8_t* bytes = nullptr;
   const std::size_t size = WebPEncodeRGBA(image.rgba.data(), image.width, image.height,
                                           image.width * 4, float(quality), &bytes);
@@ -26,7 +26,7 @@ bool is_picture(std::string_view extension) {
   return extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".webp";
 }
 
-Result<std::vector<std::uint8_t>> picture_of(const Image& image, std::string_view extension,
+Result<std::vector<std::uint8_t>> picture_of(const render::Image& image, std::string_view extension,
                                              int quality) {
   if (!is_picture(extension)) {
     return make_error(Code::unsupported, "pictures are .png, .jpg, .jpeg or .webp");
@@ -39,8 +39,8 @@ Result<std::vector<std::uint8_t>> picture_of(const Image& image, std::string_vie
     return make_error(Code::invalid_argument,
                       "a picture has 1 to " + std::to_string(largest) + " pixels a side");
   }
-  if (extension == ".png") return png_of(image);
-  return webp ? webp_of(image, quality) : detail::jpeg_of(image, quality);
+  if (extension == ".png") return render::png_of(image);
+  return webp ? webp_of(image, quality) : jpeg_of(image, quality);
 }
 
-}  // namespace animeme::render
+}  // namespace animeme::studio

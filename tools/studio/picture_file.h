@@ -17,7 +17,7 @@
 #include "fap/result.h"
 #include "tools/render/image.h"
 
-namespace animeme::render {
+namespace animeme::studio {
 
 /// ".png", ".jpg", ".jpeg" or ".webp", in lower case.
 bool is_picture(std::string_view extension);
@@ -25,7 +25,7 @@ bool is_picture(std::string_view extension);
 /// A file of that format; alpha is left out. `quality` 1..100 of JPEG and WebP. Errors:
 /// unsupported (another extension), invalid_argument (no pixels, or not width * height * 4 bytes; a
 /// side above 65535, of WebP 16383), out_of_range (memory).
-Result<std::vector<std::uint8_t>> picture_of(const Image& image, std::string_view extension,
+Result<std::vector<std::uint8_t>> picture_of(const render::Image& image, std::string_view extension,
                                              int quality = 90);
 
 /// An animated WebP, for ever repeated. Movable, not copyable.
@@ -49,4 +49,4 @@ class Animation {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace animeme::render
+}  // namespace animeme::studio

@@ -1,15 +1,15 @@
-#include "tools/render/picture_file.h"
+#include "tools/studio/picture_file.h"
 
 #include <gmock/gmock.h>
 #include <webp/decode.h>
 
 #include <cmath>
 
-namespace animeme::render {
+namespace animeme::studio {
 namespace picture_file_test {
 
-Image slope(int width, int height, int shift = 0) {
-  Image image{width, height, {}};
+render::Image slope(int width, int height, int shift = 0) {
+  render::Image image{width, height, {}};
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       image.rgba.insert(image.rgba.end(),
@@ -20,7 +20,7 @@ Image slope(int width, int height, int shift = 0) {
 }
 
 TEST(PictureFile, WebpIsThePicture) {
-  const Image image = slope(61, 33);
+  const render::Image image = slope(61, 33);
   const auto file = picture_of(image, ".webp", 90);
   ASSERT_TRUE(file) << file.error().describe();
   int width = 0, height = 0;
@@ -78,4 +78,4 @@ TEST(PictureFile, WhatCannotBe) {
 }
 
 }  // namespace picture_file_test
-}  // namespace animeme::render
+}  // namespace animeme::studio

@@ -1,9 +1,9 @@
 #include <webp/encode.h>
 #include <webp/mux.h>
 
-#include "tools/render/picture_file.h"
+#include "tools/studio/picture_file.h"
 
-namespace animeme::render {
+namespace animeme::studio {
 
 struct Animation::Impl {
   int width, height;
@@ -62,4 +62,4 @@ Result<std::vector<std::uint8_t>> Animation::finish(int milliseconds) {
   return out;
 }
 
-}  // namespace animeme::render
+}  // namespace animeme::studio

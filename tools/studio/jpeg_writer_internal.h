@@ -7,9 +7,9 @@
 #include "fap/result.h"
 #include "tools/render/image.h"
 
-namespace animeme::render::detail {
+namespace animeme::studio {
 
 /// Baseline, 4:2:0. The picture is valid, quality 1..100. Errors: out_of_range (memory).
-Result<std::vector<std::uint8_t>> jpeg_of(const Image& image, int quality);
+Result<std::vector<std::uint8_t>> jpeg_of(const render::Image& image, int quality);
 
-}  // namespace animeme::render::detail
+}  // namespace animeme::studio

@@ -1,4 +1,4 @@
-#include "tools/render/detail/jpeg_writer.h"
+#include "tools/studio/jpeg_writer_internal.h"
 
 #include <csetjmp>
 #include <cstdio>
@@ -6,7 +6,7 @@
 //
 #include <jpeglib.h>
 
-namespace animeme::render::detail {
+namespace animeme::studio {
 namespace {
 
 struct Errors {
@@ -21,7 +21,7 @@ struct Errors {
 void say_nothing(j_common_ptr) {}
 
 // Nothing in here has a destructor: the library leaves it by longjmp.
-bool compress(const Image& image, int quality, unsigned char** bytes, unsigned long* size) {
+bool compress(const render::Image& image, int quality, unsigned char** bytes, unsigned long* size) {
   jpeg_compress_struct writer;
   Errors errors;
   writer.err = jpeg_std_error(&errors.base);
@@ -53,7 +53,7 @@ bool compress(const Image& image, int quality, unsigned char** bytes, unsigned l
 
 }  // namespace
 
-Result<std::vector<std::uint8_t>> jpeg_of(const Image& image, int quality) {
+Result<std::vector<std::uint8_t>> jpeg_of(const render::Image& image, int quality) {
   unsigned char* bytes = nullptr;
   unsigned long size = 0;
   const bool good = compress(image, quality, &bytes, &size);
@@ -64,4 +64,4 @@ Result<std::vector<std::uint8_t>> jpeg_of(const Image& image, int quality) {
   return out;
 }
 
-}  // namespace animeme::render::detail
+}  // namespace animeme::studio
