@@ -18,16 +18,6 @@ namespace {
 constexpr std::size_t kUnwritten = 30;  // one word of so many is not in the text
 constexpr double kStrangeSeconds = 60;
 
-std::vector<std::vector<float>> voices_of(const std::vector<Sentence>& sentences) {
-  std::vector<std::vector<float>> voices;
-  for (const Sentence& one : sentences) {
-    const auto begin = one.sound.begin();
-    voices.emplace_back(begin + std::ptrdiff_t(one.first_sample()),
-                        begin + std::ptrdiff_t(std::min(one.last_sample(), one.sound.size())));
-  }
-  return voices;
-}
-
 // What is said, and when.
 struct LongSpeech {
   std::vector<float> sound;

@@ -114,4 +114,14 @@ double Score::shortest_share() const {
   return double(shortest) / double(std::max<std::size_t>(phones, 1));
 }
 
+std::vector<std::vector<float>> voices_of(const std::vector<Sentence>& sentences) {
+  std::vector<std::vector<float>> voices;
+  for (const Sentence& one : sentences) {
+    const auto begin = one.sound.begin();
+    voices.emplace_back(begin + std::ptrdiff_t(one.first_sample()),
+                        begin + std::ptrdiff_t(std::min(one.last_sample(), one.sound.size())));
+  }
+  return voices;
+}
+
 }  // namespace animeme::bench

@@ -23,6 +23,9 @@ struct Sentence {
 Result<std::vector<Sentence>> read_sentences(const std::string& corpus, std::size_t every,
                                              std::size_t first);
 
+// The speech of each, without what is before and behind it: what babble is made of.
+std::vector<std::vector<float>> voices_of(const std::vector<Sentence>& sentences);
+
 // What alignments are worth, over many sentences.
 struct Score {
   std::vector<double> errors;      // ms, found minus label, of the starts of phones in words

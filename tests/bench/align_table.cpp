@@ -19,16 +19,6 @@ namespace {
 using namespace animeme;
 using namespace animeme::bench;
 
-std::vector<std::vector<float>> voices_of(const std::vector<Sentence>& sentences) {
-  std::vector<std::vector<float>> voices;
-  for (const Sentence& one : sentences) {
-    const auto begin = one.sound.begin();
-    voices.emplace_back(begin + std::ptrdiff_t(one.first_sample()),
-                        begin + std::ptrdiff_t(std::min(one.last_sample(), one.sound.size())));
-  }
-  return voices;
-}
-
 voice::AlignOptions everything() {
   voice::AlignOptions options;
   options.least_confidence = 0;

@@ -221,6 +221,7 @@ TEST(ReadHead, TextFilesWithBuffersInsideAndBeside) {
 
 TEST(ReadHeadErrors, CompressionNamesTheRemedy) {
   Square square;
+  EXPECT_EQ(compressed_error("KHR_draco_mesh_compression").code, Code::unsupported);
   EXPECT_THAT(compressed_error("KHR_draco_mesh_compression").message,
               ::testing::AllOf(HasSubstr("Blender"), HasSubstr("libdraco-dev")));
   EXPECT_THAT(compressed_error("EXT_meshopt_compression").message,

@@ -49,6 +49,7 @@ TEST(Plot, OneRowAFapByNumberOrName) {
   const auto range = animeme({"plot", dir / "a.fap", "--faps", "3-5,head_pitch", "-o", "-"});
   ASSERT_EQ(range.exit_code, 0) << range.err;
   EXPECT_EQ(count(range.out, "<polyline"), 1);
+  EXPECT_EQ(count(range.out, ">FAP "), 4);
   EXPECT_THAT(range.out, HasSubstr(">degrees<"));
 }
 

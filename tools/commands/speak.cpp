@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <optional>
 
 #include "codec/encode/encode.h"
 #include "dam/script/script.h"
@@ -35,7 +36,7 @@ struct SpeakOptions {
   SoundSettings sound;
   dam::SynthesisOptions motion;
   bool no_closure = false;
-  bool life = false, no_life = false;  // neither: where it can be had
+  std::optional<bool> life;  // nothing: where it can be had
   bool exact = false;
   std::string visemes;
   std::uint64_t seed = 1;
@@ -245,11 +246,11 @@ Result<int> run(const SpeakOptions& options) {
   }
   // A model's curves are its own, and who knows visemes only knows no brows.
   const bool curves = extension_of(options.output) == ".csv" && !is_arkit_output(options.output);
-  const bool plain = options.no_life || curves || options.visemes == "instead";
-  if (options.life || !plain) {
+  const bool plain = curves || options.visemes == "instead";
+  if (options.life.value_or(!plain)) {
     // Without being asked: where the names of a rig are not known, writing will say what it needs.
     auto added = dam::add_life(*signal, spoken->script, {1, options.seed});
-    if (!added && options.life) return added.error();
+    if (!added && options.life.has_value()) return added.error();
   }
   Result<int> written = kOk;
   if (is_arkit_output(options.output)) {
@@ -299,10 +300,9 @@ void add_options(CLI::App& app, SpeakOptions& options) {
   app.add_flag("--no-closure", options.no_closure,
                "Do not force the lips shut on p, b and m, nor to the teeth on f and v");
   app.add_flag(
-      "--life,!--no-life",
-      [&options](std::int64_t on) { (on > 0 ? options.life : options.no_life) = true; },
-      "Blinks, and brows and head that move a little at stresses, or none; default: yes, but not "
-      "in the model's curves (.csv)");
+      "--life,!--no-life", [&options](std::int64_t on) { options.life = on > 0; },
+      "Blinks, and brows and head that move a little at stresses, or none; default: yes, "
+      "but not in the model's curves (.csv)");
   app.add_option("--visemes", options.visemes,
                  "FAP 1, for players that know visemes only: 'instead' of jaw, lips and tongue, or "
                  "'beside' them")
