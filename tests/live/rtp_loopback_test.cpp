@@ -171,6 +171,49 @@ TEST(RtpLoopback, ALossyRelayBetweenThem) {
 }
 
 // What is sent on this machine is answered on this machine: the port is taken at one address only.
+// The receiver looks at the description now and then: the packets that come before it looks again
+// must not begin a presentation of their own.
+TEST(RtpLoopback, ASenderThatBeginsAgainIsOnePresentation) {
+  const test::TempDir dir;
+  const std::string sdp = dir.file("talk.sdp");
+  const std::string url = "rtp://127.0.0.1:" + std::to_string(test::free_ports());
+  const LiveTalk talk = test::talk_of(
+      *fba::split_access_units(test::read_bytes(test::with(test::reference_streams()[0], ".fba"))));
+  std::unique_ptr<LiveSource> source;
+  int restarts = 0;
+  for (const std::uint64_t seed : {1, 2}) {
+    auto sink = open_sink(url, {.rtp = {.sdp_path = sdp, .seed = seed}});
+    ASSERT_TRUE(sink) << sink.error().describe();
+    if (source != nullptr) {
+      // Long enough for another sender to take over; the last look is a moment ago.
+      for (int i = 0; i < 22; ++i) ASSERT_TRUE(source->next(0.05));
+    }
+    ASSERT_TRUE((*sink)->start(talk.info));
+    if (source == nullptr) {
+      auto opened = open_source(sdp, {.rtp = {.reorder_seconds = 0.01}});
+      ASSERT_TRUE(opened) << opened.error().describe();
+      source = std::move(*opened);
+    }
+    for (const LiveUnit& unit : talk.units) {
+      ASSERT_TRUE((*sink)->send(unit));
+      for (;;) {
+        const auto event = source->next(0);
+        ASSERT_TRUE(event) << event.error().describe();
+        if (std::holds_alternative<LiveIdle>(*event)) break;
+        restarts += std::holds_alternative<LiveRestart>(*event);
+      }
+    }
+  }
+  EXPECT_EQ(source->stats().sessions, 2);
+  for (int i = 0; i < 20; ++i) {  // and none begins when it looks
+    const auto event = source->next(0.05);
+    ASSERT_TRUE(event);
+    restarts += std::holds_alternative<LiveRestart>(*event);
+  }
+  EXPECT_EQ(source->stats().sessions, 2);
+  EXPECT_EQ(restarts, 1);
+}
+
 TEST(RtpLoopback, SocketsForThisMachineListenToThisMachine) {
   const auto socket = UdpSocket::open_for(*UdpAddress::resolve("127.0.0.1", 5004));
   ASSERT_TRUE(socket);

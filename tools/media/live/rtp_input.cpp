@@ -36,13 +36,22 @@ RtpInput::Taken RtpInput::add(std::span<const std::uint8_t> datagram, const UdpA
   std::optional<RtpPacket> packet = read_rtp(datagram, settings_.bundle_id);
   const bool ours =
       packet && (settings_.payload_type < 0 || packet->payload_type == settings_.payload_type);
-  if (ours && ssrc_ == packet->ssrc && (settings_.any_source || from == from_)) {
+  if (ours && hears(*packet, from)) {
     take(std::move(*packet), datagram.size(), now);
     return Taken::yes;
   }
   ++foreign_;
   if (!ours) return Taken::no;
   return consider(*packet, {{datagram.begin(), datagram.end()}, from, now});
+}
+
+bool RtpInput::hears(const RtpPacket& packet, const UdpAddress& from) const {
+  return ssrc_ == packet.ssrc && (settings_.any_source || from == from_);
+}
+
+bool RtpInput::hears(std::span<const std::uint8_t> datagram, const UdpAddress& from) const {
+  const std::optional<RtpPacket> packet = read_rtp(datagram, settings_.bundle_id);
+  return packet && hears(*packet, from);
 }
 
 void RtpInput::take(RtpPacket packet, std::size_t size, double now) {

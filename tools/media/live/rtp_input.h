@@ -44,6 +44,8 @@ class RtpInput {
   };
   /// `now`: seconds of a steady clock, as everywhere below.
   Taken add(std::span<const std::uint8_t> datagram, const UdpAddress& from, double now);
+  /// Whether a datagram is of the sender in force.
+  bool hears(std::span<const std::uint8_t> datagram, const UdpAddress& from) const;
   void flush() { buffer_.flush(); }  ///< what is missing is lost
   /// Goes over to the new sender, or, where there is none, to whoever comes next.
   void accept();
@@ -103,6 +105,7 @@ class RtpInput {
     SenderInfo info;
   };
 
+  bool hears(const RtpPacket& packet, const UdpAddress& from) const;
   Taken consider(const RtpPacket& packet, Early datagram);
   bool proved(const Candidate& candidate) const;
   bool may_take_over(const Candidate& candidate, double now) const;

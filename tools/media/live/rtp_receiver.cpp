@@ -111,6 +111,12 @@ void RtpReceiver::rtp(LiveTrack track, std::span<const std::uint8_t> datagram,
   drain(*to, now);
 }
 
+bool RtpReceiver::hears(LiveTrack track, std::span<const std::uint8_t> datagram,
+                        const UdpAddress& from) const {
+  const Source* const at = source(track);
+  return at != nullptr && (looks_like_rtcp(datagram) || at->input.hears(datagram, from));
+}
+
 bool RtpReceiver::rtcp(LiveTrack track, std::span<const std::uint8_t> datagram,
                        const UdpAddress& from, double now) {
   Source* const to = source(track);

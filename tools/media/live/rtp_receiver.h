@@ -38,6 +38,8 @@ class RtpReceiver {
   /// Takes an RTCP datagram; anything may come. true: it was a report of the sender.
   bool rtcp(LiveTrack track, std::span<const std::uint8_t> datagram, const UdpAddress& from,
             double now);
+  /// Whether a datagram is of the sender that is heard in a track, rather than of one who begins.
+  bool hears(LiveTrack track, std::span<const std::uint8_t> datagram, const UdpAddress& from) const;
   /// Nobody is heard any more: what waits for others, or for a clock, is ready now.
   void flush(double now);
   /// The next event, never LiveIdle. nullopt: nothing is ready.

@@ -181,22 +181,24 @@ class RtpSource : public LiveSource {
     return all;
   }
 
-  Result<void> look_at_description() {
+  // true: the ports are others than before.
+  Result<bool> look_at_description() {
     const double at = now();
-    if (at < look_at_) return {};
+    if (at < look_at_) return false;
     look_at_ = description_.path.empty() ? 1e9 : at + kLookEvery;
-    if (!has_changed(description_)) return {};
+    if (!has_changed(description_)) return false;
     Result<Description> fresh = describe_file(description_.path);
-    if (!fresh) return {};  // it is just being written, or gone
+    if (!fresh) return false;  // it is just being written, or gone
     const bool same = fresh->session == description_.session;
     description_.file = fresh->file;
-    if (same) return {};
+    if (same) return false;
     return follow(std::move(*fresh), at);
   }
 
   // The old sender's events come first, then what the new one has sent already.
-  Result<void> follow(Description fresh, double at) {
-    if (!same_ports(fresh.session, description_.session)) {
+  Result<bool> follow(Description fresh, double at) {
+    const bool moved = !same_ports(fresh.session, description_.session);
+    if (moved) {
       inlets_.clear();  // it may want some of these ports
       auto opened = open_inlets(fresh.session, options_.interface);
       if (!opened) return opened.error();
@@ -214,9 +216,11 @@ class RtpSource : public LiveSource {
     }
     receiver_ = std::move(next);
     description_ = std::move(fresh);
-    return {};
+    return moved;
   }
 
+  // A sender that begins again writes its description before its first packet. It is read before
+  // that packet is judged: else the packet begins one presentation and the description another.
   Result<bool> read_all() {
     bool any = false;
     for (Inlet& inlet : inlets_) {
@@ -226,10 +230,17 @@ class RtpSource : public LiveSource {
         if (!got) return got.error();
         if (!*got) break;
         any = true;
-        if (!inlet.control) {
-          receiver_.rtp(inlet.track, **got, from, now());
-        } else if (receiver_.rtcp(inlet.track, **got, from, now())) {
-          inlet.reporter = from;
+        const LiveTrack track = inlet.track;
+        if (inlet.control) {
+          if (receiver_.rtcp(track, **got, from, now())) inlet.reporter = from;
+        } else if (receiver_.hears(track, **got, from)) {
+          receiver_.rtp(track, **got, from, now());
+        } else {
+          look_at_ = 0;
+          const Result<bool> moved = look_at_description();
+          if (!moved) return moved.error();
+          receiver_.rtp(track, **got, from, now());
+          if (*moved) return true;  // these inlets are gone
         }
       }
     }
