@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <random>
 
 namespace animeme::exchange {
 namespace visemes_test {
@@ -110,6 +111,46 @@ TEST(ExchangeVisemes, MouthShapesOfRhubarb) {
   EXPECT_EQ(json["mouthCues"].size(), 5U);
   EXPECT_EQ(write_rhubarb_tsv({{25, 1}, {}, {}}), "");
   EXPECT_EQ(nlohmann::json::parse(write_rhubarb_json({{25, 1}, {}, {}}))["mouthCues"].size(), 0U);
+}
+
+// No cue that a player's frame could miss, whatever the sounds are, and lips that close do.
+TEST(ExchangeVisemes, RhubarbCuesAreNoShorterThanAFrame) {
+  std::mt19937 random(7);
+  const char* const labels[] = {"SIL", "P", "AA", "F", "L", "T", "UW", "OW", "IY", "M"};
+  for (int round = 0; round < 200; ++round) {
+    dam::Script script;
+    double time = 0;
+    for (int i = 0; i < 30; ++i) {
+      const double end = time + 0.005 + double(random() % 100) / 1000;
+      script.phones.push_back({time, end, labels[random() % 10], ""});
+      time = end;
+    }
+    const auto track = track_of_events(script_events(script), {60, 1}, 0.08);
+    ASSERT_TRUE(track);
+    const auto cues = nlohmann::json::parse(write_rhubarb_json(*track))["mouthCues"];
+    ASSERT_FALSE(cues.empty());
+    EXPECT_EQ(cues[0]["start"], 0.0);
+    EXPECT_NEAR(cues.back()["end"].get<double>(), time, 0.0051);
+    for (std::size_t i = 0; i < cues.size(); ++i) {
+      EXPECT_GE(cues[i]["end"].get<double>() - cues[i]["start"].get<double>(), 0.04 - 1e-9);
+      if (i == 0) continue;
+      EXPECT_EQ(cues[i]["start"], cues[i - 1]["end"]);
+      EXPECT_NE(cues[i]["value"], cues[i - 1]["value"]);
+    }
+  }
+}
+
+TEST(ExchangeVisemes, ShortClosuresStayInRhubarbs) {
+  const dam::Script script{{{0, 0.2, "AA", ""},
+                            {0.2, 0.22, "P", ""},
+                            {0.22, 0.4, "IY", ""},
+                            {0.4, 0.42, "T", ""},
+                            {0.42, 0.6, "UW", ""}}};
+  const auto track = track_of_events(script_events(script), {60, 1}, 0.08);
+  ASSERT_TRUE(track);
+  const std::string text = write_rhubarb_tsv(*track);
+  EXPECT_THAT(text, HasSubstr("0.18\tA\n0.22\t"));  // 0.02 s from the vowel before
+  EXPECT_THAT(text, HasSubstr("0.42\tF\n"));        // T is left to the vowel before it
 }
 
 }  // namespace visemes_test

@@ -308,6 +308,11 @@ Result<int> run(const ExportOptions& given) {
     return what == "head" ? write_head(options, std::move(*bytes))
                           : write_arkit(options, std::move(*bytes));
   }
+  if (what == "rhubarb" && options.audio.empty() && kind_of(*bytes) == FileKind::media) {
+    const Result<media::ContainerInfo> file = media::probe(*bytes);
+    const bool sounds = file && file->first(media::TrackKind::audio) != nullptr;
+    if (sounds && options.input != "-") options.audio = options.input;
+  }
   Result<exchange::VisemeTrack> track = track_of(options, std::move(*bytes), from_script, *rate);
   if (!track) return track.error();
   return write_visemes(options, what, std::move(*track));
@@ -351,7 +356,10 @@ void add_options(CLI::App& app, ExportOptions& options) {
                  "What to write, whatever the file is called: arkit (52 shapes and 9 angles), "
                  "visemes, rhubarb, head (.glb)")
       ->check(CLI::IsMember({"arkit", "visemes", "rhubarb", "head"}));
-  app.add_option("--audio", options.audio, "Name of the sound to mention in .json and .glb");
+  app.add_option(
+      "--audio", options.audio,
+      "Name of the sound to mention in .json, .xml and .glb; for Rhubarb the input, if it has "
+      "sound");
   app.add_option("--script", options.script,
                  "Phoneme script of the face: the events of visemes are its sounds; without it, "
                  "what the face shows most");

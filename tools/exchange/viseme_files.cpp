@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "fap/tables.h"
 #include "tools/exchange/detail/json_text.h"
@@ -28,11 +29,58 @@ std::string xml_text(std::string_view text) {
   return out;
 }
 
+// Times in hundredths of a second, as they are written.
 struct Cue {
-  double start;
-  double end;
+  std::int64_t from;
+  std::int64_t to;
   char shape;
+
+  std::int64_t length() const { return to - from; }
+  double start() const { return double(from) / 100; }
+  double end() const { return double(to) / 100; }
 };
+
+constexpr std::int64_t kShortestCue = 4;  // hundredths: a frame of 25 a second
+
+std::int64_t hundredths(double seconds) { return std::int64_t(std::llround(seconds * 100)); }
+
+// Longer than a player's frame, each of them. What is shorter is left to the shape before it; but
+// lips that close, and teeth on a lip, are what one misses: those take what they lack from a
+// neighbour that can spare it, else all of the one before.
+std::vector<Cue> without_short(std::vector<Cue> cues) {
+  std::vector<Cue> out;
+  for (std::size_t i = 0; i < cues.size(); ++i) {
+    Cue cue = cues[i];
+    if (!out.empty()) cue.from = out.back().to;
+    Cue* next = i + 1 < cues.size() ? &cues[i + 1] : nullptr;
+    const std::int64_t missing = kShortestCue - cue.length();
+    const bool alike = !out.empty() && out.back().shape == cue.shape;
+    if (missing > 0 && !alike) {
+      const bool contact = cue.shape == 'A' || cue.shape == 'G';
+      if (contact && !out.empty() && out.back().length() >= kShortestCue + missing) {
+        out.back().to = cue.from -= missing;
+      } else if (contact && next != nullptr && next->length() >= kShortestCue + missing) {
+        next->from = cue.to += missing;
+      } else if (contact && !out.empty()) {
+        cue.from = out.back().from;
+        out.pop_back();
+      } else if (!out.empty()) {
+        out.back().to = cue.to;
+        continue;
+      } else if (next != nullptr) {
+        next->from = cue.from;
+        if (contact && next->shape != 'A') next->shape = cue.shape;
+        continue;
+      }
+    }
+    if (!out.empty() && out.back().shape == cue.shape) {
+      out.back().to = cue.to;
+    } else if (cue.length() > 0) {
+      out.push_back(cue);
+    }
+  }
+  return out;
+}
 
 // What is drawn for a shape.
 char drawn(char shape, const RhubarbOptions& options) {
@@ -47,14 +95,14 @@ std::vector<Cue> cues_of(const VisemeTrack& track, const RhubarbOptions& options
   std::vector<Cue> cues;
   for (const VisemeEvent& event : track.events) {
     const char shape = drawn(rhubarb_shape(event), options);
-    const double end = event.time + event.duration;
+    const std::int64_t end = hundredths(event.time + event.duration);
     if (!cues.empty() && cues.back().shape == shape) {
-      cues.back().end = end;
+      cues.back().to = end;
     } else {
-      cues.push_back({event.time, end, shape});
+      cues.push_back({hundredths(event.time), end, shape});
     }
   }
-  return cues;
+  return without_short(std::move(cues));
 }
 
 }  // namespace
@@ -99,11 +147,11 @@ std::string write_rhubarb_json(const VisemeTrack& track, std::string_view audio,
                                const RhubarbOptions& options) {
   const std::vector<Cue> cues = cues_of(track, options);
   std::string text = "{\n  \"metadata\": {\n    \"soundFile\": " + json_text(audio) +
-                     ",\n    \"duration\": " + decimals(cues.empty() ? 0 : cues.back().end, 2) +
+                     ",\n    \"duration\": " + decimals(cues.empty() ? 0 : cues.back().end(), 2) +
                      "\n  },\n  \"mouthCues\": [";
   for (std::size_t i = 0; i < cues.size(); ++i) {
-    text += std::string(i == 0 ? "" : ",") + "\n    { \"start\": " + decimals(cues[i].start, 2) +
-            ", \"end\": " + decimals(cues[i].end, 2) + ", \"value\": \"" + cues[i].shape + "\" }";
+    text += std::string(i == 0 ? "" : ",") + "\n    { \"start\": " + decimals(cues[i].start(), 2) +
+            ", \"end\": " + decimals(cues[i].end(), 2) + ", \"value\": \"" + cues[i].shape + "\" }";
   }
   return text + "\n  ]\n}\n";
 }
@@ -111,9 +159,9 @@ std::string write_rhubarb_json(const VisemeTrack& track, std::string_view audio,
 std::string write_rhubarb_tsv(const VisemeTrack& track, const RhubarbOptions& options) {
   std::string text;
   const std::vector<Cue> cues = cues_of(track, options);
-  for (const Cue& cue : cues) text += decimals(cue.start, 2) + "\t" + cue.shape + "\n";
+  for (const Cue& cue : cues) text += decimals(cue.start(), 2) + "\t" + cue.shape + "\n";
   if (!cues.empty()) {
-    text += decimals(cues.back().end, 2) + "\t" + drawn('X', options) + "\n";
+    text += decimals(cues.back().end(), 2) + "\t" + drawn('X', options) + "\n";
   }
   return text;
 }
@@ -124,11 +172,11 @@ std::string write_rhubarb_xml(const VisemeTrack& track, std::string_view audio,
   std::string text =
       "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<rhubarbResult>\n  <metadata>\n    <soundFile>" +
       xml_text(audio) + "</soundFile>\n    <duration>" +
-      decimals(cues.empty() ? 0 : cues.back().end, 2) +
+      decimals(cues.empty() ? 0 : cues.back().end(), 2) +
       "</duration>\n  </metadata>\n  <mouthCues>\n";
   for (const Cue& cue : cues) {
-    text += "    <mouthCue start=\"" + decimals(cue.start, 2) + "\" end=\"" + decimals(cue.end, 2) +
-            "\">" + cue.shape + "</mouthCue>\n";
+    text += "    <mouthCue start=\"" + decimals(cue.start(), 2) + "\" end=\"" +
+            decimals(cue.end(), 2) + "\">" + cue.shape + "</mouthCue>\n";
   }
   return text + "  </mouthCues>\n</rhubarbResult>\n";
 }
@@ -149,13 +197,13 @@ std::string write_rhubarb_dat(const VisemeTrack& track, const RhubarbOptions& op
   std::string text = "MohoSwitch1\n";
   std::int64_t last = 0;
   for (const Cue& cue : cues) {
-    const std::int64_t frame = frame_of(cue.start);
+    const std::int64_t frame = frame_of(cue.start());
     if (frame == last) continue;
     text += std::to_string(frame) + " " + name(cue.shape) + "\n";
     last = frame;
   }
   if (cues.empty()) return text;
-  const std::int64_t end = std::max(frame_of(cues.back().end), last + 1);
+  const std::int64_t end = std::max(frame_of(cues.back().end()), last + 1);
   return text + std::to_string(end) + " " + name(drawn('X', options)) + "\n";
 }
 
