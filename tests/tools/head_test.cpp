@@ -89,6 +89,17 @@ TEST(HeadCommand, HeadsOfUsersAreDrawnShownAndExported) {
   EXPECT_NE(own_picture, test::slurp(dir / "rest.png"));
 }
 
+// Rows of closures, rounding and vowels apart; AA (row 5) is 35 % of a full jawOpen on all three.
+TEST(HeadCommand, SpeakTestMeasuresLips) {
+  for (const char* name : {"woman", "man", "child"}) {
+    const Json table = described({name, "--speak-test"});
+    ASSERT_EQ(table["rows"].size(), 8u) << name;
+    for (const std::size_t row : {0, 1, 2, 4, 6, 7}) {
+      EXPECT_TRUE(table["rows"][row]["ok"]) << name << table["rows"][row].dump();
+    }
+  }
+}
+
 // Xface cuts texts at blanks: the files that an .fdp names have none, wherever it lies.
 TEST(HeadCommand, WritesXfaceHeadsWithTheirTextures) {
   const TempDir dir;
