@@ -100,6 +100,14 @@ TEST(HeadCommand, SpeakTestMeasuresLips) {
   }
 }
 
+// A mask without a lower lip cannot be measured: the point is named.
+TEST(HeadCommand, SpeakTestNamesTheMissingPoint) {
+  const auto result =
+      animeme({"head", (test::data_dir() / "heads/mask.fdp").string(), "--speak-test"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err, HasSubstr("no feature point 2.3"));
+}
+
 // Xface cuts texts at blanks: the files that an .fdp names have none, wherever it lies.
 TEST(HeadCommand, WritesXfaceHeadsWithTheirTextures) {
   const TempDir dir;
