@@ -89,6 +89,25 @@ TEST(HeadCommand, HeadsOfUsersAreDrawnShownAndExported) {
   EXPECT_NE(own_picture, test::slurp(dir / "rest.png"));
 }
 
+// Rows of closures, rounding and vowels apart; AA (row 5) is 35 % of a full jawOpen on all three.
+TEST(HeadCommand, SpeakTestMeasuresLips) {
+  for (const char* name : {"woman", "man", "child"}) {
+    const Json table = described({name, "--speak-test"});
+    ASSERT_EQ(table["rows"].size(), 8u) << name;
+    for (const std::size_t row : {0, 1, 2, 4, 6, 7}) {
+      EXPECT_TRUE(table["rows"][row]["ok"]) << name << table["rows"][row].dump();
+    }
+  }
+}
+
+// A mask without a lower lip cannot be measured: the point is named.
+TEST(HeadCommand, SpeakTestNamesTheMissingPoint) {
+  const auto result =
+      animeme({"head", (test::data_dir() / "heads/mask.fdp").string(), "--speak-test"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err, HasSubstr("no feature point 2.3"));
+}
+
 // Xface cuts texts at blanks: the files that an .fdp names have none, wherever it lies.
 TEST(HeadCommand, WritesXfaceHeadsWithTheirTextures) {
   const TempDir dir;

@@ -13,6 +13,7 @@
 #include "tools/commands/head_options.h"
 #include "tools/gltf/glb.h"
 #include "tools/json.h"
+#include "tools/studio/speak_check.h"
 
 namespace animeme::tools {
 
@@ -22,6 +23,7 @@ struct HeadOptions {
   studio::HeadChoice head;
   std::string output;
   bool json = false;
+  bool speak_test = false;
 };
 
 // FAPs that show nothing on this head.
@@ -195,6 +197,30 @@ constexpr struct Writer {
                 {".glb", write_glb},
                 {".obj", write_obj}};
 
+Result<int> test_speech(const studio::LoadedHead& loaded, const head::Rig& rig, bool json) {
+  const Result<std::vector<studio::SpeakRow>> rows = studio::check_speech(loaded.head, rig);
+  if (!rows) return rows.error();
+  Json list = Json::array();
+  if (!json) std::printf("%s, as if its eyes were 63 mm apart\n", loaded.head.name.c_str());
+  for (const studio::SpeakRow& row : *rows) {
+    const char* const least = row.at_most ? "at most" : "at least";
+    list.push_back({{"sound", row.sound},
+                    {"measure", row.what},
+                    {"value", row.value},
+                    {row.at_most ? "at_most" : "at_least", row.limit},
+                    {"ok", row.ok()}});
+    if (json) continue;
+    std::printf("  %-14s %-26s %7.2f  %-8s (%s %g)\n", row.sound.c_str(), row.what.c_str(),
+                row.value, row.ok() ? "ok" : "short of", least, row.limit);
+  }
+  if (json) {
+    const Json all = {
+        {"name", loaded.head.name}, {"eyes_apart_mm", studio::kEyesApart}, {"rows", list}};
+    std::printf("%s\n", all.dump(2).c_str());
+  }
+  return kOk;
+}
+
 Result<int> run(const HeadOptions& options) {
   if (const std::string problem = studio::problem_of(options.head); !problem.empty()) {
     return usage_error(problem);
@@ -205,6 +231,7 @@ Result<int> run(const HeadOptions& options) {
   const Result<studio::LoadedHead> loaded = studio::load_head(options.head);
   if (!loaded) return loaded.error();
   const head::Rig rig = head::make_rig(loaded->head);
+  if (options.speak_test) return test_speech(*loaded, rig, options.json);
   if (!options.output.empty()) {
     for (const std::string& note : loaded->notes) say(options.head.head + ": " + note);
     if (auto ok = writer->write({options.output, loaded->head, rig}); !ok) return ok.error();
@@ -222,12 +249,17 @@ Result<int> run(const HeadOptions& options) {
 void add_options(CLI::App& app, HeadOptions& options) {
   app.add_option("head", options.head.head, kHeadHelp)->capture_default_str();
   app.add_option("--points", options.head.points, kPointsHelp);
-  add_output(
+  auto* const test = app.add_flag("--speak-test", options.speak_test,
+                                  "Speak P B M AA IY UW on it and measure: lips closed within 0.1 "
+                                  "mm, UW 15 % narrower than IY, "
+                                  "AA open by 70 % of a full jawOpen");
+  auto* const output =
       app.add_option("-o,--output", options.output,
                      "Write the head: .fdp (Xface; with its mesh, .wrl, and textures, .tga), .xmt "
                      "(MPEG-4 scene with an FDP), "
-                     ".glb (with morph targets), .obj (with a list of feature points)"),
-      {".xmta", ".fdp", ".xmt", ".glb", ".obj"}, OutputKind::file);
+                     ".glb (with morph targets), .obj (with a list of feature points)");
+  test->excludes(output);
+  add_output(output, {".xmta", ".fdp", ".xmt", ".glb", ".obj"}, OutputKind::file);
   app.add_flag("--json", options.json, "The same for scripts");
 }
 
@@ -238,6 +270,7 @@ const Command kHead{
     "What a head has, ours or yours, and which FAPs move it; write it for Xface, "
     "Blender, MPEG-4",
     "  animeme head me.glb\n"
+    "  animeme head me.glb --speak-test    # can it close P B M, round UW, open AA?\n"
     "  animeme head me.obj --points landmarks.csv\n"
     "  animeme head woman -o woman.fdp     # for XfacePlayer\n"
     "  animeme head child -o child.obj     # to edit; child.points.csv is beside it\n"

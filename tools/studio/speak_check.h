@@ -1,0 +1,32 @@
+/// @file
+/// How well a head can show speech, measured on its moved mesh.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fap/head/rig.h"
+
+namespace animeme::studio {
+
+/// A row of the table.
+struct SpeakRow {
+  std::string sound;    ///< "P", "UW against IY", ...
+  std::string what;     ///< what was measured, with its unit
+  double value = 0;     ///< finite
+  double limit = 0;     ///< what it is held against
+  bool at_most = true;  ///< value <= limit is well; else value >= limit
+  bool ok() const { return at_most ? value <= limit : value >= limit; }  ///< the verdict
+};
+
+/// Distance of the eyes (ES of its FAPU) that lengths are scaled to, mm.
+inline constexpr double kEyesApart = 63;
+
+/// Speaks "P AA B AA M AA IY UW" with the built-in model (style 1, articulation 1, 50 frames a
+/// second) and measures at the middle of the lips (points 2.2 and 2.3), their corners (2.4, 2.5):
+/// P B M within 0.1 mm of the lips at rest, UW 15 % narrower than IY and further forward, AA 70 %
+/// of the opening of a full jawOpen (fap/arkit.h), IY and UW apart. Errors: not_found (the head
+/// lacks one of the four points or its ES), those of synthesise().
+Result<std::vector<SpeakRow>> check_speech(const head::Head& head, const head::Rig& rig);
+
+}  // namespace animeme::studio
