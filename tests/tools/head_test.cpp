@@ -100,7 +100,7 @@ TEST(HeadCommand, SpeakTestMeasuresLips) {
   }
 }
 
-// A mask without a lower lip cannot be measured: the point is named.
+// A mask that lacks a point of the lips cannot be measured: the point is named.
 TEST(HeadCommand, SpeakTestNamesTheMissingPoint) {
   const auto result =
       animeme({"head", (test::data_dir() / "heads/mask.fdp").string(), "--speak-test"});
