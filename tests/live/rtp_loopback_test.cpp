@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
+#include <thread>
 
 #include "tests/live/rtp_sockets.h"
 #include "tests/live/rtp_support.h"
@@ -170,7 +172,6 @@ TEST(RtpLoopback, ALossyRelayBetweenThem) {
   }
 }
 
-// What is sent on this machine is answered on this machine: the port is taken at one address only.
 // The receiver looks at the description now and then: the packets that come before it looks again
 // must not begin a presentation of their own.
 TEST(RtpLoopback, ASenderThatBeginsAgainIsOnePresentation) {
@@ -214,6 +215,34 @@ TEST(RtpLoopback, ASenderThatBeginsAgainIsOnePresentation) {
   EXPECT_EQ(restarts, 1);
 }
 
+// Copies that lie in the socket have come, however late the receiver reads them.
+TEST(RtpLoopback, AReceiverThatIsHeldUpTakesWhatLiesInTheSocketBeforeItGivesUp) {
+  const test::TempDir dir;
+  const RtpOptions options{.repeat = 2, .repeat_after = 3, .sdp_path = dir.file("talk.sdp")};
+  const LiveTalk talk = test::talk_of(
+      *fba::split_access_units(test::read_bytes(test::with(test::reference_streams()[0], ".fba"))));
+  ASSERT_GT(talk.units.size(), 6u);
+  auto sink = open_sink("rtp://127.0.0.1:" + std::to_string(test::free_ports()), {options});
+  ASSERT_TRUE(sink && (*sink)->start(talk.info));
+  const auto send = [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) ASSERT_TRUE((*sink)->send(talk.units[i]));
+  };
+  send(0, 3);  // nobody is there
+  auto source = open_source(options.sdp_path, {.rtp = {.reorder_seconds = 0.01}});
+  ASSERT_TRUE(source) << source.error().describe();
+  Heard heard;
+  send(3, 4);  // with a copy of the first
+  hear(**source, 0, heard);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  send(4, 7);  // with copies of the second to the fourth
+  hear(**source, 0.2, heard);
+  EXPECT_EQ((*source)->stats().lost, 0);
+  EXPECT_EQ(heard.gaps, 0);
+  ASSERT_EQ(heard.units.size(), 7u);
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(heard.units[i].bytes, talk.units[i].bytes) << i;
+}
+
+// What is sent on this machine is answered on this machine: the port is taken at one address only.
 TEST(RtpLoopback, SocketsForThisMachineListenToThisMachine) {
   const auto socket = UdpSocket::open_for(*UdpAddress::resolve("127.0.0.1", 5004));
   ASSERT_TRUE(socket);

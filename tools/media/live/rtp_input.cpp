@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "tools/media/live/wire_internal.h"
+
 namespace animeme::media {
 namespace {
 
@@ -36,7 +38,7 @@ RtpInput::Taken RtpInput::add(std::span<const std::uint8_t> datagram, const UdpA
   std::optional<RtpPacket> packet = read_rtp(datagram, settings_.bundle_id);
   const bool ours =
       packet && (settings_.payload_type < 0 || packet->payload_type == settings_.payload_type);
-  if (ours && hears(*packet, from)) {
+  if (ours && hears(datagram, from)) {
     take(std::move(*packet), datagram.size(), now);
     return Taken::yes;
   }
@@ -45,13 +47,10 @@ RtpInput::Taken RtpInput::add(std::span<const std::uint8_t> datagram, const UdpA
   return consider(*packet, {{datagram.begin(), datagram.end()}, from, now});
 }
 
-bool RtpInput::hears(const RtpPacket& packet, const UdpAddress& from) const {
-  return ssrc_ == packet.ssrc && (settings_.any_source || from == from_);
-}
-
 bool RtpInput::hears(std::span<const std::uint8_t> datagram, const UdpAddress& from) const {
-  const std::optional<RtpPacket> packet = read_rtp(datagram, settings_.bundle_id);
-  return packet && hears(*packet, from);
+  WireReader in(datagram);
+  in.take(8);  // flags, type, sequence number, timestamp
+  return ssrc_ == in.u32() && !in.failed() && (settings_.any_source || from == from_);
 }
 
 void RtpInput::take(RtpPacket packet, std::size_t size, double now) {

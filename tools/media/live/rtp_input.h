@@ -44,7 +44,7 @@ class RtpInput {
   };
   /// `now`: seconds of a steady clock, as everywhere below.
   Taken add(std::span<const std::uint8_t> datagram, const UdpAddress& from, double now);
-  /// Whether a datagram is of the sender in force.
+  /// Whether a datagram is of the sender in force, as its identifier and its address say.
   bool hears(std::span<const std::uint8_t> datagram, const UdpAddress& from) const;
   void flush() { buffer_.flush(); }  ///< what is missing is lost
   /// Goes over to the new sender, or, where there is none, to whoever comes next.
@@ -105,7 +105,6 @@ class RtpInput {
     SenderInfo info;
   };
 
-  bool hears(const RtpPacket& packet, const UdpAddress& from) const;
   Taken consider(const RtpPacket& packet, Early datagram);
   bool proved(const Candidate& candidate) const;
   bool may_take_over(const Candidate& candidate, double now) const;

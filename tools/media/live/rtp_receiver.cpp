@@ -108,7 +108,6 @@ void RtpReceiver::rtp(LiveTrack track, std::span<const std::uint8_t> datagram,
   }
   to->begun = true;
   sessions_ = std::max<std::int64_t>(1, sessions_);
-  drain(*to, now);
 }
 
 bool RtpReceiver::hears(LiveTrack track, std::span<const std::uint8_t> datagram,

@@ -32,13 +32,16 @@ class RtpReceiver {
   /// `id`: own identifier in reports. Times ("now") are seconds of any steady clock.
   RtpReceiver(const RtpSession& session, const RtpReceiveOptions& options, std::uint32_t id);
 
-  /// Takes an RTP datagram; anything may come.
+  /// Takes an RTP datagram; anything may come. next() gives what it has brought: only once all that
+  /// lies in a socket has been handed in, since next() gives up what is still missing when it is
+  /// due.
   void rtp(LiveTrack track, std::span<const std::uint8_t> datagram, const UdpAddress& from,
            double now);
   /// Takes an RTCP datagram; anything may come. true: it was a report of the sender.
   bool rtcp(LiveTrack track, std::span<const std::uint8_t> datagram, const UdpAddress& from,
             double now);
-  /// Whether a datagram is of the sender that is heard in a track, rather than of one who begins.
+  /// Whether a datagram is of the sender that is heard in a track (RTCP: always), rather than of
+  /// one who may begin.
   bool hears(LiveTrack track, std::span<const std::uint8_t> datagram, const UdpAddress& from) const;
   /// Nobody is heard any more: what waits for others, or for a clock, is ready now.
   void flush(double now);
