@@ -78,8 +78,9 @@ struct RhubarbOptions {
 
 /// {"metadata": {"soundFile": "", "duration": 2.5}, "mouthCues": [{"start": 0.00, "end": 0.05,
 /// "value": "X"}, ...]}, as Rhubarb writes it. Equal neighbours are one cue, and no cue is shorter
-/// than 0.04 s, in any of these formats: what is shorter is left to the shape before it, but A and
-/// G take what they lack from a neighbour, or all of it. (A file that is shorter has one cue.)
+/// than 0.04 s, as in the other formats (whose frames may round it, write_rhubarb_dat()): what is
+/// shorter is left to the shape before it, but A and G take what they lack from a neighbour, or all
+/// of it. (A file that is shorter has one cue.)
 std::string write_rhubarb_json(const VisemeTrack& track, std::string_view audio = {},
                                const RhubarbOptions& options = {});
 
