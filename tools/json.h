@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace animeme::tools {
 
@@ -16,6 +17,12 @@ Json json_list(const List& list, Entry entry) {
   Json json = Json::array();
   for (const auto& one : list) json.push_back(std::invoke(entry, one));
   return json;
+}
+
+/// As it is printed: two blanks a level. Bytes that are no UTF-8, as names of files may have,
+/// become U+FFFD.
+inline std::string pretty(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace animeme::tools

@@ -100,6 +100,18 @@ TEST(HeadCommand, SpeakTestMeasuresLips) {
   }
 }
 
+// Names of files need not be UTF-8; JSON is.
+TEST(HeadCommand, JsonOfAHeadWithAnyName) {
+  const TempDir dir;
+  const std::string path = dir / "caf\xE9.glb";
+  ASSERT_EQ(animeme({"head", "child", "-o", path}).exit_code, 0);
+  for (const bool speak : {false, true}) {
+    std::vector<std::string> all = {path};
+    if (speak) all.push_back("--speak-test");
+    EXPECT_EQ(described(all)["name"], "caf\uFFFD");
+  }
+}
+
 // A mask that lacks a point of the lips cannot be measured: the point is named.
 TEST(HeadCommand, SpeakTestNamesTheMissingPoint) {
   const auto result =

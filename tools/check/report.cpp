@@ -193,7 +193,7 @@ std::string json_report(const Suite& suite, const std::vector<CaseResult>& resul
   }
   json["results"] = json_list(results, to_json);
   // What foreign programs print need not be UTF-8.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return pretty(json) + "\n";
 }
 
 std::string junit_report(const Suite& suite, const std::vector<CaseResult>& results) {

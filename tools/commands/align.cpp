@@ -71,7 +71,7 @@ void print_json(const voice::Alignment& alignment) {
                      {"words", json_list(alignment.words, json_of_word)},
                      {"put_in", json_list(alignment.put_in, json_of_put_in)},
                      {"timed_phones", phone_list(alignment)}};
-  std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+  std::printf("%s\n", pretty(json).c_str());
 }
 
 Result<int> run(const AlignOptions& options) {

@@ -72,8 +72,7 @@ Result<int> check_texts(const CheckOptions& options) {
     }
   }
   if (!options.json.empty()) {
-    const auto replace = nlohmann::json::error_handler_t::replace;
-    auto ok = write_file(options.json, files.dump(2, ' ', false, replace) + "\n");
+    auto ok = write_file(options.json, pretty(files) + "\n");
     if (!ok) return ok.error();
   }
   return wrong == 0 ? kOk : kCheckFailed;

@@ -342,7 +342,7 @@ Result<int> run(const CrossmapOptions& options) {
   if (!options.output.empty()) {
     if (auto ok = write_curves(options, *mapped); !ok) return ok.error();
   }
-  if (options.json) std::printf("%s\n", report_of(*mapped).dump(2).c_str());
+  if (options.json) std::printf("%s\n", pretty(report_of(*mapped)).c_str());
   return kOk;
 }
 

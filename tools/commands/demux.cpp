@@ -59,7 +59,7 @@ Result<int> run(const DemuxOptions& options) {
     json["audio"] = {{"file", options.audio}};
   }
   if (options.json) {
-    std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+    std::printf("%s\n", pretty(json).c_str());
   }
   return kOk;
 }

@@ -211,7 +211,7 @@ void tell(const EncodeOptions& options, const Bytes& bytes, const fba::EncodeRep
                      {"limited", report.limited},
                      {"kept_ranges", report.kept_ranges}});
   }
-  std::printf("%s\n", json.dump(2).c_str());
+  std::printf("%s\n", pretty(json).c_str());
 }
 
 // Options that the preset has no use for.

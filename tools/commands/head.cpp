@@ -201,7 +201,10 @@ Result<int> test_speech(const studio::LoadedHead& loaded, const head::Rig& rig, 
   const Result<std::vector<studio::SpeakRow>> rows = studio::check_speech(loaded.head, rig);
   if (!rows) return rows.error();
   Json list = Json::array();
-  if (!json) std::printf("%s, as if its eyes were 63 mm apart\n", loaded.head.name.c_str());
+  if (!json) {
+    std::printf("%s, as if its eyes were %g mm apart\n", loaded.head.name.c_str(),
+                studio::kEyesApart);
+  }
   for (const studio::SpeakRow& row : *rows) {
     const char* const least = row.at_most ? "at most" : "at least";
     list.push_back({{"sound", row.sound},
@@ -216,7 +219,7 @@ Result<int> test_speech(const studio::LoadedHead& loaded, const head::Rig& rig, 
   if (json) {
     const Json all = {
         {"name", loaded.head.name}, {"eyes_apart_mm", studio::kEyesApart}, {"rows", list}};
-    std::printf("%s\n", all.dump(2).c_str());
+    std::printf("%s\n", pretty(all).c_str());
   }
   return kOk;
 }
@@ -239,7 +242,7 @@ Result<int> run(const HeadOptions& options) {
   }
   const Json info = describe(*loaded, rig);
   if (options.json) {
-    std::printf("%s\n", info.dump(2).c_str());
+    std::printf("%s\n", pretty(info).c_str());
   } else {
     print_text(info);
   }

@@ -143,7 +143,7 @@ Result<int> run(const InfoOptions& options) {
   Result<Description> found = describe(options);
   if (!found) return found.error().in_file(options.input);
   if (options.json) {
-    std::printf("%s\n", found->json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+    std::printf("%s\n", pretty(found->json).c_str());
     return kOk;
   }
   std::fputs(inspect::tree_text(found->json).c_str(), stdout);

@@ -71,9 +71,7 @@ Json json_of(const voice::SymbolCounts& counts) {
           {"close_unrounded_vowels_unrounded", counts.unrounded}};
 }
 
-void print(const Json& json) {
-  std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
-}
+void print(const Json& json) { std::printf("%s\n", pretty(json).c_str()); }
 
 // Columns count characters, not bytes.
 std::string padded(std::string text, std::size_t width) {

@@ -125,7 +125,7 @@ void tell(const RetargetOptions& options, const std::vector<std::string>& names,
                                   {"poses", gains[c].poses},
                                   {"missed_rms", gains[c].residual}});
     }
-    std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+    std::printf("%s\n", pretty(json).c_str());
     return;
   }
   std::string table, others, none;

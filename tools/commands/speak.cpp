@@ -207,7 +207,7 @@ void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam
               {"confidence", one.confidence}};
     });
   }
-  std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  std::printf("%s\n", pretty(json).c_str());
 }
 
 Result<int> run(const SpeakOptions& options) {

@@ -6,6 +6,7 @@
 
 #include "dam/training/accumulate.h"
 #include "tools/files/file_lock.h"
+#include "tools/json.h"
 #include "tools/inspect/left_out.h"
 #include "tools/speech/spoken.h"
 
@@ -71,7 +72,7 @@ class Accumulator {
           {"utterances", sums_.sentences()},
           {"frames", sums_.frames()},
           {"controls", sums_.controls().size()}};
-      std::printf("%s\n", out.dump(2).c_str());
+      std::printf("%s\n", pretty(out).c_str());
       return;
     }
     say(parts_.accumulate + ": " + std::to_string(added_) + " sentences added, " +

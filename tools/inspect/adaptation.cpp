@@ -43,7 +43,7 @@ std::string adaptation_json(const std::string& output, const std::string& base,
   json["glitches"] = Json::parse(glitches_json(report.glitches));
   json["alignment"] = Json::parse(alignment_json(report.alignment));
   json["warnings"] = report.warnings;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+  return tools::pretty(json);
 }
 
 std::string adaptation_text(const std::string& output, const std::string& base,

@@ -127,7 +127,7 @@ std::string comparison_json(const Comparison& comparison) {
   json["equal"] = comparison.equal();
   json["face_compared"] = comparison.face.has_value();
   if (comparison.body) json["body"] = to_json(*comparison.body);
-  return json.dump(2);
+  return tools::pretty(json);
 }
 
 std::string comparison_text(const Comparison& comparison) {

@@ -182,7 +182,7 @@ std::string evaluation_json(const EvaluationReport& report) {
                      {"error", scores_json(report.codec->error)},
                      {"total", scores_json(report.codec->total)}};
   }
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+  return tools::pretty(json);
 }
 
 }  // namespace animeme::inspect

@@ -234,7 +234,7 @@ std::string sizes_json(const std::vector<ClipSizes>& clips, int quant, double ma
                      {"mean_live_1s_to_file", mean(clips, &ClipSizes::live1_ratio)},
                      {"mean_live_1s_kbit_per_s", mean(clips, &ClipSizes::live1_kbps)},
                      {"mean_limited_ratio", mean(clips, &ClipSizes::limited_ratio)}};
-  return json.dump(2);
+  return tools::pretty(json);
 }
 
 }  // namespace animeme::inspect

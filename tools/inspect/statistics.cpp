@@ -180,7 +180,7 @@ std::string statistics_json(const Statistics& s) {
   if (s.bits) describe(*s.bits, json);
   json["faps"] = describe(s.faps, "fap", fap_bits(s), s.seconds);
   json["baps"] = describe(s.baps, "bap", bap_bits(s), s.seconds);
-  return json.dump(2);
+  return tools::pretty(json);
 }
 
 std::string statistics_text(const Statistics& s) {

@@ -128,7 +128,7 @@ std::string training_json(const std::string& output, const dam::Model& model,
   } else {
     json["parts"] = data.parts;
   }
-  return json.dump(2);
+  return tools::pretty(json);
 }
 
 std::string training_text(const std::string& output, const dam::Model& model,

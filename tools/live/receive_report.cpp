@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tools/json.h"
 #include "tools/text.h"
 
 namespace animeme::live {
@@ -114,7 +115,7 @@ std::string receive_json(const media::Recorder& recorder, const media::ReceiveSt
                              {"intervals", rows},
                              {"face_seconds", recorder.face_seconds()},
                              {"sound_seconds", recorder.sound_seconds()}};
-  return json.dump(2);
+  return tools::pretty(json);
 }
 
 }  // namespace animeme::live

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tools/json.h"
 #include "tools/text.h"
 
 namespace animeme::live {
@@ -124,7 +125,7 @@ std::string StreamReport::json(double seconds, const Sinks& sinks, const media::
     json["text_to_face"] = to_json(latency_of(traces, Sign::face));
     json["text_to_sound"] = to_json(latency_of(traces, Sign::sound));
   }
-  return json.dump(2);
+  return tools::pretty(json);
 }
 
 Latency latency_of(const std::deque<speech::LineTrace>& traces, Sign sign) {

@@ -79,7 +79,9 @@ Result<std::vector<SpeakRow>> check_speech(const head::Head& head, const head::R
     }
   }
   if (!(head.fapu.es > 0)) {
-    return make_error(Code::not_found, "the distance of the eyes is not known: give 3.5 and 3.6");
+    return make_error(Code::not_found,
+                      "the distance of the eyes is not known: give points 3.5 and 3.6 (pupils) by "
+                      "--points");
   }
   const dam::Script script = sentence();
   const Result<fap::Sequence> clip = said(script);
