@@ -6,8 +6,8 @@
 
 #include "dam/training/accumulate.h"
 #include "tools/files/file_lock.h"
-#include "tools/json.h"
 #include "tools/inspect/left_out.h"
+#include "tools/json.h"
 #include "tools/speech/spoken.h"
 
 namespace animeme::tools {
