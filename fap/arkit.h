@@ -81,6 +81,11 @@ struct ArkitFitOptions {
   /// What it costs to change a weight from one frame to the next, likewise; 0..1. It keeps shapes
   /// that look nearly alike from taking turns. 0: every frame stands for itself.
   double steadiness = 0.01;
+  /// How few shapes are used: as a share of the usual. 0: all that bring the face nearer, also ones
+  /// that undo each other (mouthLeft and mouthRight) and those that nobody speaks with (mouthFrown,
+  /// cheekPuff). 1: a shape has to bring it nearer by 0.2 mm, one of the latter by 1.6 mm,
+  /// unless the face is one that ARKit's shapes make (within 3 %), which comes back as it was.
+  double thrift = 1;
 };
 
 /// FAPs to ARKit, frame by frame. Movable, not copyable. About 0.1 ms a frame.

@@ -5,6 +5,7 @@
 
 #include "fap/arkit.h"
 #include "fap/arkit_internal.h"
+#include "fap/arkit_thrift.h"
 #include "fap/detail/bounded_fit.h"
 #include "fap/tables.h"
 
@@ -44,6 +45,7 @@ double effect(std::size_t channel, int fap) {
 struct ArkitFitter::Impl {
   std::vector<std::size_t> shapes;  // those that are fitted, by channel
   internal::BoundedFit fit;
+  bool thrifty = false;
 };
 
 namespace {
@@ -81,15 +83,18 @@ internal::Lips lips_of(const std::vector<std::vector<ArkitWeight>>& weights) {
 }
 
 internal::BoundedFit fit_of(const ArkitFitOptions& options) {
-  const auto weights = weights_of(fitted_shapes());
-  return {weights, options.ridge,   options.steadiness, std::numeric_limits<double>::infinity(),
-          0,       lips_of(weights)};
+  const std::vector<std::size_t> shapes = fitted_shapes();
+  const auto weights = weights_of(shapes);
+  internal::BoundedFit fit(weights, options.ridge, options.steadiness,
+                           std::numeric_limits<double>::infinity(), 0, lips_of(weights));
+  fit.set_thrift(internal::thrift_of({shapes.begin(), shapes.end()}, options.thrift));
+  return fit;
 }
 
 }  // namespace
 
 ArkitFitter::ArkitFitter(const ArkitFitOptions& options)
-    : impl_(new Impl{fitted_shapes(), fit_of(options)}) {}
+    : impl_(new Impl{fitted_shapes(), fit_of(options), options.thrift > 0}) {}
 ArkitFitter::ArkitFitter(ArkitFitter&&) noexcept = default;
 ArkitFitter& ArkitFitter::operator=(ArkitFitter&&) noexcept = default;
 ArkitFitter::~ArkitFitter() = default;
@@ -110,7 +115,8 @@ ArkitFrame ArkitFitter::fit(const Frame& frame) {
       target[std::size_t(weight.fap)] -= out[channel] * weight.value;
     }
   }
-  const std::vector<double>& weights = impl_->fit.fit(frame.mask, target);
+  const Mask mask = impl_->thrifty ? internal::without_unmeasured(frame) : frame.mask;
+  const std::vector<double>& weights = impl_->fit.fit(mask, target);
   for (std::size_t i = 0; i < impl_->shapes.size(); ++i) out[impl_->shapes[i]] = weights[i];
   return out;
 }

@@ -74,6 +74,7 @@ BoundedFit::BoundedFit(std::vector<std::vector<ShapeWeight>> shapes, double ridg
       most_(most),
       lips_(std::move(lips)),
       lengths_(fap_lengths(radian)),
+      highs_(shapes_.size(), 1.0),
       weights_(shapes_.size(), 0.0) {
   if (!lips_.closing.empty()) lips_.closing.resize(shapes_.size());
   for (std::size_t k = 0; k < kLipPairs; ++k) {
@@ -81,6 +82,11 @@ BoundedFit::BoundedFit(std::vector<std::vector<ShapeWeight>> shapes, double ridg
     lips_.at_rest[k] *= length;
     for (LipValues& values : lips_.closing) values[k] *= length;
   }
+}
+
+void BoundedFit::set_thrift(Thrift thrift) {
+  thrift_ = std::move(thrift);
+  for (const std::size_t fap : {14, 16, 17}) lengths_[fap] *= thrift_.depth;
 }
 
 void BoundedFit::set_mask(const Mask& wanted) {
@@ -128,12 +134,17 @@ std::vector<double> BoundedFit::projections(const FapValues& target) const {
   return sums;
 }
 
-// `wanted` has the pull of the frame before in it; `toll` is what any weight costs.
+// `toll` is what any weight costs.
 void BoundedFit::descend(const std::vector<double>& wanted, double steadiness, double toll) {
+  left_.assign(wanted.begin(), wanted.end());
+  for (double& left : left_) left -= toll;
+  descend(steadiness);
+}
+
+// left_ is what is wanted, with the pull of the frame before in it, less what weights cost.
+void BoundedFit::descend(double steadiness) {
   const std::size_t n = shapes_.size();
   // What each shape could still explain; kept up with every weight that changes, and most do not.
-  left_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) left_[i] = wanted[i] - toll;
   const auto take = [&](std::size_t i, double weight) {
     for (std::size_t j = 0; j < n; ++j) left_[j] -= gram_[i * n + j] * weight;
   };
@@ -144,7 +155,8 @@ void BoundedFit::descend(const std::vector<double>& wanted, double steadiness, d
       const double own = gram_[i * n + i];
       if (own <= 0) continue;  // the frame has none of its FAPs: it stays as it is
       const double alone = left_[i] + own * weights_[i];
-      const double best = std::clamp(alone / (own + costs_[i] * (ridge_ + steadiness)), 0.0, 1.0);
+      const double best =
+          std::clamp(alone / (own + costs_[i] * (ridge_ + steadiness)), 0.0, highs_[i]);
       const double change = best - weights_[i];
       if (change == 0) continue;
       largest = std::max(largest, std::abs(change));
@@ -152,6 +164,47 @@ void BoundedFit::descend(const std::vector<double>& wanted, double steadiness, d
       take(i, change);
     }
     if (largest < kStill) return;
+  }
+}
+
+// What the weights leave of the face, as a share of it.
+double BoundedFit::residual(const FapValues& target) const {
+  const FapValues wanted = weighed(target);
+  FapValues left = wanted;
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    if (weights_[i] == 0) continue;
+    for (std::size_t f = 0; f < left.size(); ++f) left[f] -= weights_[i] * columns_[i][f];
+  }
+  const double all = product(wanted, wanted);
+  return all > 0 ? std::sqrt(product(left, left) / all) : 0;
+}
+
+// Which shapes may be used, and how much: what they are worth when each length costs, times
+// kRelaxed, less what their opponent is worth. That changes steadily with the face, so a shape that
+// comes into use does not jump. A face that these very shapes made, as a capture is, leaves next to
+// nothing: it gets them back as they were.
+void BoundedFit::choose_few(const std::vector<double>& wanted, double steadiness, double residual) {
+  constexpr double kRelaxed = 4;
+  constexpr double kMostToll = 0.25;
+  constexpr double kMadeOfThem = 0.03;  // twice of it: by something else
+  const double free = std::clamp(2 - residual / kMadeOfThem, 0.0, 1.0);
+  highs_.assign(shapes_.size(), 1.0);
+  if (free >= 1) return;
+  left_.assign(wanted.begin(), wanted.end());
+  for (std::size_t i = 0; i < left_.size(); ++i) {
+    const double length = std::sqrt(gram_[i * left_.size() + i]);
+    left_[i] -= std::min(thrift_.least[i], kMostToll * length) * length;
+  }
+  descend(steadiness);
+  std::vector<double> worth = weights_;
+  for (const auto& [a, b] : thrift_.opponents) {
+    const double both = std::min(weights_[a], weights_[b]);
+    worth[a] = std::min(worth[a], weights_[a] - both);
+    worth[b] = std::min(worth[b], weights_[b] - both);
+  }
+  for (std::size_t i = 0; i < worth.size(); ++i) {
+    if (thrift_.least[i] <= 0) continue;
+    highs_[i] = std::max(free, std::clamp(kRelaxed * worth[i], 0.0, 1.0));
   }
 }
 
@@ -227,6 +280,10 @@ const std::vector<double>& BoundedFit::fit(const Mask& mask, const FapValues& ta
     wanted[i] += steadiness * costs_[i] * weights_[i];
   }
   descend(wanted, steadiness, 0);
+  if (!thrift_.least.empty()) {
+    choose_few(wanted, steadiness, residual(target));
+    descend(wanted, steadiness, 0);
+  }
   if (!lips_.closing.empty()) close_lips(wanted, target, steadiness);
   keep_within_limit(wanted, steadiness);
   return weights_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fap/arkit_thrift.h"
 #include "fap/detail/bounded_fit.h"
 
 namespace animeme::fap {
@@ -39,9 +40,17 @@ struct ShapeFitter::Impl {
   internal::BoundedFit fit;
 };
 
-ShapeFitter::ShapeFitter(std::span<const Frame> shapes, const LipMeasures& lips, double ridge)
+ShapeFitter::ShapeFitter(std::span<const Frame> shapes, const LipMeasures& lips, double ridge,
+                         std::span<const std::optional<int>> arkit)
     : impl_(new Impl{{weights_of(shapes), ridge, 0, std::numeric_limits<double>::infinity(),
-                      kEyeRadius, lips_of(lips)}}) {}
+                      kEyeRadius, lips_of(lips)}}) {
+  if (arkit.size() != shapes.size()) return;
+  std::vector<std::size_t> channels;
+  for (const std::optional<int>& channel : arkit) {
+    channels.push_back(channel ? std::size_t(*channel) : internal::kNoChannel);
+  }
+  impl_->fit.set_thrift(internal::thrift_of(channels, 1));
+}
 ShapeFitter::ShapeFitter(ShapeFitter&&) noexcept = default;
 ShapeFitter& ShapeFitter::operator=(ShapeFitter&&) noexcept = default;
 ShapeFitter::~ShapeFitter() = default;

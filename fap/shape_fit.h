@@ -9,6 +9,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,8 +35,10 @@ class ShapeFitter {
   /// be shut shows it; lips that should be apart are left to the FAPs. `ridge`: what it costs to
   /// use a shape, as a share of what it does to the face, 0..1; it keeps shapes from working
   /// against each other.
+  /// `arkit`: the channel (find_arkit()) of each shape that is one of ARKit's, nothing for others.
+  /// If given, few shapes are used, none against each other, as ArkitFitOptions::thrift says.
   explicit ShapeFitter(std::span<const Frame> shapes, const LipMeasures& lips = {},
-                       double ridge = 0.001);
+                       double ridge = 0.001, std::span<const std::optional<int>> arkit = {});
   ShapeFitter(ShapeFitter&&) noexcept;  ///< movable
   ShapeFitter& operator=(ShapeFitter&&) noexcept;
   ~ShapeFitter();

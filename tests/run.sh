@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs what is missing, builds everything and runs all tests: once as released, once under
 # the address and undefined behaviour sanitizers. Ends with the tests that were skipped,
-# the slowest steps and tests, and the time of each part.
+# the slowest steps and tests, what failed, and the time of each part.
 #   tests/run.sh             with the programs that read most of our files
 #   tests/run.sh full        also with those that take long to install: browsers, players, npm packages
 #   tests/run.sh quick       the release build only
@@ -42,9 +42,26 @@ finish() {
   for preset in release asan; do
     [ ! -f "build/$preset/tests.xml" ] || { echo "== $preset"; "$here/tests/slowest.sh" "$preset"; } || true
   done
+  "$here/tests/failed.sh" release asan || true
   echo "== Time"
   cat "$times"
   exit "$status"
+}
+
+# tests PRESET MORE: more at a time than there are cores, since live streams and pages mostly wait. What times out
+# gets a second try. What fails runs again alone, which tells a fault from a machine that was too busy for a stream
+# or a page; that is a finding, too, and told at the end.
+tests() {
+  ctest --test-dir "build/$1" --output-on-failure -j "$(($(nproc) + $2))" --repeat after-timeout:2 \
+    --output-junit "$here/build/$1/tests.xml" && return 0
+  echo "== Those that failed, alone"
+  log=build/$1/Testing/Temporary/LastTest.log
+  cp "$log" "$log.first"
+  alone=0
+  ctest --test-dir "build/$1" --output-on-failure --rerun-failed || alone=$?
+  mv "$log.first" "$log"  # the one that tells what was skipped
+  [ $alone = 0 ] || return $alone
+  printf '%-36s         %s\n' "$1: failed beside others only:" "$(tests/failed.sh "$1" | sed -n 's/^== Failed.*: //p' | xargs)" >>"$times"
 }
 
 run() {
@@ -52,11 +69,7 @@ run() {
   rm -f "build/$preset/Testing/Temporary/LastTest.log" "build/$preset/tests.xml"
   part "$preset: configure" cmake --preset "$preset" --log-level=STATUS || finish
   part "$preset: build" cmake --build "build/$preset" || finish
-  # More than there are cores, since live streams and pages mostly wait. What times out gets a second try,
-  # what fails does not.
-  part "$preset: tests" ctest --test-dir "build/$preset" --output-on-failure -j "$(($(nproc) + more))" \
-    --repeat after-timeout:2 \
-    --output-junit "$here/build/$preset/tests.xml" || true  # the other round is of use all the same
+  part "$preset: tests" tests "$preset" "$more" || true  # the other round is of use all the same
 }
 
 part "packages" tools/setup.sh "$packages" || finish

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "fap/detail/lips.h"
@@ -28,6 +29,21 @@ struct Lips {
   /// False: only where they would stay further apart than their FAPs say. True: always, and lips
   /// that nearly meet are to meet.
   bool always = true;
+};
+
+/// Two shapes that undo each other, by index.
+using Opponents = std::pair<std::size_t, std::size_t>;
+
+/// How few shapes are used.
+struct Thrift {
+  /// By shape: it is used where it brings the face nearer by more than this, a length in the units
+  /// of the fit (about 1.07 cm), all FAPs together, but at most a quarter of what it does at weight
+  /// 1. 0, or empty for all: wherever it brings the face nearer at all.
+  std::vector<double> least;
+  /// Of these the one that does more is used alone.
+  std::vector<Opponents> opponents;
+  /// What depth of jaw and lips counts (FAP 14, 16, 17).
+  double depth = 1;
 };
 
 /// Low-level FAPs by number.
@@ -55,6 +71,9 @@ class BoundedFit {
   /// By shape; good until the next call. Shapes without any FAP of `mask` keep their weight.
   const std::vector<double>& fit(const Mask& mask, const FapValues& target);
 
+  /// Before the first frame.
+  void set_thrift(Thrift thrift);
+
   /// Forgets the frame before.
   void restart();
 
@@ -63,6 +82,9 @@ class BoundedFit {
   FapValues weighed(const FapValues& values) const;
   std::vector<double> projections(const FapValues& target) const;
   void descend(const std::vector<double>& wanted, double steadiness, double toll);
+  void descend(double steadiness);
+  double residual(const FapValues& target) const;
+  void choose_few(const std::vector<double>& wanted, double steadiness, double residual);
   void close_lips(const std::vector<double>& wanted, const FapValues& target, double steadiness);
   void keep_within_limit(const std::vector<double>& wanted, double steadiness);
 
@@ -70,13 +92,15 @@ class BoundedFit {
   double ridge_;
   double steadiness_;
   double most_;
-  Lips lips_;                       // in lengths
+  Lips lips_;  // in lengths
+  Thrift thrift_;
   FapValues lengths_;               // of one unit of each FAP
   std::vector<FapValues> columns_;  // what each shape does, weighed, for mask_
   std::vector<double> gram_;        // shapes x shapes, for mask_
   std::vector<double> fap_gram_;    // of close_lips(): what gram_ is without measured lips
   std::vector<double> costs_;       // of shapes: what they do, lips not counted
   std::vector<double> left_;        // of the descent
+  std::vector<double> highs_;       // what the weights may be
 
   Mask mask_;
   bool has_gram_ = false;

@@ -1,5 +1,6 @@
 #include <initializer_list>
 
+#include "fap/arkit.h"
 #include "fap/detail/lips.h"
 #include "fap/head/detail/normals.h"
 #include "fap/head/detail/targets.h"
@@ -205,13 +206,14 @@ void set_transforms(const Rig& rig, const Values& v, Pose& out) {
 
 // What shapes should show: absent FAPs are 0, else a sneer would be taken for the help that it is
 // to the lips. But the chin's own FAPs (thrust, boss) are 0 in most clips because nobody measured
-// them; an opened jaw takes the chin along, and should not be kept from it.
-fap::Frame wanted_of_shapes(fap::Frame frame) {
+// them; an opened jaw takes the chin along, and should not be kept from it. So it is with cheeks
+// where lips that round take them along.
+fap::Frame wanted_of_shapes(fap::Frame frame, bool cheeks_follow) {
   for (int f = fap::kFirstLowLevel; f <= fap::kFapCount; ++f) {
     if (!frame.mask[std::size_t(f)]) frame.set(f, 0);
   }
-  for (const std::size_t f : {14, 18}) {
-    if (frame.value[f] == 0) frame.mask.reset(f);
+  for (const std::size_t f : {14, 18, 39, 40}) {
+    if (frame.value[f] == 0 && (f < 39 || cheeks_follow)) frame.mask.reset(f);
   }
   return frame;
 }
@@ -236,9 +238,16 @@ ControlValues control_values(const Rig& rig, const fap::Frame& frame, const Pose
   }
   if (rig.shapes.empty()) return values;
   std::vector<fap::Frame> shapes;
-  for (const ShapeControl& shape : rig.shapes) shapes.push_back(shape.faps);
-  fap::ShapeFitter fitter(shapes, rig.lip_measures);
-  const std::vector<double>& weights = fitter.fit(wanted_of_shapes(low));
+  std::vector<std::optional<int>> channels;
+  for (const ShapeControl& shape : rig.shapes) {
+    shapes.push_back(shape.faps);
+    channels.push_back(fap::find_arkit(shape.name));
+  }
+  // Where visemes open the mouth, all that is left of ARKit may be needed to put them right.
+  const auto jaw = fap::find_arkit("jawOpen");
+  if (std::find(channels.begin(), channels.end(), jaw) == channels.end()) channels.clear();
+  fap::ShapeFitter fitter(shapes, rig.lip_measures, 0.001, channels);
+  const std::vector<double>& weights = fitter.fit(wanted_of_shapes(low, !channels.empty()));
   for (std::size_t i = 0; i < weights.size(); ++i) {
     values[kFirstShape + i] = float(weights[i]) * kFullShape;
   }
