@@ -18,7 +18,7 @@ constexpr double kLidsCount = 3;     // the opening of the eye is short and ever
 
 static_assert(kLipPairs <= std::size_t(kFirstLowLevel));
 constexpr double kOpen = 100;         // so far apart, FAP units of MNS, lips need not meet
-constexpr double kMeetingCounts = 3;  // measured lips against what FAPs say of them
+constexpr double kMeetingCounts = 5;  // measured lips against what FAPs say of them
 constexpr int kMeetingRounds = 8;
 
 double product(const FapValues& a, const FapValues& b) {

@@ -143,6 +143,8 @@ struct Head {
   std::vector<std::uint32_t> lash_anchors;  ///< skin vertex at the root of each vertex of lashes
   /// Empty: FAPs move it.
   std::vector<ShapeControl> shapes;
+  /// How much wider lips open than a clip says: see fap/wider.h.
+  double mouth_gain = 1;
   /// How it moves, as its maker says. Empty: make_rig() finds it from the feature points.
   std::vector<Target> targets;
 

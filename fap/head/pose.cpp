@@ -7,6 +7,7 @@
 #include "fap/head/rig.h"
 #include "fap/head/shapes.h"
 #include "fap/shape_fit.h"
+#include "fap/wider.h"
 
 namespace animeme::head {
 namespace {
@@ -231,6 +232,7 @@ void lids_follow_gaze(const Rig& rig, fap::Frame& frame) {
 
 ControlValues control_values(const Rig& rig, const fap::Frame& frame, const PoseOptions& options) {
   fap::Frame low = low_level(frame);
+  if (rig.mouth_gain != 1) low = fap::open_wider(low, rig.mouth_gain);
   if (options.follow) lids_follow_gaze(rig, low);
   ControlValues values(kFirstShape + rig.shapes.size());
   for (std::size_t f = fap::kFirstLowLevel; f <= fap::kFapCount; ++f) {

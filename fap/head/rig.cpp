@@ -165,6 +165,7 @@ Rig make_rig(const Head& head) {
     rig.lash_anchors = head.lash_anchors;
   }
   rig.shapes = head.shapes;
+  rig.mouth_gain = head.mouth_gain;
   rig.targets = head.targets.empty() ? detail::make_targets(head) : head.targets;
   rig.lip_measures = lip_measures(head, rig);
   rig.deforms = deforming(rig);

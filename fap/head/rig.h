@@ -62,6 +62,7 @@ struct Rig {
   std::vector<Target> targets;                ///< by control, then by part
   std::vector<ShapeControl> shapes;           ///< of heads that have them
   fap::LipMeasures lip_measures;              ///< of the shapes
+  double mouth_gain = 1;                      ///< see Head
   std::array<bool, kPartCount> deforms = {};  ///< which parts have a target, or lashes that turn
   /// Parts whose shapes were modelled with the jaw's motion, or the gaze of eyes: they turn with
   /// the head alone, their shapes show the rest.
@@ -101,11 +102,12 @@ struct PoseOptions {
 /// Values by control: FAPs 3..68, then the shapes of a rig.
 using ControlValues = std::vector<float>;
 
-/// The values of a frame: low_level() of shapes.h, absent FAPs 0; for a rig with shapes also their
-/// weights, times kFullShape, whose FAPs come nearest to the frame (fap::ShapeFitter), few of
-/// ARKit's and none against each other; FAP 14, 18, 39 and 40 at 0 have no say there, as the jaw
-/// takes the chin along and rounded lips the cheeks. Each frame stands for itself, so any
-/// frame may be asked for in any order. With PoseOptions::follow after lids_follow_gaze().
+/// The values of a frame: low_level() of shapes.h, opened wider by Rig::mouth_gain, absent FAPs 0;
+/// for a rig with shapes also their weights, times kFullShape, whose FAPs come nearest to the frame
+/// (fap::ShapeFitter), few of ARKit's and none against each other; FAP 14, 18, 39 and 40 at 0 have
+/// no say there, as the jaw takes the chin along and rounded lips the cheeks. Each frame stands for
+/// itself, so any frame may be asked for in any order. With PoseOptions::follow after
+/// lids_follow_gaze().
 ControlValues control_values(const Rig& rig, const fap::Frame& frame,
                              const PoseOptions& options = {});
 

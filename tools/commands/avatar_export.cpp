@@ -146,6 +146,14 @@ Result<int> export_avatar(const AvatarExport& job) {
   ProgressLine progress("exporting");
   gltf::AnimateOptions options;
   options.progress = [&](double done) { progress.update(done); };
+  if (const auto problem = studio::problem_of({job.head, "", job.gain}); !problem.empty()) {
+    return usage_error(problem);
+  }
+  if (job.gain != "1") {
+    const auto measured = studio::load_head({job.head, "", job.gain});
+    if (!measured) return measured.error();
+    options.mouth_gain = measured->head.mouth_gain;
+  }
   const auto bytes = read_file(job.head, options.reading.limits.bytes);
   if (!bytes) return bytes.error();
   options.reading.load = gltf::files_of(fs::path(job.head).parent_path().string());

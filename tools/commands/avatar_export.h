@@ -37,6 +37,7 @@ struct AvatarExport {
   std::string audio;                ///< name of the sound to mention; empty: none
   std::vector<std::string> sounds;  ///< files to put in, one a clip; empty: none
   std::vector<AvatarClip> clips;    ///< at least one
+  std::string gain = "1";           ///< see studio::HeadChoice
 };
 
 /// Writes the file and prints what was done. Errors: those of gltf::animate_file() or

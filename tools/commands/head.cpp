@@ -21,6 +21,7 @@ namespace {
 
 struct HeadOptions {
   studio::HeadChoice head;
+  bool gain_given = false;
   std::string output;
   bool json = false;
   bool speak_test = false;
@@ -202,8 +203,8 @@ Result<int> test_speech(const studio::LoadedHead& loaded, const head::Rig& rig, 
   if (!rows) return rows.error();
   Json list = Json::array();
   if (!json) {
-    std::printf("%s, as if its eyes were %g mm apart\n", loaded.head.name.c_str(),
-                studio::kEyesApart);
+    std::printf("%s, as if its eyes were %g mm apart, lips opened %.2f times as wide (--gain)\n",
+                loaded.head.name.c_str(), studio::kEyesApart, loaded.head.mouth_gain);
   }
   for (const studio::SpeakRow& row : *rows) {
     const char* const least = row.at_most ? "at most" : "at least";
@@ -217,8 +218,10 @@ Result<int> test_speech(const studio::LoadedHead& loaded, const head::Rig& rig, 
                 row.value, row.ok() ? "ok" : "short of", least, row.limit);
   }
   if (json) {
-    const Json all = {
-        {"name", loaded.head.name}, {"eyes_apart_mm", studio::kEyesApart}, {"rows", list}};
+    const Json all = {{"name", loaded.head.name},
+                      {"eyes_apart_mm", studio::kEyesApart},
+                      {"gain", loaded.head.mouth_gain},
+                      {"rows", list}};
     std::printf("%s\n", pretty(all).c_str());
   }
   return kOk;
@@ -231,7 +234,9 @@ Result<int> run(const HeadOptions& options) {
   const Writer* const writer = std::find_if(
       std::begin(kWriters), std::end(kWriters),
       [kind = extension_of(options.output)](const Writer& each) { return each.extension == kind; });
-  const Result<studio::LoadedHead> loaded = studio::load_head(options.head);
+  studio::HeadChoice choice = options.head;
+  if (options.speak_test && !options.gain_given) choice.gain = "auto";
+  const Result<studio::LoadedHead> loaded = studio::load_head(choice);
   if (!loaded) return loaded.error();
   const head::Rig rig = head::make_rig(loaded->head);
   if (options.speak_test) return test_speech(*loaded, rig, options.json);
@@ -252,6 +257,14 @@ Result<int> run(const HeadOptions& options) {
 void add_options(CLI::App& app, HeadOptions& options) {
   app.add_option("head", options.head.head, kHeadHelp)->capture_default_str();
   app.add_option("--points", options.head.points, kPointsHelp);
+  app.add_option_function<std::string>(
+         "--gain",
+         [&options](const std::string& gain) {
+           options.head.gain = gain;
+           options.gain_given = true;
+         },
+         std::string(kGainHelp) + "; default: auto for --speak-test, else 1")
+      ->type_name("TEXT");
   auto* const test = app.add_flag("--speak-test", options.speak_test,
                                   "Speak P B M AA IY UW on it and measure: lips closed within 0.1 "
                                   "mm, UW 15 % narrower than IY, "

@@ -13,8 +13,9 @@ namespace animeme::tools {
 /// What --help says of --head and --points.
 extern const char* const kHeadHelp;
 extern const char* const kPointsHelp;  ///< likewise
+extern const char* const kGainHelp;    ///< likewise
 
-/// Adds --head and --points.
+/// Adds --head, --points and --gain.
 void add_head_options(CLI::App& app, studio::HeadChoice& choice);
 
 }  // namespace animeme::tools

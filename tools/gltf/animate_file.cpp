@@ -36,6 +36,7 @@ Result<AnimatedFile> animated(std::span<const std::uint8_t> bytes, std::span<con
   if (!nodes) return nodes.error();
   auto actor = file_actor(bytes, edit->file(), *nodes, options.reading);
   if (!actor) return actor.error();
+  actor->rig.mouth_gain = options.mouth_gain;
   AnimatedFile out;
   out.notes = std::move(actor->notes);
   FileMotion motion(*edit, *nodes, *actor, out.notes);

@@ -52,6 +52,7 @@ struct NamedClip {
 /// What animate_file() is told.
 struct AnimateOptions {
   ReadOptions reading = {};                   ///< how the head is read
+  double mouth_gain = 1;                      ///< how much wider lips open: see fap/wider.h
   std::function<void(double)> progress = {};  ///< 0..1; empty: not wanted
 };
 

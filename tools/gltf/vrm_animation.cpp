@@ -168,6 +168,7 @@ Result<VrmAnimation> vrm_animated(std::span<const std::uint8_t> bytes,
   }
   auto actor = actor_of_expressions(bytes, file, *nodes, options.reading);
   if (!actor) return actor.error();
+  actor->rig.mouth_gain = options.mouth_gain;
   const std::vector<ShownShape> shown = shown_shapes(file, *nodes, *actor);
   if (shown.empty()) {
     return make_error(

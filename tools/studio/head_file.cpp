@@ -1,15 +1,21 @@
 #include "tools/studio/head_file.h"
 
+#include <array>
+#include <charconv>
+#include <cstdio>
 #include <filesystem>
 #include <new>
+#include <optional>
 
 #include "fap/head/obj.h"
 #include "fap/head/own_head.h"
 #include "fap/head/point_list.h"
+#include "fap/wider.h"
 #include "fap/xml/fdp.h"
 #include "fap/xml/xmt.h"
 #include "tools/files/files.h"
 #include "tools/gltf/read_head.h"
+#include "tools/studio/speak_check.h"
 
 namespace animeme::studio {
 namespace {
@@ -91,9 +97,44 @@ Result<head::Source> read_source(const HeadChoice& choice) {
   return read_xml_head(choice, format);
 }
 
+Result<LoadedHead> load_as_it_is(const HeadChoice& choice) {
+  LoadedHead loaded;
+  if (const auto parameters = head::head_parameters(choice.head)) {
+    Result<head::Head> made = head::make_head(*parameters);
+    if (!made) return made.error();
+    loaded.head = std::move(*made);
+    return loaded;
+  }
+  Result<head::Source> source = read_source(choice);
+  if (!source) return source.error();
+  source->name = std::filesystem::path(choice.head).stem().string();
+  Result<head::Head> made = head::assemble(std::move(*source), &loaded.notes);
+  if (!made) return made.error().in_file(choice.head);
+  loaded.head = std::move(*made);
+  return loaded;
+}
+
+std::optional<double> gain_of(const std::string& text) {
+  double gain = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, gain);
+  const bool fits = error == std::errc() && stop == end && gain >= fap::kLeastMouthGain &&
+                    gain <= fap::kMostMouthGain;
+  return fits ? std::optional(gain) : std::nullopt;
+}
+
+std::string gain_note(double gain) {
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), "--gain auto: lips open %.2f times as wide", gain);
+  return text.data();
+}
+
 }  // namespace
 
 std::string problem_of(const HeadChoice& choice) {
+  if (choice.gain != "auto" && !gain_of(choice.gain)) {
+    return "--gain is auto or a number from 0.25 to 4, not \"" + choice.gain + "\"";
+  }
   if (head::head_parameters(choice.head)) {
     if (choice.points.empty()) return "";
     return "--points is for a head of your own; give its file with --head";
@@ -122,20 +163,17 @@ Result<LoadedHead> load_head(const HeadChoice& choice) {
   if (std::string problem = problem_of(choice); !problem.empty()) {
     return make_error(Code::invalid_argument, std::move(problem));
   }
-  LoadedHead loaded;
-  if (const auto parameters = head::head_parameters(choice.head)) {
-    Result<head::Head> made = head::make_head(*parameters);
-    if (!made) return made.error();
-    loaded.head = std::move(*made);
-    return loaded;
-  }
   try {
-    Result<head::Source> source = read_source(choice);
-    if (!source) return source.error();
-    source->name = std::filesystem::path(choice.head).stem().string();
-    Result<head::Head> made = head::assemble(std::move(*source), &loaded.notes);
-    if (!made) return made.error().in_file(choice.head);
-    loaded.head = std::move(*made);
+    Result<LoadedHead> loaded = load_as_it_is(choice);
+    if (!loaded) return loaded;
+    if (choice.gain == "auto") {
+      const Result<double> gain = speaking_gain(loaded->head);
+      if (!gain) return gain.error().in_file(choice.head);
+      loaded->head.mouth_gain = *gain;
+      loaded->notes.push_back(gain_note(*gain));
+    } else {
+      loaded->head.mouth_gain = gain_of(choice.gain).value_or(1);
+    }
     return loaded;
   } catch (const std::bad_alloc&) {
     return make_error(Code::out_of_range,

@@ -11,10 +11,11 @@
 
 namespace animeme::studio {
 
-/// --head and --points.
+/// --head, --points and --gain.
 struct HeadChoice {
   std::string head = "woman";  ///< one of head::kHeadNames, or a file
   std::string points;          ///< list of feature points; see fap/head/point_list.h
+  std::string gain = "1";      ///< Head::mouth_gain, or "auto": speaking_gain() of speak_check.h
 };
 
 /// A head and what there is to say of it.
@@ -24,7 +25,7 @@ struct LoadedHead {
 };
 
 /// What is wrong with a choice, as far as names tell: neither a head of ours nor a file, a kind of
-/// file that is not read, --points missing or not wanted. Empty: nothing.
+/// file that is not read, --points missing or not wanted, a gain that is none. Empty: nothing.
 std::string problem_of(const HeadChoice& choice);
 
 /// Makes or reads a head. Files: .glb, .gltf, .vrm (moved by their shapes, or by points if they are

@@ -7,6 +7,7 @@
 #include "dam/speaking/synthesise.h"
 #include "fap/arkit.h"
 #include "fap/fill.h"
+#include "fap/wider.h"
 
 namespace animeme::studio {
 namespace {
@@ -69,9 +70,7 @@ Result<fap::Sequence> said(const dam::Script& script) {
   return fap::fill(*clip, {.complete = true});
 }
 
-}  // namespace
-
-Result<std::vector<SpeakRow>> check_speech(const head::Head& head, const head::Rig& rig) {
+Result<void> measurable(const head::Head& head) {
   for (const char* id : {"2.2", "2.3", "2.4", "2.5"}) {
     if (!head.point(id).exists()) {
       return make_error(Code::not_found, std::string("the head has no feature point ") + id +
@@ -83,6 +82,61 @@ Result<std::vector<SpeakRow>> check_speech(const head::Head& head, const head::R
                       "the distance of the eyes is not known: give points 3.5 and 3.6 (pupils) by "
                       "--points");
   }
+  return {};
+}
+
+bool is_during(const dam::Phone& phone, double time) {
+  return time > phone.start - 0.005 && time < phone.end + 0.005;
+}
+
+double full_opening(Ruler& ruler) {
+  fap::ArkitFrame open{};
+  open[std::size_t(fap::find_arkit("jawOpen").value_or(0))] = 1;
+  return ruler.of(fap::arkit_to_fap(open, fap::kAllArkit)).gap;
+}
+
+// The frame of an AA that opens the lips widest.
+fap::Frame widest_frame(Ruler& ruler, const dam::Script& script, const fap::Sequence& clip) {
+  fap::Frame widest;
+  double most = 0;
+  for (const dam::Phone& phone : script.phones) {
+    for (const fap::Frame& frame : clip.frames) {
+      if (phone.label != "AA" || !is_during(phone, clip.rate.seconds(double(frame.number)))) {
+        continue;
+      }
+      const double gap = ruler.of(frame).gap;
+      if (gap <= most) continue;
+      most = gap;
+      widest = frame;
+    }
+  }
+  return widest;
+}
+
+}  // namespace
+
+Result<double> speaking_gain(const head::Head& head) {
+  if (auto can = measurable(head); !can) return can.error();
+  const dam::Script script = sentence();
+  const Result<fap::Sequence> clip = said(script);
+  if (!clip) return clip.error();
+  head::Rig rig = head::make_rig(head);
+  rig.mouth_gain = 1;
+  Ruler ruler(head, rig);
+  const double wanted = kWideOpen * full_opening(ruler);
+  const fap::Frame widest = widest_frame(ruler, script, *clip);
+  double low = 1, high = fap::kMostMouthGain;
+  if (ruler.of(widest).gap >= wanted) return low;
+  for (int step = 0; step < 16; ++step) {
+    const double middle = (low + high) / 2;
+    rig.mouth_gain = middle;
+    (ruler.of(widest).gap < wanted ? low : high) = middle;
+  }
+  return high;
+}
+
+Result<std::vector<SpeakRow>> check_speech(const head::Head& head, const head::Rig& rig) {
+  if (auto can = measurable(head); !can) return can.error();
   const dam::Script script = sentence();
   const Result<fap::Sequence> clip = said(script);
   if (!clip) return clip.error();
@@ -94,8 +148,9 @@ Result<std::vector<SpeakRow>> check_speech(const head::Head& head, const head::R
     if (phone.label == "SIL") continue;
     std::vector<Mouth> seen;
     for (const fap::Frame& frame : clip->frames) {
-      const double time = clip->rate.seconds(double(frame.number));
-      if (time > phone.start - 0.005 && time < phone.end + 0.005) seen.push_back(ruler.of(frame));
+      if (is_during(phone, clip->rate.seconds(double(frame.number)))) {
+        seen.push_back(ruler.of(frame));
+      }
     }
     if (seen.empty()) continue;
     const auto by_gap = [](const Mouth& a, const Mouth& b) { return a.gap < b.gap; };
@@ -107,14 +162,12 @@ Result<std::vector<SpeakRow>> check_speech(const head::Head& head, const head::R
       rows.push_back({phone.label, "lips apart, mm", std::max(least->gap, 0.0), 0.1, true});
     }
   }
-  fap::ArkitFrame open{};
-  open[std::size_t(fap::find_arkit("jawOpen").value_or(0))] = 1;
-  const double range = ruler.of(fap::arkit_to_fap(open, fap::kAllArkit)).gap;
+  const double range = full_opening(ruler);
   const double narrower = iy.width > 0 ? 100 * (1 - uw.width / iy.width) : 0;
   rows.push_back({"UW against IY", "mouth narrower, %", narrower, 15, false});
   rows.push_back({"UW against IY", "lips forward, mm", uw.forward - iy.forward, 0.1, false});
-  rows.push_back(
-      {"AA", "open, % of a full jawOpen", range > 0 ? 100 * aa.gap / range : 0, 70, false});
+  rows.push_back({"AA", "open, % of a full jawOpen", range > 0 ? 100 * aa.gap / range : 0,
+                  100 * kWideOpen, false});
   rows.push_back({"IY", "lips apart, mm", iy.gap, 0.1, false});
   rows.push_back({"UW", "lips apart, mm", uw.gap, 0.1, false});
   return rows;
