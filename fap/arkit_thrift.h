@@ -10,6 +10,9 @@ namespace animeme::fap::internal {
 /// Channel of a shape that is none of ARKit's.
 inline constexpr std::size_t kNoChannel = ~std::size_t(0);
 
+/// Of one that is a whole face.
+inline constexpr std::size_t kMoodChannel = kNoChannel - 1;
+
 /// For shapes by their channels. `share`: of the usual thrift; 0: none.
 Thrift thrift_of(const std::vector<std::size_t>& channels, double share);
 

@@ -193,7 +193,8 @@ void BoundedFit::choose_few(const std::vector<double>& wanted, double steadiness
   left_.assign(wanted.begin(), wanted.end());
   for (std::size_t i = 0; i < left_.size(); ++i) {
     const double length = std::sqrt(gram_[i * left_.size() + i]);
-    left_[i] -= std::min(thrift_.least[i], kMostToll * length) * length;
+    const double most = std::max(kMostToll, thrift_.least[i]) * length;
+    left_[i] -= std::min(thrift_.least[i], most) * length;
   }
   descend(steadiness);
   std::vector<double> worth = weights_;
@@ -204,7 +205,9 @@ void BoundedFit::choose_few(const std::vector<double>& wanted, double steadiness
   }
   for (std::size_t i = 0; i < worth.size(); ++i) {
     if (thrift_.least[i] <= 0) continue;
-    highs_[i] = std::max(free, std::clamp(kRelaxed * worth[i], 0.0, 1.0));
+    const double relaxed =
+        thrift_.least[i] > kMostToll ? 1 : kRelaxed;  // a mood is not made of little
+    highs_[i] = std::max(free, std::clamp(relaxed * worth[i], 0.0, 1.0));
   }
 }
 

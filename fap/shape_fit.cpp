@@ -47,7 +47,9 @@ ShapeFitter::ShapeFitter(std::span<const Frame> shapes, const LipMeasures& lips,
   if (arkit.size() != shapes.size()) return;
   std::vector<std::size_t> channels;
   for (const std::optional<int>& channel : arkit) {
-    channels.push_back(channel ? std::size_t(*channel) : internal::kNoChannel);
+    channels.push_back(!channel                 ? internal::kNoChannel
+                       : *channel == kWholeFace ? internal::kMoodChannel
+                                                : std::size_t(*channel));
   }
   impl_->fit.set_thrift(internal::thrift_of(channels, 1));
 }

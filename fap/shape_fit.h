@@ -21,6 +21,9 @@ namespace animeme::fap {
 /// to 2.9), in units of FAP 4 (MNS/1024).
 using LipDistances = std::array<float, 3>;
 
+/// Stands for a channel of ARKit's: the shape is a whole face, such as joy.
+inline constexpr int kWholeFace = -1;
+
 /// How a face closes its lips, as measured on it.
 struct LipMeasures {
   LipDistances at_rest = {};          ///< of lips that do not quite meet in the neutral face
@@ -35,8 +38,9 @@ class ShapeFitter {
   /// be shut shows it; lips that should be apart are left to the FAPs. `ridge`: what it costs to
   /// use a shape, as a share of what it does to the face, 0..1; it keeps shapes from working
   /// against each other.
-  /// `arkit`: the channel (find_arkit()) of each shape that is one of ARKit's, nothing for others.
-  /// If given, few shapes are used, none against each other, as ArkitFitOptions::thrift says.
+  /// `arkit`: the channel (find_arkit()) of each shape that is one of ARKit's, kWholeFace for
+  /// moods, nothing for others. If given, few shapes are used, none against each other, as
+  /// ArkitFitOptions::thrift says.
   explicit ShapeFitter(std::span<const Frame> shapes, const LipMeasures& lips = {},
                        double ridge = 0.001, std::span<const std::optional<int>> arkit = {});
   ShapeFitter(ShapeFitter&&) noexcept;  ///< movable

@@ -38,7 +38,8 @@ using Opponents = std::pair<std::size_t, std::size_t>;
 struct Thrift {
   /// By shape: it is used where it brings the face nearer by more than this, a length in the units
   /// of the fit (about 1.07 cm), all FAPs together, but at most a quarter of what it does at weight
-  /// 1. 0, or empty for all: wherever it brings the face nearer at all.
+  /// 1, or that share of it if that is more. 0, or empty for all: wherever it brings the face
+  /// nearer at all.
   std::vector<double> least;
   /// Of these the one that does more is used alone.
   std::vector<Opponents> opponents;

@@ -103,6 +103,8 @@ struct Seams {
 struct ShapeControl {
   std::string name;  ///< as its maker calls it
   fap::Frame faps;   ///< what it shows at weight 1
+  /// A whole face, such as joy: used where it does much, not for a little of a smile.
+  bool mood = false;
 };
 
 /// Target::control of the first shape of a head; smaller numbers are FAPs.

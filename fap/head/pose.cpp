@@ -243,13 +243,15 @@ ControlValues control_values(const Rig& rig, const fap::Frame& frame, const Pose
   std::vector<std::optional<int>> channels;
   for (const ShapeControl& shape : rig.shapes) {
     shapes.push_back(shape.faps);
-    channels.push_back(fap::find_arkit(shape.name));
+    channels.push_back(shape.mood ? fap::kWholeFace : fap::find_arkit(shape.name));
   }
   // Where visemes open the mouth, all that is left of ARKit may be needed to put them right.
-  const auto jaw = fap::find_arkit("jawOpen");
-  if (std::find(channels.begin(), channels.end(), jaw) == channels.end()) channels.clear();
+  const bool jaw = std::ranges::find(channels, fap::find_arkit("jawOpen")) != channels.end();
+  for (auto& channel : channels) {
+    if (!jaw && channel != fap::kWholeFace) channel.reset();
+  }
   fap::ShapeFitter fitter(shapes, rig.lip_measures, 0.001, channels);
-  const std::vector<double>& weights = fitter.fit(wanted_of_shapes(low, !channels.empty()));
+  const std::vector<double>& weights = fitter.fit(wanted_of_shapes(low, jaw));
   for (std::size_t i = 0; i < weights.size(); ++i) {
     values[kFirstShape + i] = float(weights[i]) * kFullShape;
   }

@@ -140,6 +140,59 @@ TEST(ShapeNames, TwoNamesOfOneShapeAreOne) {
   EXPECT_TRUE(notes.empty());
 }
 
+TEST(ShapeNames, Moods) {
+  const auto mood = [](std::string_view name) {
+    const auto meaning = meaning_of(name);
+    return meaning ? meaning->mood : -1;
+  };
+  for (const char* name : {"joy", "happy", "Happy", "Face.M_F00_000_00_Fcl_ALL_Joy"}) {
+    EXPECT_EQ(mood(name), 1) << name;
+  }
+  for (const char* name : {"sorrow", "sad", "Fcl_ALL_Sorrow"}) EXPECT_EQ(mood(name), 2) << name;
+  for (const char* name : {"angry", "Fcl_ALL_Angry"}) EXPECT_EQ(mood(name), 3) << name;
+  for (const char* name : {"surprised", "Fcl_ALL_Surprised"}) EXPECT_EQ(mood(name), 6) << name;
+  EXPECT_EQ(mood("fun"), mood("relaxed"));
+  EXPECT_EQ(mood("Fcl_MTH_Joy"), -1);
+  EXPECT_EQ(mood("Fcl_BRW_Joy"), 0);  // brows alone
+  EXPECT_THAT(chosen({"A", "I", "joy", "fun", "angry"}, MouthShapes::automatic),
+              ElementsAre("A", "I", "joy", "fun", "angry"));
+  std::vector<std::string> with_arkit = kBoth;
+  with_arkit.push_back("joy");
+  EXPECT_THAT(chosen(with_arkit, MouthShapes::automatic), testing::Not(testing::Contains("joy")));
+}
+
+// A mood is shown by its own shape; a sound is not, though a smile is in both.
+TEST(ShapeNames, MoodsAreShownAndKeepOutOfSpeech) {
+  std::vector<std::string> names = {"blink", "happy", "sad", "angry", "surprised", "relaxed"};
+  for (const char* vowel : {"A", "I", "U", "E", "O"}) names.push_back(vowel);
+  std::vector<std::string> notes;
+  head::Rig rig;
+  for (const ChosenShape& shape : choose_shapes(names, MouthShapes::automatic, notes)) {
+    rig.shapes.push_back({shape.name, shape.meaning.faps, shape.meaning.mood > 0});
+  }
+  const auto weight = [&](const fap::Frame& frame, std::string_view name) {
+    const head::ControlValues values = head::control_values(rig, frame);
+    for (std::size_t i = 0; i < rig.shapes.size(); ++i) {
+      if (rig.shapes[i].name == name) return values[head::kFirstShape + i] / head::kFullShape;
+    }
+    return -1.0f;
+  };
+  for (const auto& [expression, name] :
+       {std::pair{1, "happy"}, {2, "sad"}, {3, "angry"}, {6, "surprised"}}) {
+    fap::Frame frame;
+    frame.mask.set(2);
+    frame.expression = {expression, 63, 0, 0, false, false};
+    EXPECT_GT(weight(frame, name), 0.9f) << name;
+    frame.expression.intensity1 = 30;
+    EXPECT_NEAR(weight(frame, name), 0.48f, 0.1f) << name;
+  }
+  for (const int viseme : {10, 11, 12, 13, 14, 1, 4, 7}) {
+    for (const char* name : {"happy", "sad", "angry", "surprised", "relaxed"}) {
+      EXPECT_LT(weight(head::viseme_shape(viseme), name), 0.2f) << viseme << name;
+    }
+  }
+}
+
 // The woman with shapes that are poses of hers.
 std::vector<std::uint8_t> viseme_head(const head::Rig& rig) {
   GltfWriter file;

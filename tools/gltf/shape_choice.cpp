@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 #include "fap/arkit.h"
 #include "tools/gltf/shape_names.h"
@@ -53,7 +54,7 @@ std::string list_of(const std::vector<std::string>& names) {
 std::vector<ChosenShape> known_shapes(const std::vector<std::string>& names,
                                       std::vector<std::string>& unknown) {
   std::vector<ChosenShape> shapes;
-  std::map<std::pair<int, std::vector<ArkitPart>>, std::size_t> known;
+  std::map<std::tuple<int, int, std::vector<ArkitPart>>, std::size_t> known;
   for (std::size_t i = 0; i < names.size(); ++i) {
     std::optional<ShapeMeaning> meaning = meaning_of(names[i]);
     if (!meaning) {
@@ -61,7 +62,7 @@ std::vector<ChosenShape> known_shapes(const std::vector<std::string>& names,
       continue;
     }
     const auto [place, is_new] =
-        known.try_emplace({meaning->viseme, meaning->parts}, shapes.size());
+        known.try_emplace({meaning->viseme, meaning->mood, meaning->parts}, shapes.size());
     if (is_new) shapes.push_back({names[i], std::move(*meaning), {}});
     shapes[place->second].names.push_back(i);
   }
@@ -80,7 +81,9 @@ void drop_doubles(std::vector<ChosenShape>& shapes, std::vector<std::string>& un
   const auto take = [&](ShapeSet set, std::size_t parts) {
     for (std::size_t i = 0; i < shapes.size(); ++i) {
       const ShapeMeaning& meaning = shapes[i].meaning;
-      if (meaning.set != set || (parts > 0 && meaning.parts.size() != parts)) continue;
+      if (meaning.mood > 0) keep[i] = true;
+      if (meaning.mood > 0 || meaning.set != set || (parts > 0 && meaning.parts.size() != parts))
+        continue;
       keep[i] = free(meaning);
       if (!keep[i]) continue;
       for (const ArkitPart& part : meaning.parts) taken[part.channel] |= part.sides;
@@ -119,6 +122,8 @@ std::vector<ChosenShape> choose_shapes(const std::vector<std::string>& names, Mo
       return true;
     });
   };
+  // ARKit's shapes make any of these faces.
+  if (arkit) move_out([](const ShapeMeaning& meaning) { return meaning.mood > 0; });
   if (any_viseme && arkit) {
     move_out([](const ShapeMeaning& meaning) { return meaning.set == ShapeSet::viseme; });
   } else if (any_viseme && mouth == MouthShapes::visemes) {

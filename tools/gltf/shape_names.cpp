@@ -110,6 +110,18 @@ int viseme_of(std::vector<std::string> words) {
   return -1;
 }
 
+constexpr int kCalmSmile = 7;
+
+int mood_of(const std::string& key) {
+  constexpr std::pair<std::string_view, int> kMoods[] = {
+      {"joy", 1},   {"happy", 1},     {"sorrow", 2},       {"sad", 2},
+      {"angry", 3}, {"surprised", 6}, {"fun", kCalmSmile}, {"relaxed", kCalmSmile}};
+  for (const auto& [name, mood] : kMoods) {
+    if (key == name || key == "all" + std::string(name)) return mood;
+  }
+  return 0;
+}
+
 int shape_channel(std::string_view name) {
   const std::optional<int> channel = fap::find_arkit(name);
   return channel && *channel < fap::kArkitShapeCount ? *channel : -1;
@@ -194,7 +206,14 @@ std::optional<ShapeMeaning> meaning_of(std::string_view name) {
       meaning.set = ShapeSet::viseme;
       meaning.viseme = viseme_of(words);
     }
-    if (meaning.parts.empty() && meaning.viseme < 0) continue;
+    if (meaning.parts.empty() && meaning.viseme < 0) {
+      meaning.set = ShapeSet::other;
+      meaning.mood = mood_of(key);
+      if (meaning.mood == 0) continue;
+      meaning.faps = meaning.mood == kCalmSmile ? faps_of(other_parts("smile"))
+                                                : head::expression_shape(meaning.mood);
+      return meaning;
+    }
     meaning.faps =
         meaning.viseme >= 0 ? head::viseme_shape(meaning.viseme) : faps_of(meaning.parts);
     return meaning;

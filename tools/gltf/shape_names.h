@@ -32,6 +32,7 @@ struct ArkitPart {
 struct ShapeMeaning {
   ShapeSet set = ShapeSet::other;  ///< whose name it is
   int viseme = -1;                 ///< of a viseme
+  int mood = 0;                    ///< of a whole face: expression 1..6 of FAP 2; 7: a calm smile
   std::vector<ArkitPart> parts;    ///< of the others, ascending
   /// At weight 1: sums of what fap::arkit_to_fap() says of the parts; head::viseme_shape() of a
   /// viseme, so that FAP 1 at full strength is weight 1.
@@ -45,7 +46,8 @@ struct ShapeMeaning {
 /// sides may be split ("browInnerUp_L"); one with sides may come without ("mouthSmile"): both
 /// together. Other names: blink and eyesClosed, winks, mouthOpen, smile, gaze up, down, left,
 /// right, brows up and down, the brows of VRoid (BRW_Angry ...) and MMD; the vowels A I U E O of
-/// VRM, VRoid and MMD are visemes.
+/// VRM, VRoid and MMD are visemes; joy, angry, sorrow, fun, surprised of VRM 0.x and VRoid (ALL_Joy
+/// ...), happy, sad and relaxed of VRM 1.0 are moods.
 std::optional<ShapeMeaning> meaning_of(std::string_view name);
 
 /// A shape that a head uses.

@@ -194,7 +194,7 @@ class HeadReader {
 
   void write_shapes() {
     for (const ChosenShape& shape : shapes_) {
-      source_.shapes.push_back({shape.name, shape.meaning.faps});
+      source_.shapes.push_back({shape.name, shape.meaning.faps, shape.meaning.mood > 0});
     }
     if (shapes_.empty()) {
       source_.notes.push_back(
