@@ -6,6 +6,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/files.h"
+#include "tests/support/gltf_writer.h"
 #include "tests/support/png_reader.h"
 #include "tests/support/program.h"
 #include "tests/support/shared.h"
@@ -100,6 +102,29 @@ TEST(HeadCommand, SpeakTestMeasuresLips) {
     EXPECT_EQ(as_spoken["gain"], 1);
     EXPECT_LT(as_spoken["rows"][5]["value"], 50) << name;
   }
+}
+
+TEST(HeadCommand, SpeakTestDrawsASheet) {
+  const TempDir dir;
+  ASSERT_EQ(animeme({"head", "child", "--speak-test", "-o", dir / "sheet.png"}).exit_code, 0);
+  EXPECT_GT(test::slurp(dir / "sheet.png").size(), 50000u);
+  EXPECT_EQ(animeme({"head", "child", "--speak-test", "-o", dir / "sheet.glb"}).exit_code, 2);
+  EXPECT_EQ(animeme({"head", "child", "-o", dir / "child.png"}).exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(dir / "child.png"));
+}
+
+// What has no face says so, and does not ask for eyes.
+TEST(HeadCommand, AFileWithoutAFaceIsNamed) {
+  const TempDir dir;
+  test::GltfWriter file;
+  const std::vector<float> corners = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const Json primitive = {{"attributes", {{"POSITION", file.accessor(corners, "VEC3")}}}};
+  const int mesh = file.add("meshes", {{"primitives", Json::array({primitive})}});
+  file.add("scenes", {{"nodes", Json::array({file.add("nodes", {{"mesh", mesh}})})}});
+  test::write_bytes(dir / "chair.vrm", file.glb());
+  const auto result = animeme({"head", dir / "chair.vrm"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err, HasSubstr("there is no face in it"));
 }
 
 // --gain moves what others draw: an avatar's file gets larger weights.

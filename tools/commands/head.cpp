@@ -11,17 +11,16 @@
 #include "fap/xml/xmt.h"
 #include "tools/commands/common.h"
 #include "tools/commands/head_options.h"
+#include "tools/commands/speak_test.h"
 #include "tools/gltf/glb.h"
 #include "tools/json.h"
-#include "tools/studio/speak_check.h"
 
 namespace animeme::tools {
 
 namespace {
 
 struct HeadOptions {
-  studio::HeadChoice head;
-  bool gain_given = false;
+  studio::HeadChoice head{.gain = ""};
   std::string output;
   bool json = false;
   bool speak_test = false;
@@ -198,48 +197,23 @@ constexpr struct Writer {
                 {".glb", write_glb},
                 {".obj", write_obj}};
 
-Result<int> test_speech(const studio::LoadedHead& loaded, const head::Rig& rig, bool json) {
-  const Result<std::vector<studio::SpeakRow>> rows = studio::check_speech(loaded.head, rig);
-  if (!rows) return rows.error();
-  Json list = Json::array();
-  if (!json) {
-    std::printf("%s, as if its eyes were %g mm apart, lips opened %.2f times as wide (--gain)\n",
-                loaded.head.name.c_str(), studio::kEyesApart, loaded.head.mouth_gain);
-  }
-  for (const studio::SpeakRow& row : *rows) {
-    const char* const least = row.at_most ? "at most" : "at least";
-    list.push_back({{"sound", row.sound},
-                    {"measure", row.what},
-                    {"value", row.value},
-                    {row.at_most ? "at_most" : "at_least", row.limit},
-                    {"ok", row.ok()}});
-    if (json) continue;
-    std::printf("  %-14s %-26s %7.2f  %-8s (%s %g)\n", row.sound.c_str(), row.what.c_str(),
-                row.value, row.ok() ? "ok" : "short of", least, row.limit);
-  }
-  if (json) {
-    const Json all = {{"name", loaded.head.name},
-                      {"eyes_apart_mm", studio::kEyesApart},
-                      {"gain", loaded.head.mouth_gain},
-                      {"rows", list}};
-    std::printf("%s\n", pretty(all).c_str());
-  }
-  return kOk;
-}
-
-Result<int> run(const HeadOptions& options) {
+Result<int> run(const HeadOptions& given) {
+  HeadOptions options = given;
+  if (options.head.gain.empty()) options.head.gain = options.speak_test ? "auto" : "1";
   if (const std::string problem = studio::problem_of(options.head); !problem.empty()) {
     return usage_error(problem);
   }
+  if (options.speak_test) return test_speech(options.head, options.output, options.json);
   const Writer* const writer = std::find_if(
       std::begin(kWriters), std::end(kWriters),
       [kind = extension_of(options.output)](const Writer& each) { return each.extension == kind; });
-  studio::HeadChoice choice = options.head;
-  if (options.speak_test && !options.gain_given) choice.gain = "auto";
-  const Result<studio::LoadedHead> loaded = studio::load_head(choice);
+  if (!options.output.empty() && writer == std::end(kWriters)) {
+    return usage_error(
+        "a head is written as .fdp, .xmt, .glb or .obj; pictures are for --speak-test");
+  }
+  const Result<studio::LoadedHead> loaded = studio::load_head(options.head);
   if (!loaded) return loaded.error();
   const head::Rig rig = head::make_rig(loaded->head);
-  if (options.speak_test) return test_speech(*loaded, rig, options.json);
   if (!options.output.empty()) {
     for (const std::string& note : loaded->notes) say(options.head.head + ": " + note);
     if (auto ok = writer->write({options.output, loaded->head, rig}); !ok) return ok.error();
@@ -257,25 +231,20 @@ Result<int> run(const HeadOptions& options) {
 void add_options(CLI::App& app, HeadOptions& options) {
   app.add_option("head", options.head.head, kHeadHelp)->capture_default_str();
   app.add_option("--points", options.head.points, kPointsHelp);
-  app.add_option_function<std::string>(
-         "--gain",
-         [&options](const std::string& gain) {
-           options.head.gain = gain;
-           options.gain_given = true;
-         },
-         std::string(kGainHelp) + "; default: auto for --speak-test, else 1")
-      ->type_name("TEXT");
-  auto* const test = app.add_flag("--speak-test", options.speak_test,
-                                  "Speak P B M AA IY UW on it and measure: lips closed within 0.1 "
-                                  "mm, UW 15 % narrower than IY, "
-                                  "AA open by 70 % of a full jawOpen");
-  auto* const output =
-      app.add_option("-o,--output", options.output,
-                     "Write the head: .fdp (Xface; with its mesh, .wrl, and textures, .tga), .xmt "
-                     "(MPEG-4 scene with an FDP), "
-                     ".glb (with morph targets), .obj (with a list of feature points)");
-  test->excludes(output);
-  add_output(output, {".xmta", ".fdp", ".xmt", ".glb", ".obj"}, OutputKind::file);
+  app.add_option("--gain", options.head.gain,
+                 std::string(kGainHelp) + "; default: auto for --speak-test, else 1");
+  app.add_flag(
+      "--speak-test", options.speak_test,
+      "Speak P B M AA IY UW on it and measure: lips closed within 0.1 mm, UW 15 % narrower "
+      "than IY, AA open by 70 % of a full jawOpen; with -o a sheet of its visemes");
+  auto* const output = app.add_option(
+      "-o,--output", options.output,
+      "Write the head: .fdp (Xface; with its mesh, .wrl, and textures, .tga), .xmt "
+      "(MPEG-4 scene with an FDP), "
+      ".glb (with morph targets), .obj (with a list of feature points); of --speak-test: "
+      ".png, .jpg, .webp");
+  add_output(output, {".png", ".jpg", ".jpeg", ".webp", ".xmta", ".fdp", ".xmt", ".glb", ".obj"},
+             OutputKind::file);
   app.add_flag("--json", options.json, "The same for scripts");
 }
 
@@ -286,7 +255,7 @@ const Command kHead{
     "What a head has, ours or yours, and which FAPs move it; write it for Xface, "
     "Blender, MPEG-4",
     "  animeme head me.glb\n"
-    "  animeme head me.glb --speak-test    # can it close P B M, round UW, open AA?\n"
+    "  animeme head me.glb --speak-test -o visemes.png   # can it close P B M, round UW, open AA?\n"
     "  animeme head me.obj --points landmarks.csv\n"
     "  animeme head woman -o woman.fdp     # for XfacePlayer\n"
     "  animeme head child -o child.obj     # to edit; child.points.csv is beside it\n"

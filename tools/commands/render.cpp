@@ -118,12 +118,7 @@ Result<std::vector<studio::ShownFrame>> choose_frames(const RenderOptions& optio
 Result<std::vector<std::uint8_t>> draw(const Plan& plan,
                                        const std::vector<studio::ShownFrame>& frames, int columns,
                                        const RenderOptions& options) {
-  Result<studio::HeadView> view = studio::HeadView::make(plan.look, talk());
-  if (!view) return view.error();
-  std::vector<render::Image> pictures;
-  for (const studio::ShownFrame& shown : frames) pictures.push_back(view->draw(shown.frame));
-  Result<render::Image> sheet =
-      render::contact_sheet(pictures, std::min(columns, int(pictures.size())));
+  Result<render::Image> sheet = studio::draw_sheet(plan.look, frames, columns, talk());
   if (!sheet) return sheet.error();
   const std::string extension = options.output == "-" ? ".png" : extension_of(options.output);
   return studio::picture_of(*sheet, extension, studio::picture_quality(options.quality));

@@ -60,7 +60,17 @@ Result<head::Source> read_obj_head(const HeadChoice& choice) {
 Result<head::Source> read_gltf_head(const HeadChoice& choice) {
   Result<gltf::HeadFile> file = gltf::read_head_and_vertices(choice.head);
   if (!file) return file.error();
-  if (choice.points.empty()) return std::move(file->source);
+  if (choice.points.empty()) {
+    const head::Source& source = file->source;
+    if (source.shapes.empty() && source.points.empty() && !source.eyes[0]) {
+      return make_error(Code::not_found,
+                        "there is no face in it: no morph target has a name that is known (ARKit, "
+                        "visemes, VRM), and nothing in it is an eye; with --points LIST a head is "
+                        "made of its mesh")
+          .in_file(choice.head);
+    }
+    return std::move(file->source);
+  }
   const Result<std::vector<head::PointRow>> rows = read_point_list(choice.points);
   if (!rows) return rows.error();
   Result<std::vector<head::PiecePoint>> points = gltf::points_on(*file, *rows);

@@ -1,8 +1,11 @@
 #include "tools/studio/head_view.h"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "fap/head/rig.h"
+#include "tools/render/png.h"
 #include "tools/render/scene.h"
 
 namespace animeme::studio {
@@ -36,6 +39,15 @@ const render::Image& HeadView::draw(const fap::Frame& frame) {
   State& state = *state_;
   head::pose(state.rig, frame, state.pose);
   return state.renderer.render(render::scene_of(state.head, state.rig, state.pose), state.camera);
+}
+
+Result<render::Image> draw_sheet(const HeadLook& look, std::span<const ShownFrame> frames,
+                                 int columns, const tools::Talk& talk) {
+  Result<HeadView> view = HeadView::make(look, talk);
+  if (!view) return view.error();
+  std::vector<render::Image> pictures;
+  for (const ShownFrame& shown : frames) pictures.push_back(view->draw(shown.frame));
+  return render::contact_sheet(pictures, std::min(columns, int(pictures.size())));
 }
 
 }  // namespace animeme::studio

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "fap/frame.h"
 #include "fap/result.h"
 #include "tools/render/image.h"
+#include "tools/studio/frames.h"
 #include "tools/studio/head_file.h"
 
 namespace animeme::studio {
@@ -38,5 +40,10 @@ class HeadView {
   explicit HeadView(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
+
+/// Pictures of frames side by side, `columns` in a row. Errors: those of HeadView::make() and
+/// render::contact_sheet().
+Result<render::Image> draw_sheet(const HeadLook& look, std::span<const ShownFrame> frames,
+                                 int columns, const tools::Talk& talk = {});
 
 }  // namespace animeme::studio
