@@ -35,10 +35,7 @@ constexpr std::string_view kSeldom[] = {"mouthFrown",  "mouthLeft",  "mouthRight
                                         "mouthDimple", "noseSneer",  "cheekSquint"};
 constexpr double kLeast = 0.02;  // of Thrift: 0.2 mm
 constexpr double kLeastOfSeldom = 0.15;
-constexpr double kLeastOfMoods = 0.5;  // pressed lips alone are no anger
-// Most faces come from one camera, before which depth is guessed, and are seen from there.
-constexpr double kDepthCounts = 0.5;
-
+constexpr double kLeastOfMoods = 0.6;  // pressed lips alone are no anger
 double least_of(std::size_t channel) {
   if (channel == kMoodChannel) return kLeastOfMoods;
   if (channel >= kArkitNames.size()) return 0;  // one of a maker's own, of which there are few
@@ -54,9 +51,6 @@ double least_of(std::size_t channel) {
 Thrift thrift_of(const std::vector<std::size_t>& channels, double share) {
   Thrift thrift;
   if (!(share > 0)) return thrift;
-  const bool arkit = std::any_of(channels.begin(), channels.end(),
-                                 [](std::size_t c) { return c < kArkitNames.size(); });
-  if (arkit) thrift.depth = kDepthCounts;
   for (const std::size_t channel : channels) thrift.least.push_back(share * least_of(channel));
   const auto index = [&](std::string_view name) {
     const auto channel = std::size_t(find_arkit(name).value_or(0));

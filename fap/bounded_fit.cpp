@@ -84,11 +84,6 @@ BoundedFit::BoundedFit(std::vector<std::vector<ShapeWeight>> shapes, double ridg
   }
 }
 
-void BoundedFit::set_thrift(Thrift thrift) {
-  thrift_ = std::move(thrift);
-  for (const std::size_t fap : {14, 16, 17}) lengths_[fap] *= thrift_.depth;
-}
-
 void BoundedFit::set_mask(const Mask& wanted) {
   if (has_gram_ && wanted == mask_) return;
   mask_ = wanted;

@@ -43,8 +43,6 @@ struct Thrift {
   std::vector<double> least;
   /// Of these the one that does more is used alone.
   std::vector<Opponents> opponents;
-  /// What depth of jaw and lips counts (FAP 14, 16, 17).
-  double depth = 1;
 };
 
 /// Low-level FAPs by number.
@@ -72,8 +70,8 @@ class BoundedFit {
   /// By shape; good until the next call. Shapes without any FAP of `mask` keep their weight.
   const std::vector<double>& fit(const Mask& mask, const FapValues& target);
 
-  /// Before the first frame.
-  void set_thrift(Thrift thrift);
+  /// From the next frame on.
+  void set_thrift(Thrift thrift) { thrift_ = std::move(thrift); }
 
   /// Forgets the frame before.
   void restart();

@@ -184,7 +184,7 @@ TEST(ArkitFit, SpeechTakesFewShapes) {
       if (mouth) face.value[std::size_t(fap)] += noise(50);
       if (!mouth || fap == 14 || fap == 18) face.value[std::size_t(fap)] = 0;
     }
-    for (const std::size_t depth : {16, 17}) face.value[depth] += noise(100);
+    for (const std::size_t depth : {16, 17}) face.value[depth] += noise(50);
     const ArkitFrame found = ArkitFitter().fit(face);
     int used = 0;
     for (std::size_t i = 0; i < std::size_t(kArkitShapeCount); ++i) used += found[i] > 0.02;
