@@ -218,10 +218,9 @@ Result<exchange::VisemeTrack> track_of(const ExportOptions& options,
   const Result<fap::Sequence> clip = read_filled(options, std::move(bytes), true);
   if (!clip) return clip.error();
   exchange::VisemeTrack track = exchange::track_of_face(*clip);
-  if (options.script.empty()) return track;
-  auto events = events_of(speech::read_script(options.script, input_of(options), talk()));
-  if (!events) return std::move(events).error();
-  track.events = std::move(*events);
+  const Result<dam::Script> script = script_for(options.script, {options.input}, input_of(options));
+  if (!script) return script.error();
+  if (!script->phones.empty()) track.events = exchange::script_events(*script);
   return track;
 }
 
@@ -361,8 +360,8 @@ void add_options(CLI::App& app, ExportOptions& options) {
       "Name of the sound to mention in .json, .xml and .glb; for Rhubarb the input, if it has "
       "sound");
   app.add_option("--script", options.script,
-                 "Phoneme script of the face: the events of visemes are its sounds; without it, "
-                 "what the face shows most");
+                 "Phoneme script of the face: the events of visemes are its sounds; default: that "
+                 "which a container carries; else what the face shows most");
   add_script_options(app, options.reading.reading, options.reading.language);
   app.add_option("--rate", options.rate, "Frames a second of visemes of a script")
       ->capture_default_str();

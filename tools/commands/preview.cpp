@@ -34,6 +34,7 @@ Result<int> write_preview(const std::string& path, const fba::AccessUnits& face,
   if (!clip) return clip.error();
   media::MuxInput tracks = sound;
   tracks.face = nullptr;
+  if (!media::takes_text(path)) tracks.texts = nullptr;
   if (media::usual_codec(path) != media::AudioCodec::opus || sound.encoded == nullptr ||
       sound.encoded->format.codec == media::AudioCodec::opus) {
     return write_preview(path, *clip, tracks, {});

@@ -16,6 +16,7 @@
 #include "tools/media/detail/plane_cutter.h"
 #include "tools/media/detail/segment_writer.h"
 #include "tools/media/detail/systems_movie.h"
+#include "tools/media/detail/text_samples.h"
 #include "tools/media/detail/ts_pmt.h"
 
 namespace animeme::media {
@@ -73,6 +74,9 @@ Result<void> check_type(const FileType& type, const MuxInput& input, const MuxOp
     return unsupported("a " + name + " file takes no " + name_of(input.video->codec) +
                        " video; use .mp4 or .mkv");
   }
+  if (input.texts != nullptr && (options.systems || !takes_text(name))) {
+    return unsupported("text goes into plain .mp4 and .mkv files only");
+  }
   if (input.face != nullptr && !type.face) {
     return unsupported("a " + name + " file holds sound only; use .mp4, .mkv or .ts for a face");
   }
@@ -124,6 +128,15 @@ Result<MuxResult> write_streams(const std::string& path, const FileType& type,
     auto added = muxer.add_sound(*format, (*sound)->bit_rate());
     if (!added) return added.error();
     feeds.push_back(sound_feed(muxer, **sound, (*sound)->seconds()));
+  }
+  std::vector<TextSamples> texts;
+  for (const TextTrack& track : input.texts != nullptr ? *input.texts : std::vector<TextTrack>()) {
+    texts.push_back(type.is_mp4() ? mov_text_samples(track) : subrip_samples(track));
+  }
+  for (const TextSamples& track : texts) {
+    Result<int> added = muxer.add_text(track);
+    if (!added) return added.error();
+    feeds.push_back(text_feed(muxer, track, *added));
   }
   av::Options header;
   if (type.is_mp4()) {
