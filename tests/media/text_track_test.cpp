@@ -1,7 +1,8 @@
 // Words and phones beside a face: what we read back, and what programs of others see.
 #include <gmock/gmock.h>
 
-#include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "tests/media/media_support.h"
 #include "tools/media/container.h"
@@ -167,17 +168,19 @@ INSTANTIATE_TEST_SUITE_P(Files, TextTracks, testing::Values(".mp4", ".mkv"),
 TEST(TextTrackInput, WrongCuesAreRefused) {
   const test::TempDir dir;
   const fba::AccessUnits face = test::make_face(10);
-  const auto code_of = [&](const std::vector<TextTrack>& texts, const char* name) {
+  const auto code_of = [&](const char* name, const TextTrack& text) -> std::optional<Code> {
+    const std::vector<TextTrack> texts = {text};
     const auto written = write_container(dir.file(name), {.face = &face, .texts = &texts});
-    return written ? "written" : std::string(name_of(written.error().code));
+    return written ? std::nullopt : std::optional(written.error().code);
   };
-  EXPECT_EQ(code_of({{"words", "eng", {{0, 1, "a"}, {0.5, 2, "b"}}}}, "a.mp4"), "invalid_argument");
-  EXPECT_EQ(code_of({{"words", "eng", {{1, 1, "a"}}}}, "a.mp4"), "invalid_argument");
-  EXPECT_EQ(code_of({{"words", "eng", {{-1, 1, "a"}}}}, "a.mkv"), "invalid_argument");
-  EXPECT_EQ(code_of({{"words", "eng", {{0, 1 / 0.0, "a"}}}}, "a.mkv"), "invalid_argument");
-  EXPECT_EQ(code_of({{"words", "en", {{0, 1, "a"}}}}, "a.mp4"), "invalid_argument");
-  EXPECT_EQ(code_of({{"words", "eng", {{0, 1, "a"}}}}, "a.ts"), "unsupported");
-  EXPECT_EQ(code_of({{"words", "eng", {{0, 1, "a"}}}}, "a.mp4"), "written");
+  const auto invalid = Code::invalid_argument;
+  EXPECT_EQ(code_of("a.mp4", {"words", "eng", {{0, 1, "a"}, {0.5, 2, "b"}}}), invalid);
+  EXPECT_EQ(code_of("a.mp4", {"words", "eng", {{1, 1, "a"}}}), invalid);
+  EXPECT_EQ(code_of("a.mkv", {"words", "eng", {{-1, 1, "a"}}}), invalid);
+  EXPECT_EQ(code_of("a.mkv", {"words", "eng", {{0, HUGE_VAL, "a"}}}), invalid);
+  EXPECT_EQ(code_of("a.mp4", {"words", "en", {{0, 1, "a"}}}), invalid);
+  EXPECT_EQ(code_of("a.ts", {"words", "eng", {{0, 1, "a"}}}), Code::unsupported);
+  EXPECT_EQ(code_of("a.mp4", {"words", "eng", {{0, 1, "a"}}}), std::nullopt);
 }
 
 TEST(TextTrackInput, FilesWithoutTextHaveNone) {
