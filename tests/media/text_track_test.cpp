@@ -163,7 +163,7 @@ TEST_P(TextTracks, WithoutACueAreThereAllTheSame) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, TextTracks, testing::Values(".mp4", ".mkv"),
-                         [](const auto& info) { return std::string(info.param + 1); });
+                         [](const auto& file) { return std::string(file.param + 1); });
 
 TEST(TextTrackInput, WrongCuesAreRefused) {
   const test::TempDir dir;

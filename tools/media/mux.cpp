@@ -26,7 +26,7 @@ namespace {
 struct FileType {
   std::string_view extension;
   const char* muxer;
-  bool face, aac, opus, h264, vp9;
+  bool face, aac, opus, h264, vp9, text;
 
   bool is_mp4() const { return std::string_view(muxer) == "mp4"; }
   bool is_ts() const { return std::string_view(muxer) == "mpegts"; }
@@ -37,17 +37,17 @@ struct FileType {
 
 // clang-format off
 constexpr FileType kTypes[] = {
-    // extension, muxer,  face,  aac,   opus,  h264,  vp9 (h264 stands for MPEG-4 video, too)
-    {".mp4",  "mp4",      true,  true,  true,  true,  true},
-    {".mkv",  "matroska", true,  true,  true,  true,  true},
-    {".ts",   "mpegts",   true,  true,  false, false, false},
-    {".m3u8", "segments", true,  true,  true,  false, false},
-    {".mpd",  "segments", true,  true,  true,  false, false},
-    {".m4a",  "mp4",      false, true,  false, false, false},
-    {".mka",  "matroska", false, true,  true,  false, false},
-    {".webm", "webm",     false, false, true,  false, true},
-    {".weba", "webm",     false, false, true,  false, false},
-    {".opus", "opus",     false, false, true,  false, false},
+    // extension, muxer,  face,  aac,   opus,  h264,  vp9,   text (h264 stands for MPEG-4 video, too)
+    {".mp4",  "mp4",      true,  true,  true,  true,  true,  true},
+    {".mkv",  "matroska", true,  true,  true,  true,  true,  true},
+    {".ts",   "mpegts",   true,  true,  false, false, false, false},
+    {".m3u8", "segments", true,  true,  true,  false, false, false},
+    {".mpd",  "segments", true,  true,  true,  false, false, false},
+    {".m4a",  "mp4",      false, true,  false, false, false, false},
+    {".mka",  "matroska", false, true,  true,  false, false, false},
+    {".webm", "webm",     false, false, true,  false, true,  false},
+    {".weba", "webm",     false, false, true,  false, false, false},
+    {".opus", "opus",     false, false, true,  false, false, false},
 };
 // clang-format on
 
@@ -74,7 +74,8 @@ Result<void> check_type(const FileType& type, const MuxInput& input, const MuxOp
     return unsupported("a " + name + " file takes no " + name_of(input.video->codec) +
                        " video; use .mp4 or .mkv");
   }
-  if (input.texts != nullptr && (options.systems || !takes_text(name))) {
+  const bool text = input.texts != nullptr && !input.texts->empty();
+  if (text && (options.systems || !type.text)) {
     return unsupported("text goes into plain .mp4 and .mkv files only");
   }
   if (input.face != nullptr && !type.face) {
@@ -233,6 +234,11 @@ Result<MuxResult> guarded_write(const std::string& path, const FileType& type,
 }
 
 }  // namespace
+
+bool takes_text(const std::string& path) {
+  const FileType* type = type_of(path);
+  return type != nullptr && type->text;
+}
 
 AudioCodec usual_codec(const std::string& path) {
   const FileType* type = type_of(path);

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "tools/media/detail/extension.h"
 #include "tools/media/detail/face_track.h"
 #include "tools/media/detail/sound_start.h"
 #include "tools/media/detail/text_samples.h"
@@ -123,11 +122,6 @@ Result<std::vector<TextTrack>> read_text_from(const Source& source, const TextLi
 }
 
 }  // namespace
-
-bool takes_text(const std::string& path) {
-  const std::string extension = extension_of(path);
-  return extension == ".mp4" || extension == ".mkv";
-}
 
 bool may_hold_text(std::span<const std::uint8_t> beginning) {
   constexpr std::string_view kBrand = "ftyp", kMatroska = "\x1A\x45\xDF\xA3";

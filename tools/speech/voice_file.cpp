@@ -93,19 +93,24 @@ std::vector<media::TextTrack> carried_texts(const dam::Script& script, std::stri
   return tracks;
 }
 
-std::optional<dam::Script> carried_script(const std::string& path, const ScriptInput& input,
-                                          const tools::Talk& talk) {
-  if (!carries_text(path)) return std::nullopt;
+std::vector<media::TextTrack> carried_tracks(const std::string& path, const tools::Talk& talk) {
+  if (!carries_text(path)) return {};
   Result<std::vector<media::TextTrack>> tracks = media::read_text_tracks(path);
   if (!tracks) {
     // What else is wrong with the file tells whoever reads it for its face.
     if (tracks.error().code == Code::out_of_range) talk.warn(tracks.error().describe());
-    return std::nullopt;
+    return {};
   }
   std::erase_if(*tracks, [](const media::TextTrack& track) { return !is_ours(track); });
-  if (tracks->empty()) return std::nullopt;
+  return std::move(*tracks);
+}
+
+std::optional<dam::Script> carried_script(const std::string& path, const ScriptInput& input,
+                                          const tools::Talk& talk) {
+  const std::vector<media::TextTrack> tracks = carried_tracks(path, talk);
+  if (tracks.empty()) return std::nullopt;
   Result<dam::Script> script =
-      script_of(dam::labels_of_tier(grid_of(*tracks), input.reading), path, input, talk, nullptr);
+      script_of(dam::labels_of_tier(grid_of(tracks), input.reading), path, input, talk, nullptr);
   if (script) return std::move(*script);
   talk.warn("its words are left out: " + script.error().describe());
   return std::nullopt;

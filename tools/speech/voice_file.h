@@ -49,8 +49,13 @@ Result<dam::Script> parse_script(const std::string& text, const std::string& pat
 /// without one that has no text.
 std::vector<media::TextTrack> carried_texts(const dam::Script& script, std::string_view language);
 
-/// Back again, from a media file that somebody speaks in: nothing, if there are no such tracks, or
-/// if they cannot be used, which talk.warn is told; nor for "-".
+/// These tracks of a file; empty: it has none, or cannot be read again ("-", pipes). More text than
+/// is read is told to talk.warn.
+std::vector<media::TextTrack> carried_tracks(const std::string& path,
+                                             const tools::Talk& talk = {});
+
+/// They as a script again; nothing: there are none, or they cannot be used, which talk.warn is
+/// told.
 std::optional<dam::Script> carried_script(const std::string& path, const ScriptInput& input = {},
                                           const tools::Talk& talk = {});
 

@@ -26,10 +26,10 @@ std::vector<std::uint8_t> text_sample_entry() {
   out.zeros(8);                     // where: as the player likes
   out.u16(0), out.u16(0);           // style of all characters:
   out.u16(1), out.u8(0);            // font 1, plain
-  out.u8(18), out.u32(0xFFFFFFFF);  // size, white
+  out.u8(16), out.u32(0xFFFFFFFF);  // size, white
   out.begin("ftab");
   out.u16(1), out.u16(1);
-  constexpr std::string_view kFont = "Sans-Serif";
+  constexpr std::string_view kFont = "Arial";  // FFmpeg takes others for marks of style
   out.u8(unsigned(kFont.size())), out.text(kFont);
   out.end();
   return out.bytes();
