@@ -6,7 +6,7 @@
 ///     MuxInput input{.face = &units, .audio = &voice, .texts = &tracks};   // mux.h
 ///     Result<std::vector<TextTrack>> tracks = read_text_tracks("talk.mp4");
 ///
-/// Source: tools/media/containers.md, section 2.4.
+/// Source: tools/media/containers.md, section 2.5.
 #pragma once
 
 #include <cstddef>
