@@ -35,7 +35,7 @@ class TextTracks : public testing::TestWithParam<const char*> {
     return back ? *back : std::vector<TextTrack>();
   }
   bool is_mkv() const { return std::string(GetParam()) == ".mkv"; }
-  double tolerance() const { return is_mkv() ? 0.00051 : 1e-6; }
+  double tolerance() const { return is_mkv() ? 0.001 : 1e-6; }
 
   test::TempDir dir_;
   std::string path_ = dir_.file(std::string("talk") + GetParam());
@@ -62,7 +62,16 @@ TEST_P(TextTracks, ComeBackOnTheClockOfTheSound) {
   texts_[0].cues[1].text = "an \"alle\" & c";  // SubRip cannot tell what is no mark
   for (const AudioCodec codec : {AudioCodec::aac, AudioCodec::opus}) {
     write({.audio = {.codec = codec}});
-    expect_equal(read(), texts_, tolerance());
+    std::vector<TextTrack> want = texts_;
+    // Matroska has no place for the priming of AAC: face, sound and text begin that much later.
+    const bool late = is_mkv() && codec == AudioCodec::aac;
+    for (TextTrack& track : want) {
+      for (TextCue& cue : track.cues) {
+        cue.start += late ? 1024.0 / 48000 : 0;
+        cue.end += late ? 1024.0 / 48000 : 0;
+      }
+    }
+    expect_equal(read(), want, tolerance());
     EXPECT_EQ(read()[0].language, is_mkv() ? "ger" : "deu");
     EXPECT_EQ(read()[1].language, "zxx");
     const auto memory = read_text_tracks(test::read_bytes(path_));
@@ -228,12 +237,13 @@ TEST(ForeignText, IsReadWithoutItsMarks) {
               "1\n00:00:00,500 --> 00:00:02,000\n<i>First</i>\nline\n\n"
               "2\n00:00:01,000 --> 00:00:03,000\n<font color=\"red\">second</font>\n\n");
   test::spill(dir.file("a.vtt"),
-              "WEBVTT\n\n00:00.500 --> 00:02.000\n<v Ann>a &lt;b&gt; <00:01.000>c</v>\n");
+              "WEBVTT\n\n00:00.500 --> 00:02.000\n<v Ann>a &lt;b&gt; <00:01.000>c</v>\n\n");
   for (const char* codec : {"mov_text", "srt", "webvtt"}) {
     const bool vtt = std::string(codec) == "webvtt";
     const std::string out = dir.file(vtt || std::string(codec) == "srt" ? "a.mkv" : "a.mp4");
     test::run("ffmpeg -y -v error -f lavfi -i anullsrc=d=3 -i '" +
-              dir.file(vtt ? "a.vtt" : "a.srt") + "' -c:s " + codec + " '" + out + "'");
+              dir.file(vtt ? "a.vtt" : "a.srt") + "' -c:s " + (vtt ? "copy" : codec) + " '" + out +
+              "'");
     const auto tracks = read_text_tracks(out);
     ASSERT_TRUE(tracks) << codec << ": " << tracks.error().describe();
     ASSERT_EQ(tracks->size(), 1u) << codec;

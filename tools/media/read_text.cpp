@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "tools/media/detail/face_track.h"
@@ -10,6 +11,7 @@ namespace animeme::media {
 namespace {
 
 constexpr const char* kTextFormats = "mov,matroska";
+constexpr double kOpen = HUGE_VAL;  // a cue that ends with the next packet
 
 class TextReader {
  public:
@@ -50,8 +52,12 @@ void TextReader::choose_streams() {
 Result<void> TextReader::take_text(const AVPacket& packet) {
   const auto index = std::size_t(packet.stream_index);
   if (index >= place_.size() || place_[index] < 0) return {};
-  if (packet.pts == AV_NOPTS_VALUE || packet.duration <= 0) return {};
+  if (packet.pts == AV_NOPTS_VALUE) return {};
   const AVStream& stream = *file_.streams[index];
+  std::vector<TextCue>& cues = tracks_[std::size_t(place_[index])].cues;
+  const double start = to_seconds(packet.pts, stream.time_base);
+  // In fragments libavformat tells no durations; there a sample, if an empty one, follows each.
+  if (!cues.empty() && cues.back().end == kOpen) cues.back().end = start;
   std::string text =
       clean_text(text_of_packet(stream.codecpar->codec_id, packet), limits_.longest_text);
   if (text.empty()) return {};
@@ -59,9 +65,8 @@ Result<void> TextReader::take_text(const AVPacket& packet) {
   if (++cues_ > limits_.most_cues || bytes_ > limits_.most_bytes) {
     return make_error(Code::out_of_range, "the file has more text than is read");
   }
-  const double start = to_seconds(packet.pts, stream.time_base);
   const double length = to_seconds(packet.duration, stream.time_base);
-  tracks_[std::size_t(place_[index])].cues.push_back({start, start + length, std::move(text)});
+  cues.push_back({start, length > 0 ? start + length : kOpen, std::move(text)});
   return {};
 }
 
@@ -93,7 +98,8 @@ std::vector<TextTrack> TextReader::finished(double start) {
     for (std::size_t i = 0; i + 1 < track.cues.size(); ++i) {
       track.cues[i].end = std::min(track.cues[i].end, track.cues[i + 1].start);
     }
-    std::erase_if(track.cues, [](const TextCue& cue) { return !(cue.end > cue.start); });
+    std::erase_if(track.cues,
+                  [](const TextCue& cue) { return !(cue.end > cue.start) || cue.end == kOpen; });
   }
   return std::move(tracks_);
 }
@@ -101,10 +107,10 @@ std::vector<TextTrack> TextReader::finished(double start) {
 Result<std::vector<TextTrack>> TextReader::read() {
   FaceTracks faces;  // keeps libavcodec's hands off them
   faces.update(file_);
-  (void)avformat_find_stream_info(&file_, nullptr);  // what headers tell will do
+  (void)avformat_find_stream_info(&file_, nullptr);     // what headers tell will do
+  const std::optional<int> audio = find_audio(input_);  // of streams that are not left out
   choose_streams();
   if (tracks_.empty()) return std::vector<TextTrack>();
-  const std::optional<int> audio = find_audio(input_);
   AVStream* stream = audio ? file_.streams[*audio] : nullptr;
   if (stream != nullptr) stream->discard = AVDISCARD_DEFAULT;
   SoundStart sound(input_, stream);
