@@ -1,7 +1,7 @@
 // What is said: words and lines of a script, and the line that is spoken now, its word emphasised.
 export const SILENCE = 'SIL';
 
-const PAUSE = 0.35;     // seconds without a word: what follows is another line
+const NEW_LINE = 0.35;     // seconds without a word: what follows is another line
 const LONGEST = 34;     // characters of a line
 const EARLY = 0.3;      // seconds that a line is shown before it is spoken,
 const LATE = 0.6;       // and after, unless the next one begins
@@ -30,7 +30,7 @@ export function linesOf(words) {
   let before = -Infinity;
   for (const word of words) {
     length += [...word[2]].length + 1;
-    if (word[0] - before > PAUSE || length > LONGEST) {
+    if (word[0] - before > NEW_LINE || length > LONGEST) {
       lines.push([]);
       length = [...word[2]].length;
     }
