@@ -13,6 +13,11 @@ namespace {
 constexpr const char* kTextFormats = "mov,matroska";
 constexpr double kOpen = HUGE_VAL;  // a cue that ends with the next packet
 
+// Not by a factor, which would make 0.19999999999999998 of 0.2.
+double exact_seconds(std::int64_t ticks, AVRational base) {
+  return double(ticks) * base.num / base.den;
+}
+
 class TextReader {
  public:
   TextReader(Input& input, const TextLimits& limits)
@@ -52,10 +57,10 @@ void TextReader::choose_streams() {
 Result<void> TextReader::take_text(const AVPacket& packet) {
   const auto index = std::size_t(packet.stream_index);
   if (index >= place_.size() || place_[index] < 0) return {};
-  if (packet.pts == AV_NOPTS_VALUE) return {};
+  if (packet.pts == AV_NOPTS_VALUE || std::abs(packet.pts) > INT64_MAX / 4) return {};
   const AVStream& stream = *file_.streams[index];
   std::vector<TextCue>& cues = tracks_[std::size_t(place_[index])].cues;
-  const double start = to_seconds(packet.pts, stream.time_base);
+  const double start = exact_seconds(packet.pts, stream.time_base);
   // In fragments libavformat tells no durations; there a sample, if an empty one, follows each.
   if (!cues.empty() && cues.back().end == kOpen) cues.back().end = start;
   std::string text =
@@ -65,8 +70,9 @@ Result<void> TextReader::take_text(const AVPacket& packet) {
   if (++cues_ > limits_.most_cues || bytes_ > limits_.most_bytes) {
     return make_error(Code::out_of_range, "the file has more text than is read");
   }
-  const double length = to_seconds(packet.duration, stream.time_base);
-  cues.push_back({start, length > 0 ? start + length : kOpen, std::move(text)});
+  const bool open = packet.duration <= 0 || packet.duration > INT64_MAX / 4;
+  const double end = open ? kOpen : exact_seconds(packet.pts + packet.duration, stream.time_base);
+  cues.push_back({start, end, std::move(text)});
   return {};
 }
 
