@@ -70,7 +70,7 @@ export class Said {
       part.textContent = each[2];
       parts.push(part, ' ');
     }
-    if (phone) {
+    if (phone || parts.length) {  // its place stays, so that the line does not shake
       const part = document.createElement('i');
       part.textContent = phone;
       parts.push(part);
