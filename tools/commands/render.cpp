@@ -171,8 +171,7 @@ Result<int> render_video(const RenderOptions& options, const Plan& plan) {
   if (!sound) return sound.error();
   media::MuxInput tracks;
   if (*sound) (*sound)->give_to(tracks);
-  std::vector<media::TextTrack> texts;
-  if (media::takes_text(options.output)) texts = speech::carried_tracks(options.input, talk());
+  const auto texts = speech::carried_tracks(options.input, talk());
   tracks.texts = &texts;
   return write_preview(options.output, *clip, tracks, preview);
 }
