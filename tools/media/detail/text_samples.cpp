@@ -16,7 +16,7 @@ constexpr int kTextTicks = 1'000'000;
 constexpr int kMatroskaTicks = 1000;
 constexpr std::int64_t kLongestSample = 3'000'000'000;  // durations have 32 bits
 
-// What follows the header of a tx3g sample entry. Source: 3GPP TS 26.245, section 5.16.
+// What follows the header of a tx3g sample entry. Source: 3GPP TS 26.245.
 std::vector<std::uint8_t> text_sample_entry() {
   BoxWriter out;
   out.u32(0);                       // display flags
