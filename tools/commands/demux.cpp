@@ -63,7 +63,7 @@ Result<int> run(const DemuxOptions& options) {
     const auto script = speech::carried_script(options.input, {}, talk());
     if (!script) {
       return make_error(Code::not_found,
-                        "carries no words and phones, as speak puts into .mp4 and .mkv")
+                        "carries no words and phones, as speak puts into .mp4, .mkv and .m3u8")
           .in_file(options.input);
     }
     const std::string text = dam::write_script(*script, extension_of(options.script));
@@ -86,10 +86,11 @@ void add_options(CLI::App& app, DemuxOptions& options) {
   add_output(
       app.add_option("--audio", options.audio, "Sound to write: .wav, or .m4a and others as it is"),
       {});
-  add_output(app.add_option("--script", options.script,
-                            "Words and phones to write, of .mp4 and .mkv: .TextGrid, .tsv, .pho, "
-                            "or .vtt (words)"),
-             dam::script_endings(), OutputKind::file);
+  add_output(
+      app.add_option("--script", options.script,
+                     "Words and phones to write, of .mp4, .mkv, .m3u8: .TextGrid, .tsv, .pho, "
+                     "or .vtt (words)"),
+      dam::script_endings(), OutputKind::file);
   app.add_flag("--es-headers", options.headers,
                "Begin the stream with its visual object headers (old decoders want none)");
   app.add_flag("--json", options.json, "Machine-readable summary on standard output");

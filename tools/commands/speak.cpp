@@ -321,9 +321,10 @@ void add_options(CLI::App& app, SpeakOptions& options) {
                  "'beside' them")
       ->option_text("PLACE")
       ->check(CLI::IsMember({"instead", "beside"}));
-  app.add_flag("--no-words", options.no_words,
-               ".mp4 and .mkv: without the words and phones, which are subtitles to players and "
-               "which view, plot, export, render and demux find by themselves");
+  app.add_flag(
+      "--no-words", options.no_words,
+      ".mp4, .mkv, .m3u8: without the words and phones, which are subtitles to players and "
+      "which view, plot, export, render and demux find by themselves");
   app.get_option("--lang")->each([&options](const std::string&) { options.language_told = true; });
   add_exact_option(app, options.exact);
   app.add_option("--seed", options.seed, "Other times of blinks and another sway of the head")

@@ -41,7 +41,7 @@ constexpr FileType kTypes[] = {
     {".mp4",  "mp4",      true,  true,  true,  true,  true,  true},
     {".mkv",  "matroska", true,  true,  true,  true,  true,  true},
     {".ts",   "mpegts",   true,  true,  false, false, false, false},
-    {".m3u8", "segments", true,  true,  true,  false, false, false},
+    {".m3u8", "segments", true,  true,  true,  false, false, true},
     {".mpd",  "segments", true,  true,  true,  false, false, false},
     {".m4a",  "mp4",      false, true,  false, false, false, false},
     {".mka",  "matroska", false, true,  true,  false, false, false},
@@ -76,7 +76,7 @@ Result<void> check_type(const FileType& type, const MuxInput& input, const MuxOp
   }
   const bool text = input.texts != nullptr && !input.texts->empty();
   if (text && (options.systems || !type.text)) {
-    return unsupported("text goes into plain .mp4 and .mkv files only");
+    return unsupported("text goes into plain .mp4, .mkv and .m3u8 files only");
   }
   if (input.face != nullptr && !type.face) {
     return unsupported("a " + name + " file holds sound only; use .mp4, .mkv or .ts for a face");

@@ -137,6 +137,14 @@ Result<ContainerInfo> probe_playlist(const std::string& path) {
     for (TrackInfo& track : info->tracks) all.tracks.push_back(std::move(track));
     for (std::string& text : info->warnings) all.warnings.push_back(std::move(text));
   }
+  for (const PresentedText& text : presentation->texts) {
+    TrackInfo& track = all.tracks.emplace_back();
+    track.kind = TrackKind::text;
+    track.codec = "webvtt";
+    track.name = clean_text(text.name);
+    track.language = text.language.empty() ? "und" : clean_text(text.language);
+    all.bytes += std::int64_t(text.file.size());
+  }
   return all;
 }
 

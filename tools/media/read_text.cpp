@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "tools/media/detail/face_track.h"
+#include "tools/media/detail/presentation.h"
 #include "tools/media/detail/sound_start.h"
 #include "tools/media/detail/text_samples.h"
 #include "tools/media/text_track.h"
@@ -11,6 +12,7 @@ namespace animeme::media {
 namespace {
 
 constexpr const char* kTextFormats = "mov,matroska";
+constexpr std::size_t kLongestName = 100;
 constexpr double kOpen = HUGE_VAL;  // a cue that ends with the next packet
 
 // Not by a factor, which would make 0.19999999999999998 of 0.2.
@@ -133,16 +135,41 @@ Result<std::vector<TextTrack>> read_text_from(const Source& source, const TextLi
   return TextReader(**input, limits).read();
 }
 
+Result<std::vector<TextTrack>> read_playlist_text(const std::string& path,
+                                                  const TextLimits& limits) {
+  const Result<Presentation> presentation = read_presentation(path);
+  if (!presentation) return presentation.error();
+  std::vector<TextTrack> tracks;
+  for (const PresentedText& text : presentation->texts) {
+    const av::LogCapture log;
+    Result<std::unique_ptr<Input>> input =
+        Input::open(std::span<const std::uint8_t>(text.file), "webvtt");
+    if (!input) continue;
+    Result<std::vector<TextTrack>> read = TextReader(**input, limits).read();
+    if (!read) return read;
+    for (TextTrack& track : *read) {
+      track.name = clean_text(text.name, kLongestName);
+      const std::string language = clean_text(text.language, kLongestName);
+      track.language = language.empty() ? "und" : language;
+      tracks.push_back(std::move(track));
+    }
+  }
+  return tracks;
+}
+
 }  // namespace
 
 bool may_hold_text(std::span<const std::uint8_t> beginning) {
-  constexpr std::string_view kBrand = "ftyp", kMatroska = "\x1A\x45\xDF\xA3";
+  constexpr std::string_view kBrand = "ftyp", kMatroska = "\x1A\x45\xDF\xA3", kHls = "#EXTM3U";
   const std::string_view bytes(reinterpret_cast<const char*>(beginning.data()), beginning.size());
-  return bytes.starts_with(kMatroska) || (bytes.size() >= 8 && bytes.substr(4, 4) == kBrand);
+  return bytes.starts_with(kMatroska) || bytes.starts_with(kHls) ||
+         (bytes.size() >= 8 && bytes.substr(4, 4) == kBrand);
 }
 
 Result<std::vector<TextTrack>> read_text_tracks(const std::string& path, const TextLimits& limits) {
-  return av::guarded(path, [&] { return read_text_from(path, limits); });
+  return av::guarded(path, [&] {
+    return is_playlist(path) ? read_playlist_text(path, limits) : read_text_from(path, limits);
+  });
 }
 
 Result<std::vector<TextTrack>> read_text_tracks(std::span<const std::uint8_t> file,

@@ -46,20 +46,21 @@ struct TextLimits {
   std::size_t longest_text = 1000;    ///< bytes; what is longer is cut between characters
 };
 
-/// Whether write_container() puts text into a file of this name: .mp4 and .mkv.
+/// Whether write_container() puts text into a file of this name: .mp4, .mkv, and .m3u8, beside
+/// which it lies as WebVTT.
 bool takes_text(const std::string& path);
 
 /// Whether a file that begins with these bytes (12 will do) may have text that read_text_tracks()
-/// finds: mp4 and its relatives, Matroska.
+/// finds: mp4 and its relatives, Matroska, HLS.
 bool may_hold_text(std::span<const std::uint8_t> beginning);
 
-/// All tracks of timed text (mp4), SubRip or WebVTT (mkv) in the order of the file, without their
-/// marks of style; those without a text, too. Times as for read_container(): from sample 0 of the
-/// sound; what ends before that is left out, as is what has no length or no text, and a cue ends
-/// with the next one at the latest. Each text and name is as clean_text() leaves it. No tracks: an
-/// empty list. Safe for untrusted input. Errors: not_found (no file), io, truncated (empty), syntax
-/// (no media file), unsupported (another format than may_hold_text() tells), out_of_range (limits,
-/// memory).
+/// All tracks of timed text (mp4), SubRip or WebVTT (mkv), or WebVTT in one piece (HLS) in the
+/// order of the file, without their marks of style; those without a text, too. Times as for
+/// read_container(): from sample 0 of the sound; what ends before that is left out, as is what has
+/// no length or no text, and a cue ends with the next one at the latest. Each text and name is as
+/// clean_text() leaves it. No tracks: an empty list. Safe for untrusted input. Errors: not_found
+/// (no file), io, truncated (empty), syntax (no media file), unsupported (another format than
+/// may_hold_text() tells), out_of_range (limits, memory).
 Result<std::vector<TextTrack>> read_text_tracks(const std::string& path,
                                                 const TextLimits& limits = {});
 

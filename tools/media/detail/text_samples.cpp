@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <string_view>
 
 #include "tools/media/detail/box_writer.h"
@@ -126,6 +127,26 @@ TextSamples subrip_samples(const TextTrack& track) {
     const std::int64_t end = ticks(cue.end, kMatroskaTicks);
     if (text.empty() || end <= start) continue;
     out.samples.push_back({start, end - start, {text.begin(), text.end()}});
+  }
+  return out;
+}
+
+std::string webvtt_of(const TextTrack& track) {
+  const auto clock = [](std::int64_t milliseconds) {
+    std::array<char, 40> text{};
+    std::snprintf(text.data(), text.size(), "%02lld:%02d:%02d.%03d",
+                  (long long)(milliseconds / 3600000), int(milliseconds / 60000 % 60),
+                  int(milliseconds / 1000 % 60), int(milliseconds % 1000));
+    return std::string(text.data());
+  };
+  std::string out = "WEBVTT\n";
+  for (const TextSample& cue : subrip_samples(track).samples) {  // to the millisecond, too
+    out += "\n" + clock(cue.time) + " --> " + clock(cue.time + cue.duration) + "\n";
+    for (const std::uint8_t byte : cue.bytes) {
+      const char c = char(byte);
+      out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+    }
+    out += "\n";
   }
   return out;
 }

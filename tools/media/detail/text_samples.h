@@ -33,6 +33,9 @@ struct TextSamples {
 TextSamples mov_text_samples(const TextTrack& track);
 TextSamples subrip_samples(const TextTrack& track);
 
+/// The same as a WebVTT file.
+std::string webvtt_of(const TextTrack& track);
+
 /// Texts in a whole `moov` box are not enabled from now on: libavformat enables the first one, as
 /// the first of each kind of tracks, and a player would show it without being asked.
 void hide_texts(std::span<std::uint8_t> moov);
