@@ -134,9 +134,8 @@ Result<int> Muxer::add_text(const TextSamples& text) {
   if (!av::set_extradata(*stream->codecpar, text.config)) return av::no_memory();
   stream->time_base = text.time_base;
   av_dict_set(&stream->metadata, "language", text.language.c_str(), 0);
-  // Of mp4 some players list this name, some that.
-  av_dict_set(&stream->metadata, "title", text.name.c_str(), 0);
-  if (is("mp4")) av_dict_set(&stream->metadata, "handler_name", text.name.c_str(), 0);
+  // Matroska's name of a track, and mp4's.
+  av_dict_set(&stream->metadata, is("mp4") ? "handler_name" : "title", text.name.c_str(), 0);
   text_tracks_.push_back({stream, text.time_base});
   return int(text_tracks_.size()) - 1;
 }
