@@ -321,10 +321,7 @@ void add_options(CLI::App& app, SpeakOptions& options) {
                  "'beside' them")
       ->option_text("PLACE")
       ->check(CLI::IsMember({"instead", "beside"}));
-  app.add_flag(
-      "--no-words", options.no_words,
-      ".mp4, .mkv, .m3u8: without the words and phones, which are subtitles to players and "
-      "which view, plot, export, render and demux find by themselves");
+  app.add_flag("--no-words", options.no_words, "No words and phones in .mp4, .mkv, .m3u8");
   app.get_option("--lang")->each([&options](const std::string&) { options.language_told = true; });
   add_exact_option(app, options.exact);
   app.add_option("--seed", options.seed, "Other times of blinks and another sway of the head")
@@ -339,9 +336,8 @@ void add_options(CLI::App& app, SpeakOptions& options) {
 
 const Command kSpeak{
     "speak", "Make a face talk: from text, from a recorded voice, best with its phonemes or text",
-    "  animeme speak --text \"Hello world\" -o hello.mp4\n"
+    "  animeme speak --text \"Hello world\" -o hello.mp4    # its words are subtitles in players\n"
     "  animeme speak --audio voice.wav --transcript \"what she said\" -o talk.mp4\n"
-    "  animeme speak --text \"Hello world\" --no-words -o hello.mkv   # else with subtitles\n"
     "  animeme speak --text Hello --tts \"piper -m en.onnx -f {wav}\" -o hello.mp4   # your voice\n"
     "  animeme speak --script voice.TextGrid --audio voice.wav --model me.dam -o talk.fba",
     set_up<SpeakOptions>};
