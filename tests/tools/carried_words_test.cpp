@@ -139,7 +139,7 @@ TEST_P(CarriedWords, GoAlongWithTheFace) {
   succeeds({"render", talk_, "--size", "64x64", "-o", dir_ / "film.webm"});
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, CarriedWords, testing::Values(".mp4", ".mkv"),
+INSTANTIATE_TEST_SUITE_P(Files, CarriedWords, testing::Values(".mp4", ".mkv", ".m3u8"),
                          [](const auto& file) { return std::string(file.param + 1); });
 
 // Words of a stranger: what they are does not keep the face from being shown.
