@@ -321,7 +321,9 @@ void add_options(CLI::App& app, SpeakOptions& options) {
                  "'beside' them")
       ->option_text("PLACE")
       ->check(CLI::IsMember({"instead", "beside"}));
-  app.add_flag("--no-words", options.no_words, "No words and phones in .mp4, .mkv, .m3u8");
+  app.add_flag("--no-words", options.no_words,
+               "No words and phones in .mp4, .mkv, .m3u8, where they are subtitles to players and "
+               "view, plot, export, demux find them");
   app.get_option("--lang")->each([&options](const std::string&) { options.language_told = true; });
   add_exact_option(app, options.exact);
   app.add_option("--seed", options.seed, "Other times of blinks and another sway of the head")
