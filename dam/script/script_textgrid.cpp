@@ -181,7 +181,7 @@ Result<Timings> read_mfa_table(std::string_view text, const ScriptOptions& optio
   return labels_of_tier(grid, options);
 }
 
-std::string write_textgrid(const Script& script) {
+TextGrid textgrid_of(const Script& script) {
   TextGrid grid;
   grid.end = script.duration();
   TextGridTier phones{"phones", false, {}}, words{"words", false, {}};
@@ -196,7 +196,9 @@ std::string write_textgrid(const Script& script) {
   }
   if (!script.phones.empty()) grid.start = std::min(0.0, script.phones.front().start);
   grid.tiers = {std::move(words), std::move(phones)};
-  return format_textgrid(grid);
+  return grid;
 }
+
+std::string write_textgrid(const Script& script) { return format_textgrid(textgrid_of(script)); }
 
 }  // namespace animeme::dam

@@ -51,6 +51,9 @@ Result<TextGrid> parse_textgrid(std::string_view utf8);
 /// unsupported (a tier of points).
 Result<Timings> labels_of_tier(const TextGrid& grid, const ScriptOptions& options = {});
 
+/// A script as a file of it has it: the tiers "words" and "phones", silence without a text.
+TextGrid textgrid_of(const Script& script);
+
 /// The long form, in UTF-8.
 std::string format_textgrid(const TextGrid& grid);
 

@@ -153,5 +153,56 @@ TEST(ExchangeVisemes, ShortClosuresStayInRhubarbs) {
   EXPECT_THAT(text, HasSubstr("0.42\tF\n"));        // T is left to the vowel before it
 }
 
+TEST(ExchangeVisemes, TalkingHeadHasVisemesAndWordsInMilliseconds) {
+  const dam::Script script{{{0, 0.2, "SIL", ""},
+                            {0.2, 0.3, "AA", "up"},
+                            {0.3, 0.32, "P", "up"},
+                            {0.32, 0.52, "IY", "\"E\""},
+                            {0.52, 0.54, "T", "\"E\""},
+                            {0.54, 0.8, "SIL", ""},
+                            {0.8, 0.9, "F", "of"}}};
+  const auto track = track_of_events(script_events(script), {60, 1}, 0.08);
+  ASSERT_TRUE(track);
+  const auto json = nlohmann::json::parse(write_talking_head(*track, script, "voice.wav"));
+  EXPECT_EQ(json["audio"], "voice.wav");
+  EXPECT_EQ(json["words"], (nlohmann::json{"up", "\"E\"", "of"}));
+  EXPECT_EQ(json["wtimes"], (nlohmann::json{200, 320, 800}));
+  EXPECT_EQ(json["wdurations"], (nlohmann::json{120, 220, 100}));
+  // P takes what it lacks from the vowel before it, T is left to the one before.
+  EXPECT_EQ(json["visemes"], (nlohmann::json{"aa", "PP", "I", "FF"}));
+  EXPECT_EQ(json["vtimes"], (nlohmann::json{200, 280, 320, 800}));
+  EXPECT_EQ(json["vdurations"], (nlohmann::json{80, 40, 220, 100}));
+  const auto none = nlohmann::json::parse(write_talking_head({{25, 1}, {}, {}}, {}));
+  EXPECT_TRUE(none["audio"].is_null());
+  EXPECT_EQ(none["visemes"].size() + none["words"].size(), 0U);
+}
+
+TEST(ExchangeVisemes, TalkingHeadsCuesAreNoShorterThanAFrame) {
+  std::mt19937 random(11);
+  const char* const labels[] = {"SIL", "P", "AA", "F", "L", "T", "UW", "OW", "IY", "M"};
+  for (int round = 0; round < 200; ++round) {
+    dam::Script script;
+    double time = 0;
+    for (int i = 0; i < 30; ++i) {
+      const double end = time + 0.005 + double(random() % 100) / 1000;
+      script.phones.push_back({time, end, labels[random() % 10], ""});
+      time = end;
+    }
+    const auto track = track_of_events(script_events(script), {60, 1}, 0.08);
+    ASSERT_TRUE(track);
+    const auto json = nlohmann::json::parse(write_talking_head(*track, script));
+    const std::size_t count = json["visemes"].size();
+    ASSERT_EQ(json["vtimes"].size(), count);
+    ASSERT_EQ(json["vdurations"].size(), count);
+    for (std::size_t i = 0; i < count; ++i) {
+      EXPECT_GE(json["vdurations"][i].get<int>(), 40);
+      EXPECT_NE(json["visemes"][i], "sil");
+      if (i == 0) continue;
+      EXPECT_GE(json["vtimes"][i].get<int>(),
+                json["vtimes"][i - 1].get<int>() + json["vdurations"][i - 1].get<int>());
+    }
+  }
+}
+
 }  // namespace visemes_test
 }  // namespace animeme::exchange

@@ -6,6 +6,7 @@
 
 #include "tools/media/audio.h"
 #include "tools/media/container.h"
+#include "tools/media/text_track.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace animeme::media;
@@ -23,6 +24,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       const AudioPacket& packet = coded->packets[i];
       if (packet.bytes.empty() || packet.duration <= 0) std::abort();
       if (i > 0 && packet.time <= coded->packets[i - 1].time) std::abort();
+    }
+  }
+  const auto texts = read_text_tracks(file, {.most_cues = 100000, .most_bytes = 1 << 20});
+  for (std::size_t t = 0; texts && t < texts->size(); ++t) {
+    double before = 0;
+    for (const TextCue& cue : (*texts)[t].cues) {
+      if (!(cue.start >= before && cue.end > cue.start)) std::abort();
+      if (cue.text.empty() || cue.text != clean_text(cue.text)) std::abort();
+      before = cue.end;
     }
   }
   return 0;

@@ -93,6 +93,14 @@ void containers() {
   container(".ts", {.face = &long_one}, options);
   options = {.audio = {media::AudioCodec::opus, 8000}};
   for (const char* extension : {".mp4", ".mkv"}) container(extension, both, options);
+  const std::vector<media::TextTrack> texts = {
+      {"words", "eng", {{0.02, 0.1, "a <b>bin</b> &amp;"}, {0.1, 0.2, "\u00e9"}}},
+      {"phones", "zxx", {{0.02, 0.06, "B"}, {0.06, 0.1, "IH"}}}};
+  media::MuxInput spoken = both;
+  spoken.texts = &texts;
+  for (const char* extension : {".mp4", ".mkv"}) container(extension, spoken, options);
+  options.fragmented = true;
+  container(".mp4", spoken, options);
 }
 
 // fuzz_encode takes its clip and options from bytes; what a byte means depends on those before, so

@@ -176,6 +176,45 @@ TEST(Page, OtherSpeedsKeepThePitchAndTheTime) {
   }
 }
 
+TEST(Page, SaysLinesAndShowsTheWave) {
+  NEEDS_BROWSER();
+  const TempDir dir;
+  media::Pcm tones{48000, std::vector<float>(48000 * 4)};
+  for (std::size_t second = 1; second < 4; ++second) {
+    for (std::size_t i = 0; i < 9600; ++i) {
+      tones.samples[second * 48000 + i] =
+          float(0.2 / double(second) * std::sin(2 * std::numbers::pi * 440 * double(i) / 48000));
+    }
+  }
+  const dam::Script script{{{0, 1, "SIL", ""},
+                            {1, 1.1, "B", "bin"},
+                            {1.1, 1.2, "IH", "bin"},
+                            {1.2, 1.5, "UW", "blue"},
+                            {1.5, 3, "SIL", ""},
+                            {3, 3.4, "AW", "now"}}};
+  const Json report =
+      report_of("says", make({{moving_clip(), 0, "clip"}}, sound_of(tones, dir), script), dir);
+  EXPECT_EQ(said(report), std::vector<std::string>());
+  const auto at = [&](const char* time) {
+    const Json& now = report["said"][time];
+    return now["line"].get<std::string>() + "|" + now["spoken"].get<std::string>() + "|" +
+           now["phone"].get<std::string>();
+  };
+  EXPECT_EQ(at("0.5"), "||");
+  EXPECT_EQ(at("0.8"), "bin blue ||") << "a line is there before it is spoken";
+  EXPECT_EQ(at("1.15"), "bin blue IH|bin|IH");
+  EXPECT_EQ(at("1.3"), "bin blue UW|blue|UW");
+  EXPECT_EQ(at("2.5"), "||");
+  EXPECT_EQ(at("3.1"), "now AW|now|AW") << "what comes behind a pause is a line of its own";
+  // The largest sample fills the row, half of it half; silence is a line.
+  const Json& wave = report["wave"];
+  ASSERT_EQ(wave.size(), 4u);  // at 0.55, 1.1, 1.55 and 2.1 s
+  EXPECT_LE(wave[0], 3);
+  EXPECT_GE(wave[1], 28);
+  EXPECT_LE(wave[2], 3);
+  EXPECT_NEAR(wave[3].get<double>(), wave[1].get<double>() / 2, 3);
+}
+
 TEST(Page, TextsStayTexts) {
   NEEDS_BROWSER();
   const TempDir dir;
@@ -194,7 +233,8 @@ TEST(Page, TextsStayTexts) {
   EXPECT_EQ(texts["title"], shown);
   EXPECT_EQ(texts["heading"], shown + " / " + shown);
   EXPECT_EQ(texts["name"], shown);
-  EXPECT_EQ(texts["now"], "</title> · </script><script>window.hacked=2</script>");
+  EXPECT_EQ(texts["now"], "</script><script>window.hacked=2</script> </title>");
+  EXPECT_EQ(texts["spoken"], "</script><script>window.hacked=2</script>");
   EXPECT_EQ(texts["images"], 0);
   EXPECT_EQ(texts["scripts"], 5);  // facts, model, two clips, the program
   EXPECT_THAT(texts["readout"].get<std::string>(), testing::StartsWith("13.2 FAP units RMS"));

@@ -14,6 +14,7 @@ struct DemuxOptions {
   std::string input;
   std::string face;
   std::string audio;
+  std::string script;
   bool headers = false;
   bool json = false;
 };
@@ -39,8 +40,8 @@ Result<Json> write_face(const DemuxOptions& options) {
 }
 
 Result<int> run(const DemuxOptions& options) {
-  if (options.face.empty() && options.audio.empty()) {
-    return usage_error("nothing to do: give --face, --audio or both");
+  if (options.face.empty() && options.audio.empty() && options.script.empty()) {
+    return usage_error("nothing to do: give --face, --audio, --script or several of them");
   }
   if (options.json && options.face == "-") {
     return usage_error("--json and --face - both want the standard output");
@@ -58,6 +59,19 @@ Result<int> run(const DemuxOptions& options) {
     say(options.audio + ": sound of " + options.input);
     json["audio"] = {{"file", options.audio}};
   }
+  if (!options.script.empty()) {
+    const auto script = speech::carried_script(options.input, {}, talk());
+    if (!script) {
+      return make_error(Code::not_found,
+                        "carries no words and phones, as speak puts into .mp4, .mkv and .m3u8")
+          .in_file(options.input);
+    }
+    const std::string text = dam::write_script(*script, extension_of(options.script));
+    if (auto written = write_file(options.script, text); !written) return written.error();
+    say(options.script + ": " + std::to_string(script->phones.size()) + " phones of " +
+        options.input);
+    json["script"] = {{"file", options.script}, {"phones", script->phones.size()}};
+  }
   if (options.json) {
     std::printf("%s\n", pretty(json).c_str());
   }
@@ -72,6 +86,11 @@ void add_options(CLI::App& app, DemuxOptions& options) {
   add_output(
       app.add_option("--audio", options.audio, "Sound to write: .wav, or .m4a and others as it is"),
       {});
+  add_output(
+      app.add_option("--script", options.script,
+                     "Words and phones to write, of .mp4, .mkv, .m3u8: .TextGrid, .tsv, .pho, "
+                     "or .vtt (words)"),
+      dam::script_endings(), OutputKind::file);
   app.add_flag("--es-headers", options.headers,
                "Begin the stream with its visual object headers (old decoders want none)");
   app.add_flag("--json", options.json, "Machine-readable summary on standard output");
@@ -79,8 +98,9 @@ void add_options(CLI::App& app, DemuxOptions& options) {
 
 }  // namespace
 
-const Command kDemux{"demux", "Take face and voice out of a file",
+const Command kDemux{"demux", "Take face, voice and words out of a file",
                      "  animeme demux talk.mp4 --face talk.fba --audio voice.m4a\n"
+                     "  animeme demux talk.mp4 --script talk.TextGrid    # or .vtt: its words\n"
                      "  animeme demux talk.m3u8 --audio voice.wav\n"
                      "  animeme demux talk.mkv --face - | animeme decode - -o talk.fap",
                      set_up<DemuxOptions>};

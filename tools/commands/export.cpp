@@ -62,6 +62,7 @@ std::string what_of(const ExportOptions& options, bool from_script) {
   if (!options.format.empty()) return "rhubarb";
   const std::string extension = extension_of(options.output);
   const std::string inner = extension_of(std::filesystem::path(options.output).stem().string());
+  if (inner == ".talkinghead") return "talkinghead";
   if (inner == ".rhubarb" || extension == ".tsv" || extension == ".xml" || extension == ".dat") {
     return "rhubarb";
   }
@@ -76,6 +77,9 @@ std::string wrong_extension(const std::string& what, const std::string& path) {
   if (what == "head") {
     if (is_head_output(path)) return {};
     return "--output must end in .glb (.gltf, .vrm, .vrma) for a head, not " + path;
+  }
+  if (what == "talkinghead") {
+    return extension == ".json" ? "" : "--output must end in .json for talkinghead, not " + path;
   }
   const bool of_rhubarb = extension == ".tsv" || extension == ".xml" || extension == ".dat";
   if (extension == ".json" || (what == "rhubarb" ? of_rhubarb : extension == ".csv")) return {};
@@ -167,9 +171,20 @@ Result<int> write_head(const ExportOptions& options, std::vector<std::uint8_t> b
   return kOk;
 }
 
-Result<std::vector<exchange::VisemeEvent>> events_of(const Result<dam::Script>& script) {
-  if (!script) return script.error();
-  return exchange::script_events(*script);
+// Visemes, and the script that their events are from; empty: they are of the face.
+struct ShownVisemes {
+  exchange::VisemeTrack track;
+  dam::Script script;
+};
+
+bool is_of_visemes(const std::string& what) {
+  return what == "visemes" || what == "rhubarb" || what == "talkinghead";
+}
+
+Result<ShownVisemes> visemes_of(dam::Script script, const fap::Rate& rate, double crossfade) {
+  auto track = exchange::track_of_events(exchange::script_events(script), rate, crossfade);
+  if (!track) return track.error();
+  return ShownVisemes{std::move(*track), std::move(script)};
 }
 
 speech::ScriptInput input_of(const ExportOptions& options) {
@@ -179,7 +194,7 @@ speech::ScriptInput input_of(const ExportOptions& options) {
 }
 
 // A recorded voice: its text, if there is one, else what is heard.
-Result<exchange::VisemeTrack> track_of_voice(const ExportOptions& options, const fap::Rate& rate) {
+Result<ShownVisemes> visemes_of_voice(const ExportOptions& options, const fap::Rate& rate) {
   speech::SpokenOptions source;
   source.audio = options.input;
   source.language = options.reading.language;
@@ -195,8 +210,7 @@ Result<exchange::VisemeTrack> track_of_voice(const ExportOptions& options, const
   const auto spoken = speech::get_spoken(source, talk());
   progress.clear();
   if (!spoken) return spoken.error();
-  return exchange::track_of_events(exchange::script_events(spoken->script), rate,
-                                   options.crossfade);
+  return visemes_of(spoken->script, rate, options.crossfade);
 }
 
 // Media without a face.
@@ -205,29 +219,28 @@ bool is_voice(const ExportOptions& options, std::span<const std::uint8_t> bytes)
   return !open_container({bytes.begin(), bytes.end()}, options.input);
 }
 
-Result<exchange::VisemeTrack> track_of(const ExportOptions& options,
-                                       std::vector<std::uint8_t> bytes, bool from_script,
-                                       const fap::Rate& rate) {
+Result<ShownVisemes> visemes_of(const ExportOptions& options, std::vector<std::uint8_t> bytes,
+                                bool from_script, const fap::Rate& rate) {
   if (from_script) {
-    auto events = events_of(speech::parse_script({bytes.begin(), bytes.end()}, options.input,
-                                                 input_of(options), talk()));
-    if (!events) return std::move(events).error();
-    auto track = exchange::track_of_events(std::move(*events), rate, options.crossfade);
-    if (!track) return std::move(track).error().in_file(options.input);
-    return track;
+    auto script = speech::parse_script({bytes.begin(), bytes.end()}, options.input,
+                                       input_of(options), talk());
+    if (!script) return script.error();
+    auto shown = visemes_of(std::move(*script), rate, options.crossfade);
+    if (!shown) return std::move(shown).error().in_file(options.input);
+    return shown;
   }
   const Result<fap::Sequence> clip = read_filled(options, std::move(bytes), true);
   if (!clip) return clip.error();
-  exchange::VisemeTrack track = exchange::track_of_face(*clip);
-  if (options.script.empty()) return track;
-  auto events = events_of(speech::read_script(options.script, input_of(options), talk()));
-  if (!events) return std::move(events).error();
-  track.events = std::move(*events);
-  return track;
+  Result<dam::Script> script = script_for(options.script, {options.input}, input_of(options));
+  if (!script) return script.error();
+  ShownVisemes shown{exchange::track_of_face(*clip), std::move(*script)};
+  if (!shown.script.phones.empty()) shown.track.events = exchange::script_events(shown.script);
+  return shown;
 }
 
 Result<int> write_visemes(const ExportOptions& options, const std::string& what,
-                          exchange::VisemeTrack track) {
+                          const ShownVisemes& shown) {
+  const exchange::VisemeTrack& track = shown.track;
   const std::string sound = std::filesystem::path(options.audio).filename().string();
   const std::string format =
       options.format.empty() ? extension_of(options.output) : "." + options.format;
@@ -238,11 +251,13 @@ Result<int> write_visemes(const ExportOptions& options, const std::string& what,
            : format == ".xml" ? exchange::write_rhubarb_xml(track, sound, options.rhubarb)
            : format == ".dat" ? exchange::write_rhubarb_dat(track, options.rhubarb)
                               : exchange::write_rhubarb_tsv(track, options.rhubarb);
+  } else if (what == "talkinghead") {
+    text = exchange::write_talking_head(track, shown.script, sound);
   } else {
     text = json ? exchange::write_visemes_json(track, sound) : exchange::write_visemes_csv(track);
   }
   if (auto written = write_file(options.output, text); !written) return written.error();
-  if (what == "rhubarb") {
+  if (what != "visemes") {
     say(name_of_output(options.output) + ": mouth shapes of " +
         std::to_string(track.events.size()) + " visemes");
   } else {
@@ -275,11 +290,11 @@ Result<int> run(const ExportOptions& given) {
   }
   Result<std::vector<std::uint8_t>> bytes = read_input(options.input);
   if (!bytes) return bytes.error();
-  if ((named == "rhubarb" || named == "visemes") && is_voice(options, *bytes)) {
+  if (is_of_visemes(named) && is_voice(options, *bytes)) {
     if (options.audio.empty()) options.audio = options.input;
-    auto track = track_of_voice(options, *rate);
-    if (!track) return track.error();
-    return write_visemes(options, named, std::move(*track));
+    auto shown = visemes_of_voice(options, *rate);
+    if (!shown) return shown.error();
+    return write_visemes(options, named, *shown);
   }
   if (!options.dialog_file.empty()) {
     return usage_error("--dialog-file is for a recorded voice, whose mouth shapes are written");
@@ -309,14 +324,14 @@ Result<int> run(const ExportOptions& given) {
     return what == "head" ? write_head(options, std::move(*bytes))
                           : write_arkit(options, std::move(*bytes));
   }
-  if (what == "rhubarb" && options.audio.empty() && kind_of(*bytes) == FileKind::media) {
+  if (what != "visemes" && options.audio.empty() && kind_of(*bytes) == FileKind::media) {
     const Result<media::ContainerInfo> file = media::probe(*bytes);
     const bool sounds = file && file->first(media::TrackKind::audio) != nullptr;
     if (sounds && options.input != "-") options.audio = options.input;
   }
-  Result<exchange::VisemeTrack> track = track_of(options, std::move(*bytes), from_script, *rate);
-  if (!track) return track.error();
-  return write_visemes(options, what, std::move(*track));
+  const auto shown = visemes_of(options, std::move(*bytes), from_script, *rate);
+  if (!shown) return shown.error();
+  return write_visemes(options, what, *shown);
 }
 
 void add_options(CLI::App& app, ExportOptions& options) {
@@ -334,7 +349,8 @@ void add_options(CLI::App& app, ExportOptions& options) {
           "file with the animation added, also .vrm and .gltf), .vrma (motion for your VRM 1.0 "
           "avatar), "
           ".visemes.json or .visemes.csv (15 weights a frame under "
-          "the names of Oculus and Ready Player Me), .tsv, .xml, .rhubarb.json or .dat "
+          "the names of Oculus and Ready Player Me), .talkinghead.json, .tsv, .xml, .rhubarb.json "
+          "or .dat "
           "(mouth shapes of Rhubarb Lip Sync)"),
       {}, OutputKind::file_or_dash);
   app.add_option("-f,--format,--exportFormat", options.format,
@@ -355,15 +371,15 @@ void add_options(CLI::App& app, ExportOptions& options) {
                "Name mouths in .dat MBP, etc, E, AI, O, U, FV, L, rest");
   app.add_option("--what", options.what,
                  "What to write, whatever the file is called: arkit (52 shapes and 9 angles), "
-                 "visemes, rhubarb, head (.glb)")
-      ->check(CLI::IsMember({"arkit", "visemes", "rhubarb", "head"}));
+                 "visemes, rhubarb, talkinghead (TalkingHead's speakAudio), head (.glb)")
+      ->check(CLI::IsMember({"arkit", "visemes", "rhubarb", "talkinghead", "head"}));
   app.add_option(
       "--audio", options.audio,
-      "Name of the sound to mention in .json, .xml and .glb; for Rhubarb the input, if it has "
-      "sound");
+      "Name of the sound to mention in .json, .xml and .glb; for Rhubarb and TalkingHead the "
+      "input, if it has sound");
   app.add_option("--script", options.script,
-                 "Phoneme script of the face: the events of visemes are its sounds; without it, "
-                 "what the face shows most");
+                 "Phoneme script of the face: the events of visemes are its sounds; default: that "
+                 "which a container carries; else what the face shows most");
   add_script_options(app, options.reading.reading, options.reading.language);
   app.add_option("--rate", options.rate, "Frames a second of visemes of a script")
       ->capture_default_str();
@@ -403,6 +419,7 @@ const Command kExport{
     "  animeme export talk.fap --script words.tsv --audio voice.wav -o talk.visemes.json\n"
     "  animeme export words.tsv --rate 60 -o words.visemes.csv\n"
     "  animeme export words.tsv -o words.rhubarb.json\n"
+    "  animeme export talk.mp4 -o talk.talkinghead.json   # visemes, vtimes, vdurations, words\n"
     "  animeme export voice.wav -f xml -o voice.xml       # as rhubarb -f xml voice.wav\n"
     "\n"
     "Visemes are viseme_sil, PP, FF, TH, DD, kk, CH, SS, nn, RR, aa, E, I, O, U: the morph "

@@ -59,6 +59,10 @@ Json describe_track(const media::TrackInfo& track) {
     json["width"] = track.width;
     json["height"] = track.height;
   }
+  if (track.kind == media::TrackKind::text) {
+    json["name"] = track.name;
+    json["language"] = track.language;
+  }
   if (track.kind == media::TrackKind::face) {
     json["timescale"] = track.timescale;
     json["profile"] = track.visual_profile;

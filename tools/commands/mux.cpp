@@ -96,6 +96,11 @@ Result<int> run(MuxOptions options) {
   media::MuxInput input;
   input.face = &*units;
   sound->give_to(input);
+  std::vector<media::TextTrack> texts;  // go with a face that is spoken to them
+  if (!options.mux.systems && media::takes_text(options.output)) {
+    texts = speech::carried_tracks(options.face, talk());
+    input.texts = &texts;
+  }
   if (!sound->coded && !sound->samples) input.audio_file = &options.audio;
   options.mux.audio = audio_settings(options.sound, options.output);
   Result<int> written = write_media(options.output, input, options.mux);

@@ -58,13 +58,10 @@ Result<int> run(const PlotOptions& options) {
                "more than ten minutes are too wide to plot; choose a part by --from and --to")
         .in_file(options.a);
   }
-  dam::Script script;
-  if (!options.script.empty()) {
-    Result<dam::Script> read = speech::read_script(options.script, options.reading, talk());
-    if (!read) return read.error();
-    script = std::move(*read);
-    panel.script = &script;
-  }
+  const Result<dam::Script> script =
+      script_for(options.script, {options.a, options.b}, options.reading);
+  if (!script) return script.error();
+  if (!script->phones.empty()) panel.script = &*script;
   for (const int fap : *faps) {
     panel.rows.push_back(plot::fap_row(fap, clips));
     if (options.difference) panel.rows.push_back(plot::difference_row(fap, clips[0], clips[1]));
@@ -83,7 +80,9 @@ void add_options(CLI::App& app, PlotOptions& options) {
                             "Picture to write: .svg or .png; - is SVG on standard output"),
              {".svg", ".png"}, OutputKind::file_or_dash)
       ->required();
-  app.add_option("--script", options.script, "Phoneme script to show behind the curves");
+  app.add_option(
+      "--script", options.script,
+      "Phoneme script to show behind the curves; default: that which a container carries");
   add_script_options(app, options.reading.reading, options.reading.language);
   app.add_option("--faps", options.faps, "FAPs by number, name or range (3-13), one row each")
       ->delimiter(',')

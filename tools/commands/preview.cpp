@@ -1,7 +1,10 @@
 #include "tools/commands/preview.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iterator>
 
+#include "fap/detail/text_scanner.h"
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
 #include "tools/commands/face_stream.h"
@@ -13,8 +16,18 @@ Result<int> write_preview(const std::string& path, const fap::Sequence& clip,
                           const media::MuxInput& sound, const studio::FilmOptions& options) {
   const Interrupt interrupt;
   ProgressLine line("rendering " + path);
+  // Who looks at a film wants to read its words, not its phones.
+  std::vector<media::TextTrack> words;
+  if (sound.texts != nullptr && media::takes_text(path)) {
+    std::copy_if(sound.texts->begin(), sound.texts->end(), std::back_inserter(words),
+                 [](const media::TextTrack& track) {
+                   return fap::detail::lower_case(track.name) == "words";
+                 });
+  }
+  media::MuxInput tracks = sound;
+  tracks.texts = &words;
   const auto film = studio::write_film(
-      path, clip, sound, options, talk(),
+      path, clip, tracks, options, talk(),
       {[&line](double done) { line.update(done); }, [] { return Interrupt::requested(); }});
   line.clear();
   if (!film) return film.error();

@@ -166,6 +166,8 @@ Result<int> render_video(const RenderOptions& options, const Plan& plan) {
   if (!sound) return sound.error();
   media::MuxInput tracks;
   if (*sound) (*sound)->give_to(tracks);
+  const auto texts = speech::carried_tracks(options.input, talk());
+  tracks.texts = &texts;
   return write_preview(options.output, *clip, tracks, preview);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "dam/script/table_text_internal.h"
+#include "tools/commands/terminal.h"
 #include "tools/scripts/script_text.h"
 
 namespace animeme::tools {
@@ -46,6 +47,16 @@ std::string parse_script_format(const std::string& text, dam::ScriptOptions& rea
   if (!known) return "there is no format " + std::string(name) + "; these are:" + list_of_formats();
   reading.format = name;
   return {};
+}
+
+Result<dam::Script> script_for(const std::string& path, const std::vector<std::string>& files,
+                               const speech::ScriptInput& reading) {
+  if (!path.empty()) return speech::read_script(path, reading, talk());
+  for (const std::string& file : files) {
+    auto carried = speech::carried_script(file, reading, talk());
+    if (carried) return std::move(*carried);
+  }
+  return dam::Script{};
 }
 
 void add_script_options(CLI::App& app, dam::ScriptOptions& reading) {

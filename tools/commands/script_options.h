@@ -3,8 +3,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "dam/script/script.h"
+#include "fap/result.h"
+#include "tools/speech/voice_file.h"
 
 namespace CLI {
 class App;
@@ -17,6 +20,12 @@ void add_script_options(CLI::App& app, dam::ScriptOptions& reading);
 
 /// The same for commands that have no --lang: adds it for words that come without phones.
 void add_script_options(CLI::App& app, dam::ScriptOptions& reading, std::string& language);
+
+/// The script of the motion in some files: `path`, where one was named, else what the first of the
+/// files carries that has one (speech::carried_script()), else an empty one. Errors: those of
+/// speech::read_script().
+Result<dam::Script> script_for(const std::string& path, const std::vector<std::string>& files,
+                               const speech::ScriptInput& reading);
 
 /// Reads "FORMAT", "FORMAT:words", "FORMAT:phones", "FORMAT@RATE" or several of them; a sentence
 /// about what is wrong, empty if nothing is.

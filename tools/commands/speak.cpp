@@ -39,6 +39,8 @@ struct SpeakOptions {
   std::optional<bool> life;  // nothing: where it can be had
   bool exact = false;
   std::string visemes;
+  bool no_words = false;
+  bool language_told = false;
   std::uint64_t seed = 1;
   bool json = false;
 };
@@ -86,6 +88,13 @@ bool is_arkit_output(const std::string& path) {
   return extension_of(path) == ".json" || (extension_of(path) == ".csv" && inner == ".livelink");
 }
 
+// Of the words. A script may be in any, whatever the default of --lang is.
+std::string language_of(const SpeakOptions& options, const speech::Spoken& spoken) {
+  if (!spoken.languages.empty()) return spoken.languages.front().language;
+  const bool script = !options.spoken.script.empty() && options.spoken.tts.empty();
+  return script && !options.language_told ? std::string() : options.spoken.language;
+}
+
 Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
                          const speech::Spoken& spoken) {
   const std::string extension = extension_of(options.output);
@@ -115,7 +124,11 @@ Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
   if (audio == nullptr) warn("there is no recorded voice (--audio), the file will be silent");
   media::MuxOptions mux;
   mux.audio = audio_settings(options.sound, options.output);
-  const media::MuxInput input{.face = &*units, .audio = audio};
+  std::vector<media::TextTrack> texts;
+  if (!options.no_words && media::takes_text(options.output)) {
+    texts = speech::carried_texts(spoken.script, language_of(options, spoken));
+  }
+  const media::MuxInput input{.face = &*units, .audio = audio, .texts = &texts};
   Result<int> written = write_media(options.output, input, mux);
   if (!written || *written != kOk || options.preview.empty()) return written;
   return write_preview(options.preview, *units, input);
@@ -308,6 +321,10 @@ void add_options(CLI::App& app, SpeakOptions& options) {
                  "'beside' them")
       ->option_text("PLACE")
       ->check(CLI::IsMember({"instead", "beside"}));
+  app.add_flag("--no-words", options.no_words,
+               "No words and phones in .mp4, .mkv, .m3u8, where they are subtitles to players and "
+               "view, plot, export, demux find them");
+  app.get_option("--lang")->each([&options](const std::string&) { options.language_told = true; });
   add_exact_option(app, options.exact);
   app.add_option("--seed", options.seed, "Other times of blinks and another sway of the head")
       ->option_text("NUMBER=1");
@@ -321,7 +338,7 @@ void add_options(CLI::App& app, SpeakOptions& options) {
 
 const Command kSpeak{
     "speak", "Make a face talk: from text, from a recorded voice, best with its phonemes or text",
-    "  animeme speak --text \"Hello world\" -o hello.mp4\n"
+    "  animeme speak --text \"Hello world\" -o hello.mp4    # its words are subtitles in players\n"
     "  animeme speak --audio voice.wav --transcript \"what she said\" -o talk.mp4\n"
     "  animeme speak --text Hello --tts \"piper -m en.onnx -f {wav}\" -o hello.mp4   # your voice\n"
     "  animeme speak --script voice.TextGrid --audio voice.wav --model me.dam -o talk.fba",

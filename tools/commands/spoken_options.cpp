@@ -15,6 +15,7 @@ void add_spoken_options(CLI::App& app, speech::SpokenOptions& options) {
       ->excludes("--text");
   app.add_option("--script", options.script,
                  "Timed phones or words: TextGrid, labels, subtitles, what speech services give")
+      ->option_text("FILE")
       ->excludes("--text")
       ->excludes("--text-file");
   add_script_options(app, options.script_reading);

@@ -75,7 +75,7 @@ void warn_of_lengths(const viewer::Page& page, const ViewOptions& options, doubl
   };
   if (page.clips.size() > 1) check(options.second, page.clips[1].motion.duration());
   if (page.sound) check("the sound", sound);
-  if (!page.script.phones.empty()) check(options.script, page.script.duration());
+  if (!options.script.empty()) check(options.script, page.script.duration());
 }
 
 // A page that is too large for mail and phones, and what makes it smaller.
@@ -117,11 +117,9 @@ Result<int> run(const ViewOptions& options) {
   if (!sound) return sound.error();
   const double seconds = *sound ? (*sound)->seconds : 0;
   if (*sound) page.sound = std::move((*sound)->sound);
-  if (!options.script.empty()) {
-    Result<dam::Script> script = speech::read_script(options.script, options.reading, talk());
-    if (!script) return script.error();
-    page.script = std::move(*script);
-  }
+  Result<dam::Script> script = script_for(options.script, containers, options.reading);
+  if (!script) return script.error();
+  page.script = std::move(*script);
   const head::Rig rig = head::make_rig(*head);
   page.head = &*head;
   page.rig = &rig;
@@ -148,7 +146,8 @@ void add_options(CLI::App& app, ViewOptions& options) {
                  "Sound in any format that FFmpeg reads; default: that of a container. AAC and "
                  "Opus stay as they are unless one of the options below is given");
   app.add_option("--script", options.script,
-                 "Phoneme script (of any format) to show with the curves");
+                 "Phoneme script (of any format) to show with the curves; default: that which a "
+                 "container carries");
   add_script_options(app, options.reading.reading, options.reading.language);
   add_sound_options(app, options.sound, false);
   add_length_option(app, options.length);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "dam/script/textgrid.h"
 #include "fap/tables.h"
 #include "tools/exchange/detail/json_text.h"
 #include "tools/exchange/visemes.h"
@@ -11,6 +12,7 @@ namespace animeme::exchange {
 
 namespace {
 
+constexpr std::string_view kPrefix = "viseme_";
 std::string_view morph(int viseme) { return fap::kVisemes[std::size_t(viseme)].morph; }
 
 // Bytes that XML cannot hold are left out.
@@ -29,37 +31,47 @@ std::string xml_text(std::string_view text) {
   return out;
 }
 
-// Times in hundredths of a second, as they are written.
+// Times in the unit that is written: hundredths of a second, or milliseconds.
 struct Cue {
   std::int64_t from;
   std::int64_t to;
-  char shape;
+  int shape;
 
   std::int64_t length() const { return to - from; }
   double start() const { return double(from) / 100; }
   double end() const { return double(to) / 100; }
+  char letter() const { return char(shape); }
 };
 
-constexpr std::int64_t kShortestCue = 4;  // hundredths: a frame of 25 a second
+// What a player must be left time for.
+struct Shapes {
+  std::int64_t shortest;  // cue: a frame of 25 a second
+  int closed;             // lips
+  int lip_on_teeth;
+};
+
+constexpr Shapes kOfRhubarb = {4, 'A', 'G'};
+constexpr Shapes kOfOculus = {40, 1, 2};  // PP, FF
 
 std::int64_t hundredths(double seconds) { return std::int64_t(std::llround(seconds * 100)); }
+std::int64_t milliseconds(double seconds) { return std::int64_t(std::llround(seconds * 1000)); }
 
 // Longer than a player's frame, each of them. What is shorter is left to the shape before it; but
 // lips that close, and teeth on a lip, are what one misses: those take what they lack from a
 // neighbour that can spare it, else all of the one before.
-std::vector<Cue> without_short(std::vector<Cue> cues) {
+std::vector<Cue> without_short(std::vector<Cue> cues, const Shapes& shapes) {
   std::vector<Cue> out;
   for (std::size_t i = 0; i < cues.size(); ++i) {
     Cue cue = cues[i];
     if (!out.empty()) cue.from = out.back().to;
     Cue* next = i + 1 < cues.size() ? &cues[i + 1] : nullptr;
-    const std::int64_t missing = kShortestCue - cue.length();
+    const std::int64_t missing = shapes.shortest - cue.length();
     const bool alike = !out.empty() && out.back().shape == cue.shape;
     if (missing > 0 && !alike) {
-      const bool contact = cue.shape == 'A' || cue.shape == 'G';
-      if (contact && !out.empty() && out.back().length() >= kShortestCue + missing) {
+      const bool contact = cue.shape == shapes.closed || cue.shape == shapes.lip_on_teeth;
+      if (contact && !out.empty() && out.back().length() >= shapes.shortest + missing) {
         out.back().to = cue.from -= missing;
-      } else if (contact && next != nullptr && next->length() >= kShortestCue + missing) {
+      } else if (contact && next != nullptr && next->length() >= shapes.shortest + missing) {
         next->from = cue.to += missing;
       } else if (contact && !out.empty()) {
         cue.from = out.back().from;
@@ -69,7 +81,7 @@ std::vector<Cue> without_short(std::vector<Cue> cues) {
         continue;
       } else if (next != nullptr) {
         next->from = cue.from;
-        if (contact && next->shape != 'A') next->shape = cue.shape;
+        if (contact && next->shape != shapes.closed) next->shape = cue.shape;
         continue;
       }
     }
@@ -82,6 +94,23 @@ std::vector<Cue> without_short(std::vector<Cue> cues) {
   return out;
 }
 
+// Equal neighbours are one.
+template <class ShapeOf>
+std::vector<Cue> cues_of(const VisemeTrack& track, const ShapeOf& shape_of,
+                         std::int64_t time_of(double), const Shapes& shapes) {
+  std::vector<Cue> cues;
+  for (const VisemeEvent& event : track.events) {
+    const int shape = shape_of(event);
+    const std::int64_t end = time_of(event.time + event.duration);
+    if (!cues.empty() && cues.back().shape == shape) {
+      cues.back().to = end;
+    } else {
+      cues.push_back({time_of(event.time), end, shape});
+    }
+  }
+  return without_short(std::move(cues), shapes);
+}
+
 // What is drawn for a shape.
 char drawn(char shape, const RhubarbOptions& options) {
   constexpr std::string_view kExtended = "GHX", kInstead = "ACA";
@@ -92,17 +121,29 @@ char drawn(char shape, const RhubarbOptions& options) {
 }
 
 std::vector<Cue> cues_of(const VisemeTrack& track, const RhubarbOptions& options) {
-  std::vector<Cue> cues;
-  for (const VisemeEvent& event : track.events) {
-    const char shape = drawn(rhubarb_shape(event), options);
-    const std::int64_t end = hundredths(event.time + event.duration);
-    if (!cues.empty() && cues.back().shape == shape) {
-      cues.back().to = end;
-    } else {
-      cues.push_back({hundredths(event.time), end, shape});
-    }
+  const auto shape_of = [&](const VisemeEvent& event) {
+    return drawn(rhubarb_shape(event), options);
+  };
+  return cues_of(track, shape_of, hundredths, kOfRhubarb);
+}
+
+// "words": [...], "wtimes": [...], "wdurations": [...]; what a list of cues is made of.
+template <class Item, class Text, class Time>
+std::string three_lists(const std::vector<Item>& items, std::string_view names, std::string_view of,
+                        const Text& text_of, const Time& time_of) {
+  std::string texts, times, durations;
+  for (const Item& item : items) {
+    const char* comma = texts.empty() ? "" : ", ";
+    const auto [from, to] = time_of(item);
+    texts += comma + text_of(item);
+    times += comma + std::to_string(from);
+    durations += comma + std::to_string(to - from);
   }
-  return without_short(std::move(cues));
+  const auto list = [](std::string_view name, const std::string& content) {
+    return " \"" + std::string(name) + "\": [" + content + "]";
+  };
+  return list(names, texts) + ",\n" + list(std::string(of) + "times", times) + ",\n" +
+         list(std::string(of) + "durations", durations);
 }
 
 }  // namespace
@@ -151,15 +192,37 @@ std::string write_rhubarb_json(const VisemeTrack& track, std::string_view audio,
                      "\n  },\n  \"mouthCues\": [";
   for (std::size_t i = 0; i < cues.size(); ++i) {
     text += std::string(i == 0 ? "" : ",") + "\n    { \"start\": " + decimals(cues[i].start(), 2) +
-            ", \"end\": " + decimals(cues[i].end(), 2) + ", \"value\": \"" + cues[i].shape + "\" }";
+            ", \"end\": " + decimals(cues[i].end(), 2) + ", \"value\": \"" + cues[i].letter() +
+            "\" }";
   }
   return text + "\n  ]\n}\n";
+}
+
+std::string write_talking_head(const VisemeTrack& track, const dam::Script& script,
+                               std::string_view audio) {
+  std::vector<Cue> cues = cues_of(
+      track, [](const VisemeEvent& event) { return event.viseme; }, milliseconds, kOfOculus);
+  std::erase_if(cues, [](const Cue& cue) { return cue.shape == 0; });  // it closes by itself
+  std::vector<dam::TextGridItem> words = dam::textgrid_of(script).tiers.front().items;
+  std::erase_if(words, [](const dam::TextGridItem& word) { return word.text.empty(); });
+  return "{\"audio\": " + (audio.empty() ? std::string("null") : json_text(audio)) + ",\n" +
+         three_lists(
+             words, "words", "w", [](const auto& word) { return json_text(word.text); },
+             [](const auto& word) {
+               return std::pair(milliseconds(word.start), milliseconds(word.end));
+             }) +
+         ",\n" +
+         three_lists(
+             cues, "visemes", "v",
+             [](const Cue& cue) { return json_text(morph(cue.shape).substr(kPrefix.size())); },
+             [](const Cue& cue) { return std::pair(cue.from, cue.to); }) +
+         "}\n";
 }
 
 std::string write_rhubarb_tsv(const VisemeTrack& track, const RhubarbOptions& options) {
   std::string text;
   const std::vector<Cue> cues = cues_of(track, options);
-  for (const Cue& cue : cues) text += decimals(cue.start(), 2) + "\t" + cue.shape + "\n";
+  for (const Cue& cue : cues) text += decimals(cue.start(), 2) + "\t" + cue.letter() + "\n";
   if (!cues.empty()) {
     text += decimals(cues.back().end(), 2) + "\t" + drawn('X', options) + "\n";
   }
@@ -176,7 +239,7 @@ std::string write_rhubarb_xml(const VisemeTrack& track, std::string_view audio,
       "</duration>\n  </metadata>\n  <mouthCues>\n";
   for (const Cue& cue : cues) {
     text += "    <mouthCue start=\"" + decimals(cue.start(), 2) + "\" end=\"" +
-            decimals(cue.end(), 2) + "\">" + cue.shape + "</mouthCue>\n";
+            decimals(cue.end(), 2) + "\">" + cue.letter() + "</mouthCue>\n";
   }
   return text + "  </mouthCues>\n</rhubarbResult>\n";
 }
@@ -199,7 +262,7 @@ std::string write_rhubarb_dat(const VisemeTrack& track, const RhubarbOptions& op
   for (const Cue& cue : cues) {
     const std::int64_t frame = frame_of(cue.start());
     if (frame == last) continue;
-    text += std::to_string(frame) + " " + name(cue.shape) + "\n";
+    text += std::to_string(frame) + " " + name(cue.letter()) + "\n";
     last = frame;
   }
   if (cues.empty()) return text;

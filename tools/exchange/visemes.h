@@ -65,6 +65,16 @@ std::string write_visemes_json(const VisemeTrack& track, std::string_view audio 
 /// time_s and one column a viseme, a row a frame.
 std::string write_visemes_csv(const VisemeTrack& track);
 
+/// What TalkingHead's speakAudio() and streamAudio() take, once their user has put decoded sound
+/// where its name is: {"audio": "talk.wav", "words": ["bin", ...], "wtimes": [210, ...],
+/// "wdurations": [...], "visemes": ["PP", "I", ...], "vtimes": [210, ...], "vdurations": [40,
+/// ...]} in milliseconds. Words are those of `script`, which may be empty. No viseme is shorter
+/// than 40 ms, as in Rhubarb's files: what is shorter is left to the one before it, but PP and FF
+/// take what they lack from a neighbour, or all of it. Silence is left out: its player closes the
+/// mouth by itself.
+std::string write_talking_head(const VisemeTrack& track, const dam::Script& script,
+                               std::string_view audio = {});
+
 /// Mouth shapes of Rhubarb Lip Sync: A to H and X. By viseme: X sil, A PP, B TH DD kk CH SS nn ih,
 /// C E, D aa, E oh RR, F ou, G FF; H for the sound L, if sounds are known.
 char rhubarb_shape(const VisemeEvent& event);

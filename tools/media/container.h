@@ -81,9 +81,9 @@ Result<EncodedAudio> read_encoded_audio(const std::string& path);
 Result<EncodedAudio> read_encoded_audio(std::span<const std::uint8_t> file);
 
 /// What a track holds.
-enum class TrackKind : std::uint8_t { face, audio, video, other };
+enum class TrackKind : std::uint8_t { face, audio, video, text, other };
 
-/// "face", "audio", "video" or "other".
+/// "face", "audio", "video", "text" or "other".
 const char* name_of(TrackKind kind);
 
 /// One track, from headers.
@@ -104,6 +104,8 @@ struct TrackInfo {
   double frame_rate = 0;              ///< video and face, frames a second; 0: not stated
   std::uint8_t visual_profile = 0;    ///< face; 0: not given
   std::vector<std::uint8_t> face_config;  ///< face; empty: in band
+  std::string name;                       ///< text: as TextTrack::name
+  std::string language;                   ///< text: as TextTrack::language
 };
 
 /// What a file holds, without reading all of it.

@@ -16,6 +16,7 @@
 #include "tools/media/detail/plane_cutter.h"
 #include "tools/media/detail/segment_writer.h"
 #include "tools/media/detail/systems_movie.h"
+#include "tools/media/detail/text_samples.h"
 #include "tools/media/detail/ts_pmt.h"
 
 namespace animeme::media {
@@ -25,7 +26,7 @@ namespace {
 struct FileType {
   std::string_view extension;
   const char* muxer;
-  bool face, aac, opus, h264, vp9;
+  bool face, aac, opus, h264, vp9, text;
 
   bool is_mp4() const { return std::string_view(muxer) == "mp4"; }
   bool is_ts() const { return std::string_view(muxer) == "mpegts"; }
@@ -36,17 +37,17 @@ struct FileType {
 
 // clang-format off
 constexpr FileType kTypes[] = {
-    // extension, muxer,  face,  aac,   opus,  h264,  vp9 (h264 stands for MPEG-4 video, too)
-    {".mp4",  "mp4",      true,  true,  true,  true,  true},
-    {".mkv",  "matroska", true,  true,  true,  true,  true},
-    {".ts",   "mpegts",   true,  true,  false, false, false},
-    {".m3u8", "segments", true,  true,  true,  false, false},
-    {".mpd",  "segments", true,  true,  true,  false, false},
-    {".m4a",  "mp4",      false, true,  false, false, false},
-    {".mka",  "matroska", false, true,  true,  false, false},
-    {".webm", "webm",     false, false, true,  false, true},
-    {".weba", "webm",     false, false, true,  false, false},
-    {".opus", "opus",     false, false, true,  false, false},
+    // extension, muxer,  face,  aac,   opus,  h264,  vp9,   text (h264 stands for MPEG-4 video, too)
+    {".mp4",  "mp4",      true,  true,  true,  true,  true,  true},
+    {".mkv",  "matroska", true,  true,  true,  true,  true,  true},
+    {".ts",   "mpegts",   true,  true,  false, false, false, false},
+    {".m3u8", "segments", true,  true,  true,  false, false, true},
+    {".mpd",  "segments", true,  true,  true,  false, false, false},
+    {".m4a",  "mp4",      false, true,  false, false, false, false},
+    {".mka",  "matroska", false, true,  true,  false, false, false},
+    {".webm", "webm",     false, false, true,  false, true,  false},
+    {".weba", "webm",     false, false, true,  false, false, false},
+    {".opus", "opus",     false, false, true,  false, false, false},
 };
 // clang-format on
 
@@ -72,6 +73,10 @@ Result<void> check_type(const FileType& type, const MuxInput& input, const MuxOp
   if (input.video != nullptr && !type.takes(input.video->codec)) {
     return unsupported("a " + name + " file takes no " + name_of(input.video->codec) +
                        " video; use .mp4 or .mkv");
+  }
+  const bool text = input.texts != nullptr && !input.texts->empty();
+  if (text && (options.systems || !type.text)) {
+    return unsupported("text goes into plain .mp4, .mkv and .m3u8 files only");
   }
   if (input.face != nullptr && !type.face) {
     return unsupported("a " + name + " file holds sound only; use .mp4, .mkv or .ts for a face");
@@ -124,6 +129,15 @@ Result<MuxResult> write_streams(const std::string& path, const FileType& type,
     auto added = muxer.add_sound(*format, (*sound)->bit_rate());
     if (!added) return added.error();
     feeds.push_back(sound_feed(muxer, **sound, (*sound)->seconds()));
+  }
+  std::vector<TextSamples> texts;
+  for (const TextTrack& track : input.texts != nullptr ? *input.texts : std::vector<TextTrack>()) {
+    texts.push_back(type.is_mp4() ? mov_text_samples(track) : subrip_samples(track));
+  }
+  for (const TextSamples& track : texts) {
+    Result<int> added = muxer.add_text(track);
+    if (!added) return added.error();
+    feeds.push_back(text_feed(muxer, track, *added));
   }
   av::Options header;
   if (type.is_mp4()) {
@@ -220,6 +234,11 @@ Result<MuxResult> guarded_write(const std::string& path, const FileType& type,
 }
 
 }  // namespace
+
+bool takes_text(const std::string& path) {
+  const FileType* type = type_of(path);
+  return type != nullptr && type->text;
+}
 
 AudioCodec usual_codec(const std::string& path) {
   const FileType* type = type_of(path);

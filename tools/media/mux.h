@@ -20,6 +20,7 @@
 #include "fap/result.h"
 #include "tools/media/encoded_audio.h"
 #include "tools/media/pcm.h"
+#include "tools/media/text_track.h"
 #include "tools/media/video.h"
 
 namespace animeme::media {
@@ -37,6 +38,10 @@ struct MuxInput {
   /// face beside them is not shown by default. In .mp4, .mkv and .webm (VP9), not in Systems
   /// presentations.
   const EncodedVideo* video = nullptr;
+  /// Text beside them, the last tracks of the file, in this order; nullptr: none. No player shows
+  /// them until it is asked to. In files of takes_text(), not in Systems presentations. Cleaned by
+  /// clean_text().
+  const std::vector<TextTrack>* texts = nullptr;
   /// Visual profile and level for the file's own table of contents (mp4 `iods`): 0x61..0x64.
   /// 0: as in the face's configuration, 0x61 if that has none.
   std::uint8_t visual_profile = 0;
@@ -89,9 +94,9 @@ AudioCodec usual_codec(const std::string& path);
 /// that the codec lacks is resampled (see AudioEncoder).
 /// Errors: invalid_argument (nothing to write; no units; configuration not of a face; an empty
 /// unit or packet; times not ascending or negative; durations not positive; empty sound; bit rate;
-/// sound given twice; fragment length), those of AudioReader for a sound file, io (folder missing,
-/// disk full ...), unsupported (this FFmpeg lacks the encoder; Opus in a Systems presentation),
-/// out_of_range (memory).
+/// sound given twice; fragment length; cues of a text not ascending, or without a length), those of
+/// AudioReader for a sound file, io (folder missing, disk full ...), unsupported (this FFmpeg lacks
+/// the encoder; Opus in a Systems presentation), out_of_range (memory).
 Result<MuxResult> write_mp4(const std::string& path, const MuxInput& input,
                             const MuxOptions& options = {});
 

@@ -6,6 +6,7 @@
 #include "tools/media/detail/face_header.h"
 #include "tools/media/detail/face_track.h"
 #include "tools/media/detail/presentation.h"
+#include "tools/media/detail/text_samples.h"
 
 namespace animeme::media {
 namespace {
@@ -26,6 +27,7 @@ std::string tag_text(std::uint32_t tag) {
 TrackKind kind_of(const AVCodecParameters& parameters, const FaceTrack& face) {
   if (face.state == FaceTrack::State::yes) return TrackKind::face;
   if (face.video || parameters.codec_type == AVMEDIA_TYPE_VIDEO) return TrackKind::video;
+  if (parameters.codec_type == AVMEDIA_TYPE_SUBTITLE) return TrackKind::text;
   return parameters.codec_type == AVMEDIA_TYPE_AUDIO ? TrackKind::audio : TrackKind::other;
 }
 
@@ -54,6 +56,10 @@ TrackInfo describe(const AVStream& stream, const FaceTrack& face) {
     for (const AVRational shape : {parameters.sample_aspect_ratio, stream.sample_aspect_ratio}) {
       if (shape.num > 0 && shape.den > 0) track.pixel_aspect = av_q2d(shape);
     }
+  }
+  if (track.kind == TrackKind::text) {
+    track.name = name_of_text(stream);
+    track.language = language_of_text(stream);
   }
   if (track.kind == TrackKind::face) {
     track.face_config = face.config;
@@ -131,13 +137,21 @@ Result<ContainerInfo> probe_playlist(const std::string& path) {
     for (TrackInfo& track : info->tracks) all.tracks.push_back(std::move(track));
     for (std::string& text : info->warnings) all.warnings.push_back(std::move(text));
   }
+  for (const PresentedText& text : presentation->texts) {
+    TrackInfo& track = all.tracks.emplace_back();
+    track.kind = TrackKind::text;
+    track.codec = "webvtt";
+    track.name = clean_text(text.name);
+    track.language = text.language.empty() ? "und" : clean_text(text.language);
+    all.bytes += std::int64_t(text.file.size());
+  }
   return all;
 }
 
 }  // namespace
 
 const char* name_of(TrackKind kind) {
-  constexpr std::array kNames = {"face", "audio", "video", "other"};
+  constexpr std::array kNames = {"face", "audio", "video", "text", "other"};
   return kNames[std::size_t(kind)];
 }
 

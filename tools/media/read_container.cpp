@@ -3,66 +3,15 @@
 #include <utility>
 
 #include "tools/media/container.h"
-#include "tools/media/detail/audio_decoder.h"
 #include "tools/media/detail/face_track.h"
 #include "tools/media/detail/presentation.h"
+#include "tools/media/detail/sound_start.h"
 #include "tools/media/detail/unit_collector.h"
 
 namespace animeme::media {
 namespace {
 
 constexpr const char* kFaceFormats = "mov,matroska,mpegts,nut";
-// Audio packets to try until one decodes: sound that begins later begins where its header says.
-constexpr int kPacketsToDecide = 64;
-
-// The time at which read_audio()'s sample 0 lies.
-class SoundStart {
- public:
-  SoundStart(const Input& input, AVStream* stream) : input_(input), stream_(stream) {
-    if (stream_ == nullptr) return;
-    Result<av::Codec> opened = open_audio_decoder(*stream_->codecpar, stream_->time_base);
-    if (opened) codec_ = std::move(*opened);
-    frame_.reset(av_frame_alloc());
-    if (!codec_ || !frame_) give_up();
-  }
-
-  bool searching() const { return codec_ != nullptr; }
-  int stream() const { return stream_ == nullptr ? -1 : stream_->index; }
-  /// Stream time base; nullopt: not found.
-  std::optional<std::int64_t> time() const { return time_; }
-
-  void try_packet(const AVPacket& packet) {
-    const auto take = [&](AVFrame& frame) -> Result<void> {
-      const bool played = !input_.is_mp4_family() || frame.pts >= 0 || covers_zero(frame);
-      if (!time_ && frame.pts != AV_NOPTS_VALUE && frame.nb_samples > 0 && played) {
-        time_ = first_played(input_, frame.pts);
-      }
-      return {};
-    };
-    (void)decode_packet(*codec_, &packet, *frame_, take);
-    if (time_ || ++tried_ >= kPacketsToDecide) give_up();
-  }
-
- private:
-  bool covers_zero(const AVFrame& frame) const {
-    return frame.pts != AV_NOPTS_VALUE && frame.sample_rate > 0 &&
-           frame.pts + av_rescale_q(frame.nb_samples, {1, frame.sample_rate}, stream_->time_base) >
-               0;
-  }
-
-  void give_up() {
-    codec_.reset();
-    stream_->discard = AVDISCARD_ALL;  // the rest of the sound is not needed
-  }
-
-  const Input& input_;
-  AVStream* stream_;
-  av::Codec codec_;
-  av::Frame frame_;
-  std::optional<std::int64_t> time_;
-  int tried_ = 0;
-};
-
 // Sound in another place than the face: where its time 0 lies, and what it is.
 struct OtherSound {
   AudioInfo info;
@@ -171,10 +120,7 @@ std::int64_t ContainerReader::shift(const SoundStart& sound) const {
   if (time) {
     const AVRational from =
         other_sound_ ? other_sound_->time_base : file_.streams[sound.stream()]->time_base;
-    const std::int64_t start = *time;
-    // Within one tick of a coarse clock the start is not known better than 0.
-    if (start >= -1 && start <= 1) return 0;
-    const std::int64_t ticks = av_rescale_q(start, from, base);
+    const std::int64_t ticks = av_rescale_q(known_start(*time), from, base);
     return std::clamp<std::int64_t>(ticks, -(std::int64_t(1) << 47), std::int64_t(1) << 47);
   }
   const bool arbitrary = (file_.iformat->flags & AVFMT_TS_DISCONT) != 0;

@@ -1,26 +1,28 @@
 #include "tools/speech/voice_file.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
+#include "dam/script/script_text_internal.h"
+#include "dam/script/textgrid.h"
 #include "tools/files/files.h"
 #include "tools/media/audio.h"
 #include "tools/media/container.h"
 #include "tools/scripts/script_text.h"
+#include "tools/text/unicode.h"
 #include "tools/voice/word_phones.h"
 
 namespace animeme::speech {
 
-Result<dam::Script> read_script(const std::string& path, const ScriptInput& input,
-                                const tools::Talk& talk, bool* from_words) {
-  const Result<std::string> text = tools::read_text_file(path, tools::kMostWritten);
-  if (!text) return text.error();
-  return parse_script(*text, path, input, talk, from_words);
-}
+namespace {
 
-Result<dam::Script> parse_script(const std::string& text, const std::string& path,
-                                 const ScriptInput& input, const tools::Talk& talk,
-                                 bool* from_words) {
-  Result<dam::Timings> timings = scripts::read_labels(text, input.reading);
+// From labels to phones.
+Result<dam::Script> script_of(Result<dam::Timings> timings, const std::string& path,
+                              const ScriptInput& input, const tools::Talk& talk, bool* from_words) {
   if (!timings) return timings.error().in_file(path);
   if (from_words != nullptr) *from_words = dam::has_words(*timings);
   if (dam::has_words(*timings)) {
@@ -42,6 +44,98 @@ Result<dam::Script> parse_script(const std::string& text, const std::string& pat
         .in_file(path);
   }
   return script;
+}
+
+constexpr std::string_view kCarriedNames[] = {"words", "phones"};
+
+bool is_ours(const media::TextTrack& track) {
+  return !track.cues.empty() && std::find(std::begin(kCarriedNames), std::end(kCarriedNames),
+                                          dam::lower_case(track.name)) != std::end(kCarriedNames);
+}
+
+// Tracks of a file are tiers by another name.
+dam::TextGrid grid_of(const std::vector<media::TextTrack>& tracks) {
+  dam::TextGrid grid;
+  for (const media::TextTrack& track : tracks) {
+    dam::TextGridTier& tier = grid.tiers.emplace_back();
+    tier.name = track.name;
+    for (const media::TextCue& cue : track.cues) {
+      tier.items.push_back({cue.start, cue.end, cue.text, 0, 0});
+    }
+  }
+  return grid;
+}
+
+// By the first bytes of a file that can be read again.
+bool carries_text(const std::string& path) {
+  std::error_code status;
+  if (path == "-" || !std::filesystem::is_regular_file(path, status)) return false;
+  std::array<char, 12> begin{};
+  std::ifstream in(path, std::ios::binary);
+  in.read(begin.data(), begin.size());
+  return media::may_hold_text(
+      {reinterpret_cast<const std::uint8_t*>(begin.data()), std::size_t(in.gcount())});
+}
+
+}  // namespace
+
+std::vector<media::TextTrack> carried_texts(const dam::Script& script, std::string_view language) {
+  std::vector<media::TextTrack> tracks;
+  for (const dam::TextGridTier& tier : dam::textgrid_of(script).tiers) {
+    // Phones are no language, so that nobody who looks for his own gets them.
+    media::TextTrack track{
+        tier.name, tier.name == "words" ? text::language_code(language) : "zxx", {}};
+    for (const dam::TextGridItem& item : tier.items) {
+      if (!item.text.empty()) track.cues.push_back({item.start, item.end, item.text});
+    }
+    if (!track.cues.empty()) tracks.push_back(std::move(track));
+  }
+  return tracks;
+}
+
+std::vector<media::TextTrack> carried_tracks(const std::string& path, const tools::Talk& talk) {
+  if (!carries_text(path)) return {};
+  Result<std::vector<media::TextTrack>> tracks = media::read_text_tracks(path);
+  if (!tracks) {
+    // What else is wrong with the file tells whoever reads it for its face.
+    if (tracks.error().code == Code::out_of_range) talk.warn(tracks.error().describe());
+    return {};
+  }
+  std::erase_if(*tracks, [](const media::TextTrack& track) { return !is_ours(track); });
+  return std::move(*tracks);
+}
+
+std::optional<dam::Script> carried_script(const std::string& path, const ScriptInput& input,
+                                          const tools::Talk& talk) {
+  const std::vector<media::TextTrack> tracks = carried_tracks(path, talk);
+  if (tracks.empty()) return std::nullopt;
+  Result<dam::Script> script =
+      script_of(dam::labels_of_tier(grid_of(tracks), input.reading), path, input, talk, nullptr);
+  if (script) return std::move(*script);
+  talk.warn("its words are left out: " + script.error().describe());
+  return std::nullopt;
+}
+
+Result<dam::Script> read_script(const std::string& path, const ScriptInput& input,
+                                const tools::Talk& talk, bool* from_words) {
+  if (carries_text(path)) {
+    const Result<std::vector<media::TextTrack>> tracks = media::read_text_tracks(path);
+    if (!tracks) return tracks.error();
+    if (tracks->empty()) {
+      return make_error(Code::not_found, "the file carries no words and no phones").in_file(path);
+    }
+    return script_of(dam::labels_of_tier(grid_of(*tracks), input.reading), path, input, talk,
+                     from_words);
+  }
+  const Result<std::string> text = tools::read_text_file(path, tools::kMostWritten);
+  if (!text) return text.error();
+  return parse_script(*text, path, input, talk, from_words);
+}
+
+Result<dam::Script> parse_script(const std::string& text, const std::string& path,
+                                 const ScriptInput& input, const tools::Talk& talk,
+                                 bool* from_words) {
+  return script_of(scripts::read_labels(text, input.reading), path, input, talk, from_words);
 }
 
 Result<media::Pcm> read_voice(const std::string& path, const tools::Talk& talk, int sample_rate) {

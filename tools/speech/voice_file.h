@@ -6,6 +6,8 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "dam/script/script.h"
 #include "fap/result.h"
@@ -13,6 +15,7 @@
 #include "tools/media/encoded_audio.h"
 #include "tools/media/mux.h"
 #include "tools/media/pcm.h"
+#include "tools/media/text_track.h"
 
 namespace animeme::speech {
 
@@ -27,10 +30,12 @@ struct ScriptInput {
   double most_seconds = dam::kMaxScriptSeconds;  ///< longer ones are refused
 };
 
-/// A script of any format (tools/scripts/script_text.h). Words with times get their phones by
+/// A script of any format (tools/scripts/script_text.h), or out of a media file that carries words
+/// and phones (carried_script()). Words with times get their phones by
 /// pronunciation, with a sentence to talk.say() that says so. Errors: those of
 /// tools::read_text_file(), scripts::read_labels(), dam::make_script() and
-/// voice::words_to_phones(); out_of_range (it lasts more than `most_seconds`).
+/// voice::words_to_phones(), media::read_text_tracks(); out_of_range (it lasts more than
+/// `most_seconds`).
 Result<dam::Script> read_script(const std::string& path, const ScriptInput& input = {},
                                 const tools::Talk& talk = {}, bool* from_words = nullptr);
 /// The same from its text; `path` is for messages. `from_words`, if not null, is told whether the
@@ -38,6 +43,21 @@ Result<dam::Script> read_script(const std::string& path, const ScriptInput& inpu
 Result<dam::Script> parse_script(const std::string& text, const std::string& path,
                                  const ScriptInput& input = {}, const tools::Talk& talk = {},
                                  bool* from_words = nullptr);
+
+/// Words and phones of a script as a media file carries them: for media::MuxInput::texts. Tracks
+/// "words" in `language` (a tag as "de-at", or a code of espeak-ng; empty: not known) and "phones";
+/// without one that has no text.
+std::vector<media::TextTrack> carried_texts(const dam::Script& script, std::string_view language);
+
+/// These tracks of a file; empty: it has none, or cannot be read again ("-", pipes). More text than
+/// is read is told to talk.warn.
+std::vector<media::TextTrack> carried_tracks(const std::string& path,
+                                             const tools::Talk& talk = {});
+
+/// They as a script again; nothing: there are none, or they cannot be used, which talk.warn is
+/// told.
+std::optional<dam::Script> carried_script(const std::string& path, const ScriptInput& input = {},
+                                          const tools::Talk& talk = {});
 
 /// A recording as samples of one channel; `sample_rate` 0: its own. Errors: those of
 /// media::read_audio().

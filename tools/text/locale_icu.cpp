@@ -71,6 +71,11 @@ bool has_locale(const std::string& locale) {
   return false;
 }
 
+std::string language_code(std::string_view language) {
+  const std::string code = uloc_getISO3Language(locale_of(language).c_str());
+  return code.size() == 3 ? code : "und";
+}
+
 std::string spell_number(std::string_view digits, std::string_view language, NumberForm form) {
   const std::string locale = locale_of(language);
   if (!has_locale(locale)) return {};

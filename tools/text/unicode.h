@@ -61,6 +61,10 @@ std::string language_of_script(std::string_view script);
 /// "Russian" for "ru"; the tag where there is no name.
 std::string language_name(std::string_view language);
 
+/// Its three letters in ISO 639-2 (terminological) or 639-3, as media files name it: "deu" for
+/// "de-at", "zho" for "cmn"; "und" (not determined) if unknown.
+std::string language_code(std::string_view language);
+
 /// The letters of a language (CLDR's exemplar characters), each as one string: some are several
 /// code points. Lower case where there is case. Empty where CLDR has no data of it.
 std::vector<std::u32string> letters_of_language(std::string_view language);

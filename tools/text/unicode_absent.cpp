@@ -20,6 +20,7 @@ std::string script_name(std::string_view script) { return std::string(script); }
 std::vector<std::string> scripts_of_language(std::string_view) { return {}; }
 std::string language_of_script(std::string_view) { return {}; }
 std::string language_name(std::string_view language) { return std::string(language); }
+std::string language_code(std::string_view) { return "und"; }
 std::vector<std::u32string> letters_of_language(std::string_view) { return {}; }
 char32_t simplified(char32_t code) { return code; }
 char32_t traditional(char32_t code) { return code; }

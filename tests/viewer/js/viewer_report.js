@@ -1,4 +1,4 @@
-// node viewer_report.js looks|sound|speeds|texts|screens|live PAGE.html FOLDER: what Chromium makes of a page, as
+// node viewer_report.js looks|sound|speeds|texts|says|screens|live PAGE.html FOLDER: what Chromium makes of a page, as
 // JSON.
 //
 // looks: vertices of the frames 0 .. 7 as 32-bit floats in FOLDER/<part>_<frame>.f32; how much the
@@ -7,6 +7,7 @@
 // speeds: the same without a head, three seconds of the clip at half and at double speed; `pitches` in Hz, of
 //   the first 80 ms of each burst.
 // texts: what is shown where names are hostile; the ways to compare; what works without a head.
+// says: what is said at some times, and how many pixels of the wave are drawn at others.
 // screens: at the sizes of screens, what is to be hit or read: {size: {width (of the page), targets: [{name,
 //   width, height}], outside: [names], overlaps: [pairs of names]}}.
 // live: `result` of a page with values of its own.
@@ -156,6 +157,7 @@ const LOOK_AT_TEXTS = `(() => ({
   heading: document.getElementById('title').textContent,
   name: document.getElementById('name1').textContent,
   now: document.getElementById('now').textContent,
+  spoken: document.querySelector('#now b').textContent,
   readout: document.getElementById('readout').textContent,
   images: document.images.length, scripts: document.scripts.length,
 }))()`;
@@ -185,6 +187,37 @@ async function texts(page, file, folder) {
   await page.evaluate('window.animeme.play()');
   await sleep(300);
   report.played = await page.evaluate('window.animeme.state()');
+  return report;
+}
+
+// Runs in the page.
+function saidAt(time) {
+  window.animeme.seek(time);
+  window.animeme.draw();
+  const text = (part) => (document.querySelector(`#now ${part}`) || {textContent: ''}).textContent;
+  return {line: document.getElementById('now').textContent, spoken: text('b'), phone: text('i')};
+}
+
+// Runs in the page, which shows the time from 0 on, 200 pixels a second. Below the ruler.
+function waveAt(times) {
+  const canvas = document.getElementById('curves');
+  const scale = canvas.width / canvas.clientWidth;
+  const [top, height] = [22, 34].map((y) => Math.round(y * scale));
+  const {data} = canvas.getContext('2d').getImageData(0, top, canvas.width, height);
+  return times.map((time) => {
+    const x = Math.round(time * 200 * scale);
+    const inked = [...Array(height).keys()].filter((y) => data[4 * (y * canvas.width + x) + 3] > 0);
+    return inked.length / scale;
+  });
+}
+
+async function says(page, file, folder) {
+  await page.resize(1280, 720);
+  await open(page, file, '?mode=first&faps=3');
+  const report = {said: {}, wave: await page.evaluate(waveAt, [0.55, 1.1, 1.55, 2.1])};
+  for (const time of [0.5, 0.8, 1.15, 1.3, 2.5, 3.1]) report.said[time] = await page.evaluate(saidAt, time);
+  await page.evaluate(saidAt, 1.15);
+  await page.screenshot(path.join(folder, 'says.png'));
   return report;
 }
 
@@ -243,7 +276,7 @@ async function main([kind, file, folder]) {
   const browser = await launch({flags: FLAGS});
   try {
     const page = await browser.open();
-    const report = await {looks, sound, speeds, texts, screens, live}[kind](page, path.resolve(file), folder);
+    const report = await {looks, sound, speeds, texts, says, screens, live}[kind](page, path.resolve(file), folder);
     report.messages = page.messages;
     process.stdout.write(JSON.stringify(report) + '\n');
   } finally {

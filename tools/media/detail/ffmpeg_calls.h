@@ -53,6 +53,7 @@
 #define av_samples_set_silence ANIMEME_FFMPEG(av_samples_set_silence)
 #define av_stream_add_side_data ANIMEME_FFMPEG(av_stream_add_side_data)
 #define av_strerror ANIMEME_FFMPEG(av_strerror)
+#define av_utf8_decode ANIMEME_FFMPEG(av_utf8_decode)
 #define av_write_frame ANIMEME_FFMPEG(av_write_frame)
 #define av_write_trailer ANIMEME_FFMPEG(av_write_trailer)
 #define avcodec_alloc_context3 ANIMEME_FFMPEG(avcodec_alloc_context3)

@@ -12,6 +12,7 @@ extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavcodec/bsf.h>
 #include <libavformat/avformat.h>
+#include <libavutil/avstring.h>
 #include <libavutil/channel_layout.h>
 #include <libavutil/intreadwrite.h>
 #include <libavutil/log.h>
@@ -71,6 +72,7 @@ extern "C" {
   X(av_samples_set_silence) \
   X(av_stream_add_side_data) \
   X(av_strerror) \
+  X(av_utf8_decode) \
   X(av_write_frame) \
   X(av_write_trailer) \
   X(avcodec_alloc_context3) \

@@ -73,6 +73,28 @@ class SoundFeed : public TrackFeed {
   std::int64_t end_ = 0;
 };
 
+class TextFeed : public TrackFeed {
+ public:
+  TextFeed(Muxer& muxer, const TextSamples& text, int number)
+      : muxer_(muxer), text_(text), number_(number) {}
+
+  Result<void> begin() override { return {}; }
+  bool ready() const override { return next_ < text_.samples.size(); }
+  std::int64_t time() const override { return text_.samples[next_].time; }
+  AVRational time_base() const override { return text_.time_base; }
+  bool sync() const override { return true; }
+  Result<void> write() override { return muxer_.write_text(text_.samples[next_++], number_); }
+  double end() const override { return 0; }  // what is shown does not make the file longer
+  double share() const override { return 1; }
+  bool sparse() const override { return true; }
+
+ private:
+  Muxer& muxer_;
+  const TextSamples& text_;
+  int number_;
+  std::size_t next_ = 0;
+};
+
 /// The feed whose packet is due first, the earlier feed on a tie; nullptr: all are empty.
 TrackFeed* first_due(const std::vector<std::unique_ptr<TrackFeed>>& feeds) {
   TrackFeed* first = nullptr;
@@ -103,6 +125,10 @@ std::unique_ptr<TrackFeed> sound_feed(Muxer& muxer, SoundSource& sound, double s
   return std::make_unique<SoundFeed>(muxer, sound, seconds);
 }
 
+std::unique_ptr<TrackFeed> text_feed(Muxer& muxer, const TextSamples& samples, int text) {
+  return std::make_unique<TextFeed>(muxer, samples, text);
+}
+
 Result<Interleaved> interleave(std::vector<std::unique_ptr<TrackFeed>>& feeds,
                                const std::function<bool()>& stop,
                                const std::function<void(double)>& progress) {
@@ -111,7 +137,7 @@ Result<Interleaved> interleave(std::vector<std::unique_ptr<TrackFeed>>& feeds,
   }
   Interleaved result;
   const auto has_begun = [](const auto& feed) {
-    return feed->end() >= kShortestFile || !feed->ready();
+    return feed->sparse() || feed->end() >= kShortestFile || !feed->ready();
   };
   for (int steps = 1; TrackFeed* feed = first_due(feeds); ++steps) {
     if (stop && std::all_of(feeds.begin(), feeds.end(), has_begun) && stop()) {

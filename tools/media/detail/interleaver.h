@@ -31,6 +31,8 @@ class TrackFeed {
   virtual double end() const = 0;
   /// 0..1.
   virtual double share() const = 0;
+  /// Does it have nothing for as long as it likes? Nobody waits for it.
+  virtual bool sparse() const { return false; }
 
   /// Called by interleave() in front of each packet, when it is due; empty: nothing to do. Error:
   /// io.
@@ -41,6 +43,8 @@ class TrackFeed {
 std::unique_ptr<TrackFeed> face_feed(Muxer& muxer, const fba::AccessUnits& face);
 std::unique_ptr<TrackFeed> video_feed(Muxer& muxer, const EncodedVideo& video);
 std::unique_ptr<TrackFeed> sound_feed(Muxer& muxer, SoundSource& sound, double seconds);
+/// `text` as from Muxer::add_text().
+std::unique_ptr<TrackFeed> text_feed(Muxer& muxer, const TextSamples& samples, int text);
 
 struct Interleaved {
   double seconds = 0;    ///< end of the longest track

@@ -13,6 +13,7 @@
 #include "tools/media/detail/boxes.h"
 #include "tools/media/detail/fragment_index.h"
 #include "tools/media/detail/output_stream.h"
+#include "tools/media/detail/text_samples.h"
 
 namespace animeme::media {
 namespace {
@@ -227,6 +228,7 @@ std::vector<std::uint8_t> complete_moov(std::span<const std::uint8_t> moov,
   const Box whole = box_at(cleared, 0, cleared.size());
   if (whole.begin == 0) return cleared;
   set_next_track_id(cleared, whole);
+  hide_texts(cleared);
   const std::vector<std::uint32_t> ids = tracks_with_descriptor(cleared, whole);
   const Bytes bytes(cleared);
   BoxWriter out;

@@ -19,8 +19,8 @@ std::vector<std::size_t> find_es_ids(std::span<const std::uint8_t> moov);
 
 /// A whole `moov` box with ES_ID 0 in every `esds`, as 14496-14 wants it in files, with the
 /// tracks that have one listed in its `iods`, if there is one (ES_ID_Inc with the track ID), with
-/// a next_track_ID that is free, and with the `duration` of fragments, if given (mehd, in the time
-/// scale of the movie).
+/// texts that are not enabled, with a next_track_ID that is free, and with the `duration` of
+/// fragments, if given (mehd, in the time scale of the movie).
 std::vector<std::uint8_t> complete_moov(std::span<const std::uint8_t> moov,
                                         std::optional<std::uint64_t> duration = {});
 

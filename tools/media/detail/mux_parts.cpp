@@ -21,6 +21,7 @@ constexpr std::uint8_t kSimpleFace = 0x61;
 constexpr double kShortestFragment = 0.02;
 constexpr double kLongestFragment = 600;
 constexpr double kLongestShared = 2;
+constexpr double kLatestText = 1e9;   // seconds
 constexpr double kTablePeriod = 0.5;  // standards that build on 13818-1 ask for no less
 
 Result<void> check_unit(const fba::AccessUnits& face, std::size_t index) {
@@ -54,6 +55,22 @@ Result<void> check_face(const fba::AccessUnits& face) {
   return {};
 }
 
+Result<void> check_text(const TextTrack& track) {
+  const bool code =
+      track.language.size() == 3 && std::all_of(track.language.begin(), track.language.end(),
+                                                [](char c) { return c >= 'a' && c <= 'z'; });
+  if (!code) return invalid("the language of a text must be three small letters");
+  double before = 0;
+  for (const TextCue& cue : track.cues) {
+    if (!(cue.start >= before && cue.end > cue.start && cue.end <= kLatestText)) {
+      return invalid(
+          "the cues of a text must ascend from 0 on without overlap, each with a length");
+    }
+    before = cue.end;
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> check_input(const MuxInput& input, const MuxOptions& options) {
@@ -79,6 +96,9 @@ Result<void> check_input(const MuxInput& input, const MuxOptions& options) {
   }
   if (options.systems && options.fragmented) {
     return make_error(Code::unsupported, "a Systems presentation cannot be fragmented");
+  }
+  for (const TextTrack& track : input.texts != nullptr ? *input.texts : std::vector<TextTrack>()) {
+    if (auto legal = check_text(track); !legal) return legal;
   }
   const double seconds = options.fragment_seconds;
   if (!(seconds >= kShortestFragment && seconds <= kLongestFragment)) {

@@ -126,6 +126,20 @@ Result<void> Muxer::add_sound(const AudioFormat& format, std::int64_t bit_rate) 
   return add_stream(**parameters, {1, format.sample_rate});
 }
 
+Result<int> Muxer::add_text(const TextSamples& text) {
+  AVStream* stream = avformat_new_stream(context_, nullptr);
+  if (stream == nullptr) return av::no_memory();
+  stream->codecpar->codec_type = AVMEDIA_TYPE_SUBTITLE;
+  stream->codecpar->codec_id = text.codec;
+  if (!av::set_extradata(*stream->codecpar, text.config)) return av::no_memory();
+  stream->time_base = text.time_base;
+  av_dict_set(&stream->metadata, "language", text.language.c_str(), 0);
+  // Matroska's name of a track, and mp4's.
+  av_dict_set(&stream->metadata, is("mp4") ? "handler_name" : "title", text.name.c_str(), 0);
+  text_tracks_.push_back({stream, text.time_base});
+  return int(text_tracks_.size()) - 1;
+}
+
 Result<void> Muxer::check(int status) {
   // The reason lies where the bytes went; libavformat passes on what it made of it.
   if (context_->pb->error < 0) status = context_->pb->error;
@@ -175,6 +189,15 @@ Result<void> Muxer::write_picture(const VideoPacket& picture) {
   packet_->duration = 1;
   if (picture.key) packet_->flags |= AV_PKT_FLAG_KEY;
   return write(*packet_, video_track_);
+}
+
+Result<void> Muxer::write_text(const TextSample& sample, int text) {
+  if (av_new_packet(packet_.get(), int(sample.bytes.size())) < 0) return av::no_memory();
+  std::memcpy(packet_->data, sample.bytes.data(), sample.bytes.size());
+  packet_->pts = packet_->dts = sample.time;
+  packet_->duration = sample.duration;
+  packet_->flags |= AV_PKT_FLAG_KEY;
+  return write(*packet_, text_tracks_[std::size_t(text)]);
 }
 
 Result<void> Muxer::write_packet(AVPacket& packet) { return write(packet, other_track_); }

@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "codec/decode/access_unit.h"
 #include "tools/media/detail/ffmpeg.h"
 #include "tools/media/detail/output_stream.h"
+#include "tools/media/detail/text_samples.h"
 #include "tools/media/encoded_audio.h"
 #include "tools/media/video.h"
 
@@ -37,11 +39,15 @@ class Muxer {
   /// Adds a stream of coded sound; `bit_rate` 0: not known.
   Result<void> add_sound(const AudioFormat& format, std::int64_t bit_rate);
 
+  /// Adds a text behind them; its number for write_text().
+  Result<int> add_text(const TextSamples& text);
+
   /// Streams are complete. Options that the format does not know are an error (internal).
   Result<void> write_header(av::Options& options);
   Result<void> write_unit(const fba::AccessUnit& unit);
   Result<void> write_sound(const AudioPacket& packet);
   Result<void> write_picture(const VideoPacket& packet);
+  Result<void> write_text(const TextSample& sample, int text);
   /// Takes the packet's content. Times in the time_base given to add_stream().
   Result<void> write_packet(AVPacket& packet);
   /// What was written goes to the disk, and what comes next begins a fragment (mp4 with
@@ -68,6 +74,7 @@ class Muxer {
   av::Packet packet_;
   const fba::AccessUnits* face_ = nullptr;
   Track face_track_, video_track_, other_track_;
+  std::vector<Track> text_tracks_;
   AudioFormat sound_;
   std::int64_t sound_shift_ = 0;  // samples
 };

@@ -44,9 +44,10 @@ std::int64_t average(const SegmentedTrack& track) {
   return std::int64_t(std::ceil(bytes * 8 / length(track)));
 }
 
-std::string variant(const SegmentedTrack& track, const std::string& folder) {
-  return format("#EXT-X-STREAM-INF:BANDWIDTH=%lld,AVERAGE-BANDWIDTH=%lld,CODECS=\"%s\"\n",
-                (long long)peak(track), (long long)average(track), track.codecs.c_str()) +
+std::string variant(const SegmentedTrack& track, const std::string& folder, bool texts) {
+  return format("#EXT-X-STREAM-INF:BANDWIDTH=%lld,AVERAGE-BANDWIDTH=%lld,CODECS=\"%s\"%s\n",
+                (long long)peak(track), (long long)average(track), track.codecs.c_str(),
+                texts ? ",SUBTITLES=\"text\"" : "") +
          folder + "/" + track.name + ".m3u8\n";
 }
 
@@ -96,10 +97,18 @@ std::string adaptation_set(const SegmentedTrack& track, int id, const std::strin
 
 }  // namespace
 
-std::string hls_master(const std::vector<SegmentedTrack>& tracks, const std::string& folder) {
+std::string hls_master(const std::vector<SegmentedTrack>& tracks, const std::string& folder,
+                       const std::vector<SidecarText>& texts) {
   std::string text = "#EXTM3U\n#EXT-X-VERSION:7\n#EXT-X-INDEPENDENT-SEGMENTS\n";
   const bool has_sound = std::any_of(tracks.begin(), tracks.end(),
                                      [](const SegmentedTrack& track) { return !track.face; });
+  for (const SidecarText& each : texts) {
+    std::string name = each.name;
+    std::erase(name, '"');
+    text += "#EXT-X-MEDIA:TYPE=SUBTITLES,GROUP-ID=\"text\",NAME=\"" + name + "\",LANGUAGE=\"" +
+            each.language + "\",DEFAULT=NO,AUTOSELECT=NO,URI=\"" + folder + "/" + each.playlist +
+            "\"\n";
+  }
   for (const SegmentedTrack& track : tracks) {
     if (track.face && has_sound) {
       text +=
@@ -107,7 +116,7 @@ std::string hls_master(const std::vector<SegmentedTrack>& tracks, const std::str
           "URI=\"" +
           folder + "/" + track.name + ".m3u8\"\n";
     } else {
-      text += variant(track, folder);
+      text += variant(track, folder, !texts.empty());
     }
   }
   return text;
@@ -126,6 +135,14 @@ std::string hls_media(const SegmentedTrack& track) {
     text += format("#EXTINF:%.6f,\n", seconds(track, segment.duration)) + segment.name + "\n";
   }
   return text + "#EXT-X-ENDLIST\n";
+}
+
+std::string hls_text(const std::string& file, double seconds) {
+  return format(
+             "#EXTM3U\n#EXT-X-VERSION:7\n#EXT-X-TARGETDURATION:%lld\n#EXT-X-PLAYLIST-TYPE:VOD\n"
+             "#EXTINF:%.6f,\n",
+             std::max(1LL, std::llround(std::ceil(seconds))), seconds) +
+         file + "\n#EXT-X-ENDLIST\n";
 }
 
 std::string dash_description(const std::vector<SegmentedTrack>& tracks, const std::string& folder) {

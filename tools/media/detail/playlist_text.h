@@ -31,11 +31,23 @@ struct SegmentedTrack {
   std::vector<Segment> segments;
 };
 
+/// A text of its own playlist, beside the others.
+struct SidecarText {
+  std::string playlist;  ///< its reference
+  std::string name;      ///< what players list it as
+  std::string language;  ///< empty: not told
+};
+
 /// `folder` is where the segments lie, seen from the playlist: "talk_hls".
 ///
 /// The top playlist: the sound is the one variant, so that any player plays it; the face is a
-/// rendition that no variant asks for. A face alone is the variant.
-std::string hls_master(const std::vector<SegmentedTrack>& tracks, const std::string& folder);
+/// rendition that no variant asks for. A face alone is the variant. Texts, whose playlists lie in
+/// `folder`, too, are subtitles that nobody is shown unasked.
+std::string hls_master(const std::vector<SegmentedTrack>& tracks, const std::string& folder,
+                       const std::vector<SidecarText>& texts = {});
+
+/// The playlist of a text in one file that lasts so many seconds.
+std::string hls_text(const std::string& file, double seconds);
 
 /// The playlist of a track, beside its segments.
 std::string hls_media(const SegmentedTrack& track);
@@ -52,7 +64,8 @@ struct Rendition {
 
 /// What an HLS playlist refers to: other playlists (a master playlist) or segments.
 struct HlsPlaylist {
-  std::vector<std::string> playlists;
+  std::vector<std::string> playlists;  ///< of face, sound and pictures
+  std::vector<SidecarText> texts;
   Rendition rendition;
 };
 

@@ -85,21 +85,40 @@ Result<fs::path> beside(const fs::path& playlist, const std::string& reference) 
   return playlist.parent_path() / *name;
 }
 
-Result<void> add(Presentation& presentation, Room& room, const fs::path& playlist,
-                 const Rendition& rendition) {
-  if (presentation.renditions.size() >= kMostRenditions) {
-    return make_error(Code::out_of_range, "the playlist names too many renditions");
-  }
+Result<FileBytes> bytes_of(Room& room, const fs::path& playlist, const Rendition& rendition) {
   FileBytes bytes;
   std::vector<std::string> references = rendition.segments;
   if (!rendition.init.empty()) references.insert(references.begin(), rendition.init);
   for (const std::string& reference : references) {
     Result<fs::path> name = beside(playlist, reference);
     if (!name) return name.error();
-    if (auto done = room.read(*name, bytes); !done) return done;
+    if (auto done = room.read(*name, bytes); !done) return done.error();
   }
-  presentation.renditions.push_back(std::move(bytes));
+  return bytes;
+}
+
+Result<void> add(Presentation& presentation, Room& room, const fs::path& playlist,
+                 const Rendition& rendition) {
+  if (presentation.renditions.size() >= kMostRenditions) {
+    return make_error(Code::out_of_range, "the playlist names too many renditions");
+  }
+  Result<FileBytes> bytes = bytes_of(room, playlist, rendition);
+  if (!bytes) return bytes.error();
+  presentation.renditions.push_back(std::move(*bytes));
   return {};
+}
+
+// Face and sound do without a text that cannot be read.
+void add_text(Presentation& presentation, Room& room, const fs::path& master,
+              const SidecarText& text) {
+  const Result<fs::path> playlist = beside(master, text.playlist);
+  if (!playlist) return;
+  const Result<std::string> content = room.read_text(*playlist);
+  if (!content) return;
+  const Result<HlsPlaylist> read = read_hls(*content);
+  if (!read) return;
+  Result<FileBytes> bytes = bytes_of(room, *playlist, read->rendition);
+  if (bytes) presentation.texts.push_back({text.name, text.language, std::move(*bytes)});
 }
 
 Result<void> add_hls(Presentation& presentation, Room& room, const fs::path& playlist, bool top) {
@@ -109,6 +128,7 @@ Result<void> add_hls(Presentation& presentation, Room& room, const fs::path& pla
   if (!read) return read.error().in_file(playlist.string());
   if (read->playlists.empty()) return add(presentation, room, playlist, read->rendition);
   if (!top) return make_error(Code::unsupported, "playlists of playlists of playlists");
+  for (const SidecarText& each : read->texts) add_text(presentation, room, playlist, each);
   std::vector<std::string> seen;
   for (const std::string& reference : read->playlists) {
     if (std::find(seen.begin(), seen.end(), reference) != seen.end()) continue;

@@ -12,9 +12,16 @@ namespace animeme::media {
 /// Is a file with this name a playlist (.m3u8) or a DASH description (.mpd)?
 bool is_playlist(const std::string& path);
 
+/// A text of a presentation, as it lies there.
+struct PresentedText {
+  std::string name, language;
+  std::vector<std::uint8_t> file;
+};
+
 struct Presentation {
   const char* format = "hls";                         ///< or "dash"
   std::vector<std::vector<std::uint8_t>> renditions;  ///< each: initialization and segments
+  std::vector<PresentedText> texts;                   ///< those that can be read (HLS)
 };
 
 /// Reads the playlist and all that it refers to. A closed room: only ordinary files in the folder

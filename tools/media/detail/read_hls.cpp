@@ -6,6 +6,8 @@
 namespace animeme::media {
 namespace {
 
+constexpr std::size_t kMostTexts = 32;
+
 class HlsReader {
  public:
   Result<HlsPlaylist> read(std::string_view text);
@@ -56,7 +58,12 @@ Result<void> HlsReader::take_tag(std::string_view line) {
   } else if (skip_prefix(line, "#EXT-X-MEDIA:")) {
     master_ = true;
     const auto uri = attribute(line, "URI");
-    if (uri) out_.playlists.push_back(*uri);
+    const bool text = attribute(line, "TYPE") == "SUBTITLES";
+    if (uri && text && out_.texts.size() < kMostTexts) {
+      out_.texts.push_back(
+          {*uri, attribute(line, "NAME").value_or(""), attribute(line, "LANGUAGE").value_or("")});
+    }
+    if (uri && !text) out_.playlists.push_back(*uri);
   } else if (skip_prefix(line, "#EXT-X-MAP:")) {
     const auto uri = attribute(line, "URI");
     if (!uri) return wrong(Code::syntax, "EXT-X-MAP has no URI");

@@ -19,6 +19,7 @@
 #include "tools/media/detail/output_stream.h"
 #include "tools/media/detail/playlist_text.h"
 #include "tools/media/detail/presentation.h"
+#include "tools/media/detail/text_samples.h"
 #include "tools/media/detail/words_internal.h"
 
 namespace animeme::media {
@@ -39,6 +40,7 @@ std::string codecs_of(const AudioFormat& sound) {
 }
 
 bool is_ours(std::string_view file) {
+  if (file.starts_with("text")) return file.ends_with(".vtt") || file.ends_with(".m3u8");
   const bool named = file.starts_with("face") || file.starts_with("sound");
   return named &&
          (file.ends_with(".m4s") || file.ends_with("-init.mp4") || file.ends_with(".m3u8"));
@@ -130,6 +132,7 @@ class SegmentWriter {
   Result<void> open(const tools::OutputFolder& folder);
   Result<Track*> add_track(const tools::OutputFolder& folder, const char* name);
   Result<void> start(Track& track, const Mp4Contents& contents, std::unique_ptr<TrackFeed> feed);
+  Result<void> write_texts(const tools::OutputFolder& folder, double seconds);
   std::string text(const std::string& folder) const;
 
   const std::string& path_;
@@ -139,6 +142,7 @@ class SegmentWriter {
   std::optional<SoundSource> sound_;
   std::vector<std::unique_ptr<Track>> tracks_;
   std::vector<std::unique_ptr<TrackFeed>> feeds_;
+  std::vector<SidecarText> texts_;
 };
 
 Result<Track*> SegmentWriter::add_track(const tools::OutputFolder& folder, const char* name) {
@@ -206,7 +210,20 @@ Result<void> SegmentWriter::open(const tools::OutputFolder& folder) {
 std::string SegmentWriter::text(const std::string& folder) const {
   std::vector<SegmentedTrack> descriptions;
   for (const auto& track : tracks_) descriptions.push_back(track->description);
-  return dash_ ? dash_description(descriptions, folder) : hls_master(descriptions, folder);
+  return dash_ ? dash_description(descriptions, folder) : hls_master(descriptions, folder, texts_);
+}
+
+// Each in one piece: text is small.
+Result<void> SegmentWriter::write_texts(const tools::OutputFolder& folder, double seconds) {
+  if (input_.texts == nullptr) return {};
+  for (const TextTrack& track : *input_.texts) {
+    const std::string name = "text-" + std::to_string(texts_.size() + 1);
+    texts_.push_back({name + ".m3u8", clean_text(track.name), track.language});
+    Result<void> done = write_text(folder.file(name + ".vtt"), webvtt_of(track));
+    if (done) done = write_text(folder.file(name + ".m3u8"), hls_text(name + ".vtt", seconds));
+    if (!done) return done;
+  }
+  return {};
 }
 
 Result<MuxResult> SegmentWriter::write() {
@@ -231,7 +248,8 @@ Result<MuxResult> SegmentWriter::write() {
     }
     if (!step) return step.error();
   }
-  Result<void> step = playlist.write(text(to_reference(folder_name)));
+  Result<void> step = write_texts(*folder, done->seconds);
+  if (step) step = playlist.write(text(to_reference(folder_name)));
   if (step) step = folder->commit();
   if (step) step = playlist.publish();  // last: it is what readers look for
   if (!step) return step.error();

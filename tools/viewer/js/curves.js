@@ -1,12 +1,15 @@
-// Curves of the chosen FAPs over time, phones and words above them, and a head that moves along.
+// Curves of the chosen FAPs over time, the wave of the sound, phones and words above them, and a
+// head that moves along.
 import {listenToDrags} from './axis.js';
+import {SILENCE, Said, wordsOf} from './said.js';
+import {Wave} from './wave.js';
 
 const ROW = 52;
 const HEADING = 20;  // of a row, for its name
 // Fingers need larger buttons, which stand in the ruler.
 const RULER = matchMedia('(pointer: coarse)').matches ? 40 : 22;
 const TRACK = 20;
-const SILENCE = 'SIL';
+const WAVE = 34;
 
 const RADIAN = 1e-5;  // of an angle unit
 
@@ -21,6 +24,7 @@ export class Curves {
     Object.assign(this, {...elements, app, axis});
     this.phones = facts.phones;
     this.words = wordsOf(facts.phones);
+    this.said = new Said(this.now, facts.phones);
     this.table = facts.faps;
     this.faps = [];
     this.ranges = {};
@@ -55,13 +59,16 @@ export class Curves {
       value.className = `value clip${i}`;
       return value;
     }));
-    label.style.top = `${this.top() + this.faps.indexOf(fap) * ROW}px`;
     return label;
   }
 
-  // Where the first row begins.
+  // Where phones begin, and where the first row does.
+  tracksTop() {
+    return RULER + (this.app.hasSound ? WAVE : 0);
+  }
+
   top() {
-    return RULER + (this.phones.length ? TRACK * (this.words.length ? 2 : 1) : 0);
+    return this.tracksTop() + (this.phones.length ? TRACK * (this.words.length ? 2 : 1) : 0);
   }
 
   listen() {
@@ -107,9 +114,15 @@ export class Curves {
     pen.textBaseline = 'middle';
     this.paper = {pen, width, height, colour: (name) => style.getPropertyValue(`--${name}`)};
     this.drawRuler();
-    this.drawTrack(this.phones, RULER, 'phone', (label) => label === SILENCE);
-    this.drawTrack(this.words, RULER + TRACK, 'word', () => false);
-    this.faps.forEach((fap, row) => this.drawRow(fap, this.top() + row * ROW));
+    this.drawWave();
+    const tracks = this.tracksTop();
+    this.drawTrack(this.phones, tracks, 'phone', (label) => label === SILENCE);
+    this.drawTrack(this.words, tracks + TRACK, 'word', () => false);
+    this.faps.forEach((fap, row) => {
+      const top = this.top() + row * ROW;
+      this.labels.children[row].style.top = `${top}px`;
+      this.drawRow(fap, top);
+    });
     this.show(this.app.time(), true);
   }
 
@@ -139,6 +152,26 @@ export class Curves {
       if (x > free) continue;
       pen.fillText(`${(k * step).toFixed(digits)} s`, x + 4, RULER / 2);
     }
+  }
+
+  // A line from the least to the largest sample of each pixel.
+  drawWave() {
+    const {buffer} = this.app.player;
+    if (!this.app.hasSound || !buffer) return;  // it is being decoded
+    if (!this.wave) this.wave = new Wave(buffer);
+    const {pen, width, colour} = this.paper;
+    const middle = RULER + WAVE / 2;
+    const height = (WAVE / 2 - 2) / (this.wave.peak || 1);
+    pen.strokeStyle = colour('soft');
+    pen.lineWidth = 1;
+    pen.beginPath();
+    for (let x = 0; x < width; ++x) {
+      const reach = this.wave.extremes(this.axis.time(x / width), this.axis.time((x + 1) / width));
+      if (!reach) continue;
+      pen.moveTo(x + 0.5, middle - reach[1] * height - 0.5);
+      pen.lineTo(x + 0.5, middle - reach[0] * height + 0.5);
+    }
+    pen.stroke();
   }
 
   drawTrack(pieces, top, kind, quiet) {
@@ -221,7 +254,7 @@ export class Curves {
     if (dense) pen.lineTo(column, y(low)), pen.lineTo(column, y(high));
   }
 
-  /** The moving parts: head, values, current phone. */
+  /** The moving parts: head, values, what is said. */
   show(time, still = false) {
     if (!still) this.axis.follow(time);
     const share = this.axis.share(time);
@@ -236,25 +269,6 @@ export class Curves {
         if (cell.textContent !== text) cell.textContent = text;
       });
     });
-    const phone = pieceAt(this.phones, time);
-    const spoken = phone && phone[2] !== SILENCE;
-    this.now.textContent = spoken ? [phone[2], phone[3]].filter(Boolean).join(' · ') : '';
+    this.said.show(time);
   }
-}
-
-/** The piece [start, end, ...] that a time lies in. */
-export function pieceAt(pieces, time) {
-  return pieces.find(([start, end]) => time >= start && time < end);
-}
-
-// Phones that follow one another in one word.
-function wordsOf(phones) {
-  const words = [];
-  for (const [start, end, , word] of phones) {
-    const last = words[words.length - 1];
-    if (!word) continue;
-    if (last && last[2] === word && Math.abs(last[1] - start) < 1e-3) last[1] = end;
-    else words.push([start, end, word]);
-  }
-  return words;
 }

@@ -218,6 +218,8 @@ async function start() {
   if (facts.sound) {
     await player.loadSound(coded('sound')).catch(() => {
       byId('silent').hidden = false;
+      app.hasSound = false;  // no wave
+      app.changed();
     });
   }
   app.draw();
