@@ -231,7 +231,9 @@ Result<int> run(const HeadOptions& options) {
   const Writer* const writer = std::find_if(
       std::begin(kWriters), std::end(kWriters),
       [kind = extension_of(options.output)](const Writer& each) { return each.extension == kind; });
-  const Result<studio::LoadedHead> loaded = studio::load_head(options.head);
+  studio::HeadChoice choice = options.head;
+  choice.colours_at_vertices = writer != std::end(kWriters);
+  const Result<studio::LoadedHead> loaded = studio::load_head(choice);
   if (!loaded) return loaded.error();
   const head::Rig rig = head::make_rig(loaded->head);
   if (options.speak_test) return test_speech(*loaded, rig, options.json);

@@ -15,6 +15,9 @@ namespace animeme::studio {
 struct HeadChoice {
   std::string head = "woman";  ///< one of head::kHeadNames, or a file
   std::string points;          ///< list of feature points; see fap/head/point_list.h
+  /// Triangles are divided so that colours at the vertices show textures: for formats that have no
+  /// materials. Pictures and pages need it not.
+  bool colours_at_vertices = false;
 };
 
 /// A head and what there is to say of it.

@@ -117,7 +117,9 @@ float CoatPainter::paint(float x, float y, F4& shown_colour) {
   if (coat.alpha_mode == head::AlphaMode::blend && base.alpha <= 0) return 0;
   CoatPoint point;
   point.albedo = base.rgb * tint * (coat.vertex_colours ? Vec3{1, 1, 1} : coat.factor.rgb);
-  point.sky = std::clamp(sky, 0.0f, 1.0f);
+  // Pictures have most of their shadows painted in; only what lies deep, as in a mouth, is dark.
+  constexpr float kDeep = 3.5f;
+  point.sky = std::clamp(kDeep * sky, 0.0f, 1.0f);
   if (coat.shading != head::Shading::unlit) {
     point.normal = normal_at(shares, sampler(coat.normal).rgb);
     point.to_eye = normalised(view_.eye - place_at(x, y, shares));
