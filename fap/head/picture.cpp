@@ -85,7 +85,7 @@ Texels half_of(const Texels& from, TexelKind kind) {
 }  // namespace
 
 Picture::Picture(Texels texels, TexelKind kind, std::vector<std::uint8_t> file, std::string type)
-    : kind_(kind), file_(std::move(file)), type_(std::move(type)) {
+    : kind_(kind), light_(table_of(kind).data()), file_(std::move(file)), type_(std::move(type)) {
   levels_.push_back(std::move(texels));
   while (levels_.back().width > 1 || levels_.back().height > 1) {
     levels_.push_back(half_of(levels_.back(), kind));
@@ -94,7 +94,7 @@ Picture::Picture(Texels texels, TexelKind kind, std::vector<std::uint8_t> file, 
 
 Colour Picture::sample(std::size_t number, Uv place, Wrap wrap_u, Wrap wrap_v) const {
   const Texels& level = levels_[number];
-  const ByteTable& light = table_of(kind_);
+  const float* light = light_;
   const float x = near_zero(place.u, wrap_u) * float(level.width) - 0.5f;
   const float y = near_zero(place.v, wrap_v) * float(level.height) - 0.5f;
   const float left = std::floor(x), top = std::floor(y);

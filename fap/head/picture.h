@@ -60,6 +60,7 @@ class Picture {
   Colour sample(std::size_t level, Uv place, Wrap wrap_u, Wrap wrap_v) const;
 
   TexelKind kind_;
+  const float* light_;  // of a byte
   std::vector<Texels> levels_;
   std::vector<std::uint8_t> file_;
   std::string type_;

@@ -74,7 +74,8 @@ struct Renderer::State {
   void shade_part(const Scene& scene, const detail::View& view, int thread);
   void bin_part(const Scene& scene, int thread);
   void bin_triangle(const Surface& surface, Entry entry, Bins& out);
-  void draw_facet(const Scene& scene, const detail::View& view, Entry entry, detail::Tile& tile);
+  detail::CoatFacet facet_of(const Scene& scene, Entry entry) const;
+  void cover_facets(const Scene& scene, int index, detail::Tile& tile) const;
   void draw_veils(const Scene& scene, const detail::View& view, int index, detail::Tile& tile);
   void draw_part(const Scene& scene, const detail::View& view, int thread);
 };
@@ -138,15 +139,24 @@ void Renderer::State::bin_triangle(const Surface& surface, Entry entry, Bins& ou
   }
 }
 
-void Renderer::State::draw_facet(const Scene& scene, const detail::View& view, Entry entry,
-                                 detail::Tile& tile) {
+detail::CoatFacet Renderer::State::facet_of(const Scene& scene, Entry entry) const {
   const Surface& surface = scene.surfaces[entry.surface];
   const ScreenVertex* v = vertices[entry.surface].data();
   head::Triangle t = surface.facets[entry.triangle];
   const bool back = screen_area(v[t[0]], v[t[1]], v[t[2]]) > 0;
   if (back) std::swap(t[1], t[2]);
-  tile.draw({{v + t[0], v + t[1], v + t[2]}, t, surface, *coat_of(surface, entry.triangle), back},
-            view);
+  return {{v + t[0], v + t[1], v + t[2]}, t, surface, *coat_of(surface, entry.triangle), back};
+}
+
+// Textures and light cost more than to find out first what is seen.
+void Renderer::State::cover_facets(const Scene& scene, int index, detail::Tile& tile) const {
+  for (const Bins& found : bins) {
+    for (const Entry& entry : found[std::size_t(index)].solid) {
+      if (scene.surfaces[entry.surface].facets.empty()) continue;
+      const detail::CoatFacet facet = facet_of(scene, entry);
+      if (facet.coat.alpha_mode == head::AlphaMode::opaque) tile.cover(facet);
+    }
+  }
 }
 
 // What is farther away goes first.
@@ -159,18 +169,19 @@ void Renderer::State::draw_veils(const Scene& scene, const detail::View& view, i
   }
   std::stable_sort(veils.begin(), veils.end(),
                    [](const Veil& a, const Veil& b) { return a.nearness < b.nearness; });
-  for (const Veil& veil : veils) draw_facet(scene, view, veil.entry, tile);
+  for (const Veil& veil : veils) tile.draw(facet_of(scene, veil.entry), view);
 }
 
 void Renderer::State::draw_part(const Scene& scene, const detail::View& view, int thread) {
   detail::Tile& tile = tiles[std::size_t(thread)];
   for (int index = next_tile++; index < tiles_x * tiles_y; index = next_tile++) {
     tile.start(index % tiles_x * kTile, index / tiles_x * kTile, options);
+    cover_facets(scene, index, tile);
     for (const Bins& found : bins) {
       for (const Entry& entry : found[std::size_t(index)].solid) {
         const Surface& surface = scene.surfaces[entry.surface];
         if (!surface.facets.empty()) {
-          draw_facet(scene, view, entry, tile);
+          tile.draw(facet_of(scene, entry), view);
           continue;
         }
         const head::Triangle& t = surface.triangles[entry.triangle];

@@ -24,14 +24,16 @@ class HeadReader {
     auto nodes = read_nodes(file_);
     if (!nodes) return nodes.error();
     joints_ = find_joints(file_, *nodes);
-    Paints paints(file_, options_.load, source_.notes);
+    const bool keep_materials = options_.vertices == 0;
+    Paints paints(file_, options_.load, source_.notes, keep_materials);
     ShapeNames names;
     auto pieces = MeshReader(file_, *nodes, joints_, paints).read(names);
     if (!pieces) return pieces.error();
     pieces_ = std::move(*pieces);
     if (options_.vertices > 0) refine(pieces_, options_.vertices);
-    const bool dressed = std::any_of(pieces_.begin(), pieces_.end(),
-                                     [](const RawPiece& piece) { return piece.paint->textured; });
+    const bool dressed =
+        keep_materials && std::any_of(pieces_.begin(), pieces_.end(),
+                                      [](const RawPiece& piece) { return piece.paint->textured; });
     for (RawPiece& piece : pieces_) {
       if (dressed) dress(piece);
       paint(piece);

@@ -87,8 +87,9 @@ Paint Paints::make(std::size_t material) {
   const Json& glass = member(entry, "extensions", "KHR_materials_transmission");
   paint.see_through = number_or(member(glass, "transmissionFactor"), 0) > 0.5;
   add_base(base_texture_of(entry), paint);
+  paint.textured = paint.picture != nullptr;
   constexpr std::size_t kMostCoats = 65535;
-  if (coats_.size() >= kMostCoats) return paint;
+  if (!with_coats_ || coats_.size() >= kMostCoats) return paint;
   paint.coat = coats_.size();
   coats_.push_back(read_coat(file_, material, paint, [&](const Json& info, TexelKind kind) {
     return texture(info, kind, paint.name);

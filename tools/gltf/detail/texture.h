@@ -41,8 +41,9 @@ struct Paint {
 /// Reads materials.
 class Paints {
  public:
-  Paints(const File& file, const LoadFile& load, std::vector<std::string>& notes)
-      : file_(file), notes_(notes), pictures_(file, load, notes) {
+  /// Without `coats` base colours alone are read.
+  Paints(const File& file, const LoadFile& load, std::vector<std::string>& notes, bool coats)
+      : file_(file), notes_(notes), with_coats_(coats), pictures_(file, load, notes) {
     coats_.emplace_back().vertex_colours = true;
   }
 
@@ -58,6 +59,7 @@ class Paints {
 
   const File& file_;
   std::vector<std::string>& notes_;
+  bool with_coats_;
   Pictures pictures_;
   std::map<std::size_t, Paint> paints_;
   std::vector<head::Coat> coats_;  // the first one is that of `white_`

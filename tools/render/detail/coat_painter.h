@@ -21,6 +21,9 @@ class CoatPainter {
   CoatPainter(const CoatFacet& facet, const ScreenFrame& frame, const View& view)
       : facet_(facet), frame_(frame), view_(view) {}
 
+  static constexpr bool kDraws = true;
+  /// Draws where something is as near: itself, or what it lies on, as painted brows do.
+  bool over() const { return facet_.coat.alpha_mode != head::AlphaMode::mask; }
   bool blends() const { return facet_.coat.alpha_mode == head::AlphaMode::blend; }
 
   /// The colour (0..255, as shown) at a place in pixels from the first corner, and its opacity; 0:

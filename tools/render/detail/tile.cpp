@@ -89,6 +89,8 @@ struct Tile::Planes {
   Plane colour{};
   Plane normal{};
 
+  static constexpr bool kDraws = true;
+  static constexpr bool over() { return false; }
   static constexpr bool blends() { return false; }
 
   void make() {
@@ -160,6 +162,17 @@ void Tile::draw(const Corners& corners, bool eye, const View& view) {
   fill(corners, frame, planes);
 }
 
+// Depth alone.
+struct Tile::Cover {
+  static constexpr bool kDraws = false;
+  static constexpr bool over() { return false; }
+};
+
+void Tile::cover(const CoatFacet& facet) {
+  Cover cover;
+  fill(facet.screen, ScreenFrame(facet.screen), cover);
+}
+
 void Tile::draw(const CoatFacet& facet, const View& view) {
   const ScreenFrame frame(facet.screen);
   CoatPainter painter(facet, frame, view);
@@ -222,22 +235,26 @@ template <class Painter>
 inline void Tile::fill_pixel(int index, const I4& inside, const F4& nearness, Painter& painter,
                              float x, float y) {
   F4& depth = nearness_[std::size_t(index)];
-  // What blends may lie on a surface, as painted brows do.
-  const I4 seen = inside & (painter.blends() ? nearness >= depth : nearness > depth);
+  const I4 seen = inside & (painter.over() ? nearness >= depth : nearness > depth);
   const int mask = lanes(seen);
   if (mask == 0) return;
-  const Middle& m = kMiddles[std::size_t(mask)];
-  F4 shown;
-  const float alpha = painter.paint(x + m.x, y + m.y, shown);
-  if (alpha <= 0) return;
-  I4& old = colour_[std::size_t(index)];
-  I4 colour = splat(pack(shown));
-  if (painter.blends()) {
-    if (alpha < 1) colour = mixed(old, shown, alpha);
-  } else {
+  if constexpr (!Painter::kDraws) {
     depth = as_float((seen & as_int(nearness)) | (~seen & as_int(depth)));
+    return;
+  } else {
+    const Middle& m = kMiddles[std::size_t(mask)];
+    F4 shown;
+    const float alpha = painter.paint(x + m.x, y + m.y, shown);
+    if (alpha <= 0) return;
+    I4& old = colour_[std::size_t(index)];
+    I4 colour = splat(pack(shown));
+    if (painter.blends()) {
+      if (alpha < 1) colour = mixed(old, shown, alpha);
+    } else {
+      depth = as_float((seen & as_int(nearness)) | (~seen & as_int(depth)));
+    }
+    old = (seen & colour) | (~seen & old);
   }
-  old = (seen & colour) | (~seen & old);
 }
 
 void Tile::finish(Image& image) const {

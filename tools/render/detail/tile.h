@@ -18,6 +18,9 @@ class Tile {
   void start(int x, int y, const RenderOptions& options);
   /// Draws a triangle; `eye` adds highlights.
   void draw(const Corners& corners, bool eye, const View& view);
+  /// Notes how near a facet is, without drawing it, so that draw() has to look at what is seen
+  /// only.
+  void cover(const CoatFacet& facet);
   /// Draws a facet by its coat. One that blends goes over what is there and hides nothing: draw
   /// them last, and those that are far away first.
   void draw(const CoatFacet& facet, const View& view);
@@ -27,6 +30,7 @@ class Tile {
  private:
   struct Plane;
   struct Planes;
+  struct Cover;
   static Plane plane(const ScreenFrame& frame, F4 a, F4 b, F4 c);
   template <class Painter>
   void fill(const Corners& corners, const ScreenFrame& frame, Painter& painter);
