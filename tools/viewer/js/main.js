@@ -220,6 +220,7 @@ async function start() {
       byId('silent').hidden = false;
     });
   }
+  if (stage.view) await stage.view.ready;
   app.draw();
   if (flag('play')) playUnasked(player);
 }
