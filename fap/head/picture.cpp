@@ -92,6 +92,12 @@ Picture::Picture(Texels texels, TexelKind kind, std::vector<std::uint8_t> file, 
   }
 }
 
+const Texels& Picture::within(int side) const {
+  std::size_t number = 0;
+  while (std::max(levels_[number].width, levels_[number].height) > side) ++number;
+  return levels_[number];
+}
+
 Colour Picture::sample(std::size_t number, Uv place, Wrap wrap_u, Wrap wrap_v) const {
   const Texels& level = levels_[number];
   const float* light = light_;

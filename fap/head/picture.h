@@ -49,6 +49,9 @@ class Picture {
   /// Between two levels: 0 is the picture, 1 its half and so on. As GPUs do it.
   Colour between(Uv place, Wrap wrap_u, Wrap wrap_v, float level) const;
 
+  /// The largest level whose sides have at most `side` texels, which is 1 or more.
+  const Texels& within(int side) const;
+
   int width() const { return levels_[0].width; }                   ///< texels
   int height() const { return levels_[0].height; }                 ///< texels
   const Texels& texels() const { return levels_[0]; }              ///< as decoded
