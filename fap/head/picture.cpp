@@ -45,9 +45,16 @@ int wrapped(int at, int size, Wrap wrap) {
 
 // Far away places are the same as near ones; it keeps them within the range of int.
 float near_zero(float place, Wrap wrap) {
+  if (place >= 0 && place < 1) return place;
   if (!std::isfinite(place)) return 0;
   if (wrap == Wrap::clamp) return std::clamp(place, -1.0f, 2.0f);
   return place - 2 * std::floor(place / 2);
+}
+
+// std::floor() is a call where processors of any age have to do.
+int whole_below(float value) {
+  const int whole = int(value);
+  return float(whole) > value ? whole - 1 : whole;
 }
 
 const std::uint8_t* texel_at(const Texels& level, int x, int y) {
@@ -103,12 +110,12 @@ Colour Picture::sample(std::size_t number, Uv place, Wrap wrap_u, Wrap wrap_v) c
   const float* light = light_;
   const float x = near_zero(place.u, wrap_u) * float(level.width) - 0.5f;
   const float y = near_zero(place.v, wrap_v) * float(level.height) - 0.5f;
-  const float left = std::floor(x), top = std::floor(y);
-  const float right_share = x - left, low_share = y - top;
-  const int x0 = wrapped(int(left), level.width, wrap_u);
-  const int x1 = wrapped(int(left) + 1, level.width, wrap_u);
-  const int y0 = wrapped(int(top), level.height, wrap_v);
-  const int y1 = wrapped(int(top) + 1, level.height, wrap_v);
+  const int left = whole_below(x), top = whole_below(y);
+  const float right_share = x - float(left), low_share = y - float(top);
+  const int x0 = wrapped(left, level.width, wrap_u);
+  const int x1 = wrapped(left + 1, level.width, wrap_u);
+  const int y0 = wrapped(top, level.height, wrap_v);
+  const int y1 = wrapped(top + 1, level.height, wrap_v);
   const std::uint8_t* texels[] = {texel_at(level, x0, y0), texel_at(level, x1, y0),
                                   texel_at(level, x0, y1), texel_at(level, x1, y1)};
   const float shares[] = {(1 - right_share) * (1 - low_share), right_share * (1 - low_share),

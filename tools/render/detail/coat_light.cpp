@@ -14,12 +14,13 @@ constexpr Vec3 kFillLamp{0.16f, 0.20f, 0.26f};
 constexpr Vec3 kRimLamp{0.26f, 0.28f, 0.31f};
 constexpr Vec3 kAbove{0.40f, 0.41f, 0.43f};
 constexpr Vec3 kBelow{0.25f, 0.23f, 0.22f};
-constexpr float kSmoothest = 0.0525f;  // a highlight of a smoother surface falls between pixels
-constexpr float kDielectric = 0.04f;   // share of light that shines at right angles
+constexpr float kSmoothest = 0.045f;  // a highlight of a smoother surface falls between pixels
+constexpr float kDielectric = 0.04f;  // share of light that shines at right angles
 
 // Lambert and GGX with Smith's correlated shadowing and Schlick's Fresnel, as glTF describes them.
 struct Surfaced {
   Vec3 diffuse, shine;  // colours
+  Vec3 plain;           // shine of what is no metal
   float edge;           // shine at grazing angles
   float alpha;          // roughness squared
   Vec3 normal, to_eye;
@@ -41,7 +42,9 @@ struct Surfaced {
     const float away = 1 - vh;
     const float fresnel = away * away * away * away * away;
     const Vec3 mirror = shine * (1 - fresnel) + Vec3{edge, edge, edge} * fresnel;
-    return (diffuse + mirror * (spread * shadow)) * lamp * cosine;
+    // What a surface that is no metal mirrors does not get below it.
+    const Vec3 below = Vec3{1, 1, 1} - plain * (1 - fresnel) - Vec3{edge, edge, edge} * fresnel;
+    return (diffuse * below + mirror * (spread * shadow)) * lamp * cosine;
   }
 };
 
@@ -71,6 +74,7 @@ Vec3 lit_coat(const head::Coat& coat, const CoatPoint& p, const View& view) {
   const float plain = kDielectric * coat.specular;
   const Surfaced s{p.albedo * matt,
                    mix(Vec3{plain, plain, plain}, p.albedo, p.metallic),
+                   {plain, plain, plain},
                    coat.specular * matt + p.metallic,
                    rough * rough,
                    p.normal,

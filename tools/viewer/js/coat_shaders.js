@@ -75,7 +75,8 @@ vec3 lamp(Surface s, vec3 l, vec3 light) {
       s.facing * sqrt(square + (1.0 - square) * nl * nl), 1e-6);
   float fresnel = pow(1.0 - clamp(dot(s.v, h), 0.0, 1.0), 5.0);
   vec3 mirror = mix(s.shine, vec3(s.edge), fresnel);
-  return (s.diffuse + mirror * (square / (bump * bump) * shadow)) * light * nl;
+  float below = 1.0 - mix(0.04 * specular, s.edge, fresnel);
+  return (s.diffuse * below + mirror * (square / (bump * bump) * shadow)) * light * nl;
 }
 vec3 skyAt(vec3 d) { return mix(BELOW, ABOVE, 0.5 + 0.5 * d.y); }
 
@@ -110,7 +111,7 @@ vec3 srgb(vec3 x) {
 vec3 lit(vec3 albedo, vec3 n, vec3 v, vec3 glow) {
   vec3 metal = texture(metalMap, spot).rgb;
   float share = metallic * metal.b;
-  float rough = clamp(roughness * metal.g, 0.0525, 1.0);
+  float rough = clamp(roughness * metal.g, 0.045, 1.0);
   Surface s = Surface(albedo * (1.0 - share), mix(vec3(0.04 * specular), albedo, share),
       specular * (1.0 - share) + share, rough * rough, n, v, clamp(dot(n, v), 0.0, 1.0));
   float open = clamp(3.5 * sky, 0.0, 1.0);
