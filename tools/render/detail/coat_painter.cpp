@@ -118,8 +118,10 @@ float CoatPainter::paint(float x, float y, F4& shown_colour) {
   CoatPoint point;
   point.albedo = base.rgb * tint * (coat.vertex_colours ? Vec3{1, 1, 1} : coat.factor.rgb);
   // Pictures have most of their shadows painted in; only what lies deep, as in a mouth, is dark.
+  // Cards of hair lie upon each other and would get spots.
   constexpr float kDeep = 3.5f;
-  point.sky = std::clamp(kDeep * sky, 0.0f, 1.0f);
+  const bool hair = facet_.surface.material == head::Material::hair;
+  point.sky = hair ? 1 : std::clamp(kDeep * sky, 0.0f, 1.0f);
   if (coat.shading != head::Shading::unlit) {
     point.normal = normal_at(shares, sampler(coat.normal).rgb);
     point.to_eye = normalised(view_.eye - place_at(x, y, shares));

@@ -50,8 +50,10 @@ export class Mesh {
         (values) => this.gathered(values, 3, new Float32Array(facets.vertices.length * 3)));
     this.cornerPlaces = this.attribute(0, places, 3, gl.FLOAT, false, usage);
     this.cornerNormals = this.attribute(1, normals, 3, gl.FLOAT, false, usage);
-    this.attribute(2, this.gathered(paint, 4, new Uint8Array(facets.vertices.length * 4)), 4,
-        gl.UNSIGNED_BYTE, true, gl.STATIC_DRAW);
+    const painted = this.gathered(paint, 4, new Uint8Array(facets.vertices.length * 4));
+    // Cards of hair lie upon each other: the sky that they see would make spots.
+    if (this.part.material === 'hair') painted.forEach((_, i) => { if (i % 4 === 3) painted[i] = 255; });
+    this.attribute(2, painted, 4, gl.UNSIGNED_BYTE, true, gl.STATIC_DRAW);
     this.attribute(4, facets.uvs, 2, gl.FLOAT, false, gl.STATIC_DRAW);
     this.attribute(5, facets.own, 4, gl.SHORT, true, gl.STATIC_DRAW);
     this.attribute(6, normals, 3, gl.FLOAT, false, gl.STATIC_DRAW);
