@@ -47,7 +47,7 @@ const TestHead& coated_head() {
     TestHead out;
     std::vector<Coat>& coats = out.head.coats;
     const head::Texture base = texture(64, pattern(), head::TexelKind::colour);
-    for (int i = 0; i < 4; ++i) coats.emplace_back().base = base;
+    for (int i = 0; i < 5; ++i) coats.emplace_back().base = base;
     coats[0].roughness = 0.5f;
     std::vector<std::uint8_t> bumps;
     for (int i = 0; i < 16; ++i) {
@@ -58,8 +58,19 @@ const TestHead& coated_head() {
     coats[1].shade = {0.1f, 0.05f, 0.2f};
     coats[2].shading = head::Shading::unlit;
     coats[3].alpha_mode = head::AlphaMode::blend;
+    // As many files have it: all of it blends, and nothing shines through.
+    coats[4].alpha_mode = head::AlphaMode::blend;
+    std::vector<std::uint8_t> full = pattern();
+    for (std::size_t i = 3; i < full.size(); i += 4) full[i] = 255;
+    coats[4].base = texture(64, std::move(full), head::TexelKind::colour);
+    coats[4].base.wrap_u = coats[4].base.wrap_v = head::Wrap::mirror;
+    dress(out.head.part(Part::hair), 4);
+    for (head::Corner& c : out.head.part(Part::hair).corners) {
+      const head::Vec3 p = out.head.part(Part::hair).positions[c.vertex];
+      c.uv = {p.z / 3, p.x / 9};  // what lies behind looks otherwise
+    }
     dress(out.head.part(Part::skin), 0);
-    dress(out.head.part(Part::hair), 1);
+    for (const Part part : {Part::left_eye, Part::right_eye}) dress(out.head.part(part), 1);
     dress(out.head.part(Part::body), 2);
     dress(out.head.part(Part::brows), 3);
     out.rig = head::make_rig(out.head);

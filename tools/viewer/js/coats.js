@@ -70,29 +70,31 @@ export class Coats {
     return this.coats[number].alpha === 'blend';
   }
 
-  /** Sets the uniforms of a program that is in use. */
-  wear(number, program) {
+  /** Sets the uniforms of a program that is in use. `hiding`: of a veil its opaque texels alone. */
+  wear(number, program, hiding) {
     const {gl} = this;
     const coat = this.coats[number];
+    const [alpha, cutoff] = hiding && this.blends(number) ? ['mask', 0.995] :
+        [coat.alpha, coat.cutoff];
     MAPS.forEach((name, unit) => {
       gl.activeTexture(gl.TEXTURE0 + unit);
       const worn = coat.textures[name];
       gl.bindTexture(gl.TEXTURE_2D, worn ? this.textures.get(String(worn)) : this.white);
       gl.uniform1i(program.place(`${name}Map`), unit);
     });
-    const numbers = {cutoff: coat.cutoff, normalScale: coat.normal_scale, metallic: coat.metallic,
+    const numbers = {cutoff, normalScale: coat.normal_scale, metallic: coat.metallic,
       roughness: coat.roughness, specular: coat.specular,
       strength: coat.textures.occlusion ? coat.strength : 0, shadeShift: coat.shift,
       toony: coat.toony, rimPower: coat.rim_power, rimLift: coat.rim_lift};
     for (const [name, value] of Object.entries(numbers)) gl.uniform1f(program.place(name), value);
     gl.uniform1i(program.place('shading'), SHADINGS.indexOf(coat.shading));
-    gl.uniform1i(program.place('alphaMode'), ALPHAS.indexOf(coat.alpha));
+    gl.uniform1i(program.place('alphaMode'), ALPHAS.indexOf(alpha));
     const bumps = coat.textures.normal;
     gl.uniform1i(program.place('bumpy'),
         bumps && this.textures.get(String(bumps)) !== this.white ? 1 : 0);
     gl.uniform1i(program.place('plain'), coat.plain ? 1 : 0);
-    const [r, g, b, alpha] = coat.factor;
-    gl.uniform4fv(program.place('factor'), coat.plain ? [1, 1, 1, alpha] : [r, g, b, alpha]);
+    const [r, g, b, a] = coat.factor;
+    gl.uniform4fv(program.place('factor'), coat.plain ? [1, 1, 1, a] : [r, g, b, a]);
     gl.uniform3fv(program.place('emission'), coat.emission);
     gl.uniform3fv(program.place('shade'), coat.shade);
     gl.uniform3fv(program.place('rimLight'), coat.rim);

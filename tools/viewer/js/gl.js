@@ -145,17 +145,19 @@ export class Renderer {
     const runs = meshes.flatMap((mesh, i) => (this.isCoated(mesh) ?
         mesh.part.facets.runs.map((run) => ({mesh, run, transform: rig.transforms[i]})) : []));
     const away = ({run}) => Math.hypot(...run.middle.map((x, k) => x - view.eye[k]));
-    const draw = ({mesh, run, transform}) => {
+    // At first what hides: also what is opaque of a veil, as many files have nothing but veils.
+    const draw = ({mesh, run, transform}, hiding) => {
       this.setPart(coated, transform);
-      coats.wear(run.coat, coated);
+      coats.wear(run.coat, coated, hiding);
       mesh.drawRun(run);
     };
     const veils = runs.filter(({run}) => coats.blends(run.coat));
-    runs.filter(({run}) => !coats.blends(run.coat)).forEach(draw);
+    const ghost = style.opacity < 1;  // shines through as a whole
+    runs.filter((each) => !ghost || !veils.includes(each)).forEach((each) => draw(each, true));
     const alone = !gl.isEnabled(gl.BLEND);
     gl.enable(gl.BLEND);
     gl.depthMask(false);
-    veils.sort((a, b) => away(b) - away(a)).forEach(draw);
+    veils.sort((a, b) => away(b) - away(a)).forEach((each) => draw(each, false));
     gl.depthMask(true);
     if (alone) gl.disable(gl.BLEND);
     gl.enable(gl.CULL_FACE);
