@@ -51,7 +51,9 @@ Colour Paint::at(Uv place, double footprint) const {
 Uv Paint::moved(Uv place) const {
   const Uv moved{move[0][0] * place.u + move[0][1] * place.v + move[0][2],
                  move[1][0] * place.u + move[1][1] * place.v + move[1][2]};
-  return std::isfinite(moved.u) && std::isfinite(moved.v) ? moved : Uv{};
+  // Farther away floats have no digits left for places on a picture.
+  constexpr float kFar = 1e6f;
+  return std::abs(moved.u) < kFar && std::abs(moved.v) < kFar ? moved : Uv{};
 }
 
 double Paint::texels(Uv a, Uv b) const {
