@@ -21,6 +21,7 @@
 
 #include "fap/fapu.h"
 #include "fap/frame.h"
+#include "fap/head/coat.h"
 #include "fap/head/vector.h"
 #include "fap/result.h"
 
@@ -39,6 +40,12 @@ struct Mesh {
   std::vector<Vec3> colours;           ///< linear RGB, 0..1
   std::vector<float> occlusion;        ///< 1: open sky, 0: no light gets here
   Material material = Material::skin;  ///< how light falls on it
+  /// How it is drawn if the head has coats, else empty. Facets are triangles of corners, in the
+  /// order of `triangles`; behind these the veils: triangles that are mostly transparent, which
+  /// are drawn, but neither move nor shade anything.
+  std::vector<Corner> corners;
+  std::vector<Triangle> facets;      ///< indices of `corners`
+  std::vector<std::uint16_t> coats;  ///< of each facet, index of Head::coats
 };
 
 /// The meshes of a head.
@@ -134,6 +141,7 @@ struct Head {
   std::string name;                    ///< for people
   double centimetres = 1;              ///< of one unit of the file that it comes from
   std::array<Mesh, kPartCount> parts;  ///< by Part; absent ones are empty
+  std::vector<Coat> coats;             ///< materials of heads of others; empty: see Mesh::colours
   std::array<Eye, 2> eyes;             ///< left, right
   /// All 84 points of the standard, in the order of fap::kFeaturePoints. 7.1, the top of the spine,
   /// is no vertex: it is neck_pivot.

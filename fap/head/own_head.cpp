@@ -150,6 +150,9 @@ class Assembler {
   void fill_parts() {
     index_.resize(source_.pieces.size());
     for (std::size_t i = 0; i < source_.pieces.size(); ++i) add_piece(i);
+    for (std::size_t i = 0; i < source_.pieces.size(); ++i) add_facets(i, false);
+    for (std::size_t i = 0; i < source_.pieces.size(); ++i) add_facets(i, true);
+    head_.coats = std::move(source_.coats);
     for (std::size_t p = 0; p < head_.parts.size(); ++p) {
       Mesh& mesh = head_.parts[p];
       // Shadows are either known for a whole part or found for all of it.
@@ -184,6 +187,30 @@ class Assembler {
       if (parts[t[0]] >= kPartCount) continue;
       piece_of_[parts[t[0]]].push_back(std::uint32_t(i));
       head_.parts[parts[t[0]]].triangles.push_back({index[t[0]], index[t[1]], index[t[2]]});
+    }
+  }
+
+  // The triangles of a piece as they are drawn, or its veils, which lie behind those of all pieces.
+  void add_facets(std::size_t i, bool veils) {
+    const Mesh& from = source_.pieces[i].mesh;
+    const std::size_t solid = std::min(from.triangles.size(), from.facets.size());
+    std::vector<std::uint32_t> numbers(from.corners.size(), kMissing);  // in the part
+    for (std::size_t f = veils ? solid : 0; f < (veils ? from.facets.size() : solid); ++f) {
+      const std::uint8_t part = parts_[i][from.corners[from.facets[f][0]].vertex];
+      if (part >= kPartCount) continue;
+      Mesh& mesh = head_.parts[part];
+      Triangle facet{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t corner = from.facets[f][k];
+        if (numbers[corner] == kMissing) {
+          numbers[corner] = std::uint32_t(mesh.corners.size());
+          mesh.corners.push_back(from.corners[corner]);
+          mesh.corners.back().vertex = index_[i][from.corners[corner].vertex];
+        }
+        facet[k] = numbers[corner];
+      }
+      mesh.facets.push_back(facet);
+      mesh.coats.push_back(from.coats[f]);
     }
   }
 

@@ -152,7 +152,11 @@ Rig make_rig(const Head& head) {
     const Mesh& mesh = head.parts[i];
     rig.parts[i].positions = mesh.positions;
     rig.parts[i].triangles = mesh.triangles;
-    detail::smooth_normals(mesh.positions, mesh.triangles, rig.parts[i].normals);
+    for (std::size_t f = mesh.triangles.size(); f < mesh.facets.size(); ++f) {
+      const auto vertex = [&](std::size_t k) { return mesh.corners[mesh.facets[f][k]].vertex; };
+      rig.parts[i].triangles.push_back({vertex(0), vertex(1), vertex(2)});
+    }
+    detail::smooth_normals(mesh.positions, rig.parts[i].triangles, rig.parts[i].normals);
   }
   rig.fapu = head.fapu;
   rig.eyes = head.eyes;

@@ -34,6 +34,18 @@ void check(const Source& source) {
     }
     require(piece.mesh.colours.empty() || piece.mesh.colours.size() == count);
     require(piece.neck_weights.empty() || piece.neck_weights.size() == count);
+    const animeme::head::Mesh& mesh = piece.mesh;
+    require(source.coats.empty() ? mesh.facets.empty()
+                                 : mesh.facets.size() >= mesh.triangles.size());
+    require(mesh.coats.size() == mesh.facets.size());
+    for (const std::uint16_t coat : mesh.coats) require(coat < source.coats.size());
+    for (const auto& t : mesh.facets) {
+      for (const std::uint32_t corner : t) require(corner < mesh.corners.size());
+    }
+    for (const auto& corner : mesh.corners) {
+      require(corner.vertex < count && finite(corner.normal));
+      require(std::abs(corner.uv.u) < 1e7f && std::abs(corner.uv.v) < 1e7f);
+    }
   }
   for (const auto& point : source.points) {
     require(point.piece < source.pieces.size());
@@ -90,11 +102,10 @@ void write_back(std::span<const std::uint8_t> bytes) {
   require(again->file().uses("X"));
 }
 
-void try_file(std::span<const std::uint8_t> bytes) {
-  write_back(bytes);
-  const bool assembled = becomes_a_head(bytes);
+// With colours at `vertices`, or with materials (0).
+void read_as(std::span<const std::uint8_t> bytes, std::size_t vertices, bool assembled) {
   auto source = animeme::gltf::read_head(
-      bytes, {.vertices = 100,
+      bytes, {.vertices = vertices,
               .limits = {.bytes = 1'000'000, .texels = 10'000, .vertices = 5000, .moves = 20'000}});
   if (!source) return;
   check(*source);
@@ -109,6 +120,12 @@ void try_file(std::span<const std::uint8_t> bytes) {
   animeme::fap::Frame frame;
   frame.set(3, 500);
   (void)animeme::head::pose(animeme::head::make_rig(*head), frame);
+}
+
+void try_file(std::span<const std::uint8_t> bytes) {
+  write_back(bytes);
+  const bool assembled = becomes_a_head(bytes);
+  for (const std::size_t vertices : {100, 0}) read_as(bytes, vertices, assembled);
 }
 
 void put(std::vector<std::uint8_t>& file, std::uint32_t word) {

@@ -353,6 +353,27 @@ void make_gltf(Folder folder) {
     face.add("scenes", {{"nodes", {0}}});
     face.add("nodes", {{"name", "hidden"}, {"mesh", 0}});
   });
+  make("materials", [&](Face& face) {
+    face.add_uvs();
+    json& material = face.add_picture(png);
+    for (const char* name : {"normalTexture", "occlusionTexture", "emissiveTexture"}) {
+      material[name] = {{"index", 0}, {"scale", 0.5}, {"strength", 0.5}};
+    }
+    material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {{"index", 0}};
+    material["emissiveFactor"] = {1, 0.5, 0};
+    material["doubleSided"] = true;
+    material["extensions"] = {
+        {"KHR_materials_specular", {{"specularFactor", 0.5}}},
+        {"KHR_materials_emissive_strength", {{"emissiveStrength", 3}}},
+        {"VRMC_materials_mtoon",
+         {{"shadeColorFactor", {0.5, 0, 0}}, {"shadeMultiplyTexture", {{"index", 0}}}}}};
+    face.root["extensions"]["VRM"]["materialProperties"] = {
+        {{"shader", "VRM/MToon"},
+         {"floatProperties", {{"_ShadeToony", 0.9}, {"_ShadeShift", 0.1}}},
+         {"vectorProperties", {{"_ShadeColor", {1, 0.5, 0.5, 1}}}},
+         {"textureProperties", {{"_ShadeTexture", 0}}}}};
+    face.primitive["attributes"]["NORMAL"] = face.primitive["attributes"]["POSITION"];
+  });
   // As they are on disk.
   Face glb, gltf, cut;
   glb.add_shape("jawOpen");

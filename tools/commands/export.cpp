@@ -152,7 +152,9 @@ Result<int> write_head(const ExportOptions& options, std::vector<std::uint8_t> b
   }
   const Result<fap::Sequence> clip = read_filled(options, std::move(bytes), false);
   if (!clip) return clip.error();
-  const Result<head::Head> head = studio::load_head(options.head, talk());
+  studio::HeadChoice choice = options.head;
+  choice.colours_at_vertices = true;
+  const Result<head::Head> head = studio::load_head(choice, talk());
   if (!head) return head.error();
   ProgressLine progress("exporting");
   gltf::GlbOptions settings;

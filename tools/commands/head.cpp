@@ -211,7 +211,9 @@ Result<int> run(const HeadOptions& given) {
     return usage_error(
         "a head is written as .fdp, .xmt, .glb or .obj; pictures are for --speak-test");
   }
-  const Result<studio::LoadedHead> loaded = studio::load_head(options.head);
+  studio::HeadChoice choice = options.head;
+  choice.colours_at_vertices = writer != std::end(kWriters);
+  const Result<studio::LoadedHead> loaded = studio::load_head(choice);
   if (!loaded) return loaded.error();
   const head::Rig rig = head::make_rig(loaded->head);
   if (!options.output.empty()) {

@@ -10,6 +10,7 @@
 #include "tools/commands/page_sound.h"
 #include "tools/commands/script_options.h"
 #include "tools/speech/voice_file.h"
+#include "tools/studio/page_pictures.h"
 #include "tools/text.h"
 #include "tools/viewer/viewer.h"
 
@@ -100,8 +101,12 @@ Result<int> run(const ViewOptions& options) {
   if (const std::string problem = studio::problem_of(options.head); !problem.empty()) {
     return usage_error(problem);
   }
-  const Result<head::Head> head = studio::load_head(options.head, talk());
+  Result<head::Head> head = studio::load_head(options.head, talk());
   if (!head) return head.error();
+  if (const std::size_t count = studio::shrink_pictures(*head); count > 0) {
+    say(options.head.head + ": " + std::to_string(count) +
+        " large textures are smaller in the page (1024 texels a side at most, WebP)");
+  }
   viewer::Page page;
   std::vector<std::string> containers;
   for (const std::string& path : {options.first, options.second}) {

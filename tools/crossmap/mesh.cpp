@@ -340,8 +340,8 @@ Result<TargetMesh> load_mesh(const Project& project, const tools::Talk& talk) {
       return make_error(Code::invalid_argument,
                         "shapes are OBJ files of a head that is an .obj itself");
     }
-    const Result<head::Head> head =
-        studio::load_head({.head = project.to, .points = project.head_points}, talk);
+    const Result<head::Head> head = studio::load_head(
+        {.head = project.to, .points = project.head_points, .colours_at_vertices = true}, talk);
     if (!head) return head.error();
     out.obj = head::write_obj(*head);
     for (const head::Mesh& part : head->parts) {

@@ -7,9 +7,9 @@
 ///     head::Head head = *head::assemble(std::move(*source));
 ///
 /// What is read: all triangles of all scenes as they stand at rest (skins in their bind pose),
-/// colours at the vertices, from COLOR_0 or the base colour and its texture; morph targets whose
-/// names are known (shape_names.h); bones of head, neck, eyes and jaw. Lights, cameras, animations,
-/// normals and all other textures are not.
+/// colours at the vertices, from COLOR_0 or the base colour and its texture, or all materials
+/// (ReadOptions::vertices); morph targets whose names are known (shape_names.h); bones of head,
+/// neck, eyes and jaw. Lights, cameras and animations are not.
 ///
 /// Vertices that were doubled at seams of a texture are welded where place, shapes and bones agree;
 /// so the lips stay apart. Triangles in which the texture changes are divided until the colours at
@@ -66,7 +66,8 @@ struct ReadOptions {
   LoadFile load = {};  ///< empty: only files without others beside them can be read
   /// Which shapes move the mouth if there are several sets.
   MouthShapes mouth = MouthShapes::automatic;
-  /// Triangles are divided for the sake of their texture until there are as many vertices. 0: not.
+  /// Triangles are divided for the sake of their texture until there are as many vertices. 0: not,
+  /// and the head keeps its materials and textures, if it has any (Source::coats).
   std::size_t vertices = 60000;
   ReadLimits limits = {};  ///< what a file may hold
 };

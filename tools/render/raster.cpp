@@ -29,17 +29,37 @@ std::int64_t screen_area(const ScreenVertex& a, const ScreenVertex& b, const Scr
   return std::int64_t(b.x - a.x) * (c.y - a.y) - std::int64_t(b.y - a.y) * (c.x - a.x);
 }
 
+std::span<const head::Triangle> triangles_of(const Surface& surface) {
+  return surface.facets.empty() ? surface.triangles : surface.facets;
+}
+
+// Null: it has none.
+const head::Coat* coat_of(const Surface& surface, std::size_t facet) {
+  if (facet >= surface.facet_coats.size()) return nullptr;
+  const std::uint16_t coat = surface.facet_coats[facet];
+  return coat < surface.coats.size() ? &surface.coats[coat] : nullptr;
+}
+
 }  // namespace
 
 struct Renderer::State {
   // A triangle of a tile: which surface, which triangle.
   struct Entry {
     std::uint32_t surface;
-    std::uint32_t triangle;
+    std::uint32_t triangle;  // or facet
+  };
+  // One that blends, and how near it is.
+  struct Veil {
+    Entry entry;
+    float nearness;
   };
   // What one thread found for each tile. Threads take neighbouring stretches of all triangles, so
   // their lists one after the other are in the order of the scene.
-  using Bins = std::vector<std::vector<Entry>>;
+  struct Bin {
+    std::vector<Entry> solid;
+    std::vector<Veil> veils;
+  };
+  using Bins = std::vector<Bin>;
 
   RenderOptions options;
   Image image;
@@ -54,25 +74,32 @@ struct Renderer::State {
   void shade_part(const Scene& scene, const detail::View& view, int thread);
   void bin_part(const Scene& scene, int thread);
   void bin_triangle(const Surface& surface, Entry entry, Bins& out);
+  detail::CoatFacet facet_of(const Scene& scene, Entry entry) const;
+  void cover_facets(const Scene& scene, int index, detail::Tile& tile) const;
+  void draw_veils(const Scene& scene, const detail::View& view, int index, detail::Tile& tile);
   void draw_part(const Scene& scene, const detail::View& view, int thread);
 };
 
 void Renderer::State::shade_part(const Scene& scene, const detail::View& view, int thread) {
   for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
     const Stretch part = stretch_of(vertices[s].size(), thread, threads);
-    detail::shade(scene.surfaces[s], view, part.first, part.last, vertices[s].data());
+    const auto work = scene.surfaces[s].facets.empty() ? detail::shade : detail::place_corners;
+    work(scene.surfaces[s], view, part.first, part.last, vertices[s].data());
   }
 }
 
 void Renderer::State::bin_part(const Scene& scene, int thread) {
   Bins& out = bins[std::size_t(thread)];
-  for (auto& list : out) list.clear();
+  for (Bin& bin : out) {
+    bin.solid.clear();
+    bin.veils.clear();
+  }
   std::size_t total = 0;
-  for (const Surface& surface : scene.surfaces) total += surface.triangles.size();
+  for (const Surface& surface : scene.surfaces) total += triangles_of(surface).size();
   const Stretch part = stretch_of(total, thread, threads);
   std::size_t begin = 0;
   for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
-    const std::size_t count = scene.surfaces[s].triangles.size();
+    const std::size_t count = triangles_of(scene.surfaces[s]).size();
     const std::size_t first = std::max(part.first, begin) - begin;
     const std::size_t last = std::max(std::min(part.last, begin + count), begin) - begin;
     for (std::size_t t = first; t < last; ++t) {
@@ -84,12 +111,16 @@ void Renderer::State::bin_part(const Scene& scene, int thread) {
 
 void Renderer::State::bin_triangle(const Surface& surface, Entry entry, Bins& out) {
   const auto& screen = vertices[entry.surface];
-  const head::Triangle& t = surface.triangles[entry.triangle];
+  const head::Triangle& t = triangles_of(surface)[entry.triangle];
   if (t[0] >= screen.size() || t[1] >= screen.size() || t[2] >= screen.size()) return;
+  const head::Coat* coat = coat_of(surface, entry.triangle);
+  if (coat == nullptr && !surface.facets.empty()) return;
   const ScreenVertex& a = screen[t[0]];
   const ScreenVertex& b = screen[t[1]];
   const ScreenVertex& c = screen[t[2]];
-  if (a.nearness <= 0 || b.nearness <= 0 || c.nearness <= 0 || screen_area(a, b, c) >= 0) return;
+  if (a.nearness <= 0 || b.nearness <= 0 || c.nearness <= 0) return;
+  const std::int64_t area = screen_area(a, b, c);
+  if (area == 0 || (area > 0 && (coat == nullptr || !coat->double_sided))) return;
   constexpr int kStep = kTile * kSubpixels;
   const auto tile = [](std::int32_t v) { return v >= 0 ? v / kStep : -1; };
   const int x0 = std::max(tile(std::min({a.x, b.x, c.x})), 0);
@@ -97,22 +128,68 @@ void Renderer::State::bin_triangle(const Surface& surface, Entry entry, Bins& ou
   const int x1 = std::min(tile(std::max({a.x, b.x, c.x})), tiles_x - 1);
   const int y1 = std::min(tile(std::max({a.y, b.y, c.y})), tiles_y - 1);
   for (int y = y0; y <= y1; ++y) {
-    for (int x = x0; x <= x1; ++x) out[std::size_t(y * tiles_x + x)].push_back(entry);
+    for (int x = x0; x <= x1; ++x) {
+      Bin& bin = out[std::size_t(y * tiles_x + x)];
+      if (coat != nullptr && coat->alpha_mode == head::AlphaMode::blend) {
+        bin.veils.push_back({entry, a.nearness + b.nearness + c.nearness});
+      } else {
+        bin.solid.push_back(entry);
+      }
+    }
   }
+}
+
+detail::CoatFacet Renderer::State::facet_of(const Scene& scene, Entry entry) const {
+  const Surface& surface = scene.surfaces[entry.surface];
+  const ScreenVertex* v = vertices[entry.surface].data();
+  head::Triangle t = surface.facets[entry.triangle];
+  const bool back = screen_area(v[t[0]], v[t[1]], v[t[2]]) > 0;
+  if (back) std::swap(t[1], t[2]);
+  return {{v + t[0], v + t[1], v + t[2]}, t, surface, *coat_of(surface, entry.triangle), back};
+}
+
+// Textures and light cost more than to find out first what is seen.
+void Renderer::State::cover_facets(const Scene& scene, int index, detail::Tile& tile) const {
+  for (const Bins& found : bins) {
+    for (const Entry& entry : found[std::size_t(index)].solid) {
+      if (scene.surfaces[entry.surface].facets.empty()) continue;
+      const detail::CoatFacet facet = facet_of(scene, entry);
+      if (facet.coat.alpha_mode == head::AlphaMode::opaque) tile.cover(facet);
+    }
+  }
+}
+
+// What is farther away goes first.
+void Renderer::State::draw_veils(const Scene& scene, const detail::View& view, int index,
+                                 detail::Tile& tile) {
+  std::vector<Veil> veils;
+  for (const Bins& found : bins) {
+    const auto& more = found[std::size_t(index)].veils;
+    veils.insert(veils.end(), more.begin(), more.end());
+  }
+  std::stable_sort(veils.begin(), veils.end(),
+                   [](const Veil& a, const Veil& b) { return a.nearness < b.nearness; });
+  for (const Veil& veil : veils) tile.draw(facet_of(scene, veil.entry), view);
 }
 
 void Renderer::State::draw_part(const Scene& scene, const detail::View& view, int thread) {
   detail::Tile& tile = tiles[std::size_t(thread)];
   for (int index = next_tile++; index < tiles_x * tiles_y; index = next_tile++) {
     tile.start(index % tiles_x * kTile, index / tiles_x * kTile, options);
+    cover_facets(scene, index, tile);
     for (const Bins& found : bins) {
-      for (const Entry& entry : found[std::size_t(index)]) {
+      for (const Entry& entry : found[std::size_t(index)].solid) {
         const Surface& surface = scene.surfaces[entry.surface];
+        if (!surface.facets.empty()) {
+          tile.draw(facet_of(scene, entry), view);
+          continue;
+        }
         const head::Triangle& t = surface.triangles[entry.triangle];
         const ScreenVertex* v = vertices[entry.surface].data();
         tile.draw({v + t[0], v + t[1], v + t[2]}, surface.material == head::Material::eye, view);
       }
     }
+    draw_veils(scene, view, index, tile);
     tile.finish(image);
   }
 }
@@ -143,7 +220,9 @@ const Image& Renderer::render(const Scene& scene, const Camera& camera) {
   const detail::View view(camera, s.options.width, s.options.height);
   s.vertices.resize(scene.surfaces.size());
   for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
-    s.vertices[i].resize(scene.surfaces[i].positions.size());
+    const Surface& surface = scene.surfaces[i];
+    s.vertices[i].resize(surface.facets.empty() ? surface.positions.size()
+                                                : surface.corners.size());
   }
   s.next_tile = 0;
   std::barrier step(s.threads);

@@ -5,7 +5,8 @@
 ///     const animeme::render::Image& image = renderer.render(scene, camera);
 ///
 /// Four samples a pixel for edges, one for colour; light is computed at the vertices, highlights of
-/// eyes at the pixels. Lights stand beside the camera: a warm key from the upper right with a red
+/// eyes and what has coats at the pixels. Coats blend as browsers do: in sRGB, farther ones first.
+/// Lights stand beside the camera: a warm key from the upper right with a red
 /// terminator (light inside of skin), a cool fill from the left, a weak rim from behind.
 #pragma once
 
@@ -38,6 +39,13 @@ struct Surface {
   std::span<const head::Triangle> triangles;       ///< indices of the vertices
   head::Material material = head::Material::skin;  ///< how light falls on it
   head::Transform transform;                       ///< applied to positions and normals
+  /// What is drawn in place of `triangles` if there are any: see head::Mesh. Facets with an index
+  /// or coat that does not exist are not drawn.
+  std::span<const head::Triangle> facets;
+  std::span<const head::Corner> corners;        ///< of facets
+  std::span<const std::uint16_t> facet_coats;   ///< of each facet, index of `coats`
+  std::span<const head::Coat> coats;            ///< see head::Head
+  std::span<const head::Vec3> normals_at_rest;  ///< of vertices; corners turn along with them
 };
 
 /// What is drawn; depth decides what is in front.

@@ -58,7 +58,9 @@ Result<head::Source> read_obj_head(const HeadChoice& choice) {
 }
 
 Result<head::Source> read_gltf_head(const HeadChoice& choice) {
-  Result<gltf::HeadFile> file = gltf::read_head_and_vertices(choice.head);
+  gltf::ReadOptions options;
+  if (!choice.colours_at_vertices) options.vertices = 0;
+  Result<gltf::HeadFile> file = gltf::read_head_and_vertices(choice.head, std::move(options));
   if (!file) return file.error();
   if (choice.points.empty()) {
     const head::Source& source = file->source;

@@ -7,6 +7,7 @@
 #include "tools/json.h"
 #include "tools/render/scene.h"
 #include "tools/viewer/detail/bytes.h"
+#include "tools/viewer/detail/coats.h"
 #include "tools/viewer/viewer.h"
 
 namespace animeme::viewer {
@@ -48,22 +49,28 @@ Json write_places(const std::vector<Vec3>& places, Bytes& out) {
   return Json{{"low", json_of(low)}, {"step", step}};
 }
 
-Json write_part(const head::Mesh& mesh, std::string_view name, Bytes& out) {
+Json write_part(const head::Mesh& mesh, const std::vector<head::Triangle>& triangles,
+                std::string_view name, Bytes& out) {
   Json part{{"name", name},
             {"material", kMaterials[std::size_t(mesh.material)]},
             {"vertices", mesh.positions.size()},
-            {"triangles", mesh.triangles.size()}};
+            {"triangles", triangles.size()}};
+  // Behind the triangles of the mesh: they bear on normals alone.
+  if (triangles.size() > mesh.triangles.size()) part["solid"] = mesh.triangles.size();
   part.update(write_places(mesh.positions, out));
   for (int k = 0; k < 3; ++k) {
     for (const Vec3 c : mesh.colours) out.u8(shown(axis(c, k)));
   }
   for (const float sky : mesh.occlusion) out.u8(rounded(sky * 255, 255));
   std::int64_t last = 0;
-  for (const head::Triangle& triangle : mesh.triangles) {
+  for (const head::Triangle& triangle : triangles) {
     for (const std::uint32_t vertex : triangle) {
       out.zigzag(std::int64_t(vertex) - last);
       last = vertex;
     }
+  }
+  if (Json facets = detail::write_facets(mesh, out); !facets.is_null()) {
+    part["facets"] = std::move(facets);
   }
   return part;
 }
@@ -181,7 +188,7 @@ std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig
   Bytes data;
   Json parts = Json::array();
   for (std::size_t i = 0; i < head.parts.size(); ++i) {
-    parts.push_back(write_part(head.parts[i], head::kPartNames[i], data));
+    parts.push_back(write_part(head.parts[i], rig.parts[i].triangles, head::kPartNames[i], data));
   }
   Json targets = Json::array();
   for (const head::Target& target : rig.targets) targets.push_back(write_target(target, data));
@@ -192,7 +199,7 @@ std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig
   for (const head::DentalArch& arch : rig.teeth) write_vertices(arch.vertices, data);
   write_vertices(rig.lash_anchors, data);
   for (const float weight : rig.neck_weights) data.u16(rounded(weight * 65535, 65535));
-  const Json header{
+  Json header{
       {"version", 2},
       {"name", head.name},
       {"parts", parts},
@@ -217,6 +224,7 @@ std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig
       {"expressions", shapes_of(int(fap::kExpressions.size()), head::expression_shape)},
       {"camera", camera_of(head)},
   };
+  if (!head.coats.empty()) header.update(detail::write_coats(head.coats, data));
   return detail::with_header(header, data);
 }
 

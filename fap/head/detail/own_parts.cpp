@@ -77,11 +77,17 @@ std::vector<std::uint32_t> bodies_of(const Mesh& mesh) {
     while (parent[v] != v) v = parent[v] = parent[parent[v]];
     return v;
   };
+  const auto join = [&](std::uint32_t v, std::uint32_t other) {
+    const std::uint32_t a = root(v);
+    const std::uint32_t b = root(other);
+    parent[std::max(a, b)] = std::min(a, b);
+  };
   for (const Triangle& t : mesh.triangles) {
-    for (const std::uint32_t other : {t[1], t[2]}) {
-      const std::uint32_t a = root(t[0]);
-      const std::uint32_t b = root(other);
-      parent[std::max(a, b)] = std::min(a, b);
+    for (const std::uint32_t other : {t[1], t[2]}) join(t[0], other);
+  }
+  for (const Triangle& t : mesh.facets) {
+    for (const std::size_t k : {1u, 2u}) {
+      join(mesh.corners[t[0]].vertex, mesh.corners[t[k]].vertex);
     }
   }
   for (std::uint32_t v = 0; v < parent.size(); ++v) parent[v] = root(v);

@@ -92,6 +92,9 @@ bool turn_upright(Source& source) {
   const Turn turn = *best;
   const auto apply = [&](Vec3 p) { return turn(p); };
   change(source, apply, apply);
+  for (Piece& piece : source.pieces) {
+    for (Corner& corner : piece.mesh.corners) corner.normal = turn(corner.normal);
+  }
   return true;
 }
 

@@ -236,20 +236,25 @@ class Winding {
     return larger ? fronts <= 2 * backs : backs > fronts;
   }
 
+  void turn(std::size_t part, std::size_t t) {
+    Mesh& mesh = head_.parts[part];
+    std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+    if (!mesh.facets.empty()) std::swap(mesh.facets[t][1], mesh.facets[t][2]);
+  }
+
   std::vector<TurnedPiece> turn() {
     std::map<std::uint32_t, TurnedPiece> found;
-    std::map<std::uint32_t, std::vector<Triangle*>> without;  // a side of their own
+    std::map<std::uint32_t, std::vector<std::array<std::size_t, 2>>> without;  // a side of its own
     for (std::size_t part = 0; part < kPartCount; ++part) {
       for (std::size_t t = 0; t < members_[part].size(); ++t) {
         TurnedPiece& piece = found[pieces_[part][t]];
         piece.piece = pieces_[part][t];
         ++piece.triangles;
         const SidedTriangle& member = members_[part][t];
-        Triangle& corners = head_.parts[part].triangles[t];
         if (member.body == kNobody) {
-          without[pieces_[part][t]].push_back(&corners);
+          without[pieces_[part][t]].push_back({part, t});
         } else if (turns(bodies_[member.body], member.other)) {
-          std::swap(corners[1], corners[2]);
+          turn(part, t);
           ++piece.turned;
         }
       }
@@ -258,7 +263,7 @@ class Winding {
     for (auto& [piece, turned] : found) {
       if (turned.turned == 0) continue;
       if (turned.turned + without[piece].size() == turned.triangles) {
-        for (Triangle* corners : without[piece]) std::swap((*corners)[1], (*corners)[2]);
+        for (const auto& [part, t] : without[piece]) turn(part, t);
         turned.turned = turned.triangles;
       }
       out.push_back(turned);

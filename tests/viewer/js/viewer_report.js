@@ -1,4 +1,4 @@
-// node viewer_report.js looks|sound|speeds|texts|says|screens|live PAGE.html FOLDER: what Chromium makes of a page, as
+// node viewer_report.js looks|sound|speeds|texts|says|screens|picture|live PAGE.html FOLDER: what Chromium makes of a page, as
 // JSON.
 //
 // looks: vertices of the frames 0 .. 7 as 32-bit floats in FOLDER/<part>_<frame>.f32; how much the
@@ -10,6 +10,7 @@
 // says: what is said at some times, and how many pixels of the wave are drawn at others.
 // screens: at the sizes of screens, what is to be hit or read: {size: {width (of the page), targets: [{name,
 //   width, height}], outside: [names], overlaps: [pairs of names]}}.
+// picture: the canvas of frame 0, 20 degrees to the left, as R, G, B in FOLDER/picture.rgb; {width, height}.
 // live: `result` of a page with values of its own.
 // All have `messages`: what the console said.
 'use strict';
@@ -266,6 +267,27 @@ async function screens(page, file, folder) {
   return report;
 }
 
+async function picture(page, file, folder) {
+  await page.resize(500, 700);
+  await open(page, file, '?frame=0&mode=first&left=20&zoom=1');
+  await page.evaluate('window.animeme.draw()');
+  const box = await page.evaluate(`(() => {
+    const {left, top, width, height} = document.getElementById('picture').getBoundingClientRect();
+    return {left, top, width, height};
+  })()`);
+  const whole = readPng(await page.screenshot(path.join(folder, 'picture.png')));
+  const [left, top, width, height] = [box.left, box.top, box.width, box.height].map(Math.round);
+  const rgb = Buffer.alloc(width * height * 3);
+  for (let y = 0, at = 0; y < height; ++y) {
+    for (let x = 0; x < width; ++x, at += 3) {
+      const from = ((y + top) * whole.width + x + left) * whole.channels;
+      for (let k = 0; k < 3; ++k) rgb[at + k] = whole.data[from + k];
+    }
+  }
+  fs.writeFileSync(path.join(folder, 'picture.rgb'), rgb);
+  return {width, height};
+}
+
 async function live(page, file) {
   await page.resize(300, 300);
   await page.goto(pathToFileURL(file).href);
@@ -276,7 +298,7 @@ async function main([kind, file, folder]) {
   const browser = await launch({flags: FLAGS});
   try {
     const page = await browser.open();
-    const report = await {looks, sound, speeds, texts, says, screens, live}[kind](page, path.resolve(file), folder);
+    const report = await {looks, sound, speeds, texts, says, screens, picture, live}[kind](page, path.resolve(file), folder);
     report.messages = page.messages;
     process.stdout.write(JSON.stringify(report) + '\n');
   } finally {

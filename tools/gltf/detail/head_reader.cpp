@@ -24,13 +24,21 @@ class HeadReader {
     auto nodes = read_nodes(file_);
     if (!nodes) return nodes.error();
     joints_ = find_joints(file_, *nodes);
-    Paints paints(file_, options_.load, source_.notes);
+    const bool keep_materials = options_.vertices == 0;
+    Paints paints(file_, options_.load, source_.notes, keep_materials);
     ShapeNames names;
     auto pieces = MeshReader(file_, *nodes, joints_, paints).read(names);
     if (!pieces) return pieces.error();
     pieces_ = std::move(*pieces);
     if (options_.vertices > 0) refine(pieces_, options_.vertices);
-    for (RawPiece& piece : pieces_) paint(piece);
+    const bool dressed =
+        keep_materials && std::any_of(pieces_.begin(), pieces_.end(),
+                                      [](const RawPiece& piece) { return piece.paint->textured; });
+    for (RawPiece& piece : pieces_) {
+      if (dressed) dress(piece);
+      paint(piece);
+    }
+    if (dressed) source_.coats = paints.take_coats();
     drop_unseen();
     if (pieces_.empty()) {
       return make_error(Code::not_found, "there is no triangle to show in the file");
@@ -63,6 +71,7 @@ class HeadReader {
   void drop_unseen() {
     std::set<std::string> names;
     std::erase_if(pieces_, [&](const RawPiece& piece) {
+      if (!piece.veils.empty()) return false;
       if (!piece.triangles.empty() && !piece.paint->see_through) return false;
       names.insert(piece.name);
       return true;
@@ -99,9 +108,18 @@ class HeadReader {
     to.numbers.insert(to.numbers.end(), from.numbers.begin(), from.numbers.end());
     to.neck_weights.insert(to.neck_weights.end(), from.neck_weights.begin(),
                            from.neck_weights.end());
-    for (const head::Triangle& t : from.triangles) {
-      to.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    // The coats are those of triangles, then of veils.
+    const auto solid = std::ptrdiff_t(from.triangles.size() * (from.coats.empty() ? 0 : 1));
+    to.coats.insert(to.coats.begin() + std::ptrdiff_t(to.coats.empty() ? 0 : to.triangles.size()),
+                    from.coats.begin(), from.coats.begin() + solid);
+    to.coats.insert(to.coats.end(), from.coats.begin() + solid, from.coats.end());
+    for (const auto& [more, all] :
+         {std::pair(&from.triangles, &to.triangles), std::pair(&from.veils, &to.veils)}) {
+      for (const head::Triangle& t : *more) {
+        all->push_back({t[0] + first, t[1] + first, t[2] + first});
+      }
     }
+    to.corners.insert(to.corners.end(), from.corners.begin(), from.corners.end());
     for (PieceMorph& morph : from.morphs) {
       auto place = std::find_if(to.morphs.begin(), to.morphs.end(),
                                 [&](const PieceMorph& m) { return m.shape >= morph.shape; });
@@ -138,6 +156,7 @@ class HeadReader {
     };
     for (RawPiece& piece : pieces_) {
       for (Vec3& p : piece.positions) turn(p);
+      for (head::Corner& corner : piece.corners) turn(corner.normal);
       for (PieceMorph& morph : piece.morphs) {
         for (Vec3& d : morph.moves.deltas) turn(d);
       }
@@ -242,6 +261,9 @@ class HeadReader {
       out.material = piece.paint->name;
       out.mesh.positions = std::move(piece.positions);
       out.mesh.triangles = std::move(piece.triangles);
+      out.mesh.corners = std::move(piece.corners);
+      out.mesh.facets = std::move(piece.facets);
+      out.mesh.coats = std::move(piece.coats);
       bool any = false;
       for (const Colour& colour : piece.colours) {
         // Means of known and unknown colours are unknown, too.

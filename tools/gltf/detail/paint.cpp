@@ -1,6 +1,7 @@
 #include "tools/gltf/detail/paint.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "fap/head/own_head.h"
 
@@ -28,9 +29,15 @@ std::vector<double> footprints(const RawPiece& piece) {
   return sums;
 }
 
-// Mean opacity of a triangle: corners, middles of edges, centre.
-float opacity(const RawPiece& piece, const Triangle& t, bool textured) {
+// Mean and largest opacity of a triangle: corners, middles of edges, centre.
+struct Opacity {
+  float mean = 0;
+  float most = 0;
+};
+
+Opacity opacity(const RawPiece& piece, const Triangle& t, bool textured) {
   float sum = 0;
+  float most = 0;
   int count = 0;
   const auto add = [&](float a, float b, float c) {
     float alpha = 1;
@@ -48,6 +55,7 @@ float opacity(const RawPiece& piece, const Triangle& t, bool textured) {
                piece.colours[t[2]].alpha * c;
     }
     sum += alpha;
+    most = std::max(most, alpha);
     ++count;
   };
   add(1, 0, 0);
@@ -57,7 +65,11 @@ float opacity(const RawPiece& piece, const Triangle& t, bool textured) {
   add(0, 0.5f, 0.5f);
   add(0.5f, 0, 0.5f);
   add(1 / 3.0f, 1 / 3.0f, 1 / 3.0f);
-  return sum / float(count);
+  return {sum / float(count), most};
+}
+
+std::uint8_t byte_of(float share) {
+  return std::uint8_t(std::lround(255 * std::clamp(share, 0.0f, 1.0f)));
 }
 
 }  // namespace
@@ -66,13 +78,40 @@ bool has_texture(const RawPiece& piece) {
   return piece.paint->picture && piece.uvs.size() == piece.positions.size();
 }
 
+void dress(RawPiece& piece) {
+  const bool has_uvs = piece.uvs.size() == piece.positions.size();
+  const bool has_colours = piece.colours.size() == piece.positions.size();
+  for (std::uint32_t v = 0; v < piece.positions.size(); ++v) {
+    head::Corner& corner = piece.corners.emplace_back();
+    corner.vertex = v;
+    if (v < piece.normals.size()) corner.normal = piece.normals[v];
+    if (has_uvs) corner.uv = piece.paint->moved(piece.uvs[v]);
+    if (!has_colours) continue;
+    const Colour& c = piece.colours[v];
+    corner.tint = {byte_of(c.rgb.x), byte_of(c.rgb.y), byte_of(c.rgb.z), byte_of(c.alpha)};
+  }
+  piece.coats.assign(piece.triangles.size(), std::uint16_t(piece.paint->coat));
+}
+
 void paint(RawPiece& piece) {
   const bool textured = has_texture(piece);
   const Paint& paint = *piece.paint;
+  const bool dressed = !piece.corners.empty();
   if (paint.alpha != AlphaMode::opaque) {
-    std::erase_if(piece.triangles,
-                  [&](const Triangle& t) { return opacity(piece, t, textured) < paint.cutoff; });
+    std::erase_if(piece.triangles, [&](const Triangle& t) {
+      const Opacity found = opacity(piece, t, textured);
+      if (found.mean >= paint.cutoff) return false;
+      const float nothing = paint.alpha == AlphaMode::mask ? paint.cutoff : 1 / 255.0f;
+      if (dressed && found.most >= nothing) piece.veils.push_back(t);
+      return true;
+    });
   }
+  if (dressed && paint.see_through) {
+    piece.veils.insert(piece.veils.end(), piece.triangles.begin(), piece.triangles.end());
+    piece.triangles.clear();
+  }
+  piece.coats.resize(dressed ? piece.triangles.size() + piece.veils.size() : 0,
+                     std::uint16_t(paint.coat));
   if (!textured && piece.colours.empty() && paint.factor.rgb == Vec3{1, 1, 1}) {
     piece.colours.assign(piece.positions.size(), {head::kNoColour, 1});
     return;

@@ -9,16 +9,24 @@ namespace animeme::gltf {
 namespace {
 
 struct PictureFormat {
+  const char* type;
   Result<PictureSize> (*size)(std::span<const std::uint8_t>);
   Result<DecodedPicture> (*decode)(std::span<const std::uint8_t>, std::int64_t);
 };
 
 Result<PictureFormat> format_of(std::span<const std::uint8_t> bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (text.starts_with("\x89PNG\r\n\x1A\n")) return PictureFormat{size_of_png, decode_png};
-  if (text.starts_with("\xFF\xD8\xFF")) return PictureFormat{size_of_jpeg, decode_jpeg};
+  if (text.starts_with("\x89PNG\r\n\x1A\n"))
+    return PictureFormat{"image/png", size_of_png, decode_png};
+  if (text.starts_with("\xFF\xD8\xFF")) {
+    return PictureFormat{"image/jpeg", size_of_jpeg, decode_jpeg};
+  }
   if (text.starts_with("RIFF") && text.substr(8 < text.size() ? 8 : 0).starts_with("WEBP")) {
-    return PictureFormat{size_of_webp, decode_webp};
+    return PictureFormat{"image/webp", size_of_webp, decode_webp};
+  }
+  if (text.starts_with("\xABKTX 20\xBB")) {
+    return make_error(Code::unsupported,
+                      "it is KTX2, which is not read; export it as PNG, JPEG or WebP");
   }
   return make_error(Code::unsupported, "it is neither PNG nor JPEG nor WebP; save it as PNG");
 }
@@ -92,6 +100,11 @@ Result<PictureSize> size_of_picture(std::span<const std::uint8_t> bytes) {
                                               "side; make it smaller");
   }
   return size;
+}
+
+std::string type_of_picture(std::span<const std::uint8_t> bytes) {
+  const Result<PictureFormat> format = format_of(bytes);
+  return format ? format->type : "";
 }
 
 Result<DecodedPicture> decode_picture(std::span<const std::uint8_t> bytes,

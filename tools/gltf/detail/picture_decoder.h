@@ -36,6 +36,9 @@ struct DecodedPicture {
 /// (larger than the limits above).
 Result<PictureSize> size_of_picture(std::span<const std::uint8_t> bytes);
 
+/// "image/png", "image/jpeg" or "image/webp"; empty for others.
+std::string type_of_picture(std::span<const std::uint8_t> bytes);
+
 /// The picture, its sides divided by the smallest power of two with which it has no more than
 /// `most_texels`. What it says of colour spaces is ignored, as glTF wants it. Errors: as above.
 Result<DecodedPicture> decode_picture(std::span<const std::uint8_t> bytes,

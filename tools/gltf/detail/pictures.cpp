@@ -9,7 +9,7 @@ namespace animeme::gltf {
 namespace {
 
 constexpr std::int64_t kMostKept = 2048 * 2048;  // texels of one picture
-constexpr std::int64_t kMostKeptInAll = 4 * kMostKept;
+constexpr std::int64_t kMostKeptInAll = 6 * kMostKept;
 
 // Where the bytes of an image are. Those that it brings itself are not compared with others.
 std::string source_of(std::size_t number, const Json& image) {
@@ -23,9 +23,15 @@ std::string source_of(std::size_t number, const Json& image) {
 std::size_t count_pictures(const File& file) {
   std::set<std::size_t> images;
   for (const Json& material : list(file.root, "materials")) {
-    const auto texture = whole(member(base_texture_of(material), "index"));
-    if (!texture) continue;
-    if (const auto image = image_of(file.entry("textures", *texture))) images.insert(*image);
+    for (const Json* info :
+         {&base_texture_of(material), &member(material, "normalTexture"),
+          &member(material, "occlusionTexture"), &member(material, "emissiveTexture"),
+          &member(material, "pbrMetallicRoughness", "metallicRoughnessTexture"),
+          &member(material, "extensions", "VRMC_materials_mtoon", "shadeMultiplyTexture")}) {
+      const auto texture = whole(member(*info, "index"));
+      if (!texture) continue;
+      if (const auto image = image_of(file.entry("textures", *texture))) images.insert(*image);
+    }
   }
   return images.size();
 }
@@ -49,11 +55,12 @@ Pictures::Pictures(const File& file, const LoadFile& load, std::vector<std::stri
   most_kept_ = std::clamp(kMostKeptInAll / count, std::int64_t(1), kMostKept);
 }
 
-std::shared_ptr<const Picture> Pictures::of(std::size_t image) {
+std::shared_ptr<const Picture> Pictures::of(std::size_t image, TexelKind kind) {
   const Json& entry = file_.entry("images", image);
-  const auto [place, is_new] = pictures_.try_emplace(source_of(image, entry));
+  const std::string source = source_of(image, entry) + (kind == TexelKind::value ? " value" : "");
+  const auto [place, is_new] = pictures_.try_emplace(source);
   if (!is_new) return place->second;
-  auto picture = picture_of(entry);
+  auto picture = picture_of(entry, kind);
   if (picture) return place->second = std::move(*picture);
   const std::string name = text_or(member(entry, "name"), text_or(member(entry, "uri")));
   leave_out("texture " + std::to_string(image) + " \"" + name.substr(0, 60) +
@@ -71,18 +78,19 @@ void Pictures::leave_out(std::string note) {
   notes_.push_back(std::move(note));
 }
 
-Result<std::shared_ptr<const Picture>> Pictures::picture_of(const Json& image) {
+Result<std::shared_ptr<const Picture>> Pictures::picture_of(const Json& image, TexelKind kind) {
   if (const auto view = whole(member(image, "bufferView"))) {
     const auto bytes = view_of(file_, *view);
     if (!bytes) return bytes.error();
-    return decode(*bytes);
+    return decode(*bytes, kind);
   }
   const auto bytes = resolve(text_or(member(image, "uri")), load_);
   if (!bytes) return bytes.error();
-  return decode(*bytes);
+  return decode(*bytes, kind);
 }
 
-Result<std::shared_ptr<const Picture>> Pictures::decode(std::span<const std::uint8_t> bytes) {
+Result<std::shared_ptr<const Picture>> Pictures::decode(std::span<const std::uint8_t> bytes,
+                                                        TexelKind kind) {
   const auto size = size_of_picture(bytes);
   if (!size) return size.error();
   if (auto fine = file_.budget->take_texels(std::size_t(size->texels())); !fine) {
@@ -90,7 +98,9 @@ Result<std::shared_ptr<const Picture>> Pictures::decode(std::span<const std::uin
   }
   auto decoded = decode_picture(bytes, most_kept_);
   if (!decoded) return decoded.error();
-  return std::make_shared<const Picture>(std::move(*decoded));
+  return std::make_shared<const Picture>(
+      head::Texels{decoded->width, decoded->height, std::move(decoded->rgba)}, kind,
+      std::vector<std::uint8_t>(bytes.begin(), bytes.end()), type_of_picture(bytes));
 }
 
 }  // namespace animeme::gltf

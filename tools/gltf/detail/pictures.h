@@ -7,10 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "fap/head/picture.h"
 #include "tools/gltf/detail/file.h"
-#include "tools/gltf/detail/picture.h"
 
 namespace animeme::gltf {
+
+using head::Colour;
+using head::Picture;
+using head::TexelKind;
+using head::Uv;
 
 /// The base colour texture of a material: of it, or of the specular extension that came before.
 const Json& base_texture_of(const Json& material);
@@ -19,18 +24,19 @@ const Json& base_texture_of(const Json& material);
 std::optional<std::size_t> image_of(const Json& texture);
 
 /// Gives pictures. What they have in all is bounded by ReadLimits::texels as they are in the file,
-/// and by four pictures of 2048 x 2048 as they are kept: vertices show no more. Those that are left
-/// out are noted once.
+/// and by 24 pictures of 1024 x 1024 as they are kept, none larger than 2048 x 2048: films show no
+/// more of a head. Those that are left out are noted once.
 class Pictures {
  public:
   Pictures(const File& file, const LoadFile& load, std::vector<std::string>& notes);
 
   /// Null if it is left out.
-  std::shared_ptr<const Picture> of(std::size_t image);
+  std::shared_ptr<const Picture> of(std::size_t image, TexelKind kind);
 
  private:
-  Result<std::shared_ptr<const Picture>> picture_of(const Json& image);
-  Result<std::shared_ptr<const Picture>> decode(std::span<const std::uint8_t> bytes);
+  Result<std::shared_ptr<const Picture>> picture_of(const Json& image, TexelKind kind);
+  Result<std::shared_ptr<const Picture>> decode(std::span<const std::uint8_t> bytes,
+                                                TexelKind kind);
 
   void leave_out(std::string note);
 

@@ -198,11 +198,22 @@ Result<void> MeshReader::add_attributes(const Json& attributes, const Place& pla
     }
   }
   const std::string uv_set = "TEXCOORD_" + std::to_string(piece.paint->uv_set);
-  if (const auto uv = whole(member(attributes, uv_set.c_str())); uv && piece.paint->picture) {
+  if (const auto uv = whole(member(attributes, uv_set.c_str())); uv && piece.paint->textured) {
     auto read = read_floats(file_, *uv, 2, count);
     if (!read) return read.error();
     piece.uvs = uvs_of(*read);
     piece.uvs.resize(count);
+  }
+  if (const auto normal = whole(member(attributes, "NORMAL"))) {
+    auto read = read_floats(file_, *normal, 3, count);
+    if (!read) return read.error();
+    for (std::size_t v = 0; v < std::min(count, read->size() / 3); ++v) {
+      const float* n = read->data() + 3 * v;
+      const Vec3d turned =
+          maps[std::min(v, maps.size() - 1)].direction({double(n[0]), double(n[1]), double(n[2])});
+      const Vec3 unit(head::normalised(turned));
+      piece.normals.push_back(is_finite(unit) ? unit : Vec3{});
+    }
   }
   const auto colour = whole(member(attributes, "COLOR_0"));
   if (!colour) return {};

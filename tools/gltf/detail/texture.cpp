@@ -3,17 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/gltf/detail/material.h"
+
 namespace animeme::gltf {
 namespace {
 
-Picture::Wrap wrap_of(const Json& value) {
+head::Wrap wrap_of(const Json& value) {
   switch (whole_or(value, 10497)) {
     case 33071:
-      return Picture::Wrap::clamp;
+      return head::Wrap::clamp;
     case 33648:
-      return Picture::Wrap::mirror;
+      return head::Wrap::mirror;
     default:
-      return Picture::Wrap::repeat;
+      return head::Wrap::repeat;
   }
 }
 
@@ -39,14 +41,19 @@ std::array<std::array<float, 3>, 2> move_of(const Json& transform) {
 Colour Paint::at(Uv place, double footprint) const {
   Colour colour = factor;
   if (picture) {
-    const Uv moved{move[0][0] * place.u + move[0][1] * place.v + move[0][2],
-                   move[1][0] * place.u + move[1][1] * place.v + move[1][2]};
-    const bool finite = std::isfinite(moved.u) && std::isfinite(moved.v);
-    const Colour texel = picture->at(finite ? moved : Uv{}, wrap_u, wrap_v, footprint);
+    const Colour texel = picture->at(moved(place), wrap_u, wrap_v, footprint);
     colour = {colour.rgb * texel.rgb, colour.alpha * texel.alpha};
   }
   if (alpha == AlphaMode::opaque) colour.alpha = 1;
   return colour;
+}
+
+Uv Paint::moved(Uv place) const {
+  const Uv moved{move[0][0] * place.u + move[0][1] * place.v + move[0][2],
+                 move[1][0] * place.u + move[1][1] * place.v + move[1][2]};
+  // Farther away floats have no digits left for places on a picture.
+  constexpr float kFar = 1e6f;
+  return std::abs(moved.u) < kFar && std::abs(moved.v) < kFar ? moved : Uv{};
 }
 
 double Paint::texels(Uv a, Uv b) const {
@@ -81,27 +88,48 @@ Paint Paints::make(std::size_t material) {
   }
   const Json& glass = member(entry, "extensions", "KHR_materials_transmission");
   paint.see_through = number_or(member(glass, "transmissionFactor"), 0) > 0.5;
-  add_texture(base_texture_of(entry), paint);
+  add_base(base_texture_of(entry), paint);
+  paint.textured = paint.picture != nullptr;
+  constexpr std::size_t kMostCoats = 65535;
+  if (!with_coats_ || coats_.size() >= kMostCoats) return paint;
+  paint.coat = coats_.size();
+  coats_.push_back(read_coat(file_, material, paint, [&](const Json& info, TexelKind kind) {
+    return texture(info, kind, paint.name);
+  }));
+  const head::Coat& coat = coats_.back();
+  paint.textured = coat.base || coat.normal || coat.metal_rough || coat.occlusion ||
+                   coat.emissive || coat.shade_texture;
   return paint;
 }
 
-void Paints::add_texture(const Json& info, Paint& paint) {
-  const std::optional<std::size_t> index = whole(member(info, "index"));
-  if (!index) return;
-  const Json& texture = file_.entry("textures", *index);
+void Paints::add_base(const Json& info, Paint& paint) {
+  const head::Texture base = texture(info, TexelKind::colour, paint.name);
   const Json& transform = member(info, "extensions", "KHR_texture_transform");
-  const Json& sampler =
-      file_.entry("samplers", whole_or(member(texture, "sampler"), ~std::size_t(0)));
-  paint.wrap_u = wrap_of(member(sampler, "wrapS"));
-  paint.wrap_v = wrap_of(member(sampler, "wrapT"));
+  paint.picture = base.picture;
+  paint.wrap_u = base.wrap_u;
+  paint.wrap_v = base.wrap_v;
   paint.move = move_of(transform);
   paint.uv_set = whole_or(member(transform, "texCoord"), whole_or(member(info, "texCoord"), 0));
+}
+
+head::Texture Paints::texture(const Json& info, TexelKind kind, const std::string& material) {
+  const std::optional<std::size_t> index = whole(member(info, "index"));
+  if (!index) return {};
+  const Json& texture = file_.entry("textures", *index);
+  const Json& sampler =
+      file_.entry("samplers", whole_or(member(texture, "sampler"), ~std::size_t(0)));
+  head::Texture out{nullptr, wrap_of(member(sampler, "wrapS")), wrap_of(member(sampler, "wrapT"))};
   if (const auto image = image_of(texture)) {
-    paint.picture = pictures_.of(*image);
-  } else {
-    notes_.push_back("the texture of material \"" + paint.name +
-                     "\" is neither PNG nor JPEG nor WebP and is left out: export it as PNG");
+    out.picture = pictures_.of(*image, kind);
+    return out;
   }
+  const bool ktx2 = !member(texture, "extensions", "KHR_texture_basisu").is_null();
+  notes_.push_back("a texture of material \"" + material +
+                   (ktx2
+                        ? "\" is KTX2 (KHR_texture_basisu) alone and is left out, so it has its "
+                          "plain colour: export it as PNG, JPEG or WebP"
+                        : "\" is neither PNG nor JPEG nor WebP and is left out: export it as PNG"));
+  return out;
 }
 
 }  // namespace animeme::gltf

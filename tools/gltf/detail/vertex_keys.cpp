@@ -47,8 +47,10 @@ std::vector<Key> keys_of(const RawPiece& piece) {
 std::vector<std::uint32_t> numbers_of(const RawPiece& piece,
                                       const std::vector<std::uint32_t>& first) {
   std::vector<std::uint32_t> numbers(first.size(), ~0u);
-  for (const head::Triangle& t : piece.triangles) {
-    for (const std::uint32_t v : t) numbers[first[v]] = 0;
+  for (const auto* triangles : {&piece.triangles, &piece.veils}) {
+    for (const head::Triangle& t : *triangles) {
+      for (const std::uint32_t v : t) numbers[first[v]] = 0;
+    }
   }
   std::uint32_t next = 0;
   for (std::uint32_t& number : numbers) {
@@ -56,6 +58,32 @@ std::vector<std::uint32_t> numbers_of(const RawPiece& piece,
   }
   return numbers;
 }
+
+// Triangles as they are drawn: each vertex of the file is a corner.
+class Facets {
+ public:
+  explicit Facets(const RawPiece& from) : from_(from), numbers_(from.corners.size(), ~0u) {}
+
+  /// `t`: in the piece as it was; `to`: in `out`.
+  void add(const head::Triangle& t, const head::Triangle& to, std::uint16_t coat, RawPiece& out) {
+    head::Triangle facet{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::uint32_t& number = numbers_[t[k]];
+      if (number == ~0u) {
+        number = std::uint32_t(out.corners.size());
+        out.corners.push_back(from_.corners[t[k]]);
+        out.corners.back().vertex = to[k];
+      }
+      facet[k] = number;
+    }
+    out.facets.push_back(facet);
+    out.coats.push_back(coat);
+  }
+
+ private:
+  const RawPiece& from_;
+  std::vector<std::uint32_t> numbers_;  // of corners in what is made
+};
 
 void renumber(Moves& moves, const std::vector<std::uint32_t>& first,
               const std::vector<std::uint32_t>& numbers) {
@@ -114,9 +142,14 @@ void weld(RawPiece& piece) {
       out.colours[v].alpha /= counts[v];
     }
   }
-  for (const head::Triangle& t : piece.triangles) {
+  Facets facets(piece);
+  for (std::size_t i = 0; i < piece.triangles.size() + piece.veils.size(); ++i) {
+    const bool solid = i < piece.triangles.size();
+    const head::Triangle& t = solid ? piece.triangles[i] : piece.veils[i - piece.triangles.size()];
     const head::Triangle to = {numbers[first[t[0]]], numbers[first[t[1]]], numbers[first[t[2]]]};
-    if (to[0] != to[1] && to[1] != to[2] && to[2] != to[0]) out.triangles.push_back(to);
+    if (to[0] == to[1] || to[1] == to[2] || to[2] == to[0]) continue;
+    if (solid) out.triangles.push_back(to);
+    if (!piece.coats.empty()) facets.add(t, to, piece.coats[i], out);
   }
   for (std::size_t v = 0; v < piece.numbers.size(); ++v) {
     const std::uint32_t to = numbers[first[v]];

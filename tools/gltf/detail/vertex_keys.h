@@ -12,8 +12,9 @@ namespace animeme::gltf {
 /// share of the neck, to the bit. Upper and lower lip, which move apart, are never one.
 std::vector<std::uint32_t> first_alike(const RawPiece& piece);
 
-/// Joins vertices that are alike; colours become their mean, uvs are lost. Vertices without a
-/// triangle go. Triangles that have become lines go.
+/// Joins vertices that are alike; colours become their mean, uvs are lost, corners stay as
+/// many and move along with what their vertex has become. Vertices without a triangle or veil go.
+/// Triangles that have become lines go.
 void weld(RawPiece& piece);
 
 }  // namespace animeme::gltf

@@ -88,19 +88,40 @@ Vec3 cornea(Vec3 normal, Vec3 gaze) {
   return normal + (normal - gaze * ahead) * (0.5f * head::smooth_step(0.2f, 1.0f, ahead));
 }
 
-// sRGB value 0..255 of linear light 0..1, by table.
+// The shown value after the filmic curve.
+float filmic(float x) { return shown(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f)); }
+
+// The maker's normal turns as that of the mesh does.
+Vec3 turned_along(Vec3 normal, Vec3 from, Vec3 to) {
+  const float cosine = dot(from, to);
+  if (cosine < -0.9f) return to;
+  const Vec3 axis = cross(from, to);
+  const Vec3 across = cross(axis, normal);
+  return normal + across + cross(axis, across) * (1 / (1 + cosine));
+}
+
+// Puts a place on the screen; the way to it from the eye.
+Vec3 put(Vec3 place, const View& view, ScreenVertex& v) {
+  const Vec3 from_eye = place - view.eye;
+  const float distance = -dot(from_eye, view.back);
+  v.nearness = distance > 1 ? 1 / distance : 0;
+  const float px = view.middle_x + view.focus * dot(from_eye, view.right) * v.nearness;
+  const float py = view.middle_y - view.focus * dot(from_eye, view.up) * v.nearness;
+  constexpr float kFar = 1 << 14;  // far outside of any picture; the product of two fits 64 bits
+  v.x = std::int32_t(std::lrint(std::clamp(px, -kFar, kFar) * kSubpixels));
+  v.y = std::int32_t(std::lrint(std::clamp(py, -kFar, kFar) * kSubpixels));
+  return from_eye;
+}
+
+}  // namespace
+
 float shown(float light) {
-  const float x = std::clamp(light, 0.0f, 1.0f) * kShownSteps;
+  const float x = (light > 0 ? std::min(light, 1.0f) : 0) * kShownSteps;
   const int i = int(x);
   const auto& table = shown_table();
   return table[std::size_t(i)] +
          (table[std::size_t(i + 1)] - table[std::size_t(i)]) * (x - float(i));
 }
-
-// The same after the filmic curve.
-float filmic(float x) { return shown(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f)); }
-
-}  // namespace
 
 View::View(const Camera& camera, int width, int height) : eye(camera.eye) {
   back = normalised(camera.eye - camera.target);
@@ -121,20 +142,36 @@ void shade(const Surface& surface, const View& view, std::size_t first, std::siz
   for (std::size_t i = first; i < last; ++i) {
     const Vec3 place = surface.transform(surface.positions[i]);
     const Vec3 normal = surface.transform.turn(surface.normals[i]);
-    const Vec3 from_eye = place - view.eye;
-    const float distance = -dot(from_eye, view.back);
+    const Vec3 from_eye = put(place, view, out[i]);
     ScreenVertex& v = out[i];
-    v.nearness = distance > 1 ? 1 / distance : 0;
-    const float px = view.middle_x + view.focus * dot(from_eye, view.right) * v.nearness;
-    const float py = view.middle_y - view.focus * dot(from_eye, view.up) * v.nearness;
-    constexpr float kFar = 1 << 14;  // far outside of any picture; the product of two fits 64 bits
-    v.x = std::int32_t(std::lrint(std::clamp(px, -kFar, kFar) * kSubpixels));
-    v.y = std::int32_t(std::lrint(std::clamp(py, -kFar, kFar) * kSubpixels));
     v.normal = surface.material == Material::eye ? cornea(normal, gaze) : normal;
     const Vec3 to_eye = normalised(Vec3{} - from_eye);
     if (dot(to_eye, normal) < -0.5f) continue;  // no triangle that is seen has such a corner
     const Vec3 c = lit(normal, to_eye, surface.colours[i], surface.occlusion[i], look, view);
     v.colour = {filmic(c.x), filmic(c.y), filmic(c.z)};
+  }
+}
+
+ScreenFrame::ScreenFrame(const Corners& corners)
+    : bx(float(corners.b->x - corners.a->x) / kSubpixels),
+      by(float(corners.b->y - corners.a->y) / kSubpixels),
+      cx(float(corners.c->x - corners.a->x) / kSubpixels),
+      cy(float(corners.c->y - corners.a->y) / kSubpixels),
+      scale(1 / (bx * cy - by * cx)) {}
+
+void place_corners(const Surface& surface, const View& view, std::size_t first, std::size_t last,
+                   ScreenVertex* out) {
+  for (std::size_t i = first; i < last; ++i) {
+    const head::Corner& corner = surface.corners[i];
+    const std::uint32_t vertex = corner.vertex;
+    out[i].nearness = 0;
+    if (vertex >= surface.positions.size()) continue;
+    put(surface.transform(surface.positions[vertex]), view, out[i]);
+    Vec3 normal = surface.normals[vertex];
+    if (corner.normal != Vec3{} && vertex < surface.normals_at_rest.size()) {
+      normal = turned_along(corner.normal, surface.normals_at_rest[vertex], normal);
+    }
+    out[i].normal = surface.transform.turn(normal);
   }
 }
 

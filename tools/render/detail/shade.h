@@ -28,9 +28,29 @@ struct ScreenVertex {
   head::Vec3 normal;   ///< for highlights; not of length 1
 };
 
+struct Corners {
+  const ScreenVertex* a;
+  const ScreenVertex* b;
+  const ScreenVertex* c;
+};
+
+/// Sides of a triangle on the screen, from its first corner, in pixels.
+struct ScreenFrame {
+  explicit ScreenFrame(const Corners& corners);
+
+  float bx, by, cx, cy, scale;
+};
+
 /// Vertices first .. last - 1.
 void shade(const Surface& surface, const View& view, std::size_t first, std::size_t last,
            ScreenVertex* out);
+
+/// Corners first .. last - 1 of a surface with facets: places and normals, no colours.
+void place_corners(const Surface& surface, const View& view, std::size_t first, std::size_t last,
+                   ScreenVertex* out);
+
+/// sRGB value 0..255 of linear light; below 0 is 0, above 1 255.
+float shown(float light);
 
 /// Added to the colour of an eye with this normal, 0..255.
 float eye_highlight(head::Vec3 normal, const View& view);

@@ -1,7 +1,6 @@
 #include "tools/render/detail/tile.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace animeme::render::detail {
 namespace {
@@ -39,87 +38,6 @@ constexpr std::array<Middle, 16> kMiddles = make_middles();
 constexpr int kWide = 7;        // pixels
 constexpr int kLookEvery = 48;  // triangles
 
-F4 splat(float v) { return F4{v, v, v, v}; }
-I4 splat(std::int32_t v) { return I4{v, v, v, v}; }
-
-F4 as_float(I4 v) {
-  F4 f;
-  std::memcpy(&f, &v, sizeof f);
-  return f;
-}
-I4 as_int(F4 v) {
-  I4 i;
-  std::memcpy(&i, &v, sizeof i);
-  return i;
-}
-// Bit k: lane k is set.
-int lanes(I4 v) {
-#ifdef __SSE__
-  return __builtin_ia32_movmskps(as_float(v));
-#else
-  return (v[0] & 1) | (v[1] & 2) | (v[2] & 4) | (v[3] & 8);
-#endif
-}
-F4 to_float(I4 v) { return __builtin_convertvector(v, F4); }
-
-// One side of a triangle: value(x, y) >= 0 inside. Exact in integers, so neighbours share no
-// sample and leave none out.
-struct Side {
-  std::int32_t step_x, step_y;
-  std::int32_t start;
-};
-
-Side make_side(const ScreenVertex& p, const ScreenVertex& q, std::int32_t x0, std::int32_t y0) {
-  const std::int32_t step_x = q.y - p.y;
-  const std::int32_t step_y = p.x - q.x;
-  std::int64_t start = std::int64_t(step_x) * (x0 - p.x) + std::int64_t(step_y) * (y0 - p.y);
-  // A sample right on the side belongs to one of the two triangles.
-  if (!(step_x > 0 || (step_x == 0 && step_y > 0))) start -= 1;
-  constexpr std::int64_t kLarge = 1 << 30;  // no change of sign within a tile
-  return {step_x, step_y, std::int32_t(std::clamp(start, -kLarge, kLarge))};
-}
-
-// Which pixels of a row can have a sample inside of all sides. Careful by a pixel, as it reckons in
-// floating point; the samples are decided by the sides themselves.
-class Reach {
- public:
-  struct Span {
-    int first, last;  // from the first pixel of the row
-  };
-
-  Reach() = default;
-  explicit Reach(const Side (&sides)[3]) {
-    for (int s = 0; s < 3; ++s) {
-      const std::int32_t step = sides[s].step_x * kSubpixels;
-      scale_[s] = step == 0 ? 0 : -1 / float(step);
-      rises_[s] = step > 0;
-    }
-  }
-
-  Span of(const I4 (&edges)[3], int last) const {
-    float from = 0;
-    float to = float(last);
-    for (int s = 0; s < 3; ++s) {
-      // The sample that is farthest in.
-      const std::int32_t most =
-          std::max(std::max(edges[s][0], edges[s][1]), std::max(edges[s][2], edges[s][3]));
-      const float border = float(most) * scale_[s];  // here it would be on the side
-      if (scale_[s] == 0) {
-        if (most < 0) to = -1;
-      } else if (rises_[s]) {
-        from = std::max(from, border - 1);
-      } else {
-        to = std::min(to, border + 1);
-      }
-    }
-    return {int(from), int(std::max(to, -1.0f))};
-  }
-
- private:
-  float scale_[3] = {};
-  bool rises_[3] = {};
-};
-
 F4 as_vector(Vec3 v) { return F4{v.x, v.y, v.z, 0}; }
 
 Vec3 unpack(std::uint32_t srgb) {
@@ -136,6 +54,16 @@ inline std::int32_t pack(F4 colour) {
   return bytes[0] | bytes[1] << 8 | bytes[2] << 16;
 }
 
+// `shown` over what four samples have.
+I4 mixed(const I4& old, F4 shown, float share) {
+  I4 out{};
+  for (int s = 0; s < 4; ++s) {
+    const F4 below = {float(old[s] & 255), float(old[s] >> 8 & 255), float(old[s] >> 16 & 255), 0};
+    out[s] = pack(below + (shown - below) * splat(share));
+  }
+  return out;
+}
+
 }  // namespace
 
 // value = at + dx * x + dy * y, pixels from the first corner; four values at once.
@@ -144,34 +72,46 @@ struct Tile::Plane {
   F4 operator()(float x, float y) const { return at + dx * splat(x) + dy * splat(y); }
 };
 
-// Sides of a triangle on the screen, from its first corner, in pixels.
-struct Tile::Frame {
-  float bx, by, cx, cy, scale;
+Tile::Plane Tile::plane(const ScreenFrame& frame, F4 a, F4 b, F4 c) {
+  const F4 db = b - a;
+  const F4 dc = c - a;
+  return {a, (db * splat(frame.cy) - dc * splat(frame.by)) * splat(frame.scale),
+          (dc * splat(frame.bx) - db * splat(frame.cx)) * splat(frame.scale)};
+}
 
-  Plane plane(F4 a, F4 b, F4 c) const {
-    const F4 db = b - a;
-    const F4 dc = c - a;
-    return {a, (db * splat(cy) - dc * splat(by)) * splat(scale),
-            (dc * splat(bx) - db * splat(cx)) * splat(scale)};
-  }
-};
-
-// What a triangle shows; made when the first of its pixels is seen.
+// What a triangle without a coat shows; made when the first of its pixels is seen.
 struct Tile::Planes {
   const Corners& corners;
-  const Frame& frame;
+  const ScreenFrame& frame;
   bool eye;
+  const View& view;
   bool ready = false;
   Plane colour{};
   Plane normal{};
+
+  static constexpr bool kDraws = true;
+  static constexpr bool over() { return false; }
+  static constexpr bool blends() { return false; }
 
   void make() {
     const ScreenVertex& a = *corners.a;
     const ScreenVertex& b = *corners.b;
     const ScreenVertex& c = *corners.c;
-    colour = frame.plane(as_vector(a.colour), as_vector(b.colour), as_vector(c.colour));
-    if (eye) normal = frame.plane(as_vector(a.normal), as_vector(b.normal), as_vector(c.normal));
+    colour = plane(frame, as_vector(a.colour), as_vector(b.colour), as_vector(c.colour));
+    if (eye) {
+      normal = plane(frame, as_vector(a.normal), as_vector(b.normal), as_vector(c.normal));
+    }
     ready = true;
+  }
+
+  float paint(float x, float y, F4& shown) {
+    if (!ready) make();
+    shown = colour(x, y);
+    if (eye) {
+      const F4 n = normal(x, y);
+      shown += splat(eye_highlight({n[0], n[1], n[2]}, view));
+    }
+    return 1;
   }
 };
 
@@ -217,6 +157,30 @@ bool Tile::is_hidden(float nearest, int x0, int y0, int x1, int y1) const {
 }
 
 void Tile::draw(const Corners& corners, bool eye, const View& view) {
+  const ScreenFrame frame(corners);
+  Planes planes{corners, frame, eye, view};
+  fill(corners, frame, planes);
+}
+
+// Depth alone.
+struct Tile::Cover {
+  static constexpr bool kDraws = false;
+  static constexpr bool over() { return false; }
+};
+
+void Tile::cover(const CoatFacet& facet) {
+  Cover cover;
+  fill(facet.screen, ScreenFrame(facet.screen), cover);
+}
+
+void Tile::draw(const CoatFacet& facet, const View& view) {
+  const ScreenFrame frame(facet.screen);
+  CoatPainter painter(facet, frame, view);
+  fill(facet.screen, frame, painter);
+}
+
+template <class Painter>
+void Tile::fill(const Corners& corners, const ScreenFrame& frame, Painter& painter) {
   const ScreenVertex& a = *corners.a;
   const ScreenVertex& b = *corners.b;
   const ScreenVertex& c = *corners.c;
@@ -235,11 +199,7 @@ void Tile::draw(const Corners& corners, bool eye, const View& view) {
   // On the screen, with y down, corners that were counterclockwise have a negative area.
   const Side sides[] = {make_side(a, b, left, top), make_side(b, c, left, top),
                         make_side(c, a, left, top)};
-  Frame frame{float(b.x - a.x) / kSubpixels, float(b.y - a.y) / kSubpixels,
-              float(c.x - a.x) / kSubpixels, float(c.y - a.y) / kSubpixels, 0};
-  frame.scale = 1 / (frame.bx * frame.cy - frame.by * frame.cx);
-  const Plane near = frame.plane(splat(a.nearness), splat(b.nearness), splat(c.nearness));
-  Planes planes{corners, frame, eye};
+  const Plane near = plane(frame, splat(a.nearness), splat(b.nearness), splat(c.nearness));
   I4 row_edge[3];
   for (int s = 0; s < 3; ++s) {
     row_edge[s] = sides[s].start + sides[s].step_x * kSampleX + sides[s].step_y * kSampleY;
@@ -261,7 +221,7 @@ void Tile::draw(const Corners& corners, bool eye, const View& view) {
       const I4 inside = (e0 | e1 | e2) >= 0;
       if (lanes(inside) != 0) {
         const float px = float(x_ + x) - ax;
-        draw_pixel(y * kTile + x, inside, near(px, py) + sample_near, planes, px, py, view);
+        fill_pixel(y * kTile + x, inside, near(px, py) + sample_near, painter, px, py);
       }
       e0 += sides[0].step_x * kSubpixels;
       e1 += sides[1].step_x * kSubpixels;
@@ -271,23 +231,30 @@ void Tile::draw(const Corners& corners, bool eye, const View& view) {
   }
 }
 
-inline void Tile::draw_pixel(int index, const I4& inside, const F4& nearness, Planes& planes,
-                             float x, float y, const View& view) {
+template <class Painter>
+inline void Tile::fill_pixel(int index, const I4& inside, const F4& nearness, Painter& painter,
+                             float x, float y) {
   F4& depth = nearness_[std::size_t(index)];
-  const I4 seen = inside & (nearness > depth);
+  const I4 seen = inside & (painter.over() ? nearness >= depth : nearness > depth);
   const int mask = lanes(seen);
   if (mask == 0) return;
-  if (!planes.ready) planes.make();
-  depth = as_float((seen & as_int(nearness)) | (~seen & as_int(depth)));
-  const Middle& m = kMiddles[std::size_t(mask)];
-  F4 shown = planes.colour(x + m.x, y + m.y);
-  if (planes.eye) {
-    const F4 n = planes.normal(x + m.x, y + m.y);
-    shown += splat(eye_highlight({n[0], n[1], n[2]}, view));
+  if constexpr (!Painter::kDraws) {
+    depth = as_float((seen & as_int(nearness)) | (~seen & as_int(depth)));
+    return;
+  } else {
+    const Middle& m = kMiddles[std::size_t(mask)];
+    F4 shown;
+    const float alpha = painter.paint(x + m.x, y + m.y, shown);
+    if (alpha <= 0) return;
+    I4& old = colour_[std::size_t(index)];
+    I4 colour = splat(pack(shown));
+    if (painter.blends()) {
+      if (alpha < 1) colour = mixed(old, shown, alpha);
+    } else {
+      depth = as_float((seen & as_int(nearness)) | (~seen & as_int(depth)));
+    }
+    old = (seen & colour) | (~seen & old);
   }
-  const I4 colour = splat(pack(shown));
-  I4& old = colour_[std::size_t(index)];
-  old = (seen & colour) | (~seen & old);
 }
 
 void Tile::finish(Image& image) const {

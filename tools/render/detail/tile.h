@@ -4,22 +4,13 @@
 #include <array>
 #include <cstdint>
 
-#include "tools/render/detail/shade.h"
+#include "tools/render/detail/coat_painter.h"
+#include "tools/render/detail/side.h"
 
 namespace animeme::render::detail {
 
 inline constexpr int kTile = 64;  ///< pixels a side
 inline constexpr int kBlock = 8;  ///< pixels a side of the squares that are known to be covered
-
-/// Vectors of the four samples of a pixel, by an extension that g++ and clang++ share.
-using F4 = float __attribute__((vector_size(16)));
-using I4 = std::int32_t __attribute__((vector_size(16)));
-
-struct Corners {
-  const ScreenVertex* a;
-  const ScreenVertex* b;
-  const ScreenVertex* c;
-};
 
 class Tile {
  public:
@@ -27,15 +18,25 @@ class Tile {
   void start(int x, int y, const RenderOptions& options);
   /// Draws a triangle; `eye` adds highlights.
   void draw(const Corners& corners, bool eye, const View& view);
+  /// Notes how near a facet is, without drawing it, so that draw() has to look at what is seen
+  /// only.
+  void cover(const CoatFacet& facet);
+  /// Draws a facet by its coat. One that blends goes over what is there and hides nothing: draw
+  /// them last, and those that are far away first.
+  void draw(const CoatFacet& facet, const View& view);
   /// Averages the samples into the picture.
   void finish(Image& image) const;
 
  private:
   struct Plane;
-  struct Frame;
   struct Planes;
-  void draw_pixel(int index, const I4& inside, const F4& nearness, Planes& planes, float x, float y,
-                  const View& view);
+  struct Cover;
+  static Plane plane(const ScreenFrame& frame, F4 a, F4 b, F4 c);
+  template <class Painter>
+  void fill(const Corners& corners, const ScreenFrame& frame, Painter& painter);
+  template <class Painter>
+  void fill_pixel(int index, const I4& inside, const F4& nearness, Painter& painter, float x,
+                  float y);
 
   void look_how_near();
   bool is_hidden(float nearest, int x0, int y0, int x1, int y1) const;

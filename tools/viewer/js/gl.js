@@ -1,5 +1,8 @@
-// WebGL2: programs, buffers, one draw call for each part.
-import {HEAD_FRAGMENT, HEAD_VERTEX, LINE_FRAGMENT, LINE_VERTEX, LOOKS} from './shaders.js';
+// WebGL2: programs, one draw call for each part, or for each coat of it.
+import {Coats} from './coats.js';
+import {COAT_FRAGMENT, COAT_VERTEX} from './coat_shaders.js';
+import {Mesh} from './mesh.js';
+import {HEAD_FRAGMENT, HEAD_VERTEX, LINE_FRAGMENT, LINE_VERTEX} from './shaders.js';
 
 function compile(gl, type, source) {
   const shader = gl.createShader(type);
@@ -29,110 +32,20 @@ class Program {
   }
 }
 
-/** Edges of triangles, each once, as pairs of vertices. */
-export function edgesOf(triangles, vertices) {
-  const edges = new Set();
-  for (let t = 0; t < triangles.length; t += 3) {
-    for (let k = 0; k < 3; ++k) {
-      const a = triangles[t + k];
-      const b = triangles[t + (k + 1) % 3];
-      edges.add(Math.min(a, b) * vertices + Math.max(a, b));
-    }
-  }
-  const out = new Uint32Array(edges.size * 2);
-  let i = 0;
-  for (const edge of edges) {
-    out[i++] = Math.floor(edge / vertices);
-    out[i++] = edge % vertices;
-  }
-  return out;
-}
-
-/** The buffers of one part. */
-class Mesh {
-  constructor(gl, part, dynamic) {
-    this.gl = gl;
-    this.part = part;
-    this.look = LOOKS[part.material] || LOOKS.skin;
-    this.count = part.triangles.length;
-    const usage = dynamic ? gl.DYNAMIC_DRAW : gl.STATIC_DRAW;
-    this.array = gl.createVertexArray();
-    gl.bindVertexArray(this.array);
-    this.places = this.attribute(0, part.positions, 3, gl.FLOAT, false, usage);
-    this.normals = this.attribute(1, part.normals, 3, gl.FLOAT, false, usage);
-    this.attribute(2, part.paint, 4, gl.UNSIGNED_BYTE, true, gl.STATIC_DRAW);
-    this.triangles = gl.createBuffer();
-    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.triangles);
-    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, part.triangles, gl.STATIC_DRAW);
-    gl.bindVertexArray(null);
-  }
-
-  attribute(index, data, size, type, normalised, usage) {
-    const {gl} = this;
-    const buffer = gl.createBuffer();
-    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, data, usage);
-    gl.enableVertexAttribArray(index);
-    gl.vertexAttribPointer(index, size, type, normalised, 0, 0);
-    return buffer;
-  }
-
-  update(places, normals) {
-    const {gl} = this;
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.places);
-    gl.bufferSubData(gl.ARRAY_BUFFER, 0, places);
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.normals);
-    gl.bufferSubData(gl.ARRAY_BUFFER, 0, normals);
-  }
-
-  /** A number for each vertex, 0..1, shown as colour; null: the own colours. */
-  setHeat(values) {
-    const {gl} = this;
-    gl.bindVertexArray(this.array);
-    if (values === null) {
-      gl.disableVertexAttribArray(3);
-    } else if (this.heat) {
-      gl.bindBuffer(gl.ARRAY_BUFFER, this.heat);
-      gl.bufferSubData(gl.ARRAY_BUFFER, 0, values);
-      gl.enableVertexAttribArray(3);
-    } else {
-      this.heat = this.attribute(3, values, 1, gl.FLOAT, false, gl.DYNAMIC_DRAW);
-    }
-    gl.bindVertexArray(null);
-  }
-
-  drawTriangles() {
-    const {gl} = this;
-    gl.bindVertexArray(this.array);
-    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.triangles);
-    gl.drawElements(gl.TRIANGLES, this.count, gl.UNSIGNED_INT, 0);
-  }
-
-  drawEdges() {
-    const {gl} = this;
-    gl.bindVertexArray(this.array);
-    if (!this.edges) {
-      const edges = edgesOf(this.part.triangles, this.part.positions.length / 3);
-      this.edges = {buffer: gl.createBuffer(), count: edges.length};
-      gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.edges.buffer);
-      gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, edges, gl.STATIC_DRAW);
-    }
-    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.edges.buffer);
-    gl.drawElements(gl.LINES, this.edges.count, gl.UNSIGNED_INT, 0);
-  }
-}
-
 // Rows of a transform as the columns that WebGL wants.
 const turnOf = (m) => [m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8]];
 
 /** Draws rigs into a canvas. Throws where WebGL2 is missing. */
 export class Renderer {
-  constructor(canvas) {
+  /** `onNeed` is called when there is more to see. */
+  constructor(canvas, model, onNeed) {
     const gl = canvas.getContext('webgl2', {alpha: true, antialias: true});
     if (!gl) throw new Error('no WebGL2');
     this.gl = gl;
     this.heads = new Program(gl, HEAD_VERTEX, HEAD_FRAGMENT);
     this.lines = new Program(gl, LINE_VERTEX, LINE_FRAGMENT);
+    this.coats = new Coats(gl, model, onNeed);
+    if (model.coats) this.coated = new Program(gl, COAT_VERTEX, COAT_FRAGMENT);
     gl.enable(gl.CULL_FACE);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
@@ -166,6 +79,7 @@ export class Renderer {
       gl.clear(gl.DEPTH_BUFFER_BIT);
       gl.colorMask(false, false, false, false);
       this.drawParts(meshes, rig, view, style);
+      this.drawCoats(meshes, rig, view, style);
       gl.colorMask(true, true, true, true);
       gl.enable(gl.BLEND);
     }
@@ -174,6 +88,7 @@ export class Renderer {
       gl.polygonOffset(1, 1);
     }
     this.drawParts(meshes, rig, view, style);
+    this.drawCoats(meshes, rig, view, style);
     gl.disable(gl.POLYGON_OFFSET_FILL);
     if (style.wire) this.drawWires(meshes, rig, view, style.wire);
     gl.disable(gl.BLEND);
@@ -201,7 +116,7 @@ export class Renderer {
     gl.uniform1f(heads.place('opacity'), style.opacity);
     gl.vertexAttrib1f(3, -1);
     meshes.forEach((mesh, i) => {
-      if (mesh.count === 0) return;
+      if (mesh.count === 0 || this.isCoated(mesh)) return;
       this.setPart(heads, rig.transforms[i]);
       const {wrap, shine, sharpness, rim, gloss = 0} = mesh.look;
       gl.uniform3fv(heads.place('wrap'), wrap);
@@ -212,6 +127,40 @@ export class Renderer {
       gl.uniform1i(heads.place('eyeball'), mesh.part.material === 'eye' ? 1 : 0);
       mesh.drawTriangles();
     });
+  }
+
+  // A mesh that shows distances shows no coat.
+  isCoated(mesh) {
+    return Boolean(mesh.part.facets) && !mesh.hot;
+  }
+
+  // What blends comes last, and of it first what is far away.
+  drawCoats(meshes, rig, view, style) {
+    if (!this.coated) return;
+    const {gl, coats, coated} = this;
+    this.setView(coated, view);
+    for (const name of ['key', 'fill', 'rim']) gl.uniform3fv(coated.place(name), view[name]);
+    gl.uniform4fv(coated.place('tint'), style.tint);
+    gl.uniform1f(coated.place('opacity'), style.opacity);
+    const runs = meshes.flatMap((mesh, i) => (this.isCoated(mesh) ?
+        mesh.part.facets.runs.map((run) => ({mesh, run, transform: rig.transforms[i]})) : []));
+    const away = ({run}) => Math.hypot(...run.middle.map((x, k) => x - view.eye[k]));
+    // At first what hides: also what is opaque of a veil, as many files have nothing but veils.
+    const draw = ({mesh, run, transform}, hiding) => {
+      this.setPart(coated, transform);
+      coats.wear(run.coat, coated, hiding);
+      mesh.drawRun(run);
+    };
+    const veils = runs.filter(({run}) => coats.blends(run.coat));
+    const ghost = style.opacity < 1;  // shines through as a whole
+    runs.filter((each) => !ghost || !veils.includes(each)).forEach((each) => draw(each, true));
+    const alone = !gl.isEnabled(gl.BLEND);
+    gl.enable(gl.BLEND);
+    gl.depthMask(false);
+    veils.sort((a, b) => away(b) - away(a)).forEach((each) => draw(each, false));
+    gl.depthMask(true);
+    if (alone) gl.disable(gl.BLEND);
+    gl.enable(gl.CULL_FACE);
   }
 
   drawWires(meshes, rig, view, ink) {

@@ -39,7 +39,9 @@ export class HeadView {
   }
 
   setUp() {
-    this.renderer = new Renderer(this.canvas);
+    this.renderer = new Renderer(this.canvas, this.model, () => this.onNeed());
+    /** Its pictures are decoded; before, it has plain colours. */
+    this.ready = this.renderer.coats.ready;
     this.meshes = this.rigs.map((rig) => this.renderer.load(rig));
     this.stale = this.rigs.map(() => true);
     this.hot = false;

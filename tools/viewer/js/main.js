@@ -222,6 +222,7 @@ async function start() {
       app.changed();
     });
   }
+  if (stage.view) await stage.view.ready;
   app.draw();
   if (flag('play')) playUnasked(player);
 }

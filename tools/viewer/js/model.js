@@ -20,7 +20,47 @@ function readPart(reader, info) {
   for (let i = 0; i < triangles.length; ++i) triangles[i] = vertex += reader.zigzag();
   const normals = new Float32Array(positions.length);
   smoothNormals(positions, triangles, normals);
-  return {name: info.name, material: info.material, positions, normals, paint, triangles};
+  const part = {name: info.name, material: info.material, positions, normals, paint,
+    surface: triangles, triangles: triangles.subarray(0, (info.solid ?? info.triangles) * 3)};
+  if (info.facets) part.facets = readFacets(reader, info.facets, part);
+  return part;
+}
+
+const axisOf = (reader, [low, step], count) =>
+  Float32Array.from(reader.u16(count), (value) => low + value * step);
+
+// What is drawn with coats: corners, each with its vertex, and facets in runs of one coat.
+function readFacets(reader, info, part) {
+  const count = info.corners;
+  const vertices = new Uint32Array(count);
+  let last = 0;
+  for (let i = 0; i < count; ++i) vertices[i] = last += reader.zigzag();
+  const uvs = new Float32Array(count * 2);
+  [info.u, info.v].forEach((scale, k) => {
+    axisOf(reader, scale, count).forEach((value, i) => { uvs[i * 2 + k] = value; });
+  });
+  const own = new Int16Array(count * 4);  // normals of its maker
+  for (let k = 0; k < 3; ++k) reader.i16(count).forEach((value, i) => { own[i * 4 + k] = value; });
+  const tints = new Uint8Array(count * 4).fill(255);
+  for (let k = 0; k < 4 && info.tinted; ++k) {
+    reader.u8(count).forEach((value, i) => { tints[i * 4 + k] = value; });
+  }
+  const facets = info.runs.reduce((sum, run) => sum + run[1], 0);
+  const corners = new Uint32Array(facets * 3);
+  last = 0;
+  for (let i = 0; i < corners.length; ++i) corners[i] = last += reader.zigzag();
+  let first = 0;
+  const runs = info.runs.map(([coat, size]) => {
+    const run = {coat, first, count: size * 3, middle: [0, 0, 0]};
+    first += size * 3;
+    for (let i = run.first; i < first; ++i) {
+      for (let k = 0; k < 3; ++k) {
+        run.middle[k] += part.positions[vertices[corners[i]] * 3 + k] / run.count;
+      }
+    }
+    return run;
+  });
+  return {vertices, uvs, own, tints, corners, runs};
 }
 
 function readTarget(reader, {control, part, count, steps, low = -Infinity, high = Infinity}) {
@@ -35,8 +75,8 @@ function readTarget(reader, {control, part, count, steps, low = -Infinity, high 
   return {control, part, vertices, axes, low, high, rest};
 }
 
-/** {name, parts: [{name, material, positions, normals, paint, triangles}], targets, lips, lids,
-    sliding, beforeEyes, teeth, anchors, neckWeights, and what the header has}. Vertices of targets are places in the
+/** {name, parts: [{name, material, positions, normals, paint, triangles, surface (with what bears on
+    normals alone), facets}], targets, lips, lids, sliding, beforeEyes, teeth, anchors, neckWeights, and what the header has}. Vertices of targets are places in the
     array of positions. */
 export function readModel(bytes) {
   const reader = new ByteReader(bytes);
@@ -52,6 +92,7 @@ export function readModel(bytes) {
   const anchors = reader.varints(header.anchors);
   const neckWeights = Float32Array.from(reader.u16(parts[0].positions.length / 3),
       (weight) => weight / 65535);
-  return {...header, parts, targets, lips, lids, sliding, beforeEyes, teeth, anchors,
+  const pictures = (header.pictures || []).map(({type, bytes: size}) => ({type, file: reader.u8(size)}));
+  return {...header, pictures, parts, targets, lips, lids, sliding, beforeEyes, teeth, anchors,
     neckWeights};
 }

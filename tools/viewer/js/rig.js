@@ -51,7 +51,7 @@ export class Rig {
     this.setTransforms(v);
     this.turnNeck(skin);
     for (const i of this.deforming) {
-      smoothNormals(positions[i], model.parts[i].triangles, this.normals[i]);
+      smoothNormals(positions[i], model.parts[i].surface, this.normals[i]);
     }
   }
 
