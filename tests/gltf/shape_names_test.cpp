@@ -131,6 +131,16 @@ TEST(ShapeNames, VisemesWhenWantedOrAlone) {
               ElementsAre("A", "I", "eyesClosed", "mouthSmile"));
 }
 
+// Where visemes open the mouth a frown, or a lip rolled in, would bend them.
+TEST(ShapeNames, VisemesAreNotBent) {
+  EXPECT_THAT(
+      chosen({"A", "U", "mouthFrownLeft", "mouthFrownRight", "mouthRollLower", "mouthPucker"},
+             MouthShapes::automatic),
+      ElementsAre("A", "U", "mouthPucker"));
+  EXPECT_THAT(chosen({"jawOpen", "mouthFrownLeft"}, MouthShapes::automatic),
+              ElementsAre("jawOpen", "mouthFrownLeft"));
+}
+
 TEST(ShapeNames, TwoNamesOfOneShapeAreOne) {
   std::vector<std::string> notes;
   const auto shapes =

@@ -28,6 +28,15 @@ bool is_mood(const ShapeMeaning& meaning) {
   });
 }
 
+// What of ARKit's, without a jaw, would bend the visemes that open the mouth, and no sound needs.
+bool bends_visemes(const ShapeMeaning& meaning) {
+  constexpr std::string_view kBend[] = {"mouthFrown", "mouthRollLower"};
+  if (meaning.set == ShapeSet::viseme || meaning.parts.empty()) return false;
+  return std::any_of(std::begin(kBend), std::end(kBend), [&](std::string_view name) {
+    return arkit_name(meaning.parts.front()).starts_with(name);
+  });
+}
+
 bool has_arkit_mouth(const std::vector<ChosenShape>& shapes) {
   int mouth = 0;
   bool jaw = false;
@@ -129,6 +138,7 @@ std::vector<ChosenShape> choose_shapes(const std::vector<std::string>& names, Mo
   } else if (any_viseme && mouth == MouthShapes::visemes) {
     move_out([](const ShapeMeaning& meaning) { return is_mouth(meaning) && !is_mood(meaning); });
   }
+  if (any_viseme && !arkit) move_out(bends_visemes);
   drop_doubles(shapes, unused);
   // Silence is what is left when nothing else is shown.
   std::erase_if(shapes, [](const ChosenShape& shape) { return shape.meaning.viseme == 0; });
