@@ -51,8 +51,7 @@ std::vector<media::TextTrack> carried_texts(const dam::Script& script, std::stri
 
 /// These tracks of a file; empty: it has none, or cannot be read again ("-", pipes). More text than
 /// is read is told to talk.warn.
-std::vector<media::TextTrack> carried_tracks(const std::string& path,
-                                             const tools::Talk& talk = {});
+std::vector<media::TextTrack> carried_tracks(const std::string& path, const tools::Talk& talk = {});
 
 /// They as a script again; nothing: there are none, or they cannot be used, which talk.warn is
 /// told.
