@@ -5,7 +5,7 @@
 
 #include "fap/arkit.h"
 #include "fap/arkit_internal.h"
-#include "fap/arkit_thrift.h"
+#include "fap/detail/arkit_thrift.h"
 #include "fap/detail/bounded_fit.h"
 #include "fap/tables.h"
 

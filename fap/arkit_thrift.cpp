@@ -3,7 +3,7 @@
 // weights chosen by this go along with those better: jawOpen correlates by 0.79 instead of 0.74,
 // mouthPucker by 0.76 instead of 0.39, and 5.8 shapes are in use instead of 15.5 (800 frames, depth
 // left out).
-#include "fap/arkit_thrift.h"
+#include "fap/detail/arkit_thrift.h"
 
 #include <algorithm>
 #include <string_view>

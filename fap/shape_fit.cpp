@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fap/arkit_thrift.h"
+#include "fap/detail/arkit_thrift.h"
 #include "fap/detail/bounded_fit.h"
 
 namespace animeme::fap {

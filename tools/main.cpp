@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tools/commands/common.h"
+#include "tools/commands/did_you_mean.h"
 #include "tools/commands/outputs.h"
 #include "tools/files/unfinished.h"
 
@@ -59,6 +60,10 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0) {
+      const std::string guess = did_you_mean(app, {argv + 1, std::size_t(argc - 1)});
+      if (!guess.empty()) return usage_error(guess);
+    }
     return app.exit(error) == 0 ? kOk : kUsage;
   }
   set_quiet(quiet);

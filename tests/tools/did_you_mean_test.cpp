@@ -1,0 +1,46 @@
+// Commands and options that are typed wrongly.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/program.h"
+
+namespace animeme {
+namespace did_you_mean_test {
+
+using test::animeme;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(DidYouMean, NamesWhatIsNear) {
+  const struct {
+    std::vector<std::string> typed;
+    const char* said;
+  } cases[] = {
+      {{"speek", "--text", "x"}, "there is no command \"speek\"; did you mean speak?"},
+      {{"-q", "ecnode", "a.fap"}, "there is no command \"ecnode\"; did you mean encode?"},
+      {{"encode", "a.fap", "--qaunt", "3"}, "encode has no option --qaunt; did you mean --quant?"},
+      {{"speak", "--txt=Hello"}, "speak has no option --txt; did you mean --text?"},
+      {{"render", "a.fap", "--haed", "man"}, "render has no option --haed; did you mean --head?"},
+  };
+  for (const auto& test : cases) {
+    const auto result = animeme(test.typed);
+    EXPECT_EQ(result.exit_code, 2) << test.said;
+    EXPECT_THAT(result.err, HasSubstr(test.said));
+  }
+}
+
+TEST(DidYouMean, DoesNotGuessWildly) {
+  for (const std::vector<std::string>& typed :
+       {std::vector<std::string>{"frobnicate"}, {"speak", "--zzz"}, {std::string(5000, 'x')}}) {
+    const auto result = animeme(typed);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.err, Not(HasSubstr("did you mean")));
+  }
+  // What is wrong in another way is told as before.
+  EXPECT_THAT(animeme({"encode", "a.fap", "--quant", "99"}).err, HasSubstr("--quant"));
+  EXPECT_THAT(animeme({}).err, HasSubstr("subcommand"));
+  EXPECT_EQ(animeme({"speak", "--help"}).exit_code, 0);
+}
+
+}  // namespace did_you_mean_test
+}  // namespace animeme
