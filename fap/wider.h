@@ -8,8 +8,8 @@
 
 namespace animeme::fap {
 
-/// What open_wider() takes.
-inline constexpr double kLeastMouthGain = 0.25, kMostMouthGain = 4;
+inline constexpr double kLeastMouthGain = 0.25;  ///< what open_wider() takes at least
+inline constexpr double kMostMouthGain = 4;      ///< and at most
 
 /// The opening of the lips (the widest of their middle and both halves, FAP 4 and 5, 8 and 10, 9
 /// and 11; without them what FAP 3 lowers) becomes `gain` times as wide: what is added, or taken
