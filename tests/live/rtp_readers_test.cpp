@@ -37,7 +37,8 @@ void play_to(const std::string& program, const LiveTalk& talk, LiveSink& sink, i
     ASSERT_TRUE(sink.send(unit));
     std::this_thread::sleep_for(std::chrono::milliseconds(4));
   }
-  // The goodbye comes on a port of its own, and FFmpeg ends with it whatever still lies on the other.
+  // The goodbye comes on a port of its own, and FFmpeg ends with it whatever still lies on the
+  // other.
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   ASSERT_TRUE(sink.finish());
   EXPECT_EQ(pclose(pipe), 0) << program;
