@@ -125,5 +125,20 @@ TEST(Utterance, MarkupIsEscapedAndKnowsItsPlaces) {
   ASSERT_EQ(made->stretches.size(), 2u);
 }
 
+TEST(Unicode, LanguagesHaveThreeLetters) {
+  SKIP_WITHOUT_ICU();
+  for (const auto& [language, code] : {std::pair{"de-at", "deu"},
+                                       {"en-gb-x-rp", "eng"},
+                                       {"cmn-latn-pinyin", "zho"},
+                                       {"zh+en", "zho"},
+                                       {"yue", "yue"},
+                                       {"nb", "nor"},
+                                       {"", "und"},
+                                       {"English (Scotland)", "und"},
+                                       {"auto", "und"}}) {
+    EXPECT_EQ(language_code(language), code) << language;
+  }
+}
+
 }  // namespace passages_test
 }  // namespace animeme::text
