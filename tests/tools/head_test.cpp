@@ -173,6 +173,13 @@ TEST(HeadCommand, SpeakTestNamesTheMissingPoint) {
       animeme({"head", (test::data_dir() / "heads/mask.fdp").string(), "--speak-test"});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_THAT(result.err, HasSubstr("no feature point 2.3"));
+  // Its motion is drawn all the same.
+  const TempDir dir;
+  const auto drawn =
+      animeme({"render", "--shapes", "visemes", "--size", "40x40", "--gain", "auto", "--head",
+               (test::data_dir() / "heads/mask.fdp").string(), "-o", dir / "mask.png"});
+  EXPECT_EQ(drawn.exit_code, 0);
+  EXPECT_THAT(drawn.err, HasSubstr("lips open as the clip says"));
 }
 
 // Xface cuts texts at blanks: the files that an .fdp names have none, wherever it lies.

@@ -42,7 +42,7 @@ Result<int> test_speech(const studio::HeadChoice& choice, const std::string& she
   if (!loaded) return loaded.error();
   const head::Head& head = loaded->head;
   const auto rows = studio::check_speech(head, head::make_rig(head));
-  if (!rows) return rows.error();
+  if (!rows) return rows.error().in_file(choice.head);
   if (!sheet.empty()) {
     if (auto drawn = draw_visemes(choice, sheet); !drawn) return drawn.error();
   }

@@ -180,9 +180,11 @@ Result<LoadedHead> load_head(const HeadChoice& choice) {
     if (!loaded) return loaded;
     if (choice.gain == "auto") {
       const Result<double> gain = speaking_gain(loaded->head);
-      if (!gain) return gain.error().in_file(choice.head);
-      loaded->head.mouth_gain = *gain;
-      loaded->notes.push_back(gain_note(*gain));
+      if (!gain && gain.error().code != Code::not_found) return gain.error().in_file(choice.head);
+      loaded->head.mouth_gain = gain ? *gain : 1;
+      loaded->notes.push_back(gain ? gain_note(*gain)
+                                   : "--gain auto: lips open as the clip says, since " +
+                                         gain.error().message);
     } else {
       loaded->head.mouth_gain = gain_of(choice.gain).value_or(1);
     }

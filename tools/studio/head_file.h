@@ -15,7 +15,8 @@ namespace animeme::studio {
 struct HeadChoice {
   std::string head = "woman";  ///< one of head::kHeadNames, or a file
   std::string points;          ///< list of feature points; see fap/head/point_list.h
-  std::string gain = "1";      ///< Head::mouth_gain, or "auto": speaking_gain() of speak_check.h
+  std::string gain = "1";  ///< Head::mouth_gain, or "auto": speaking_gain() of speak_check.h; 1 and
+                           ///< a note where the mouth cannot be measured
   /// Triangles are divided so that colours at the vertices show textures: for formats that have no
   /// materials. Pictures and pages need it not.
   bool colours_at_vertices = false;
