@@ -87,7 +87,8 @@ internal::BoundedFit fit_of(const ArkitFitOptions& options) {
   const auto weights = weights_of(shapes);
   internal::BoundedFit fit(weights, options.ridge, options.steadiness,
                            std::numeric_limits<double>::infinity(), 0, lips_of(weights));
-  fit.set_thrift(internal::thrift_of({shapes.begin(), shapes.end()}, options.thrift));
+  fit.set_thrift(internal::thrift_of(std::vector<std::optional<int>>(shapes.begin(), shapes.end()),
+                                     options.thrift));
   return fit;
 }
 

@@ -6,9 +6,12 @@
 #include "fap/detail/arkit_thrift.h"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
+#include <vector>
 
 #include "fap/arkit.h"
+#include "fap/shape_fit.h"
 
 namespace animeme::fap::internal {
 namespace {
@@ -36,29 +39,56 @@ constexpr std::string_view kSeldom[] = {"mouthFrown",  "mouthLeft",  "mouthRight
 constexpr double kLeast = 0.02;  // of Thrift: 0.2 mm
 constexpr double kLeastOfSeldom = 0.15;
 constexpr double kLeastOfMoods = 0.6;  // pressed lips alone are no anger
-double least_of(std::size_t channel) {
-  if (channel == kMoodChannel) return kLeastOfMoods;
-  if (channel >= kArkitNames.size()) return 0;  // one of a maker's own, of which there are few
-  const bool seldom = std::any_of(std::begin(kSeldom), std::end(kSeldom), [&](auto name) {
-    return kArkitNames[channel].starts_with(name);
-  });
-  if (kArkitNames[channel] == "mouthClose") return 0;  // what P, B and M need
+
+int channel_of(std::string_view name) { return find_arkit(name).value_or(0); }
+
+double least_of(std::string_view name) {
+  if (name == "mouthClose") return 0;  // what P, B and M need
+  const bool seldom = std::any_of(std::begin(kSeldom), std::end(kSeldom),
+                                  [&](auto start) { return name.starts_with(start); });
   return seldom ? kLeastOfSeldom : kLeast;
+}
+
+// What the names above say, by channel: looked up once, since heads ask for it in every frame.
+struct ByChannel {
+  int jaw = channel_of("jawOpen");
+  std::array<double, kArkitChannelCount> least = {};
+  std::vector<std::pair<int, int>> opponents;
+};
+
+const ByChannel& by_channel() {
+  static const ByChannel all = [] {
+    ByChannel made;
+    for (std::size_t c = 0; c < made.least.size(); ++c) made.least[c] = least_of(kArkitNames[c]);
+    for (const auto& [one, other] : kOpponents) {
+      made.opponents.emplace_back(channel_of(one), channel_of(other));
+    }
+    return made;
+  }();
+  return all;
 }
 
 }  // namespace
 
-Thrift thrift_of(const std::vector<std::size_t>& channels, double share) {
+Thrift thrift_of(std::span<const std::optional<int>> channels, double share) {
   Thrift thrift;
   if (!(share > 0)) return thrift;
-  for (const std::size_t channel : channels) thrift.least.push_back(share * least_of(channel));
-  const auto index = [&](std::string_view name) {
-    const auto channel = std::size_t(find_arkit(name).value_or(0));
+  const auto place = [&](int channel) {
     return std::size_t(std::find(channels.begin(), channels.end(), channel) - channels.begin());
   };
-  for (const auto& [one, other] : kOpponents) {
-    const std::size_t a = index(one), b = index(other);
-    if (std::max(a, b) < channels.size()) thrift.opponents.push_back({a, b});
+  // Where visemes open the mouth, all that is left of ARKit may be needed to put them right.
+  const ByChannel& names = by_channel();
+  const bool jaw = place(names.jaw) < channels.size();
+  for (const std::optional<int>& channel : channels) {
+    const double least = !channel                 ? 0
+                         : *channel == kWholeFace ? kLeastOfMoods
+                         : jaw                    ? names.least[std::size_t(*channel)]
+                                                  : 0;
+    thrift.least.push_back(share * least);
+  }
+  for (const auto& [one, other] : names.opponents) {
+    const std::size_t a = place(one), b = place(other);
+    if (jaw && std::max(a, b) < channels.size()) thrift.opponents.push_back({a, b});
   }
   return thrift;
 }

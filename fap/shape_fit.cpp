@@ -44,14 +44,7 @@ ShapeFitter::ShapeFitter(std::span<const Frame> shapes, const LipMeasures& lips,
                          std::span<const std::optional<int>> arkit)
     : impl_(new Impl{{weights_of(shapes), ridge, 0, std::numeric_limits<double>::infinity(),
                       kEyeRadius, lips_of(lips)}}) {
-  if (arkit.size() != shapes.size()) return;
-  std::vector<std::size_t> channels;
-  for (const std::optional<int>& channel : arkit) {
-    channels.push_back(!channel                 ? internal::kNoChannel
-                       : *channel == kWholeFace ? internal::kMoodChannel
-                                                : std::size_t(*channel));
-  }
-  impl_->fit.set_thrift(internal::thrift_of(channels, 1));
+  if (arkit.size() == shapes.size()) impl_->fit.set_thrift(internal::thrift_of(arkit, 1));
 }
 ShapeFitter::ShapeFitter(ShapeFitter&&) noexcept = default;
 ShapeFitter& ShapeFitter::operator=(ShapeFitter&&) noexcept = default;

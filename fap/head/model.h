@@ -110,8 +110,9 @@ struct Seams {
 struct ShapeControl {
   std::string name;  ///< as its maker calls it
   fap::Frame faps;   ///< what it shows at weight 1
-  /// A whole face, such as joy: used where it does much, not for a little of a smile.
-  bool mood = false;
+  /// Its channel (fap::find_arkit()) if it is one of ARKit's, fap::kWholeFace of a mood such as
+  /// joy, which is used where it does much, not for a little of a smile; nothing: another.
+  std::optional<int> arkit = {};
 };
 
 /// Target::control of the first shape of a head; smaller numbers are FAPs.

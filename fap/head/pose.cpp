@@ -243,15 +243,12 @@ ControlValues control_values(const Rig& rig, const fap::Frame& frame, const Pose
   std::vector<std::optional<int>> channels;
   for (const ShapeControl& shape : rig.shapes) {
     shapes.push_back(shape.faps);
-    channels.push_back(shape.mood ? fap::kWholeFace : fap::find_arkit(shape.name));
+    channels.push_back(shape.arkit);
   }
-  // Where visemes open the mouth, all that is left of ARKit may be needed to put them right.
-  const bool jaw = std::ranges::find(channels, fap::find_arkit("jawOpen")) != channels.end();
-  for (auto& channel : channels) {
-    if (!jaw && channel != fap::kWholeFace) channel.reset();
-  }
+  static const std::optional<int> kJaw = fap::find_arkit("jawOpen");
+  const bool cheeks_follow = std::ranges::find(channels, kJaw) != channels.end();
   fap::ShapeFitter fitter(shapes, rig.lip_measures, 0.001, channels);
-  const std::vector<double>& weights = fitter.fit(wanted_of_shapes(low, jaw));
+  const std::vector<double>& weights = fitter.fit(wanted_of_shapes(low, cheeks_follow));
   for (std::size_t i = 0; i < weights.size(); ++i) {
     values[kFirstShape + i] = float(weights[i]) * kFullShape;
   }

@@ -64,8 +64,8 @@ void shape_weights(benchmark::State& state) {
   for (std::size_t shape = 0; shape < fap::kArkitShapeCount; ++shape) {
     fap::ArkitFrame weights{};
     weights[shape] = 1;
-    rig.shapes.push_back(
-        {std::string(fap::kArkitNames[shape]), fap::arkit_to_fap(weights, fap::kAllArkit)});
+    rig.shapes.push_back({std::string(fap::kArkitNames[shape]),
+                          fap::arkit_to_fap(weights, fap::kAllArkit), int(shape)});
   }
   int i = 0;
   for (auto _ : state) benchmark::DoNotOptimize(head::control_values(rig, speaking(i++)));

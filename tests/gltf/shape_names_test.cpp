@@ -178,7 +178,7 @@ TEST(ShapeNames, MoodsAreShownAndKeepOutOfSpeech) {
   std::vector<std::string> notes;
   head::Rig rig;
   for (const ChosenShape& shape : choose_shapes(names, MouthShapes::automatic, notes)) {
-    rig.shapes.push_back({shape.name, shape.meaning.faps, shape.meaning.mood > 0});
+    rig.shapes.push_back(control_of(shape));
   }
   const auto weight = [&](const fap::Frame& frame, std::string_view name) {
     const head::ControlValues values = head::control_values(rig, frame);

@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "fap/arkit.h"
+#include "fap/shape_fit.h"
 #include "tools/gltf/shape_names.h"
 
 namespace animeme::gltf {
@@ -113,6 +114,15 @@ void drop_doubles(std::vector<ChosenShape>& shapes, std::vector<std::string>& un
 }
 
 }  // namespace
+
+head::ShapeControl control_of(const ChosenShape& shape) {
+  const ShapeMeaning& meaning = shape.meaning;
+  head::ShapeControl control{shape.name, meaning.faps};
+  const bool whole = meaning.parts.size() == 1 && meaning.parts.front().sides == 3;
+  if (meaning.mood > 0) control.arkit = fap::kWholeFace;
+  if (meaning.set == ShapeSet::arkit && whole) control.arkit = meaning.parts.front().channel;
+  return control;
+}
 
 std::vector<ChosenShape> choose_shapes(const std::vector<std::string>& names, MouthShapes mouth,
                                        std::vector<std::string>& notes) {

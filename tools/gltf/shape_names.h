@@ -57,6 +57,9 @@ struct ChosenShape {
   std::vector<std::size_t> names;  ///< all its names, as indices of the list given
 };
 
+/// The shape as a head has it.
+head::ShapeControl control_of(const ChosenShape& shape);
+
 /// Sorts out which shapes move a head: those of ARKit first. Visemes only if ARKit's jaw and mouth
 /// are not complete (see MouthShapes); other names only for what no shape of ARKit does. What is
 /// unknown or not used is noted.

@@ -53,7 +53,7 @@ FileActor actor_by_names(const File& file, const std::vector<Node>& nodes, Mouth
     }
   }
   for (const ChosenShape& shape : choose_shapes(names, mouth, actor.notes)) {
-    actor.rig.shapes.push_back({shape.name, shape.meaning.faps, shape.meaning.mood > 0});
+    actor.rig.shapes.push_back(control_of(shape));
     actor.shape_names.emplace_back();
     for (const std::size_t name : shape.names) actor.shape_names.back().push_back(names[name]);
   }

@@ -213,7 +213,7 @@ class HeadReader {
 
   void write_shapes() {
     for (const ChosenShape& shape : shapes_) {
-      source_.shapes.push_back({shape.name, shape.meaning.faps, shape.meaning.mood > 0});
+      source_.shapes.push_back(control_of(shape));
     }
     if (shapes_.empty()) {
       source_.notes.push_back(
