@@ -40,7 +40,7 @@ constexpr std::array<Mouth, 15> kMouths = {{
     {430, -190, -560, 110, 20, 0, 0, 60, 0, 60},          // e
     {270, -170, -380, 140, 40, 0, 0, 120, 0, 160},        // I
     {620, -170, -700, -120, -30, 230, 240, -60, -20, 0},  // Q
-    {240, -70, -190, -175, 0, 440, 430, -40, -30, 60},    // U
+    {240, -50, -190, -215, 0, 430, 420, -40, -30, 60},    // U
 }};
 
 // Values that both sides share are written once, for the FAP of the left side.
@@ -169,7 +169,7 @@ Frame viseme_pose(int viseme) {
   for (const int fap : {8, 55}) put(frame, fap, m.upper_down * 3 / 4);
   for (const int fap : {5, 52}) put(frame, fap, m.lower_up);
   // The sides of a lip go down as far as its middle, of round ones further, or it would be a V.
-  for (const int fap : {10, 57}) put(frame, fap, m.lower_up * (m.wide < 0 ? 9 : 8) / 8);
+  for (const int fap : {10, 57}) put(frame, fap, m.lower_up * (m.wide < -40 ? 17 : 16) / 16);
   for (const int fap : {6, 53}) put(frame, fap, m.wide);
   for (const int fap : {12, 59}) put(frame, fap, m.corners_up);
   put(frame, 16, m.push_lower);

@@ -1,8 +1,7 @@
-#include <initializer_list>
-
 #include "fap/arkit.h"
 #include "fap/detail/lips.h"
 #include "fap/head/detail/normals.h"
+#include "fap/head/detail/stops.h"
 #include "fap/head/detail/targets.h"
 #include "fap/head/rig.h"
 #include "fap/head/shapes.h"
@@ -15,72 +14,6 @@ namespace {
 using Values = ControlValues;
 
 std::size_t index(Part part) { return std::size_t(part); }
-
-// Two FAPs that would make their points pass each other let them meet half way instead. `room` is
-// how far they may come together.
-void meet(float& a, float& b, float room) {
-  const float over = (a + b - room) / 2;
-  if (over <= 0) return;
-  a -= over;
-  b -= over;
-}
-
-// Lips that nearly touch are shut: for heads of which no pairs are known, see close_pairs().
-void close_nearly(float& a, float& b) {
-  const double closing = double(a) + double(b);
-  const auto closer = float((fap::internal::soft_closing(closing) - closing) / 2);
-  a += closer;
-  b += closer;
-}
-
-// As meet(), where the meeting place follows from the shares of both.
-void share(float& a, float& b, float room) {
-  if (a + b <= room) return;
-  const float scale = a > 0 && b > 0 ? room / (a + b) : 0;
-  if (scale > 0) {
-    a *= scale;
-    b *= scale;
-  } else if (a > b) {
-    a = room - b;
-  } else {
-    b = room - a;
-  }
-}
-
-constexpr float kLidRise = -270;  // upper lids rise by this at most
-constexpr float kJawBack = -250;  // and the jaw goes back by this
-
-void at_least(Values& v, std::initializer_list<std::size_t> faps, float least) {
-  for (const std::size_t f : faps) v[f] = std::max(v[f], least);
-}
-
-// Points that would come too near to each other, so that the skin between them folds over.
-void stop_at_rooms(const Rooms& rooms, Values& v) {
-  at_least(v, {19, 20}, kLidRise);
-  at_least(v, {14}, kJawBack);
-  at_least(v, {18}, -rooms.chin);
-  at_least(v, {31, 32, 33, 34, 35, 36}, -rooms.brow_lid);
-  at_least(v, {37, 38}, -0.5f * rooms.brows);
-  share(v[37], v[38], rooms.brows);
-  const float chin = std::min(v[18] - std::max(v[3], 0.0f), 0.0f);
-  at_least(v, {5, 10, 11, 52, 57, 58}, chin - rooms.lip_chin);
-  for (const auto& [outer, inner] : {std::pair(51u, 4u), {55u, 8u}, {56u, 9u}}) {
-    v[outer] = std::min(v[outer], v[inner] + rooms.upper_lip);
-  }
-  for (const auto& [outer, inner] : {std::pair(52u, 5u), {57u, 10u}, {58u, 11u}}) {
-    v[outer] = std::min(v[outer], v[inner] + rooms.lower_lip);
-  }
-}
-
-void stop_at_contact(const Rig& rig, Values& v) {
-  for (const auto& [upper, lower] : fap::internal::kLips) {
-    meet(v[std::size_t(upper)], v[std::size_t(lower)], 0);
-    if (rig.lips.empty()) close_nearly(v[std::size_t(upper)], v[std::size_t(lower)]);
-  }
-  share(v[19], v[21], 1024);
-  share(v[20], v[22], 1024);
-  stop_at_rooms(rig.rooms, v);
-}
 
 bool is_lid(int control) { return control >= 19 && control <= 22; }
 
@@ -257,7 +190,7 @@ ControlValues control_values(const Rig& rig, const fap::Frame& frame, const Pose
 
 void pose(const Rig& rig, const fap::Frame& frame, Pose& out, const PoseOptions& options) {
   Values values = control_values(rig, frame, options);
-  if (options.contact) stop_at_contact(rig, values);
+  if (options.contact) detail::stop_at_contact(rig, values);
   for (std::size_t part = 0; part < rig.parts.size(); ++part) {
     if (rig.deforms[part]) out.positions[part] = rig.parts[part].positions;
   }

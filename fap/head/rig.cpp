@@ -4,6 +4,7 @@
 
 #include "fap/detail/lips.h"
 #include "fap/head/detail/normals.h"
+#include "fap/head/detail/stops.h"
 #include "fap/head/detail/targets.h"
 
 namespace animeme::head {
@@ -181,6 +182,7 @@ Rig make_rig(const Head& head) {
     rig.teeth[i] = detail::dental_arch(rig, i == 0 ? Part::upper_teeth : Part::lower_teeth);
   }
   rig.rooms = rooms_of(head);
+  if (head.targets.empty() && head.shapes.empty()) rig.reaches = detail::usual_reaches();
   for (std::size_t i = 0; i < 2; ++i) rig.lid_follow[i] = lid_follow(rig, i);
   const bool given = head.seams.neck_weights.size() == head.part(Part::skin).positions.size();
   rig.neck_weights = given ? head.seams.neck_weights : neck_weights(rig);

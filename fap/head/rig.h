@@ -41,6 +41,14 @@ struct Rooms {
   float chin = 0;       ///< 2.10 to 2.1: FAP 18 down
 };
 
+/// How far a FAP can move a face, in its units: from three quarters of that on it moves it less and
+/// less.
+struct Reach {
+  int fap = 0;     ///< 3..68
+  float low = 0;   ///< negative
+  float high = 0;  ///< positive
+};
+
 /// A row of teeth as half an ellipse seen from above: open to the back.
 struct DentalArch {
   Vec3 middle;                          ///< between its ends, at half of its height
@@ -78,6 +86,7 @@ struct Rig {
   std::array<std::vector<std::uint32_t>, 2> eye_skin;      ///< before the left and right eye
   std::vector<std::uint32_t> lash_anchors;                 ///< see Head
   Rooms rooms;                                             ///< how far points may go
+  std::vector<Reach> reaches;  ///< of FAPs, where the targets are make_rig()'s own
   std::array<DentalArch, 2> teeth;                         ///< upper, lower
   std::array<float, 2> lid_follow = {};  ///< FAP 19 for one unit of FAP 25, and 20 for 26
   std::vector<float> neck_weights;       ///< of the skin: 1 turns with the head, 0 stays
@@ -93,7 +102,8 @@ Rig make_rig(const Head& head);
 struct PoseOptions {
   /// Lips and lids stop where they touch, and are shut where they nearly do (0.06 MNS; lids only if
   /// their Seams are known), other points stop where Rooms says, upper lids at 0.26 IRISD
-  /// up, a jaw that goes back at 0.25 MNS. Without it every feature point is where its FAPs say.
+  /// up, a jaw that goes back at 0.25 MNS; legal values beyond what people do are eased to that
+  /// (Rig::reaches). Without it every feature point is where its FAPs say.
   bool contact = true;
   /// Upper lids go along with eyes that look down or up: see lids_follow_gaze().
   bool follow = true;

@@ -122,6 +122,8 @@ Json jaw_of(const head::Rig& rig) {
           {"shift", turned(15, 512).shift.x / 512}};
 }
 
+Json reach_of(const head::Reach& reach) { return {reach.fap, reach.low, reach.high}; }
+
 Json rooms_of(const head::Rooms& rooms) {
   return {{"brows", rooms.brows},         {"brow_lid", rooms.brow_lid},
           {"upper_lip", rooms.upper_lip}, {"lower_lip", rooms.lower_lip},
@@ -216,6 +218,7 @@ std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig
       {"eyes", tools::json_list(rig.eyes, eye_of)},
       {"jaw", jaw_of(rig)},
       {"rooms", rooms_of(rig.rooms)},
+      {"reaches", tools::json_list(rig.reaches, reach_of)},
       {"teeth", {teeth_of(rig.teeth[0]), teeth_of(rig.teeth[1])}},
       {"lid_follow", rig.lid_follow},
       {"neck", json_of(rig.neck_pivot)},

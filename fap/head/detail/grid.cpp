@@ -75,7 +75,8 @@ Keys make_keys(const Shape& shape, const Layout& l, const Columns& columns, int 
   // Under the chin rays point down; at the sides and behind there is only the neck.
   const double behind = smooth_step(0.12, 0.42, side);
   const double chin = -p.chin_drop + 0.5;
-  const double throat = -p.chin_drop - 3.2;
+  const double throat = -p.chin_drop - 2.8;
+  const double jaw = -p.chin_drop + 3.4;
   Keys keys = {{{0, 2.0, 0, pi / 2},
                 {l.hairline, 2.0, 0, 0.80},
                 {l.brow, p.brow_height, 0, 0, 0.8},
@@ -87,10 +88,10 @@ Keys make_keys(const Shape& shape, const Layout& l, const Columns& columns, int 
                 {l.lower_contact, line, 0, 0},
                 {l.lower_lip, shape.lower_lip(at_mouth) - spread, 0, 0},
                 {l.chin, chin, 0, 0},
-                {l.under_chin, -5.2 + (0.5 * (chin + throat) + 5.2) * behind, 1.0 - 1.8 * behind,
+                {l.under_chin, jaw + (0.5 * (chin + throat) - jaw) * behind, 1.0 - 1.8 * behind,
                  -1.12 * (1 - behind)},
                 {l.throat, throat, -1.6, 0},
-                {l.bottom, -17.2, -3.0, 0}}};
+                {l.bottom, std::min(-17.2, -p.chin_drop - 7.6), -3.0, 0}}};
   // Rows do not pass each other, whatever the sizes are.
   for (std::size_t k = 3; k + 3 < keys.size(); ++k) {
     if (keys[k].row == l.lower_lid || keys[k].row == l.lower_contact) continue;

@@ -22,6 +22,8 @@ Vec3 face_colour(const Shape& shape, Vec3d p) {
   c = mix(c, blush, 0.55f * bump(length(Vec3d{x - 4.0, (p.y + 2.7) * 1.2, 0}), 1.7));
   c = mix(c, blush, 0.35f * bump(length(Vec3d{x, p.y + shape.p.nose_length, 0}), 0.9));
   c = mix(c, blush, 0.15f * bump(length(Vec3d{x, p.y + shape.p.chin_drop - 1.2, 0}), 1.3));
+  const double hole = length(Vec3d{x, p.y, p.z} - nostril(shape.p)) / shape.p.nose_size;
+  c = mix(c, kMouthInside, 0.9f * smooth_step(0.62f, 0.36f, float(hole)));
   const double lid = length(Vec3d{(x - shape.eye.x) / 1.5, (p.y - 0.25) / 1.1, 0});
   return mix(c, blush * Vec3{0.9f, 0.82f, 0.85f}, 0.30f * bump(lid, 1.0));
 }

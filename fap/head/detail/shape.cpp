@@ -3,39 +3,47 @@
 namespace animeme::head::detail {
 namespace {
 
-constexpr double kEyeDepth = 6.75;
+constexpr double kEyeDepth = 6.6;
 
 // Skull, jaw and neck.
 void add_bones(Form& form, const HeadParameters& p) {
+  const double chin = -p.chin_drop;
   form.ball({0, 3.4, -0.4}, {p.skull_width, p.skull_height, 9.0}, 0);
   form.ball({0, 3.3, 2.4}, {p.skull_width * 0.84, 5.4, 6.5}, 2.0);
-  form.ball({0, -1.9, 2.5}, {p.face_width, 6.6, 6.0}, 2.0);
-  form.ball({0, -p.chin_drop + 3.4, 3.0}, {p.jaw_width * 1.42, 3.3, 4.6}, 2.6);
-  form.ball({0, -p.chin_drop + p.chin_size, 7.0}, {p.chin_size * 1.25, p.chin_size, 1.45}, 2.2);
+  form.ball({0, 0.23 * chin, 2.6}, {p.face_width, 0.76 * p.chin_drop, 6.0}, 2.0);
+  form.ball({0, chin + 3.7, 3.6}, {p.jaw_width * 1.36, 3.2, 4.5}, 2.4);
+  form.ball({0, chin + p.chin_size, 7.55}, {p.chin_size * 1.3, p.chin_size, 1.4}, 2.0);
   // The bone of the jaw, from the chin to below the ear.
-  form.limb({p.chin_size * 0.9, -p.chin_drop + 1.25, 6.4},
-            {p.jaw_width * 1.26, -p.chin_drop + 4.3, 0.9}, 0.9, 0.75, 2.1);
-  form.limb({0, -5, -1.7}, {0, -18, -3.2}, p.neck, p.neck * 1.08, 1.5);
+  form.limb({p.chin_size * 0.9, chin + 1.2, 6.8}, {p.jaw_width * 1.3, chin + 4.4, 1.0}, 0.85, 0.8,
+            1.9);
+  form.limb({0, chin + 5.5, -1.1}, {0, -20, -3.6}, p.neck, p.neck * 1.08, 1.2);
 }
 
 void add_flesh(Form& form, const HeadParameters& p) {
-  form.ball({3.55, -2.55, 5.7}, {p.cheek, p.cheek * 0.92, p.cheek}, 1.9);
-  form.ball({0, -p.mouth_drop + 0.15, 6.6}, {2.25, 2.2, 2.15}, 1.8);
+  form.ball({3.6, -0.33 * p.chin_drop, 5.6}, {p.cheek, p.cheek * 0.92, p.cheek}, 1.9);
+  form.ball({0, -p.mouth_drop + 0.15, 7.1}, {2.4, 2.5, 2.1}, 1.8);
   if (p.brow_ridge > 0) {
     form.limb({0.9, 1.75, 8.0}, {4.6, 1.75, 6.2}, 0.55 + p.brow_ridge, 0.5 + p.brow_ridge, 1.3);
   }
 }
 
+// Bone and cartilage from the brows to the tip, the wings beside it, the bridge of skin between
+// the nostrils, and these.
 void add_nose(Form& form, const HeadParameters& p) {
   const double tip = -p.nose_length;
   const double r = p.nose_size;
-  form.limb({0, -0.3, 7.75 + p.nose_bridge}, {0, tip + 0.2, 9.5}, 0.40, r * 0.8, 1.5);
-  form.ball({0, tip, 9.7}, {r * 0.98, r * 0.88, r}, 0.55);
-  form.ball({r * 1.16, tip - 0.2, 9.05}, {r * 0.58, r * 0.56, r * 0.85}, 0.42);
-  form.hollow({r * 0.66, tip - r * 0.98, 9.42}, {r * 0.27, r * 0.32, r * 0.42}, 0.22);
+  form.limb({0, 0.2, 7.7 + p.nose_bridge}, {0, tip + 0.25, 9.8}, 0.6, r * 0.85, 1.4);
+  form.ball({0, tip, 10.0}, {r * 0.98, r * 0.86, r}, 0.5);
+  form.ball({r * 1.3, tip - 0.2, 9.2}, {r * 0.6, r * 0.66, r * 0.95}, 0.4);
+  form.limb({0, tip - r * 0.55, 9.85}, {0, tip - r * 1.15, 8.9}, r * 0.34, r * 0.36, 0.3);
+  form.hollow(nostril(p), {r * 0.36, r * 0.42, r * 0.55}, 0.16);
 }
 
 }  // namespace
+
+Vec3d nostril(const HeadParameters& p) {
+  return {p.nose_size * 0.78, -p.nose_length - p.nose_size * 0.9, 9.4};
+}
 
 Shape::Shape(const HeadParameters& parameters) : p(parameters) {
   eye = {p.eye_distance, 0, kEyeDepth};
@@ -50,9 +58,11 @@ Shape::Shape(const HeadParameters& parameters) : p(parameters) {
   // Between nose and upper lip.
   const double groove = 0.5 * (upper_lip(0) - p.nose_length - 0.62);
   skin.hollow({0, groove, front(0, groove).z + 0.30}, {0.26, 0.62, 0.36}, 0.45);
+  // From the height of the eyes to that of the nose, as tall as its size says.
   const auto side = [this](double y) { return outer_hit(skin, {0, y, -0.3}, {1, 0, 0}, 14); };
-  ear = side(-0.75);
-  ear_lean = (side(1.0).x - side(-2.5).x) / 3.5;
+  const double half = 2.1 * p.ear;
+  ear = side(0.9 - half);
+  ear_lean = (side(0.9).x - side(0.9 - 2 * half).x) / (2 * half);
 }
 
 double Shape::upper_lid(double x) const {

@@ -6,6 +6,9 @@
 
 namespace animeme::head::detail {
 
+/// Middle of the left nostril.
+Vec3d nostril(const HeadParameters& parameters);
+
 /// Everything about the left half (x >= 0); the right half is its mirror image.
 struct Shape {
   explicit Shape(const HeadParameters& parameters);

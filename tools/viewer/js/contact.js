@@ -1,5 +1,5 @@
-// What a face does not do whatever its FAPs say: the same as stop_at_contact() and close_pairs() of
-// pose.cpp in fap/head.
+// What a face does not do whatever its FAPs say: the same as stop_at_contact() of stops.cpp and
+// close_pairs() of pose.cpp in fap/head.
 import {smoothStep} from './vector.js';
 
 const LID_RISE = -270;  // upper lids rise by this at most
@@ -55,8 +55,17 @@ function stopAtRooms(v, rooms) {
   atMost([[52, 5], [57, 10], [58, 11]], rooms.lower_lip);
 }
 
+// As far as faces go. From three quarters of it on skin gives way, and it is never passed.
+function ease(value, low, high) {
+  const limit = value < 0 ? -low : high;
+  const soft = 0.25 * limit;
+  const over = Math.abs(value) - (limit - soft);
+  return over > 0 ? Math.sign(value) * (limit - soft + soft * Math.tanh(over / soft)) : value;
+}
+
 /** Changes values by control, low-level FAPs by number, to what the face can do. */
 export function stopAtContact(model, v) {
+  for (const [fap, low, high] of model.reaches) v[fap] = ease(v[fap], low, high);
   for (const [upper, lower] of [[4, 5], [8, 10], [9, 11]]) {
     meet(v, upper, lower);
     if (model.lips.length === 0) closeNearly(v, upper, lower);

@@ -1,0 +1,112 @@
+#include "fap/head/detail/stops.h"
+
+#include <initializer_list>
+
+#include "fap/detail/lips.h"
+
+namespace animeme::head::detail {
+namespace {
+
+using Values = ControlValues;
+
+// As far as faces go, one way and the other. From three quarters of it on skin gives way, and it
+// is never passed.
+float ease(float value, float low, float high) {
+  const float limit = value < 0 ? -low : high;
+  const float soft = 0.25f * limit, over = std::abs(value) - (limit - soft);
+  if (!(over > 0)) return value;
+  return std::copysign(limit - soft + soft * std::tanh(over / soft), value);
+}
+
+// Two FAPs that would make their points pass each other let them meet half way instead. `room` is
+// how far they may come together.
+void meet(float& a, float& b, float room) {
+  const float over = (a + b - room) / 2;
+  if (over <= 0) return;
+  a -= over;
+  b -= over;
+}
+
+// Lips that nearly touch are shut: for heads of which no pairs are known, see close_pairs().
+void close_nearly(float& a, float& b) {
+  const double closing = double(a) + double(b);
+  const auto closer = float((fap::internal::soft_closing(closing) - closing) / 2);
+  a += closer;
+  b += closer;
+}
+
+// As meet(), where the meeting place follows from the shares of both.
+void share(float& a, float& b, float room) {
+  if (a + b <= room) return;
+  const float scale = a > 0 && b > 0 ? room / (a + b) : 0;
+  if (scale > 0) {
+    a *= scale;
+    b *= scale;
+  } else if (a > b) {
+    a = room - b;
+  } else {
+    b = room - a;
+  }
+}
+
+constexpr float kLidRise = -270;  // upper lids rise by this at most
+constexpr float kJawBack = -250;  // and the jaw goes back by this
+
+void at_least(Values& v, std::initializer_list<std::size_t> faps, float least) {
+  for (const std::size_t f : faps) v[f] = std::max(v[f], least);
+}
+
+// Points that would come too near to each other, so that the skin between them folds over.
+void stop_at_rooms(const Rooms& rooms, Values& v) {
+  at_least(v, {19, 20}, kLidRise);
+  at_least(v, {14}, kJawBack);
+  at_least(v, {18}, -rooms.chin);
+  at_least(v, {31, 32, 33, 34, 35, 36}, -rooms.brow_lid);
+  at_least(v, {37, 38}, -0.5f * rooms.brows);
+  share(v[37], v[38], rooms.brows);
+  const float chin = std::min(v[18] - std::max(v[3], 0.0f), 0.0f);
+  at_least(v, {5, 10, 11, 52, 57, 58}, chin - rooms.lip_chin);
+  for (const auto& [outer, inner] : {std::pair(51u, 4u), {55u, 8u}, {56u, 9u}}) {
+    v[outer] = std::min(v[outer], v[inner] + rooms.upper_lip);
+  }
+  for (const auto& [outer, inner] : {std::pair(52u, 5u), {57u, 10u}, {58u, 11u}}) {
+    v[outer] = std::min(v[outer], v[inner] + rooms.lower_lip);
+  }
+}
+
+}  // namespace
+
+void stop_at_contact(const Rig& rig, ControlValues& v) {
+  for (const Reach& reach : rig.reaches) {
+    float& value = v[std::size_t(reach.fap)];
+    value = ease(value, reach.low, reach.high);
+  }
+  for (const auto& [upper, lower] : fap::internal::kLips) {
+    meet(v[std::size_t(upper)], v[std::size_t(lower)], 0);
+    if (rig.lips.empty()) close_nearly(v[std::size_t(upper)], v[std::size_t(lower)]);
+  }
+  share(v[19], v[21], 1024);
+  share(v[20], v[22], 1024);
+  stop_at_rooms(rig.rooms, v);
+}
+
+std::vector<Reach> usual_reaches() {
+  // In the units of each FAP, from what people do: the jaw goes 9 mm forward and 11 aside, cheeks
+  // 15 mm out, lips 16 mm forward and 5 back, and so on. What has no entry has no limit.
+  const struct {
+    std::initializer_list<int> faps;
+    float low, high;
+  } usual_ones[] = {{{6, 7, 53, 54}, -330, 400}, {{12, 13, 59, 60}, -600, 600},
+                    {{14}, -1000, 460},          {{15}, -280, 280},
+                    {{16, 17}, -240, 900},       {{31, 32, 33, 34, 35, 36}, -1000, 480},
+                    {{39, 40}, -150, 260},       {{41, 42}, -160, 320},
+                    {{61, 62}, -70, 130},        {{63}, -120, 160},
+                    {{64}, -160, 160},           {{44}, -600, 1000}};
+  std::vector<Reach> reaches;
+  for (const auto& usual : usual_ones) {
+    for (const int fap : usual.faps) reaches.push_back({fap, usual.low, usual.high});
+  }
+  return reaches;
+}
+
+}  // namespace animeme::head::detail
