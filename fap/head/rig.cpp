@@ -138,9 +138,11 @@ float lid_follow(const Rig& rig, std::size_t side) {
 
 Rooms rooms_of(const Head& head) {
   return {.brows = room(head, "4.1", "4.2", 37),
-          .brow_lid = room(head, "4.3", "3.13", 33, 0.4f),
+          .brow_lid = room(head, "4.3", "3.13", 33, 0.33f),
           .upper_lip = room(head, "8.1", "2.2", 51),
           .lower_lip = room(head, "8.2", "2.3", 52),
+          .nose_lip = room(head, "8.1", "9.15", 51),
+          .corner = room(head, "2.4", "8.3", 6),
           .lip_chin = room(head, "8.2", "2.10", 5),
           .chin = room(head, "2.10", "2.1", 18)};
 }

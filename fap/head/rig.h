@@ -37,6 +37,8 @@ struct Rooms {
   float brow_lid = 0;   ///< 4.3 to 3.13, brows to upper lids: FAP 31..36 down
   float upper_lip = 0;  ///< 8.1 to 2.2: FAP 51, 55 and 56 beyond 4, 8 and 9
   float lower_lip = 0;  ///< 8.2 to 2.3: FAP 52, 57 and 58 beyond 5, 10 and 11
+  float nose_lip = 0;   ///< 8.1 to 9.15: the FAPs of the upper lip up
+  float corner = 0;     ///< 2.4 to 8.3: FAP 53 less than 6, 54 beside 7
   float lip_chin = 0;   ///< 8.2 to 2.10: the FAPs of the lower lip down
   float chin = 0;       ///< 2.10 to 2.1: FAP 18 down
 };

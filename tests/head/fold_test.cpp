@@ -135,6 +135,32 @@ TEST_P(EachFace, OutsideIsMostOfTheSkin) {
   EXPECT_LT(outside_.size(), all);  // neither the mouth nor the ears, which no FAP bends
 }
 
+// Every FAP alone, with that of the other side, of the other rim of the lip, and all of them, as far
+// as intra planes code them by default.
+TEST_P(EachFace, StaysWholeAtLegalExtremes) {
+  for (const fap::FapInfo& info : fap::kFaps) {
+    if (info.number < fap::kFirstLowLevel) continue;
+    const int mirror = info.mirror ? info.mirror : info.number;
+    const int partner = info.partner ? info.partner : info.number;
+    const int both = info.partner ? fap::info(partner).mirror : mirror;
+    const std::vector<int> sets[] = {{info.number},
+                                     {info.number, mirror},
+                                     {info.number, partner},
+                                     {info.number, mirror, partner, both ? both : partner}};
+    const int most = info.quant_step * info.default_i_range;
+    for (const std::vector<int>& set : sets) {
+      for (const int value : {-most, -most / 3, -most / 10, most / 10, most / 3, most}) {
+        fap::Frame frame;
+        for (const int fap : set) frame.set(fap, value);
+        EXPECT_EQ(turned_over(frame), 0)
+            << info.name << " " << value << " and " << set.size() - 1 << " more";
+        ++shown_;
+      }
+    }
+  }
+  EXPECT_GT(shown_, 1000);
+}
+
 TEST_P(EachFace, StaysWholeInRecordedSpeech) {
   for (const auto& entry :
        std::filesystem::directory_iterator(data_dir() / "grid_s1_sample" / "fap")) {

@@ -127,6 +127,7 @@ Json reach_of(const head::Reach& reach) { return {reach.fap, reach.low, reach.hi
 Json rooms_of(const head::Rooms& rooms) {
   return {{"brows", rooms.brows},         {"brow_lid", rooms.brow_lid},
           {"upper_lip", rooms.upper_lip}, {"lower_lip", rooms.lower_lip},
+          {"nose_lip", rooms.nose_lip},   {"corner", rooms.corner},
           {"lip_chin", rooms.lip_chin},   {"chin", rooms.chin}};
 }
 

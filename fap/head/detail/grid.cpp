@@ -82,7 +82,7 @@ Keys make_keys(const Shape& shape, const Layout& l, const Columns& columns, int 
                 {l.brow, p.brow_height, 0, 0, 0.8},
                 {l.upper_lid, upper, 0, 0},
                 {l.lower_lid, lower, 0, 0, 1.25},
-                {l.nose_base, -p.nose_length - 0.62, 0, 0},
+                {l.nose_base, shape.nose_base(), 0, 0},
                 {l.upper_lip, shape.upper_lip(at_mouth) + spread, 0, 0},
                 {l.upper_contact, line, 0, 0},
                 {l.lower_contact, line, 0, 0},

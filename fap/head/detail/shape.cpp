@@ -56,7 +56,7 @@ Shape::Shape(const HeadParameters& parameters) : p(parameters) {
   skin.ball(eye, {lid, lid, lid}, 0.75);
   add_nose(skin, p);
   // Between nose and upper lip.
-  const double groove = 0.5 * (upper_lip(0) - p.nose_length - 0.62);
+  const double groove = 0.5 * (upper_lip(0) + nose_base());
   skin.hollow({0, groove, front(0, groove).z + 0.30}, {0.26, 0.62, 0.36}, 0.45);
   // From the height of the eyes to that of the nose, as tall as its size says.
   const auto side = [this](double y) { return outer_hit(skin, {0, y, -0.3}, {1, 0, 0}, 14); };

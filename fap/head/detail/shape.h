@@ -24,6 +24,9 @@ struct Shape {
 
   double inner_corner() const { return eye.x - p.eye_width / 2; }
   double outer_corner() const { return eye.x + p.eye_width / 2; }
+  /// Height where the nose ends and the upper lip begins.
+  double nose_base() const { return -p.nose_length - 0.97 * p.nose_size; }
+
   /// Rims of the lids and the crease above, as heights over x.
   double upper_lid(double x) const;
   double lower_lid(double x) const;

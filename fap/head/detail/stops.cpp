@@ -49,8 +49,9 @@ void share(float& a, float& b, float room) {
   }
 }
 
-constexpr float kLidRise = -270;  // upper lids rise by this at most
-constexpr float kJawBack = -250;  // and the jaw goes back by this
+constexpr float kLidRise = -270;    // upper lids rise by this at most
+constexpr float kJawBack = -250;    // and the jaw goes back by this
+constexpr float kCornerTurn = 300;  // outer corners rise and fall with the inner ones but for this
 
 void at_least(Values& v, std::initializer_list<std::size_t> faps, float least) {
   for (const std::size_t f : faps) v[f] = std::max(v[f], least);
@@ -66,6 +67,13 @@ void stop_at_rooms(const Rooms& rooms, Values& v) {
   share(v[37], v[38], rooms.brows);
   const float chin = std::min(v[18] - std::max(v[3], 0.0f), 0.0f);
   at_least(v, {5, 10, 11, 52, 57, 58}, chin - rooms.lip_chin);
+  at_least(v, {4, 8, 9, 51, 55, 56}, -rooms.nose_lip);
+  for (const auto& [outer, inner] : {std::pair(53u, 6u), {54u, 7u}}) {
+    v[outer] = std::clamp(v[outer], v[inner] - rooms.corner, v[inner] + rooms.corner);
+  }
+  for (const auto& [outer, inner] : {std::pair(59u, 12u), {60u, 13u}}) {
+    v[outer] = std::clamp(v[outer], v[inner] - kCornerTurn, v[inner] + kCornerTurn);
+  }
   for (const auto& [outer, inner] : {std::pair(51u, 4u), {55u, 8u}, {56u, 9u}}) {
     v[outer] = std::min(v[outer], v[inner] + rooms.upper_lip);
   }
@@ -91,17 +99,21 @@ void stop_at_contact(const Rig& rig, ControlValues& v) {
 }
 
 std::vector<Reach> usual_reaches() {
-  // In the units of each FAP, from what people do: the jaw goes 9 mm forward and 11 aside, cheeks
-  // 15 mm out, lips 16 mm forward and 5 back, and so on. What has no entry has no limit.
+  // In the units of each FAP, from what people do: the jaw goes 6 mm forward and 11 aside, cheeks
+  // 15 mm out, lips 12 mm forward, and so on. What has no entry has no limit.
   const struct {
     std::initializer_list<int> faps;
     float low, high;
-  } usual_ones[] = {{{6, 7, 53, 54}, -330, 400}, {{12, 13, 59, 60}, -600, 600},
-                    {{14}, -1000, 460},          {{15}, -280, 280},
-                    {{16, 17}, -240, 900},       {{31, 32, 33, 34, 35, 36}, -1000, 480},
-                    {{39, 40}, -150, 260},       {{41, 42}, -160, 320},
-                    {{61, 62}, -70, 130},        {{63}, -120, 160},
-                    {{64}, -160, 160},           {{44}, -600, 1000}};
+  } usual_ones[] = {{{3}, -200, 1400},           {{5, 10, 11, 52, 57, 58}, -2000, 480},
+                    {{6, 7, 53, 54}, -170, 270}, {{12, 13, 59, 60}, -500, 500},
+                    {{14}, -1000, 280},          {{15}, -280, 280},
+                    {{16}, -240, 600},           {{17}, -130, 600},
+                    {{18}, -1000, 440},          {{21, 22}, -210, 5000},
+                    {{27, 28}, -200, 30},        {{31, 32, 33, 34}, -1000, 440},
+                    {{35, 36}, -1000, 350},      {{39, 40}, -180, 280},
+                    {{41, 42}, -160, 215},       {{61, 62}, -120, 200},
+                    {{63}, -180, 240},           {{64}, -240, 240},
+                    {{44}, -600, 1000}};
   std::vector<Reach> reaches;
   for (const auto& usual : usual_ones) {
     for (const int fap : usual.faps) reaches.push_back({fap, usual.low, usual.high});

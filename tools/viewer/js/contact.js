@@ -4,6 +4,7 @@ import {smoothStep} from './vector.js';
 
 const LID_RISE = -270;  // upper lids rise by this at most
 const JAW_BACK = -250;  // and the jaw goes back by this
+const CORNER_TURN = 300;  // outer corners rise and fall with the inner ones but for this
 const CONTACT = 0.06;  // of MNS: lips and lids so near are shut
 
 // Two FAPs whose points would pass each other let them meet half way.
@@ -51,6 +52,14 @@ function stopAtRooms(v, rooms) {
   share(v, 37, 38, rooms.brows);
   const chin = Math.min(v[18] - Math.max(v[3], 0), 0);
   atLeast([5, 10, 11, 52, 57, 58], chin - rooms.lip_chin);
+  atLeast([4, 8, 9, 51, 55, 56], -rooms.nose_lip);
+  const near = (faps, room) => {
+    for (const [outer, inner] of faps) {
+      v[outer] = Math.min(Math.max(v[outer], v[inner] - room), v[inner] + room);
+    }
+  };
+  near([[53, 6], [54, 7]], rooms.corner);
+  near([[59, 12], [60, 13]], CORNER_TURN);
   atMost([[51, 4], [55, 8], [56, 9]], rooms.upper_lip);
   atMost([[52, 5], [57, 10], [58, 11]], rooms.lower_lip);
 }
