@@ -88,8 +88,8 @@ struct Rig {
   std::array<std::vector<std::uint32_t>, 2> eye_skin;      ///< before the left and right eye
   std::vector<std::uint32_t> lash_anchors;                 ///< see Head
   Rooms rooms;                                             ///< how far points may go
-  std::vector<Reach> reaches;  ///< of FAPs, where the targets are make_rig()'s own
-  std::array<DentalArch, 2> teeth;                         ///< upper, lower
+  std::vector<Reach> reaches;            ///< of FAPs, where the targets are make_rig()'s own
+  std::array<DentalArch, 2> teeth;       ///< upper, lower
   std::array<float, 2> lid_follow = {};  ///< FAP 19 for one unit of FAP 25, and 20 for 26
   std::vector<float> neck_weights;       ///< of the skin: 1 turns with the head, 0 stays
 };

@@ -135,8 +135,8 @@ TEST_P(EachFace, OutsideIsMostOfTheSkin) {
   EXPECT_LT(outside_.size(), all);  // neither the mouth nor the ears, which no FAP bends
 }
 
-// Every FAP alone, with that of the other side, of the other rim of the lip, and all of them, as far
-// as intra planes code them by default.
+// Every FAP alone, with that of the other side, of the other rim of the lip, and all of them, as
+// far as intra planes code them by default.
 TEST_P(EachFace, StaysWholeAtLegalExtremes) {
   for (const fap::FapInfo& info : fap::kFaps) {
     if (info.number < fap::kFirstLowLevel) continue;
