@@ -158,6 +158,9 @@ struct Head {
   double mouth_gain = 1;
   /// How it moves, as its maker says. Empty: make_rig() finds it from the feature points.
   std::vector<Target> targets;
+  /// The targets are those that make_rig() found before: values beyond what people do are eased
+  /// (Rig::reaches) as if it found them again.
+  bool eased = false;
 
   Mesh& part(Part p) { return parts[std::size_t(p)]; }              ///< one of the meshes
   const Mesh& part(Part p) const { return parts[std::size_t(p)]; }  ///< one of the meshes

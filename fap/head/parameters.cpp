@@ -26,7 +26,7 @@ HeadParameters man() {
   p.nose_size = 0.78;
   p.nose_bridge = 0.35;
   p.mouth_drop = 6.6;
-  p.mouth_width = 2.3;
+  p.mouth_width = 2.2;
   p.lip_fullness = 0.85;
   p.smile = 0.06;
   p.brow_height = 2.15;

@@ -144,7 +144,7 @@ Rooms rooms_of(const Head& head) {
           .nose_lip = room(head, "8.1", "9.15", 51),
           .corner = room(head, "2.4", "8.3", 6),
           .lip_chin = room(head, "8.2", "2.10", 5),
-          .chin = room(head, "2.10", "2.1", 18)};
+          .chin = room(head, "2.10", "2.1", 18, 0.33f)};
 }
 
 }  // namespace
@@ -184,7 +184,8 @@ Rig make_rig(const Head& head) {
     rig.teeth[i] = detail::dental_arch(rig, i == 0 ? Part::upper_teeth : Part::lower_teeth);
   }
   rig.rooms = rooms_of(head);
-  if (head.targets.empty() && head.shapes.empty()) rig.reaches = detail::usual_reaches();
+  if ((head.targets.empty() && head.shapes.empty()) || head.eased)
+    rig.reaches = detail::usual_reaches();
   for (std::size_t i = 0; i < 2; ++i) rig.lid_follow[i] = lid_follow(rig, i);
   const bool given = head.seams.neck_weights.size() == head.part(Part::skin).positions.size();
   rig.neck_weights = given ? head.seams.neck_weights : neck_weights(rig);

@@ -43,8 +43,7 @@ struct Rooms {
   float chin = 0;       ///< 2.10 to 2.1: FAP 18 down
 };
 
-/// How far a FAP can move a face, in its units: from three quarters of that on it moves it less and
-/// less.
+/// How far a FAP can move a face, in its units: from 85 % of that on it moves it less and less.
 struct Reach {
   int fap = 0;     ///< 3..68
   float low = 0;   ///< negative

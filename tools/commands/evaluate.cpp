@@ -17,6 +17,7 @@
 #include "tools/plot/sentences.h"
 #include "tools/sheet/sheet.h"
 #include "tools/speech/spoken.h"
+#include "tools/studio/head_store.h"
 #include "tools/text.h"
 
 namespace animeme::tools {
@@ -241,7 +242,7 @@ std::optional<viewer::Sound> sound_of(const CorpusSettings& corpus, const std::s
 Result<void> write_sheet(const std::string& output, const CorpusSettings& corpus,
                          const System& system, const std::vector<dam::SentencePair>& pairs,
                          const dam::Evaluation& evaluation) {
-  const Result<head::Head> face = head::make_head();
+  const Result<head::Head> face = studio::ready_head({});
   if (!face) return face.error();
   const head::Rig rig = head::make_rig(*face);
   sheet::Sheet sheet;

@@ -78,9 +78,9 @@ Json describe(const studio::LoadedHead& loaded, const head::Rig& rig) {
             {"ENS", head.fapu.ens},
             {"MNS", head.fapu.mns},
             {"MW", head.fapu.mw}}},
-          {"moved_by", !head.shapes.empty()    ? "shapes"
-                       : !head.targets.empty() ? "targets"
-                                               : "feature_points"},
+          {"moved_by", !head.shapes.empty()                   ? "shapes"
+                       : !head.targets.empty() && !head.eased ? "targets"
+                                                              : "feature_points"},
           {"shapes", json_list(head.shapes, &head::ShapeControl::name)},
           {"feature_points_cm", points},
           {"missing_feature_points", missing},

@@ -15,6 +15,7 @@
 #include "fap/xml/xmt.h"
 #include "tools/files/files.h"
 #include "tools/gltf/read_head.h"
+#include "tools/studio/head_store.h"
 #include "tools/studio/speak_check.h"
 
 namespace animeme::studio {
@@ -112,7 +113,7 @@ Result<head::Source> read_source(const HeadChoice& choice) {
 Result<LoadedHead> load_as_it_is(const HeadChoice& choice) {
   LoadedHead loaded;
   if (const auto parameters = head::head_parameters(choice.head)) {
-    Result<head::Head> made = head::make_head(*parameters);
+    Result<head::Head> made = ready_head(*parameters);
     if (!made) return made.error();
     loaded.head = std::move(*made);
     return loaded;

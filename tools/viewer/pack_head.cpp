@@ -113,7 +113,7 @@ Json jaw_of(const head::Rig& rig) {
   const auto turned = [&](int fap, int value) {
     fap::Frame frame;
     frame.set(fap, value);
-    return head::pose(rig, frame).jaw;
+    return head::pose(rig, frame, {.contact = false}).jaw;
   };
   return {{"axis", json_of(rig.jaw_axis)},
           {"sine", turned(3, 512).row_z.y / 512},

@@ -3,7 +3,7 @@
 namespace animeme::head::detail {
 namespace {
 
-constexpr double kEyeDepth = 6.6;
+constexpr double kEyeDepth = 2.11;  // before the ears, in half distances of the pupils
 
 // Skull, jaw and neck.
 void add_bones(Form& form, const HeadParameters& p) {
@@ -46,7 +46,7 @@ Vec3d nostril(const HeadParameters& p) {
 }
 
 Shape::Shape(const HeadParameters& parameters) : p(parameters) {
-  eye = {p.eye_distance, 0, kEyeDepth};
+  eye = {p.eye_distance, 0, kEyeDepth * p.eye_distance};
   lid = p.eye_radius + 0.15;
   jaw_axis = {0, -2.4, 0.6};
   neck_pivot = {0, -6.2, -2.2};

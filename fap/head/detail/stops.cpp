@@ -9,11 +9,11 @@ namespace {
 
 using Values = ControlValues;
 
-// As far as faces go, one way and the other. From three quarters of it on skin gives way, and it
+// As far as faces go, one way and the other. Just before skin gives way, and it
 // is never passed.
 float ease(float value, float low, float high) {
   const float limit = value < 0 ? -low : high;
-  const float soft = 0.25f * limit, over = std::abs(value) - (limit - soft);
+  const float soft = 0.15f * limit, over = std::abs(value) - (limit - soft);
   if (!(over > 0)) return value;
   return std::copysign(limit - soft + soft * std::tanh(over / soft), value);
 }
@@ -65,11 +65,15 @@ void stop_at_rooms(const Rooms& rooms, Values& v) {
   at_least(v, {31, 32, 33, 34, 35, 36}, -rooms.brow_lid);
   at_least(v, {37, 38}, -0.5f * rooms.brows);
   share(v[37], v[38], rooms.brows);
-  const float chin = std::min(v[18] - std::max(v[3], 0.0f), 0.0f);
+  // An open jaw takes lips and corners along, down and back.
+  const float jaw = std::max(v[3], 0.0f);
+  at_least(v, {16}, -620 - 0.5f * jaw);
+  at_least(v, {12, 13, 59, 60}, -440 - 0.3f * jaw);
+  const float chin = std::min(v[18] - jaw, 0.0f);
   at_least(v, {5, 10, 11, 52, 57, 58}, chin - rooms.lip_chin);
   at_least(v, {4, 8, 9, 51, 55, 56}, -rooms.nose_lip);
   for (const auto& [outer, inner] : {std::pair(53u, 6u), {54u, 7u}}) {
-    v[outer] = std::clamp(v[outer], v[inner] - rooms.corner, v[inner] + rooms.corner);
+    v[outer] = std::clamp(v[outer], v[inner] - rooms.corner, v[inner] + 0.2f * rooms.corner);
   }
   for (const auto& [outer, inner] : {std::pair(59u, 12u), {60u, 13u}}) {
     v[outer] = std::clamp(v[outer], v[inner] - kCornerTurn, v[inner] + kCornerTurn);
@@ -99,19 +103,19 @@ void stop_at_contact(const Rig& rig, ControlValues& v) {
 }
 
 std::vector<Reach> usual_reaches() {
-  // In the units of each FAP, from what people do: the jaw goes 6 mm forward and 11 aside, cheeks
+  // In the units of each FAP, from what people do: the jaw goes 8 mm forward and 11 aside, cheeks
   // 15 mm out, lips 12 mm forward, and so on. What has no entry has no limit.
   const struct {
     std::initializer_list<int> faps;
     float low, high;
-  } usual_ones[] = {{{3}, -200, 1400},           {{5, 10, 11, 52, 57, 58}, -2000, 480},
-                    {{6, 7, 53, 54}, -170, 270}, {{12, 13, 59, 60}, -500, 500},
-                    {{14}, -1000, 280},          {{15}, -280, 280},
-                    {{16}, -240, 600},           {{17}, -130, 600},
-                    {{18}, -1000, 440},          {{21, 22}, -210, 5000},
-                    {{27, 28}, -200, 30},        {{31, 32, 33, 34}, -1000, 440},
+  } usual_ones[] = {{{3}, -420, 1500},           {{5, 10, 11, 52, 57, 58}, -2500, 600},
+                    {{6, 7, 53, 54}, -205, 280}, {{12, 13, 59, 60}, -3000, 640},
+                    {{14}, -1000, 480},          {{15}, -280, 280},
+                    {{16}, -3000, 600},          {{17}, -300, 600},
+                    {{18}, -1500, 470},          {{21, 22}, -175, 5000},
+                    {{27, 28}, -200, 20},        {{31, 32, 33, 34}, -1000, 440},
                     {{35, 36}, -1000, 350},      {{39, 40}, -180, 280},
-                    {{41, 42}, -160, 215},       {{61, 62}, -120, 200},
+                    {{41, 42}, -160, 215},       {{61, 62}, -190, 200},
                     {{63}, -180, 240},           {{64}, -240, 240},
                     {{44}, -600, 1000}};
   std::vector<Reach> reaches;

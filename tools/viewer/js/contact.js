@@ -50,24 +50,28 @@ function stopAtRooms(v, rooms) {
   atLeast([31, 32, 33, 34, 35, 36], -rooms.brow_lid);
   atLeast([37, 38], -0.5 * rooms.brows);
   share(v, 37, 38, rooms.brows);
-  const chin = Math.min(v[18] - Math.max(v[3], 0), 0);
+  // An open jaw takes lips and corners along, down and back.
+  const jaw = Math.max(v[3], 0);
+  atLeast([16], -620 - 0.5 * jaw);
+  atLeast([12, 13, 59, 60], -440 - 0.3 * jaw);
+  const chin = Math.min(v[18] - jaw, 0);
   atLeast([5, 10, 11, 52, 57, 58], chin - rooms.lip_chin);
   atLeast([4, 8, 9, 51, 55, 56], -rooms.nose_lip);
-  const near = (faps, room) => {
+  const near = (faps, less, more) => {
     for (const [outer, inner] of faps) {
-      v[outer] = Math.min(Math.max(v[outer], v[inner] - room), v[inner] + room);
+      v[outer] = Math.min(Math.max(v[outer], v[inner] - less), v[inner] + more);
     }
   };
-  near([[53, 6], [54, 7]], rooms.corner);
-  near([[59, 12], [60, 13]], CORNER_TURN);
+  near([[53, 6], [54, 7]], rooms.corner, 0.2 * rooms.corner);
+  near([[59, 12], [60, 13]], CORNER_TURN, CORNER_TURN);
   atMost([[51, 4], [55, 8], [56, 9]], rooms.upper_lip);
   atMost([[52, 5], [57, 10], [58, 11]], rooms.lower_lip);
 }
 
-// As far as faces go. From three quarters of it on skin gives way, and it is never passed.
+// As far as faces go. Just before skin gives way, and it is never passed.
 function ease(value, low, high) {
   const limit = value < 0 ? -low : high;
-  const soft = 0.25 * limit;
+  const soft = 0.15 * limit;
   const over = Math.abs(value) - (limit - soft);
   return over > 0 ? Math.sign(value) * (limit - soft + soft * Math.tanh(over / soft)) : value;
 }
