@@ -7,13 +7,10 @@
 
 #include "dam/maths/raised_cosine.h"
 #include "dam/script/features.h"
-#include "dam/script/phones.h"
 #include "dam/signal/fap_signal.h"
 
 namespace animeme::dam {
 namespace {
-
-constexpr double kNearlySilent = 1e-3;  // seconds: what is left out between two phones is a pause
 
 bool has_teeth_together(const Features& sound) {
   return (sound.manner == Manner::fricative || sound.manner == Manner::affricate) &&
@@ -73,11 +70,7 @@ bool move_lips(const LipPlace& place, double share, const ClosureOptions& follow
 
 MouthOpening::MouthOpening(const Script& script, const OpeningOptions& options)
     : options_(options) {
-  double known = 0;
   for (const Phone& phone : script.phones) {
-    if (phone.start > known + kNearlySilent) then(known, phone.start, {});
-    known = phone.end;
-    if (phone.label == kSilence) then(phone.start, phone.end, {});
     const auto sounds = phone_features(phone.label);
     const double part = phone.duration() / double(std::max<std::size_t>(sounds.size(), 1));
     for (std::size_t i = 0; i < sounds.size(); ++i) {
@@ -85,15 +78,19 @@ MouthOpening::MouthOpening(const Script& script, const OpeningOptions& options)
       if (const auto wish = wish_of(sounds[i], options_)) then(start, start + part, *wish);
     }
   }
-  then(known, known, {});
+  turns_.push_back({end_ + options_.held, {}});
 }
 
+// What has no wish takes the next sound's shape, or keeps the last one's; between two wishes the
+// way is shared.
 void MouthOpening::then(double start, double end, const Wish& wish) {
-  if (start - end_ > options_.held) {
-    turns_.push_back({end_ + options_.held / 2, {}});
-    turns_.push_back({start - options_.held / 2, wish});
+  const bool from = !turns_.empty() && turns_.back().after.any();
+  const double kept = end_ + options_.held, early = start - options_.held;
+  if (from && wish.any()) {
+    if (kept < early) turns_.push_back({kept, {}});
+    turns_.push_back({kept < early ? early : (end_ + start) / 2, wish});
   } else {
-    turns_.push_back({(end_ + start) / 2, wish});
+    turns_.push_back({from ? std::min(kept, start) : std::max(end_, early), wish});
   }
   end_ = end;
 }
@@ -128,7 +125,7 @@ std::size_t open_as_wanted(const MouthOpening& opening, double amount, double st
   std::size_t changed = 0;
   for (std::size_t i = 0; i < signal.frames(); ++i) {
     const MouthOpening::Wish wish = opening(signal.time(i));
-    if (wish.wider == 1 && wish.narrow == 0) continue;
+    if (!wish.any()) continue;
     const double share = share_of(wish, amount, style, inner_gap(signal, i, *lips));
     bool moved = false;
     for (const LipPlace& place : places) moved |= move_lips(place, share, follow, i, signal);

@@ -30,7 +30,7 @@ struct OpeningOptions {
   double close = 330;  ///< ... and no close one (i); by height in between
   double teeth = 270;  ///< the same of S, Z, SH, CH and the like
   double turn = 0.12;  ///< seconds from one sound's opening to the next one's
-  double held = 0.2;   ///< seconds over which sounds without a wish keep their neighbours'
+  double held = 0.15;  ///< seconds over which sounds without a wish keep a neighbour's
 };
 
 /// What the sounds of a script want of the opening, at a time.
@@ -40,11 +40,12 @@ class MouthOpening {
   struct Wish {
     double wider = 1;   ///< 1 and more
     double narrow = 0;  ///< 1 / the gap that is not reached; 0: no limit
+    bool any() const { return wider != 1 || narrow != 0; }  ///< anything is wanted
   };
 
   /// Of all phones of a script, by their features (dam/script/features.h): vowels and glides by
-  /// height, sibilants. Those of the lips and pauses want nothing, other consonants leave it to
-  /// their neighbours.
+  /// height, sibilants. Those of the lips want nothing, other consonants and the edges of pauses
+  /// leave it to their neighbours.
   explicit MouthOpening(const Script& script, const OpeningOptions& options = {});
   /// Times may come in any order. Between those of two sounds, without a corner.
   Wish operator()(double time) const;
