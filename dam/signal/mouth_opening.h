@@ -27,7 +27,7 @@ namespace animeme::dam {
 struct OpeningOptions {
   double wider = 0.4;  ///< added to what is learned of an open vowel (a), as a share of it
   double open = 1000;  ///< gap that no open vowel reaches ...
-  double close = 330;  ///< ... and no close one (i); by height in between
+  double close = 300;  ///< ... and no close one (i); by height in between
   double teeth = 270;  ///< the same of S, Z, SH, CH and the like
   double turn = 0.12;  ///< seconds from one sound's opening to the next one's
   double held = 0.15;  ///< seconds over which sounds without a wish keep a neighbour's
