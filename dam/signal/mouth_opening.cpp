@@ -21,9 +21,11 @@ std::optional<MouthOpening::Wish> wish_of(const Features& sound, const OpeningOp
   const bool glide = sound.manner == Manner::approximant && sound.height > 0;
   if (sound.manner == Manner::vowel || glide) {
     const double height = std::clamp(sound.height, 0.0, 1.0);
-    // From mid vowels upwards nothing is wider than learned.
+    // From mid vowels upwards nothing is wider than learned; that limits are those of close vowels
+    // comes later.
+    const double closeness = height * std::sqrt(height);
     return MouthOpening::Wish{1 + options.wider * std::max(0.0, 1 - 2 * height),
-                              (1 - height) / options.open + height / options.close};
+                              (1 - closeness) / options.open + closeness / options.close};
   }
   if (has_teeth_together(sound)) return MouthOpening::Wish{1, 1 / options.teeth};
   if (sound.closure > 0) return MouthOpening::Wish{};  // P, F: lips have their own to do
