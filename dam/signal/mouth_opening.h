@@ -1,17 +1,14 @@
 /// @file
 /// Mouths that open as the vowel asks for: AA wide, IY narrow, teeth together in S.
 ///
-/// Jaws are the lower the more open a vowel is (B. Lindblom and J. Sundberg, "Acoustical
-/// consequences of lip, tongue, jaw, and larynx movement", JASA 50, 1971, who take openness for a
-/// position of the jaw), and lips with them (V. Fromkin, "Lip positions in American English
-/// vowels", Language and Speech 7, 1964); sibilants need teeth that are close together. The
-/// built-in model's speaker spreads his lips so much that his IY is as open as his AA: 392 and 445
-/// of FAP 4
-/// + 5 in the median, 10 and 11 mm. On a face that is not his, both are then the same mouth. So
-/// speaking narrows what is close and widens what is open. It is not learned but a rule, off in
-/// training and evaluation. The figures are ours: AA becomes as wide as the widest twentieth of his
-/// (by his tracker jawOpen 0.44; 0.33 in the median), close vowels some 6 mm. What it changes and
-/// costs: dam/measured.md, "Rules on top".
+/// The more open a vowel is, the lower is the jaw (B. Lindblom and J. Sundberg, "Acoustical
+/// consequences of lip, tongue, jaw, and larynx movement", JASA 50, 1971, 1166-1179: openness is a
+/// position of the jaw), and lips go with it; sibilants need teeth that are close together. The
+/// built-in model's speaker spreads his lips so much that his IY is nearly as open as his AA. On a
+/// face that is not his, both are then the same mouth. So speaking narrows what is close and widens
+/// what is open. It is not learned but a rule, off in training and evaluation. The figures are
+/// ours: AA becomes as wide as the widest twentieth of his, IY less than half of it. What that
+/// changes and costs: dam/measured.md, "Rules on top".
 #pragma once
 
 #include <cstddef>
@@ -32,6 +29,9 @@ struct OpeningOptions {
   double turn = 0.12;  ///< seconds from one sound's opening to the next one's
   double held = 0.15;  ///< seconds over which sounds without a wish keep a neighbour's
 };
+
+/// Seconds from a moment to the farthest sound that may tell what is wanted then.
+inline constexpr double kOpeningReach = 0.21;
 
 /// What the sounds of a script want of the opening, at a time.
 class MouthOpening {

@@ -93,7 +93,9 @@ TEST(Rounding, UwIsNarrowerThanIyAndForward) {
   }
   // Lips meet and part as before: how wide they open is the business of MouthOpening.
   Signal rounded = *learned;
-  ASSERT_GT(add_rounding(LipRounding(script), 1, [](double) { return 1.0; }, rounded), 0u);
+  ASSERT_GT(add_rounding(
+                LipRounding(script), 1, [](double) { return 1.0; }, rounded),
+            0u);
   EXPECT_NE(rounded.values, learned->values);
   for (std::size_t i = 0; i < rounded.frames(); ++i) {
     for (const int fap : {3, 4, 5, 8, 10, 51, 52}) {

@@ -37,8 +37,8 @@ Result<double> speaking_gain(const head::Head& head);
 /// second; lips opened wider by the gain of the rig) and measures at the middle of the lips
 /// (points 2.2 and 2.3), their corners (2.4, 2.5): P B M within 0.1 mm of the lips at rest, UW 15 %
 /// narrower than IY and further forward, AA 70 % of the opening of a full jawOpen (fap/arkit.h), IY
-/// and UW apart, IY at most half as far as AA. Errors: not_found (the head lacks one of the four points or its ES), those of
-/// synthesise().
+/// and UW apart, IY at most half as far as AA. Errors: not_found (the head lacks one of the four
+/// points or its ES), those of synthesise().
 Result<std::vector<SpeakRow>> check_speech(const head::Head& head, const head::Rig& rig);
 
 }  // namespace animeme::studio
