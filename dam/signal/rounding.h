@@ -6,9 +6,8 @@
 /// is nobody's O, U and W are then flat slits. So speaking adds a gesture of its own: corners
 /// inwards and lips forward, for as long as a rounded sound lasts and a little before and after.
 /// It is not learned but a rule, off in training and evaluation. With it UW is 0.81 as wide as IY
-/// (0.90 as learned; `test_dam --gtest_filter='Rounding.Uw*'`). Against the recorded speaker, who
-/// does not do so, the error rises from 0.546 to 0.586 (`evaluate builtin grid_s1 --split test
-/// --articulate 1`).
+/// (0.90 as learned; `test_dam --gtest_filter='Rounding.Uw*'`). What it costs against the recorded
+/// speaker, who does not do so: dam/measured.md, "Rules on top".
 #pragma once
 
 #include <cstddef>

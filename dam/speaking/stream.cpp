@@ -7,6 +7,7 @@
 #include "dam/maths/raised_cosine.h"
 #include "dam/model/kind_internal.h"
 #include "dam/script/phones.h"
+#include "dam/signal/mouth_opening.h"
 #include "dam/speaking/frames_internal.h"
 
 namespace animeme::dam {
@@ -51,7 +52,9 @@ Result<void> check_next(const Phone& phone, double known) {
 double exact_look_ahead(const Model& model) { return reach_of(model) + kClosureReach; }
 
 SpeechStream::SpeechStream(const Model& model, const StreamOptions& options)
-    : model_(&model), options_(options), reach_(reach_of(model)) {}
+    : model_(&model), options_(options), reach_(reach_of(model)) {
+  if (options.synthesis.articulation > 0) reach_ = std::max(reach_, kOpeningReach);
+}
 
 Result<void> SpeechStream::push(const Phone& phone) {
   if (auto ok = check(options_); !ok) return ok;

@@ -7,6 +7,7 @@
 #include "dam/model/kind_internal.h"
 #include "dam/script/timeline_internal.h"
 #include "dam/signal/closure.h"
+#include "dam/signal/mouth_opening.h"
 #include "dam/signal/rounding.h"
 #include "dam/speaking/frames_internal.h"
 
@@ -143,6 +144,10 @@ Result<Signal> synthesise_frames(const Model& model, const Script& script,
              report);
   const RestGate gate(*spoken, model.pause_edge, options.rest_at_ends, plan.last_frame);
   to_control_units(model, gate, options.style, signal);
+  if (options.articulation > 0) {
+    open_as_wanted(MouthOpening(script), options.articulation, options.style, signal,
+                   closure_options(model));
+  }
   touch_lips(model, script, options, signal, report);
   apply_limits(signal, model.limits);
   if (options.articulation > 0) {

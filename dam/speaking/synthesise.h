@@ -28,9 +28,10 @@ struct SynthesisOptions {
   /// slower. 0: the mean as learned, with the least error; 1: quicker by a tenth;
   /// 0..kMostSharpness.
   double sharpness = 1;
-  /// Roundness added to what is learned in O, U, W, SH and the like (dam/signal/rounding.h), for
-  /// models of FAPs: corners inwards, lips forward. 0: as learned; 1: on heads of everybody O and U
-  /// are round. 0..kMostArticulation.
+  /// How clearly vowels show, beyond what is learned, for models of FAPs: O, U, W, SH and the like
+  /// are rounder (dam/signal/rounding.h), open vowels wider, close ones and sibilants narrower
+  /// (dam/signal/mouth_opening.h). 0: as learned; 1: on heads of everybody O and U are round and A
+  /// is wider than I. 0..kMostArticulation.
   double articulation = 0;
   bool rest_at_ends = true;      ///< first and last frame are the resting mouth
   double context_weight = 1000;  ///< w_c of Eq. 10, >= 0

@@ -91,13 +91,17 @@ TEST(HeadCommand, HeadsOfUsersAreDrawnShownAndExported) {
   EXPECT_NE(own_picture, test::slurp(dir / "rest.png"));
 }
 
-// With the gain that fits the head all is well; as spoken, AA (row 5) is a third of a full jawOpen.
+// With the gain that fits the head all is well; as spoken, AA (row 5) is less than half of a full
+// jawOpen. IY (rows 6, 7) is open, but by less than half of AA.
 TEST(HeadCommand, SpeakTestMeasuresLips) {
   for (const char* name : {"woman", "man", "child"}) {
     const Json table = described({name, "--speak-test"});
-    ASSERT_EQ(table["rows"].size(), 8u) << name;
+    ASSERT_EQ(table["rows"].size(), 9u) << name;
     for (const Json& row : table["rows"]) EXPECT_TRUE(row["ok"]) << name << row.dump();
     EXPECT_GT(table["gain"], 1.2) << name;
+    EXPECT_EQ(table["rows"][7]["measure"], "lips apart, % of AA");
+    EXPECT_EQ(table["rows"][7]["at_most"], 50);
+    EXPECT_GT(table["rows"][7]["value"], 20) << name;
     const Json as_spoken = described({name, "--speak-test", "--gain", "1"});
     EXPECT_EQ(as_spoken["gain"], 1);
     EXPECT_LT(as_spoken["rows"][5]["value"], 50) << name;

@@ -399,7 +399,7 @@ void add_options(CLI::App& app, EvaluateOptions& options) {
       ->option_text("0..3=1")
       ->check(CLI::Range(0.0, dam::kMostSharpness));
   app.add_option("--articulate", options.evaluate.synthesis.articulation,
-                 "As of speak: rounder o, u, w than learned")
+                 "As of speak: vowels clearer than learned")
       ->option_text("0..2=0")
       ->check(CLI::Range(0.0, dam::kMostArticulation));
   app.add_option("--against", options.against,

@@ -13,7 +13,7 @@ void add_motion_options(CLI::App& app, dam::SynthesisOptions& options) {
       ->option_text("0..3=1")
       ->check(CLI::Range(0.0, dam::kMostSharpness));
   app.add_option("--articulate", options.articulation,
-                 "Roundness of o, u, w and sh beyond what is learned: 0 none, 1 as most people")
+                 "Vowels clearer than learned: round o, u, w, wide a, narrow i; 0 as learned")
       ->option_text("0..2=1")
       ->check(CLI::Range(0.0, dam::kMostArticulation));
 }

@@ -8,8 +8,8 @@
 
 namespace animeme::tools {
 
-/// Adds --style, --sharpness and --articulate, with the program's defaults: as learned, but O, U
-/// and W rounder (SynthesisOptions::articulation is 1).
+/// Adds --style, --sharpness and --articulate, with the program's defaults: as learned, but vowels
+/// clearer (SynthesisOptions::articulation is 1).
 void add_motion_options(CLI::App& app, dam::SynthesisOptions& options);
 
 }  // namespace animeme::tools

@@ -29,7 +29,7 @@ et õ ɤ spread
 sv ny y round
 fr tu y round
 de Mühe y round
-cmn-latn-pinyin nv3 y round
+cmn 女 y round
 en moo u round
 END
 ffmpeg -nostdin -v error -y -framerate 1 -i "$dir/%02d.png" -vf tile=5x2 -frames:v 1 -q:v 6 "$out"

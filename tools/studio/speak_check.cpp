@@ -169,6 +169,8 @@ Result<std::vector<SpeakRow>> check_speech(const head::Head& head, const head::R
   rows.push_back({"AA", "open, % of a full jawOpen", range > 0 ? 100 * aa.gap / range : 0,
                   100 * kWideOpen, false});
   rows.push_back({"IY", "lips apart, mm", iy.gap, 0.1, false});
+  rows.push_back({"IY", "lips apart, % of AA", aa.gap > 0 ? 100 * iy.gap / aa.gap : 0,
+                  100 * kCloseVowel, true});
   rows.push_back({"UW", "lips apart, mm", uw.gap, 0.1, false});
   return rows;
 }

@@ -25,6 +25,9 @@ inline constexpr double kEyesApart = 63;
 /// Share of the opening of a full jawOpen that a spoken AA should have.
 inline constexpr double kWideOpen = 0.7;
 
+/// Share of the opening of a spoken AA that a spoken IY should not exceed.
+inline constexpr double kCloseVowel = 0.5;
+
 /// The Head::mouth_gain by which AA of the sentence of check_speech() opens that far, from 1 to
 /// fap::kMostMouthGain (the latter if it never does). Deterministic. Errors: those of
 /// check_speech().
@@ -34,8 +37,8 @@ Result<double> speaking_gain(const head::Head& head);
 /// second; lips opened wider by the gain of the rig) and measures at the middle of the lips
 /// (points 2.2 and 2.3), their corners (2.4, 2.5): P B M within 0.1 mm of the lips at rest, UW 15 %
 /// narrower than IY and further forward, AA 70 % of the opening of a full jawOpen (fap/arkit.h), IY
-/// and UW apart. Errors: not_found (the head lacks one of the four points or its ES), those of
-/// synthesise().
+/// and UW apart, IY at most half as far as AA. Errors: not_found (the head lacks one of the four
+/// points or its ES), those of synthesise().
 Result<std::vector<SpeakRow>> check_speech(const head::Head& head, const head::Rig& rig);
 
 }  // namespace animeme::studio
