@@ -98,6 +98,7 @@ TEST(Page, MovesTheHeadAsTheRigDoes) {
   EXPECT_EQ(report["state"]["head"], true);
   EXPECT_GT(report["mouth"], 8.0);
   EXPECT_LT(report["forehead"], 0.05);
+  EXPECT_EQ(report["specks"], Json::array());
   for (std::size_t i = 0; i < 8; ++i) {
     const double apart = parity(clip.frames[i], i, dir);
     EXPECT_LT(apart, 0.02) << "frame " << i;

@@ -2,7 +2,8 @@
 // JSON.
 //
 // looks: vertices of the frames 0 .. 7 as 32-bit floats in FOLDER/<part>_<frame>.f32; how much the
-//   mouth and the forehead change between the frames 0 and 1.
+//   mouth and the forehead change between the frames 0 and 1; `specks` of these frames and of frame 2, [x, y],
+//   below the nose.
 // sound: plays ten seconds; each picture against what is heard then, told by the clicks.
 // speeds: the same without a head, three seconds of the clip at half and at double speed; `pitches` in Hz, of
 //   the first 80 ms of each burst.
@@ -19,7 +20,7 @@ const fs = require('fs');
 const path = require('path');
 const {pathToFileURL} = require('url');
 const {launch, sleep} = require('../../readers/js/browser');
-const {difference, readPng} = require('./png');
+const {difference, readPng, specks} = require('./png');
 
 const FLAGS = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'];
 const FRAMES = 8;
@@ -58,15 +59,17 @@ function boxes(points) {
   const edge = 0.3 * (brows - hair);
   return {
     mouth: {left, right, top: at('8.1').y, bottom: at('8.2').y},
+    around: {left: left - (right - left) / 2, right: right + (right - left) / 2, top: at('9.3').y,
+      bottom: at('2.1').y},
     forehead: {left, right, top: hair + edge, bottom: brows - edge},
   };
 }
 
 async function looks(page, file, folder) {
-  await page.resize(500, 700);
+  await page.resize(700, 1200);
   await open(page, file, '?frame=0&mode=first');
   const report = {state: await page.evaluate('window.animeme.state()')};
-  const {mouth, forehead} = boxes(await page.evaluate('window.animeme.points()'));
+  const {mouth, around, forehead} = boxes(await page.evaluate('window.animeme.points()'));
   const stage = await page.evaluate(`(() => {
     const box = document.getElementById('picture').getBoundingClientRect();
     return {x: box.left, y: box.top};
@@ -74,12 +77,13 @@ async function looks(page, file, folder) {
   const placed = (box) => ({left: box.left + stage.x, right: box.right + stage.x,
     top: box.top + stage.y, bottom: box.bottom + stage.y});
   const pictures = [];
-  for (const frame of [0, 1]) {
+  for (const frame of [0, 1, 2]) {
     await show(page, frame);
     pictures.push(readPng(await page.screenshot(path.join(folder, `frame_${frame}.png`))));
   }
-  report.mouth = difference(...pictures, placed(mouth));
-  report.forehead = difference(...pictures, placed(forehead));
+  report.specks = pictures.flatMap((picture) => specks(picture, placed(around)));
+  report.mouth = difference(...pictures.slice(0, 2), placed(mouth));
+  report.forehead = difference(...pictures.slice(0, 2), placed(forehead));
   for (let frame = 0; frame < FRAMES; ++frame) {
     await show(page, frame);
     for (const part of PARTS) {
