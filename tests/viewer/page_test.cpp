@@ -113,11 +113,19 @@ TEST(Page, MovesAHeadWithoutSeamsAsTheRigDoes) {
   const std::size_t shut = 3;
   clip.frames[shut] = frame_of({{4, 10}, {5, -30}, {8, -20}, {10, 5}, {9, 0}, {11, -45}, {12, 80}});
   clip.frames[shut].number = shut;
-  const Json report = report_of("looks", make({{clip, 0, "clip"}}, {}, {}, foreign_head()), dir);
+  const TestHead& foreign = foreign_head();
+  viewer::Page page{&test_head().head, &test_head().rig, {{clip, 0, "clip"}}};
+  page.head_name = "woman";
+  page.others.push_back({&foreign.head, &foreign.rig, "</script>me"});
+  const auto html = viewer::make_page(page);
+  ASSERT_TRUE(html) << html.error().describe();
+  const Json report = report_of("other", *html, dir);
   ASSERT_TRUE(report.contains("state"));
   EXPECT_EQ(said(report), std::vector<std::string>());
+  EXPECT_EQ(report["list"], Json::parse(R"(["woman", "</script>me"])"));
+  EXPECT_EQ(report["state"]["whose"], "</script>me");
   for (std::size_t i = 0; i < 8; ++i) {
-    EXPECT_LT(parity(clip.frames[i], i, dir, foreign_head().rig), 0.02) << "frame " << i;
+    EXPECT_LT(parity(clip.frames[i], i, dir, foreign.rig), 0.02) << "frame " << i;
   }
 }
 
@@ -281,6 +289,9 @@ TEST(Page, FitsTheScreen) {
     EXPECT_EQ(screen["overlaps"], Json::array()) << size;
     EXPECT_EQ(screen["outside"], Json::array()) << size;
     EXPECT_EQ(screen["width"].get<int>(), std::stoi(size)) << size;
+    EXPECT_LT(screen["chin"], screen["said"]) << size;
+    const bool lying = size != "390x844" && size != "320x568";
+    EXPECT_EQ(screen["legend"], lying ? "flex" : "none") << size;
     EXPECT_GT(screen["targets"].size(), 70u) << size;
     for (const Json& target : screen["targets"]) {
       const double least = screen["touch"].get<bool>() ? 36 : 18;
@@ -289,6 +300,27 @@ TEST(Page, FitsTheScreen) {
     }
   }
   EXPECT_EQ(screens, 6);
+}
+
+// With two clips, two heads and a script, so that all of it is there.
+TEST(Page, AxeFindsNoViolations) {
+  NEEDS_BROWSER();
+  NEEDS_NPM("axe-core");
+  const TempDir dir;
+  fap::Sequence other = moving_clip();
+  other.frames[2].set(48, 100);
+  const TestHead& h = test_head();
+  viewer::Page page{&h.head, &h.rig, {{moving_clip(), 0, "a.fap"}, {other, 0, "b.fap"}}};
+  page.script.phones.push_back({0, 0.5, "AH", "word"});
+  page.head_name = "woman";
+  page.others.push_back({&foreign_head().head, &foreign_head().rig, "me"});
+  const auto html = viewer::make_page(page);
+  ASSERT_TRUE(html) << html.error().describe();
+  const Json report = report_of("axe", *html, dir);
+  ASSERT_TRUE(report.contains("checked"));
+  EXPECT_EQ(report["violations"], Json::array());
+  EXPECT_THAT(report["checked"], testing::SizeIs(6));
+  for (const Json& checked : report["checked"]) EXPECT_GT(checked, 20);
 }
 
 // What README.md says about pages with motion of their own.

@@ -1,16 +1,20 @@
-// node viewer_report.js looks|sound|speeds|texts|says|screens|picture|live PAGE.html FOLDER: what Chromium makes of a page, as
+// node viewer_report.js looks|other|sound|speeds|texts|says|screens|axe|picture|live PAGE.html FOLDER: what Chromium makes of a page, as
 // JSON.
 //
 // looks: vertices of the frames 0 .. 7 as 32-bit floats in FOLDER/<part>_<frame>.f32; how much the
 //   mouth and the forehead change between the frames 0 and 1; `specks` of these frames and of frame 2, [x, y],
 //   below the nose.
+// other: the same vertices of the second head of a page, chosen by the keyboard; `list` of heads.
 // sound: plays ten seconds; each picture against what is heard then, told by the clicks.
 // speeds: the same without a head, three seconds of the clip at half and at double speed; `pitches` in Hz, of
 //   the first 80 ms of each burst.
 // texts: what is shown where names are hostile; the ways to compare; what works without a head.
 // says: what is said at some times, and how many pixels of the wave are drawn at others.
 // screens: at the sizes of screens, what is to be hit or read: {size: {width (of the page), targets: [{name,
-//   width, height}], outside: [names], overlaps: [pairs of names]}}.
+//   width, height}], outside: [names], overlaps: [pairs of names], chin, said (from the top: where faces end,
+//   where what is said begins), legend}}; the lying ones show the distance.
+// axe: what axe-core finds wrong at the sizes of a desktop and a phone, light, dark and with the help open:
+//   {checked: how many elements passed, violations: [texts]}.
 // picture: the canvas of frame 0, 20 degrees to the left, as R, G, B in FOLDER/picture.rgb; {width, height}.
 // live: `result` of a page with values of its own.
 // All have `messages`: what the console said.
@@ -84,6 +88,11 @@ async function looks(page, file, folder) {
   report.specks = pictures.flatMap((picture) => specks(picture, placed(around)));
   report.mouth = difference(...pictures.slice(0, 2), placed(mouth));
   report.forehead = difference(...pictures.slice(0, 2), placed(forehead));
+  await vertices(page, folder);
+  return report;
+}
+
+async function vertices(page, folder) {
   for (let frame = 0; frame < FRAMES; ++frame) {
     await show(page, frame);
     for (const part of PARTS) {
@@ -91,7 +100,24 @@ async function looks(page, file, folder) {
       fs.writeFileSync(path.join(folder, `${part}_${frame}.f32`), bytes);
     }
   }
-  return report;
+}
+
+async function press(page, key, code, number) {
+  for (const type of ['rawKeyDown', 'keyUp']) {
+    await page.send('Input.dispatchKeyEvent', {type, key, code, windowsVirtualKeyCode: number});
+  }
+}
+
+async function other(page, file, folder) {
+  await page.resize(390, 844);
+  await open(page, file, '?frame=0&mode=first');
+  const list = await page.evaluate(`[...document.getElementById('heads').options].map((o) => o.text)`);
+  await page.evaluate(`document.getElementById('heads').focus()`);
+  await press(page, 'ArrowDown', 'ArrowDown', 40);
+  await page.wait(`window.animeme.state().whose === document.getElementById('heads').options[1].text`);
+  await vertices(page, folder);
+  await page.screenshot(path.join(folder, 'other.png'));
+  return {list, state: await page.evaluate('window.animeme.state()')};
 }
 
 const TAP = `registerProcessor('tap', class extends AudioWorkletProcessor {
@@ -236,7 +262,7 @@ const SCREENS = [
 function measure() {
   const shown = (element) => element.getClientRects().length > 0;
   const named = [...document.querySelectorAll(
-      'main button, main select, main #slider, main #search, main label, .clock, .name, #readout, #now')]
+      'main button, main select, main #slider, main #search, main label, .clock, .name, #readout, #now, #legend')]
       .filter((element) => shown(element) && !element.matches('label.speed'));
   const found = named.map((element) => ({
     name: element.id || element.textContent.trim(), box: element.getBoundingClientRect(),
@@ -250,6 +276,7 @@ function measure() {
   const overlaps = placed.flatMap((a, i) => placed.slice(i + 1)
       .filter((b) => meet(a.box, b.box)).map((b) => [a.name, b.name]));
   return {
+    legend: getComputedStyle(document.getElementById('legend')).display,
     width: document.documentElement.scrollWidth, overlaps,
     outside: found.filter(({box}) => box.left < -0.5 || box.right > innerWidth + 0.5).map(names),
     targets: found.filter(({target}) => target).map(
@@ -257,16 +284,60 @@ function measure() {
   };
 }
 
+// Runs in the page, which shows one head then, as large as it can be.
+function lowest() {
+  document.querySelector('[name=mode][value=first]').click();
+  window.animeme.draw();
+  const {top} = document.getElementById('stage').getBoundingClientRect();
+  return {
+    chin: window.animeme.points().find(({id}) => id === '2.1').y + top,
+    said: document.getElementById('now').getBoundingClientRect().top,
+  };
+}
+
 async function screens(page, file, folder) {
   const report = {};
   for (const {width, height, touch = false} of SCREENS) {
+    const mode = width > height ? '&mode=heat' : '';
     await page.send('Emulation.setTouchEmulationEnabled', {enabled: touch, maxTouchPoints: 5});
     await page.send('Emulation.setDeviceMetricsOverride',
         {width, height, deviceScaleFactor: 1, mobile: touch});
-    await open(page, file, '?t=0.1&loop=0.2-0.4&faps=3,48');
+    await open(page, file, `?t=0.1&loop=0.2-0.4&faps=3,48${mode}`);
     await page.evaluate('window.animeme.draw()');
     await page.screenshot(path.join(folder, `${width}x${height}.png`));
-    report[`${width}x${height}`] = {touch, ...await page.evaluate(measure)};
+    report[`${width}x${height}`] = {touch, ...await page.evaluate(measure), ...await page.evaluate(lowest)};
+  }
+  return report;
+}
+
+// Runs in the page.
+async function judged() {
+  const {passes, violations} = await window.axe.run({resultTypes: ['violations', 'passes']});
+  return {
+    checked: passes.reduce((sum, {nodes}) => sum + nodes.length, 0),
+    violations: violations.flatMap(({id, nodes}) => nodes.map(
+        ({target, failureSummary}) => `${id}: ${target} ${failureSummary}`)),
+  };
+}
+
+async function axe(page, file) {
+  const source = fs.readFileSync(require.resolve('../../readers/js/node_modules/axe-core/axe.min.js'), 'utf8');
+  const report = {checked: [], violations: []};
+  const judge = async (where) => {
+    const {checked, violations} = await page.evaluate(judged);
+    report.checked.push(checked);
+    report.violations.push(...violations.map((text) => `${where}: ${text}`));
+  };
+  for (const [width, height] of [[1280, 800], [390, 844]]) {
+    await page.resize(width, height);
+    await open(page, file, '?t=0.1&loop=0.2-0.4&faps=3,48&mode=heat');
+    await page.evaluate(source + '; true');
+    for (const theme of ['light', 'dark']) {
+      await page.evaluate(`document.documentElement.dataset.theme = '${theme}'`);
+      await judge(`${width}x${height} ${theme}`);
+    }
+    await page.evaluate(`document.getElementById('help').click()`);
+    await judge(`${width}x${height} help`);
   }
   return report;
 }
@@ -302,7 +373,7 @@ async function main([kind, file, folder]) {
   const browser = await launch({flags: FLAGS});
   try {
     const page = await browser.open();
-    const report = await {looks, sound, speeds, texts, says, screens, picture, live}[kind](page, path.resolve(file), folder);
+    const report = await {looks, other, sound, speeds, texts, says, screens, axe, picture, live}[kind](page, path.resolve(file), folder);
     report.messages = page.messages;
     process.stdout.write(JSON.stringify(report) + '\n');
   } finally {
