@@ -24,6 +24,7 @@ const fs = require('fs');
 const path = require('path');
 const {pathToFileURL} = require('url');
 const {launch, sleep} = require('../../readers/js/browser');
+const {axe} = require('./axe_report');
 const {difference, readPng, specks} = require('./png');
 
 const FLAGS = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'];
@@ -310,38 +311,6 @@ async function screens(page, file, folder) {
   return report;
 }
 
-// Runs in the page.
-async function judged() {
-  const {passes, violations} = await window.axe.run({resultTypes: ['violations', 'passes']});
-  return {
-    checked: passes.reduce((sum, {nodes}) => sum + nodes.length, 0),
-    violations: violations.flatMap(({id, nodes}) => nodes.map(
-        ({target, failureSummary}) => `${id}: ${target} ${failureSummary}`)),
-  };
-}
-
-async function axe(page, file) {
-  const source = fs.readFileSync(require.resolve('../../readers/js/node_modules/axe-core/axe.min.js'), 'utf8');
-  const report = {checked: [], violations: []};
-  const judge = async (where) => {
-    const {checked, violations} = await page.evaluate(judged);
-    report.checked.push(checked);
-    report.violations.push(...violations.map((text) => `${where}: ${text}`));
-  };
-  for (const [width, height] of [[1280, 800], [390, 844]]) {
-    await page.resize(width, height);
-    await open(page, file, '?t=0.1&loop=0.2-0.4&faps=3,48&mode=heat');
-    await page.evaluate(source + '; true');
-    for (const theme of ['light', 'dark']) {
-      await page.evaluate(`document.documentElement.dataset.theme = '${theme}'`);
-      await judge(`${width}x${height} ${theme}`);
-    }
-    await page.evaluate(`document.getElementById('help').click()`);
-    await judge(`${width}x${height} help`);
-  }
-  return report;
-}
-
 async function picture(page, file, folder) {
   await page.resize(500, 700);
   await open(page, file, '?frame=0&mode=first&left=20&zoom=1');
@@ -373,7 +342,7 @@ async function main([kind, file, folder]) {
   const browser = await launch({flags: FLAGS});
   try {
     const page = await browser.open();
-    const report = await {looks, other, sound, speeds, texts, says, screens, axe, picture, live}[kind](page, path.resolve(file), folder);
+    const report = await {looks, other, sound, speeds, texts, says, screens, axe, picture, live}[kind](page, path.resolve(file), folder, open);
     report.messages = page.messages;
     process.stdout.write(JSON.stringify(report) + '\n');
   } finally {
