@@ -34,6 +34,29 @@ TEST(ViewCommand, WritesOnePageOfEachKindOfInput) {
   EXPECT_THAT(faceless.err, HasSubstr("silent"));
 }
 
+TEST(ViewCommand, OffersSeveralHeads) {
+  const TempDir dir;
+  const std::string curves = kData + "grid_s1_sample/fap/prac8p.csv";
+  const auto view = [&](std::vector<std::string> heads) {
+    heads.insert(heads.begin(), {"view", curves, "-o", "-"});
+    return animeme(heads);
+  };
+  const std::string list = "\"heads\":[\"man\",\"child\"]";
+  const auto one = view({"--head", "man"});
+  ASSERT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_THAT(one.out, Not(HasSubstr("model_1")));
+  EXPECT_THAT(one.out, Not(HasSubstr("\"heads\":")));
+  const auto listed = view({"--head", "man,child"});
+  ASSERT_EQ(listed.exit_code, 0) << listed.err;
+  EXPECT_THAT(listed.out, HasSubstr(list));
+  EXPECT_THAT(listed.out, HasSubstr("id=\"model_1\""));
+  EXPECT_GT(listed.out.size(), one.out.size() + 500'000);
+  EXPECT_EQ(view({"--head", "man", "--head", "child"}).out, listed.out);
+  const auto wrong = view({"--head", "man,nobody"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("nobody"));
+}
+
 // Noise, 16 bits, one channel, 16 kHz.
 std::string noise(int seconds) {
   const auto number = [](std::uint32_t value, int bytes) {

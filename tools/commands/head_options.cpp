@@ -1,6 +1,7 @@
 #include "tools/commands/head_options.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 
 namespace animeme::tools {
 
@@ -15,10 +16,44 @@ const char* const kGainHelp =
     "How much wider lips open than the clip says, 0.25..4; auto: so that a spoken AA opens 70 % of "
     "what the head's jaw can";
 
-void add_head_options(CLI::App& app, studio::HeadChoice& choice) {
-  app.add_option("--head", choice.head, kHeadHelp)->capture_default_str();
+namespace {
+
+void add_shared_options(CLI::App& app, studio::HeadChoice& choice) {
   app.add_option("--points", choice.points, kPointsHelp);
   app.add_option("--gain", choice.gain, kGainHelp)->capture_default_str();
+}
+
+void add_heads(const std::string& value, std::vector<std::string>& heads) {
+  std::error_code none;
+  if (std::filesystem::exists(value, none)) {
+    heads.push_back(value);
+    return;
+  }
+  std::size_t from = 0;
+  for (std::size_t comma; (comma = value.find(',', from)) != std::string::npos; from = comma + 1) {
+    heads.push_back(value.substr(from, comma - from));
+  }
+  heads.push_back(value.substr(from));
+}
+
+}  // namespace
+
+void add_head_options(CLI::App& app, studio::HeadChoice& choice) {
+  app.add_option("--head", choice.head, kHeadHelp)->capture_default_str();
+  add_shared_options(app, choice);
+}
+
+void add_heads_options(CLI::App& app, std::vector<std::string>& heads, studio::HeadChoice& choice) {
+  const auto take = [&heads](const std::vector<std::string>& values) {
+    for (const std::string& value : values) add_heads(value, heads);
+  };
+  app.add_option_function<std::vector<std::string>>(
+         "--head", take,
+         std::string(kHeadHelp) +
+             ". Several (woman,man,me.glb, or the option again): the page lets people choose; one "
+             "of ours is 0.6 to 0.8 MB of the page. Default: woman")
+      ->allow_extra_args(false);
+  add_shared_options(app, choice);
 }
 
 }  // namespace animeme::tools

@@ -2,6 +2,9 @@
 /// The options of commands that show a head.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "tools/studio/head_file.h"
 
 namespace CLI {
@@ -17,5 +20,9 @@ extern const char* const kGainHelp;    ///< likewise
 
 /// Adds --head, --points and --gain.
 void add_head_options(CLI::App& app, studio::HeadChoice& choice);
+
+/// The same for several heads: --head takes a list, or is given several times; `heads` gets one
+/// name or file each. A file whose name has commas is one head.
+void add_heads_options(CLI::App& app, std::vector<std::string>& heads, studio::HeadChoice& choice);
 
 }  // namespace animeme::tools

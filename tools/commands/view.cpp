@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 
 #include "fap/head/rig.h"
 #include "tools/commands/common.h"
@@ -32,6 +33,7 @@ struct ViewOptions {
   std::string script;
   speech::ScriptInput reading;
   LengthLimit length;
+  std::vector<std::string> heads;
   studio::HeadChoice head;
 };
 
@@ -97,15 +99,45 @@ void warn_of_size(const viewer::Page& page, std::size_t size, double seconds) {
   warn(text);
 }
 
-Result<int> run(const ViewOptions& options) {
-  if (const std::string problem = studio::problem_of(options.head); !problem.empty()) {
-    return usage_error(problem);
-  }
-  Result<head::Head> head = studio::load_head(options.head, talk());
+// A head with its rig, at a place that stays.
+struct ShownHead {
+  std::string name;
+  head::Head head;
+  head::Rig rig;
+};
+
+// The heads that were asked for.
+std::vector<studio::HeadChoice> choices_of(const ViewOptions& options) {
+  std::vector<studio::HeadChoice> choices(std::max<std::size_t>(options.heads.size(), 1),
+                                          options.head);
+  for (std::size_t i = 0; i < options.heads.size(); ++i) choices[i].head = options.heads[i];
+  return choices;
+}
+
+Result<std::unique_ptr<ShownHead>> load_shown(const studio::HeadChoice& choice) {
+  Result<head::Head> head = studio::load_head(choice, talk());
   if (!head) return head.error();
   if (const std::size_t count = studio::shrink_pictures(*head); count > 0) {
-    say(options.head.head + ": " + std::to_string(count) +
+    say(choice.head + ": " + std::to_string(count) +
         " large textures are smaller in the page (1024 texels a side at most, WebP)");
+  }
+  head::Rig rig = head::make_rig(*head);
+  return std::unique_ptr<ShownHead>(new ShownHead{
+      std::filesystem::path(choice.head).stem().string(), std::move(*head), std::move(rig)});
+}
+
+Result<int> run(const ViewOptions& options) {
+  const std::vector<studio::HeadChoice> choices = choices_of(options);
+  for (const studio::HeadChoice& choice : choices) {
+    if (const std::string problem = studio::problem_of(choice); !problem.empty()) {
+      return usage_error(problem);
+    }
+  }
+  std::vector<std::unique_ptr<ShownHead>> heads;
+  for (const studio::HeadChoice& choice : choices) {
+    Result<std::unique_ptr<ShownHead>> head = load_shown(choice);
+    if (!head) return head.error();
+    heads.push_back(std::move(*head));
   }
   viewer::Page page;
   std::vector<std::string> containers;
@@ -125,9 +157,12 @@ Result<int> run(const ViewOptions& options) {
   Result<dam::Script> script = script_for(options.script, containers, options.reading);
   if (!script) return script.error();
   page.script = std::move(*script);
-  const head::Rig rig = head::make_rig(*head);
-  page.head = &*head;
-  page.rig = &rig;
+  page.head = &heads.front()->head;
+  page.rig = &heads.front()->rig;
+  page.head_name = heads.front()->name;
+  for (std::size_t i = 1; i < heads.size(); ++i) {
+    page.others.push_back({&heads[i]->head, &heads[i]->rig, heads[i]->name});
+  }
   const Result<std::string> html = viewer::make_page(page);
   if (!html) return html.error();
   if (auto written = write_file(options.output, *html); !written) return written.error();
@@ -156,7 +191,7 @@ void add_options(CLI::App& app, ViewOptions& options) {
   add_script_options(app, options.reading.reading, options.reading.language);
   add_sound_options(app, options.sound, false);
   add_length_option(app, options.length);
-  add_head_options(app, options.head);
+  add_heads_options(app, options.heads, options.head);
 }
 
 }  // namespace
@@ -166,6 +201,7 @@ const Command kView{
     "  animeme view talk.mp4 -o talk.html\n"
     "  animeme view talk.fap --audio voice.wav --script voice.TextGrid --head man "
     "-o talk.html\n"
+    "  animeme view talk.mp4 --head woman,man,me.glb -o heads.html\n"
     "  animeme view original.fap coded.fba --audio voice.wav -o loss.html\n"
     "  animeme view lecture.mp4 --audio-codec opus --audio-bitrate 20000 -o lecture.html\n"
     "The page needs no network; ? shows its keys.",

@@ -82,6 +82,11 @@ Json facts_of(const Page& page) {
              {"groups", json_list(fap::kGroups, &fap::GroupInfo::name)},
              {"phones", json_list(page.script.phones, phone_of)}};
   if (page.sound) facts["sound"] = page.sound->type;
+  if (!page.others.empty()) {
+    Json names = json_list(page.others, &OtherHead::name);
+    names.insert(names.begin(), page.head_name);
+    facts["heads"] = std::move(names);
+  }
   return facts;
 }
 
@@ -93,8 +98,20 @@ std::string data_elements(const Page& page) {
   std::string out = "<script type=\"application/json\" id=\"facts\">" +
                     script_text(facts_of(page)) + "</script>\n" +
                     data_element("model", packed(pack_head(*page.head, *page.rig)));
+  std::vector<std::string> clips;
   for (std::size_t i = 0; i < page.clips.size(); ++i) {
-    out += data_element("clip" + std::to_string(i), pack_clip(page.clips[i], *page.rig));
+    clips.push_back(pack_clip(page.clips[i], *page.rig));
+    out += data_element("clip" + std::to_string(i), clips.back());
+  }
+  for (std::size_t k = 0; k < page.others.size(); ++k) {
+    const OtherHead& other = page.others[k];
+    const std::string number = "_" + std::to_string(k + 1);
+    out += data_element("model" + number, packed(pack_head(*other.head, *other.rig)));
+    // Shapes have columns of their own; what moves by FAPs takes those of the first head.
+    for (std::size_t i = 0; i < page.clips.size(); ++i) {
+      const std::string clip = pack_clip(page.clips[i], *other.rig);
+      if (clip != clips[i]) out += data_element("clip" + std::to_string(i) + number, clip);
+    }
   }
   if (page.sound) out += data_element("sound", detail::base64(page.sound->file));
   return out;
@@ -131,6 +148,11 @@ std::string filled(std::string_view text, const std::vector<Mark>& marks) {
 Result<std::string> make_page(const Page& page) {
   if (page.head == nullptr || page.rig == nullptr) {
     return make_error(Code::invalid_argument, "a page needs a head and its rig");
+  }
+  for (const OtherHead& other : page.others) {
+    if (other.head == nullptr || other.rig == nullptr) {
+      return make_error(Code::invalid_argument, "another head needs its rig, too");
+    }
   }
   if (page.clips.empty() || page.clips.size() > 2) {
     return make_error(Code::invalid_argument, "a page shows one clip, or two to compare");

@@ -40,18 +40,28 @@ struct Sound {
   std::string type;                ///< "audio/mp4"
 };
 
-/// What goes into a page; the head and the rig are borrowed.
+/// Another head that the page can show.
+struct OtherHead {
+  const head::Head* head = nullptr;  ///< borrowed
+  const head::Rig* rig = nullptr;    ///< borrowed
+  std::string name;                  ///< what people choose; any text
+};
+
+/// What goes into a page; heads and rigs are borrowed.
 struct Page {
   const head::Head* head = nullptr;  ///< borrowed
   const head::Rig* rig = nullptr;    ///< borrowed
   std::vector<Clip> clips;           ///< one, or two to compare
   std::optional<Sound> sound;        ///< nothing: the page is silent
   dam::Script script;                ///< phones below the curves; empty: none
+  /// Further heads: 0.6 to 0.8 MB each. With them the page has a list to choose from.
+  std::vector<OtherHead> others;
+  std::string head_name;  ///< of the first head, in that list
 };
 
 /// The page. The same input gives the same bytes with the same zlib. Texts from outside (names,
-/// labels, words) are shown as text, whatever is in them. Errors: invalid_argument (no head or rig;
-/// not one clip or two; a clip without frames).
+/// labels, words) are shown as text, whatever is in them. Errors: invalid_argument (a head or rig
+/// is missing; not one clip or two; a clip without frames).
 Result<std::string> make_page(const Page& page);
 
 /// A head for the browser, as model.js reads it: about 1.8 MB. The format stands in README.md.

@@ -62,4 +62,29 @@ function difference(a, b, {left, top, right, bottom}) {
   return sum / count;
 }
 
-module.exports = {readPng, difference};
+const CALM = 14;   // of 255: what surrounds a speck differs by less
+const APART = 5;   // and a speck is so much darker or lighter than all of it
+
+/** Pixels in a box that differ from all of the calm ring of 16 pixels two steps around them: [x, y]. */
+function specks(picture, {left, top, right, bottom}) {
+  const {data, width, channels} = picture;
+  const light = (x, y) => {
+    const i = (y * width + x) * channels;
+    return 0.3 * data[i] + 0.59 * data[i + 1] + 0.11 * data[i + 2];
+  };
+  const found = [];
+  for (let y = Math.round(top); y < bottom; ++y) {
+    for (let x = Math.round(left); x < right; ++x) {
+      const ring = [];
+      for (let k = -2; k < 2; ++k) {
+        ring.push(light(x + k, y - 2), light(x + 2, y + k), light(x - k, y + 2), light(x - 2, y - k));
+      }
+      const [low, high] = [Math.min(...ring), Math.max(...ring)];
+      const is = light(x, y);
+      if (high - low < CALM && (is < low - APART || is > high + APART)) found.push([x, y]);
+    }
+  }
+  return found;
+}
+
+module.exports = {readPng, difference, specks};

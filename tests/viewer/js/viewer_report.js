@@ -1,15 +1,20 @@
-// node viewer_report.js looks|sound|speeds|texts|says|screens|picture|live PAGE.html FOLDER: what Chromium makes of a page, as
+// node viewer_report.js looks|other|sound|speeds|texts|says|screens|axe|picture|live PAGE.html FOLDER: what Chromium makes of a page, as
 // JSON.
 //
 // looks: vertices of the frames 0 .. 7 as 32-bit floats in FOLDER/<part>_<frame>.f32; how much the
-//   mouth and the forehead change between the frames 0 and 1.
+//   mouth and the forehead change between the frames 0 and 1; `specks` of these frames and of frame 2, [x, y],
+//   below the nose.
+// other: the same vertices of the second head of a page, chosen by the keyboard; `list` of heads.
 // sound: plays ten seconds; each picture against what is heard then, told by the clicks.
 // speeds: the same without a head, three seconds of the clip at half and at double speed; `pitches` in Hz, of
 //   the first 80 ms of each burst.
 // texts: what is shown where names are hostile; the ways to compare; what works without a head.
 // says: what is said at some times, and how many pixels of the wave are drawn at others.
 // screens: at the sizes of screens, what is to be hit or read: {size: {width (of the page), targets: [{name,
-//   width, height}], outside: [names], overlaps: [pairs of names]}}.
+//   width, height}], outside: [names], overlaps: [pairs of names], chin, said (from the top: where faces end,
+//   where what is said begins), legend}}; the lying ones show the distance.
+// axe: what axe-core finds wrong at the sizes of a desktop and a phone, light, dark and with the help open:
+//   {checked: how many elements passed, violations: [texts]}.
 // picture: the canvas of frame 0, 20 degrees to the left, as R, G, B in FOLDER/picture.rgb; {width, height}.
 // live: `result` of a page with values of its own.
 // All have `messages`: what the console said.
@@ -19,7 +24,8 @@ const fs = require('fs');
 const path = require('path');
 const {pathToFileURL} = require('url');
 const {launch, sleep} = require('../../readers/js/browser');
-const {difference, readPng} = require('./png');
+const {axe} = require('./axe_report');
+const {difference, readPng, specks} = require('./png');
 
 const FLAGS = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'];
 const FRAMES = 8;
@@ -58,15 +64,17 @@ function boxes(points) {
   const edge = 0.3 * (brows - hair);
   return {
     mouth: {left, right, top: at('8.1').y, bottom: at('8.2').y},
+    around: {left: left - (right - left) / 2, right: right + (right - left) / 2, top: at('9.3').y,
+      bottom: at('2.1').y},
     forehead: {left, right, top: hair + edge, bottom: brows - edge},
   };
 }
 
 async function looks(page, file, folder) {
-  await page.resize(500, 700);
+  await page.resize(700, 1200);
   await open(page, file, '?frame=0&mode=first');
   const report = {state: await page.evaluate('window.animeme.state()')};
-  const {mouth, forehead} = boxes(await page.evaluate('window.animeme.points()'));
+  const {mouth, around, forehead} = boxes(await page.evaluate('window.animeme.points()'));
   const stage = await page.evaluate(`(() => {
     const box = document.getElementById('picture').getBoundingClientRect();
     return {x: box.left, y: box.top};
@@ -74,12 +82,18 @@ async function looks(page, file, folder) {
   const placed = (box) => ({left: box.left + stage.x, right: box.right + stage.x,
     top: box.top + stage.y, bottom: box.bottom + stage.y});
   const pictures = [];
-  for (const frame of [0, 1]) {
+  for (const frame of [0, 1, 2]) {
     await show(page, frame);
     pictures.push(readPng(await page.screenshot(path.join(folder, `frame_${frame}.png`))));
   }
-  report.mouth = difference(...pictures, placed(mouth));
-  report.forehead = difference(...pictures, placed(forehead));
+  report.specks = pictures.flatMap((picture) => specks(picture, placed(around)));
+  report.mouth = difference(...pictures.slice(0, 2), placed(mouth));
+  report.forehead = difference(...pictures.slice(0, 2), placed(forehead));
+  await vertices(page, folder);
+  return report;
+}
+
+async function vertices(page, folder) {
   for (let frame = 0; frame < FRAMES; ++frame) {
     await show(page, frame);
     for (const part of PARTS) {
@@ -87,7 +101,24 @@ async function looks(page, file, folder) {
       fs.writeFileSync(path.join(folder, `${part}_${frame}.f32`), bytes);
     }
   }
-  return report;
+}
+
+async function press(page, key, code, number) {
+  for (const type of ['rawKeyDown', 'keyUp']) {
+    await page.send('Input.dispatchKeyEvent', {type, key, code, windowsVirtualKeyCode: number});
+  }
+}
+
+async function other(page, file, folder) {
+  await page.resize(390, 844);
+  await open(page, file, '?frame=0&mode=first');
+  const list = await page.evaluate(`[...document.getElementById('heads').options].map((o) => o.text)`);
+  await page.evaluate(`document.getElementById('heads').focus()`);
+  await press(page, 'ArrowDown', 'ArrowDown', 40);
+  await page.wait(`window.animeme.state().whose === document.getElementById('heads').options[1].text`);
+  await vertices(page, folder);
+  await page.screenshot(path.join(folder, 'other.png'));
+  return {list, state: await page.evaluate('window.animeme.state()')};
 }
 
 const TAP = `registerProcessor('tap', class extends AudioWorkletProcessor {
@@ -232,7 +263,7 @@ const SCREENS = [
 function measure() {
   const shown = (element) => element.getClientRects().length > 0;
   const named = [...document.querySelectorAll(
-      'main button, main select, main #slider, main #search, main label, .clock, .name, #readout, #now')]
+      'main button, main select, main #slider, main #search, main label, .clock, .name, #readout, #now, #legend')]
       .filter((element) => shown(element) && !element.matches('label.speed'));
   const found = named.map((element) => ({
     name: element.id || element.textContent.trim(), box: element.getBoundingClientRect(),
@@ -246,6 +277,7 @@ function measure() {
   const overlaps = placed.flatMap((a, i) => placed.slice(i + 1)
       .filter((b) => meet(a.box, b.box)).map((b) => [a.name, b.name]));
   return {
+    legend: getComputedStyle(document.getElementById('legend')).display,
     width: document.documentElement.scrollWidth, overlaps,
     outside: found.filter(({box}) => box.left < -0.5 || box.right > innerWidth + 0.5).map(names),
     targets: found.filter(({target}) => target).map(
@@ -253,16 +285,28 @@ function measure() {
   };
 }
 
+// Runs in the page, which shows one head then, as large as it can be.
+function lowest() {
+  document.querySelector('[name=mode][value=first]').click();
+  window.animeme.draw();
+  const {top} = document.getElementById('stage').getBoundingClientRect();
+  return {
+    chin: window.animeme.points().find(({id}) => id === '2.1').y + top,
+    said: document.getElementById('now').getBoundingClientRect().top,
+  };
+}
+
 async function screens(page, file, folder) {
   const report = {};
   for (const {width, height, touch = false} of SCREENS) {
+    const mode = width > height ? '&mode=heat' : '';
     await page.send('Emulation.setTouchEmulationEnabled', {enabled: touch, maxTouchPoints: 5});
     await page.send('Emulation.setDeviceMetricsOverride',
         {width, height, deviceScaleFactor: 1, mobile: touch});
-    await open(page, file, '?t=0.1&loop=0.2-0.4&faps=3,48');
+    await open(page, file, `?t=0.1&loop=0.2-0.4&faps=3,48${mode}`);
     await page.evaluate('window.animeme.draw()');
     await page.screenshot(path.join(folder, `${width}x${height}.png`));
-    report[`${width}x${height}`] = {touch, ...await page.evaluate(measure)};
+    report[`${width}x${height}`] = {touch, ...await page.evaluate(measure), ...await page.evaluate(lowest)};
   }
   return report;
 }
@@ -298,7 +342,7 @@ async function main([kind, file, folder]) {
   const browser = await launch({flags: FLAGS});
   try {
     const page = await browser.open();
-    const report = await {looks, sound, speeds, texts, says, screens, picture, live}[kind](page, path.resolve(file), folder);
+    const report = await {looks, other, sound, speeds, texts, says, screens, axe, picture, live}[kind](page, path.resolve(file), folder, open);
     report.messages = page.messages;
     process.stdout.write(JSON.stringify(report) + '\n');
   } finally {

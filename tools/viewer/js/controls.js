@@ -37,6 +37,9 @@ export class Controls {
       radio.addEventListener('change', () => app.set('mode', radio.value));
     }
     byId('modes').hidden = app.clips.length < 2;
+    byId('whose').hidden = app.heads.length < 2 || !app.stage.view;
+    byId('heads').replaceChildren(...app.heads.map((name, i) => new Option(name, i)));
+    byId('heads').addEventListener('change', (event) => app.wear(Number(event.target.value)));
     byId('full').hidden = !document.fullscreenEnabled;
   }
 
@@ -61,6 +64,7 @@ export class Controls {
       speed.add(new Option(`${player.rate}×`, player.rate));
     }
     speed.value = String(player.rate);
+    if (app.heads.length) byId('heads').value = String(app.whose);
     for (const name of ['wire', 'points', 'between']) byId(name).checked = options[name];
     for (const radio of document.getElementsByName('mode')) {
       radio.checked = radio.value === options.mode;

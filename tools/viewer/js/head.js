@@ -21,7 +21,7 @@ export class HeadView {
   constructor(canvas, model, count = 1) {
     this.canvas = canvas;
     this.model = model;
-    this.rigs = Array.from({length: count}, () => new Rig(model));
+    this.count = count;
     this.camera = new Camera(model.camera);
     this.camera.onChange = () => this.onNeed();
     /** 'first', 'second', 'side' (by side), 'ghost' (one over the other), 'heat' (distance). */
@@ -39,12 +39,26 @@ export class HeadView {
   }
 
   setUp() {
-    this.renderer = new Renderer(this.canvas, this.model, () => this.onNeed());
-    /** Its pictures are decoded; before, it has plain colours. */
-    this.ready = this.renderer.coats.ready;
-    this.meshes = this.rigs.map((rig) => this.renderer.load(rig));
+    this.kept = new Map();  // what was made of each model
+    this.wear(this.model);
+  }
+
+  /** Takes another head, which stands as it was left: pose() it. */
+  wear(model) {
+    this.model = model;
+    this.camera.home = model.camera;
+    if (!this.kept.has(model)) this.kept.set(model, this.made(model));
+    Object.assign(this, this.kept.get(model));
     this.stale = this.rigs.map(() => true);
     this.hot = false;
+  }
+
+  made(model) {
+    const renderer = new Renderer(this.canvas, model, () => this.onNeed());
+    const rigs = this.rigs && model === this.model && this.rigs[0].model === model ? this.rigs :
+        Array.from({length: this.count}, () => new Rig(model));
+    // ready: its pictures are decoded; before, it has plain colours.
+    return {renderer, rigs, meshes: rigs.map((rig) => renderer.load(rig)), ready: renderer.coats.ready};
   }
 
   /** Moves head `which` without drawing it. */

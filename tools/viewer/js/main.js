@@ -20,7 +20,7 @@ const flag = (name) => asked.has(name) && asked.get(name) !== '0';
 
 /** What the page does; controls and keys call it. */
 class App {
-  /** `model`: the bytes of a head, null for none; `clips`: the bytes of one or two. */
+  /** `model`: a head, null for none; `clips`: the bytes of one or two. */
   constructor(facts, model, clips) {
     this.clips = clips.filter(Boolean).map((bytes) => new Clip(bytes));
     this.hasSound = Boolean(facts.sound);
@@ -33,7 +33,10 @@ class App {
     this.stage = new Stage({
       element: byId('stage'), canvas: byId('picture'), overlay: byId('overlay'), tip: byId('tip'),
       message: byId('message'), readout: byId('readout'), names: [byId('name0'), byId('name1')],
-    }, model && readModel(model), this.clips, facts.faps);
+    }, model, this.clips, facts.faps);
+    this.heads = facts.heads || [];
+    this.wardrobe = [{model, clips: this.clips}];
+    this.whose = 0;
     this.curves = new Curves({
       area: byId('area'), canvas: byId('curves'), labels: byId('labels'), head: byId('head'),
       now: byId('now'), buttons: byId('zoom'),
@@ -79,6 +82,23 @@ class App {
     if (name === 'points' && this.stage.view) this.stage.points.set(value);
     this.controls.update();
     this.need();
+  }
+
+  /** Shows head `which`, a number; what is in the page of it is unpacked when it is wanted. */
+  async wear(which) {
+    if (!this.stage.view) return;
+    this.wanted = which;
+    if (!this.wardrobe[which]) {
+      const own = await Promise.all(this.clips.map((_, i) => data(`clip${i}_${which}`)));
+      this.wardrobe[which] = {model: readModel(await data(`model_${which}`)),
+        clips: own.map((bytes, i) => (bytes ? new Clip(bytes) : this.clips[i]))};
+    }
+    if (this.wanted !== which) return;  // somebody was faster
+    const {model, clips} = this.wardrobe[which];
+    this.whose = which;
+    this.stage.wear(model, clips);
+    await this.stage.view.ready;
+    this.changed();
   }
 
   nextMode() {
@@ -178,10 +198,10 @@ function obey(app) {
 
 async function start() {
   const facts = JSON.parse(byId('facts').textContent);
-  const model = flag('nohead') ? null : await data('model');
+  const model = flag('nohead') ? null : readModel(await data('model'));
   const app = new App(facts, model, [await data('clip0'), await data('clip1')]);
   byId('title').textContent = app.clips.map((clip) => clip.name).join(' / ');
-  byId('now').hidden = !facts.phones.length;
+  byId('stage').classList.toggle('says', facts.phones.length > 0);
   const table = keyTable(app);
   fillHelp(byId('keylist'), table);
   listenToKeys(table, byId('keys'));
@@ -198,7 +218,7 @@ async function start() {
       ...app.drawn, playing: player.playing, duration: player.duration, rate: player.rate,
       position: player.position(), frames: app.clips[0].frames, clips: app.clips.length,
       sound: Boolean(player.buffer), loop: player.loop(), faps: app.curves.faps,
-      head: Boolean(stage.view), ...app.options,
+      head: Boolean(stage.view), whose: app.heads[app.whose], ...app.options,
     }),
     /** Vertices of a part ('skin' ...) of head 0 or 1 as they are shown, x y z one after the other
         in cm; null without a head. */
@@ -208,6 +228,8 @@ async function start() {
       return rig.placed(rig.index[part]);
     },
     points: () => (stage.view ? stage.view.points() : []),
+    /** Another head, by its number in the list. */
+    wear: (which) => app.wear(which),
     /** Draws now. */
     draw: () => app.draw(),
     context: () => player.context,
@@ -215,6 +237,7 @@ async function start() {
   };
   Object.assign(window.animeme, api);
   obey(app);
+  if (app.heads.includes(asked.get('head'))) await app.wear(app.heads.indexOf(asked.get('head')));
   if (facts.sound) {
     await player.loadSound(coded('sound')).catch(() => {
       byId('silent').hidden = false;

@@ -45,6 +45,13 @@ export class Stage {
     new ResizeObserver(call).observe(this.canvas);
   }
 
+  /** Another head, and the clips with its columns. */
+  wear(model, clips) {
+    this.clips = clips;
+    this.last = [];
+    this.view.wear(model);
+  }
+
   setMode(mode) {
     const chosen = this.clips.length > 1 && MODES.includes(mode) ? mode : 'first';
     if (this.view) this.view.mode = chosen;
