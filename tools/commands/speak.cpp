@@ -171,7 +171,7 @@ std::vector<HeardPhone> heard_phones(const speech::Spoken& spoken) {
   return all;
 }
 
-Json json_of(const voice::SpokenLanguage& part) {
+Json language_json(const voice::SpokenLanguage& part) {
   return {{"start", part.start}, {"end", part.end},   {"language", part.language},
           {"voice", part.voice}, {"text", part.text}, {"by_itself", part.by_itself}};
 }
@@ -199,7 +199,7 @@ void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam
                {"closures_forced", synthesis.closures},
                {"lip_tooth_forced", synthesis.lip_tooth_contacts},
                {"recognised", heard},
-               {"languages", json_list(spoken.languages, json_of)},
+               {"languages", json_list(spoken.languages, language_json)},
                {"marks", json_list(spoken.marks,
                                    [](const voice::SpeechMark& mark) -> Json {
                                      return {{"time", mark.time}, {"name", mark.name}};

@@ -4,6 +4,7 @@
 
 #include "dam/model/builtin.h"
 #include "dam/speaking/readings.h"
+#include "tools/files/file_cache.h"
 #include "tools/files/files.h"
 #include "tools/scripts/script_text.h"
 #include "tools/speech/voice_file.h"
@@ -154,10 +155,14 @@ Result<Spoken> get_spoken(const SpokenOptions& options, const tools::Talk& talk)
 }
 
 Result<dam::Model> read_model(const std::string& path) {
-  if (path.empty() || path == "builtin") return dam::builtin_model();
-  Result<dam::Model> model = dam::load_model(path);
-  if (!model) return model.error().in_file(path);
-  return model;
+  // Batches ask again and again.
+  static tools::FileCache<dam::Model> cache;
+  return cache.get(path == "builtin" ? "" : path, {}, [&]() -> Result<dam::Model> {
+    if (path.empty() || path == "builtin") return dam::builtin_model();
+    Result<dam::Model> model = dam::load_model(path);
+    if (!model) return model.error().in_file(path);
+    return model;
+  });
 }
 
 }  // namespace animeme::speech
