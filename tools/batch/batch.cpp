@@ -1,13 +1,10 @@
 #include "tools/batch/batch.h"
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <optional>
 #include <thread>
 
-#include "fap/detail/text_scanner.h"
-#include "tools/batch/plan.h"
 #include "tools/batch/workers.h"
 #include "tools/files/file_lock.h"
 
@@ -16,50 +13,6 @@ namespace animeme::batch {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr std::size_t kMostProblems = 20;
-
-// A name and where it was met first.
-struct Met {
-  std::uint64_t hash;
-  std::int64_t line;
-};
-
-// Lines whose names were met before, at 16 bytes a name.
-void find_twice(std::vector<Met>& met, const std::string& file, const char* what,
-                std::vector<std::string>& problems) {
-  std::sort(met.begin(), met.end(), [](const Met& a, const Met& b) {
-    return a.hash != b.hash ? a.hash < b.hash : a.line < b.line;
-  });
-  std::vector<Met> later;
-  for (std::size_t i = 1; i < met.size() && later.size() < kMostProblems; ++i) {
-    if (met[i].hash != met[i - 1].hash) continue;
-    later.push_back({std::uint64_t(met[i - 1].line), met[i].line});
-  }
-  std::sort(later.begin(), later.end(), [](const Met& a, const Met& b) { return a.line < b.line; });
-  for (const Met& one : later) {
-    if (problems.size() >= kMostProblems) return;
-    problems.push_back(error_at_line(Code::syntax,
-                                     std::string(what) + " is that of line " +
-                                         std::to_string(one.hash) +
-                                         ", too (letters of either case count as one)",
-                                     one.line)
-                           .in_file(file)
-                           .describe());
-  }
-}
-
-bool is_ours(const std::string& name) {
-  return name == "report.html" || name == "index.tsv" ||
-         (name.starts_with("index.") && name.find("-of-") != std::string::npos) ||
-         (name.starts_with("report.") && name.find("-of-") != std::string::npos);
-}
-
-Error all_of(const std::vector<std::string>& problems) {
-  std::string text = "the manifest is broken, nothing was done:";
-  for (const std::string& one : problems) text += "\n  " + one;
-  return make_error(Code::syntax, text);
-}
 
 std::string report_name(int shard, int shards) {
   return shards <= 1
@@ -146,7 +99,10 @@ class Run {
       outcome.entry.version = settings_.shared.version;
     }
     ++standing.done;
-    standing.cpu_seconds += outcome.cpu_seconds;
+    for (std::size_t i = 0; i < tools::kSteps; ++i) {
+      standing.costs[i].cpu_seconds += outcome.costs[i].cpu_seconds;
+      standing.costs[i].bytes += outcome.costs[i].bytes;
+    }
     if (outcome.same) {
       ++standing.skipped;
       return {};
@@ -171,42 +127,6 @@ class Run {
 
 }  // namespace
 
-Result<std::uint64_t> check_manifest(Manifest& manifest, int shard, int shards,
-                                     std::vector<std::string>& problems) {
-  std::vector<Met> ids, outputs;
-  std::uint64_t rows = 0;
-  while (problems.size() < kMostProblems) {
-    const Result<std::optional<Row>> row = manifest.next();
-    if (!row) {
-      if (row.error().code != Code::syntax) return row.error();
-      problems.push_back(row.error().describe());
-      continue;
-    }
-    if (!*row) break;
-    const std::string id = fap::detail::lower_case(std::string((*row)->at("id")));
-    ids.push_back({stable_hash(id), (*row)->line});
-    if (const Result<Plan> plan = plan_row(**row, "."); plan) {
-      for (const std::string& name : plan->outputs) {
-        const std::string lower = fap::detail::lower_case(name);
-        outputs.push_back({stable_hash(lower), (*row)->line});
-        if (is_ours(lower)) {
-          problems.push_back(error_at_line(Code::syntax,
-                                           "the output " + name +
-                                               " is the name of a file of the "
-                                               "batch itself; give the row another id",
-                                           (*row)->line)
-                                 .in_file(manifest.name())
-                                 .describe());
-        }
-      }
-    }
-    if (shard_of((*row)->at("id"), shards) == shard) ++rows;
-  }
-  find_twice(ids, manifest.name(), "the id", problems);
-  if (problems.empty()) find_twice(outputs, manifest.name(), "a file that the row makes", problems);
-  return rows;
-}
-
 Result<Ending> run_batch(const Settings& given, const Watch& watch) {
   Settings settings = given;
   const std::string out = settings.shared.out;
@@ -215,7 +135,7 @@ Result<Ending> run_batch(const Settings& given, const Watch& watch) {
   std::vector<std::string> problems;
   Result<std::uint64_t> rows = check_manifest(*manifest, settings.shard, settings.shards, problems);
   if (!rows) return rows.error();
-  if (!problems.empty()) return all_of(problems);
+  if (!problems.empty()) return problem_error(problems);
 
   std::error_code failed;
   fs::create_directories(out, failed);
@@ -254,87 +174,6 @@ Result<Ending> run_batch(const Settings& given, const Watch& watch) {
   if (!totals) return totals.error();
   ending.totals = *totals;
   return ending;
-}
-
-namespace {
-
-// The number of shards of the indices in a folder; 0: there are none.
-Result<int> shards_in(const std::string& folder) {
-  int shards = 0;
-  std::error_code failed;
-  for (const fs::directory_entry& file : fs::directory_iterator(folder, failed)) {
-    const std::string name = file.path().filename().string();
-    int shard = 0, all = 0;
-    if (std::sscanf(name.c_str(), "index.%d-of-%d.tsv", &shard, &all) != 2) continue;
-    if (name != index_name(shard, all)) continue;
-    if (shards != 0 && shards != all) {
-      return make_error(Code::invalid_argument, "there are shards of " + std::to_string(shards) +
-                                                    " and of " + std::to_string(all) +
-                                                    "; remove those that are not wanted")
-          .in_file(folder);
-    }
-    shards = all;
-  }
-  if (shards < 1) return make_error(Code::not_found, "there are no shards to join").in_file(folder);
-  return shards;
-}
-
-Result<void> check_outputs(const Index& index, Manifest& manifest, const Settings& settings,
-                           int shard, int shards) {
-  if (auto begun = manifest.rewind(); !begun) return begun;
-  for (;;) {
-    const Result<std::optional<Row>> row = manifest.next();
-    if (!row) return row.error();
-    if (!*row) return {};
-    const std::string id((*row)->at("id"));
-    if (shard_of(id, shards) != shard) continue;
-    const std::string again = "; run shard " + std::to_string(shard) + "/" +
-                              std::to_string(shards) + " again with --resume";
-    const Index::Known* known = index.find(id);
-    if (known == nullptr) {
-      return make_error(Code::not_found, "clip \"" + id + "\" is not done" + again)
-          .in_file(index_name(shard, shards));
-    }
-    const Result<std::string> line = index.line(*known);
-    if (!line) return line.error();
-    const auto entry = read_index_line(std::string_view(*line).substr(0, line->size() - 1));
-    if (!entry || !entry->good || !settings.shared.store.empty()) continue;
-    std::uint64_t bytes = 0;
-    for (const std::string& name : entry->outputs) {
-      std::error_code missing;
-      const std::uint64_t size = fs::file_size(settings.shared.out + "/" + name, missing);
-      if (missing) return make_error(Code::not_found, "is missing" + again).in_file(name);
-      bytes += size;
-    }
-    if (bytes != entry->bytes) {
-      return make_error(Code::io, "its outputs have another size than they had" + again)
-          .in_file(id);
-    }
-  }
-}
-
-}  // namespace
-
-Result<Totals> join_batch(const Settings& settings) {
-  const std::string& out = settings.shared.out;
-  Result<Manifest> manifest = Manifest::open(settings.manifest, settings.form, settings.defaults);
-  if (!manifest) return manifest.error();
-  std::vector<std::string> problems;
-  if (auto rows = check_manifest(*manifest, 1, 1, problems); !rows) return rows.error();
-  if (!problems.empty()) return all_of(problems);
-  const Result<int> shards = shards_in(out);
-  if (!shards) return shards.error();
-  std::vector<Index> all;
-  for (int shard = 1; shard <= *shards; ++shard) {
-    Result<Index> index = Index::open(out + "/" + index_name(shard, *shards), false);
-    if (!index) return index.error();
-    all.push_back(*std::move(index));
-    auto good = check_outputs(all.back(), *manifest, settings, shard, *shards);
-    if (!good) return good.error();
-  }
-  return put_in_order(
-      *manifest, [&](std::string_view id) { return &all[std::size_t(shard_of(id, *shards) - 1)]; },
-      out + "/index.tsv", out + "/report.html");
 }
 
 }  // namespace animeme::batch

@@ -2,6 +2,7 @@
 /// A batch: the rows of a manifest, done by all cores, resumed, cut into shards and joined.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -28,9 +29,9 @@ struct Settings {
 /// How far a batch is.
 struct Standing {
   std::uint64_t wanted = 0, done = 0, skipped = 0,
-                failed = 0;   ///< clips; done has the others in it
-  double speech_seconds = 0;  ///< of what was done now
-  double cpu_seconds = 0;     ///< of all workers
+                failed = 0;                        ///< clips; done has the others in it
+  double speech_seconds = 0;                       ///< of what was done now
+  std::array<tools::Cost, tools::kSteps> costs{};  ///< of all workers
 };
 
 /// Who is told, and who may stop it.
@@ -52,6 +53,9 @@ struct Ending {
 /// Returns the rows of this shard.
 Result<std::uint64_t> check_manifest(Manifest& manifest, int shard, int shards,
                                      std::vector<std::string>& problems);
+
+/// All of what is wrong as one error, syntax.
+Error problem_error(const std::vector<std::string>& problems);
 
 /// Does a batch. Errors: io; invalid_argument (the folder has a batch and `resume` is not set);
 /// syntax with all that check_manifest() found.

@@ -144,8 +144,11 @@ Result<void> add_line(const Row& row, const std::string& command, const std::str
   }
   const std::string own = command + "_options";
   const bool has_own = std::find(kColumns.begin(), kColumns.end(), own) != kColumns.end();
-  if (auto added = add_options_of(row, has_own ? own.c_str() : "options", plan, line); !added) {
-    return added;
+  // Those without a column of their own are options of what is done first.
+  const bool first = command == "speak" || row.at("input") == face;
+  if (has_own || first) {
+    auto added = add_options_of(row, has_own ? own.c_str() : "options", plan, line);
+    if (!added) return added;
   }
   line.emplace_back("-o");
   line.push_back(output);

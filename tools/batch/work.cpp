@@ -1,7 +1,6 @@
 #include "tools/batch/work.h"
 
 #include <sys/mman.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -56,17 +55,6 @@ class Captured {
  private:
   int descriptor_, old_, memory_;
 };
-
-double cpu_seconds() {
-  double sum = 0;
-  for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
-    rusage used{};
-    ::getrusage(who, &used);
-    sum += double(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
-           1e-6 * double(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
-  }
-  return sum;
-}
 
 // What a file holds, as a hash. Models and heads are the same for many rows.
 Result<std::string> content_of(const std::string& path) {
@@ -273,7 +261,7 @@ Result<bool> do_row(const Task& task, const Shared& shared, const std::string& s
 }  // namespace
 
 Outcome do_task(const Task& task, const Shared& shared, std::size_t worker) {
-  const double before = cpu_seconds();
+  tools::take_costs();  // what went before is nobody's
   const std::string stage = shared.stage + "/" + std::to_string(worker);
   std::error_code ignored;
   fs::remove_all(stage, ignored);
@@ -299,58 +287,7 @@ Outcome do_task(const Task& task, const Shared& shared, std::size_t worker) {
   forget_stage(outcome.entry.error);
   for (std::string& warning : outcome.entry.warnings) forget_stage(warning);
   fs::remove_all(stage, ignored);
-  outcome.cpu_seconds = cpu_seconds() - before;
-  return outcome;
-}
-
-std::string task_message(const Task& task) {
-  Json values = Json::array();
-  for (const auto& [column, value] : task.row.values) values.push_back({column, value});
-  return Json{{"line", task.row.line},
-              {"values", values},
-              {"known", task.known},
-              {"bytes", task.known_bytes}}
-      .dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-Task read_task(std::string_view message) {
-  const Json json = Json::parse(message);
-  Task task;
-  task.row.line = json["line"];
-  for (const Json& one : json["values"]) task.row.values.emplace_back(one[0], one[1]);
-  task.known = json["known"];
-  task.known_bytes = json["bytes"];
-  return task;
-}
-
-std::string outcome_message(const Outcome& outcome) {
-  const Entry& entry = outcome.entry;
-  Json json = {{"id", entry.id},           {"good", entry.good},
-               {"outputs", entry.outputs}, {"bytes", entry.bytes},
-               {"error", entry.error},     {"warnings", entry.warnings},
-               {"hash", entry.hash},       {"version", entry.version},
-               {"same", outcome.same},     {"cpu", outcome.cpu_seconds}};
-  if (entry.seconds) json["seconds"] = *entry.seconds;
-  if (entry.confidence) json["confidence"] = *entry.confidence;
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-Outcome read_outcome(std::string_view message) {
-  const Json json = Json::parse(message);
-  Outcome outcome;
-  Entry& entry = outcome.entry;
-  entry.id = json["id"];
-  entry.good = json["good"];
-  entry.outputs = json["outputs"].get<std::vector<std::string>>();
-  entry.bytes = json["bytes"];
-  entry.error = json["error"];
-  entry.warnings = json["warnings"].get<std::vector<std::string>>();
-  entry.hash = json["hash"];
-  entry.version = json["version"];
-  if (json.contains("seconds")) entry.seconds = json["seconds"].get<double>();
-  if (json.contains("confidence")) entry.confidence = json["confidence"].get<double>();
-  outcome.same = json["same"];
-  outcome.cpu_seconds = json["cpu"];
+  outcome.costs = tools::take_costs();
   return outcome;
 }
 

@@ -2,6 +2,7 @@
 /// One row of a manifest, done.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "tools/batch/manifest.h"
+#include "tools/files/cost.h"
 
 namespace animeme::batch {
 
@@ -51,9 +53,9 @@ struct Task {
 
 /// How a task ended.
 struct Outcome {
-  Entry entry;             ///< for the index
-  bool same = false;       ///< nothing had to be done
-  double cpu_seconds = 0;  ///< of processors
+  Entry entry;                                     ///< for the index
+  bool same = false;                               ///< nothing had to be done
+  std::array<tools::Cost, tools::kSteps> costs{};  ///< of its steps
 };
 
 /// Does a task in the folder stage/WORKER, and moves what it made to its place when all of it is

@@ -11,6 +11,7 @@
 #include "tools/json.h"
 #include "tools/programs/command_template.h"
 #include "tools/text.h"
+#include "tools/voice/voice.h"
 
 namespace animeme::tools {
 
@@ -21,7 +22,7 @@ struct BatchOptions {
   std::vector<std::string> sets;
   std::string form, shard;
   unsigned jobs = 0;
-  bool check = false, join = false, json = false;
+  bool check = false, join = false, json = false, profile = false;
 };
 
 std::string clock_text(double seconds) {
@@ -52,6 +53,36 @@ class Shown {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
+double cpu_seconds(const batch::Standing& standing) {
+  double sum = 0;
+  for (const Cost& one : standing.costs) sum += one.cpu_seconds;
+  return sum;
+}
+
+Json steps_json(const batch::Standing& standing) {
+  Json steps = Json::object();
+  for (std::size_t i = 0; i < kSteps; ++i) {
+    steps[kStepNames[i]] = {{"cpu_seconds", standing.costs[i].cpu_seconds},
+                            {"bytes", standing.costs[i].bytes}};
+  }
+  return steps;
+}
+
+// What was done now, a minute of speech of it.
+void print_profile(const batch::Standing& standing) {
+  const double minutes = standing.speech_seconds / 60;
+  if (minutes <= 0) return say("--profile: nothing was spoken of which the length is known");
+  say(format("%-10s %14s %14s   of %.1f min of speech", "step", "CPU s a min", "bytes a min",
+             minutes));
+  for (std::size_t i = 0; i < kSteps; ++i) {
+    const Cost& cost = standing.costs[i];
+    if (cost.cpu_seconds == 0 && cost.bytes == 0) continue;
+    say(format("%-10s %14.4f %14.0f", kStepNames[i], cost.cpu_seconds / minutes,
+               double(cost.bytes) / minutes));
+  }
+  say(format("%-10s %14.4f", "all", cpu_seconds(standing) / minutes));
+}
+
 void print_json(const batch::Standing& standing, const batch::Totals& totals, double seconds,
                 bool stopped) {
   std::printf("%s\n", pretty(Json{{"clips", totals.rows},
@@ -64,7 +95,8 @@ void print_json(const batch::Standing& standing, const batch::Totals& totals, do
                                   {"skipped", standing.skipped},
                                   {"stopped", stopped},
                                   {"seconds", seconds},
-                                  {"cpu_seconds", standing.cpu_seconds}})
+                                  {"cpu_seconds", cpu_seconds(standing)},
+                                  {"steps", steps_json(standing)}})
                           .c_str());
 }
 
@@ -102,7 +134,11 @@ std::string take(const BatchOptions& given, batch::Settings& settings) {
   }
   settings.jobs = given.jobs != 0 ? given.jobs : std::max(1U, std::thread::hardware_concurrency());
   settings.shared.version = ANIMEME_VERSION;
-  settings.shared.run = run_line;
+  // In workers alone: there the first row begins to keep them.
+  settings.shared.run = [](std::span<const char* const> line) {
+    voice::keep_voices();
+    return run_line(line);
+  };
   return {};
 }
 
@@ -149,7 +185,8 @@ Result<int> run(const BatchOptions& options) {
           ": %llu of %llu clips in %s, %llu of them unchanged, %llu failed; %.1f s of processors",
           static_cast<unsigned long long>(now.done), static_cast<unsigned long long>(now.wanted),
           clock_text(shown.seconds()).c_str(), static_cast<unsigned long long>(now.skipped),
-          static_cast<unsigned long long>(now.failed), now.cpu_seconds));
+          static_cast<unsigned long long>(now.failed), cpu_seconds(now)));
+  if (options.profile) print_profile(now);
   if (ending->stopped) {
     say("stopped; go on with the same command and --resume");
     return kInterrupted;
@@ -192,6 +229,8 @@ void add_options(CLI::App& app, BatchOptions& options) {
       ->option_text("COMMAND");
   app.add_option("--to", settings.shared.to,
                  "What {uri} of --store begins with: s3://bucket/talk/");
+  app.add_flag("--profile", options.profile,
+               "Seconds of processors and bytes a minute of speech, for each step");
   app.add_flag("--json", options.json, "Machine-readable summary on standard output");
 }
 

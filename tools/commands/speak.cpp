@@ -17,6 +17,7 @@
 #include "tools/commands/spoken_options.h"
 #include "tools/exchange/arkit.h"
 #include "tools/exchange/curves.h"
+#include "tools/files/cost.h"
 #include "tools/json.h"
 #include "tools/speech/marks.h"
 #include "tools/text.h"
@@ -95,6 +96,14 @@ std::string language_of(const SpeakOptions& options, const speech::Spoken& spoke
   return script && !options.language_told ? std::string() : options.spoken.language;
 }
 
+Result<std::vector<std::uint8_t>> coded_clip(const fap::Sequence& clip,
+                                             const StreamSettings& settings) {
+  AtStep step(Step::coding);
+  auto stream = fba::encode(clip, encode_options(settings));
+  if (stream) step.made(stream->size());
+  return stream;
+}
+
 Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
                          const speech::Spoken& spoken) {
   const std::string extension = extension_of(options.output);
@@ -110,7 +119,7 @@ Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
     return kOk;
   }
   if (extension == ".fba") {
-    Result<std::vector<std::uint8_t>> stream = fba::encode(clip, encode_options(options.stream));
+    Result<std::vector<std::uint8_t>> stream = coded_clip(clip, options.stream);
     if (!stream) return stream.error();
     if (auto done = write_file(options.output, *stream); !done) return done.error();
     say(options.output + ": " + std::to_string(clip.frames.size()) + " planes, " +
