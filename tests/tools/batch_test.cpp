@@ -102,6 +102,8 @@ TEST(Batch, ARowThatFailsIsARowAndWhatChangedIsDoneAgain) {
   const auto now = json_of(batch_line(dir / "m.jsonl", dir / "out"), 1);
   EXPECT_EQ(now["ok"], 2);
   EXPECT_EQ(now["failed"], 1);
+  EXPECT_GT(now["steps"]["voice"]["bytes"], now["steps"]["coding"]["bytes"]);
+  EXPECT_GT(now["steps"]["voice"]["cpu_seconds"], 0);
   EXPECT_THAT(slurp(dir / "out/index.tsv"), HasSubstr("b\terror\t\t\t0\t\t\t/nowhere.txt: "));
   EXPECT_THAT(animeme(batch_line(dir / "m.jsonl", dir / "out")).err, HasSubstr("--resume"));
   // One input has changed, one output has gone: two are done again, with the one that failed.

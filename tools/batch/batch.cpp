@@ -95,7 +95,8 @@ class Run {
       outcome = read_outcome(answer.message);
     } else {
       outcome.entry.id = doing_[answer.worker];
-      outcome.entry.error = answer.crash;
+      const std::string said = last_said(settings_.shared, answer.worker);
+      outcome.entry.error = answer.crash + (said.empty() ? "" : ": " + said);
       outcome.entry.version = settings_.shared.version;
     }
     ++standing.done;

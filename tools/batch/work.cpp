@@ -1,6 +1,6 @@
 #include "tools/batch/work.h"
 
-#include <sys/mman.h>
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -24,36 +24,38 @@ using tools::Json;
 namespace {
 
 constexpr const char* kWarning = "animeme: warning: ";
+constexpr const char* kSaid = "/.err";
 constexpr const char* kError = "animeme: error: ";
 
-// A descriptor of the program goes to memory as long as one lives.
+// A descriptor of the program goes to a file as long as one lives: of a worker that crashes, it
+// stays.
 class Captured {
  public:
-  explicit Captured(int descriptor)
+  Captured(int descriptor, const std::string& path)
       : descriptor_(descriptor),
         old_(::dup(descriptor)),
-        memory_(::memfd_create("batch", MFD_CLOEXEC)) {
-    if (memory_ >= 0) ::dup2(memory_, descriptor_);
+        file_(::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600)) {
+    if (file_ >= 0) ::dup2(file_, descriptor_);
   }
   Captured(const Captured&) = delete;
   Captured& operator=(const Captured&) = delete;
   ~Captured() {
     if (old_ >= 0) ::dup2(old_, descriptor_);
     if (old_ >= 0) ::close(old_);
-    if (memory_ >= 0) ::close(memory_);
+    if (file_ >= 0) ::close(file_);
   }
   std::string text() const {
     std::fflush(stdout);
     std::cout.flush();
     std::cerr.flush();
-    std::string all(std::size_t(std::max<off_t>(::lseek(memory_, 0, SEEK_END), 0)), '\0');
-    const ssize_t got = ::pread(memory_, all.data(), all.size(), 0);
+    std::string all(std::size_t(std::max<off_t>(::lseek(file_, 0, SEEK_END), 0)), '\0');
+    const ssize_t got = ::pread(file_, all.data(), all.size(), 0);
     all.resize(std::size_t(std::max<ssize_t>(got, 0)));
     return all;
   }
 
  private:
-  int descriptor_, old_, memory_;
+  int descriptor_, old_, file_;
 };
 
 // What a file holds, as a hash. Models and heads are the same for many rows.
@@ -135,7 +137,8 @@ void take_talk(const std::string& text, Entry& entry, std::string& error) {
   }
 }
 
-Result<void> run_line_of(const std::vector<std::string>& line, const Shared& shared, Entry& entry) {
+Result<void> run_line_of(const std::vector<std::string>& line, const Shared& shared,
+                         const std::string& stage, Entry& entry) {
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
     if (line[i] != "-o" && line[i] != "--save-script") continue;
     std::error_code ignored;
@@ -146,7 +149,7 @@ Result<void> run_line_of(const std::vector<std::string>& line, const Shared& sha
   int code = 0;
   std::string out, err, error;
   {
-    const Captured first(STDOUT_FILENO), second(STDERR_FILENO);
+    const Captured first(STDOUT_FILENO, stage + "/.out"), second(STDERR_FILENO, stage + kSaid);
     code = shared.run(arguments);
     out = first.text();
     err = second.text();
@@ -252,13 +255,22 @@ Result<bool> do_row(const Task& task, const Shared& shared, const std::string& s
   plan = plan_row(*local, stage);
   if (!plan) return plan.error();
   for (const std::vector<std::string>& line : plan->lines) {
-    if (auto ran = run_line_of(line, shared, entry); !ran) return ran.error();
+    if (auto ran = run_line_of(line, shared, stage, entry); !ran) return ran.error();
   }
   if (auto done = publish(stage, *plan, shared, entry); !done) return done.error();
   return false;
 }
 
 }  // namespace
+
+std::string last_said(const Shared& shared, std::size_t worker) {
+  const auto said = tools::read_text_file(shared.stage + "/" + std::to_string(worker) + kSaid);
+  if (!said) return {};
+  Entry ignored;
+  std::string error;
+  take_talk(*said, ignored, error);
+  return error;
+}
 
 Outcome do_task(const Task& task, const Shared& shared, std::size_t worker) {
   tools::take_costs();  // what went before is nobody's

@@ -62,6 +62,9 @@ struct Outcome {
 /// there. Standard output and standard error belong to it meanwhile.
 Outcome do_task(const Task& task, const Shared& shared, std::size_t worker);
 
+/// What a worker that has ended without an answer said of its reason; empty: nothing.
+std::string last_said(const Shared& shared, std::size_t worker);
+
 /// @{
 /// Messages between processes.
 std::string task_message(const Task& task);

@@ -132,8 +132,7 @@ std::string Workers::stop(One& one) {
   while (::waitpid(one.pid, &status, 0) < 0 && errno == EINTR) {
   }
   one = {};
-  return WIFSIGNALED(status) ? "crashed by " + tools::signal_text(WTERMSIG(status))
-                             : "there was not enough memory, or it ended early";
+  return WIFSIGNALED(status) ? "crashed by " + tools::signal_text(WTERMSIG(status)) : "ended early";
 }
 
 Result<void> Workers::give(std::size_t worker, std::string_view message) {

@@ -10,6 +10,8 @@
 #include "tools/commands/line.h"
 #include "tools/json.h"
 #include "tools/programs/command_template.h"
+#include "tools/speech/spoken.h"
+#include "tools/studio/head_file.h"
 #include "tools/text.h"
 #include "tools/voice/voice.h"
 
@@ -166,6 +168,12 @@ Result<int> run(const BatchOptions& options) {
                                      static_cast<unsigned long long>(totals->failed)));
     return totals->failed > 0 ? kCheckFailed : kOk;
   }
+  // Read once, for all workers; what is wrong with them the rows tell.
+  for (const auto& [column, value] : settings.defaults) {
+    if (column == "model") static_cast<void>(speech::read_model(value));
+    if (column == "head") static_cast<void>(studio::load_head({.head = value}, {}));
+  }
+  static_cast<void>(speech::read_model({}));
   const Interrupt interrupt;
   Shown shown;
   batch::Watch watch;
