@@ -199,6 +199,17 @@ TEST(Batch, TellsWhatIsWrongWithAManifest) {
   EXPECT_THAT(said(head + "index\tA\t.tsv\n"), HasSubstr("the name of a file of the batch"));
 }
 
+TEST(Batch, AWorkerThatDiesIsAnErrorOfItsRow) {
+  const TempDir dir;
+  spill(dir / "m.tsv",
+        "id\ttext\ttts\toutputs\na\tOne\t\t.fba\nb\tTwo\tsh -c 'kill -9 $PPID'\t.fba\n"
+        "c\tThree\t\t.fba\nd\tFour\t\t.fba\n");
+  const auto now = json_of(batch_line(dir / "m.tsv", dir / "out", {"--jobs", "1"}), 1);
+  EXPECT_EQ(now["ok"], 3);
+  EXPECT_THAT(slurp(dir / "out/index.tsv"), HasSubstr("b\terror\t\t\t0\t\t\tcrashed by signal 9"));
+  EXPECT_FALSE(fs::exists(dir / "out/.batch-1-of-1"));
+}
+
 TEST(Batch, HooksRunWithoutAShell) {
   const TempDir dir;
   fs::create_directories(dir / "shop");

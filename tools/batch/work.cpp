@@ -1,15 +1,13 @@
 #include "tools/batch/work.h"
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
-#include <iostream>
 #include <map>
 
 #include "conformance/sha256.h"
+#include "tools/batch/captured_internal.h"
 #include "tools/batch/plan.h"
 #include "tools/files/files.h"
 #include "tools/json.h"
@@ -26,37 +24,6 @@ namespace {
 constexpr const char* kWarning = "animeme: warning: ";
 constexpr const char* kSaid = "/.err";
 constexpr const char* kError = "animeme: error: ";
-
-// A descriptor of the program goes to a file as long as one lives: of a worker that crashes, it
-// stays.
-class Captured {
- public:
-  Captured(int descriptor, const std::string& path)
-      : descriptor_(descriptor),
-        old_(::dup(descriptor)),
-        file_(::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600)) {
-    if (file_ >= 0) ::dup2(file_, descriptor_);
-  }
-  Captured(const Captured&) = delete;
-  Captured& operator=(const Captured&) = delete;
-  ~Captured() {
-    if (old_ >= 0) ::dup2(old_, descriptor_);
-    if (old_ >= 0) ::close(old_);
-    if (file_ >= 0) ::close(file_);
-  }
-  std::string text() const {
-    std::fflush(stdout);
-    std::cout.flush();
-    std::cerr.flush();
-    std::string all(std::size_t(std::max<off_t>(::lseek(file_, 0, SEEK_END), 0)), '\0');
-    const ssize_t got = ::pread(file_, all.data(), all.size(), 0);
-    all.resize(std::size_t(std::max<ssize_t>(got, 0)));
-    return all;
-  }
-
- private:
-  int descriptor_, old_, file_;
-};
 
 // What a file holds, as a hash. Models and heads are the same for many rows.
 Result<std::string> content_of(const std::string& path) {
@@ -116,6 +83,10 @@ void take_json(const std::string& text, Entry& entry) {
   };
   number("seconds", entry.seconds);
   number("confidence", entry.confidence);
+  // An alignment is as long as its phones.
+  if (!entry.seconds && json.contains("timed_phones") && !json["timed_phones"].empty()) {
+    entry.seconds = json["timed_phones"].back()["end"].get<double>();
+  }
 }
 
 void take_talk(const std::string& text, Entry& entry, std::string& error) {
