@@ -66,8 +66,9 @@ inline constexpr Room kRooms[] = {
     {"tools/crossmap", "tools/exchange tools/studio"},
     {"tools/check", "conformance tools/programs tools/xml.h", false},
     {"tools/capture", "tools/exchange tools/speech", false},
+    {"tools/batch", "conformance tools/programs tools/json.h tools/text.h tools/xml.h", false},
     {"tools/commands",
-     "tools/capture tools/crossmap tools/exchange tools/inspect tools/live tools/sheet "
+     "tools/batch tools/capture tools/crossmap tools/exchange tools/inspect tools/live tools/sheet "
      "tools/studio tools/check",
      false},
     {"tools/trackers/dlib", "", false},  // a program for dlib's users, no part of ours

@@ -40,7 +40,7 @@ struct Command {
 
 /// @{
 /// The commands of the program, one file each.
-extern const Command kAlign, kCheck, kCompare, kCorpus, kCrossmap, kDecode, kDemux, kEncode,
+extern const Command kAlign, kBatch, kCheck, kCompare, kCorpus, kCrossmap, kDecode, kDemux, kEncode,
     kEvaluate, kExport, kFollow, kHead, kImport, kInfo, kMux, kPhones, kPlot, kReceive, kRender,
     kRetarget, kSpeak, kStats, kStream, kTrain, kView;
 /// @}

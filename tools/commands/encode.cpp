@@ -9,6 +9,7 @@
 #include "codec/text/epf.h"
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
+#include "tools/files/cost.h"
 #include "tools/json.h"
 #include "tools/text.h"
 
@@ -144,7 +145,10 @@ Result<Bytes> encode_clip(const EncodeOptions& options, fba::EncodeReport& repor
   settings.skip_still = options.skip_still;
   ProgressLine progress("searching for the smallest stream");
   settings.progress = [&progress](double done) { progress.update(done); };
-  return fba::encode(material->face, settings, material->body.frames, &report);
+  AtStep step(Step::coding);
+  auto bytes = fba::encode(material->face, settings, material->body.frames, &report);
+  if (bytes) step.made(bytes->size());
+  return bytes;
 }
 
 // What was written, counted as a receiver does.

@@ -2,9 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <filesystem>
 
 #include "codec/encode/encode.h"
 #include "tools/commands/interrupt.h"
+#include "tools/files/cost.h"
 #include "tools/media/mux.h"
 #include "tools/text.h"
 
@@ -54,8 +56,10 @@ Result<fba::AccessUnits> access_units(const FaceInput& face, const StreamSetting
   options.max_bits_per_second =
       std::max(options.max_bits_per_second - unit_rate, options.max_bits_per_second * 0.1);
   options.intra_seconds = settings.intra_seconds;
+  AtStep step(Step::coding);
   Result<std::vector<std::uint8_t>> stream = fba::encode(face.clip, options);
   if (!stream) return stream.error();
+  step.made(stream->size());
   return fba::split_access_units(*stream);
 }
 
@@ -111,6 +115,7 @@ std::string summary(const media::MuxInput& input, const media::MuxOptions& optio
 
 Result<int> write_media(const std::string& path, const media::MuxInput& input,
                         media::MuxOptions options) {
+  AtStep step(Step::muxing);
   const Interrupt interrupt;
   ProgressLine progress("writing " + path);
   options.progress = [&progress](double done) { progress.update(done); };
@@ -125,6 +130,9 @@ Result<int> write_media(const std::string& path, const media::MuxInput& input,
     say(path + ": stopped; the file holds the first " + seconds_text(written->seconds));
     return kInterrupted;
   }
+  std::error_code unknown;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, unknown);
+  if (!unknown) step.made(bytes);
   say(path + summary(input, options, written->sound_seconds));
   return kOk;
 }

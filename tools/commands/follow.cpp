@@ -41,10 +41,10 @@ Error in_line(std::int64_t line, const std::string& what) {
 
 // A line that never ends is none.
 Result<bool> next_line(std::istream& in, std::string& line) {
-  constexpr std::streamsize kLongest = 4096;
-  std::array<char, kLongest> buffer{};
-  if (!in.getline(buffer.data(), kLongest)) {
-    if (in.eof() || in.gcount() + 1 < kLongest) return false;
+  constexpr std::streamsize kMostOfLine = 4096;
+  std::array<char, kMostOfLine> buffer{};
+  if (!in.getline(buffer.data(), kMostOfLine)) {
+    if (in.eof() || in.gcount() + 1 < kMostOfLine) return false;
     return make_error(Code::syntax, "a line of more than 4 kB holds no phone");
   }
   line = buffer.data();

@@ -20,7 +20,7 @@ struct OutputRule {
   OutputKind kind = OutputKind::stream;
 };
 
-// The program sets its commands up once and runs one of them.
+// Of the line that is run: options that are gone may have the address of one that comes.
 std::map<const CLI::Option*, OutputRule>& rules() {
   static std::map<const CLI::Option*, OutputRule> all;
   return all;
@@ -108,6 +108,8 @@ CLI::Option* add_output(CLI::Option* option, std::vector<std::string> endings, O
   rules()[option] = {std::move(endings), kind};
   return option;
 }
+
+void forget_outputs() { rules().clear(); }
 
 std::string problem_with_outputs(const CLI::App& command) {
   std::vector<Given> outputs;

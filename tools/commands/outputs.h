@@ -30,6 +30,9 @@ inline std::vector<std::string> stream_endings() {
   return {".fba", ".bit", ".bits", ".bin", ".es"};
 }
 
+/// Forgets all that add_output() noted, before the commands are set up again.
+void forget_outputs();
+
 /// What is wrong with the outputs that were given, as a sentence; empty: nothing. Wrong is an
 /// ending that does not fit, a file that another option of the command reads or writes (by whatever
 /// name or link), and a folder of HLS or DASH segments that would replace one in which an input

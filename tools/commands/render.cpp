@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <filesystem>
 
 #include "dam/script/script.h"
 #include "fap/rate_text.h"
@@ -8,6 +9,7 @@
 #include "tools/commands/head_options.h"
 #include "tools/commands/preview.h"
 #include "tools/commands/script_options.h"
+#include "tools/files/cost.h"
 #include "tools/render/png.h"
 #include "tools/render/scene.h"
 #include "tools/speech/voice_file.h"
@@ -178,7 +180,7 @@ int columns_for(std::size_t pictures) {
   return columns;
 }
 
-Result<int> run(const RenderOptions& options) {
+Result<int> draw_all(const RenderOptions& options) {
   if (options.input.empty() == options.shapes.empty()) {
     return usage_error("give a file to show, or --shapes visemes or expressions");
   }
@@ -200,6 +202,15 @@ Result<int> run(const RenderOptions& options) {
   if (!file) return file.error();
   if (auto written = write_file(options.output, *file); !written) return written.error();
   return kOk;
+}
+
+Result<int> run(const RenderOptions& options) {
+  AtStep step(Step::rendering);
+  Result<int> code = draw_all(options);
+  std::error_code unknown;
+  const std::uintmax_t bytes = std::filesystem::file_size(options.output, unknown);
+  if (code && !unknown) step.made(bytes);
+  return code;
 }
 
 void add_options(CLI::App& app, RenderOptions& options) {

@@ -17,6 +17,7 @@
 #include "tools/commands/spoken_options.h"
 #include "tools/exchange/arkit.h"
 #include "tools/exchange/curves.h"
+#include "tools/files/cost.h"
 #include "tools/json.h"
 #include "tools/speech/marks.h"
 #include "tools/text.h"
@@ -95,6 +96,14 @@ std::string language_of(const SpeakOptions& options, const speech::Spoken& spoke
   return script && !options.language_told ? std::string() : options.spoken.language;
 }
 
+Result<std::vector<std::uint8_t>> coded_clip(const fap::Sequence& clip,
+                                             const StreamSettings& settings) {
+  AtStep step(Step::coding);
+  auto stream = fba::encode(clip, encode_options(settings));
+  if (stream) step.made(stream->size());
+  return stream;
+}
+
 Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
                          const speech::Spoken& spoken) {
   const std::string extension = extension_of(options.output);
@@ -110,7 +119,7 @@ Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
     return kOk;
   }
   if (extension == ".fba") {
-    Result<std::vector<std::uint8_t>> stream = fba::encode(clip, encode_options(options.stream));
+    Result<std::vector<std::uint8_t>> stream = coded_clip(clip, options.stream);
     if (!stream) return stream.error();
     if (auto done = write_file(options.output, *stream); !done) return done.error();
     say(options.output + ": " + std::to_string(clip.frames.size()) + " planes, " +
@@ -171,7 +180,7 @@ std::vector<HeardPhone> heard_phones(const speech::Spoken& spoken) {
   return all;
 }
 
-Json json_of(const voice::SpokenLanguage& part) {
+Json language_json(const voice::SpokenLanguage& part) {
   return {{"start", part.start}, {"end", part.end},   {"language", part.language},
           {"voice", part.voice}, {"text", part.text}, {"by_itself", part.by_itself}};
 }
@@ -199,7 +208,7 @@ void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam
                {"closures_forced", synthesis.closures},
                {"lip_tooth_forced", synthesis.lip_tooth_contacts},
                {"recognised", heard},
-               {"languages", json_list(spoken.languages, json_of)},
+               {"languages", json_list(spoken.languages, language_json)},
                {"marks", json_list(spoken.marks,
                                    [](const voice::SpeechMark& mark) -> Json {
                                      return {{"time", mark.time}, {"name", mark.name}};

@@ -20,7 +20,7 @@ Error cannot(const std::string& what) {
 }
 
 void put_file(const char* path, int flags, int descriptor) {
-  const int file = ::open(path, flags, 0600);
+  const int file = ::open(*path == '\0' ? "/dev/null" : path, flags, 0600);
   if (file < 0) ::_exit(126);
   ::dup2(file, descriptor);
   if (file > STDERR_FILENO) ::close(file);
@@ -34,7 +34,7 @@ void limit(int what, rlim_t most) {
 [[noreturn]] void run_child(const ChildJob& job, std::vector<char*>& argv, int report) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  put_file(job.in.empty() ? "/dev/null" : job.in.c_str(), O_RDONLY, STDIN_FILENO);
+  put_file(job.in.c_str(), O_RDONLY, STDIN_FILENO);
   put_file(job.out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
   put_file(job.err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
   limit(RLIMIT_CORE, 0);

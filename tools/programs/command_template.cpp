@@ -13,7 +13,27 @@ Error bad(std::string message) { return make_error(Code::invalid_argument, std::
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-Result<std::vector<std::string>> split(std::string_view line) {
+bool can_run(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored) && ::access(path.c_str(), X_OK) == 0;
+}
+
+bool is_found(const std::string& program) {
+  if (program.find('/') != std::string::npos) return can_run(program);
+  const char* set = std::getenv("PATH");
+  std::string_view path = set != nullptr ? set : "/usr/bin:/bin";
+  while (true) {
+    const std::size_t end = std::min(path.find(':'), path.size());
+    const std::string folder(path.substr(0, end));
+    if (can_run(std::filesystem::path(folder.empty() ? "." : folder) / program)) return true;
+    if (end == path.size()) return false;
+    path.remove_prefix(end + 1);
+  }
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> split_arguments(std::string_view line) {
   std::vector<std::string> out;
   bool open = false;  // an argument has begun, empty or not
   char quote = 0;
@@ -41,28 +61,8 @@ Result<std::vector<std::string>> split(std::string_view line) {
   return out;
 }
 
-bool can_run(const std::filesystem::path& path) {
-  std::error_code ignored;
-  return std::filesystem::is_regular_file(path, ignored) && ::access(path.c_str(), X_OK) == 0;
-}
-
-bool is_found(const std::string& program) {
-  if (program.find('/') != std::string::npos) return can_run(program);
-  const char* set = std::getenv("PATH");
-  std::string_view path = set != nullptr ? set : "/usr/bin:/bin";
-  while (true) {
-    const std::size_t end = std::min(path.find(':'), path.size());
-    const std::string folder(path.substr(0, end));
-    if (can_run(std::filesystem::path(folder.empty() ? "." : folder) / program)) return true;
-    if (end == path.size()) return false;
-    path.remove_prefix(end + 1);
-  }
-}
-
-}  // namespace
-
 Result<CommandTemplate> parse_command(std::string_view line) {
-  Result<std::vector<std::string>> arguments = split(line);
+  Result<std::vector<std::string>> arguments = split_arguments(line);
   if (!arguments) return arguments.error();
   if (arguments->empty() || arguments->front().empty()) return bad("the command names no program");
   CommandTemplate command;

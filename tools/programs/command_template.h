@@ -25,6 +25,10 @@ struct Place {
   std::string_view text;  ///< taken as it is: braces in it stay
 };
 
+/// The arguments of a line, as parse_command() cuts it. Errors, invalid_argument: a quote that is
+/// not closed.
+Result<std::vector<std::string>> split_arguments(std::string_view line);
+
 /// Cuts a line at blanks. 'single' and "double" quotes keep blanks together, \ takes the next
 /// character as it is (not within single quotes; within double quotes only before " and \).
 /// No shell is run: $, *, |, > and the like have no meaning.

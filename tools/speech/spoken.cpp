@@ -4,6 +4,8 @@
 
 #include "dam/model/builtin.h"
 #include "dam/speaking/readings.h"
+#include "tools/files/cost.h"
+#include "tools/files/file_cache.h"
 #include "tools/files/files.h"
 #include "tools/scripts/script_text.h"
 #include "tools/speech/voice_file.h"
@@ -16,6 +18,7 @@ namespace {
 
 Result<Spoken> speak(const SpokenOptions& options, const std::string& text,
                      const tools::Talk& talk) {
+  tools::AtStep step(tools::Step::voice);
   if (!options.tts.empty()) {
     Result<TimedSpeech> timed = run_voice_command(text, voice_command(options), talk);
     if (!timed) return timed.error();
@@ -31,6 +34,7 @@ Result<Spoken> speak(const SpokenOptions& options, const std::string& text,
   Result<voice::Speech> speech = voice::speak_text(text, settings);
   if (!speech) return speech.error();
   for (const std::string& warning : speech->warnings) talk.warn(warning);
+  step.made(2 * speech->audio.samples.size());
   Spoken spoken{
       std::move(speech->script), std::move(speech->audio), speech->voice, TimesFrom::voice, {}, {}};
   spoken.languages = std::move(speech->languages);
@@ -89,6 +93,7 @@ VoiceCommand voice_command(const SpokenOptions& options) {
 
 Result<voice::Alignment> align_file(const std::string& audio, const std::string& transcript,
                                     const voice::AlignOptions& options, const tools::Talk& talk) {
+  const tools::AtStep step(tools::Step::alignment);
   Result<media::Pcm> pcm = read_voice(audio, talk, voice::kAlignRate);
   if (!pcm) return pcm.error();
   Result<voice::Alignment> alignment = voice::align(*pcm, transcript, options);
@@ -99,6 +104,7 @@ Result<voice::Alignment> align_file(const std::string& audio, const std::string&
 
 Result<voice::Heard> listen_to_file(const std::string& audio, const voice::ListenOptions& options,
                                     const tools::Talk& talk) {
+  const tools::AtStep step(tools::Step::alignment);
   Result<media::Pcm> pcm = read_voice(audio, talk, voice::kAlignRate);
   if (!pcm) return pcm.error();
   Result<voice::Heard> heard = voice::listen(*pcm, options);
@@ -109,6 +115,7 @@ Result<voice::Heard> listen_to_file(const std::string& audio, const voice::Liste
 
 Result<dam::Signal> move_face(const dam::Model& model, const Spoken& spoken,
                               const dam::SynthesisOptions& options, dam::SynthesisReport* report) {
+  const tools::AtStep step(tools::Step::speaking);
   if (!spoken.heard) return dam::synthesise(model, spoken.script, options, report);
   return dam::synthesise_readings(model, spoken.heard->readings, spoken.script, options, report);
 }
@@ -154,10 +161,14 @@ Result<Spoken> get_spoken(const SpokenOptions& options, const tools::Talk& talk)
 }
 
 Result<dam::Model> read_model(const std::string& path) {
-  if (path.empty() || path == "builtin") return dam::builtin_model();
-  Result<dam::Model> model = dam::load_model(path);
-  if (!model) return model.error().in_file(path);
-  return model;
+  // Batches ask again and again.
+  static tools::FileCache<dam::Model> cache;
+  return cache.get(path == "builtin" ? "" : path, {}, [&]() -> Result<dam::Model> {
+    if (path.empty() || path == "builtin") return dam::builtin_model();
+    Result<dam::Model> model = dam::load_model(path);
+    if (!model) return model.error().in_file(path);
+    return model;
+  });
 }
 
 }  // namespace animeme::speech

@@ -13,6 +13,7 @@
 #include "fap/wider.h"
 #include "fap/xml/fdp.h"
 #include "fap/xml/xmt.h"
+#include "tools/files/file_cache.h"
 #include "tools/files/files.h"
 #include "tools/gltf/read_head.h"
 #include "tools/studio/head_store.h"
@@ -198,7 +199,10 @@ Result<LoadedHead> load_head(const HeadChoice& choice) {
 }
 
 Result<head::Head> load_head(const HeadChoice& choice, const tools::Talk& talk) {
-  Result<LoadedHead> loaded = load_head(choice);
+  static tools::FileCache<LoadedHead> cache;  // batches ask again and again
+  const std::string how =
+      choice.points + "\n" + choice.gain + (choice.colours_at_vertices ? "c" : "");
+  Result<LoadedHead> loaded = cache.get(choice.head, how, [&] { return load_head(choice); });
   if (!loaded) return loaded.error();
   for (const std::string& note : loaded->notes) talk.say(choice.head + ": " + note);
   return std::move(loaded->head);

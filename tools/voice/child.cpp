@@ -2,12 +2,17 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <cstring>
+
+#include "tools/files/cost.h"
 
 namespace animeme::voice {
 namespace {
@@ -32,16 +37,20 @@ bool transfer(Call call, int descriptor, Byte* data, std::size_t size) {
   return true;
 }
 
+// Whatever the library prints is not ours to show.
+void be_silent() {
+  const int null = ::open("/dev/null", O_RDWR);
+  if (null < 0) return;
+  ::dup2(null, STDOUT_FILENO);
+  ::dup2(null, STDERR_FILENO);
+}
+
 [[noreturn]] void run_and_exit(int descriptor, unsigned seconds,
                                const std::function<bool(Sender&)>& work) {
   ::signal(SIGALRM, SIG_DFL);
   ::signal(SIGPIPE, SIG_DFL);
   ::alarm(seconds);
-  const int null = ::open("/dev/null", O_RDWR);
-  if (null >= 0) {  // whatever the library prints is not ours to show
-    ::dup2(null, STDOUT_FILENO);
-    ::dup2(null, STDERR_FILENO);
-  }
+  be_silent();
   Sender sender(descriptor);
   const bool good = work(sender) && sender.send(kDone, {});
   ::_exit(good ? 0 : 1);
@@ -62,6 +71,11 @@ Outcome listen(int descriptor, const std::function<bool(std::uint32_t, std::stri
   return Outcome::broken;
 }
 
+const char* text_of(int status) {
+  if (!WIFSIGNALED(status)) return "failed";
+  return WTERMSIG(status) == SIGALRM ? "took too long" : "crashed";
+}
+
 // How the child ended, for people; it is unknown where the program ignores SIGCHLD.
 std::string wait_for(pid_t child) {
   int status = 0;
@@ -69,9 +83,85 @@ std::string wait_for(pid_t child) {
   do {
     result = ::waitpid(child, &status, 0);
   } while (result < 0 && errno == EINTR);
-  if (result != child) return "ended early";
-  if (!WIFSIGNALED(status)) return "failed";
-  return WTERMSIG(status) == SIGALRM ? "took too long" : "crashed";
+  return result != child ? "ended early" : text_of(status);
+}
+
+// What a kept child says of a copy that has ended.
+struct CopyEnd {
+  std::int32_t status = 0;
+  double cpu_seconds = 0;
+};
+
+// A request: its size, with the end of a pipe for the answers, and its bytes.
+bool send_request(int socket, std::string_view request, int descriptor) {
+  const std::uint64_t size = request.size();
+  iovec part{const_cast<std::uint64_t*>(&size), sizeof size};
+  alignas(cmsghdr) char control[CMSG_SPACE(sizeof descriptor)] = {};
+  msghdr message{};
+  message.msg_iov = &part;
+  message.msg_iovlen = 1;
+  message.msg_control = control;
+  message.msg_controllen = sizeof control;
+  cmsghdr* head = CMSG_FIRSTHDR(&message);
+  head->cmsg_level = SOL_SOCKET;
+  head->cmsg_type = SCM_RIGHTS;
+  head->cmsg_len = CMSG_LEN(sizeof descriptor);
+  std::memcpy(CMSG_DATA(head), &descriptor, sizeof descriptor);
+  const auto send = [](int to, const char* data, std::size_t count) {
+    return ::send(to, data, count, MSG_NOSIGNAL);
+  };
+  return ::sendmsg(socket, &message, MSG_NOSIGNAL) == ssize_t(sizeof size) &&
+         transfer(send, socket, request.data(), request.size());
+}
+
+bool receive_request(int socket, std::string& request, int& descriptor) {
+  std::uint64_t size = 0;
+  iovec part{&size, sizeof size};
+  alignas(cmsghdr) char control[CMSG_SPACE(sizeof descriptor)] = {};
+  msghdr message{};
+  message.msg_iov = &part;
+  message.msg_iovlen = 1;
+  message.msg_control = control;
+  message.msg_controllen = sizeof control;
+  ssize_t got = -1;
+  do {
+    got = ::recvmsg(socket, &message, MSG_CMSG_CLOEXEC | MSG_WAITALL);
+  } while (got < 0 && errno == EINTR);
+  const cmsghdr* head = got == ssize_t(sizeof size) ? CMSG_FIRSTHDR(&message) : nullptr;
+  if (head == nullptr || head->cmsg_type != SCM_RIGHTS) return false;
+  std::memcpy(&descriptor, CMSG_DATA(head), sizeof descriptor);
+  request.resize(size);
+  return transfer(::read, socket, request.data(), request.size());
+}
+
+double seconds_of(const timeval& time) { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); }
+
+[[noreturn]] void stay(int socket, const std::function<void()>& prepare,
+                       const KeptChild::Work& work, unsigned seconds) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // it would keep open what tells that its parent has gone
+  ::close_range(STDERR_FILENO + 1, unsigned(socket) - 1, 0);
+  ::close_range(unsigned(socket) + 1, ~0U, 0);
+  be_silent();
+  prepare();
+  std::string request;
+  int descriptor = -1;
+  while (receive_request(socket, request, descriptor)) {
+    const pid_t copy = ::fork();
+    if (copy == 0) {
+      ::close(socket);
+      run_and_exit(descriptor, seconds, [&](Sender& sender) { return work(sender, request); });
+    }
+    ::close(descriptor);
+    CopyEnd end{1, 0};
+    rusage used{};
+    pid_t ended = -1;
+    do {
+      ended = copy < 0 ? copy : ::wait4(copy, &end.status, 0, &used);
+    } while (copy > 0 && ended < 0 && errno == EINTR);
+    end.cpu_seconds = seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
+    if (!transfer(::write, socket, reinterpret_cast<const char*>(&end), sizeof end)) break;
+  }
+  ::_exit(0);
 }
 
 }  // namespace
@@ -109,6 +199,50 @@ Result<void> run_child(std::string_view what, unsigned seconds,
   if (outcome == Outcome::stopped) ::kill(child, SIGKILL);
   const std::string how = wait_for(child);
   return outcome == Outcome::broken ? Result<void>(refuse(how)) : Result<void>();
+}
+
+Result<std::unique_ptr<KeptChild>> KeptChild::start(const std::function<void()>& prepare,
+                                                    const Work& work, unsigned seconds) {
+  std::array<int, 2> ends{};
+  const auto refuse = [] {
+    return make_error(Code::io, std::string("no child can be started: ") + std::strerror(errno));
+  };
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return refuse();
+  const pid_t child = ::fork();
+  if (child == 0) stay(ends[1], prepare, work, seconds);
+  ::close(ends[1]);
+  if (child < 0) {
+    const Error error = refuse();
+    ::close(ends[0]);
+    return error;
+  }
+  return std::unique_ptr<KeptChild>(new KeptChild(child, ends[0]));
+}
+
+KeptChild::~KeptChild() {
+  ::close(socket_);
+  wait_for(pid_);
+}
+
+Result<void> KeptChild::run(std::string_view what, std::string_view request,
+                            const std::function<bool(std::uint32_t, std::string)>& receive) {
+  std::array<int, 2> ends{};
+  const auto refuse = [&](std::string_view how) {
+    return make_error(Code::io, std::string(what) + " " + std::string(how));
+  };
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
+    return refuse(std::string("cannot be started: ") + std::strerror(errno));
+  }
+  const bool sent = send_request(socket_, request, ends[1]);
+  ::close(ends[1]);
+  const Outcome outcome = sent ? listen(ends[0], receive) : Outcome::broken;
+  ::close(ends[0]);  // a copy that still writes ends by SIGPIPE
+  CopyEnd end;
+  if (!sent || !transfer(::read, socket_, reinterpret_cast<char*>(&end), sizeof end)) {
+    return refuse("ended early");
+  }
+  tools::add_cpu_seconds(end.cpu_seconds);
+  return outcome == Outcome::broken ? Result<void>(refuse(text_of(end.status))) : Result<void>();
 }
 
 }  // namespace animeme::voice

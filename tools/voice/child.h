@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -32,5 +33,26 @@ class Sender {
 Result<void> run_child(std::string_view what, unsigned seconds,
                        const std::function<bool(Sender&)>& work,
                        const std::function<bool(std::uint32_t, std::string)>& receive);
+
+/// A child that has prepared itself and stays: for each request it forks a copy, which works from
+/// that same state, so that no request sees what another one left. Not thread safe.
+class KeptChild {
+ public:
+  using Work = std::function<bool(Sender&, std::string_view request)>;
+  /// `prepare` runs in the child once, `work` in its copies, each for `seconds` at the latest.
+  /// Errors: io.
+  static Result<std::unique_ptr<KeptChild>> start(const std::function<void()>& prepare,
+                                                  const Work& work, unsigned seconds);
+  KeptChild(const KeptChild&) = delete;
+  ~KeptChild();
+
+  /// As run_child(), for a request; what it costs goes to tools::add_cpu_seconds().
+  Result<void> run(std::string_view what, std::string_view request,
+                   const std::function<bool(std::uint32_t, std::string)>& receive);
+
+ private:
+  KeptChild(int pid, int socket) : pid_(pid), socket_(socket) {}
+  int pid_, socket_;
+};
 
 }  // namespace animeme::voice

@@ -15,5 +15,6 @@ Error absent() {
 
 Result<EspeakResult> run_espeak(const EspeakJob&) { return absent(); }
 Result<VoiceLists> read_espeak_voices(const std::string&) { return absent(); }
+void keep_voices() {}
 
 }  // namespace animeme::voice

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
+#include <list>
+#include <memory>
 
 #include "tools/voice/child.h"
 
@@ -61,24 +64,31 @@ int on_speech(short* samples, int count, espeak_EVENT* events) {
   return good ? 0 : 1;
 }
 
-bool start(Sender& sender, const std::string& data_path) {
-  const std::int32_t rate = espeak_Initialize(
+std::int32_t initialise(const std::string& data_path) {
+  return espeak_Initialize(
       AUDIO_OUTPUT_SYNCHRONOUS, 0, data_path.empty() ? nullptr : data_path.c_str(),
       espeakINITIALIZE_PHONEME_EVENTS | espeakINITIALIZE_PHONEME_IPA | espeakINITIALIZE_DONT_EXIT);
-  return rate > 0 && sender.send(kSampleRate, bytes_of(&rate, 1));
 }
 
 constexpr std::string_view kNoData =
     "espeak-ng cannot load its data; install the Debian package espeak-ng-data or set the data "
     "path to the folder that contains espeak-ng-data";
 
+// What all jobs with a voice have in common; g_rate is 0 where there are no data.
+std::int32_t g_rate = 0;
+bool g_voice = false;
+
+void prepare(const std::string& data_path, const std::string& voice) {
+  g_rate = std::max(initialise(data_path), 0);
+  if (g_rate > 0) g_voice = espeak_SetVoiceByName(voice.c_str()) == EE_OK;
+}
+
 bool speak_all(Sender& sender, const EspeakJob& job) {
-  if (!start(sender, job.options.data_path)) return sender.send(kFailure, kNoData);
+  if (g_rate <= 0) return sender.send(kFailure, kNoData);
+  if (!sender.send(kSampleRate, bytes_of(&g_rate, 1))) return false;
   g_sender = &sender;
   espeak_SetSynthCallback(on_speech);
-  if (espeak_SetVoiceByName(job.voice.c_str()) != EE_OK) {
-    return sender.send(kFailure, "espeak-ng cannot load its voice " + job.voice);
-  }
+  if (!g_voice) return sender.send(kFailure, "espeak-ng cannot load its voice " + job.voice);
   espeak_SetParameter(espeakRATE, job.options.words_per_minute, 0);
   espeak_SetParameter(espeakPITCH, job.options.pitch, 0);
   espeak_SetParameter(espeakRANGE, job.options.pitch_range, 0);
@@ -96,7 +106,7 @@ bool speak_all(Sender& sender, const EspeakJob& job) {
 }
 
 bool send_voices(Sender& sender, const std::string& data_path) {
-  if (!start(sender, data_path)) return sender.send(kFailure, kNoData);
+  if (initialise(data_path) <= 0) return sender.send(kFailure, kNoData);
   const char* data = nullptr;
   espeak_Info(&data);
   if (data != nullptr && !sender.send(kDataPath, data)) return false;
@@ -155,7 +165,71 @@ VoiceInfo unpack_voice(const std::string& bytes) {
   return voice;
 }
 
+// A job as the bytes of a request; the voice and the data are those of the kept child.
+std::string request_of(const EspeakJob& job) {
+  const VoiceOptions& options = job.options;
+  const std::int32_t numbers[] = {options.words_per_minute, options.pitch, options.pitch_range,
+                                  options.word_gap,         job.mnemonics, job.markup};
+  std::string request(bytes_of(numbers, std::size(numbers)));
+  for (const std::string& text : job.texts) request += text + '\0';
+  return request;
+}
+
+EspeakJob job_of(std::string_view request, const std::string& voice) {
+  std::int32_t numbers[6];
+  std::memcpy(numbers, request.data(), sizeof numbers);
+  EspeakJob job;
+  job.voice = voice;
+  job.options.words_per_minute = numbers[0];
+  job.options.pitch = numbers[1];
+  job.options.pitch_range = numbers[2];
+  job.options.word_gap = numbers[3];
+  job.mnemonics = numbers[4] != 0;
+  job.markup = numbers[5] != 0;
+  for (std::size_t at = sizeof numbers; at < request.size();) {
+    const std::size_t end = request.find('\0', at);
+    job.texts.emplace_back(request.substr(at, end - at));
+    at = end + 1;
+  }
+  return job;
+}
+
+constexpr unsigned kMostSecondsOfWork = 300;
+constexpr std::size_t kMostKept = 8;
+
+struct KeptVoice {
+  std::string name, data_path;
+  std::unique_ptr<KeptChild> child;
+};
+bool g_keep = false;
+std::list<KeptVoice> g_kept;  // the last that was asked for first
+
+// Nothing: it cannot be started.
+KeptChild* kept_child(const EspeakJob& job) {
+  for (auto at = g_kept.begin(); at != g_kept.end(); ++at) {
+    if (at->name != job.voice || at->data_path != job.options.data_path) continue;
+    g_kept.splice(g_kept.begin(), g_kept, at);
+    return g_kept.front().child.get();
+  }
+  auto child = KeptChild::start([&job] { prepare(job.options.data_path, job.voice); },
+                                [voice = job.voice](Sender& sender, std::string_view request) {
+                                  return speak_all(sender, job_of(request, voice));
+                                },
+                                kMostSecondsOfWork);
+  if (!child) return nullptr;
+  g_kept.push_front({job.voice, job.options.data_path, std::move(*child)});
+  if (g_kept.size() > kMostKept) g_kept.pop_back();
+  return g_kept.front().child.get();
+}
+
+// One that has gone is started again by the next job.
+void forget_kept(const KeptChild* child) {
+  g_kept.remove_if([child](const KeptVoice& one) { return one.child.get() == child; });
+}
+
 }  // namespace
+
+void keep_voices() { g_keep = true; }
 
 Result<EspeakResult> run_espeak(const EspeakJob& job) {
   EspeakResult result;
@@ -181,8 +255,14 @@ Result<EspeakResult> run_espeak(const EspeakJob& job) {
     too_long = std::int64_t(total) > job.max_seconds * std::max(result.sample_rate, 1);
     return !too_long;
   };
-  const auto run = run_child(
-      "espeak-ng", 300, [&](Sender& sender) { return speak_all(sender, job); }, receive);
+  const auto speak = [&job](Sender& sender) {
+    prepare(job.options.data_path, job.voice);
+    return speak_all(sender, job);
+  };
+  KeptChild* kept = g_keep ? kept_child(job) : nullptr;
+  const auto run = kept != nullptr ? kept->run("espeak-ng", request_of(job), receive)
+                                   : run_child("espeak-ng", kMostSecondsOfWork, speak, receive);
+  if (!run && kept != nullptr) forget_kept(kept);
   if (too_long) {
     return make_error(Code::out_of_range, "the text makes more than " +
                                               std::to_string(job.max_seconds) +

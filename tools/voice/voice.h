@@ -101,6 +101,11 @@ struct VoiceInfo {
 /// Errors: unsupported, io, not_found; see speak_text().
 Result<std::vector<VoiceInfo>> list_voices(const std::string& data_path = {});
 
+/// From now on a process stays for each of the last eight voices that have spoken, loaded, and each
+/// text is spoken by a copy of it: the same sound, sooner. For programs with one thread that speak
+/// a lot.
+void keep_voices();
+
 /// Letters to phones: the ARPAbet labels of each text, spoken by itself, without SIL. An empty
 /// entry is a text that the voice says nothing for. Chinese and Japanese words may be characters.
 /// Errors as speak_text().

@@ -1,0 +1,79 @@
+#include "tools/commands/line.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <iterator>
+#include <string>
+
+#include "tools/commands/common.h"
+#include "tools/commands/did_you_mean.h"
+#include "tools/commands/outputs.h"
+
+namespace animeme::tools {
+
+namespace {
+
+// Errors of the user's input and errors of ours have different exit codes.
+int report_error(const Error& error) {
+  std::cerr << "animeme: error: " << error.describe() << "\n";
+  return error.code == Code::internal ? kInternal : kBadInput;
+}
+
+}  // namespace
+
+int run_line(std::span<const char* const> arguments) {
+  CLI::App app{
+      "Animeme: speech to MPEG-4 facial animation.\n"
+      "Makes faces talk (FAPs), codes them (FBA, a few kbit/s) and muxes them with the voice."};
+  app.name("animeme");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "animeme " ANIMEME_VERSION);
+  app.footer(
+      "'animeme COMMAND --help' explains a command.\n"
+      "Exit codes: 0 ok, 1 a check failed or a recording ended early, 2 usage, 3 bad input, 4\n"
+      "internal error, 130 stopped by Ctrl-C (what was written so far is complete).");
+  bool quiet = false;
+  app.add_flag("-q,--quiet", quiet, "No talk on standard error but errors");
+  bool verbose = false;
+  app.add_flag("-v,--verbose", verbose, "More talk: which sounds a model lacks, and what is said");
+  app.fallthrough();
+
+  const Command* commands[] = {
+      &kSpeak, &kBatch,  &kFollow,   &kAlign,    &kCorpus, &kTrain,  &kEvaluate, &kEncode, &kDecode,
+      &kMux,   &kDemux,  &kInfo,     &kCompare,  &kCheck,  &kStats,  &kPlot,     &kView,   &kRender,
+      &kHead,  &kImport, &kCrossmap, &kRetarget, &kExport, &kStream, &kReceive,  &kPhones};
+  Action chosen;
+  // A line that begins with its command wants no other: batches run many.
+  const std::string first = arguments.size() > 1 ? arguments[1] : "";
+  const bool known = std::any_of(std::begin(commands), std::end(commands),
+                                 [&](const Command* one) { return first == one->name; });
+  forget_outputs();
+  for (const Command* command : commands) {
+    if (known && first != command->name) continue;
+    CLI::App* sub = app.add_subcommand(command->name, command->summary);
+    sub->footer(std::string("Examples:\n") + command->examples);
+    Action action = command->add(*sub);
+    sub->callback([&chosen, action] { chosen = action; });
+  }
+  try {
+    app.parse(int(arguments.size()), arguments.data());
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0) {
+      const std::string guess = did_you_mean(app, arguments.subspan(1));
+      if (!guess.empty()) return usage_error(guess);
+    }
+    return app.exit(error) == 0 ? kOk : kUsage;
+  }
+  set_quiet(quiet);
+  set_verbose(verbose);
+  for (const CLI::App* command : app.get_subcommands()) {
+    if (const std::string text = problem_with_outputs(*command); !text.empty()) {
+      return usage_error(text);
+    }
+  }
+  const Result<int> result = chosen();
+  return result ? *result : report_error(result.error());
+}
+
+}  // namespace animeme::tools
