@@ -23,14 +23,17 @@ struct Settings {
   Shared shared;                                              ///< its stage is chosen here
   std::size_t jobs = 1;                                       ///< workers
   bool resume = false;                                        ///< skips what is done
-  int shard = 1, shards = 1;                                  ///< from 1
+  int shard = 1;                                              ///< from 1
+  int shards = 1;                                             ///< how many there are
 };
 
 /// How far a batch is.
 struct Standing {
-  std::uint64_t wanted = 0, done = 0, skipped = 0,
-                failed = 0;                        ///< clips; done has the others in it
-  double speech_seconds = 0;                       ///< of what was done now
+  std::uint64_t wanted = 0;   ///< clips of this shard
+  std::uint64_t done = 0;     ///< clips, with those that were skipped or failed
+  std::uint64_t skipped = 0;  ///< clips that were done before
+  std::uint64_t failed = 0;   ///< clips with an error
+  double speech_seconds = 0;  ///< of what was done now
   std::array<tools::Cost, tools::kSteps> costs{};  ///< of all workers
 };
 
@@ -43,7 +46,7 @@ struct Watch {
 
 /// How a batch ended.
 struct Ending {
-  Standing standing;
+  Standing standing;     ///< at the end
   Totals totals;         ///< of the index; of nothing where it was stopped
   bool stopped = false;  ///< by Watch::stop
 };

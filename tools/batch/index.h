@@ -57,7 +57,7 @@ class IndexWriter {
  public:
   /// Errors, io.
   static Result<IndexWriter> open(const std::string& path);
-  IndexWriter(IndexWriter&& other) noexcept;
+  IndexWriter(IndexWriter&& other) noexcept;  ///< leaves the other one without a file
   IndexWriter(const IndexWriter&) = delete;
   ~IndexWriter();
   Result<void> add(const Entry& entry);  ///< errors: io
@@ -70,10 +70,13 @@ class IndexWriter {
 
 /// What a batch amounts to.
 struct Totals {
-  std::uint64_t rows = 0, good = 0, failed = 0, with_warnings = 0;  ///< clips
-  std::uint64_t missing = 0;                                        ///< clips without a line
-  double seconds = 0;                                               ///< of speech
-  std::uint64_t bytes = 0;                                          ///< of outputs
+  std::uint64_t rows = 0;           ///< clips with a line
+  std::uint64_t good = 0;           ///< clips without an error
+  std::uint64_t failed = 0;         ///< clips with one
+  std::uint64_t with_warnings = 0;  ///< good ones with warnings
+  std::uint64_t missing = 0;        ///< clips without a line
+  double seconds = 0;               ///< of speech
+  std::uint64_t bytes = 0;          ///< of outputs
 };
 
 /// Writes `to` with the lines of the clips of a manifest, in its order, and report.html beside it

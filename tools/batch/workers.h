@@ -18,6 +18,7 @@ namespace animeme::batch {
 /// Some workers. Not thread safe; forks, so no other thread may run.
 class Workers {
  public:
+  /// A message in, an answer out; runs in the copy.
   using Work = std::function<std::string(std::string_view message, std::size_t worker)>;
   /// `work` is run in the copies, for one message after the other.
   Workers(std::size_t count, Work work) : work_(std::move(work)), all_(count) {}

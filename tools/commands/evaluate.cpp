@@ -242,7 +242,7 @@ std::optional<viewer::Sound> sound_of(const CorpusSettings& corpus, const std::s
 Result<void> write_sheet(const std::string& output, const CorpusSettings& corpus,
                          const System& system, const std::vector<dam::SentencePair>& pairs,
                          const dam::Evaluation& evaluation) {
-  const Result<head::Head> face = studio::ready_head({});
+  const Result<head::Head> face = studio::ready_head("woman");
   if (!face) return face.error();
   const head::Rig rig = head::make_rig(*face);
   sheet::Sheet sheet;

@@ -24,7 +24,7 @@ struct Cost {
 /// From here to its end, this thread is at a step; a step within a step counts for itself alone.
 class AtStep {
  public:
-  explicit AtStep(Step step);
+  explicit AtStep(Step step);  ///< begins
   AtStep(const AtStep&) = delete;
   ~AtStep();
   void made(std::uint64_t bytes);  ///< adds bytes to the step

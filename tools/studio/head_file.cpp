@@ -113,8 +113,8 @@ Result<head::Source> read_source(const HeadChoice& choice) {
 
 Result<LoadedHead> load_as_it_is(const HeadChoice& choice) {
   LoadedHead loaded;
-  if (const auto parameters = head::head_parameters(choice.head)) {
-    Result<head::Head> made = ready_head(*parameters);
+  if (head::head_parameters(choice.head)) {
+    Result<head::Head> made = ready_head(choice.head);
     if (!made) return made.error();
     loaded.head = std::move(*made);
     return loaded;

@@ -3,7 +3,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <string_view>
 #include <type_traits>
 
 #include "fap/head/rig.h"
@@ -159,17 +158,19 @@ std::string cache_folder() {
   return "";
 }
 
-Result<head::Head> ready_head(const head::HeadParameters& parameters, const std::string& folder) {
+Result<head::Head> ready_head(std::string_view name, const std::string& folder) {
+  const auto parameters = head::head_parameters(name);
+  if (!parameters) return make_error(Code::not_found, "no head is called " + std::string(name));
   const std::filesystem::path path =
-      std::filesystem::path(folder) / ("head-" + parameters.name + ".bin");
+      std::filesystem::path(folder) / ("head-" + parameters->name + ".bin");
   if (!folder.empty()) {
     if (const auto bytes = tools::read_file(path)) {
       const std::string_view view(reinterpret_cast<const char*>(bytes->data()), bytes->size());
       auto head = restore_head(view);
-      if (head && head->name == parameters.name) return std::move(*head);
+      if (head && head->name == parameters->name) return std::move(*head);
     }
   }
-  Result<head::Head> head = head::make_head(parameters);
+  Result<head::Head> head = head::make_head(*parameters);
   if (!head) return head;
   head->targets = head::make_rig(*head).targets;
   head->eased = true;

@@ -9,6 +9,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "fap/head/model.h"
 #include "fap/result.h"
@@ -18,10 +19,9 @@ namespace animeme::studio {
 /// Folder of the cache; empty if the environment names none. It may not be there yet.
 std::string cache_folder();
 
-/// head::make_head(), with Head::targets as make_rig() finds them. `folder`: of the cache; empty:
-/// none is used. Errors: those of make_head(); the cache has none.
-Result<head::Head> ready_head(const head::HeadParameters& parameters,
-                              const std::string& folder = cache_folder());
+/// The head of that name (head::kHeadNames), with Head::targets as make_rig() finds them. `folder`:
+/// of the cache; empty: none is used. Errors: not_found for another name; the cache has none.
+Result<head::Head> ready_head(std::string_view name, const std::string& folder = cache_folder());
 
 /// A head as bytes, without coats, shapes and corners, which heads of our own do not have.
 std::string store_head(const head::Head& head);

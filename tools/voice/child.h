@@ -38,6 +38,7 @@ Result<void> run_child(std::string_view what, unsigned seconds,
 /// that same state, so that no request sees what another one left. Not thread safe.
 class KeptChild {
  public:
+  /// Answers a request through the sender; false: it could not.
   using Work = std::function<bool(Sender&, std::string_view request)>;
   /// `prepare` runs in the child once, `work` in its copies, each for `seconds` at the latest.
   /// Errors: io.
