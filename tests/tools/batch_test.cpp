@@ -45,7 +45,8 @@ std::string short_clips(int count) {
   std::string table = "id\ttext\tlang\toutputs\n";
   for (int i = 0; i < count; ++i) {
     table += "part" + std::to_string(i % 3) + "/clip" + std::to_string(i) + "\t" + words[i % 5] +
-             " " + std::to_string(i) + "\t" + languages[i % 5] + "\t.fba .tsv\n";
+             " " + std::to_string(i) + "\t" + languages[i % 5] +
+             (i % 2 ? "\t.fba .tsv\n" : "\tfba, tsv\n");
   }
   return table;
 }

@@ -59,9 +59,10 @@ Result<Wanted> read_wanted(const std::string& text, bool speech) {
   const std::size_t dot = text.find('.'), colon = text.find(':');
   wanted.command = colon < dot ? text.substr(0, colon) : "";
   wanted.ending = text.substr(colon < dot ? colon + 1 : 0);
+  // People write fba and mp4, too.
+  if (!wanted.ending.starts_with('.')) wanted.ending.insert(0, 1, '.');
   const std::string last = tools::extension_of("x" + wanted.ending);
-  if (wanted.ending.size() < 2 || wanted.ending.front() != '.' || last.empty() ||
-      wanted.ending.find('/') != std::string::npos) {
+  if (wanted.ending.size() < 2 || last.empty() || wanted.ending.find('/') != std::string::npos) {
     return bad("output \"" + text + "\" is no ending: write .fba, or render:.video.mp4");
   }
   if (wanted.command.empty()) wanted.command = usual_command(last, speech);
