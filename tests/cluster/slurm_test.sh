@@ -76,17 +76,17 @@ NodeName=$host NodeAddr=127.0.0.1 CPUs=4 RealMemory=1000
 PartitionName=all Nodes=$host Default=YES MaxTime=10 State=UP
 CONF
   export SLURM_CONF="$dir/slurm.conf"
-  slurmctld -D >"$dir/slurmctld.out.log" 2>&1 &
+  slurmctld -D >"$dir/slurmctld.out" 2>&1 &
   daemons="$daemons $!"
-  slurmd -D -N "$host" >"$dir/slurmd.out.log" 2>&1 &
+  slurmd -D -N "$host" >"$dir/slurmd.out" 2>&1 &
   daemons="$daemons $!"
   until_true 8 idle
 }
 idle() { [ "$(sinfo --noheader --format=%T 2>/dev/null)" = idle ]; }
 munged --foreground --socket="$dir/munge.socket" --key-file="$dir/munge.key" --pid-file="$dir/munged.pid" \
-  --log-file="$dir/munged.log" --seed-file="$dir/munged.seed" >"$dir/munged.out.log" 2>&1 &
+  --log-file="$dir/munged.log" --seed-file="$dir/munged.seed" >"$dir/munged.out" 2>&1 &
 daemons=$!
-until_true 5 test -S "$dir/munge.socket" || skip "munged does not start here: $(tail -n 1 "$dir"/munged.out.log)"
+until_true 5 test -S "$dir/munge.socket" || skip "munged does not start here: $(tail -n 1 "$dir"/munged.out)"
 # Another program may have the ports: then again with others.
 start_slurm 0 || start_slurm 1 || start_slurm 2 ||
   skip "Slurm does not start here: $(grep -h -E 'error|fatal' "$dir"/slurm*.log | tail -n 1)"
@@ -150,8 +150,22 @@ for part in 1 2 3; do
   head -n 1 "$sample/utterances.tsv" >"corpus/$part/utterances.tsv"
   tail -n +2 "$sample/utterances.tsv" | awk -v part=$part 'NR % 3 == part - 1' >>"corpus/$part/utterances.tsv"
 done
-"$program" train "$sample" --accumulate one.stats --controls 3-8 >one.log 2>&1 &&
-  "$program" train --merge one.stats -o one.dam >>one.log 2>&1 || fail "the training on one machine"
+(
+  for part in 3 1 2; do
+    "$program" train corpus/$part --accumulate "$part.stats" --controls 3-8 || exit 1
+  done
+  "$program" train --merge 3.stats 1.stats 2.stats -o one.dam &&
+    "$program" train "$sample" --accumulate whole.stats --controls 3-8 &&
+    "$program" train --merge whole.stats -o whole.dam
+) >one.log 2>&1 || fail "the training on one machine"
+# A model begins with its size and of how many parts it is; nothing else differs.
+values() {
+  at=$(LC_ALL=C grep -abo ', sums of' "$1" | head -n 1 | cut -d : -f 1)
+  tail -c +$((at + 1)) "$1" | LC_ALL=C sed '1s/^, sums of [0-9]* parts\{0,1\}//'
+}
+values one.dam >one.values
+values whole.dam | cmp - one.values || fail "parts have other values than the whole"
+[ "$(wc -c <one.values)" -gt 10000 ] || fail "a model without values"
 for time in first second; do
   rm -f slurm.dam
   jobs=$(sh "$tools/slurm_train.sh" slurm.dam sums corpus/1 corpus/2 corpus/3 -- --controls 3-8) ||
