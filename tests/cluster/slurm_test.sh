@@ -4,7 +4,10 @@
 # Everything lies in one temporary folder. Exit code 77: skipped, with the reason.
 set -u
 program=$1 source=$2
-skip() { echo "$*: Skipped"; exit 77; }
+skip() {
+  printf 'slurm: Skipped\n%s\n' "$*"
+  exit 77
+}
 for daemon in slurmctld slurmd munged; do
   command -v $daemon >/dev/null || PATH=$PATH:/usr/sbin:/sbin
   command -v $daemon >/dev/null || skip "$daemon is missing (Debian: slurm-wlm munge)"
@@ -158,10 +161,10 @@ done
     "$program" train "$sample" --accumulate whole.stats --controls 3-8 &&
     "$program" train --merge whole.stats -o whole.dam
 ) >one.log 2>&1 || fail "the training on one machine"
-# A model begins with its size and of how many parts it is; nothing else differs.
+# A model begins with its size and of how many parts it is, and ends with a checksum; nothing else differs.
 values() {
   at=$(LC_ALL=C grep -abo ', sums of' "$1" | head -n 1 | cut -d : -f 1)
-  tail -c +$((at + 1)) "$1" | LC_ALL=C sed '1s/^, sums of [0-9]* parts\{0,1\}//'
+  tail -c +$((at + 1)) "$1" | head -c -8 | LC_ALL=C sed '1s/^, sums of [0-9]* parts\{0,1\}//'
 }
 values one.dam >one.values
 values whole.dam | cmp - one.values || fail "parts have other values than the whole"
