@@ -145,7 +145,7 @@ grep -q "$shard of $shard clips .* $done of them unchanged" out.logs/shard_2.log
 diff -r -x '*.?-of-3.*' one out || fail "a batch on Slurm has other bytes than one machine's"
 echo "batch: $done of $shard clips of a shard done when it was killed; $(find one -type f | wc -l) files equal"
 
-# The training, twice: a part that comes again counts nothing twice.
+# The training, twice, against the same parts in another order: a part that comes again counts nothing twice.
 sample=$source/tests/data/grid_s1_sample
 for part in 1 2 3; do
   mkdir -p "corpus/$part"
@@ -157,18 +157,8 @@ done
   for part in 3 1 2; do
     "$program" train corpus/$part --accumulate "$part.stats" --controls 3-8 || exit 1
   done
-  "$program" train --merge 3.stats 1.stats 2.stats -o one.dam &&
-    "$program" train "$sample" --accumulate whole.stats --controls 3-8 &&
-    "$program" train --merge whole.stats -o whole.dam
+  "$program" train --merge 3.stats 1.stats 2.stats -o one.dam
 ) >one.log 2>&1 || fail "the training on one machine"
-# A model begins with its size and of how many parts it is, and ends with a checksum; nothing else differs.
-values() {
-  at=$(LC_ALL=C grep -abo ', sums of' "$1" | head -n 1 | cut -d : -f 1)
-  tail -c +$((at + 1)) "$1" | head -c -8 | LC_ALL=C sed '1s/^, sums of [0-9]* parts\{0,1\}//'
-}
-values one.dam >one.values
-values whole.dam | cmp - one.values || fail "parts have other values than the whole"
-[ "$(wc -c <one.values)" -gt 10000 ] || fail "a model without values"
 for time in first second; do
   rm -f slurm.dam
   jobs=$(sh "$tools/slurm_train.sh" slurm.dam sums corpus/1 corpus/2 corpus/3 -- --controls 3-8) ||
