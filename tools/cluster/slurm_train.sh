@@ -7,8 +7,9 @@
 #   SBATCH and ANIMEME: as in slurm_batch.sh.
 #
 # CORPUS are folders that all nodes see; SUMS is a folder for the sums, one file a part, and the logs. Prints
-# the ids of both jobs, the array's first. The sums of the parts add up exactly in any order: the model is, byte for byte, that of
-# one machine that takes the same parts. A task that is killed goes back into the queue and counts no sentence twice; so does all of it when it is sent again.
+# the ids of both jobs, the array's first. The model is, byte for byte, that of one machine that takes the same parts.
+# A task that is killed goes back into the queue and counts no sentence twice; so does all of it when it is sent
+# again.
 set -eu
 [ $# -ge 3 ] || { sed -n '2,/^set/s/^# \{0,1\}//p' "$0"; exit 2; }
 program=${ANIMEME:-animeme}
