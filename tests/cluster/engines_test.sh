@@ -1,6 +1,6 @@
 #!/bin/sh
-# engines_test.sh PROGRAM SOURCE make|parallel|kubernetes|schema: the batch of tools/cluster by this engine makes the bytes of
-# one machine, also where a row is an error. Kubernetes: the commands of its jobs, pod by pod, without it;
+# engines_test.sh PROGRAM SOURCE make|parallel|kubernetes|schema: the batch of tools/cluster by this engine makes the
+# bytes of one machine, also where a row is an error. Kubernetes: the commands of its jobs, pod by pod, without it;
 # schema: its jobs by its own schema. Exit code 77: skipped, with the reason.
 set -u
 program=$1 source=$2 engine=$3

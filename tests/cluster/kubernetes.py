@@ -1,4 +1,4 @@
-"""kubernetes.py FILE: an indexed Job is what it has to be, by rules of its own; its command on standard output, JSON after --json."""
+"""kubernetes.py [--json] FILE: whether a Job is what it has to be, by rules of our own. Prints its command, or all as JSON."""
 import json
 import sys
 

@@ -7,8 +7,8 @@
 #   ANIMEME=/opt/animeme/bin/animeme sh parallel_batch.sh ...                        # else animeme of PATH
 #
 # On one machine `animeme batch` has all cores by itself: this is for several, which see one folder (the same
-# path). A shard that fails or is killed comes again, twice at most, and does only what is missing; so does all of it when
-# it is started again.
+# path). A shard that fails or is killed comes again, twice at most, and does only what is missing; so does all of
+# it when it is started again.
 set -eu
 [ $# -ge 3 ] || { sed -n '2,/^set/s/^# \{0,1\}//p' "$0"; exit 2; }
 shards=$1 manifest=$2 out=$3

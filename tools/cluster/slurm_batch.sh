@@ -6,7 +6,8 @@
 #   SBATCH="--partition=day --cpus-per-task=4" sh slurm_batch.sh ...    # options of sbatch for both jobs
 #   ANIMEME=/opt/animeme/bin/animeme sh slurm_batch.sh ...              # else animeme of PATH
 #
-# Manifest, inputs and OUT lie in a folder that all nodes see. It prints the ids of both jobs, the array's first. Logs: OUT.logs/.
+# Manifest, inputs and OUT lie in a folder that all nodes see. It prints the ids of both jobs, the array's first.
+# Logs: OUT.logs/.
 # A task whose program is killed (memory, time, a node) goes back into the queue, three times at most, and does
 # only what is missing. The join comes when all tasks have ended: it tells what is missing, fails then, and can be
 # done again by hand: animeme batch MANIFEST -o OUT --join. Rows with errors are rows of the index.
