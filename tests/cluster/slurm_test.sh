@@ -83,7 +83,7 @@ CONF
   daemons="$daemons $!"
   slurmd -D -N "$host" >"$dir/slurmd.out" 2>&1 &
   daemons="$daemons $!"
-  until_true 8 idle
+  until_true 15 idle
 }
 idle() { [ "$(sinfo --noheader --format=%T 2>/dev/null)" = idle ]; }
 munged --foreground --socket="$dir/munge.socket" --key-file="$dir/munge.key" --pid-file="$dir/munged.pid" \
@@ -132,18 +132,18 @@ array=$(echo "$jobs" | head -n 1)
 join=$(echo "$jobs" | tail -n 1)
 state() { scontrol show job "$1" --oneliner 2>/dev/null | sed 's/.*JobState=\([A-Z]*\).*/\1/'; }
 ended() { case $(state "$1") in COMPLETED | FAILED | CANCELLED | TIMEOUT | NODE_FAIL) true ;; *) false ;; esac; }
-until_true 20 test -e reached || fail "the task did not come to its middle"
-done=$(($(wc -l <out/index.2-of-3.tsv) - 1))
-[ $done -ge 1 ] && [ $done -lt $shard ] || fail "$done of $shard clips were done when it was killed"
+until_true 60 test -e reached || fail "the task did not come to its middle"
+ready=$(($(wc -l <out/index.2-of-3.tsv) - 1))
+{ [ "$ready" -ge 1 ] && [ "$ready" -lt $shard ]; } || fail "$ready of $shard clips were done when it was killed"
 kill -9 "$(cat pid.2)"
 rm held
-until_true 40 ended "$join" || fail "the batch does not end: $(state "$join")"
+until_true 60 ended "$join" || fail "the batch does not end: $(state "$join")"
 [ "$(state "$join")" = COMPLETED ] || fail "the join: $(state "$join")"
 scontrol show job "${array}_2" --oneliner | grep -q ' Restarts=1 ' || fail "the task that was killed did not restart"
-grep -q "$shard of $shard clips .* $done of them unchanged" out.logs/shard_2.log ||
+grep -q "$shard of $shard clips .* $ready of them unchanged" out.logs/shard_2.log ||
   fail "the task that came back did not do just the rest"
 diff -r -x '*.?-of-3.*' one out || fail "a batch on Slurm has other bytes than one machine's"
-echo "batch: $done of $shard clips of a shard done when it was killed; $(find one -type f | wc -l) files equal"
+echo "batch: $ready of $shard clips of a shard done when it was killed; $(find one -type f | wc -l) files equal"
 
 # The training, twice, against the same parts in another order: a part that comes again counts nothing twice.
 sample=$source/tests/data/grid_s1_sample
@@ -164,7 +164,7 @@ for time in first second; do
   jobs=$(sh "$tools/slurm_train.sh" slurm.dam sums corpus/1 corpus/2 corpus/3 -- --controls 3-8) ||
     fail "sbatch of the training"
   merge=$(echo "$jobs" | tail -n 1)
-  until_true 20 ended "$merge" || fail "the training does not end: $(state "$merge")"
+  until_true 60 ended "$merge" || fail "the training does not end: $(state "$merge")"
   [ "$(state "$merge")" = COMPLETED ] || fail "the merge: $(state "$merge")"
   cmp one.dam slurm.dam || fail "a model of Slurm has other bytes than one machine's, the $time time"
 done
