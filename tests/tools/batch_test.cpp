@@ -134,6 +134,8 @@ TEST(Batch, ShardsInAnyOrderEqualOneRun) {
   succeeds(batch_line(dir / "m.tsv", dir / "parts", {"--shard", "2/3", "--jobs", "1"}));
   succeeds(join);
   EXPECT_EQ(contents(dir / "whole"), contents(dir / "parts"));
+  succeeds(batch_line(dir / "m.tsv", dir / "whole", {"--join"}));  // one shard of one
+  EXPECT_EQ(contents(dir / "whole"), contents(dir / "parts"));
   const std::string lost = dir / "parts/part0/clip0.fba";
   fs::remove(lost);
   EXPECT_THAT(animeme(join).err, HasSubstr("part0/clip0.fba: is missing; run shard"));

@@ -27,6 +27,8 @@ Result<int> shards_in(const std::string& folder) {
     }
     shards = all;
   }
+  // One shard of one is the whole index, and what was joined before may be joined again.
+  if (shards < 1 && fs::exists(fs::path(folder) / index_name(1, 1), failed)) shards = 1;
   if (shards < 1) return make_error(Code::not_found, "there are no shards to join").in_file(folder);
   return shards;
 }
