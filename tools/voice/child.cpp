@@ -164,6 +164,14 @@ double seconds_of(const timeval& time) { return double(time.tv_sec) + 1e-6 * dou
   ::_exit(0);
 }
 
+Error refused(std::string_view what, std::string_view how) {
+  return make_error(Code::io, std::string(what) + " " + std::string(how));
+}
+
+Error not_started(std::string_view what, int error) {
+  return refused(what, std::string("cannot be started: ") + std::strerror(error));
+}
+
 }  // namespace
 
 bool Sender::send(std::uint32_t tag, std::string_view bytes) {
@@ -177,12 +185,7 @@ Result<void> run_child(std::string_view what, unsigned seconds,
                        const std::function<bool(Sender&)>& work,
                        const std::function<bool(std::uint32_t, std::string)>& receive) {
   std::array<int, 2> ends{};
-  const auto refuse = [&](std::string_view how) {
-    return make_error(Code::io, std::string(what) + " " + std::string(how));
-  };
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
-    return refuse(std::string("cannot be started: ") + std::strerror(errno));
-  }
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return not_started(what, errno);
   const pid_t child = ::fork();
   if (child == 0) {
     ::close(ends[0]);
@@ -192,29 +195,28 @@ Result<void> run_child(std::string_view what, unsigned seconds,
   ::close(ends[1]);
   if (child < 0) {
     ::close(ends[0]);
-    return refuse(std::string("cannot be started: ") + std::strerror(fork_error));
+    return not_started(what, fork_error);
   }
   const Outcome outcome = listen(ends[0], receive);
   ::close(ends[0]);
   if (outcome == Outcome::stopped) ::kill(child, SIGKILL);
   const std::string how = wait_for(child);
-  return outcome == Outcome::broken ? Result<void>(refuse(how)) : Result<void>();
+  return outcome == Outcome::broken ? Result<void>(refused(what, how)) : Result<void>();
 }
 
 Result<std::unique_ptr<KeptChild>> KeptChild::start(const std::function<void()>& prepare,
                                                     const Work& work, unsigned seconds) {
   std::array<int, 2> ends{};
-  const auto refuse = [] {
-    return make_error(Code::io, std::string("no child can be started: ") + std::strerror(errno));
-  };
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return refuse();
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    return not_started("a child", errno);
+  }
   const pid_t child = ::fork();
   if (child == 0) stay(ends[1], prepare, work, seconds);
   ::close(ends[1]);
   if (child < 0) {
-    const Error error = refuse();
+    const int fork_error = errno;
     ::close(ends[0]);
-    return error;
+    return not_started("a child", fork_error);
   }
   return std::unique_ptr<KeptChild>(new KeptChild(child, ends[0]));
 }
@@ -227,22 +229,18 @@ KeptChild::~KeptChild() {
 Result<void> KeptChild::run(std::string_view what, std::string_view request,
                             const std::function<bool(std::uint32_t, std::string)>& receive) {
   std::array<int, 2> ends{};
-  const auto refuse = [&](std::string_view how) {
-    return make_error(Code::io, std::string(what) + " " + std::string(how));
-  };
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
-    return refuse(std::string("cannot be started: ") + std::strerror(errno));
-  }
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return not_started(what, errno);
   const bool sent = send_request(socket_, request, ends[1]);
   ::close(ends[1]);
   const Outcome outcome = sent ? listen(ends[0], receive) : Outcome::broken;
   ::close(ends[0]);  // a copy that still writes ends by SIGPIPE
   CopyEnd end;
   if (!sent || !transfer(::read, socket_, reinterpret_cast<char*>(&end), sizeof end)) {
-    return refuse("ended early");
+    return refused(what, "ended early");
   }
   tools::add_cpu_seconds(end.cpu_seconds);
-  return outcome == Outcome::broken ? Result<void>(refuse(text_of(end.status))) : Result<void>();
+  return outcome == Outcome::broken ? Result<void>(refused(what, text_of(end.status)))
+                                    : Result<void>();
 }
 
 }  // namespace animeme::voice
