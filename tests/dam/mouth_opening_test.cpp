@@ -11,8 +11,8 @@
 #include "dam/script/ipa.h"
 #include "dam/script/phones.h"
 #include "dam/signal/fap_signal.h"
-#include "dam/speaking/stream.h"
 #include "dam/speaking/synthesise.h"
+#include "tests/dam/stream_parity.h"
 
 namespace animeme::dam {
 namespace mouth_opening_test {
@@ -234,19 +234,7 @@ TEST(MouthOpening, StreamsAreTheWholeClip) {
   StreamOptions options;
   options.synthesis.articulation = 1;
   options.synthesis.rate = {50, 1};
-  const auto whole = synthesise(model(), script, options.synthesis);
-  ASSERT_TRUE(whole);
-  SpeechStream stream(model(), options);
-  std::vector<double> values;
-  for (const Phone& phone : script.phones) {
-    ASSERT_TRUE(stream.push(phone));
-    const auto piece = stream.pull();
-    ASSERT_TRUE(piece);
-    values.insert(values.end(), piece->values.begin(), piece->values.end());
-  }
-  const auto rest = stream.finish();
-  values.insert(values.end(), rest->values.begin(), rest->values.end());
-  EXPECT_EQ(values, whole->values);
+  expect_stream_is_whole(model(), script, options);
 }
 
 TEST(MouthOpening, OtherRigsAndStillFaces) {

@@ -7,8 +7,8 @@
 
 #include "dam/model/builtin.h"
 #include "dam/signal/fap_signal.h"
-#include "dam/speaking/stream.h"
 #include "dam/speaking/synthesise.h"
+#include "tests/dam/stream_parity.h"
 
 namespace animeme::dam {
 namespace rounding_test {
@@ -116,18 +116,7 @@ TEST(Rounding, StreamsAreTheWholeClip) {
       script_of({"W", "AO", "T", "UW", "IY", "SH", "OW", "P", "UH", "T", "UW", "K"});
   StreamOptions options;
   options.synthesis.articulation = 1;
-  const auto whole = synthesise(model(), script, options.synthesis);
-  SpeechStream stream(model(), options);
-  std::vector<double> values;
-  for (const Phone& phone : script.phones) {
-    ASSERT_TRUE(stream.push(phone));
-    const auto piece = stream.pull();
-    ASSERT_TRUE(piece);
-    values.insert(values.end(), piece->values.begin(), piece->values.end());
-  }
-  const auto rest = stream.finish();
-  values.insert(values.end(), rest->values.begin(), rest->values.end());
-  EXPECT_EQ(values, whole->values);
+  expect_stream_is_whole(model(), script, options);
 }
 
 TEST(Rounding, OtherRigsAndAmounts) {
