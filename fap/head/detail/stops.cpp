@@ -9,8 +9,8 @@ namespace {
 
 using Values = ControlValues;
 
-// As far as faces go, one way and the other. Just before skin gives way, and it
-// is never passed.
+// As far as faces go, one way and the other: from 85 % of the limit on skin gives way, and it is
+// never passed.
 float ease(float value, float low, float high) {
   const float limit = value < 0 ? -low : high;
   const float soft = 0.15f * limit, over = std::abs(value) - (limit - soft);

@@ -68,7 +68,7 @@ function stopAtRooms(v, rooms) {
   atMost([[52, 5], [57, 10], [58, 11]], rooms.lower_lip);
 }
 
-// As far as faces go. Just before skin gives way, and it is never passed.
+// As far as faces go: from 85 % of the limit on skin gives way, and it is never passed.
 function ease(value, low, high) {
   const limit = value < 0 ? -low : high;
   const soft = 0.15 * limit;
