@@ -49,8 +49,8 @@ class ShapeFitter {
 
   /// Weights from 0 to 1 whose FAPs come nearest to those of `frame`: least squares over the FAPs
   /// of its mask, in lengths on a face of usual proportions; lids count three times, so
-  /// does the distance of the lips; angles are lengths on the eyeball. Frames do not depend on each
-  /// other. Good until the next call.
+  /// does the distance of the lips, the width of the mouth one and a half times; angles are lengths
+  /// on the eyeball. Frames do not depend on each other. Good until the next call.
   const std::vector<double>& fit(const Frame& frame);
 
  private:

@@ -113,6 +113,9 @@ struct ShapeControl {
   /// Its channel (fap::find_arkit()) if it is one of ARKit's, fap::kWholeFace of a mood such as
   /// joy, which is used where it does much, not for a little of a smile; nothing: another.
   std::optional<int> arkit = {};
+  /// 1..14: the viseme of FAP 1 that its maker says it is. A frame whose mouth is that of FAP 1
+  /// alone shows it as it is.
+  std::optional<int> viseme = {};
 };
 
 /// Target::control of the first shape of a head; smaller numbers are FAPs.

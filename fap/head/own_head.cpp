@@ -225,6 +225,17 @@ class Assembler {
     }
   }
 
+  // A head that shapes move and that cannot blink: its eyes are as wide open as usual.
+  void add_usual_lids(fap::FeaturePoints& places) const {
+    for (const char* lid : {"3.1", "3.2", "3.3", "3.4"}) {
+      if (places.count(lid) > 0) return;
+    }
+    const double half = 0.5 * kUsual.irisd * double(es_);
+    const Vec3 eye = eyes_[0];
+    places["3.1"] = {eye.x, eye.y + half, eye.z};
+    places["3.3"] = {eye.x, eye.y - half, eye.z};
+  }
+
   std::optional<Error> set_units() {
     if (source_.fapu) {
       head_.fapu = *source_.fapu;
@@ -240,6 +251,7 @@ class Assembler {
     for (const auto& [id, eye] : {std::pair("3.5", eyes_[0]), std::pair("3.6", eyes_[1])}) {
       places.try_emplace(id, fap::Point{eye.x, eye.y, eye.z});
     }
+    if (!head_.shapes.empty()) add_usual_lids(places);
     Result<fap::Fapu> measured = fap::measure_fapu(places);
     if (measured) {
       head_.fapu = *measured;

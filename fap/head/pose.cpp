@@ -163,6 +163,42 @@ void lids_follow_gaze(const Rig& rig, fap::Frame& frame) {
   }
 }
 
+namespace {
+
+bool moves_mouth(const fap::Frame& frame) {
+  for (const auto& [first, size, name] : {fap::kGroups[1], fap::kGroups[5], fap::kGroups[7]}) {
+    for (int f = first; f < first + size; ++f) {
+      if (frame.mask[std::size_t(f)]) return true;
+    }
+  }
+  return false;
+}
+
+// FAP 1 by shapes that are visemes by name, where all that it shows are there: their weights, and
+// the FAP is taken out.
+bool show_own_visemes(const Rig& rig, fap::Frame& frame, ControlValues& values) {
+  if (!frame.mask[1] || moves_mouth(frame)) return false;
+  const float blend = float(frame.viseme.blend) / 63;
+  std::array<float, fap::kVisemes.size()> weights{};
+  for (const auto& [viseme, weight] :
+       {std::pair{frame.viseme.select1, blend}, {frame.viseme.select2, 1 - blend}}) {
+    if (viseme > 0 && std::size_t(viseme) < weights.size()) weights[std::size_t(viseme)] += weight;
+  }
+  std::vector<std::pair<std::size_t, float>> shown;
+  for (std::size_t i = 0; i < rig.shapes.size(); ++i) {
+    if (!rig.shapes[i].viseme) continue;
+    float& weight = weights[std::size_t(*rig.shapes[i].viseme)];
+    if (weight > 0) shown.emplace_back(kFirstShape + i, weight * kFullShape);
+    weight = 0;
+  }
+  if (std::ranges::any_of(weights, [](float weight) { return weight > 0; })) return false;
+  for (const auto& [control, value] : shown) values[control] = value;
+  frame.mask.reset(1);
+  return true;
+}
+
+}  // namespace
+
 ControlValues control_values(const Rig& rig, const fap::Frame& frame, const PoseOptions& options) {
   fap::Frame low = low_level(frame);
   if (rig.mouth_gain != 1) low = fap::open_wider(low, rig.mouth_gain);
@@ -172,6 +208,8 @@ ControlValues control_values(const Rig& rig, const fap::Frame& frame, const Pose
     values[f] = low.mask[f] ? float(low.value[f]) : 0;
   }
   if (rig.shapes.empty()) return values;
+  fap::Frame rest = frame;
+  if (show_own_visemes(rig, rest, values)) low = low_level(rest);
   std::vector<fap::Frame> shapes;
   std::vector<std::optional<int>> channels;
   for (const ShapeControl& shape : rig.shapes) {
@@ -183,7 +221,8 @@ ControlValues control_values(const Rig& rig, const fap::Frame& frame, const Pose
   fap::ShapeFitter fitter(shapes, rig.lip_measures, 0.001, channels);
   const std::vector<double>& weights = fitter.fit(wanted_of_shapes(low, cheeks_follow));
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    values[kFirstShape + i] = float(weights[i]) * kFullShape;
+    values[kFirstShape + i] =
+        std::min(values[kFirstShape + i] + float(weights[i]) * kFullShape, kFullShape);
   }
   return values;
 }

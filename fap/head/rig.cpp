@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "fap/detail/lips.h"
 #include "fap/head/detail/normals.h"
+#include "fap/head/detail/shape_measures.h"
 #include "fap/head/detail/stops.h"
 #include "fap/head/detail/targets.h"
 
@@ -57,11 +57,12 @@ bool any_of(const fap::Frame& frame, int first, int last) {
   return false;
 }
 
-std::array<bool, kPartCount> shown_by_shapes(const Rig& rig) {
+// By what the shapes are called: a chin that should move and does not is one that it shows, too.
+std::array<bool, kPartCount> shown_by_shapes(const Head& head, const Rig& rig) {
   std::array<bool, kPartCount> shown{};
   for (const Target& target : rig.targets) {
     if (target.control < kFirstShape) continue;
-    const fap::Frame& faps = rig.shapes[std::size_t(target.control - kFirstShape)].faps;
+    const fap::Frame& faps = head.shapes[std::size_t(target.control - kFirstShape)].faps;
     const bool eye = target.part == Part::left_eye || target.part == Part::right_eye;
     const bool jaw = target.part == Part::lower_teeth || target.part == Part::tongue;
     const bool shows = eye ? any_of(faps, 23, 26) : !jaw || any_of(faps, 3, 3);
@@ -88,45 +89,6 @@ float room(const Head& head, std::string_view a, std::string_view b, int fap, fl
   const float unit = float(fap::step_size(fap, head.fapu));
   const bool known = head.point(a).exists() && head.point(b).exists() && unit > 0;
   return known ? share * length(head.at(a) - head.at(b)) / unit : std::numeric_limits<float>::max();
-}
-
-float down_by(const Target& target, FeaturePoint point) {
-  if (target.part != point.part) return 0;
-  const auto& vertices = target.vertices;
-  const auto at = std::lower_bound(vertices.begin(), vertices.end(), point.vertex);
-  const bool moves = at != vertices.end() && *at == point.vertex;
-  return moves ? -target.deltas[std::size_t(at - vertices.begin())].y * kFullShape : 0;
-}
-
-// How shapes close the lips: measured where the head has the feature points, else as their FAPs
-// say.
-fap::LipMeasures lip_measures(const Head& head, const Rig& rig) {
-  // Points farther apart at rest, in shares of MNS, are not where the lips meet.
-  constexpr float kMostAtRest = 0.15f * 1024;
-  fap::LipMeasures measures;
-  measures.closing.resize(rig.shapes.size());
-  const float unit = float(fap::step_size(4, rig.fapu));
-  for (std::size_t k = 0; k < fap::internal::kLipPairs; ++k) {
-    const auto& [up, low] = fap::internal::kLips[k];
-    const std::string_view upper_id = fap::info(up).feature_point;
-    const std::string_view lower_id = fap::info(low).feature_point;
-    const FeaturePoint upper = head.point(upper_id), lower = head.point(lower_id);
-    if (!upper.exists() || !lower.exists() || !(unit > 0)) {
-      for (std::size_t i = 0; i < rig.shapes.size(); ++i) {
-        const auto& value = rig.shapes[i].faps.value;
-        measures.closing[i][k] = float(value[std::size_t(up)] + value[std::size_t(low)]);
-      }
-      continue;
-    }
-    measures.at_rest[k] =
-        std::clamp((head.at(upper_id).y - head.at(lower_id).y) / unit, 0.0f, kMostAtRest);
-    for (const Target& target : rig.targets) {
-      if (target.control < kFirstShape) continue;
-      measures.closing[std::size_t(target.control - kFirstShape)][k] +=
-          (down_by(target, upper) - down_by(target, lower)) / unit;
-    }
-  }
-  return measures;
 }
 
 // The rim of an upper lid moves over its eyeball by this share of the pitch.
@@ -171,12 +133,12 @@ Rig make_rig(const Head& head) {
   if (head.lash_anchors.size() == head.part(Part::lashes).positions.size()) {
     rig.lash_anchors = head.lash_anchors;
   }
-  rig.shapes = head.shapes;
   rig.mouth_gain = head.mouth_gain;
   rig.targets = head.targets.empty() ? detail::make_targets(head) : head.targets;
-  rig.lip_measures = lip_measures(head, rig);
+  rig.shapes = detail::measured_shapes(head, rig);
+  rig.lip_measures = detail::lip_measures(head, rig);
   rig.deforms = deforming(rig);
-  rig.shown_by_shapes = shown_by_shapes(rig);
+  rig.shown_by_shapes = shown_by_shapes(head, rig);
   rig.lid_vertices = sliding_vertices(rig);
   // What an artist has modelled is not put right.
   for (std::size_t i = 0; i < 2 && rig.shapes.empty(); ++i) {

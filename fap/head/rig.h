@@ -116,7 +116,9 @@ using ControlValues = std::vector<float>;
 /// The values of a frame: low_level() of shapes.h, opened wider by Rig::mouth_gain, absent FAPs 0;
 /// for a rig with shapes also their weights, times kFullShape, whose FAPs come nearest to the frame
 /// (fap::ShapeFitter), few of ARKit's and none against each other; FAP 14, 18, 39 and 40 at 0 have
-/// no say there, as the jaw takes the chin along and rounded lips the cheeks. Each frame stands for
+/// no say there, as the jaw takes the chin along and rounded lips the cheeks. FAP 1 without FAPs of
+/// the mouth beside it is shown by the shapes that are visemes by name, as their maker made them
+/// (mouth_gain does not count), if there is one for each viseme that it shows. Each frame stands for
 /// itself, so any frame may be asked for in any order. With PoseOptions::follow after
 /// lids_follow_gaze().
 ControlValues control_values(const Rig& rig, const fap::Frame& frame,

@@ -119,6 +119,7 @@ head::ShapeControl control_of(const ChosenShape& shape) {
   const ShapeMeaning& meaning = shape.meaning;
   head::ShapeControl control{shape.name, meaning.faps};
   const bool whole = meaning.parts.size() == 1 && meaning.parts.front().sides == 3;
+  if (meaning.viseme > 0) control.viseme = meaning.viseme;
   if (meaning.mood > 0) control.arkit = fap::kWholeFace;
   if (meaning.set == ShapeSet::arkit && whole) control.arkit = meaning.parts.front().channel;
   return control;
@@ -144,7 +145,10 @@ std::vector<ChosenShape> choose_shapes(const std::vector<std::string>& names, Mo
   // ARKit's shapes make any of these faces.
   if (arkit) move_out([](const ShapeMeaning& meaning) { return meaning.mood > 0; });
   if (any_viseme && arkit) {
-    move_out([](const ShapeMeaning& meaning) { return meaning.set == ShapeSet::viseme; });
+    // They show FAP 1; lips that are coded one by one are better followed by ARKit's.
+    for (ChosenShape& shape : shapes) {
+      if (shape.meaning.set == ShapeSet::viseme) shape.meaning.faps = {};
+    }
   } else if (any_viseme && mouth == MouthShapes::visemes) {
     move_out([](const ShapeMeaning& meaning) { return is_mouth(meaning) && !is_mood(meaning); });
   }

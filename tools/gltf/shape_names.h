@@ -60,9 +60,9 @@ struct ChosenShape {
 /// The shape as a head has it.
 head::ShapeControl control_of(const ChosenShape& shape);
 
-/// Sorts out which shapes move a head: those of ARKit first. Visemes only if ARKit's jaw and mouth
-/// are not complete (see MouthShapes); other names only for what no shape of ARKit does. What is
-/// unknown or not used is noted.
+/// Sorts out which shapes move a head: those of ARKit first. Visemes beside ARKit's complete jaw
+/// and mouth (see MouthShapes) have no FAPs: they are there for FAP 1 alone. Other names only for
+/// what no shape of ARKit does. What is unknown or not used is noted.
 std::vector<ChosenShape> choose_shapes(const std::vector<std::string>& names, MouthShapes mouth,
                                        std::vector<std::string>& notes);
 

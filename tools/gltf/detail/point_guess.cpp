@@ -109,7 +109,34 @@ class FaceMap {
       middle_ = (left.x + right.x) / 2;
       between_ = left.x - right.x;
       eye_height_ = (left.y + right.y) / 2;
+    } else {
+      measure_eyeballs();
     }
+  }
+
+  // A head that cannot blink may have eyeballs.
+  void measure_eyeballs() {
+    constexpr float kLidAbove = 0.08f;  // of an eyeball's middle, of the distance of the eyes
+    std::vector<Vec3> places;
+    for (const RawPiece& piece : guess_.face().pieces) {
+      if (is_eye(part_of(piece))) {
+        places.insert(places.end(), piece.positions.begin(), piece.positions.end());
+      }
+    }
+    if (places.empty()) return;
+    const auto [right, left] = std::ranges::minmax(places, {}, &Vec3::x);
+    const float middle = (left.x + right.x) / 2;
+    std::array<Vec3, 2> sums;
+    std::array<float, 2> counts = {};
+    for (const Vec3& p : places) {
+      sums[p.x > middle ? 0 : 1] += p;
+      counts[p.x > middle ? 0 : 1] += 1;
+    }
+    if (counts[0] == 0 || counts[1] == 0) return;
+    const Vec3 eyes[] = {sums[0] * (1 / counts[0]), sums[1] * (1 / counts[1])};
+    middle_ = (eyes[0].x + eyes[1].x) / 2;
+    between_ = eyes[0].x - eyes[1].x;
+    eye_height_ = (eyes[0].y + eyes[1].y) / 2 + kLidAbove * between_;
   }
 
   bool on_side(Vec3 p, int side) const { return side == 0 ? p.x > middle_ : p.x < middle_; }

@@ -2,6 +2,7 @@
 //
 // - 3.1, 3.2: what a blink moves down most, the middle of the upper lid's rim.
 // - 3.3, 3.4: nearest to where that comes down, among what the blink leaves: the lower lid's.
+//   Without one, the middles of eyeballs tell how far apart the eyes are, and there are no lids.
 // - 3.5, 3.6: the foremost vertex of an eyeball.
 // - 2.2, 2.3: near the midline, where what stays and what goes down with the jaw are closest.
 // - 9.3, 9.15: the foremost above the mouth; where the profile bends inwards most sharply, above

@@ -11,6 +11,8 @@ using head::Vec3;
 
 constexpr float kParts = 0.09f;  // of the jaw's motion: what parts by more are the two lips
 constexpr float kNear = 0.03f;   // of the distance of the eyes
+// What parts by less than this share of what parts there is skin that stretches.
+constexpr float kNearlyAll = 0.5f;
 
 // The pair of the smallest cost.
 template <class Cost>
@@ -36,17 +38,26 @@ Slit::Slit(const SkinShapes& face, const std::vector<std::vector<Vec3>>& jaw, fl
   const float near = kNear * between;
   for (std::size_t i = 0; i < spots.size(); ++i) {
     const Vec3 p = face.place(spots[i]);
-    Pair pair{{}, {}, near};
-    const auto look_at = [&](Spot other) {
-      const float apart = length(face.place(other) - p);
-      if (apart < pair.apart && down(other) - down(spots[i]) > kParts * most) {
-        pair = {spots[i], other, apart};
+    const auto each_near = [&](auto look_at) {
+      for (std::size_t k = i; k-- > 0 && face.place(spots[k]).y - p.y < near;) look_at(spots[k]);
+      for (std::size_t k = i + 1; k < spots.size() && p.y - face.place(spots[k]).y < near; ++k) {
+        look_at(spots[k]);
       }
     };
-    for (std::size_t k = i; k-- > 0 && face.place(spots[k]).y - p.y < near;) look_at(spots[k]);
-    for (std::size_t k = i + 1; k < spots.size() && p.y - face.place(spots[k]).y < near; ++k) {
-      look_at(spots[k]);
-    }
+    const auto apart = [&](Spot other) { return length(face.place(other) - p); };
+    const auto parts = [&](Spot other) { return down(other) - down(spots[i]); };
+    float most_parts = 0;
+    each_near([&](Spot other) {
+      if (apart(other) < near) most_parts = std::max(most_parts, parts(other));
+    });
+    // The nearest of those that part, not the other side of a lip that thins.
+    const float enough = std::max(kParts * most, kNearlyAll * most_parts);
+    Pair pair{{}, {}, near};
+    each_near([&](Spot other) {
+      if (apart(other) < pair.apart && parts(other) > enough) {
+        pair = {spots[i], other, apart(other), parts(other)};
+      }
+    });
     if (pair.exists()) pairs_.push_back(pair);
   }
 }
@@ -74,11 +85,20 @@ Slit::Pair Slit::nearest(Vec3 place) const {
   return best(pairs_, [&](const Pair& pair) { return length(face_.place(pair.upper) - place); });
 }
 
+// Between lip and nose skin stretches where the upper lip rises, as that of drawn faces does.
+bool Slit::is_lips(const Pair& pair) const {
+  const auto x = [&](const Pair& of) { return face_.place(of.upper).x; };
+  return std::ranges::none_of(pairs_, [&](const Pair& other) {
+    return std::abs(x(other) - x(pair)) < kNear * between_ && kNearlyAll * other.parts > pair.parts;
+  });
+}
+
 // Behind the lips there may be others as close to each other: the inside of the mouth.
 Slit::Pair Slit::contact(float x) const {
   return best(pairs_, [&](const Pair& pair) {
     const Vec3 p = face_.place(pair.upper);
-    return pair.apart + 0.5f * std::abs(p.x - x) - 0.3f * p.z;
+    const float cost = pair.apart + 0.5f * std::abs(p.x - x) - 0.3f * p.z;
+    return is_lips(pair) ? cost : std::numeric_limits<float>::infinity();
   });
 }
 

@@ -14,6 +14,7 @@ class Slit {
     Spot upper;
     Spot lower;
     float apart = 0;  ///< in the neutral face
+    float parts = 0;  ///< by how much the jaw takes the lower from the upper
 
     bool exists() const { return upper.exists(); }
   };
@@ -32,10 +33,11 @@ class Slit {
 
  private:
   std::vector<Spot> around(head::Vec3 lip) const;
+  bool is_lips(const Pair& pair) const;
 
   const SkinShapes& face_;
   float between_;
-  std::vector<Pair> pairs_;
+  std::vector<Pair> pairs_;  // from above
 };
 
 }  // namespace animeme::gltf

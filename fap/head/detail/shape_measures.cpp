@@ -1,0 +1,94 @@
+#include "fap/head/detail/shape_measures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fap/arkit.h"
+#include "fap/detail/lips.h"
+
+namespace animeme::head::detail {
+namespace {
+
+// How a target at full strength moves a feature point.
+Vec3 shift_of(const Target& target, FeaturePoint point) {
+  if (target.part != point.part) return {};
+  const auto& vertices = target.vertices;
+  const auto at = std::lower_bound(vertices.begin(), vertices.end(), point.vertex);
+  const bool moves = at != vertices.end() && *at == point.vertex;
+  return moves ? target.deltas[std::size_t(at - vertices.begin())] * kFullShape : Vec3{};
+}
+
+// Jaw, chin and lips; the tongue is not among them.
+bool of_mouth(int fap) {
+  const fap::FapInfo& info = fap::info(fap);
+  const bool lengths = info.unit != fap::Unit::angle && !info.feature_point.empty();
+  return lengths && (info.group == 2 || info.group == 8);
+}
+
+bool shows_mouth(const fap::Frame& faps) {
+  for (int f = fap::kFirstLowLevel; f <= fap::kFapCount; ++f) {
+    if (of_mouth(f) && faps.mask[std::size_t(f)] && faps.value[std::size_t(f)] != 0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+fap::LipMeasures lip_measures(const Head& head, const Rig& rig) {
+  // Points farther apart at rest, in shares of MNS, are not where the lips meet.
+  constexpr float kMostAtRest = 0.15f * 1024;
+  fap::LipMeasures measures;
+  measures.closing.resize(rig.shapes.size());
+  const float unit = float(fap::step_size(4, rig.fapu));
+  for (std::size_t k = 0; k < fap::internal::kLipPairs; ++k) {
+    const auto& [up, low] = fap::internal::kLips[k];
+    const std::string_view upper_id = fap::info(up).feature_point;
+    const std::string_view lower_id = fap::info(low).feature_point;
+    const FeaturePoint upper = head.point(upper_id), lower = head.point(lower_id);
+    if (!upper.exists() || !lower.exists() || !(unit > 0)) {
+      for (std::size_t i = 0; i < rig.shapes.size(); ++i) {
+        const auto& value = rig.shapes[i].faps.value;
+        measures.closing[i][k] = float(value[std::size_t(up)] + value[std::size_t(low)]);
+      }
+      continue;
+    }
+    measures.at_rest[k] =
+        std::clamp((head.at(upper_id).y - head.at(lower_id).y) / unit, 0.0f, kMostAtRest);
+    for (const Target& target : rig.targets) {
+      if (target.control < kFirstShape) continue;
+      measures.closing[std::size_t(target.control - kFirstShape)][k] +=
+          (shift_of(target, lower).y - shift_of(target, upper).y) / unit;
+    }
+  }
+  return measures;
+}
+
+std::vector<ShapeControl> measured_shapes(const Head& head, const Rig& rig) {
+  static const std::optional<int> kJaw = fap::find_arkit("jawOpen");
+  std::vector<ShapeControl> shapes = head.shapes;
+  const bool arkit = std::ranges::any_of(shapes, [](const auto& s) { return s.arkit == kJaw; });
+  const bool lips = std::ranges::all_of(std::array{"2.2", "2.3", "2.4", "2.5"},
+                                        [&](const char* id) { return head.point(id).exists(); });
+  if (arkit || !lips) return shapes;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    ShapeControl& shape = shapes[i];
+    if (shape.arkit == fap::kWholeFace || !shows_mouth(shape.faps)) continue;
+    for (int f = fap::kFirstLowLevel; f <= fap::kFapCount; ++f) {
+      if (!of_mouth(f)) continue;
+      const FeaturePoint point = head.point(fap::info(f).feature_point);
+      const float unit = float(fap::step_size(f, rig.fapu));
+      shape.faps.mask.reset(std::size_t(f));
+      if (!point.exists() || !(unit > 0)) continue;
+      const fap::Point move = fap::move_of(f).axis;
+      const Vec3 axis = {float(move[0]), float(move[1]), float(move[2])};
+      Vec3 shift;
+      for (const Target& target : rig.targets) {
+        if (target.control == kFirstShape + int(i)) shift += shift_of(target, point);
+      }
+      shape.faps.set(f, std::int32_t(std::lround(dot(shift, axis) / unit)));
+    }
+  }
+  return shapes;
+}
+
+}  // namespace animeme::head::detail
