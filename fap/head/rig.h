@@ -118,8 +118,8 @@ using ControlValues = std::vector<float>;
 /// (fap::ShapeFitter), few of ARKit's and none against each other; FAP 14, 18, 39 and 40 at 0 have
 /// no say there, as the jaw takes the chin along and rounded lips the cheeks. FAP 1 without FAPs of
 /// the mouth beside it is shown by the shapes that are visemes by name, as their maker made them
-/// (mouth_gain does not count), if there is one for each viseme that it shows. Each frame stands for
-/// itself, so any frame may be asked for in any order. With PoseOptions::follow after
+/// (mouth_gain does not count), if there is one for each viseme that it shows. Each frame stands
+/// for itself, so any frame may be asked for in any order. With PoseOptions::follow after
 /// lids_follow_gaze().
 ControlValues control_values(const Rig& rig, const fap::Frame& frame,
                              const PoseOptions& options = {});

@@ -1,6 +1,6 @@
 // node three.js FILE.glb CAMERA.json OUT.rgb: what three.js draws of a file, by the lights of
-// tools/render/detail/coat_light.cpp. CAMERA: {eye, target, angle (rad), size (pixels), background (0xRRGGBB)}. OUT: R, G, B,
-// rows from the top.
+// tools/render/detail/coat_light.cpp. CAMERA: {eye, target, angle (rad), size (pixels), background (0xRRGGBB)}; with `time` its
+// first animation at that second, without `eye` what shapes move from the front. OUT: R, G, B, rows from the top.
 'use strict';
 
 const fs = require('fs');
@@ -18,14 +18,46 @@ const PAGE = `<!doctype html><link rel=icon href='data:,'><body style='margin:0'
 <script type=module>
 import * as THREE from 'three';
 import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
-window.draw = async (file, {eye, target, angle, size, background}) => {
+import {MeshoptDecoder} from 'three/addons/libs/meshopt_decoder.module.js';
+// Where shapes move vertices by more than a twentieth of what they move any.
+const faceOf = (scene) => {
+  const box = new THREE.Box3();
+  scene.traverse((mesh) => {
+    const shapes = mesh.geometry?.morphAttributes.position ?? [];
+    const {position} = mesh.geometry?.attributes ?? {};
+    const moves = shapes.length === 0 ? [] : Array.from({length: position.count}, (_, v) => Math.max(
+        ...shapes.map((s) => Math.abs(s.getX(v)) + Math.abs(s.getY(v)) + Math.abs(s.getZ(v)))));
+    const most = moves.reduce((a, b) => Math.max(a, b), 0);
+    moves.forEach((move, v) => {
+      if (move > most / 20) box.expandByPoint(mesh.getVertexPosition(v, new THREE.Vector3()).applyMatrix4(mesh.matrixWorld));
+    });
+  });
+  return box;
+};
+const frame = (scene, angle) => {
+  const box = faceOf(scene), middle = box.getCenter(new THREE.Vector3());
+  const far = 1.3 * (box.max.y - box.min.y) / (2 * Math.tan(angle / 2));
+  return {eye: [middle.x, middle.y, box.max.z + far], target: middle.toArray(), scale: far / 10};
+};
+window.draw = async (file, {eye, target, angle, size, background, time}) => {
+  const loader = new GLTFLoader();
+  loader.setMeshoptDecoder(MeshoptDecoder);
+  const gltf = await loader.loadAsync(file);
+  gltf.scene.updateMatrixWorld(true);
+  let scale = 1;
+  if (!eye) ({eye, target, scale} = frame(gltf.scene, angle));
+  if (time !== undefined) {
+    const mixer = new THREE.AnimationMixer(gltf.scene);
+    mixer.clipAction(gltf.animations.at(-1)).play();
+    mixer.setTime(time);
+  }
   const renderer = new THREE.WebGLRenderer({antialias: true, preserveDrawingBuffer: true});
   renderer.setSize(size, size);
   renderer.toneMapping = THREE.NeutralToneMapping;
   renderer.setClearColor(background);
   document.body.append(renderer.domElement);
   const scene = new THREE.Scene();
-  const camera = new THREE.PerspectiveCamera(angle * 180 / Math.PI, 1, 0.5, 1000);
+  const camera = new THREE.PerspectiveCamera(angle * 180 / Math.PI, 1, 0.5 * scale, 1000 * scale);
   camera.position.set(...eye);
   camera.lookAt(...target);
   camera.updateMatrixWorld();
@@ -42,7 +74,7 @@ window.draw = async (file, {eye, target, angle, size, background}) => {
   const sky = new THREE.HemisphereLight(0, 0, Math.PI);
   sky.color.setRGB(0.40, 0.41, 0.43);
   sky.groundColor.setRGB(0.25, 0.23, 0.22);
-  scene.add(sky, (await new GLTFLoader().loadAsync(file)).scene);
+  scene.add(sky, gltf.scene);
   renderer.render(scene, camera);
   return true;
 };
