@@ -20,12 +20,21 @@ int report_error(const Error& error) {
   return error.code == Code::internal ? kInternal : kBadInput;
 }
 
-}  // namespace
+constexpr const Command* kCommands[] = {
+    &kSpeak, &kBatch,  &kFollow,   &kAlign,    &kCorpus, &kTrain,  &kEvaluate, &kEncode, &kDecode,
+    &kMux,   &kDemux,  &kInfo,     &kCompare,  &kCheck,  &kStats,  &kPlot,     &kView,   &kRender,
+    &kHead,  &kImport, &kCrossmap, &kRetarget, &kExport, &kStream, &kReceive,  &kPhones, &kManual};
 
-int run_line(std::span<const char* const> arguments) {
-  CLI::App app{
+// Common options, and where they go.
+struct CommonFlags {
+  bool quiet = false;
+  bool verbose = false;
+};
+
+void set_up_common(CLI::App& app, CommonFlags& flags) {
+  app.description(
       "Animeme: speech to MPEG-4 facial animation.\n"
-      "Makes faces talk (FAPs), codes them (FBA, a few kbit/s) and muxes them with the voice."};
+      "Makes faces talk (FAPs), codes them (FBA, a few kbit/s) and muxes them with the voice.");
   app.name("animeme");
   app.require_subcommand(1);
   app.set_version_flag("--version", "animeme " ANIMEME_VERSION);
@@ -33,28 +42,40 @@ int run_line(std::span<const char* const> arguments) {
       "'animeme COMMAND --help' explains a command.\n"
       "Exit codes: 0 ok, 1 a check failed or a recording ended early, 2 usage, 3 bad input, 4\n"
       "internal error, 130 stopped by Ctrl-C (what was written so far is complete).");
-  bool quiet = false;
-  app.add_flag("-q,--quiet", quiet, "No talk on standard error but errors");
-  bool verbose = false;
-  app.add_flag("-v,--verbose", verbose, "More talk: which sounds a model lacks, and what is said");
+  app.add_flag("-q,--quiet", flags.quiet, "No talk on standard error but errors");
+  app.add_flag("-v,--verbose", flags.verbose,
+               "More talk: which sounds a model lacks, and what is said");
   app.fallthrough();
+}
 
-  const Command* commands[] = {
-      &kSpeak, &kBatch,  &kFollow,   &kAlign,    &kCorpus, &kTrain,  &kEvaluate, &kEncode, &kDecode,
-      &kMux,   &kDemux,  &kInfo,     &kCompare,  &kCheck,  &kStats,  &kPlot,     &kView,   &kRender,
-      &kHead,  &kImport, &kCrossmap, &kRetarget, &kExport, &kStream, &kReceive,  &kPhones};
+void add(CLI::App& app, const Command& command, Action& chosen) {
+  CLI::App* sub = app.add_subcommand(command.name, command.summary);
+  sub->footer(std::string("Examples:\n") + command.examples);
+  Action action = command.add(*sub);
+  sub->callback([&chosen, action] { chosen = action; });
+}
+
+}  // namespace
+
+void set_up_program(CLI::App& app) {
+  static CommonFlags flags;  // nothing is parsed
+  static Action chosen;
+  set_up_common(app, flags);
+  for (const Command* command : kCommands) add(app, *command, chosen);
+}
+
+int run_line(std::span<const char* const> arguments) {
+  CLI::App app;
+  CommonFlags flags;
+  set_up_common(app, flags);
   Action chosen;
   // A line that begins with its command wants no other: batches run many.
   const std::string first = arguments.size() > 1 ? arguments[1] : "";
-  const bool known = std::any_of(std::begin(commands), std::end(commands),
+  const bool known = std::any_of(std::begin(kCommands), std::end(kCommands),
                                  [&](const Command* one) { return first == one->name; });
   forget_outputs();
-  for (const Command* command : commands) {
-    if (known && first != command->name) continue;
-    CLI::App* sub = app.add_subcommand(command->name, command->summary);
-    sub->footer(std::string("Examples:\n") + command->examples);
-    Action action = command->add(*sub);
-    sub->callback([&chosen, action] { chosen = action; });
+  for (const Command* command : kCommands) {
+    if (!known || first == command->name) add(app, *command, chosen);
   }
   try {
     app.parse(int(arguments.size()), arguments.data());
@@ -65,8 +86,8 @@ int run_line(std::span<const char* const> arguments) {
     }
     return app.exit(error) == 0 ? kOk : kUsage;
   }
-  set_quiet(quiet);
-  set_verbose(verbose);
+  set_quiet(flags.quiet);
+  set_verbose(flags.verbose);
   for (const CLI::App* command : app.get_subcommands()) {
     if (const std::string text = problem_with_outputs(*command); !text.empty()) {
       return usage_error(text);
