@@ -138,7 +138,7 @@ Mesh make_tongue(const Shape& shape) {
     const double t = double(row) / (kTongueRows - 1);  // 0 root, 1 near the tip
     const double taper = std::sqrt(std::max(1 - std::pow(t, 3.2) * 0.93, 0.0));
     const double half = wide * taper;
-    const double thick = (0.62 - 0.30 * t) * std::max(taper, 0.35);
+    const double thick = (0.62 - 0.22 * t) * std::max(taper, 0.62);  // the tip is a finger, no leaf
     const double z = front - 4.3 + 4.25 * t;
     const double y =
         -shape.p.mouth_drop - 0.72 + 0.38 * std::sin(pi * std::min(t * 1.1, 1.0)) + 0.22 * t * t;

@@ -104,20 +104,31 @@ void stop_at_contact(const Rig& rig, ControlValues& v) {
 
 std::vector<Reach> usual_reaches() {
   // In the units of each FAP, from what people do: the jaw goes 8 mm forward and 11 aside, cheeks
-  // 15 mm out, lips 12 mm forward, and so on. What has no entry has no limit.
+  // 15 mm out, lips 12 mm forward, and back until they lie on the teeth. What has no entry has no
+  // limit.
+  constexpr float kAny = 1e6f;
   const struct {
     std::initializer_list<int> faps;
     float low, high;
-  } usual_ones[] = {{{3}, -420, 1500},           {{5, 10, 11, 52, 57, 58}, -2500, 600},
-                    {{6, 7, 53, 54}, -205, 280}, {{12, 13, 59, 60}, -3000, 640},
-                    {{14}, -1000, 480},          {{15}, -280, 280},
-                    {{16}, -3000, 600},          {{17}, -300, 600},
-                    {{18}, -1500, 470},          {{21, 22}, -175, 5000},
-                    {{27, 28}, -200, 20},        {{31, 32, 33, 34}, -1000, 440},
-                    {{35, 36}, -1000, 350},      {{39, 40}, -180, 280},
-                    {{41, 42}, -160, 215},       {{61, 62}, -190, 200},
-                    {{63}, -180, 240},           {{64}, -240, 240},
-                    {{44}, -600, 1000}};
+  } usual_ones[] = {{{3}, -420, 1500},
+                    {{5, 10, 11, 52, 57, 58}, -kAny, 600},
+                    {{6, 7, 53, 54}, -205, 280},
+                    {{12, 13, 59, 60}, -kAny, 640},
+                    {{14}, -kAny, 440},
+                    {{15}, -280, 280},
+                    {{16}, -520, 600},
+                    {{17}, -120, 600},
+                    {{18}, -kAny, 470},
+                    {{21, 22}, -175, kAny},
+                    {{27, 28}, -200, 20},
+                    {{31, 32, 33, 34}, -1000, 440},
+                    {{35, 36}, -1000, 350},
+                    {{39, 40}, -180, 280},
+                    {{41, 42}, -160, 215},
+                    {{44}, -600, 1000},
+                    {{61, 62}, -190, 200},
+                    {{63}, -180, 240},
+                    {{64}, -240, 240}};
   std::vector<Reach> reaches;
   for (const auto& usual : usual_ones) {
     for (const int fap : usual.faps) reaches.push_back({fap, usual.low, usual.high});
