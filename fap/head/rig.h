@@ -59,6 +59,9 @@ struct DentalArch {
   std::vector<std::uint32_t> vertices;  ///< of the skin before it, which must not get into it
 };
 
+/// FAP 3 at which the teeth meet: a chin that rises further leaves them where they are.
+inline constexpr float kBite = -100;
+
 /// A head that is ready to move.
 struct Rig {
   /// A part at rest.

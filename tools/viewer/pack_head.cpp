@@ -115,11 +115,9 @@ Json jaw_of(const head::Rig& rig) {
     frame.set(fap, value);
     return head::pose(rig, frame, {.contact = false}).jaw;
   };
-  return {{"axis", json_of(rig.jaw_axis)},
-          {"sine", turned(3, 512).row_z.y / 512},
-          {"limit", turned(3, 1 << 20).row_z.y},
-          {"thrust", turned(14, 512).shift.z / 512},
-          {"shift", turned(15, 512).shift.x / 512}};
+  return {{"axis", json_of(rig.jaw_axis)},           {"bite", head::kBite},
+          {"sine", turned(3, 512).row_z.y / 512},    {"limit", turned(3, 1 << 20).row_z.y},
+          {"thrust", turned(14, 512).shift.z / 512}, {"shift", turned(15, 512).shift.x / 512}};
 }
 
 Json reach_of(const head::Reach& reach) { return {reach.fap, reach.low, reach.high}; }

@@ -26,12 +26,16 @@ struct Share {
 constexpr float kCheekOut = 0.75f;  // of a smile's cheek, of what the corner of the mouth rises
 
 // Which points go along with a FAP besides its own; the factors were chosen by eye.
-std::vector<Share> shares_of(int fap) {
+std::vector<Share> shares_of(int fap, bool back) {
+  // A lip that is drawn in rolls over the teeth, and the skin beside it stays before them.
+  const float border = back ? 0.3f : 0.85f, sides = back ? 0.2f : 0.65f;
   switch (fap) {
     case 3:
     case 15:
       return {{"2.1", 1}, {"2.10", 0.97f}};
-    case 14:  // the border of the lip bridges the step from the chin to the lip, which stays
+    case 14:  // forward the border of the lip bridges the step from the chin to the lip, which
+              // stays
+      if (back) return {{"2.1", 1}, {"2.10", 0.97f}};
       return {{"2.1", 1}, {"2.10", 0.97f}, {"8.2", 0.45f}, {"8.7", 0.35f}, {"8.8", 0.35f}};
     case 6:
       return {{"2.4", 1}, {"2.6", 0.5f}, {"2.8", 0.5f}};
@@ -50,11 +54,11 @@ std::vector<Share> shares_of(int fap) {
     case 60:
       return {{"8.4", 1}, {"5.2", 0.27f}};
     case 16:
-      return {{"2.3", 1},     {"8.2", 0.85f}, {"2.8", 0.75f}, {"2.9", 0.75f},
-              {"8.7", 0.65f}, {"8.8", 0.65f}, {"2.4", 0.2f},  {"2.5", 0.2f}};
+      return {{"2.3", 1},     {"8.2", border}, {"2.8", 0.75f}, {"2.9", 0.75f},
+              {"8.7", sides}, {"8.8", sides},  {"2.4", 0.2f},  {"2.5", 0.2f}};
     case 17:
-      return {{"2.2", 1},     {"8.1", 0.85f}, {"2.6", 0.75f}, {"2.7", 0.75f},
-              {"8.5", 0.65f}, {"8.6", 0.65f}, {"2.4", 0.2f},  {"2.5", 0.2f}};
+      return {{"2.2", 1},     {"8.1", border}, {"2.6", 0.75f}, {"2.7", 0.75f},
+              {"8.5", sides}, {"8.6", sides},  {"2.4", 0.2f},  {"2.5", 0.2f}};
     case 37:
       return {{"4.1", 1}, {"4.3", 0.5f}, {"4.5", 0.15f}};
     case 38:
@@ -80,19 +84,17 @@ class Maker {
 
   std::vector<Target> make() {
     for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
-      if (!fill_column(fap)) continue;
-      const Vec3 step = axis_of(fap) * float(fap::step_size(fap, head_.fapu));
-      std::vector<Vec3> deltas(column_.size());
-      for (std::size_t v = 0; v < column_.size(); ++v) {
-        deltas[v] = step * column_[v];
-        if (fap == 3) deltas[v].z += step.y * kChinBack * column_[v];
+      if (fap != 14 && fap != 16 && fap != 17) {
+        add_fap(fap, false);
+        continue;
       }
-      if (fap >= 31 && fap <= 36) slide_.on_bone(deltas);
-      if (fap < 65) slide_.below_hair(deltas);
-      add_mouth_floor(fap, step, deltas);
-      add(fap, Part::skin, deltas);
-      add_bound(fap, deltas);
-      if (fap == 59 || fap == 60) add_smiling_cheek(fap);
+      const std::size_t first = targets_.size();
+      add_fap(fap, false);
+      const std::size_t second = targets_.size();
+      add_fap(fap, true);
+      for (std::size_t i = first; i < targets_.size(); ++i) {
+        (i < second ? targets_[i].low : targets_[i].high) = 0;
+      }
     }
     add_tongue();
     add_pupils();
@@ -102,15 +104,32 @@ class Maker {
   }
 
  private:
+  // `back`: where its values are negative.
+  void add_fap(int fap, bool back) {
+    if (!fill_column(fap, back)) return;
+    const Vec3 step = axis_of(fap) * float(fap::step_size(fap, head_.fapu));
+    std::vector<Vec3> deltas(column_.size());
+    for (std::size_t v = 0; v < column_.size(); ++v) {
+      deltas[v] = step * column_[v];
+      if (fap == 3) deltas[v].z += step.y * kChinBack * column_[v];
+    }
+    if (fap >= 31 && fap <= 36) slide_.on_bone(deltas);
+    if (fap < 65) slide_.below_hair(deltas);
+    add_mouth_floor(fap, step, deltas);
+    add(fap, Part::skin, deltas);
+    add_bound(fap, deltas);
+    if (fap == 59 || fap == 60) add_smiling_cheek(fap);
+  }
+
   // How far each vertex of the skin goes along with a FAP; false: not at all.
-  bool fill_column(int fap) {
+  bool fill_column(int fap, bool back) {
     const bool lid = fap >= 19 && fap <= 22;
     if (fap::move_of(fap).kind != fap::MoveKind::translate) return false;
     if (lid && fill_lid(fap)) return true;
     if (fap >= 65 && fill_ear(fap)) return true;
     bool any = false;
     std::fill(column_.begin(), column_.end(), 0.0f);
-    for (const Share& share : shares_of(fap)) {
+    for (const Share& share : shares_of(fap, back)) {
       const int control = control_index(share.id);
       if (control < 0 || !head_.point(share.id).exists()) continue;
       any = true;
@@ -308,7 +327,7 @@ std::vector<Target> make_targets(const Head& head) { return Maker(head).make(); 
 
 Transform jaw_transform(const Rig& rig, float open, float thrust, float shift) {
   const float scale = float(rig.fapu.es) / 6.3f;
-  const float drop = open * float(rig.fapu.mns) / 1024;
+  const float drop = std::max(open, kBite) * float(rig.fapu.mns) / 1024;
   const float sine = std::clamp(kJawShare * drop / (kJawLength * scale), -0.6f, 0.6f);
   Transform jaw = rotation_about(rig.jaw_axis, std::asin(sine), 0, 0);
   jaw.shift.z += thrust * float(rig.fapu.mns) / 1024;

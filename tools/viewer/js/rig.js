@@ -162,8 +162,8 @@ export class Rig {
   }
 
   jawTransform(v) {
-    const {axis, sine, limit, thrust, shift} = this.model.jaw;
-    const turn = Math.asin(Math.min(Math.max(v[3] * sine, -limit), limit));
+    const {axis, bite, sine, limit, thrust, shift} = this.model.jaw;
+    const turn = Math.asin(Math.min(Math.max(Math.max(v[3], bite) * sine, -limit), limit));
     const jaw = rotationAbout(axis, turn, 0, 0);
     jaw[11] += v[14] * thrust;
     jaw[9] += v[15] * shift;
