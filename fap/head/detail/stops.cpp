@@ -51,11 +51,24 @@ void share(float& a, float& b, float room) {
 
 constexpr float kLidRise = -270;    // upper lids rise by this at most
 constexpr float kJawBack = -250;    // and the jaw goes back by this
+constexpr float kChinUp = 420;      // the chin rises by this at most
+constexpr float kCheekIn = 180;     // cheeks are sucked in by this at most
 constexpr float kCornerTurn = 300;  // outer corners rise and fall with the inner ones but for this
 
 void at_least(Values& v, std::initializer_list<std::size_t> faps, float least) {
   for (const std::size_t f : faps) v[f] = std::max(v[f], least);
 }
+
+// The outer corner of the mouth against the inner one, along one axis.
+struct Apart {
+  float inner, outer, low, high;
+  // Of what there is.
+  float share() const {
+    const float most = outer < inner ? low : high;
+    return most == 0 ? 0 : (outer - inner) / most;
+  }
+  float at(float part) const { return inner + (outer - inner) * part; }
+};
 
 // Points that would come too near to each other, so that the skin between them folds over.
 void stop_at_rooms(const Rooms& rooms, Values& v) {
@@ -65,18 +78,25 @@ void stop_at_rooms(const Rooms& rooms, Values& v) {
   at_least(v, {31, 32, 33, 34, 35, 36}, -rooms.brow_lid);
   at_least(v, {37, 38}, -0.5f * rooms.brows);
   share(v[37], v[38], rooms.brows);
+  // A chin that is up is not pushed aside as well.
+  at_least(v, {3}, -kChinUp + std::abs(v[15]) + std::max(v[18], 0.0f));
   // An open jaw takes lips and corners along, down and back.
   const float jaw = std::max(v[3], 0.0f);
   at_least(v, {16}, -620 - 0.5f * jaw);
   at_least(v, {12, 13, 59, 60}, -440 - 0.3f * jaw);
-  const float chin = std::min(v[18] - jaw, 0.0f);
+  const float chin = v[3] < 0 ? std::min(v[18], 0.0f) - v[3] : std::min(v[18] - jaw, 0.0f);
   at_least(v, {5, 10, 11, 52, 57, 58}, chin - rooms.lip_chin);
   at_least(v, {4, 8, 9, 51, 55, 56}, -rooms.nose_lip);
-  for (const auto& [outer, inner] : {std::pair(53u, 6u), {54u, 7u}}) {
-    v[outer] = std::clamp(v[outer], v[inner] - rooms.corner, v[inner] + 0.2f * rooms.corner);
-  }
-  for (const auto& [outer, inner] : {std::pair(59u, 12u), {60u, 13u}}) {
-    v[outer] = std::clamp(v[outer], v[inner] - kCornerTurn, v[inner] + kCornerTurn);
+  for (const std::size_t side : {0u, 1u}) {
+    const Apart aside{v[6 + side], v[53 + side], -rooms.corner, 0.2f * rooms.corner};
+    const Apart up{v[12 + side], v[59 + side], -kCornerTurn, kCornerTurn};
+    const float far = std::hypot(aside.share(), up.share());
+    v[53 + side] = aside.at(1 / std::max(far, 1.0f));
+    v[59 + side] = up.at(1 / std::max(far, 1.0f));
+    // Where the corner pulls at the cheek it can be sucked in less.
+    const float pull =
+        std::max({v[6 + side], v[53 + side], 0.5f * v[12 + side], 0.5f * v[59 + side], 0.0f});
+    at_least(v, {39 + side}, -kCheekIn + 0.5f * pull);
   }
   for (const auto& [outer, inner] : {std::pair(51u, 4u), {55u, 8u}, {56u, 9u}}) {
     v[outer] = std::min(v[outer], v[inner] + rooms.upper_lip);

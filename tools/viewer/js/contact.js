@@ -4,6 +4,8 @@ import {smoothStep} from './vector.js';
 
 const LID_RISE = -270;  // upper lids rise by this at most
 const JAW_BACK = -250;  // and the jaw goes back by this
+const CHIN_UP = 420;  // the chin rises by this at most
+const CHEEK_IN = 180;  // cheeks are sucked in by this at most
 const CORNER_TURN = 300;  // outer corners rise and fall with the inner ones but for this
 const CONTACT = 0.06;  // of MNS: lips and lids so near are shut
 
@@ -50,20 +52,26 @@ function stopAtRooms(v, rooms) {
   atLeast([31, 32, 33, 34, 35, 36], -rooms.brow_lid);
   atLeast([37, 38], -0.5 * rooms.brows);
   share(v, 37, 38, rooms.brows);
+  // A chin that is up is not pushed aside as well.
+  atLeast([3], -CHIN_UP + Math.abs(v[15]) + Math.max(v[18], 0));
   // An open jaw takes lips and corners along, down and back.
   const jaw = Math.max(v[3], 0);
   atLeast([16], -620 - 0.5 * jaw);
   atLeast([12, 13, 59, 60], -440 - 0.3 * jaw);
-  const chin = Math.min(v[18] - jaw, 0);
+  const chin = v[3] < 0 ? Math.min(v[18], 0) - v[3] : Math.min(v[18] - jaw, 0);
   atLeast([5, 10, 11, 52, 57, 58], chin - rooms.lip_chin);
   atLeast([4, 8, 9, 51, 55, 56], -rooms.nose_lip);
-  const near = (faps, less, more) => {
-    for (const [outer, inner] of faps) {
-      v[outer] = Math.min(Math.max(v[outer], v[inner] - less), v[inner] + more);
-    }
-  };
-  near([[53, 6], [54, 7]], rooms.corner, 0.2 * rooms.corner);
-  near([[59, 12], [60, 13]], CORNER_TURN, CORNER_TURN);
+  // The outer corner of the mouth against the inner one, aside and up together.
+  for (const side of [0, 1]) {
+    const aside = v[53 + side] - v[6 + side];
+    const up = v[59 + side] - v[12 + side];
+    const far = Math.hypot(aside / (aside < 0 ? rooms.corner : 0.2 * rooms.corner) || 0, up / CORNER_TURN);
+    v[53 + side] = v[6 + side] + aside / Math.max(far, 1);
+    v[59 + side] = v[12 + side] + up / Math.max(far, 1);
+    // Where the corner pulls at the cheek it can be sucked in less.
+    const pull = Math.max(v[6 + side], v[53 + side], 0.5 * v[12 + side], 0.5 * v[59 + side], 0);
+    atLeast([39 + side], -CHEEK_IN + 0.5 * pull);
+  }
   atMost([[51, 4], [55, 8], [56, 9]], rooms.upper_lip);
   atMost([[52, 5], [57, 10], [58, 11]], rooms.lower_lip);
 }
