@@ -320,13 +320,18 @@ void Encoder::drop() {
 }
 
 std::vector<std::uint8_t> Encoder::take() {
-  std::vector<std::uint8_t> bytes = impl_->out.take();
+  std::vector<std::uint8_t> bytes;
+  take(bytes);
+  return bytes;
+}
+
+void Encoder::take(std::vector<std::uint8_t>& bytes) {
+  impl_->out.take(bytes);
   impl_->taken_bits += std::int64_t(bytes.size()) * 8;
   impl_->follows &= impl_->plane_begin >= bytes.size() * 8;  // else it is long enough
   impl_->plane_begin -= bytes.size() * 8;
   impl_->trace.clear();
   impl_->taken = *impl_;
-  return bytes;
 }
 
 void Encoder::end() {

@@ -101,10 +101,15 @@ class BitWriter {
   }
   /// Hands the complete bytes over and keeps the bits of the unfinished one.
   std::vector<std::uint8_t> take() {
-    write_bytes();
     std::vector<std::uint8_t> out;
-    out.swap(bytes_);
+    take(out);
     return out;
+  }
+  /// The same into a vector whose memory is then written to.
+  void take(std::vector<std::uint8_t>& out) {
+    write_bytes();
+    out.clear();
+    out.swap(bytes_);
   }
 
  private:

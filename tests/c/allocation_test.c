@@ -93,10 +93,8 @@ int main(void) {
     long before = allocations;
     animeme_status status;
     check(animeme_decoder_push(decoder, stream + begin, ends[time] - begin, &error));
-    status = animeme_decoder_next(decoder, &frame, NULL, &error);
+    while ((status = animeme_decoder_next(decoder, &frame, NULL, &error)) == ANIMEME_OK) ++planes;
     check(status);
-    if (status != ANIMEME_OK) continue;
-    ++planes;
     if (planes > WARM * RATE) decoding += allocations - before;
     before = allocations;
     check(animeme_receiver_next(receiver, &frame, &shown, &error));

@@ -341,9 +341,13 @@ TEST_F(CSpeech, AStreamHasTheSameFramesAndOutlivesItsModel) {
     }
     EXPECT_EQ(status, last);
   };
-  for (const dam::Phone& phone : dam::read_script(text)->phones) {
-    ASSERT_EQ(animeme_speech_push(made, phone.start, phone.end, phone.label.c_str(), nullptr),
-              ANIMEME_OK);
+  const auto script = dam::read_script(text);
+  ASSERT_TRUE(script);
+  for (const dam::Phone& phone : script->phones) {
+    animeme_error said{};
+    ASSERT_EQ(animeme_speech_push(made, phone.start, phone.end, phone.label.c_str(), &said),
+              ANIMEME_OK)
+        << said.message;
     pull(ANIMEME_NEED_DATA);
   }
   early = next;

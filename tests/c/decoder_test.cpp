@@ -18,7 +18,8 @@ C<animeme_decoder> new_decoder() {
 
 Bytes stream_of(std::uint64_t seed, int frames = 60) {
   fba::EncodeOptions options = fba::live_options();
-  options.intra_seconds = 1;
+  options.intra_seconds = 0.4;
+  options.stream.plane_start_codes = fba::PlaneStartCodes::all;
   const auto stream = fba::encode(random_clip(seed, frames, true), options);
   EXPECT_TRUE(stream) << stream.error().describe();
   return *stream;
@@ -53,8 +54,8 @@ TEST(CDecoder, PiecesAreAsOnePush) {
     for (std::size_t sum = 0; sum < bytes.size(); sum += pieces.back()) {
       pieces.push_back(std::size_t(random.range(0, seed % 2 == 0 ? 3 : 400)));
     }
-    ASSERT_EQ(everything(new_decoder().get(), bytes, pieces),
-              everything(new_decoder().get(), bytes));
+    ASSERT_TRUE(everything(new_decoder().get(), bytes, pieces) ==
+                everything(new_decoder().get(), bytes));
   }
 }
 
@@ -72,7 +73,7 @@ TEST(CDecoder, AfterAResetAllIsForgotten) {
     }
     if (round % 3 == 0) animeme_decoder_finish(decoder.get(), nullptr);
     ASSERT_EQ(animeme_decoder_reset(decoder.get(), nullptr), ANIMEME_OK);
-    ASSERT_EQ(everything(decoder.get(), second), want);
+    ASSERT_TRUE(everything(decoder.get(), second) == want);
     ASSERT_EQ(animeme_decoder_reset(decoder.get(), nullptr), ANIMEME_OK);
   }
 }
@@ -128,17 +129,19 @@ TEST(CDecoder, NoiseEnds) {
 
 TEST(CDecoder, WarningsAreCounted) {
   Bytes bytes = stream_of(1);
-  bytes.insert(bytes.end(), {1, 2, 3});  // behind the end code
+  ASSERT_EQ(bytes.back(), 0xB1);
+  bytes.back() =
+      0xB6;  // a start code that belongs to neither planes nor headers, in place of the end
   const auto decoder = new_decoder();
   animeme_error last{};
   EXPECT_EQ(animeme_decoder_warnings(decoder.get(), &last), 0);
-  const Bytes strange = {0, 0, 1, 0xB0, 0x00};  // a profile that is none
-  animeme_decoder_push(decoder.get(), strange.data(), strange.size(), nullptr);
+  EXPECT_STREQ(last.message, "");
   (void)everything(decoder.get(), bytes);
-  if (animeme_decoder_warnings(decoder.get(), &last) > 0) {
-    EXPECT_NE(std::string(last.message), "");
-    EXPECT_EQ(last.status, ANIMEME_OK);
-  }
+  EXPECT_EQ(animeme_decoder_warnings(decoder.get(), &last), 1);
+  EXPECT_GT(last.bit, 0);
+  EXPECT_STRNE(last.message, "");
+  animeme_decoder_reset(decoder.get(), nullptr);
+  EXPECT_EQ(animeme_decoder_warnings(decoder.get(), nullptr), 0);
 }
 
 TEST(CDecoder, AnOlderProgramHasAShorterFrame) {
@@ -184,8 +187,8 @@ TEST(CDecoder, HandlesInThreadsKnowNothingOfEachOther) {
   std::thread other([&] { got_one = everything(new_decoder().get(), one); });
   got_two = everything(new_decoder().get(), two);
   other.join();
-  EXPECT_EQ(got_one, want_one);
-  EXPECT_EQ(got_two, want_two);
+  EXPECT_TRUE(got_one == want_one);
+  EXPECT_TRUE(got_two == want_two);
 }
 
 }  // namespace

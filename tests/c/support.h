@@ -90,8 +90,9 @@ inline std::vector<std::string> everything(animeme_decoder* decoder,
                                            std::span<const std::uint8_t> bytes,
                                            const std::vector<std::size_t>& pieces = {}) {
   std::vector<std::string> all;
+  bool ended = false;
   const auto pull = [&] {
-    for (;;) {
+    while (!ended) {
       animeme_frame frame = empty_frame();
       animeme_body body;
       animeme_body_init(&body, sizeof body);
@@ -103,7 +104,7 @@ inline std::vector<std::string> everything(animeme_decoder* decoder,
       entry.append(reinterpret_cast<const char*>(&body), sizeof body);
       if (status < 0) entry += error.message;
       all.push_back(entry);
-      if (status == ANIMEME_END) return;
+      ended = status == ANIMEME_END;
     }
   };
   std::size_t at = 0;

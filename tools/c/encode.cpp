@@ -98,9 +98,9 @@ animeme_status write_frame(animeme_encoder& handle, const animeme_frame* frame,
   if (body != nullptr) {
     if (auto status = take_body(*body, taken_body, error); status != ANIMEME_OK) return status;
   }
-  auto unit = handle.encoder.write(taken, skip, body == nullptr ? nullptr : &taken_body);
-  if (!unit) return fail(error, unit.error());
-  handle.bytes = std::move(*unit);
+  const auto written =
+      handle.encoder.write(taken, handle.bytes, skip, body == nullptr ? nullptr : &taken_body);
+  if (!written) return fail(error, written.error());
   return ANIMEME_OK;
 }
 

@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
       options.rate_den = plane.rate_den;
       check(animeme_encoder_new(&options, &encoder, &error), &error);
     }
-    send(encoder, &plane, out);
+    send(encoder, &shown, out);
   }
   if (encoder != NULL) send(encoder, NULL, out);
   animeme_encoder_free(encoder);
