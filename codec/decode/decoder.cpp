@@ -6,6 +6,8 @@ namespace animeme::fba {
 
 namespace {
 
+constexpr std::size_t kWorthForgetting = 64;  // bytes; the buffer of a live stream stays this small
+
 // What planes share is written again in place where no plane has it any more, so that a stream that
 // is shown as it comes needs no memory for each.
 template <class Shared>
@@ -55,7 +57,7 @@ Error Decoder::Impl::at(Code code, std::string message, std::size_t bit) {
 
 void Decoder::Impl::trim() {
   const std::size_t bytes = position / 8;
-  if (bytes < internal::kPieceBytes || bytes < buffer.size() / 2 || parsed.begun()) return;
+  if (bytes < kWorthForgetting || bytes < buffer.size() / 2 || parsed.begun()) return;
   buffer.erase(buffer.begin(), buffer.begin() + std::ptrdiff_t(bytes));
   if (buffer.capacity() > 8 * internal::kPieceBytes && buffer.size() < internal::kPieceBytes)
     buffer.shrink_to_fit();

@@ -108,6 +108,7 @@ struct Encoder::Impl : Encoder::Place {
 
   std::vector<std::uint8_t> bytes_and_rest();
   std::vector<internal::Trap> traps();
+  void account(std::size_t bytes);  // they have been taken
 
   // First everything that can fail, then the bits.
   Result<void> write(const PlaneInput& plane) {
@@ -320,18 +321,22 @@ void Encoder::drop() {
 }
 
 std::vector<std::uint8_t> Encoder::take() {
-  std::vector<std::uint8_t> bytes;
-  take(bytes);
+  std::vector<std::uint8_t> bytes = impl_->out.take();
+  impl_->account(bytes.size());
   return bytes;
 }
 
 void Encoder::take(std::vector<std::uint8_t>& bytes) {
   impl_->out.take(bytes);
-  impl_->taken_bits += std::int64_t(bytes.size()) * 8;
-  impl_->follows &= impl_->plane_begin >= bytes.size() * 8;  // else it is long enough
-  impl_->plane_begin -= bytes.size() * 8;
-  impl_->trace.clear();
-  impl_->taken = *impl_;
+  impl_->account(bytes.size());
+}
+
+void Encoder::Impl::account(std::size_t bytes) {
+  taken_bits += std::int64_t(bytes) * 8;
+  follows &= plane_begin >= bytes * 8;  // else it is long enough
+  plane_begin -= bytes * 8;
+  trace.clear();
+  taken = *this;
 }
 
 void Encoder::end() {

@@ -101,15 +101,16 @@ class BitWriter {
   }
   /// Hands the complete bytes over and keeps the bits of the unfinished one.
   std::vector<std::uint8_t> take() {
+    write_bytes();
     std::vector<std::uint8_t> out;
-    take(out);
+    out.swap(bytes_);
     return out;
   }
-  /// The same into a vector whose memory is then written to.
+  /// The same as a copy: both keep their memory, so that piece after piece needs no more.
   void take(std::vector<std::uint8_t>& out) {
     write_bytes();
-    out.clear();
-    out.swap(bytes_);
+    out.assign(bytes_.begin(), bytes_.end());
+    bytes_.clear();
   }
 
  private:
