@@ -213,7 +213,7 @@ struct Encoder::Impl : Encoder::Place {
   void write_face(const PlaneInput& plane) {
     if (plane.intra) {
       state.face_settings = *plane.face_settings;
-      std::swap(state.face.coding, pending_face.coding);
+      state.face.coding = pending_face.coding;
       state.face.reset_models();
       state.high.fap_quant = state.face_settings.fap_quant;
       state.high.reset_models();
@@ -245,7 +245,7 @@ struct Encoder::Impl : Encoder::Place {
   void write_body(const PlaneInput& plane) {
     if (plane.intra) {
       state.body_settings = *plane.body_settings;
-      std::swap(state.body.coding, pending_body.coding);
+      state.body.coding = pending_body.coding;
       state.body.reset_models();
       internal::write_body_settings(out, state.body_settings);
     }

@@ -107,10 +107,17 @@ animeme_status take_frame(const animeme_frame* given, fap::Frame& frame, fap::Gr
                           animeme_error* error);
 /// True if frames can be written there; else the failure is written.
 bool writable(const animeme_frame* frame, animeme_error* error);
-/// Writes a frame; `rest` has flags, seconds and rate.
+/// What a frame of animeme.h has besides.
+struct FrameTimes {
+  std::uint32_t flags = 0;
+  double seconds = 0;
+  fap::Rate rate{0, 0};
+};
+
+/// Writes a frame, which must be writable().
 void put_frame(animeme_frame* out, const fap::Frame& frame, const fap::GroupRules& rules,
-               const animeme_frame& rest);
-/// The same without a rest.
+               const FrameTimes& times);
+/// The same without times.
 void put_frame(animeme_frame* out, const fap::Frame& frame, const fap::GroupRules& rules = {});
 
 /// What the absent FAPs of a plane do.

@@ -88,12 +88,9 @@ animeme_status animeme_clip_get(const animeme_clip* clip, size_t index, animeme_
     return c::fail(error, ANIMEME_OUT_OF_RANGE, "the clip has no frame of this index");
   }
   const fap::Frame& from = clip->sequence.frames[index];
-  animeme_frame rest{};
-  rest.seconds = clip->sequence.rate.seconds(double(from.number));
-  rest.rate_num = clip->sequence.rate.num;
-  rest.rate_den = clip->sequence.rate.den;
-  rest.flags = ANIMEME_FRAME_FACE;
-  c::put_frame(frame, from, clip->rules[index], rest);
+  const fap::Rate rate = clip->sequence.rate;
+  const c::FrameTimes times{ANIMEME_FRAME_FACE, rate.seconds(double(from.number)), rate};
+  c::put_frame(frame, from, clip->rules[index], times);
   return ANIMEME_OK;
 }
 

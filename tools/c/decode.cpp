@@ -22,16 +22,13 @@ fap::GroupRules rules_of(const fba::Plane& plane) {
 namespace {
 
 void put_plane(const fba::Plane& plane, animeme_frame* out) {
-  animeme_frame rest{};
-  const bool face = fba::has_face(plane.object_mask);
-  rest.flags = (plane.intra ? ANIMEME_FRAME_INTRA : 0) | (face ? ANIMEME_FRAME_FACE : 0) |
-               (fba::has_body(plane.object_mask) ? ANIMEME_FRAME_BODY : 0);
-  rest.seconds = plane.seconds;
-  rest.rate_num = plane.rate.num;
-  rest.rate_den = plane.rate.den;
-  fap::Frame frame = plane.face;
-  frame.number = plane.number;
-  put_frame(out, frame, rules_of(plane), rest);
+  FrameTimes times;
+  times.flags = (plane.intra ? ANIMEME_FRAME_INTRA : 0) |
+                (fba::has_face(plane.object_mask) ? ANIMEME_FRAME_FACE : 0) |
+                (fba::has_body(plane.object_mask) ? ANIMEME_FRAME_BODY : 0);
+  times.seconds = plane.seconds;
+  times.rate = plane.rate;
+  put_frame(out, plane.face, rules_of(plane), times);
 }
 
 void put_body(const fba::Plane& plane, animeme_body* out) {

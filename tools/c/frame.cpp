@@ -102,34 +102,60 @@ bool writable(const animeme_frame* frame, animeme_error* error) {
   return false;
 }
 
-void put_frame(animeme_frame* out, const fap::Frame& frame, const fap::GroupRules& rules,
-               const animeme_frame& rest) {
-  animeme_frame made = rest;
-  made.number = frame.number;
-  for (std::size_t i = 0; i < fap::kFapCount; ++i) {
-    made.present[i] = frame.mask[i + 1] ? 1 : 0;
-    made.value[i] = frame.mask[i + 1] ? frame.value[i + 1] : 0;
+namespace {
+
+// All but size, flags, number and times. Once a plane, so without a branch for each FAP.
+void write_values(const fap::Frame& frame, const fap::GroupRules& rules, animeme_frame& out) {
+  std::uint64_t bits = ((frame.mask >> 1) & fap::Mask(~0ULL)).to_ullong();  // of FAP 1..64
+  for (std::size_t i = 0; i < 64; ++i) out.present[i] = std::uint8_t(bits >> i & 1);
+  bits = (frame.mask >> 65).to_ullong();
+  for (std::size_t i = 64; i < fap::kFapCount; ++i) {
+    out.present[i] = std::uint8_t(bits >> (i - 64) & 1);
   }
-  made.value[0] = made.value[1] = 0;
+  for (std::size_t i = 0; i < fap::kFapCount; ++i) {
+    out.value[i] = frame.value[i + 1] & -std::int32_t(out.present[i]);
+  }
+  out.value[0] = out.value[1] = 0;
+  std::fill(std::begin(out.viseme), std::end(out.viseme), 0);
+  std::fill(std::begin(out.expression), std::end(out.expression), 0);
   if (frame.mask[1]) {
     const fap::Viseme& v = frame.viseme;
     const std::int32_t all[] = {v.select1, v.select2, v.blend, v.def};
-    std::copy(std::begin(all), std::end(all), made.viseme);
+    std::copy(std::begin(all), std::end(all), out.viseme);
   }
   if (frame.mask[2]) {
     const fap::Expression& e = frame.expression;
     const std::int32_t all[] = {e.select1,    e.intensity1, e.select2,
                                 e.intensity2, e.init_face,  e.def};
-    std::copy(std::begin(all), std::end(all), made.expression);
+    std::copy(std::begin(all), std::end(all), out.expression);
   }
   for (std::size_t group = 0; group < rules.size(); ++group) {
-    made.group_rule[group] = std::uint8_t(rules[group]);
+    out.group_rule[group] = std::uint8_t(rules[group]);
   }
-  put(out, out->size, made);
+  std::fill(std::begin(out.reserved), std::end(out.reserved), std::uint8_t{0});
+}
+
+}  // namespace
+
+void put_frame(animeme_frame* out, const fap::Frame& frame, const fap::GroupRules& rules,
+               const FrameTimes& times) {
+  animeme_frame older;  // for callers that have less
+  animeme_frame& made = out->size < sizeof older ? older : *out;
+  made.flags = times.flags;
+  made.number = frame.number;
+  made.seconds = times.seconds;
+  made.rate_num = times.rate.num;
+  made.rate_den = times.rate.den;
+  write_values(frame, rules, made);
+  if (&made == &older) {
+    put(out, out->size, older);
+  } else if (out->size > sizeof older) {
+    std::memset(reinterpret_cast<unsigned char*>(out) + sizeof older, 0, out->size - sizeof older);
+  }
 }
 
 void put_frame(animeme_frame* out, const fap::Frame& frame, const fap::GroupRules& rules) {
-  put_frame(out, frame, rules, animeme_frame{});
+  put_frame(out, frame, rules, FrameTimes{});
 }
 
 }  // namespace animeme::c

@@ -47,13 +47,9 @@ animeme_status animeme_receiver_next(animeme_receiver* receiver, const animeme_f
     if (status != ANIMEME_OK) return status;
     animeme_frame given;
     c::take(*frame, given, animeme_frame{});
-    animeme_frame rest{};
-    rest.flags = given.flags;
-    rest.seconds = given.seconds;
-    rest.rate_num = given.rate_num;
-    rest.rate_den = given.rate_den;
+    const c::FrameTimes times{given.flags, given.seconds, {given.rate_num, given.rate_den}};
     const fap::Frame& held = state.receive(taken, rules);
-    c::put_frame(shown, fap::with_mask(held, state.mask()), {}, rest);
+    c::put_frame(shown, fap::with_mask(held, state.mask()), {}, times);
     return status;
   });
 }

@@ -169,12 +169,8 @@ animeme_status animeme_speech_next(animeme_speech* speech, animeme_frame* frame,
   if (!c::writable(frame, error)) return ANIMEME_INVALID_ARGUMENT;
   if (speech->frames.empty()) return speech->finished ? ANIMEME_END : ANIMEME_NEED_DATA;
   const fap::Frame& front = speech->frames.front();
-  animeme_frame rest{};
-  rest.flags = ANIMEME_FRAME_FACE;
-  rest.seconds = speech->rate.seconds(double(front.number));
-  rest.rate_num = speech->rate.num;
-  rest.rate_den = speech->rate.den;
-  c::put_frame(frame, front, {}, rest);
+  const double seconds = speech->rate.seconds(double(front.number));
+  c::put_frame(frame, front, {}, {ANIMEME_FRAME_FACE, seconds, speech->rate});
   speech->frames.pop_front();
   return ANIMEME_OK;
 }
