@@ -162,6 +162,9 @@ TEST(CMisuse, WeightsAndPhones) {
   animeme_speak_options options{};
   EXPECT_EQ(animeme_speech_new(new_model, &options, &new_speech, &error), kBad)
       << "never initialised";
+  animeme_speak_options_init(&options, sizeof options);
+  options.look_ahead = 61;
+  EXPECT_EQ(animeme_speech_new(new_model, &options, &new_speech, &error), kBad);
   ASSERT_EQ(animeme_speech_new(new_model, nullptr, &new_speech, &error), ANIMEME_OK);
   const C<animeme_speech> speech(new_speech);
   EXPECT_EQ(animeme_speech_push(new_speech, 0, 1, nullptr, &error), kBad);

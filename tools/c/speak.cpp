@@ -132,6 +132,7 @@ animeme_status animeme_speech_new(const animeme_model* model, const animeme_spea
     dam::StreamOptions stream;
     stream.synthesis = c::synthesis_options(taken);
     if (auto valid = dam::validate(stream.synthesis); !valid) return c::fail(error, valid.error());
+    if (taken.look_ahead > 60) return c::invalid(error, "look_ahead must be 60 s at most");
     if (taken.look_ahead >= 0) stream.look_ahead = taken.look_ahead;
     return c::give(
         speech,
