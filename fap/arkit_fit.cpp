@@ -1,5 +1,7 @@
 // FAPs to ARKit: a least squares fit with bounds, and what is found without one.
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -32,6 +34,18 @@ constexpr Direct kDirect[] = {
 // The distance of the lips beside the FAPs that make it: without it, one of three closed P B M of
 // the sample comes back as closed, at 1 all but one of 39; at 2 faces are seen to be less alike.
 constexpr double kMeetingOfShapes = 1;
+
+// Their channels, looked up once.
+const std::array<std::size_t, std::size(kDirect)>& direct_channels() {
+  static const auto all = [] {
+    std::array<std::size_t, std::size(kDirect)> made{};
+    for (std::size_t i = 0; i < made.size(); ++i) {
+      made[i] = std::size_t(find_arkit(kDirect[i].channel).value_or(0));
+    }
+    return made;
+  }();
+  return all;
+}
 
 double effect(std::size_t channel, int fap) {
   for (const ArkitWeight& weight : arkit_weights()[channel]) {
@@ -103,9 +117,10 @@ ArkitFitter::~ArkitFitter() = default;
 ArkitFrame ArkitFitter::fit(const Frame& frame) {
   ArkitFrame out{};
   internal::FapValues target = internal::target_of(frame);
-  for (const Direct& direct : kDirect) {
+  for (std::size_t d = 0; d < std::size(kDirect); ++d) {
+    const Direct& direct = kDirect[d];
     if (!frame.mask[std::size_t(direct.fap)]) continue;
-    const auto channel = std::size_t(find_arkit(direct.channel).value_or(0));
+    const std::size_t channel = direct_channels()[d];
     const double full = effect(channel, direct.fap);
     const double value = frame.value[std::size_t(direct.fap)];
     const bool angle = channel >= kArkitShapeCount;

@@ -125,11 +125,10 @@ FapValues BoundedFit::weighed(const FapValues& values) const {
 }
 
 // What each shape would explain of the target.
-std::vector<double> BoundedFit::projections(const FapValues& target) const {
+void BoundedFit::project(const FapValues& target, std::vector<double>& sums) const {
   const FapValues wanted = weighed(target);
-  std::vector<double> sums;
+  sums.clear();
   for (const FapValues& column : columns_) sums.push_back(product(column, wanted));
-  return sums;
 }
 
 // `toll` is what any weight costs.
@@ -195,7 +194,8 @@ void BoundedFit::choose_few(const std::vector<double>& wanted, double steadiness
     left_[i] -= std::min(thrift_.least[i], most) * length;
   }
   descend(steadiness);
-  std::vector<double> worth = weights_;
+  std::vector<double>& worth = scratch_;
+  worth = weights_;
   for (const auto& [a, b] : thrift_.opponents) {
     const double both = std::min(weights_[a], weights_[b]);
     worth[a] = std::min(worth[a], weights_[a] - both);
@@ -236,7 +236,8 @@ void BoundedFit::close_lips(const std::vector<double>& wanted, const FapValues& 
     joined = apart;
     if (round == 0) fap_gram_ = gram_;
     gram_ = fap_gram_;
-    std::vector<double> sums = wanted;
+    std::vector<double>& sums = scratch_;
+    sums = wanted;
     for (std::size_t k = 0; k < kLipPairs; ++k) {
       for (std::size_t i = 0; i < n && joined[k]; ++i) {
         if (fap_gram_[i * n + i] <= 0) continue;  // it would cost nothing
@@ -274,7 +275,8 @@ void BoundedFit::restart() {
 
 const std::vector<double>& BoundedFit::fit(const Mask& mask, const FapValues& target) {
   set_mask(mask);
-  std::vector<double> wanted = projections(target);
+  std::vector<double>& wanted = wanted_;
+  project(target, wanted);
   const double steadiness = is_first_ ? 0 : steadiness_;
   is_first_ = false;
   for (std::size_t i = 0; i < wanted.size(); ++i) {

@@ -1,6 +1,26 @@
+#include <atomic>
+
 #include "codec/decode/decoder_internal.h"
 
 namespace animeme::fba {
+
+namespace {
+
+constexpr std::size_t kWorthForgetting = 64;  // bytes; the buffer of a live stream stays this small
+
+// What planes share is written again in place where no plane has it any more, so that a stream that
+// is shown as it comes needs no memory for each.
+template <class Shared>
+void renew(std::shared_ptr<Shared>& shared, const Shared& value) {
+  if (shared.use_count() == 1) {
+    std::atomic_thread_fence(std::memory_order_acquire);  // behind what others did with it
+    *shared = value;
+  } else {
+    shared = std::make_shared<Shared>(value);
+  }
+}
+
+}  // namespace
 
 void Decoder::Impl::warn(std::string text, std::size_t bit) {
   Event& event = waiting.emplace_back();
@@ -37,7 +57,7 @@ Error Decoder::Impl::at(Code code, std::string message, std::size_t bit) {
 
 void Decoder::Impl::trim() {
   const std::size_t bytes = position / 8;
-  if (bytes < internal::kPieceBytes || bytes < buffer.size() / 2 || parsed.begun()) return;
+  if (bytes < kWorthForgetting || bytes < buffer.size() / 2 || parsed.begun()) return;
   buffer.erase(buffer.begin(), buffer.begin() + std::ptrdiff_t(bytes));
   if (buffer.capacity() > 8 * internal::kPieceBytes && buffer.size() < internal::kPieceBytes)
     buffer.shrink_to_fit();
@@ -117,21 +137,21 @@ Result<void> Decoder::Impl::fill(Plane& plane) {
   tell_time(plane);
   spoken = true;
 
-  std::shared_ptr<BodyFrame> body;
-  if (has_body(plane.object_mask)) {
-    body = std::make_shared<BodyFrame>();
+  const bool with_body = has_body(plane.object_mask);
+  if (with_body) {
+    renew(body, BodyFrame{});
     body->number = plane.number;
   }
   const Result<void> applied = internal::apply_plane(parsed, state, plane.face, body.get());
   if (!applied) return at(applied.error().code, applied.error().message, plane_begin);
   if (has_face(plane.object_mask)) {
-    if (plane.intra) face_settings = std::make_shared<FaceSettings>(state.face_settings);
+    if (plane.intra) renew(face_settings, state.face_settings);
     plane.face_settings = face_settings;
   }
-  if (body) {
-    if (plane.intra) body_settings = std::make_shared<BodySettings>(state.body_settings);
+  if (with_body) {
+    if (plane.intra) renew(body_settings, state.body_settings);
     plane.body_settings = body_settings;
-    plane.body = std::move(body);
+    plane.body = body;
   }
   return {};
 }

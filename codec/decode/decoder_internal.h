@@ -44,10 +44,11 @@ struct Decoder::Impl {
   std::size_t plane_end = 0;
   bool had_start_code = false;                 // it stood behind one
   ObjectMask last_mask = ObjectMask::nothing;  // of the plane before
-  std::shared_ptr<const FaceSettings> face_settings;
-  std::shared_ptr<const BodySettings> body_settings;
-  std::vector<Event> waiting;  // told before anything else
-  StreamInfo info;             // of the headers read so far
+  std::shared_ptr<FaceSettings> face_settings;
+  std::shared_ptr<BodySettings> body_settings;
+  std::shared_ptr<BodyFrame> body;  // of the last plane that had one
+  std::vector<Event> waiting;       // told before anything else
+  StreamInfo info;                  // of the headers read so far
   bool info_told = false;
 
   std::int64_t number = 0;
@@ -67,7 +68,7 @@ struct Decoder::Impl {
   // The headers are over: an object begins, or a plane that was taken out of one.
   void tell_info();
 
-  static Error need_data() { return make_error(Code::need_data, "more bytes are needed"); }
+  static Error need_data() { return internal::need_more_data(); }
 
   // From here on only an intra plane can be understood.
   void lose();

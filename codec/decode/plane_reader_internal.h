@@ -15,6 +15,9 @@
 
 namespace animeme::fba::internal {
 
+/// No failure but every other answer of a live stream: short enough to need no memory of its own.
+inline Error need_more_data() { return make_error(Code::need_data, "needs more data"); }
+
 /// The memory of a stream.
 struct StreamState {
   SlotState face{face_slots()};

@@ -31,7 +31,7 @@ Result<void> end_segment(const PlaneBits& bits, const SegmentDecoder& segment) {
 }  // namespace
 
 Error PlaneBits::out_of_bits() const {
-  if (!last_) return make_error(Code::need_data, "the plane is not complete yet");
+  if (!last_) return need_more_data();
   return error_at_bit(Code::truncated, "the stream ends in the middle of a plane",
                       std::int64_t(in_.size()));
 }

@@ -108,6 +108,7 @@ struct Encoder::Impl : Encoder::Place {
 
   std::vector<std::uint8_t> bytes_and_rest();
   std::vector<internal::Trap> traps();
+  void account(std::size_t bytes);  // they have been taken
 
   // First everything that can fail, then the bits.
   Result<void> write(const PlaneInput& plane) {
@@ -212,7 +213,7 @@ struct Encoder::Impl : Encoder::Place {
   void write_face(const PlaneInput& plane) {
     if (plane.intra) {
       state.face_settings = *plane.face_settings;
-      std::swap(state.face.coding, pending_face.coding);
+      state.face.coding = pending_face.coding;
       state.face.reset_models();
       state.high.fap_quant = state.face_settings.fap_quant;
       state.high.reset_models();
@@ -244,7 +245,7 @@ struct Encoder::Impl : Encoder::Place {
   void write_body(const PlaneInput& plane) {
     if (plane.intra) {
       state.body_settings = *plane.body_settings;
-      std::swap(state.body.coding, pending_body.coding);
+      state.body.coding = pending_body.coding;
       state.body.reset_models();
       internal::write_body_settings(out, state.body_settings);
     }
@@ -321,12 +322,21 @@ void Encoder::drop() {
 
 std::vector<std::uint8_t> Encoder::take() {
   std::vector<std::uint8_t> bytes = impl_->out.take();
-  impl_->taken_bits += std::int64_t(bytes.size()) * 8;
-  impl_->follows &= impl_->plane_begin >= bytes.size() * 8;  // else it is long enough
-  impl_->plane_begin -= bytes.size() * 8;
-  impl_->trace.clear();
-  impl_->taken = *impl_;
+  impl_->account(bytes.size());
   return bytes;
+}
+
+void Encoder::take(std::vector<std::uint8_t>& bytes) {
+  impl_->out.take(bytes);
+  impl_->account(bytes.size());
+}
+
+void Encoder::Impl::account(std::size_t bytes) {
+  taken_bits += std::int64_t(bytes) * 8;
+  follows &= plane_begin >= bytes * 8;  // else it is long enough
+  plane_begin -= bytes * 8;
+  trace.clear();
+  taken = *this;
 }
 
 void Encoder::end() {

@@ -64,6 +64,8 @@ class Encoder {
   std::int64_t bits() const;
   /// Whole bytes written since the last take(); the bits of an unfinished byte stay.
   std::vector<std::uint8_t> take();
+  /// The same into a vector that is used again and again: copied, nothing is allocated in the end.
+  void take(std::vector<std::uint8_t>& bytes);
   /// Stuffing and the end code; the encoder is then used up.
   void end();
   /// end() and take().

@@ -1,7 +1,6 @@
 #include "codec/encode/live.h"
 
 #include <algorithm>
-#include <deque>
 
 #include "codec/decode/decoder.h"
 #include "codec/encode/clip_internal.h"
@@ -32,7 +31,7 @@ struct LiveEncoder::Impl : internal::LiveMemory {
   std::optional<CodedRate> rate;
   Encoder encoder;
   Decoder decoder;
-  std::deque<internal::Shown> expected;  // written, not yet seen from the decoder
+  std::vector<internal::Shown> expected;  // written, not yet seen from the decoder
   internal::Shown last;
 
   FaceSettings face;  // of the intra plane in force
@@ -110,26 +109,23 @@ struct LiveEncoder::Impl : internal::LiveMemory {
     return {};
   }
 
-  Result<std::vector<std::uint8_t>> write(const fap::Frame& frame, std::uint32_t skip,
-                                          const BodyFrame* given_body) {
-    if (auto ok = check(); !ok) return ok.error();
-    if (auto ok = check(frame); !ok) return ok.error();
+  Result<void> write(const fap::Frame& frame, std::vector<std::uint8_t>& unit, std::uint32_t skip,
+                     const BodyFrame* given_body) {
+    if (auto ok = check(); !ok) return ok;
+    if (auto ok = check(frame); !ok) return ok;
     const LiveMemory before = *this;
     held.take_in(frame, given_body, options);
     if (since_intra >= 0) motion.see(held, last, options);
     if (auto ok = write_best(skip); !ok) {
       static_cast<LiveMemory&>(*this) = before;
       since_intra = -1;  // the plane to come has to be complete in itself
-      return ok.error();
+      return ok;
     }
     since_intra = (last_intra ? 1 : since_intra + 1) + skip;
     ++planes;
     last = {encoder.reconstruction(), encoder.body_reconstruction()};
-    std::vector<std::uint8_t> unit = encoder.take();
-    if (options.verify) {
-      if (auto ok = verify(unit); !ok) return ok.error();
-    }
-    return unit;
+    encoder.take(unit);
+    return options.verify ? verify(unit) : Result<void>();
   }
 
   bool agrees(const Plane& plane) const {
@@ -152,7 +148,7 @@ struct LiveEncoder::Impl : internal::LiveMemory {
       if (!event || event->kind != Event::Kind::plane || !agrees(event->plane)) {
         return make_error(Code::internal, "a unit does not decode to what was coded");
       }
-      expected.pop_front();
+      expected.erase(expected.begin());
     }
   }
 };
@@ -164,7 +160,14 @@ LiveEncoder::~LiveEncoder() = default;
 
 Result<std::vector<std::uint8_t>> LiveEncoder::write(const fap::Frame& frame, std::uint32_t skip,
                                                      const BodyFrame* body) {
-  return impl_->write(frame, skip, body);
+  std::vector<std::uint8_t> unit;
+  if (auto ok = impl_->write(frame, unit, skip, body); !ok) return ok.error();
+  return unit;
+}
+
+Result<void> LiveEncoder::write(const fap::Frame& frame, std::vector<std::uint8_t>& unit,
+                                std::uint32_t skip, const BodyFrame* body) {
+  return impl_->write(frame, unit, skip, body);
 }
 
 std::vector<std::uint8_t> LiveEncoder::finish() { return impl_->encoder.finish(); }

@@ -81,6 +81,10 @@ class LiveEncoder {
   ///   internal          verify failed
   Result<std::vector<std::uint8_t>> write(const fap::Frame& frame, std::uint32_t skip = 0,
                                           const BodyFrame* body = nullptr);
+  /// The same into a vector that is used again and again: nothing is allocated once the stream has
+  /// run for a while. On errors it is as it was, but for `internal`.
+  Result<void> write(const fap::Frame& frame, std::vector<std::uint8_t>& unit,
+                     std::uint32_t skip = 0, const BodyFrame* body = nullptr);
   /// The end code, if the stream is to have one, and what is left of the last plane.
   std::vector<std::uint8_t> finish();
 

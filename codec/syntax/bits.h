@@ -106,6 +106,12 @@ class BitWriter {
     out.swap(bytes_);
     return out;
   }
+  /// The same as a copy: both keep their memory, so that piece after piece needs no more.
+  void take(std::vector<std::uint8_t>& out) {
+    write_bytes();
+    out.assign(bytes_.begin(), bytes_.end());
+    bytes_.clear();
+  }
 
  private:
   // Moves the complete bytes out of the accumulator.

@@ -79,7 +79,7 @@ class BoundedFit {
  private:
   void set_mask(const Mask& wanted);
   FapValues weighed(const FapValues& values) const;
-  std::vector<double> projections(const FapValues& target) const;
+  void project(const FapValues& target, std::vector<double>& sums) const;
   void descend(const std::vector<double>& wanted, double steadiness, double toll);
   void descend(double steadiness);
   double residual(const FapValues& target) const;
@@ -100,6 +100,8 @@ class BoundedFit {
   std::vector<double> costs_;       // of shapes: what they do, lips not counted
   std::vector<double> left_;        // of the descent
   std::vector<double> highs_;       // what the weights may be
+  std::vector<double> wanted_;      // of fit(), here so that no frame needs memory
+  std::vector<double> scratch_;     // of choose_few() and close_lips(), likewise
 
   Mask mask_;
   bool has_gram_ = false;

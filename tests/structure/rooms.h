@@ -47,6 +47,8 @@ inline constexpr Room kRooms[] = {
     {"tools/xml.h tools/json.h tools/text.h tools/exit_code.h", "fap", false},
     {"tools/files", "fap"},
     {"tools/programs", "tools/files tools/text.h"},
+    {"tools/c", "codec/encode dam/speaking", false},  // installs one header, of C
+    {"tools/examples", "", false},                    // what users of libanimeme write
     {"tools/exchange", "codec/text dam/corpus dam/crossmap"},
     {"tools/render", "fap/head"},
     {"tools/scripts", "dam/script"},
@@ -101,6 +103,7 @@ inline constexpr Library kLibraries[] = {
     {"Draco", "draco/", "tools/gltf", true},
     {"meshoptimizer", "meshoptimizer.h", "tools/gltf", true},
     {"libwebsockets", "libwebsockets", "tools/web/detail"},
+    {"libanimeme", "animeme/animeme.h", "tools/examples tests"},
     {"zlib", "zlib", "tools/render tools/viewer tools/web/detail tests"},
     {"libpng, libjpeg, libwebp", "png jpeglib jerror webp/",
      "tools/gltf/detail tools/studio tests"},
