@@ -52,6 +52,8 @@ void share(float& a, float& b, float room) {
 constexpr float kLidRise = -270;    // upper lids rise by this at most
 constexpr float kJawBack = -250;    // and the jaw goes back by this
 constexpr float kCornerTurn = 300;  // outer corners rise and fall with the inner ones but for this
+constexpr float kTongueIn = 190;    // the tongue gets as far behind shut lips,
+constexpr float kTongueOut = 3;     // and this times farther than they are open
 
 void at_least(Values& v, std::initializer_list<std::size_t> faps, float least) {
   for (const std::size_t f : faps) v[f] = std::max(v[f], least);
@@ -62,6 +64,7 @@ void stop_at_rooms(const Rooms& rooms, Values& v) {
   at_least(v, {19, 20}, kLidRise);
   at_least(v, {14}, kJawBack);
   at_least(v, {18}, -rooms.chin);
+  v[45] = std::min(v[45], kTongueIn + kTongueOut * std::max(-v[4] - v[5], 0.0f));
   at_least(v, {31, 32, 33, 34, 35, 36}, -rooms.brow_lid);
   at_least(v, {37, 38}, -0.5f * rooms.brows);
   share(v[37], v[38], rooms.brows);
@@ -117,7 +120,9 @@ std::vector<Reach> usual_reaches() {
                     {{35, 36}, -1000, 350},      {{39, 40}, -180, 280},
                     {{41, 42}, -160, 215},       {{61, 62}, -190, 200},
                     {{63}, -180, 240},           {{64}, -240, 240},
-                    {{44}, -600, 1000}};
+                    {{43}, -450, 450},           {{44}, -600, 850},
+                    {{45}, -250, 800},           {{46}, -350, 650},
+                    {{47}, -80000, 80000}};
   std::vector<Reach> reaches;
   for (const auto& usual : usual_ones) {
     for (const int fap : usual.faps) reaches.push_back({fap, usual.low, usual.high});
