@@ -49,6 +49,11 @@ void share(float& a, float& b, float room) {
   }
 }
 
+// A way in which no reach stops a FAP: what it moves stops at another point (stop_at_rooms()), or
+// nowhere. A number, as reaches go to the page as JSON, which has no infinity; beyond all FAPs of
+// lengths, and 85 % of it are, too.
+constexpr float kNoLimit = 1e7f;
+
 constexpr float kLidRise = -270;    // upper lids rise by this at most
 constexpr float kJawBack = -250;    // and the jaw goes back by this
 constexpr float kCornerTurn = 300;  // outer corners rise and fall with the inner ones but for this
@@ -111,13 +116,13 @@ std::vector<Reach> usual_reaches() {
   const struct {
     std::initializer_list<int> faps;
     float low, high;
-  } usual_ones[] = {{{3}, -420, 1500},           {{5, 10, 11, 52, 57, 58}, -2500, 600},
-                    {{6, 7, 53, 54}, -205, 280}, {{12, 13, 59, 60}, -3000, 640},
-                    {{14}, -1000, 480},          {{15}, -280, 280},
-                    {{16}, -3000, 600},          {{17}, -300, 600},
-                    {{18}, -1500, 470},          {{21, 22}, -175, 5000},
-                    {{27, 28}, -200, 20},        {{31, 32, 33, 34}, -1000, 440},
-                    {{35, 36}, -1000, 350},      {{39, 40}, -180, 280},
+  } usual_ones[] = {{{3}, -420, 1500},           {{5, 10, 11, 52, 57, 58}, -kNoLimit, 600},
+                    {{6, 7, 53, 54}, -205, 280}, {{12, 13, 59, 60}, -kNoLimit, 640},
+                    {{14}, -kNoLimit, 480},      {{15}, -280, 280},
+                    {{16}, -kNoLimit, 600},      {{17}, -300, 600},
+                    {{18}, -kNoLimit, 470},      {{21, 22}, -175, kNoLimit},
+                    {{27, 28}, -200, 20},        {{31, 32, 33, 34}, -kNoLimit, 440},
+                    {{35, 36}, -kNoLimit, 350},  {{39, 40}, -180, 280},
                     {{41, 42}, -160, 215},       {{61, 62}, -190, 200},
                     {{63}, -180, 240},           {{64}, -240, 240},
                     {{43}, -450, 450},           {{44}, -600, 850},

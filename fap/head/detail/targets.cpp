@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "fap/head/detail/slide.h"
+#include "fap/head/detail/smile.h"
 #include "fap/head/detail/weights.h"
 
 namespace animeme::head::detail {
@@ -92,8 +93,10 @@ class Maker {
     }
     add_tongue();
     add_pupils();
-    std::stable_sort(targets_.begin(), targets_.end(),
-                     [](const Target& a, const Target& b) { return a.control < b.control; });
+    for (Target& target : cheek_targets(head_, weights_)) targets_.push_back(std::move(target));
+    std::stable_sort(targets_.begin(), targets_.end(), [](const Target& a, const Target& b) {
+      return std::pair(a.control, a.part) < std::pair(b.control, b.part);
+    });
     return std::move(targets_);
   }
 
