@@ -78,7 +78,7 @@ TEST_P(EachTongue, IsThickWithARoundTipAndAGroove) {
   };
   const auto wide = float(rig().fapu.mw);
   EXPECT_GT(extent(2).y, 0.19f * wide);
-  EXPECT_GT(extent(1).y, 0.14f * wide);
+  EXPECT_GT(extent(1).y, 0.13f * wide);
   EXPECT_GT(extent(0.4f).y, 0.06f * wide);
   EXPECT_GT(extent(0.4f).x, 0.19f * wide);
   EXPECT_LT(extent(0.4f).x, 0.95f * extent(1.5f).x);

@@ -24,8 +24,8 @@ Mesh make_teeth(const Shape& shape, bool upper);  ///< with gums
 Mesh make_tongue(const Shape& shape);
 /// Vertices of the tongue: rows from the root to the tip, around each row from the top, then one
 /// in the tip.
-inline constexpr int kTongueRows = 20;
-inline constexpr int kTongueAround = 24;
+inline constexpr int kTongueRows = 16;
+inline constexpr int kTongueAround = 16;
 Mesh make_brows(const Shape& shape);  ///< left, then right
 /// Left, then right. `anchors` gets the vertex of the rim that carries each vertex.
 Mesh make_lashes(const Shape& shape, const Skin& skin, std::vector<std::uint32_t>& anchors);

@@ -56,7 +56,7 @@ std::vector<Target> cheek_targets(const Head& head, const Weights& weights) {
     int left, right;
     float share;
     float most;  // in its units, beyond which the cheek is full
-  } causes[] = {{6, 7, 0.14f, 170}, {12, 13, 0.34f, 380}, {41, 42, 0.25f, 170}};
+  } causes[] = {{6, 7, 0.10f, 170}, {12, 13, 0.25f, 380}, {41, 42, 0.38f, 170}};
   const Mesh& skin = head.part(Part::skin);
   std::vector<Vec3> normals;
   smooth_normals(skin.positions, skin.triangles, normals);
