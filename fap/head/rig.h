@@ -50,7 +50,8 @@ struct Reach {
   float high = 0;  ///< positive
 };
 
-/// A row of teeth as half an ellipse seen from above: open to the back.
+/// A row of teeth seen from above as half an ellipse, a little squarer (exponent 2.5): open to the
+/// back.
 struct DentalArch {
   Vec3 middle;                          ///< between its ends, at half of its height
   float half_width = 0;                 ///< along X

@@ -1,67 +1,18 @@
 // The skin does not turn over, whatever real captures do to it.
-#include <map>
 #include <sstream>
 
 #include "fap/fill.h"
 #include "fap/head/shapes.h"
 #include "fap/text.h"
-#include "tests/head/head_support.h"
+#include "tests/head/outside.h"
 #include "tests/support/files.h"
 #include "tests/support/shared.h"
 
 namespace animeme::test {
 namespace fold_test {
 
-using head::Head;
 using head::Triangle;
 using head::Vec3;
-
-// Where the outside of the face ends: the contact line of the lips and the rims of the lids.
-std::vector<bool> seam_of(const Head& head) {
-  std::vector<bool> seam(head.part(head::Part::skin).positions.size());
-  const auto add = [&seam](const std::vector<head::ContactPair>& pairs) {
-    for (const head::ContactPair& pair : pairs) seam[pair.upper] = seam[pair.lower] = true;
-  };
-  add(head.seams.lips);
-  for (const auto& lids : head.seams.lids) add(lids);
-  for (const char* corner : {"2.4", "2.5", "3.7", "3.8", "3.11", "3.12"}) {
-    seam[head.point(corner).vertex] = true;
-  }
-  return seam;
-}
-
-// Triangles that can be reached from the chin without crossing a seam, those at a seam left out:
-// there the skin rolls in.
-std::vector<Triangle> outside_of(const Head& head) {
-  const auto& triangles = head.part(head::Part::skin).triangles;
-  const std::vector<bool> seam = seam_of(head);
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> by_edge;
-  std::vector<std::size_t> open;
-  std::vector<bool> reached(triangles.size());
-  const std::uint32_t chin = head.point("2.1").vertex;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      by_edge[{triangles[t][k], triangles[t][(k + 1) % 3]}] = t;
-      if (triangles[t][k] == chin) open.push_back(t);
-    }
-  }
-  std::vector<Triangle> outside;
-  while (!open.empty()) {
-    const std::size_t t = open.back();
-    open.pop_back();
-    if (reached[t]) continue;
-    reached[t] = true;
-    const Triangle& corners = triangles[t];
-    if (!seam[corners[0]] && !seam[corners[1]] && !seam[corners[2]]) outside.push_back(corners);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = corners[k];
-      const std::uint32_t b = corners[(k + 1) % 3];
-      const auto next = by_edge.find({b, a});
-      if (next != by_edge.end() && !(seam[a] && seam[b])) open.push_back(next->second);
-    }
-  }
-  return outside;
-}
 
 class EachFace : public ::testing::TestWithParam<std::string> {
  protected:

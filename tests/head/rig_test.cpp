@@ -194,32 +194,6 @@ TEST_P(EachRig, UpperLidsFollowTheGazeIfTheFrameDoesNotCarryThem) {
               0.01);
 }
 
-// Between the feature points, which stay.
-TEST_P(EachRig, SmilesRaiseTheCheeks) {
-  const head::Head& face = head_of(GetParam());
-  const head::Rig& rig = rig_of(GetParam());
-  const auto& was = rig.parts[0].positions;
-  const auto cheek = [&](int rise) {
-    fap::Frame frame;
-    for (const int fap : {12, 13, 59, 60}) frame.set(fap, rise);
-    const head::Pose pose = head::pose(rig, frame);
-    const head::Vec3 middle =
-        (face.at("9.1") + face.at("5.1") + face.at("5.3") + face.at("8.3")) * 0.25f;
-    std::size_t nearest = 0;
-    for (std::size_t v = 0; v < was.size(); ++v) {
-      if (length(was[v] - middle) < length(was[nearest] - middle)) nearest = v;
-    }
-    for (const char* id : {"9.1", "5.3"}) {
-      const head::FeaturePoint point = face.point(id);
-      EXPECT_LT(length(pose.positions[0][point.vertex] - was[point.vertex]), 0.02f) << id;
-    }
-    return pose.positions[0][nearest].z - was[nearest].z;
-  };
-  const float size = float(rig.fapu.es) / 6.3f;
-  EXPECT_GT(cheek(400), 0.25f * size);
-  EXPECT_LT(std::abs(cheek(-400)), 0.05f * size);
-}
-
 TEST_P(EachRig, TongueRollsToAU) {
   const Pose pose = posed_at(47, 30000);
   EXPECT_GT(moved(pose, "6.3").y, 0.02);

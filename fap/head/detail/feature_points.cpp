@@ -137,9 +137,9 @@ void teeth_and_tongue(Finder& find) {
   tooth("9.11", Part::lower_teeth, 1);
   const auto on_tongue = [](int row, int k) { return std::uint32_t(row * kTongueAround + k); };
   find.set("6.1", Part::tongue, find.count(Part::tongue) - 1);
-  find.set("6.2", Part::tongue, on_tongue(kTongueRows / 2, 0));
-  find.set("6.3", Part::tongue, on_tongue(kTongueRows * 3 / 4, kTongueAround / 4));
-  find.set("6.4", Part::tongue, on_tongue(kTongueRows * 3 / 4, kTongueAround * 3 / 4));
+  find.set("6.2", Part::tongue, on_tongue(kTongueRows * 3 / 8, 0));
+  find.set("6.3", Part::tongue, on_tongue(kTongueRows / 2, kTongueAround / 4));
+  find.set("6.4", Part::tongue, on_tongue(kTongueRows / 2, kTongueAround * 3 / 4));
 }
 
 void ears_and_hair(const Shape& shape, const EarVertices& ears, Finder& find) {

@@ -130,41 +130,50 @@ Mesh make_teeth(const Shape& shape, bool upper) {
 }
 
 Mesh make_tongue(const Shape& shape) {
-  const double front = shape.front(0, -shape.p.mouth_drop).z - 1.0;
+  const double tip = shape.front(0, -shape.p.mouth_drop).z - 1.0;
   const double wide = shape.p.mouth_width * 0.60;
+  const double size = std::min(shape.p.mouth_width / 2.05, 1.0);
+  const double tip_height = -0.52;  // against the lips
+  const auto bent = [](double v, double e) { return std::copysign(std::pow(std::abs(v), e), v); };
   Mesh mesh;
   mesh.material = Material::wet;
   for (int row = 0; row < kTongueRows; ++row) {
-    const double t = double(row) / (kTongueRows - 1);  // 0 root, 1 near the tip
-    const double taper = std::sqrt(std::max(1 - std::pow(t, 3.2) * 0.93, 0.0));
-    const double half = wide * taper;
-    const double thick = (0.62 - 0.22 * t) * std::max(taper, 0.62);  // the tip is a finger, no leaf
-    const double z = front - 4.3 + 4.25 * t;
-    const double y =
-        -shape.p.mouth_drop - 0.72 + 0.38 * std::sin(pi * std::min(t * 1.1, 1.0)) + 0.22 * t * t;
+    // 0 root, 1 in the tip, where rows are dense: it is round from above and from the side.
+    const double t = std::sin(pi / 2 * row / kTongueRows);
+    const double narrow = std::sqrt(1 - std::pow(smooth_step(0.3, 1.35, t), 2)) *
+                          std::sqrt(1 - std::pow(std::max((t - 0.8) / 0.2, 0.0), 2));
+    const double blunt = std::sqrt(1 - std::pow(std::max((t - 0.74) / 0.26, 0.0), 2));
+    const double back = -0.40 + 0.66 * smooth_step(0.0, 0.5, t) - 0.64 * smooth_step(0.5, 1.0, t);
+    const double below = -1.25 + 0.48 * smooth_step(0.4, 0.9, t);
+    const double top = tip_height + (back - tip_height) * size * blunt;
+    const double bottom = tip_height + (below - tip_height) * size * blunt;
+    const double half = wide * narrow;
     for (int k = 0; k < kTongueAround; ++k) {
       const double a = 2 * pi * k / kTongueAround;  // from the top
-      const double groove = -0.14 * std::exp(-std::pow(std::sin(a) / 0.35, 2)) *
-                            (std::cos(a) > 0 ? 1.0 : 0.0) * (1 - 0.6 * t);
+      const double groove = std::exp(-std::pow(std::sin(a) / 0.38, 2)) *
+                            (std::cos(a) > 0 ? 1.0 : 0.0) * blunt * (1 - 0.5 * t);
+      const double y =
+          (top + bottom) / 2 + (top - bottom) / 2 * bent(std::cos(a), 0.68 + 0.3 * t * t);
       mesh.positions.push_back(
-          Vec3(Vec3d{half * std::sin(a), y + thick * std::cos(a) + groove, z}));
+          Vec3(Vec3d{half * bent(std::sin(a), 0.95), y - shape.p.mouth_drop - 0.26 * size * groove,
+                     tip - 4.3 + 4.3 * t}));
       mesh.colours.push_back(kTongue * float(0.75 + 0.35 * t));
-      mesh.occlusion.push_back(float(0.18 + 0.55 * t));
+      mesh.occlusion.push_back(float((0.18 + 0.57 * t) * (1 - 0.3 * groove)));
     }
   }
-  mesh.positions.push_back(Vec3(Vec3d{0, -shape.p.mouth_drop - 0.52, front}));
+  mesh.positions.push_back(Vec3(Vec3d{0, tip_height - shape.p.mouth_drop, tip}));
   mesh.colours.push_back(kTongue * 1.1f);
   mesh.occlusion.push_back(0.75f);
   const auto at = [](int row, int k) {
     return std::uint32_t(row * kTongueAround + k % kTongueAround);
   };
-  const auto tip = std::uint32_t(mesh.positions.size() - 1);
+  const auto last = std::uint32_t(mesh.positions.size() - 1);
   for (int k = 0; k < kTongueAround; ++k) {
     for (int row = 0; row + 1 < kTongueRows; ++row) {
       mesh.triangles.push_back({at(row, k), at(row + 1, k), at(row + 1, k + 1)});
       mesh.triangles.push_back({at(row, k), at(row + 1, k + 1), at(row, k + 1)});
     }
-    mesh.triangles.push_back({at(kTongueRows - 1, k), tip, at(kTongueRows - 1, k + 1)});
+    mesh.triangles.push_back({at(kTongueRows - 1, k), last, at(kTongueRows - 1, k + 1)});
     if (k > 0 && k + 1 < kTongueAround)
       mesh.triangles.push_back({at(0, 0), at(0, k), at(0, k + 1)});
   }

@@ -24,7 +24,7 @@ Mesh make_teeth(const Shape& shape, bool upper);  ///< with gums
 Mesh make_tongue(const Shape& shape);
 /// Vertices of the tongue: rows from the root to the tip, around each row from the top, then one
 /// in the tip.
-inline constexpr int kTongueRows = 14;
+inline constexpr int kTongueRows = 16;
 inline constexpr int kTongueAround = 16;
 Mesh make_brows(const Shape& shape);  ///< left, then right
 /// Left, then right. `anchors` gets the vertex of the rim that carries each vertex.

@@ -49,11 +49,18 @@ void share(float& a, float& b, float room) {
   }
 }
 
+// A way in which no reach stops a FAP: what it moves stops at another point (stop_at_rooms()), or
+// nowhere. A number, as reaches go to the page as JSON, which has no infinity; beyond all FAPs of
+// lengths, and 85 % of it are, too.
+constexpr float kNoLimit = 1e7f;
+
 constexpr float kLidRise = -270;    // upper lids rise by this at most
 constexpr float kJawBack = -250;    // and the jaw goes back by this
 constexpr float kChinUp = 420;      // the chin rises by this at most
 constexpr float kCheekIn = 180;     // cheeks are sucked in by this at most
 constexpr float kCornerTurn = 300;  // outer corners rise and fall with the inner ones but for this
+constexpr float kTongueIn = 190;    // the tongue gets as far behind shut lips,
+constexpr float kTongueOut = 3;     // and this times farther than they are open
 
 void at_least(Values& v, std::initializer_list<std::size_t> faps, float least) {
   for (const std::size_t f : faps) v[f] = std::max(v[f], least);
@@ -75,6 +82,7 @@ void stop_at_rooms(const Rooms& rooms, Values& v) {
   at_least(v, {19, 20}, kLidRise);
   at_least(v, {14}, kJawBack);
   at_least(v, {18}, -rooms.chin);
+  v[45] = std::min(v[45], kTongueIn + kTongueOut * std::max(-v[4] - v[5], 0.0f));
   at_least(v, {31, 32, 33, 34, 35, 36}, -rooms.brow_lid);
   at_least(v, {37, 38}, -0.5f * rooms.brows);
   share(v[37], v[38], rooms.brows);
@@ -126,29 +134,21 @@ std::vector<Reach> usual_reaches() {
   // In the units of each FAP, from what people do: the jaw goes 8 mm forward and 11 aside, cheeks
   // 15 mm out, lips 12 mm forward, and back until they lie on the teeth. What has no entry has no
   // limit.
-  constexpr float kAny = 1e6f;
   const struct {
     std::initializer_list<int> faps;
     float low, high;
-  } usual_ones[] = {{{3}, -420, 1500},
-                    {{5, 10, 11, 52, 57, 58}, -kAny, 600},
-                    {{6, 7, 53, 54}, -205, 280},
-                    {{12, 13, 59, 60}, -kAny, 640},
-                    {{14}, -kAny, 480},
-                    {{15}, -280, 280},
-                    {{16}, -kAny, 600},
-                    {{17}, -500, 600},
-                    {{18}, -kAny, 470},
-                    {{21, 22}, -175, kAny},
-                    {{27, 28}, -200, 20},
-                    {{31, 32, 33, 34}, -1000, 440},
-                    {{35, 36}, -1000, 350},
-                    {{39, 40}, -180, 280},
-                    {{41, 42}, -160, 215},
-                    {{44}, -600, 1000},
-                    {{61, 62}, -190, 200},
-                    {{63}, -180, 240},
-                    {{64}, -240, 240}};
+  } usual_ones[] = {{{3}, -420, 1500},           {{5, 10, 11, 52, 57, 58}, -kNoLimit, 600},
+                    {{6, 7, 53, 54}, -205, 280}, {{12, 13, 59, 60}, -kNoLimit, 640},
+                    {{14}, -kNoLimit, 480},      {{15}, -280, 280},
+                    {{16}, -kNoLimit, 600},      {{17}, -500, 600},
+                    {{18}, -kNoLimit, 470},      {{21, 22}, -175, kNoLimit},
+                    {{27, 28}, -200, 20},        {{31, 32, 33, 34}, -kNoLimit, 440},
+                    {{35, 36}, -kNoLimit, 350},  {{39, 40}, -180, 280},
+                    {{41, 42}, -160, 215},       {{61, 62}, -190, 200},
+                    {{63}, -180, 240},           {{64}, -240, 240},
+                    {{43}, -450, 450},           {{44}, -600, 850},
+                    {{45}, -250, 800},           {{46}, -350, 650},
+                    {{47}, -80000, 80000}};
   std::vector<Reach> reaches;
   for (const auto& usual : usual_ones) {
     for (const int fap : usual.faps) reaches.push_back({fap, usual.low, usual.high});

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "fap/head/detail/slide.h"
+#include "fap/head/detail/smile.h"
 #include "fap/head/detail/weights.h"
 
 namespace animeme::head::detail {
@@ -22,8 +23,6 @@ struct Share {
   std::string_view id;
   float factor;
 };
-
-constexpr float kCheekOut = 0.75f;  // of a smile's cheek, of what the corner of the mouth rises
 
 // Which points go along with a FAP besides its own; the factors were chosen by eye.
 std::vector<Share> shares_of(int fap, bool back) {
@@ -98,8 +97,10 @@ class Maker {
     }
     add_tongue();
     add_pupils();
-    std::stable_sort(targets_.begin(), targets_.end(),
-                     [](const Target& a, const Target& b) { return a.control < b.control; });
+    for (Target& target : cheek_targets(head_, weights_)) targets_.push_back(std::move(target));
+    std::stable_sort(targets_.begin(), targets_.end(), [](const Target& a, const Target& b) {
+      return std::pair(a.control, a.part) < std::pair(b.control, b.part);
+    });
     return std::move(targets_);
   }
 
@@ -118,7 +119,6 @@ class Maker {
     add_mouth_floor(fap, step, deltas);
     add(fap, Part::skin, deltas);
     add_bound(fap, deltas);
-    if (fap == 59 || fap == 60) add_smiling_cheek(fap);
   }
 
   // How far each vertex of the skin goes along with a FAP; false: not at all.
@@ -183,33 +183,6 @@ class Maker {
       const Vec3 turned = fap == 3 ? Vec3{0, -r.z * angle, r.y * angle} : step;
       deltas[v] = mix(deltas[v], turned, weights[v]);
     }
-  }
-
-  // A corner of the mouth that rises pushes the cheek up and out between its feature points, which
-  // stay; the fold from the nose to the corner is where it ends.
-  void add_smiling_cheek(int fap) {
-    const bool left = fap == 59;
-    std::vector<Vec3> around;
-    for (const char* id :
-         left ? std::array{"9.1", "5.1", "5.3", "8.3"} : std::array{"9.2", "5.2", "5.4", "8.4"}) {
-      if (!head_.point(id).exists()) return;
-      around.push_back(head_.at(id));
-    }
-    Vec3 middle;
-    for (const Vec3& p : around) middle += p * 0.25f;
-    float radius = std::numeric_limits<float>::max();
-    for (const Vec3& p : around) radius = std::min(radius, length(p - middle));
-    const auto& places = head_.part(Part::skin).positions;
-    const float unit = float(fap::step_size(fap, head_.fapu));
-    const Vec3 out = normalised(Vec3{left ? 0.5f : -0.5f, 0.25f, 1}) * (kCheekOut * unit);
-    std::vector<Vec3> deltas(places.size());
-    for (std::size_t v = 0; v < places.size(); ++v) {
-      const float d = length(places[v] - middle) / radius;
-      const float share = std::max(1 - d * d, 0.0f);
-      deltas[v] = out * (share * share);
-    }
-    add(fap, Part::skin, deltas);
-    if (!targets_.empty() && targets_.back().control == fap) targets_.back().low = 0;
   }
 
   void add(int fap, Part part, const std::vector<Vec3>& deltas) {

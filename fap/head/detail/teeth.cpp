@@ -6,12 +6,14 @@ namespace {
 constexpr float kClear = 1.07f;  // skin comes no nearer to the middle of the arch, its edge is 1
 constexpr float kSoft = 0.05f;   // the push begins gently, over this
 constexpr float kReach = 1.9f;   // skin further out is never near
+constexpr float kTight = 0.96f;  // some lips lie on the gums: nearer skin is the bag of the mouth
 
-// Where a place is in the arch seen from above: 1 on its outer edge.
+// Where a place is in the arch seen from above: 1 on its outer edge. Incisors stand nearly side by
+// side: an ellipse around the whole row would reach through the lips before them.
 float ratio(const DentalArch& arch, Vec3 p) {
-  const float x = (p.x - arch.middle.x) / arch.half_width;
-  const float z = (p.z - arch.middle.z) / arch.depth;
-  return std::sqrt(x * x + z * z);
+  const float x = std::abs(p.x - arch.middle.x) / arch.half_width;
+  const float z = std::abs(p.z - arch.middle.z) / arch.depth;
+  return std::pow(x * x * std::sqrt(x) + z * z * std::sqrt(z), 0.4f);
 }
 
 }  // namespace
@@ -39,7 +41,8 @@ DentalArch dental_arch(const Rig& rig, Part teeth) {
   for (std::uint32_t v = 0; v < skin.size(); ++v) {
     const float r = ratio(arch, skin[v]);
     const float above = std::abs(skin[v].y - arch.middle.y);
-    if (skin[v].z < arch.middle.z || r <= 1 || r > kReach || above > 6 * arch.half_height) continue;
+    if (skin[v].z < arch.middle.z || r <= kTight || r > kReach || above > 6 * arch.half_height)
+      continue;
     arch.vertices.push_back(v);
   }
   return arch;

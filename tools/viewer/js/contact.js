@@ -7,6 +7,8 @@ const JAW_BACK = -250;  // and the jaw goes back by this
 const CHIN_UP = 420;  // the chin rises by this at most
 const CHEEK_IN = 180;  // cheeks are sucked in by this at most
 const CORNER_TURN = 300;  // outer corners rise and fall with the inner ones but for this
+const TONGUE_IN = 190;  // the tongue gets as far behind shut lips,
+const TONGUE_OUT = 3;  // and this times farther than they are open
 const CONTACT = 0.06;  // of MNS: lips and lids so near are shut
 
 // Two FAPs whose points would pass each other let them meet half way.
@@ -49,6 +51,7 @@ function stopAtRooms(v, rooms) {
   atLeast([19, 20], LID_RISE);
   atLeast([14], JAW_BACK);
   atLeast([18], -rooms.chin);
+  v[45] = Math.min(v[45], TONGUE_IN + TONGUE_OUT * Math.max(-v[4] - v[5], 0));
   atLeast([31, 32, 33, 34, 35, 36], -rooms.brow_lid);
   atLeast([37, 38], -0.5 * rooms.brows);
   share(v, 37, 38, rooms.brows);

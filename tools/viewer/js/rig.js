@@ -119,7 +119,8 @@ export class Rig {
   keepOffTeeth(arch, place, skin) {
     const neutral = this.model.parts[this.index.skin].positions;
     const {middle: [mx, my, mz], half_width: width, depth, half_height: height} = arch;
-    const ratio = (x, z) => Math.hypot((x - mx) / width, (z - mz) / depth);
+    const ratio = (x, z) =>
+        (Math.abs((x - mx) / width) ** 2.5 + Math.abs((z - mz) / depth) ** 2.5) ** 0.4;
     const back = inverse(place);
     for (const vertex of arch.vertices) {
       const i = vertex * 3;
