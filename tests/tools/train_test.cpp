@@ -201,7 +201,7 @@ TEST_F(TrainParts, MergedTheyAreTheModelOfTheWholeInAnyOrder) {
   const auto model = dam::load_model(dir_ / "ab.dam"), whole = dam::load_model(base());
   ASSERT_TRUE(model && whole);
   EXPECT_EQ(model->phones, whole->phones);
-  EXPECT_THAT(model->provenance, HasSubstr("24 utterances, sums of 2 parts"));
+  EXPECT_THAT(model->provenance, HasSubstr("24 utterances, from sums"));
   EXPECT_EQ(animeme({"evaluate", dir_ / "ab.dam", corpus(), "--max-nrmse", "0.56"}).exit_code, 0);
 }
 

@@ -125,8 +125,7 @@ Result<int> merge(const PartSettings& parts, const std::string& output,
   Result<dam::TrainingSums> sums = dam::merge_training_sums(paths);
   if (!sums) return sums.error();
   train.provenance = "animeme " ANIMEME_VERSION ", method dam, " +
-                     std::to_string(sums->sentences()) + " utterances, sums of " +
-                     std::to_string(paths.size()) + (paths.size() == 1 ? " part" : " parts");
+                     std::to_string(sums->sentences()) + " utterances, from sums";
   dam::TrainSummary summary;
   Result<dam::Model> model = dam::train_from_sums(std::move(*sums), train, &summary);
   if (!model) return model.error().in_file(parts.merge[0]);
