@@ -78,8 +78,8 @@ struct CorpusOptions {
 Result<Corpus> read_corpus(const std::filesystem::path& folder, const CorpusOptions& options = {});
 
 /// The same, one sentence at a time, for corpora larger than memory: `visit` gets each sentence
-/// with its number among the rows (of the shard, from 0) and their count; an error it returns ends the
-/// reading and is returned. Returns what was left out.
+/// with its number among the rows (of the shard, from 0) and their count; an error it returns ends
+/// the reading and is returned. Returns what was left out.
 using SentenceVisitor =
     std::function<Result<void>(Utterance sentence, std::size_t row, std::size_t rows)>;
 /// `row` of `rows` begins at 0; an error of the visitor ends the visit.

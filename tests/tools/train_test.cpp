@@ -288,6 +288,10 @@ TEST(TrainAlone, OptionsThatDoNotGoTogether) {
            {corpus(), "-o", dir / "no.dam", "--merge", dir / "a.stats"},
            {corpus(), "--accumulate", dir / "x.stats", "--merge", dir / "a.stats"},
            {corpus(), "-o", dir / "no.dam", "--dominance", dir / "base.dam"},
+           {corpus(), "-o", dir / "no.dam", "--shard", "1/2"},
+           {corpus(), "--accumulate", dir / "x.stats", "--shard", "3/2"},
+           {corpus(), "--accumulate", dir / "x.stats", "--mpi"},
+           {corpus(), "--mpi", "-o", dir / "no.dam", "--base", "builtin"},
            {corpus(), "--accumulate", dir / "x.stats", "--method", "dam-paper"}}) {
     const auto result = train(arguments);
     EXPECT_EQ(result.exit_code, 2) << result.err;

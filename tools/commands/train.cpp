@@ -134,18 +134,21 @@ void add_part_options(CLI::App& app, PartSettings& parts, std::string& shard) {
   app.add_option("--accumulate", parts.accumulate,
                  "Add the sentences, one at a time, to this file of sums instead of training; a "
                  "file that is there is continued and counts no sentence twice");
-  app.add_option("--dominance", parts.dominance,
-                 "With --accumulate and --mpi: a model of the method dam (a file, or builtin) whose "
-                 "dominance the sums are taken for; the same for all parts; default: start values");
+  app.add_option(
+      "--dominance", parts.dominance,
+      "With --accumulate and --mpi: a model of the method dam (a file, or builtin) whose "
+      "dominance the sums are taken for; the same for all parts; default: start values");
   app.add_option("--save-every", parts.save_every,
                  "With --accumulate: save after so many new sentences")
       ->check(CLI::Range(std::size_t(1), std::size_t(1000000)))
       ->capture_default_str();
-  app.add_option("--shard", shard, "With --accumulate: only these sentences, by their ids: 1/4 to 4/4")
+  app.add_option("--shard", shard,
+                 "With --accumulate: only these sentences, by their ids: 1/4 to 4/4")
       ->option_text("I/N");
-  app.add_flag("--mpi", parts.mpi,
-               "Under mpirun: every process takes sums of its part of the corpus, the first one makes "
-               "the model of all");
+  app.add_flag(
+      "--mpi", parts.mpi,
+      "Under mpirun: every process takes sums of its part of the corpus, the first one makes "
+      "the model of all");
   app.add_option("--merge", parts.merge, "Train on the sums of these files instead of a corpus");
 }
 

@@ -22,9 +22,9 @@ Result<Ranks> Ranks::join() {
   void* module = tools::load_module("animeme_mpi.so", RTLD_NOW | RTLD_GLOBAL, problem);
   void* entry = module == nullptr ? nullptr : dlsym(module, "animeme_mpi_functions");
   if (entry == nullptr)
-    return make_error(Code::unsupported,
-                      "MPI is not there (" + problem +
-                          "); install it (Debian: libopenmpi-dev) and build again");
+    return make_error(
+        Code::unsupported,
+        "MPI is not there (" + problem + "); install it (Debian: libopenmpi-dev) and build again");
   const Functions& functions = *reinterpret_cast<const Functions* (*)()>(entry)();
   int rank = 0, size = 1;
   functions.join(&rank, &size);
