@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "tests/support/shared.h"
+#include "tests/tools/batch_support.h"
 #include "tests/tools/commands.h"
 
 namespace animeme::test {
@@ -25,19 +26,6 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 const std::string kSample = std::string(ANIMEME_SOURCE_DIR) + "/tests/data/grid_s1_sample";
-
-// Everything below a folder, by its name there.
-std::map<std::string, std::string> contents(const std::string& folder) {
-  std::map<std::string, std::string> all;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const std::string name = fs::relative(entry.path(), folder).string();
-    // Locks stay; shards have indices and reports of their own.
-    if (!entry.is_regular_file() || name.ends_with(".lock") || name.find("-of-") != name.npos)
-      continue;
-    all[name] = slurp(entry.path().string());
-  }
-  return all;
-}
 
 std::string short_clips(int count) {
   const char* words[] = {"Good morning", "Guten Abend", "Bonjour", "A boat", "Vier Pferde"};
@@ -49,13 +37,6 @@ std::string short_clips(int count) {
              (i % 2 ? "\t.fba .tsv\n" : "\tfba, tsv\n");
   }
   return table;
-}
-
-std::vector<std::string> batch_line(const std::string& manifest, const std::string& out,
-                                    const std::vector<std::string>& more = {}) {
-  std::vector<std::string> line{"batch", manifest, "-o", out, "-q"};
-  line.insert(line.end(), more.begin(), more.end());
-  return line;
 }
 
 TEST(Batch, EqualsTheSingleCommands) {
