@@ -115,7 +115,7 @@ int main(int argc, char** argv) {
   std::printf(
       "| hours | sentences | processes | summing, s | CPU, s | of the slowest | speed-up | MB each "
       "| "
-      "sums, MB | solving, s, CPU s | MB | model "
+      "sums, MB | adding and solving, s, CPU s | MB | model "
       "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   bool good = true;
   double cpu_per_hour = 0, slowest_per_hour = 0, file_mb = 0, solving = 0;

@@ -40,8 +40,7 @@ void receive(std::uint8_t* bytes, std::uint64_t size, int from) {
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) const animeme::mpi::Functions*
-animeme_mpi_functions() {
+extern "C" [[gnu::visibility("default")]] const animeme::mpi::Functions* animeme_mpi_functions() {
   static constexpr animeme::mpi::Functions table = {join, leave, send, size_from, receive};
   return &table;
 }
