@@ -19,7 +19,8 @@ extern "C" void leave_ranks(int status, void* functions) {
 Result<Ranks> Ranks::join() {
   std::string problem;
   // Modules that OpenMPI loads in its turn look for its names among those of all.
-  void* module = tools::load_module("animeme_mpi.so", RTLD_NOW | RTLD_GLOBAL, problem);
+  void* module =
+      tools::load_module("animeme_mpi.so", ANIMEME_MODULE_FOLDER, RTLD_NOW | RTLD_GLOBAL, problem);
   void* entry = module == nullptr ? nullptr : dlsym(module, "animeme_mpi_functions");
   if (entry == nullptr)
     return make_error(

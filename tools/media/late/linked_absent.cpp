@@ -15,7 +15,8 @@ namespace {
 
 const Functions& load() {
   std::string problem;
-  if (void* module = tools::load_module("animeme_ffmpeg.so", RTLD_NOW | RTLD_LOCAL, problem)) {
+  if (void* module = tools::load_module("animeme_ffmpeg.so", ANIMEME_MODULE_FOLDER,
+                                        RTLD_NOW | RTLD_LOCAL, problem)) {
     if (const auto entry = reinterpret_cast<ModuleEntry>(dlsym(module, kModuleEntry))) {
       return *entry();
     }
