@@ -182,6 +182,13 @@ class CorpusReader {
   std::map<std::string, std::size_t> wholly_blank_;  // sentences, by control
 };
 
+// Whatever else the corpus has.
+int shard_of_sentence(std::string_view id, int shards) {
+  std::uint64_t hash = 0xCBF29CE484222325u;  // FNV-1a, whose low bits alone are poor
+  for (const char c : id) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3u;
+  return int((hash ^ (hash >> 32)) % std::uint64_t(shards)) + 1;
+}
+
 }  // namespace
 
 Result<std::vector<Utterance>> parse_rows(std::string_view text, const CorpusOptions& options) {
@@ -255,6 +262,9 @@ Result<LeftOut> visit_corpus(const fs::path& folder, const CorpusOptions& option
                              const SentenceVisitor& visit) {
   auto rows = read_rows(folder / "utterances.tsv", options);
   if (!rows) return rows.error();
+  std::erase_if(*rows, [&](const Utterance& u) {
+    return shard_of_sentence(u.id, options.shards) != options.shard;
+  });
   CorpusReader reader(folder, options);
   std::size_t skipped = 0;
   for (std::size_t row = 0; row < rows->size(); ++row) {
@@ -268,7 +278,7 @@ Result<LeftOut> visit_corpus(const fs::path& folder, const CorpusOptions& option
     if (!*complete) continue;
     if (auto ok = visit(std::move(u), row, rows->size()); !ok) return ok.error();
   }
-  if (skipped == rows->size())
+  if (skipped > 0 && skipped == rows->size())
     return error_in(folder / options.controls_folder, Code::not_found,
                     "no row has a control file in this folder");
   auto left_out = std::move(reader).left_out();

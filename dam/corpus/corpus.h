@@ -59,6 +59,7 @@ struct CorpusOptions {
   std::vector<std::string>
       controls;               ///< names to keep, in this order; empty: all of the first file
   bool skip_missing = false;  ///< leave out rows without a control file instead of failing
+  int shard = 1, shards = 1;  ///< visit_corpus(): only this one, from 1, of so many; by ids
   bool any_length = false;    ///< accept a script and a signal that differ by more than 0.5 s
 };
 
@@ -77,8 +78,8 @@ struct CorpusOptions {
 Result<Corpus> read_corpus(const std::filesystem::path& folder, const CorpusOptions& options = {});
 
 /// The same, one sentence at a time, for corpora larger than memory: `visit` gets each sentence
-/// with its number among the rows (from 0) and the count of rows; an error it returns ends the
-/// reading and is returned. Returns what was left out.
+/// with its number among the rows (of the shard, from 0) and their count; an error it returns ends
+/// the reading and is returned. Returns what was left out.
 using SentenceVisitor =
     std::function<Result<void>(Utterance sentence, std::size_t row, std::size_t rows)>;
 /// `row` of `rows` begins at 0; an error of the visitor ends the visit.

@@ -27,22 +27,33 @@ bool same_controls(const SumsState& state, const std::vector<std::string>& names
                     [](const ControlSums& c, const std::string& name) { return c.name == name; });
 }
 
+/// Sums of a sentence, each added to those of all as one number.
+struct SentenceMoments {
+  double sum = 0, squares = 0, rest_sum = 0;
+};
+
 void add_moments(const Utterance& u, SumsState& state) {
   const auto places = frame_places(u, state.base.pause_edge);
   const std::size_t k = state.controls.size();
+  std::vector<SentenceMoments> moments(k);
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (places[i] == FramePlace::neither) continue;
     const bool speech = places[i] == FramePlace::speech;
     ++(speech ? state.speech_frames : state.rest_frames);
     for (std::size_t c = 0; c < k; ++c) {
       const double value = u.signal.values[i * k + c];
-      ControlSums& sums = state.controls[c];
-      (speech ? sums.sum : sums.rest_sum) += value;
+      (speech ? moments[c].sum : moments[c].rest_sum) += value;
       if (!speech) continue;
-      sums.squares += value * value;
+      moments[c].squares += value * value;
+      ControlSums& sums = state.controls[c];
       sums.low = std::min(sums.low, value);
       sums.high = std::max(sums.high, value);
     }
+  }
+  for (std::size_t c = 0; c < k; ++c) {
+    state.controls[c].sum.add(moments[c].sum);
+    state.controls[c].squares.add(moments[c].squares);
+    state.controls[c].rest_sum.add(moments[c].rest_sum);
   }
 }
 
@@ -50,7 +61,7 @@ void add_phones(const std::vector<Occurrence>& timeline, SumsState& state) {
   for (const Occurrence& o : timeline) {
     PhoneSums& sums = state.phones[std::size_t(index_of(state.base.phones, o.label))];
     ++sums.examples;
-    sums.log_duration += std::log(o.duration);
+    sums.log_duration.add(std::log(o.duration));
     sums.longest = std::max(sums.longest, o.duration);
   }
 }
@@ -61,7 +72,16 @@ void add_contacts(const Utterance& u, SumsState& state) {
   add_lip_tooth_contacts(u, lows);
   for (const double gap : gaps) state.closures.add(gap);
   for (const double low : lows) state.lip_tooth.add(low);
-  state.shut.add(u);
+  ShutSums shut;
+  shut.add(u);
+  state.shut.add(shut);
+}
+
+/// Whether sums of squares of a sentence stay far below FixedSum::kMost.
+bool small_enough(const Utterance& u) {
+  double squares = 0;
+  for (const double value : u.signal.values) squares += value * value;
+  return squares <= FixedSum::kMost && u.script.duration() <= 1e6;
 }
 
 /// The normal equations of one sentence. Controls with rest 0 and deviation 1 keep its units.
@@ -126,7 +146,6 @@ std::size_t TrainingSums::frames() const {
   return std::size_t(state_->kept.frames + state_->held.frames);
 }
 fap::Rate TrainingSums::rate() const { return state_->rate; }
-std::uint64_t TrainingSums::digest() const { return digest_of(write_training_sums(*this)); }
 
 std::vector<std::string> TrainingSums::controls() const {
   std::vector<std::string> names;
@@ -179,12 +198,18 @@ Result<bool> add_to_sums(SumsState& state, const Utterance& u, std::uint64_t dig
                    "it has changed since it was added; sums cannot forget, so begin them anew, or "
                    "give the sentence another id if it is another one");
   }
-  if (first) set_controls(state, u.signal.names, u.signal.rate);
   const auto timeline = make_timeline(u.script, state.base.pause_edge);
+  FitSums& set = digest % kHeldOut == 0 ? state.held : state.kept;
+  SentenceSums fit;
+  if (!timeline.empty()) fit = sums_of(u, timeline, state.base);
+  if (!small_enough(u) || !fits(fit, set))
+    return refused(sentence +
+                   "its values are too large for exact sums (1e6 and less are fine); "
+                   "choose a larger unit");
+  if (first) set_controls(state, u.signal.names, u.signal.rate);
   if (!timeline.empty()) {
-    const SentenceSums fit = sums_of(u, timeline, state.base);
     widen(state, fit.space);
-    add_sentence_sums(fit, state, digest % kHeldOut == 0 ? state.held : state.kept);
+    add_sentence_sums(fit, state, set);
   } else {
     widen(state, {});
   }

@@ -22,6 +22,10 @@
 /// Take the base from `train` on as many sentences as memory holds; the dominance is a few numbers
 /// a phone and soon known.
 ///
+/// Sums are whole numbers of small units: 2^-30 in matrices, 2^-48 elsewhere, so controls want
+/// units in which they move by 1e-5 or more. What a sentence gives is rounded once, adding is
+/// exact: a corpus that is cut in any way, summed in any order, gives the same bytes.
+///
 /// What is summed, so that parts simply add up:
 ///   - normal equations of all terms but triphones, in the units of the controls, apart for
 ///   sentences that are
@@ -68,22 +72,20 @@ class TrainingSums {
   /// sentence alone: that finds less than a look at all of a corpus, but the same in whatever part
   /// it is summed. They are appended to `glitches`. After an error the sums are as before. Errors,
   /// with the id of the sentence: invalid_argument (another content under an id that is there;
-  /// other controls or another rate; NaN; a broken script).
+  /// other controls or another rate; NaN; values far above 1e6; a broken script).
   Result<bool> add(const Utterance& sentence, std::vector<Glitch>* glitches = nullptr);
 
   std::size_t sentences() const;              ///< added, held-out ones included
   std::size_t frames() const;                 ///< that count in the fit
   std::vector<std::string> controls() const;  ///< names, in the order of the sums
   fap::Rate rate() const;                     ///< of the signals
-  /// A number for everything in here; sums with equal digests are equal.
-  std::uint64_t digest() const;
 
   /// Code::invalid_argument, naming what differs, unless both have the same base (`this` comes
   /// first in the sentence); nothing else is compared.
   Result<void> check_same_base(const TrainingSums& other) const;
 
   /// Adds all of `other`. After an error nothing was added. Errors: invalid_argument (another base,
-  /// other controls, another rate; a sentence that both have).
+  /// other controls, another rate; a sentence that both have; some 1e9 frames or more).
   Result<void> merge(const TrainingSums& other);
 
   TrainingSums(TrainingSums&&) noexcept;  ///< movable
@@ -99,7 +101,7 @@ class TrainingSums {
   std::unique_ptr<SumsState> state_;
 };
 
-/// The file of sums: magic "ANIMESUM", version 1.0, little endian, CRC-32 of everything;
+/// The file of sums: magic "ANIMESUM", version 4.0, little endian, CRC-32 of everything;
 /// dam/training/README.md has the layout. The same sums give the same bytes.
 std::vector<std::uint8_t> write_training_sums(const TrainingSums& sums);
 
@@ -112,8 +114,8 @@ Result<TrainingSums> read_training_sums(std::span<const std::uint8_t> bytes);
 /// not_found, io.
 Result<TrainingSums> load_training_sums(const std::filesystem::path& path);
 
-/// Adds up files in the order of their digests, so the order of `paths` does not matter to a single
-/// bit. Memory: two of them. Errors: those of load_training_sums() and merge(), with the path;
+/// Adds up files; neither their order nor how a corpus was cut matters to a single bit. Memory: two
+/// of them. Errors: those of load_training_sums() and merge(), with the path;
 /// invalid_argument (no path).
 Result<TrainingSums> merge_training_sums(std::span<const std::filesystem::path> paths);
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 #include "dam/kinds/refined/terms.h"
 #include "dam/model/bytes_internal.h"
@@ -12,7 +13,9 @@
 namespace animeme::dam {
 namespace {
 
-constexpr FileFormat kSumsFormat{"ANIMESUM", 3, 0, "file of sums", "accumulate its sentences anew"};
+constexpr FileFormat kSumsFormat{"ANIMESUM", 4, 0, "file of sums", "accumulate its sentences anew"};
+
+constexpr std::uint64_t kMostCount = std::uint64_t(1) << 48;
 
 Error damaged_sums(const std::string& how) { return damaged_file(kSumsFormat, how); }
 
@@ -44,24 +47,18 @@ void write_statistics(const SumsState& state, ByteWriter& out) {
     out.put(c.name, c.low, c.high, c.sum, c.squares, c.rest_sum);
   write_pairs(state.closures.counts, out);
   write_pairs(state.lip_tooth.counts, out);
-  const ShutSums& shut = state.shut;
+  const ShutTotals& shut = state.shut;
   out.put(shut.count, shut.phone, shut.shut, shut.phone_squared, shut.both);
   write_pairs(state.sentences, out);
 }
 
 /// In the order of the space, whatever order its unknowns came in.
 void write_fit(const FitSums& fit, const std::vector<std::size_t>& rows, ByteWriter& out) {
-  out.put(fit.sentences, fit.frames, fit.energy, fit.level);
+  out.put(fit.sentences, fit.frames, fit.bound.bits(), fit.energy, fit.level);
   const std::size_t n = rows.size(), columns = fit.energy.size();
-  std::vector<double> right;
-  right.reserve(fit.right.size());
-  for (const std::size_t row : rows) {
-    const auto first = fit.right.begin() + std::ptrdiff_t(row * columns);
-    right.insert(right.end(), first, first + std::ptrdiff_t(columns));
-  }
-  out.put(right);
+  for (const std::size_t row : rows) out.put(std::span(fit.right).subspan(row * columns, columns));
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i; j < n; ++j) out.put(fit.gram.at(rows[i], rows[j]));
+    for (std::size_t j = i; j < n; ++j) out.put(fit.gram.at(rows[i], rows[j]).bits());
 }
 
 // ---- reading ----
@@ -79,7 +76,7 @@ bool between(double x, double low, double high) { return x >= low && x <= high; 
 Problem read_phones(ByteReader& in, SumsState& state, std::vector<std::uint32_t>& number) {
   const auto& known = state.base.phones;
   std::size_t next = 0;
-  for (std::size_t left = in.count(4 + 4 + 4 * 8 + 8 + 2 * 8); left > 0; --left) {
+  for (std::size_t left = in.count(4 + 4 + 4 * 8 + 8 + 3 * 8); left > 0; --left) {
     const auto label = in.next<std::string>();
     while (next < known.size() && known[next].label != label) ++next;
     if (next == known.size()) return "phone '" + label + "' is not known or out of order";
@@ -91,7 +88,7 @@ Problem read_phones(ByteReader& in, SumsState& state, std::vector<std::uint32_t>
            sums.longest);
     const bool fine = between(phone.duration, 1e-6, 1e6) && between(d.left, 1e-9, 10) &&
                       between(d.right, 1e-9, 10) && between(d.strength, 1e-9, 1e6) &&
-                      std::isfinite(sums.log_duration) && between(sums.longest, 0, 1e6);
+                      between(sums.longest, 0, 1e6);
     if (!fine || group != phone.context_class) return "phone " + label + " is out of range";
     number.push_back(std::uint32_t(next++));
   }
@@ -114,7 +111,7 @@ Problem read_histogram(ByteReader& in, Histogram& histogram) {
     const auto count = in.next<std::uint64_t>();
     const bool ascending = histogram.counts.empty() || bin > histogram.counts.rbegin()->first;
     if (!ascending || std::abs(double(bin)) > Histogram::kLastBin || count == 0 ||
-        count > (std::uint64_t(1) << 48))
+        count > kMostCount)
       return "a count is out of range";
     histogram.counts[bin] = count;
   }
@@ -122,12 +119,12 @@ Problem read_histogram(ByteReader& in, Histogram& histogram) {
 }
 
 Problem read_controls(ByteReader& in, SumsState& state) {
-  state.controls.resize(in.count(4 + 5 * 8));
+  state.controls.resize(in.count(4 + 8 * 8));
   for (ControlSums& c : state.controls) {
     in.get(c.name, c.low, c.high, c.sum, c.squares, c.rest_sum);
     const bool range =
         state.speech_frames == 0 ? c.low > c.high : c.low <= c.high && all_finite({c.low, c.high});
-    if (c.name.empty() || !range || !all_finite({c.sum, c.squares, c.rest_sum}) || c.squares < 0)
+    if (c.name.empty() || !range || c.squares.value() < 0)
       return "control '" + c.name + "' is out of range";
   }
   return {};
@@ -138,10 +135,11 @@ Problem read_statistics(ByteReader& in, SumsState& state) {
   if (Problem p = read_controls(in, state); !p.empty()) return p;
   if (Problem p = read_histogram(in, state.closures); !p.empty()) return p;
   if (Problem p = read_histogram(in, state.lip_tooth); !p.empty()) return p;
-  ShutSums& shut = state.shut;
+  ShutTotals& shut = state.shut;
   in.get(shut.count, shut.phone, shut.shut, shut.phone_squared, shut.both);
-  for (const double sum : {shut.count, shut.phone, shut.shut, shut.phone_squared, shut.both})
-    if (!between(sum, 0, 1e12)) return "its times of closures are out of range";
+  for (const FixedSum& sum : {shut.phone, shut.shut, shut.phone_squared, shut.both})
+    if (!between(sum.value(), 0, 1e12) || shut.count > kMostCount)
+      return "its times of closures are out of range";
   for (std::size_t left = in.count(4 + 8); left > 0; --left) {
     std::pair<std::string, std::uint64_t> sentence;
     in.get(sentence.first, sentence.second);
@@ -187,27 +185,24 @@ Problem read_space(ByteReader& in, const std::vector<std::uint32_t>& number, Sum
   return {};
 }
 
-/// True if so many numbers were there.
-bool read_reals(ByteReader& in, std::size_t count, std::vector<double>& values) {
-  values.resize(in.limited(count, 8));
+/// True if so many sums were there.
+bool read_sums(ByteReader& in, std::size_t count, std::vector<FixedSum>& values) {
+  values.resize(in.limited(count, 16));
   in.get(values);
   return values.size() == count;
 }
 
 Problem read_fit(ByteReader& in, std::size_t n, std::size_t k, FitSums& fit) {
-  in.get(fit.sentences);
-  in.get(fit.frames);
-  std::vector<double> triangle;
-  if (!read_reals(in, k + 1, fit.energy) || !read_reals(in, k, fit.level) ||
-      !read_reals(in, n * (k + 1), fit.right) || !read_reals(in, n * (n + 1) / 2, triangle))
+  in.get(fit.sentences, fit.frames);
+  fit.bound.set_bits(in.next<std::uint64_t>());
+  const std::size_t triangle = n * (n + 1) / 2;
+  if (!read_sums(in, k + 1, fit.energy) || !read_sums(in, k, fit.level) ||
+      !read_sums(in, n * (k + 1), fit.right) || in.limited(triangle, 8) != triangle)
     return "its parts are larger than the file";
-  if (!all_finite(fit.energy) || !all_finite(fit.level) || !all_finite(fit.right) ||
-      !all_finite(triangle))
-    return "a sum has no value";
+  if (!between(fit.bound.value(), 0, SmallFixedSum::kMost)) return "it has too many frames";
   fit.gram.grow(n);
-  auto from = triangle.begin();
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i; j < n; ++j) fit.gram.at(i, j) = *from++;
+    for (std::size_t j = i; j < n; ++j) fit.gram.at(i, j).set_bits(in.next<std::uint64_t>());
   return {};
 }
 
@@ -233,7 +228,7 @@ std::vector<std::uint8_t> write_training_sums(const TrainingSums& sums) {
   const SumsState& state = sums.state();
   const std::size_t n = state.space.size;
   ByteWriter body;
-  body.bytes.reserve(8 * n * (n + 1) + 16 * n * (state.controls.size() + 1) + 65536);
+  body.bytes.reserve(8 * n * (n + 1) + 32 * n * (state.controls.size() + 1) + 65536);
   write_base(state, body);
   write_statistics(state, body);
   for (std::size_t t = 0; t < kTermCount; ++t) {

@@ -1,6 +1,5 @@
 // Adding up parts.
 #include <algorithm>
-#include <utility>
 
 #include "dam/training/accumulate.h"
 #include "dam/training/training_sums_internal.h"
@@ -36,13 +35,13 @@ void add_statistics(const SumsState& from, SumsState& to) {
     ControlSums& b = to.controls[c];
     b.low = std::min(a.low, b.low);
     b.high = std::max(a.high, b.high);
-    b.sum += a.sum;
-    b.squares += a.squares;
-    b.rest_sum += a.rest_sum;
+    b.sum.add(a.sum);
+    b.squares.add(a.squares);
+    b.rest_sum.add(a.rest_sum);
   }
   for (std::size_t p = 0; p < to.phones.size(); ++p) {
     to.phones[p].examples += from.phones[p].examples;
-    to.phones[p].log_duration += from.phones[p].log_duration;
+    to.phones[p].log_duration.add(from.phones[p].log_duration);
     to.phones[p].longest = std::max(to.phones[p].longest, from.phones[p].longest);
   }
   to.closures.add(from.closures);
@@ -73,6 +72,8 @@ Result<void> TrainingSums::merge(const TrainingSums& other) {
     return refused("the sentence '" + id +
                    "' is in two of the parts and would count twice; give every sentence to one "
                    "part only");
+  if (!fits(from.kept, to.kept) || !fits(from.held, to.held))
+    return refused("the sums have too many frames for one model; train on some of the parts");
   if (to.controls.empty()) set_controls(to, other.controls(), from.rate);
   widen(to, from.space);
   add_fit(from.kept, from, to, to.kept);
@@ -83,19 +84,12 @@ Result<void> TrainingSums::merge(const TrainingSums& other) {
 
 Result<TrainingSums> merge_training_sums(std::span<const std::filesystem::path> paths) {
   if (paths.empty()) return refused("there are no sums to merge");
-  std::vector<std::pair<std::uint64_t, std::filesystem::path>> parts;
-  for (const auto& path : paths) {
-    auto part = load_training_sums(path);
+  auto sums = load_training_sums(paths[0]);
+  for (const auto& path : paths.subspan(1)) {
+    if (!sums) break;
+    const auto part = load_training_sums(path);
     if (!part) return part.error();
-    parts.emplace_back(part->digest(), path);
-  }
-  std::sort(parts.begin(), parts.end());
-  auto sums = load_training_sums(parts[0].second);
-  for (std::size_t i = 1; sums && i < parts.size(); ++i) {
-    const auto part = load_training_sums(parts[i].second);
-    if (!part) return part.error();
-    if (auto ok = sums->merge(*part); !ok)
-      return std::move(ok).error().in_file(parts[i].second.string());
+    if (auto ok = sums->merge(*part); !ok) return std::move(ok).error().in_file(path.string());
   }
   return sums;
 }

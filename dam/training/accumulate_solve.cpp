@@ -22,10 +22,10 @@ std::vector<Control> controls_of(const SumsState& state) {
   const double speech = std::max(1.0, double(state.speech_frames));
   for (const ControlSums& sums : state.controls) {
     Control c{sums.name, 0, 0, 0};
-    c.mean = sums.sum / speech;
+    c.mean = sums.sum.value() / speech;
     const bool moves = sums.high - sums.low > kConstantRange * (1 + std::abs(c.mean));
-    if (moves) c.sd = std::sqrt(std::max(0.0, sums.squares / speech - c.mean * c.mean));
-    c.rest = state.rest_frames > 0 ? sums.rest_sum / double(state.rest_frames) : c.mean;
+    if (moves) c.sd = std::sqrt(std::max(0.0, sums.squares.value() / speech - c.mean * c.mean));
+    c.rest = state.rest_frames > 0 ? sums.rest_sum.value() / double(state.rest_frames) : c.mean;
     controls.push_back(c);
   }
   settle_controls(controls);
@@ -74,7 +74,7 @@ CurveSums standardised(const FitSums& fit, const std::vector<std::size_t>& rows,
   CurveSums out;
   out.gram = SquareMatrix(n);
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i; j < n; ++j) out.gram[i * n + j] = fit.gram.at(rows[i], rows[j]);
+    for (std::size_t j = i; j < n; ++j) out.gram[i * n + j] = fit.gram.at(rows[i], rows[j]).value();
   out.frames = std::size_t(fit.frames);
   out.right.assign(n * k, 0.0);
   out.energy.assign(k, 0.0);
@@ -82,10 +82,11 @@ CurveSums standardised(const FitSums& fit, const std::vector<std::size_t>& rows,
     const double mean = controls[c].mean, sd = controls[c].sd;
     if (sd == 0) continue;
     for (std::size_t i = 0; i < n; ++i) {
-      const double* row = &fit.right[rows[i] * (k + 1)];
-      out.right[i * k + c] = (row[c] - mean * row[k]) / sd;
+      const FixedSum* row = &fit.right[rows[i] * (k + 1)];
+      out.right[i * k + c] = (row[c].value() - mean * row[k].value()) / sd;
     }
-    const double energy = fit.energy[c] - 2 * mean * fit.level[c] + mean * mean * fit.energy[k];
+    const double energy = fit.energy[c].value() - 2 * mean * fit.level[c].value() +
+                          mean * mean * fit.energy[k].value();
     out.energy[c] = std::max(0.0, energy) / (sd * sd);
   }
   return out;
@@ -96,7 +97,7 @@ void warn_of_pace(const SumsState& state, TrainSummary& summary) {
   for (std::size_t p = 0; p < state.phones.size(); ++p) {
     const PhoneSums& sums = state.phones[p];
     if (sums.examples < kEnoughExamples || state.base.phones[p].label == kSilence) continue;
-    const double usual = std::exp(sums.log_duration / double(sums.examples));
+    const double usual = std::exp(sums.log_duration.value() / double(sums.examples));
     const double ratio = usual / state.base.phones[p].duration;
     if (ratio > kOtherPace || ratio < 1 / kOtherPace) labels += " " + state.base.phones[p].label;
   }
@@ -130,7 +131,7 @@ Model start_model(const SumsState& state, const TrainOptions& options) {
   model.pause_edge = state.base.pause_edge;
   model.closure_gap = closure_gap_of(state.closures.median());
   if (const auto low = state.lip_tooth.median()) model.lip_tooth_raise = -*low;
-  model.shut = state.shut.line();
+  model.shut = state.shut.values().line();
   model.rate = state.rate;
   model.attribution = options.attribution;
   model.provenance = options.provenance;

@@ -26,13 +26,19 @@ std::vector<std::size_t> places_in(const TermSpace& from, const TermSpace& to) {
 /// Makes room for `rows` unknowns.
 void grow(FitSums& fit, std::size_t rows, std::size_t columns) {
   fit.gram.grow(rows);
-  fit.right.resize(rows * columns, 0.0);
-  fit.energy.resize(columns, 0.0);
-  fit.level.resize(columns - 1, 0.0);
+  fit.right.resize(rows * columns);
+  fit.energy.resize(columns);
+  fit.level.resize(columns - 1);
 }
 
-void add(std::span<const double> from, std::span<double> to) {
-  for (std::size_t i = 0; i < from.size(); ++i) to[i] += from[i];
+template <class Number>
+void add(std::span<const Number> from, std::span<FixedSum> to) {
+  for (std::size_t i = 0; i < from.size(); ++i) to[i].add(from[i]);
+}
+
+bool small_sums(std::span<const double> values) {
+  return std::all_of(values.begin(), values.end(),
+                     [](double v) { return std::abs(v) <= FixedSum::kMost; });
 }
 
 }  // namespace
@@ -57,6 +63,26 @@ std::optional<double> Histogram::median() const {
   return std::nullopt;
 }
 
+void ShutTotals::add(const ShutSums& sentence) {
+  count += std::uint64_t(sentence.count);
+  phone.add(sentence.phone);
+  shut.add(sentence.shut);
+  phone_squared.add(sentence.phone_squared);
+  both.add(sentence.both);
+}
+
+void ShutTotals::add(const ShutTotals& other) {
+  count += other.count;
+  phone.add(other.phone);
+  shut.add(other.shut);
+  phone_squared.add(other.phone_squared);
+  both.add(other.both);
+}
+
+ShutSums ShutTotals::values() const {
+  return {double(count), phone.value(), shut.value(), phone_squared.value(), both.value()};
+}
+
 SumsBase start_base() {
   SumsBase base;
   for (const PhoneInfo& info : phones()) {
@@ -76,18 +102,36 @@ void set_controls(SumsState& state, const std::vector<std::string>& names, fap::
   state.rate = rate;
 }
 
+double SentenceSums::largest() const {
+  double largest = 0;
+  for (std::size_t i = 0; i < space.size; ++i)
+    largest = std::max(largest, curves.gram[i * space.size + i]);
+  return largest;
+}
+
+bool fits(const SentenceSums& sentence, const FitSums& to) {
+  return small_sums(sentence.curves.right) && small_sums(sentence.curves.energy) &&
+         small_sums(sentence.level) &&
+         to.bound.value() + sentence.largest() <= SmallFixedSum::kMost;
+}
+
+bool fits(const FitSums& from, const FitSums& to) {
+  return to.bound.value() + from.bound.value() <= SmallFixedSum::kMost;
+}
+
 void add_sentence_sums(const SentenceSums& from, const SumsState& state, FitSums& to) {
   const auto places = places_in(from.space, state.space);
   const std::size_t n = places.size(), columns = to.energy.size();
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t row = state.rows[places[i]];
     const double* column = from.curves.gram.data() + i * n;
-    for (std::size_t j = i; j < n; ++j) to.gram.at(row, state.rows[places[j]]) += column[j];
+    for (std::size_t j = i; j < n; ++j) to.gram.at(row, state.rows[places[j]]).add(column[j]);
     add(std::span(from.curves.right).subspan(i * columns, columns),
         std::span(to.right).subspan(row * columns, columns));
   }
-  add(from.curves.energy, to.energy);
-  add(from.level, to.level);
+  add(std::span(from.curves.energy), to.energy);
+  add(std::span(from.level), to.level);
+  to.bound.add(from.largest());
   to.frames += from.curves.frames;
   ++to.sentences;
 }
@@ -99,12 +143,13 @@ void add_fit(const FitSums& from, const SumsState& from_state, const SumsState& 
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t out = state.rows[places[i]], in = from_state.rows[i];
     for (std::size_t j = i; j < n; ++j)
-      to.gram.at(out, state.rows[places[j]]) += from.gram.at(in, from_state.rows[j]);
+      to.gram.at(out, state.rows[places[j]]).add(from.gram.at(in, from_state.rows[j]));
     add(std::span(from.right).subspan(in * columns, columns),
         std::span(to.right).subspan(out * columns, columns));
   }
-  add(from.energy, to.energy);
-  add(from.level, to.level);
+  add(std::span(from.energy), to.energy);
+  add(std::span(from.level), to.level);
+  to.bound.add(from.bound);
   to.frames += from.frames;
   to.sentences += from.sentences;
 }

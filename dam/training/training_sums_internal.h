@@ -14,6 +14,7 @@
 #include "dam/corpus/train_options.h"
 #include "dam/kinds/refined/curves_fit.h"
 #include "dam/model/model.h"
+#include "dam/training/fixed_sum_internal.h"
 
 namespace animeme::dam {
 
@@ -37,13 +38,23 @@ struct ControlSums {
   std::string name;
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
-  double sum = 0, squares = 0, rest_sum = 0;
+  FixedSum sum, squares, rest_sum;
 };
 
 struct PhoneSums {
   std::uint64_t examples = 0;
-  double log_duration = 0;
+  FixedSum log_duration;
   double longest = 0;
+};
+
+/// ShutSums, exactly.
+struct ShutTotals {
+  std::uint64_t count = 0;
+  FixedSum phone, shut, phone_squared, both;
+
+  void add(const ShutSums& sentence);
+  void add(const ShutTotals& other);
+  ShutSums values() const;
 };
 
 /// How often values fell into bins of kBin units; bounded, so that parts add up.
@@ -63,15 +74,15 @@ class Histogram {
 /// The lower triangle of a symmetric matrix that grows: rows stay where they are.
 class Triangle {
  public:
-  double& at(std::size_t a, std::size_t b) { return values_[place(a, b)]; }
-  double at(std::size_t a, std::size_t b) const { return values_[place(a, b)]; }
-  void grow(std::size_t rows) { values_.resize(rows * (rows + 1) / 2, 0.0); }
+  SmallFixedSum& at(std::size_t a, std::size_t b) { return values_[place(a, b)]; }
+  SmallFixedSum at(std::size_t a, std::size_t b) const { return values_[place(a, b)]; }
+  void grow(std::size_t rows) { values_.resize(rows * (rows + 1) / 2); }
 
  private:
   static std::size_t place(std::size_t a, std::size_t b) {
     return a >= b ? a * (a + 1) / 2 + b : b * (b + 1) / 2 + a;
   }
-  std::vector<double> values_;
+  std::vector<SmallFixedSum> values_;
 };
 
 /// Normal equations in the units of the controls. Behind the controls there is one more column, of
@@ -80,10 +91,11 @@ class Triangle {
 /// than itself.
 struct FitSums {
   std::uint64_t sentences = 0, frames = 0;
+  SmallFixedSum bound;  ///< no number of `gram` is larger: sum of the largest of each sentence
   Triangle gram;
-  std::vector<double> right;   ///< rows x (controls + 1), row by row
-  std::vector<double> energy;  ///< per control, and of the column of ones
-  std::vector<double> level;   ///< per control: product with the column of ones
+  std::vector<FixedSum> right;   ///< rows x (controls + 1), row by row
+  std::vector<FixedSum> energy;  ///< per control, and of the column of ones
+  std::vector<FixedSum> level;   ///< per control: product with the column of ones
 };
 
 /// The same of one sentence, in the order of its own space.
@@ -91,6 +103,9 @@ struct SentenceSums {
   TermSpace space;
   CurveSums curves;           ///< for controls + 1 columns
   std::vector<double> level;  ///< as FitSums::level
+
+  /// The largest number of the matrix, which has no negative squares: on its diagonal.
+  double largest() const;
 };
 
 struct SumsState {
@@ -100,7 +115,7 @@ struct SumsState {
   std::vector<ControlSums> controls;
   std::vector<PhoneSums> phones;  ///< as base.phones
   Histogram closures, lip_tooth;
-  ShutSums shut;
+  ShutTotals shut;
   /// Identifier and digest of every sentence. Merged parts may have two contents under one id.
   std::set<std::pair<std::string, std::uint64_t>> sentences;
   TermSpace space;                ///< of both sets
@@ -125,6 +140,11 @@ void set_controls(SumsState& state, const std::vector<std::string>& names, fap::
 
 /// Makes room for more unknowns: the union of both spaces.
 void widen(SumsState& state, const TermSpace& space);
+
+/// Whether exact sums have room for a sentence: its numbers are not absurdly large.
+bool fits(const SentenceSums& sentence, const FitSums& to);
+/// The same of other sums.
+bool fits(const FitSums& from, const FitSums& to);
 
 /// Adds a sentence to one of the sets of `state`, whose space must have all unknowns.
 void add_sentence_sums(const SentenceSums& from, const SumsState& state, FitSums& to);

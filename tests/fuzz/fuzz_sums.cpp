@@ -13,8 +13,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size > 4) animeme::test::seal(file);  // or nothing would get past the checksum
   auto sums = read_training_sums(file);
   if (!sums) return 0;
-  auto again = read_training_sums(write_training_sums(*sums));
-  if (!again || again->digest() != sums->digest()) std::abort();
+  const auto bytes = write_training_sums(*sums);
+  auto again = read_training_sums(bytes);
+  if (!again || write_training_sums(*again) != bytes) std::abort();
   (void)sums->merge(*again);
   const auto model = train_from_sums(std::move(*again));
   if (model && !validate(*model)) std::abort();

@@ -44,7 +44,7 @@ inline constexpr Room kRooms[] = {
 
     {"conformance", "codec/text", false},
 
-    {"tools/xml.h tools/json.h tools/text.h tools/exit_code.h", "fap", false},
+    {"tools/xml.h tools/json.h tools/text.h tools/exit_code.h tools/module.h", "fap", false},
     {"tools/files", "fap"},
     {"tools/programs", "tools/files tools/text.h"},
     {"tools/c", "codec/encode dam/speaking", false},  // installs one header, of C
@@ -54,7 +54,8 @@ inline constexpr Room kRooms[] = {
     {"tools/scripts", "dam/script"},
     {"tools/gltf", "fap/head tools/files"},
     {"tools/media tools/media/live", "codec/decode fap/xml tools/files"},
-    {"tools/media/late", "tools/media tools/exit_code.h", false},
+    {"tools/media/late", "tools/media tools/exit_code.h tools/module.h", false},
+    {"tools/mpi", "fap tools/module.h", false},
     {"tools/text", "dam/script"},
     {"tools/voice", "tools/text tools/media"},
     {"tools/speech", "dam/speaking codec/encode tools/voice tools/scripts tools/programs"},
@@ -71,7 +72,7 @@ inline constexpr Room kRooms[] = {
     {"tools/batch", "conformance tools/programs tools/json.h tools/text.h tools/xml.h", false},
     {"tools/commands",
      "tools/batch tools/capture tools/crossmap tools/exchange tools/inspect tools/live tools/sheet "
-     "tools/studio tools/check",
+     "tools/studio tools/check tools/mpi",
      false},
     {"tools/trackers/dlib", "", false},  // a program for dlib's users, no part of ours
     {"tools", "tools/commands", false},
@@ -107,6 +108,7 @@ inline constexpr Library kLibraries[] = {
     {"zlib", "zlib", "tools/render tools/viewer tools/web/detail tests"},
     {"libpng, libjpeg, libwebp", "png jpeglib jerror webp/",
      "tools/gltf/detail tools/studio tests"},
+    {"MPI", "mpi.h", "tools/mpi", true},
     {"toml++", "toml++/", "tools/crossmap", true},
     {"nlohmann_json", "nlohmann/", "tools conformance tests"},
     {"CLI11", "CLI/", "tools/commands tools/main.cpp tests/bench"},

@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "tests/support/shared.h"
+#include "tests/tools/batch_support.h"
 #include "tests/tools/commands.h"
 
 namespace animeme::test {
@@ -25,19 +26,6 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 const std::string kSample = std::string(ANIMEME_SOURCE_DIR) + "/tests/data/grid_s1_sample";
-
-// Everything below a folder, by its name there.
-std::map<std::string, std::string> contents(const std::string& folder) {
-  std::map<std::string, std::string> all;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const std::string name = fs::relative(entry.path(), folder).string();
-    // Locks stay; shards have indices and reports of their own.
-    if (!entry.is_regular_file() || name.ends_with(".lock") || name.find("-of-") != name.npos)
-      continue;
-    all[name] = slurp(entry.path().string());
-  }
-  return all;
-}
 
 std::string short_clips(int count) {
   const char* words[] = {"Good morning", "Guten Abend", "Bonjour", "A boat", "Vier Pferde"};
@@ -51,19 +39,12 @@ std::string short_clips(int count) {
   return table;
 }
 
-std::vector<std::string> batch_line(const std::string& manifest, const std::string& out,
-                                    const std::vector<std::string>& more = {}) {
-  std::vector<std::string> line{"batch", manifest, "-o", out, "-q"};
-  line.insert(line.end(), more.begin(), more.end());
-  return line;
-}
-
 TEST(Batch, EqualsTheSingleCommands) {
   const TempDir dir;
   const std::string script = kSample + "/phonemes/prac8p.tsv", clip = kSample + "/fap/prac8p.csv";
   spill(dir / "m.tsv",
         "\xEF\xBB\xBFid\ttext\tscript\tinput\tlang\tvoice\toptions\tencode_options\toutputs\r\n"
-        "hi\tHello world\t\t\ten\tf3\t--rate 30\t\t.mp4 .vtt .svg\r\n"
+        "hi\tHello world\t\t\ten\tf3\t--rate 30\t\t.mp4 .vtt .svg .fba .csv\r\n"
         "\r\n"
         "de/tag\tGuten Tag\t\t\tde\t\t\t\t.fba\r\n"
         "dash\t-5 degrees\t\t\t\t\t\t\t.fap\r\n"
@@ -77,6 +58,9 @@ TEST(Batch, EqualsTheSingleCommands) {
   fs::create_directories(one + "/de");
   succeeds({"speak", "--text", "Hello world", "--lang", "en+f3", "--rate", "30", "-o",
             one + "/hi.mp4", "--save-script", one + "/hi.vtt"});
+  for (const char* ending : {".fba", ".csv"})
+    succeeds({"speak", "--text", "Hello world", "--lang", "en+f3", "--rate", "30", "-o",
+              one + "/hi" + ending});
   // The title of a plot is the file's name as it was given.
   succeeds({"speak", "--text", "Guten Tag", "--lang", "de", "-o", one + "/de/tag.fba"});
   succeeds({"speak", "--text=-5 degrees", "-o", one + "/dash.fap"});
@@ -120,6 +104,20 @@ TEST(Batch, ARowThatFailsIsARowAndWhatChangedIsDoneAgain) {
   again = json_of(
       batch_line(dir / "m.jsonl", dir / "out", {"--resume", "--set", "options=--rate 30"}), 1);
   EXPECT_EQ(again["skipped"], 0);
+}
+
+TEST(Batch, ARowSpeaksOnceWhateverItWrites) {
+  const TempDir dir;
+  spill(dir / "say.sh", "#!/bin/sh\necho said >>\"$0.log\"\ncp \"$1\" \"$2\"\n");
+  fs::permissions(dir / "say.sh", fs::perms::owner_all);
+  succeeds({"speak", "--text", "Hello", "-o", dir / "voice.mp4"});
+  succeeds({"demux", dir / "voice.mp4", "--audio", dir / "voice.wav"});
+  spill(dir / "m.tsv", "id\ttext\ttts\toutputs\na\tHello\t" + (dir / "say.sh") + " " +
+                           (dir / "voice.wav") +
+                           " {wav}\t.livelink.csv .fba .mp4 .tsv export:.visemes.csv\n");
+  succeeds(batch_line(dir / "m.tsv", dir / "out"));
+  EXPECT_EQ(slurp(dir / "say.sh.log"), "said\n");
+  EXPECT_EQ(contents(dir / "out").size(), 7U);  // with the index and the report
 }
 
 TEST(Batch, ShardsInAnyOrderEqualOneRun) {

@@ -201,7 +201,7 @@ TEST_F(TrainParts, MergedTheyAreTheModelOfTheWholeInAnyOrder) {
   const auto model = dam::load_model(dir_ / "ab.dam"), whole = dam::load_model(base());
   ASSERT_TRUE(model && whole);
   EXPECT_EQ(model->phones, whole->phones);
-  EXPECT_THAT(model->provenance, HasSubstr("24 utterances, sums of 2 parts"));
+  EXPECT_THAT(model->provenance, HasSubstr("24 utterances, from sums"));
   EXPECT_EQ(animeme({"evaluate", dir_ / "ab.dam", corpus(), "--max-nrmse", "0.56"}).exit_code, 0);
 }
 
@@ -288,6 +288,10 @@ TEST(TrainAlone, OptionsThatDoNotGoTogether) {
            {corpus(), "-o", dir / "no.dam", "--merge", dir / "a.stats"},
            {corpus(), "--accumulate", dir / "x.stats", "--merge", dir / "a.stats"},
            {corpus(), "-o", dir / "no.dam", "--dominance", dir / "base.dam"},
+           {corpus(), "-o", dir / "no.dam", "--shard", "1/2"},
+           {corpus(), "--accumulate", dir / "x.stats", "--shard", "3/2"},
+           {corpus(), "--accumulate", dir / "x.stats", "--mpi"},
+           {corpus(), "--mpi", "-o", dir / "no.dam", "--base", "builtin"},
            {corpus(), "--accumulate", dir / "x.stats", "--method", "dam-paper"}}) {
     const auto result = train(arguments);
     EXPECT_EQ(result.exit_code, 2) << result.err;

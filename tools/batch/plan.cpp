@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <initializer_list>
+#include <optional>
 
 #include "tools/files/files.h"
 #include "tools/programs/command_template.h"
@@ -182,27 +183,35 @@ Result<Plan> plan_row(const Row& row, const std::string& stage) {
   std::string face(row.at("input"));
   // Faces first, since the others show them.
   const auto speaks = [](const Wanted& one) { return one.command == "speak"; };
-  std::size_t script_line = 0;
+  // One line speaks, whatever it writes.
+  std::optional<std::size_t> speaking;
+  const auto speak = [&](const std::string& output) -> Result<void> {
+    if (speaking) {
+      plan.lines[*speaking].insert(plan.lines[*speaking].end(), {"-o", output});
+      return {};
+    }
+    speaking = plan.lines.size();
+    return add_line(row, "speak", {}, output, plan);
+  };
   for (const Wanted& one : *wanted) {
     if (!speaks(one)) continue;
     if (!speech) return bad("output \"speak:" + one.ending + "\" wants something to say");
-    if (auto added = add_line(row, "speak", {}, place(one.ending), plan); !added)
-      return added.error();
-    script_line = plan.lines.size();
+    if (auto added = speak(place(one.ending)); !added) return added.error();
     if (face.empty() && is_face(tools::extension_of("x" + one.ending))) face = place(one.ending);
   }
+  bool script = speaking.has_value();  // which it writes, too, once
   for (const Wanted& one : *wanted) {
     if (speaks(one)) continue;
-    if (one.command == "align" && script_line > 0) {
-      Words& line = plan.lines[script_line - 1];
+    if (one.command == "align" && script) {
+      Words& line = plan.lines[*speaking];
       line.insert(line.end(), {"--save-script", place(one.ending)});
-      script_line = 0;
+      script = false;
       continue;
     }
     if (one.command == "align" && !speech) return bad("output \"" + one.ending + "\" wants audio");
     if (face.empty() && shows_face(one.command)) {
       face = stage + "/.face.mp4";
-      if (auto added = add_line(row, "speak", {}, face, plan); !added) return added.error();
+      if (auto added = speak(face); !added) return added.error();
     }
     if (auto added = add_line(row, one.command, face, place(one.ending), plan); !added) {
       return added.error();

@@ -7,7 +7,7 @@
 #   SBATCH and ANIMEME: as in slurm_batch.sh.
 #
 # CORPUS are folders that all nodes see; SUMS is a folder for the sums, one file a part, and the logs. Prints
-# the ids of both jobs, the array's first. The model is, byte for byte, that of one machine that takes the same parts.
+# the ids of both jobs, the array's first. The model is, byte for byte, that of one machine that takes all of it.
 # A task that is killed goes back into the queue and counts no sentence twice; so does all of it when it is sent
 # again.
 set -eu

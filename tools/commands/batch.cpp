@@ -8,6 +8,7 @@
 #include "tools/commands/common.h"
 #include "tools/commands/interrupt.h"
 #include "tools/commands/line.h"
+#include "tools/commands/shard.h"
 #include "tools/json.h"
 #include "tools/programs/command_template.h"
 #include "tools/speech/spoken.h"
@@ -115,13 +116,8 @@ std::string take(const BatchOptions& given, batch::Settings& settings) {
     settings.defaults.emplace_back(one.substr(0, equals), one.substr(equals + 1));
   }
   if (!given.shard.empty()) {
-    int used = 0;
-    const int read =
-        std::sscanf(given.shard.c_str(), "%d/%d%n", &settings.shard, &settings.shards, &used);
-    if (read != 2 || std::size_t(used) != given.shard.size() || settings.shards < 1 ||
-        settings.shard < 1 || settings.shard > settings.shards || settings.shards > 100000) {
-      return "--shard wants I/N with I from 1 to N, as 1/4, not " + given.shard;
-    }
+    if (std::string text = read_shard(given.shard, settings.shard, settings.shards); !text.empty())
+      return text;
   }
   if (!settings.shared.store.empty() && settings.shared.to.empty()) {
     return "--store wants --to, what {uri} begins with";

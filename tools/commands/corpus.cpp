@@ -24,6 +24,8 @@ Result<dam::CorpusOptions> corpus_options(const CorpusSettings& settings) {
   options.controls_folder = settings.controls_folder;
   options.controls = std::move(*names);
   options.skip_missing = settings.skip_missing;
+  options.shard = settings.shard;
+  options.shards = settings.shards;
   return options;
 }
 

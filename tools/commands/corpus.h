@@ -21,6 +21,7 @@ struct CorpusSettings {
   std::string limits;         ///< table of limits; empty: limits.tsv of the folder, if it is there
   std::string lag;            ///< "auto" or milliseconds by which scripts are shifted; empty: none
   bool skip_missing = false;  ///< leave out rows without a file
+  int shard = 1, shards = 1;  ///< visit_corpus(): only this part
 };
 
 /// Adds --split-column, --controls-folder and --skip-missing.

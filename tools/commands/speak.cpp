@@ -28,7 +28,8 @@ namespace {
 
 struct SpeakOptions {
   speech::SpokenOptions spoken;
-  std::string output;
+  std::vector<std::string> outputs;
+  std::string output;  // of those, the one that is written
   std::string preview;
   std::string model;
   std::string rate = "25";
@@ -194,7 +195,7 @@ void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam
   Json replaced = Json::object();
   for (const auto& [label, by] : synthesis.replaced) replaced[label] = by;
   const bool heard = spoken.heard.has_value();
-  Json json = {{"output", options.output},
+  Json json = {{"output", options.outputs.front()},
                {"voice", spoken.voice},
                {"times", speech::name_of(spoken.times)},
                {"approximate", is_approximate(spoken)},
@@ -214,6 +215,7 @@ void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam
                                      return {{"time", mark.time}, {"name", mark.name}};
                                    })},
                {"warnings", spoken.warnings}};
+  if (options.outputs.size() > 1) json["outputs"] = options.outputs;
   if (heard) {
     json["warnings"] = spoken.heard->warnings;
     json["heard"] = json_list(heard_phones(spoken), [](const HeardPhone& one) -> Json {
@@ -232,13 +234,39 @@ void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam
   std::printf("%s\n", pretty(json).c_str());
 }
 
+// options.output, of a face that moves by the phones alone.
+Result<int> write_output(const SpeakOptions& options, dam::Signal signal,
+                         const speech::Spoken& spoken) {
+  // A model's curves are its own, and who knows visemes only knows no brows.
+  const bool curves = extension_of(options.output) == ".csv" && !is_arkit_output(options.output);
+  const bool plain = curves || options.visemes == "instead";
+  if (options.life.value_or(!plain)) {
+    // Without being asked: where the names of a rig are not known, writing will say what it needs.
+    auto added = dam::add_life(signal, spoken.script, {1, options.seed});
+    if (!added && options.life.has_value()) return added.error();
+  }
+  if (is_arkit_output(options.output)) return write_arkit(options, signal);
+  if (curves) return write_curves(options.output, signal);
+  Result<fap::Sequence> clip = dam::to_sequence(signal);
+  if (!clip) return not_faps(clip.error());
+  clip->name = std::filesystem::path(options.output).stem().string();
+  if (!options.visemes.empty()) {
+    const bool instead = options.visemes == "instead";
+    dam::show_visemes(spoken.script, *clip,
+                      instead ? dam::VisemePlace::instead : dam::VisemePlace::beside);
+  }
+  return write_result(options, *clip, spoken);
+}
+
 Result<int> run(const SpeakOptions& options) {
   if (const std::string missing = missing_options(options.spoken); !missing.empty()) {
     return usage_error(missing);
   }
-  if (const std::string extension = extension_of(options.output);
-      !options.visemes.empty() && (extension == ".csv" || extension == ".json")) {
-    return usage_error("--visemes is for FAPs; export writes tables of visemes (talk.visemes.csv)");
+  for (const std::string& output : options.outputs) {
+    const std::string extension = extension_of(output);
+    if (!options.visemes.empty() && (extension == ".csv" || extension == ".json"))
+      return usage_error(
+          "--visemes is for FAPs; export writes tables of visemes (talk.visemes.csv)");
   }
   Result<fap::Rate> rate = fap::parse_rate(options.rate);
   if (!rate) return usage_error("--rate " + options.rate + ": " + rate.error().message);
@@ -266,31 +294,13 @@ Result<int> run(const SpeakOptions& options) {
   if (!signal) {
     return signal.error().in_file(spoken->heard ? options.spoken.audio : options.spoken.script);
   }
-  // A model's curves are its own, and who knows visemes only knows no brows.
-  const bool curves = extension_of(options.output) == ".csv" && !is_arkit_output(options.output);
-  const bool plain = curves || options.visemes == "instead";
-  if (options.life.value_or(!plain)) {
-    // Without being asked: where the names of a rig are not known, writing will say what it needs.
-    auto added = dam::add_life(*signal, spoken->script, {1, options.seed});
-    if (!added && options.life.has_value()) return added.error();
-  }
   Result<int> written = kOk;
-  if (is_arkit_output(options.output)) {
-    written = write_arkit(options, *signal);
-  } else if (extension_of(options.output) == ".csv") {
-    written = write_curves(options.output, *signal);
-  } else {
-    Result<fap::Sequence> clip = dam::to_sequence(*signal);
-    if (!clip) return not_faps(clip.error());
-    clip->name = std::filesystem::path(options.output).stem().string();
-    if (!options.visemes.empty()) {
-      const bool instead = options.visemes == "instead";
-      dam::show_visemes(spoken->script, *clip,
-                        instead ? dam::VisemePlace::instead : dam::VisemePlace::beside);
-    }
-    written = write_result(options, *clip, *spoken);
+  SpeakOptions one = options;
+  for (const std::string& output : options.outputs) {
+    one.output = output;
+    written = write_output(one, *signal, *spoken);
+    if (!written || *written != kOk) return written;
   }
-  if (!written) return written;
   // Last, so that a failure leaves no file behind.
   if (!options.save_script.empty()) {
     const std::string text = speech::write_marked_script(spoken->script, spoken->marks,
@@ -306,12 +316,13 @@ void add_options(CLI::App& app, SpeakOptions& options) {
   add_spoken_options(app, options.spoken);
   add_output(
       app.add_option(
-          "-o,--output", options.output,
-          "What to write: .mp4 .mkv .ts .m3u8 .mpd (face and voice), .fba "
+          "-o,--output", options.outputs,
+          "What to write, once or more: .mp4 .mkv .ts .m3u8 .mpd (face and voice), .fba "
           "(stream), .fap (text), .csv (curves of the model), .livelink.csv (Live Link Face), "
           ".json (ARKit's shapes)"),
       {".mp4", ".mkv", ".ts", ".m3u8", ".mpd", ".fba", ".fap", ".csv", ".json"}, OutputKind::file)
-      ->required();
+      ->required()
+      ->allow_extra_args(false);
   app.add_option("--model", options.model, "Model file of a character; default: the built-in one");
   app.add_option("--rate", options.rate, "Frames a second: 25, 29.97, 60 ...")
       ->capture_default_str();

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "tools/commands/shard.h"
 #include "tools/commands/train_base.h"
 #include "tools/commands/train_parts.h"
 
@@ -17,6 +18,7 @@ struct TrainOptions {
   std::string method = "dam";
   dam::TrainOptions train;
   PartSettings parts;
+  std::string shard;
   bool free_time = false;
   bool single_mode = false;
   bool plain_sum = false;
@@ -71,15 +73,20 @@ std::string misuse(const TrainOptions& options) {
   if (accumulates != options.output.empty())
     return accumulates ? "--accumulate writes sums and no model; leave -o out and use --merge later"
                        : "-o is needed: the model file to write";
-  if (!accumulates && !options.parts.dominance.empty())
-    return "--dominance belongs to --accumulate; sums that are merged bring their own";
+  if (options.parts.mpi && (accumulates || merges))
+    return "--mpi sums a corpus and makes the model of it; leave --accumulate and --merge out";
+  if (!options.shard.empty() && !accumulates)
+    return "--shard belongs to --accumulate; a model is made of all of a corpus";
+  if (!accumulates && !options.parts.mpi && !options.parts.dominance.empty())
+    return "--dominance belongs to --accumulate and --mpi; sums that are merged bring their own";
   if (!options.corpus.lag.empty() && merges)
     return "--lag belongs to the step that reads a corpus; sums cannot be shifted";
-  if (options.corpus.lag == "auto" && accumulates)
-    return "--lag auto looks at all sentences at once; give --accumulate a number of ms";
-  if (!options.base.empty() && (accumulates || merges || options.method != "dam"))
-    return "--base is for a corpus and --method dam, without --accumulate and --merge";
-  if ((accumulates || merges) && options.method != "dam") return "sums exist for --method dam only";
+  const bool sums = accumulates || merges || options.parts.mpi;
+  if (options.corpus.lag == "auto" && sums)
+    return "--lag auto looks at all sentences at once; give sums a number of ms";
+  if (!options.base.empty() && (sums || options.method != "dam"))
+    return "--base is for a corpus and --method dam, without --accumulate, --merge and --mpi";
+  if (sums && options.method != "dam") return "sums exist for --method dam only";
   return {};
 }
 
@@ -102,33 +109,46 @@ std::string misplaced(const CLI::App& app, const std::string& method) {
   return {};
 }
 
-Result<int> run(const CLI::App& app, const TrainOptions& options) {
-  if (const std::string text = misuse(options); !text.empty()) return usage_error(text);
-  if (const std::string text = misplaced(app, options.method); !text.empty()) {
-    return usage_error(text);
-  }
+Result<int> run(const CLI::App& app, TrainOptions& options) {
+  std::string text = misuse(options);
+  if (text.empty() && !options.shard.empty())
+    text = read_shard(options.shard, options.corpus.shard, options.corpus.shards);
+  if (!text.empty()) return usage_error(text);
+  text = misplaced(app, options.method);
+  if (!text.empty()) return usage_error(text);
   if (!options.parts.merge.empty())
     return merge(options.parts, options.output, options.corpus, train_options(options),
                  options.json);
   if (!options.parts.accumulate.empty())
     return accumulate(options.parts, options.corpus, train_options(options), options.json);
+  if (options.parts.mpi)
+    return train_over_mpi(options.parts, options.output, options.corpus, train_options(options),
+                          options.json);
   if (!options.base.empty())
     return train_on_base(options.base, options.corpus, options.output, train_options(options),
                          options.json);
   return run_whole(options);
 }
 
-void add_part_options(CLI::App& app, PartSettings& parts) {
+void add_part_options(CLI::App& app, PartSettings& parts, std::string& shard) {
   app.add_option("--accumulate", parts.accumulate,
                  "Add the sentences, one at a time, to this file of sums instead of training; a "
                  "file that is there is continued and counts no sentence twice");
-  app.add_option("--dominance", parts.dominance,
-                 "With --accumulate: a model of the method dam (a file, or builtin) whose "
-                 "dominance the sums are taken for; the same for all parts; default: start values");
+  app.add_option(
+      "--dominance", parts.dominance,
+      "With --accumulate and --mpi: a model of the method dam (a file, or builtin) whose "
+      "dominance the sums are taken for; the same for all parts; default: start values");
   app.add_option("--save-every", parts.save_every,
                  "With --accumulate: save after so many new sentences")
       ->check(CLI::Range(std::size_t(1), std::size_t(1000000)))
       ->capture_default_str();
+  app.add_option("--shard", shard,
+                 "With --accumulate: only these sentences, by their ids: 1/4 to 4/4")
+      ->option_text("I/N");
+  app.add_flag(
+      "--mpi", parts.mpi,
+      "Under mpirun: every process takes sums of its part of the corpus, the first one makes "
+      "the model of all");
   app.add_option("--merge", parts.merge, "Train on the sums of these files instead of a corpus");
 }
 
@@ -182,7 +202,7 @@ Action add_train(CLI::App& app) {
       ->check(CLI::Range(0, 1024));
   app.add_option("--attribution", options->train.attribution,
                  "Whom to name when the model is passed on; kept in the model");
-  add_part_options(app, options->parts);
+  add_part_options(app, options->parts, options->shard);
   app.add_flag("--json", options->json, "Machine-readable summary on standard output");
   return [&app, options] { return run(app, *options); };
 }
@@ -197,7 +217,8 @@ const Command kTrain{
     "  animeme train grid_s1 --split train --controls 3-13,16,17,51-60 -o grid_s1.dam\n"
     "  animeme train large/a --accumulate a.stats --dominance base.dam   (here)\n"
     "  animeme train large/b --accumulate b.stats --dominance base.dam   (elsewhere)\n"
-    "  animeme train --merge a.stats b.stats -o large.dam",
+    "  animeme train --merge a.stats b.stats -o large.dam\n"
+    "  mpirun -n 8 animeme train large --mpi --dominance base.dam -o large.dam",
     add_train};
 
 }  // namespace animeme::tools

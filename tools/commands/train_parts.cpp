@@ -8,14 +8,15 @@
 #include "tools/files/file_lock.h"
 #include "tools/inspect/left_out.h"
 #include "tools/json.h"
+#include "tools/mpi/ranks.h"
 #include "tools/speech/spoken.h"
 
 namespace animeme::tools {
 
 namespace {
 
-// New sums, or those that are there already.
-Result<dam::TrainingSums> open_sums(const PartSettings& parts, const dam::TrainOptions& train) {
+// Sums without a sentence.
+Result<dam::TrainingSums> start_sums(const PartSettings& parts, const dam::TrainOptions& train) {
   dam::Model base;
   if (!parts.dominance.empty()) {
     Result<dam::Model> read = speech::read_model(parts.dominance);
@@ -25,6 +26,13 @@ Result<dam::TrainingSums> open_sums(const PartSettings& parts, const dam::TrainO
   Result<dam::TrainingSums> fresh =
       dam::TrainingSums::start(train, parts.dominance.empty() ? nullptr : &base);
   if (!fresh) return fresh.error().in_file(parts.dominance);
+  return fresh;
+}
+
+// New sums, or those that are there already.
+Result<dam::TrainingSums> open_sums(const PartSettings& parts, const dam::TrainOptions& train) {
+  Result<dam::TrainingSums> fresh = start_sums(parts, train);
+  if (!fresh) return fresh;
   std::error_code ignored;
   if (!std::filesystem::exists(parts.accumulate, ignored)) return fresh;
   Result<dam::TrainingSums> there = dam::load_training_sums(parts.accumulate);
@@ -88,6 +96,39 @@ class Accumulator {
   ProgressLine line_{"accumulating"};
 };
 
+// The model of all sums; `files`: where they were, for the summary and for errors.
+Result<int> solve(dam::TrainingSums sums, const std::vector<std::string>& files,
+                  const std::string& output, const CorpusSettings& corpus, dam::TrainOptions train,
+                  bool json) {
+  train.provenance = "animeme " ANIMEME_VERSION ", method dam, " +
+                     std::to_string(sums.sentences()) + " utterances, from sums";
+  dam::TrainSummary summary;
+  Result<dam::Model> model = dam::train_from_sums(std::move(sums), train, &summary);
+  if (!model) return model.error().in_file(files.empty() ? corpus.folder : files[0]);
+  if (auto done = set_limits(corpus, *model); !done) return done.error();
+  for (const std::string& text : summary.warnings) warn(text);
+  if (auto written = write_file(output, dam::write_model(*model)); !written) {
+    return written.error();
+  }
+  tell_training(output, *model, summary, {0, files}, json);
+  return kOk;
+}
+
+// Adds up the sums of all processes by pairs, pairs of pairs and so on: rank 0 has all of them.
+Result<void> reduce(const mpi::Ranks& ranks, dam::TrainingSums& sums) {
+  for (int step = 1; step < ranks.size(); step *= 2) {
+    if (ranks.rank() % (2 * step) != 0) {
+      ranks.send(dam::write_training_sums(sums), ranks.rank() - step);
+      return {};
+    }
+    if (ranks.rank() + step >= ranks.size()) continue;
+    const auto other = dam::read_training_sums(ranks.receive(ranks.rank() + step));
+    if (!other) return other.error();
+    if (auto ok = sums.merge(*other); !ok) return ok;
+  }
+  return {};
+}
+
 }  // namespace
 
 void tell_training(const std::string& output, const dam::Model& model,
@@ -112,7 +153,9 @@ Result<int> accumulate(const PartSettings& parts, const CorpusSettings& corpus,
         return accumulator.add(sentence, row, rows);
       });
   // What came before a bad sentence is kept: after the repair the same command goes on.
-  const Result<void> saved = accumulator.unsaved() ? accumulator.save() : Result<void>();
+  std::error_code ignored;
+  const bool save = accumulator.unsaved() || !std::filesystem::exists(parts.accumulate, ignored);
+  const Result<void> saved = save ? accumulator.save() : Result<void>();
   if (!left_out) return left_out.error().in_file(corpus.folder);
   if (!saved) return saved.error();
   accumulator.report(*left_out, json);
@@ -124,19 +167,29 @@ Result<int> merge(const PartSettings& parts, const std::string& output,
   const std::vector<std::filesystem::path> paths(parts.merge.begin(), parts.merge.end());
   Result<dam::TrainingSums> sums = dam::merge_training_sums(paths);
   if (!sums) return sums.error();
-  train.provenance = "animeme " ANIMEME_VERSION ", method dam, " +
-                     std::to_string(sums->sentences()) + " utterances, sums of " +
-                     std::to_string(paths.size()) + (paths.size() == 1 ? " part" : " parts");
-  dam::TrainSummary summary;
-  Result<dam::Model> model = dam::train_from_sums(std::move(*sums), train, &summary);
-  if (!model) return model.error().in_file(parts.merge[0]);
-  if (auto done = set_limits(corpus, *model); !done) return done.error();
-  for (const std::string& text : summary.warnings) warn(text);
-  if (auto written = write_file(output, dam::write_model(*model)); !written) {
-    return written.error();
-  }
-  tell_training(output, *model, summary, {0, parts.merge}, json);
-  return kOk;
+  return solve(std::move(*sums), parts.merge, output, corpus, std::move(train), json);
+}
+
+Result<int> train_over_mpi(const PartSettings& parts, const std::string& output,
+                           CorpusSettings corpus, dam::TrainOptions train, bool json) {
+  const Result<mpi::Ranks> ranks = mpi::Ranks::join();
+  if (!ranks) return ranks.error();
+  corpus.shard = ranks->rank() + 1;
+  corpus.shards = ranks->size();
+  Result<dam::TrainingSums> sums = start_sums(parts, train);
+  if (!sums) return sums.error();
+  std::vector<dam::Glitch> glitches;
+  const Result<dam::LeftOut> left_out = visit_corpus(
+      corpus, [&](const dam::Utterance& sentence, std::size_t, std::size_t) -> Result<void> {
+        const Result<bool> added = sums->add(sentence, &glitches);
+        if (!added) return added.error();
+        return {};
+      });
+  if (!left_out) return left_out.error().in_file(corpus.folder);
+  for (const std::string& text : inspect::glitches_text(glitches)) warn(text);
+  if (auto done = reduce(*ranks, *sums); !done) return done.error();
+  if (ranks->rank() != 0) return kOk;
+  return solve(std::move(*sums), {}, output, corpus, std::move(train), json);
 }
 
 }  // namespace animeme::tools

@@ -1,5 +1,5 @@
 /// @file
-/// `train --accumulate` and `train --merge`.
+/// `train --accumulate`, `train --merge` and `train --mpi`.
 #pragma once
 
 #include <cstddef>
@@ -18,6 +18,7 @@ struct PartSettings {
   std::string dominance;           ///< model for the dominance; empty: start values
   std::size_t save_every = 200;    ///< sentences
   std::vector<std::string> merge;  ///< files of sums
+  bool mpi = false;                ///< sums of all processes that mpirun started
 };
 
 /// Says, or prints as JSON, what a training has found.
@@ -31,5 +32,9 @@ Result<int> accumulate(const PartSettings& parts, const CorpusSettings& corpus,
 /// `train --merge`; the exit code.
 Result<int> merge(const PartSettings& parts, const std::string& output,
                   const CorpusSettings& corpus, dam::TrainOptions train, bool json);
+
+/// `train --mpi`; the exit code.
+Result<int> train_over_mpi(const PartSettings& parts, const std::string& output,
+                           CorpusSettings corpus, dam::TrainOptions train, bool json);
 
 }  // namespace animeme::tools

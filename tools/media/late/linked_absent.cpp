@@ -4,33 +4,23 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-#include <initializer_list>
 #include <string>
 
 #include "tools/exit_code.h"
 #include "tools/media/detail/ffmpeg_functions.h"
+#include "tools/module.h"
 
 namespace animeme::media::av {
 namespace {
 
-// Beside the program in the build tree, else where it was installed to; both may have been moved.
 const Functions& load() {
-  std::error_code ignored;
-  const std::filesystem::path folder =
-      std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path();
   std::string problem;
-  for (const char* place : {"animeme_ffmpeg.so", ANIMEME_MODULE_FOLDER "/animeme_ffmpeg.so"}) {
-    const std::string path = (folder / place).string();
-    void* module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (module == nullptr) {
-      if (std::filesystem::exists(path, ignored) || problem.empty()) problem = dlerror();
-      continue;
-    }
+  if (void* module = tools::load_module("animeme_ffmpeg.so", ANIMEME_MODULE_FOLDER,
+                                        RTLD_NOW | RTLD_LOCAL, problem)) {
     if (const auto entry = reinterpret_cast<ModuleEntry>(dlsym(module, kModuleEntry))) {
       return *entry();
     }
-    problem = path + " is not of this version";
+    problem = "animeme_ffmpeg.so is not of this version";
   }
   // Nothing that a caller could do about it, and no input that brings it about.
   std::fprintf(stderr,
