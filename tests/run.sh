@@ -67,7 +67,7 @@ tests() {
 run() {
   preset=$1 more=$2
   rm -f "build/$preset/Testing/Temporary/LastTest.log" "build/$preset/tests.xml"
-  part "$preset: configure" cmake --preset "$preset" --log-level=STATUS || finish
+  part "$preset: configure" cmake --preset "$preset" --log-level=STATUS -DANIMEME_WERROR=ON || finish
   part "$preset: build" cmake --build "build/$preset" || finish
   part "$preset: tests" tests "$preset" "$more" || true  # the other round is of use all the same
 }
