@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <string_view>
 #include <vector>
 
+#include "fap/detail/real_text.h"
 #include "fap/detail/text_header.h"
 #include "fap/detail/text_writing.h"
 #include "fap/rate_text.h"
@@ -17,7 +17,7 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; 
 
 std::optional<double> number(std::string_view token) {
   double value = 0;
-  const auto [end, code] = std::from_chars(token.data(), token.data() + token.size(), value);
+  const auto [end, code] = read_real(token.data(), token.data() + token.size(), value);
   if (code != std::errc() || end != token.data() + token.size()) return std::nullopt;
   return value;
 }

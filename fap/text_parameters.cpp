@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "fap/detail/real_text.h"
 #include "fap/detail/text_order.h"
 
 namespace animeme::fap::detail {
@@ -189,7 +190,7 @@ bool ParameterReader::real(std::string_view token, double& out) {
   const char* begin = token.data();
   const char* end = begin + token.size();
   if (token.size() > 1 && *begin == '+' && begin[1] != '-') ++begin;
-  const auto [stop, code] = std::from_chars(begin, end, out);
+  const auto [stop, code] = read_real(begin, end, out);
   if (code == std::errc::result_out_of_range && stop == end) {
     out = 1e300;  // or tiny: both are no FAP values
   } else if (code != std::errc() || stop != end || !std::isfinite(out)) {

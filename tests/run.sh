@@ -5,13 +5,14 @@
 #   tests/run.sh             with the programs that read most of our files
 #   tests/run.sh full        also with those that take long to install: browsers, players, npm packages
 #   tests/run.sh quick       the release build only
+#   tests/run.sh elsewhere   the libraries as WebAssembly under node, and for ARM under QEMU
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 mode=${1:-tests}
 case $mode in
   tests | quick) packages=tests ;;
-  full) packages=full ;;
-  *) echo "usage: tests/run.sh [full|quick]" >&2; exit 2 ;;
+  full | elsewhere) packages=$mode ;;
+  *) echo "usage: tests/run.sh [full|quick|elsewhere]" >&2; exit 2 ;;
 esac
 cd "$here"
 # Large pages for what compilers and trainings allocate: an eighth of the time of clang, a quarter of training. Other
@@ -20,6 +21,11 @@ export GLIBC_TUNABLES="${GLIBC_TUNABLES:-glibc.malloc.hugetlb=1}"
 times=$(mktemp)
 trap 'rm -f "$times"' EXIT
 status=0
+case $mode in
+  quick) presets=release ;;
+  elsewhere) presets="wasm arm64" ;;
+  *) presets="release asan" ;;
+esac
 
 # part TITLE COMMAND...: runs it and notes how long it took.
 part() {
@@ -37,12 +43,12 @@ part() {
 # finish: what there is to say at the end.
 finish() {
   # shellcheck disable=SC2046  # the logs that there are
-  "$here/tests/skipped.sh" $(ls build/release/Testing/Temporary/LastTest.log \
-    build/asan/Testing/Temporary/LastTest.log 2>/dev/null) || true
-  for preset in release asan; do
+  "$here/tests/skipped.sh" $(for preset in $presets; do ls "build/$preset/Testing/Temporary/LastTest.log" 2>/dev/null; done) || true
+  for preset in $presets; do
     [ ! -f "build/$preset/tests.xml" ] || { echo "== $preset"; "$here/tests/slowest.sh" "$preset"; } || true
   done
-  "$here/tests/failed.sh" release asan || true
+  # shellcheck disable=SC2086  # a word a preset
+  "$here/tests/failed.sh" $presets || true
   echo "== Time"
   cat "$times"
   exit "$status"
@@ -64,15 +70,27 @@ tests() {
   printf '%-36s         %s\n' "$1: failed beside others only:" "$(tests/failed.sh "$1" | sed -n 's/^== Failed.*: //p' | xargs)" >>"$times"
 }
 
+# needs_program PRESET PROGRAM: tells that it is skipped without.
+needs_program() {
+  command -v "$2" >/dev/null || printf '%-36s         %s\n' "$1: skipped" "$2 is missing" >>"$times"
+  command -v "$2" >/dev/null
+}
+
 run() {
   preset=$1 more=$2
   rm -f "build/$preset/Testing/Temporary/LastTest.log" "build/$preset/tests.xml"
-  part "$preset: configure" cmake --preset "$preset" --log-level=STATUS || finish
+  part "$preset: configure" cmake --preset "$preset" --log-level=STATUS -DANIMEME_WERROR=ON || finish
   part "$preset: build" cmake --build "build/$preset" || finish
   part "$preset: tests" tests "$preset" "$more" || true  # the other round is of use all the same
 }
 
 part "packages" tools/setup.sh "$packages" || finish
-run release 1  # pages draw by the processor
-[ "$mode" = quick ] || run asan 2
+for preset in $presets; do
+  case $preset in
+    release) run release 1 ;;  # pages draw by the processor
+    asan) run asan 2 ;;
+    wasm) needs_program wasm em++ && run wasm 0 ;;
+    arm64) needs_program arm64 aarch64-linux-gnu-g++ && needs_program arm64 qemu-aarch64 && run arm64 0 ;;
+  esac || true
+done
 finish

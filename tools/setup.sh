@@ -6,6 +6,7 @@
 #   tools/setup.sh tests     also what the tests need, and small programs of others that read our files
 #   tools/setup.sh full      also large ones: Chromium, GStreamer, mpv, Doxygen, and npm packages into
 #                            tests/readers/js/node_modules and tools/trackers/mediapipe/node_modules
+#   tools/setup.sh elsewhere compilers for WebAssembly and ARM, and what runs their programs
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 
@@ -25,6 +26,10 @@ case $mode in
   tests | full) packages="$packages libgtest-dev libgmock-dev libbenchmark-dev
     clang-14 libclang-rt-14-dev llvm-14" ;;
 esac
+if [ "$mode" = elsewhere ]; then
+  packages="g++ cmake ninja-build libeigen3-dev libgtest-dev"
+  foreign="emscripten g++-aarch64-linux-gnu qemu-user"
+fi
 # Without these, tests skip and say so.
 readers="ffmpeg mediainfo mkvtoolnix clang-format-14 universal-ctags make parallel python3-yaml"
 [ "$mode" = full ] && readers="$readers mpv chromium doxygen slurm-wlm munge libopenmpi-dev man-db zsh fish
@@ -75,10 +80,11 @@ if [ -n "$missing" ]; then
 fi
 case $mode in
   tests | full) ;;
+  elsewhere) readers=$foreign ;;
   *) exit 0 ;;
 esac
 
-has_node || readers="$readers nodejs"
+[ "$mode" = elsewhere ] || has_node || readers="$readers nodejs"
 [ "$mode" = full ] && { command -v npm >/dev/null || readers="$readers npm"; }
 # shellcheck disable=SC2086
 missing=$(missing_of $readers)

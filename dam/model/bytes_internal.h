@@ -1,7 +1,7 @@
-// Little endian numbers and texts to bytes and back: the alphabet of our files.
+// Little endian numbers and texts to bytes and back: the alphabet of our files. The libc++ of
+// Emscripten 3.1 lacks std::bit_cast, its compiler has what is behind it.
 #pragma once
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -27,9 +27,9 @@ class ByteWriter {
   template <class Value>
   void put_one(const Value& value) {
     if constexpr (std::is_same_v<Value, double>) {
-      put(std::bit_cast<std::uint64_t>(value));
+      put(__builtin_bit_cast(std::uint64_t, value));
     } else if constexpr (std::is_same_v<Value, float>) {
-      put(std::bit_cast<std::uint32_t>(value));
+      put(__builtin_bit_cast(std::uint32_t, value));
     } else if constexpr (std::is_same_v<Value, std::string>) {
       count(value.size());
       bytes.insert(bytes.end(), value.begin(), value.end());
@@ -73,9 +73,9 @@ class ByteReader {
   template <class Value>
   void get_one(Value& value) {
     if constexpr (std::is_same_v<Value, double>) {
-      value = std::bit_cast<double>(next<std::uint64_t>());
+      value = __builtin_bit_cast(double, next<std::uint64_t>());
     } else if constexpr (std::is_same_v<Value, float>) {
-      value = std::bit_cast<float>(next<std::uint32_t>());
+      value = __builtin_bit_cast(float, next<std::uint32_t>());
     } else if constexpr (std::is_same_v<Value, std::string>) {
       const std::size_t size = next<std::uint32_t>();
       value.clear();

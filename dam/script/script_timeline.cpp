@@ -1,7 +1,6 @@
 #include "dam/script/script_timeline_internal.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -12,6 +11,7 @@
 #include "dam/script/phones.h"
 #include "dam/script/script_text_internal.h"
 #include "dam/script/timings.h"
+#include "fap/detail/real_text.h"
 
 namespace animeme::dam {
 namespace {
@@ -236,9 +236,9 @@ std::string in_quotes(std::string_view text) {
 }
 
 std::string format_seconds(double seconds) {
-  char buffer[64];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, seconds).ptr;
-  return {buffer, end};
+  std::string text;
+  fap::detail::append_shortest(text, seconds);
+  return text;
 }
 
 Result<double> parse_seconds(std::string_view field, std::int64_t line, std::string_view what,
@@ -246,7 +246,8 @@ Result<double> parse_seconds(std::string_view field, std::int64_t line, std::str
   std::string_view digits = field;
   if (digits.starts_with('+')) digits.remove_prefix(1);
   double value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const auto [end, error] =
+      fap::detail::read_real(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::result_out_of_range || (error == std::errc() && !std::isfinite(value))) {
     return error_at_line(Code::out_of_range,
                          "the " + std::string(what) + " time " + in_quotes(field) +

@@ -1,7 +1,8 @@
 #include "dam/script/table_text_internal.h"
 
 #include <algorithm>
-#include <charconv>
+
+#include "fap/detail/real_text.h"
 
 namespace animeme::dam {
 
@@ -32,7 +33,8 @@ std::optional<double> parse_number(std::string_view field) {
   field = trimmed(field);
   if (field.starts_with('+')) field.remove_prefix(1);
   double value = 0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  const auto [end, error] =
+      fap::detail::read_real(field.data(), field.data() + field.size(), value);
   if (error != std::errc{} || end != field.data() + field.size()) return std::nullopt;
   return value;
 }

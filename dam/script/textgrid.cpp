@@ -1,10 +1,10 @@
 #include "dam/script/textgrid.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "dam/script/script_timeline_internal.h"
+#include "fap/detail/real_text.h"
 
 namespace animeme::dam {
 namespace {
@@ -38,7 +38,8 @@ class Tokens {
         const std::string_view word =
             advance(std::min(rest_.find_first_of(" \t\r\n"), rest_.size()));
         double number = 0;
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+        const auto [end, error] =
+            fap::detail::read_real(word.data(), word.data() + word.size(), number);
         const bool whole = end == word.data() + word.size();
         if (error != std::errc::invalid_argument && whole && starts_number(word)) {
           if (error != std::errc() || !std::isfinite(number)) {

@@ -25,8 +25,11 @@ inline MirrorImage mirror_image(int number) {
 }
 
 /// Rounded to the nearest unit, and clipped to what FBA can carry at fap_quant 1: +-1860 steps.
+/// Sums that are none (infinities of both signs) give 0; what std::lround() makes of them differs
+/// from machine to machine.
 inline std::int32_t coded_value(double value, int fap) {
   constexpr int kLongestLevel = 1860;  // 31 * 60, the widest range of a stream
+  if (std::isnan(value)) return 0;
   const double limit = double(kLongestLevel) * info(fap).quant_step;
   return std::int32_t(std::lround(std::clamp(value, -limit, limit)));
 }

@@ -19,7 +19,8 @@ inline std::string one_word(const std::string& name) {
   if (name.empty()) return "clip";
   std::string word = name.substr(0, kLongestName);
   std::replace_if(
-      word.begin(), word.end(), [](char c) { return (c >= 0 && c <= ' ') || c == '\x7f'; }, '_');
+      word.begin(), word.end(),
+      [](char c) { return static_cast<unsigned char>(c) <= ' ' || c == '\x7f'; }, '_');
   if (word.front() == '#') word.front() = '_';
   return word;
 }

@@ -217,7 +217,7 @@ ControlValues control_values(const Rig& rig, const fap::Frame& frame, const Pose
     channels.push_back(shape.arkit);
   }
   static const std::optional<int> kJaw = fap::find_arkit("jawOpen");
-  const bool cheeks_follow = std::ranges::find(channels, kJaw) != channels.end();
+  const bool cheeks_follow = std::find(channels.begin(), channels.end(), kJaw) != channels.end();
   fap::ShapeFitter fitter(shapes, rig.lip_measures, 0.001, channels);
   const std::vector<double>& weights = fitter.fit(wanted_of_shapes(low, cheeks_follow));
   for (std::size_t i = 0; i < weights.size(); ++i) {

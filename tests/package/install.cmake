@@ -12,6 +12,16 @@ if(headers OR count EQUAL 0)
   message(FATAL_ERROR "${count} headers, internal ones among them: ${headers}")
 endif()
 
+# What is found is found on the machine of the user: no folder of this one. "/../" leads up from where a file lies.
+file(GLOB_RECURSE files ${PREFIX}/*.cmake)
+foreach(file IN LISTS files)
+  file(STRINGS ${file} lines REGEX "(^|[^A-Za-z0-9_.}/>])/[A-Za-z]")
+  list(FILTER lines EXCLUDE REGEX "^ *#")
+  if(lines)
+    message(FATAL_ERROR "${file} has paths of this machine: ${lines}")
+  endif()
+endforeach()
+
 # Whatever is exported has a consumer.
 file(GLOB_RECURSE exports ${PREFIX}/animeme-*.cmake)
 list(FILTER exports INCLUDE REGEX "/animeme-[a-z_]+\\.cmake$")

@@ -50,45 +50,44 @@ function(animeme_library name folder)
   endif()
 endfunction()
 
-# animeme_requires(NAME [COMPONENTS names...] [FIND lines...]): what has to be found before component
-# NAME is: other components, and lines of CMake for the package.
+# animeme_requires(NAME [COMPONENTS names...] [PACKAGES names...] [MODULES lines...] [LIBRARIES names...]): what has to
+# be found before component NAME is: other components, all of them; packages of CMake; modules of pkg-config, a line
+# each: the prefix of their target, then their names; libraries that are linked by name.
 function(animeme_requires name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "COMPONENTS;FIND")
-  set_property(GLOBAL APPEND PROPERTY ANIMEME_STANDS_ON_${name} ${arg_COMPONENTS})
-  foreach(line IN LISTS arg_FIND)
-    set_property(GLOBAL APPEND_STRING PROPERTY ANIMEME_FIND_${name} "  ${line}\n")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "COMPONENTS;PACKAGES;MODULES;LIBRARIES")
+  set_property(GLOBAL APPEND PROPERTY ANIMEME_BELOW_${name} ${arg_COMPONENTS})
+  foreach(kind PACKAGES MODULES LIBRARIES)
+    set_property(GLOBAL APPEND PROPERTY ANIMEME_${kind}_${name} ${arg_${kind}})
   endforeach()
 endfunction()
 
 # Installs the CMake package once all libraries are known.
 function(animeme_install_package)
   include(CMakePackageConfigHelpers)
-  get_property(components GLOBAL PROPERTY ANIMEME_COMPONENTS)
+  get_property(animeme_components GLOBAL PROPERTY ANIMEME_COMPONENTS)
   set(animeme_table "")
-  set(animeme_spread "")
-  set(animeme_load "")
-  foreach(name IN LISTS components)
-    get_property(below GLOBAL PROPERTY ANIMEME_STANDS_ON_${name})
-    get_property(find GLOBAL PROPERTY ANIMEME_FIND_${name})
-    list(REMOVE_DUPLICATES below)
-    list(JOIN below " " below)
-    # From the top down a component asks for those below it; from the bottom up all are read.
-    if(below)
-      string(PREPEND animeme_spread
-        "if(${name} IN_LIST animeme_wanted)\n  list(APPEND animeme_wanted ${below})\nendif()\n")
-    endif()
-    string(APPEND animeme_load "if(${name} IN_LIST animeme_wanted AND EXISTS \"\${CMAKE_CURRENT_LIST_DIR}/animeme-${name}.cmake\")\n${find}  include(\"\${CMAKE_CURRENT_LIST_DIR}/animeme-${name}.cmake\")\nendif()\n")
-    get_property(headers GLOBAL PROPERTY ANIMEME_HEADERS_${name})
-    string(APPEND animeme_table "set(animeme_headers_${name} ${headers})\n")
+  foreach(name IN LISTS animeme_components)
+    foreach(kind below packages modules libraries)
+      string(TOUPPER ${kind} property)
+      get_property(needed GLOBAL PROPERTY ANIMEME_${property}_${name})
+      if(needed)
+        string(APPEND animeme_table "set(animeme_${kind}_${name} \"${needed}\")\n")
+      endif()
+    endforeach()
   endforeach()
-  set(animeme_components ${components})
   configure_package_config_file(${PROJECT_SOURCE_DIR}/tools/packaging/animeme-config.cmake.in
     animeme-config.cmake INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/animeme)
   write_basic_package_version_file(animeme-config-version.cmake COMPATIBILITY SameMinorVersion)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/animeme-config.cmake
     ${CMAKE_CURRENT_BINARY_DIR}/animeme-config-version.cmake
     DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/animeme COMPONENT package)
-  string(REPLACE ";" " " animeme_components "${components}")
+
+  set(animeme_table "")
+  foreach(name IN LISTS animeme_components)
+    get_property(headers GLOBAL PROPERTY ANIMEME_HEADERS_${name})
+    string(APPEND animeme_table "set(animeme_headers_${name} ${headers})\n")
+  endforeach()
+  string(REPLACE ";" " " animeme_components "${animeme_components}")
   configure_file(${PROJECT_SOURCE_DIR}/tools/packaging/install_headers.cmake.in
     ${PROJECT_BINARY_DIR}/install_headers.cmake @ONLY)
 endfunction()

@@ -287,7 +287,8 @@ std::vector<double> solve_curves(const CurveSums& sums, const TermSpace& space,
   double lift = 0;
   for (int attempt = 0; attempt < 12; ++attempt) {
     for (std::size_t i = 0; i < n; ++i) {
-      std::ranges::copy(sums.gram.below(i), work.below(i).begin());
+      const auto below = sums.gram.below(i);
+      std::copy(below.begin(), below.end(), work.below(i).begin());
       work[i * n + i] += ridge[i] + lift;
     }
     if (cholesky_in_place(work.values(), n, threads)) {

@@ -118,7 +118,8 @@ void diffuse(std::span<const Vec3> positions, const Neighbours& neighbours,
     const std::size_t count = std::min(kWidth, table.controls() - first);
     for (std::size_t v = 0; v < block.size(); ++v) {
       block[v] = {};
-      std::ranges::copy(table.row(v).subspan(first, count), block[v].begin());
+      const auto row = table.row(v).subspan(first, count);
+      std::copy(row.begin(), row.end(), block[v].begin());
     }
     diffuse(flow, block);
     for (std::size_t v = 0; v < block.size(); ++v) {

@@ -1,8 +1,9 @@
 #include "fap/head/detail/wrl_scanner.h"
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
+
+#include "fap/detail/real_text.h"
 
 namespace animeme::head::detail {
 namespace {
@@ -20,7 +21,7 @@ std::optional<double> number_of(std::string_view token) {
   if (first != '-' && first != '.' && (first < '0' || first > '9')) return {};
   if (first == '-' && token.size() > 1 && token[1] > '9') return {};
   double value = 0;
-  const auto [end, code] = std::from_chars(token.data(), token.data() + token.size(), value);
+  const auto [end, code] = fap::detail::read_real(token.data(), token.data() + token.size(), value);
   if (end != token.data() + token.size()) return {};
   if (code == std::errc::result_out_of_range) {
     const bool small = token.find("e-") != token.npos || token.find("E-") != token.npos;
