@@ -59,7 +59,8 @@ struct CorpusOptions {
   std::vector<std::string>
       controls;               ///< names to keep, in this order; empty: all of the first file
   bool skip_missing = false;  ///< leave out rows without a control file instead of failing
-  int shard = 1, shards = 1;  ///< visit_corpus(): only this one, from 1, of so many; by ids
+  int shard = 1;              ///< visit_corpus(): only this part, from 1, by ids
+  int shards = 1;             ///< of so many
   bool any_length = false;    ///< accept a script and a signal that differ by more than 0.5 s
 };
 

@@ -21,7 +21,8 @@ struct CorpusSettings {
   std::string limits;         ///< table of limits; empty: limits.tsv of the folder, if it is there
   std::string lag;            ///< "auto" or milliseconds by which scripts are shifted; empty: none
   bool skip_missing = false;  ///< leave out rows without a file
-  int shard = 1, shards = 1;  ///< visit_corpus(): only this part
+  int shard = 1;              ///< visit_corpus(): only this part, from 1
+  int shards = 1;             ///< of so many
 };
 
 /// Adds --split-column, --controls-folder and --skip-missing.

@@ -9,6 +9,7 @@
 #include "dam/speaking/synthesise.h"
 #include "dam/speaking/viseme_track.h"
 #include "fap/rate_text.h"
+#include "tools/commands/brief_help.h"
 #include "tools/commands/common.h"
 #include "tools/commands/face_stream.h"
 #include "tools/commands/face_text.h"
@@ -352,6 +353,8 @@ void add_options(CLI::App& app, SpeakOptions& options) {
   add_preview_option(app, options.preview);
   add_sound_options(app, options.sound, false);
   app.add_flag("--json", options.json, "Machine-readable summary on standard output");
+  show_in_help_all(app, "Details of coding",
+                   {"--intra-seconds", "--audio-codec", "--audio-bitrate", "--exact"});
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "tools/commands/brief_help.h"
 #include "tools/commands/shard.h"
 #include "tools/commands/train_base.h"
 #include "tools/commands/train_parts.h"
@@ -204,6 +205,9 @@ Action add_train(CLI::App& app) {
                  "Whom to name when the model is passed on; kept in the model");
   add_part_options(app, options->parts, options->shard);
   app.add_flag("--json", options->json, "Machine-readable summary on standard output");
+  show_in_help_all(
+      app, "Methods that stand beside ours for comparison",
+      {"--order", "--states", "--single-mode", "--plain-sum", "--free-time", "--ridge"});
   return [&app, options] { return run(app, *options); };
 }
 

@@ -14,8 +14,10 @@ namespace animeme::mpi {
 struct Functions {
   void (*join)(int* rank, int* size);  ///< once a process
   void (*leave)(int status);           ///< once; a status other than 0 ends all processes with it
+  /// To another process.
   void (*send)(const std::uint8_t* bytes, std::uint64_t size, int to);
   std::uint64_t (*size_from)(int from);  ///< of what comes next
+  /// What was sent, with the size that size_from() gave.
   void (*receive)(std::uint8_t* bytes, std::uint64_t size, int from);
 };
 

@@ -101,9 +101,9 @@ void stop_at_rooms(const Rooms& rooms, Values& v) {
     const float far = std::hypot(aside.share(), up.share());
     v[53 + side] = aside.at(1 / std::max(far, 1.0f));
     v[59 + side] = up.at(1 / std::max(far, 1.0f));
-    // Where the corner pulls at the cheek it can be sucked in less.
-    const float pull =
-        std::max({v[6 + side], v[53 + side], 0.5f * v[12 + side], 0.5f * v[59 + side], 0.0f});
+    // Where the corner or the jaw pulls at the cheek it can be sucked in less.
+    const float pull = std::max(
+        {v[6 + side], v[53 + side], 0.5f * v[12 + side], 0.5f * v[59 + side], std::abs(v[15])});
     at_least(v, {39 + side}, -kCheekIn + 0.5f * pull);
   }
   for (const auto& [outer, inner] : {std::pair(51u, 4u), {55u, 8u}, {56u, 9u}}) {

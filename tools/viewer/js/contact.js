@@ -71,8 +71,9 @@ function stopAtRooms(v, rooms) {
     const far = Math.hypot(aside / (aside < 0 ? rooms.corner : 0.2 * rooms.corner) || 0, up / CORNER_TURN);
     v[53 + side] = v[6 + side] + aside / Math.max(far, 1);
     v[59 + side] = v[12 + side] + up / Math.max(far, 1);
-    // Where the corner pulls at the cheek it can be sucked in less.
-    const pull = Math.max(v[6 + side], v[53 + side], 0.5 * v[12 + side], 0.5 * v[59 + side], 0);
+    // Where the corner or the jaw pulls at the cheek it can be sucked in less.
+    const pull = Math.max(v[6 + side], v[53 + side], 0.5 * v[12 + side], 0.5 * v[59 + side],
+        Math.abs(v[15]));
     atLeast([39 + side], -CHEEK_IN + 0.5 * pull);
   }
   atMost([[51, 4], [55, 8], [56, 9]], rooms.upper_lip);
