@@ -234,5 +234,26 @@ TEST(Batch, HooksRunWithoutAShell) {
   EXPECT_FALSE(fs::exists("bad"));
 }
 
+// All that a playlist names, before the playlist itself.
+TEST(Batch, StoresPlaylistsWithTheirSegments) {
+  const TempDir dir;
+  spill(dir / "put.sh",
+        "#!/bin/sh\nset -e\nto=\"" + dir.path().string() +
+            "/shop/${2#shop://}\"\nmkdir -p \"$(dirname \"$to\")\"\ncp \"$1\" \"$to\"\n"
+            "echo \"$2\" >>\"" +
+            dir.path().string() + "/order\"\n");
+  fs::permissions(dir / "put.sh", fs::perms::owner_all);
+  const auto result = animeme({"batch", "-", "-o", dir / "out", "--store",
+                               (dir / "put.sh") + " {file} {uri}", "--to", "shop://"},
+                              "id\ttext\toutputs\na\tHello\t.m3u8\n");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const auto face = animeme({"info", dir / "shop/a.m3u8"});
+  EXPECT_EQ(face.exit_code, 0) << face.err;
+  EXPECT_TRUE(fs::exists(dir / "shop/a_hls/face-00001.m4s"));
+  const std::string order = slurp(dir / "order");
+  EXPECT_TRUE(order.ends_with("shop://a.m3u8\n")) << order;
+  EXPECT_FALSE(fs::exists(dir / "out/a_hls"));
+}
+
 }  // namespace batch_test
 }  // namespace animeme::test

@@ -167,6 +167,17 @@ Result<Row> fetched(const Row& row, const Shared& shared, const std::string& sta
   return local;
 }
 
+// The files of a folder and below, by their names.
+std::vector<fs::path> files_below(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code failed;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, failed)) {
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 // What lies in the stage: outputs, and folders beside playlists. Each takes its place by renaming.
 Result<void> publish(const std::string& stage, const Plan& plan, const Shared& shared,
                      Entry& entry) {
@@ -184,16 +195,15 @@ Result<void> publish(const std::string& stage, const Plan& plan, const Shared& s
   }
   for (const fs::path& parent : places) {
     const fs::path target = fs::path(shared.out) / parent;
+    std::vector<fs::path> segments, others;  // for the hook
     std::error_code failed;
     fs::create_directories(target, failed);
     for (const fs::directory_entry& made :
          fs::directory_iterator(fs::path(stage) / parent, failed)) {
       const std::string name = made.path().filename().string();
       if (name.starts_with(".")) continue;
-      if (!shared.store.empty() && made.is_regular_file()) {
-        const std::string uri = shared.to + (parent.empty() ? "" : parent.string() + "/") + name;
-        auto ran = run_hook(shared.store, "--store", uri, made.path().string(), stage + "/.said");
-        if (!ran) return ran;
+      if (!shared.store.empty()) {
+        (made.is_directory() ? segments : others).push_back(made.path());
         continue;
       }
       if (made.is_directory()) fs::remove_all(target / name, failed);
@@ -202,6 +212,18 @@ Result<void> publish(const std::string& stage, const Plan& plan, const Shared& s
         return make_error(Code::io, "cannot write: " + failed.message())
             .in_file((target / name).string());
       }
+    }
+    // A playlist comes behind its segments: who sees it finds them.
+    std::vector<fs::path> files;
+    for (const fs::path& folder : segments) {
+      for (fs::path& file : files_below(folder)) files.push_back(std::move(file));
+    }
+    std::sort(others.begin(), others.end());
+    files.insert(files.end(), others.begin(), others.end());
+    for (const fs::path& file : files) {
+      const std::string uri = shared.to + file.lexically_relative(stage).generic_string();
+      auto ran = run_hook(shared.store, "--store", uri, file.string(), stage + "/.said");
+      if (!ran) return ran;
     }
   }
   return {};
