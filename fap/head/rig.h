@@ -71,9 +71,11 @@ struct Rig {
     std::vector<Vec3> normals;        ///< length 1
     std::vector<Triangle> triangles;  ///< as in the mesh, then its veils
   };
-  std::array<Shape, kPartCount> parts;        ///< neutral
-  std::vector<Target> targets;                ///< by control, then by part
-  std::vector<ShapeControl> shapes;           ///< of heads that have them
+  std::array<Shape, kPartCount> parts;  ///< neutral
+  std::vector<Target> targets;          ///< by control, then by part
+  /// Of heads that have them. Without ARKit's jaw the FAPs of jaw and lips are measured at the
+  /// feature points, where the head has 2.2 to 2.5.
+  std::vector<ShapeControl> shapes;
   fap::LipMeasures lip_measures;              ///< of the shapes
   double mouth_gain = 1;                      ///< see Head
   std::array<bool, kPartCount> deforms = {};  ///< which parts have a target, or lashes that turn

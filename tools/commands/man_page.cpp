@@ -12,7 +12,7 @@ std::string roff(const std::string& text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const bool first = i == 0 || text[i - 1] == '\n';
-    if (first && (text[i] == '.' || text[i] == '\'')) out += "\\&";
+    if (first && text[i] == '.') out += "\\&";
     switch (text[i]) {
       case '\\':
         out += "\\e";

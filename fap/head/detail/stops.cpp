@@ -77,8 +77,9 @@ struct Apart {
   float at(float part) const { return inner + (outer - inner) * part; }
 };
 
-// Points that would come too near to each other, so that the skin between them folds over.
-void stop_at_rooms(const Rooms& rooms, Values& v) {
+// Points that would come too near to each other, so that the skin between them folds over. `usual`:
+// on a face that has the reaches of people.
+void stop_at_rooms(const Rooms& rooms, bool usual, Values& v) {
   at_least(v, {19, 20}, kLidRise);
   at_least(v, {14}, kJawBack);
   at_least(v, {18}, -rooms.chin);
@@ -87,7 +88,7 @@ void stop_at_rooms(const Rooms& rooms, Values& v) {
   at_least(v, {37, 38}, -0.5f * rooms.brows);
   share(v[37], v[38], rooms.brows);
   // A chin that is up is not pushed aside as well.
-  at_least(v, {3}, -kChinUp + std::abs(v[15]) + std::max(v[18], 0.0f));
+  if (usual) at_least(v, {3}, -kChinUp + std::abs(v[15]) + std::max(v[18], 0.0f));
   // An open jaw takes lips and corners along, down and back.
   const float jaw = std::max(v[3], 0.0f);
   at_least(v, {16}, -620 - 0.5f * jaw);
@@ -104,7 +105,7 @@ void stop_at_rooms(const Rooms& rooms, Values& v) {
     // Where the corner or the jaw pulls at the cheek it can be sucked in less.
     const float pull = std::max(
         {v[6 + side], v[53 + side], 0.5f * v[12 + side], 0.5f * v[59 + side], std::abs(v[15])});
-    at_least(v, {39 + side}, -kCheekIn + 0.5f * pull);
+    if (usual) at_least(v, {39 + side}, -kCheekIn + 0.5f * pull);
   }
   for (const auto& [outer, inner] : {std::pair(51u, 4u), {55u, 8u}, {56u, 9u}}) {
     v[outer] = std::min(v[outer], v[inner] + rooms.upper_lip);
@@ -127,7 +128,7 @@ void stop_at_contact(const Rig& rig, ControlValues& v) {
   }
   share(v[19], v[21], 1024);
   share(v[20], v[22], 1024);
-  stop_at_rooms(rig.rooms, v);
+  stop_at_rooms(rig.rooms, !rig.reaches.empty(), v);
 }
 
 std::vector<Reach> usual_reaches() {
@@ -137,13 +138,13 @@ std::vector<Reach> usual_reaches() {
   const struct {
     std::initializer_list<int> faps;
     float low, high;
-  } usual_ones[] = {{{3}, -420, 1500},           {{5, 10, 11, 52, 57, 58}, -kNoLimit, 600},
+  } usual_ones[] = {{{3}, -kChinUp, 1500},       {{5, 10, 11, 52, 57, 58}, -kNoLimit, 600},
                     {{6, 7, 53, 54}, -205, 280}, {{12, 13, 59, 60}, -kNoLimit, 640},
                     {{14}, -kNoLimit, 480},      {{15}, -280, 280},
                     {{16}, -kNoLimit, 600},      {{17}, -500, 600},
                     {{18}, -kNoLimit, 470},      {{21, 22}, -175, kNoLimit},
                     {{27, 28}, -200, 20},        {{31, 32, 33, 34}, -kNoLimit, 440},
-                    {{35, 36}, -kNoLimit, 350},  {{39, 40}, -180, 280},
+                    {{35, 36}, -kNoLimit, 350},  {{39, 40}, -kCheekIn, 280},
                     {{41, 42}, -160, 215},       {{61, 62}, -190, 200},
                     {{63}, -180, 240},           {{64}, -240, 240},
                     {{43}, -450, 450},           {{44}, -600, 850},

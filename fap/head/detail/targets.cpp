@@ -32,8 +32,8 @@ std::vector<Share> shares_of(int fap, bool back) {
     case 3:
     case 15:
       return {{"2.1", 1}, {"2.10", 0.97f}};
-    case 14:  // forward the border of the lip bridges the step from the chin to the lip, which
-              // stays
+    case 14:
+      // Forward, the border of the lip bridges the step from the chin to the lip, which stays.
       if (back) return {{"2.1", 1}, {"2.10", 0.97f}};
       return {{"2.1", 1}, {"2.10", 0.97f}, {"8.2", 0.45f}, {"8.7", 0.35f}, {"8.8", 0.35f}};
     case 6:
@@ -87,6 +87,7 @@ class Maker {
         add_fap(fap, false);
         continue;
       }
+      // Back is not forward the other way round.
       const std::size_t first = targets_.size();
       add_fap(fap, false);
       const std::size_t second = targets_.size();

@@ -43,7 +43,8 @@ function share(v, a, b, room) {
 }
 
 // Points that would come too near to each other, so that the skin between them folds over.
-function stopAtRooms(v, rooms) {
+// `usual`: on a face that has the reaches of people.
+function stopAtRooms(v, rooms, usual) {
   const atLeast = (faps, least) => { for (const f of faps) v[f] = Math.max(v[f], least); };
   const atMost = (faps, room) => {
     for (const [outer, inner] of faps) v[outer] = Math.min(v[outer], v[inner] + room);
@@ -56,7 +57,7 @@ function stopAtRooms(v, rooms) {
   atLeast([37, 38], -0.5 * rooms.brows);
   share(v, 37, 38, rooms.brows);
   // A chin that is up is not pushed aside as well.
-  atLeast([3], -CHIN_UP + Math.abs(v[15]) + Math.max(v[18], 0));
+  if (usual) atLeast([3], -CHIN_UP + Math.abs(v[15]) + Math.max(v[18], 0));
   // An open jaw takes lips and corners along, down and back.
   const jaw = Math.max(v[3], 0);
   atLeast([16], -620 - 0.5 * jaw);
@@ -74,7 +75,7 @@ function stopAtRooms(v, rooms) {
     // Where the corner or the jaw pulls at the cheek it can be sucked in less.
     const pull = Math.max(v[6 + side], v[53 + side], 0.5 * v[12 + side], 0.5 * v[59 + side],
         Math.abs(v[15]));
-    atLeast([39 + side], -CHEEK_IN + 0.5 * pull);
+    if (usual) atLeast([39 + side], -CHEEK_IN + 0.5 * pull);
   }
   atMost([[51, 4], [55, 8], [56, 9]], rooms.upper_lip);
   atMost([[52, 5], [57, 10], [58, 11]], rooms.lower_lip);
@@ -97,7 +98,7 @@ export function stopAtContact(model, v) {
   }
   share(v, 19, 21, 1024);
   share(v, 20, 22, 1024);
-  stopAtRooms(v, model.rooms);
+  stopAtRooms(v, model.rooms, model.reaches.length > 0);
 }
 
 // Pairs that have passed each other or nearly touch meet in the middle.
