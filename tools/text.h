@@ -1,10 +1,11 @@
 /// @file
-/// Sentences and tables as text: printf into a string.
+/// Sentences and tables as text: printf into a string, lists in a line.
 #pragma once
 
 #include <cstdarg>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 namespace animeme::tools {
 
@@ -19,6 +20,13 @@ namespace animeme::tools {
   va_end(again);
   va_end(values);
   text.pop_back();  // the zero
+  return text;
+}
+
+/// The texts of a list, one behind the other.
+inline std::string joined(const std::vector<std::string>& list, const char* between) {
+  std::string text;
+  for (const std::string& one : list) text += (text.empty() ? "" : between) + one;
   return text;
 }
 

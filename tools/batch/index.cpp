@@ -32,12 +32,6 @@ std::string field(std::string text) {
   return text;
 }
 
-std::string joined(const std::vector<std::string>& list, const char* between) {
-  std::string text;
-  for (const std::string& one : list) text += (text.empty() ? "" : between) + one;
-  return text;
-}
-
 std::vector<std::string> parted(std::string_view text, std::string_view between) {
   std::vector<std::string> list;
   for (std::size_t at = 0; at < text.size();) {
@@ -67,12 +61,12 @@ std::string_view index_header() { return kHeader; }
 
 std::string index_line(const Entry& entry) {
   std::string line = field(entry.id) + "\t" + (entry.good ? "ok" : "error") + "\t" +
-                     field(joined(entry.outputs, "|")) + "\t";
+                     field(tools::joined(entry.outputs, "|")) + "\t";
   if (entry.seconds) line += tools::format("%.3f", *entry.seconds);
   line += "\t" + std::to_string(entry.bytes) + "\t";
   if (entry.confidence) line += tools::format("%.3f", *entry.confidence);
-  return line + "\t" + field(joined(entry.warnings, " | ")) + "\t" + field(entry.error) + "\t" +
-         entry.hash + "\t" + entry.version + "\n";
+  return line + "\t" + field(tools::joined(entry.warnings, " | ")) + "\t" + field(entry.error) +
+         "\t" + entry.hash + "\t" + entry.version + "\n";
 }
 
 std::optional<Entry> read_index_line(std::string_view line) {

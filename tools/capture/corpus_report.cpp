@@ -31,12 +31,6 @@ Totals add_up(const CorpusReport& report) {
   return totals;
 }
 
-std::string joined(const std::vector<std::string>& list) {
-  std::string text;
-  for (const std::string& one : list) text += (text.empty() ? "" : "; ") + one;
-  return text;
-}
-
 // The nose to the mouth as a share of the distance of the eyes, which no camera changes.
 double nose_to_mouth(const fap::Fapu& units) { return units.mns / units.es; }
 
@@ -128,10 +122,10 @@ std::string report_text(const CorpusReport& report) {
   }
   for (const std::string& warning : report.warnings) text += "warning: " + warning + "\n";
   for (const SentenceReport& one : report.sentences) {
-    if (!one.doubts.empty()) text += "doubtful: " + one.id + ": " + joined(one.doubts) + "\n";
+    if (!one.doubts.empty()) text += "doubtful: " + one.id + ": " + joined(one.doubts, "; ") + "\n";
   }
   for (const SentenceReport& one : report.sentences) {
-    if (!one.warnings.empty()) text += "note: " + one.id + ": " + joined(one.warnings) + "\n";
+    if (!one.warnings.empty()) text += "note: " + one.id + ": " + joined(one.warnings, "; ") + "\n";
   }
   for (const LeftOut& one : report.left_out) {
     text += "left out: " + one.id + " (" + one.stage + "): " + one.why + "\n";

@@ -2,19 +2,15 @@
 #include <sstream>
 
 #include "tools/commands/help_table.h"
+#include "tools/text.h"
 
 namespace animeme::tools {
 namespace {
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : " ") + word;
-  return out;
-}
-
 std::string names_of(const std::vector<HelpOption>& options) {
   std::string out;
-  for (const HelpOption& option : options) out += (out.empty() ? "" : " ") + joined(option.names);
+  for (const HelpOption& option : options)
+    out += (out.empty() ? "" : " ") + joined(option.names, " ");
   return out;
 }
 
@@ -42,7 +38,7 @@ void bash_values(std::ostream& out, const std::string& command,
     for (std::size_t i = 0; i < option.names.size(); ++i) {
       out << (i == 0 ? "" : " | ") << quoted(command + " " + option.names[i]);
     }
-    out << ") COMPREPLY=($(compgen -W " << quoted(joined(option.words))
+    out << ") COMPREPLY=($(compgen -W " << quoted(joined(option.words, " "))
         << " -- \"$word\")); return ;;\n";
   }
 }
@@ -86,8 +82,8 @@ void zsh_options(std::ostream& out, const std::vector<HelpOption>& options) {
   for (const HelpOption& option : options) {
     const std::string value = option.value.empty()   ? ""
                               : option.words.empty() ? ":value:_files"
-                                                     : ":value:(" + joined(option.words) + ")";
-    const std::string all = joined(option.names);
+                                                     : ":value:(" + joined(option.words, " ") + ")";
+    const std::string all = joined(option.names, " ");
     for (const std::string& name : option.names) {
       out << " \\\n        "
           << quoted("(" + all + ")" + name + "[" + zsh_text(option.text) + "]" + value);
@@ -123,7 +119,7 @@ void fish_options(std::ostream& out, const std::string& name, const std::string&
       out << (one.starts_with("--") ? " -l " + one.substr(2) : " -s " + one.substr(1));
     }
     if (!option.value.empty()) out << " -r";
-    if (!option.words.empty()) out << " -f -a " << quoted(joined(option.words));
+    if (!option.words.empty()) out << " -f -a " << quoted(joined(option.words, " "));
     out << " -d " << quoted(first_sentence(option.text)) << "\n";
   }
 }
