@@ -50,9 +50,13 @@ int main(int argc, char** argv) {
   animeme_frame shown;
   animeme_status status = ANIMEME_NEED_DATA;
   uint8_t buffer[4096];
-  if (in == NULL || (argc > 2 && out == NULL)) {
+  if (argc < 2) {
     fprintf(stderr, "usage: decode_to_arkit talk.fba [again.fba]\n");
     return 2;
+  }
+  if (in == NULL || (argc > 2 && out == NULL)) {
+    perror(in == NULL ? argv[1] : argv[2]);
+    return 3;
   }
   check(animeme_decoder_new(&decoder, &error), &error);
   check(animeme_receiver_new(ANIMEME_FILL_COMPLETE | ANIMEME_FILL_EXPAND, &receiver, &error),
