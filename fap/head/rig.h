@@ -99,7 +99,7 @@ struct Rig {
   std::array<std::vector<std::uint32_t>, 2> eye_skin;      ///< before the left and right eye
   std::vector<std::uint32_t> lash_anchors;                 ///< see Head
   Rooms rooms;                                             ///< how far points may go
-  std::vector<Reach> reaches;            ///< of FAPs, where the targets are make_rig()'s own
+  std::vector<Reach> reaches;  ///< of FAPs, where the targets are make_rig()'s own
   /// What must not turn over, on heads that have reaches and known lips.
   std::vector<OuterTriangle> outside;
   std::array<DentalArch, 2> teeth;       ///< upper, lower
@@ -119,7 +119,8 @@ struct PoseOptions {
   /// their Seams are known), other points stop where Rooms says, upper lids at 0.26 IRISD
   /// up, a jaw that goes back at 0.25 MNS; legal values beyond what people do are eased to that
   /// (Rig::reaches); where skin would turn over all the same, as large a share of all FAPs
-  /// that bend skin is shown as leaves it whole. Without it every feature point is where its FAPs say.
+  /// that bend skin is shown as leaves it whole. Without it every feature point is where its FAPs
+  /// say.
   bool contact = true;
   /// Upper lids go along with eyes that look down or up: see lids_follow_gaze().
   bool follow = true;
