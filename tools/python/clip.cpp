@@ -1,38 +1,25 @@
-// Clips as arrays.
-#include <cmath>
-#include <cstring>
-
+// The class Clip: arrays of what is coded of a face.
 #include "fap/tables.h"
-#include "fap/text.h"
 #include "tools/python/python_internal.h"
 
 namespace animeme::python {
 
 namespace {
 
-constexpr std::size_t kFaps = fap::kFapCount, kVisemeParts = 4, kExpressionParts = 6;
-
 using Ints = py::array_t<std::int32_t>;
-
-std::int32_t whole(double value, const char* name) {
-  const double rounded = std::round(value);  // halves away from zero, as everywhere
-  if (!(std::abs(rounded) <= 2147483647.0)) {
-    throw py::value_error(std::string(name) + " has a value that is no number of 32 bits");
-  }
-  return std::int32_t(rounded);
-}
 
 // A mask of (frames, 68), or one of 68 for all frames.
 py::array_t<bool> mask_rows(const py::object& given, std::size_t frames) {
   const auto array = py::array_t<bool, py::array::c_style | py::array::forcecast>::ensure(given);
   if (!array) throw py::error_already_set();
-  const bool one = array.ndim() == 1 && std::size_t(array.shape(0)) == kFaps;
+  const bool one = array.ndim() == 1 && std::size_t(array.shape(0)) == kFapColumns;
   const bool all = array.ndim() == 2 && std::size_t(array.shape(0)) == frames &&
-                   std::size_t(array.shape(1)) == kFaps;
+                   std::size_t(array.shape(1)) == kFapColumns;
   if (!one && !all) throw py::value_error("mask is neither (frames, 68) nor (68,)");
-  py::array_t<bool> mask({frames, kFaps});
+  py::array_t<bool> mask({frames, kFapColumns});
   for (std::size_t i = 0; i < frames; ++i) {
-    std::copy_n(array.data() + (one ? 0 : i * kFaps), kFaps, mask.mutable_data() + i * kFaps);
+    std::copy_n(array.data() + (one ? 0 : i * kFapColumns), kFapColumns,
+                mask.mutable_data() + i * kFapColumns);
   }
   return mask;
 }
@@ -43,8 +30,7 @@ Ints part_rows(const py::object& given, std::size_t frames, std::size_t columns,
   if (rows.size() != frames * columns) {
     throw py::value_error(std::string(name) + " has another number of frames than values");
   }
-  return array_of<std::int32_t>(std::move(rows),
-                                {py::ssize_t(frames), py::ssize_t(columns)});
+  return array_of<std::int32_t>(std::move(rows), {py::ssize_t(frames), py::ssize_t(columns)});
 }
 
 py::array_t<std::int64_t> numbers_of(const py::object& given, std::size_t frames) {
@@ -74,19 +60,19 @@ std::unique_ptr<Clip> make_clip(const py::object& values, const py::object& mask
   auto clip = std::make_unique<Clip>();
   clip->rate = rate_of(rate);
   clip->name = name;
-  std::vector<std::int32_t> rows = whole_rows(values, kFaps, "values");
-  const std::size_t frames = rows.size() / kFaps;
-  clip->values = array_of<std::int32_t>(std::move(rows), {py::ssize_t(frames), kFaps});
+  std::vector<std::int32_t> rows = whole_rows(values, kFapColumns, "values");
+  const std::size_t frames = rows.size() / kFapColumns;
+  clip->values = array_of<std::int32_t>(std::move(rows), {py::ssize_t(frames), kFapColumns});
   clip->numbers = numbers_of(numbers, frames);
-  clip->viseme = part_rows(viseme, frames, kVisemeParts, "viseme");
-  clip->expression = part_rows(expression, frames, kExpressionParts, "expression");
+  clip->viseme = part_rows(viseme, frames, kVisemeColumns, "viseme");
+  clip->expression = part_rows(expression, frames, kExpressionColumns, "expression");
   if (!mask.is_none()) {
     clip->mask = mask_rows(mask, frames);
     return clip;
   }
-  clip->mask = py::array_t<bool>({frames, kFaps});
-  for (std::size_t i = 0; i < frames * kFaps; ++i) {
-    const std::size_t fap = i % kFaps;
+  clip->mask = py::array_t<bool>({frames, kFapColumns});
+  for (std::size_t i = 0; i < frames * kFapColumns; ++i) {
+    const std::size_t fap = i % kFapColumns;
     clip->mask.mutable_data()[i] = fap == 0   ? !viseme.is_none()
                                    : fap == 1 ? !expression.is_none()
                                               : true;
@@ -118,8 +104,8 @@ py::object item_of(const Clip& clip, const py::object& key) {
   }
   if (step != 1) throw py::value_error("frames are taken one by one; resample() leaves some out");
   const auto copy = [&key](const py::object& array) { return array[key].attr("copy")(); };
-  Clip part{clip.rate, clip.name, copy(clip.values), copy(clip.mask), copy(clip.numbers),
-            copy(clip.viseme), copy(clip.expression), {}};
+  Clip part{clip.rate,          clip.name,         copy(clip.values),     copy(clip.mask),
+            copy(clip.numbers), copy(clip.viseme), copy(clip.expression), {}};
   for (std::size_t i = count; i-- > 0;) part.numbers.mutable_at(i) -= part.numbers.at(0);
   if (!clip.rules.empty()) {
     part.rules.assign(clip.rules.begin() + std::ptrdiff_t(start),
@@ -160,104 +146,6 @@ bool equal(const Clip& a, const py::object& b) {
 
 }  // namespace
 
-std::vector<std::int32_t> whole_rows(const py::handle& given, std::size_t columns,
-                                     const char* name) {
-  using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
-  const auto array = Doubles::ensure(given);
-  if (!array) throw py::error_already_set();
-  if (array.ndim() != 2 || std::size_t(array.shape(1)) != columns) {
-    throw py::value_error(std::string(name) + " is not (frames, " + std::to_string(columns) + ")");
-  }
-  std::vector<std::int32_t> rows(std::size_t(array.size()));
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = whole(array.data()[i], name);
-  return rows;
-}
-
-ClipRows::ClipRows(std::size_t frames) {
-  values_.reserve(frames * kFaps);
-  mask_.reserve(frames * kFaps);
-  viseme_.reserve(frames * kVisemeParts);
-  expression_.reserve(frames * kExpressionParts);
-  numbers_.reserve(frames);
-}
-
-void ClipRows::add(const fap::Frame& frame, const fap::GroupRules* rules) {
-  numbers_.push_back(frame.number);
-  values_.insert(values_.end(), frame.value.begin() + 1, frame.value.end());
-  // Those of FAP 1 and 2 are parts, which stand beside.
-  values_[values_.size() - kFaps] = values_[values_.size() - kFaps + 1] = 0;
-  for (std::size_t fap = 1; fap <= kFaps; ++fap) mask_.push_back(frame.mask[fap] ? 1 : 0);
-  const fap::Viseme& v = frame.viseme;
-  viseme_.insert(viseme_.end(), {v.select1, v.select2, v.blend, v.def ? 1 : 0});
-  const fap::Expression& e = frame.expression;
-  expression_.insert(expression_.end(), {e.select1, e.intensity1, e.select2, e.intensity2,
-                                         e.init_face ? 1 : 0, e.def ? 1 : 0});
-  if (rules != nullptr) rules_.push_back(*rules);
-}
-
-Clip ClipRows::clip(fap::Rate rate, std::string name) {
-  const auto frames = py::ssize_t(numbers_.size());
-  Clip clip{rate,
-            std::move(name),
-            array_of<std::int32_t>(std::move(values_), {frames, kFaps}),
-            array_of<bool>(std::move(mask_), {frames, kFaps}),
-            array_of<std::int64_t>(std::move(numbers_), {frames}),
-            array_of<std::int32_t>(std::move(viseme_), {frames, kVisemeParts}),
-            array_of<std::int32_t>(std::move(expression_), {frames, kExpressionParts}),
-            std::move(rules_)};
-  if (clip.rules.size() != std::size_t(frames)) clip.rules.clear();
-  return clip;
-}
-
-Clip clip_of(const fap::Sequence& sequence, std::vector<fap::GroupRules> rules) {
-  ClipRows rows(sequence.frames.size());
-  const bool known = rules.size() == sequence.frames.size();
-  for (std::size_t i = 0; i < sequence.frames.size(); ++i) {
-    rows.add(sequence.frames[i], known ? &rules[i] : nullptr);
-  }
-  return rows.clip(sequence.rate, sequence.name);
-}
-
-fap::Sequence sequence_of(const Clip& clip) {
-  fap::Sequence sequence{clip.rate, std::vector<fap::Frame>(std::size_t(clip.numbers.size())),
-                         clip.name};
-  const std::int32_t* values = clip.values.data();
-  const bool* mask = clip.mask.data();
-  for (std::size_t i = 0; i < sequence.frames.size(); ++i) {
-    fap::Frame& frame = sequence.frames[i];
-    frame.number = clip.numbers.data()[i];
-    for (std::size_t fap = 1; fap <= kFaps; ++fap, ++values, ++mask) {
-      if (!*mask) continue;
-      frame.mask.set(fap);
-      if (fap >= fap::kFirstLowLevel) frame.value[fap] = *values;
-    }
-    const std::int32_t* v = clip.viseme.data() + i * kVisemeParts;
-    if (frame.mask[1]) frame.viseme = {v[0], v[1], v[2], v[3] != 0};
-    const std::int32_t* e = clip.expression.data() + i * kExpressionParts;
-    if (frame.mask[2]) frame.expression = {e[0], e[1], e[2], e[3], e[4] != 0, e[5] != 0};
-  }
-  return sequence;
-}
-
-fap::Frame frame_of(const py::handle& values, const py::handle& mask) {
-  using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
-  using Flags = py::array_t<bool, py::array::c_style | py::array::forcecast>;
-  const auto row = Doubles::ensure(values);
-  const auto flags = mask.is_none() ? Flags(py::ssize_t(kFaps)) : Flags::ensure(mask);
-  if (!row || !flags) throw py::error_already_set();
-  if (row.ndim() != 1 || std::size_t(row.size()) != kFaps) {
-    throw py::value_error("values is not (68,)");
-  }
-  if (flags.ndim() != 1 || std::size_t(flags.size()) != kFaps) {
-    throw py::value_error("mask is not (68,)");
-  }
-  fap::Frame frame;
-  for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
-    if (mask.is_none() || flags.at(fap - 1)) frame.set(fap, whole(row.at(fap - 1), "values"));
-  }
-  return frame;
-}
-
 void bind_clip(py::module_& module) {
   py::class_<Clip>(module, "Clip", R"(A clip of a face: what is coded of it, frame by frame.
 
@@ -267,8 +155,8 @@ not the same as 0. len(clip) is the number of frames, clip[10:20] a part of it t
 time 0, clip["open_jaw"] the column of a FAP.)")
       .def(py::init(&make_clip), py::arg("values"), py::arg("mask") = py::none(),
            py::arg("rate") = 25, py::kw_only(), py::arg("numbers") = py::none(),
-           py::arg("viseme") = py::none(), py::arg("expression") = py::none(),
-           py::arg("name") = "", R"(A clip from arrays, which are copied.
+           py::arg("viseme") = py::none(), py::arg("expression") = py::none(), py::arg("name") = "",
+           R"(A clip from arrays, which are copied.
 
 values: (frames, 68), FAP units: 1/1024 of the FAP's unit or 1e-5 rad; rounded to whole ones.
     Columns 0 and 1 are not used, see viseme and expression.

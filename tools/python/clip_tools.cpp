@@ -29,8 +29,7 @@ Clip fill(const Clip& clip, bool interpolate, bool expand, bool complete, bool k
   options.complete = complete;
   options.keep_high_level = keep_high_level;
   const fap::Sequence sequence = sequence_of(clip);
-  return clip_of(
-      value_of(unlocked([&] { return fap::fill(sequence, clip.rules, options); })));
+  return clip_of(value_of(unlocked([&] { return fap::fill(sequence, clip.rules, options); })));
 }
 
 Clip resample(const Clip& clip, const py::object& rate) {
@@ -156,9 +155,10 @@ void bind_clip_tools(py::module_& module) {
   }();
 
   auto clip = py::reinterpret_borrow<py::class_<Clip>>(module.attr("Clip"));
-  clip.def("fill", &fill, py::kw_only(), py::arg("interpolate") = false, py::arg("expand") = true,
-           py::arg("complete") = false, py::arg("keep_high_level") = false,
-           R"(The clip with every FAP resolved as receivers do: no gaps, the same mask in each frame.
+  clip.def(
+          "fill", &fill, py::kw_only(), py::arg("interpolate") = false, py::arg("expand") = true,
+          py::arg("complete") = false, py::arg("keep_high_level") = false,
+          R"(The clip with every FAP resolved as receivers do: no gaps, the same mask in each frame.
 
 interpolate: skipped frames lie between their neighbours; else they hold.
 expand: FAP 1 and 2 become low-level FAPs.
@@ -183,8 +183,9 @@ rate: frames a second.)")
       .def("visemes", &visemes,
            "The clip as weights of visemes: float64 (frames, 15), columns VISEME_NAMES, 0..1 and\n"
            "1 together.")
-      .def("to_text", [](const Clip& c) { return fap::write_text(sequence_of(c)); },
-           "The clip as FAP text (.fap, version 2.1), values and masks as they are.")
+      .def(
+          "to_text", [](const Clip& c) { return fap::write_text(sequence_of(c)); },
+          "The clip as FAP text (.fap, version 2.1), values and masks as they are.")
       .def("save", &save_clip, py::arg("path"), py::kw_only(), py::arg("preset") = "file",
            py::arg("quant") = 1, py::arg("max_rms") = 0.0, py::arg("max_bits_per_second") = 0.0,
            py::arg("intra_seconds") = py::none(), py::arg("audio") = py::none(),

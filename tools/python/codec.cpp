@@ -15,7 +15,8 @@ fba::EncodeOptions options_of(const Coding& coding) {
   } else if (coding.preset == "live") {
     options = fba::live_options();
   } else if (coding.preset != "plain") {
-    throw py::value_error("preset is \"file\", \"live\" or \"plain\", not \"" + coding.preset + "\"");
+    throw py::value_error("preset is \"file\", \"live\" or \"plain\", not \"" + coding.preset +
+                          "\"");
   }
   options.fap_quant = coding.quant;
   options.max_rms = coding.max_rms;
@@ -77,7 +78,8 @@ void bind_codec(py::module_& module) {
 preset: "file": the smallest stream of the same values; "live": receivers can join every 2 s;
     "plain": every FAP of the clip in every plane.
 quant: 0..31; 1: the standard's steps, not visible; 0: lossless for values up to +-1860.
-max_rms: above 0: the fewest bits at this error, FAP units root mean square; quant is ignored.
+max_rms: above 0: the fewest bits at this error, root mean square: FAP units, of angles half
+    quantiser steps; quant is ignored.
 max_bits_per_second: above 0: the least error at this rate; quant is ignored.
 intra_seconds: seconds between planes where decoding can begin; 0: one; None: as the preset says.
 progress: called now and then with (share 0..1, "coding") where a limit makes it search.

@@ -25,7 +25,8 @@ std::uint32_t part_of(const py::object& number, const py::handle& given) {
 }  // namespace
 
 fap::Rate rate_of(const py::handle& rate) {
-  if (py::isinstance<py::str>(rate)) return checked(fap::parse_rate(rate.cast<std::string>()), rate);
+  if (py::isinstance<py::str>(rate))
+    return checked(fap::parse_rate(rate.cast<std::string>()), rate);
   if (py::hasattr(rate, "denominator") && !py::isinstance<py::float_>(rate)) {
     return fap::make_rate(part_of(rate.attr("numerator"), rate),
                           part_of(rate.attr("denominator"), rate));
@@ -60,9 +61,9 @@ dam::Script script_of(const py::handle& phones) {
       throw py::type_error("a phone is (start, end, label) or (start, end, label, word), not " +
                            py::repr(each).cast<std::string>());
     }
-    script.phones.push_back(
-        {fields[0].cast<double>(), fields[1].cast<double>(), fields[2].cast<std::string>(),
-         fields.size() < 4 ? std::string() : fields[3].cast<std::string>()});
+    script.phones.push_back({fields[0].cast<double>(), fields[1].cast<double>(),
+                             fields[2].cast<std::string>(),
+                             fields.size() < 4 ? std::string() : fields[3].cast<std::string>()});
   }
   value_of(dam::check_script(script));
   return script;

@@ -1,5 +1,5 @@
 // Corpora: folders with recordings, or sentences that a program has.
-#include <filesystem>
+#include <algorithm>
 
 #include "dam/signal/fap_signal.h"
 #include "dam/training/alignment.h"
@@ -40,8 +40,7 @@ std::shared_ptr<Corpus> read_corpus(const py::object& folder, const std::string&
   options.skip_missing = skip_missing;
   auto corpus = std::make_shared<Corpus>();
   corpus->folder = path_of(folder);
-  corpus->corpus =
-      value_of(unlocked([&] { return dam::read_corpus(corpus->folder, options); }));
+  corpus->corpus = value_of(unlocked([&] { return dam::read_corpus(corpus->folder, options); }));
   for (const std::string& text : inspect::blanks_text(corpus->corpus.left_out)) warn(text);
   if (lag != 0) {
     for (dam::Utterance& sentence : corpus->corpus.utterances) {
@@ -102,6 +101,21 @@ py::dict fields_of(const dam::Utterance& sentence) {
   return fields;
 }
 
+const dam::Utterance& sentence_of(const Corpus& corpus, const py::object& key) {
+  const auto& all = corpus.corpus.utterances;
+  if (py::isinstance<py::str>(key)) {
+    const auto id = key.cast<std::string>();
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const dam::Utterance& u) { return u.id == id; });
+    if (found == all.end()) throw py::key_error(id);
+    return *found;
+  }
+  const auto count = py::ssize_t(all.size());
+  const auto index = key.cast<py::ssize_t>();
+  if (index < -count || index >= count) throw py::index_error("the corpus has no such sentence");
+  return all[std::size_t(index < 0 ? index + count : index)];
+}
+
 void bind_sentence(py::module_& module) {
   py::class_<dam::Utterance>(module, "Sentence",
                              "A recorded sentence: what was said when, and how the face moved.")
@@ -134,7 +148,8 @@ text: what was said.)")
           "rate", [](const dam::Utterance& u) { return u.signal.rate.frames_per_second(); },
           "Frames a second.")
       .def_property_readonly(
-          "clip", [](const dam::Utterance& u) { return clip_of(value_of(dam::to_sequence(u.signal))); },
+          "clip",
+          [](const dam::Utterance& u) { return clip_of(value_of(dam::to_sequence(u.signal))); },
           "The motion as a Clip; raises Error if the controls are neither FAPs nor ARKit's.")
       .def_property_readonly("fields", &fields_of,
                              "All columns of its row in utterances.tsv, as they stand there.");
@@ -171,24 +186,7 @@ lag: seconds by which the motion comes after the sound; scripts are shifted by i
 
 Raises Error with position.file and line.)")
       .def("__len__", [](const Corpus& c) { return c.corpus.utterances.size(); })
-      .def(
-          "__getitem__",
-          [](const Corpus& c, py::ssize_t index) -> const dam::Utterance& {
-            const auto count = py::ssize_t(c.corpus.utterances.size());
-            if (index < 0) index += count;
-            if (index < 0 || index >= count) throw py::index_error("the corpus has no such sentence");
-            return c.corpus.utterances[std::size_t(index)];
-          },
-          py::arg("index"), py::return_value_policy::reference_internal)
-      .def(
-          "__getitem__",
-          [](const Corpus& c, const std::string& id) -> const dam::Utterance& {
-            for (const dam::Utterance& u : c.corpus.utterances) {
-              if (u.id == id) return u;
-            }
-            throw py::key_error(id);
-          },
-          py::arg("id"), py::return_value_policy::reference_internal)
+      .def("__getitem__", &sentence_of, py::arg("key"), py::return_value_policy::reference_internal)
       .def(
           "__iter__",
           [](const Corpus& c) {

@@ -46,8 +46,8 @@ Result<std::vector<dam::SentencePair>> speak_all(const dam::Model& model,
   constexpr std::size_t kBatch = 32;
   std::vector<dam::SentencePair> pairs;
   for (std::size_t first = 0; first < sentences.size(); first += kBatch) {
-    const std::span<const dam::Utterance> batch(
-        sentences.data() + first, std::min(kBatch, sentences.size() - first));
+    const std::span<const dam::Utterance> batch(sentences.data() + first,
+                                                std::min(kBatch, sentences.size() - first));
     auto made = dam::synthesise_pairs(model, batch, options);
     if (!made) return made;
     std::move(made->begin(), made->end(), std::back_inserter(pairs));
@@ -128,13 +128,11 @@ str() is the report for people. Scored are frames of speech, of the FAPs of the 
           "to_dict", [](const EvaluationReport& r) { return loads(inspect::evaluation_json(r)); },
           "All of it, as the dict that `animeme evaluate --json` prints; its README says what the\n"
           "members mean.")
-      .def("__str__",
-           [](const EvaluationReport& r) { return inspect::evaluation_text(r, false); });
+      .def("__str__", [](const EvaluationReport& r) { return inspect::evaluation_text(r, false); });
 
   module.def("evaluate", &evaluate, py::arg("model"), py::arg("corpus"), py::kw_only(),
              py::arg("sharpness") = 1.0, py::arg("articulation") = 0.0, py::arg("closure") = true,
-             py::arg("seen") = py::none(), py::arg("threads") = 0,
-             py::arg("progress") = py::none(),
+             py::arg("seen") = py::none(), py::arg("threads") = 0, py::arg("progress") = py::none(),
              R"(Speaks the sentences of a corpus and compares with its recordings: an Evaluation.
 
 corpus: a Corpus, or Sentences with the same controls and rate.

@@ -76,10 +76,7 @@ Clip load(const py::object& file) {
 Clip read(const py::object& data) {
   if (py::isinstance<py::str>(data)) {
     const auto text = data.cast<std::string>();
-    return face_of(unlocked([&] {
-                     return exchange::read_motion({text.begin(), text.end()});
-                   }),
-                   {});
+    return face_of(unlocked([&] { return exchange::read_motion({text.begin(), text.end()}); }), {});
   }
   const Bytes bytes(data.cast<py::buffer>());
   return face_of(unlocked([&] { return read_bytes(bytes.span()); }), {});
@@ -157,9 +154,8 @@ Result<void> write_media(const std::vector<std::uint8_t>& stream, const std::str
 
 fap::Sequence shown(const Clip& clip, bool keep_high_level) {
   const fap::Sequence sequence = sequence_of(clip);
-  return value_of(unlocked([&] {
-    return fap::fill(sequence, clip.rules, shown_options(keep_high_level));
-  }));
+  return value_of(
+      unlocked([&] { return fap::fill(sequence, clip.rules, shown_options(keep_high_level)); }));
 }
 
 void save(const fap::Sequence& clip, const std::string& path, const Coding& coding,
@@ -183,7 +179,8 @@ void save(const fap::Sequence& clip, const std::string& path, const Coding& codi
 }
 
 void bind_exchange(py::module_& module) {
-  module.def("load", &load, py::arg("path"), R"(Reads a face from a file of any kind, told by its content.
+  module.def("load", &load, py::arg("path"),
+             R"(Reads a face from a file of any kind, told by its content.
 
 FBA streams, FAP text, containers (.mp4 .mkv .ts ...), curves of FAPs, ARKit's shapes (Live Link
 Face), landmarks of trackers (OpenFace, MediaPipe, dlib).
@@ -192,8 +189,9 @@ path: str or os.PathLike.
 
 What was odd is warned of as InputWarning. Raises Error with position.file and line or bit. Other
 threads run meanwhile.)");
-  module.def("read", &read, py::arg("data"),
-             R"(The same as load() from memory: bytes or any object with a buffer, or text as str.)");
+  module.def(
+      "read", &read, py::arg("data"),
+      R"(The same as load() from memory: bytes or any object with a buffer, or text as str.)");
 }
 
 }  // namespace animeme::python

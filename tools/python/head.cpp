@@ -137,8 +137,7 @@ py::dict head_parts(const Head& self) {
     const auto [first, end] = self.spans[part];
     if (first == end) continue;
     const auto& name = head::kPartNames[part];
-    parts[py::str(name.data(), name.size())] =
-        py::slice(py::ssize_t(first), py::ssize_t(end), 1);
+    parts[py::str(name.data(), name.size())] = py::slice(py::ssize_t(first), py::ssize_t(end), 1);
   }
   return parts;
 }
@@ -181,15 +180,17 @@ Other threads run meanwhile.)")
       .def("save", &save_head, py::arg("clip"), py::arg("path"),
            "Writes the head with a clip as glTF (.glb), for Blender, Unreal, Unity, three.js.")
       .def_property_readonly("vertices", &rest_of, "float32 (n, 3): the head at rest, cm.")
-      .def_property_readonly("triangles", [](const Head& h) { return h.triangles; },
-                             "uint32 (m, 3): vertices of each triangle, counter-clockwise seen "
-                             "from outside.")
+      .def_property_readonly(
+          "triangles", [](const Head& h) { return h.triangles; },
+          "uint32 (m, 3): vertices of each triangle, counter-clockwise seen "
+          "from outside.")
       .def_property_readonly("colours", &colours_of,
                              "float32 (n, 3): colours of the vertices, linear RGB 0..1; 1 where\n"
                              "the head has textures instead.")
       .def_property_readonly("parts", &head_parts,
                              "Slices of the vertices by part: \"skin\", \"left_eye\" ...")
-      .def_property_readonly("name", [](const Head& h) { return h.head.name; }, "For people.")
+      .def_property_readonly(
+          "name", [](const Head& h) { return h.head.name; }, "For people.")
       .def_readonly("notes", &Head::notes, "What was guessed or is missing, a sentence each.");
 }
 

@@ -11,7 +11,7 @@ namespace animeme::python {
 
 namespace {
 
-constexpr py::ssize_t kRow = fap::kFapCount, kBodyRow = fba::kBapCount;
+constexpr py::ssize_t kFaceRow = fap::kFapCount, kBodyRow = fba::kBapCount;
 
 struct Decoder {
   fba::Decoder decoder;
@@ -99,19 +99,20 @@ void bind_plane(py::module_& module) {
           "rate", [](const fba::Plane& p) { return p.rate.frames_per_second(); },
           "Planes a second in force; 30 until the stream sends a rate.")
       .def_property_readonly(
-          "values", [](const fba::Plane& p) { return row_of(p.face.value, kRow); },
+          "values", [](const fba::Plane& p) { return row_of(p.face.value, kFaceRow); },
           "int32 (68,): FAP n at n - 1, FAP units; 0 where nothing was coded.")
       .def_property_readonly(
-          "mask", [](const fba::Plane& p) { return flags_of(p.face.mask, kRow); },
+          "mask", [](const fba::Plane& p) { return flags_of(p.face.mask, kFaceRow); },
           "bool (68,): True where a value was coded.")
       .def_property_readonly("viseme", &viseme_of,
                              "FAP 1 if it was coded: (select1, select2, blend, def); else None.")
       .def_property_readonly("expression", &expression_of,
                              "FAP 2 if it was coded: (select1, intensity1, select2, intensity2,\n"
                              "init_face, def); else None.")
-      .def_property_readonly("body", &body_of,
-                             "(values, mask) of BAP 1..296 if a body was coded: int32 (296,), 1e-5\n"
-                             "rad, and bool (296,); else None.")
+      .def_property_readonly(
+          "body", &body_of,
+          "(values, mask) of BAP 1..296 if a body was coded: int32 (296,), 1e-5\n"
+          "rad, and bool (296,); else None.")
       .def_property_readonly(
           "bits", [](const fba::Plane& p) { return py::make_tuple(p.bit_begin, p.bit_end); },
           "First bit of the plane and first bit behind it, from the start of the stream.");
@@ -178,7 +179,7 @@ Raises Error; the stream is then as if the frame had not been.)")
                              "True: receivers can join at the last unit.")
       .def_property_readonly(
           "shown",
-          [](const fba::LiveEncoder& e) { return row_of(e.reconstruction().value, kRow); },
+          [](const fba::LiveEncoder& e) { return row_of(e.reconstruction().value, kFaceRow); },
           "int32 (68,): what receivers have after the last unit.");
 }
 

@@ -46,12 +46,11 @@ void bind_model(py::module_& module) {
 
 A model does not change; any number of threads may speak with it.)")
       .def_property_readonly(
-          "method",
-          [](const Model& m) { return std::string(dam::method_name(m.model.method)); },
-          "\"dam\", \"dam-paper\", \"cohen-massaro\", \"mmm\", \"triphone\", \"viseme\" or \"mean\".")
+          "method", [](const Model& m) { return std::string(dam::method_name(m.model.method)); },
+          "\"dam\", \"dam-paper\", \"cohen-massaro\", \"mmm\", \"triphone\", \"viseme\" or "
+          "\"mean\".")
       .def_property_readonly(
-          "controls",
-          [](const Model& m) { return listed(m.model.controls, &dam::Control::name); },
+          "controls", [](const Model& m) { return listed(m.model.controls, &dam::Control::name); },
           "Names of what it moves, \"fap3_open_jaw\" or \"jawOpen\", in the order of its values.")
       .def_property_readonly(
           "phones", [](const Model& m) { return listed(m.model.phones, &dam::PhoneModel::label); },
@@ -73,7 +72,8 @@ A model does not change; any number of threads may speak with it.)")
       .def("to_bytes", &model_bytes, "The bytes of its file.")
       .def_static("from_bytes", &from_bytes, py::arg("data"),
                   "A model from these bytes, or any object with a buffer. Raises Error.")
-      .def("save", &save_model, py::arg("path"), "Writes the model file (.dam), whole or not at all.")
+      .def("save", &save_model, py::arg("path"),
+           "Writes the model file (.dam), whole or not at all.")
       .def(
           "__eq__",
           [](const Model& m, const py::object& other) {

@@ -3,8 +3,10 @@
 
 PYBIND11_MODULE(_animeme, module) {
   using namespace animeme::python;
+  // Classes and functions say where they are from: the package, not the file beside it.
+  const py::object name = module.attr("__name__");
+  module.attr("__name__") = "animeme";
   module.attr("__version__") = ANIMEME_VERSION;
-  // A file of stubs has the types of arguments; signatures name them as Python does.
   bind_clip(module);
   bind_codec(module);
   bind_live(module);
@@ -16,4 +18,5 @@ PYBIND11_MODULE(_animeme, module) {
   bind_evaluate(module);
   bind_speak(module);
   bind_head(module);
+  module.attr("__name__") = name;
 }

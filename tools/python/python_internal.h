@@ -37,9 +37,9 @@ namespace py = pybind11;
 void warn(const std::string& sentence);
 /// Collects what a library has to say while the interpreter belongs to others.
 struct Heard {
-  std::vector<std::string> sentences;                      ///< for warn()
-  tools::Talk talk();                                      ///< puts them there
-  void tell(const std::string& file = {}) const;           ///< warns of all
+  std::vector<std::string> sentences;             ///< for warn()
+  tools::Talk talk();                             ///< puts them there
+  void tell(const std::string& file = {}) const;  ///< warns of all
 };
 
 /// The value, or animeme.Error.
@@ -109,7 +109,11 @@ py::list phones_of(const dam::Script& script);
 /// Values of a signal as an array (frames, names).
 py::array_t<double> array_of(const dam::Signal& signal);
 
-// ---- clip.cpp ----
+// ---- clip.cpp, clip_rows.cpp ----
+
+/// Columns of the arrays of a clip.
+inline constexpr std::size_t kFapColumns = fap::kFapCount, kVisemeColumns = 4,
+                             kExpressionColumns = 6;
 
 /// A clip as arrays. All have as many rows as there are frames, for as long as it lives.
 struct Clip {

@@ -37,8 +37,9 @@ carry their words.
 lang: language of words that come without phones.
 
 Raises Error with position.file and line.)");
-  module.def("write_script", &write_script, py::arg("phones"), py::arg("path"),
-             "Writes phones, tuples (start, end, label[, word]), as .TextGrid, .tsv, .pho or .vtt.");
+  module.def(
+      "write_script", &write_script, py::arg("phones"), py::arg("path"),
+      "Writes phones, tuples (start, end, label[, word]), as .TextGrid, .tsv, .pho or .vtt.");
 }
 
 }  // namespace animeme::python

@@ -46,8 +46,7 @@ Result<Speech> spoken_of(speech::SpokenOptions source, const dam::Script* script
 Result<void> move_face(const dam::Model& model, Motion motion, Speech& speech) {
   const auto& audio = speech.spoken.audio;
   if (audio) {
-    motion.synthesis.tail =
-        std::max(0.0, audio->duration() - speech.spoken.script.duration());
+    motion.synthesis.tail = std::max(0.0, audio->duration() - speech.spoken.script.duration());
   }
   auto signal = speech::move_face(model, speech.spoken, motion.synthesis);
   if (!signal) return signal.error();
@@ -215,24 +214,28 @@ meanwhile.)");
       .def_property_readonly("clip", &clip_of_speech,
                              "The face as a Clip; raises Error if the controls of the model are\n"
                              "neither FAPs nor ARKit's.")
-      .def_property_readonly("values", [](const Speech& s) { return array_of(s.signal); },
-                             "float64 (frames, names): the controls in their own units.")
-      .def_property_readonly("names", [](const Speech& s) { return s.signal.names; },
-                             "Names of the columns of `values`.")
+      .def_property_readonly(
+          "values", [](const Speech& s) { return array_of(s.signal); },
+          "float64 (frames, names): the controls in their own units.")
+      .def_property_readonly(
+          "names", [](const Speech& s) { return s.signal.names; },
+          "Names of the columns of `values`.")
       .def_property_readonly("times", &speech_times, "float64 (frames,): seconds of each frame.")
       .def_property_readonly(
           "rate", [](const Speech& s) { return s.signal.rate.frames_per_second(); },
           "Frames a second.")
-      .def_property_readonly("phones", [](const Speech& s) { return phones_of(s.spoken.script); },
-                             "list of Phone: what is said when, seconds.")
+      .def_property_readonly(
+          "phones", [](const Speech& s) { return phones_of(s.spoken.script); },
+          "list of Phone: what is said when, seconds.")
       .def_property_readonly("audio", &sound_of,
                              "float32 (samples,): one channel, +-1 is full scale; None: no sound.")
       .def_property_readonly(
           "sample_rate",
           [](const Speech& s) { return s.spoken.audio ? s.spoken.audio->sample_rate : 0; },
           "Samples a second; 0: no sound.")
-      .def_property_readonly("voice", [](const Speech& s) { return s.spoken.voice; },
-                             "Name of the synthetic voice; empty: there was none.")
+      .def_property_readonly(
+          "voice", [](const Speech& s) { return s.spoken.voice; },
+          "Name of the synthetic voice; empty: there was none.")
       .def("save", &save_speech, py::arg("path"), py::kw_only(), py::arg("preset") = "file",
            py::arg("quant") = 1, py::arg("max_rms") = 0.0, py::arg("max_bits_per_second") = 0.0,
            py::arg("intra_seconds") = py::none(),

@@ -15,8 +15,7 @@ namespace animeme::python {
 namespace {
 
 dam::TrainOptions options_of(const std::string& method, int threads, int max_iterations,
-                             double ridge, const std::string& attribution,
-                             std::size_t sentences) {
+                             double ridge, const std::string& attribution, std::size_t sentences) {
   dam::TrainOptions options;
   const auto found = dam::find_method(method);
   if (!found) throw py::value_error("method is none that train() knows: " + method);
@@ -57,8 +56,8 @@ Result<Made> train_all(const Corpus& corpus, const dam::TrainOptions& options,
   auto model = dam::train(corpus.corpus.utterances, options, &summary, progress);
   if (!model) return model.error();
   if (auto done = set_limits(corpus.folder, *model); !done) return done.error();
-  std::string json = inspect::training_json(
-      "", *model, summary, {corpus.corpus.duration(), {}, corpus.corpus.left_out});
+  std::string json = inspect::training_json("", *model, summary,
+                                            {corpus.corpus.duration(), {}, corpus.corpus.left_out});
   return Made{{std::move(*model), std::move(json)}, std::move(summary.warnings)};
 }
 
@@ -68,8 +67,7 @@ Result<Made> adapt_all(const dam::Model& base, const Corpus& corpus,
   auto model = dam::adapt(base, corpus.corpus.utterances, options, &report, progress);
   if (!model) return model.error();
   if (auto done = set_limits(corpus.folder, *model); !done) return done.error();
-  std::string json =
-      inspect::adaptation_json("", "base", *model, report, corpus.corpus.left_out);
+  std::string json = inspect::adaptation_json("", "base", *model, report, corpus.corpus.left_out);
   return Made{{std::move(*model), std::move(json)}, std::move(report.warnings)};
 }
 
@@ -99,8 +97,8 @@ Model train(const py::object& sentences, const std::string& method, const Model*
 void bind_train(py::module_& module) {
   module.def("train", &train, py::arg("corpus"), py::kw_only(), py::arg("method") = "dam",
              py::arg("base") = py::none(), py::arg("threads") = 0, py::arg("max_iterations") = 30,
-             py::arg("ridge") = 0.0, py::arg("attribution") = "",
-             py::arg("progress") = py::none(), R"(Learns how a character talks: a Model.
+             py::arg("ridge") = 0.0, py::arg("attribution") = "", py::arg("progress") = py::none(),
+             R"(Learns how a character talks: a Model.
 
 corpus: a Corpus, or Sentences with the same controls and rate.
 method: "dam", or to compare with: "dam-paper", "cohen-massaro", "mmm", "triphone", "viseme",

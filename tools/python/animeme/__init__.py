@@ -23,8 +23,7 @@ __all__ = [
     "Speech", "SpeechStream", "__version__", "builtin_model", "decode", "encode", "evaluate",
     "load", "load_model", "read", "read_script", "train", "write_script"]
 
-# They are all animeme's, whichever file they come from.
-for _name in __all__:
-    if hasattr(globals()[_name], "__module__"):
-        globals()[_name].__module__ = __name__
-del _name
+# So that tracebacks name them as programs do.
+for _type in (Error, InputWarning, Phone, Position):
+    _type.__module__ = __name__
+del _type
