@@ -16,9 +16,11 @@ def test_what_is_saved_is_read_again(sample_clip, tmp_path, ending):
     coded.save(path)
     again = animeme.load(path)
     assert again.rate == 25 and len(again) == len(coded) and again.name == "talk"
-    shown = again.fill(complete=True).values[:, 2:]
-    assert (shown == coded.fill(complete=True).values[:, 2:]).all()
-    assert animeme.read(path.read_bytes()) == again if ending != ".m3u8" else True
+    assert (again.fill(complete=True).values[coded.mask] == coded.values[coded.mask]).all()
+    if ending in (".fba", ".fap"):
+        assert again == coded
+    if ending != ".m3u8":  # what it names lies beside it
+        assert animeme.read(path.read_bytes()) == again
 
 
 def test_curves_and_text_in_memory(sample_clip, tmp_path):
@@ -47,13 +49,13 @@ def test_sound_goes_into_containers(sample_clip, tmp_path):
 def test_arkit_there_and_back(tmp_path):
     frames = np.linspace(0, np.pi, 30)
     weights = np.zeros((30, 61))
-    weights[:, animeme.ARKIT_NAMES.index("jawOpen")] = 0.5 * np.sin(frames)
-    weights[:, animeme.ARKIT_NAMES.index("mouthSmileLeft")] = 0.6
-    weights[:, animeme.ARKIT_NAMES.index("headYaw")] = 0.2
+    used = [animeme.ARKIT_NAMES.index(name) for name in ("jawOpen", "mouthSmileLeft", "headYaw")]
+    weights[:, used] = np.transpose([0.5 * np.sin(frames), 0.6 + 0 * frames, 0.2 + 0 * frames])
     clip = animeme.Clip.from_arkit(weights, rate=30)
     shares = []
     again = clip.resample(60).arkit(progress=lambda share, stage: shares.append(share))
-    assert again.shape[1] == 61 and np.abs(again[::2] - weights[: len(again[::2])]).max() < 0.1
+    assert again.shape == (60, 61) and np.abs(again[::2, used] - weights[:, used]).max() < 0.06
+    assert np.abs(np.delete(again, used, axis=1)).max() < 0.25 and shares and shares[-1] <= 1
     two = animeme.Clip.from_arkit([[0.3, 0.1]] * 4, ["JawOpen", "eyeBlink_L"], rate=60)
     assert two["open_jaw"][0] > 0 and two["close_t_l_eyelid"][0] > 0
     clip.save(tmp_path / "a.livelink.csv")
@@ -71,7 +73,7 @@ def test_visemes(sample_clip, tmp_path):
     assert weights.shape == (len(sample_clip), 15) and np.allclose(weights.sum(axis=1), 1)
     for ending in (".visemes.json", ".visemes.csv", ".tsv", ".xml", ".dat", ".rhubarb.json", ".talkinghead.json"):
         sample_clip.save(tmp_path / f"a{ending}")
-        assert (tmp_path / f"a{ending}").stat().st_size > 100
+        assert (tmp_path / f"a{ending}").stat().st_size > 50
 
 
 @pytest.mark.skipif(not PROGRAM.exists(), reason="the program is not built")
@@ -129,12 +131,15 @@ def test_odd_paths_and_odd_files(sample_clip, tmp_path):
         assert len(animeme.read(text)) == 75
 
 
-def test_files_of_trackers(tmp_path):
+@pytest.mark.filterwarnings("ignore::animeme.InputWarning")
+def test_files_of_trackers():
+    read = 0
     for path in sorted((SOURCE / "tests/data/captures_broken").glob("*")):
         try:
-            animeme.load(path)
+            read += len(animeme.load(path)) > 0
         except animeme.Error as error:
             assert error.position.file == str(path)
+    assert read > 5
 
 
 def test_scripts(tmp_path):

@@ -33,7 +33,7 @@ def test_the_mesh(head):
 def test_faps_move_it(head):
     assert np.array_equal(head.pose(np.zeros(68)), head.vertices)
     jaw = head.pose(fap("open_jaw", 600)) - head.vertices
-    assert jaw.shape == head.vertices.shape and jaw[:, 1].min() < -1  # the chin, cm
+    assert jaw.shape == head.vertices.shape and jaw[:, 1].min() < -0.8  # the chin, cm
     assert np.abs(jaw[head.parts["upper_teeth"]]).max() == 0
     gaze = head.pose(fap("yaw_l_eyeball", 30000)) - head.vertices
     assert np.abs(gaze[head.parts["left_eye"]]).max() > 0.2
@@ -60,7 +60,8 @@ def test_heads_as_files(head, tmp_path):
     head.save(clip, tmp_path / "talk.glb")
     again = animeme.Head(tmp_path / "talk.glb")
     moved = again.pose(fap("open_jaw", 400)) - again.vertices
-    assert len(again.vertices) > 1000 and moved[:, 1].min() < -0.5
+    expected = head.pose(fap("open_jaw", 400)) - head.vertices
+    assert len(again.vertices) > 1000 and 0.5 < moved[:, 1].min() / expected[:, 1].min() < 1.5
 
 
 def test_what_is_no_head_is_an_error(tmp_path, head):

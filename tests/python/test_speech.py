@@ -19,10 +19,14 @@ def phones():
     return animeme.read_script(SAMPLE / "phonemes/prac8p.tsv")
 
 
+def sounds_of(phones):
+    return [p.label for p in phones if p.label != "SIL"]
+
+
 @pytest.fixture(scope="module")
 def spoken(model):
     try:
-        return model.speak("Bob may move")
+        return model.speak("Please tell me a story about the sea")
     except animeme.Error as error:
         if error.code == "unsupported":
             pytest.skip("built without espeak-ng (Debian: libespeak-ng-dev)")
@@ -52,29 +56,30 @@ def test_the_face_is_that_of_the_program(model, phones, tmp_path):
 def test_text_becomes_sound_and_face(spoken, tmp_path):
     assert spoken.audio.dtype == np.float32 and 0.05 < np.abs(spoken.audio).max() <= 1
     assert spoken.phones[-1].end == pytest.approx(len(spoken.audio) / spoken.sample_rate)
-    assert {p.word for p in spoken.phones} >= {"Bob", "may", "move"} and spoken.voice
+    assert {p.word for p in spoken.phones} >= {"Please", "story", "sea"} and spoken.voice
     assert spoken.clip.duration == pytest.approx(len(spoken.audio) / spoken.sample_rate, abs=0.05)
     spoken.save(tmp_path / "a.mp4")
-    assert [p.label for p in animeme.read_script(tmp_path / "a.mp4")] == [p.label for p in spoken.phones]
+    carried = animeme.read_script(tmp_path / "a.mp4")
+    assert sounds_of(carried) == sounds_of(spoken.phones)
     assert len(animeme.load(tmp_path / "a.mp4")) == len(spoken.clip)
     spoken.save(tmp_path / "a.fba", max_rms=3)
     assert len(animeme.load(tmp_path / "a.fba")) <= len(spoken.clip)
 
 
 def test_a_recording_and_its_text(model, spoken, tmp_path):
-    with wave.open(str(tmp_path / "bob.wav"), "wb") as file:
+    with wave.open(str(tmp_path / "voice.wav"), "wb") as file:
         file.setnchannels(1)
         file.setsampwidth(2)
         file.setframerate(spoken.sample_rate)
         file.writeframes((spoken.audio * 32767).astype("<i2").tobytes())
-    beside = model.speak(spoken.phones, audio=tmp_path / "bob.wav")
+    beside = model.speak(spoken.phones, audio=tmp_path / "voice.wav")
     assert np.abs(beside.audio - spoken.audio).max() < 1e-3 and beside.clip == spoken.clip
     try:
-        aligned = model.speak(audio=tmp_path / "bob.wav", transcript="Bob may move")
+        aligned = model.speak(audio=tmp_path / "voice.wav", transcript="Please tell me a story about the sea")
     except animeme.Error as error:
         assert error.code == "unsupported"
         pytest.skip("built without pocketsphinx (Debian: libpocketsphinx-dev)")
-    assert [p.label for p in aligned.phones if p.label in "BM"][:2] == ["B", "B"]
+    assert sounds_of(aligned.phones)[0] == "P" and {p.word for p in aligned.phones} >= {"Please", "sea"}
     with pytest.raises(animeme.Error) as caught:
         model.speak(audio=tmp_path / "none.wav", transcript="x")
     assert caught.value.code == "not_found" and caught.value.position.file

@@ -1,4 +1,6 @@
 // What can be made of a clip: complete frames, other rates, weights of shapes, texts, files.
+#include <filesystem>
+
 #include "fap/arkit.h"
 #include "fap/resample.h"
 #include "fap/tables.h"
@@ -48,7 +50,7 @@ py::array_t<double> arkit(const Clip& clip, const py::object& progress) {
     for (const fap::Frame& frame : filled.frames) {
       frames.push_back(fitter.fit(frame));
       const double share = double(frames.size()) / double(filled.frames.size());
-      if (frames.size() % 64 == 0 && !watch.go_on(share, "fitting")) return;
+      if (frames.size() % 16 == 0 && !watch.go_on(share, "fitting")) return;
     }
   });
   watch.rethrow();
@@ -104,8 +106,10 @@ void save_clip(const Clip& clip, const py::object& file, const std::string& pres
                const py::object& audio) {
   Beside beside;
   if (!audio.is_none()) beside.sound_file = path_of(audio);
-  save(sequence_of(clip), path_of(file),
-       {preset, quant, max_rms, max_bits_per_second, intra_seconds}, beside);
+  const std::string path = path_of(file);
+  fap::Sequence sequence = sequence_of(clip);
+  if (sequence.name.empty()) sequence.name = std::filesystem::path(path).stem().string();
+  save(sequence, path, {preset, quant, max_rms, max_bits_per_second, intra_seconds}, beside);
 }
 
 // All that a copy needs; group rules as bytes.
@@ -195,6 +199,7 @@ rate: frames a second.)")
 .livelink.csv and .json ARKit's weights; .visemes.json .visemes.csv; .tsv .dat .xml .rhubarb.json
 mouth shapes of Rhubarb; .talkinghead.json.
 
+path: str or os.PathLike.
 preset, quant, max_rms, max_bits_per_second, intra_seconds: as of encode(), for streams and
     containers; these can be joined every 5 s unless intra_seconds says otherwise.
 audio: a sound file to go into a container.

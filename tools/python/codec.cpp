@@ -75,6 +75,7 @@ void bind_codec(py::module_& module) {
              py::arg("intra_seconds") = py::none(), py::arg("progress") = py::none(),
              R"(A clip as the bytes of an FBA stream (ISO/IEC 14496-2), checked by decoding it.
 
+clip: a Clip with one frame at least.
 preset: "file": the smallest stream of the same values; "live": receivers can join every 2 s;
     "plain": every FAP of the clip in every plane.
 quant: 0..31; 1: the standard's steps, not visible; 0: lossless for values up to +-1860.

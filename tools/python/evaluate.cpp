@@ -135,6 +135,7 @@ str() is the report for people. Scored are frames of speech, of the FAPs of the 
              py::arg("seen") = py::none(), py::arg("threads") = 0, py::arg("progress") = py::none(),
              R"(Speaks the sentences of a corpus and compares with its recordings: an Evaluation.
 
+model: who speaks them.
 corpus: a Corpus, or Sentences with the same controls and rate.
 sharpness, articulation, closure: as of Model.speak(); sharpness 0 has the least error.
 seen: what the model was trained on: tells seen from unseen contexts in to_dict().

@@ -178,7 +178,10 @@ follow: upper lids go along with the gaze where FAP 19 and 20 are absent.
 
 Other threads run meanwhile.)")
       .def("save", &save_head, py::arg("clip"), py::arg("path"),
-           "Writes the head with a clip as glTF (.glb), for Blender, Unreal, Unity, three.js.")
+           R"(Writes the head with its motion as glTF (.glb), for Blender, Unreal, Unity, three.js.
+
+clip: the motion, a key a frame.
+path: str or os.PathLike.)")
       .def_property_readonly("vertices", &rest_of, "float32 (n, 3): the head at rest, cm.")
       .def_property_readonly(
           "triangles", [](const Head& h) { return h.triangles; },

@@ -34,12 +34,17 @@ void bind_script(py::module_& module) {
 TextGrid, label files, subtitles, JSON of recognisers and speech services, talking files that
 carry their words.
 
+path: str or os.PathLike.
 lang: language of words that come without phones.
 
 Raises Error with position.file and line.)");
-  module.def(
-      "write_script", &write_script, py::arg("phones"), py::arg("path"),
-      "Writes phones, tuples (start, end, label[, word]), as .TextGrid, .tsv, .pho or .vtt.");
+  module.def("write_script", &write_script, py::arg("phones"), py::arg("path"),
+             R"(Writes a script as the ending says: .TextGrid, .tsv, .pho or .vtt.
+
+phones: tuples (start, end, label[, word]): seconds, ARPAbet without stress or "SIL".
+path: str or os.PathLike.
+
+Raises Error.)");
 }
 
 }  // namespace animeme::python

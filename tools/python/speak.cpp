@@ -162,6 +162,7 @@ A frame comes out as soon as no later phone can change it, or `look_ahead` says 
            py::arg("articulation") = 1.0, py::arg("closure") = true, py::keep_alive<1, 2>(),
            R"(A stream that begins at time 0.
 
+model: who speaks.
 rate: frames a second.
 look_ahead: seconds of script that have to be known beyond a frame; None: all that can change it.
 style, sharpness, articulation, closure: as of Model.speak().)")
@@ -173,8 +174,13 @@ style, sharpness, articulation, closure: as of Model.speak().)")
             return array_of(value_of(s.pull()));
           },
           py::arg("start"), py::arg("end"), py::arg("label"), py::arg("word") = "",
-          "The next phone, seconds and ARPAbet; gaps are silence. The frames that became final:\n"
-          "float64 (frames, controls of the model), often none. Raises Error.")
+          R"(The next phone; the frames that became final: float64 (frames, controls), often none.
+
+start, end: seconds, not before the end of the last phone; gaps are silence.
+label: ARPAbet without stress or "SIL".
+word: to which it belongs.
+
+Raises Error.)")
       .def(
           "finish", [](dam::SpeechStream& s) { return array_of(value_of(s.finish())); },
           "The end of the script: the frames that are left, float64 (frames, controls).");
@@ -183,33 +189,6 @@ style, sharpness, articulation, closure: as of Model.speak().)")
 }  // namespace
 
 void bind_speak(py::module_& module) {
-  auto model = py::reinterpret_borrow<py::class_<Model>>(module.attr("Model"));
-  model.def("speak", &speak, py::arg("said") = py::none(), py::kw_only(),
-            py::arg("audio") = py::none(), py::arg("transcript") = py::none(),
-            py::arg("lang") = "en", py::arg("rate") = 25, py::arg("style") = 1.0,
-            py::arg("sharpness") = 1.0, py::arg("articulation") = 1.0, py::arg("closure") = true,
-            py::arg("life") = py::none(), py::arg("seed") = 1, py::arg("speed") = 175,
-            py::arg("pitch") = 50, py::arg("tts") = "", R"(Says something: a Speech.
-
-said: a text, plain or SSML, for a synthetic voice; or phones, tuples (start, end, label[, word]):
-    seconds, ARPAbet without stress or "SIL"; None: what is heard in audio.
-audio: a sound file: with phones beside them, with a transcript aligned with it, alone listened
-    to.
-transcript: what is said in audio.
-lang: language of the text: "en", "de", "pt-br"; "zh+en": further ones by script; "auto".
-rate: frames a second.
-style: intensity, 0 keeps the mouth at rest, 1 is as learned, 0..1.5.
-sharpness: quickness, 0 is the mean of sentences, 1 more as people, 0..3.
-articulation: how clearly vowels show, 0 is as learned, 0..2.
-closure: P, B and M close the lips, F and V reach the teeth.
-life: blinks, brows and head; None: where the controls of the model are known.
-seed: of life: another seed, other times of blinks.
-speed, pitch: words a minute (80..450) and pitch (0..100) of the synthetic voice.
-tts: command of a voice of yours, that writes sound to {wav}.
-
-What a voice left out or spelled is warned of as InputWarning. Raises Error. Other threads run
-meanwhile.)");
-
   py::class_<Speech>(module, "Speech", "What Model.speak() made: a face with its script and sound.")
       .def_property_readonly("clip", &clip_of_speech,
                              "The face as a Clip; raises Error if the controls of the model are\n"
@@ -239,7 +218,36 @@ meanwhile.)");
       .def("save", &save_speech, py::arg("path"), py::kw_only(), py::arg("preset") = "file",
            py::arg("quant") = 1, py::arg("max_rms") = 0.0, py::arg("max_bits_per_second") = 0.0,
            py::arg("intra_seconds") = py::none(),
-           "Writes face, sound, words and phones as the name of the file says: as Clip.save().");
+           R"(Writes face, sound, words and phones as the name of the file says.
+
+path, preset, quant, max_rms, max_bits_per_second, intra_seconds: as of Clip.save().)");
+
+  auto model = py::reinterpret_borrow<py::class_<Model>>(module.attr("Model"));
+  model.def("speak", &speak, py::arg("said") = py::none(), py::kw_only(),
+            py::arg("audio") = py::none(), py::arg("transcript") = py::none(),
+            py::arg("lang") = "en", py::arg("rate") = 25, py::arg("style") = 1.0,
+            py::arg("sharpness") = 1.0, py::arg("articulation") = 1.0, py::arg("closure") = true,
+            py::arg("life") = py::none(), py::arg("seed") = 1, py::arg("speed") = 175,
+            py::arg("pitch") = 50, py::arg("tts") = "", R"(Says something: a Speech.
+
+said: a text, plain or SSML, for a synthetic voice; or phones, tuples (start, end, label[, word]):
+    seconds, ARPAbet without stress or "SIL"; None: what is heard in audio.
+audio: a sound file: with phones beside them, with a transcript aligned with it, alone listened
+    to.
+transcript: what is said in audio.
+lang: language of the text: "en", "de", "pt-br"; "zh+en": further ones by script; "auto".
+rate: frames a second.
+style: intensity, 0 keeps the mouth at rest, 1 is as learned, 0..1.5.
+sharpness: quickness, 0 is the mean of sentences, 1 more as people, 0..3.
+articulation: how clearly vowels show, 0 is as learned, 0..2.
+closure: P, B and M close the lips, F and V reach the teeth.
+life: blinks, brows and head; None: where the controls of the model are known.
+seed: of life: another seed, other times of blinks.
+speed, pitch: words a minute (80..450) and pitch (0..100) of the synthetic voice.
+tts: command of a voice of yours, that writes sound to {wav}.
+
+What a voice left out or spelled is warned of as InputWarning. Raises Error. Other threads run
+meanwhile.)");
   bind_speech_stream(module);
 }
 
