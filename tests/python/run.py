@@ -16,4 +16,14 @@ for name in ["numpy", "pytest", *sys.argv[2:]]:
 
 import pytest
 
-sys.exit(pytest.main(["-q", "-p", "no:cacheprovider", "-rs", sys.argv[1]]))
+
+class Skips:
+    """Tells why as other tests do, for tests/skipped.sh."""
+
+    @staticmethod
+    def pytest_runtest_logreport(report):
+        if report.skipped:
+            print(f"\n{report.nodeid}: Skipped\n{report.longrepr[2].removeprefix('Skipped: ')}")
+
+
+sys.exit(pytest.main(["-q", "-p", "no:cacheprovider", sys.argv[1]], plugins=[Skips()]))
