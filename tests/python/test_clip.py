@@ -37,6 +37,11 @@ def test_content_changes_in_place_and_shapes_do_not():
     clip.values *= 2
     clip.mask[:, 5] = True
     assert clip.values[0, 2] == 16 and clip.values[1, 2] == 14 and clip.mask[:, 5].all()
+    clip.values = clip.values * 0.6  # rounded as a new clip's are
+    assert clip.values[0, 2] == 10 and clip.values[1, 2] == 8
+    for bad in (np.nan, 2.0**40):
+        with pytest.raises(ValueError, match="32 bits"):
+            clip.values = bad
     kept = clip.values
     with pytest.raises(ValueError):
         clip.values = np.zeros((3, 68))
@@ -45,7 +50,7 @@ def test_content_changes_in_place_and_shapes_do_not():
     kept.shape = (68, len(clip))  # the view's own
     assert clip.values.shape == (len(clip), 68)
     del clip
-    assert kept[0, 2] == 16  # arrays outlive their clip
+    assert kept[0, 2] == 10  # arrays outlive their clip
 
 
 def test_numbers_are_rounded_and_checked():

@@ -80,13 +80,20 @@ std::unique_ptr<Clip> make_clip(const py::object& values, const py::object& mask
   return clip;
 }
 
-// What `clip.values = x` does: the array stays, its content changes.
-template <class Member>
-auto filled(Member member) {
-  return [member](Clip& clip, const py::object& given) {
-    const py::object array = clip.*member;
-    array[py::ellipsis()] = given;
+// What `clip.values = x` does: the array stays, its content changes, rounded as that of a new clip.
+auto filled(Ints Clip::*member, const char* name) {
+  return [member, name](Clip& clip, const py::object& given) {
+    Ints& array = clip.*member;
+    const py::object shape = array.attr("shape");
+    const py::object all = py::module_::import("numpy").attr("broadcast_to")(given, shape);
+    const auto rows = whole_rows(all, std::size_t(array.shape(1)), name);
+    std::copy(rows.begin(), rows.end(), array.mutable_data());
   };
+}
+
+void fill_mask(Clip& clip, const py::object& given) {
+  const py::object mask = clip.mask;
+  mask[py::ellipsis()] = given;
 }
 
 py::object item_of(const Clip& clip, const py::object& key) {
@@ -167,14 +174,14 @@ numbers: (frames,), ascending frame numbers at the rate, gaps are skipped frames
 viseme: (frames, 4): select1, select2 0..14, blend 0..63, def 0 or 1.
 expression: (frames, 6): select1 0..6, intensity1 0..63, select2, intensity2, init_face, def.
 name: free text.)")
-      .def_property("values", view_of(&Clip::values), filled(&Clip::values),
+      .def_property("values", view_of(&Clip::values), filled(&Clip::values, "values"),
                     "int32 (frames, 68): FAP n in column n - 1, FAP units; 0 where absent.")
-      .def_property("mask", view_of(&Clip::mask), filled(&Clip::mask),
+      .def_property("mask", view_of(&Clip::mask), &fill_mask,
                     "bool (frames, 68): True where the frame has the FAP.")
-      .def_property("viseme", view_of(&Clip::viseme), filled(&Clip::viseme),
+      .def_property("viseme", view_of(&Clip::viseme), filled(&Clip::viseme, "viseme"),
                     "int32 (frames, 4): FAP 1 where mask[:, 0]: select1, select2, blend, def.")
       .def_property(
-          "expression", view_of(&Clip::expression), filled(&Clip::expression),
+          "expression", view_of(&Clip::expression), filled(&Clip::expression, "expression"),
           "int32 (frames, 6): FAP 2 where mask[:, 1]: select1, intensity1, select2, intensity2,\n"
           "init_face, def.")
       .def_property_readonly(
