@@ -44,8 +44,8 @@ def test_a_wheel_of_pip(tmp_path):
         if importlib.util.find_spec(name) is None:
             pytest.skip(f"{name} is missing (Debian: {package})")
     shutil.copytree(SOURCE / "tools/python", tmp_path / "source")  # pip leaves its files there
-    wheel = [sys.executable, "-m", "pip", "wheel", "--no-deps", "--no-build-isolation", "--no-index", "-w", tmp_path, "."]
-    done = subprocess.run(wheel, capture_output=True, text=True, cwd=tmp_path / "source",
+    pip = [sys.executable, "-m", "pip", "wheel", "--no-deps", "--no-build-isolation", "--no-index", "-w", tmp_path, "."]
+    done = subprocess.run(pip, capture_output=True, text=True, cwd=tmp_path / "source",
                           env={**os.environ, "ANIMEME_BUILD_DIR": str(BINARY)})
     assert done.returncode == 0, done.stdout + done.stderr
     (made,) = tmp_path.glob("animeme-*.whl")

@@ -1,6 +1,6 @@
 """What pyproject.toml cannot say: the module is made by CMake.
 
-ANIMEME_BUILD_DIR names a build tree that is there, for that Python; CMAKE_ARGS are for a new one.
+ANIMEME_BUILD_DIR names a tree in which it is built already, for this Python; CMAKE_ARGS are for a new one.
 """
 import os
 import re
@@ -26,8 +26,9 @@ def cmake(*arguments):
 
 class ByCMake(build_ext):
     def build_extension(self, extension):
-        tree = Path(os.environ.get("ANIMEME_BUILD_DIR") or Path(self.build_temp) / "cmake").resolve()
-        if not (tree / "CMakeCache.txt").exists():
+        made = os.environ.get("ANIMEME_BUILD_DIR")
+        tree = Path(made or Path(self.build_temp) / "cmake").resolve()
+        if not made:
             settings = dict(SETTINGS)
             try:
                 import pybind11
@@ -36,7 +37,7 @@ class ByCMake(build_ext):
                 pass  # that of the system, then
             cmake("-S", ROOT, "-B", tree, *(f"-D{name}={value}" for name, value in settings.items()),
                   *shlex.split(os.environ.get("CMAKE_ARGS", "")))
-        cmake("--build", tree, "--target", "animeme_python", "--parallel", os.cpu_count() or 1)
+            cmake("--build", tree, "--target", "animeme_python", "--parallel", os.cpu_count() or 1)
         with tempfile.TemporaryDirectory() as prefix:
             cmake("--install", tree, "--component", "python", "--prefix", prefix)
             package = next(Path(prefix).rglob("animeme"))
@@ -46,8 +47,9 @@ class ByCMake(build_ext):
 def version():
     lists = ROOT / "CMakeLists.txt"
     cache = Path(os.environ.get("ANIMEME_BUILD_DIR", "")) / "CMakeCache.txt"
-    pattern, file = (r"CMAKE_PROJECT_VERSION:STATIC=(\S+)", cache) if cache.exists() else (r"animeme VERSION (\S+)", lists)
-    return re.search(pattern, file.read_text())[1]
+    if cache.exists():
+        return re.search(r"CMAKE_PROJECT_VERSION:STATIC=(\S+)", cache.read_text())[1]
+    return re.search(r"animeme VERSION (\S+)", lists.read_text())[1]
 
 
 setup(version=version(), packages=[], ext_modules=[Extension("animeme._animeme", [])], cmdclass={"build_ext": ByCMake})
