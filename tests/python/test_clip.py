@@ -87,6 +87,12 @@ def test_rates_that_are_none_are_refused(given):
         animeme.Clip(np.zeros((1, 68)), rate=given)
 
 
+@pytest.mark.parametrize("given", [None, [], object()])
+def test_what_is_no_number_at_all_is_no_rate(given):
+    with pytest.raises(TypeError):
+        animeme.Clip(np.zeros((1, 68)), rate=given)
+
+
 def test_slices_begin_at_0_and_keep_gaps():
     clip = animeme.Clip(np.zeros((4, 68)), numbers=[2, 3, 7, 8])
     part = clip[1:]

@@ -150,7 +150,8 @@ def test_scripts(tmp_path):
         again = animeme.read_script(tmp_path / f"a{ending}")
         assert [p.label for p in again] == [p.label for p in phones]
     for wrong, kind in (([(0, 1)], TypeError), ([(0, 1, "P"), (0.5, 2, "B")], animeme.Error),
-                        ([(0, 1, "no such sound")], animeme.Error), (["P"], TypeError), ([7], TypeError)):
+                        ([(0, 1, "no such sound")], animeme.Error), (["P"], TypeError), ([7], TypeError),
+                        ([("a", 1, "P")], TypeError), ([(0, 1, 2)], TypeError), (3, TypeError)):
         with pytest.raises(kind):
             animeme.write_script(wrong, tmp_path / "b.tsv")
     (tmp_path / "bad.tsv").write_text("start_s\tend_s\tphone\n0\tx\tP\n")

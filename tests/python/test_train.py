@@ -30,7 +30,7 @@ def test_corpora_are_sequences_of_sentences(corpus):
     assert sentence.names[0] == "fap3_open_jaw" and sentence.rate == 25
     assert sentence.fields["id"] == "prac8p" and isinstance(sentence.phones[0], animeme.Phone)
     assert (sentence.clip["open_jaw"] == np.round(sentence.values[:, 0])).all()
-    for wrong, kind in ((24, IndexError), (-25, IndexError), ("nobody", KeyError), (1.5, Exception)):
+    for wrong, kind in ((24, IndexError), (-25, IndexError), ("nobody", KeyError), (1.5, TypeError)):
         with pytest.raises(kind):
             corpus[wrong]
 
@@ -114,7 +114,7 @@ def test_what_cannot_be_learned_is_an_error(few, tmp_path):
     with pytest.raises(animeme.Error):
         animeme.train(few, max_iterations=-1)
     for wrong in ([1, 2], "text", None):
-        with pytest.raises((TypeError, RuntimeError)):
+        with pytest.raises(TypeError):
             animeme.train(wrong)
     with pytest.raises(ValueError):
         animeme.Sentence("a", [(0, 1, "P")], np.zeros((3, 2)), ["one"])

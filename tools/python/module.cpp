@@ -7,6 +7,14 @@ PYBIND11_MODULE(_animeme, module) {
   const py::object name = module.attr("__name__");
   module.attr("__name__") = "animeme";
   module.attr("__version__") = ANIMEME_VERSION;
+  // What lists and the like hold is looked at late; pybind11 would call that a RuntimeError.
+  py::register_local_exception_translator([](std::exception_ptr thrown) {
+    try {
+      std::rethrow_exception(thrown);
+    } catch (const py::cast_error&) {
+      PyErr_SetString(PyExc_TypeError, "an argument holds something of a wrong type");
+    }
+  });
   bind_clip(module);
   bind_codec(module);
   bind_live(module);
