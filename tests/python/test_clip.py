@@ -48,6 +48,10 @@ def test_content_changes_in_place_and_shapes_do_not():
     with pytest.raises(ValueError):
         clip.mask.resize(1)
     kept.shape = (68, len(clip))  # the view's own
+    spoilt = random_clip(1)
+    spoilt.mask.base.resize(1, refcheck=False)
+    with pytest.raises(ValueError, match="resized"):
+        spoilt.fill()
     assert clip.values.shape == (len(clip), 68)
     del clip
     assert kept[0, 2] == 10  # arrays outlive their clip

@@ -159,7 +159,8 @@ void bind_clip(py::module_& module) {
 Rows of the arrays are frames. Their content may be changed; their shapes stay. FAP n is column
 n - 1. A FAP whose mask is False is absent: it keeps the value that a receiver shows, which is
 not the same as 0. len(clip) is the number of frames, clip[10:20] a part of it that begins at
-time 0, clip["open_jaw"] the column of a FAP.)")
+time 0 (of clip.fill() if FAPs are absent that were there before), clip["open_jaw"] the column of
+a FAP.)")
       .def(py::init(&make_clip), py::arg("values"), py::arg("mask") = py::none(),
            py::arg("rate") = 25, py::kw_only(), py::arg("numbers") = py::none(),
            py::arg("viseme") = py::none(), py::arg("expression") = py::none(), py::arg("name") = "",

@@ -78,6 +78,14 @@ Clip clip_of(const fap::Sequence& sequence, std::vector<fap::GroupRules> rules) 
 fap::Sequence sequence_of(const Clip& clip) {
   fap::Sequence sequence{clip.rate, std::vector<fap::Frame>(std::size_t(clip.numbers.size())),
                          clip.name};
+  // Who goes behind the views can spoil the arrays, and nothing else.
+  const auto frames = sequence.frames.size();
+  if (std::size_t(clip.values.size()) != frames * kFapColumns ||
+      std::size_t(clip.mask.size()) != frames * kFapColumns ||
+      std::size_t(clip.viseme.size()) != frames * kVisemeColumns ||
+      std::size_t(clip.expression.size()) != frames * kExpressionColumns) {
+    throw py::value_error("the arrays of the clip have been resized");
+  }
   const std::int32_t* values = clip.values.data();
   const bool* mask = clip.mask.data();
   for (std::size_t i = 0; i < sequence.frames.size(); ++i) {
