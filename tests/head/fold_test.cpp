@@ -129,8 +129,8 @@ TEST_P(EachFace, WatchesItsOutside) {
   std::vector<Triangle> watched;
   for (const head::OuterTriangle& outer : rig().outside) watched.push_back(outer.corners);
   std::vector<Triangle> outside = outside_;
-  std::ranges::sort(watched);
-  std::ranges::sort(outside);
+  std::sort(watched.begin(), watched.end());
+  std::sort(outside.begin(), outside.end());
   EXPECT_EQ(watched, outside);
 }
 

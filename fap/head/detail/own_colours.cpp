@@ -56,7 +56,7 @@ std::vector<Vec3> line_of(const Head& head, std::initializer_list<const char*> i
   for (const char* id : ids) {
     if (head.point(id).exists()) line.push_back(head.at(id));
   }
-  std::ranges::sort(line, {}, &Vec3::x);
+  std::sort(line.begin(), line.end(), [](Vec3 a, Vec3 b) { return a.x < b.x; });
   return line;
 }
 

@@ -51,7 +51,7 @@ bool bends_skin(std::size_t control) {
 }
 
 bool any_turned(const Rig& rig, const std::vector<Vec3>& skin) {
-  return std::ranges::any_of(rig.outside, [&](const OuterTriangle& outer) {
+  return std::any_of(rig.outside.begin(), rig.outside.end(), [&](const OuterTriangle& outer) {
     return dot(outer.normal, normal_of(skin, outer.corners)) < 0;
   });
 }
