@@ -22,7 +22,8 @@ def apply(scene, who, clip, name, start, options, progress):
     eyes = _eye_bones(who, options)
     curves = 0
     for i, mesh in enumerate(who.meshes):
-        curves += _shape_keys(who, mesh, clip, times, name if len(who.meshes) == 1 else f"{name} {mesh.name}", options, eyes)
+        own = name if len(who.meshes) == 1 else f"{name} {mesh.name}"
+        curves += _shape_keys(who, mesh, clip, times, own, options, eyes)
         progress((i + 1) / (len(who.meshes) + 1))
     if who.armature:
         curves += _bones(who, clip, times, f"{name} {who.armature.name}", options, eyes)
@@ -41,7 +42,8 @@ def _eye_bones(who, options):
     turned = [mesh for mesh in who.meshes
               if any(_is_gaze(who.meanings[key.name]) for key in character.keys_of(mesh) if key.name in who.meanings)]
     if options.eyes == "AUTO":
-        roles = [role for role in roles if not any(bones.carries(who.armature, who.bones[role], mesh) for mesh in turned)]
+        carried = lambda role, mesh: bones.carries(who.armature, who.bones[role], mesh)  # noqa: E731
+        roles = [role for role in roles if not any(carried(role, mesh) for mesh in turned)]
     return roles
 
 

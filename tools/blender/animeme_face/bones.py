@@ -3,15 +3,14 @@
 A character looks along -Y with Z up in Blender; where it is turned in the scene is told by its eyes.
 """
 
-import math
-
 from mathutils import Matrix, Vector
 
 from .names import words_of
 
 _HELPERS = set(
     "end top nub target ctrl control ik pole mesh hair twist offset physics collider brow eyebrow lid eyelid lash "
-    "eyelash lids blink upper lower inner outer bottom corner look socket bag bags pupil iris highlight squint cheek".split()
+    "eyelash lids blink upper lower inner outer bottom corner look socket bag bags pupil iris highlight squint "
+    "cheek".split()
 )
 _EYES = {"eye", "eyeball", "lefteye", "righteye", "eyeleft", "eyeright", "leye", "reye", "faceeye"}
 _SIDES = {
@@ -84,30 +83,33 @@ def turn(armature, bone, frame, pitch, yaw, roll):
 class Jaw:
     """A jaw bone that follows the shape of the jaw: teeth stay with the lip that is drawn down."""
 
+    # Teeth go down by less than the skin of the chin.
+    SHARE = 0.8
+
     def __init__(self, armature, bone, frame, mesh, opening):
-        """`opening`: the shape key of the open jaw. Its chin is what moves most."""
-        self.armature, self.bone, self.frame = armature, bone, frame
-        shape, rest = opening, opening.relative_key
-        count = len(mesh.data.vertices)
-        moved, still = [0.0] * (3 * count), [0.0] * (3 * count)
-        shape.data.foreach_get("co", moved)
-        rest.data.foreach_get("co", still)
-        steps = [(moved[i] - still[i]) ** 2 + (moved[i + 1] - still[i + 1]) ** 2 + (moved[i + 2] - still[i + 2]) ** 2
-                 for i in range(0, 3 * count, 3)]
-        self.vertex = max(range(count), key=steps.__getitem__)
+        """`opening`: the shape key of the open jaw. Its turn is that nearest to what moves by half of the most."""
+        self.armature, self.bone, self.frame, self.mesh = armature, bone, frame, mesh
+        joint = _place(armature, bone)
         into = frame.transposed() @ mesh.matrix_world.to_3x3()
-        self.mesh_axes = into
-        self.step = into @ (shape.data[self.vertex].co - rest.data[self.vertex].co)
-        self.arm = frame.transposed() @ (mesh.matrix_world @ rest.data[self.vertex].co - _place(armature, bone))
+        arms = [frame.transposed() @ (mesh.matrix_world @ point.co - joint) for point in opening.relative_key.data]
+        steps = [into @ step for step in _steps(opening)]
+        most = max(step.length for step in steps)
+        self.vertices = [v for v, step in enumerate(steps) if step.length > most / 2]
+        # About the axis to the left: what lies ahead (-Y) goes down by a positive angle.
+        moved = sum(arms[v].y * steps[v].z - arms[v].z * steps[v].y for v in self.vertices)
+        size = sum(arms[v].y ** 2 + arms[v].z ** 2 for v in self.vertices)
+        self.angle = self.SHARE * moved / size if size else 0.0
 
     def turn(self, weight):
-        there = self.arm + self.step * weight
-        # About the axis to the left: what lies ahead (-Y) goes down by a positive angle.
-        angle = math.atan2(-there.z, -there.y) - math.atan2(-self.arm.z, -self.arm.y)
-        return turn(self.armature, self.bone, self.frame, angle, 0, 0)
+        return turn(self.armature, self.bone, self.frame, self.angle * weight, 0, 0)
 
     def shift(self, key):
         """How far the bone goes for a further key of the jaw at 1 (forward, aside), in its own axes."""
-        step = self.mesh_axes @ (key.data[self.vertex].co - key.relative_key.data[self.vertex].co)
-        sizes = (self.armature.matrix_world.to_3x3() @ self.armature.data.bones[self.bone].matrix_local.to_3x3())
-        return sizes.inverted() @ (self.frame @ step)
+        steps = _steps(key)
+        step = sum((steps[v] for v in self.vertices), Vector()) / max(len(self.vertices), 1)
+        axes_ = self.armature.matrix_world.to_3x3() @ self.armature.data.bones[self.bone].matrix_local.to_3x3()
+        return axes_.inverted() @ self.mesh.matrix_world.to_3x3() @ step
+
+
+def _steps(key):
+    return [point.co - rest.co for point, rest in zip(key.data, key.relative_key.data)]

@@ -48,7 +48,8 @@ def _table(program, path, what, folder):
     with open(out, encoding="utf-8") as file:
         table = json.load(file)
     if table["format"] != "animeme-" + what or table["version"] != 1:
-        raise Trouble(f"{path}: animeme writes {table['format']} {table['version']}, which this add-on does not know; update it")
+        found = f"{table['format']} {table['version']}"
+        raise Trouble(f"{path}: animeme writes {found}, which this add-on does not know; update it")
     rows = table["frames"]
     if not rows:
         raise Trouble(f"{path}: the face has no frame")

@@ -41,7 +41,7 @@ class Times:
 
 
 def new_action(owner, name):
-    """An action of its own for `owner`. One of an earlier import stays in the file; others play on below, as a strip."""
+    """An action of its own for `owner`. One of an earlier import stays in the file, others play on below as strips."""
     data = owner.animation_data or owner.animation_data_create()
     if data.action and MARK not in data.action:
         track = data.nla_tracks.new()

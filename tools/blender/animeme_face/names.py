@@ -87,7 +87,7 @@ class Meaning:
 
 def words_of(name):
     """Words in small letters: "Wolf3D_eyeBlink_L" is wolf3d, eye, blink, left."""
-    text = re.sub(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", " ", name)
+    text = re.sub(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", " ", name.replace("ARKit", "Arkit"))
     sides = {"l": "left", "r": "right"}
     return [sides.get(word, word) for word in re.sub(r"[\W_]+", " ", text).lower().split()]
 
@@ -139,7 +139,8 @@ def meaning_of(name):
 def choose(names):
     """Which of the keys of a character are used: {name: Meaning}.
 
-    ARKit's first. Visemes move the mouth where ARKit's jaw is missing. Other names only for what no shape of ARKit does.
+    ARKit's first. Visemes move the mouth where ARKit's jaw is missing. Other names only for what no shape of
+    ARKit does.
     """
     known = {name: meaning_of(name) for name in names}
     shapes = {curve for meaning in known.values() if meaning and meaning.kind == "arkit" for curve in meaning.curves}

@@ -47,40 +47,44 @@ class ImportFace(bpy.types.Operator, ImportHelper):
         items=[("KEEP", "The scene's", "Keep the scene's frames a second; the clip is resampled"),
                ("SET", "The clip's", "Give the scene the clip's frames a second")],
     )
-    use_range: BoolProperty(name="Extend the scene", default=True, description="Move the scene's end behind the clip's")
+    use_range: BoolProperty(name="Extend the scene", default=True,
+                            description="Move the scene's end behind the clip's")
     use_sound: BoolProperty(name="Sound", default=True, description="Put the sound into the sequencer")
     sound_path: StringProperty(
         name="Sound file", description="Empty: the clip's own, or a sound file of the same name beside it",
     )
     head: EnumProperty(
         name="Head turns", default="BOTH",
-        items=[("BOTH", "Neck and head", "Half each; all of it where there is one bone"), ("NECK", "Neck", "The neck's bone"),
-               ("HEAD", "Head", "The head's bone"), ("NONE", "Nothing", "The head stays")],
+        items=[("BOTH", "Neck and head", "Half each; all of it where there is one bone"),
+               ("NECK", "Neck", "The neck's bone"), ("HEAD", "Head", "The head's bone"),
+               ("NONE", "Nothing", "The head stays")],
     )
     eyes: EnumProperty(
         name="Eyes", default="AUTO",
-        items=[("AUTO", "As they are made", "By bones, where no shape key turns them"), ("BONES", "Bones", "By bones, whatever there is"),
-               ("SHAPES", "Shapes", "By shape keys only"), ("NONE", "Nothing", "The gaze stays")],
+        items=[("AUTO", "As they are made", "By bones, where no shape key turns them"),
+               ("BONES", "Bones", "By bones, whatever there is"), ("SHAPES", "Shapes", "By shape keys only"),
+               ("NONE", "Nothing", "The gaze stays")],
     )
     use_jaw: BoolProperty(name="Jaw bone", default=True,
                           description="Turn the jaw's bone as the shape of the jaw opens, where teeth hang on it")
     fap_scale: EnumProperty(
         name="FAP keys at 1", default="UNITS",
         items=[("UNITS", "So many units", "A key that is called like a FAP shows so many FAP units at 1"),
-               ("RANGE", "End of its range", "A key that is called like a FAP shows the end of the FAP's usual range at 1")],
+               ("RANGE", "End of its range", "A key that is called like a FAP shows the end of its usual range at 1")],
     )
     fap_units: FloatProperty(name="Units", default=1024, min=1, soft_max=100000,
                              description="FAP units at 1: 1024 in heads that Animeme exports")
     own_head: EnumProperty(
         name="Head, if none is selected", default="woman",
-        items=[("woman", "Woman", "Make this head"), ("man", "Man", "Make this head"), ("child", "Child", "Make this head"),
-               ("none", "None", "Say that nothing is selected")],
+        items=[("woman", "Woman", "Make this head"), ("man", "Man", "Make this head"),
+               ("child", "Child", "Make this head"), ("none", "None", "Say that nothing is selected")],
     )
 
     def draw(self, context):
         layout = self.layout
         layout.use_property_split = True
-        for name in ("frame_start", "rate", "use_range", "use_sound", "sound_path", "head", "eyes", "use_jaw", "fap_scale"):
+        for name in ("frame_start", "rate", "use_range", "use_sound", "sound_path", "head", "eyes", "use_jaw",
+                     "fap_scale"):
             layout.prop(self, name)
         if self.fap_scale == "UNITS":
             layout.prop(self, "fap_units")
@@ -105,13 +109,15 @@ class ImportFace(bpy.types.Operator, ImportHelper):
         animeme = program.find(bpy.path.abspath(setting()))
         who = character.find(context.selected_objects)
         if who is None and context.selected_objects and any(map(character.keys_of, context.selected_objects)):
-            raise program.Trouble("The selected meshes have no shape key that is called like one of ARKit, a viseme or a "
-                                  "FAP (jawOpen, viseme_aa, open_jaw); rename theirs, or select nothing for a head")
+            raise program.Trouble("The selected meshes have no shape key that is called like one of ARKit, a viseme "
+                                  "or a FAP (jawOpen, viseme_aa, open_jaw); rename theirs, or select nothing for a head")
         if who is None and self.own_head == "none":
             raise program.Trouble("Select a mesh with shape keys, or let 'Head, if none is selected' make one")
         # The file first: nothing is made for one that cannot be read.
         face = clip.read(animeme, path, who.wants() if who else set(), lambda share: progress(0.7 * share))
-        heard = sound.find(path, face.sound_start is not None, bpy.path.abspath(self.sound_path)) if self.use_sound else None
+        heard = None
+        if self.use_sound:
+            heard = sound.find(path, face.sound_start is not None, bpy.path.abspath(self.sound_path))
         if heard and not os.path.isfile(heard):
             raise program.Trouble(f"{heard}: there is no such sound file")
         if who is None:

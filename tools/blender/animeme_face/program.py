@@ -10,6 +10,7 @@ class Trouble(Exception):
     """What a person should read: the file, what is wrong, what helps."""
 
 
+REMEDY = "set it in Edit > Preferences > Add-ons > Animeme faces"
 NAME = "animeme.exe" if sys.platform == "win32" else "animeme"
 
 
@@ -21,13 +22,13 @@ def find(setting=""):
             path = os.path.join(path, NAME)
         if os.path.isfile(path):
             return path
-        raise Trouble(f"{setting}: no such program; set it in Edit > Preferences > Add-ons > Animeme faces")
+        raise Trouble(f"{setting}: no such program; " + REMEDY)
     folder = os.path.dirname(os.path.abspath(__file__))
-    beside = [os.path.join(folder, NAME), os.path.join(folder, "bin", NAME), os.path.join(os.path.dirname(folder), NAME)]
-    found = shutil.which(NAME) or next((path for path in beside if os.path.isfile(path)), None)
+    beside = (os.path.join(where, NAME) for where in (folder, os.path.join(folder, "bin"), os.path.dirname(folder)))
+    found = shutil.which(NAME) or next(filter(os.path.isfile, beside), None)
     if found:
         return found
-    raise Trouble("The program animeme is not in PATH; set it in Edit > Preferences > Add-ons > Animeme faces")
+    raise Trouble("The program animeme is not in PATH; " + REMEDY)
 
 
 def run(program, *arguments):
@@ -38,7 +39,7 @@ def run(program, *arguments):
         done = subprocess.run([program, "-q", *arguments], stdin=subprocess.DEVNULL, capture_output=True, check=False,
                               **options)
     except OSError as error:
-        raise Trouble(f"{program}: {error.strerror}; set another in Edit > Preferences > Add-ons > Animeme faces") from error
+        raise Trouble(f"{program}: {error.strerror}; " + REMEDY) from error
     if done.returncode == 0:
         return done.stdout
     words = done.stderr.decode("utf-8", "replace").strip().splitlines() or [f"ended with {done.returncode}"]
