@@ -4,7 +4,7 @@
 #   tools/setup.sh           what the program needs
 #   tools/setup.sh check     tells what of that is missing
 #   tools/setup.sh tests     also what the tests need, and small programs of others that read our files
-#   tools/setup.sh full      also large ones: Chromium, GStreamer, mpv, Doxygen, and npm packages into
+#   tools/setup.sh full      also large ones: Chromium, Blender, GStreamer, mpv, Doxygen, and npm packages into
 #                            tests/readers/js/node_modules and tools/trackers/mediapipe/node_modules
 #   tools/setup.sh elsewhere compilers for WebAssembly and ARM, and what runs their programs
 set -eu
@@ -32,7 +32,7 @@ if [ "$mode" = elsewhere ]; then
 fi
 # Without these, tests skip and say so.
 readers="ffmpeg mediainfo mkvtoolnix clang-format-14 universal-ctags make parallel python3-yaml"
-[ "$mode" = full ] && readers="$readers mpv chromium doxygen slurm-wlm munge libopenmpi-dev man-db zsh fish
+[ "$mode" = full ] && readers="$readers mpv chromium blender doxygen slurm-wlm munge libopenmpi-dev man-db zsh fish
   gstreamer1.0-tools gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad"
 
 # True if node 18 or later and npm are there, from wherever.

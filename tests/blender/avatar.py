@@ -26,10 +26,15 @@ def read_glb(clip, *options):
 def poses(armature, count):
     """Of each bone, a matrix a frame, in the space of the armature."""
     found = {bone: [] for bone in BONES}
+    meshes = [item for item in bpy.data.objects if item.type == "MESH"]
+    for mesh in meshes:  # which take ten times as long as bones
+        mesh.hide_viewport = True
     for frame in range(count):
         bpy.context.scene.frame_set(frame)
         for bone in BONES:
             found[bone].append(armature.pose.bones[bone].matrix.copy())
+    for mesh in meshes:
+        mesh.hide_viewport = False
     return found
 
 
@@ -80,7 +85,7 @@ def only_what_is_wanted_turns(parts):
                             ({"eyes": "NONE"}, {"neck_bone", "jaw_bone"})):
         select(armature)
         load(place("talk.fba"), **options)
-        assert paths(armature) == turned, options
+        assert paths(armature) == turned, (options, paths(armature))
         curves = parts["skin"].data.shape_keys.animation_data.action.fcurves
         assert any("eyeLook" in made.data_path for made in curves) == (options.get("eyes") != "NONE"), options
     # Other modes of bones.
@@ -106,17 +111,20 @@ def an_eye_with_shapes_is_not_turned_twice(parts):
 
 
 def the_jaw_bone_follows_the_shape_of_the_jaw():
-    rows = "".join(f"{i / 25},{i / 10},{i / 20}\n" for i in range(11))
-    parts = read_glb(write("jaw.csv", "time_s,jawOpen,jawForward\n" + rows))
-    wanted = poses(parts["Armature"], 11)["jaw_bone"]
+    # Ten frames to open, then held forward, then to the left.
+    rows = [(i / 10, 0, 0) for i in range(11)] + [(0, 1, 0)] * 5 + [(0, 0, 1)] * 5
+    table = "".join(f"{i / 25},{a},{b},{c}\n" for i, (a, b, c) in enumerate(rows))
+    parts = read_glb(write("jaw.csv", "time_s,jawOpen,jawForward,jawLeft\n" + table))
+    wanted = poses(parts["Armature"], len(rows))["jaw_bone"]
     select(parts["skin"])
     load(place("jaw.csv"), frame_start=0)
-    made = poses(parts["Armature"], 11)["jaw_bone"]
-    assert apart(wanted[0], wanted[10]) > 12 and (wanted[0].translation - wanted[10].translation).length > 0.001
+    made = poses(parts["Armature"], len(rows))["jaw_bone"]
+    assert apart(wanted[0], wanted[10]) > 12
     for frame in range(11):
         assert apart(made[frame], wanted[frame]) < 1.5, (frame, apart(made[frame], wanted[frame]))
-        off = (made[frame].translation - wanted[frame].translation).length
-        assert off < 0.001, (frame, off, wanted[frame].translation, made[frame].translation)
+    for frame, axis, sign in ((15, 1, -1), (20, 0, 1)):
+        is_, whole = (item[frame].translation - item[0].translation for item in (made, wanted))
+        assert sign * whole[axis] > 0.006 and (is_ - whole).length < 0.004, (frame, is_, whole)
 
 
 def fap_keys_are_those_of_our_own_animation():

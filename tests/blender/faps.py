@@ -27,8 +27,8 @@ def names():
 
 def the_table_is_the_standards():
     with open(os.path.join(SOURCE, "fap/tables.cpp"), encoding="utf-8") as file:
-        rows = re.findall(r'\{(\d+), "(\w+)", Unit::\w+, Motion::\w+,\s*\w+, \d+, \d+, \d+,\s*"[^"]*",\s*(\d+),\s*(\d+),',
-                          file.read())
+        row = r'\{(\d+), "(\w+)", Unit::\w+, Motion::\w+,\s*\w+, \d+, \d+, \d+,\s*"[^"]*",\s*(\d+),\s*(\d+),'
+        rows = re.findall(row, file.read())
     assert len(rows) == 68
     wanted = {name: int(step) * int(end) for number, name, step, end in rows if int(number) > 2}
     assert wanted == sys.modules["animeme_face"].names.FAPS

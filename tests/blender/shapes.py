@@ -109,7 +109,7 @@ def the_scenes_rate():
 
 
 def the_clips_rate():
-    for told_rate, wanted, fps in (("25", Fraction(25), 25), ("30", Fraction(30000, 1001), 30), ("60", Fraction(60), 60)):
+    for told_rate, wanted, fps in (("25", Fraction(25), 25), ("30", Fraction(30000, 1001), 30), ("60", 60, 60)):
         clean()
         item = mesh_with(["jawOpen"])
         text = fap_text(told_rate).replace("2.1 made 30 ", "2.1 made@29.97fps 30 ")

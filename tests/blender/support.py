@@ -42,9 +42,10 @@ def fap_text(rate="25", first=0):
         text += flags + "\n" + str(first + frame)
         for fap in faps:
             size = {3: 700, 23: 30000, 24: 30000, 25: 20000, 26: 20000, 48: 20000, 49: 30000, 50: 9000}.get(fap, 200)
-            wave_ = math.sin(frame * (0.11 + 0.007 * fap) + fap)
+            swing = math.sin(frame * (0.11 + 0.007 * fap) + fap)
             # The jaw opens only; lids close now and then.
-            text += f" {round(size * (abs(wave_) if fap == 3 else 5 * max(0, wave_ - 0.2) if fap in (19, 20) else wave_))}"
+            swing = abs(swing) if fap == 3 else 5 * max(0, swing - 0.2) if fap in (19, 20) else swing
+            text += f" {round(size * swing)}"
         text += "\n"
     return text
 
@@ -110,7 +111,10 @@ def select(*items):
 
 
 def load(path, **options):
-    result = bpy.ops.import_scene.animeme("EXEC_DEFAULT", True, filepath=path, **options)
+    # Blender remembers what an operator was told last.
+    usual = dict(frame_start=1, rate="KEEP", use_sound=True, head="BOTH", eyes="AUTO", use_jaw=True, own_head="woman",
+                 fap_scale="UNITS", fap_units=1024)
+    result = bpy.ops.import_scene.animeme("EXEC_DEFAULT", True, filepath=path, **{**usual, **options})
     assert result == {"FINISHED"}, result
 
 

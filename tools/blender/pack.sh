@@ -4,13 +4,11 @@
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 python3 - "$here/animeme_face" "${1:-animeme_face.zip}" <<'PACK'
-import os, sys, zipfile
-folder, out = sys.argv[1:]
-with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as pack:
-    for name in sorted(os.listdir(folder)):
-        if name.endswith(".py"):
-            entry = zipfile.ZipInfo("animeme_face/" + name, (2020, 1, 1, 0, 0, 0))
-            entry.external_attr = 0o644 << 16
-            with open(os.path.join(folder, name), "rb") as file:
-                pack.writestr(entry, file.read(), zipfile.ZIP_DEFLATED)
+import pathlib, sys, zipfile
+folder, out = map(pathlib.Path, sys.argv[1:])
+with zipfile.ZipFile(out, "w") as pack:
+    for file in sorted(folder.glob("*.py")):
+        entry = zipfile.ZipInfo(f"{folder.name}/{file.name}", (2020, 1, 1, 0, 0, 0))
+        entry.external_attr = 0o644 << 16
+        pack.writestr(entry, file.read_bytes(), zipfile.ZIP_DEFLATED)
 PACK

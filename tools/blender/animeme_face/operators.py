@@ -51,7 +51,8 @@ class ImportFace(bpy.types.Operator, ImportHelper):
                             description="Move the scene's end behind the clip's")
     use_sound: BoolProperty(name="Sound", default=True, description="Put the sound into the sequencer")
     sound_path: StringProperty(
-        name="Sound file", description="Empty: the clip's own, or a sound file of the same name beside it",
+        name="Sound file", options={"SKIP_SAVE"},
+        description="Empty: the clip's own, or a sound file of the same name beside it",
     )
     head: EnumProperty(
         name="Head turns", default="BOTH",
@@ -109,7 +110,7 @@ class ImportFace(bpy.types.Operator, ImportHelper):
         animeme = program.find(bpy.path.abspath(setting()))
         who = character.find(context.selected_objects)
         if who is None and context.selected_objects and any(map(character.keys_of, context.selected_objects)):
-            raise program.Trouble("The selected meshes have no shape key that is called like one of ARKit, a viseme "
+            raise program.Trouble("The selected meshes have no shape key called like one of ARKit, a viseme "
                                   "or a FAP (jawOpen, viseme_aa, open_jaw); rename theirs, or select nothing for a head")
         if who is None and self.own_head == "none":
             raise program.Trouble("Select a mesh with shape keys, or let 'Head, if none is selected' make one")
