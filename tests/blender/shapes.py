@@ -149,15 +149,31 @@ def the_click_is_heard_where_it_belongs():
     strip = strips()[0]
     assert (strip.frame_final_start, strip.channel, strip.name) == (11, 1, "talk")
     assert scene.frame_end == 11 + FRAMES - 1 and scene.sync_mode == "AUDIO_SYNC"
-    bpy.ops.sound.mixdown(filepath=place("mixed.wav"), container="WAV", codec="PCM", format="S16")
-    with wave.open(place("mixed.wav")) as file:
-        samples = array("h", file.readframes(file.getnframes()))[:: file.getnchannels()]
-        first = next(i for i, value in enumerate(samples) if abs(value) > 5000) / file.getframerate()
-    near(first, 0.5 + 10 / 25, "seconds of the click", 0.002)
+    near(heard(), 0.5 + 10 / 25, "seconds of the click", 0.002)
     # A second one on top goes to the next channel, one behind it beside the first.
     load(place("talk.mp4"), frame_start=12)
     load(place("talk.mp4"), frame_start=201)
     assert [strip.channel for strip in sorted(strips(), key=lambda strip: strip.frame_start)] == [1, 2, 1]
+
+
+def heard():
+    """Seconds of the click in Blender's own mixdown."""
+    bpy.ops.sound.mixdown(filepath=place("mixed.wav"), container="WAV", codec="PCM", format="S16")
+    with wave.open(place("mixed.wav")) as file:
+        samples = array("h", file.readframes(file.getnframes()))[:: file.getnchannels()]
+        return next(i for i, value in enumerate(samples) if abs(value) > 5000) / file.getframerate()
+
+
+def sound_of_other_files_is_cut_and_packed():
+    for name, more in (("parts.mp4", ["--fragmented"]), ("talk.mkv", []), ("talk.ts", []),
+                       ("opus.mkv", ["--audio-codec", "opus"])):
+        clean()
+        mesh_with(["jawOpen"])
+        animeme("mux", place("talk.fba"), place("voice.wav"), *more, "-o", place(name))
+        load(place(name), frame_start=11, rate="SET")
+        strip = strips()[0]
+        assert strip.frame_final_start == 11 and strip.sound.packed_file and not os.path.exists(strip.sound.filepath)
+        near(heard(), 0.5 + 10 / 25, name, 0.002)
 
 
 def sound_beside_the_clip_and_by_name():
@@ -175,4 +191,5 @@ def sound_beside_the_clip_and_by_name():
 
 
 run(clips, every_value_is_the_programs, spellings, visemes_where_there_is_no_jaw, the_scenes_rate, the_clips_rate,
-    twice_is_two_actions, the_click_is_heard_where_it_belongs, sound_beside_the_clip_and_by_name)
+    twice_is_two_actions, the_click_is_heard_where_it_belongs, sound_of_other_files_is_cut_and_packed,
+    sound_beside_the_clip_and_by_name)

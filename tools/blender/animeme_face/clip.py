@@ -17,7 +17,6 @@ class Clip:
     rate: Fraction  # frames a second
     frames: int
     curves: dict = field(default_factory=dict)
-    sound_start: float = None  # seconds after the face, of the sound in the same file; None: it has none
 
     def curve(self, name):
         return self.curves[name]
@@ -30,15 +29,11 @@ def read(program, path, wants, progress=lambda share: None):
     with tempfile.TemporaryDirectory(prefix="animeme_") as folder:
         clip = _table(program, path, "arkit", folder)
         progress(0.4)
-        tracks = json.loads(run(program, "info", "--json", path)).get("tracks", [])
         if "visemes" in wants:
             _join(clip, _table(program, path, "visemes", folder), path)
         progress(0.6)
         if "faps" in wants:
             _join(clip, _faps(program, path, folder, clip.rate), path)
-    start = {track["kind"]: track["start"] for track in reversed(tracks)}
-    if "audio" in start:
-        clip.sound_start = start["audio"] - start.get("face", 0)
     return clip
 
 

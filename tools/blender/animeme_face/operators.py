@@ -1,6 +1,7 @@
 """What Blender calls: the operator, its entry in File > Import, a panel and the preferences."""
 
 import os
+import tempfile
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
@@ -95,8 +96,9 @@ class ImportFace(bpy.types.Operator, ImportHelper):
         window = context.window_manager
         window.progress_begin(0, 100)
         try:
-            for line in self.run(context, lambda share: window.progress_update(int(100 * share))):
-                self.report({"INFO"}, line)
+            with tempfile.TemporaryDirectory(prefix="animeme_") as folder:
+                line = self.run(context, folder, lambda share: window.progress_update(int(100 * share)))
+            self.report({"INFO"}, line)
         except program.Trouble as trouble:
             self.report({"ERROR"}, str(trouble))
             return {"CANCELLED"}
@@ -104,21 +106,24 @@ class ImportFace(bpy.types.Operator, ImportHelper):
             window.progress_end()
         return {"FINISHED"}
 
-    def run(self, context, progress):
-        """Imports; gives what there is to say."""
+    def run(self, context, folder, progress):
+        """Imports; gives what there is to say. `folder` is for files on the way."""
         path = bpy.path.abspath(self.filepath)
         animeme = program.find(bpy.path.abspath(setting()))
         who = character.find(context.selected_objects)
         if who is None and context.selected_objects and any(map(character.keys_of, context.selected_objects)):
-            raise program.Trouble("The selected meshes have no shape key called like one of ARKit, a viseme "
-                                  "or a FAP (jawOpen, viseme_aa, open_jaw); rename theirs, or select nothing for a head")
+            raise program.Trouble("The selected meshes have no shape key called like one of ARKit, a viseme or "
+                                  "a FAP (jawOpen, viseme_aa, open_jaw); rename theirs, or select nothing")
         if who is None and self.own_head == "none":
             raise program.Trouble("Select a mesh with shape keys, or let 'Head, if none is selected' make one")
         # The file first: nothing is made for one that cannot be read.
         face = clip.read(animeme, path, who.wants() if who else set(), lambda share: progress(0.7 * share))
         heard = None
         if self.use_sound:
-            heard = sound.find(path, face.sound_start is not None, bpy.path.abspath(self.sound_path))
+            try:
+                heard = sound.find(animeme, path, bpy.path.abspath(self.sound_path), folder)
+            except program.Trouble as trouble:  # the face is worth having alone
+                self.report({"WARNING"}, f"Without the sound, which can be given as a file: {trouble}")
         if heard and not os.path.isfile(heard):
             raise program.Trouble(f"{heard}: there is no such sound file")
         if who is None:
@@ -132,13 +137,12 @@ class ImportFace(bpy.types.Operator, ImportHelper):
         last, curves = apply(scene, who, face, name, self.frame_start, options,
                              lambda share: progress(0.7 + 0.25 * share))
         if heard:
-            late = face.sound_start if heard == path else 0
-            strip = sound.add(scene, name, heard, self.frame_start + late * keys.rate_of(scene))
+            strip = sound.add(scene, name, heard, self.frame_start, pack=heard.startswith(folder))
             last = max(last, strip.frame_final_end - 1)
         if self.use_range:
             scene.frame_end = max(scene.frame_end, last)
-        yield (f"{os.path.basename(path)}: {face.frames} frames at {float(face.rate):g} a second, {curves} curves on "
-               f"{len(who.meshes)} meshes" + ("" if heard else ", no sound"))
+        return (f"{os.path.basename(path)}: {face.frames} frames at {float(face.rate):g} a second, {curves} curves on "
+                f"{len(who.meshes)} meshes" + ("" if heard else ", no sound"))
 
 
 class Panel(bpy.types.Panel):
