@@ -98,6 +98,12 @@ def off_and_on_again():
     install()
     mesh_with(["jawOpen"])
     load(place("talk.fba"))
+    # A new version over it.
+    old = sys.modules["animeme_face"].operators.ImportFace
+    bpy.ops.preferences.addon_install(filepath=place("animeme_face.zip"))
+    install()
+    assert sys.modules["animeme_face"].operators.ImportFace is not old
+    load(place("talk.fba"))
 
 
 run(files_that_are_no_face, nobody_to_move, no_program, undone, names_of_all_kinds, off_and_on_again)

@@ -2,11 +2,12 @@
 # run.sh PROGRAM SOURCE TEST: TEST.py in the background of Blender, with the add-on installed there from its zip, in a
 # profile of its own. Exit code 77: skipped, with the reason.
 set -u
-program=$1 source=$2 name=$3
+name=$3
 command -v blender >/dev/null || {
   printf '%s: Skipped\nBlender is missing (Debian: blender)\n' "$name"
   exit 77
 }
+program=$(realpath "$1") source=$(realpath "$2")
 dir=$(mktemp -d)
 trap 'rm -rf "$dir"' EXIT
 "$source/tools/blender/pack.sh" "$dir/animeme_face.zip" || exit 1

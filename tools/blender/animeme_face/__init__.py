@@ -14,13 +14,16 @@ bl_info = {
     "category": "Import-Export",
 }
 
-if "operators" in locals():  # Reload Scripts
-    import importlib
+import importlib
+import sys
 
-    for module in (program, names, clip, bones, character, keys, sound, own_head, apply, operators):  # noqa: F821
-        importlib.reload(module)
-else:
-    from . import apply, bones, character, clip, keys, names, operators, own_head, program, sound  # noqa: F401
+# In the order in which they import each other; all anew after an update of the add-on or Reload Scripts.
+for _name in "program names clip bones character keys sound own_head apply operators".split():
+    _name = f"{__name__}.{_name}"
+    if _name in sys.modules:
+        importlib.reload(sys.modules[_name])
+
+from . import operators
 
 
 def register():
