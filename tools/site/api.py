@@ -176,7 +176,9 @@ def anchor(name):
 
 
 def _flat(element):
-    return " ".join("".join(element.itertext()).split()) if element is not None else ""
+    """Its text in a line; types without the spaces that Doxygen puts into them."""
+    text = " ".join("".join(element.itertext()).split()) if element is not None else ""
+    return re.sub(r"(?<=\w)< | >(?=[ ,>*&)]|$)", lambda match: match.group(0).strip(), text)
 
 
 def _template(element):
@@ -190,7 +192,7 @@ def _template(element):
 def _signature(member):
     """A declaration in a line, as it is in the header."""
     kind, name = member.get("kind"), member.findtext("name")
-    type_, arguments, start = _flat(member.find("type")), member.findtext("argsstring") or "", _flat(member.find("initializer"))
+    type_, arguments, start = _flat(member.find("type")), _flat(member.find("argsstring")), _flat(member.find("initializer"))
     if kind == "define":
         parameters = [one.findtext("defname") or "" for one in member.findall("param")]
         return f"#define {name}" + (f"({', '.join(parameters)})" if parameters else "") + (f" {start}" if start else "")

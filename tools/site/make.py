@@ -115,7 +115,7 @@ def api_pages(stage, xml):
         for path in paths:
             page = os.path.relpath(stage.headers[path][1], "api/cpp") + ".md"
             text += f"| [`{os.path.basename(path)}`]({page}) | {api.first_words(path)} |\n"
-        nav.append({component: [{os.path.basename(path): stage.headers[path][1] + ".md"} for path in paths]})
+        nav.append({f"animeme::{component}": [{os.path.basename(path): stage.headers[path][1] + ".md"} for path in paths]})
     stage.write("api/cpp/index.md", text)
     return nav
 
@@ -194,7 +194,7 @@ def main():
     here = os.path.dirname(os.path.abspath(__file__))
     with open(os.path.join(here, "mkdocs.yml"), encoding="utf-8") as file:
         settings = yaml.safe_load(file)
-    settings.update(docs_dir=stage.out, site_dir=os.path.join(out, "site"), nav=nav)
+    settings.update(hooks=[os.path.join(here, "hooks.py")], docs_dir=stage.out, site_dir=os.path.join(out, "site"), nav=nav)
     with open(os.path.join(out, "mkdocs.yml"), "w", encoding="utf-8") as file:
         yaml.safe_dump(settings, file, allow_unicode=True, sort_keys=False)
     subprocess.run(["mkdocs", "build", "--strict", "--quiet", "--clean", "-f", os.path.join(out, "mkdocs.yml")], check=True)
