@@ -6,6 +6,7 @@
 #   tools/setup.sh tests     also what the tests need, and small programs of others that read our files
 #   tools/setup.sh full      also large ones: Chromium, Blender, GStreamer, mpv, Doxygen, and npm packages into
 #                            tests/readers/js/node_modules and tools/trackers/mediapipe/node_modules
+#   tools/setup.sh site      what makes the site and looks for dead links there
 #   tools/setup.sh elsewhere compilers for WebAssembly and ARM, and what runs their programs
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
@@ -80,12 +81,13 @@ if [ -n "$missing" ]; then
 fi
 case $mode in
   tests | full) ;;
+  site) readers="doxygen mkdocs mkdocs-material python3-yaml chromium" ;;
   elsewhere) readers=$foreign ;;
   *) exit 0 ;;
 esac
 
 [ "$mode" = elsewhere ] || has_node || readers="$readers nodejs"
-[ "$mode" = full ] && { command -v npm >/dev/null || readers="$readers npm"; }
+[ "$mode" = full ] || [ "$mode" = site ] && { command -v npm >/dev/null || readers="$readers npm"; }
 # shellcheck disable=SC2086
 missing=$(missing_of $readers)
 if [ -n "$missing" ]; then
@@ -93,7 +95,12 @@ if [ -n "$missing" ]; then
   # shellcheck disable=SC2086
   install_packages $missing || echo "warning: without$missing tests will skip" >&2
 fi
-[ "$mode" = full ] || exit 0
-for folder in tests/readers/js tools/trackers/mediapipe; do
+folders="tests/readers/js tools/trackers/mediapipe"
+case $mode in
+  full) ;;
+  site) folders=tests/readers/js ;;
+  *) exit 0 ;;
+esac
+for folder in $folders; do
   install_npm_packages $folder >&2 || echo "warning: without npm packages of $folder tests will skip" >&2
 done

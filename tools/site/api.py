@@ -6,7 +6,9 @@ import re
 import xml.etree.ElementTree as ElementTree
 from collections import defaultdict
 
-KINDS = {"class": "class", "struct": "struct", "union": "union"}
+KINDS = ("class", "struct", "union")
+SIGNS = dict(ndash="–", mdash="—", zwj="", nonbreakablespace=" ", linebreak="\n", lsquo="‘", rsquo="’", ldquo="“",
+             rdquo="”")
 
 
 class Api:
@@ -16,10 +18,10 @@ class Api:
         self.root, self.headers = root, headers
         self.entries = defaultdict(list)  # by file: (line, kind, element)
         self.files, self.places = {}, {}  # by file: its element; by id: (file, anchor)
-        self.inner = defaultdict(list)  # by the name of a class: elements of those inside
-        for name in sorted(os.listdir(folder)):
-            if name.endswith(".xml") and name != "index.xml" and not name.startswith("dir_"):
-                for compound in ElementTree.parse(os.path.join(folder, name)).getroot():
+        # The folder may have files of headers that are gone.
+        for entry in ElementTree.parse(os.path.join(folder, "index.xml")).getroot().iter("compound"):
+            if entry.get("kind") in ("file", "namespace", *KINDS):
+                for compound in ElementTree.parse(os.path.join(folder, entry.get("refid") + ".xml")).getroot():
                     self._take(compound)
         for entries in self.entries.values():
             entries.sort(key=lambda entry: entry[0])
@@ -59,7 +61,7 @@ class Api:
         name = os.path.basename(path)
         lines = [f"# {name}", "", f"`#include <animeme/{component}/{name}>`", ""]
         about = self.files[path]
-        lines += self._blocks(about.find("briefdescription"), path) + self._blocks(about.find("detaileddescription"), path)
+        lines += self._words(about, path)
         named = None
         for _, kind, element in self.entries[path]:
             if kind in KINDS:
@@ -68,7 +70,7 @@ class Api:
                 continue
             name = element.findtext("name")
             if name != named:  # overloads share a heading
-                lines += [f"## {_text(name)} {{ #{anchor(name)} }}", ""]
+                lines += [f"## {_escape(name)} {{ #{anchor(name)} }}", ""]
             named = name
             lines += self._entry(element, path)
         return "\n".join(lines) + "\n"
@@ -85,14 +87,13 @@ class Api:
     def _class(self, kind, compound, path):
         name = compound.findtext("compoundname")
         short = re.sub(r"^animeme::(\w+::)?", "", name)
-        lines = [f"## {_text(short)} {{ #{anchor(name)} }}", "", *_code(_template(compound) + f"{kind} {name}")]
+        lines = [f"## {_escape(short)} {{ #{anchor(name)} }}", "", *_code(_template(compound) + f"{kind} {name}")]
         lines += self._words(compound, path)
         members = [member for section in compound.iter("sectiondef") for member in section.iter("memberdef")]
         members = [member for member in members if member.get("prot") == "public" and member.get("kind") != "friend"]
         for member in sorted(members, key=lambda item: int(item.find("location").get("line"))):
             if member.get("kind") in ("variable", "typedef") and len(self._words(member, path)) < 3:
-                words = " ".join(self._words(member, path)).strip()
-                lines += [f"- {_inline_code(_signature(member))}" + (f" — {words}" if words else "")]
+                lines += _item(_signature(member), self._words(member, path))
             else:
                 lines += ["", *self._entry(member, path)]
         return lines + [""]
@@ -100,15 +101,14 @@ class Api:
     def _entry(self, member, path):
         lines = _code(_signature(member)) + self._words(member, path)
         for value in member.findall("enumvalue"):
-            words = " ".join(self._words(value, path)).strip()
-            start = value.findtext("initializer") or ""
-            lines.append(f"- {_inline_code(value.findtext('name') + ' ' + start)}" + (f" — {words}" if words else ""))
+            lines += _item(value.findtext("name") + " " + _flat(value.find("initializer")), self._words(value, path))
         return lines + [""]
 
     # -- words
 
     def _words(self, element, path):
-        return self._blocks(element.find("briefdescription"), path) + self._blocks(element.find("detaileddescription"), path)
+        parts = (element.find(part) for part in ("briefdescription", "detaileddescription"))
+        return [line for part in parts for line in self._blocks(part, path)]
 
     def _blocks(self, description, path):
         """Markdown lines of a description, a blank one behind each block."""
@@ -155,10 +155,8 @@ class Api:
             return _inline_code(words)
         if child.tag == "ref":
             return self.link(child.get("refid"), words, path)
-        signs = {"ndash": "–", "mdash": "—", "zwj": "", "nonbreakablespace": " ", "linebreak": "\n", "lsquo": "‘",
-                 "rsquo": "’", "ldquo": "“", "rdquo": "”"}
-        if child.tag in signs:
-            return signs[child.tag]
+        if child.tag in SIGNS:
+            return SIGNS[child.tag]
         return f"**{_escape(words)}**" if child.tag == "bold" else f"*{_escape(words)}*"
 
     def link(self, id_, words, path):
@@ -185,21 +183,22 @@ def _template(element):
     parameters = element.find("templateparamlist")
     if parameters is None:
         return ""
-    names = [f"{_flat(one.find('type'))} {one.findtext('declname') or ''}".strip() for one in parameters.findall("param")]
+    parts = parameters.findall("param")
+    names = [f"{_flat(one.find('type'))} {one.findtext('declname') or ''}".strip() for one in parts]
     return f"template <{', '.join(names)}>\n"
 
 
 def _signature(member):
     """A declaration in a line, as it is in the header."""
     kind, name = member.get("kind"), member.findtext("name")
-    type_, arguments, start = _flat(member.find("type")), _flat(member.find("argsstring")), _flat(member.find("initializer"))
+    type_, arguments, start = (_flat(member.find(part)) for part in ("type", "argsstring", "initializer"))
     if kind == "define":
         parameters = [one.findtext("defname") or "" for one in member.findall("param")]
-        return f"#define {name}" + (f"({', '.join(parameters)})" if parameters else "") + (f" {start}" if start else "")
+        return f"#define {name}{'(' + ', '.join(parameters) + ')' if parameters else ''} {start}".strip()
     if kind == "enum":
         return f"enum {'class ' if member.get('strong') == 'yes' else ''}{name}" + (f" : {type_}" if type_ else "")
     if kind == "typedef":
-        return (member.findtext("definition") or f"using {name}").replace("typedef ", "typedef ", 1)
+        return _flat(member.find("definition")) or f"using {name}"
     words = f"{type_} {name}{arguments}".strip()
     if member.get("static") == "yes" and not words.startswith("static"):
         words = "static " + words
@@ -225,8 +224,10 @@ def _escape(text):
     return re.sub(r"([\\`*_\[\]<>#|])", r"\\\1", html.unescape(text)) if text else ""
 
 
-def _text(name):
-    return _escape(name)
+def _item(code, words):
+    """A line of a list."""
+    words = " ".join(words).strip()
+    return [f"- {_inline_code(code)}" + (f" — {words}" if words else "")]
 
 
 def _inline_code(text):

@@ -1,23 +1,26 @@
 """What mkdocs asks while it writes: what the theme's pages lack for people who cannot see or use no mouse."""
 
-NAMES = (
+import re
+
+CHANGES = (
     ('role="dialog"', 'role="dialog" aria-label="Search"'),
     # What scrolls has to be reached by keys.
     ('class="md-search__scrollwrap"', 'class="md-search__scrollwrap" tabindex="0"'),
-    ("<pre><span></span><code>", '<pre><span></span><code tabindex="0">'),
-    ("<pre><code>", '<pre><code tabindex="0">'),
+    (r"(<pre[^>]*>(?:<span></span>)?<code)(?! tabindex)", r'\1 tabindex="0"'),
+    # A corner of a table heads nothing.
+    (r"<th([^>]*)></th>", r"<td\1></td>"),
 )
 
 
-def named(output):
-    for old, new in NAMES:
-        output = output.replace(old, new)
+def changed(output):
+    for old, new in CHANGES:
+        output = re.sub(old, new, output)
     return output
 
 
 def on_post_page(output, page, config):
-    return named(output)
+    return changed(output)
 
 
 def on_post_template(output_content, template_name, config):
-    return named(output_content) if template_name.endswith(".html") else output_content
+    return changed(output_content) if template_name.endswith(".html") else output_content

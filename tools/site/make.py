@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""make.py SOURCE OUT XML HEADERS PROGRAM: the site, OUT/site, of the project's own pages, its headers and its program.
+"""make.py SOURCE BUILD PROGRAM: the site, BUILD/site, of the project's own pages, its headers and its program.
 
-XML is Doxygen's, HEADERS a table (component, tab, header). Pages are collected in OUT/pages for mkdocs.
+BUILD/xml is what Doxygen read in the headers, BUILD/pages/headers.txt a table of them: component|header. Pages are
+collected in BUILD/pages/all for mkdocs.
 """
 
 import os
@@ -22,17 +23,19 @@ TUTORIALS = ("dam/tutorial.md", "tools/blender/README.md", "tools/c/README.md", 
              "tools/npm/README.md", "tools/samples/README.md", "tools/examples/README.md", "tools/trackers/README.md",
              "tools/cluster/README.md")
 FORMATS = ("codec/bitstream.md", "fap/semantics.md", "fap/text_format.md", "tools/exchange/README.md",
-           "tools/media/containers.md", "dam/script/phoneme_scripts.md", "tools/scripts/README.md", "tools/gltf/README.md",
-           "tools/gltf/avatars.md", "fap/xml/README.md", "fap/head/face_models.md", "conformance/README.md")
+           "tools/media/containers.md", "dam/script/phoneme_scripts.md", "tools/scripts/README.md",
+           "tools/gltf/README.md", "tools/gltf/avatars.md", "fap/xml/README.md", "fap/head/face_models.md",
+           "conformance/README.md")
 
 
 def pages_of(source):
     """The project's pages, relative to it."""
-    found = [name for name in ("README.md", "HACKING.md", "CHANGELOG.md") if os.path.isfile(os.path.join(source, name))]
+    found = ["README.md", "HACKING.md", "CHANGELOG.md"]
     for top in TOPS:
         for folder, folders, names in os.walk(os.path.join(source, top)):
             folders[:] = sorted(one for one in folders if one not in ("node_modules", "cases", "build"))
-            found += [os.path.relpath(os.path.join(folder, name), source) for name in sorted(names) if name.endswith(".md")]
+            inside = os.path.relpath(folder, source)
+            found += [os.path.join(inside, name) for name in sorted(names) if name.endswith(".md")]
     return found
 
 
@@ -91,7 +94,8 @@ def command_pages(stage, program):
     nav = ["commands/index.md"]
     for name, about in commands:
         text += f"| [`{name}`]({name}.md) | {about} |\n"
-        stage.write(f"commands/{name}.md", f"# animeme {name}\n\n```text\n{say(program, name, '--help').rstrip()}\n```\n")
+        words = say(program, name, "--help").rstrip()
+        stage.write(f"commands/{name}.md", f"# animeme {name}\n\n```text\n{words}\n```\n")
         nav.append({name: f"commands/{name}.md"})
     stage.write("commands/index.md", text)
     return nav
@@ -115,13 +119,14 @@ def api_pages(stage, xml):
         for path in paths:
             page = os.path.relpath(stage.headers[path][1], "api/cpp") + ".md"
             text += f"| [`{os.path.basename(path)}`]({page}) | {api.first_words(path)} |\n"
-        nav.append({f"animeme::{component}": [{os.path.basename(path): stage.headers[path][1] + ".md"} for path in paths]})
+        entries = [{os.path.basename(path): stage.headers[path][1] + ".md"} for path in paths]
+        nav.append({f"animeme::{component}": entries})
     stage.write("api/cpp/index.md", text)
     return nav
 
 
 def listing(stage, title, pattern, language, readme, page):
-    """A page of declarations as they are, for languages whose stubs are their manual; nothing where there are none."""
+    """A page of declarations as they are, for languages whose stubs are their manual; nothing without their room."""
     folder = os.path.join(stage.source, os.path.dirname(readme))
     files = []
     for where, folders, names in os.walk(folder):
@@ -138,7 +143,7 @@ def listing(stage, title, pattern, language, readme, page):
 
 
 def demo_page(stage, program):
-    """A sentence, spoken by the program onto three heads; without a voice, from a script that ships with the project."""
+    """A sentence, spoken by the program onto three heads; without a voice, from a script of the project's."""
     clip, page = os.path.join(stage.out, "..", "demo.mp4"), os.path.join(stage.out, "demo", "talking_head.html")
     os.makedirs(os.path.dirname(page), exist_ok=True)
     text = "Hello world! My mouth moves by numbers, and a few thousand bits a second are enough."
@@ -163,22 +168,25 @@ This page was made by two commands, when the site was. Press Space, or turn the 
 
 
 def main():
-    source, out, xml, table, program = sys.argv[1:]
+    source, build, program = sys.argv[1:]
+    out = os.path.join(build, "pages")
     pages = pages_of(source)
     headers = {}
-    with open(table, encoding="utf-8") as file:
+    with open(os.path.join(out, "headers.txt"), encoding="utf-8") as file:
         for line in file.read().split():
             component, header = line.split("|")
             base = os.path.basename(header).removesuffix(".h")
             headers[header] = (component, f"api/{'c' if component == 'c' else 'cpp/' + component}/{base}")
-    stage = Stage(source, pages, headers, os.path.join(out, "pages"))
+    stage = Stage(source, pages, headers, os.path.join(out, "all"))
     shutil.rmtree(stage.out, ignore_errors=True)
     for page in pages:
         stage.take(page)
-    shutil.copyfile(os.path.join(os.path.dirname(os.path.abspath(__file__)), "style.css"), os.path.join(stage.out, "style.css"))
+    here = os.path.dirname(os.path.abspath(__file__))
+    for name in ("style.css", "site.js"):
+        shutil.copyfile(os.path.join(here, name), os.path.join(stage.out, name))
     demo_page(stage, program)
     commands = command_pages(stage, program)
-    cpp = api_pages(stage, xml)
+    cpp = api_pages(stage, os.path.join(build, "xml"))
     named = lambda chosen: [{title_of(source, page): page} for page in chosen if page in stage.pages]  # noqa: E731
     rooms = [page for page in pages if page not in TUTORIALS + FORMATS and os.path.dirname(page)]
     by_top = [{top: named([page for page in rooms if page.split("/")[0] == top])} for top in TOPS]
@@ -191,13 +199,14 @@ def main():
                  *listing(stage, "JavaScript", ".d.ts", "typescript", "tools/npm/README.md", "api/javascript.md")]},
         {"Rooms": by_top},
     ]
-    here = os.path.dirname(os.path.abspath(__file__))
     with open(os.path.join(here, "mkdocs.yml"), encoding="utf-8") as file:
         settings = yaml.safe_load(file)
-    settings.update(hooks=[os.path.join(here, "hooks.py")], docs_dir=stage.out, site_dir=os.path.join(out, "site"), nav=nav)
-    with open(os.path.join(out, "mkdocs.yml"), "w", encoding="utf-8") as file:
+    settings.update(hooks=[os.path.join(here, "hooks.py")], nav=nav, docs_dir=stage.out,
+                    site_dir=os.path.join(build, "site"))
+    settings_file = os.path.join(out, "mkdocs.yml")
+    with open(settings_file, "w", encoding="utf-8") as file:
         yaml.safe_dump(settings, file, allow_unicode=True, sort_keys=False)
-    subprocess.run(["mkdocs", "build", "--strict", "--quiet", "--clean", "-f", os.path.join(out, "mkdocs.yml")], check=True)
+    return subprocess.run(["mkdocs", "build", "--strict", "--quiet", "--clean", "-f", settings_file]).returncode
 
 
-main()
+sys.exit(main())
