@@ -59,7 +59,8 @@ class Api:
         """Markdown of a header."""
         component, _ = self.headers[path]
         name = os.path.basename(path)
-        lines = [f"# {name}", "", f"`#include <animeme/{component}/{name}>`", ""]
+        folder = "" if component == "c" else component + "/"
+        lines = [f"# {name}", "", f"`#include <animeme/{folder}{name}>`", ""]
         about = self.files[path]
         lines += self._words(about, path)
         named = None
@@ -69,7 +70,9 @@ class Api:
                 named = None
                 continue
             name = element.findtext("name")
-            if name != named:  # overloads share a heading
+            if name.startswith("@"):  # an enum without a name
+                lines += [f"## Constants {{ #constants-{element.find('location').get('line')} }}", ""]
+            elif name != named:  # overloads share a heading
                 lines += [f"## {_escape(name)} {{ #{anchor(name)} }}", ""]
             named = name
             lines += self._entry(element, path)
@@ -196,7 +199,8 @@ def _signature(member):
         parameters = [one.findtext("defname") or "" for one in member.findall("param")]
         return f"#define {name}{'(' + ', '.join(parameters) + ')' if parameters else ''} {start}".strip()
     if kind == "enum":
-        return f"enum {'class ' if member.get('strong') == 'yes' else ''}{name}" + (f" : {type_}" if type_ else "")
+        name = "" if name.startswith("@") else " " + name
+        return f"enum{' class' if member.get('strong') == 'yes' else ''}{name}" + (f" : {type_}" if type_ else "")
     if kind == "typedef":
         return _flat(member.find("definition")) or f"using {name}"
     words = f"{type_} {name}{arguments}".strip()

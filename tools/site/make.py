@@ -10,6 +10,7 @@ import re
 import shutil
 import subprocess
 import sys
+import textwrap
 
 import yaml
 
@@ -86,6 +87,19 @@ def say(program, *words):
     return subprocess.run([program, *words], check=True, capture_output=True, text=True).stdout
 
 
+def narrow(text, width=96, column=30):
+    """Help in lines that a page has room for: what is said of an option stays in its column."""
+    lines = []
+    for line in text.rstrip().split("\n"):
+        head, rest = line[:column], line[column:]
+        if len(line) <= width or (head.strip() and not head.endswith(" ")):
+            lines.append(line)
+            continue
+        first, *more = textwrap.wrap(rest, width - column, break_long_words=False, break_on_hyphens=False)
+        lines += [head + first] + [" " * column + part for part in more]
+    return "\n".join(lines)
+
+
 def command_pages(stage, program):
     """What each command says of itself."""
     table = re.search(r"Subcommands:\n(.*?)\n\n", say(program, "--help"), re.S).group(1)
@@ -94,7 +108,7 @@ def command_pages(stage, program):
     nav = ["commands/index.md"]
     for name, about in commands:
         text += f"| [`{name}`]({name}.md) | {about} |\n"
-        words = say(program, name, "--help").rstrip()
+        words = narrow(say(program, name, "--help"))
         stage.write(f"commands/{name}.md", f"# animeme {name}\n\n```text\n{words}\n```\n")
         nav.append({name: f"commands/{name}.md"})
     stage.write("commands/index.md", text)
