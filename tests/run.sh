@@ -5,14 +5,15 @@
 #   tests/run.sh             with the programs that read most of our files
 #   tests/run.sh full        also with those that take long to install: browsers, players, npm packages
 #   tests/run.sh quick       the release build only
+#   tests/run.sh site        makes the site, and looks at all its pages in Chromium: dead links, what axe finds
 #   tests/run.sh elsewhere   the libraries as WebAssembly under node, and for ARM under QEMU
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 mode=${1:-tests}
 case $mode in
   tests | quick) packages=tests ;;
-  full | elsewhere) packages=$mode ;;
-  *) echo "usage: tests/run.sh [full|quick|elsewhere]" >&2; exit 2 ;;
+  full | site | elsewhere) packages=$mode ;;
+  *) echo "usage: tests/run.sh [full|quick|site|elsewhere]" >&2; exit 2 ;;
 esac
 cd "$here"
 # Large pages for what compilers and trainings allocate: an eighth of the time of clang, a quarter of training. Other
@@ -85,6 +86,13 @@ run() {
 }
 
 part "packages" tools/setup.sh "$packages" || finish
+if [ "$mode" = site ]; then
+  presets=""
+  part "site: configure" cmake --preset release --log-level=STATUS || finish
+  part "site: build" cmake --build build/release --target docs || finish
+  part "site: check" node tests/site/check.js build/release/site || true
+  finish
+fi
 for preset in $presets; do
   case $preset in
     release) run release 1 ;;  # pages draw by the processor

@@ -4,8 +4,9 @@
 #   tools/setup.sh           what the program needs
 #   tools/setup.sh check     tells what of that is missing
 #   tools/setup.sh tests     also what the tests need, and small programs of others that read our files
-#   tools/setup.sh full      also large ones: Chromium, GStreamer, mpv, Doxygen, and npm packages into
+#   tools/setup.sh full      also large ones: Chromium, Blender, GStreamer, mpv, Doxygen, and npm packages into
 #                            tests/readers/js/node_modules and tools/trackers/mediapipe/node_modules
+#   tools/setup.sh site      what makes the site and looks for dead links there
 #   tools/setup.sh elsewhere compilers for WebAssembly and ARM, and what runs their programs
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
@@ -33,7 +34,7 @@ fi
 # Without these, tests skip and say so.
 readers="ffmpeg mediainfo mkvtoolnix clang-format-14 universal-ctags make parallel python3-yaml
   pybind11-dev python3-dev python3-pytest python3-numpy python3-matplotlib python3-pip python3-setuptools python3-wheel"
-[ "$mode" = full ] && readers="$readers mpv chromium doxygen slurm-wlm munge libopenmpi-dev man-db zsh fish
+[ "$mode" = full ] && readers="$readers mpv chromium blender doxygen slurm-wlm munge libopenmpi-dev man-db zsh fish
   gstreamer1.0-tools gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad"
 
 # True if node 18 or later and npm are there, from wherever.
@@ -81,12 +82,13 @@ if [ -n "$missing" ]; then
 fi
 case $mode in
   tests | full) ;;
+  site) readers="doxygen mkdocs mkdocs-material python3-yaml chromium" ;;
   elsewhere) readers=$foreign ;;
   *) exit 0 ;;
 esac
 
 [ "$mode" = elsewhere ] || has_node || readers="$readers nodejs"
-[ "$mode" = full ] && { command -v npm >/dev/null || readers="$readers npm"; }
+[ "$mode" = full ] || [ "$mode" = site ] && { command -v npm >/dev/null || readers="$readers npm"; }
 # shellcheck disable=SC2086
 missing=$(missing_of $readers)
 if [ -n "$missing" ]; then
@@ -94,7 +96,12 @@ if [ -n "$missing" ]; then
   # shellcheck disable=SC2086
   install_packages $missing || echo "warning: without$missing tests will skip" >&2
 fi
-[ "$mode" = full ] || exit 0
-for folder in tests/readers/js tools/trackers/mediapipe; do
+folders="tests/readers/js tools/trackers/mediapipe"
+case $mode in
+  full) ;;
+  site) folders=tests/readers/js ;;
+  *) exit 0 ;;
+esac
+for folder in $folders; do
   install_npm_packages $folder >&2 || echo "warning: without npm packages of $folder tests will skip" >&2
 done
