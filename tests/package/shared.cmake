@@ -1,0 +1,41 @@
+# Builds the codec as shared libraries, installs and moves them: each says its version in its name and finds the others
+# where it lies, none shows what is internal, and a program of others runs with them.
+include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
+step("configure" ${configure} -S ${ANIMEME_DIR} -B ${WORK}/build -DBUILD_SHARED_LIBS=ON -DANIMEME_BUILD_DAM=OFF
+  -DANIMEME_BUILD_TOOLS=OFF -DANIMEME_BUILD_TESTS=OFF -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=16
+  -DCMAKE_INSTALL_LIBDIR=lib)
+step("build" ${CMAKE_COMMAND} --build ${WORK}/build --parallel 2)
+step("install" ${CMAKE_COMMAND} --install ${WORK}/build --prefix ${WORK}/made)
+file(RENAME ${WORK}/made ${WORK}/installed)
+
+set(version "")
+file(STRINGS ${ANIMEME_DIR}/CMakeLists.txt line REGEX "^project\\(animeme VERSION" LIMIT_COUNT 1)
+string(REGEX MATCH "[0-9]+\\.[0-9]+" version "${line}")
+foreach(library fap fba head)
+  set(file ${WORK}/installed/lib/libanimeme_${library}.so)
+  step("look at ${library}" readelf -d ${file})
+  if(NOT output MATCHES "SONAME[^\n]*libanimeme_${library}\\.so\\.${version}\\]")
+    message(FATAL_ERROR "${file} has no version in its SONAME:\n${output}")
+  endif()
+  string(FIND "${output}" "path: [$ORIGIN" beside)
+  string(FIND "${output}" "${WORK}" built)
+  if(beside LESS 0 OR built GREATER_EQUAL 0)
+    message(FATAL_ERROR "${file} does not find its neighbours, or finds them where it was built:\n${output}")
+  endif()
+endforeach()
+step("names of fba" nm -DC --defined-only ${WORK}/installed/lib/libanimeme_fba.so)
+string(REGEX MATCHALL "[^\n]*animeme::fba::internal::[^\n]*" names "${output}")
+list(LENGTH names count)
+if(count GREATER 0)
+  message(FATAL_ERROR "${count} internal names are shown: ${names}")
+endif()
+if(NOT output MATCHES "animeme::fba::decode\\(")
+  message(FATAL_ERROR "decode() is not shown")
+endif()
+
+step("configure a consumer" ${configure} -S ${TESTS}/consumer -B ${WORK}/consumer -DCMAKE_PREFIX_PATH=${WORK}/installed
+  -DCOMPONENTS=fap,fba,head)
+step("build a consumer" ${CMAKE_COMMAND} --build ${WORK}/consumer --parallel 2)
+foreach(component fap fba head)
+  step("run ${component}" ${WORK}/consumer/${component}/use_${component})
+endforeach()
