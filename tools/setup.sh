@@ -7,6 +7,7 @@
 #   tools/setup.sh full      also large ones: Chromium, GStreamer, mpv, Doxygen, and npm packages into
 #                            tests/readers/js/node_modules and tools/trackers/mediapipe/node_modules
 #   tools/setup.sh elsewhere compilers for WebAssembly and ARM, and what runs their programs
+#   tools/setup.sh packages  what tools/packaging/deb.sh and clean_root.sh need
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 
@@ -26,6 +27,10 @@ case $mode in
   tests | full) packages="$packages libgtest-dev libgmock-dev libbenchmark-dev
     clang-14 libclang-rt-14-dev llvm-14" ;;
 esac
+if [ "$mode" = packages ]; then
+  packages="$packages dpkg-dev debhelper fakeroot doxygen lintian mmdebstrap libopenmpi-dev
+    dh-python python3-dev pybind11-dev python3-numpy"
+fi
 if [ "$mode" = elsewhere ]; then
   packages="g++ cmake ninja-build libeigen3-dev libgtest-dev"
   foreign="emscripten g++-aarch64-linux-gnu qemu-user"
