@@ -52,7 +52,7 @@ inside() {
   if has animeme; then
     apt_get install /debs/animeme_*.deb
     say "animeme with what it depends on: $(size)"
-    try speak
+    try speak without_media
     # By name, as apt takes them with a package that is installed anew only.
     wanted=$(chroot "$root" dpkg-query -W -f '${Recommends}' animeme | sed 's/([^)]*)//g; s/|[^,]*//g; s/,/ /g')
     # shellcheck disable=SC2086  # words
