@@ -18,6 +18,11 @@ has() {
   ls "$root/debs/${1}"_*.deb >/dev/null 2>&1
 }
 
+# file PACKAGE: its path in the root.
+file() {
+  basename "$root/debs/${1}"_*.deb | sed 's|^|/debs/|'
+}
+
 # apt_get WORDS...: in the root, quietly unless it fails.
 apt_get() {
   chroot "$root" env DEBIAN_FRONTEND=noninteractive apt-get -q -y --no-install-recommends "$@" >"$root/log" 2>&1 ||
@@ -50,7 +55,7 @@ inside() {
 
   say "minimal root: $(size)"
   if has animeme; then
-    apt_get install /debs/animeme_*.deb
+    apt_get install "$(file animeme)"
     say "animeme with what it depends on: $(size)"
     try speak without_media
     # By name, as apt takes them with a package that is installed anew only.
@@ -63,15 +68,15 @@ inside() {
     try manual completion
   fi
   if has libanimeme-dev; then
-    apt_get install /debs/libanimeme0_*.deb /debs/libanimeme-dev_*.deb gcc libc6-dev pkg-config
+    apt_get install "$(file libanimeme0)" "$(file libanimeme-dev)" gcc libc6-dev pkg-config
     try library
   fi
   if has python3-animeme; then
-    apt_get install /debs/python3-animeme_*.deb
+    apt_get install "$(file python3-animeme)"
     try python
   fi
   if has animeme-doc; then
-    apt_get install /debs/animeme-doc_*.deb
+    apt_get install "$(file animeme-doc)"
     test -s "$root/usr/share/doc/animeme-doc/html/index.html"
   fi
   # Nothing stays behind.
