@@ -1,6 +1,6 @@
 #!/bin/sh
-# What is linked is known: `animeme --version --verbose` names every shared object that the program and its modules need,
-# with a licence, and so do the SPDX documents of the packages.
+# What is linked is known: `animeme --version --verbose` names every shared object that the program and its modules
+# need, with a licence, and so do the SPDX documents of the packages.
 #   licences.sh BIN_DIR SPDX_DIR LIBRARIES_TSV LIBANIMEME
 set -eu
 bin=$1 spdx=$2 table=$3 library=$4
@@ -40,5 +40,6 @@ if command -v ffmpeg >/dev/null; then
   "$bin/animeme" --version --verbose | grep -q "libavcodec .* $licence" || fail "ffmpeg says $licence"
 fi
 # The words of the table are SPDX's, and its lines whole.
-awk -F '\t' '!/^#/ && (NF < 5 || NF > 6 || $3 == "") {print FILENAME ": line " NR " has " NF " columns"; bad = 1} END {exit bad}' "$table"
+awk -F '\t' '!/^#/ && (NF < 5 || NF > 6 || $3 == "") {print FILENAME ", line " NR ": " NF " columns"; bad = 1}
+  END {exit bad}' "$table"
 echo "$count objects"

@@ -1,6 +1,6 @@
 #!/bin/sh
-# The recipes of packages are true to the tree, without building any: one version everywhere, every installed file in one
-# Debian package, the names of the symbols file, scripts, YAML and JSON that parse, a port whose options exist.
+# The recipes of packages are true to the tree, without building any: one version everywhere, every installed file in
+# one Debian package, the names of the symbols file, scripts, YAML and JSON that parse, a port whose options exist.
 #   recipes.sh SOURCE_DIR PREFIX LIBDIR VERSION CMAKE
 # What is not here to check with (python3-yaml, ruby, dpkg-dev) is left out, and said.
 set -eu
@@ -22,7 +22,8 @@ same vcpkg.json "$(sed -n 's/.*"version": "\(.*\)".*/\1/p' "$packaging/vcpkg/ani
 same animeme.rb "$(sed -n 's/^  version "\(.*\)"/\1/p' "$packaging/homebrew/animeme.rb")"
 
 # The symbols file has the names that libanimeme shows, and no others.
-sed -n 's/^ \(animeme_[a-z0-9_]*\)@ANIMEME_0 .*/\1/p' "$debian/libanimeme0.symbols" | diff "$tree/tests/c/exported.txt" - ||
+sed -n 's/^ \(animeme_[a-z0-9_]*\)@ANIMEME_0 .*/\1/p' "$debian/libanimeme0.symbols" |
+  diff "$tree/tests/c/exported.txt" - ||
   fail "libanimeme0.symbols and tests/c/exported.txt differ"
 sed -n 's/.*@ANIMEME_0 //p' "$debian/libanimeme0.symbols" | sort -uV | tail -1 >"$work/newest"
 printf '%s\n%s\n' "$(cat "$work/newest")" "$version" | sort -VC || fail "a symbol is newer than $version"
@@ -32,7 +33,8 @@ printf '%s\n%s\n' "$(cat "$work/newest")" "$version" | sort -VC || fail "a symbo
 sed -n 's/^Package: //p' "$debian/control" | sort >"$work/packages"
 for list in "$debian"/*.install; do basename "$list" .install; done | sort | diff "$work/packages" - ||
   fail "debian/control has other packages than debian/*.install"
-(cd "$prefix" && find . \( -type f -o -type l \) | sed "s|^\./$libdir/|usr/lib/triplet/|; s|^\./|usr/|; s|^usr/lib/triplet/python|usr/lib/python|") >"$work/files"
+(cd "$prefix" && find . \( -type f -o -type l \) |
+  sed "s|^\./$libdir/|usr/lib/triplet/|; s|^\./|usr/|; s|^usr/lib/triplet/python|usr/lib/python|") >"$work/files"
 grep -q . "$work/files" || fail "nothing is installed in $prefix"
 while read -r file; do
   takers=''
@@ -45,14 +47,15 @@ while read -r file; do
   [ "$(echo "$takers" | wc -w)" = 1 ] || fail "$file is in ${takers:-no package}"
 done <"$work/files"
 
-# Scripts parse; those that debian/tests/control names are there, and no others but the one for roots without FFmpeg.
+# Scripts parse; those that debian/tests/control names are there, and no others but that for roots without FFmpeg.
 for script in "$packaging"/*.sh "$debian"/tests/[a-z]*; do
   case $(basename "$script") in control) continue ;; esac
   [ -x "$script" ] || fail "$script cannot be run"
   case $(head -1 "$script") in *bash) bash -n "$script" ;; *) sh -n "$script" ;; esac
 done
 sed -n 's/^Tests: //p' "$debian/tests/control" | tr -d , | xargs -n1 | sort >"$work/named"
-find "$debian/tests" -type f ! -name control ! -name without_media -printf '%f\n' | sort | diff "$work/named" - || fail "debian/tests/control names others"
+find "$debian/tests" -type f ! -name control ! -name without_media -printf '%f\n' | sort | diff "$work/named" - ||
+  fail "debian/tests/control names others"
 if command -v dpkg-parsechangelog >/dev/null; then
   dpkg-parsechangelog -l "$debian/changelog" >/dev/null
   mkdir "$work/debian"
@@ -93,12 +96,14 @@ fi
 # Options that the recipes give to CMake are those of the tree.
 cat "$packaging"/homebrew/*.rb "$packaging"/vcpkg/animeme/portfile.cmake "$debian/rules" |
   grep -o 'ANIMEME_[A-Z]*_[A-Z0-9]*' | grep -v TARBALL | sort -u | while read -r option; do
-  grep -rqE "option\\($option " "$tree/CMakeLists.txt" "$tree"/tools/*/CMakeLists.txt || echo "$option" >>"$work/unknown"
+  grep -rqE "option\\($option " "$tree/CMakeLists.txt" "$tree"/tools/*/CMakeLists.txt ||
+    echo "$option" >>"$work/unknown"
 done
 # Python's room brings its option with it.
 [ -d "$tree/tools/python" ] || sed -i /ANIMEME_BUILD_PYTHON/d "$work/unknown" 2>/dev/null || true
 [ ! -s "$work/unknown" ] || fail "no options of CMake: $(cat "$work/unknown")"
 
 # The port with vcpkg's functions played by others: it configures the codec and the models.
-"$cmake" -DTREE="$tree" -DWORK="$work/port" -P "$(dirname "$0")/vcpkg_port.cmake" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+"$cmake" -DTREE="$tree" -DWORK="$work/port" -P "$(dirname "$0")/vcpkg_port.cmake" >"$work/log" 2>&1 ||
+  { cat "$work/log"; exit 1; }
 echo "$(wc -l <"$work/files") files in $(wc -l <"$work/packages") packages"

@@ -1,5 +1,5 @@
-# Runs tools/packaging/vcpkg/animeme/portfile.cmake with stand-ins for the functions of vcpkg: configures, for archives and
-# for shared libraries, and fails if an option that it gives is not known to the tree.
+# Runs tools/packaging/vcpkg/animeme/portfile.cmake with stand-ins for the functions of vcpkg: configures, for archives
+# and for shared libraries, and fails if an option that it gives is not known to the tree.
 cmake_minimum_required(VERSION 3.25)
 function(vcpkg_check_features)
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "OUT_FEATURE_OPTIONS" "FEATURES")

@@ -45,9 +45,8 @@ void set_up_common(CLI::App& app, CommonFlags& flags) {
     return version_text(app.count("--verbose") > 0,
                         std::count(left.begin(), left.end(), "--json") > 0);
   };
-  app.set_version_flag(
-      "--version", version,
-      "The version and no more; with --verbose modules, libraries and licences, too (--json)");
+  app.set_version_flag("--version", version,
+                       "The version; with --verbose (and --json) libraries and licences, too");
   app.footer(
       "'animeme COMMAND --help' explains a command.\n"
       "Exit codes: 0 ok, 1 a check failed or a recording ended early, 2 usage, 3 bad input, 4\n"

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Tries packages in a fresh minimal Debian where nothing else is, as an ordinary user: speaks with what `animeme` depends on,
-# then with what it recommends, opens the manual, completes a line, and links a program, imports the module of Python if
-# those packages are given. What is run is debian/tests, which autopkgtest runs, too.
+# Tries packages in a fresh minimal Debian where nothing else is, as an ordinary user: speaks with what `animeme`
+# depends on, then with what it recommends, opens the manual, completes a line, and links a program, imports the module
+# of Python if those packages are given. What is run is debian/tests, which autopkgtest runs, too.
 #   tools/packaging/clean_root.sh DEB...
 # Packages come from where apt of this machine has its own. Wants mmdebstrap, and to be root or to have user namespaces.
 set -eu
@@ -33,7 +33,7 @@ apt_get() {
 try() {
   for test in "$@"; do
     chroot "$root" setpriv --reuid=1000 --regid=1000 --clear-groups env -i HOME=/home/somebody USER=somebody \
-      LANG=C.UTF-8 PATH=/usr/local/bin:/usr/bin:/bin TERM=dumb sh -c "cd && exec /debs/tests/$test" >"$root/log" 2>&1 ||
+      LANG=C.UTF-8 PATH=/usr/bin:/bin TERM=dumb sh -c "cd && exec /debs/tests/$test" >"$root/log" 2>&1 ||
       { say "$test failed"; cat "$root/log"; exit 1; }
     say "$test: right"
   done
@@ -95,7 +95,8 @@ command -v mmdebstrap >/dev/null || { echo "mmdebstrap is missing" >&2; exit 77;
 debs=''
 for deb in "$@"; do debs="$debs $(realpath "$deb")"; done
 export debs
-sources=$(grep -lsE "(^|[ :])$suite( |$)" /etc/apt/sources.list /etc/apt/sources.list.d/*.list /etc/apt/sources.list.d/*.sources || true)
+sources=$(grep -lsE "(^|[ :])$suite( |$)" /etc/apt/sources.list /etc/apt/sources.list.d/*.list \
+  /etc/apt/sources.list.d/*.sources || true)
 # shellcheck disable=SC2086  # words
 mmdebstrap --quiet --variant=apt --format=null --customize-hook="'$here/clean_root.sh' --inside \"\$1\"" \
   $suite /dev/null $sources

@@ -29,7 +29,7 @@ while [ $# -gt 0 ]; do
 done
 [ -n "$out" ] || usage
 for program in dpkg-buildpackage dh lintian doxygen; do
-  command -v $program >/dev/null || { echo "$program is missing (Debian: dpkg-dev debhelper lintian doxygen)" >&2; exit 1; }
+  command -v $program >/dev/null || { echo "$program is missing: run tools/setup.sh packages" >&2; exit 1; }
 done
 mkdir -p "$out"
 out=$(cd "$out" && pwd)

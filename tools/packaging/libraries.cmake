@@ -1,6 +1,6 @@
 # What we are linked with and under which licences: the rows of libraries.tsv, and documents made of them.
 
-# animeme_libraries(RESULT): the rows, each as "name|object|licence|version|use|by", with the versions that are installed.
+# animeme_libraries(RESULT): the rows, each as "name|object|licence|version|use|by", with the versions installed.
 function(animeme_libraries result)
   find_program(ANIMEME_PKG_CONFIG pkg-config)
   mark_as_advanced(ANIMEME_PKG_CONFIG)
@@ -42,9 +42,9 @@ std::span<const Library> known_libraries() { return kLibraries; }
 ]])
 endfunction()
 
-# animeme_spdx(PACKAGE COMPONENT component [LINKED targets...] [LOADED targets...] [CONTAINS names...]): the SPDX document of
-# a package: what the objects of LINKED targets are linked with, what LOADED ones (modules) need once they are asked for, and
-# whose headers became part of them. Installed with `component`.
+# animeme_spdx(PACKAGE COMPONENT component [LINKED targets...] [LOADED targets...] [CONTAINS names...]): the SPDX
+# document of a package: what the objects of LINKED targets are linked with, what LOADED ones (modules) need once they
+# are asked for, and whose headers became part of them. Installed with `component`.
 function(animeme_spdx package)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "COMPONENT" "LINKED;LOADED;CONTAINS")
   set(linked "")
@@ -64,7 +64,8 @@ function(animeme_spdx package)
   add_custom_command(OUTPUT ${document} COMMENT "SPDX document of ${package}" VERBATIM
     DEPENDS ${targets} ${script} ${PROJECT_SOURCE_DIR}/tools/packaging/libraries.tsv
     COMMAND ${CMAKE_COMMAND} -DPACKAGE=${package} -DVERSION=${PROJECT_VERSION} -DREADELF=${CMAKE_READELF}
-      "-DLINKED=$<JOIN:${linked},,>" "-DLOADED=$<JOIN:${loaded},,>" -DCONTAINS=${contains} -DOUTPUT=${document} -P ${script})
+      "-DLINKED=$<JOIN:${linked},,>" "-DLOADED=$<JOIN:${loaded},,>" -DCONTAINS=${contains} -DOUTPUT=${document}
+      -P ${script})
   add_custom_target(spdx_${package} ALL DEPENDS ${document})
   install(FILES ${document} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/animeme COMPONENT ${arg_COMPONENT} OPTIONAL)
 endfunction()

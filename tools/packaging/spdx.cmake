@@ -48,8 +48,8 @@ macro(add row object relationship)
     if(NOT "${object}" STREQUAL "")
       string(APPEND text "PackageFileName: ${object}\n")
     endif()
-    string(APPEND text "PackageDownloadLocation: NOASSERTION\nFilesAnalyzed: false\nPackageLicenseConcluded: ${licence}\n"
-      "PackageLicenseDeclared: ${licence}\nPackageCopyrightText: NOASSERTION\n")
+    string(APPEND text "PackageDownloadLocation: NOASSERTION\nFilesAnalyzed: false\n"
+      "PackageLicenseConcluded: ${licence}\nPackageLicenseDeclared: ${licence}\nPackageCopyrightText: NOASSERTION\n")
     set(said "${relationship}")
     string(REPLACE "%1" "${id}" said "${said}")
     string(REPLACE "%2" "SPDXRef-${PACKAGE}" said "${said}")
@@ -118,7 +118,8 @@ string(SHA256 digest "${VERSION}${text}${relationships}")
 string(SUBSTRING ${digest} 0 32 digest)
 set(extracted "")
 if("LicenseRef-nonfree" IN_LIST licences)
-  set(extracted "\nLicenseID: LicenseRef-nonfree\nExtractedText: <text>FFmpeg configured with --enable-nonfree: not to be passed on.</text>\n")
+  set(extracted "\nLicenseID: LicenseRef-nonfree\n")
+  string(APPEND extracted "ExtractedText: <text>FFmpeg with --enable-nonfree: not to be passed on.</text>\n")
 endif()
 file(WRITE ${OUTPUT} "SPDXVersion: SPDX-2.3
 DataLicense: CC0-1.0
@@ -135,7 +136,8 @@ PackageDownloadLocation: NOASSERTION
 FilesAnalyzed: false
 PackageLicenseConcluded: ${concluded}
 PackageLicenseDeclared: MIT AND CC-BY-4.0
-PackageLicenseComments: <text>The sources are under MIT, the built-in model (from the GRID corpus) under CC-BY-4.0. What is built falls under the licences of all that it is linked with.</text>
+PackageLicenseComments: <text>The sources are under MIT, the built-in model (from the GRID corpus) under CC-BY-4.0.
+What is built falls under the licences of all that it is linked with.</text>
 PackageCopyrightText: <text>Copyright (c) 2026 The Animeme authors</text>
 ${text}
 ${relationships}${extracted}")
