@@ -187,8 +187,12 @@ std::string version_text(bool verbose, bool json) {
   if (!verbose) {
     return json ? pretty(Json{{"version", ANIMEME_VERSION}}) : "animeme " ANIMEME_VERSION;
   }
-  const std::vector<Module> modules = load_modules();
+  std::vector<Module> modules = load_modules();
   const std::vector<Found> found = found_libraries();
+  // A build of shared libraries is linked with FFmpeg itself.
+  for (const Found& one : found) {
+    if (one.library->name == std::string_view("libavformat")) modules.front().problem.clear();
+  }
   return json ? as_json(modules, found) : as_text(modules, found);
 }
 
