@@ -29,6 +29,14 @@ done
 [ $count -gt 20 ] || fail "only $count objects"
 ! echo "$said" | grep -E '"licence[a-z_]*": "(NOASSERTION|FFmpeg|)"' || fail "no licence"
 ! grep -E '^PackageLicense(Concluded|Declared):.*(NOASSERTION|FFmpeg)' "$spdx"/*.spdx || fail "no licence"
+# Documents hang together: packages are whole, and relationships are between those that are there.
+for document in "$spdx"/*.spdx; do
+  awk '/^PackageName:/ {names++} /^PackageDownloadLocation:/ {places++} /^PackageLicenseConcluded:/ {licences++}
+    /^SPDXID:/ {if ($2 in ids || $2 !~ /^SPDXRef-[A-Za-z0-9.-]+$/) bad = $2; ids[$2]}
+    /^Relationship:/ {from[NR] = $2; to[NR] = $4}
+    END {for (line in from) if (!(from[line] in ids) || !(to[line] in ids)) bad = from[line] " " to[line]
+      if (bad != "" || names < 2 || places != names || licences != names) {print FILENAME ": " bad; exit 1}}' "$document"
+done
 # FFmpeg says how it was configured, espeak-ng is what decides.
 echo "$said" | grep -q '"licence_as_linked": "GPL-3.0-or-later"' || fail "espeak-ng is linked, and does not decide"
 if command -v ffmpeg >/dev/null; then
