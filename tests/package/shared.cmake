@@ -2,16 +2,19 @@
 # where it lies, none shows what is internal, and a program of others runs with them.
 include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
 step("configure" ${configure} -S ${ANIMEME_DIR} -B ${WORK}/build -DBUILD_SHARED_LIBS=ON -DANIMEME_BUILD_DAM=OFF
-  -DANIMEME_BUILD_TOOLS=OFF -DANIMEME_BUILD_TESTS=OFF -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=16
+  -DANIMEME_BUILD_TOOLS=OFF -DANIMEME_BUILD_C=OFF -DANIMEME_BUILD_TESTS=OFF
+  -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=16
   -DCMAKE_INSTALL_LIBDIR=lib)
-step("build" ${CMAKE_COMMAND} --build ${WORK}/build --parallel 2)
-step("install" ${CMAKE_COMMAND} --install ${WORK}/build --prefix ${WORK}/made)
+step("build" ${CMAKE_COMMAND} --build ${WORK}/build --target animeme_fba --parallel 2)
+foreach(component fap fba package)
+  step("install ${component}" ${CMAKE_COMMAND} --install ${WORK}/build --prefix ${WORK}/made --component ${component})
+endforeach()
 file(RENAME ${WORK}/made ${WORK}/installed)
 
 set(version "")
 file(STRINGS ${ANIMEME_DIR}/CMakeLists.txt line REGEX "^project\\(animeme VERSION" LIMIT_COUNT 1)
 string(REGEX MATCH "[0-9]+\\.[0-9]+" version "${line}")
-foreach(library fap fba head)
+foreach(library fap fba)
   set(file ${WORK}/installed/lib/libanimeme_${library}.so)
   step("look at ${library}" readelf -d ${file})
   if(NOT output MATCHES "SONAME[^\n]*libanimeme_${library}\\.so\\.${version}\\]")
@@ -33,9 +36,12 @@ if(NOT output MATCHES "animeme::fba::decode\\(")
   message(FATAL_ERROR "decode() is not shown")
 endif()
 
-step("configure a consumer" ${configure} -S ${TESTS}/consumer -B ${WORK}/consumer -DCMAKE_PREFIX_PATH=${WORK}/installed
-  -DCOMPONENTS=fap,fba,head)
-step("build a consumer" ${CMAKE_COMMAND} --build ${WORK}/consumer --parallel 2)
-foreach(component fap fba head)
-  step("run ${component}" ${WORK}/consumer/${component}/use_${component})
-endforeach()
+file(WRITE ${WORK}/user/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)
+project(user LANGUAGES CXX)
+find_package(animeme REQUIRED COMPONENTS fba)
+add_executable(user ${TESTS}/consumer/fba.cpp)
+target_link_libraries(user PRIVATE animeme::fba)
+")
+step("configure a user" ${configure} -S ${WORK}/user -B ${WORK}/user/build -DCMAKE_PREFIX_PATH=${WORK}/installed)
+step("build a user" ${CMAKE_COMMAND} --build ${WORK}/user/build)
+step("run a user" ${WORK}/user/build/user)
