@@ -37,7 +37,7 @@ if [ "$mode" = elsewhere ]; then
 fi
 # Without these, tests skip and say so.
 readers="ffmpeg mediainfo mkvtoolnix clang-format-14 universal-ctags make parallel python3-yaml"
-[ "$mode" = full ] && readers="$readers mpv chromium doxygen slurm-wlm munge libopenmpi-dev man-db zsh fish
+[ "$mode" = full ] && readers="$readers mpv chromium doxygen slurm-wlm munge libopenmpi-dev man-db zsh fish ruby
   gstreamer1.0-tools gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad"
 
 # True if node 18 or later and npm are there, from wherever.
