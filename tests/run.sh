@@ -7,13 +7,14 @@
 #   tests/run.sh quick       the release build only
 #   tests/run.sh site        makes the site, and looks at all its pages in Chromium: dead links, what axe finds
 #   tests/run.sh elsewhere   the libraries as WebAssembly under node, and for ARM under QEMU
+#   tests/run.sh packages    the Debian packages, into build/packages, and what they do in a clean root
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 mode=${1:-tests}
 case $mode in
   tests | quick) packages=tests ;;
-  full | site | elsewhere) packages=$mode ;;
-  *) echo "usage: tests/run.sh [full|quick|site|elsewhere]" >&2; exit 2 ;;
+  full | site | elsewhere | packages) packages=$mode ;;
+  *) echo "usage: tests/run.sh [full|quick|site|elsewhere|packages]" >&2; exit 2 ;;
 esac
 cd "$here"
 # Large pages for what compilers and trainings allocate: an eighth of the time of clang, a quarter of training. Other
@@ -25,6 +26,7 @@ status=0
 case $mode in
   quick) presets=release ;;
   elsewhere) presets="wasm arm64" ;;
+  packages) presets="" ;;
   *) presets="release asan" ;;
 esac
 
@@ -101,4 +103,9 @@ for preset in $presets; do
     arm64) needs_program arm64 aarch64-linux-gnu-g++ && needs_program arm64 qemu-aarch64 && run arm64 0 ;;
   esac || true
 done
+if [ "$mode" = packages ]; then
+  rm -rf build/packages
+  part "packages: build, lintian" tools/packaging/deb.sh -o build/packages -w build/packages-tree || finish
+  part "packages: clean root" tools/packaging/clean_root.sh build/packages/*.deb || true
+fi
 finish

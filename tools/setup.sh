@@ -8,6 +8,7 @@
 #                            tests/readers/js/node_modules and tools/trackers/mediapipe/node_modules
 #   tools/setup.sh site      what makes the site and looks for dead links there
 #   tools/setup.sh elsewhere compilers for WebAssembly and ARM, and what runs their programs
+#   tools/setup.sh packages  what tools/packaging/deb.sh and clean_root.sh need
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 
@@ -27,6 +28,10 @@ case $mode in
   tests | full) packages="$packages libgtest-dev libgmock-dev libbenchmark-dev
     clang-14 libclang-rt-14-dev llvm-14" ;;
 esac
+if [ "$mode" = packages ]; then
+  packages="$packages dpkg-dev debhelper fakeroot doxygen lintian mmdebstrap libopenmpi-dev
+    dh-python python3-dev pybind11-dev python3-numpy"
+fi
 if [ "$mode" = elsewhere ]; then
   packages="g++ cmake ninja-build libeigen3-dev libgtest-dev"
   foreign="emscripten g++-aarch64-linux-gnu qemu-user"
@@ -34,7 +39,7 @@ fi
 # Without these, tests skip and say so.
 readers="ffmpeg mediainfo mkvtoolnix clang-format-14 universal-ctags make parallel python3-yaml
   pybind11-dev python3-dev python3-pytest python3-numpy python3-matplotlib python3-pip python3-setuptools python3-wheel"
-[ "$mode" = full ] && readers="$readers mpv chromium blender doxygen slurm-wlm munge libopenmpi-dev man-db zsh fish
+[ "$mode" = full ] && readers="$readers mpv chromium blender doxygen slurm-wlm munge libopenmpi-dev man-db zsh fish ruby
   gstreamer1.0-tools gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad"
 
 # True if node 18 or later and npm are there, from wherever.

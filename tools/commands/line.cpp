@@ -5,9 +5,11 @@
 #include <iostream>
 #include <iterator>
 #include <string>
+#include <vector>
 
 #include "tools/commands/common.h"
 #include "tools/commands/did_you_mean.h"
+#include "tools/commands/licences.h"
 #include "tools/commands/outputs.h"
 
 namespace animeme::tools {
@@ -37,7 +39,14 @@ void set_up_common(CLI::App& app, CommonFlags& flags) {
       "Makes faces talk (FAPs), codes them (FBA, a few kbit/s) and muxes them with the voice.");
   app.name("animeme");
   app.require_subcommand(1);
-  app.set_version_flag("--version", "animeme " ANIMEME_VERSION);
+  // --json is an option of commands; here it is one word that is left over.
+  const auto version = [&app] {
+    const std::vector<std::string> left = app.remaining();
+    return version_text(app.count("--verbose") > 0,
+                        std::count(left.begin(), left.end(), "--json") > 0);
+  };
+  app.set_version_flag("--version", version,
+                       "The version; with --verbose (and --json) libraries and licences, too");
   app.footer(
       "'animeme COMMAND --help' explains a command.\n"
       "Exit codes: 0 ok, 1 a check failed or a recording ended early, 2 usage, 3 bad input, 4\n"

@@ -27,7 +27,9 @@ function(animeme_library name folder)
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(animeme_${name} PUBLIC cxx_std_20)
   target_link_libraries(animeme_${name} PRIVATE $<BUILD_INTERFACE:animeme_build>)
-  set_target_properties(animeme_${name} PROPERTIES EXPORT_NAME ${name})
+  # C++ interfaces change with every minor version, as the CMake package says, too (SameMinorVersion).
+  set_target_properties(animeme_${name} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   install(TARGETS animeme_${name} EXPORT animeme_${name} COMPONENT ${name}
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(EXPORT animeme_${name} NAMESPACE animeme:: FILE animeme-${name}.cmake COMPONENT ${name}

@@ -23,10 +23,12 @@ const Functions& load() {
     problem = "animeme_ffmpeg.so is not of this version";
   }
   // Nothing that a caller could do about it, and no input that brings it about.
-  std::fprintf(stderr,
-               "animeme: what reads and writes sound and video does not load: %s; it belongs "
-               "beside the program, or into " ANIMEME_MODULE_FOLDER " from there: install again\n",
-               problem.c_str());
+  std::fprintf(
+      stderr,
+      "animeme: what reads and writes sound and video does not load: %s; if a library is "
+      "missing, install FFmpeg (Debian: libavformat59 libswscale6); animeme_ffmpeg.so itself "
+      "belongs beside the program, or into " ANIMEME_MODULE_FOLDER " from there\n",
+      problem.c_str());
   std::_Exit(int(tools::kInternal));
 }
 
