@@ -92,6 +92,7 @@ int run_line(std::span<const char* const> arguments) {
     if (const std::string text = problem_with_outputs(*command); !text.empty()) {
       return usage_error(text);
     }
+    if (auto can = outputs_can_be_written(*command); !can) return report_error(can.error());
   }
   const Result<int> result = chosen();
   return result ? *result : report_error(result.error());

@@ -16,4 +16,10 @@ inline std::string read_shard(const std::string& text, int& shard, int& shards) 
   return good ? "" : "--shard wants I/N with I from 1 to N, as 1/4, not " + text;
 }
 
+/// The same where the two numbers are not wanted yet.
+inline std::string problem_of_shard(const std::string& text) {
+  int shard = 0, shards = 0;
+  return read_shard(text, shard, shards);
+}
+
 }  // namespace animeme::tools
