@@ -116,10 +116,7 @@ std::string take(const BatchOptions& given, batch::Settings& settings) {
     if (equals == std::string::npos) return "--set wants COLUMN=VALUE, not " + one;
     settings.defaults.emplace_back(one.substr(0, equals), one.substr(equals + 1));
   }
-  if (!given.shard.empty()) {
-    if (std::string text = read_shard(given.shard, settings.shard, settings.shards); !text.empty())
-      return text;
-  }
+  if (!given.shard.empty()) read_shard(given.shard, settings.shard, settings.shards);
   if (!settings.shared.store.empty() && settings.shared.to.empty()) {
     return "--store wants --to, what {uri} begins with";
   }

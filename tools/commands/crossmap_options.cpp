@@ -114,7 +114,7 @@ void add_key_options(CLI::App& app, CrossmapOptions& options) {
           ->check(between(-1e9, 0)));
   add(app.add_option("--key", options.named,
                      "A key shape of your choice, NAME=take.csv:1.24 (seconds); once for each")
-          ->type_name("NAME=FILE:SECONDS")
+          ->type_name("KEY=FILE:SECONDS")
           ->check(written_so(problem_of_key)));
   add(app.add_option("--keys", options.keys,
                      "Folder of key shapes that --write-keys wrote and you adjusted"));

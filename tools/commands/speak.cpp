@@ -351,7 +351,8 @@ void add_options(CLI::App& app, SpeakOptions& options) {
   app.get_option("--lang")->each([&options](const std::string&) { options.language_told = true; });
   add_exact_option(app, options.exact);
   app.add_option("--seed", options.seed, "Other times of blinks and another sway of the head")
-      ->option_text("NUMBER=1");
+      ->option_text("NUMBER=1")
+      ->check(between(0, 1e9));
   add_stream_options(app, options.stream);
   add_preview_option(app, options.preview);
   add_sound_options(app, options.sound, false);

@@ -52,7 +52,8 @@ void add_source_options(CLI::App& app, StreamOptions& options) {
   app.add_flag("--life", options.program.life, "Add blinks, and brows and head that move a little");
   app.add_option("--seed", options.program.seed,
                  "Other times of blinks and another sway of the head")
-      ->needs("--life");
+      ->needs("--life")
+      ->check(between(0, 1e9));
 }
 
 void add_coding_options(CLI::App& app, StreamOptions& options) {

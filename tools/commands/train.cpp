@@ -113,8 +113,8 @@ std::string misplaced(const CLI::App& app, const std::string& method) {
 
 Result<int> run(const CLI::App& app, TrainOptions& options) {
   std::string text = misuse(options);
-  if (text.empty() && !options.shard.empty())
-    text = read_shard(options.shard, options.corpus.shard, options.corpus.shards);
+  if (!options.shard.empty())
+    read_shard(options.shard, options.corpus.shard, options.corpus.shards);
   if (!text.empty()) return usage_error(text);
   text = misplaced(app, options.method);
   if (!text.empty()) return usage_error(text);

@@ -1,0 +1,93 @@
+// Values that no option can mean end in 2 with the option's name, before anything else is looked
+// at: no command is given an input here.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/commands/help_lines.h"
+
+namespace animeme {
+namespace bounds_test {
+
+using test::animeme;
+using test::HelpLine;
+using testing::HasSubstr;
+
+// What may be any text, or is looked for on the disk.
+bool takes_any_text(const HelpLine& line) {
+  static const std::set<std::string> kinds = {"TEXT", "FILE",    "NAME", "OUT",
+                                              "OUT/", "COMMAND", "LANG", "COLUMN"};
+  return kinds.contains(line.value);
+}
+
+TEST(Bounds, EveryValueIsChecked) {
+  int options = 0;
+  for (const std::string& command : test::all_commands()) {
+    for (const HelpLine& line : test::help_of(command).lines) {
+      if (line.argument() || takes_any_text(line)) continue;
+      ++options;
+      for (const char* value :
+           {"", "x!", "nan", "-nan", "-1e30", "1e30", "9999999999999999999999"}) {
+        // No extended shapes at all, as Rhubarb has it.
+        if (line.value == "SHAPES" && std::string(value).empty()) continue;
+        const auto result = animeme({command, line.name, value});
+        EXPECT_EQ(result.exit_code, 2) << command << " " << line.name << " '" << value << "'";
+        EXPECT_THAT(result.err, HasSubstr(line.name)) << command << " '" << value << "'";
+      }
+    }
+  }
+  EXPECT_GT(options, 120);
+}
+
+// Numbers do not hide among texts.
+TEST(Bounds, NumbersAreNoTexts) {
+  const std::set<std::string> numbers = {
+      "--rate",        "--size",       "--sheet",      "--time",     "--view",    "--gain",
+      "--quant",       "--seed",       "--pcm",        "--duration", "--shard",   "--pixel-aspect",
+      "--depth-scale", "--lag",        "--confidence", "--fapu",     "--key",     "--faps",
+      "--curves",      "--preference", "--zoom",       "--jobs",     "--timeout", "--max-rms",
+      "--closed-gap",  "--folds",      "--draws",      "--delay"};
+  std::set<std::string> seen;
+  for (const std::string& command : test::all_commands()) {
+    for (const HelpLine& line : test::help_of(command).lines) {
+      if (!numbers.contains(line.name)) continue;
+      seen.insert(line.name);
+      EXPECT_FALSE(takes_any_text(line)) << command << " " << line.name << " " << line.value;
+    }
+  }
+  EXPECT_EQ(seen, numbers);
+}
+
+// Beside the ends of what is allowed.
+TEST(Bounds, JustOutsideIsOutside) {
+  const std::vector<std::vector<std::string>> lines = {{"encode", "--quant", "32"},
+                                                       {"encode", "--quant", "-1"},
+                                                       {"encode", "--quant", "1.5"},
+                                                       {"render", "--size", "0x64"},
+                                                       {"render", "--size", "8193x64"},
+                                                       {"render", "--sheet", "21x20"},
+                                                       {"render", "--time", "1,-1"},
+                                                       {"render", "--gain", "0.2"},
+                                                       {"render", "--view", "361"},
+                                                       {"train", "--shard", "5/4"},
+                                                       {"batch", "--shard", "0/4"},
+                                                       {"stream", "--pcm", "16000:0"},
+                                                       {"import", "--depth-scale", "0"},
+                                                       {"import", "--confidence", "1.1"},
+                                                       {"crossmap", "--fapu", "MW=0"},
+                                                       {"crossmap", "--key", "M=take.csv:-1"},
+                                                       {"crossmap", "--preference", "0.1"},
+                                                       {"plot", "--faps", "3,69"},
+                                                       {"speak", "--rate", "0"},
+                                                       {"speak", "--rate", "-25"},
+                                                       {"train", "--lag", "1001"}};
+  for (const std::vector<std::string>& line : lines) {
+    const auto result = animeme(line);
+    EXPECT_EQ(result.exit_code, 2) << line[0] << " " << line[1] << " " << line[2];
+    EXPECT_THAT(result.err, HasSubstr(line[1])) << line[0] << " " << line[2];
+  }
+}
+
+}  // namespace bounds_test
+}  // namespace animeme
