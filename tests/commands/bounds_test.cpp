@@ -28,7 +28,7 @@ TEST(Bounds, EveryValueIsChecked) {
       if (line.argument() || takes_any_text(line)) continue;
       ++options;
       for (const char* value :
-           {"", "x!", "nan", "-nan", "-1e30", "1e30", "9999999999999999999999"}) {
+           {"", "x!", "nan", "-1e30", "9999999999999999999999"}) {
         // No extended shapes at all, as Rhubarb has it.
         if (line.value == "SHAPES" && std::string(value).empty()) continue;
         const auto result = animeme({command, line.name, value});

@@ -41,17 +41,6 @@ std::vector<std::string> with_output(const HelpOfCommand& command, const HelpLin
   return arguments;
 }
 
-// An ending that fits, as the message about one that does not lists them.
-std::string ending_of(const HelpOfCommand& command, const HelpLine& output) {
-  if (output.value == "OUT/") return "";
-  const std::string said = animeme(with_output(command, output, "a.nope", "a.nope")).err;
-  const std::string key = output.name + " must end in ";
-  const std::size_t at = said.find(key);
-  if (at == std::string::npos) return ".csv";
-  const std::size_t from = at + key.size();
-  return said.substr(from, said.find_first_of(", ", from) - from);
-}
-
 class Outputs : public testing::Test {
  protected:
   void SetUp() override {
@@ -61,11 +50,31 @@ class Outputs : public testing::Test {
   }
   void TearDown() override { fs::permissions(dir_ / "readonly", fs::perms::owner_all); }
 
+  // An ending that fits, as the message about one that does not lists them.
+  std::string ending_of(const HelpOfCommand& command, const HelpLine& output) {
+    if (output.value == "OUT/") return "";
+    const std::string odd = dir_ / "a.nope";
+    const std::string said = animeme(with_output(command, output, odd, spare(command, output))).err;
+    const std::string key = output.name + " must end in ";
+    const std::size_t at = said.find(key);
+    if (at == std::string::npos) return ".csv";
+    const std::size_t from = at + key.size();
+    return said.substr(from, said.find_first_of(", ", from) - from);
+  }
+
+  // A file for another output that is required.
+  std::string spare(const HelpOfCommand& command, const HelpLine& but) {
+    for (const HelpLine& line : command.lines) {
+      if (line.required && is_output(line) && line.name != but.name) {
+        return dir_ / ("spare" + ending_of(command, line));
+      }
+    }
+    return "";
+  }
+
   void refused(const HelpOfCommand& command, const HelpLine& output, const std::string& path,
                const std::string& ending) {
-    const auto arguments =
-        with_output(command, output, path, dir_ / ("spare" + spare_ending(command, output)));
-    const auto result = animeme(arguments);
+    const auto result = animeme(with_output(command, output, path, spare(command, output)));
     const std::string line = command.name + " " + output.name + " " + path + ending;
     EXPECT_EQ(result.exit_code, 3) << line << "\n" << result.err;
     EXPECT_THAT(result.err, HasSubstr(path)) << line;
@@ -74,15 +83,6 @@ class Outputs : public testing::Test {
                                   HasSubstr("free some space"), HasSubstr("must be writable"),
                                   HasSubstr("Not a directory")))
         << line;
-  }
-
-  // Of another output that is required.
-  static std::string spare_ending(const HelpOfCommand& command, const HelpLine& but) {
-    for (const HelpLine& line : command.lines) {
-      if (line.required && is_output(line) && line.name != but.name)
-        return ending_of(command, line);
-    }
-    return "";
   }
 
   const TempDir dir_;
@@ -153,7 +153,7 @@ TEST_F(Outputs, PipesAreNotOpenedTwice) {
                                          "mkfifo " + pipe + "; cat " + pipe + " & " + program +
                                              " -q encode " + plain + " -o " + pipe + "; wait"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_GT(result.out.size(), 100u);
+  EXPECT_GT(result.out.size(), 40u);
 }
 
 }  // namespace unwritable_outputs_test

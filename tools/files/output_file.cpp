@@ -210,7 +210,10 @@ Result<void> flush_standard_output() {
   errno = 0;
   std::cout.flush();
   const bool done = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && !std::cout.bad();
-  return done ? Result<void>() : output_error("standard output", errno == 0 ? EIO : errno);
+  if (done) return {};
+  // The reason of a write that failed before is asked for again.
+  const bool fails = errno != 0 || ::write(STDOUT_FILENO, "", 0) != 0;
+  return output_error("standard output", fails ? errno : EIO);
 }
 
 Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes) {

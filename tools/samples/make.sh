@@ -38,6 +38,11 @@ program my_tts <<'END'
 # Stands for a text to speech program that prints its phones: begin, end, phone.
 printf '0 0.3 SIL\n0.3 0.42 HH\n0.42 0.5 EH\n0.5 0.6 L\n0.6 0.9 OW\n0.9 1.1 SIL\n'
 END
+program my_voice <<'END'
+#!/bin/sh
+# Stands for a voice of yours: writes the sound of a text to a file.
+cp voice.wav "$1"
+END
 program my_player <<'END'
 #!/bin/sh
 # Stands for a player: takes what comes and counts its lines.
