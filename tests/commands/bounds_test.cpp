@@ -27,8 +27,7 @@ TEST(Bounds, EveryValueIsChecked) {
     for (const HelpLine& line : test::help_of(command).lines) {
       if (line.argument() || takes_any_text(line)) continue;
       ++options;
-      for (const char* value :
-           {"", "x!", "nan", "-1e30", "9999999999999999999999"}) {
+      for (const char* value : {"", "x!", "nan", "-1e30", "9999999999999999999999"}) {
         // No extended shapes at all, as Rhubarb has it.
         if (line.value == "SHAPES" && std::string(value).empty()) continue;
         const auto result = animeme({command, line.name, value});

@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -46,7 +45,7 @@ std::optional<crossmap::NamedKey> parse_key(std::string text) {
     text.erase(0, at + 1);
   }
   const auto seconds = number_of_text(text);
-  if (!seconds || !(*seconds >= 0) || !std::isfinite(*seconds)) return std::nullopt;
+  if (!seconds || !(*seconds >= 0 && *seconds <= 1e9)) return std::nullopt;
   key.seconds = *seconds;
   return key;
 }

@@ -21,7 +21,7 @@ const char* const kGainHelp =
 
 std::string problem_of_gain(const std::string& text) {
   const bool known = text == "auto" || studio::gain_of(text);
-  return known ? "" : "is auto or a number from 0.25 to 4, not \"" + text + "\"";
+  return known ? "" : "auto or a number from 0.25 to 4 is wanted, not \"" + text + "\"";
 }
 
 }  // namespace

@@ -67,21 +67,21 @@ std::optional<Pair> parse_pair(const std::string& text, int most) {
 
 // What is wrong with a value, for the line that is read.
 std::string problem_of_pixels(const std::string& text) {
-  return parse_pair(text, kLargestPicture) ? "" : "is WIDTHxHEIGHT, such as 640x640, up to 8192";
+  return parse_pair(text, kLargestPicture) ? "" : "WIDTHxHEIGHT is wanted, such as 640x640, up to 8192";
 }
 
 std::string problem_of_sheet(const std::string& text) {
   const auto sheet = parse_pair(text, kMostPictures);
   return sheet && sheet->x * sheet->y <= kMostPictures
              ? ""
-             : "is COLUMNSxROWS, such as 4x3, of 400 pictures at most";
+             : "COLUMNSxROWS is wanted, such as 4x3, of 400 pictures at most";
 }
 
 std::string problem_of_view(const std::string& text) {
   const auto degrees = render::view_degrees(text);
   return degrees && std::abs(*degrees) <= 360
              ? ""
-             : "is front, three-quarter, side or degrees to the left";
+             : "front, three-quarter, side or degrees to the left are wanted";
 }
 
 // What was asked for, checked.
