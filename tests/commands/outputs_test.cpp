@@ -61,7 +61,7 @@ class Outputs : public testing::Test {
   // An ending that fits, as the message about one that does not lists them.
   std::string ending_of(const HelpOfCommand& command, const HelpLine& output) {
     if (output.value == "OUT/") return "";
-    const std::string odd = dir_ / "a.nope";
+    const std::string odd = dir_ / "none/a.nope";
     const std::string said = animeme(with_output(command, output, odd, spare(command, output))).err;
     const std::string key = output.name + " must end in ";
     const std::size_t at = said.find(key);

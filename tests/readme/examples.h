@@ -96,7 +96,9 @@ inline void add_lines(const Paragraph& paragraph, Example& out) {
     if (transcript) line.erase(0, 2);
     if (joined.empty() && line.starts_with("    ")) continue;
     const std::size_t comment = comment_at(line);
-    needs |= line.find("needs ", comment) != std::string::npos;
+    // "needs ..." begins a comment, or what is behind a semicolon in it.
+    needs |= line.find("# needs ", comment) != std::string::npos ||
+             line.find("; needs ", comment) != std::string::npos;
     std::string code = line.substr(0, comment);
     code.erase(code.find_last_not_of(' ') + 1);
     joined += code;
