@@ -36,11 +36,12 @@ inline std::size_t comment_at(const std::string& line) {
 inline bool runs_animeme(const std::string& line) {
   const std::string name = "animeme ";
   for (std::size_t at = line.find(name); at != std::string::npos; at = line.find(name, at + 1)) {
-    const std::string before = line.substr(0, at);
+    std::string before = line.substr(0, at);
+    for (const char* path : {"build/release/bin/", "mpirun -n 8 "}) {
+      if (before.ends_with(path)) before.resize(before.size() - std::string(path).size());
+    }
     const std::size_t last = before.find_last_not_of(' ');
-    const bool begins =
-        last == std::string::npos || std::string("|&;(").find(before[last]) != std::string::npos;
-    if (begins || before.ends_with("build/release/bin/") || before.ends_with("mpirun -n 8 ")) {
+    if (last == std::string::npos || std::string("|&;").find(before[last]) != std::string::npos) {
       return true;
     }
   }
