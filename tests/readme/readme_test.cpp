@@ -49,21 +49,30 @@ void make_tree(const fs::path& folder) {
   }
 }
 
-// An even one, as RTP wants it.
+// A port of this machine; of 0 any that is free. 0: it is taken.
+int bound(int type, int port) {
+  const int socket = ::socket(AF_INET, type, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(std::uint16_t(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  const bool done = ::bind(socket, reinterpret_cast<sockaddr*>(&address), size) == 0;
+  ::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size);
+  ::close(socket);
+  return done ? ntohs(address.sin_port) : 0;
+}
+
+// An even one, as RTP wants it, with the one behind it. Linux gives odd ones first.
 int free_port() {
-  int port = 1;
-  while (port % 2 != 0) {
-    const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    ::bind(socket, reinterpret_cast<sockaddr*>(&address), size);
-    ::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size);
-    ::close(socket);
-    port = ntohs(address.sin_port);
+  for (int i = 0; i < 1000; ++i) {
+    const int port = bound(SOCK_DGRAM, 0) & ~1;
+    if (port > 1024 && bound(SOCK_DGRAM, port) != 0 && bound(SOCK_DGRAM, port + 1) != 0 &&
+        bound(SOCK_STREAM, port) != 0) {
+      return port;
+    }
   }
-  return port;
+  return 0;
 }
 
 // Ports that nobody has instead of those that are written: tests run beside each other.
