@@ -67,7 +67,8 @@ std::optional<Pair> parse_pair(const std::string& text, int most) {
 
 // What is wrong with a value, for the line that is read.
 std::string problem_of_pixels(const std::string& text) {
-  return parse_pair(text, kLargestPicture) ? "" : "WIDTHxHEIGHT is wanted, such as 640x640, up to 8192";
+  return parse_pair(text, kLargestPicture) ? ""
+                                           : "WIDTHxHEIGHT is wanted, such as 640x640, up to 8192";
 }
 
 std::string problem_of_sheet(const std::string& text) {
