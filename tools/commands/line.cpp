@@ -82,9 +82,10 @@ int run_line(std::span<const char* const> arguments) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0) {
       const std::string guess = did_you_mean(app, arguments.subspan(1));
-      if (!guess.empty()) return usage_error(guess);
+      return usage_error(guess.empty() ? error.what() : guess);
     }
-    return app.exit(error) == 0 ? kOk : kUsage;
+    app.exit(error);  // help
+    return kOk;
   }
   set_quiet(flags.quiet);
   set_verbose(flags.verbose);
