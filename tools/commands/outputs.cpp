@@ -156,10 +156,11 @@ Result<void> outputs_can_be_written(const CLI::App& command) {
     if (rule == rules().end()) continue;
     for (const std::string& path : option->results()) {
       const OutputKind kind = rule->second.kind;
-      const bool folder =
-          kind == OutputKind::folder ||
-          (kind == OutputKind::file_or_folder &&
-           (names_folder(path) || extension_of(path).empty()) && path != "-" && !is_special(path));
+      // Either: what has no ending and is not there will be made as the command needs it.
+      std::error_code ignored;
+      const bool either = kind == OutputKind::file_or_folder && path != "-";
+      const bool unknown = extension_of(path).empty() && !fs::exists(path, ignored);
+      const bool folder = kind == OutputKind::folder || (either && (names_folder(path) || unknown));
       auto can = folder ? try_output_folder(path) : try_output(path);
       if (can && !media::segment_folder(path).empty()) can = media::try_segments(path);
       if (!can) return can;
