@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/live/address.h"
 #include "tools/live/program.h"
 
 namespace CLI {
