@@ -16,18 +16,18 @@ namespace animeme::tools {
 
 /// What was said on the command line.
 struct StreamOptions {
-  std::string input;
-  std::vector<std::string> to;
-  std::vector<std::string> sdp;
-  live::SinkOptions sink;
-  live::ProgramOptions program;
-  std::string codec;
-  std::string rate = "25";
-  std::string pcm;
-  bool no_sound = false;
-  bool fast = false;
-  bool stats = false;
-  bool json = false;
+  std::string input;             ///< the clip
+  std::vector<std::string> to;   ///< --to
+  std::vector<std::string> sdp;  ///< --sdp
+  live::SinkOptions sink;        ///< --mtu, --repeat, --bundle, --max-clients ...
+  live::ProgramOptions program;  ///< what is sent, and how it is coded
+  std::string codec;             ///< --audio-codec
+  std::string rate = "25";       ///< --rate
+  std::string pcm;               ///< --pcm
+  bool no_sound = false;         ///< --no-sound
+  bool fast = false;             ///< --fast
+  bool stats = false;            ///< --stats
+  bool json = false;             ///< --json
 };
 
 /// Adds them.

@@ -45,8 +45,8 @@ def motion():
 
 
 def number(value):
-    return ("%.2f" % value).rstrip("0").rstrip(".").replace("-0", "0") if abs(value) < 0.005 else (
-        "%.2f" % value).rstrip("0").rstrip(".")
+    text = ("%.2f" % value).rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text
 
 
 def write_lips(frames):
