@@ -5,6 +5,7 @@
 
 #include "tools/commands/line.h"
 #include "tools/exit_code.h"
+#include "tools/files/output_file.h"
 #include "tools/files/unfinished.h"
 
 #ifdef __GLIBC__  // known from the headers above
@@ -29,7 +30,11 @@ int main(int argc, char** argv) {
   std::ios::sync_with_stdio(false);
   animeme::tools::clean_up_on_signals();
   try {
-    return animeme::tools::run_line({argv, std::size_t(argc)});
+    const int code = animeme::tools::run_line({argv, std::size_t(argc)});
+    const auto told = animeme::tools::flush_standard_output();
+    if (told || code != animeme::tools::kOk) return code;
+    std::cerr << "animeme: error: " << told.error().describe() << "\n";
+    return animeme::tools::kBadInput;
   } catch (const std::bad_alloc&) {
     std::cerr << "animeme: error: there is not enough memory for this; close other programs, raise "
                  "the limit (ulimit -v), or work on a part\n";

@@ -72,5 +72,28 @@ TEST(AlignCommand, MinConfidenceRefusesByName) {
   EXPECT_THAT(other.err, HasSubstr("does not fit the recording"));
 }
 
+TEST(AlignCommand, WithoutItsTextByEarAndBesideTheRecording) {
+  const TempDir dir;
+  if (const auto why = no_aligner(dir); !why.empty()) GTEST_SKIP() << why;
+  const auto heard = animeme({"align", dir / "voice.mp4", "--json"});
+  ASSERT_EQ(heard.exit_code, 0) << heard.err;
+  EXPECT_THAT(heard.err, HasSubstr("without its text, by what is heard"));
+  EXPECT_THAT(test::slurp(dir / "voice.TextGrid"), HasSubstr("IntervalTier"));
+  const json found = json::parse(heard.out);
+  EXPECT_TRUE(found["heard"].get<bool>());
+  EXPECT_GT(found["phones"].get<int>(), 20);
+  ASSERT_EQ(found["timed_phones"].size(), found["phones"].get<std::size_t>());
+  // What may have been corrected by hand is not written over unasked.
+  test::spill(dir / "voice.TextGrid", "mine");
+  const auto again = animeme({"align", dir / "voice.mp4", "--transcript", kText});
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_THAT(again.err, HasSubstr("is there already"));
+  EXPECT_EQ(test::slurp(dir / "voice.TextGrid"), "mine");
+  const auto asked =
+      animeme({"align", dir / "voice.mp4", "--transcript", kText, "-o", dir / "voice.TextGrid"});
+  EXPECT_EQ(asked.exit_code, 0) << asked.err;
+  EXPECT_FALSE(json::parse(align(dir, kText).out)["heard"].get<bool>());
+}
+
 }  // namespace align_command_test
 }  // namespace animeme

@@ -150,6 +150,24 @@ TEST(DemuxCommand, JsonTellsWhatWasTaken) {
   EXPECT_EQ(animeme({"demux", sample(), "--face", "-", "--json"}).exit_code, 2);
 }
 
+TEST(DemuxCommand, EndingsTellWhatIsTaken) {
+  const TempDir dir;
+  const auto done = animeme({"demux", sample(), "-o", dir / "a.fba", "-o", dir / "a.wav"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  ASSERT_EQ(
+      animeme({"demux", sample(), "--face", dir / "b.fba", "--audio", dir / "b.wav"}).exit_code, 0);
+  EXPECT_EQ(test::slurp(dir / "a.fba"), test::slurp(dir / "b.fba"));
+  EXPECT_EQ(test::slurp(dir / "a.wav"), test::slurp(dir / "b.wav"));
+  EXPECT_EQ(animeme({"demux", sample(), "-o", "-"}).out, test::slurp(dir / "a.fba"));
+  const auto text = animeme({"demux", sample(), "-o", dir / "c.fap"});
+  EXPECT_EQ(text.exit_code, 2);
+  EXPECT_THAT(text.err, HasSubstr("decode writes text"));
+  EXPECT_EQ(animeme({"demux", sample(), "-o", dir / "c.fba", "--face", dir / "d.fba"}).exit_code,
+            2);
+  EXPECT_EQ(animeme({"demux", sample()}).exit_code, 2);
+  EXPECT_EQ(dir.count(), 4u);
+}
+
 TEST(MuxCommand, RefusalsNameTheRemedy) {
   const TempDir dir;
   const auto ts = animeme({"mux", sample(), sample(), "--audio-codec", "opus", "-o", dir / "a.ts"});

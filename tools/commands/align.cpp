@@ -1,11 +1,14 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 
 #include "dam/script/script.h"
+#include "tools/commands/bounds.h"
 #include "tools/commands/command.h"
 #include "tools/commands/script_options.h"
 #include "tools/commands/terminal.h"
 #include "tools/files/files.h"
+#include "tools/files/output_file.h"
 #include "tools/json.h"
 #include "tools/speech/spoken.h"
 
@@ -16,6 +19,7 @@ namespace {
 struct AlignOptions {
   std::string audio;
   std::string transcript;
+  bool has_transcript = false;  // it may be empty
   std::string script;
   dam::ScriptOptions reading;
   voice::AlignOptions aligner;
@@ -63,10 +67,11 @@ Json phone_list(const voice::Alignment& alignment) {
   return list;
 }
 
-void print_json(const voice::Alignment& alignment) {
+void print_json(const voice::Alignment& alignment, bool heard) {
   const Json json = {{"phones", alignment.script.phones.size()},
                      {"confidence", alignment.confidence},
                      {"approximate", alignment.approximate},
+                     {"heard", heard},
                      {"warnings", alignment.warnings},
                      {"words", json_list(alignment.words, json_of_word)},
                      {"put_in", json_list(alignment.put_in, json_of_put_in)},
@@ -74,7 +79,8 @@ void print_json(const voice::Alignment& alignment) {
   std::printf("%s\n", pretty(json).c_str());
 }
 
-Result<int> run(const AlignOptions& options) {
+// Of the text that there is.
+Result<voice::Alignment> align_to_text(const AlignOptions& options) {
   std::string transcript = options.transcript;
   if (!options.script.empty()) {
     auto words = speech::words_of_file(options.script, options.reading);
@@ -83,7 +89,54 @@ Result<int> run(const AlignOptions& options) {
   }
   voice::AlignOptions settings = options.aligner;
   if (options.least && *options.least == 0) settings.least_confidence = 0;
-  const auto alignment = speech::align_file(options.audio, transcript, settings, talk());
+  return speech::align_file(options.audio, transcript, settings, talk());
+}
+
+// Of what is heard, where there is no text.
+Result<voice::Alignment> align_by_ear(const AlignOptions& options) {
+  ProgressLine progress("listening");
+  voice::ListenOptions settings{.language = options.aligner.language};
+  settings.progress = [&](double done) { progress.update(done); };
+  auto heard = speech::listen_to_file(options.audio, settings, talk());
+  progress.clear();
+  if (!heard) return heard.error();
+  voice::Alignment alignment;
+  std::string words;
+  for (const voice::HeardWord& one : heard->words) {
+    voice::AlignedWord& word = alignment.words.emplace_back();
+    word.text = one.text;
+    word.start = one.start;
+    word.end = one.end;
+    word.confidence = one.confidence;
+    words += (words.empty() ? "" : " ") + one.text;
+  }
+  say(options.audio + ": without its text, by what is heard" +
+      (words.empty() ? "" : ": \"" + words + "\"") + "; --transcript is more exact");
+  alignment.script = std::move(heard->script);
+  alignment.confidences = std::move(heard->confidences);
+  alignment.confidence = heard->confidence;
+  alignment.warnings = std::move(heard->warnings);
+  return alignment;
+}
+
+// "voice.TextGrid" of "recordings/voice.wav", beside it.
+std::string usual_output(const std::string& audio) {
+  return std::filesystem::path(audio).replace_extension(".TextGrid").string();
+}
+
+Result<int> run(AlignOptions options) {
+  if (options.output.empty()) {
+    options.output = usual_output(options.audio);
+    // Somebody may have corrected it by hand.
+    std::error_code unknown;
+    if (std::filesystem::exists(options.output, unknown)) {
+      return usage_error(options.output + " is there already; -o " + options.output +
+                         " replaces it, -o with another name keeps it");
+    }
+    if (auto can = try_output(options.output); !can) return can.error();
+  }
+  const bool told = options.has_transcript || !options.script.empty();
+  const auto alignment = told ? align_to_text(options) : align_by_ear(options);
   if (!alignment) return alignment.error();
   if (options.least) {
     if (auto sure = check_words(*alignment, *options.least); !sure) {
@@ -91,9 +144,9 @@ Result<int> run(const AlignOptions& options) {
     }
   }
   const dam::Script& script = alignment->script;
-  const std::string text = dam::write_script(script, extension_of(options.output));
-  if (auto written = write_file(options.output, text); !written) return written.error();
-  if (options.json) print_json(*alignment);
+  const std::string lines = dam::write_script(script, extension_of(options.output));
+  if (auto written = write_file(options.output, lines); !written) return written.error();
+  if (options.json) print_json(*alignment, !told);
   char sure[32];
   std::snprintf(sure, sizeof sure, "%.2f", alignment->confidence);
   say(name_of_output(options.output) + ": " + std::to_string(script.phones.size()) +
@@ -102,14 +155,15 @@ Result<int> run(const AlignOptions& options) {
 }
 
 void add_options(CLI::App& app, AlignOptions& options) {
-  app.add_option("--audio", options.audio, "Recorded voice in any format that FFmpeg reads")
+  app.add_option("audio,--audio", options.audio, "Recorded voice in any format that FFmpeg reads")
       ->required();
-  auto* said = app.add_option_group("what is said");
-  said->add_option("--transcript", options.transcript, "What is said in it");
-  said->add_option("--script", options.script,
-                   "The same as a script of words: subtitles, what a recogniser wrote; its times "
-                   "are not used");
-  said->require_option(1);
+  auto* said = app.add_option("--transcript", options.transcript,
+                              "What is said in it; without it, and without --script, what is heard")
+                   ->each([&options](const std::string&) { options.has_transcript = true; });
+  app.add_option("--script", options.script,
+                 "The same as a script of words: subtitles, what a recogniser wrote; its times "
+                 "are not used")
+      ->excludes(said);
   add_script_options(app, options.reading);
   app.add_option("--lang", options.aligner.language,
                  "Language of the transcript, as en, it or es-419")
@@ -118,13 +172,13 @@ void add_options(CLI::App& app, AlignOptions& options) {
                  "Refuse words that are less sure, 0 to 1 (0.05: those that hardly fit), by name; "
                  "0: refuse nothing at all. Without it a recording is refused whose text does not "
                  "fit on the whole: another text, noise, nobody speaks")
-      ->check(CLI::Range(0.0, 1.0));
-  add_output(
-      app.add_option("-o,--output", options.output,
-                     "Script to write: .TextGrid (Praat), .tsv, .pho (MBROLA), .vtt (WebVTT), - "
-                     "for a TextGrid on standard output"),
-      dam::script_endings(), OutputKind::file_or_dash)
-      ->required();
+      ->check(between(0.0, 1.0));
+  add_output(app.add_option(
+                 "-o,--output", options.output,
+                 "Script to write: .TextGrid (Praat), .tsv, .pho (MBROLA), .vtt (WebVTT), - "
+                 "for a TextGrid on standard output; default: the recording's name with .TextGrid, "
+                 "beside it, if there is none yet"),
+             dam::script_endings(), OutputKind::file_or_dash);
   app.add_flag(
       "--json", options.json,
       "On standard output: words with times, confidences and whether they are said; speech "
@@ -133,10 +187,12 @@ void add_options(CLI::App& app, AlignOptions& options) {
 
 }  // namespace
 
-const Command kAlign{"align", "Find the timed phones of a recording from its text",
-                     "  animeme align --audio voice.wav --transcript \"what she said\" "
-                     "-o voice.TextGrid\n"
-                     "  animeme align --audio voice.wav --script voice.srt --json -o voice.tsv",
+const Command kAlign{"align", "Find the timed phones of a recording, from its text or by ear",
+                     "  animeme align voice.wav --transcript \"what she said\"      # writes "
+                     "voice.TextGrid\n"
+                     "  animeme align voice.wav -o heard.TextGrid                 # without its "
+                     "text: less exact\n"
+                     "  animeme align voice.wav --script voice.srt --json -o voice.tsv",
                      set_up<AlignOptions>};
 
 }  // namespace animeme::tools

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "tools/batch/batch.h"
+#include "tools/commands/bounds.h"
 #include "tools/commands/common.h"
 #include "tools/commands/interrupt.h"
 #include "tools/commands/line.h"
@@ -115,10 +116,7 @@ std::string take(const BatchOptions& given, batch::Settings& settings) {
     if (equals == std::string::npos) return "--set wants COLUMN=VALUE, not " + one;
     settings.defaults.emplace_back(one.substr(0, equals), one.substr(equals + 1));
   }
-  if (!given.shard.empty()) {
-    if (std::string text = read_shard(given.shard, settings.shard, settings.shards); !text.empty())
-      return text;
-  }
+  if (!given.shard.empty()) read_shard(given.shard, settings.shard, settings.shards);
   if (!settings.shared.store.empty() && settings.shared.to.empty()) {
     return "--store wants --to, what {uri} begins with";
   }
@@ -205,8 +203,9 @@ void add_options(CLI::App& app, BatchOptions& options) {
          "A row a clip: .tsv with the columns' names in its first line, .jsonl with an object "
          "a line, .txt or .lst with a file a line; - for standard input")
       ->required();
-  app.add_option("-o,--output", settings.shared.out,
-                 "Folder for the outputs, index.tsv and report.html")
+  add_output(app.add_option("-o,--output", settings.shared.out,
+                            "Folder for the outputs, index.tsv and report.html"),
+             {}, OutputKind::folder)
       ->required();
   app.add_option("--set", options.sets,
                  "Value of a column for rows that have none: lang=de, outputs=\".fba .TextGrid\"")
@@ -215,11 +214,12 @@ void add_options(CLI::App& app, BatchOptions& options) {
   app.add_option("--form", options.form, "How the manifest is written: tsv, jsonl or list")
       ->check(CLI::IsMember({"tsv", "jsonl", "list"}));
   app.add_option("--jobs", options.jobs, "Clips at a time; default: one a core")
-      ->check(CLI::Range(1, 512));
+      ->check(between(1, 512));
   app.add_flag("--resume", settings.resume,
                "Skip what is done and unchanged: row, content of inputs, version of the program");
   app.add_option("--shard", options.shard, "Only these clips, by their ids: 1/4 to 4/4")
-      ->option_text("I/N");
+      ->option_text("I/N")
+      ->check(written_so(problem_of_shard));
   app.add_flag("--join", options.join,
                "Check that all shards in the folder are complete, and make one index of theirs");
   app.add_flag("--check", options.check, "Only check the manifest");

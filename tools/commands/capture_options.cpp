@@ -1,4 +1,5 @@
 #include "tools/commands/capture_options.h"
+#include "tools/commands/bounds.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
@@ -41,6 +42,24 @@ Result<void> set_tracker(const CaptureOptions& options, CaptureSettings& setting
   return {};
 }
 
+// Width of a pixel to its height, of "16:15" or "1.067".
+std::optional<double> aspect_of(const std::string& text) {
+  const auto shape =
+      exchange::parse_picture_size(text.find(':') == std::string::npos ? text + ":1" : text);
+  if (!shape) return std::nullopt;
+  const double aspect = shape->width / shape->height;
+  return aspect >= 0.01 && aspect <= 100 ? std::optional(aspect) : std::nullopt;
+}
+
+std::string problem_of_aspect(const std::string& text) {
+  return aspect_of(text) ? "" : "'" + text + "' is no shape of a pixel; write 16:15 or 1.067";
+}
+
+std::string problem_of_depth(const std::string& text) {
+  if (const std::string wrong = between(-1e6, 1e6)(text); !wrong.empty()) return wrong;
+  return std::stod(text) == 0 ? "0 leaves no depth; --flat leaves it out" : "";
+}
+
 void add_landmark_options(CLI::App& app, CaptureOptions& options) {
   exchange::LandmarkImportOptions& landmarks = options.settings.landmarks;
   const auto seen = [&options](const std::string&) { options.for_landmarks = true; };
@@ -58,23 +77,29 @@ void add_landmark_options(CLI::App& app, CaptureOptions& options) {
                      "Seconds (standard deviation) to average over, both ways, so nothing is "
                      "delayed; 0 leaves all as it is")
           ->capture_default_str()
-          ->check(CLI::Range(0.0, 1.0)));
+          ->check(between(0.0, 1.0)));
   add(app.add_option("--layout", options.layout,
                      "What numbered points are, if the table has a part of them only")
           ->check(CLI::IsMember({"68", "mediapipe"})));
   add(app.add_option("--size", options.size,
                      "Size of the picture, like 1280x720, where points are shares of it "
-                     "(MediaPipe); a video says it itself"));
+                     "(MediaPipe); a video says it itself")
+          ->type_name("WIDTHxHEIGHT")
+          ->check(picture_size()));
   add(app.add_option("--pixel-aspect", options.pixel_aspect,
                      "Width of a pixel to its height, like 16:15 or 1.067, where points are pixels "
-                     "of a video that is shown wider than it is stored"));
+                     "of a video that is shown wider than it is stored")
+          ->type_name("WIDTH:HEIGHT")
+          ->check(written_so(problem_of_aspect)));
   add(app.add_option("--depth-scale", landmarks.table.depth_scale,
                      "z times this has the unit of x and y")
+          ->check(written_so(problem_of_depth))
           ->capture_default_str());
   add(app.add_option("--face", options.face, "Number (face_id) of the face to read; the first")
-          ->check(CLI::NonNegativeNumber));
+          ->check(at_least_zero()));
   add(app.add_option("--confidence", landmarks.table.confidence,
                      "Rows with less are left out (OpenFace)")
+          ->check(between(0, 1))
           ->capture_default_str());
   flag("--flat", landmarks.table.flat, "Use the picture alone, not the depth");
   flag("--mirrored", landmarks.face.mirrored,
@@ -85,7 +110,9 @@ void add_landmark_options(CLI::App& app, CaptureOptions& options) {
 
 void add_capture_options(CLI::App& app, CaptureOptions& options) {
   app.add_option("--rate", options.rate,
-                 "Frames a second of the clip, like 30 or 29.97; without it the times tell");
+                 "Frames a second of the clip, like 30 or 29.97; without it the times tell")
+      ->type_name("RATE")
+      ->check(frame_rate());
   app.add_flag("--degrees", options.degrees, "Angles of head and eyes are degrees, not radians");
   app.add_option("--column", options.columns,
                  "What a column is whose name says nothing: NAME=jawOpen, NAME=jawOpen*0.01, "
@@ -107,7 +134,7 @@ void add_capture_options(CLI::App& app, CaptureOptions& options) {
   app.add_option("--tracker-seconds", options.settings.tracker_seconds,
                  "Longest that a tracker may take for a video. Without it: an hour, or thirty "
                  "times the length of the video if that is more")
-      ->check(CLI::Range(0.1, 1e6));
+      ->check(between(0.1, 1e6));
   add_landmark_options(app, options);
 }
 
@@ -126,29 +153,12 @@ Result<CaptureSettings> capture_settings(const CaptureOptions& options) {
   settings.degrees = options.degrees;
   if (!options.rate.empty()) {
     const Result<fap::Rate> rate = fap::parse_rate(options.rate);
-    if (!rate || !rate->valid()) {
-      return wrong("--rate: '" + options.rate + "' is no frame rate; write 30 or 29.97");
-    }
+    if (!rate) return rate.error();
     settings.rate = *rate;
   }
   exchange::LandmarkTableOptions& table = settings.landmarks.table;
-  if (!options.size.empty()) {
-    table.size = exchange::parse_picture_size(options.size);
-    if (!table.size) {
-      return wrong("--size: '" + options.size + "' is no size; write 1280x720");
-    }
-  }
-  if (!options.pixel_aspect.empty()) {
-    const auto shape = exchange::parse_picture_size(
-        options.pixel_aspect.find(':') == std::string::npos ? options.pixel_aspect + ":1"
-                                                            : options.pixel_aspect);
-    if (!shape || !(shape->width / shape->height >= 0.01 && shape->width / shape->height <= 100)) {
-      return wrong("--pixel-aspect: '" + options.pixel_aspect +
-                   "' is no shape of a pixel; write 16:15 or 1.067");
-    }
-    table.pixel_aspect = shape->width / shape->height;
-  }
-  if (table.depth_scale == 0) return wrong("--depth-scale is 0; --flat leaves depth out");
+  if (!options.size.empty()) table.size = exchange::parse_picture_size(options.size);
+  if (const auto aspect = aspect_of(options.pixel_aspect)) table.pixel_aspect = *aspect;
   if (options.layout == "68") table.layout = fap::LandmarkLayout::ibug68;
   if (options.layout == "mediapipe") table.layout = fap::LandmarkLayout::mediapipe;
   if (options.face >= 0) table.face = options.face;

@@ -10,6 +10,7 @@
 #include "tools/check/report.h"
 #include "tools/check/run_suite.h"
 #include "tools/check/suite.h"
+#include "tools/commands/bounds.h"
 #include "tools/commands/common.h"
 #include "tools/json.h"
 
@@ -159,10 +160,10 @@ void add_options(CLI::App& app, CheckOptions& options) {
                  "Cases whose name or one of whose features contains this, or matches it with * ? "
                  "[]; may be given again");
   app.add_option("--timeout", options.timeout, "Seconds for one case")
-      ->check(CLI::Range(0.01, 86400.0))
+      ->check(between(0.01, 86400.0))
       ->capture_default_str();
   app.add_option("--jobs", options.jobs, "Cases at once; 0: one for each processor core")
-      ->check(CLI::Range(0, 256))
+      ->check(between(0, 256))
       ->capture_default_str();
   app.add_flag("--no-encode", options.no_encode,
                "Only decode; do not write the streams again from their parameters");

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "fap/detail/walk.h"
+#include "tools/commands/bounds.h"
 #include "tools/commands/common.h"
 #include "tools/commands/plane_file.h"
 #include "tools/inspect/comparison.h"
@@ -204,7 +205,7 @@ void add_options(CLI::App& app, CompareOptions& options) {
   app.add_option("b", options.b, "The same or another form")->required();
   app.add_option("--max-rms", options.max_rms,
                  "Accept up to this error, in quantiser steps RMS over all FAPs, and over all BAPs")
-      ->check(CLI::NonNegativeNumber);
+      ->check(at_least_zero());
   app.add_flag("--json", options.json, "Machine-readable result");
 }
 

@@ -8,6 +8,7 @@
 #include "dam/signal/fap_signal.h"
 #include "fap/rate_text.h"
 #include "tools/commands/common.h"
+#include "tools/commands/crossmap_options.h"
 #include "tools/commands/face_text.h"
 #include "tools/crossmap/run.h"
 #include "tools/crossmap/sheet.h"
@@ -23,105 +24,6 @@ namespace {
 
 using crossmap::Mapped;
 using crossmap::Project;
-
-// What was said on the command line; it goes before what a project says.
-struct CrossmapOptions {
-  std::vector<std::string> inputs;
-  std::string output, write_keys, picture;
-  bool json = false, csv = false;
-  std::optional<std::string> to, points, neutral, keys, rate, size, layout, axes, unit;
-  std::vector<std::string> shapes, controls, fapu, named, use, head;
-  std::optional<std::size_t> count;
-  std::optional<double> preference, smooth, contact_weight;
-  bool convex = false;
-};
-
-template <class T>
-void take(const std::optional<T>& given, T& out) {
-  if (given) out = *given;
-}
-
-void take(const std::vector<std::string>& given, std::vector<std::string>& out) {
-  if (!given.empty()) out = given;
-}
-
-// A text that is a number and nothing else.
-std::optional<double> number_of_text(const std::string& text) {
-  double value = 0;
-  const char* end = text.data() + text.size();
-  const auto [at, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || at != end) return std::nullopt;
-  return value;
-}
-
-// "M=take1.csv:1.24", "take1.csv:1.24", "1.24".
-std::optional<crossmap::NamedKey> parse_key(std::string text) {
-  crossmap::NamedKey key;
-  if (const std::size_t at = text.find('='); at != std::string::npos) {
-    key.name = text.substr(0, at);
-    text.erase(0, at + 1);
-  }
-  if (const std::size_t at = text.rfind(':'); at != std::string::npos) {
-    key.input = text.substr(0, at);
-    text.erase(0, at + 1);
-  }
-  const auto seconds = number_of_text(text);
-  if (!seconds || !(*seconds >= 0) || !std::isfinite(*seconds)) return std::nullopt;
-  key.seconds = *seconds;
-  return key;
-}
-
-Result<Project> project_of(const CrossmapOptions& options) {
-  Project out;
-  std::vector<std::string> inputs = options.inputs;
-  if (extension_of(inputs[0]) == ".toml") {
-    const Result<std::string> text = read_text_file(inputs[0], kMostWritten);
-    if (!text) return text.error();
-    auto read =
-        crossmap::read_project(*text, std::filesystem::path(inputs[0]).parent_path().string());
-    if (!read) return std::move(read).error().in_file(inputs[0]);
-    out = std::move(*read);
-    inputs.erase(inputs.begin());
-  }
-  take(inputs, out.inputs);
-  take(options.to, out.to);
-  take(options.points, out.head_points);
-  take(options.neutral, out.neutral);
-  take(options.keys, out.keys);
-  take(options.rate, out.rate);
-  take(options.size, out.size);
-  take(options.layout, out.layout);
-  take(options.axes, out.axes);
-  take(options.unit, out.unit);
-  take(options.shapes, out.shapes);
-  take(options.controls, out.controls);
-  take(options.use, out.points);
-  take(options.head, out.head);
-  take(options.count, out.search.count);
-  if (options.preference) out.search.preference = *options.preference;
-  take(options.smooth, out.fit.smooth);
-  take(options.contact_weight, out.fit.contact_weight);
-  if (options.convex) out.fit.convex = true;
-  for (const std::string& text : options.fapu) {
-    const std::size_t at = text.find('=');
-    const auto value = at == std::string::npos ? std::nullopt : number_of_text(text.substr(at + 1));
-    if (!value) {
-      return make_error(Code::invalid_argument,
-                        "--fapu: '" + text + "' is no FAP unit; write MW=50");
-    }
-    out.fapu[text.substr(0, at)] = *value;
-  }
-  for (const std::string& text : options.named) {
-    const auto key = parse_key(text);
-    if (!key) {
-      return make_error(
-          Code::invalid_argument,
-          "--key: '" + text + "' is no key shape; write NAME=take.csv:1.24 (seconds)");
-    }
-    out.named.push_back(*key);
-  }
-  return out;
-}
 
 // Two inputs of one name would become one file.
 Result<void> check_names(const Project& project) {
@@ -308,6 +210,8 @@ void tell(const Mapped& mapped) {
   }
 }
 
+}  // namespace
+
 Result<int> run(const CrossmapOptions& options) {
   if (options.output.empty() && options.write_keys.empty() && options.picture.empty() &&
       !options.json) {
@@ -345,90 +249,6 @@ Result<int> run(const CrossmapOptions& options) {
   if (options.json) std::printf("%s\n", pretty(report_of(*mapped)).c_str());
   return kOk;
 }
-
-void add_point_options(CLI::App& app, CrossmapOptions& options) {
-  const char* group = "Captured points";
-  const auto add = [&](CLI::Option* option) { option->group(group); };
-  add(app.add_option("--neutral", options.neutral,
-                     "The face at rest: a file of the same points (table, C3D or JSON), or seconds "
-                     "of the first recording like 0-0.4s. Without it: the stillest 0.2 seconds"));
-  add(app.add_option("--use", options.use,
-                     "Points to fit, A,B,C; without it all (of a whole face those of the mouth)")
-          ->delimiter(','));
-  add(app.add_option("--head-points", options.head,
-                     "Points that do not move with the face, A,B,C: the head is held still by "
-                     "them; none: it is still already")
-          ->delimiter(','));
-  add(app.add_option("--fapu", options.fapu,
-                     "Sizes of the captured face in its own unit, MW=38,MNS=19.5 (mouth width, "
-                     "mouth to nose); without it measured, or those of a usual face")
-          ->delimiter(','));
-  add(app.add_option("--unit", options.unit, "Unit of the points: mm, cm, m or in"));
-  add(app.add_option("--axes", options.axes,
-                     "Where x, y (and z) point to, seen by the person: \"left down back\" is a "
-                     "camera; without it the points tell"));
-  add(app.add_option("--layout", options.layout, "What numbered points are: 68 or mediapipe"));
-  add(app.add_option("--rate", options.rate, "Frames a second, if the table has no times"));
-  add(app.add_option("--size", options.size,
-                     "Size of the picture, like 1280x720, where points are shares of it"));
-}
-
-void add_key_options(CLI::App& app, CrossmapOptions& options) {
-  const char* group = "Key shapes";
-  const auto add = [&](CLI::Option* option) { option->group(group); };
-  add(app.add_option("--shapes-wanted", options.count,
-                     "How many key shapes to find; without it the recording decides")
-          ->check(CLI::Range(1, 200)));
-  add(app.add_option("--preference", options.preference,
-                     "How willing a frame is to be a key shape, below 0; the median of all pairs"));
-  add(app.add_option("--key", options.named,
-                     "A key shape of your choice, NAME=take.csv:1.24 (seconds); once for each"));
-  add(app.add_option("--keys", options.keys,
-                     "Folder of key shapes that --write-keys wrote and you adjusted"));
-  add(app.add_option("--contact-weight", options.contact_weight,
-                     "How much lips that meet count beside other points; 3")
-          ->check(CLI::Range(0.0, 1e6)));
-  add(app.add_option(
-             "--smooth", options.smooth,
-             "Seconds (standard deviation) to average over; 0. Short closures get lost in it")
-          ->check(CLI::Range(0.0, 1.0)));
-  app.add_flag("--convex", options.convex,
-               "Never go beyond the key shapes; quieter, and larger shapes are missed")
-      ->group(group);
-}
-
-void add_options(CLI::App& app, CrossmapOptions& options) {
-  app.add_option(
-         "input", options.inputs,
-         "Recordings of points: tables with UL_x, UL_y, UL_z ... or x61, y61 ..., C3D files; "
-         "they share their key shapes. Or a project (.toml), which says all of this")
-      ->required();
-  add_output(app.add_option("-o,--output", options.output,
-                            "Curves to write: .fap, .csv, or a folder for several recordings"),
-             {".fap", ".csv"});
-  add_output(app.add_option("--picture", options.picture,
-                            "Picture of source, key shapes and target to write"),
-             {".svg", ".png"}, OutputKind::file);
-  add_output(app.add_option("--write-keys", options.write_keys,
-                            "Folder for the key shapes, the first guess of your character's "
-                            "controls in each, and meshes to begin with"),
-             {});
-  app.add_flag("--json", options.json, "Residuals by frame and region on standard output");
-  app.add_flag("--csv", options.csv, "FAPs as curves (.csv), as training takes them");
-  app.add_option("--to", options.to,
-                 "What moves your character: faps, arkit, keys (one control a key shape), a table "
-                 "of controls in each key shape (.csv), or its head (.glb, .vrm, .obj, woman)");
-  app.add_option("--points", options.points,
-                 "Feature points of an .obj or .glb head, as animeme render takes them");
-  app.add_option("--shapes", options.shapes,
-                 "OBJ files of an .obj head: what each of its controls does when it is full on");
-  app.add_option("--controls", options.controls, "Controls that may move, A,B,C; all")
-      ->delimiter(',');
-  add_key_options(app, options);
-  add_point_options(app, options);
-}
-
-}  // namespace
 
 const Command kCrossmap{
     "crossmap", "Captured lips to your character's controls, by key shapes",

@@ -5,6 +5,7 @@
 
 #include "codec/decode/fill.h"
 #include "fap/rate_text.h"
+#include "tools/commands/bounds.h"
 #include "tools/commands/common.h"
 #include "tools/commands/face_text.h"
 #include "tools/commands/plane_file.h"
@@ -155,7 +156,7 @@ Result<int> run(DecodeOptions options) {
   if (const std::string wrong = wrong_use(options); !wrong.empty()) return usage_error(wrong);
   if (!options.rate.empty()) {
     const Result<fap::Rate> rate = fap::parse_rate(options.rate);
-    if (!rate || !rate->valid()) return usage_error("--rate is a number such as 25 or 29.97");
+    if (!rate) return rate.error();
     options.face.resampled = *rate;
   }
   Result<Decoded> decoded = read(options);
@@ -216,7 +217,9 @@ void add_options(CLI::App& app, DecodeOptions& options) {
       "FAP 1 and 2 (visemes, expressions) as low-level FAPs, for players that know no others");
   CLI::Option* rate =
       app.add_option("--rate", options.rate,
-                     "Frames a second of the text: between frames values lie between them");
+                     "Frames a second of the text: between frames values lie between them")
+          ->type_name("RATE")
+          ->check(frame_rate());
   add_exact_option(app, face.exact);
   for (CLI::Option* option : {fill, expand, rate}) option->excludes(coded);
 }

@@ -1,7 +1,9 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 
 #include "codec/decode/access_unit.h"
+#include "fap/detail/text_scanner.h"
 #include "tools/commands/common.h"
 #include "tools/json.h"
 #include "tools/media/container.h"
@@ -15,6 +17,7 @@ struct DemuxOptions {
   std::string face;
   std::string audio;
   std::string script;
+  std::vector<std::string> outputs;
   bool headers = false;
   bool json = false;
 };
@@ -39,12 +42,36 @@ Result<Json> write_face(const DemuxOptions& options) {
               {"warnings", container->warnings}};
 }
 
-Result<int> run(const DemuxOptions& options) {
+bool ends_as(const std::string& ending, const std::vector<std::string>& endings) {
+  return std::any_of(endings.begin(), endings.end(), [&](const std::string& one) {
+    return fap::detail::lower_case(one) == ending;
+  });
+}
+
+// Which of the three each -o is, by its ending; a sentence if that cannot be.
+std::string sort_outputs(DemuxOptions& options) {
+  for (const std::string& output : options.outputs) {
+    const std::string ending = extension_of(output);
+    if (ending == ".fap" || ending == ".bap") {
+      return "-o " + output + ": animeme decode writes text; demux writes the stream, .fba";
+    }
+    const bool face = output == "-" || ending.empty() || ends_as(ending, stream_endings());
+    std::string& place = face                                     ? options.face
+                         : ends_as(ending, dam::script_endings()) ? options.script
+                                                                  : options.audio;
+    if (!place.empty()) return "-o " + output + " and " + place + " are the same; give one of them";
+    place = output;
+  }
+  return {};
+}
+
+Result<int> run(DemuxOptions options) {
+  if (const std::string wrong = sort_outputs(options); !wrong.empty()) return usage_error(wrong);
   if (options.face.empty() && options.audio.empty() && options.script.empty()) {
-    return usage_error("nothing to do: give --face, --audio, --script or several of them");
+    return usage_error("nothing to do: name what to write, -o face.fba, .wav or .TextGrid");
   }
   if (options.json && options.face == "-") {
-    return usage_error("--json and --face - both want the standard output");
+    return usage_error("--json and the face on - both want the standard output");
   }
   Json json = Json::object();
   if (!options.face.empty()) {
@@ -80,15 +107,20 @@ Result<int> run(const DemuxOptions& options) {
 
 void add_options(CLI::App& app, DemuxOptions& options) {
   app.add_option("input", options.input, "mp4, mkv, ts, m3u8 or mpd file with a face")->required();
-  add_output(
-      app.add_option("--face", options.face, "Raw FBA stream to write, - for standard output"),
-      stream_endings());
-  add_output(
-      app.add_option("--audio", options.audio, "Sound to write: .wav, or .m4a and others as it is"),
-      {});
+  add_output(app.add_option("-o,--output", options.outputs,
+                            "What to write, once or more: .fba (the face's stream; - is standard "
+                            "output), .wav .m4a (sound), .TextGrid .tsv .pho .vtt (words)"),
+             {})
+      ->allow_extra_args(false);
+  add_output(app.add_option("--face", options.face,
+                            "As -o, whatever the name: raw FBA stream, - for standard output"),
+             stream_endings());
+  add_output(app.add_option("--audio", options.audio,
+                            "Likewise: sound, .wav, or .m4a and others as it is"),
+             {});
   add_output(
       app.add_option("--script", options.script,
-                     "Words and phones to write, of .mp4, .mkv, .m3u8: .TextGrid, .tsv, .pho, "
+                     "Likewise: words and phones, of .mp4, .mkv, .m3u8: .TextGrid, .tsv, .pho, "
                      "or .vtt (words)"),
       dam::script_endings(), OutputKind::file);
   app.add_flag("--es-headers", options.headers,
@@ -99,10 +131,10 @@ void add_options(CLI::App& app, DemuxOptions& options) {
 }  // namespace
 
 const Command kDemux{"demux", "Take face, voice and words out of a file",
-                     "  animeme demux talk.mp4 --face talk.fba --audio voice.m4a\n"
-                     "  animeme demux talk.mp4 --script talk.TextGrid    # or .vtt: its words\n"
+                     "  animeme demux talk.mp4 -o talk.fba -o voice.m4a\n"
+                     "  animeme demux talk.mp4 -o talk.TextGrid    # or .vtt: its words\n"
                      "  animeme demux talk.m3u8 --audio voice.wav\n"
-                     "  animeme demux talk.mkv --face - | animeme decode - -o talk.fap",
+                     "  animeme demux talk.mkv -o - | animeme decode - -o talk.fap",
                      set_up<DemuxOptions>};
 
 }  // namespace animeme::tools

@@ -8,6 +8,7 @@
 
 #include "codec/text/epf.h"
 #include "fap/rate_text.h"
+#include "tools/commands/bounds.h"
 #include "tools/commands/common.h"
 #include "tools/files/cost.h"
 #include "tools/json.h"
@@ -291,12 +292,12 @@ void add_options(CLI::App& app, EncodeOptions& options) {
   app.add_option("--rms", options.rms,
                  "file: fewest bits with at most this error, FAP units RMS over the FAPs that "
                  "move (half quantiser steps for angles and bodies); 2 is not visible")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(between(0.0, 1e6));
   app.add_option("--kbps", options.kbps, "file: smallest error at this rate, kbit/s")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(between(0.0, 1e6));
   app.add_option("--still-below", options.still_below,
                  "file: FAPs that move by less than this altogether are held still, FAP units")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(between(0.0, 1e6));
   app.add_flag("--skip-still", options.skip_still,
                "file: do not send planes in which nothing moves (receivers hold the one before)");
   app.add_flag(
@@ -306,13 +307,13 @@ void add_options(CLI::App& app, EncodeOptions& options) {
   app.add_option("--quant", options.quant,
                  "Quantiser of face and body; 1 (the default) is not visible, 0 lossless up to "
                  "+-1860")
-      ->check(CLI::Range(0, 31));
+      ->check(between(0, 31));
   app.add_option("--intra-seconds", options.intra_seconds,
                  "Seconds between points where receivers can join (intra planes); 0: only where "
                  "needed (live: 2)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(at_least_zero());
   app.add_option("--intra-period", options.intra_period, "The same in frames")
-      ->check(CLI::NonNegativeNumber);
+      ->check(at_least_zero());
   const std::map<std::string, fba::PlaneStartCodes> names = {{"none", fba::PlaneStartCodes::none},
                                                              {"intra", fba::PlaneStartCodes::intra},
                                                              {"all", fba::PlaneStartCodes::all}};

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "tools/commands/corpus.h"
+#include "tools/commands/evaluate_options.h"
 #include "tools/commands/face_stream.h"
 #include "tools/commands/page_sound.h"
 #include "tools/commands/train_base.h"
@@ -23,30 +23,6 @@
 namespace animeme::tools {
 
 namespace {
-
-struct EvaluateOptions {
-  std::string system;  // with --tracks alone: the corpus
-  std::string tracks;
-  CorpusSettings corpus;
-  std::string seen_split;
-  int folds = 0;  // 0: a system that is there
-  std::string method = "dam";
-  std::string base;
-  std::vector<std::string> controls;
-  dam::EvaluateOptions evaluate;
-  bool no_closure = false;
-  std::string against;
-  int draws = 1000;
-  bool codec = false;
-  StreamSettings stream;
-  std::string picture;
-  std::string report;
-  bool json = false;
-  bool full = false;
-  double max_nrmse = -1;
-  double min_closed = -1;
-  double max_false = -1;
-};
 
 // A model, or somebody's tracks: ID.csv or ID.fap in a folder, or models that are trained for this.
 struct System {
@@ -315,6 +291,8 @@ Result<inspect::EvaluationReport> evaluate_all(const EvaluateOptions& options,
   return report;
 }
 
+}  // namespace
+
 Result<int> run(const EvaluateOptions& options) {
   CorpusSettings corpus = options.corpus;
   std::string path = options.system;
@@ -348,82 +326,6 @@ Result<int> run(const EvaluateOptions& options) {
   }
   return failed.empty() ? kOk : kCheckFailed;
 }
-
-void add_thresholds(CLI::App& app, EvaluateOptions& options) {
-  app.add_option("--max-nrmse", options.max_nrmse, "Exit code 1 if the mean NRMSE is above this")
-      ->option_text("ERROR")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--min-closed", options.min_closed,
-                 "Exit code 1 if less than this percentage of P B M is closed")
-      ->option_text("SHARE")
-      ->check(CLI::Range(0.0, 100.0));
-  app.add_option("--max-false-per-minute", options.max_false,
-                 "Exit code 1 if there are more false closures")
-      ->option_text("N")
-      ->check(CLI::NonNegativeNumber);
-}
-
-void add_folds(CLI::App& app, EvaluateOptions& options) {
-  app.add_option("--folds", options.folds,
-                 "In place of a model: train as many, each without its share of the sentences, "
-                 "which it then speaks")
-      ->option_text("N")
-      ->check(CLI::Range(2, 1000));
-  app.add_option("--method", options.method, "With --folds: kind of model, see train")
-      ->check(CLI::IsMember(method_names()))
-      ->capture_default_str();
-  app.add_option("--base", options.base, "With --folds: bend this model, see train");
-  app.add_option("--controls", options.controls, "With --folds: controls to learn, see train")
-      ->delimiter(',');
-}
-
-void add_options(CLI::App& app, EvaluateOptions& options) {
-  app.add_option("model", options.system,
-                 "Model file, or 'builtin'; the corpus with --folds or --tracks")
-      ->required();
-  app.add_option("corpus", options.corpus.folder, "Corpus folder, see train");
-  app.add_option("--tracks", options.tracks,
-                 "Folder with ID.csv or ID.fap of another system, in place of the model");
-  add_folds(app, options);
-  app.add_option("--split", options.corpus.split, "Use these rows only, e.g. test");
-  add_lag_option(app, options.corpus);
-  add_corpus_options(app, options.corpus);
-  app.add_option("--seen-split", options.seen_split,
-                 "Rows the model was trained on: tells seen from unseen contexts");
-  app.add_option("--closed-gap", options.evaluate.score.closed_gap,
-                 "Inner gap below which lips count as closed, FAP units")
-      ->capture_default_str();
-  app.add_flag("--no-closure", options.no_closure, "Leave out the closure of P, B and M");
-  app.add_option("--sharpness", options.evaluate.synthesis.sharpness,
-                 "As of speak: 0 has the least error, 1 moves more as people do")
-      ->option_text("0..3=1")
-      ->check(CLI::Range(0.0, dam::kMostSharpness));
-  app.add_option("--articulate", options.evaluate.synthesis.articulation,
-                 "As of speak: vowels clearer than learned")
-      ->option_text("0..2=0")
-      ->check(CLI::Range(0.0, dam::kMostArticulation));
-  app.add_option("--against", options.against,
-                 "A second model or folder of tracks: difference with its interval");
-  app.add_option("--draws", options.draws, "Draws of the bootstrap over sentences")
-      ->option_text("N=1000")
-      ->check(CLI::Range(1, 1000000));
-  CLI::Option* codec =
-      app.add_flag("--codec", options.codec, "Error of the codec apart, and its bit rate");
-  add_coding_options(app, options.stream);
-  for (const char* name : {"--quant", "--rms", "--kbps"}) app.get_option(name)->needs(codec);
-  add_output(app.add_option("--picture", options.picture,
-                            "Curves of the best, median and worst sentence, .svg or .png"),
-             {".svg", ".png"}, OutputKind::file);
-  add_output(app.add_option(
-                 "--report", options.report,
-                 "All of it on one page for colleagues, with three sentences on the head: .html"),
-             {".html", ".htm"}, OutputKind::file);
-  add_thresholds(app, options);
-  app.add_flag("--full", options.full, "Tables by control, phoneme, viseme, class and sentence");
-  app.add_flag("--json", options.json, "Machine-readable result, with everything");
-}
-
-}  // namespace
 
 const Command kEvaluate{
     "evaluate", "Error of synthesis against recorded motion",

@@ -1,4 +1,5 @@
 #include "tools/commands/face_stream.h"
+#include "tools/commands/bounds.h"
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -16,14 +17,14 @@ void add_coding_options(CLI::App& app, StreamSettings& settings) {
   CLI::Option* quant =
       app.add_option("--quant", settings.quant,
                      "Quantiser fap_quant; 1 is not visible, 0 lossless up to +-1860")
-          ->check(CLI::Range(0, 31))
+          ->check(between(0, 31))
           ->capture_default_str();
   app.add_option("--rms", settings.rms,
                  "Fewest bits with at most this error, FAP units RMS; 2 is not visible")
-      ->check(CLI::Range(1e-3, 1e6))
+      ->check(between(1e-3, 1e6))
       ->excludes(quant);
   app.add_option("--kbps", settings.kbps, "Smallest error at this rate of the face, kbit/s")
-      ->check(CLI::Range(1e-3, 1e6))
+      ->check(between(1e-3, 1e6))
       ->excludes(quant);
 }
 
@@ -32,7 +33,7 @@ void add_stream_options(CLI::App& app, StreamSettings& settings) {
   app.add_option("--intra-seconds", settings.intra_seconds,
                  "Seconds between points where playing can begin, in containers; 0: one point")
       ->option_text("SECONDS=5")
-      ->check(CLI::NonNegativeNumber)
+      ->check(at_least_zero())
       ->capture_default_str();
 }
 
@@ -73,7 +74,7 @@ void add_sound_options(CLI::App& app, SoundSettings& settings, bool copy) {
   app.add_option("--audio-bitrate", settings.bit_rate,
                  "Bits a second of the sound; default: 64000 for aac, 40000 for opus")
       ->option_text("6000..320000")
-      ->check(CLI::Range(6000, 320000));
+      ->check(between(6000, 320000));
 }
 
 media::AudioSettings audio_settings(const SoundSettings& settings, const std::string& path) {

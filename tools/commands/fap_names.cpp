@@ -42,4 +42,6 @@ Result<std::vector<int>> fap_numbers(const std::vector<std::string>& names) {
   return numbers;
 }
 
+Result<std::vector<int>> faps_of(const std::string& name) { return fap_numbers({name}); }
+
 }  // namespace animeme::tools

@@ -17,4 +17,7 @@ int fap_number(std::string_view text);
 /// invalid_argument, which names the first that is none of these.
 Result<std::vector<int>> fap_numbers(const std::vector<std::string>& names);
 
+/// Those of one text, for read_by().
+Result<std::vector<int>> faps_of(const std::string& name);
+
 }  // namespace animeme::tools

@@ -11,6 +11,7 @@
 
 #include "dam/speaking/stream.h"
 #include "fap/rate_text.h"
+#include "tools/commands/bounds.h"
 #include "tools/commands/common.h"
 #include "tools/commands/motion_options.h"
 #include "tools/exchange/curves.h"
@@ -80,7 +81,7 @@ Result<int> follow_sound(const FollowOptions& options, const dam::Model& model,
   std::optional<speech::BareSound> bare;
   if (!options.pcm.empty()) {
     auto parsed = speech::parse_bare_sound(options.pcm);
-    if (!parsed) return usage_error("--pcm: " + parsed.error().message);
+    if (!parsed) return parsed.error();
     bare = *parsed;
   }
   const std::string name = options.audio == "-" ? "standard input" : options.audio;
@@ -139,7 +140,7 @@ Result<int> follow_sound(const FollowOptions& options, const dam::Model& model,
 
 Result<int> run(const FollowOptions& options) {
   Result<fap::Rate> rate = fap::parse_rate(options.rate);
-  if (!rate) return usage_error("--rate " + options.rate + ": " + rate.error().message);
+  if (!rate) return rate.error();
   Result<dam::Model> model = speech::read_model(options.model);
   if (!model) return model.error();
   if (!options.audio.empty()) return follow_sound(options, *model, *rate);
@@ -178,15 +179,17 @@ Result<int> run(const FollowOptions& options) {
 void add_options(CLI::App& app, FollowOptions& options) {
   app.add_option("--model", options.model, "Model file of a character; default: the built-in one");
   app.add_option("--rate", options.rate, "Frames a second: 25, 29.97, 60 ...")
+      ->type_name("RATE")
+      ->check(frame_rate())
       ->capture_default_str();
   add_motion_options(app, options.motion);
   app.add_option("--max-seconds", options.length.seconds, "Longest phone, or gap before one")
       ->option_text("SECONDS=3600")
-      ->check(CLI::Range(1.0, dam::kMaxScriptSeconds));
+      ->check(between(1.0, dam::kMaxScriptSeconds));
   app.add_option("--look-ahead", options.look_ahead,
                  "Seconds of phones to wait for before a frame is given out; default: as many as "
                  "make it final (about half a second)")
-      ->check(CLI::Range(0.0, 60.0));
+      ->check(between(0.0, 60.0));
   app.add_option(
          "--audio", options.audio,
          "Listen to a voice in place of phones: WAV from - (standard input), a pipe, a file")
@@ -197,11 +200,12 @@ void add_options(CLI::App& app, FollowOptions& options) {
                  "The sound is bare samples of 16 bit, little endian, of this rate, as 16000 or "
                  "48000:2 (two channels)")
       ->option_text("RATE[:CHANNELS]")
+      ->check(read_by(speech::parse_bare_sound))
       ->needs("--audio");
   app.add_option("--delay", options.delay,
                  "Seconds of sound to wait for before a frame is given out")
       ->option_text("0.08..2=0.25")
-      ->check(CLI::Range(0.08, 2.0))
+      ->check(between(0.08, 2.0))
       ->needs("--audio");
   app.add_option("--lang", options.language, "Of the voice: en, or any other")
       ->option_text("LANG=en")

@@ -233,8 +233,8 @@ Result<int> run(const HeadOptions& given) {
 void add_options(CLI::App& app, HeadOptions& options) {
   app.add_option("head", options.head.head, kHeadHelp)->capture_default_str();
   app.add_option("--points", options.head.points, kPointsHelp);
-  app.add_option("--gain", options.head.gain,
-                 std::string(kGainHelp) + "; default: auto for --speak-test, else 1");
+  CLI::Option* gain = add_gain_option(app, options.head);
+  gain->description(gain->get_description() + "; default: auto for --speak-test, else 1");
   app.add_flag(
       "--speak-test", options.speak_test,
       "Speak P B M AA IY UW on it and measure: lips closed within 0.1 mm, UW 15 % narrower "

@@ -1,4 +1,5 @@
 #include "tools/commands/head_options.h"
+#include "tools/commands/bounds.h"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -12,15 +13,30 @@ const char* const kPointsHelp =
     "Which vertex of your .obj or .glb is which feature point: lines such as 2.1,966 (animeme head "
     "--help)";
 
+namespace {
+
 const char* const kGainHelp =
     "How much wider lips open than the clip says, 0.25..4; auto: so that a spoken AA opens 70 % of "
     "what the head's jaw can";
+
+std::string problem_of_gain(const std::string& text) {
+  const bool known = text == "auto" || studio::gain_of(text);
+  return known ? "" : "auto or a number from 0.25 to 4 is wanted, not \"" + text + "\"";
+}
+
+}  // namespace
+
+CLI::Option* add_gain_option(CLI::App& app, studio::HeadChoice& choice) {
+  return app.add_option("--gain", choice.gain, kGainHelp)
+      ->type_name("0.25..4|auto")
+      ->check(written_so(problem_of_gain));
+}
 
 namespace {
 
 void add_shared_options(CLI::App& app, studio::HeadChoice& choice) {
   app.add_option("--points", choice.points, kPointsHelp);
-  app.add_option("--gain", choice.gain, kGainHelp)->capture_default_str();
+  add_gain_option(app, choice)->capture_default_str();
 }
 
 void add_heads(const std::string& value, std::vector<std::string>& heads) {

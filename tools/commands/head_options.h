@@ -9,14 +9,17 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace animeme::tools {
 
 /// What --help says of --head and --points.
 extern const char* const kHeadHelp;
 extern const char* const kPointsHelp;  ///< likewise
-extern const char* const kGainHelp;    ///< likewise
+
+/// Adds --gain.
+CLI::Option* add_gain_option(CLI::App& app, studio::HeadChoice& choice);
 
 /// Adds --head, --points and --gain.
 void add_head_options(CLI::App& app, studio::HeadChoice& choice);

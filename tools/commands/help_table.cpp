@@ -29,9 +29,9 @@ std::string trimmed(std::string text) {
   return text;
 }
 
-HelpOption option_of(const CLI::Option& option, const CLI::Formatter& formatter) {
+HelpOption option_of(const CLI::Option& option, const CLI::Formatter& formatter, bool named) {
   HelpOption out;
-  if (option.nonpositional()) {
+  if (named) {
     for (const std::string& name : option.get_snames()) out.names.push_back("-" + name);
     for (const std::string& name : option.get_lnames()) out.names.push_back("--" + name);
   } else {
@@ -54,8 +54,8 @@ HelpTable help_table(const CLI::App& app) {
   const Columns formatter;
   HelpTable table{app.get_name(), app.get_description(), app.get_footer(), {}, {}, {}};
   for (const CLI::Option* option : app.get_options()) {
-    const bool named = option->nonpositional();
-    (named ? table.options : table.arguments).push_back(option_of(*option, formatter));
+    if (option->nonpositional()) table.options.push_back(option_of(*option, formatter, true));
+    if (option->get_positional()) table.arguments.push_back(option_of(*option, formatter, false));
   }
   for (const CLI::App* command : app.get_subcommands({})) {
     if (!command->get_group().empty()) table.commands.push_back(help_table(*command));

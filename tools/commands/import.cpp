@@ -221,7 +221,7 @@ void add_options(CLI::App& app, ImportOptions& options) {
                             "FAP text (.fap) or a table of curves (.csv) to write, - for standard "
                             "output; a folder for several inputs; the folder of a corpus gets "
                             "fap/NAME.csv"),
-             {".fap", ".txt", ".csv"})
+             {".fap", ".txt", ".csv"}, OutputKind::file_or_folder)
       ->required();
   add_capture_options(app, options.capture);
   add_neutral_options(app, options.neutral);

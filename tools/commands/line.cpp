@@ -91,9 +91,10 @@ int run_line(std::span<const char* const> arguments) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0) {
       const std::string guess = did_you_mean(app, arguments.subspan(1));
-      if (!guess.empty()) return usage_error(guess);
+      return usage_error(guess.empty() ? error.what() : guess);
     }
-    return app.exit(error) == 0 ? kOk : kUsage;
+    app.exit(error);  // help
+    return kOk;
   }
   set_quiet(flags.quiet);
   set_verbose(flags.verbose);
@@ -101,6 +102,7 @@ int run_line(std::span<const char* const> arguments) {
     if (const std::string text = problem_with_outputs(*command); !text.empty()) {
       return usage_error(text);
     }
+    if (auto can = outputs_can_be_written(*command); !can) return report_error(can.error());
   }
   const Result<int> result = chosen();
   return result ? *result : report_error(result.error());

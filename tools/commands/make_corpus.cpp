@@ -5,6 +5,7 @@
 
 #include "tools/capture/build_corpus.h"
 #include "tools/capture/corpus_report.h"
+#include "tools/commands/bounds.h"
 #include "tools/commands/capture_options.h"
 #include "tools/commands/common.h"
 #include "tools/commands/interrupt.h"
@@ -73,19 +74,21 @@ void add_options(CLI::App& app, MakeCorpusOptions& options) {
          "(NAME.TextGrid and others), or a table of names and texts (tabs, | or commas); of "
          "one video its .txt, .srt, .vtt or .TextGrid")
       ->required();
-  app.add_option("-o,--output", plan.output, "Folder of the corpus; an earlier one is gone on with")
+  add_output(app.add_option("-o,--output", plan.output,
+                            "Folder of the corpus; an earlier one is gone on with"),
+             {}, OutputKind::folder)
       ->required();
   app.add_option("--audio", plan.places.audio,
                  "Folder of the sounds; without it those beside the captures, or in the videos");
   app.add_option("--lang", plan.language, "Language of the transcripts")->capture_default_str();
   add_script_options(app, plan.script_reading);
   app.add_option("--folds", plan.folds, "Parts to test on; part 1 is `test` in the column split")
-      ->check(CLI::Range(2, 100))
+      ->check(between(2, 100))
       ->capture_default_str();
   app.add_option("--cut", plan.longest,
                  "Recordings of more seconds than this become sentences, cut at their pauses; 0: "
                  "no cutting")
-      ->check(CLI::Range(0.0, 600.0))
+      ->check(between(0.0, 600.0))
       ->capture_default_str();
   app.add_flag("--strict", plan.strict, "Leave doubtful sentences out");
   app.add_flag("--track-again", plan.track_again, "Track videos that were tracked before, too");

@@ -19,9 +19,10 @@ void add_options(CLI::App& app, ManualOptions& options) {
   app.add_option("form", options.form, "man: pages; bash, zsh, fish: a completion")
       ->required()
       ->check(CLI::IsMember({"man", "bash", "zsh", "fish"}));
-  app.add_option(
-      "-o,--output", options.folder,
-      "Folder for the pages, which is made, or file for a completion; default: standard output");
+  add_output(app.add_option("-o,--output", options.folder,
+                            "Folder for the pages, which is made, or file for a completion; "
+                            "default: standard output"),
+             {}, OutputKind::file_or_folder);
 }
 
 Result<int> done(const Result<void>& written) {

@@ -7,6 +7,7 @@
 
 #include "codec/decode/access_unit.h"
 #include "codec/decode/fill.h"
+#include "tools/commands/bounds.h"
 #include "tools/commands/common.h"
 #include "tools/media/container.h"
 
@@ -117,7 +118,7 @@ void add_length_option(CLI::App& app, LengthLimit& limit) {
   app.add_option("--max-seconds", limit.seconds,
                  "Longest script, and longest time missing from a face, in seconds")
       ->option_text("SECONDS=3600")
-      ->check(CLI::Range(1.0, dam::kMaxScriptSeconds));
+      ->check(between(1.0, dam::kMaxScriptSeconds));
 }
 
 Result<void> require_face(const MotionInput& input, const std::string& path) {

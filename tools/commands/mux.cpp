@@ -1,4 +1,5 @@
 #include "tools/media/mux.h"
+#include "tools/commands/bounds.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -127,13 +128,13 @@ void add_options(CLI::App& app, MuxOptions& options) {
                    "mp4: in fragments, so that a reader can begin before the file is complete");
   app.add_option("--fragment-seconds", options.mux.fragment_seconds,
                  "Length of fragments and of segments (.m3u8, .mpd), seconds")
-      ->check(CLI::Range(0.02, 600.0))
+      ->check(between(0.02, 600.0))
       ->capture_default_str();
   app.add_option(
          "--pes-seconds", options.mux.shared_seconds,
          "ts: planes of so many seconds share a packet, and tables come half a second apart: a "
          "fraction of the bytes, but few readers part the planes again; 0: a packet a plane")
-      ->check(CLI::Range(0.0, 2.0))
+      ->check(between(0.0, 2.0))
       ->capture_default_str();
   app.add_flag("--systems", options.mux.systems,
                "mp4: add the scene and object streams of a complete MPEG-4 Systems presentation")

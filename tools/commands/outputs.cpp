@@ -8,6 +8,9 @@
 
 #include "fap/detail/text_scanner.h"
 #include "tools/files/files.h"
+#include "tools/files/output_file.h"
+#include "tools/files/output_folder.h"
+#include "tools/media/mux.h"
 
 namespace animeme::tools {
 
@@ -54,10 +57,18 @@ bool is_special(const std::string& path) {
   return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
+bool names_folder(const std::string& path) {
+  std::error_code ignored;
+  return path.ends_with('/') || fs::is_directory(path, ignored);
+}
+
 std::string wrong_ending(const Given& output, const OutputRule& rule) {
   if (rule.endings.empty() || (output.path == "-" && rule.kind != OutputKind::file)) return {};
   const std::string ending = extension_of(output.path);
-  if (rule.kind == OutputKind::stream && (ending.empty() || is_special(output.path))) return {};
+  if (rule.kind == OutputKind::file_or_folder && names_folder(output.path)) return {};
+  if (rule.kind != OutputKind::file && rule.kind != OutputKind::file_or_dash &&
+      (ending.empty() || is_special(output.path)))
+    return {};
   for (const std::string& fits : rule.endings) {
     if (fap::detail::lower_case(fits) == ending) return {};
   }
@@ -68,15 +79,6 @@ bool is_same_file(const std::string& a, const std::string& b) {
   std::error_code unknown;
   if (!fs::is_regular_file(a, unknown)) return false;
   return fs::equivalent(a, b, unknown) && !unknown;
-}
-
-// The folder beside a playlist is replaced as a whole.
-std::string replaced_folder(const std::string& output) {
-  const std::string ending = extension_of(output);
-  if (ending != ".m3u8" && ending != ".mpd") return {};
-  const fs::path path(output);
-  return (path.parent_path() / (path.stem().string() + (ending == ".mpd" ? "_dash" : "_hls")))
-      .string();
 }
 
 bool lies_in(const std::string& file, const std::string& folder) {
@@ -94,7 +96,7 @@ std::string harm(const Given& output, const Given& other) {
     return output.option + " " + output.path + " is also what " + other.option +
            " names, and would be lost; give another name";
   }
-  const std::string folder = replaced_folder(output.path);
+  const std::string folder = media::segment_folder(output.path);  // replaced as a whole
   if (lies_in(other.path, folder)) {
     return output.option + " " + output.path + " replaces the folder " + folder +
            ", in which what " + other.option + " names lies; give another name";
@@ -106,6 +108,9 @@ std::string harm(const Given& output, const Given& other) {
 
 CLI::Option* add_output(CLI::Option* option, std::vector<std::string> endings, OutputKind kind) {
   rules()[option] = {std::move(endings), kind};
+  if (option->get_type_name() == "TEXT") {
+    option->type_name(kind == OutputKind::folder ? "OUT/" : "OUT");
+  }
   return option;
 }
 
@@ -140,6 +145,25 @@ std::string problem_with_outputs(const CLI::App& command) {
         return outputs[i].option + " and " + outputs[k].option + " name the same file, " +
                outputs[i].path + "; give two names";
       }
+    }
+  }
+  return {};
+}
+
+Result<void> outputs_can_be_written(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    const auto rule = rules().find(option);
+    if (rule == rules().end()) continue;
+    for (const std::string& path : option->results()) {
+      const OutputKind kind = rule->second.kind;
+      // Either: what has no ending and is not there will be made as the command needs it.
+      std::error_code ignored;
+      const bool either = kind == OutputKind::file_or_folder && path != "-";
+      const bool unknown = extension_of(path).empty() && !fs::exists(path, ignored);
+      const bool folder = kind == OutputKind::folder || (either && (names_folder(path) || unknown));
+      auto can = folder ? try_output_folder(path) : try_output(path);
+      if (can && !media::segment_folder(path).empty()) can = media::try_segments(path);
+      if (!can) return can;
     }
   }
   return {};

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "dam/script/script.h"
+#include "tools/commands/bounds.h"
 #include "tools/commands/common.h"
 #include "tools/commands/fap_names.h"
 #include "tools/commands/script_options.h"
@@ -27,7 +28,7 @@ struct PlotOptions {
 
 Result<int> run(const PlotOptions& options) {
   const Result<std::vector<int>> faps = fap_numbers(options.faps);
-  if (!faps) return usage_error("--faps: " + faps.error().message);
+  if (!faps) return faps.error();
   if (options.to > 0 && options.to <= options.from) {
     return usage_error("--to has to lie behind --from");
   }
@@ -86,12 +87,14 @@ void add_options(CLI::App& app, PlotOptions& options) {
   add_script_options(app, options.reading.reading, options.reading.language);
   app.add_option("--faps", options.faps, "FAPs by number, name or range (3-13), one row each")
       ->delimiter(',')
+      ->type_name("FAPS")
+      ->check(read_by(faps_of))
       ->capture_default_str();
   app.add_flag("--difference", options.difference, "A row with the second less the first for each");
   add_length_option(app, options.length);
   app.add_option("--from", options.from, "Seconds at which the picture begins")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--to", options.to, "Seconds at which it ends")->check(CLI::PositiveNumber);
+      ->check(at_least_zero());
+  app.add_option("--to", options.to, "Seconds at which it ends")->check(above_zero());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "tools/commands/bounds.h"
 #include "tools/commands/common.h"
 #include "tools/commands/face_text.h"
 #include "tools/commands/interrupt.h"
@@ -240,16 +241,16 @@ void add_options(CLI::App& app, ReceiveOptions& options) {
              {".fap", ".fba", ".mp4", ".mkv", ".ts"}, OutputKind::file_or_dash)
       ->required();
   app.add_option("--duration", options.duration, "End after so many seconds of presentation")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   app.add_option("--wait", options.wait,
                  "Seconds to wait for the session description, the server and the first packet; "
                  "0: for ever")
-      ->check(CLI::NonNegativeNumber)
+      ->check(at_least_zero())
       ->capture_default_str();
   app.add_option("--timeout", options.timeout,
                  "End, with exit code 1, when nothing came for so many seconds; till then a sender "
                  "that begins again is recorded on; 0: never")
-      ->check(CLI::NonNegativeNumber)
+      ->check(at_least_zero())
       ->capture_default_str();
   app.add_option(
          "--gap", options.gap,
@@ -270,11 +271,11 @@ void add_options(CLI::App& app, ReceiveOptions& options) {
   app.add_option("--reorder-seconds", options.receive.media.rtp.reorder_seconds,
                  "rtp: time that a packet waits for an earlier one; it grows with how late packets "
                  "and copies come")
-      ->check(CLI::Range(0.0, 10.0))
+      ->check(between(0.0, 10.0))
       ->capture_default_str();
   app.add_option("--reorder-most", options.receive.media.rtp.reorder_most_seconds,
                  "rtp: what that time grows to at most")
-      ->check(CLI::Range(0.0, 10.0))
+      ->check(between(0.0, 10.0))
       ->capture_default_str();
   app.add_flag("--any-source", options.any_source,
                "rtp, udp: take datagrams from every address; else one sender is heard, from one "

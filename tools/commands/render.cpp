@@ -1,9 +1,11 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 
 #include "dam/script/script.h"
 #include "fap/rate_text.h"
+#include "tools/commands/bounds.h"
 #include "tools/commands/common.h"
 #include "tools/commands/fap_names.h"
 #include "tools/commands/head_options.h"
@@ -63,6 +65,26 @@ std::optional<Pair> parse_pair(const std::string& text, int most) {
   return pair;
 }
 
+// What is wrong with a value, for the line that is read.
+std::string problem_of_pixels(const std::string& text) {
+  return parse_pair(text, kLargestPicture) ? ""
+                                           : "WIDTHxHEIGHT is wanted, such as 640x640, up to 8192";
+}
+
+std::string problem_of_sheet(const std::string& text) {
+  const auto sheet = parse_pair(text, kMostPictures);
+  return sheet && sheet->x * sheet->y <= kMostPictures
+             ? ""
+             : "COLUMNSxROWS is wanted, such as 4x3, of 400 pictures at most";
+}
+
+std::string problem_of_view(const std::string& text) {
+  const auto degrees = render::view_degrees(text);
+  return degrees && std::abs(*degrees) <= 360
+             ? ""
+             : "front, three-quarter, side or degrees to the left are wanted";
+}
+
 // What was asked for, checked.
 struct Plan {
   Pair size;
@@ -72,32 +94,20 @@ struct Plan {
 
 Result<Plan> make_plan(const RenderOptions& options) {
   Plan plan;
-  const auto size = parse_pair(options.size, kLargestPicture);
-  if (!size) return make_error(Code::invalid_argument, "--size is WIDTHxHEIGHT, such as 640x640");
-  plan.size = *size;
-  plan.sheet = {1, 1};
-  if (!options.sheet.empty()) {
-    const auto sheet = parse_pair(options.sheet, kMostPictures);
-    if (!sheet || sheet->x * sheet->y > kMostPictures) {
-      return make_error(Code::invalid_argument, "--sheet is COLUMNSxROWS, such as 4x3");
-    }
-    plan.sheet = *sheet;
-  }
+  plan.size = parse_pair(options.size, kLargestPicture).value_or(Pair{});
+  plan.sheet = parse_pair(options.sheet, kMostPictures).value_or(Pair{1, 1});
   if (plan.size.x * plan.sheet.x > kLargestPicture ||
       plan.size.y * plan.sheet.y > kLargestPicture) {
     return make_error(
         Code::invalid_argument,
         "the sheet is larger than 8192 pixels: make the pictures smaller with --size");
   }
-  const auto degrees = render::view_degrees(options.view);
-  if (!degrees) {
-    return make_error(Code::invalid_argument,
-                      "--view is front, three-quarter, side or degrees to the left");
-  }
   if (std::string problem = studio::problem_of(options.head); !problem.empty()) {
     return make_error(Code::invalid_argument, std::move(problem));
   }
-  plan.look = {options.head, *degrees, options.up, options.zoom, plan.size.x, plan.size.y};
+  plan.look = {options.head, render::view_degrees(options.view).value_or(0),
+               options.up,   options.zoom,
+               plan.size.x,  plan.size.y};
   return plan;
 }
 
@@ -146,11 +156,11 @@ Result<int> render_video(const RenderOptions& options, const Plan& plan) {
       .look = plan.look, .quality = options.quality, .audio_bit_rate = options.audio_bit_rate};
   if (!options.rate.empty()) {
     const Result<fap::Rate> rate = fap::parse_rate(options.rate);
-    if (!rate || !rate->valid()) return usage_error("--rate is a number such as 25 or 29.97");
+    if (!rate) return rate.error();
     preview.rate = *rate;
   }
   Result<std::vector<int>> faps = fap_numbers(options.curves);
-  if (!faps) return usage_error("--curves: " + faps.error().message);
+  if (!faps) return faps.error();
   if (faps->size() > 3) return usage_error("--curves shows three FAPs at most");
   preview.faps = std::move(*faps);
   Result<FaceInput> input = read_face(options.input);
@@ -222,27 +232,35 @@ void add_options(CLI::App& app, RenderOptions& options) {
              {".png", ".jpg", ".jpeg", ".webp", ".mp4", ".webm", ".mkv"}, OutputKind::file_or_dash)
       ->required();
   auto* shapes = app.add_option("--shapes", options.shapes,
-                                "Instead of a file: neutral and all visemes or expressions");
-  auto* frame = app.add_option("--frame", options.frame, "Frame to show, from 0")
-                    ->check(CLI::NonNegativeNumber);
+                                "Instead of a file: neutral and all visemes or expressions")
+                     ->check(CLI::IsMember({"visemes", "expressions"}));
+  auto* frame =
+      app.add_option("--frame", options.frame, "Frame to show, from 0")->check(at_least_zero());
   auto* time = app.add_option("--time", options.times, "Seconds to show; several make a sheet")
-                   ->delimiter(',');
+                   ->delimiter(',')
+                   ->check(at_least_zero());
   auto* sheet = app.add_option("--sheet", options.sheet,
-                               "Contact sheet, COLUMNSxROWS: frames evenly over the clip");
+                               "Contact sheet, COLUMNSxROWS: frames evenly over the clip")
+                    ->type_name("COLUMNSxROWS")
+                    ->check(written_so(problem_of_sheet));
   frame->excludes(time)->excludes(shapes)->excludes(sheet);
   time->excludes(shapes);
   add_length_option(app, options.length);
   add_head_options(app, options.head);
   app.add_option("--view", options.view,
                  "front, three-quarter, side, or degrees to the person's left")
+      ->type_name("VIEW")
+      ->check(written_so(problem_of_view))
       ->capture_default_str();
   app.add_option("--up", options.up, "Degrees to look from above")
-      ->check(CLI::Range(-80, 80))
+      ->check(between(-80, 80))
       ->capture_default_str();
   app.add_option("--zoom", options.zoom, "1: head and shoulders; 2 is twice as near")
-      ->check(CLI::Range(0.2, 20.0))
+      ->check(between(0.2, 20.0))
       ->capture_default_str();
   app.add_option("--size", options.size, "Pixels of one picture, WIDTHxHEIGHT")
+      ->type_name("WIDTHxHEIGHT")
+      ->check(written_so(problem_of_pixels))
       ->capture_default_str();
   app.add_option("--audio", options.audio,
                  "Video: sound beside the face; default: that of the input, if it has any");
@@ -251,13 +269,17 @@ void add_options(CLI::App& app, RenderOptions& options) {
   app.add_option("--curves", options.curves,
                  "Video: FAPs to draw below the face, three at most, by number or name")
       ->delimiter(',')
-      ->expected(1, 3);
-  app.add_option("--rate", options.rate, "Video: pictures a second; default: those of the clip");
+      ->expected(1, 3)
+      ->type_name("FAPS")
+      ->check(read_by(faps_of));
+  app.add_option("--rate", options.rate, "Video: pictures a second; default: those of the clip")
+      ->type_name("RATE")
+      ->check(frame_rate());
   app.add_option("--quality", options.quality, "Video, .jpg and .webp: 0 (best) to 51 (smallest)")
-      ->check(CLI::Range(0, 51))
+      ->check(between(0, 51))
       ->capture_default_str();
   app.add_option("--audio-bitrate", options.audio_bit_rate, "Video: bits a second of its sound")
-      ->check(CLI::Range(6000, 320000));
+      ->check(between(6000, 320000));
 }
 
 }  // namespace

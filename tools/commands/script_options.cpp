@@ -24,6 +24,7 @@ std::string list_of_formats() {
 }  // namespace
 
 std::string parse_script_format(const std::string& text, dam::ScriptOptions& reading) {
+  if (text.empty()) return "wants a name; help: a list";
   std::string_view name = text;
   const std::size_t at = name.find('@');
   if (at != std::string_view::npos) {

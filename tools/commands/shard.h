@@ -13,7 +13,13 @@ inline std::string read_shard(const std::string& text, int& shard, int& shards) 
   const int read = std::sscanf(text.c_str(), "%d/%d%n", &shard, &shards, &used);
   const bool good = read == 2 && std::size_t(used) == text.size() && shards >= 1 && shard >= 1 &&
                     shard <= shards && shards <= 100000;
-  return good ? "" : "--shard wants I/N with I from 1 to N, as 1/4, not " + text;
+  return good ? "" : "I/N is wanted with I from 1 to N, as 1/4, not " + text;
+}
+
+/// The same where the two numbers are not wanted yet.
+inline std::string problem_of_shard(const std::string& text) {
+  int shard = 0, shards = 0;
+  return read_shard(text, shard, shards);
 }
 
 }  // namespace animeme::tools

@@ -9,6 +9,7 @@
 #include "dam/speaking/synthesise.h"
 #include "dam/speaking/viseme_track.h"
 #include "fap/rate_text.h"
+#include "tools/commands/bounds.h"
 #include "tools/commands/brief_help.h"
 #include "tools/commands/common.h"
 #include "tools/commands/face_stream.h"
@@ -270,7 +271,7 @@ Result<int> run(const SpeakOptions& options) {
           "--visemes is for FAPs; export writes tables of visemes (talk.visemes.csv)");
   }
   Result<fap::Rate> rate = fap::parse_rate(options.rate);
-  if (!rate) return usage_error("--rate " + options.rate + ": " + rate.error().message);
+  if (!rate) return rate.error();
   Result<dam::Model> model = speech::read_model(options.model);
   if (!model) return model.error();
   ProgressLine progress("listening");
@@ -326,6 +327,8 @@ void add_options(CLI::App& app, SpeakOptions& options) {
       ->allow_extra_args(false);
   app.add_option("--model", options.model, "Model file of a character; default: the built-in one");
   app.add_option("--rate", options.rate, "Frames a second: 25, 29.97, 60 ...")
+      ->type_name("RATE")
+      ->check(frame_rate())
       ->capture_default_str();
   add_output(app.add_option("--save-script", options.save_script,
                             "Also write the timed phones: .TextGrid, .tsv, .pho or .vtt"),
@@ -348,7 +351,8 @@ void add_options(CLI::App& app, SpeakOptions& options) {
   app.get_option("--lang")->each([&options](const std::string&) { options.language_told = true; });
   add_exact_option(app, options.exact);
   app.add_option("--seed", options.seed, "Other times of blinks and another sway of the head")
-      ->option_text("NUMBER=1");
+      ->option_text("NUMBER=1")
+      ->check(between(0, 1e9));
   add_stream_options(app, options.stream);
   add_preview_option(app, options.preview);
   add_sound_options(app, options.sound, false);

@@ -1,4 +1,5 @@
 #include "tools/commands/spoken_options.h"
+#include "tools/commands/bounds.h"
 
 #include <CLI/CLI.hpp>
 
@@ -44,15 +45,15 @@ void add_spoken_options(CLI::App& app, speech::SpokenOptions& options) {
       ->excludes("--audio");
   app.add_option("--max-seconds", options.most_seconds, "Longest script that is spoken")
       ->option_text("SECONDS=3600")
-      ->check(CLI::Range(1.0, dam::kMaxScriptSeconds))
+      ->check(between(1.0, dam::kMaxScriptSeconds))
       ->capture_default_str();
   app.add_option("--speed", options.words_per_minute, "Words a minute of the synthetic voice")
       ->option_text("80..450=175")
-      ->check(CLI::Range(80, 450))
+      ->check(between(80, 450))
       ->capture_default_str();
   app.add_option("--pitch", options.pitch, "Pitch of the synthetic voice")
       ->option_text("0..100=50")
-      ->check(CLI::Range(0, 100))
+      ->check(between(0, 100))
       ->capture_default_str();
 }
 

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "tools/commands/bounds.h"
 #include "tools/commands/common.h"
 #include "tools/commands/plane_file.h"
 #include "tools/inspect/sizes.h"
@@ -105,11 +106,11 @@ void add_options(CLI::App& app, StatsOptions& options) {
                                     "How small each clip gets with encode --preset file and live, "
                                     "beside the form common in the wild");
   app.add_option("--quant", options.quant, "With --sizes: quantiser of file and live")
-      ->check(CLI::Range(0, 31))
+      ->check(between(0, 31))
       ->capture_default_str()
       ->needs(sizes);
   app.add_option("--rms", options.rms, "With --sizes: limit of the error of the last column")
-      ->check(CLI::Range(1e-3, 1e6))
+      ->check(between(1e-3, 1e6))
       ->capture_default_str()
       ->needs(sizes);
   app.add_flag("--json", options.json, "Machine-readable result");

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "tools/commands/bounds.h"
 #include "tools/commands/brief_help.h"
 #include "tools/commands/shard.h"
 #include "tools/commands/train_base.h"
@@ -112,8 +113,8 @@ std::string misplaced(const CLI::App& app, const std::string& method) {
 
 Result<int> run(const CLI::App& app, TrainOptions& options) {
   std::string text = misuse(options);
-  if (text.empty() && !options.shard.empty())
-    text = read_shard(options.shard, options.corpus.shard, options.corpus.shards);
+  if (!options.shard.empty())
+    read_shard(options.shard, options.corpus.shard, options.corpus.shards);
   if (!text.empty()) return usage_error(text);
   text = misplaced(app, options.method);
   if (!text.empty()) return usage_error(text);
@@ -132,20 +133,23 @@ Result<int> run(const CLI::App& app, TrainOptions& options) {
 }
 
 void add_part_options(CLI::App& app, PartSettings& parts, std::string& shard) {
-  app.add_option("--accumulate", parts.accumulate,
-                 "Add the sentences, one at a time, to this file of sums instead of training; a "
-                 "file that is there is continued and counts no sentence twice");
+  add_output(app.add_option("--accumulate", parts.accumulate,
+                            "Add the sentences, one at a time, to this file of sums instead of "
+                            "training; a file that is there is continued and counts no sentence "
+                            "twice"),
+             {});
   app.add_option(
       "--dominance", parts.dominance,
       "With --accumulate and --mpi: a model of the method dam (a file, or builtin) whose "
       "dominance the sums are taken for; the same for all parts; default: start values");
   app.add_option("--save-every", parts.save_every,
                  "With --accumulate: save after so many new sentences")
-      ->check(CLI::Range(std::size_t(1), std::size_t(1000000)))
+      ->check(between(1, 1000000))
       ->capture_default_str();
   app.add_option("--shard", shard,
                  "With --accumulate: only these sentences, by their ids: 1/4 to 4/4")
-      ->option_text("I/N");
+      ->option_text("I/N")
+      ->check(written_so(problem_of_shard));
   app.add_flag(
       "--mpi", parts.mpi,
       "Under mpirun: every process takes sums of its part of the corpus, the first one makes "
@@ -178,11 +182,11 @@ Action add_train(CLI::App& app) {
       ->option_text("FILE");
   app.add_option("--order", options->train.animeme.order, "dam-paper: degree M of the polynomials")
       ->option_text("0..8=4")
-      ->check(CLI::Range(0, 8));
+      ->check(between(0, 8));
   app.add_option("--states", options->train.trajectory.states,
                  "mmm: Gaussians a phone, one for each part of its time")
       ->option_text("1..8=3")
-      ->check(CLI::Range(1, 8));
+      ->check(between(1, 8));
   app.add_flag("--single-mode", options->single_mode, "dam-paper: one mode a phone");
   app.add_flag("--plain-sum", options->plain_sum,
                "Methods of the paper: plain sum of Eq. 2, not divided by the sum of dominances");
@@ -190,17 +194,17 @@ Action add_train(CLI::App& app) {
                "Methods of the paper: extrapolate the polynomials freely");
   app.add_option("--ridge-factor", options->train.refined.ridge,
                  "dam: all ridges times this; 0 chooses by held-out sentences")
-      ->check(CLI::Range(0.0, 1000.0))
+      ->check(between(0.0, 1000.0))
       ->capture_default_str();
   app.add_option("--ridge", options->train.animeme.ridge,
                  "Methods of the paper: ridge on the coefficients, in frames")
-      ->check(CLI::NonNegativeNumber)
+      ->check(at_least_zero())
       ->capture_default_str();
   app.add_option("--max-iterations", options->train.max_iterations, "Steps at most")
-      ->check(CLI::Range(0, 1000))
+      ->check(between(0, 1000))
       ->capture_default_str();
   app.add_option("--threads", options->train.threads, "0: as the machine has")
-      ->check(CLI::Range(0, 1024));
+      ->check(between(0, 1024));
   app.add_option("--attribution", options->train.attribution,
                  "Whom to name when the model is passed on; kept in the model");
   add_part_options(app, options->parts, options->shard);

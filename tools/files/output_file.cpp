@@ -5,10 +5,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <iostream>
 #include <utility>
 
 #include "tools/files/unfinished.h"
@@ -178,6 +180,40 @@ Result<void> OutputFile::publish() {
   forget();
   sync_folder(fs::path(target_).parent_path());
   return {};
+}
+
+Result<void> try_output(const std::string& path) {
+  struct stat there = {};
+  const bool dash = path == "-";
+  if (!dash && ::stat(path.c_str(), &there) == 0 && !S_ISREG(there.st_mode) &&
+      !S_ISDIR(there.st_mode)) {
+    // Who reads from a pipe would take its being closed for the end.
+    if (!S_ISCHR(there.st_mode)) {
+      return ::access(path.c_str(), W_OK) == 0 ? Result<void>() : output_error(path);
+    }
+    const int device = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
+    const bool takes = device >= 0 && ::write(device, "", 0) == 0;
+    const int reason = errno;
+    if (device >= 0) ::close(device);
+    return takes ? Result<void>() : output_error(path, reason);
+  }
+  if (dash) {
+    const bool takes = ::write(STDOUT_FILENO, "", 0) == 0;
+    return takes ? Result<void>() : output_error("standard output");
+  }
+  constexpr std::array<std::uint8_t, 4096> kBlock =
+      {};  // where not even that is free, the disk is full
+  return OutputFile(path).write(kBlock);
+}
+
+Result<void> flush_standard_output() {
+  errno = 0;
+  std::cout.flush();
+  const bool done = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && !std::cout.bad();
+  if (done) return {};
+  // The reason of a write that failed before is asked for again.
+  const bool fails = errno != 0 || ::write(STDOUT_FILENO, "", 0) != 0;
+  return output_error("standard output", fails ? errno : EIO);
 }
 
 Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes) {

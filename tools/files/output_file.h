@@ -49,6 +49,13 @@ class OutputFile {
   int descriptor_ = -1;
 };
 
+/// Whether a file of this name could be written now, so that it is known before long work: makes
+/// one beside it, of a few bytes, and takes it away. Devices and standard output, "-", are asked by
+/// a write of nothing, pipes only for the right. Errors: those of OutputFile.
+Result<void> try_output(const std::string& path);
+/// Whether all that was printed arrived: standard output is flushed. Errors: io.
+Result<void> flush_standard_output();
+
 /// Writes a file whole or not at all; "-" is standard output. Errors: those of OutputFile.
 Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes);
 Result<void> write_file(const std::string& path, std::string_view text);  ///< likewise, of a text

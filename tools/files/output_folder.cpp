@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "tools/files/output_file.h"
 #include "tools/files/unfinished.h"
 #include "tools/files/unforeseen_name_internal.h"
 
@@ -24,6 +25,21 @@ std::string name_beside(const std::string& path) {
 }
 
 }  // namespace
+
+Result<void> try_output_folder(const std::string& path) {
+  std::error_code status;
+  fs::path nearest = fs::absolute(path, status);
+  while (!fs::exists(fs::symlink_status(nearest, status)) && nearest.has_relative_path()) {
+    nearest = nearest.parent_path();
+  }
+  if (!fs::is_directory(nearest, status)) {
+    return make_error(Code::io, nearest.string() + " is no folder; give another name")
+        .in_file(path);
+  }
+  auto can = try_output((nearest / unforeseen_name()).string());
+  if (!can) return make_error(Code::io, can.error().message).in_file(path);
+  return {};
+}
 
 Result<OutputFolder> OutputFolder::create(const std::string& path, Replaceable replaceable) {
   std::error_code status;

@@ -10,6 +10,10 @@
 
 namespace animeme::tools {
 
+/// Whether a folder of this name is there and can be written into, or could be made with those
+/// above it. Nothing stays behind. Errors: io.
+Result<void> try_output_folder(const std::string& path);
+
 /// A folder that takes its name when all its files are written.
 class OutputFolder {
  public:

@@ -123,4 +123,10 @@ Result<MuxResult> write_mp4(const std::string& path, const MuxInput& input,
 Result<MuxResult> write_container(const std::string& path, const MuxInput& input,
                                   const MuxOptions& options = {});
 
+/// The folder of segments beside a playlist, "talk_hls" for talk.m3u8; of other files "".
+std::string segment_folder(const std::string& path);
+
+/// Whether the folder of segments of this playlist could be made or replaced now. Error: io.
+Result<void> try_segments(const std::string& path);
+
 }  // namespace animeme::media

@@ -128,6 +128,14 @@ Result<LoadedHead> load_as_it_is(const HeadChoice& choice) {
   return loaded;
 }
 
+std::string gain_note(double gain) {
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), "--gain auto: lips open %.2f times as wide", gain);
+  return text.data();
+}
+
+}  // namespace
+
 std::optional<double> gain_of(const std::string& text) {
   double gain = 0;
   const char* const end = text.data() + text.size();
@@ -136,14 +144,6 @@ std::optional<double> gain_of(const std::string& text) {
                     gain <= fap::kMostMouthGain;
   return fits ? std::optional(gain) : std::nullopt;
 }
-
-std::string gain_note(double gain) {
-  std::array<char, 96> text{};
-  std::snprintf(text.data(), text.size(), "--gain auto: lips open %.2f times as wide", gain);
-  return text.data();
-}
-
-}  // namespace
 
 std::string problem_of(const HeadChoice& choice) {
   if (choice.gain != "auto" && !gain_of(choice.gain)) {

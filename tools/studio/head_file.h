@@ -2,6 +2,7 @@
 /// Heads by name: one of ours, or a file of any kind.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,9 @@ struct LoadedHead {
   head::Head head;                 ///< see fap/head/model.h
   std::vector<std::string> notes;  ///< what was guessed or is missing, a sentence each
 };
+
+/// The number that a --gain is, if it is one from 0.25 to 4.
+std::optional<double> gain_of(const std::string& text);
 
 /// What is wrong with a choice, as far as names tell: neither a head of ours nor a file, a kind of
 /// file that is not read, --points missing or not wanted, a gain that is none. Empty: nothing.

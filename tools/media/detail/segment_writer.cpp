@@ -227,13 +227,12 @@ Result<void> SegmentWriter::write_texts(const tools::OutputFolder& folder, doubl
 }
 
 Result<MuxResult> SegmentWriter::write() {
-  const std::filesystem::path target(path_);
-  const std::string folder_name = target.stem().string() + (dash_ ? "_dash" : "_hls");
   tools::OutputFile playlist(path_);
   if (auto place = playlist.place(); !place) return place.error();
-  Result<tools::OutputFolder> folder =
-      tools::OutputFolder::create((target.parent_path() / folder_name).string(), is_ours);
+  const std::string place = segment_folder(path_);
+  Result<tools::OutputFolder> folder = tools::OutputFolder::create(place, is_ours);
   if (!folder) return folder.error();
+  const std::string folder_name = std::filesystem::path(place).filename().string();
   if (auto opened = open(*folder); !opened) return opened.error();
   Result<Interleaved> done = interleave(feeds_, options_.stop, options_.progress);
   if (!done) return done.error();
@@ -258,6 +257,19 @@ Result<MuxResult> SegmentWriter::write() {
 }
 
 }  // namespace
+
+std::string segment_folder(const std::string& path) {
+  const std::filesystem::path target(path);
+  const std::string ending = extension_of(path);
+  if (ending != ".m3u8" && ending != ".mpd") return {};
+  const char* kind = ending == ".mpd" ? "_dash" : "_hls";
+  return (target.parent_path() / (target.stem().string() + kind)).string();
+}
+
+Result<void> try_segments(const std::string& path) {
+  const auto folder = tools::OutputFolder::create(segment_folder(path), is_ours);
+  return folder ? Result<void>() : folder.error();
+}
 
 Result<MuxResult> write_segments(const std::string& path, const MuxInput& input,
                                  const MuxOptions& options) {
