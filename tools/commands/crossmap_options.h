@@ -16,17 +16,32 @@ namespace animeme::tools {
 
 /// What was said on the command line; it goes before what a project says.
 struct CrossmapOptions {
-  std::vector<std::string> inputs;  ///< recordings, or a project
-  /// --output, --write-keys, --picture
-  std::string output, write_keys, picture;
-  bool json = false, csv = false;  ///< --json, --csv
-  /// Those of these names.
-  std::optional<std::string> to, points, neutral, keys, rate, size, layout, axes, unit;
-  /// --shapes, --controls, --fapu, --key, --use, --head-points
-  std::vector<std::string> shapes, controls, fapu, named, use, head;
-  std::optional<std::size_t> count;                          ///< --shapes-wanted
-  std::optional<double> preference, smooth, contact_weight;  ///< those of these names
-  bool convex = false;                                       ///< --convex
+  std::vector<std::string> inputs;       ///< recordings, or a project
+  std::string output;                    ///< --output
+  std::string write_keys;                ///< --write-keys
+  std::string picture;                   ///< --picture
+  bool json = false;                     ///< --json
+  bool csv = false;                      ///< --csv
+  std::optional<std::string> to;         ///< --to
+  std::optional<std::string> points;     ///< --points
+  std::optional<std::string> neutral;    ///< --neutral
+  std::optional<std::string> keys;       ///< --keys
+  std::optional<std::string> rate;       ///< --rate
+  std::optional<std::string> size;       ///< --size
+  std::optional<std::string> layout;     ///< --layout
+  std::optional<std::string> axes;       ///< --axes
+  std::optional<std::string> unit;       ///< --unit
+  std::vector<std::string> shapes;       ///< --shapes
+  std::vector<std::string> controls;     ///< --controls
+  std::vector<std::string> fapu;         ///< --fapu
+  std::vector<std::string> named;        ///< --key
+  std::vector<std::string> use;          ///< --use
+  std::vector<std::string> head;         ///< --head-points
+  std::optional<std::size_t> count;      ///< --shapes-wanted
+  std::optional<double> preference;      ///< --preference
+  std::optional<double> smooth;          ///< --smooth
+  std::optional<double> contact_weight;  ///< --contact-weight
+  bool convex = false;                   ///< --convex
 };
 
 /// The project that a file and options say. Errors: those of reading it.
