@@ -2,7 +2,7 @@
 
 export const typeAt = (view, at) => String.fromCharCode(...new Uint8Array(view.buffer, view.byteOffset + at, 4));
 
-/** The box at `at`: {type, begin, end, size}; null if less than its header is there. Its size may lead beyond the bytes. */
+/** The box at `at`: {type, begin, end}; null if less than its header is there. It may end beyond the bytes. */
 export function boxAt(view, at) {
   if (at + 8 > view.byteLength) return null;
   let size = view.getUint32(at), header = 8;
@@ -13,7 +13,7 @@ export function boxAt(view, at) {
   } else if (size === 0) {
     size = Infinity;  // up to the end of the file
   }
-  return {type: typeAt(view, at + 4), begin: at + header, end: at + Math.max(size, header), size};
+  return {type: typeAt(view, at + 4), begin: at + header, end: at + Math.max(size, header)};
 }
 
 /** The boxes within a range, those that are whole. */
@@ -36,4 +36,4 @@ export function find(view, box, ...path) {
 }
 
 /** Version and flags of a full box. */
-export const fullBox = (view, box) => ({version: view.getUint8(box.begin), flags: view.getUint32(box.begin) & 0xFFFFFF});
+export const fullBox = (view, {begin}) => ({version: view.getUint8(begin), flags: view.getUint32(begin) & 0xFFFFFF});

@@ -30,7 +30,9 @@ function* samplesOfRun(view, trun, header, track, state) {
   if (flags & 1) state.offset = state.base + view.getInt32((at += 4) - 4);
   const first = flags & 4 ? view.getUint32((at += 4) - 4) : header.flags;
   const row = [0x100, 0x200, 0x400, 0x800].filter((flag) => flags & flag).length * 4;
-  if (at + row * count > trun.end || count > 1_000_000) throw new AnimemeError('syntax', 'this mp4 is broken: a fragment');
+  if (at + row * count > trun.end || count > 1_000_000) {
+    throw new AnimemeError('syntax', 'this mp4 is broken: a fragment');
+  }
   for (let i = 0; i < count; ++i) {
     let {duration, size, flags: kind} = header;
     let shift = 0;

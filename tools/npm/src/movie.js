@@ -105,9 +105,12 @@ function sizesOf(view, stsz, most) {
 function offsetsOf(view, stbl, sizes) {
   const stco = find(view, stbl, 'stco'), box = stco ?? find(view, stbl, 'co64'), stsc = find(view, stbl, 'stsc');
   if (!box || !stsc) throw broken('a track has no chunks');
-  const width = stco ? 4 : 8, chunks = Math.min(view.getUint32(box.begin + 4), Math.floor((box.end - box.begin - 8) / width));
+  const width = stco ? 4 : 8, room = Math.floor((box.end - box.begin - 8) / width);
+  const chunks = Math.min(view.getUint32(box.begin + 4), room);
   const rules = [];
-  for (let at = stsc.begin + 8; at + 12 <= stsc.end; at += 12) rules.push([view.getUint32(at), view.getUint32(at + 4)]);
+  for (let at = stsc.begin + 8; at + 12 <= stsc.end; at += 12) {
+    rules.push([view.getUint32(at), view.getUint32(at + 4)]);
+  }
   const offsets = [];
   for (let chunk = 1, rule = 0; chunk <= chunks && offsets.length < sizes.length; ++chunk) {
     while (rule + 1 < rules.length && rules[rule + 1][0] <= chunk) ++rule;

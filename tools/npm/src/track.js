@@ -62,11 +62,12 @@ export class Track {
     this.end = 0;
   }
 
+  /** Frames that follow each other; those of a segment that comes late find their place. */
   add(frames) {
-    for (const frame of frames) {
-      this.frames.push(frame);
-      this.end = Math.max(this.end, frame.time + frame.rate[1] / frame.rate[0]);
-    }
+    if (!frames.length) return;
+    const last = frames.at(-1);
+    this.frames.splice(this.indexAt(frames[0].time) + 1, 0, ...frames);
+    this.end = Math.max(this.end, last.time + last.rate[1] / last.rate[0]);
   }
 
   /** Index of the last frame that has begun; -1 before the first. */
