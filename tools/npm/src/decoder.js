@@ -36,7 +36,8 @@ export class Decoder extends Handle {
 
   finish() { this.library.call('decoder_finish', this.handle); }
 
-  /** The next frame; null: push more, or it is over (`ended`). Throws at damage and, called again, goes on behind it. */
+  /** The next frame; null: push more, or it is over (`ended`). Throws at damage, and goes on behind it when called
+      again. */
   next() {
     const {frame, body} = this.room;
     const status = this.library.call('decoder_next', this.handle, frame, this.bodies ? body : 0);

@@ -4,6 +4,8 @@ import {readFragment} from './fragment.js';
 import {AnimemeError} from './library.js';
 import {readMovie} from './movie.js';
 
+const kFirst = ['ftyp', 'styp', 'moov', 'moof', 'mdat', 'free', 'skip', 'wide', 'sidx'];
+
 /** Push bytes, get access units: {time, duration (seconds), bytes, intra}. */
 export class Mp4Reader {
   constructor() {
@@ -43,7 +45,7 @@ export class Mp4Reader {
     const begin = this.at - this.base;
     const box = begin <= view.byteLength ? boxAt(view, begin) : null;
     if (!box) return false;
-    if (this.at === 0 && !/^[a-z0-9 ]{4}$/.test(box.type)) throw new AnimemeError('syntax', 'this is no mp4');
+    if (this.at === 0 && !kFirst.includes(box.type)) throw new AnimemeError('syntax', 'this is no mp4');
     if (box.type === 'moov' || box.type === 'moof') {
       if (box.end > view.byteLength) return false;
       if (box.type === 'moov') this.readContents(view, box);
