@@ -5,14 +5,15 @@
 #   tests/run.sh             with the programs that read most of our files
 #   tests/run.sh full        also with those that take long to install: browsers, players, npm packages
 #   tests/run.sh quick       the release build only
+#   tests/run.sh bindings    the packages for other languages, beside the release build: npm
 #   tests/run.sh elsewhere   the libraries as WebAssembly under node, and for ARM under QEMU
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 mode=${1:-tests}
 case $mode in
   tests | quick) packages=tests ;;
-  full | elsewhere) packages=$mode ;;
-  *) echo "usage: tests/run.sh [full|quick|elsewhere]" >&2; exit 2 ;;
+  full | elsewhere | bindings) packages=$mode ;;
+  *) echo "usage: tests/run.sh [full|quick|bindings|elsewhere]" >&2; exit 2 ;;
 esac
 cd "$here"
 # Large pages for what compilers and trainings allocate: an eighth of the time of clang, a quarter of training. Other
@@ -22,7 +23,7 @@ times=$(mktemp)
 trap 'rm -f "$times"' EXIT
 status=0
 case $mode in
-  quick) presets=release ;;
+  quick | bindings) presets=release ;;
   elsewhere) presets="wasm arm64" ;;
   *) presets="release asan" ;;
 esac
@@ -84,7 +85,24 @@ run() {
   part "$preset: tests" tests "$preset" "$more" || true  # the other round is of use all the same
 }
 
+# npm_package: by its own preset, then its tests in the tree of the release build, which has the program and the suite.
+npm_package() {
+  cmake --preset npm --log-level=STATUS && cmake --build --preset npm &&
+    ctest --test-dir build/release --output-on-failure -R '^npm\.'
+}
+
+# bindings: what the release build has to have for them.
+bindings() {
+  part "release: configure" cmake --preset release --log-level=STATUS || finish
+  part "release: build" cmake --build build/release --target animeme || finish
+  needs_program npm em++ && needs_program npm npm && part "npm" npm_package
+}
+
 part "packages" tools/setup.sh "$packages" || finish
+if [ "$mode" = bindings ]; then
+  bindings || true
+  finish
+fi
 for preset in $presets; do
   case $preset in
     release) run release 1 ;;  # pages draw by the processor

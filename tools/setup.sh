@@ -6,6 +6,7 @@
 #   tools/setup.sh tests     also what the tests need, and small programs of others that read our files
 #   tools/setup.sh full      also large ones: Chromium, GStreamer, mpv, Doxygen, and npm packages into
 #                            tests/readers/js/node_modules and tools/trackers/mediapipe/node_modules
+#   tools/setup.sh bindings  also what packages for other languages are made and tested with: Emscripten, Chromium, npm
 #   tools/setup.sh elsewhere compilers for WebAssembly and ARM, and what runs their programs
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
@@ -23,7 +24,7 @@ packages="
 mode=${1:-}
 # Only the tests need these.
 case $mode in
-  tests | full) packages="$packages libgtest-dev libgmock-dev libbenchmark-dev
+  tests | full | bindings) packages="$packages libgtest-dev libgmock-dev libbenchmark-dev
     clang-14 libclang-rt-14-dev llvm-14" ;;
 esac
 if [ "$mode" = elsewhere ]; then
@@ -34,6 +35,8 @@ fi
 readers="ffmpeg mediainfo mkvtoolnix clang-format-14 universal-ctags make parallel python3-yaml"
 [ "$mode" = full ] && readers="$readers mpv chromium doxygen slurm-wlm munge libopenmpi-dev man-db zsh fish
   gstreamer1.0-tools gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad"
+
+[ "$mode" = bindings ] && readers="$readers emscripten chromium"
 
 # True if node 18 or later and npm are there, from wherever.
 has_node() {
@@ -79,13 +82,13 @@ if [ -n "$missing" ]; then
   install_packages $missing
 fi
 case $mode in
-  tests | full) ;;
+  tests | full | bindings) ;;
   elsewhere) readers=$foreign ;;
   *) exit 0 ;;
 esac
 
 [ "$mode" = elsewhere ] || has_node || readers="$readers nodejs"
-[ "$mode" = full ] && { command -v npm >/dev/null || readers="$readers npm"; }
+case $mode in full | bindings) command -v npm >/dev/null || readers="$readers npm" ;; esac
 # shellcheck disable=SC2086
 missing=$(missing_of $readers)
 if [ -n "$missing" ]; then
@@ -93,7 +96,8 @@ if [ -n "$missing" ]; then
   # shellcheck disable=SC2086
   install_packages $missing || echo "warning: without$missing tests will skip" >&2
 fi
-[ "$mode" = full ] || exit 0
-for folder in tests/readers/js tools/trackers/mediapipe; do
+folders="tests/readers/js tools/trackers/mediapipe"
+case $mode in full) ;; bindings) folders=tests/readers/js ;; *) exit 0 ;; esac
+for folder in $folders; do
   install_npm_packages $folder >&2 || echo "warning: without npm packages of $folder tests will skip" >&2
 done

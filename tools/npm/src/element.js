@@ -31,7 +31,7 @@ export class AnimemeFace extends HTMLElement {
   constructor() {
     super();
     const root = this.attachShadow({mode: 'open'});
-    root.innerHTML = `<style>${style}</style><canvas part="canvas"></canvas>
+    root.innerHTML = `<style>${style}</style><canvas part="canvas" aria-hidden="true"></canvas>
       <audio part="audio" preload="auto"></audio>`;
     this.canvas = root.querySelector('canvas');
     this.audio = root.querySelector('audio');
@@ -42,7 +42,8 @@ export class AnimemeFace extends HTMLElement {
   }
 
   connectedCallback() {
-    if (!this.hasAttribute('role')) this.setAttribute('role', 'img');
+    // A picture; with controls in it a group, as nobody would find them in a picture.
+    if (!this.hasAttribute('role')) this.setAttribute('role', this.audio.controls ? 'group' : 'img');
     if (!this.hasAttribute('aria-label')) {
       this.setAttribute('aria-label', this.getAttribute('label') ?? 'a talking face');
     }
@@ -196,7 +197,7 @@ export class AnimemeFace extends HTMLElement {
       this.weights.frame = frame;
       this.fitters.arkit.fit(frame, this.weights.arkit);
       this.fitters.visemes.fit(frame, this.weights.visemes);
-      this.stage?.head?.show(this.weights.arkit, this.weights.visemes);
+      this.stage?.head?.show(this.weights.arkit, this.weights.visemes, frame);
       this.tell('frame', frame);
     }
     if (this.stage?.head) this.stage.draw();

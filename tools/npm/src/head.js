@@ -11,7 +11,7 @@ const bones = {
   right: [/^(mixamorig)?right_?eye(_bone)?$/i, /_R_FaceEye$/i, /^eye_?r$/i],
   jaw: [/^jaw_bone$/],  // of our heads: it carries the lower teeth
 };
-const kJawDegrees = 24;  // of our heads at jawOpen 1
+const kJawTurn = 1.61e-4;  // radians for a unit of FAP 3, of our heads (by animeme export)
 
 const plain = (name) => name.replace(/^.*\./, '').replace(/_L$/, 'Left').replace(/_R$/, 'Right').toLowerCase();
 
@@ -62,30 +62,30 @@ export class Head {
     return this.shapes.some((binding) => binding.channel === channel);
   }
 
-  /** Weights in the order of arkitNames() (61) and of visemeNames(); `turn`: how much of the head's motion. */
-  show(arkit, visemes, {turn = 1} = {}) {
+  /** Weights in the order of arkitNames() (61) and of visemeNames(), and the frame that they are of. */
+  show(arkit, visemes, frame = null) {
     for (const {node, index, channel} of this.shapes) node.morphTargetInfluences[index] = arkit[channel];
     if (this.byVisemes) {
       for (const {node, index, channel} of this.visemes) node.morphTargetInfluences[index] = visemes[channel];
     }
-    this.turn(this.head, arkit, kYaw, turn);
+    this.turn(this.head, arkit, kYaw);
     // Where shapes move eyes that are part of the face, bones would turn them twice.
     if (!this.eyesByShapes) {
-      this.turn(this.left, arkit, kLeftEye, 1);
-      this.turn(this.right, arkit, kRightEye, 1);
+      this.turn(this.left, arkit, kLeftEye);
+      this.turn(this.right, arkit, kRightEye);
     }
-    if (this.jaw) {
-      const open = arkit[arkitNames().indexOf('jawOpen')] * kJawDegrees * Math.PI / 180;
+    if (this.jaw && frame) {
+      const open = frame.values[2] * kJawTurn;
       this.jaw.node.quaternion.copy(this.jaw.rest).multiply(quaternion.setFromAxisAngle(xAxis, open));
     }
   }
 
   // Positive angles: yaw to the person's right, pitch down, roll towards the person's left shoulder. The face looks
   // along z, its left is at x.
-  turn(bone, arkit, channel, share) {
+  turn(bone, arkit, channel) {
     if (!bone) return;
     const [yaw, pitch, roll] = arkit.subarray(channel, channel + 3);
-    euler.set(pitch * share, -yaw * share, -roll * share, 'YXZ');
+    euler.set(pitch, -yaw, -roll, 'YXZ');
     bone.node.quaternion.copy(bone.rest).multiply(quaternion.setFromEuler(euler));
   }
 
