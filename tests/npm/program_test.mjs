@@ -141,6 +141,26 @@ test('the face of an mp4 is that of its stream, whole, in fragments and in piece
   assert.throws(() => animeme.decodeMp4(new TextEncoder().encode('no mp4 at all')), {code: 'syntax'});
 });
 
+test('a broken mp4 is an error or a face, whatever is broken', () => {
+  let state = 1;
+  const random = (below) => (state = (Math.imul(state, 1103515245) + 12345) & 0x7fffffff) % below;
+  const codes = new Set();
+  for (const name of ['hello', 'fragments']) {
+    const good = bytes(`${name}.mp4`);
+    for (let k = 0; k < 600; ++k) {
+      const broken = good.slice(0, k % 3 === 0 ? random(good.length) : good.length);
+      for (let i = random(4); i >= 0; --i) broken[random(Math.min(broken.length, 4000))] = [0, 255, random(256)][random(3)];
+      try {
+        animeme.decodeMp4(broken);
+      } catch (problem) {
+        assert.equal(problem.name, 'AnimemeError', problem.stack);
+        codes.add(problem.code);
+      }
+    }
+  }
+  assert.deepEqual([...codes].sort(), ['syntax', 'truncated', 'unsupported']);
+});
+
 // As page.cpp puts it in: base64 of a deflated clip.
 function clipOf(html) {
   const found = /id="clip0"[^>]*>([A-Za-z0-9+/=\s]+)</.exec(html);

@@ -48,8 +48,13 @@ export class Mp4Reader {
     if (this.at === 0 && !kFirst.includes(box.type)) throw new AnimemeError('syntax', 'this is no mp4');
     if (box.type === 'moov' || box.type === 'moof') {
       if (box.end > view.byteLength) return false;
-      if (box.type === 'moov') this.readContents(view, box);
-      else if (this.track) this.readFragment(view, box);
+      try {
+        if (box.type === 'moov') this.readContents(view, box);
+        else if (this.track) this.readFragment(view, box);
+      } catch (problem) {
+        if (!(problem instanceof RangeError)) throw problem;  // a box that is shorter than what it says
+        throw new AnimemeError('syntax', `this mp4 is broken: a box in ${box.type} is too short`);
+      }
     }
     this.at = this.base + box.end;
     return true;
