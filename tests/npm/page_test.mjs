@@ -43,7 +43,9 @@ const frames = animeme.decode(new Uint8Array(readFileSync(join(dir, 'talk.fba'))
 
 async function open() {
   const page = await browser.open(`${server.url}tests/page.html`);
-  await page.wait('window.isReady === true').catch((late) => { throw new Error(`${late.message} ${complaints(page)}`); });
+  await page.wait('window.isReady === true').catch((late) => {
+    throw new Error(`${late.message} ${complaints(page)}`);
+  });
   return page;
 }
 
@@ -58,7 +60,7 @@ const put = (page, attributes) => page.evaluate((given) => {
   window.events = [];
   face.addEventListener('frame', ({detail}) => window.seen.push(
     {number: detail.number, time: detail.time, heard: face.currentTime, values: Array.from(detail.values)}));
-  for (const name of ['play', 'pause', 'ended', 'error', 'blocked', 'load', 'head']) {
+  for (const name of ['play', 'pause', 'ended', 'error', 'blocked', 'load', 'head', 'lost']) {
     face.addEventListener(name, (event) => window.events.push(name + (event.message ? `: ${event.message}` : '')));
   }
   for (const [name, value] of Object.entries(given)) face.setAttribute(name, value);
@@ -191,8 +193,9 @@ test('what is missing is told', async () => {
 
 test('a live face, bytes beside values of the server', async () => {
   const port = 20000 + process.pid % 20000;
-  const sender = spawn(program, ['stream', 'talk.mp4', '--to', `http://127.0.0.1:${port}/`, '--loop',
+  const send = () => spawn(program, ['stream', 'talk.mp4', '--to', `http://127.0.0.1:${port}/`, '--loop',
     '--allow-origin', server.url.replace(/\/$/, '')], {cwd: dir, stdio: 'ignore'});
+  let sender = send();
   try {
     const page = await open();
     for (let i = 0; i < 100; ++i) {
@@ -219,6 +222,14 @@ test('a live face, bytes beside values of the server', async () => {
       assert.ok(Math.abs(heard - time) < 0.2, `frame of ${time} s at ${heard} s`);
     }
     assert.ok(compared > 20, `${compared} frames were compared`);
+
+    // It breaks and comes back.
+    sender.kill('SIGKILL');
+    await page.wait('events.includes("lost")');
+    sender = send();
+    await page.evaluate('seen.length = 0');
+    await page.wait('seen.length > 20');
+    for (const {time, heard} of (await page.evaluate('seen')).slice(5)) assert.ok(Math.abs(heard - time) < 0.2);
     await page.close();
   } finally {
     sender.kill();

@@ -1,4 +1,5 @@
-// program_test.mjs PACKAGE PROGRAM SOURCE: values of the package beside those of the program, and of the page that it writes.
+// program_test.mjs PACKAGE PROGRAM SOURCE: values of the package beside those of the program, and of the page that it
+// writes.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
@@ -149,7 +150,9 @@ test('a broken mp4 is an error or a face, whatever is broken', () => {
     const good = bytes(`${name}.mp4`);
     for (let k = 0; k < 600; ++k) {
       const broken = good.slice(0, k % 3 === 0 ? random(good.length) : good.length);
-      for (let i = random(4); i >= 0; --i) broken[random(Math.min(broken.length, 4000))] = [0, 255, random(256)][random(3)];
+      for (let i = random(4); i >= 0; --i) {
+        broken[random(Math.min(broken.length, 4000))] = [0, 255, random(256)][random(3)];
+      }
       try {
         animeme.decodeMp4(broken);
       } catch (problem) {

@@ -80,7 +80,7 @@ export class Decoder extends Handle implements Iterable<Frame> {
   push(bytes: Uint8Array): void;
   /** No more bytes will come. */
   finish(): void;
-  /** The next frame; null: push more, or `ended`. Throws AnimemeError at damage, and goes on behind it if called again. */
+  /** The next frame; null: push more, or `ended`. Throws AnimemeError at damage; called again, it goes on behind it. */
   next(): Frame | null;
   readonly ended: boolean;
   /** Forgets all: the next byte begins another stream. */
@@ -151,7 +151,7 @@ export interface SpeakOptions {
 /** Phones to frames, by a model of how somebody talks. */
 export class Speaker extends Handle {
   private constructor();
-  /** A model (.dam) as bytes or address; that of the package without one. Loads speaker.wasm, from `source` if given. */
+  /** A model (.dam) as bytes or address; without one that of the package. Loads speaker.wasm (or `source`). */
   static load(model?: BufferSource | string | URL, source?: WasmSource | Promise<WasmSource>): Promise<Speaker>;
   /** Who has to be named when the model is passed on. */
   readonly attribution: string;
@@ -203,6 +203,7 @@ export class Track {
   /** The frame that is shown at a time. */
   at(time: number): Frame | null;
   indexAt(time: number): number;
+  clear(): void;
   /** Drops what is before a time. */
   forget(time: number): void;
 }

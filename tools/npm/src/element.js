@@ -148,7 +148,8 @@ export class AnimemeFace extends HTMLElement {
     const url = new URL(src, document.baseURI).href, open = openerOf(src, this.hasAttribute('live'));
     const stopped = this.stopped = new AbortController();
     this.track = new Track();
-    const source = {media: this.audio, silent: () => this.silent(), track: this.track, signal: stopped.signal};
+    const source = {media: this.audio, silent: () => this.silent(), track: this.track, signal: stopped.signal,
+      lost: (problem) => this.lose(problem)};
     if (open === openFba) source.media = this.silent();
     else this.use(this.audio);
     this.loading = ready().then(() => {
@@ -172,6 +173,13 @@ export class AnimemeFace extends HTMLElement {
     this.weights.frame = null;
   }
 
+  // The next connection begins like the first.
+  lose(problem) {
+    this.weights.frame = null;
+    this.startsBySelf = true;
+    this.tell('lost', problem);
+  }
+
   fail(problem) {
     this.tell('error', problem);
     throw problem;
@@ -186,6 +194,7 @@ export class AnimemeFace extends HTMLElement {
   // Plays by itself as soon as there is something to show; browsers may want a gesture first.
   begin() {
     if (!this.startsBySelf || !this.track.frames.length) return;
+    if (this.media === this.audio && this.audio.readyState < HTMLMediaElement.HAVE_CURRENT_DATA) return;
     this.startsBySelf = false;
     this.play().catch((problem) => { if (problem.name !== 'AbortError') this.tell('blocked', problem); });
   }

@@ -52,26 +52,31 @@ function steer(media, buffer) {
   if (!range) return;
   const lag = range.end - media.currentTime;
   if (media.currentTime < range.begin || lag > kTarget + kJump) {
-    if (range.end - range.begin >= kTarget) media.currentTime = Math.max(range.begin, range.end - kTarget);
+    const target = Math.max(range.begin, range.end - kTarget);
+    if (range.end - range.begin >= kTarget) media.currentTime = target;
     return;
   }
   media.playbackRate = lag > kTarget + 0.15 ? 1.05 : lag < kTarget - 0.2 ? 0.96 : 1;
 }
 
-/** Plays what a server sends; resolves when it ends. `url`: of the server (http, ws). */
-export async function openLive(url, {media, silent, track, signal}) {
+const kRetry = [0.5, 1, 2, 4];  // seconds
+
+// One connection to the server. `heard()`: it has begun to speak.
+async function session(url, {media, silent, track, signal}, heard) {
   const address = (path) => new URL(path, url).href.replace(/^http/, 'ws');
-  let hello = null, decoder = null, buffer = null, player = media;
-  const sound = [];
+  let hello = null, decoder = null, buffer = null, player = media, failSound;
+  const noSound = new Promise((_, fail) => { failSound = fail; });
+  let sound = null;
   const takeSound = (bytes) => {
     if (!buffer) buffer = new SoundBuffer(media, bytes);
-    else buffer.opened.then(() => buffer.append(bytes)).catch(() => {});
+    else buffer.opened.then(() => buffer.append(bytes)).catch(failSound);
   };
   const takeFace = (bytes) => {
     if (!hello) {
       hello = readHello(bytes);
+      heard();
       if (hello.config.length) decoder = new UnitDecoder(hello.config);
-      if (hello.sound) sound.push(listen(address('audio'), signal, takeSound));
+      if (hello.sound) (sound = listen(address('audio'), signal, takeSound)).catch(failSound);
       else player = silent();
       return;
     }
@@ -86,12 +91,35 @@ export async function openLive(url, {media, silent, track, signal}) {
   };
   const timer = setInterval(() => { if (buffer) steer(media, buffer); }, 200);
   try {
-    await listen(address('face'), signal, takeFace);
-    await Promise.all(sound);
+    await Promise.race([listen(address('face'), signal, takeFace), noSound]);
+    await sound;
     if (buffer) await buffer.opened.then(() => buffer.queue).then(() => buffer.end());
+  } catch (problem) {
+    buffer?.detach();  // the next one begins like the first
+    track.clear();
+    throw problem;
   } finally {
     clearInterval(timer);
     decoder?.free();
     buffer?.close();
+  }
+}
+
+/** Plays what a server sends; resolves when it ends. `url`: of the server (http, ws). A connection that breaks is
+    opened again (`lost` is told each time), unless there never was one. */
+export async function openLive(url, source) {
+  let known = false;
+  for (let attempt = 0;; ++attempt) {
+    try {
+      return await session(url, source, () => {
+        known = true;
+        attempt = 0;
+      });
+    } catch (problem) {
+      if (problem.code !== 'io' || !known || source.signal.aborted) throw problem;
+      source.lost?.(problem);
+      await new Promise((done) => setTimeout(done, 1000 * kRetry[Math.min(attempt, kRetry.length - 1)]));
+      if (source.signal.aborted) return undefined;
+    }
   }
 }

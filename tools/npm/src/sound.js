@@ -68,4 +68,11 @@ export class SoundBuffer {
   }
 
   close() { URL.revokeObjectURL(this.url); }
+
+  /** Takes the sound away from its player. */
+  detach() {
+    if (this.media.src !== this.url) return;
+    this.media.removeAttribute('src');
+    this.media.load();
+  }
 }

@@ -83,6 +83,11 @@ export class Track {
 
   at(time) { return this.frames[this.indexAt(time)] ?? null; }
 
+  clear() {
+    this.frames.length = 0;
+    this.end = 0;
+  }
+
   /** Forgets what is before a time, of streams without an end. */
   forget(time) {
     const count = this.indexAt(time);
