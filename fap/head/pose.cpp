@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "fap/arkit.h"
 #include "fap/detail/lips.h"
 #include "fap/head/detail/normals.h"
