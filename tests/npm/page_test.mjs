@@ -5,13 +5,15 @@ import {execFileSync, spawn} from 'node:child_process';
 import {existsSync, mkdtempSync, readdirSync, readFileSync, rmSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {tmpdir} from 'node:os';
-import {join} from 'node:path';
+import {dirname, join} from 'node:path';
 import {after, test} from 'node:test';
 
 const [folder, program, source, cases] = process.argv.slice(2);
 const require = createRequire(import.meta.url);
 const {launch} = require(`${source}/tests/readers/js/browser.js`);
 const {serve} = require(`${source}/tests/readers/js/server.js`);
+// The folder of reference data, as tests/support/shared.h finds it.
+const avatars = join(process.env.ANIMEME_SHARED ?? join(dirname(source), 'shared'), 'data/avatars');
 const modules = `${source}/tests/readers/js/node_modules`;
 
 function skip(why) {
@@ -28,7 +30,7 @@ await animeme.ready();
 const browser = await launch({flags: ['--use-angle=swiftshader', '--enable-unsafe-swiftshader',
   '--ignore-gpu-blocklist']}).catch(() => skip('chromium is missing (Debian package chromium)'));
 const server = await serve({'/animeme/': folder, '/three/': `${modules}/three`, '/axe/': `${modules}/axe-core`,
-  '/tests/': `${source}/tests/npm`, '/cases/': cases, '/media/': dir, '/avatars/': `${source}/../shared/data/avatars`});
+  '/tests/': `${source}/tests/npm`, '/cases/': cases, '/media/': dir, '/avatars/': avatars});
 after(async () => {
   await browser.close();
   await server.close();
@@ -237,7 +239,7 @@ test('a live face, bytes beside values of the server', async () => {
 });
 
 for (const name of ['arkit_and_visemes', 'visemes_only', 'brunette-t']) {
-  const there = existsSync(`${source}/../shared/data/avatars/${name}.glb`);
+  const there = existsSync(`${avatars}/${name}.glb`);
   test(`an avatar of users: ${name}`, {skip: there ? false : 'no avatars beside the tree'}, async () => {
     const page = await open();
     await put(page, {src: '/media/talk.fba', head: `/avatars/${name}.glb`});
