@@ -68,7 +68,7 @@ std::vector<ShapeControl> measured_shapes(const Head& head, const Rig& rig) {
   std::vector<ShapeControl> shapes = head.shapes;
   // Not by std::ranges, which Emscripten's library does not have.
   const bool arkit = std::any_of(shapes.begin(), shapes.end(),
-                                 [](const auto& shape) { return shape.arkit == kJaw; });
+                                 [](const ShapeControl& shape) { return shape.arkit == kJaw; });
   constexpr std::array kLips = {"2.2", "2.3", "2.4", "2.5"};
   const bool lips = std::all_of(kLips.begin(), kLips.end(),
                                 [&](const char* id) { return head.point(id).exists(); });
