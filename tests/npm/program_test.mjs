@@ -25,7 +25,9 @@ const sample = `${source}/tests/data/grid_s1_sample`;
 run('speak', '--script', `${sample}/phonemes/prac8p.tsv`, '-o', 'talk.fba');
 run('encode', `${sample}/fap/prac8p.csv`, '-o', 'measured.fba');
 
-for (const name of ['talk', 'measured']) {
+run('speak', '--script', `${sample}/phonemes/prac8p.tsv`, '--rate', '100', '-o', 'fast.fba');
+
+for (const name of ['talk', 'measured', 'fast']) {
   const frames = animeme.decode(bytes(`${name}.fba`), {shown: true});
 
   test(`${name}: ARKit's weights are those of the program`, () => {
@@ -142,6 +144,25 @@ test('the face of an mp4 is that of its stream, whole, in fragments and in piece
   assert.throws(() => animeme.decodeMp4(new TextEncoder().encode('no mp4 at all')), {code: 'syntax'});
 });
 
+test('the edits of a track move its times', () => {
+  const moved = bytes('hello.mp4'), view = new DataView(moved.buffer);
+  const {timescale} = readerOf(moved).track;
+  let edits = 0;
+  for (let i = 0; i + 20 < moved.length; ++i) {
+    if (String.fromCharCode(...moved.subarray(i, i + 4)) !== 'elst' || view.getUint32(i + 8) !== 1) continue;
+    view.setInt32(i + 16, timescale / 4);  // begins a quarter of a second into the track
+    ++edits;
+  }
+  assert.ok(edits > 0);
+  assert.ok(Math.abs(animeme.decodeMp4(moved).frames[10].time - (0.4 - 0.25)) < 1e-9);
+});
+
+function readerOf(whole) {
+  const reader = new animeme.Mp4Reader();
+  reader.push(whole);
+  return reader;
+}
+
 test('a broken mp4 is an error or a face, whatever is broken', () => {
   let state = 1;
   const random = (below) => (state = (Math.imul(state, 1103515245) + 12345) & 0x7fffffff) % below;
@@ -162,6 +183,10 @@ test('a broken mp4 is an error or a face, whatever is broken', () => {
     }
   }
   assert.deepEqual([...codes].sort(), ['syntax', 'truncated', 'unsupported']);
+  // A fragment that ends in the middle of a header.
+  const box = (type, ...content) => [0, 0, 0, 8 + content.length, ...Buffer.from(type), ...content];
+  const cut = Uint8Array.from(box('moof', ...box('traf', ...box('tfhd', 0, 0, 0, 0))));
+  assert.throws(() => readerOf(bytes('fragments.mp4')).push(cut), {name: 'AnimemeError', code: 'syntax'});
 });
 
 // As page.cpp puts it in: base64 of a deflated clip.
