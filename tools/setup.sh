@@ -32,7 +32,8 @@ if [ "$mode" = elsewhere ]; then
   foreign="emscripten g++-aarch64-linux-gnu qemu-user"
 fi
 # Without these, tests skip and say so.
-readers="ffmpeg mediainfo mkvtoolnix clang-format-14 universal-ctags make parallel python3-yaml"
+readers="ffmpeg mediainfo mkvtoolnix clang-format-14 universal-ctags make parallel python3-yaml
+  pybind11-dev python3-dev python3-pytest python3-numpy python3-matplotlib python3-pip python3-setuptools python3-wheel"
 [ "$mode" = full ] && readers="$readers mpv chromium doxygen slurm-wlm munge libopenmpi-dev man-db zsh fish
   gstreamer1.0-tools gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad"
 

@@ -55,8 +55,8 @@ class Assembler {
     if (auto error = set_units()) return std::move(*error);
     set_joints();
     turn_inside_out();
-    detail::colour_parts(head_);
     detail::see_sky(head_);
+    detail::colour_parts(head_);
     add_targets();
     tell_what_is_missing();
     return std::move(head_);

@@ -5,6 +5,7 @@
 #include "fap/head/detail/normals.h"
 #include "fap/head/detail/stops.h"
 #include "fap/head/detail/targets.h"
+#include "fap/head/detail/whole.h"
 #include "fap/head/rig.h"
 #include "fap/head/shapes.h"
 #include "fap/shape_fit.h"
@@ -230,9 +231,10 @@ ControlValues control_values(const Rig& rig, const fap::Frame& frame, const Pose
   return values;
 }
 
-void pose(const Rig& rig, const fap::Frame& frame, Pose& out, const PoseOptions& options) {
-  Values values = control_values(rig, frame, options);
-  if (options.contact) detail::stop_at_contact(rig, values);
+namespace {
+
+// All that deforms, before the head turns.
+void deform(const Rig& rig, const Values& values, bool contact, Pose& out) {
   for (std::size_t part = 0; part < rig.parts.size(); ++part) {
     if (rig.deforms[part]) out.positions[part] = rig.parts[part].positions;
   }
@@ -241,13 +243,30 @@ void pose(const Rig& rig, const fap::Frame& frame, Pose& out, const PoseOptions&
   slide_lids(rig, skin);
   apply_targets(rig, values, false, out);
   keep_off_eyes(rig, values, skin);
+  if (!contact) return;
+  detail::keep_off_teeth(rig, rig.teeth[0], {}, skin);
+  detail::keep_off_teeth(rig, rig.teeth[1],
+                         detail::jaw_transform(rig, values[3], values[14], values[15]), skin);
+  const float touch = float(fap::internal::kTouch * rig.fapu.mns);
+  close_pairs(rig.lips, touch, skin);
+  for (const auto& lids : rig.lids) close_pairs(lids, touch, skin);
+}
+
+}  // namespace
+
+void pose(const Rig& rig, const fap::Frame& frame, Pose& out, const PoseOptions& options) {
+  const Values wanted = control_values(rig, frame, options);
+  Values values;
+  std::vector<Vec3>& skin = out.positions[index(Part::skin)];
+  const auto show = [&](const Values& shown) {
+    values = shown;
+    if (options.contact) detail::stop_at_contact(rig, values);
+    deform(rig, values, options.contact, out);
+  };
   if (options.contact) {
-    detail::keep_off_teeth(rig, rig.teeth[0], {}, skin);
-    detail::keep_off_teeth(rig, rig.teeth[1],
-                           detail::jaw_transform(rig, values[3], values[14], values[15]), skin);
-    const float touch = float(fap::internal::kTouch * rig.fapu.mns);
-    close_pairs(rig.lips, touch, skin);
-    for (const auto& lids : rig.lids) close_pairs(lids, touch, skin);
+    detail::show_whole(rig, wanted, skin, show);
+  } else {
+    show(wanted);
   }
   turn_lashes(rig, skin, out.positions[index(Part::lashes)]);
   set_transforms(rig, values, out);

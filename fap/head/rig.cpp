@@ -6,6 +6,7 @@
 #include "fap/head/detail/shape_measures.h"
 #include "fap/head/detail/stops.h"
 #include "fap/head/detail/targets.h"
+#include "fap/head/detail/whole.h"
 
 namespace animeme::head {
 namespace {
@@ -146,8 +147,10 @@ Rig make_rig(const Head& head) {
     rig.teeth[i] = detail::dental_arch(rig, i == 0 ? Part::upper_teeth : Part::lower_teeth);
   }
   rig.rooms = rooms_of(head);
-  if ((head.targets.empty() && head.shapes.empty()) || head.eased)
+  if ((head.targets.empty() && head.shapes.empty()) || head.eased) {
     rig.reaches = detail::usual_reaches();
+    rig.outside = detail::outside_of(head);
+  }
   for (std::size_t i = 0; i < 2; ++i) rig.lid_follow[i] = lid_follow(rig, i);
   const bool given = head.seams.neck_weights.size() == head.part(Part::skin).positions.size();
   rig.neck_weights = given ? head.seams.neck_weights : neck_weights(rig);

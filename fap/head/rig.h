@@ -50,6 +50,12 @@ struct Reach {
   float high = 0;  ///< positive
 };
 
+/// A triangle of the skin that is seen from outside.
+struct OuterTriangle {
+  Triangle corners;  ///< vertices of the skin
+  Vec3 normal;       ///< at rest; twice its area long
+};
+
 /// A row of teeth seen from above as half an ellipse, a little squarer (exponent 2.5): open to the
 /// back.
 struct DentalArch {
@@ -93,7 +99,9 @@ struct Rig {
   std::array<std::vector<std::uint32_t>, 2> eye_skin;      ///< before the left and right eye
   std::vector<std::uint32_t> lash_anchors;                 ///< see Head
   Rooms rooms;                                             ///< how far points may go
-  std::vector<Reach> reaches;            ///< of FAPs, where the targets are make_rig()'s own
+  std::vector<Reach> reaches;  ///< of FAPs, where the targets are make_rig()'s own
+  /// What must not turn over, on heads that have reaches and known lips.
+  std::vector<OuterTriangle> outside;
   std::array<DentalArch, 2> teeth;       ///< upper, lower
   std::array<float, 2> lid_follow = {};  ///< FAP 19 for one unit of FAP 25, and 20 for 26
   std::vector<float> neck_weights;       ///< of the skin: 1 turns with the head, 0 stays
@@ -110,7 +118,9 @@ struct PoseOptions {
   /// Lips and lids stop where they touch, and are shut where they nearly do (0.06 MNS; lids only if
   /// their Seams are known), other points stop where Rooms says, upper lids at 0.26 IRISD
   /// up, a jaw that goes back at 0.25 MNS; legal values beyond what people do are eased to that
-  /// (Rig::reaches). Without it every feature point is where its FAPs say.
+  /// (Rig::reaches); where skin would turn over all the same, as large a share of all FAPs
+  /// that bend skin is shown as leaves it whole. Without it every feature point is where its FAPs
+  /// say.
   bool contact = true;
   /// Upper lids go along with eyes that look down or up: see lids_follow_gaze().
   bool follow = true;

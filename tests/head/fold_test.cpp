@@ -1,4 +1,6 @@
 // The skin does not turn over, whatever real captures do to it.
+#include <algorithm>
+#include <random>
 #include <sstream>
 
 #include "fap/fill.h"
@@ -20,10 +22,12 @@ class EachFace : public ::testing::TestWithParam<std::string> {
 
   // How many triangles of the outside have turned by more than 90 degrees against the neutral face.
   // The turn of the head as a whole is left out.
-  int turned_over(fap::Frame frame) {
+  int turned_over(fap::Frame frame) { return turned_over(rig(), frame); }
+
+  int turned_over(const head::Rig& rig, fap::Frame frame) {
     for (const std::size_t f : {48u, 49u, 50u}) frame.mask.reset(f);
-    head::pose(rig(), frame, pose_);
-    const auto& was = rig().parts[0].positions;
+    head::pose(rig, frame, pose_);
+    const auto& was = rig.parts[0].positions;
     const auto& is = pose_.positions[0];
     const auto normal = [](const std::vector<Vec3>& p, const Triangle& t) {
       return cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]);
@@ -33,10 +37,12 @@ class EachFace : public ::testing::TestWithParam<std::string> {
     return count;
   }
 
-  // Of every third frame: a face moves little between two of them.
+  // Of every third frame: a face moves little between two of them. What people do is whole of
+  // itself, so that all of it is shown.
   void expect_whole(const fap::Sequence& clip, const std::string& name) {
     for (std::size_t i = 0; i < clip.frames.size(); i += 3) {
-      ASSERT_EQ(turned_over(clip.frames[i]), 0) << name << " frame " << clip.frames[i].number;
+      ASSERT_EQ(turned_over(unwatched_, clip.frames[i]), 0)
+          << name << " frame " << clip.frames[i].number;
       ++shown_;
     }
   }
@@ -51,6 +57,11 @@ class EachFace : public ::testing::TestWithParam<std::string> {
   }
 
   const std::vector<Triangle> outside_ = outside_of(head_of(GetParam()));
+  const head::Rig unwatched_ = [this] {
+    head::Rig rig = this->rig();
+    rig.outside.clear();
+    return rig;
+  }();
   head::Pose pose_;
   int shown_ = 0;
 };
@@ -80,14 +91,16 @@ fap::Sequence read_table(const std::filesystem::path& path) {
   return clip;
 }
 
+// As far as intra planes code them by default.
+int extreme(int fap) { return fap::info(fap).quant_step * fap::info(fap).default_i_range; }
+
 TEST_P(EachFace, OutsideIsMostOfTheSkin) {
   const std::size_t all = head_of(GetParam()).part(head::Part::skin).triangles.size();
   EXPECT_GT(outside_.size(), all * 7 / 10);
   EXPECT_LT(outside_.size(), all);  // neither the mouth nor the ears, which no FAP bends
 }
 
-// Every FAP alone, with that of the other side, of the other rim of the lip, and all of them, as
-// far as intra planes code them by default.
+// Every FAP alone, with that of the other side, of the other rim of the lip, and all of them.
 TEST_P(EachFace, StaysWholeAtLegalExtremes) {
   for (const fap::FapInfo& info : fap::kFaps) {
     if (info.number < fap::kFirstLowLevel) continue;
@@ -98,7 +111,7 @@ TEST_P(EachFace, StaysWholeAtLegalExtremes) {
                                      {info.number, mirror},
                                      {info.number, partner},
                                      {info.number, mirror, partner, both ? both : partner}};
-    const int most = info.quant_step * info.default_i_range;
+    const int most = extreme(info.number);
     for (const std::vector<int>& set : sets) {
       for (const int value : {-most, -most / 3, -most / 10, most / 10, most / 3, most}) {
         fap::Frame frame;
@@ -112,17 +125,25 @@ TEST_P(EachFace, StaysWholeAtLegalExtremes) {
   EXPECT_GT(shown_, 1000);
 }
 
-// Every eleventh pair of FAPs, at a tenth of their extremes. (At the extremes themselves some of
-// a hundred pairs fold a few triangles.)
-TEST_P(EachFace, StaysWholeAtPairs) {
+TEST_P(EachFace, WatchesItsOutside) {
+  std::vector<Triangle> watched;
+  for (const head::OuterTriangle& outer : rig().outside) watched.push_back(outer.corners);
+  std::vector<Triangle> outside = outside_;
+  std::sort(watched.begin(), watched.end());
+  std::sort(outside.begin(), outside.end());
+  EXPECT_EQ(watched, outside);
+}
+
+// Every eleventh pair of FAPs.
+TEST_P(EachFace, StaysWholeAtExtremesOfPairs) {
   int pair = 0;
   for (int a = fap::kFirstLowLevel; a <= fap::kFapCount; ++a) {
     for (int b = a + 1; b <= fap::kFapCount; ++b) {
       if (++pair % 11 != 0) continue;
       for (const auto& [of_a, of_b] : {std::pair(1, 1), {1, -1}, {-1, 1}, {-1, -1}}) {
         fap::Frame frame;
-        frame.set(a, of_a * fap::info(a).quant_step * fap::info(a).default_i_range / 10);
-        frame.set(b, of_b * fap::info(b).quant_step * fap::info(b).default_i_range / 10);
+        frame.set(a, of_a * extreme(a));
+        frame.set(b, of_b * extreme(b));
         EXPECT_EQ(turned_over(frame), 0)
             << fap::info(a).name << " " << frame.value[std::size_t(a)] << ", " << fap::info(b).name
             << " " << frame.value[std::size_t(b)];
@@ -131,6 +152,39 @@ TEST_P(EachFace, StaysWholeAtPairs) {
     }
   }
   EXPECT_GT(shown_, 700);
+}
+
+// All FAPs at once, each anywhere in its range: a share of it, by a direction.
+fap::Frame anywhere(unsigned seed, double share) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> part(-1, 1);
+  fap::Frame frame;
+  for (int f = fap::kFirstLowLevel; f <= fap::kFapCount; ++f) {
+    frame.set(f, int(part(random) * share * extreme(f)));
+  }
+  return frame;
+}
+
+TEST_P(EachFace, StaysWholeWhateverItIsTold) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    EXPECT_EQ(turned_over(anywhere(seed, seed % 2 ? 1 : 0.2)), 0) << seed;
+  }
+}
+
+// What keeps it whole lets no point jump on the way.
+TEST_P(EachFace, GoesSmoothlyToWhereItStops) {
+  constexpr int kSteps = 60;
+  for (unsigned seed = 0; seed < 2; ++seed) {
+    std::vector<Vec3> last;
+    for (int step = 0; step <= kSteps / 2; ++step) {
+      turned_over(anywhere(seed, double(step) / kSteps));
+      const std::vector<Vec3>& is = pose_.positions[0];
+      float most = 0;
+      for (std::size_t v = 0; v < last.size(); ++v) most = std::max(most, length(is[v] - last[v]));
+      EXPECT_LT(most, 0.25f) << seed << " step " << step;
+      last = is;
+    }
+  }
 }
 
 TEST_P(EachFace, StaysWholeInRecordedSpeech) {

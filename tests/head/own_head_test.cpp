@@ -8,6 +8,7 @@
 #include "fap/head/obj.h"
 #include "fap/head/point_list.h"
 #include "tests/head/head_support.h"
+#include "tests/head/outside.h"
 #include "tests/support/program.h"
 #include "tests/support/shared.h"
 
@@ -158,6 +159,41 @@ TEST(OwnHead, AClosedMouthIsDarkInsideAndTheNoseIsNot) {
     EXPECT_LT(skin.occlusion[v], 0.25f);
   }
   EXPECT_GT(inside, 20);
+}
+
+// A mesh without colours of its own.
+TEST(OwnHead, LipsAreEvenlyRedAndTheMouthIsDarkWithin) {
+  Head woman = head_of("woman");
+  woman.part(Part::skin).colours.clear();
+  const Result<Head> head = read(obj_of(woman, [](Vec3 p) { return p; }));
+  ASSERT_TRUE(head);
+  const head::Mesh& skin = head->part(Part::skin);
+  ASSERT_EQ(skin.positions.size(), woman.part(Part::skin).positions.size());
+  const auto light = [&skin](std::uint32_t v) {
+    return (skin.colours[v].x + skin.colours[v].y + skin.colours[v].z) / 3;
+  };
+  std::vector<bool> seen(skin.positions.size());
+  for (const head::Triangle& t : outside_of(woman, true)) {
+    for (const std::uint32_t v : t) seen[v] = true;
+  }
+  const float mns = float(head->fapu.mns);
+  const Vec3 lip = head->at("2.2");
+  int dark = 0;
+  for (std::uint32_t v = 0; v < seen.size(); ++v) {
+    const Vec3 d = skin.positions[v] - lip;
+    if (seen[v]) {
+      EXPECT_GT(light(v), 0.2f) << v;
+    } else if (std::abs(d.y) < mns && d.z < -0.5f * mns && d.z > -3 * mns &&
+               std::abs(d.x) < 0.4f * float(head->fapu.mw)) {
+      EXPECT_LT(light(v), 0.1f) << v;
+      ++dark;
+    }
+  }
+  EXPECT_GT(dark, 100);
+  // On the border of the lips, where colours are half and half.
+  for (const auto& [left, right] : {std::pair("8.10", "8.9"), {"8.5", "8.6"}, {"8.7", "8.8"}}) {
+    EXPECT_NEAR(light(head->point(left).vertex), light(head->point(right).vertex), 0.03f) << left;
+  }
 }
 
 TEST(OwnHead, SaysWhatIsMissingAndWhatCannotBe) {

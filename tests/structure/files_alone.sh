@@ -14,8 +14,14 @@ every=64 jobs=1
 flags="-std=c++20 -fsyntax-only -Wall -Wextra -Wshadow -Werror -Wno-missing-field-initializers -I.
   $(pkg-config --cflags-only-I --silence-errors eigen3 libxml-2.0 espeak-ng | sed 's/-I/-isystem /g')
   -isystem /usr/include/pocketsphinx -DANIMEME_SOURCE_DIR=\"\" -DANIMEME_BINARY_DIR=\"\" -DANIMEME_VERSION=\"\""
+# The Python module, where there is what it stands on.
+python=tools/python
+if pkg-config --exists python3 && [ -f /usr/include/pybind11/pybind11.h ]; then
+  python=none
+  flags="$flags $(pkg-config --cflags-only-I python3 | sed 's/-I/-isystem /g')"
+fi
 files=$(find fap codec dam conformance tools tests -name '*.cpp' ! -name '*_absent.cpp' ! -path '*/node_modules/*' \
-  ! -path 'tests/package/*' ! -path 'tools/trackers/dlib/*' | sort | awk -v every="$every" -v turn="$turn" 'NR % every == turn % every')
+  ! -path 'tests/package/*' ! -path 'tools/trackers/dlib/*' ! -path "$python/*" | sort | awk -v every="$every" -v turn="$turn" 'NR % every == turn % every')
 echo "$(echo "$files" | wc -l) files"
 # shellcheck disable=SC2086  # lists of words are meant
 echo "$files" | xargs -P "$jobs" -n 4 "$compiler" $flags

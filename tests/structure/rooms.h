@@ -71,6 +71,7 @@ inline constexpr Room kRooms[] = {
     {"tools/check", "conformance tools/programs tools/xml.h", false},
     {"tools/capture", "tools/exchange tools/speech", false},
     {"tools/batch", "conformance tools/programs tools/json.h tools/text.h tools/xml.h", false},
+    {"tools/python", "tools/exchange tools/inspect tools/speech tools/studio", false},
     {"tools/commands",
      "tools/batch tools/capture tools/crossmap tools/exchange tools/inspect tools/live tools/sheet "
      "tools/studio tools/check tools/mpi",
@@ -110,6 +111,7 @@ inline constexpr Library kLibraries[] = {
     {"libpng, libjpeg, libwebp", "png jpeglib jerror webp/",
      "tools/gltf/detail tools/studio tests"},
     {"MPI", "mpi.h", "tools/mpi", true},
+    {"pybind11", "pybind11/", "tools/python"},
     {"toml++", "toml++/", "tools/crossmap", true},
     {"nlohmann_json", "nlohmann/", "tools conformance tests"},
     {"CLI11", "CLI/", "tools/commands tools/main.cpp tests/bench"},

@@ -36,7 +36,10 @@ double parity(const fap::Frame& frame, std::size_t number, const TempDir& dir,
 TEST(Page, MovesTheHeadAsTheRigDoes) {
   NEEDS_BROWSER();
   const TempDir dir;
-  const fap::Sequence clip = moving_clip();
+  fap::Sequence clip = moving_clip();
+  const std::size_t folded = 6;  // but for the share that is shown
+  clip.frames[folded] = frame_of({{6, 1200}, {12, 1200}, {23, 9000}});
+  clip.frames[folded].number = folded;
   const Json report = report_of("looks", make({{clip, 0, "clip"}}), dir);
   ASSERT_TRUE(report.contains("state"));
   EXPECT_EQ(said(report), std::vector<std::string>());

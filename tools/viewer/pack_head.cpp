@@ -183,6 +183,29 @@ void write_vertices(const std::vector<std::uint32_t>& vertices, Bytes& out) {
   for (const std::uint32_t vertex : vertices) out.varint(vertex);
 }
 
+// How many triangles of the skin are seen from outside, then how many are not, and so on; returns
+// how many numbers that are.
+std::size_t write_outside(const head::Rig& rig, Bytes& out) {
+  std::size_t runs = 0;
+  std::size_t length = 0;
+  bool outside = true;
+  auto next = rig.outside.begin();  // in the order of the triangles
+  const auto end_run = [&] {
+    out.varint(length);
+    length = 0;
+    outside = !outside;
+    ++runs;
+  };
+  for (const head::Triangle& triangle : rig.parts[std::size_t(head::Part::skin)].triangles) {
+    const bool is = next != rig.outside.end() && next->corners == triangle;
+    if (is != outside) end_run();
+    if (is) ++next;
+    ++length;
+  }
+  end_run();
+  return runs;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig) {
@@ -200,8 +223,9 @@ std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig
   for (const head::DentalArch& arch : rig.teeth) write_vertices(arch.vertices, data);
   write_vertices(rig.lash_anchors, data);
   for (const float weight : rig.neck_weights) data.u16(rounded(weight * 65535, 65535));
+  const std::size_t outside = write_outside(rig, data);
   Json header{
-      {"version", 2},
+      {"version", 3},
       {"name", head.name},
       {"parts", parts},
       {"targets", targets},
@@ -213,6 +237,7 @@ std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig
       {"sliding", {rig.lid_vertices[0].size(), rig.lid_vertices[1].size()}},
       {"before_eyes", {rig.eye_skin[0].size(), rig.eye_skin[1].size()}},
       {"anchors", rig.lash_anchors.size()},
+      {"outside", outside},
       {"fapu", {{"es", rig.fapu.es}, {"mns", rig.fapu.mns}}},
       {"eyes", tools::json_list(rig.eyes, eye_of)},
       {"jaw", jaw_of(rig)},

@@ -136,7 +136,13 @@ class RefinedTrainer {
     RidgeChoice choice{own_.ridge > 0 ? own_.ridge : kUsualRidge, {}};
     if (choose) {
       const CurveSums apart = sum_curves(data_, space, dominance, held);
-      choice = choose_ridge(sums, apart, space, data_.controls, own_.ridge, options_.threads, work);
+      bool go_on = true;
+      choice = choose_ridge(sums, apart, space, data_.controls, own_.ridge, options_.threads, work,
+                            [&](double share) {
+                              go_on = run_.report("curves", 0.1 + 0.6 * share);
+                              return go_on;
+                            });
+      if (!go_on) return TrainRun::cancelled();
       sums.add(apart);
     }
     if (!run_.report("curves", 0.7)) return TrainRun::cancelled();

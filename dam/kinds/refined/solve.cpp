@@ -21,12 +21,14 @@ std::vector<double> explained_by(const CurveSums& sums, const std::vector<double
 }
 
 RidgeChoice choose_ridge(const CurveSums& kept, const CurveSums& held, const TermSpace& space,
-                         std::size_t controls, double wanted, int threads, SquareMatrix& work) {
+                         std::size_t controls, double wanted, int threads, SquareMatrix& work,
+                         const std::function<bool(double)>& go_on) {
   const std::span<const double> factors =
       wanted > 0 ? std::span<const double>(&wanted, 1) : std::span<const double>(kRidgeFactors);
   std::vector<RidgeChoice> choices;
   std::vector<double> error;
   for (const double factor : factors) {
+    if (go_on && !go_on(double(error.size()) / double(factors.size()))) return {};
     const auto curves = solve_curves(kept, space, controls, factor, threads, work);
     const auto errors = errors_of(held, curves, controls);
     error.push_back(std::accumulate(errors.begin(), errors.end(), 0.0));

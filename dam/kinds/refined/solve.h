@@ -2,6 +2,7 @@
 // in parts. Internal.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -26,9 +27,11 @@ inline constexpr double kUsualRidge = 2;
 std::vector<double> explained_by(const CurveSums& sums, const std::vector<double>& errors);
 
 /// The largest factor among 2, 1 and 0.5 whose curves for `kept` have an error on `held` within
-/// 0.5 % of the least; only `wanted`, if it is above 0.
+/// 0.5 % of the least; only `wanted`, if it is above 0. Before each of them, which take long,
+/// `go_on`, if any, gets the share that is done; false stops, and the result is none.
 RidgeChoice choose_ridge(const CurveSums& kept, const CurveSums& held, const TermSpace& space,
-                         std::size_t controls, double wanted, int threads, SquareMatrix& work);
+                         std::size_t controls, double wanted, int threads, SquareMatrix& work,
+                         const std::function<bool(double)>& go_on = {});
 
 /// Distance of the training means from rest, in standard deviations.
 std::vector<double> means_from_rest(std::span<const Control> controls);

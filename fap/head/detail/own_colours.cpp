@@ -1,5 +1,7 @@
 #include "fap/head/detail/own_steps.h"
 
+#include <algorithm>
+
 #include "fap/head/detail/paint.h"
 
 namespace animeme::head::detail {
@@ -54,11 +56,12 @@ std::vector<Vec3> line_of(const Head& head, std::initializer_list<const char*> i
   for (const char* id : ids) {
     if (head.point(id).exists()) line.push_back(head.at(id));
   }
+  std::sort(line.begin(), line.end(), [](Vec3 a, Vec3 b) { return a.x < b.x; });
   return line;
 }
 
 void paint_lips(const std::vector<bool>& unknown, Head& head) {
-  const Contour outer{line_of(head, {"8.4", "8.6", "8.10", "8.1", "8.9", "8.5", "8.3"}),
+  const Contour outer{line_of(head, {"8.4", "8.6", "8.9", "8.1", "8.10", "8.5", "8.3"}),
                       line_of(head, {"8.4", "8.8", "8.2", "8.7", "8.3"})};
   if (!head.point("8.3").exists() || !head.point("8.4").exists() || outer.upper.size() < 3 ||
       outer.lower.size() < 3) {
@@ -76,6 +79,31 @@ void paint_lips(const std::vector<bool>& unknown, Head& head) {
     const float inside =
         std::min(Contour::height(outer.upper, p.x) - p.y, p.y - Contour::height(outer.lower, p.x));
     skin.colours[v] = mix(skin.colours[v], lip, smooth_step(-edge, edge, inside));
+  }
+}
+
+// What is behind the front of the lips and before the throat, as high as the mouth, and sees no
+// sky.
+void paint_mouth(const std::vector<bool>& unknown, Head& head) {
+  for (const char* id : {"2.2", "2.4", "2.5"}) {
+    if (head.point(id).part != Part::skin || !head.point(id).exists()) return;
+  }
+  constexpr float kBeyond = 1.8f;  // cheeks hide more than the lips open
+  const Vec3 front = head.at("2.2");
+  const Vec3 left = head.at("2.4"), right = head.at("2.5");
+  const float half = 0.5f * (left.x - right.x), middle = 0.5f * (left.x + right.x);
+  const float mns = float(head.fapu.mns);
+  Mesh& skin = head.part(Part::skin);
+  for (std::size_t v = 0; v < skin.positions.size(); ++v) {
+    const Vec3 p = skin.positions[v];
+    const float aside = half > 0 ? std::abs(p.x - middle) / half : kBeyond + 1;
+    const float up = (p.y - front.y) / mns;
+    if (!unknown[v] || aside > kBeyond || up < -1.3f || up > 1.2f) continue;
+    const float corner = p.x > middle ? left.z : right.z;
+    const float depth = (front.z + (corner - front.z) * aside * aside - p.z) / mns;
+    if (depth < 0.1f || depth > 3.2f) continue;
+    skin.colours[v] =
+        mix(skin.colours[v], kMouthInside, smooth_step(0.25f, 0.1f, skin.occlusion[v]));
   }
 }
 
@@ -103,7 +131,10 @@ void colour_parts(Head& head) {
       unknown[v] = mesh.colours[v] == kNoColour;
       if (unknown[v]) mesh.colours[v] = linear_colour(look.colour);
     }
-    if (Part(i) == Part::skin) paint_lips(unknown, head);
+    if (Part(i) == Part::skin) {
+      paint_lips(unknown, head);
+      paint_mouth(unknown, head);
+    }
     if (Part(i) == Part::left_eye) paint_eye(head.eyes[0], unknown, mesh);
     if (Part(i) == Part::right_eye) paint_eye(head.eyes[1], unknown, mesh);
   }

@@ -64,7 +64,8 @@ struct TurnedPiece {
 std::vector<TurnedPiece> turn_inside_out(Head& head, float es, const PieceOfTriangle& pieces);
 
 /// Gives each part its material, and a colour to vertices of kNoColour: one for each part, lips
-/// within the contour of the mouth if its points are known, pupil and iris on the eyes.
+/// within the contour of the mouth and what lines the mouth if their points are known, pupil and
+/// iris on the eyes. After see_sky().
 void colour_parts(Head& head);
 
 /// Fills Mesh::occlusion of all parts that have none, looking at all parts from many sides.

@@ -11,8 +11,6 @@ float bump(double distance, double width) {
   return float(std::exp(-distance * distance / (width * width)));
 }
 
-constexpr Vec3 kMouthInside{0.13f, 0.022f, 0.02f};
-
 Vec3 face_colour(const Shape& shape, Vec3d p) {
   const Vec3 skin = linear_colour(shape.p.skin_colour);
   const Vec3 blush = linear_colour(shape.p.cheek_colour);

@@ -5,6 +5,9 @@
 
 namespace animeme::head::detail {
 
+/// Skin that lines the mouth; linear RGB.
+inline constexpr Vec3 kMouthInside{0.13f, 0.022f, 0.02f};
+
 /// sRGB 0xRRGGBB as linear RGB.
 Vec3 linear_colour(std::uint32_t srgb);
 

@@ -75,13 +75,30 @@ function readTarget(reader, {control, part, count, steps, low = -Infinity, high 
   return {control, part, vertices, axes, low, high, rest};
 }
 
+// Those triangles of a mesh that are in every other run, beginning with the first.
+function outsideOf(triangles, runs) {
+  const total = runs.reduce((sum, count, i) => sum + (i % 2 === 0 ? count : 0), 0);
+  const found = new Uint32Array(total * 3);
+  let first = 0;
+  let filled = 0;
+  runs.forEach((count, i) => {
+    const run = triangles.subarray(first * 3, (first + count) * 3);
+    first += count;
+    if (i % 2 === 1) return;
+    found.set(run, filled);
+    filled += run.length;
+  });
+  return found;
+}
+
 /** {name, parts: [{name, material, positions, normals, paint, triangles, surface (with what bears on
-    normals alone), facets}], targets, lips, lids, sliding, beforeEyes, teeth, anchors, neckWeights, and what the header has}. Vertices of targets are places in the
+    normals alone), facets}], targets, lips, lids, sliding, beforeEyes, teeth, anchors, neckWeights,
+    outside (triangles of the skin), and what the header has}. Vertices of targets are places in the
     array of positions. */
 export function readModel(bytes) {
   const reader = new ByteReader(bytes);
   const {header} = reader;
-  if (header.version !== 2) throw new Error(`a head of version ${header.version} is not known`);
+  if (header.version !== 3) throw new Error(`a head of version ${header.version} is not known`);
   const parts = header.parts.map((info) => readPart(reader, info));
   const targets = header.targets.map((info) => readTarget(reader, info));
   const lips = reader.varints(header.lips * 2);
@@ -92,7 +109,8 @@ export function readModel(bytes) {
   const anchors = reader.varints(header.anchors);
   const neckWeights = Float32Array.from(reader.u16(parts[0].positions.length / 3),
       (weight) => weight / 65535);
+  const outside = outsideOf(parts[0].surface, reader.varints(header.outside));
   const pictures = (header.pictures || []).map(({type, bytes: size}) => ({type, file: reader.u8(size)}));
   return {...header, pictures, parts, targets, lips, lids, sliding, beforeEyes, teeth, anchors,
-    neckWeights};
+    neckWeights, outside};
 }

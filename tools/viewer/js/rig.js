@@ -2,6 +2,7 @@
 import {closeContacts, stopAtContact} from './contact.js';
 import {IDENTITY, compose, inverse, moved, movedPoints, rotationAbout, smoothNormals, smoothStep} from
   './vector.js';
+import {bendsSkin, showWhole} from './whole.js';
 
 export const FAP_COUNT = 68;
 /** Number of the first shape of a head that has shapes; smaller ones are FAPs. */
@@ -34,11 +35,24 @@ export class Rig {
   /** Values by control: low-level FAPs by number, then the weights of shapes. */
   pose(values) {
     const {model, positions, index} = this;
+    const skin = positions[index.skin];
+    showWhole(model, skin, (share) => this.deform(values, share, skin));
     const v = this.values;
-    for (let f = 3; f < v.length; ++f) v[f] = values[f] || 0;
+    this.turnLashes(skin, positions[index.lashes]);
+    this.setTransforms(v);
+    this.turnNeck(skin);
+    for (const i of this.deforming) {
+      smoothNormals(positions[i], model.parts[i].surface, this.normals[i]);
+    }
+  }
+
+  // All that deforms, before the head turns; of what bends skin this share.
+  deform(values, share, skin) {
+    const {model, positions} = this;
+    const v = this.values;
+    for (let f = 3; f < v.length; ++f) v[f] = (values[f] || 0) * (bendsSkin(f) ? share : 1);
     stopAtContact(model, v);
     for (const i of this.deforming) positions[i].set(model.parts[i].positions);
-    const skin = positions[index.skin];
     this.applyTargets(v, true);
     this.slideLids(skin);
     this.applyTargets(v, false);
@@ -47,12 +61,6 @@ export class Rig {
     this.keepOffTeeth(upper, IDENTITY, skin);
     this.keepOffTeeth(lower, this.jawTransform(v), skin);
     closeContacts(model, skin);
-    this.turnLashes(skin, positions[index.lashes]);
-    this.setTransforms(v);
-    this.turnNeck(skin);
-    for (const i of this.deforming) {
-      smoothNormals(positions[i], model.parts[i].surface, this.normals[i]);
-    }
   }
 
   /** Where the vertices of a part are in the scene. */

@@ -1,0 +1,21 @@
+// Skin that does not turn over, whatever its FAPs say.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "fap/head/rig.h"
+
+namespace animeme::head::detail {
+
+/// The skin that is seen: what can be reached from the chin without crossing the contact line of
+/// the lips and the rims of the lids, at which skin rolls in. Empty for heads without these.
+std::vector<OuterTriangle> outside_of(const Head& head);
+
+/// Shows values by control by `show`, which places the skin: those that are wanted; where triangles
+/// of the outside turn over, as large a share of all that bend skin as leaves it whole. So faces
+/// stay as they are until the first triangle stands on its edge, and go on smoothly from there.
+void show_whole(const Rig& rig, const ControlValues& wanted, const std::vector<Vec3>& skin,
+                const std::function<void(const ControlValues&)>& show);
+
+}  // namespace animeme::head::detail
