@@ -5,6 +5,7 @@
 #   tests/run.sh             with the programs that read most of our files
 #   tests/run.sh full        also with those that take long to install: browsers, players, npm packages
 #   tests/run.sh quick       the release build only
+#   tests/run.sh bindings    the codec for other languages and machines: C, Python, npm, Blender, ARM; their speeds and weights
 #   tests/run.sh site        makes the site, and looks at all its pages in Chromium: dead links, what axe finds
 #   tests/run.sh elsewhere   the libraries as WebAssembly under node, and for ARM under QEMU
 #   tests/run.sh packages    the Debian packages, into build/packages, and what they do in a clean root
@@ -13,8 +14,8 @@ here=$(cd "$(dirname "$0")/.." && pwd)
 mode=${1:-tests}
 case $mode in
   tests | quick) packages=tests ;;
-  full | site | elsewhere | packages) packages=$mode ;;
-  *) echo "usage: tests/run.sh [full|quick|site|elsewhere|packages]" >&2; exit 2 ;;
+  full | bindings | site | elsewhere | packages) packages=$mode ;;
+  *) echo "usage: tests/run.sh [full|quick|bindings|site|elsewhere|packages]" >&2; exit 2 ;;
 esac
 cd "$here"
 # Large pages for what compilers and trainings allocate: an eighth of the time of clang, a quarter of training. Other
@@ -24,7 +25,7 @@ times=$(mktemp)
 trap 'rm -f "$times"' EXIT
 status=0
 case $mode in
-  quick) presets=release ;;
+  quick | bindings) presets=release ;;
   elsewhere) presets="wasm arm64" ;;
   packages) presets="" ;;
   *) presets="release asan" ;;
@@ -87,7 +88,33 @@ run() {
   part "$preset: tests" tests "$preset" "$more" || true  # the other round is of use all the same
 }
 
+# npm_package: by its own preset, then its tests in the tree of the release build, which has the program and the suite.
+npm_package() {
+  cmake --preset npm --log-level=STATUS && cmake --build --preset npm &&
+    ctest --test-dir build/release --output-on-failure -R '^npm\.'
+}
+
+# arm64: the conformance suite, by QEMU.
+arm64_suite() {
+  cmake --preset arm64 --log-level=STATUS && cmake --build build/arm64 --target test_conformance &&
+    ctest --test-dir build/arm64 --output-on-failure -R '^conformance\.'
+}
+
+# bindings: what the release build has to have for them, then each.
+bindings() {
+  part "release: configure" cmake --preset release --log-level=STATUS || finish
+  part "release: build" cmake --build build/release || finish
+  part "C, Python, Blender" ctest --test-dir build/release --output-on-failure -R '^(c|python|blender)\.' || true
+  { needs_program npm em++ && needs_program npm npm && part "npm" npm_package; } || true
+  { needs_program arm64 aarch64-linux-gnu-g++ && needs_program arm64 qemu-aarch64 && part "arm64" arm64_suite; } || true
+  part "table" tests/bench/bindings.sh build/release
+}
+
 part "packages" tools/setup.sh "$packages" || finish
+if [ "$mode" = bindings ]; then
+  bindings || true
+  finish
+fi
 if [ "$mode" = site ]; then
   presets=""
   part "site: configure" cmake --preset release --log-level=STATUS || finish

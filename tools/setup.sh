@@ -4,8 +4,9 @@
 #   tools/setup.sh           what the program needs
 #   tools/setup.sh check     tells what of that is missing
 #   tools/setup.sh tests     also what the tests need, and small programs of others that read our files
-#   tools/setup.sh full      also large ones: Chromium, Blender, GStreamer, mpv, Doxygen, and npm packages into
+#   tools/setup.sh full      also large ones: Chromium, GStreamer, mpv, Doxygen, and npm packages into
 #                            tests/readers/js/node_modules and tools/trackers/mediapipe/node_modules
+#   tools/setup.sh bindings  also what packages for other languages are made and tested with: Emscripten, Chromium, npm, Blender
 #   tools/setup.sh site      what makes the site and looks for dead links there
 #   tools/setup.sh elsewhere compilers for WebAssembly and ARM, and what runs their programs
 #   tools/setup.sh packages  what tools/packaging/deb.sh and clean_root.sh need
@@ -25,7 +26,7 @@ packages="
 mode=${1:-}
 # Only the tests need these.
 case $mode in
-  tests | full) packages="$packages libgtest-dev libgmock-dev libbenchmark-dev
+  tests | full | bindings) packages="$packages libgtest-dev libgmock-dev libbenchmark-dev
     clang-14 libclang-rt-14-dev llvm-14" ;;
 esac
 if [ "$mode" = packages ]; then
@@ -39,8 +40,10 @@ fi
 # Without these, tests skip and say so.
 readers="ffmpeg mediainfo mkvtoolnix clang-format-14 universal-ctags make parallel python3-yaml
   pybind11-dev python3-dev python3-pytest python3-numpy python3-matplotlib python3-pip python3-setuptools python3-wheel"
-[ "$mode" = full ] && readers="$readers mpv chromium blender doxygen slurm-wlm munge libopenmpi-dev man-db zsh fish ruby
+[ "$mode" = full ] && readers="$readers mpv chromium doxygen slurm-wlm munge libopenmpi-dev man-db zsh fish ruby
   gstreamer1.0-tools gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad"
+
+[ "$mode" = bindings ] && readers="$readers emscripten chromium blender g++-aarch64-linux-gnu qemu-user"
 
 # True if node 18 or later and npm are there, from wherever.
 has_node() {
@@ -86,14 +89,14 @@ if [ -n "$missing" ]; then
   install_packages $missing
 fi
 case $mode in
-  tests | full) ;;
+  tests | full | bindings) ;;
   site) readers="doxygen mkdocs mkdocs-material python3-yaml chromium" ;;
   elsewhere) readers=$foreign ;;
   *) exit 0 ;;
 esac
 
 [ "$mode" = elsewhere ] || has_node || readers="$readers nodejs"
-[ "$mode" = full ] || [ "$mode" = site ] && { command -v npm >/dev/null || readers="$readers npm"; }
+case $mode in full | bindings | site) command -v npm >/dev/null || readers="$readers npm" ;; esac
 # shellcheck disable=SC2086
 missing=$(missing_of $readers)
 if [ -n "$missing" ]; then
@@ -104,7 +107,7 @@ fi
 folders="tests/readers/js tools/trackers/mediapipe"
 case $mode in
   full) ;;
-  site) folders=tests/readers/js ;;
+  bindings | site) folders=tests/readers/js ;;
   *) exit 0 ;;
 esac
 for folder in $folders; do

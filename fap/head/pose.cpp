@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "fap/arkit.h"
 #include "fap/detail/lips.h"
 #include "fap/head/detail/normals.h"
@@ -192,7 +194,8 @@ bool show_own_visemes(const Rig& rig, fap::Frame& frame, ControlValues& values) 
     if (weight > 0) shown.emplace_back(kFirstShape + i, weight * kFullShape);
     weight = 0;
   }
-  if (std::ranges::any_of(weights, [](float weight) { return weight > 0; })) return false;
+  if (std::any_of(weights.begin(), weights.end(), [](float weight) { return weight > 0; }))
+    return false;
   for (const auto& [control, value] : shown) values[control] = value;
   frame.mask.reset(1);
   return true;

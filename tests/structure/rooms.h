@@ -48,6 +48,7 @@ inline constexpr Room kRooms[] = {
     {"tools/files", "fap"},
     {"tools/programs", "tools/files tools/text.h"},
     {"tools/c", "codec/encode dam/speaking", false},  // installs one header, of C
+    {"tools/npm", "tools/c", false},                  // the npm package
     {"tools/examples", "", false},                    // what users of libanimeme write
     {"tools/exchange", "codec/text dam/corpus dam/crossmap"},
     {"tools/render", "fap/head"},

@@ -66,9 +66,12 @@ fap::LipMeasures lip_measures(const Head& head, const Rig& rig) {
 std::vector<ShapeControl> measured_shapes(const Head& head, const Rig& rig) {
   static const std::optional<int> kJaw = fap::find_arkit("jawOpen");
   std::vector<ShapeControl> shapes = head.shapes;
-  const bool arkit = std::ranges::any_of(shapes, [](const auto& s) { return s.arkit == kJaw; });
-  const bool lips = std::ranges::all_of(std::array{"2.2", "2.3", "2.4", "2.5"},
-                                        [&](const char* id) { return head.point(id).exists(); });
+  // Not by std::ranges, which Emscripten's library does not have.
+  const bool arkit = std::any_of(shapes.begin(), shapes.end(),
+                                 [](const ShapeControl& shape) { return shape.arkit == kJaw; });
+  constexpr std::array kLips = {"2.2", "2.3", "2.4", "2.5"};
+  const bool lips = std::all_of(kLips.begin(), kLips.end(),
+                                [&](const char* id) { return head.point(id).exists(); });
   if (arkit || !lips) return shapes;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     ShapeControl& shape = shapes[i];

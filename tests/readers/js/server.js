@@ -13,7 +13,8 @@ const http = require('http');
 const path = require('path');
 
 const TYPES = {
-  '.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '.css': 'text/css',
+  '.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '.mjs': 'text/javascript',
+  '.css': 'text/css',
   '.json': 'application/json', '.svg': 'image/svg+xml', '.png': 'image/png',
   '.glb': 'model/gltf-binary', '.wasm': 'application/wasm',
   '.mp4': 'video/mp4', '.m4a': 'audio/mp4', '.m4s': 'video/iso.segment', '.mkv': 'video/x-matroska',

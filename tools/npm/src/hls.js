@@ -1,0 +1,113 @@
+// HLS as `animeme mux -o talk.m3u8` writes it: the sound by MediaSource, the face from its own rendition.
+import {AnimemeError} from './library.js';
+import {Mp4Reader} from './mp4.js';
+import {SoundBuffer} from './sound.js';
+import {UnitDecoder} from './track.js';
+
+const kAhead = 30;  // seconds that are loaded in front of the player
+
+const attributes = (text) => Object.fromEntries(
+  [...text.matchAll(/([A-Z0-9-]+)=("[^"]*"|[^,]*)/g)].map(([, name, value]) => [name, value.replace(/^"|"$/g, '')]));
+
+/** A playlist: {face, sound} of a master, {init, segments: [{url, begin, end}]} of a rendition. */
+export function readPlaylist(text, url) {
+  const lines = text.split(/\r?\n/);
+  if (!lines[0].startsWith('#EXTM3U')) throw new AnimemeError('syntax', `${url} is no playlist`);
+  const out = {face: null, sound: null, init: null, segments: [], codecs: null, complete: false};
+  let duration = 0, time = 0, variant = null;
+  for (const line of lines) {
+    const [tag, rest] = [line.split(':', 1)[0], line.slice(line.indexOf(':') + 1)];
+    if (tag === '#EXT-X-MEDIA') {
+      const {TYPE: type, 'GROUP-ID': group, URI: uri} = attributes(rest);
+      if (type === 'VIDEO' && group === 'face' && uri) out.face = new URL(uri, url).href;
+    } else if (tag === '#EXT-X-STREAM-INF') {
+      variant = attributes(rest);
+    } else if (tag === '#EXT-X-MAP') {
+      out.init = new URL(attributes(rest).URI, url).href;
+    } else if (tag === '#EXTINF') {
+      duration = parseFloat(rest);
+    } else if (tag === '#EXT-X-ENDLIST') {
+      out.complete = true;
+    } else if (line && !line.startsWith('#')) {
+      const address = new URL(line, url).href;
+      if (!variant) {
+        out.segments.push({url: address, begin: time, end: time += duration});
+        continue;
+      }
+      // A face without a sound is the variant itself.
+      if (variant.CODECS?.startsWith('mp4v')) out.face ??= address;
+      else if (!out.sound) [out.sound, out.codecs] = [address, variant.CODECS];
+      variant = null;
+    }
+  }
+  return out;
+}
+
+async function load(url, signal) {
+  const response = await fetch(url, {signal});
+  if (!response.ok) throw new AnimemeError('io', `${url}: ${response.status} ${response.statusText}`);
+  return response;
+}
+
+const bytesOf = async (url, signal) => new Uint8Array(await (await load(url, signal)).arrayBuffer());
+
+async function playlistOf(url, signal) {
+  const list = readPlaylist(await (await load(url, signal)).text(), url);
+  if (!list.face && !list.sound && !list.complete) {
+    throw new AnimemeError('unsupported', `${url} is still being written; live faces come by WebSocket`);
+  }
+  return list;
+}
+
+// Loads the segments of a rendition that are next at the player's time, one after the other.
+async function follow(list, media, signal, use) {
+  const left = new Set(list.segments);
+  while (left.size && !signal.aborted) {
+    const time = media.currentTime;
+    const next = list.segments.find((segment) =>
+      left.has(segment) && segment.end > time && segment.begin < time + kAhead);
+    if (!next) {
+      await new Promise((done) => setTimeout(done, 100));
+      continue;
+    }
+    left.delete(next);
+    await use(await bytesOf(next.url, signal), left);
+  }
+}
+
+async function openFace(url, media, track, signal) {
+  const list = await playlistOf(url, signal), init = await bytesOf(list.init, signal);
+  const end = list.segments.at(-1)?.end ?? 0;
+  if (media.duration === 0) media.duration = end;  // nothing else tells it
+  await follow(list, media, signal, (bytes) => {
+    const reader = new Mp4Reader();
+    reader.push(init);
+    const decoder = new UnitDecoder(reader.track.config);  // each segment begins with an intra plane
+    for (const unit of reader.push(bytes)) track.add(decoder.decode(unit));
+    decoder.free();
+  });
+}
+
+async function openSound(url, codecs, media, signal) {
+  const list = await playlistOf(url, signal);
+  const init = await bytesOf(list.init, signal);
+  const buffer = new SoundBuffer(media, init, codecs);
+  signal.addEventListener('abort', () => buffer.close());
+  await buffer.opened;
+  buffer.setDuration(list.segments.at(-1)?.end ?? 0);
+  await follow(list, media, signal, async (bytes, left) => {
+    await buffer.append(bytes);
+    if (left.size === 0) buffer.end();
+  });
+}
+
+/** Plays a playlist; resolves when all of it was loaded. */
+export async function openHls(url, {media, silent, track, signal}) {
+  const master = await playlistOf(url, signal);
+  if (!master.face) throw new AnimemeError('unsupported', `${url} has no face`);
+  const player = master.sound ? media : silent();
+  await Promise.all([
+    openFace(master.face, player, track, signal),
+    master.sound ? openSound(master.sound, master.codecs, media, signal) : null,
+  ]);
+}

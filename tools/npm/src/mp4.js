@@ -1,0 +1,95 @@
+// The face of an mp4 while it arrives: whole files, fragments, segments behind their initialisation.
+import {boxAt} from './boxes.js';
+import {readFragment} from './fragment.js';
+import {AnimemeError} from './library.js';
+import {readMovie} from './movie.js';
+
+const kFirst = ['ftyp', 'styp', 'moov', 'moof', 'mdat', 'free', 'skip', 'wide', 'sidx'];
+
+/** Push bytes, get access units: {time, duration (seconds), bytes, intra}. */
+export class Mp4Reader {
+  constructor() {
+    this.bytes = new Uint8Array(0);
+    this.base = 0;     // place of the first of these bytes in the file
+    this.at = 0;       // place of the next box
+    this.pending = [];
+    this.next = 0;
+    /** Its face, once its contents were read: config, timescale. */
+    this.track = null;
+    this.fragments = false;
+  }
+
+  push(bytes) {
+    this.bytes = join(this.bytes, bytes);
+    while (this.readBox()) { /* all that are there */ }
+    const units = [];
+    while (this.pending.length) {
+      const {offset, size, ...unit} = this.pending[0];
+      if (offset < this.base) throw new AnimemeError('syntax', 'this mp4 is broken: samples lie before their table');
+      if (offset + size > this.base + this.bytes.length) break;
+      this.pending.shift();
+      units.push({...unit, bytes: this.bytes.slice(offset - this.base, offset - this.base + size)});
+    }
+    this.forget();
+    return units;
+  }
+
+  /** No more bytes will come. */
+  finish() {
+    if (!this.track) throw new AnimemeError('unsupported', 'this is no mp4 with a face');
+    if (this.pending.length) throw new AnimemeError('truncated', 'this mp4 ends before its samples');
+  }
+
+  readBox() {
+    const view = new DataView(this.bytes.buffer, this.bytes.byteOffset, this.bytes.byteLength);
+    const begin = this.at - this.base;
+    const box = begin <= view.byteLength ? boxAt(view, begin) : null;
+    if (!box) return false;
+    if (this.at === 0 && !kFirst.includes(box.type)) throw new AnimemeError('syntax', 'this is no mp4');
+    if (box.type === 'moov' || box.type === 'moof') {
+      if (box.end > view.byteLength) return false;
+      try {
+        if (box.type === 'moov') this.readContents(view, box);
+        else if (this.track) this.readFragment(view, box);
+      } catch (problem) {
+        if (!(problem instanceof RangeError)) throw problem;  // a box that is shorter than what it says
+        throw new AnimemeError('syntax', `this mp4 is broken: a box in ${box.type} is too short`);
+      }
+    }
+    this.at = this.base + box.end;
+    return true;
+  }
+
+  readContents(view, moov) {
+    const track = readMovie(view, moov, Number.MAX_SAFE_INTEGER);
+    if (!track) throw new AnimemeError('unsupported', 'there is no face in this mp4');
+    this.track = track;
+    this.pending = track.samples;
+    this.next = 0;
+    delete track.samples;
+  }
+
+  readFragment(view, moof) {
+    const {samples, next} = readFragment(view, moof, this.at, this.track, this.next);
+    this.fragments = true;
+    this.pending.push(...samples);
+    this.next = next;
+  }
+
+  // Bytes that nothing asks for any more. Before the contents are known all may be asked for.
+  forget() {
+    if (!this.track) return;
+    const needed = Math.min(this.at, this.pending[0]?.offset ?? Infinity) - this.base;
+    const behind = Math.min(Math.max(needed, 0), this.bytes.length);
+    this.bytes = this.bytes.subarray(behind);
+    this.base += behind;
+  }
+}
+
+function join(first, second) {
+  if (first.length === 0) return second;
+  const both = new Uint8Array(first.length + second.length);
+  both.set(first);
+  both.set(second, first.length);
+  return both;
+}
