@@ -94,6 +94,13 @@ npm_package() {
     ctest --test-dir build/release --output-on-failure -R '^npm\.'
 }
 
+# fetched: a project of others fetches all of animeme and links every component, if what that needs is there.
+fetched() {
+  cmake --preset release --log-level=STATUS &&
+    cmake -DLINK=ON -DCXX=c++ -DGENERATOR=Ninja -DWORK="$here/build/fetched" -DANIMEME_DIR="$here" \
+      -DTESTS="$here/tests/package" -DCOMPONENTS="$(cat build/release/components.txt)" -P tests/package/fetch_all.cmake
+}
+
 # arm64: the conformance suite, by QEMU.
 arm64_suite() {
   cmake --preset arm64 --log-level=STATUS && cmake --build build/arm64 --target test_conformance &&
@@ -130,6 +137,9 @@ for preset in $presets; do
     arm64) needs_program arm64 aarch64-linux-gnu-g++ && needs_program arm64 qemu-aarch64 && run arm64 0 ;;
   esac || true
 done
+if [ "$mode" = elsewhere ]; then
+  part "fetched, all components" fetched || true
+fi
 if [ "$mode" = packages ]; then
   rm -rf build/packages
   part "packages: build, lintian" tools/packaging/deb.sh -o build/packages -w build/packages-tree || finish
