@@ -150,6 +150,8 @@ Rig make_rig(const Head& head) {
   if ((head.targets.empty() && head.shapes.empty()) || head.eased) {
     rig.reaches = detail::usual_reaches();
     rig.outside = detail::outside_of(head);
+    rig.usual = detail::usual_values();
+    detail::mark_rolling(rig);
   }
   for (std::size_t i = 0; i < 2; ++i) rig.lid_follow[i] = lid_follow(rig, i);
   const bool given = head.seams.neck_weights.size() == head.part(Part::skin).positions.size();

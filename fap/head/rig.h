@@ -52,8 +52,9 @@ struct Reach {
 
 /// A triangle of the skin that is seen from outside.
 struct OuterTriangle {
-  Triangle corners;  ///< vertices of the skin
-  Vec3 normal;       ///< at rest; twice its area long
+  Triangle corners;    ///< vertices of the skin
+  Vec3 normal;         ///< at rest; twice its area long
+  bool rolls = false;  ///< turns over beside the corners when a mouth is as wide open as jaws go
 };
 
 /// A row of teeth seen from above as half an ellipse, a little squarer (exponent 2.5): open to the
@@ -102,6 +103,8 @@ struct Rig {
   std::vector<Reach> reaches;  ///< of FAPs, where the targets are make_rig()'s own
   /// What must not turn over, on heads that have reaches and known lips.
   std::vector<OuterTriangle> outside;
+  /// By number of a FAP, positive: no less of it is shown for triangles that roll.
+  std::array<float, fap::kFapCount + 1> usual = {};
   std::array<DentalArch, 2> teeth;       ///< upper, lower
   std::array<float, 2> lid_follow = {};  ///< FAP 19 for one unit of FAP 25, and 20 for 26
   std::vector<float> neck_weights;       ///< of the skin: 1 turns with the head, 0 stays
@@ -119,8 +122,8 @@ struct PoseOptions {
   /// their Seams are known), other points stop where Rooms says, upper lids at 0.26 IRISD
   /// up, a jaw that goes back at 0.25 MNS; legal values beyond what people do are eased to that
   /// (Rig::reaches); where skin would turn over all the same, as large a share of all FAPs
-  /// that bend skin is shown as leaves it whole. Without it every feature point is where its FAPs
-  /// say.
+  /// that bend skin is shown as leaves it whole. Without it every
+  /// feature point is where its FAPs say.
   bool contact = true;
   /// Upper lids go along with eyes that look down or up: see lids_follow_gaze().
   bool follow = true;

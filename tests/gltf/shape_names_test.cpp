@@ -30,10 +30,11 @@ std::string arkit_of(std::string_view name) {
 }
 
 TEST(ShapeNames, ArkitInAnySpelling) {
-  for (const char* name : {"eyeBlinkLeft", "EyeBlinkLeft", "eyeBlink_L", "eye_blink_left",
-                           "Eye_Blink_L", "blendShape1.eyeBlinkLeft", "A14_Eye_Blink_Left",
-                           "AK_01_eyeBlinkLeft", "head_mesh:eyeBlinkLeft", "EYEBLINKLEFT",
-                           "Eye Blink Left", "eyeBlink.L", "Face.eyeBlink_L"}) {
+  for (const char* name :
+       {"eyeBlinkLeft", "EyeBlinkLeft", "eyeBlink_L", "eye_blink_left", "Eye_Blink_L",
+        "blendShape1.eyeBlinkLeft", "A14_Eye_Blink_Left", "ARKit_eyeBlinkLeft", "ARKitEyeBlinkLeft",
+        "AK_01_eyeBlinkLeft", "head_mesh:eyeBlinkLeft", "EYEBLINKLEFT", "Eye Blink Left",
+        "eyeBlink.L", "Face.eyeBlink_L"}) {
     EXPECT_EQ(arkit_of(name), "eyeBlinkLeft") << name;
   }
   for (int shape = 0; shape < fap::kArkitShapeCount; ++shape) {

@@ -3,6 +3,7 @@
 #include <random>
 #include <sstream>
 
+#include "fap/arkit.h"
 #include "fap/fill.h"
 #include "fap/head/shapes.h"
 #include "fap/text.h"
@@ -168,6 +169,20 @@ fap::Frame anywhere(unsigned seed, double share) {
 TEST_P(EachFace, StaysWholeWhateverItIsTold) {
   for (unsigned seed = 0; seed < 60; ++seed) {
     EXPECT_EQ(turned_over(anywhere(seed, seed % 2 ? 1 : 0.2)), 0) << seed;
+  }
+}
+
+// ... but what ARKit's shapes say is shown in full: skin beside the corners rolls as a mouth opens
+// wide.
+TEST_P(EachFace, ShowsAllOfEveryShape) {
+  head::Pose free;
+  for (std::size_t shape = 0; shape < fap::kArkitChannelCount; ++shape) {
+    fap::ArkitFrame weights{};
+    weights[shape] = 1;
+    const fap::Frame frame = fap::arkit_to_fap(weights, fap::kAllArkit);
+    head::pose(rig(), frame, pose_);
+    head::pose(unwatched_, frame, free);
+    EXPECT_EQ(pose_.positions[0], free.positions[0]) << fap::kArkitNames[shape];
   }
 }
 

@@ -18,11 +18,10 @@ constexpr int kLeft = 1, kRight = 2, kBoth = 3;
 
 // Words before the name proper, as exporters and rigs put them.
 bool is_prefix(const std::string& word) {
-  static const std::array<std::string_view, 21> known = {
-      "blendshape", "blend", "shape",      "shapes",      "bs",    "arkit",   "ak",
-      "face",       "head",  "ctrl",       "expressions", "morph", "morpher", "mesh",
-      "wolf3d",     "fcl",   "expression", "facial",      "key",   "target",  "bshp"};
-  if (std::find(known.begin(), known.end(), word) != known.end()) return true;
+  constexpr std::string_view kKnown =
+      " blendshape blend shape shapes bs arkit ar kit ak face head ctrl expressions morph morpher "
+      "mesh wolf3d fcl expression facial key target bshp ";
+  if (kKnown.find(" " + word + " ") != std::string_view::npos) return true;
   // Numbers, and letters with numbers: "09", "a14".
   return !word.empty() &&
          std::all_of(word.begin() + 1, word.end(), [](char c) { return c >= '0' && c <= '9'; }) &&

@@ -183,27 +183,33 @@ void write_vertices(const std::vector<std::uint32_t>& vertices, Bytes& out) {
   for (const std::uint32_t vertex : vertices) out.varint(vertex);
 }
 
-// How many triangles of the skin are seen from outside, then how many are not, and so on; returns
-// how many numbers that are.
-std::size_t write_outside(const head::Rig& rig, Bytes& out) {
+// How many of the flags are set, then how many are not, and so on; returns how many numbers that
+// are.
+std::size_t write_runs(const std::vector<bool>& flags, Bytes& out) {
   std::size_t runs = 0;
-  std::size_t length = 0;
-  bool outside = true;
-  auto next = rig.outside.begin();  // in the order of the triangles
-  const auto end_run = [&] {
-    out.varint(length);
-    length = 0;
-    outside = !outside;
-    ++runs;
-  };
-  for (const head::Triangle& triangle : rig.parts[std::size_t(head::Part::skin)].triangles) {
-    const bool is = next != rig.outside.end() && next->corners == triangle;
-    if (is != outside) end_run();
-    if (is) ++next;
-    ++length;
+  for (std::size_t at = 0; at < flags.size(); ++runs) {
+    const std::size_t begin = at;
+    while (at < flags.size() && flags[at] == (runs % 2 == 0)) ++at;
+    out.varint(at - begin);
   }
-  end_run();
   return runs;
+}
+
+// Which triangles of the skin are those of Rig::outside, which has their order.
+std::vector<bool> outside_of(const head::Rig& rig) {
+  std::vector<bool> outside;
+  auto next = rig.outside.begin();
+  for (const head::Triangle& triangle : rig.parts[std::size_t(head::Part::skin)].triangles) {
+    outside.push_back(next != rig.outside.end() && next->corners == triangle);
+    if (outside.back()) ++next;
+  }
+  return outside;
+}
+
+std::vector<bool> rolling_of(const head::Rig& rig) {
+  std::vector<bool> rolling;
+  for (const head::OuterTriangle& outer : rig.outside) rolling.push_back(outer.rolls);
+  return rolling;
 }
 
 }  // namespace
@@ -223,7 +229,8 @@ std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig
   for (const head::DentalArch& arch : rig.teeth) write_vertices(arch.vertices, data);
   write_vertices(rig.lash_anchors, data);
   for (const float weight : rig.neck_weights) data.u16(rounded(weight * 65535, 65535));
-  const std::size_t outside = write_outside(rig, data);
+  const std::size_t outside = write_runs(outside_of(rig), data);
+  const std::size_t rolling = write_runs(rolling_of(rig), data);
   Json header{
       {"version", 3},
       {"name", head.name},
@@ -238,6 +245,8 @@ std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig
       {"before_eyes", {rig.eye_skin[0].size(), rig.eye_skin[1].size()}},
       {"anchors", rig.lash_anchors.size()},
       {"outside", outside},
+      {"rolling", rolling},
+      {"usual", rig.usual},
       {"fapu", {{"es", rig.fapu.es}, {"mns", rig.fapu.mns}}},
       {"eyes", tools::json_list(rig.eyes, eye_of)},
       {"jaw", jaw_of(rig)},

@@ -1,6 +1,11 @@
 #include "fap/head/detail/whole.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <optional>
+
+#include "fap/arkit.h"
+#include "fap/tables.h"
 
 namespace animeme::head::detail {
 namespace {
@@ -50,9 +55,21 @@ bool bends_skin(std::size_t control) {
   return !(control >= 23 && control <= 26) && !(control >= 48 && control <= 50);
 }
 
-bool any_turned(const Rig& rig, const std::vector<Vec3>& skin) {
+// The share of all at which every FAP is within what is usual.
+float usual_share(const Rig& rig, const ControlValues& wanted) {
+  float share = 1;
+  for (std::size_t f = fap::kFirstLowLevel; f < rig.usual.size(); ++f) {
+    if (bends_skin(f) && std::abs(wanted[f]) > rig.usual[f]) {
+      share = std::min(share, rig.usual[f] / std::abs(wanted[f]));
+    }
+  }
+  return share;
+}
+
+// `all`: or those alone that never roll.
+bool any_turned(const Rig& rig, const std::vector<Vec3>& skin, bool all) {
   return std::any_of(rig.outside.begin(), rig.outside.end(), [&](const OuterTriangle& outer) {
-    return dot(outer.normal, normal_of(skin, outer.corners)) < 0;
+    return (all || !outer.rolls) && dot(outer.normal, normal_of(skin, outer.corners)) < 0;
   });
 }
 
@@ -85,18 +102,48 @@ std::vector<OuterTriangle> outside_of(const Head& head) {
   return outside;
 }
 
+std::array<float, fap::kFapCount + 1> usual_values() {
+  std::array<float, fap::kFapCount + 1> usual{};
+  for (const fap::FapInfo& info : fap::kFaps) {
+    usual[std::size_t(info.number)] = 0.1f * float(info.quant_step * info.default_i_range);
+  }
+  for (std::size_t shape = 0; shape < fap::kArkitChannelCount; ++shape) {
+    fap::ArkitFrame weights{};
+    weights[shape] = 1;
+    const fap::Frame frame = fap::arkit_to_fap(weights, fap::kAllArkit);
+    for (std::size_t f = fap::kFirstLowLevel; f < usual.size(); ++f) {
+      if (frame.mask[f]) usual[f] = std::max(usual[f], float(std::abs(frame.value[f])));
+    }
+  }
+  return usual;
+}
+
+void mark_rolling(Rig& rig) {
+  const std::optional<int> jaw = fap::find_arkit("jawOpen");
+  if (!jaw || rig.outside.empty()) return;
+  Rig unwatched = rig;
+  unwatched.outside.clear();
+  fap::ArkitFrame weights{};
+  weights[std::size_t(*jaw)] = 1;
+  const Pose open = pose(unwatched, fap::arkit_to_fap(weights, fap::kAllArkit));
+  const std::vector<Vec3>& skin = open.positions[std::size_t(Part::skin)];
+  for (OuterTriangle& outer : rig.outside) {
+    outer.rolls = dot(outer.normal, normal_of(skin, outer.corners)) < 0;
+  }
+}
+
 void show_whole(const Rig& rig, const ControlValues& wanted, const std::vector<Vec3>& skin,
                 const std::function<void(const ControlValues&)>& show) {
-  show(wanted);
-  if (!any_turned(rig, skin)) return;
+  const float usual = usual_share(rig, wanted);
   ControlValues values = wanted;
   const auto turned_at = [&](float share) {
     for (std::size_t c = 0; c < values.size(); ++c) {
       if (bends_skin(c)) values[c] = wanted[c] * share;
     }
     show(values);
-    return any_turned(rig, skin);
+    return any_turned(rig, skin, share > usual);
   };
+  if (!turned_at(1)) return;
   float step = 1.0f / kSteps;
   float whole = 0;
   for (int i = 1; i < kSteps && !turned_at(whole + step); ++i) whole += step;

@@ -91,9 +91,20 @@ function outsideOf(triangles, runs) {
   return found;
 }
 
+// 1 in every other run, beginning with the first.
+function flagsOf(count, runs) {
+  const flags = new Uint8Array(count);
+  let first = 0;
+  runs.forEach((length, i) => {
+    flags.fill(i % 2 === 0 ? 1 : 0, first, first + length);
+    first += length;
+  });
+  return flags;
+}
+
 /** {name, parts: [{name, material, positions, normals, paint, triangles, surface (with what bears on
     normals alone), facets}], targets, lips, lids, sliding, beforeEyes, teeth, anchors, neckWeights,
-    outside (triangles of the skin), and what the header has}. Vertices of targets are places in the
+    outside (triangles of the skin), rolling (a flag each), and what the header has}. Vertices of targets are places in the
     array of positions. */
 export function readModel(bytes) {
   const reader = new ByteReader(bytes);
@@ -110,7 +121,8 @@ export function readModel(bytes) {
   const neckWeights = Float32Array.from(reader.u16(parts[0].positions.length / 3),
       (weight) => weight / 65535);
   const outside = outsideOf(parts[0].surface, reader.varints(header.outside));
+  const rolling = flagsOf(outside.length / 3, reader.varints(header.rolling));
   const pictures = (header.pictures || []).map(({type, bytes: size}) => ({type, file: reader.u8(size)}));
   return {...header, pictures, parts, targets, lips, lids, sliding, beforeEyes, teeth, anchors,
-    neckWeights, outside};
+    neckWeights, outside, rolling};
 }

@@ -36,7 +36,7 @@ export class Rig {
   pose(values) {
     const {model, positions, index} = this;
     const skin = positions[index.skin];
-    showWhole(model, skin, (share) => this.deform(values, share, skin));
+    showWhole(model, values, skin, (share) => this.deform(values, share, skin));
     const v = this.values;
     this.turnLashes(skin, positions[index.lashes]);
     this.setTransforms(v);

@@ -34,15 +34,24 @@ function normalsOf(model) {
 export const bendsSkin = (control) =>
   !(control >= 23 && control <= 26) && !(control >= 48 && control <= 50);
 
+// The share of all at which every FAP is within what is usual.
+function usualShare({usual}, values) {
+  return usual.reduce((share, most, f) => {
+    const value = Math.abs(values[f] || 0);
+    return f >= 3 && bendsSkin(f) && value > most ? Math.min(share, most / value) : share;
+  }, 1);
+}
+
 /** Calls show(share), which places the skin, with 1; where that turns triangles of the outside over,
-    with as large a share as does not. */
-export function showWhole(model, skin, show) {
-  const {outside} = model;
+    with as large a share of `values` as does not; for those that roll, no less than is usual. */
+export function showWhole(model, values, skin, show) {
+  const {outside, rolling} = model;
   const normals = normalsOf(model);
+  const usual = usualShare(model, values);
   const turnedAt = (share) => {
     show(share);
-    return anyNormal(outside, skin,
-        (t, x, y, z) => x * normals[t] + y * normals[t + 1] + z * normals[t + 2] < 0);
+    return anyNormal(outside, skin, (t, x, y, z) => (share > usual || !rolling[t / 3]) &&
+        x * normals[t] + y * normals[t + 1] + z * normals[t + 2] < 0);
   };
   if (!turnedAt(1)) return;
   let step = 1 / STEPS;
