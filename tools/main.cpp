@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
     const int code = animeme::tools::run_line({argv, std::size_t(argc)});
     const auto told = animeme::tools::flush_standard_output();
     if (told || code != animeme::tools::kOk) return code;
-    std::cerr << "animeme: error: " << told.error().describe() << "\n";
+    std::cerr << "animeme: error: " + told.error().describe() + "\n";
     return animeme::tools::kBadInput;
   } catch (const std::bad_alloc&) {
     std::cerr << "animeme: error: there is not enough memory for this; close other programs, raise "

@@ -34,7 +34,8 @@ sed -n 's/^Package: //p' "$debian/control" | sort >"$work/packages"
 for list in "$debian"/*.install; do basename "$list" .install; done | sort | diff "$work/packages" - ||
   fail "debian/control has other packages than debian/*.install"
 (cd "$prefix" && find . \( -type f -o -type l \) |
-  sed "s|^\./$libdir/|usr/lib/triplet/|; s|^\./|usr/|; s|^usr/lib/triplet/python|usr/lib/python|") >"$work/files"
+  sed "s|^\./$libdir/|usr/lib/triplet/|; s|^\./|usr/|; s|^usr/lib/triplet/python|usr/lib/python|
+    s|^usr/lib/python3\.[0-9]*/|usr/lib/python3/|") >"$work/files"
 grep -q . "$work/files" || fail "nothing is installed in $prefix"
 while read -r file; do
   takers=''

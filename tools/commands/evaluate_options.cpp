@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "tools/commands/bounds.h"
+#include "tools/commands/brief_help.h"
 #include "tools/commands/outputs.h"
 #include "tools/commands/train_base.h"
 
@@ -85,6 +86,8 @@ void add_options(CLI::App& app, EvaluateOptions& options) {
   add_thresholds(app, options);
   app.add_flag("--full", options.full, "Tables by control, phoneme, viseme, class and sentence");
   app.add_flag("--json", options.json, "Machine-readable result, with everything");
+  show_in_help_all(app, "Details of what is compared",
+                   {"--split-column", "--controls-folder", "--closed-gap", "--draws"});
 }
 
 }  // namespace animeme::tools

@@ -18,7 +18,8 @@ namespace {
 
 // Errors of the user's input and errors of ours have different exit codes.
 int report_error(const Error& error) {
-  std::cerr << "animeme: error: " << error.describe() << "\n";
+  // In one piece, as other processes may write to the same place.
+  std::cerr << "animeme: error: " + error.describe() + "\n";
   return error.code == Code::internal ? kInternal : kBadInput;
 }
 

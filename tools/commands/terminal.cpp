@@ -21,11 +21,11 @@ void set_quiet(bool quiet) { quiet_setting = quiet; }
 void set_verbose(bool verbose) { verbose_setting = verbose; }
 
 void warn(const std::string& text) {
-  if (!quiet_setting) std::cerr << "animeme: warning: " << text << "\n";
+  if (!quiet_setting) std::cerr << "animeme: warning: " + text + "\n";
 }
 
 void say(const std::string& text) {
-  if (!quiet_setting) std::cerr << text << "\n";
+  if (!quiet_setting) std::cerr << text + "\n";
 }
 
 void say_more(const std::string& text) {

@@ -40,7 +40,7 @@ class ByCMake(build_ext):
             cmake("--build", tree, "--target", "animeme_python", "--parallel", os.cpu_count() or 1)
         with tempfile.TemporaryDirectory() as prefix:
             cmake("--install", tree, "--component", "python", "--prefix", prefix)
-            package = next(Path(prefix).rglob("animeme"))
+            package = next(Path(prefix).rglob("__init__.py")).parent
             shutil.copytree(package, Path(self.build_lib) / "animeme", dirs_exist_ok=True)
 
 
