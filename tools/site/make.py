@@ -151,7 +151,7 @@ def listing(stage, title, pattern, language, readme, page):
     text = f"# {title}\n\nHow to install and use it: [{os.path.dirname(readme)}](../{readme}).\n"
     for path in files:
         with open(path, encoding="utf-8") as file:
-            text += f"\n## {os.path.basename(path)}\n\n```{language}\n{file.read().rstrip()}\n```\n"
+            text += f"\n## `{os.path.basename(path)}`\n\n```{language}\n{file.read().rstrip()}\n```\n"
     stage.write(page, text)
     return [{title: page}]
 
