@@ -3,6 +3,7 @@
 #include <map>
 
 #include "dam/corpus/statistics_internal.h"
+#include "dam/kinds/refined/terms.h"
 #include "dam/maths/cholesky.h"
 #include "dam/training/adapt_internal.h"
 
