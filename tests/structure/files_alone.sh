@@ -14,6 +14,11 @@ every=64 jobs=1
 flags="-std=c++20 -fsyntax-only -Wall -Wextra -Wshadow -Werror -Wno-missing-field-initializers -I.
   $(pkg-config --cflags-only-I --silence-errors eigen3 libxml-2.0 espeak-ng | sed 's/-I/-isystem /g')
   -isystem /usr/include/pocketsphinx -DANIMEME_SOURCE_DIR=\"\" -DANIMEME_BINARY_DIR=\"\" -DANIMEME_VERSION=\"\""
+# The header of the C interface is included as it is installed.
+installed=$(mktemp -d)
+trap 'rm -rf "$installed"' EXIT
+mkdir "$installed/animeme" && ln -s "$PWD/tools/c/animeme.h" "$installed/animeme/"
+flags="$flags -I$installed"
 # The Python module, where there is what it stands on.
 python=tools/python
 if pkg-config --exists python3 && [ -f /usr/include/pybind11/pybind11.h ]; then
