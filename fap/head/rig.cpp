@@ -147,15 +147,12 @@ Rig make_rig(const Head& head) {
     rig.teeth[i] = detail::dental_arch(rig, i == 0 ? Part::upper_teeth : Part::lower_teeth);
   }
   rig.rooms = rooms_of(head);
-  if ((head.targets.empty() && head.shapes.empty()) || head.eased) {
+  if ((head.targets.empty() && head.shapes.empty()) || head.eased)
     rig.reaches = detail::usual_reaches();
-    rig.outside = detail::outside_of(head);
-    rig.usual = detail::usual_values();
-    detail::mark_rolling(rig);
-  }
   for (std::size_t i = 0; i < 2; ++i) rig.lid_follow[i] = lid_follow(rig, i);
   const bool given = head.seams.neck_weights.size() == head.part(Part::skin).positions.size();
   rig.neck_weights = given ? head.seams.neck_weights : neck_weights(rig);
+  if (!rig.reaches.empty()) detail::watch_outside(head, rig);
   return rig;
 }
 

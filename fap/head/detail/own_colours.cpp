@@ -93,10 +93,11 @@ void paint_mouth(const std::vector<bool>& unknown, Head& head) {
   const Vec3 left = head.at("2.4"), right = head.at("2.5");
   const float half = 0.5f * (left.x - right.x), middle = 0.5f * (left.x + right.x);
   const float mns = float(head.fapu.mns);
+  if (!(half > 0)) return;
   Mesh& skin = head.part(Part::skin);
   for (std::size_t v = 0; v < skin.positions.size(); ++v) {
     const Vec3 p = skin.positions[v];
-    const float aside = half > 0 ? std::abs(p.x - middle) / half : kBeyond + 1;
+    const float aside = std::abs(p.x - middle) / half;
     const float up = (p.y - front.y) / mns;
     if (!unknown[v] || aside > kBeyond || up < -1.3f || up > 1.2f) continue;
     const float corner = p.x > middle ? left.z : right.z;

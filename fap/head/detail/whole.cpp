@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cstdlib>
 #include <optional>
+#include <utility>
 
 #include "fap/arkit.h"
+#include "fap/head/detail/geodesic.h"
 #include "fap/tables.h"
 
 namespace animeme::head::detail {
@@ -33,23 +35,6 @@ std::vector<bool> seam_of(const Head& head) {
   return seam;
 }
 
-// Triangles by vertex: those of v are in `triangles` from `first[v]` to `first[v + 1]`.
-struct Fans {
-  std::vector<std::uint32_t> first, triangles;
-
-  Fans(const std::vector<Triangle>& all, std::size_t vertices)
-      : first(vertices + 1), triangles(3 * all.size()) {
-    for (const Triangle& t : all) {
-      for (const std::uint32_t v : t) ++first[v];
-    }
-    for (std::size_t v = 0, end = 0; v < first.size(); ++v)
-      first[v] = std::uint32_t(end += first[v]);
-    for (std::uint32_t t = 0; t < all.size(); ++t) {
-      for (const std::uint32_t v : all[t]) triangles[--first[v]] = t;
-    }
-  }
-};
-
 // Eyeballs and the head turn as they are.
 bool bends_skin(std::size_t control) {
   return !(control >= 23 && control <= 26) && !(control >= 48 && control <= 50);
@@ -73,25 +58,21 @@ bool any_turned(const Rig& rig, const std::vector<Vec3>& skin, bool all) {
   });
 }
 
-}  // namespace
-
 std::vector<OuterTriangle> outside_of(const Head& head) {
   const Mesh& skin = head.part(Part::skin);
   if (head.seams.lips.empty() || !head.point("2.1").exists()) return {};
   const std::vector<bool> seam = seam_of(head);
-  const Fans fans(skin.triangles, skin.positions.size());
+  const Neighbours neighbours = neighbours_of(skin.positions.size(), skin.triangles);
   std::vector<bool> reached(skin.positions.size());
   std::vector<std::uint32_t> open{head.point("2.1").vertex};
   reached[open[0]] = true;
   while (!open.empty()) {
     const std::uint32_t v = open.back();
     open.pop_back();
-    for (std::uint32_t i = fans.first[v]; i < fans.first[v + 1]; ++i) {
-      for (const std::uint32_t next : skin.triangles[fans.triangles[i]]) {
-        if (reached[next] || seam[next]) continue;
-        reached[next] = true;
-        open.push_back(next);
-      }
+    for (const std::uint32_t next : neighbours.of(v)) {
+      if (reached[next] || seam[next]) continue;
+      reached[next] = true;
+      open.push_back(next);
     }
   }
   std::vector<OuterTriangle> outside;
@@ -102,45 +83,48 @@ std::vector<OuterTriangle> outside_of(const Head& head) {
   return outside;
 }
 
-std::array<float, fap::kFapCount + 1> usual_values() {
-  std::array<float, fap::kFapCount + 1> usual{};
-  for (const fap::FapInfo& info : fap::kFaps) {
-    usual[std::size_t(info.number)] = 0.1f * float(info.quant_step * info.default_i_range);
-  }
-  for (std::size_t shape = 0; shape < fap::kArkitChannelCount; ++shape) {
-    fap::ArkitFrame weights{};
-    weights[shape] = 1;
-    const fap::Frame frame = fap::arkit_to_fap(weights, fap::kAllArkit);
-    for (std::size_t f = fap::kFirstLowLevel; f < usual.size(); ++f) {
-      if (frame.mask[f]) usual[f] = std::max(usual[f], float(std::abs(frame.value[f])));
-    }
-  }
-  return usual;
+fap::Frame shape_frame(std::size_t shape) {
+  fap::ArkitFrame weights{};
+  weights[shape] = 1;
+  return fap::arkit_to_fap(weights, fap::kAllArkit);
 }
 
-void mark_rolling(Rig& rig) {
-  const std::optional<int> jaw = fap::find_arkit("jawOpen");
-  if (!jaw || rig.outside.empty()) return;
-  Rig unwatched = rig;
-  unwatched.outside.clear();
-  fap::ArkitFrame weights{};
-  weights[std::size_t(*jaw)] = 1;
-  const Pose open = pose(unwatched, fap::arkit_to_fap(weights, fap::kAllArkit));
+}  // namespace
+
+void watch_outside(const Head& head, Rig& rig) {
+  for (const fap::FapInfo& info : fap::kFaps) {
+    rig.usual[std::size_t(info.number)] = 0.1f * float(info.quant_step * info.default_i_range);
+  }
+  for (std::size_t shape = 0; shape < fap::kArkitChannelCount; ++shape) {
+    const fap::Frame frame = shape_frame(shape);
+    for (std::size_t f = fap::kFirstLowLevel; f < rig.usual.size(); ++f) {
+      if (frame.mask[f]) rig.usual[f] = std::max(rig.usual[f], float(std::abs(frame.value[f])));
+    }
+  }
+  std::vector<OuterTriangle> outside = outside_of(head);
+  static const std::optional<int> kJaw = fap::find_arkit("jawOpen");
+  if (!kJaw || outside.empty()) return;
+  // Nothing is watched yet.
+  const Pose open = pose(rig, shape_frame(std::size_t(*kJaw)));
   const std::vector<Vec3>& skin = open.positions[std::size_t(Part::skin)];
-  for (OuterTriangle& outer : rig.outside) {
+  for (OuterTriangle& outer : outside) {
     outer.rolls = dot(outer.normal, normal_of(skin, outer.corners)) < 0;
   }
+  rig.outside = std::move(outside);
 }
 
 void show_whole(const Rig& rig, const ControlValues& wanted, const std::vector<Vec3>& skin,
                 const std::function<void(const ControlValues&)>& show) {
   const float usual = usual_share(rig, wanted);
   ControlValues values = wanted;
-  const auto turned_at = [&](float share) {
+  const auto show_share = [&](float share) {
     for (std::size_t c = 0; c < values.size(); ++c) {
       if (bends_skin(c)) values[c] = wanted[c] * share;
     }
     show(values);
+  };
+  const auto turned_at = [&](float share) {
+    show_share(share);
     return any_turned(rig, skin, share > usual);
   };
   if (!turned_at(1)) return;
@@ -151,7 +135,7 @@ void show_whole(const Rig& rig, const ControlValues& wanted, const std::vector<V
     step /= 2;
     if (!turned_at(whole + step)) whole += step;
   }
-  turned_at(whole);
+  show_share(whole);
 }
 
 }  // namespace animeme::head::detail

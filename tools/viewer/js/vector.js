@@ -58,32 +58,36 @@ export function movedPoints(m, points) {
   return out;
 }
 
+/** Fills `out` with the normal of the triangle whose vertices begin at triangles[t], twice its area
+    long. */
+export function areaNormal(points, triangles, t, out) {
+  const a = triangles[t] * 3;
+  const b = triangles[t + 1] * 3;
+  const c = triangles[t + 2] * 3;
+  const ux = points[b] - points[a];
+  const uy = points[b + 1] - points[a + 1];
+  const uz = points[b + 2] - points[a + 2];
+  const vx = points[c] - points[a];
+  const vy = points[c + 1] - points[a + 1];
+  const vz = points[c + 2] - points[a + 2];
+  out[0] = uy * vz - uz * vy;
+  out[1] = uz * vx - ux * vz;
+  out[2] = ux * vy - uy * vx;
+}
+
 /** Fills `normals` with the directions of the surface at its points, of length 1; triangles count
     by their area. */
 export function smoothNormals(points, triangles, normals) {
   normals.fill(0);
+  const n = new Float64Array(3);
   for (let t = 0; t < triangles.length; t += 3) {
-    const a = triangles[t] * 3;
-    const b = triangles[t + 1] * 3;
-    const c = triangles[t + 2] * 3;
-    const ux = points[b] - points[a];
-    const uy = points[b + 1] - points[a + 1];
-    const uz = points[b + 2] - points[a + 2];
-    const vx = points[c] - points[a];
-    const vy = points[c + 1] - points[a + 1];
-    const vz = points[c + 2] - points[a + 2];
-    const nx = uy * vz - uz * vy;
-    const ny = uz * vx - ux * vz;
-    const nz = ux * vy - uy * vx;
-    normals[a] += nx;
-    normals[a + 1] += ny;
-    normals[a + 2] += nz;
-    normals[b] += nx;
-    normals[b + 1] += ny;
-    normals[b + 2] += nz;
-    normals[c] += nx;
-    normals[c + 1] += ny;
-    normals[c + 2] += nz;
+    areaNormal(points, triangles, t, n);
+    for (let k = 0; k < 3; ++k) {
+      const i = triangles[t + k] * 3;
+      normals[i] += n[0];
+      normals[i + 1] += n[1];
+      normals[i + 2] += n[2];
+    }
   }
   for (let i = 0; i < normals.length; i += 3) {
     const x = normals[i];
