@@ -4,24 +4,15 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <ctime>
 #include <string>
 #include <vector>
 
-#include "codec/decode/decoder.h"
 #include "codec/encode/live.h"
 #include "tests/bench/bench_material.h"
+#include "tests/bench/two_decoders.h"
 
 namespace animeme::bench {
 namespace {
-
-constexpr std::size_t kPiece = 100;  // bytes that arrive at a time
-
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return double(now.tv_sec) + double(now.tv_nsec) * 1e-9;
-}
 
 // Both in turns.
 template <class Cpp, class C>
@@ -41,42 +32,14 @@ void compare(benchmark::State& state, std::size_t planes, const Cpp& cpp, const 
 }
 
 void decode(benchmark::State& state, const Material& material) {
-  const std::vector<std::uint8_t>& stream = material.stream;
-  const auto cpp = [&] {
-    fba::Decoder decoder;
-    std::size_t planes = 0;
-    std::int64_t sum = 0;
-    for (std::size_t at = 0; at < stream.size(); at += kPiece) {
-      decoder.push({stream.data() + at, std::min(kPiece, stream.size() - at)});
-      while (const auto event = decoder.next()) {
-        if (event->kind != fba::Event::Kind::plane) continue;
-        ++planes;
-        sum += event->plane.face.value[3];
-      }
-    }
-    benchmark::DoNotOptimize(sum);
-    return planes;
+  const auto by = [&](auto decode) {
+    return [&material, decode] {
+      const Decoded decoded = decode(material.stream);
+      benchmark::DoNotOptimize(decoded.sum);
+      return decoded.planes;
+    };
   };
-  const auto c = [&] {
-    animeme_decoder* decoder = nullptr;
-    animeme_decoder_new(&decoder, nullptr);
-    animeme_frame frame;
-    animeme_frame_init(&frame, sizeof frame);
-    std::size_t planes = 0;
-    std::int64_t sum = 0;
-    for (std::size_t at = 0; at < stream.size(); at += kPiece) {
-      animeme_decoder_push(decoder, stream.data() + at, std::min(kPiece, stream.size() - at),
-                           nullptr);
-      while (animeme_decoder_next(decoder, &frame, nullptr, nullptr) == ANIMEME_OK) {
-        ++planes;
-        sum += frame.value[2];
-      }
-    }
-    benchmark::DoNotOptimize(sum);
-    animeme_decoder_free(decoder);
-    return planes;
-  };
-  compare(state, material.planes.size(), cpp, c);
+  compare(state, material.planes.size(), by(decode_by_cpp), by(decode_by_c));
 }
 
 void encode(benchmark::State& state, const Material& material) {

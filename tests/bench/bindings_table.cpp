@@ -2,65 +2,28 @@
 // and by its C interface: the rows of C++ and C of bindings.sh.
 //   bindings_table --make wide.fba     writes the stream that all of them decode
 //   bindings_table wide.fba            planes a second of C++ and C
-#include <animeme/animeme.h>
-
-#include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <fstream>
 #include <iterator>
 #include <string>
 #include <vector>
 
-#include "codec/decode/decoder.h"
 #include "tests/bench/bench_material.h"
+#include "tests/bench/two_decoders.h"
 
 namespace {
 
 using namespace animeme;
 using Stream = std::vector<std::uint8_t>;
 
-constexpr std::size_t kPiece = 100;  // bytes that arrive at a time
-
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return double(now.tv_sec) + double(now.tv_nsec) * 1e-9;
-}
-
-std::size_t planes_of_cpp(const Stream& stream) {
-  fba::Decoder decoder;
-  std::size_t planes = 0;
-  for (std::size_t at = 0; at < stream.size(); at += kPiece) {
-    decoder.push({stream.data() + at, std::min(kPiece, stream.size() - at)});
-    while (const auto event = decoder.next()) planes += event->kind == fba::Event::Kind::plane;
-  }
-  return planes;
-}
-
-std::size_t planes_of_c(const Stream& stream) {
-  animeme_decoder* decoder = nullptr;
-  if (animeme_decoder_new(&decoder, nullptr) != ANIMEME_OK) return 0;
-  std::size_t planes = 0;
-  animeme_frame frame;
-  animeme_frame_init(&frame, sizeof frame);
-  for (std::size_t at = 0; at < stream.size(); at += kPiece) {
-    animeme_decoder_push(decoder, stream.data() + at, std::min(kPiece, stream.size() - at),
-                         nullptr);
-    while (animeme_decoder_next(decoder, &frame, nullptr, nullptr) == ANIMEME_OK) ++planes;
-  }
-  animeme_decoder_free(decoder);
-  return planes;
-}
-
 template <class Decode>
 void row(const char* name, const Stream& stream, const Decode& decode) {
-  const double begin = cpu_seconds();
+  const double begin = bench::cpu_seconds();
   std::size_t planes = 0;
   double seconds = 0;
   while (seconds < 1) {
-    planes += decode(stream);
-    seconds = cpu_seconds() - begin;
+    planes += decode(stream).planes;
+    seconds = bench::cpu_seconds() - begin;
   }
   std::printf("%s\t%.0f\n", name, double(planes) / seconds);
 }
@@ -78,10 +41,11 @@ int main(int argc, char** argv) {
   }
   std::ifstream in(option, std::ios::binary);
   const Stream stream{std::istreambuf_iterator<char>(in), {}};
-  if (argc != 2 || planes_of_cpp(stream) == 0 || planes_of_c(stream) != planes_of_cpp(stream)) {
+  if (argc != 2 || bench::decode_by_cpp(stream).planes == 0 ||
+      bench::decode_by_c(stream) != bench::decode_by_cpp(stream)) {
     std::fprintf(stderr, "usage: bindings_table [--make] STREAM\n");
     return 2;
   }
-  row("C++", stream, planes_of_cpp);
-  row("C", stream, planes_of_c);
+  row("C++", stream, bench::decode_by_cpp);
+  row("C", stream, bench::decode_by_c);
 }

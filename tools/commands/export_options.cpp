@@ -9,8 +9,6 @@
 
 namespace animeme::tools {
 
-namespace {}  // namespace
-
 void add_options(CLI::App& app, ExportOptions& options) {
   app.add_option("input", options.input,
                  "FAP text, FBA stream or container; for visemes also a phoneme script or a "
