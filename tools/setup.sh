@@ -26,7 +26,7 @@ packages="
 mode=${1:-}
 # Only the tests need these.
 case $mode in
-  tests | full | bindings) packages="$packages libgtest-dev libgmock-dev libbenchmark-dev
+  tests | full | bindings) packages="$packages ccache libgtest-dev libgmock-dev libbenchmark-dev
     clang-14 libclang-rt-14-dev llvm-14" ;;
 esac
 if [ "$mode" = packages ]; then

@@ -7,6 +7,7 @@
 
 #include "dam/model/builtin.h"
 #include "dam/speaking/synthesise.h"
+#include "tests/support/folders.h"
 
 namespace animeme::bench {
 
@@ -57,7 +58,7 @@ dam::Script sentence_of(const std::vector<Word>& words, Maker& maker) {
 }  // namespace
 
 dam::Corpus sample_corpus() {
-  auto corpus = dam::read_corpus(std::filesystem::path(ANIMEME_SOURCE_DIR) / "tests" / "data" /
+  auto corpus = dam::read_corpus(std::filesystem::path(test::kSourceFolder) / "tests" / "data" /
                                  "grid_s1_sample");
   return corpus ? *corpus : dam::Corpus();
 }

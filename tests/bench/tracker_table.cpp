@@ -10,6 +10,7 @@
 
 #include "dam/corpus/corpus.h"
 #include "dam/script/script.h"
+#include "tests/support/folders.h"
 #include "tests/support/program.h"
 #include "tests/support/tracked_head.h"
 
@@ -18,7 +19,7 @@ namespace {
 using namespace animeme;
 namespace fs = std::filesystem;
 
-const fs::path kSample = fs::path(ANIMEME_SOURCE_DIR) / "tests/data/grid_s1_sample";
+const fs::path kSample = fs::path(test::kSourceFolder) / "tests/data/grid_s1_sample";
 constexpr const char* kSentences[] = {"bbbmzn", "lwbf2n", "pbwdzp", "pwbq5s"};  // with P, B, M, F
 constexpr double kClosed = dam::kShutGap;
 

@@ -10,13 +10,14 @@
 #include "fap/text.h"
 #include "tests/c/support.h"
 #include "tests/support/files.h"
+#include "tests/support/folders.h"
 #include "tests/support/random_clip.h"
 
 namespace animeme::test {
 namespace clip_test {
 namespace {
 
-const std::string kSample = std::string(ANIMEME_SOURCE_DIR) + "/tests/data/grid_s1_sample/";
+const std::string kSample = std::string(test::kSourceFolder) + "/tests/data/grid_s1_sample/";
 
 Bytes encoded(const animeme_clip* clip, const animeme_encode_options* options) {
   std::uint8_t* bytes = nullptr;

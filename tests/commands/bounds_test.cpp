@@ -6,6 +6,7 @@
 #include <set>
 
 #include "tests/commands/help_lines.h"
+#include "tests/support/folders.h"
 
 namespace animeme {
 namespace bounds_test {
@@ -27,7 +28,7 @@ struct Try {
 
 // What the program answers to each, by one shell: "2 --rate: ..." a line.
 std::vector<std::string> answers(const std::string& command, const std::vector<Try>& tries) {
-  const std::string program = test::quoted(std::string(ANIMEME_BINARY_DIR) + "/bin/animeme");
+  const std::string program = test::quoted(std::string(test::kBinaryFolder) + "/bin/animeme");
   std::string script;
   for (const Try& one : tries) {
     script += "said=$(" + program + " " + command + " " + one.option + " " +

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tests/commands/help_lines.h"
+#include "tests/support/folders.h"
 
 namespace animeme {
 namespace unwritable_outputs_test {
@@ -132,7 +133,7 @@ TEST_F(Outputs, AreTriedBeforeTheWork) {
 }
 
 TEST_F(Outputs, StandardOutputIsTriedAndFlushed) {
-  const std::string program = test::quoted(std::string(ANIMEME_BINARY_DIR) + "/bin/animeme");
+  const std::string program = test::quoted(std::string(test::kBinaryFolder) + "/bin/animeme");
   for (const char* line :
        {"decode no_such_input -o -", "encode no_such_input -o -", "view no_such_input -o -",
         "manual bash", "--help", "speak --help", "phones --lang en --json"}) {
@@ -153,9 +154,9 @@ TEST_F(Outputs, AFolderOfSegmentsThatHoldsOtherFiles) {
 
 // A pipe's reader would take a try for the end.
 TEST_F(Outputs, PipesAreNotOpenedTwice) {
-  const std::string program = test::quoted(std::string(ANIMEME_BINARY_DIR) + "/bin/animeme");
+  const std::string program = test::quoted(std::string(test::kBinaryFolder) + "/bin/animeme");
   const std::string plain =
-      test::quoted(std::string(ANIMEME_SOURCE_DIR) + "/tests/data/fap/plain.fap");
+      test::quoted(std::string(test::kSourceFolder) + "/tests/data/fap/plain.fap");
   const std::string pipe = test::quoted(dir_ / "pipe");
   const auto result = test::run_command({"sh", "-c",
                                          "mkfifo " + pipe + "; cat " + pipe + " & " + program +

@@ -10,6 +10,7 @@
 #include "conformance/describe.h"
 #include "conformance/features.h"
 #include "conformance/sha256.h"
+#include "tests/support/folders.h"
 #include "tests/support/program.h"
 
 namespace animeme::conformance {
@@ -18,8 +19,8 @@ namespace cases_test {
 namespace fs = std::filesystem;
 using test::slurp;
 
-const fs::path kCases = fs::path(ANIMEME_BINARY_DIR) / "conformance" / "cases";
-const fs::path kTree = fs::path(ANIMEME_SOURCE_DIR) / "conformance" / "cases";
+const fs::path kCases = fs::path(test::kBinaryFolder) / "conformance" / "cases";
+const fs::path kTree = fs::path(test::kSourceFolder) / "conformance" / "cases";
 
 std::vector<std::string> case_names() {
   std::vector<std::string> names;
@@ -77,7 +78,7 @@ TEST(Cases, CoverTheVocabulary) {
 TEST(Cases, AreGeneratedByteForByte) {
   const test::TempDir dir;
   const auto made = test::run_command(
-      {std::string(ANIMEME_BINARY_DIR) + "/bin/make_cases", "generate", dir.path().string()});
+      {std::string(test::kBinaryFolder) + "/bin/make_cases", "generate", dir.path().string()});
   ASSERT_EQ(made.exit_code, 0) << made.err;
   int cases = 0;
   for (const auto& folder : fs::directory_iterator(dir.path())) {

@@ -5,6 +5,7 @@
 
 #include "tests/gltf/avatar_file.h"
 #include "tests/support/files.h"
+#include "tests/support/folders.h"
 #include "tests/support/program.h"
 #include "tests/support/shared.h"
 
@@ -15,7 +16,7 @@ using nlohmann::json;
 
 // Avatars of others, where they are: nothing is lost and the validator has nothing new to say.
 json issues_of(const std::string& path) {
-  const std::string script = std::string(ANIMEME_SOURCE_DIR) + "/tests/gltf/scripts/validate.js";
+  const std::string script = std::string(test::kSourceFolder) + "/tests/gltf/scripts/validate.js";
   const json report = json::parse(
       test::run("node " + test::quoted(script) + " " + test::quoted(path)), nullptr, false);
   json counts = json::object();
@@ -31,7 +32,7 @@ json issues_of(const std::string& path) {
 
 bool has_validator() {
   return test::has_program("node") &&
-         std::filesystem::exists(std::string(ANIMEME_SOURCE_DIR) +
+         std::filesystem::exists(std::string(test::kSourceFolder) +
                                  "/tests/readers/js/node_modules/gltf-validator");
 }
 

@@ -8,6 +8,7 @@
 
 #include "fap/arkit.h"
 #include "fap/head/own_head.h"
+#include "tests/support/folders.h"
 #include "tests/support/program.h"
 #include "tools/gltf/glb.h"
 #include "tools/gltf/read_head.h"
@@ -22,7 +23,7 @@ using test::run;
 using test::TempDir;
 namespace fs = std::filesystem;
 
-const fs::path kHere = fs::path(ANIMEME_SOURCE_DIR) / "tests" / "gltf" / "scripts";
+const fs::path kHere = fs::path(test::kSourceFolder) / "tests" / "gltf" / "scripts";
 
 // Five frames of a mouth that opens while the head turns.
 std::string write_talk(const TempDir& dir, const GlbOptions& options) {
@@ -46,7 +47,7 @@ std::string write_talk(const TempDir& dir, const GlbOptions& options) {
 
 TEST(GlbReaders, TheValidatorFindsNothing) {
   if (!has_program("node")) GTEST_SKIP() << "node is not installed (Debian package nodejs)";
-  if (!fs::exists(fs::path(ANIMEME_SOURCE_DIR) / "tests/readers/js/node_modules/gltf-validator")) {
+  if (!fs::exists(fs::path(test::kSourceFolder) / "tests/readers/js/node_modules/gltf-validator")) {
     GTEST_SKIP() << "npm gltf-validator is not installed: tools/setup.sh tests";
   }
   for (const GlbOptions& options :

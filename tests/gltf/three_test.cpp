@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "tests/gltf/square.h"
+#include "tests/support/folders.h"
 #include "tests/support/program.h"
 #include "tools/render/png.h"
 #include "tools/render/raster.h"
@@ -145,7 +146,7 @@ render::Image drawn(const head::Source& source, const render::Camera& camera) {
 }
 
 TEST(ThreeJs, DrawsTheSame) {
-  const fs::path root = fs::path(ANIMEME_SOURCE_DIR) / "tests";
+  const fs::path root = fs::path(test::kSourceFolder) / "tests";
   if (!test::has_program("node")) GTEST_SKIP() << "node is not installed (Debian package nodejs)";
   if (!test::has_program("chromium")) GTEST_SKIP() << "chromium is not installed";
   if (!fs::exists(root / "readers/js/node_modules/three")) {

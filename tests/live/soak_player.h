@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/folders.h"
+
 namespace animeme::test {
 
 /// Bytes of memory that a process has.
@@ -43,7 +45,7 @@ class Player {
     int pipe[2] = {-1, -1};
     if (pipe2(pipe, O_CLOEXEC) != 0) std::abort();
     const std::string number = std::to_string(++starts_);
-    std::vector<std::string> arguments = {ANIMEME_BINARY_DIR "/bin/animeme"};
+    std::vector<std::string> arguments = {std::string(test::kBinaryFolder) + "/bin/animeme"};
     for (std::string argument : arguments_) {
       if (const std::size_t at = argument.find('%'); at != argument.npos) {
         argument.replace(at, 1, number);

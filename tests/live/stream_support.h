@@ -17,6 +17,7 @@
 
 #include "tests/live/ports.h"
 #include "tests/live/rtp_sockets.h"
+#include "tests/support/folders.h"
 #include "tests/support/program.h"
 #include "tools/media/container.h"
 
@@ -48,7 +49,7 @@ class Running {
  public:
   Running(std::vector<std::string> arguments, const std::string& out, const std::string& err,
           int input = -1) {
-    arguments.insert(arguments.begin(), std::string(ANIMEME_BINARY_DIR) + "/bin/animeme");
+    arguments.insert(arguments.begin(), std::string(test::kBinaryFolder) + "/bin/animeme");
     std::vector<char*> argv;
     for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);

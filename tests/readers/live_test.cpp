@@ -15,11 +15,12 @@
 
 #include "tests/readers/readers_support.h"
 #include "tests/readers/talk.h"
+#include "tests/support/folders.h"
 
 namespace animeme::test {
 namespace live_test {
 
-const std::string kProgram = "'" ANIMEME_BINARY_DIR "/bin/animeme'";
+const std::string kProgram = "'" + std::string(test::kBinaryFolder) + "/bin/animeme'";
 constexpr int kRepeat = 2;  // copies of each packet, as the program sends them by itself
 
 bool bind_udp(int port, int& bound) {

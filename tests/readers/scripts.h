@@ -4,6 +4,7 @@
 #include <string>
 
 #include "tests/readers/readers_support.h"
+#include "tests/support/folders.h"
 
 /// Ends a test, visibly, when there is no node 18 or the npm packages are not there.
 #define NEEDS_NPM(package)                                                                \
@@ -18,7 +19,7 @@
 namespace animeme::test {
 
 inline std::string script(const std::string& name) {
-  return std::string(ANIMEME_SOURCE_DIR) + "/tests/readers/js/" + name;
+  return std::string(test::kSourceFolder) + "/tests/readers/js/" + name;
 }
 
 inline bool has_node() {

@@ -8,6 +8,7 @@
 
 #include "codec/encode/encode.h"
 #include "tests/media/media_support.h"
+#include "tests/support/folders.h"
 #include "tests/support/random_clip.h"
 #include "tools/media/mux.h"
 
@@ -51,7 +52,7 @@ inline Talk walking_talk(int sample_rate = 48000) {
 inline Talk reference_talk(const std::string& name) {
   Talk talk;
   const fs::path file =
-      fs::path(ANIMEME_BINARY_DIR) / "conformance" / "cases" / name / (name + ".fba");
+      fs::path(test::kBinaryFolder) / "conformance" / "cases" / name / (name + ".fba");
   const auto face = fba::split_access_units(read_bytes(file.string()));
   EXPECT_TRUE(face) << file << ": " << face.error().describe();
   if (!face) return talk;

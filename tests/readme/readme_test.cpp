@@ -11,6 +11,7 @@
 #include <regex>
 
 #include "tests/readme/examples.h"
+#include "tests/support/folders.h"
 #include "tests/support/program.h"
 
 namespace animeme {
@@ -21,7 +22,7 @@ using test::Example;
 using test::TempDir;
 
 std::vector<Example> all_examples() {
-  const fs::path top = ANIMEME_SOURCE_DIR;
+  const fs::path top = test::kSourceFolder;
   std::vector<std::string> files{"README.md"};
   for (const char* folder : {"codec", "conformance", "dam", "fap", "tests", "tools"}) {
     for (const auto& entry : fs::recursive_directory_iterator(top / folder)) {
@@ -42,7 +43,7 @@ std::vector<Example> all_examples() {
 
 // A tree of which the examples may change the top and their samples.
 void make_tree(const fs::path& folder) {
-  for (const auto& entry : fs::directory_iterator(ANIMEME_SOURCE_DIR)) {
+  for (const auto& entry : fs::directory_iterator(test::kSourceFolder)) {
     const std::string name = entry.path().filename().string();
     if (name == "build" || name == "try" || name.starts_with(".")) continue;
     fs::create_symlink(entry.path(), folder / name);
@@ -109,7 +110,7 @@ TEST_P(Examples, Run) {
   const Example& example = GetParam();
   const TempDir dir;
   make_tree(dir.path());
-  const std::string bin = std::string(ANIMEME_BINARY_DIR) + "/bin";
+  const std::string bin = std::string(test::kBinaryFolder) + "/bin";
   std::string script = "set -euo pipefail\ncd " + test::quoted(dir.path().string()) +
                        "\nPATH=" + test::quoted(bin) + ":$PATH\n";
   for (const std::string& line : example.lines) script += with_free_ports(line) + "\n";

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "tests/support/folders.h"
+
 namespace animeme::test {
 namespace {
 
@@ -23,7 +25,7 @@ bool is_text(const fs::path& path) {
 
 SourceFile load(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
-  return {path.lexically_relative(ANIMEME_SOURCE_DIR).generic_string(),
+  return {path.lexically_relative(test::kSourceFolder).generic_string(),
           {std::istreambuf_iterator<char>(file), {}}};
 }
 
@@ -33,7 +35,7 @@ SourceFile load(const fs::path& path) {
 const std::vector<SourceFile>& tree() {
   static const std::vector<SourceFile> files = [] {
     std::vector<fs::path> paths;
-    const fs::path root = ANIMEME_SOURCE_DIR;
+    const fs::path root = test::kSourceFolder;
     for (const auto& entry : fs::directory_iterator(root)) {
       if (entry.is_regular_file() && is_text(entry.path())) paths.push_back(entry.path());
     }

@@ -11,6 +11,7 @@
 #include <sys/wait.h>
 
 #include "tests/support/files.h"
+#include "tests/support/folders.h"
 #include "tests/support/temp_dir.h"
 
 namespace animeme::test {
@@ -44,7 +45,7 @@ inline ProgramResult run_command(const std::vector<std::string>& arguments,
 }
 
 inline ProgramResult animeme(std::vector<std::string> arguments, const std::string& input = {}) {
-  arguments.insert(arguments.begin(), std::string(ANIMEME_BINARY_DIR) + "/bin/animeme");
+  arguments.insert(arguments.begin(), std::string(test::kBinaryFolder) + "/bin/animeme");
   return run_command(arguments, input);
 }
 

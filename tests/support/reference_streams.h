@@ -11,6 +11,7 @@
 
 #include "codec/syntax/plane.h"
 #include "tests/support/files.h"
+#include "tests/support/folders.h"
 #include "tests/support/shared.h"
 
 namespace animeme::test {
@@ -21,7 +22,7 @@ inline std::vector<std::filesystem::path> reference_streams() {
   namespace fs = std::filesystem;
   std::vector<fs::path> out;
   std::set<std::string> names;
-  std::vector<fs::path> folders = {fs::path(ANIMEME_BINARY_DIR) / "conformance" / "cases"};
+  std::vector<fs::path> folders = {fs::path(test::kBinaryFolder) / "conformance" / "cases"};
   if (!shared_dir().empty()) folders.push_back(shared_dir() / "conformance" / "streams");
   for (const auto& folder : folders) {
     if (!fs::is_directory(folder)) continue;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/support/files.h"
+#include "tests/support/folders.h"
 
 namespace animeme::test {
 
@@ -17,13 +18,13 @@ inline std::filesystem::path shared_dir() {
   const char* set = std::getenv("ANIMEME_SHARED");
   std::filesystem::path dir =
       set != nullptr ? std::filesystem::path(set)
-                     : std::filesystem::path(ANIMEME_SOURCE_DIR).parent_path() / "shared";
+                     : std::filesystem::path(test::kSourceFolder).parent_path() / "shared";
   return std::filesystem::is_directory(dir) ? dir : std::filesystem::path();
 }
 
 /// A file or folder that ships with the tests.
 inline std::filesystem::path data_dir() {
-  return std::filesystem::path(ANIMEME_SOURCE_DIR) / "tests" / "data";
+  return std::filesystem::path(test::kSourceFolder) / "tests" / "data";
 }
 
 /// A file of tests/data. Empty, with a failure, if it cannot be read. `name` is relative to that.

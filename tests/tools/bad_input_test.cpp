@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "tests/support/folders.h"
 #include "tests/support/program.h"
 #include "tests/support/shared.h"
 
@@ -109,8 +110,8 @@ TEST(BadInput, AudioThatIsNone) {
 
 TEST(BadInput, CorruptModel) {
   const TempDir dir;
-  const std::string good = test::slurp(std::filesystem::path(ANIMEME_SOURCE_DIR) / "dam" / "model" /
-                                       "builtin" / "grid_s1.dam");
+  const std::string good = test::slurp(std::filesystem::path(test::kSourceFolder) / "dam" /
+                                       "model" / "builtin" / "grid_s1.dam");
   ASSERT_GT(good.size(), 1000u);
   std::string bad = good;
   bad[bad.size() / 2] = char(bad[bad.size() / 2] ^ 1);

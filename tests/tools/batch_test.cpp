@@ -15,6 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/support/folders.h"
 #include "tests/support/shared.h"
 #include "tests/tools/batch_support.h"
 #include "tests/tools/commands.h"
@@ -25,7 +26,7 @@ namespace batch_test {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-const std::string kSample = std::string(ANIMEME_SOURCE_DIR) + "/tests/data/grid_s1_sample";
+const std::string kSample = std::string(test::kSourceFolder) + "/tests/data/grid_s1_sample";
 
 std::string short_clips(int count) {
   const char* words[] = {"Good morning", "Guten Abend", "Bonjour", "A boat", "Vier Pferde"};
@@ -151,7 +152,7 @@ TEST(Batch, KilledAndResumedEqualsAQuietRun) {
   const double took =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
   std::mt19937 random(5);
-  const std::string program = std::string(ANIMEME_BINARY_DIR) + "/bin/animeme",
+  const std::string program = std::string(test::kBinaryFolder) + "/bin/animeme",
                     manifest = dir / "m.tsv", out = dir / "killed";
   for (int i = 0; i < kills; ++i) {
     const pid_t child = ::fork();

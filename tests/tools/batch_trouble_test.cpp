@@ -12,6 +12,7 @@
 #include <random>
 #include <thread>
 
+#include "tests/support/folders.h"
 #include "tests/tools/batch_support.h"
 #include "tests/tools/commands.h"
 
@@ -24,7 +25,7 @@ using namespace std::string_literals;
 
 /// The program in a process group of its own, as a shell starts it.
 pid_t start(const std::vector<std::string>& arguments) {
-  std::vector<std::string> line{std::string(ANIMEME_BINARY_DIR) + "/bin/animeme"};
+  std::vector<std::string> line{std::string(test::kBinaryFolder) + "/bin/animeme"};
   line.insert(line.end(), arguments.begin(), arguments.end());
   std::vector<char*> words;
   for (std::string& word : line) words.push_back(word.data());

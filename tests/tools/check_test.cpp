@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "fap/tables.h"
+#include "tests/support/folders.h"
 #include "tests/support/program.h"
 
 namespace animeme {
@@ -24,8 +25,8 @@ using testing::AllOf;
 using testing::EndsWith;
 using testing::HasSubstr;
 
-const std::string kSuite = std::string(ANIMEME_SOURCE_DIR) + "/conformance";
-const std::string kCases = std::string(ANIMEME_BINARY_DIR) + "/conformance/cases";
+const std::string kSuite = std::string(test::kSourceFolder) + "/conformance";
+const std::string kCases = std::string(test::kBinaryFolder) + "/conformance/cases";
 
 test::ProgramResult check(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "check");

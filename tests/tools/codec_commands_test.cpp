@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "fap/text.h"
+#include "tests/support/folders.h"
 #include "tests/support/random_clip.h"
 #include "tests/support/reference_streams.h"
 #include "tests/tools/commands.h"
@@ -51,7 +52,7 @@ std::string fails(const TempDir& dir, const std::vector<std::string>& arguments)
 // --- all reference streams (test_codec and the command check have the generated ones, too)
 
 std::filesystem::path case_file(const std::filesystem::path& stream) {
-  return std::filesystem::path(ANIMEME_SOURCE_DIR) / "conformance" / "cases" / stream.filename() /
+  return std::filesystem::path(test::kSourceFolder) / "conformance" / "cases" / stream.filename() /
          "case.json";
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "tests/support/folders.h"
 #include "tests/support/gltf_writer.h"
 #include "tests/support/picture_writer.h"
 #include "tests/support/sanitized.h"
@@ -56,7 +57,7 @@ test::ProgramResult within_300_mb(const Bytes& head, std::vector<std::string> ar
   test::write_bytes(dir / "head.glb", head);
   const std::string limit = test::kAddressSanitizer ? "" : "ulimit -d 300000; ";
   std::vector<std::string> command = {"sh", "-c", limit + "exec \"$@\"", "sh",
-                                      std::string(ANIMEME_BINARY_DIR) + "/bin/animeme"};
+                                      std::string(test::kBinaryFolder) + "/bin/animeme"};
   for (const std::string& argument : arguments) {
     command.push_back(argument == "HEAD"  ? dir / "head.glb"
                       : argument == "OUT" ? dir / "out.html"

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/folders.h"
 #include "tests/tools/commands.h"
 
 namespace animeme {
@@ -20,7 +21,7 @@ constexpr const char* kNoThreadsOfBlas = "export OPENBLAS_NUM_THREADS=1; ";
 // The program with 300 MB for all its data.
 test::ProgramResult in_small_memory(const std::vector<std::string>& arguments) {
   std::string command = kNoThreadsOfBlas + std::string("ulimit -d 300000; exec ") +
-                        test::quoted(std::string(ANIMEME_BINARY_DIR) + "/bin/animeme");
+                        test::quoted(std::string(test::kBinaryFolder) + "/bin/animeme");
   for (const std::string& argument : arguments) command += " " + test::quoted(argument);
   return test::run_command({"sh", "-c", command});
 }
@@ -118,7 +119,7 @@ TEST(Limits, FilesThatNeverEndOrAreHoles) {
 TEST(Limits, NoMemoryIsASentence) {
   const TempDir dir;
   spill(dir / "gap.fap", gap_text(10000));
-  const std::string program = test::quoted(std::string(ANIMEME_BINARY_DIR) + "/bin/animeme");
+  const std::string program = test::quoted(std::string(test::kBinaryFolder) + "/bin/animeme");
   // Whoever runs out first, the main thread or a helper: neither aborts.
   for (const char* limit : {"40000", "46000", "55000"}) {
     for (const std::string& command :

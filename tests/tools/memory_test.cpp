@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "codec/encode/encoder.h"
+#include "tests/support/folders.h"
 #include "tests/support/sanitized.h"
 #include "tests/tools/commands.h"
 
@@ -49,7 +50,7 @@ void write_long_stream(const std::string& path) {
 
 // Megabytes that the program had resident at most.
 long megabytes_of(std::vector<std::string> arguments, const std::string& out) {
-  arguments.insert(arguments.begin(), std::string(ANIMEME_BINARY_DIR) + "/bin/animeme");
+  arguments.insert(arguments.begin(), std::string(test::kBinaryFolder) + "/bin/animeme");
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/support/folders.h"
 #include "tests/support/program.h"
 #include "tests/support/shared.h"
 
@@ -195,7 +196,7 @@ TEST(MuxCommand, ASignalEndsTheFileInOrder) {
     // The signal is sent when the temporary file has some content.
     const std::string script =
         "cd " + test::quoted(dir.path().string()) + "; " +
-        test::quoted(std::string(ANIMEME_BINARY_DIR) + "/bin/animeme") + " mux " +
+        test::quoted(std::string(test::kBinaryFolder) + "/bin/animeme") + " mux " +
         test::quoted(sample()) + " long.wav -o " + name +
         " & pid=$!; while kill -0 $pid && [ -z \"$(find . -path '*.part*' -type f -size +4k)\" ]; "
         "do sleep 0.02; done; kill -TERM $pid; wait $pid";

@@ -5,6 +5,7 @@
 
 #include <thread>
 
+#include "tests/support/folders.h"
 #include "tests/support/shared.h"
 #include "tests/tools/commands.h"
 
@@ -120,7 +121,7 @@ TEST(Outputs, APointListBesideAHeadIsNotWrittenOver) {
 TEST(Outputs, NoForeseeableName) {
   const TempDir dir;
   spill(dir / "precious", "precious");
-  const std::string program = std::string(ANIMEME_BINARY_DIR) + "/bin/animeme";
+  const std::string program = std::string(test::kBinaryFolder) + "/bin/animeme";
   for (const auto& [command, ending] : {std::pair{"encode", ".fba"}, std::pair{"view", ".html"}}) {
     // The shell knows the number that the program will have, as an attacker may guess it.
     const std::string out = (dir / "a") + ending;

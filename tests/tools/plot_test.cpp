@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "fap/text.h"
+#include "tests/support/folders.h"
 #include "tests/support/program.h"
 
 namespace animeme {
@@ -68,8 +69,9 @@ TEST(Plot, ShortClipsFillThePictureAndNarrowPhonesHaveNoName) {
 }
 
 TEST(Plot, HighLevelFapsAreShownAsTheHeadShowsThem) {
-  const auto out = animeme(
-      {"plot", ANIMEME_SOURCE_DIR "/tests/data/fap/high_level.fap", "--faps", "3", "-o", "-"});
+  const auto out =
+      animeme({"plot", std::string(test::kSourceFolder) + "/tests/data/fap/high_level.fap",
+               "--faps", "3", "-o", "-"});
   ASSERT_EQ(out.exit_code, 0) << out.err;
   EXPECT_THAT(out.out, HasSubstr("150.0,93.9 450.0,33.5 "));
 }

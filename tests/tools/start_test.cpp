@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/folders.h"
 #include "tests/support/program.h"
 
 namespace animeme::test {
@@ -13,7 +14,7 @@ using ::testing::Not;
 // The loader's own list of what is linked: the program is not run.
 TEST(Start, LoadsNoFfmpegForText) {
   const auto result = run_command(
-      {"env", "LD_TRACE_LOADED_OBJECTS=1", std::string(ANIMEME_BINARY_DIR) + "/bin/animeme"});
+      {"env", "LD_TRACE_LOADED_OBJECTS=1", std::string(test::kBinaryFolder) + "/bin/animeme"});
   EXPECT_THAT(result.out, HasSubstr("libstdc++"));
   for (const char* library : {"libav", "libsw"}) {
     EXPECT_THAT(result.out, Not(HasSubstr(library)))

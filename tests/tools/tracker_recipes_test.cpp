@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "dam/corpus/corpus.h"
+#include "tests/support/folders.h"
 #include "tests/support/shared.h"
 #include "tests/support/tracked_head.h"
 #include "tests/tools/commands.h"
@@ -21,7 +22,7 @@ using test::succeeds;
 using test::TempDir;
 using testing::HasSubstr;
 
-const fs::path kRecipes = fs::path(ANIMEME_SOURCE_DIR) / "tools/trackers";
+const fs::path kRecipes = fs::path(test::kSourceFolder) / "tools/trackers";
 const fs::path kClip = test::data_dir() / "grid_s1_sample/fap/pbwdzp.csv";  // P B M in it
 
 TEST(TrackerRecipes, MediapipeSeesWhatIsDrawn) {

@@ -9,6 +9,7 @@
 #include "dam/model/model.h"
 #include "dam/script/script.h"
 #include "dam/training/alignment.h"
+#include "tests/support/folders.h"
 #include "tests/support/program.h"
 #include "tests/support/shared.h"
 
@@ -217,7 +218,7 @@ TEST_F(TrainParts, TheSameCommandAgainAddsNothing) {
 TEST(TrainAlone, OneProgramAtATimeAddsToAFile) {
   const test::TempDir dir;
   const std::string sums = dir / "a.stats";
-  const std::string program = test::quoted(std::string(ANIMEME_BINARY_DIR) + "/bin/animeme");
+  const std::string program = test::quoted(std::string(test::kBinaryFolder) + "/bin/animeme");
   // Somebody is at it.
   const auto second = test::run_command(
       {"sh", "-c",

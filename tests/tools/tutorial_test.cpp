@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "dam/model/model.h"
+#include "tests/support/folders.h"
 #include "tests/support/shared.h"
 #include "tests/tools/commands.h"
 
@@ -33,7 +34,7 @@ TEST(Tutorial, EachCommandRuns) {
   const TempDir dir;
   spill(dir / "commands.sh",
         "set -eu\ncd " + quoted(dir.path().string()) +
-            "\nPATH=" + quoted(std::string(ANIMEME_BINARY_DIR) + "/bin") + ":$PATH SAMPLE=" +
+            "\nPATH=" + quoted(std::string(test::kBinaryFolder) + "/bin") + ":$PATH SAMPLE=" +
             quoted((data_dir() / "grid_s1_sample").string()) + "\nexport PATH SAMPLE\n" + commands);
   const auto result = run_command({"sh", "-x", dir / "commands.sh"});
   if (result.err.find("built without") != std::string::npos) GTEST_SKIP() << result.err;

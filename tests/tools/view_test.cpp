@@ -1,6 +1,7 @@
 // `animeme view` as a user calls it.
 #include <gmock/gmock.h>
 
+#include "tests/support/folders.h"
 #include "tests/support/program.h"
 
 namespace animeme::test {
@@ -9,7 +10,7 @@ namespace view_test {
 using testing::HasSubstr;
 using testing::Not;
 
-const std::string kData = ANIMEME_SOURCE_DIR "/tests/data/";
+const std::string kData = std::string(test::kSourceFolder) + "/tests/data/";
 
 TEST(ViewCommand, WritesOnePageOfEachKindOfInput) {
   const TempDir dir;

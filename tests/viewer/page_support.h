@@ -7,6 +7,7 @@
 
 #include "fap/tables.h"
 #include "tests/readers/scripts.h"
+#include "tests/support/folders.h"
 #include "tools/viewer/viewer.h"
 
 namespace animeme::test {
@@ -123,8 +124,9 @@ inline Bytes bytes_of(const std::string& text) { return Bytes(text.begin(), text
 inline Json report_of(const std::string& kind, const std::string& html, const TempDir& dir) {
   const std::string path = dir.file("a page.html");
   write_bytes(path, bytes_of(html));
-  return run_json("node '" ANIMEME_SOURCE_DIR "/tests/viewer/js/viewer_report.js' " + kind + " '" +
-                  path + "' '" + dir.file("") + "'");
+  return run_json("node '" + std::string(test::kSourceFolder) +
+                  "/tests/viewer/js/viewer_report.js' " + kind + " '" + path + "' '" +
+                  dir.file("") + "'");
 }
 
 // The software renderer of Chromium says how slow it is; that is not the page's doing.

@@ -5,13 +5,15 @@
 #include <string>
 
 #include "tests/readers/scripts.h"
+#include "tests/support/folders.h"
 
 namespace animeme::test {
 namespace stretch_test {
 
 TEST(Stretch, KeepsPitchLevelAndPlace) {
   if (!has_node()) GTEST_SKIP() << "node 18 or later is not installed (Debian package nodejs)";
-  const Json report = run_json("node '" ANIMEME_SOURCE_DIR "/tests/viewer/js/stretch_report.mjs'");
+  const Json report = run_json("node '" + std::string(test::kSourceFolder) +
+                               "/tests/viewer/js/stretch_report.mjs'");
   ASSERT_TRUE(report.contains("tones"));
   EXPECT_EQ(report["tones"].size(), 6u);
   for (const auto& [speed, tone] : report["tones"].items()) {
@@ -29,7 +31,8 @@ TEST(Stretch, KeepsPitchLevelAndPlace) {
 
 TEST(Stretch, JoinsTheEndsOfALoop) {
   if (!has_node()) GTEST_SKIP() << "node 18 or later is not installed (Debian package nodejs)";
-  const Json report = run_json("node '" ANIMEME_SOURCE_DIR "/tests/viewer/js/stretch_report.mjs'");
+  const Json report = run_json("node '" + std::string(test::kSourceFolder) +
+                               "/tests/viewer/js/stretch_report.mjs'");
   ASSERT_TRUE(report.contains("loop"));
   const Json& loop = report["loop"];
   EXPECT_NEAR(loop["pitch"].get<double>(), 220, 1);

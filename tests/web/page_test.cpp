@@ -12,6 +12,7 @@
 #include "codec/encode/live.h"
 #include "fap/head/model.h"
 #include "fap/head/rig.h"
+#include "tests/support/folders.h"
 #include "tests/web/chromium.h"
 #include "tools/media/encoded_audio.h"
 #include "tools/media/live/pacer.h"
@@ -160,7 +161,7 @@ TEST_P(Page, PlaysSoundAndFaceTogether) {
                        "animeme.session.latency() < 2.5"));
   expect_no_complaints();
   const std::string name = std::string("web_desktop_") + media::name_of(GetParam()) + ".png";
-  browser_->save_picture(std::filesystem::path(ANIMEME_BINARY_DIR) / "screenshots" / name);
+  browser_->save_picture(std::filesystem::path(test::kBinaryFolder) / "screenshots" / name);
 }
 
 // The sound that comes out of the element, sample by sample, against the mouth that is shown.
@@ -226,7 +227,7 @@ TEST_P(PageOnce, FitsAPhoneAndSurvivesAPause) {
   EXPECT_EQ(browser_->evaluate("[...document.querySelectorAll('canvas')].every(c => "
                                "c.getAttribute('aria-label'))"),
             true);
-  browser_->save_picture(std::filesystem::path(ANIMEME_BINARY_DIR) / "screenshots" /
+  browser_->save_picture(std::filesystem::path(test::kBinaryFolder) / "screenshots" /
                          "web_phone.png");
   station.pause(true);
   ASSERT_TRUE(wait_for(*browser_, "animeme.state === 'waiting'"));
@@ -265,7 +266,7 @@ TEST_P(PageOnce, ShowsAHead) {
   EXPECT_GT(double(moves), 3) << "pixels";
   EXPECT_EQ(browser_->evaluate("animeme.session.gaps"), 0);
   wait_for(*browser_, "Face.opening(animeme.session.due(animeme.session.clock()).values) > 0.5");
-  browser_->save_picture(std::filesystem::path(ANIMEME_BINARY_DIR) / "screenshots" /
+  browser_->save_picture(std::filesystem::path(test::kBinaryFolder) / "screenshots" /
                          "web_head.png");
   expect_no_complaints();
 }

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "tools/gltf/detail/budget.h"
+#include "tools/gltf/detail/picture_decoder.h"
 
 namespace animeme::gltf {
 namespace {
