@@ -1,4 +1,4 @@
-// The sockets of `animeme stream --to http://...`: /face, and /audio if there is a sound. tools/web/README.md has the
+// The sockets of `animeme stream --to http://...`: /face, and /audio if there is a sound. tools/web/protocol.md has the
 // bytes.
 import {AnimemeError} from './library.js';
 import {SoundBuffer} from './sound.js';
