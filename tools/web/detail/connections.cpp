@@ -30,7 +30,7 @@ bool send_bytes(lws* wsi, const void* bytes, std::size_t size, lws_write_protoco
   return lws_write(wsi, buffer.data() + LWS_PRE, size, how) >= int(size);
 }
 
-/// Of a client whose messages are deflated: 32 kB, not the 256 kB of zlib's own choice. A window of
+/// Of a client whose messages are deflated: 40 kB, not the 270 kB of zlib's own choice. A window of
 /// 4 kB has the dozen planes before, and more make nothing smaller.
 void set_deflate(lws* wsi) {
   for (const auto& [name, value] : {std::pair{"server_max_window_bits", "12"},

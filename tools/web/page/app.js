@@ -45,6 +45,8 @@
     badge.dataset.state = name;
     if (badge.textContent !== text) badge.textContent = text;
     start.textContent = name === 'idle' || name === 'ended' ? 'Start' : 'Stop';
+    const mute = Boolean(session.info) && !session.info.audio;  // as a whole
+    sound.hidden = element('volume').parentElement.hidden = mute;
     // Nobody is there to press Start.
     clearTimeout(again);
     if (name === 'ended' && bare) again = setTimeout(begin, 4000);
