@@ -7,6 +7,7 @@ const Live = (() => {
   const kJump = 0.6;       // further behind than that: jump instead of hurrying
   const kLate = 0.5;       // without sound: frames that come so late turn the clock back
   const kUneven = 6;       // seconds in which it runs dry more than twice: keep more
+  const kFirst = 3;        // seconds after the start that count for nothing: the page is being made
   const kKeep = 10;        // seconds of frames and sound that are kept behind
   const kStep = 200;       // milliseconds
   const kRetry = [500, 1000, 2000, 4000];
@@ -175,7 +176,8 @@ const Live = (() => {
     // again is a network that wants more to be kept.
     ranDry() {
       const now = wall();
-      if (!this.running || this.ended || this.audio.seeking || now < this.jumped + 1) return;
+      if (!this.running || this.ended || this.audio.seeking) return;
+      if (now < this.jumped + 1 || now < this.played + kFirst) return;
       this.dry = this.dry.filter((time) => time > now - kUneven);
       this.dry.push(now);
       if (this.dry.length > 2) this.target = Math.min(this.target * 1.4, kMostTarget);
@@ -237,6 +239,7 @@ const Live = (() => {
       this.jump(time);
       try {
         await this.audio.play();
+        this.played = wall();
         this.live();
       } catch (problem) {
         this.refused(problem);
