@@ -204,6 +204,42 @@ TEST_F(PageElsewhere, IsABrowserSource) {
   EXPECT_THAT(browser.complaints(), IsEmpty());
 }
 
+// A browser that plays nothing without a click, not even without sound, shows the face all the
+// same.
+TEST_F(PageElsewhere, TheFaceNeedsNoPlayer) {
+  Station station(kSound);
+  Chromium browser;
+  ASSERT_TRUE(browser.is_open());
+  browser.call("Page.addScriptToEvaluateOnNewDocument", {{"source", R"(
+    const play = HTMLMediaElement.prototype.play;
+    HTMLMediaElement.prototype.play = function() {
+      return window.clicked ? play.call(this)
+                            : Promise.reject(new DOMException('a click first', 'NotAllowedError'));
+    };)"}});
+  browser.open(station.address() + "?transparent", 400, 400, false);
+  ASSERT_TRUE(wait_for(browser, "animeme.session.soundless && animeme.shown > 20", 60, false));
+  EXPECT_TRUE(wait_for(browser, "animeme.state === 'live'", 60, false));
+  EXPECT_NE(browser.evaluate("getComputedStyle(sound).display", false), "none");
+  browser.evaluate("window.clicked = true, sound.click()");
+  EXPECT_TRUE(wait_for(browser,
+                       "animeme.state === 'live' && !animeme.session.soundless && "
+                       "!audio.muted && audio.currentTime > 1"));
+  EXPECT_EQ(browser.evaluate("getComputedStyle(sound).display"), "none") << "nothing to ask for";
+  EXPECT_THAT(browser.complaints(), IsEmpty());
+}
+
+TEST_F(PageElsewhere, MutedIsNothingToAskFor) {
+  Station station(kSound);
+  Chromium browser;
+  ASSERT_TRUE(browser.is_open());
+  browser.open(station.address() + "?transparent&muted", 400, 400, false);
+  ASSERT_TRUE(wait_for(browser, "animeme.state === 'live' && animeme.shown > 5", 60, false));
+  EXPECT_EQ(
+      browser.evaluate("[audio.muted, animeme.blocked, getComputedStyle(sound).display]", false),
+      Json({true, false, "none"}));
+  EXPECT_THAT(browser.complaints(), IsEmpty());
+}
+
 // Nobody is there to press Start when the stream is over and begins again.
 TEST_F(PageElsewhere, ABrowserSourceComesBack) {
   std::optional<Station> station(std::in_place, kSound);
