@@ -6,6 +6,7 @@
 #include "tools/media/live/audio_segments.h"
 #include "tools/web/detail/headers.h"
 #include "tools/web/detail/messages.h"
+#include "tools/web/detail/planes.h"
 #include "tools/web/detail/server.h"
 #include "tools/web/detail/values.h"
 #include "tools/web/web.h"
@@ -22,7 +23,9 @@ constexpr double kSoundAlone = 1;      // the same where there is no face
 Error invalid(const char* what) { return make_error(Code::invalid_argument, what); }
 
 bool is_plain(const std::string& text) {
-  return std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c <= '~'; });
+  // What separates in headers is in no name and no origin.
+  return std::all_of(text.begin(), text.end(),
+                     [](char c) { return c > ' ' && c <= '~' && c != ';' && c != ','; });
 }
 
 template <class Body>
@@ -85,6 +88,7 @@ class Sink : public WebSink {
   std::unique_ptr<Server> server_;
   bool over_ = false;
   Values values_;
+  PlaneWriter planes_;
   std::vector<media::AudioPacket> packets_;  // of the next segment
   std::uint32_t segments_ = 0;
   double now_ = 0;  // on the clock of the segments
@@ -107,8 +111,10 @@ Result<void> Sink::begin(const media::LiveInfo& info) {
   const Hello hello{info_.visual_profile, info_.audio.has_value(), info_.timescale,
                     info_.face_config};
   (*server)->set_hello(Channel::face, {.bytes = write_hello(hello)});
-  const std::string names = values_hello();
-  (*server)->set_hello(Channel::faps, {.bytes = {names.begin(), names.end()}, .text = true});
+  const std::string names = values_hello(info_.timescale);
+  for (const Channel channel : {Channel::faps, Channel::planes}) {
+    (*server)->set_hello(channel, {.bytes = {names.begin(), names.end()}, .text = true});
+  }
   if (!init.empty()) (*server)->set_hello(Channel::audio, {.bytes = std::move(init)});
   server_ = std::move(*server);
   describe();
@@ -130,8 +136,13 @@ void Sink::describe() {
                      {"sample_rate", info_.audio->sample_rate},
                      {"channels", info_.audio->channels}};
   }
+  if (!options_.other_heads.empty()) {
+    json["heads"] = {options_.head_name};
+    for (const WebHead& head : options_.other_heads) json["heads"].push_back(head.name);
+  }
   json["clients"] = server_->stats().receivers;
-  server_->set_info(json.dump());
+  // Names of heads may be any text.
+  server_->set_info(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 Result<void> Sink::send_face(const LiveUnit& unit) {
@@ -156,6 +167,10 @@ Result<void> Sink::send_face(const LiveUnit& unit) {
     server_->publish(
         Channel::faps,
         {.bytes = {text.begin(), text.end()}, .text = true, .entry = unit.intra, .time = seconds});
+    const PlaneWriter::Plane plane{std::uint64_t(time), std::uint32_t(unit.duration), unit.intra,
+                                   unit.bytes.size()};
+    server_->publish(Channel::planes,
+                     {.bytes = planes_.write(plane, *face), .entry = unit.intra, .time = seconds});
   }
   if (unit.intra) {
     server_->forget_before(Channel::audio, seconds - kSoundBefore);
@@ -214,7 +229,10 @@ Result<std::unique_ptr<WebSink>> make_web_sink(const std::string& url, const Web
   if (options.client_bytes < 4096 || !(options.stall_seconds > 0)) {
     return invalid("a client needs at least 4096 bytes and some patience");
   }
-  if (options.head_script.empty() != options.head_model.empty()) {
+  const auto has_none = [](const WebHead& head) { return head.model.empty(); };
+  if (options.head_script.empty() != options.head_model.empty() ||
+      (options.head_script.empty() && !options.other_heads.empty()) ||
+      std::any_of(options.other_heads.begin(), options.other_heads.end(), has_none)) {
     return invalid("a head for the page needs its script and its model");
   }
   if (options.per_address < 0) return invalid("connections of an address cannot be negative");

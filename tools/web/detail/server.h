@@ -22,7 +22,8 @@ namespace animeme::web {
 /// One connection, from its first request on.
 struct Session {
   Resource resource = Resource::none;
-  bool open = false;  // a WebSocket or /talk.mp4 with a place in the hub
+  bool small = false;  // /faps?binary
+  bool open = false;   // a WebSocket or /talk.mp4 with a place in the hub
   ClientId client = 0;
   DocumentPtr document;  // that is being sent
   bool packed = false;   // in its form of gzip
@@ -61,9 +62,10 @@ class Server {
   void stop();
   static int callback(lws* wsi, lws_callback_reasons reason, void* user, void* in, size_t size);
   int handle(lws* wsi, lws_callback_reasons reason, const char* in, std::size_t size);
-  bool exists(Resource resource) const;
+  bool exists(const std::string& path) const;
   unsigned objection(lws* wsi, const Request& request);
   std::string shared_with(const Request& request) const;
+  bool may_deflate(lws* wsi) const;
   bool admit(lws* wsi, Session& session);
   int refuse(lws* wsi, const Request& request, unsigned status);
   int request(lws* wsi);
@@ -82,7 +84,8 @@ class Server {
   const WebOptions options_;
   const int sample_rate_;  // of the sound, 0: there is none
   const OwnNames names_;
-  std::map<Resource, DocumentPtr> documents_;  // but for info.json
+  const std::string frames_;                      // where the page may be in a frame
+  std::map<std::string, DocumentPtr> documents_;  // by path, but for info.json
   Service service_;
   int port_ = 0;
 
