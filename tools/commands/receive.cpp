@@ -200,6 +200,7 @@ Result<int> run(const ReceiveOptions& options) {
   if (auto ok = live::check_place(options.output); !ok) return ok.error();
   live::SourceOptions receive = options.receive;
   receive.media.rtp.any_source = receive.media.ts.any_source = options.any_source;
+  receive.engines.any_source = options.any_source;
   auto opened = live::open_patiently(options.source, receive);
   if (!opened && opened.error().code == Code::invalid_argument) {
     return usage_error(opened.error().message);
@@ -233,7 +234,8 @@ Result<int> run(const ReceiveOptions& options) {
 void add_options(CLI::App& app, ReceiveOptions& options) {
   app.add_option("source", options.source,
                  "Session description (.sdp) or address: rtp://host:port, udp://host:port, "
-                 "srt://host:port, ws://host:port")
+                 "srt://host:port, ws://host:port; from phones and engines: livelink://:11111, "
+                 "vmc://:39539, osc://:9000")
       ->required();
   add_output(app.add_option("-o,--output", options.output,
                             "What to write: .mp4 .mkv .ts (face and sound), .fba (stream), .fap "
@@ -278,7 +280,8 @@ void add_options(CLI::App& app, ReceiveOptions& options) {
       ->check(between(0.0, 10.0))
       ->capture_default_str();
   app.add_flag("--any-source", options.any_source,
-               "rtp, udp: take datagrams from every address; else one sender is heard, from one "
+               "rtp, udp, livelink, vmc, osc: take datagrams from every address; else one sender "
+               "is heard, from one "
                "address, and the next one when it is silent for a second");
   app.add_flag("--stats", options.stats, "Tell once a second how it goes");
   app.add_flag("--json", options.json,
@@ -292,6 +295,7 @@ const Command kReceive{
     "  animeme receive talk.sdp -o talk.mp4\n"
     "  animeme receive udp://239.1.2.3:5004 -o talk.fba --duration 60 --stats\n"
     "  animeme receive talk.sdp -o - --fill | my_avatar\n"
+    "  animeme receive livelink://:11111 -o phone.mp4 --duration 60\n"
     "Ends when the sender says goodbye, at --duration, after --timeout, or at Ctrl-C (exit code "
     "130).\nWhat comes is on the disk within a second, under its name, and can be played whatever "
     "ends the\nprogram; a file of that name is replaced when the first second is there. An .mp4 is "

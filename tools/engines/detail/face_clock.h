@@ -1,0 +1,23 @@
+// When faces were, by the clock of their sender as far as it can be believed.
+#pragma once
+
+#include <optional>
+
+namespace animeme::engines {
+
+/// Seconds that ascend, from 0. The sender's step counts if it is no longer than a quarter of a
+/// second (a recording may come faster than it was made), or about as long as time has passed; else
+/// the arrival does. Source: tools/media/live/receiving.md, section 2.
+class FaceClock {
+ public:
+  /// The time of the next face; nothing: it is older than the one before, by less than a second,
+  /// and comes too late.
+  std::optional<double> time(std::optional<double> sender, double arrival);
+
+ private:
+  std::optional<double> sender_, arrival_;  // of the face before
+  double time_ = 0;
+  int late_ = 0;  // faces in a row
+};
+
+}  // namespace animeme::engines
