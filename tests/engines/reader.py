@@ -163,9 +163,17 @@ def from_port(port, seconds):
             udp.settimeout(max(0.001, end - time.monotonic()))
             try:
                 data = udp.recv(65536)
-            except TimeoutError:
+            except socket.timeout:
                 return
             yield time.monotonic(), data
+
+
+def told(frame):
+    """A line; seven decimals are what 32 bits have of a weight."""
+    for group in ("values", "bones"):
+        for name, value in frame.get(group, {}).items():
+            frame[group][name] = [round(x, 7) for x in value] if isinstance(value, (list, tuple)) else round(value, 7)
+    print(json.dumps(frame))
 
 
 def main(arguments):
@@ -182,18 +190,18 @@ def main(arguments):
                 frame["at"] = at
                 # Parts of one frame of parameters come at one time: the last of them has all.
                 if protocol == "osc" and last is not None and last["at"] != at:
-                    print(json.dumps(last))
+                    told(last)
                 if protocol == "osc":
                     last = frame
                 else:
-                    print(json.dumps(frame))
+                    told(frame)
                 if frame.get("end"):
                     return 0
     except (Wrong, ValueError, IndexError, struct.error) as error:
         print("%s: %s" % (protocol, error), file=sys.stderr)
         return 1
     if last is not None:
-        print(json.dumps(last))
+        told(last)
     return 0
 
 

@@ -47,7 +47,7 @@ class FaceDecoder {
     Face face;
     face.arkit = arkit_.fit(frames.back());
     if (!high.empty()) {
-      face.presets = presets_of(high.back(), visemes_.fit(high.back()), face.arkit);
+      face.presets = presets_fitter_.fit(frames.back(), high.back(), face.arkit);
     }
     return face;
   }
@@ -57,7 +57,7 @@ class FaceDecoder {
   bool presets_;
   media::LiveFrames plain_, high_;  // without and with FAP 1 and 2
   fap::ArkitFitter arkit_;
-  fap::VisemeFitter visemes_;
+  PresetFitter presets_fitter_;
 };
 
 /// Faces as datagrams.

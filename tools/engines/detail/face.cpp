@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
+#include <vector>
+
+#include "fap/viseme.h"
 
 namespace animeme::engines {
 
@@ -14,8 +18,7 @@ const std::array<std::string_view, kPresetCount> kVrm1Names{
 
 namespace {
 
-// Of kVisemes.
-constexpr std::size_t kAa = 10, kEe = 11, kIh = 12, kOh = 13, kOu = 14;
+constexpr double kRidge = 0.03;  // vowels are more alike than shapes of a face
 constexpr std::size_t kBlinkLeft = 0, kBlinkRight = 7;
 constexpr double kFullIntensity = 63;
 
@@ -61,6 +64,13 @@ constexpr Share kShares[] = {
     {Preset::surprised, "jawOpen", 0.2},
 };
 
+// Those of A I U E O.
+std::vector<fap::Frame> vowel_shapes() {
+  std::vector<fap::Frame> shapes;
+  for (const int viseme : {10, 12, 14, 11, 13}) shapes.push_back(fap::viseme_shape(viseme));
+  return shapes;
+}
+
 }  // namespace
 
 Face between(const Face& from, const Face& to, double share) {
@@ -72,18 +82,19 @@ Face between(const Face& from, const Face& to, double share) {
   return out;
 }
 
-Presets presets_of(const fap::Frame& shown, const fap::VisemeWeights& visemes,
-                   const fap::ArkitFrame& arkit) {
+PresetFitter::PresetFitter() : vowels_(vowel_shapes(), {}, kRidge) {}
+
+Presets PresetFitter::fit(const fap::Frame& low, const fap::Frame& high,
+                          const fap::ArkitFrame& arkit) {
   Presets out{};
   const auto at = [&out](Preset preset) -> double& { return out[std::size_t(preset)]; };
-  at(Preset::a) = visemes[kAa];
-  at(Preset::i) = visemes[kIh];
-  at(Preset::u) = visemes[kOu];
-  at(Preset::e) = visemes[kEe];
-  at(Preset::o) = visemes[kOh];
+  const std::vector<double>& vowels = vowels_.fit(low);
+  // Together no more than one whole mouth.
+  const double most = std::max(1.0, std::accumulate(vowels.begin(), vowels.end(), 0.0));
+  std::transform(vowels.begin(), vowels.end(), out.begin(), [most](double w) { return w / most; });
   at(Preset::blink_left) = arkit[kBlinkLeft];
   at(Preset::blink_right) = arkit[kBlinkRight];
-  if (!shown.mask[2]) return out;
+  if (!high.mask[2]) return out;
   const auto mood = [&](int expression, int intensity) {
     const double weight = std::clamp(double(intensity) / kFullIntensity, 0.0, 1.0);
     if (expression == 1) at(Preset::joy) += weight;
@@ -91,8 +102,8 @@ Presets presets_of(const fap::Frame& shown, const fap::VisemeWeights& visemes,
     if (expression == 3) at(Preset::angry) += weight;
     if (expression == 6) at(Preset::surprised) += weight;
   };
-  mood(shown.expression.select1, shown.expression.intensity1);
-  mood(shown.expression.select2, shown.expression.intensity2);
+  mood(high.expression.select1, high.expression.intensity1);
+  mood(high.expression.select2, high.expression.intensity2);
   for (double& weight : out) weight = std::clamp(weight, 0.0, 1.0);
   return out;
 }

@@ -7,7 +7,7 @@
 
 #include "fap/arkit.h"
 #include "fap/frame.h"
-#include "fap/viseme.h"
+#include "fap/shape_fit.h"
 
 namespace animeme::engines {
 
@@ -40,10 +40,18 @@ struct Face {
 /// On the straight line from one face to the other; `share` 0..1.
 Face between(const Face& from, const Face& to, double share);
 
-/// From what a receiver shows: vowels are those of fap::VisemeFitter, lids those of ARKit, moods
+/// Presets of faces, frame by frame: the vowels whose shapes (fap::viseme_shape()) come nearest to
+/// jaw and lips, consonants included, as these avatars have no others; lids as ARKit's; moods are
 /// the expressions of FAP 2.
-Presets presets_of(const fap::Frame& shown, const fap::VisemeWeights& visemes,
-                   const fap::ArkitFrame& arkit);
+class PresetFitter {
+ public:
+  PresetFitter();
+  /// `low`: what a receiver shows as low-level FAPs; `high`: with FAP 2.
+  Presets fit(const fap::Frame& low, const fap::Frame& high, const fap::ArkitFrame& arkit);
+
+ private:
+  fap::ShapeFitter vowels_;
+};
 
 /// Shapes of ARKit that look about like presets: by eye.
 fap::ArkitFrame arkit_of_presets(const Presets& presets);

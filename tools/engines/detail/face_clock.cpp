@@ -9,6 +9,7 @@ namespace {
 constexpr double kFreeStep = 0.25;  // seconds that the sender is believed, whatever time it is
 constexpr double kNear = 0.5;       // seconds between its step and ours
 constexpr double kLate = 1;         // seconds back that are a late packet, not a clock set anew
+constexpr double kAhead = 5;        // seconds that all steps may be ahead of time
 constexpr int kMostLate = 4;        // late ones in a row; more are a clock that stands still
 
 }  // namespace
@@ -16,6 +17,7 @@ constexpr int kMostLate = 4;        // late ones in a row; more are a clock that
 std::optional<double> FaceClock::time(std::optional<double> sender, double arrival) {
   if (!arrival_) {
     sender_ = sender;
+    begin_ = arrival;
     arrival_ = arrival;
     return time_;
   }
@@ -33,6 +35,7 @@ std::optional<double> FaceClock::time(std::optional<double> sender, double arriv
     }
     if (own > 0 && (own <= kFreeStep || std::abs(own - passed) <= kNear)) step = own;
   }
+  if (time_ + step > arrival - begin_ + kAhead) step = passed;
   sender_ = sender;
   arrival_ = arrival;
   time_ += step;

@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::size_t kEnough = 12;  // faces that tell their rate
 constexpr double kLongEnough = 1;    // seconds likewise
+constexpr double kUntimed = 2;       // seconds of those that have no time of their own
+constexpr std::size_t kMostWaiting = 1000;
 constexpr int kCommon[] = {15, 24, 25, 30, 45, 48, 50, 60, 72, 75, 90, 100, 120};
 constexpr double kNearby = 0.08;   // share that a rate is off one in common use
 constexpr double kMostFilled = 1;  // seconds that are filled in
@@ -39,15 +41,17 @@ void FaceCoder::restart() {
 
 // The usual step by the sender's clock; by ours, where packets come in heaps, the mean of all.
 bool FaceCoder::measure() {
+  const bool timed = waiting_.back().face.seconds.has_value();
   const double length = waiting_.back().seconds - waiting_.front().seconds;
-  if (waiting_.size() < kEnough && length < kLongEnough) return false;
+  const bool enough = timed ? waiting_.size() >= kEnough || length >= kLongEnough
+                            : length >= kUntimed || waiting_.size() >= kMostWaiting;
+  if (!enough) return false;
   std::vector<double> steps;
   for (std::size_t i = 1; i < waiting_.size(); ++i) {
     steps.push_back(waiting_[i].seconds - waiting_[i - 1].seconds);
   }
   const auto middle = steps.begin() + std::ptrdiff_t(steps.size() / 2);
   std::nth_element(steps.begin(), middle, steps.end());
-  const bool timed = waiting_.back().face.seconds.has_value();
   const double step = timed ? *middle : length / double(steps.size());
   rate_ = snapped(step > 0 ? 1 / step : 60);
   return true;
