@@ -193,20 +193,36 @@ TEST_F(EnginePrograms, WhatIsStreamedIsReceived) {
   }
 }
 
-// From a phone to a browser, and on to another engine.
-TEST_F(EnginePrograms, WhatIsReceivedCanBeStreamedOn) {
-  const std::string in = "livelink://127.0.0.1:" + std::to_string(test::free_udp_port());
-  Running receive({"receive", in, "-o", dir / "phone.fba", "--duration", "1.5"}, dir / "1.out",
-                  dir / "1.err");
+// From a phone to another engine and to a file, live; and the file, once more.
+TEST_F(EnginePrograms, WhatIsReceivedCanBeSentOn) {
+  const auto port = [] { return std::to_string(test::free_udp_port()); };
+  const std::string in = "livelink://127.0.0.1:" + port();
+  const std::string out = "vmc://127.0.0.1:" + port();
+  Running engine({"receive", out, "-o", dir / "engine.fba", "--wait", "30"}, dir / "0.out",
+                 dir / "0.err");
+  Running relay(
+      {"receive", in, "-o", dir / "phone.fba", "--to", out + "?rate=50", "--duration", "1.5"},
+      dir / "1.out", dir / "1.err");
+  Running alone({"receive", in + "0", "--to", out, "--wait", "0.1"}, dir / "2.out", dir / "2.err");
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   Running phone({"stream", talk, "--to", in, "--loop"}, dir / "s.out", dir / "s.err");
-  ASSERT_EQ(receive.wait(), 0) << slurp(dir / "1.err");
+  ASSERT_EQ(relay.wait(), 0) << slurp(dir / "1.err");
+  EXPECT_EQ(engine.wait(), 0) << slurp(dir / "0.err");  // VMC tells the end
   phone.signal(SIGINT);
   phone.wait();
+  EXPECT_NE(alone.wait(), 0);
+  const auto planes = [&](const std::string& file) {
+    const auto info = animeme({"info", file, "--json"});
+    EXPECT_EQ(info.exit_code, 0) << info.err;
+    return info.out;
+  };
+  EXPECT_THAT(planes(dir / "phone.fba"), HasSubstr("\"rate\": \"25\""));
+  EXPECT_THAT(planes(dir / "engine.fba"), HasSubstr("\"rate\": \"50\""));
   const auto on = animeme(
       {"stream", dir / "phone.fba", "--to", "vmc://127.0.0.1:9?rate=60", "--fast", "--json"});
   ASSERT_EQ(on.exit_code, 0) << on.err;
   EXPECT_GT(int(Json::parse(on.out)["addresses"][0]["packets"]), 80);
+  EXPECT_EQ(animeme({"receive", in}).exit_code, 2);
 }
 
 TEST_F(EnginePrograms, SpokenLinesGoToEnginesAsWell) {

@@ -12,6 +12,7 @@
 #include "tools/live/patient_source.h"
 #include "tools/live/receive_output.h"
 #include "tools/live/receive_report.h"
+#include "tools/live/relay.h"
 #include "tools/media/live/pacer.h"
 #include "tools/media/live/recorder.h"
 #include "tools/media/live/recording_file.h"
@@ -27,7 +28,8 @@ constexpr std::size_t kMostIntervals = 100'000;
 
 struct ReceiveOptions {
   std::string source;
-  std::string output;
+  std::string output;  // empty: it is sent on, and nothing else
+  std::vector<std::string> to, sdp;
   live::SourceOptions receive;
   bool any_source = false;
   std::string gap = "hold";
@@ -54,10 +56,12 @@ live::FapOutputOptions text_options(const ReceiveOptions& options) {
 /// One reception from the first packet to the last.
 class Reception {
  public:
-  Reception(const ReceiveOptions& options, media::LiveSource& source)
+  Reception(const ReceiveOptions& options, media::LiveSource& source, live::Relay relay)
       : options_(options),
         source_(source),
-        recorder_({.duration = options.duration, .keep = !live::is_fap_output(options.output)}),
+        relay_(std::move(relay)),
+        recorder_({.duration = options.duration,
+                   .keep = !options.output.empty() && !live::is_fap_output(options.output)}),
         text_(options.output, text_options(options)),
         file_(options.output) {}
 
@@ -82,6 +86,7 @@ class Reception {
 
   const ReceiveOptions& options_;
   media::LiveSource& source_;
+  live::Relay relay_;
   media::Recorder recorder_;
   live::FapOutput text_;
   media::RecordingFile file_;
@@ -99,6 +104,11 @@ Result<void> Reception::take(media::LiveEvent event) {
   for (const media::IntraInterval& interval : recorder_.take_intervals()) {
     if (intervals_.size() < kMostIntervals) intervals_.push_back(interval);
   }
+  if (unit) {
+    if (auto sent = relay_.send(*recorder_.info(), *unit); !sent) return sent;
+  }
+  if (auto ok = relay_.poll(); !ok) return ok;
+  if (options_.output.empty()) return {};
   if (!text_.wanted()) return record(idle);
   return unit ? keep(*unit) : Result<void>();
 }
@@ -153,6 +163,8 @@ Result<void> Reception::run() {
 }
 
 Result<void> Reception::finish() {
+  if (auto told = relay_.finish(); !told) return told;
+  if (options_.output.empty()) return {};
   if (text_.wanted()) {
     if (!text_options(options_).exact) {
       warn_of_rate(name_of_output(options_.output), text_.rate(),
@@ -197,7 +209,17 @@ Result<int> run(const ReceiveOptions& options) {
   if (options.json && options.output == "-") {
     return usage_error("--json and the frames of -o - both go to standard output");
   }
-  if (auto ok = live::check_place(options.output); !ok) return ok.error();
+  if (options.output.empty() && options.to.empty()) {
+    return usage_error("say where to: -o FILE to record, --to ADDRESS to send on");
+  }
+  if (!options.output.empty()) {
+    if (auto ok = live::check_place(options.output); !ok) return ok.error();
+  }
+  auto relay = live::Relay::open(options.to, options.sdp, talk());
+  if (!relay && relay.error().code == Code::invalid_argument) {
+    return usage_error(relay.error().message);
+  }
+  if (!relay) return relay.error();
   live::SourceOptions receive = options.receive;
   receive.media.rtp.any_source = receive.media.ts.any_source = options.any_source;
   receive.engines.any_source = options.any_source;
@@ -210,7 +232,7 @@ Result<int> run(const ReceiveOptions& options) {
   if (patient.waiting_for()) say("waiting: " + patient.waiting_for()->describe());
   const std::unique_ptr<media::LiveSource> source = media::make_steady(std::move(*opened));
   const Interrupt interrupt;
-  Reception reception(options, *source);
+  Reception reception(options, *source, std::move(*relay));
   const auto received = reception.run();
   const bool enough =
       reception.has_face() || (live::is_container_output(options.output) && reception.has_sound());
@@ -240,8 +262,15 @@ void add_options(CLI::App& app, ReceiveOptions& options) {
   add_output(app.add_option("-o,--output", options.output,
                             "What to write: .mp4 .mkv .ts (face and sound), .fba (stream), .fap "
                             "(text), - for FAP text on standard output while it comes"),
-             {".fap", ".fba", ".mp4", ".mkv", ".ts"}, OutputKind::file_or_dash)
-      ->required();
+             {".fap", ".fba", ".mp4", ".mkv", ".ts"}, OutputKind::file_or_dash);
+  app.add_option("--to", options.to,
+                 "Send on what comes, while it comes: addresses as of stream (http://host:port, "
+                 "livelink://host:port ...); may be repeated")
+      ->allow_extra_args(false);
+  add_output(app.add_option("--sdp", options.sdp,
+                            "Session description to write for an rtp address of --to"),
+             {".sdp"})
+      ->allow_extra_args(false);
   app.add_option("--duration", options.duration, "End after so many seconds of presentation")
       ->check(above_zero());
   app.add_option("--wait", options.wait,
@@ -295,7 +324,7 @@ const Command kReceive{
     "  animeme receive talk.sdp -o talk.mp4\n"
     "  animeme receive udp://239.1.2.3:5004 -o talk.fba --duration 60 --stats\n"
     "  animeme receive talk.sdp -o - --fill | my_avatar\n"
-    "  animeme receive livelink://:11111 -o phone.mp4 --duration 60\n"
+    "  animeme receive livelink://:11111 -o phone.mp4 --to http://127.0.0.1:8080\n"
     "Ends when the sender says goodbye, at --duration, after --timeout, or at Ctrl-C (exit code "
     "130).\nWhat comes is on the disk within a second, under its name, and can be played whatever "
     "ends the\nprogram; a file of that name is replaced when the first second is there. An .mp4 is "

@@ -41,6 +41,8 @@ class FaceCoder {
   double intra_seconds_;
   std::vector<Waiting> waiting_;
   std::unique_ptr<fba::LiveEncoder> encoder_;
+  bool fresh_ = false;  // the encoder has written nothing
+  bool begun_ = false;  // another one has
   fap::ArkitChannels channels_;
   std::int64_t ticks_ = 0;            // of a plane
   std::optional<std::int64_t> last_;  // place of the last plane
