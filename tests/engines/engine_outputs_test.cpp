@@ -21,7 +21,7 @@ using testing::HasSubstr;
 
 // Made once.
 const MovingFace& ten_minutes() {
-  static const MovingFace face = moving_face(600);
+  static const MovingFace face = moving_face(600, {15, 1});
   return face;
 }
 
@@ -79,7 +79,7 @@ void expect_live_link(const MovingFace& face, const std::vector<fap::ArkitFrame>
 }
 
 TEST(EngineOutputs, TenMinutesOfLiveLinkAreTheFit) {
-  expect_live_link(ten_minutes(), fit_of_ten_minutes(), "?rate=15", 15, 600);
+  expect_live_link(ten_minutes(), fit_of_ten_minutes(), "", 15, 600);
 }
 
 TEST(EngineOutputs, LiveLinkKeepsAnyRate) {
@@ -120,13 +120,13 @@ Four turn(std::size_t axis, double angle) {
 
 TEST(EngineOutputs, TenMinutesOfVmcAreTheFit) {
   const MovingFace& face = ten_minutes();
-  auto frames = read_by_others("vmc", sent_to("vmc://192.0.2.1?rate=15", face));
+  auto frames = read_by_others("vmc", sent_to("vmc://192.0.2.1", face));
   ASSERT_TRUE(frames.back().contains("end"));
   frames.pop_back();
   expect_times(frames, 15, 600);
   const auto& fit = fit_of_ten_minutes();
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    const fap::ArkitFrame want = fit_at(fit, 25, double(i) / 15);
+    const fap::ArkitFrame want = fit_at(fit, 15, double(i) / 15);
     ASSERT_NEAR(double(frames[i]["time"]), double(i) / 15, 1e-4);
     ASSERT_LT(worst_of(frames[i]["values"], want, fap::kArkitShapeCount), kFloat) << i;
     std::size_t channel = 52;
@@ -196,11 +196,11 @@ std::map<std::string, double> unified_of(const fap::ArkitFrame& face) {
 
 TEST(EngineOutputs, TenMinutesOfUnifiedExpressionsAreTheFit) {
   const MovingFace& face = ten_minutes();
-  const auto frames = read_by_others("osc", sent_to("osc://192.0.2.1?rate=15", face));
+  const auto frames = read_by_others("osc", sent_to("osc://192.0.2.1", face));
   expect_times(frames, 15, 600);
   const auto& fit = fit_of_ten_minutes();
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    const fap::ArkitFrame want = fit_at(fit, 25, double(i) / 15);
+    const fap::ArkitFrame want = fit_at(fit, 15, double(i) / 15);
     for (const auto& [name, value] : unified_of(want)) {
       ASSERT_NEAR(double(frames[i]["values"][name]), value, kFloat) << name << " " << i;
     }

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "fap/tables.h"
 #include "fap/text.h"
 #include "tests/engines/engines_support.h"
 #include "tests/live/stream_support.h"
@@ -190,6 +191,41 @@ TEST_F(EnginePrograms, WhatIsStreamedIsReceived) {
     EXPECT_EQ(test::container(dir / "got.mp4").face.units.front().duration * 25,
               test::container(dir / "got.mp4").face.timescale);
     EXPECT_EQ(animeme({"info", dir / "got.fba"}).exit_code, 0);
+  }
+}
+
+// A phone that streams and one that records are the same: what import makes of the table that Live
+// Link Face writes is what is received.
+TEST_F(EnginePrograms, WhatIsReceivedIsWhatImportMakesOfTheRecording) {
+  ASSERT_EQ(animeme({"export", talk, "-o", dir / "take.csv"}).exit_code, 0);
+  const auto imported = animeme({"import", dir / "take.csv", "-o", dir / "take.fap"});
+  ASSERT_EQ(imported.exit_code, 0) << imported.err;
+  const std::string address = "livelink://127.0.0.1:" + std::to_string(test::free_udp_port());
+  Running receive({"receive", address, "-o", dir / "got.fap", "--duration", "2"}, dir / "1.out",
+                  dir / "1.err");
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  Running phone({"stream", talk, "--to", address}, dir / "s.out", dir / "s.err");
+  ASSERT_EQ(receive.wait(), 0) << slurp(dir / "1.err");
+  EXPECT_EQ(phone.wait(), 0);
+  const auto want = fap::read_text(slurp(dir / "take.fap"));
+  const auto got = fap::read_text(slurp(dir / "got.fap"));
+  ASSERT_TRUE(want && got);
+  ASSERT_GE(got->frames.size(), 45u);
+  // Where it began to listen.
+  const auto differs = [&](std::size_t at, std::size_t i) {
+    for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+      const int off =
+          got->frames[i].value[std::size_t(fap)] - want->frames[at + i].value[std::size_t(fap)];
+      if (std::abs(off) > fap::info(fap).quant_step / 2 + 1) return true;
+    }
+    return false;
+  };
+  std::size_t at = 0;
+  while (at < 10 && (differs(at, 5) || differs(at, 25))) ++at;
+  ASSERT_LT(at, 10u);
+  for (std::size_t i = 0; i < got->frames.size(); ++i) {
+    EXPECT_FALSE(differs(at, i)) << i;
+    EXPECT_EQ(got->frames[i].mask, want->frames[at + i].mask) << i;
   }
 }
 
