@@ -4,14 +4,14 @@
 #include <cstdio>
 #include <utility>
 
-#include "tools/commands/bounds.h"
 #include "tools/commands/common.h"
 #include "tools/commands/face_text.h"
 #include "tools/commands/interrupt.h"
-#include "tools/live/address.h"
+#include "tools/commands/receive_options.h"
 #include "tools/live/patient_source.h"
 #include "tools/live/receive_output.h"
 #include "tools/live/receive_report.h"
+#include "tools/live/relay.h"
 #include "tools/media/live/pacer.h"
 #include "tools/media/live/recorder.h"
 #include "tools/media/live/recording_file.h"
@@ -24,20 +24,6 @@ namespace {
 
 constexpr double kSlice = 0.1;  // seconds: Ctrl-C and the timers are looked after so often
 constexpr std::size_t kMostIntervals = 100'000;
-
-struct ReceiveOptions {
-  std::string source;
-  std::string output;
-  live::SourceOptions receive;
-  bool any_source = false;
-  std::string gap = "hold";
-  double duration = 0;
-  double wait = 60;
-  double timeout = 10;
-  live::FapOutputOptions text;
-  bool stats = false;
-  bool json = false;
-};
 
 media::GapRule rule_of(const std::string& name) {
   if (name == "neutral") return media::GapRule::neutral;
@@ -54,10 +40,12 @@ live::FapOutputOptions text_options(const ReceiveOptions& options) {
 /// One reception from the first packet to the last.
 class Reception {
  public:
-  Reception(const ReceiveOptions& options, media::LiveSource& source)
+  Reception(const ReceiveOptions& options, media::LiveSource& source, live::Relay relay)
       : options_(options),
         source_(source),
-        recorder_({.duration = options.duration, .keep = !live::is_fap_output(options.output)}),
+        relay_(std::move(relay)),
+        recorder_({.duration = options.duration,
+                   .keep = !options.output.empty() && !live::is_fap_output(options.output)}),
         text_(options.output, text_options(options)),
         file_(options.output) {}
 
@@ -82,6 +70,7 @@ class Reception {
 
   const ReceiveOptions& options_;
   media::LiveSource& source_;
+  live::Relay relay_;
   media::Recorder recorder_;
   live::FapOutput text_;
   media::RecordingFile file_;
@@ -99,6 +88,11 @@ Result<void> Reception::take(media::LiveEvent event) {
   for (const media::IntraInterval& interval : recorder_.take_intervals()) {
     if (intervals_.size() < kMostIntervals) intervals_.push_back(interval);
   }
+  if (unit) {
+    if (auto sent = relay_.send(*recorder_.info(), *unit); !sent) return sent;
+  }
+  if (auto ok = relay_.poll(); !ok) return ok;
+  if (options_.output.empty()) return {};
   if (!text_.wanted()) return record(idle);
   return unit ? keep(*unit) : Result<void>();
 }
@@ -153,6 +147,8 @@ Result<void> Reception::run() {
 }
 
 Result<void> Reception::finish() {
+  if (auto told = relay_.finish(); !told) return told;
+  if (options_.output.empty()) return {};
   if (text_.wanted()) {
     if (!text_options(options_).exact) {
       warn_of_rate(name_of_output(options_.output), text_.rate(),
@@ -193,13 +189,26 @@ Error nothing_came(const ReceiveOptions& options, const Reception& reception,
       .in_file(options.source);
 }
 
-Result<int> run(const ReceiveOptions& options) {
+}  // namespace
+
+Result<int> run(ReceiveOptions& options) {
   if (options.json && options.output == "-") {
     return usage_error("--json and the frames of -o - both go to standard output");
   }
-  if (auto ok = live::check_place(options.output); !ok) return ok.error();
+  if (options.output.empty() && options.to.empty()) {
+    return usage_error("say where to: -o FILE to record, --to ADDRESS to send on");
+  }
+  if (!options.output.empty()) {
+    if (auto ok = live::check_place(options.output); !ok) return ok.error();
+  }
+  auto relay = live::Relay::open(options.to, options.sdp, talk());
+  if (!relay && relay.error().code == Code::invalid_argument) {
+    return usage_error(relay.error().message);
+  }
+  if (!relay) return relay.error();
   live::SourceOptions receive = options.receive;
   receive.media.rtp.any_source = receive.media.ts.any_source = options.any_source;
+  receive.engines.any_source = options.any_source;
   auto opened = live::open_patiently(options.source, receive);
   if (!opened && opened.error().code == Code::invalid_argument) {
     return usage_error(opened.error().message);
@@ -209,7 +218,7 @@ Result<int> run(const ReceiveOptions& options) {
   if (patient.waiting_for()) say("waiting: " + patient.waiting_for()->describe());
   const std::unique_ptr<media::LiveSource> source = media::make_steady(std::move(*opened));
   const Interrupt interrupt;
-  Reception reception(options, *source);
+  Reception reception(options, *source, std::move(*relay));
   const auto received = reception.run();
   const bool enough =
       reception.has_face() || (live::is_container_output(options.output) && reception.has_sound());
@@ -230,68 +239,12 @@ Result<int> run(const ReceiveOptions& options) {
   return kCheckFailed;
 }
 
-void add_options(CLI::App& app, ReceiveOptions& options) {
-  app.add_option("source", options.source,
-                 "Session description (.sdp) or address: rtp://host:port, udp://host:port, "
-                 "srt://host:port, ws://host:port")
-      ->required();
-  add_output(app.add_option("-o,--output", options.output,
-                            "What to write: .mp4 .mkv .ts (face and sound), .fba (stream), .fap "
-                            "(text), - for FAP text on standard output while it comes"),
-             {".fap", ".fba", ".mp4", ".mkv", ".ts"}, OutputKind::file_or_dash)
-      ->required();
-  app.add_option("--duration", options.duration, "End after so many seconds of presentation")
-      ->check(above_zero());
-  app.add_option("--wait", options.wait,
-                 "Seconds to wait for the session description, the server and the first packet; "
-                 "0: for ever")
-      ->check(at_least_zero())
-      ->capture_default_str();
-  app.add_option("--timeout", options.timeout,
-                 "End, with exit code 1, when nothing came for so many seconds; till then a sender "
-                 "that begins again is recorded on; 0: never")
-      ->check(at_least_zero())
-      ->capture_default_str();
-  app.add_option(
-         "--gap", options.gap,
-         "FAP text where planes are missing: hold the last values, ease to neutral, or skip "
-         "the frames (with --exact)")
-      ->check(CLI::IsMember({"hold", "neutral", "skip"}))
-      ->capture_default_str();
-  CLI::Option* coded = app.add_flag(
-      "--coded", options.text.coded,
-      "FAP text with the values as they are coded, nothing held or mirrored; with --exact");
-  app.add_flag("--fill", options.text.fill,
-               "FAP text with every FAP: those that were never sent are at rest, 0")
-      ->excludes(coded);
-  app.add_flag("--expand", options.text.expand,
-               "FAP text with FAP 1 and 2 (visemes, expressions) as low-level FAPs")
-      ->excludes(coded);
-  add_exact_option(app, options.text.exact);
-  app.add_option("--reorder-seconds", options.receive.media.rtp.reorder_seconds,
-                 "rtp: time that a packet waits for an earlier one; it grows with how late packets "
-                 "and copies come")
-      ->check(between(0.0, 10.0))
-      ->capture_default_str();
-  app.add_option("--reorder-most", options.receive.media.rtp.reorder_most_seconds,
-                 "rtp: what that time grows to at most")
-      ->check(between(0.0, 10.0))
-      ->capture_default_str();
-  app.add_flag("--any-source", options.any_source,
-               "rtp, udp: take datagrams from every address; else one sender is heard, from one "
-               "address, and the next one when it is silent for a second");
-  app.add_flag("--stats", options.stats, "Tell once a second how it goes");
-  app.add_flag("--json", options.json,
-               "Machine-readable report on standard output, with a row for every intra interval");
-}
-
-}  // namespace
-
 const Command kReceive{
     "receive", "Record a live face and its sound, or print its frames as they come",
     "  animeme receive talk.sdp -o talk.mp4\n"
     "  animeme receive udp://239.1.2.3:5004 -o talk.fba --duration 60 --stats\n"
     "  animeme receive talk.sdp -o - --fill | my_avatar\n"
+    "  animeme receive livelink://:11111 -o phone.mp4 --to http://127.0.0.1:8080\n"
     "Ends when the sender says goodbye, at --duration, after --timeout, or at Ctrl-C (exit code "
     "130).\nWhat comes is on the disk within a second, under its name, and can be played whatever "
     "ends the\nprogram; a file of that name is replaced when the first second is there. An .mp4 is "

@@ -217,6 +217,7 @@ Result<int> run(StreamOptions& options) {
   }
   options.program.coding.codec_given = !options.codec.empty();
   options.program.coding.sound = !options.no_sound;
+  options.sink.engines.fast = options.fast;
   // Opus packets are shorter, which is what counts when sound is made while it is sent.
   const live::ProgramOptions& what = options.program;
   const bool live = !what.say.empty() || !what.say_json.empty() || !what.say_audio.empty();

@@ -104,8 +104,9 @@ void add_options(CLI::App& app, StreamOptions& options) {
   add_source_options(app, options);
   app.add_option(
          "--to", options.to,
-         "Address: rtp://host:port, udp://host:port, srt://host:port, or http://host:port to "
-         "serve browsers; may be repeated")
+         "Address: rtp://host:port, udp://host:port, srt://host:port, http://host:port to serve "
+         "browsers; for engines livelink://host:port, vmc://host:port, osc://host:port; may be "
+         "repeated")
       ->required()
       ->allow_extra_args(false);
   add_output(app.add_option("--sdp", options.sdp,

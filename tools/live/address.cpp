@@ -46,20 +46,26 @@ Result<std::unique_ptr<media::LiveSink>> open_sink(const std::string& url,
     return std::unique_ptr<media::LiveSink>(std::move(*sink));
   }
   if (is_media(url)) return media::open_sink(url, options.media);
-  return make_error(Code::invalid_argument,
-                    "'" + url +
-                        "' is no address to send to; write rtp://host:port, udp://host:port, "
-                        "srt://host:port or http://host:port");
+  if (engines::is_engine(url)) return engines::make_engine_sink(url, options.engines);
+  return make_error(
+      Code::invalid_argument,
+      "'" + url +
+          "' is no address to send to; write rtp://host:port, udp://host:port, "
+          "srt://host:port, http://host:port, livelink://host:port, vmc://host:port or "
+          "osc://host:port");
 }
 
 Result<std::unique_ptr<media::LiveSource>> open_source(const std::string& where,
                                                        const SourceOptions& options) {
   if (is_web(where)) return web::make_web_source(where, options.web);
   if (is_media(where) || where.ends_with(".sdp")) return media::open_source(where, options.media);
-  return make_error(Code::invalid_argument,
-                    "'" + where +
-                        "' is nothing to receive from; name a session description (.sdp) or write "
-                        "rtp://host:port, udp://host:port, srt://host:port or ws://host:port");
+  if (engines::is_engine(where)) return engines::make_engine_source(where, options.engines);
+  return make_error(
+      Code::invalid_argument,
+      "'" + where +
+          "' is nothing to receive from; name a session description (.sdp) or write "
+          "rtp://host:port, udp://host:port, srt://host:port, ws://host:port, livelink://:port, "
+          "vmc://:port or osc://:port");
 }
 
 }  // namespace animeme::live

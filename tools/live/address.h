@@ -1,16 +1,18 @@
 /// @file
-/// Every live transport by its address: those of tools/media and the web server.
+/// Every live transport by its address: those of tools/media, the web server and engines.
 ///
 /// | address | transport |
 /// |---|---|
 /// | rtp://host:port, NAME.sdp | RTP |
 /// | udp://host:port, srt://host:port | MPEG transport stream |
 /// | http://host:port | a web server with a page that shows the face; its clients use ws:// |
+/// | livelink://, vmc://, osc://host:port | the face alone, for engines (tools/engines/engines.h) |
 #pragma once
 
 #include <memory>
 #include <string>
 
+#include "tools/engines/engines.h"
 #include "tools/media/live/open.h"
 #include "tools/web/web.h"
 
@@ -18,13 +20,15 @@ namespace animeme::live {
 
 /// What sending takes, by transport.
 struct SinkOptions {
-  media::SinkOptions media;  ///< RTP, MPEG-TS
-  web::WebOptions web;       ///< the web server or client
+  media::SinkOptions media;            ///< RTP, MPEG-TS
+  web::WebOptions web;                 ///< the web server or client
+  engines::EngineSinkOptions engines;  ///< Live Link, VMC, OSC
 };
 /// What receiving takes, by transport.
 struct SourceOptions {
-  media::SourceOptions media;  ///< RTP, MPEG-TS
-  web::WebOptions web;         ///< the web server or client
+  media::SourceOptions media;            ///< RTP, MPEG-TS
+  web::WebOptions web;                   ///< the web server or client
+  engines::EngineSourceOptions engines;  ///< Live Link, VMC, OSC
 };
 
 /// Errors: invalid_argument (no address of ours; the message lists them), those of the transport.
