@@ -25,7 +25,9 @@ std::unique_ptr<speech::HeardFace> make_voice(const Model& model, int sample_rat
 }
 
 // One channel: whole numbers of 16 bits, or others with full scale +-1.
-std::vector<float> samples_of(const py::array& given) {
+std::vector<float> samples_of(const py::object& samples_like) {
+  const auto given = py::array::ensure(samples_like);
+  if (!given) throw py::type_error("samples must be an array");
   if (given.ndim() != 1) throw py::value_error("samples must be one channel: an array (n,)");
   if (py::isinstance<py::array_t<std::int16_t>>(given)) {
     const auto whole = py::array_t<std::int16_t, py::array::c_style>(given);
@@ -67,7 +69,7 @@ style, sharpness, articulation, closure: as of Model.speak().
 Raises Error.)")
       .def(
           "push",
-          [](speech::HeardFace& face, const py::array& samples) {
+          [](speech::HeardFace& face, const py::object& samples) {
             const std::vector<float> some = samples_of(samples);
             return array_of(value_of(unlocked([&] {
               face.push(some);
