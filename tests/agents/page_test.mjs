@@ -17,11 +17,16 @@ if (built) {
 let wall = 100;
 const face = new FaceReceiver({decoder, track: new kit.Track(), delay: () => 0.05, wall: () => wall});
 assert.equal(face.now(), null);
-let begun = 0, cuts = 0, units = 0, replaced = 0;
-for (const line of readFileSync(file, 'utf8').trim().split('\n')) {
+const messages = readFileSync(file, 'utf8').trim().split('\n').map((line) => {
   const [topic, base64] = JSON.parse(line);
   const bytes = new Uint8Array(Buffer.from(base64, 'base64'));
-  const told = topic === 'animeme.clock' ? JSON.parse(Buffer.from(bytes)) : {};
+  return {topic, bytes, told: topic === 'animeme.clock' ? JSON.parse(Buffer.from(bytes)) : {}};
+});
+// The sound of the last segment begins late: all of its face is there before.
+const last = messages.findLastIndex(({told}) => told.playing !== undefined);
+const late = messages.splice(last, 1)[0];
+let begun = 0, cuts = 0, units = 0, replaced = 0;
+for (const {topic, bytes, told} of messages) {
   const before = face.track.frames.length;
   face.take(topic, bytes);
   if (topic === 'animeme.face' && bytes[0] !== 0x41) {
@@ -40,6 +45,10 @@ for (const line of readFileSync(file, 'utf8').trim().split('\n')) {
   if (told.cut !== undefined) ++cuts;
 }
 assert.ok(begun >= 2 && cuts >= 1 && units > 50 && replaced > 0);
+wall += 1000;
+assert.ok(face.now().time < late.told.playing / 22050 && face.now() !== face.track.frames.at(-1), 'it waits for its sound');
+face.take(late.topic, late.bytes);
+wall += 0.05;
 // Where a segment is 0.4 s old, its eleventh face is shown; long after the last one, that one.
 wall = face.anchor.wall + 0.4 + 1e-4;
 assert.ok(Math.abs(face.now().time - (face.anchor.time + 0.4)) < 1e-3);

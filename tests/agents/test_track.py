@@ -57,6 +57,24 @@ def test_the_face_is_that_of_the_voice_however_it_is_cut(voice):
     assert np.abs(faces[:, columns]).max() > 100  # it spoke
 
 
+def test_phones_take_the_place_of_sound(voice):
+    _, rate = voice
+    model = animeme.builtin_model()
+    phones = [(0, 4410, "SIL"), (4410, 6615, "P"), (6615, 11025, "AA"), (11025, 13230, "M"), (13230, 17640, "IY")]
+    stream = animeme.SpeechStream(model)
+    rows = np.concatenate([*(stream.push(a / rate, b / rate, phone) for a, b, phone in phones), stream.finish()])
+    columns = [int(name[3:].split("_")[0]) - 1 for name in model.controls]
+    track = FaceTrack(rate, quant=0)
+    for _ in range(2):  # the second like the first
+        units = [unit for phone in phones for unit in track.say(*phone)] + track.end()
+        decoder = UnitDecoder()
+        faces = np.array([decoder.decode(parsed(unit)[2]).values for unit in units])
+        assert (faces[:len(rows), columns] == np.round(rows)).all() and not faces[-1].any()
+        assert [unit.time for unit in units] == [track.begins + 882 * i for i in range(len(rows) + 5)]
+    track.say(*phones[0])
+    assert [unit.time for unit in track.cut(1000)] == [track.begins + 882 * i for i in range(2, 7)]
+
+
 @pytest.mark.parametrize("ended", [False, True])
 @pytest.mark.parametrize("heard", [0, 1, 881, 882, 883, 20000, 40000])
 def test_a_cut_closes_the_mouth_from_what_was_heard(voice, ended, heard):

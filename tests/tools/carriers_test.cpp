@@ -229,9 +229,19 @@ TEST(Carriers, RowsAreWhatIsSent) {
   EXPECT_NEAR(fba["error_mm"], 10 * std::sqrt(sum / double(points * frames)), 1e-6);
 }
 
+// Faces of talk.fba, as text: each of them is posed some fifty times.
+std::string few_faces(const TempDir& dir, std::size_t count = 12) {
+  auto talk = complete_talk();
+  talk.frames.resize(count);
+  test::spill(dir / "few.fap", fap::write_text(talk));
+  return dir / "few.fap";
+}
+
 TEST(Carriers, FittedRowsKeepTheErrorAndLessErrorCostsMore) {
-  const Json fine = json_of({"stats", "--carriers", kSamples + "talk.fba", "--error", "0.02"});
-  const Json coarse = json_of({"stats", "--carriers", kSamples + "talk.fba", "--error", "0.3"});
+  const TempDir dir;
+  const std::string clip = few_faces(dir);
+  const Json fine = json_of({"stats", "--carriers", clip, "--error", "0.02"});
+  const Json coarse = json_of({"stats", "--carriers", clip, "--error", "0.3"});
   ASSERT_EQ(fine["clips"][0]["carriers"].size(), coarse["clips"][0]["carriers"].size());
   int fitted = 0;
   for (std::size_t i = 0; i < fine["clips"][0]["carriers"].size(); ++i) {
@@ -250,8 +260,9 @@ TEST(Carriers, FittedRowsKeepTheErrorAndLessErrorCostsMore) {
 }
 
 TEST(Carriers, ACaptureIsSentByItsOwnWeights) {
-  const Json told = json_of({"stats", "--carriers", kSamples + "LiveLinkFace.csv",
-                             kSamples + "talk.fba", "--quant", "4"});
+  const TempDir dir;
+  const Json told = json_of(
+      {"stats", "--carriers", kSamples + "LiveLinkFace.csv", few_faces(dir), "--quant", "4"});
   ASSERT_EQ(told["clips"].size(), 2u);
   EXPECT_LT(told["clips"][0]["shapes_error_mm"], 0.01);  // the face was made of these weights
   EXPECT_GT(told["clips"][1]["shapes_error_mm"], 0.1);   // a face of FAPs
@@ -262,8 +273,10 @@ TEST(Carriers, ACaptureIsSentByItsOwnWeights) {
 }
 
 TEST(Carriers, TheSameTextTwice) {
-  const auto once = animeme({"stats", "--carriers", kSamples + "talk.fba"});
-  const auto twice = animeme({"stats", "--carriers", kSamples + "talk.fba"});
+  const TempDir dir;
+  const std::string clip = few_faces(dir, 5);
+  const auto once = animeme({"stats", "--carriers", clip});
+  const auto twice = animeme({"stats", "--carriers", clip});
   EXPECT_EQ(once.exit_code, 0) << once.err;
   EXPECT_EQ(once.out, twice.out);
   EXPECT_THAT(once.out, HasSubstr("VMC, OSC bundle"));
@@ -281,7 +294,6 @@ TEST(Carriers, UseAndMisuse) {
 }
 
 TEST(Carriers, AStillFaceHasNoErrorAndIsSent) {
-  const TempDir dir;
   fap::Sequence still;
   for (int i = 0; i < 3; ++i) {
     fap::Frame frame;

@@ -6,6 +6,7 @@
 export class FaceReceiver {
   constructor({decoder, track, delay = () => 0, wall = () => performance.now() / 1000}) {
     Object.assign(this, {makeDecoder: decoder, track, delay, wall, decoder: null, timescale: 0, anchor: null});
+    this.gate = Infinity;  // seconds: where a segment begins whose sound does not play yet
   }
 
   /** A message of the data channel; those of other topics are left alone. */
@@ -24,12 +25,16 @@ export class FaceReceiver {
 
   /** Seconds on the clock of the sound. Between segments it stops where the mouth is closed. */
   time() {
-    if (!this.anchor) return -Infinity;
-    return Math.min(this.anchor.time + this.wall() - this.anchor.wall, this.track.frames.at(-1)?.time ?? Infinity);
+    if (!this.anchor) return Math.min(this.gate, 0);
+    const time = this.anchor.time + this.wall() - this.anchor.wall;
+    return Math.min(time, this.gate, this.track.frames.at(-1)?.time ?? Infinity);
   }
 
-  tell({playing}) {
-    if (playing === undefined || !this.timescale) return;
+  tell({begins, playing, cut}) {
+    if (!this.timescale) return;
+    if (begins !== undefined && cut === undefined) this.gate = (begins - 1) / this.timescale;
+    if (playing === undefined) return;
+    this.gate = Infinity;
     this.anchor = {time: playing / this.timescale, wall: this.wall() + this.delay()};
   }
 

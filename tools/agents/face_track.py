@@ -5,6 +5,8 @@
     for unit in track.end(): send(unit.message)               # it has said it all
     for unit in track.cut(heard): send(unit.message)          # it was interrupted after `heard` samples
 
+Where the voice tells its phones, `say(begin, end, phone)` takes the place of push().
+
 The clock counts samples, never seconds: segment after segment of sound, and the rest behind each in which the mouth
 closes. Messages are those of /face (tools/web/README.md) with one tick a sample, so a time is the sample at which a
 face is to be shown. A segment begins with an intra plane of a stream of its own (object start code), and so does what
@@ -62,6 +64,7 @@ class FaceTrack:
         self._mask = np.zeros(FAPS, bool)
         self._mask[self._columns] = True
         self._voice = self._listen()  # whoever has no ears is to know now
+        self._script: Optional[animeme.SpeechStream] = None
         self._faces: list[np.ndarray] = []  # of the segment
         self._frame = 0  # number of its next one
         self._over, self._was_cut = True, False
@@ -83,7 +86,7 @@ class FaceTrack:
         if self._faces or self._frame:
             self.begins = self._time(self._frame)
             self.segment += 1
-        self._voice = self._listen()
+        self._voice, self._script = self._listen(), None
         self._encoder = animeme.Encoder(**self._coding)
         self._faces, self._frame = [], 0
         self._over = self._was_cut = False
@@ -93,9 +96,17 @@ class FaceTrack:
         self.start()
         return self._send(self._voice.push(samples))
 
+    def say(self, begin: int, end: int, phone: str, word: str = "") -> list[Unit]:
+        """The next phone of the segment instead of its samples: from `begin` to `end`, samples of the segment; ARPAbet
+        without stress or "SIL". Gaps are silence. A segment has phones or samples, not both."""
+        self.start()
+        if self._script is None:
+            self._script = animeme.SpeechStream(self._model, rate=self._rate)
+        return self._send(self._script.push(begin / self.sample_rate, end / self.sample_rate, phone, word))
+
     def end(self) -> list[Unit]:
         """The segment is over: the rest of its face, and the mouth closes."""
-        return [] if self._over else self._send(self._voice.finish()) + self._close()
+        return [] if self._over else self._send((self._script or self._voice).finish()) + self._close()
 
     def cut(self, heard: Optional[int] = None) -> list[Unit]:
         """The segment was interrupted, also if it had ended here: the mouth closes from the face that is shown when

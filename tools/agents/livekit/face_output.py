@@ -4,8 +4,8 @@ sound on a data channel.
     await session.start(agent=agent, room=ctx.room)
     session.output.audio = FaceOutput(session.output.audio, ctx.room)
 
-Written for livekit-agents 1.3 and later (`livekit.agents.voice.io.AudioOutput` with label, capabilities and
-next_in_chain) and livekit-rtc 1.0 (`LocalParticipant.publish_data`). README.md tells what pages do with it.
+Written for `livekit.agents.voice.io.AudioOutput` with label, capabilities and next_in_chain (livekit/agents, pull
+requests 3269 and 4211) and `LocalParticipant.publish_data` of livekit-rtc. README.md tells what pages do with it.
 """
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ class FaceOutput(io.AudioOutput):
         room.on("participant_connected", self._on_participant)
 
     async def capture_frame(self, frame: rtc.AudioFrame) -> None:
-        await super().capture_frame(frame)
+        generation = self._generation
         if not self._tasks:
             self._tasks = [asyncio.create_task(self._listen()), asyncio.create_task(self._send())]
         if self._uncut:  # nobody has told how much was heard of what was interrupted
@@ -70,10 +70,12 @@ class FaceOutput(io.AudioOutput):
         if not self._capturing:
             self._segment += 1
         self._capturing = True
-        await self.next_in_chain.capture_frame(frame)  # the sound never waits for its own face
+        # The sound never waits for its own face. First of all, so that both count the same segments
+        # (livekit/agents, pull request 4211).
+        await self.next_in_chain.capture_frame(frame)
+        await super().capture_frame(frame)
         if self._failed:
             return
-        generation = self._generation
         async with self._changed:
             # The next piece of sound waits where the face or the network is slower than the voice.
             await self._changed.wait_for(lambda: generation != self._generation or self._failed

@@ -1,4 +1,4 @@
-"""Of livekit-agents (1.3, livekit/agents/voice/io.py) the audio output: how segments, playback and outputs in front of
+"""Of livekit-agents (livekit/agents/voice/io.py of 2026) the audio output: how segments, playback and outputs in front of
 outputs go together."""
 import asyncio
 from abc import ABC, abstractmethod
