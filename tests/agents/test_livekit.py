@@ -171,6 +171,7 @@ def test_a_slow_network_holds_the_voice_back_and_nothing_is_lost(voice):
         return room
 
     page = shown_of(asyncio.run(talk()))
+    assert page.segments[1]["cut"][1] <= 1  # what waited to be sent is not sent any more
     assert len(page.segments[0]["times"]) - CLOSING in (-(-len(samples) // A_FRAME), -(-len(samples) // A_FRAME) + 1)
     assert page.missed == 0
 
@@ -222,6 +223,33 @@ def test_what_the_face_cannot_do_does_not_stop_the_sound(voice):
         await face.aclose()
 
     asyncio.run(talk())
+
+
+def test_an_output_that_does_not_tell_what_was_heard(voice):
+    samples, rate = voice
+
+    async def talk():
+        room = rtc.Room()
+        sound = RoomSound(rate)
+        sound.clear_buffer = lambda: None
+        face = FaceOutput(sound, room)
+        for _ in range(2):
+            await say(face, samples[:rate], rate, random.Random(1))
+            await face.drained()
+            face.clear_buffer()
+            face.flush()
+        await say(face, samples[:rate], rate, random.Random(1))
+        await face.drained()
+        await face.aclose()
+        return room
+
+    page = shown_of(asyncio.run(talk()))
+    first, second, third = page.segments
+    for segment, following in [(first, second), (second, third)]:
+        cut, before = segment["cut"]  # where the next one began, from the last face that was sent
+        assert segment["times"] == [segment["begins"] + A_FRAME * i for i in range(before + CLOSING)]
+        assert cut == segment["times"][before] and following["begins"] == segment["times"][-1] + A_FRAME
+    assert third["cut"] is None and len(third["times"]) > 10
 
 
 def test_those_who_join_are_greeted_and_pages_are_told_the_clock(voice):
