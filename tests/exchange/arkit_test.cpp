@@ -44,6 +44,18 @@ TEST(ExchangeArkit, ATakeOfLiveLinkFace) {
                                           HasSubstr("without a face, left out: 1")));
 }
 
+TEST(ExchangeArkit, TheWeightsOfATakeAreThoseOfItsFaces) {
+  const auto weights = read_arkit_weights(kTake);
+  ASSERT_TRUE(weights) << weights.error().describe();
+  EXPECT_EQ(weights->rate, (fap::Rate{60, 1}));
+  const auto jaw = std::size_t(*fap::find_arkit("jawOpen"));
+  std::vector<double> jaws;
+  for (const fap::ArkitFrame& frame : weights->frames) jaws.push_back(frame[jaw]);
+  EXPECT_THAT(jaws, ElementsAre(0, 0.1, 0.2, 0.2, 0.3));  // no face in row 3: held
+  EXPECT_EQ(read_arkit_weights("time_s,a\n").error().code,
+            read_arkit_table("time_s,a\n").error().code);
+}
+
 TEST(ExchangeArkit, OptionsTellRateAndUnits) {
   const std::string table = "time_s;jawOpen;headPitch\n0;0;10\n0.04;0;-10\n0.08;0;10\n";
   const auto take = read_arkit_table(table, {fap::Rate{50, 1}, true});

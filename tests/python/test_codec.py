@@ -156,3 +156,14 @@ def test_threads_decode_at_once(sample_clip):
     for thread in threads:
         thread.join()
     assert len(got) == 8 and all(clip == expected for clip in got)
+
+
+def test_the_configuration_of_a_decoder():
+    config = animeme.Encoder(rate=30, quant=3).config
+    assert config[:4] == bytes([0, 0, 1, 0xB0]) and config[4] == 0x62 and config[5:9] == bytes([0, 0, 1, 0xB5])
+    encoder = animeme.Encoder()
+    values = np.zeros(68)
+    values[2] = 100
+    decoder = animeme.Decoder()
+    decoder.push(config + encoder.write(values) + encoder.finish())
+    assert [plane.values[2] for plane in decoder] == [100] and not decoder.warnings

@@ -1,6 +1,8 @@
 """Files of all kinds, in and out."""
 import json
+import re
 import subprocess
+import uuid
 
 import numpy as np
 import pytest
@@ -158,3 +160,17 @@ def test_scripts(tmp_path):
     with pytest.raises(animeme.Error) as caught:
         animeme.read_script(tmp_path / "bad.tsv")
     assert caught.value.position.line == 2
+
+
+def test_the_page_about_standards_tells_the_table_of_arkit_and_its_name():
+    page = (SOURCE / "codec/standards.md").read_text()
+    assert uuid.uuid5(uuid.NAMESPACE_OID, "1.0.14496.2").urn in page
+    names = list(animeme.ARKIT_NAMES[:52])
+    faces = animeme.Clip.from_arkit(np.eye(52), names).values
+    told = re.findall(r"^\| (\w+) \| ([^|]*) \| (\d+) \|$", page, re.MULTILINE)
+    assert [name for name, _, _ in told] == [name for name in names if not name.endswith("Right")]
+    for name, entries, count in told:
+        face = faces[names.index(name)]
+        assert np.count_nonzero(face) == int(count), name
+        for fap, value in re.findall(r"(\w+) ([+-]\d+)", entries):
+            assert face[list(animeme.FAP_NAMES).index(fap)] == int(value), (name, fap)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import animeme
-from conftest import PROGRAM, SAMPLE, random_clip
+from conftest import PROGRAM, SAMPLE, SOURCE, random_clip
 
 
 @pytest.fixture(scope="module")
@@ -127,3 +127,50 @@ def test_models_of_other_rigs_have_values_alone(phones):
     assert caught.value.code == "not_found"
     with pytest.raises(animeme.Error):
         rig.speak(phones, life=True)
+
+
+@pytest.fixture(scope="module")
+def voice():
+    with wave.open(str(SOURCE / "tools/samples/voice.wav")) as file:
+        return np.frombuffer(file.readframes(file.getnframes()), "<i2"), file.getframerate()
+
+
+def voice_stream(*arguments, **options):
+    try:
+        return animeme.VoiceStream(*arguments, **options)
+    except animeme.Error as error:
+        if error.code == "unsupported":
+            pytest.skip(f"built without ears: {error.message}")
+        raise
+
+
+def test_a_voice_is_followed_however_it_comes(model, voice):
+    samples, rate = voice
+    whole = voice_stream(model, rate)
+    first = whole.push(samples)
+    rows = np.concatenate([first, whole.finish()])
+    assert rows.shape == (-(-len(samples) * 25 // rate), len(model.controls)) and rows.dtype == np.float64
+    assert len(first) == pytest.approx(len(rows) - 0.25 * 25, abs=1.1)  # the delay
+    assert np.ptp(rows[:, model.controls.index("fap3_open_jaw")]) > 50
+    pieces = voice_stream(model, rate)
+    again = [pieces.push(samples[i : i + 1000].astype(np.float64) / 32768) for i in range(0, len(samples), 1000)]
+    assert (np.concatenate([*again, pieces.finish()]) == rows).all()
+    still = voice_stream(model, rate, style=0, articulation=0)
+    quiet = np.concatenate([still.push(samples), still.finish()])
+    assert np.ptp(quiet, axis=0).max() < np.ptp(rows, axis=0).max() / 2
+    assert len(voice_stream(model, rate, rate=50, delay=1.0).push(samples)) == pytest.approx(
+        50 * (len(samples) / rate - 1), abs=1.1)
+
+
+def test_a_voice_that_cannot_be_followed(model, voice):
+    stream = voice_stream(model, 16000)
+    with pytest.raises(TypeError):
+        stream.push(np.zeros(10, np.int32))
+    with pytest.raises(ValueError):
+        stream.push(np.zeros((10, 2), np.int16))
+    assert stream.push(np.zeros(0, np.int16)).shape == (0, len(model.controls))
+    for wrong in [{"delay": 0.01}, {"style": 9.0}]:
+        with pytest.raises(animeme.Error):
+            animeme.VoiceStream(model, 16000, **wrong)
+    with pytest.raises(animeme.Error):
+        animeme.VoiceStream(model, 100)

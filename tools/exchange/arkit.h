@@ -67,6 +67,11 @@ struct ArkitCurves {
   std::vector<fap::ArkitFrame> frames;  ///< one after the other
 };
 
+/// The channels of such a table as they are, a frame after the other from frame 0: what stands in
+/// the clip of read_arkit_table() under the same number, rows that are missing as the row before.
+/// Errors: those of read_arkit_table().
+Result<ArkitCurves> read_arkit_weights(std::string_view text, const ArkitOptions& options = {});
+
 /// The curves that show a clip best, by fap::ArkitFitter; its frames should be complete and follow
 /// each other (fap::fill()). `progress`, if any, gets the share that is done after each frame,
 /// 0..1. About 0.1 ms a frame.

@@ -141,6 +141,32 @@ void to_radians(std::vector<ArkitRow>& rows, bool degrees, std::vector<std::stri
   }
 }
 
+// The rows of a table, each with the number of its frame, if it has one.
+struct TableRows {
+  fap::Rate rate;
+  std::vector<ArkitRow> rows;
+  std::vector<std::optional<std::int64_t>> numbers;
+  fap::ArkitChannels channels;
+};
+
+Result<TableRows> read_placed(std::string_view text, const ArkitOptions& options,
+                              std::vector<std::string>& warnings) {
+  const auto lines = dam::table_lines(text);
+  if (lines.empty()) return make_error(Code::truncated, "the table is empty");
+  const char separator = separator_of(lines[0].text);
+  const auto columns = read_header(Row(lines[0], separator), warnings);
+  if (!columns) return columns.error();
+  auto rows = read_rows(lines, separator, *columns, warnings);
+  if (!rows) return rows.error();
+  std::vector<RowTime> times;
+  for (const ArkitRow& row : *rows) times.push_back(row.time);
+  auto placed = place_rows(times, options.rate, warnings);
+  if (!placed) return placed.error();
+  to_radians(*rows, options.degrees, warnings);
+  const fap::ArkitChannels channels = channels_of(*columns, *rows);
+  return TableRows{placed->rate, std::move(*rows), std::move(placed->numbers), channels};
+}
+
 }  // namespace
 
 bool is_arkit_table(std::string_view text) {
@@ -152,26 +178,29 @@ bool is_arkit_table(std::string_view text) {
 }
 
 Result<Imported> read_arkit_table(std::string_view text, const ArkitOptions& options) {
-  const auto lines = dam::table_lines(text);
-  if (lines.empty()) return make_error(Code::truncated, "the table is empty");
-  const char separator = separator_of(lines[0].text);
   Imported out;
-  const auto columns = read_header(Row(lines[0], separator), out.warnings);
-  if (!columns) return columns.error();
-  auto rows = read_rows(lines, separator, *columns, out.warnings);
+  const auto rows = read_placed(text, options, out.warnings);
   if (!rows) return rows.error();
-  std::vector<RowTime> times;
-  for (const ArkitRow& row : *rows) times.push_back(row.time);
-  const auto placed = place_rows(times, options.rate, out.warnings);
-  if (!placed) return placed.error();
-  to_radians(*rows, options.degrees, out.warnings);
+  out.clip.rate = rows->rate;
+  for (std::size_t i = 0; i < rows->rows.size(); ++i) {
+    if (!rows->numbers[i]) continue;
+    out.clip.frames.push_back(fap::arkit_to_fap(rows->rows[i].values, rows->channels));
+    out.clip.frames.back().number = *rows->numbers[i];
+  }
+  return out;
+}
 
-  const fap::ArkitChannels channels = channels_of(*columns, *rows);
-  out.clip.rate = placed->rate;
-  for (std::size_t i = 0; i < rows->size(); ++i) {
-    if (!placed->numbers[i]) continue;
-    out.clip.frames.push_back(fap::arkit_to_fap((*rows)[i].values, channels));
-    out.clip.frames.back().number = *placed->numbers[i];
+Result<ArkitCurves> read_arkit_weights(std::string_view text, const ArkitOptions& options) {
+  std::vector<std::string> warnings;
+  const auto rows = read_placed(text, options, warnings);
+  if (!rows) return rows.error();
+  ArkitCurves out{rows->rate, {}};
+  for (std::size_t i = 0; i < rows->rows.size(); ++i) {
+    if (!rows->numbers[i]) continue;
+    // By value: the row before may be moved meanwhile.
+    const fap::ArkitFrame held = out.frames.empty() ? rows->rows[i].values : out.frames.back();
+    out.frames.resize(std::size_t(*rows->numbers[i]) + 1, held);
+    out.frames.back() = rows->rows[i].values;
   }
   return out;
 }

@@ -1,6 +1,7 @@
 // Streams while they are sent: push bytes, pull planes; frames in, units out.
 #include <algorithm>
 
+#include "codec/decode/access_unit.h"
 #include "codec/decode/decoder.h"
 #include "codec/encode/live.h"
 #include "codec/syntax/body_tables.h"
@@ -85,6 +86,19 @@ std::unique_ptr<fba::LiveEncoder> make_encoder(const py::object& rate, int quant
 
 py::bytes unit_bytes(const std::vector<std::uint8_t>& unit) {
   return py::bytes(reinterpret_cast<const char*>(unit.data()), unit.size());
+}
+
+// The same for all streams of a face: Simple Face Animation, level 2.
+py::bytes config_of(const fba::LiveEncoder&) {
+  constexpr std::size_t kProfileByte = 4;
+  constexpr std::uint8_t kSimpleFaceLevel2 = 0x62;
+  fba::LiveEncoder encoder;
+  auto stream = value_of(encoder.write({}));
+  const auto end = encoder.finish();
+  stream.insert(stream.end(), end.begin(), end.end());
+  auto config = value_of(fba::split_access_units(stream)).config;
+  config[kProfileByte] = kSimpleFaceLevel2;
+  return unit_bytes(config);
 }
 
 void bind_plane(py::module_& module) {
@@ -175,6 +189,9 @@ Raises Error; the stream is then as if the frame had not been.)")
       .def(
           "finish", [](fba::LiveEncoder& e) { return unit_bytes(e.finish()); },
           "The bytes that end the stream.")
+      .def_property_readonly("config", &config_of,
+                             "bytes: the configuration of a decoder (DecoderSpecificInfo), as\n"
+                             "containers and the first message of /face carry it.")
       .def_property_readonly("intra", &fba::LiveEncoder::intra,
                              "True: receivers can join at the last unit.")
       .def_property_readonly(

@@ -25,6 +25,7 @@ PYBIND11_MODULE(_animeme, module) {
   bind_train(module);
   bind_evaluate(module);
   bind_speak(module);
+  bind_voice(module);
   bind_head(module);
   module.attr("__name__") = name;
 }

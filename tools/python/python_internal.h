@@ -207,6 +207,7 @@ void bind_live(py::module_& module);
 void bind_model(py::module_& module);
 void bind_script(py::module_& module);
 void bind_speak(py::module_& module);
+void bind_voice(py::module_& module);
 void bind_train(py::module_& module);
 
 }  // namespace animeme::python

@@ -21,9 +21,9 @@ TOPS = ("fap", "codec", "dam", "conformance", "tools")
 PICTURES = (".png", ".jpg", ".svg", ".webp")
 # What of the pages is where; all others are rooms.
 TUTORIALS = ("dam/tutorial.md", "tools/blender/README.md", "tools/c/README.md", "tools/python/README.md",
-             "tools/npm/README.md", "tools/samples/README.md", "tools/examples/README.md", "tools/trackers/README.md",
+             "tools/npm/README.md", "tools/agents/README.md", "tools/samples/README.md", "tools/examples/README.md", "tools/trackers/README.md",
              "tools/cluster/README.md")
-FORMATS = ("codec/bitstream.md", "fap/semantics.md", "fap/text_format.md", "tools/exchange/README.md",
+FORMATS = ("codec/bitstream.md", "codec/standards.md", "fap/semantics.md", "fap/text_format.md", "tools/exchange/README.md",
            "tools/media/containers.md", "dam/script/phoneme_scripts.md", "tools/scripts/README.md",
            "tools/gltf/README.md", "tools/gltf/avatars.md", "fap/xml/README.md", "fap/head/face_models.md",
            "conformance/README.md")

@@ -2,10 +2,10 @@
 foreach(name c fap fba head files programs)
   set(needs_${name} nothing)
 endforeach()
-foreach(name dam exchange scripts inspect)
+foreach(name dam exchange scripts)
   set(needs_${name} Threads)
 endforeach()
-foreach(name render viewer)
+foreach(name inspect render viewer)
   set(needs_${name} Threads ZLIB)
 endforeach()
 set(needs_xml LibXml2 PkgConfig)  # where some folder has found the latter, the module of the first takes it for granted
