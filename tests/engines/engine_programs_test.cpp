@@ -9,6 +9,7 @@
 #include "fap/text.h"
 #include "tests/engines/engines_support.h"
 #include "tests/live/stream_support.h"
+#include "tests/support/folders.h"
 
 namespace animeme {
 namespace engine_programs_test {
@@ -73,7 +74,7 @@ std::vector<Json> lines_of(const std::string& text) {
 }
 
 TEST_F(EnginePrograms, SeveralEnginesAtATimeGetTheFaceThatExportWrites) {
-  const std::string script = std::string(ANIMEME_SOURCE_DIR) + "/tests/engines/reader.py";
+  const std::string script = std::string(test::kSourceFolder) + "/tests/engines/reader.py";
   std::vector<std::unique_ptr<Listener>> readers;
   std::vector<std::string> to = {"stream", talk};
   for (const std::string protocol : {"livelink", "vmc", "osc"}) {
@@ -139,7 +140,7 @@ TEST_F(EnginePrograms, LibloReadsEveryMessage) {
 }
 
 TEST_F(EnginePrograms, OscOfNpmReadsEveryMessage) {
-  const std::string folder = std::string(ANIMEME_SOURCE_DIR) + "/tests/readers/js";
+  const std::string folder = std::string(test::kSourceFolder) + "/tests/readers/js";
   if (!test::has_program("node") || !std::filesystem::exists(folder + "/node_modules/osc-min")) {
     GTEST_SKIP() << "npm's osc-min is not installed (tools/setup.sh full)";
   }

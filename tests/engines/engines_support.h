@@ -13,6 +13,7 @@
 #include "codec/decode/access_unit.h"
 #include "codec/encode/live.h"
 #include "fap/arkit.h"
+#include "tests/support/folders.h"
 #include "tests/support/program.h"
 #include "tools/engines/engines.h"
 
@@ -138,7 +139,7 @@ inline std::vector<Json> read_by_others(const std::string& protocol,
     file.append(each.bytes.begin(), each.bytes.end());
   }
   spill(dir / "sent", file);
-  const std::string script = std::string(ANIMEME_SOURCE_DIR) + "/tests/engines/reader.py";
+  const std::string script = std::string(test::kSourceFolder) + "/tests/engines/reader.py";
   const ProgramResult read = run_command({"python3", script, protocol, dir / "sent"});
   EXPECT_EQ(read.exit_code, 0) << read.err;
   std::vector<Json> frames;

@@ -12,6 +12,7 @@
 #include "codec/encode/live.h"
 #include "fap/head/rig.h"
 #include "tests/support/files.h"
+#include "tests/support/folders.h"
 #include "tests/support/temp_dir.h"
 #include "tests/tools/commands.h"
 #include "tools/inspect/carriers.h"
@@ -26,7 +27,7 @@ using test::json_of;
 using test::TempDir;
 using testing::HasSubstr;
 
-const std::string kSamples = std::string(ANIMEME_SOURCE_DIR) + "/tools/samples/";
+const std::string kSamples = std::string(test::kSourceFolder) + "/tools/samples/";
 
 // A weight for each channel that no other has; angles of both signs.
 fap::ArkitFrame some_weights() {
@@ -99,7 +100,7 @@ TEST(Carriers, OthersReadTheMessages) {
   test::write_bytes(dir / "arf", (inspect::arf_unit(weights, 9)));
   test::spill(dir / "azure", inspect::azure_event(two, 120, 3));
   const auto reader = test::run_command(
-      {"python3", std::string(ANIMEME_SOURCE_DIR) + "/tests/tools/read_carriers.py",
+      {"python3", std::string(test::kSourceFolder) + "/tests/tools/read_carriers.py",
        dir.path().string()});
   ASSERT_EQ(reader.exit_code, 0) << reader.err;
   const Json read = Json::parse(reader.out);
