@@ -240,8 +240,7 @@ double LiveSpeaker::audio_ahead() const { return impl_->options.audio_ahead; }
 
 std::optional<double> LiveSpeaker::next_due() {
   impl_->collect();
-  const bool silent = impl_->waiting.empty() && !impl_->face.speaking();
-  if (silent && impl_->lines->ended()) return std::nullopt;
+  if (silent() && impl_->lines->ended()) return std::nullopt;
   const double due = std::min(impl_->frame_due(), impl_->sound_due());
   if (due >= impl_->options.duration) return std::nullopt;
   return due;
@@ -270,6 +269,8 @@ void LiveSpeaker::sent(const LiveUnit& unit, double instant) {
     }
   });
 }
+
+bool LiveSpeaker::silent() const { return impl_->waiting.empty() && !impl_->face.speaking(); }
 
 const std::deque<LineTrace>& LiveSpeaker::traces() const { return impl_->traces; }
 

@@ -35,8 +35,8 @@ struct WebOptions {
   /// Viewers at the same time, 1..1000; whoever comes then gets 503. A viewer has a WebSocket for
   /// the face, one for the sound (or /talk.mp4), or both.
   int max_clients = 64;
-  /// Connections of one address (of IPv6: of one network) at the same time; 0: any number, as a
-  /// proxy in front of the server wants it.
+  /// Connections of one address (of IPv6: of one network) at the same time; 0: any number, also of
+  /// requests, as a proxy in front of the server wants it.
   int per_address = 32;
   /// Bytes that may wait for one client. When it has more, they are thrown away
   /// (SendStats::dropped), and it goes on with the next intra plane or segment.
