@@ -338,8 +338,11 @@ int run(const Options& options) {
       spoken += head["lines_spoken"].get<std::int64_t>();
       least = std::min(least, head["lines_spoken"].get<std::int64_t>());
     }
-    std::fprintf(stderr, "%lld lines, the head with the fewest %lld; %lld bytes read, %d awake\n",
-                 static_cast<long long>(spoken), static_cast<long long>(least),
+    const double made = row.figures["planes"].get<double>() / heads;
+    std::fprintf(stderr,
+                 "%.0f planes a head, %lld lines, the head with the fewest %lld; %lld bytes read, "
+                 "%d awake\n",
+                 made, static_cast<long long>(spoken), static_cast<long long>(least),
                  static_cast<long long>(row.bytes), row.figures["awake"].get<int>());
   }
   return 0;

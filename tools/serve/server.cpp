@@ -28,6 +28,7 @@ Result<std::unique_ptr<HeadServer>> HeadServer::open(
   }
   if (!(options.expire >= 0)) return bad("heads cannot expire before they are made");
   std::unique_ptr<HeadServer> server(new HeadServer(options));
+  voice::keep_voices();  // one thread speaks: that of the voices
   try {
     server->voices_ =
         std::make_unique<Voices>(options.voices ? options.voices : speech::voice_lines);
