@@ -4,6 +4,7 @@ import json
 import os
 import signal
 import socket
+import subprocess
 import sys
 import tempfile
 import threading
@@ -64,6 +65,19 @@ class Heads(unittest.TestCase):
         self.assertEqual(face.closed, 1000)  # told that it is over
         self.assertEqual(self.server.json("/heads/anna")[0], 404)
         self.assertEqual(Socket(self.server.port, "/heads/anna/face").status, 404)
+
+    def test_receive_hears_one_of_many(self):
+        for name in ("ida", "jan"):
+            self.server.ask("/heads/" + name, "PUT")
+        self.server.ask("/heads/ida/say", "POST", "Only Ida speaks.")
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "ida.mp4")
+            address = self.server.url.replace("http", "ws") + "/heads/ida/"
+            done = subprocess.run([PROGRAM, "receive", address, "-o", path, "--duration", "2", "--json"],
+                                  capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertGreater(os.path.getsize(path), 1000)
+        self.assertEqual(self.figures("jan")["planes"], 0)
 
     def test_a_mouth_moves_for_values(self):
         self.server.ask("/heads/ben", "PUT")

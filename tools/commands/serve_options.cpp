@@ -45,7 +45,8 @@ void add_options(CLI::App& app, ServeOptions& options) {
                  "\"heads\": [{\"name\": \"anna\", \"lang\": \"en+f3\"}, ...]}");
   app.add_option("--listen", server.url,
                  "Address: this machine alone, or http://0.0.0.0:8080 for all (with a token)")
-      ->option_text("URL=http://127.0.0.1:8080/");
+      ->option_text("URL=http://127.0.0.1:8080/")
+      ->check(read_by([](const std::string& url) { return web::make_web_sink(url); }));
   app.add_option("--token-file", options.token_file,
                  "File with the token that requests bring, as \"Authorization: Bearer TOKEN\"; "
                  "default: the variable ANIMEME_TOKEN, else none");

@@ -1,4 +1,5 @@
-// How heads are doing, as JSON.
+/// @file
+/// How heads are doing, as JSON.
 #pragma once
 
 #include "tools/json.h"

@@ -85,7 +85,8 @@ class WebSink : public media::LiveSink {
 Result<std::unique_ptr<WebSink>> make_web_sink(const std::string& url,
                                                const WebOptions& options = {});
 
-/// Receives from the server at ws://HOST:PORT/ (or http://). Connects now, for 5 seconds at most.
+/// Receives from the server at ws://HOST:PORT/ (or http://), of one of many heads at
+/// ws://HOST:PORT/heads/NAME/. Connects now, for 5 seconds at most.
 /// Units come back byte for byte, with their times and durations; a late joiner begins as
 /// WebOptions::catch_up says. LiveGap stands where the server had to drop units for this client
 /// (`packets` 0: not known). AudioFormat::priming is that of the sender if the first packet was at
