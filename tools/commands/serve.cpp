@@ -90,6 +90,7 @@ Result<int> run(ServeOptions& options) {
     }
   }
   allow_many_files();
+  voice::keep_voices();  // while this process is small
   wanted.web = live::with_head(wanted.web);
   const Interrupt interrupt;
   auto server = serve::HeadServer::open(wanted, heads);
