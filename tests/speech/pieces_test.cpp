@@ -175,7 +175,8 @@ TEST(Piece, LinesOfAnyLengthAreLeftOutOrKeptWhole) {
   });
   std::vector<SpokenLine> all;
   while (!(*lines)->ended()) {
-    for (SpokenLine& line : (*lines)->take()) all.push_back(std::move(line));
+    while (auto line = (*lines)->take(false)) all.push_back(std::move(*line));
+    (void)(*lines)->take_news();
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   writer.join();

@@ -19,10 +19,15 @@ using media::LiveUnit;
 
 class TestLines : public LineSource {
  public:
-  std::vector<SpokenLine> take() override { return std::exchange(waiting, {}); }
+  std::optional<SpokenLine> take(bool only_joining) override {
+    if (waiting.empty() || (only_joining && !waiting.front().joins)) return std::nullopt;
+    SpokenLine line = std::move(waiting.front());
+    waiting.pop_front();
+    return line;
+  }
   bool ended() override { return over && waiting.empty(); }
 
-  std::vector<SpokenLine> waiting;
+  std::deque<SpokenLine> waiting;
   bool over = false;
 };
 
@@ -61,6 +66,7 @@ class Speaker : public testing::Test {
   void run(double until) {
     while (const auto due = speaker->next_due()) {
       if (*due >= until) return;
+      clock.sleep_until(*due);
       auto made = speaker->take(*due);
       ASSERT_TRUE(made) << made.error().describe();
       ASSERT_FALSE(made->empty());

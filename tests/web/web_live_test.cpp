@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/live_reference.h"
+#include "tests/web/http.h"
 #include "tools/web/web.h"
 
 namespace animeme::test {
@@ -177,6 +178,39 @@ TEST(WebLive, TheSinkRefusesWhatItCannotSend) {
   EXPECT_TRUE((*sink)->finish());
   EXPECT_TRUE((*sink)->finish()) << "twice is no error";
   EXPECT_EQ((*sink)->send(show.units[0]).error().code, Code::invalid_argument);
+}
+
+// What is told between the frames reaches both sockets, on their clock; who wants frames alone does
+// not see it.
+TEST(WebLive, WhatIsToldStandsBetweenTheFrames) {
+  const Presentation show = live_presentation(20, 10);
+  const auto sink = serve(show);
+  auto source = make_web_source(sink->address());
+  ASSERT_TRUE(source);
+  const int port = port_of(sink->address());
+  Connection values(port), units(port);
+  values.send(upgrade(port, "/faps"));
+  units.send(upgrade(port, "/face"));
+  const auto read_until = [](Connection& connection, const std::string& part) {
+    return connection.read([&](const std::string& got) { return got.find(part) != got.npos; });
+  };
+  ASSERT_THAT(read_until(values, "\"faps\""), HasSubstr(" 101 "));
+  ASSERT_THAT(read_until(units, "A\x01"), HasSubstr(" 101 "));
+  for (std::size_t i = 0; i < show.units.size(); ++i) {
+    ASSERT_TRUE(sink->send(show.units[i]));
+    ASSERT_TRUE(sink->tell("{\"event\": \"word\", \"time\": 0.25, \"word\": \"größe\"}"));
+  }
+  EXPECT_FALSE(sink->tell("no JSON"));
+  EXPECT_FALSE(sink->tell("[]"));
+  const std::string told = "{\"event\":\"word\",\"time\":1.25,\"word\":\"größe\"}";
+  EXPECT_THAT(read_until(values, told), HasSubstr(told));
+  EXPECT_THAT(read_until(units, told), HasSubstr(told));
+  ASSERT_TRUE(sink->finish());
+  Received got;
+  while (receive(**source, got, 5)) {
+  }
+  EXPECT_TRUE(got.ended);
+  expect_equal(got.of(LiveTrack::face), of_track(show.units, LiveTrack::face));
 }
 
 }  // namespace web_live_test

@@ -12,6 +12,7 @@
 #include "tools/commands/spoken_options.h"
 #include "tools/commands/stream_options.h"
 #include "tools/live/address.h"
+#include "tools/live/event_output.h"
 #include "tools/live/program.h"
 #include "tools/live/stream_report.h"
 #include "tools/media/container.h"
@@ -24,7 +25,7 @@ constexpr double kPollSeconds = 0.05;  // sinks are looked after so often
 
 std::string bad_options(const StreamOptions& options) {
   const live::ProgramOptions& what = options.program;
-  const bool said = !what.say.empty() || !what.say_json.empty();
+  const bool said = !what.say.empty() || !what.say_json.empty() || !what.control.empty();
   const bool voice = !what.say_audio.empty();
   speech::SpokenOptions source = what.spoken;
   source.listen = options.input.empty() && !said && !voice;  // else it is the sound of that
@@ -49,6 +50,11 @@ std::string bad_options(const StreamOptions& options) {
   if (said && options.fast) {
     return "--fast does not go with --say, whose lines come in their own time";
   }
+  if (!options.events.empty() && !said)
+    return "--events tells of the lines of --say and --say-json";
+  if (options.events == "-" && options.json) {
+    return "--events - and --json both write to standard output; name a file for the events";
+  }
   std::size_t rtp = 0;
   for (const std::string& url : options.to) rtp += live::is_rtp(url);
   if (options.sdp.size() > rtp) return "there are more --sdp files than rtp addresses";
@@ -58,8 +64,20 @@ std::string bad_options(const StreamOptions& options) {
 /// Tells once a second how it goes, and of lines that could not be spoken.
 class Watch {
  public:
-  Watch(const StreamOptions& options, live::Program& program, live::StreamReport& report)
-      : options_(options), program_(program), report_(report) {}
+  Watch(const StreamOptions& options, live::Program& program, live::StreamReport& report,
+        live::EventOutput& events)
+      : options_(options), program_(program), report_(report), events_(events) {}
+
+  /// What became of the lines meanwhile.
+  Result<void> tell_events(live::Sinks& sinks) {
+    if (!program_.speaker) return {};
+    return events_.tell(program_.speaker->take_events(), sinks);
+  }
+  /// Nothing more is said.
+  Result<void> end(live::Sinks& sinks) {
+    if (program_.speaker) program_.speaker->end("the stream has ended");
+    return tell_events(sinks);
+  }
 
   void look(const live::Sinks& sinks, const media::Pacer& pacer, double now) {
     if (program_.lines) tell(program_.lines->take_warnings());
@@ -80,6 +98,7 @@ class Watch {
   const StreamOptions& options_;
   live::Program& program_;
   live::StreamReport& report_;
+  live::EventOutput& events_;
   StatusLine status_;
   double next_ = 1;
 };
@@ -108,6 +127,7 @@ Result<void> send_all(media::LiveInput& input, live::Sinks& sinks, media::Clock&
       input.sent(unit, clock.now());
       pacer.sent(media::due_of(input, unit));
       report.add(unit);
+      if (auto ok = watch.tell_events(sinks); !ok) return ok;
     }
   }
   return {};
@@ -160,7 +180,7 @@ Result<live::Clip> load_clip(const std::string& path, const std::string& audio,
 
 Result<void> open_program(const StreamOptions& options, fap::Rate rate, live::Program& program) {
   const live::ProgramOptions& what = options.program;
-  if (!what.say.empty() || !what.say_json.empty()) {
+  if (!what.say.empty() || !what.say_json.empty() || !what.control.empty()) {
     return live::open_speaker(what, rate, program);
   }
   if (!what.say_audio.empty()) return live::open_voice(what, rate, program);
@@ -182,7 +202,8 @@ void print_result(const StreamOptions& options, const live::StreamReport& report
   }
 }
 
-Result<int> send(const StreamOptions& options, live::Program& program, live::Sinks& sinks) {
+Result<int> send(const StreamOptions& options, live::Program& program, live::Sinks& sinks,
+                 live::EventOutput& events) {
   media::LiveInput& input = program.input();
   media::JumpingClock jumping;
   media::Clock& clock = options.fast ? static_cast<media::Clock&>(jumping) : media::steady_clock();
@@ -194,8 +215,9 @@ Result<int> send(const StreamOptions& options, live::Program& program, live::Sin
   media::Pacer pacer(clock, kPollSeconds);
   pacer.restart(-begin);
   live::StreamReport report(input.info());
-  Watch watch(options, program, report);
-  const auto sent = send_all(input, sinks, clock, pacer, report, watch, begin);
+  Watch watch(options, program, report, events);
+  auto sent = send_all(input, sinks, clock, pacer, report, watch, begin);
+  if (auto told = watch.end(sinks); sent && !told) sent = told.error();
   watch.done();
   const auto finished = sinks.finish();
   if (!sent) return sent.error();
@@ -219,7 +241,8 @@ Result<int> run(StreamOptions& options) {
   options.program.coding.sound = !options.no_sound;
   // Opus packets are shorter, which is what counts when sound is made while it is sent.
   const live::ProgramOptions& what = options.program;
-  const bool live = !what.say.empty() || !what.say_json.empty() || !what.say_audio.empty();
+  const bool live = !what.say.empty() || !what.say_json.empty() || !what.control.empty() ||
+                    !what.say_audio.empty();
   const bool opus = options.codec.empty() ? live : options.codec == "opus";
   options.program.coding.audio.codec = opus ? media::AudioCodec::opus : media::AudioCodec::aac;
   auto sinks = live::Sinks::open(options.to, options.sdp, options.sink, talk());
@@ -232,7 +255,9 @@ Result<int> run(StreamOptions& options) {
   }
   live::Program program;
   if (auto ok = open_program(options, *rate, program); !ok) return ok.error();
-  return send(options, program, *sinks);
+  auto events = live::EventOutput::open(options.events, program.control.get());
+  if (!events) return events.error();
+  return send(options, program, *sinks, *events);
 }
 
 const Command kStream{
@@ -243,6 +268,10 @@ const Command kStream{
     "  my_chat_bot | animeme stream --say - --life --to rtp://192.0.2.7:5004 --sdp bot.sdp "
     "--stats\n"
     "  arecord -q -f S16_LE -r 16000 | animeme stream --say-audio - --to http://127.0.0.1:8080\n"
+    "  my_chat_bot | animeme stream --say - --control bot.sock --to http://127.0.0.1:8080 --events "
+    "-\n"
+    "A line {\"do\": \"stop\"} among those of --say ends what is spoken; more commands: "
+    "tools/speech/interrupting.md.\n"
     "Ctrl-C ends it in good order: receivers are told, the summary is printed; exit code 130.",
     set_up<StreamOptions>};
 

@@ -38,6 +38,17 @@ void add_source_options(CLI::App& app, StreamOptions& options) {
       ->option_text("0.25..2=0.3")
       ->check(between(0.25, 2.0))
       ->needs("--say-audio");
+  app.add_option(
+         "--control", options.program.control,
+         "Path of a socket (Unix domain, mode 0600) for more lines and commands; events come "
+         "back on it")
+      ->option_text("SOCKET")
+      ->excludes("--say-audio");
+  add_output(
+      app.add_option("--events", options.events,
+                     "What becomes of each line, word and phone and when, one JSON a line; - "
+                     "for standard output"),
+      {});
   app.add_flag("--loop", options.program.loop, "Begin the clip again at its end; times go on");
   app.add_option("--duration", options.program.duration, "End after so many seconds")
       ->check(above_zero());
@@ -132,11 +143,12 @@ void add_options(CLI::App& app, StreamOptions& options) {
   app.add_flag("--fast", options.fast, "Do not wait for the clock, send as fast as it goes");
   app.add_flag("--stats", options.stats, "Tell once a second how it goes");
   app.add_flag("--json", options.json, "Machine-readable summary on standard output at the end");
-  show_in_help_all(
-      app, "Details of voices, coding and transport",
-      {"--tier", "--script-format", "--max-seconds", "--speed", "--pitch", "--seed", "--mtu",
-       "--repeat", "--repeat-after", "--bundle", "--max-clients", "--max-per-address",
-       "--allow-origin", "--host-name", "--copy", "--quant", "--audio-codec", "--audio-bitrate"});
+  show_in_help_all(app, "Details of voices, coding and transport",
+                   {"--tier",         "--script-format", "--max-seconds", "--speed",
+                    "--pitch",        "--seed",          "--mtu",         "--repeat",
+                    "--repeat-after", "--bundle",        "--max-clients", "--max-per-address",
+                    "--allow-origin", "--host-name",     "--delay",       "--intra-seconds",
+                    "--copy",         "--quant",         "--audio-codec", "--audio-bitrate"});
 }
 
 }  // namespace animeme::tools

@@ -24,6 +24,7 @@ struct StreamOptions {
   std::string codec;             ///< --audio-codec
   std::string rate = "25";       ///< --rate
   std::string pcm;               ///< --pcm
+  std::string events;            ///< --events
   bool no_sound = false;         ///< --no-sound
   bool fast = false;             ///< --fast
   bool stats = false;            ///< --stats

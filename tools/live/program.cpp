@@ -70,7 +70,7 @@ Result<void> open_speaker(const ProgramOptions& options, fap::Rate rate, Program
   if (!model) return model.error();
   program.model = std::move(*model);
   const std::string& say = options.say.empty() ? options.say_json : options.say;
-  if (say != "-") {
+  if (say != "-" && !say.empty()) {
     program.descriptor = ::open(say.c_str(), O_RDONLY | O_CLOEXEC);
     if (program.descriptor < 0) {
       return make_error(Code::not_found, "cannot open the lines to say").in_file(say);
@@ -79,7 +79,13 @@ Result<void> open_speaker(const ProgramOptions& options, fap::Rate rate, Program
   const int descriptor = say == "-" ? STDIN_FILENO : program.descriptor;
   Result<speech::LineMaker> maker = maker_of(options);
   if (!maker) return maker.error();
-  auto lines = speech::VoiceLines::open(descriptor, std::move(*maker), media::steady_clock());
+  if (!options.control.empty()) {
+    auto control = speech::ControlSocket::open(options.control);
+    if (!control) return control.error();
+    program.control = std::move(*control);
+  }
+  auto lines = speech::VoiceLines::open(descriptor, std::move(*maker), media::steady_clock(),
+                                        program.control.get());
   if (!lines) return lines.error();
   program.lines = std::move(*lines);
 
@@ -92,6 +98,7 @@ Result<void> open_speaker(const ProgramOptions& options, fap::Rate rate, Program
   settings.audio.reset();
   if (options.coding.sound) settings.audio = options.coding.audio;
   settings.duration = options.duration;
+  settings.events = true;
   auto speaker =
       speech::LiveSpeaker::open(program.model, *program.lines, media::steady_clock(), settings);
   if (!speaker) return speaker.error();
@@ -132,6 +139,7 @@ Program::~Program() {
   voice.reset();
   speaker.reset();
   lines.reset();
+  control.reset();
   if (descriptor >= 0) ::close(descriptor);
 }
 

@@ -12,6 +12,7 @@
 #include "fap/rate.h"
 #include "tools/live/clip.h"
 #include "tools/media/live/presentation.h"
+#include "tools/speech/control_socket.h"
 #include "tools/speech/live_speaker.h"
 #include "tools/speech/live_voice.h"
 #include "tools/speech/spoken.h"
@@ -22,6 +23,7 @@ namespace animeme::live {
 struct ProgramOptions {
   std::string say;        ///< file of lines to speak as they come, "-": standard input
   std::string say_json;   ///< likewise, of pieces (tools/speech/pieces.h); one of the two
+  std::string control;    ///< path of a control socket for lines and commands; empty: none
   std::string say_audio;  ///< sound of a voice as it comes, "-": standard input
   std::optional<speech::BareSound> bare;            ///< how its samples lie; nothing: WAV
   double delay = speech::LiveVoiceOptions().delay;  ///< seconds, of a voice as it comes
@@ -37,12 +39,13 @@ struct ProgramOptions {
 
 /// What is sent, and all that has to live as long.
 struct Program {
-  dam::Model model;                              ///< of the speaker
-  int descriptor = -1;                           ///< of the lines, if it is ours to close
-  std::unique_ptr<speech::VoiceLines> lines;     ///< null: a clip plays
-  std::unique_ptr<speech::LiveSpeaker> speaker;  ///< null: a clip plays
-  std::unique_ptr<speech::LiveVoice> voice;      ///< null: no voice is listened to
-  std::unique_ptr<media::ClipInput> clip;        ///< null: lines are spoken, or a voice speaks
+  dam::Model model;                                ///< of the speaker
+  int descriptor = -1;                             ///< of the lines, if it is ours to close
+  std::unique_ptr<speech::ControlSocket> control;  ///< null: there is none
+  std::unique_ptr<speech::VoiceLines> lines;       ///< null: a clip plays
+  std::unique_ptr<speech::LiveSpeaker> speaker;    ///< null: a clip plays
+  std::unique_ptr<speech::LiveVoice> voice;        ///< null: no voice is listened to
+  std::unique_ptr<media::ClipInput> clip;          ///< null: lines are spoken, or a voice speaks
 
   Program() = default;
   Program(const Program&) = delete;
@@ -59,9 +62,9 @@ Result<Clip> spoken_clip(const ProgramOptions& options, fap::Rate rate,
 /// Makes `program` play a clip.
 void play_clip(Clip clip, const ProgramOptions& options, Program& program);
 
-/// Makes `program` a head that speaks the lines of options.say or say_json. `program` must stay
-/// where it is. Errors: those of speech::read_model(), VoiceLines and LiveSpeaker; not_found (no
-/// such file).
+/// Makes `program` a head that speaks the lines of options.say or say_json, and of options.control.
+/// `program` must stay where it is. Errors: those of speech::read_model(), speech::ControlSocket,
+/// VoiceLines and LiveSpeaker; not_found (no such file).
 Result<void> open_speaker(const ProgramOptions& options, fap::Rate rate, Program& program);
 
 /// Makes `program` a head that follows the voice of options.say_audio; waits for its first bytes.

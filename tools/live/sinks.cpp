@@ -60,6 +60,10 @@ Result<void> Sinks::send(const media::LiveUnit& unit) {
   return each([&](media::LiveSink& sink) { return sink.send(unit); });
 }
 
+Result<void> Sinks::tell(const std::string& json) {
+  return each([&](media::LiveSink& sink) { return sink.tell(json); });
+}
+
 Result<void> Sinks::poll() {
   return each([](media::LiveSink& sink) { return sink.poll(); });
 }

@@ -33,7 +33,8 @@ class Sinks {
   Result<void> start(const media::LiveInfo& info);
   /// Errors: when the last address breaks.
   Result<void> send(const media::LiveUnit& unit);
-  Result<void> poll();  ///< as LiveSink::poll(), everywhere
+  Result<void> tell(const std::string& json);  ///< as LiveSink::tell(), everywhere
+  Result<void> poll();                         ///< as LiveSink::poll(), everywhere
   /// Says goodbye everywhere; the first error.
   Result<void> finish();
 

@@ -16,12 +16,15 @@ using tools::format;
 
 double rounded(double value, double step = 0.001) { return std::round(value / step) * step; }
 
-std::string sentence(const char* what, const Latency& latency) {
+std::string sentence(Sign sign, Turn turn, const Latency& latency) {
   return format(
-      "text to the first %s: %.0f ms on average, %.0f at worst, %zu lines (voice %.0f, mouth %.1f, "
-      "coding %.1f, sending %.1f, the clock %.0f)\n",
-      what, latency.mean, latency.worst, latency.lines, latency.voice, latency.synthesis,
-      latency.coding, latency.sending, latency.waiting);
+      "text to the first %s: %.0f ms on average, %.0f at worst, %zu lines%s (voice %.0f, mouth "
+      "%.1f, "
+      "coding %.1f, sending %.1f, the clock%s %.0f)\n",
+      sign == Sign::face ? "plane that shows it" : "packet of its sound", latency.mean,
+      latency.worst, latency.lines, turn == Turn::waited ? " that waited" : "", latency.voice,
+      latency.synthesis, latency.coding, latency.sending,
+      turn == Turn::waited ? " and other lines" : "", latency.waiting);
 }
 
 ordered_json to_json(const Latency& latency) {
@@ -97,9 +100,13 @@ std::string StreamReport::summary(double seconds, const Sinks& sinks, const medi
   const media::LatenessMeter& late = pacer.lateness();
   text += format("sent late by %.2f ms on average, %.2f (99 %%), %.2f at worst", 1e3 * late.mean(),
                  1e3 * late.percentile(0.99), 1e3 * late.worst());
-  const Latency face = latency_of(traces, Sign::face), sound = latency_of(traces, Sign::sound);
-  if (face.lines > 0) text += "\n" + sentence("plane that shows it", face);
-  if (sound.lines > 0) text += sentence("packet of its sound", sound);
+  text += "\n";
+  for (const Turn turn : {Turn::at_once, Turn::waited}) {
+    for (const Sign sign : {Sign::face, Sign::sound}) {
+      const Latency latency = latency_of(traces, sign, turn);
+      if (latency.lines > 0) text += sentence(sign, turn, latency);
+    }
+  }
   while (text.ends_with('\n')) text.pop_back();
   return text;
 }
@@ -124,18 +131,20 @@ std::string StreamReport::json(double seconds, const Sinks& sinks, const media::
     json["lines"] = traces.size();
     json["text_to_face"] = to_json(latency_of(traces, Sign::face));
     json["text_to_sound"] = to_json(latency_of(traces, Sign::sound));
+    json["waited_to_face"] = to_json(latency_of(traces, Sign::face, Turn::waited));
+    json["waited_to_sound"] = to_json(latency_of(traces, Sign::sound, Turn::waited));
   }
   return tools::pretty(json);
 }
 
-Latency latency_of(const std::deque<speech::LineTrace>& traces, Sign sign) {
+Latency latency_of(const std::deque<speech::LineTrace>& traces, Sign sign, Turn turn) {
   Latency out;
   for (const speech::LineTrace& trace : traces) {
     const bool face = sign == Sign::face;
     const double begun = face ? trace.face_begun : trace.sound_begun;
     const double coded = face ? trace.face_coded : trace.sound_coded;
     const double sent = face ? trace.face_sent : trace.sound_sent;
-    if (trace.waited || sent == 0) continue;
+    if (trace.waited != (turn == Turn::waited) || sent == 0) continue;
     const double whole = 1e3 * (sent - trace.arrived);
     const double voice = 1e3 * (trace.spoken - trace.arrived);
     const double synthesis = 1e3 * (trace.synthesised - trace.begun);

@@ -45,7 +45,7 @@ class StreamReport {
 
 /// Where the milliseconds from a line of text to a sent packet went.
 struct Latency {
-  std::size_t lines = 0;  ///< that were not kept waiting by another line
+  std::size_t lines = 0;  ///< that count here
   double voice = 0,       ///< until the voice was done
       synthesis = 0,      ///< frames
       coding = 0,         ///< planes and packets
@@ -56,7 +56,10 @@ struct Latency {
 };
 /// What of a line counts: its first moving plane, or its first packet with sound.
 enum class Sign : std::uint8_t { face, sound };
-/// Zeros if no line was spoken.
-Latency latency_of(const std::deque<speech::LineTrace>& traces, Sign sign);
+/// Whose turn it was when they came, or those that waited for another line.
+enum class Turn : std::uint8_t { at_once, waited };
+/// Zeros if no such line was spoken. Lines that were cancelled before their sign do not count.
+Latency latency_of(const std::deque<speech::LineTrace>& traces, Sign sign,
+                   Turn turn = Turn::at_once);
 
 }  // namespace animeme::live

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "dam/maths/raised_cosine.h"
+
 namespace animeme::speech {
 
 namespace {
@@ -23,6 +25,21 @@ Result<LiveSound> LiveSound::open(int sample_rate, const media::AudioSettings& s
 
 void LiveSound::add(std::int64_t start, std::vector<float> samples) {
   pieces_.push_back({start, std::move(samples)});
+}
+
+void LiveSound::end_at(std::int64_t end, std::int64_t fade) {
+  const std::int64_t from = std::max(made_, end - fade);
+  for (Piece& piece : pieces_) {
+    const std::int64_t length = std::max<std::int64_t>(end - piece.start, 0);
+    if (length < std::int64_t(piece.samples.size())) piece.samples.resize(std::size_t(length));
+    for (std::int64_t at = std::max(from, piece.start);
+         at < piece.start + std::int64_t(piece.samples.size()); ++at) {
+      // One more than the samples, so that neither end is at 0 or 1 already.
+      const double share = double(at - from + 1) / double(end - from + 1);
+      piece.samples[std::size_t(at - piece.start)] *= float(dam::raised_bell(share));
+    }
+  }
+  std::erase_if(pieces_, [](const Piece& piece) { return piece.samples.empty(); });
 }
 
 std::vector<float> LiveSound::block() {

@@ -21,6 +21,9 @@ class LiveSound {
   /// Lays in a piece (full scale +-1) whose first sample is heard at sample `start` of
   /// `sample_rate`. What of it lies before made() is lost.
   void add(std::int64_t start, std::vector<float> samples);
+  /// All that was added fades over `fade` samples and is silent from sample `end` on. What of that
+  /// lies before made() stays as it is: the fade is then shorter.
+  void end_at(std::int64_t end, std::int64_t fade);
   /// Samples of `sample_rate` that the encoder has been given, so that nothing can be added there.
   std::int64_t made() const { return made_; }
   /// Time of the packet that next() will make, in samples of the format.

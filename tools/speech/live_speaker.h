@@ -6,6 +6,10 @@
 /// of that frame, so face and sound agree to the sample. Lines that come while another is spoken
 /// follow it. Nothing is made ahead of time but what the sound's encoder needs, so a line is seen
 /// and heard as soon as it can be.
+///
+/// What is spoken can be stopped (line_command.h): with the next frame the mouth begins to close
+/// and is at rest within 0.1 s; the sound fades in 20 ms, from the first sample on that its encoder
+/// has not been given.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +22,7 @@
 
 #include "codec/encode/live.h"
 #include "tools/media/live/presentation.h"
+#include "tools/speech/line_events.h"
 #include "tools/speech/lines.h"
 #include "tools/speech/talking_face.h"
 
@@ -34,12 +39,13 @@ struct SpeakerOptions {
   std::optional<media::AudioSettings> audio = media::AudioSettings{};
   double audio_ahead = 0.02;  ///< seconds that sound is sent before its time, 0..1
   double duration = std::numeric_limits<double>::infinity();  ///< seconds, then it is over
+  bool events = false;  ///< keep them until LiveSpeaker::take_events()
 };
 
 /// What happened to a line and when, on the clock of the lines. Instants that did not come (yet)
 /// are 0.
 struct LineTrace {
-  bool waited = false;     ///< another line was being spoken when it came
+  bool waited = false;     ///< another line was waiting or being spoken when it came
   double arrived = 0;      ///< its last character was read
   double spoken = 0;       ///< the voice was done
   double begun = 0;        ///< its face was begun to be made ...
@@ -68,6 +74,11 @@ class LiveSpeaker : public media::LiveInput {
   std::optional<double> next_due() override;
   Result<std::vector<media::LiveUnit>> take(double now) override;
   void sent(const media::LiveUnit& unit, double instant) override;
+
+  /// What happened up to the last frame that was sent, in order, since the last call.
+  std::vector<LineEvent> take_events();
+  /// It is over: lines that are not done are cancelled. Events of that come from take_events().
+  void end(const std::string& why);
 
   /// Every line that was begun, the last 1000 of them.
   const std::deque<LineTrace>& traces() const;

@@ -1,23 +1,16 @@
 #include "tools/speech/live_voice.h"
 
-#include <poll.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <array>
-#include <atomic>
-#include <cerrno>
 #include <cmath>
-#include <condition_variable>
 #include <deque>
-#include <mutex>
-#include <thread>
 #include <utility>
 
+#include "dam/maths/raised_cosine.h"
 #include "dam/signal/fap_signal.h"
 #include "tools/speech/face_coding_internal.h"
 #include "tools/speech/heard_face.h"
 #include "tools/speech/live_sound.h"
+#include "tools/speech/sound_pipe.h"
 
 namespace animeme::speech {
 
@@ -30,95 +23,20 @@ constexpr double kLeastLiveDelay = 0.25, kMostLiveDelay = 2;
 // Of the delay: sound may come so much later than the sound before. What comes later still moves
 // the sound back, up to the whole of the delay.
 constexpr double kJitter = 0.06;
-constexpr double kGrain = 0.015;    // of the delay: frames are looked for every 10 ms
-constexpr double kKeptAhead = 0.5;  // seconds of sound that are read before they are wanted
-constexpr double kEndRest = 0.4;    // seconds after the last sound, to close the mouth
-constexpr int kWaitMs = 50;         // for sound; then a wish to stop is looked for
+constexpr double kGrain = 0.015;     // of the delay: frames are looked for every 10 ms
+constexpr double kEndRest = 0.4;     // seconds after the last sound, to close the mouth
+constexpr double kVoiceFade = 0.02;  // seconds, of sound that breaks off
 
-// Samples from a descriptor, read in a thread, so that the clock never waits for them.
-class SoundPipe {
- public:
-  SoundPipe(int descriptor, std::optional<BareSound> bare) : descriptor_(descriptor), bytes_(bare) {
-    thread_ = std::thread([this] { read(); });
-  }
-  ~SoundPipe() {
-    stop_ = true;
-    room_.notify_all();
-    thread_.join();
-  }
-  // The rate, once it is known or there will be none (0).
-  Result<int> wait_for_rate() {
-    std::unique_lock lock(mutex_);
-    came_.wait(lock, [this] { return rate_ > 0 || ended_; });
-    if (error_) return *error_;
-    return rate_;
-  }
-  // At most `most` samples; none if none are there.
-  std::vector<float> take(std::size_t most) {
-    const std::lock_guard lock(mutex_);
-    const std::size_t count = std::min(most, samples_.size());
-    std::vector<float> some(samples_.begin(), samples_.begin() + std::ptrdiff_t(count));
-    samples_.erase(samples_.begin(), samples_.begin() + std::ptrdiff_t(count));
-    if (count > 0) room_.notify_all();
-    return some;
-  }
-  // Nothing more will come.
-  bool over() {
-    const std::lock_guard lock(mutex_);
-    return ended_ && samples_.empty();
-  }
-  std::optional<Error> take_error() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(error_, std::nullopt);
-  }
-
- private:
-  bool full() const { return rate_ > 0 && double(samples_.size()) > kKeptAhead * rate_; }
-
-  void read() {
-    std::array<std::uint8_t, 4096> block;
-    std::vector<float> samples;
-    while (!stop_) {
-      {
-        std::unique_lock lock(mutex_);
-        room_.wait(lock, [this] { return stop_ || !full(); });
-      }
-      pollfd wanted{descriptor_, POLLIN, 0};
-      const int ready = ::poll(&wanted, 1, kWaitMs);
-      if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
-      const ssize_t got = ready < 0 ? -1 : ::read(descriptor_, block.data(), block.size());
-      if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
-      samples.clear();
-      Result<void> good;
-      if (got > 0) good = bytes_.push(std::span(block).first(std::size_t(got)), samples);
-      const std::lock_guard lock(mutex_);
-      rate_ = bytes_.sample_rate();
-      samples_.insert(samples_.end(), samples.begin(), samples.end());
-      if (got < 0) error_ = make_error(Code::io, "the sound cannot be read any more");
-      if (!good) error_ = good.error();
-      ended_ = got <= 0 || !good;
-      came_.notify_all();
-      if (ended_) return;
-    }
-  }
-
-  int descriptor_;
-  SoundBytes bytes_;
-  std::mutex mutex_;
-  std::condition_variable came_, room_;
-  std::deque<float> samples_;
-  std::optional<Error> error_;
-  int rate_ = 0;
-  bool ended_ = false;
-  std::atomic<bool> stop_ = false;
-  std::thread thread_;
-};
+Result<void> check(const LiveVoiceOptions& options) {
+  if (options.delay >= kLeastLiveDelay && options.delay <= kMostLiveDelay) return {};
+  return make_error(Code::invalid_argument, "the delay must lie between 0.25 and 2 s");
+}
 
 }  // namespace
 
 struct LiveVoice::Impl {
   LiveVoiceOptions options;
-  std::unique_ptr<SoundPipe> pipe;
+  std::unique_ptr<SoundFeed> pipe;
   int rate;
   std::unique_ptr<HeardFace> face;
   std::optional<LiveSound> sound;
@@ -130,6 +48,8 @@ struct LiveVoice::Impl {
   std::int64_t number = 0;        // of the next plane
   std::int64_t mixed = 0;         // samples that have a place, silence included
   std::optional<double> end;      // seconds
+  bool starved = false;           // nothing came in time
+  std::vector<float> held;        // what has come since, until it is enough to go on with
 
   double frame_due() const { return double(number * frame_ticks) / info.timescale; }
   double sound_due() const {
@@ -137,6 +57,7 @@ struct LiveVoice::Impl {
     return double(sound->next_time()) / info.audio->sample_rate - options.audio_ahead;
   }
   Result<void> fill(double now);
+  Result<void> wait_for_more();
   Result<void> lay(std::vector<float> samples);
   Result<LiveUnit> make_plane();
 };
@@ -159,12 +80,35 @@ Result<void> LiveVoice::Impl::lay(std::vector<float> samples) {
 
 Result<void> LiveVoice::Impl::fill(double now) {
   const auto until = [&](double seconds) {
-    return std::max<std::int64_t>(std::llround(seconds * rate) - mixed, 0);
+    return std::size_t(std::max<std::int64_t>(std::llround(seconds * rate) - mixed, 0));
   };
-  if (auto ok = lay(pipe->take(std::size_t(until(now + options.delay)))); !ok) return ok;
-  if (!end && pipe->over()) end = std::max(double(mixed) / rate, now) + kEndRest;
+  if (starved) {
+    if (auto ok = wait_for_more(); !ok) return ok;
+  } else {
+    if (auto ok = lay(pipe->take(until(now + options.delay))); !ok) return ok;
+  }
+  if (!end && held.empty() && pipe->over()) end = std::max(double(mixed) / rate, now) + kEndRest;
   // What has not come by now is silence.
-  return lay(std::vector<float>(std::size_t(until(now + options.delay - kJitter)), 0.0f));
+  const std::size_t missing = until(now + options.delay - kJitter);
+  if (missing == 0) return {};
+  if (!starved && sound) sound->end_at(mixed, std::llround(kVoiceFade * rate));
+  starved = true;
+  return lay(std::vector<float>(missing, 0.0f));
+}
+
+// A voice that has broken off goes on when there is as much of it as it may come late: else the
+// next piece would be late, too, and the next one.
+Result<void> LiveVoice::Impl::wait_for_more() {
+  const auto enough = std::size_t(std::llround(kJitter * rate));
+  const std::vector<float> more = pipe->take(enough - held.size());
+  held.insert(held.end(), more.begin(), more.end());
+  if (held.empty() || (held.size() < enough && !pipe->over())) return {};
+  const double fade = kVoiceFade * rate;
+  for (std::size_t i = 0; i < held.size() && double(i) < fade; ++i) {
+    held[i] *= float(dam::raised_step((double(i) + 1) / (fade + 1)));
+  }
+  starved = false;
+  return lay(std::exchange(held, {}));
 }
 
 Result<LiveUnit> LiveVoice::Impl::make_plane() {
@@ -188,21 +132,26 @@ LiveVoice::~LiveVoice() = default;
 
 Result<std::unique_ptr<LiveVoice>> LiveVoice::open(const dam::Model& model, int descriptor,
                                                    const LiveVoiceOptions& options) {
-  if (!(options.delay >= kLeastLiveDelay && options.delay <= kMostLiveDelay)) {
-    return make_error(Code::invalid_argument, "the delay must lie between 0.25 and 2 s");
-  }
-  Result<TalkingFace> resting = TalkingFace::open(model, {options.synthesis, false, 1});
-  if (!resting) return resting.error();
+  if (auto ok = check(options); !ok) return ok.error();
   auto pipe = std::make_unique<SoundPipe>(descriptor, options.bare);
   const Result<int> rate = pipe->wait_for_rate();
   if (!rate) return rate.error();
   if (*rate == 0) return make_error(Code::truncated, "it ended before there was any sound");
+  return open(model, std::move(pipe), *rate, options);
+}
+
+Result<std::unique_ptr<LiveVoice>> LiveVoice::open(const dam::Model& model,
+                                                   std::unique_ptr<SoundFeed> pipe, int rate,
+                                                   const LiveVoiceOptions& options) {
+  if (auto ok = check(options); !ok) return ok.error();
+  Result<TalkingFace> resting = TalkingFace::open(model, {options.synthesis, false, 1});
+  if (!resting) return resting.error();
   HeardFaceOptions following{options.synthesis, options.language, options.delay - kJitter - kGrain};
-  auto face = HeardFace::open(model, *rate, following);
+  auto face = HeardFace::open(model, rate, following);
   if (!face) return face.error();
   std::optional<LiveSound> sound;
   if (options.audio) {
-    Result<LiveSound> opened = LiveSound::open(*rate, *options.audio);
+    Result<LiveSound> opened = LiveSound::open(rate, *options.audio);
     if (!opened) return opened.error();
     sound = std::move(*opened);
   }
@@ -212,18 +161,14 @@ Result<std::unique_ptr<LiveVoice>> LiveVoice::open(const dam::Model& model, int 
   if (!shape) return shape.error();
   media::LiveInfo info = std::move(shape->info);
   if (sound) info.audio = sound->format();
-  auto impl = std::make_unique<Impl>(Impl{options,
-                                          std::move(pipe),
-                                          *rate,
-                                          std::move(*face),
-                                          std::move(sound),
-                                          fba::LiveEncoder(coding),
-                                          std::move(info),
-                                          shape->frame_ticks,
-                                          {},
-                                          0,
-                                          0,
-                                          {}});
+  auto impl = std::make_unique<Impl>(Impl{.options = options,
+                                          .pipe = std::move(pipe),
+                                          .rate = rate,
+                                          .face = std::move(*face),
+                                          .sound = std::move(sound),
+                                          .encoder = fba::LiveEncoder(coding),
+                                          .info = std::move(info),
+                                          .frame_ticks = shape->frame_ticks});
   return std::unique_ptr<LiveVoice>(new LiveVoice(std::move(impl)));
 }
 

@@ -3,8 +3,9 @@
 /// what `animeme stream --say-audio -` sends.
 ///
 /// Sound that comes is heard and its face seen LiveVoiceOptions::delay seconds later, both
-/// together. Where none comes in time there is silence, and the voice goes on when it comes again;
-/// sound that comes faster than it is heard waits in the pipe.
+/// together. Where none comes in time the voice fades, the mouth rests, and both go on when 60 ms
+/// of it have come again; sound that comes faster than it is heard waits in the pipe. Nothing of it
+/// is left out, so each pause of the sender that is longer than 60 ms moves what follows back.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +21,7 @@
 #include "tools/media/encoded_audio.h"
 #include "tools/media/live/presentation.h"
 #include "tools/speech/sound_bytes.h"
+#include "tools/speech/sound_pipe.h"
 
 namespace animeme::speech {
 
@@ -45,6 +47,10 @@ class LiveVoice : public media::LiveInput {
   /// fba::LiveEncoder and media::AudioEncoder::open(); truncated (no sound at all),
   /// invalid_argument (options out of range).
   static Result<std::unique_ptr<LiveVoice>> open(const dam::Model& model, int descriptor,
+                                                 const LiveVoiceOptions& options);
+  /// The same with samples of `rate` from wherever they come.
+  static Result<std::unique_ptr<LiveVoice>> open(const dam::Model& model,
+                                                 std::unique_ptr<SoundFeed> feed, int rate,
                                                  const LiveVoiceOptions& options);
   ~LiveVoice() override;
 

@@ -10,6 +10,7 @@
 #include "tools/json.h"
 #include "tools/media/audio.h"
 #include "tools/scripts/script_text.h"
+#include "tools/speech/json_line_internal.h"
 
 namespace animeme::speech {
 
@@ -18,7 +19,6 @@ namespace {
 using tools::Json;
 
 constexpr int kPieceRate = 48000;  // Hz of the sound that is sent
-constexpr int kMostDeep = 64;
 
 // "audioContent" and "audio_content" are one name.
 std::string plain(std::string_view name) {
@@ -30,22 +30,6 @@ std::string plain(std::string_view name) {
 }
 
 Error bad(std::string message) { return make_error(Code::syntax, std::move(message)); }
-
-Result<Json> parse_object(std::string_view text) {
-  bool deep = false;
-  const auto look = [&deep](int depth, Json::parse_event_t, Json&) {
-    deep = deep || depth > kMostDeep;
-    return depth <= kMostDeep;
-  };
-  try {
-    Json json = Json::parse(text, look);
-    if (deep) return make_error(Code::out_of_range, "the JSON is nested too deep");
-    if (!json.is_object()) return bad("a piece is a JSON object, {...}");
-    return json;
-  } catch (const Json::parse_error& error) {
-    return bad("it is no JSON from its byte " + std::to_string(error.byte) + " on");
-  }
-}
 
 // Takes the first member of one of these names out of `piece`; null: there is none.
 Json take(Json& piece, std::initializer_list<std::string_view> names) {
@@ -145,6 +129,23 @@ bool may_hold_times(const Json& piece) {
 
 }  // namespace
 
+Result<Json> parse_object(std::string_view text) {
+  constexpr int kMostDeep = 64;
+  bool deep = false;
+  const auto look = [&deep](int depth, Json::parse_event_t, Json&) {
+    deep = deep || depth > kMostDeep;
+    return depth <= kMostDeep;
+  };
+  try {
+    Json json = Json::parse(text, look);
+    if (deep) return make_error(Code::out_of_range, "the JSON is nested too deep");
+    if (!json.is_object()) return bad("a piece is a JSON object, {...}");
+    return json;
+  } catch (const Json::parse_error& error) {
+    return bad("it is no JSON from its byte " + std::to_string(error.byte) + " on");
+  }
+}
+
 Result<SpokenLine> read_piece(std::string_view json, const voice::VoiceOptions& voice,
                               const ScriptInput& input) {
   Result<Json> piece = parse_object(json);
@@ -211,7 +212,10 @@ LineMaker piece_lines(const voice::VoiceOptions& voice, const ScriptInput& input
   maker.sample_rate = kPieceRate;
   maker.most_bytes = kMostPiece;
   maker.cut = false;
-  maker.make = [voice, input](const std::string& line) { return read_piece(line, voice, input); };
+  maker.json = true;
+  maker.make = [voice, input](const std::string& line, const Wanted&) {
+    return read_piece(line, voice, input);
+  };
   return maker;
 }
 

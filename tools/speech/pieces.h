@@ -16,6 +16,7 @@
 /// - script: times: a text in any format of scripts, or JSON of one
 /// - text: what is said; where there are no times the sound is aligned with it
 /// - language, lang: of the text
+/// - id: its name in what is told of it (line_events.h); do, when: see line_command.h
 ///
 /// Without `script` the piece itself may be JSON of any format that scripts::read_labels() knows:
 /// words with times, events of Azure, characters of ElevenLabs, visemes. Times count from the begin

@@ -13,7 +13,9 @@ namespace animeme::speech {
 
 namespace {
 
-constexpr double kFade = 0.25;       // seconds
+constexpr double kFade = 0.25;  // seconds
+// A mouth that is cut off: seconds, at most where there is far to go; share of the speed of speech.
+constexpr double kClosing = 0.1, kLongestClosing = 0.16, kOfSpeed = 0.75;
 constexpr double kIdleSeconds = 20;  // of one piece
 constexpr double kHistory = 1;       // seconds of a line that may still bear on what follows
 
@@ -38,8 +40,41 @@ void lead_over(const std::vector<double>& shown, std::size_t first, std::size_t 
   }
 }
 
+/// The same for a mouth that is cut off, evenly, so that no frame moves more than it has to.
+/// `speeds`: at which channels move in speech, a second. Gives the seconds that it takes.
+double close_mouth(const std::vector<double>& shown, const std::vector<double>& speeds,
+                   dam::Signal& signal) {
+  double longest = kClosing;
+  if (shown.size() < speeds.size()) return longest;
+  for (std::size_t c = 0; c < speeds.size(); ++c) {
+    const double offset = shown[c] - signal.at(0, c);
+    const double wanted = speeds[c] > 0 ? std::abs(offset) / (kOfSpeed * speeds[c]) : kClosing;
+    const double seconds = std::clamp(wanted, kClosing, kLongestClosing);
+    longest = std::max(longest, seconds);
+    for (std::size_t i = 0; i < signal.frames(); ++i) {
+      const double share = 1 - signal.rate.seconds(double(i + 1)) / seconds;
+      if (share <= 0) break;
+      signal.at(i, c) += share * offset;
+    }
+  }
+  return longest;
+}
+
+// Each sound of the model between open mouths.
+dam::Script example(const dam::Model& model) {
+  constexpr double kSeconds = 0.1;
+  dam::Script script;
+  for (const dam::PhoneModel& phone : model.phones) {
+    for (const std::string& label : {std::string("AA"), phone.label}) {
+      const double start = script.duration();
+      script.phones.push_back({start, start + kSeconds, label, {}});
+    }
+  }
+  return script;
+}
+
 std::vector<double> row(const dam::Signal& signal, std::size_t frame) {
-  if (frame >= signal.frames()) return {};  // also before the first one
+  if (frame >= signal.frames()) return {};
   const std::size_t controls = signal.names.size();
   const auto begin = signal.values.begin() + std::ptrdiff_t(frame * controls);
   return {begin, begin + std::ptrdiff_t(controls)};
@@ -82,7 +117,17 @@ bool mouth_differs(const fap::Frame& a, const fap::Frame& b, const fap::Mask& mo
 
 Result<TalkingFace> TalkingFace::open(const dam::Model& model, const FaceOptions& options) {
   TalkingFace face(model, options);
-  if (auto ok = face.begin(silence()); !ok) return ok.error();
+  const Result<dam::Signal> moving = face.synthesise(example(model));
+  if (!moving) return moving.error();
+  face.speeds_.assign(moving->names.size(), 0);
+  for (std::size_t i = 1; i < moving->frames(); ++i) {
+    for (std::size_t c = 0; c < face.speeds_.size(); ++c) {
+      const double speed =
+          std::abs(moving->at(i, c) - moving->at(i - 1, c)) * moving->rate.frames_per_second();
+      face.speeds_[c] = std::max(face.speeds_[c], speed);
+    }
+  }
+  if (auto ok = face.begin(silence(), false); !ok) return ok.error();
   face.mask_ = face.clip_.frames.front().mask;
   return face;
 }
@@ -108,14 +153,22 @@ Result<void> TalkingFace::show(dam::Signal signal, std::size_t at) {
   return {};
 }
 
-Result<void> TalkingFace::begin(const dam::Script& script) {
+Result<void> TalkingFace::begin(const dam::Script& script, bool closing) {
   Result<dam::Signal> signal = synthesise(script);
   if (!signal) return signal.error();
+  const std::size_t mouth = signal->names.size();
   if (options_.life) {
     auto added = dam::add_life(*signal, script, {1, options_.seed + pieces_});
     if (!added) return added.error();
   }
-  lead_over(row(signal_, at_ - 1), 0, signal->names.size(), *signal, 0);
+  if (closing) {
+    const double frames = close_mouth(shown_, speeds_, *signal) * signal->rate.frames_per_second();
+    closed_ = number_ + std::int64_t(std::ceil(frames - 1e-9));
+  } else {
+    lead_over(shown_, 0, mouth, *signal, 0);
+  }
+  // Lids, brows and head take their time.
+  lead_over(shown_, mouth, signal->names.size(), *signal, 0);
   if (auto ok = show(std::move(*signal), 0); !ok) return ok;
   script_ = script;
   return {};
@@ -140,9 +193,16 @@ Line TalkingFace::line_from(std::size_t first, const fap::Frame& before) const {
 
 Result<Line> TalkingFace::say(const dam::Script& script) {
   const fap::Frame before = at_ == 0 ? clip_.frames.front() : clip_.frames[at_ - 1];
-  if (auto ok = begin(script); !ok) return ok.error();
+  if (auto ok = begin(script, false); !ok) return ok.error();
   speaking_ = true;
   return line_from(0, before);
+}
+
+Result<void> TalkingFace::cut() {
+  if (!speaking()) return {};
+  if (auto ok = begin(silence(), true); !ok) return ok;
+  speaking_ = false;
+  return {};
 }
 
 Result<Line> TalkingFace::join(const dam::Script& script, double start) {
@@ -184,9 +244,10 @@ Result<Line> TalkingFace::join(const dam::Script& script, double start) {
 
 Result<fap::Frame> TalkingFace::next() {
   if (at_ >= clip_.frames.size()) {
-    if (auto ok = begin(silence()); !ok) return ok.error();
+    if (auto ok = begin(silence(), false); !ok) return ok.error();
     speaking_ = false;
   }
+  shown_ = row(signal_, at_);
   fap::Frame frame = clip_.frames[at_++];
   frame.number = number_++;
   return frame;

@@ -8,7 +8,8 @@
 ///     }
 ///
 /// What is said begins with the next frame. Between two pieces (a line, idling, another line)
-/// nothing jumps: the difference at the joint fades within 0.25 s.
+/// nothing jumps: the difference at the joint fades within 0.25 s. What is said can be cut off: the
+/// mouth closes in 0.1 s.
 #pragma once
 
 #include <cstddef>
@@ -61,13 +62,19 @@ class TalkingFace {
   /// is made anew. If nothing is being said it is a line of its own. Errors: as say();
   /// invalid_argument (`start` is negative or no number).
   Result<Line> join(const dam::Script& script, double start);
+  /// Ends what is being said: with the next frame the mouth begins to close, evenly, and is at rest
+  /// 0.1 s after the frame before; what would move faster than in speech takes longer, at most
+  /// 0.16 s. Errors: as say().
+  Result<void> cut();
+  /// The mouth is still closing: a line that begins now would begin with it open.
+  bool closing() const { return number_ < closed_; }
   /// The next frame. Errors: as say().
   Result<fap::Frame> next();
 
  private:
   TalkingFace(const dam::Model& model, const FaceOptions& options)
       : model_(&model), options_(options) {}
-  Result<void> begin(const dam::Script& script);
+  Result<void> begin(const dam::Script& script, bool closing);
   Result<dam::Signal> synthesise(const dam::Script& script) const;
   Result<void> show(dam::Signal signal, std::size_t at);
   Line line_from(std::size_t first, const fap::Frame& before) const;
@@ -75,13 +82,16 @@ class TalkingFace {
   const dam::Model* model_;
   FaceOptions options_;
   fap::Mask mask_;
-  dam::Script script_;  // of the piece that is shown
-  dam::Signal signal_;  // of it, faded
-  fap::Sequence clip_;  // the same as FAPs
-  std::size_t at_ = 0;  // frame of the piece
+  dam::Script script_;          // of the piece that is shown
+  dam::Signal signal_;          // of it, faded
+  fap::Sequence clip_;          // the same as FAPs
+  std::size_t at_ = 0;          // frame of the piece
+  std::vector<double> speeds_;  // of each channel, a second, in speech
+  std::vector<double> shown_;   // what the last frame shows; empty: there was none
   std::int64_t number_ = 0;
   std::uint64_t pieces_ = 0;
   bool speaking_ = false;
+  std::int64_t closed_ = 0;  // number of the frame after the first one at rest behind cut()
 };
 
 }  // namespace animeme::speech

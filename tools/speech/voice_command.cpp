@@ -30,7 +30,7 @@ bool has_words_to_say(const std::string& text) {
 }  // namespace
 
 Result<TimedSpeech> run_voice_command(const std::string& text, const VoiceCommand& voice,
-                                      const tools::Talk& talk) {
+                                      const tools::Talk& talk, const tools::Progress& progress) {
   const Result<tools::CommandTemplate> command = tools::parse_command(voice.command);
   if (!command) return command.error();
   if (!has_words_to_say(text)) {
@@ -58,6 +58,7 @@ Result<TimedSpeech> run_voice_command(const std::string& text, const VoiceComman
   tools::ProgramRun run;
   run.what = "the voice " + program;
   run.seconds = voice.seconds;
+  run.progress = progress;
   if (auto done = tools::run_program(job, run); !done) return done.error();
 
   const std::string& sound_file = sound_in_file ? wav : out;
@@ -99,13 +100,15 @@ Result<LineMaker> command_lines(const VoiceCommand& voice) {
   if (!command) return command.error();
   LineMaker maker;
   maker.sample_rate = kLiveRate;
-  maker.make = [voice](std::string line) -> Result<SpokenLine> {
+  maker.make = [voice](std::string line, const Wanted& wanted) -> Result<SpokenLine> {
     SpokenLine spoken;
     tools::Talk talk;
     talk.warn = [&spoken](const std::string& text) {
       spoken.doubt += (spoken.doubt.empty() ? "" : "; ") + text;
     };
-    Result<TimedSpeech> timed = run_voice_command(line, voice, talk);
+    tools::Progress progress;
+    progress.stop = [&wanted] { return !wanted(); };
+    Result<TimedSpeech> timed = run_voice_command(line, voice, talk, progress);
     if (!timed) return timed.error();
     spoken.text = std::move(line);
     spoken.speech = std::move(timed->speech);

@@ -29,9 +29,10 @@ struct VoiceCommand {
 
 /// Speaks. Without times the sound is aligned with the text. Speech::voice is the program's name.
 /// Errors: those of tools::parse_command(), tools::run_program(), media::read_audio() and
-/// time_sound(); invalid_argument (the text is empty), not_found (no sound).
+/// time_sound(); invalid_argument (the text is empty), not_found (no sound), io (progress.stop()).
 Result<TimedSpeech> run_voice_command(const std::string& text, const VoiceCommand& voice,
-                                      const tools::Talk& talk = {});
+                                      const tools::Talk& talk = {},
+                                      const tools::Progress& progress = {});
 
 /// The same for lines as they come. Errors: those of tools::parse_command().
 Result<LineMaker> command_lines(const VoiceCommand& voice);

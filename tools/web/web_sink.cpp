@@ -60,6 +60,12 @@ class Sink : public WebSink {
       return unit.track == LiveTrack::face ? send_face(unit) : send_sound(unit);
     });
   }
+  Result<void> tell(const std::string& json) override {
+    return guarded([&]() -> Result<void> {
+      if (!server_ || over_) return invalid("the sink is not running");
+      return publish_note(json);
+    });
+  }
   Result<void> poll() override { return {}; }
 
   Result<void> finish() override {
@@ -96,6 +102,7 @@ class Sink : public WebSink {
   Result<void> send_face(const LiveUnit& unit);
   void send_values(const LiveUnit& unit);
   Result<void> send_sound(const LiveUnit& unit);
+  Result<void> publish_note(const std::string& json);
   Result<void> flush();
   void describe();
 
@@ -227,6 +234,20 @@ Result<void> Sink::send_sound(const LiveUnit& unit) {
   ++audio_units_;
   if (packets_.size() < std::size_t(options_.packets_per_segment)) return {};
   return flush();
+}
+
+/// Both sockets of the face have it, between the frames.
+Result<void> Sink::publish_note(const std::string& json) {
+  auto note = nlohmann::ordered_json::parse(json);
+  if (!note.is_object()) return invalid("what is told has to be a JSON object");
+  if (const auto time = note.find("time"); time != note.end() && time->is_number()) {
+    *time = time->get<double>() + kWebTimeZero;
+  }
+  const std::string text = note.dump();
+  for (const Channel channel : {Channel::face, Channel::faps}) {
+    server_->publish(channel, {.bytes = {text.begin(), text.end()}, .text = true, .time = now_});
+  }
+  return {};
 }
 
 /// Publishes the segment that was being collected.

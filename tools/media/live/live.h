@@ -74,6 +74,13 @@ class LiveSink {
   /// Sends now. Does not wait for receivers. Errors: io, which for datagrams without a listener
   /// is no error.
   virtual Result<void> send(const LiveUnit& unit) = 0;
+  /// Tells receivers what happens in the presentation, where the transport has a place for that: a
+  /// JSON object on one line. Its member "time", if it has one, is in seconds, on the clock of
+  /// LiveUnit::time. Errors: as send().
+  virtual Result<void> tell(const std::string& json) {
+    (void)json;
+    return {};
+  }
   /// Looks after connections and reports; to be called at least ten times a second.
   virtual Result<void> poll() = 0;
   /// Says goodbye and closes.

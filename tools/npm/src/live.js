@@ -34,6 +34,7 @@ function listen(url, signal, take) {
     socket.binaryType = 'arraybuffer';
     signal.addEventListener('abort', () => socket.close(), {once: true});
     socket.onmessage = ({data}) => {
+      if (typeof data === 'string') return;  // what is told of lines
       try {
         take(new Uint8Array(data));
       } catch (problem) {

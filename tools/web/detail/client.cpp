@@ -39,6 +39,10 @@ int Client::handle(lws* wsi, lws_callback_reasons reason, const char* in, std::s
       connection->message.insert(connection->message.end(), in, in + size);
       if (connection->message.size() > kLargestMessage) return -1;
       if (lws_remaining_packet_payload(wsi) > 0 || lws_is_final_fragment(wsi) == 0) return 0;
+      if (lws_frame_is_binary(wsi) == 0) {  // told in words, to pages
+        connection->message.clear();
+        return 0;
+      }
       return receive(*connection);
     case LWS_CALLBACK_WS_PEER_INITIATED_CLOSE:
       connection->goodbye = size >= 2 && static_cast<unsigned char>(in[0]) == 1000 >> 8 &&

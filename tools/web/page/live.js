@@ -115,7 +115,7 @@ const Live = (() => {
       this.faceSocket.onmessage = (event) => {
         const message = JSON.parse(event.data);
         if (message.faps) this.events.hello(message.faps);
-        else this.take(message);
+        else if (!message.event) this.take(message);  // those tell of lines that are spoken
       };
       this.faceSocket.onclose = (event) => this.closed(event);
     }
