@@ -225,6 +225,21 @@ test('a live face, bytes beside values of the server', async () => {
     }
     assert.ok(compared > 20, `${compared} frames were compared`);
 
+    // It stops, and is as near as before in a few seconds.
+    sender.kill('SIGSTOP');
+    await new Promise((done) => setTimeout(done, 4000));
+    sender.kill('SIGCONT');
+    await page.wait(`new Promise((done) => {
+      const begin = performance.now();
+      let near = begin;
+      (function look() {
+        const now = performance.now(), behind = face.track.end - face.currentTime;
+        if (!(behind > 0 && behind < 0.65)) near = now;
+        if (now - near > 1500 || now - begin > 20000) done(now - near > 1500);
+        else setTimeout(look, 30);
+      })();
+    })`);
+
     // It breaks and comes back.
     sender.kill('SIGKILL');
     await page.wait('events.includes("lost")');

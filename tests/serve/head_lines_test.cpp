@@ -26,7 +26,7 @@ struct SilentVoice {
     ++makers;
     if (options.language == "none") return make_error(Code::not_found, "no such voice");
     speech::LineMaker maker;
-    maker.make = [this](std::string line) -> Result<speech::SpokenLine> {
+    maker.make = [this](std::string line, const speech::Wanted&) -> Result<speech::SpokenLine> {
       if (line == "throw") throw std::bad_alloc();
       if (line == "bad") return make_error(Code::invalid_argument, "it is bad");
       const std::lock_guard lock(mutex);
@@ -36,6 +36,7 @@ struct SilentVoice {
       return spoken;
     };
     maker.most_bytes = 100;
+    maker.cut = false;
     return maker;
   }
 };
@@ -43,7 +44,7 @@ struct SilentVoice {
 std::vector<std::string> take(HeadLines& lines, std::size_t count) {
   std::vector<std::string> texts;
   for (int i = 0; i < 1000 && texts.size() < count; ++i) {
-    for (const speech::SpokenLine& line : lines.take()) texts.push_back(line.text);
+    while (const auto line = lines.take(false)) texts.push_back(line->text);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   return texts;
@@ -68,24 +69,38 @@ TEST_F(HeadLinesTest, ComeInTheirOrder) {
   ASSERT_TRUE(lines->push({"three"}));
   EXPECT_FALSE(lines->idle());
   EXPECT_THAT(take(*lines, 3), ElementsAre("one", "two", "three"));
+  (void)lines->take_news();
   EXPECT_TRUE(lines->idle());
   EXPECT_EQ(lines->given(), 3);
   lines->stop();
   EXPECT_GE(told_, 3);
 }
 
-TEST_F(HeadLinesTest, OnlyOneIsMadeAhead) {
+TEST_F(HeadLinesTest, FewAreMadeAheadAndDropped) {
   const auto lines = make();
   ASSERT_TRUE(lines->push(std::vector<std::string>(50, "again")));
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   EXPECT_EQ(lines->waiting(), 50U);
   {
     const std::lock_guard lock(voice_.mutex);
-    EXPECT_EQ(voice_.said.size(), 1U);
+    EXPECT_EQ(voice_.said.size(), 4U);
   }
-  EXPECT_EQ(lines->drop(), 49U);
-  EXPECT_EQ(take(*lines, 1).size(), 1U);
+  ASSERT_TRUE(lines->push({R"({"do": "drop"})"}));
+  EXPECT_EQ(lines->waiting(), 0U);
+  EXPECT_FALSE(lines->idle());  // that is still to be told
+  const std::vector<speech::LineNews> news = lines->take_news();
+  EXPECT_EQ(news.size(), 50U + 1 + 50);
   EXPECT_TRUE(lines->idle());
+}
+
+TEST_F(HeadLinesTest, CommandsGoAmongLines) {
+  const auto lines = make();
+  ASSERT_TRUE(lines->push({"one", R"({"do": "say", "text": "two", "when": "next"})"}));
+  EXPECT_EQ(take(*lines, 2).size(), 2U);
+  EXPECT_FALSE(lines->push({R"({"do": "dance"})"}));
+  const Result<void> end = lines->push({R"({"do": "end"})"});
+  ASSERT_FALSE(end);
+  EXPECT_THAT(end.error().message, HasSubstr("DELETE"));
 }
 
 TEST_F(HeadLinesTest, HeadsTakeTurns) {
@@ -100,7 +115,7 @@ TEST_F(HeadLinesTest, OnesThatCannotBeSpokenAreToldAndLeftOut) {
   const auto lines = make();
   ASSERT_TRUE(lines->push({"bad", "good"}));
   EXPECT_THAT(take(*lines, 1), ElementsAre("good"));
-  EXPECT_THAT(lines->last_warning(), HasSubstr("\"bad\" is left out: it is bad"));
+  EXPECT_THAT(lines->last_warning(), HasSubstr("\"bad\", is left out: it is bad"));
   ASSERT_TRUE(lines->push({"throw", "good"}));
   EXPECT_THAT(take(*lines, 1), ElementsAre("good"));
   EXPECT_THAT(lines->last_warning(), HasSubstr("\"throw\""));
@@ -108,8 +123,6 @@ TEST_F(HeadLinesTest, OnesThatCannotBeSpokenAreToldAndLeftOut) {
 
 TEST_F(HeadLinesTest, LimitsTakeAllOrNothing) {
   const auto lines = make();
-  EXPECT_FALSE(lines->push({"good", std::string(101, 'x')}));
-  EXPECT_TRUE(lines->idle());
   EXPECT_FALSE(lines->push(std::vector<std::string>(HeadLines::kMostLines + 1, "x")));
   EXPECT_FALSE(lines->push(std::vector<std::string>(700, std::string(100, 'x'))));
   EXPECT_TRUE(lines->idle());

@@ -34,11 +34,13 @@ class Chromium {
     return {};
   }
 
-  Chromium() {
+  /// `flags`: instead of those that forbid sound without a click.
+  explicit Chromium(const std::vector<std::string>& flags = {
+                        "--autoplay-policy=user-gesture-required"}) {
     std::array<int, 2> in{}, out{};
     if (pipe2(in.data(), O_CLOEXEC) != 0 || pipe2(out.data(), O_CLOEXEC) != 0) return;
     child_ = fork();
-    if (child_ == 0) run(in[0], out[1]);
+    if (child_ == 0) run(in[0], out[1], flags);
     close(in[0]);
     close(out[1]);
     to_ = in[1];
@@ -88,12 +90,12 @@ class Chromium {
     return {{"error", "no answer to " + method}};
   }
 
-  /// Value of an expression, promises awaited, as if somebody had clicked.
-  Json evaluate(const std::string& expression) {
+  /// Value of an expression, promises awaited; as if somebody had clicked, or only looked.
+  Json evaluate(const std::string& expression, bool click = true) {
     const Json result = call("Runtime.evaluate", {{"expression", expression},
                                                   {"awaitPromise", true},
                                                   {"returnByValue", true},
-                                                  {"userGesture", true}});
+                                                  {"userGesture", click}});
     if (result.contains("exceptionDetails")) {
       complaints_.push_back(result["exceptionDetails"].dump());
     }
@@ -112,8 +114,18 @@ class Chromium {
     call("Page.navigate", {{"url", url}});
     evaluate(
         "new Promise(done => document.readyState === 'complete' ? done() : "
-        "addEventListener('load', done))");
+        "addEventListener('load', done))",
+        false);
   }
+
+  /// As of a page that is drawn over something else.
+  void make_background_transparent() {
+    call("Emulation.setDefaultBackgroundColorOverride",
+         {{"color", {{"r", 0}, {"g", 0}, {"b", 0}, {"a", 0}}}});
+  }
+
+  /// All of its processes stand still.
+  void freeze(bool frozen) { kill(-child_, frozen ? SIGSTOP : SIGCONT); }
 
   void save_picture(const std::filesystem::path& path) {
     const Json result =
@@ -137,7 +149,7 @@ class Chromium {
   const std::vector<std::string>& complaints() const { return complaints_; }
 
  private:
-  [[noreturn]] void run(int in, int out) {
+  [[noreturn]] void run(int in, int out, const std::vector<std::string>& flags) {
     setpgid(0, 0);
     const int in_copy = fcntl(in, F_DUPFD, 10), out_copy = fcntl(out, F_DUPFD, 10);
     dup2(in_copy, 3);
@@ -147,13 +159,25 @@ class Chromium {
     close(in_copy);
     close(out_copy);
     const std::string browser = find(), data = "--user-data-dir=" + folder_.path().string();
-    execl(browser.c_str(), browser.c_str(), "--headless", "--no-sandbox", "--disable-quic",
-          "--no-first-run", "--disable-background-networking", "--disable-component-update",
-          "--disable-sync", "--disable-dev-shm-usage", "--disable-extensions",
-          "--disable-default-apps", "--remote-debugging-pipe",
-          "--autoplay-policy=user-gesture-required", "--use-angle=swiftshader",
-          "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", data.c_str(),
-          static_cast<char*>(nullptr));
+    std::vector<const char*> line{browser.c_str(),
+                                  "--headless",
+                                  "--no-sandbox",
+                                  "--disable-quic",
+                                  "--no-first-run",
+                                  "--disable-background-networking",
+                                  "--disable-component-update",
+                                  "--disable-sync",
+                                  "--disable-dev-shm-usage",
+                                  "--disable-extensions",
+                                  "--disable-default-apps",
+                                  "--remote-debugging-pipe",
+                                  "--use-angle=swiftshader",
+                                  "--enable-unsafe-swiftshader",
+                                  "--ignore-gpu-blocklist",
+                                  data.c_str()};
+    for (const std::string& flag : flags) line.push_back(flag.c_str());
+    line.push_back(nullptr);
+    execv(browser.c_str(), const_cast<char* const*>(line.data()));
     _exit(127);
   }
 

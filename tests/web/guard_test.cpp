@@ -256,7 +256,8 @@ TEST_F(Guard, WhatOthersReachIsKnown) {
 }
 
 TEST_F(Guard, OptionsAreChecked) {
-  for (const char* origin : {"example.org", "https://example.org/", "https://a b", ""}) {
+  for (const char* origin : {"example.org", "https://example.org/", "https://a b", "",
+                             "https://a;script-src", "https://a,b"}) {
     const auto sink = web::make_web_sink("http://127.0.0.1:0/", {.allow_origins = {origin}});
     ASSERT_FALSE(sink) << origin;
     EXPECT_EQ(sink.error().code, Code::invalid_argument);

@@ -12,6 +12,8 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <thread>
+#include <utility>
 
 namespace animeme::test {
 
@@ -70,6 +72,53 @@ class Connection {
  private:
   int handle_;
   bool open_ = false, closed_ = false;
+};
+
+/// Another server: answers whatever is asked for with one page.
+class OnePage {
+ public:
+  explicit OnePage(std::string html)
+      : html_(std::move(html)), handle_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    const bool open = bind(handle_, reinterpret_cast<sockaddr*>(&address), size) == 0 &&
+                      listen(handle_, 8) == 0 &&
+                      getsockname(handle_, reinterpret_cast<sockaddr*>(&address), &size) == 0;
+    if (open) port_ = ntohs(address.sin_port);
+    thread_ = std::thread([this] { serve(); });
+  }
+  ~OnePage() {
+    shutdown(handle_, SHUT_RDWR);
+    thread_.join();
+    close(handle_);
+  }
+  OnePage(const OnePage&) = delete;
+  OnePage& operator=(const OnePage&) = delete;
+
+  /// "http://127.0.0.1:PORT"
+  std::string origin() const { return "http://127.0.0.1:" + std::to_string(port_); }
+  void set(std::string html) { html_ = std::move(html); }  ///< before it is asked for
+
+ private:
+  void serve() {
+    for (int client = 0; (client = accept(handle_, nullptr, nullptr)) >= 0; close(client)) {
+      std::array<char, 4096> request{};
+      if (recv(client, request.data(), request.size(), 0) <= 0) continue;
+      const std::string answer =
+          "HTTP/1.1 200 OK\r\nContent-Type: text/html; charset=utf-8\r\nConnection: close\r\n"
+          "Content-Length: " +
+          std::to_string(html_.size()) + "\r\n\r\n" + html_;
+      (void)!::send(client, answer.data(), answer.size(), MSG_NOSIGNAL);
+      shutdown(client, SHUT_WR);
+    }
+  }
+
+  std::string html_;
+  int handle_;
+  int port_ = 0;
+  std::thread thread_;
 };
 
 inline int port_of(const std::string& address) {

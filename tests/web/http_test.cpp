@@ -86,6 +86,47 @@ TEST_F(Http, AHeadIsServedIfThereIsOne) {
   EXPECT_FALSE(web::make_web_sink("http://127.0.0.1:0/", {.head_script = "x"}));
 }
 
+TEST_F(Http, SeveralHeadsHaveNames) {
+  serve({.head_script = "x", .head_model = {1}});
+  EXPECT_FALSE(nlohmann::json::parse(body_of(get(port_, "/info.json"))).contains("heads"));
+  EXPECT_EQ(status_of(get(port_, "/heads/1.bin")), 404);
+  sink_.reset();
+  const std::vector<web::WebHead> others{{"<b>\xFF", {2}}, {"child", {3, 4}}};
+  serve({.head_script = "x", .head_model = {1}, .head_name = "me", .other_heads = others});
+  const auto heads = nlohmann::json::parse(body_of(get(port_, "/info.json")))["heads"];
+  EXPECT_EQ(heads, nlohmann::json({"me", "<b>\uFFFD", "child"}));
+  EXPECT_EQ(body_of(get(port_, "/head.bin")), "\x01");
+  EXPECT_EQ(body_of(get(port_, "/heads/1.bin")), "\x02");
+  EXPECT_EQ(body_of(get(port_, "/heads/2.bin")), "\x03\x04");
+  for (const char* path : {"/heads/0.bin", "/heads/3.bin", "/heads/", "/heads/1"}) {
+    EXPECT_EQ(status_of(get(port_, path)), 404) << path;
+  }
+  EXPECT_FALSE(web::make_web_sink("http://127.0.0.1:0/", {.other_heads = others}));
+  EXPECT_FALSE(
+      web::make_web_sink("http://127.0.0.1:0/",
+                         {.head_script = "x", .head_model = {1}, .other_heads = {{"none", {}}}}));
+}
+
+// Who may use the server may have its page in a frame; nobody else.
+TEST_F(Http, FramesAreForThoseWhoMay) {
+  const auto frames = [&] {
+    const std::string policy = header_of(get(port_, "/"), "content-security-policy");
+    return policy.substr(policy.find("frame-ancestors"));
+  };
+  serve();
+  EXPECT_EQ(frames(), "frame-ancestors 'self'");
+  sink_.reset();
+  std::vector<std::string> origins;
+  for (int i = 0; i < 200; ++i) origins.push_back("https://" + std::to_string(i) + ".example");
+  serve({.allow_origins = origins});
+  EXPECT_THAT(frames(), HasSubstr("'self' https://0.example https://1.example"));
+  EXPECT_THAT(frames(), HasSubstr("https://199.example"));
+  EXPECT_EQ(status_of(get(port_, "/nothing")), 404);
+  sink_.reset();
+  serve({.allow_origins = {"*"}});
+  EXPECT_EQ(frames(), "frame-ancestors 'self' *");
+}
+
 TEST_F(Http, OnlyWhatIsListedExists) {
   serve();
   for (const char* path : {"/favicon.ico", "/../../etc/passwd", "/%2e%2e/%2e%2e/etc/passwd",

@@ -110,5 +110,21 @@ TEST(Hub, TheStalledAreFound) {
   EXPECT_EQ(hub.clients(), 0u);
 }
 
+// The small form has a bit for it, and words among bytes tell it as words do.
+TEST(Hub, PlanesHaveABitAndWordsAWord) {
+  Hub hub(40, true);
+  const auto slow = hub.add(Channel::planes);
+  const auto plane = [](bool intra) {
+    return Message{.bytes = std::vector<std::uint8_t>(15), .entry = intra};
+  };
+  for (int i = 0; i < 4; ++i) hub.publish(Channel::planes, plane(i == 0));
+  hub.publish(Channel::planes, plane(true));
+  EXPECT_EQ(hub.next(slow)->bytes[0], web::kMissed);
+  for (int i = 0; i < 4; ++i) hub.publish(Channel::planes, plane(i == 0));
+  hub.publish(Channel::planes, text(9, true));
+  EXPECT_EQ(nlohmann::json::parse(take(hub, slow)),
+            (nlohmann::json{{"missed", true}, {"time", 9}}));
+}
+
 }  // namespace hub_test
 }  // namespace animeme::test

@@ -79,10 +79,11 @@ TEST(WebMessages, ValuesAreJson) {
   EXPECT_EQ(json["values"]["3"], -250);
   EXPECT_EQ(json["values"]["1"]["blend"], 40);
   EXPECT_EQ(json["values"].size(), 2u);
-  const auto hello = nlohmann::json::parse(web::values_hello());
+  const auto hello = nlohmann::json::parse(web::values_hello(25000));
   EXPECT_EQ(hello["faps"]["3"]["name"], "open_jaw");
   EXPECT_EQ(hello["faps"]["3"]["unit"], "MNS");
   EXPECT_EQ(hello["faps"].size(), 68u);
+  EXPECT_EQ(hello["timescale"], 25000);
 }
 
 TEST(WebMessages, AValueFeedSurvivesJoiningInTheMiddle) {

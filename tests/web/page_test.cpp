@@ -3,116 +3,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 #include <thread>
 
-#include "codec/encode/live.h"
 #include "fap/head/model.h"
 #include "fap/head/rig.h"
-#include "tests/web/chromium.h"
-#include "tools/media/encoded_audio.h"
-#include "tools/media/live/pacer.h"
-#include "tools/media/live/presentation.h"
+#include "tests/web/station.h"
 #include "tools/viewer/viewer.h"
-#include "tools/web/web.h"
 
 namespace animeme::test {
 namespace page_test {
 
 using Json = nlohmann::json;
-
-constexpr double kPeriod = 0.8, kSound = 0.2;  // seconds: a tone that long, that often
-
-/// While the tone sounds the mouth is open.
-media::Pcm make_tones(double seconds) {
-  media::Pcm pcm{48000, std::vector<float>(std::size_t(seconds * 48000))};
-  for (std::size_t i = 0; i < pcm.samples.size(); ++i) {
-    const double t = double(i) / 48000;
-    if (std::fmod(t, kPeriod) < kSound) {
-      pcm.samples[i] = float(0.4 * std::sin(2 * std::numbers::pi * 500 * t));
-    }
-  }
-  return pcm;
-}
-
-fba::AccessUnits make_mouth(double seconds) {
-  fba::LiveEncoder encoder({.intra_seconds = 20 / 25.0});
-  fba::AccessUnits face{.config = {0, 0, 1, 0xB0, 0x61, 0, 0, 1, 0xB5, 0x89, 0x47}};
-  for (int i = 0; i < int(seconds * 25); ++i) {
-    const double t = i / 25.0;
-    const bool open = std::fmod(t + 1e-9, kPeriod) < kSound;
-    fap::Frame frame;
-    frame.set(3, open ? 700 : 0);
-    frame.set(4, open ? -150 : 0);
-    frame.set(5, open ? -700 : 0);
-    frame.set(6, int(60 * std::sin(t * 3)));
-    frame.set(7, int(60 * std::sin(t * 3)));
-    frame.set(12, int(200 + 150 * std::sin(t * 2)));
-    frame.set(13, int(200 + 150 * std::sin(t * 2)));
-    frame.set(31, int(120 * std::sin(t)));
-    frame.set(32, int(120 * std::sin(t)));
-    frame.set(50, int(4000 * std::sin(t)));
-    auto unit = encoder.write(frame);
-    EXPECT_TRUE(unit);
-    if (unit) face.units.push_back({std::move(*unit), encoder.intra(), i * 1000, 1000});
-  }
-  return face;
-}
-
-/// A server that sends a presentation again and again, at its pace.
-class Station {
- public:
-  explicit Station(media::AudioCodec codec, const web::WebOptions& options = {}) {
-    auto sound = media::encode_audio(make_tones(8), {.codec = codec});
-    EXPECT_TRUE(sound);
-    input_.emplace(make_mouth(8), std::move(*sound), media::ClipOptions{.loop = true});
-    auto sink = web::make_web_sink("http://127.0.0.1:0/", options);
-    EXPECT_TRUE(sink);
-    sink_ = std::move(*sink);
-    EXPECT_TRUE(sink_->start(input_->info()));
-    thread_ = std::thread([this] { run(); });
-  }
-  ~Station() {
-    over_ = true;
-    thread_.join();
-  }
-  std::string address() const { return sink_->address(); }
-  void pause(bool paused) { paused_ = paused; }
-
- private:
-  void run() {
-    media::Pacer pacer(media::steady_clock());
-    while (auto due = input_->next_due()) {
-      while (!over_ && !pacer.wait_until(*due)) {
-      }
-      if (over_) return;
-      auto units = input_->take(*due);
-      if (!units) return;
-      for (const media::LiveUnit& unit : *units) {
-        if (paused_) continue;
-        EXPECT_TRUE(sink_->send(unit));
-      }
-    }
-  }
-
-  std::optional<media::ClipInput> input_;
-  std::unique_ptr<web::WebSink> sink_;
-  std::atomic<bool> over_ = false, paused_ = false;
-  std::thread thread_;
-};
-
-/// Waits until an expression is true in the page.
-bool wait_for(Chromium& browser, const std::string& expression) {
-  return browser.evaluate(
-             "new Promise(done => { const end = Date.now() + 60000; (function look() "
-             "{ if (" +
-             expression +
-             ") done(true); else if (Date.now() > end) "
-             "done(false); else setTimeout(look, 50); })(); })") == true;
-}
 
 constexpr const char* kSample =
     "({time: audio.currentTime, wall: performance.now() / 1000, shown: animeme.shown, "
@@ -134,8 +37,10 @@ class Page : public ::testing::TestWithParam<media::AudioCodec> {
   }
   void start(const Station& station, int width, int height, bool dark) {
     browser_->open(station.address(), width, height, dark);
-    EXPECT_EQ(browser_->evaluate("animeme.state"), "idle") << "no sound without a click";
-    browser_->evaluate("document.getElementById('start').click()");
+    ASSERT_TRUE(wait_for(*browser_, "animeme.blocked", 60, false)) << "no sound without a click";
+    EXPECT_EQ(browser_->evaluate("audio.muted", false), true);
+    browser_->evaluate("document.getElementById('sound').click()");
+    EXPECT_EQ(browser_->evaluate("audio.muted"), false);
     ASSERT_TRUE(wait_for(*browser_, "animeme.state === 'live' && animeme.shown > 20"));
   }
   void expect_no_complaints() { EXPECT_THAT(browser_->complaints(), ::testing::IsEmpty()); }

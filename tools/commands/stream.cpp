@@ -245,6 +245,15 @@ Result<int> run(StreamOptions& options) {
                     !what.say_audio.empty();
   const bool opus = options.codec.empty() ? live : options.codec == "opus";
   options.program.coding.audio.codec = opus ? media::AudioCodec::opus : media::AudioCodec::aac;
+  if (!options.heads.heads.empty()) {
+    if (const std::string bad = problem_of(options.heads); !bad.empty()) return usage_error(bad);
+    const auto serves = [](const std::string& url) { return url.starts_with("http://"); };
+    if (std::none_of(options.to.begin(), options.to.end(), serves)) {
+      warn("--head is for the page of an http:// address, and there is none");
+    } else if (auto ok = give_heads(options.heads, options.sink.web); !ok) {
+      return ok.error();
+    }
+  }
   auto sinks = live::Sinks::open(options.to, options.sdp, options.sink, talk());
   if (!sinks && sinks.error().code == Code::invalid_argument) {
     return usage_error(sinks.error().message);

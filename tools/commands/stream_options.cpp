@@ -4,6 +4,7 @@
 
 #include "tools/commands/bounds.h"
 #include "tools/commands/brief_help.h"
+#include "tools/commands/head_options.h"
 #include "tools/commands/motion_options.h"
 #include "tools/commands/outputs.h"
 #include "tools/commands/spoken_options.h"
@@ -139,6 +140,7 @@ void add_options(CLI::App& app, StreamOptions& options) {
       ->check(between(1, 16))
       ->capture_default_str();
   add_web_options(app, options.sink.web);
+  add_heads_options(app, options.heads.heads, options.heads.rest);
   add_coding_options(app, options);
   app.add_flag("--fast", options.fast, "Do not wait for the clock, send as fast as it goes");
   app.add_flag("--stats", options.stats, "Tell once a second how it goes");
@@ -148,7 +150,8 @@ void add_options(CLI::App& app, StreamOptions& options) {
                     "--pitch",        "--seed",          "--mtu",         "--repeat",
                     "--repeat-after", "--bundle",        "--max-clients", "--max-per-address",
                     "--allow-origin", "--host-name",     "--delay",       "--intra-seconds",
-                    "--copy",         "--quant",         "--audio-codec", "--audio-bitrate"});
+                    "--points",       "--gain",          "--copy",        "--quant",
+                    "--audio-codec",  "--audio-bitrate"});
 }
 
 }  // namespace animeme::tools

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/commands/shown_heads.h"
 #include "tools/live/address.h"
 #include "tools/live/program.h"
 
@@ -20,6 +21,7 @@ struct StreamOptions {
   std::vector<std::string> to;   ///< --to
   std::vector<std::string> sdp;  ///< --sdp
   live::SinkOptions sink;        ///< --mtu, --repeat, --bundle, --max-clients ...
+  HeadChoices heads;             ///< --head, for the page
   live::ProgramOptions program;  ///< what is sent, and how it is coded
   std::string codec;             ///< --audio-codec
   std::string rate = "25";       ///< --rate

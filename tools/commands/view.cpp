@@ -10,8 +10,8 @@
 #include "tools/commands/head_options.h"
 #include "tools/commands/page_sound.h"
 #include "tools/commands/script_options.h"
+#include "tools/commands/shown_heads.h"
 #include "tools/speech/voice_file.h"
-#include "tools/studio/page_pictures.h"
 #include "tools/text.h"
 #include "tools/viewer/viewer.h"
 
@@ -33,8 +33,7 @@ struct ViewOptions {
   std::string script;
   speech::ScriptInput reading;
   LengthLimit length;
-  std::vector<std::string> heads;
-  studio::HeadChoice head;
+  HeadChoices heads;
 };
 
 // A clip, and whether it came with a container that may hold sound.
@@ -99,46 +98,13 @@ void warn_of_size(const viewer::Page& page, std::size_t size, double seconds) {
   warn(text);
 }
 
-// A head with its rig, at a place that stays.
-struct ShownHead {
-  std::string name;
-  head::Head head;
-  head::Rig rig;
-};
-
-// The heads that were asked for.
-std::vector<studio::HeadChoice> choices_of(const ViewOptions& options) {
-  std::vector<studio::HeadChoice> choices(std::max<std::size_t>(options.heads.size(), 1),
-                                          options.head);
-  for (std::size_t i = 0; i < options.heads.size(); ++i) choices[i].head = options.heads[i];
-  return choices;
-}
-
-Result<std::unique_ptr<ShownHead>> load_shown(const studio::HeadChoice& choice) {
-  Result<head::Head> head = studio::load_head(choice, talk());
-  if (!head) return head.error();
-  if (const std::size_t count = studio::shrink_pictures(*head); count > 0) {
-    say(choice.head + ": " + std::to_string(count) +
-        " large textures are smaller in the page (1024 texels a side at most, WebP)");
-  }
-  head::Rig rig = head::make_rig(*head);
-  return std::unique_ptr<ShownHead>(new ShownHead{
-      std::filesystem::path(choice.head).stem().string(), std::move(*head), std::move(rig)});
-}
-
 Result<int> run(const ViewOptions& options) {
-  const std::vector<studio::HeadChoice> choices = choices_of(options);
-  for (const studio::HeadChoice& choice : choices) {
-    if (const std::string problem = studio::problem_of(choice); !problem.empty()) {
-      return usage_error(problem);
-    }
+  if (const std::string problem = problem_of(options.heads); !problem.empty()) {
+    return usage_error(problem);
   }
-  std::vector<std::unique_ptr<ShownHead>> heads;
-  for (const studio::HeadChoice& choice : choices) {
-    Result<std::unique_ptr<ShownHead>> head = load_shown(choice);
-    if (!head) return head.error();
-    heads.push_back(std::move(*head));
-  }
+  auto loaded = load_shown(options.heads);
+  if (!loaded) return loaded.error();
+  const std::vector<std::unique_ptr<ShownHead>> heads = std::move(*loaded);
   viewer::Page page;
   std::vector<std::string> containers;
   for (const std::string& path : {options.first, options.second}) {
@@ -191,7 +157,7 @@ void add_options(CLI::App& app, ViewOptions& options) {
   add_script_options(app, options.reading.reading, options.reading.language);
   add_sound_options(app, options.sound, false);
   add_length_option(app, options.length);
-  add_heads_options(app, options.heads, options.head);
+  add_heads_options(app, options.heads.heads, options.heads.rest);
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ speech::SpeakerOptions speaker_options(const HeadSettings& settings, int voice_r
   options.voice_rate = voice_rate;
   options.audio.reset();
   if (settings.sound) options.audio = settings.audio;
+  options.events = true;
   return options;
 }
 
@@ -68,6 +69,10 @@ Result<void> Head::send_due() {
   if (!units) return units.error();
   for (const media::LiveUnit& unit : *units) {
     if (auto ok = sink_->send(unit); !ok) return ok;
+    speaker_->sent(unit, clock_.now());
+    for (const speech::LineEvent& event : speaker_->take_events()) {
+      if (auto ok = sink_->tell(speech::to_json(event)); !ok) return ok;
+    }
     if (unit.track == media::LiveTrack::face) {
       late_.add(pacer_.now() - media::due_of(*speaker_, unit));
     }

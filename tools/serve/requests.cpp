@@ -2,6 +2,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "tools/media/detail/words_internal.h"
 #include "tools/serve/figures.h"
 #include "tools/serve/server.h"
 
@@ -36,26 +37,10 @@ bool same(std::string_view one, std::string_view other) {
   return different == 0;
 }
 
-Result<std::vector<std::string>> lines_of(const std::string& body) {
+std::vector<std::string> lines_of(const std::string& body) {
   std::vector<std::string> lines;
-  const auto add_all = [&lines](const std::string& text) {
-    std::istringstream stream(text);
-    for (std::string line; std::getline(stream, line);) {
-      if (!line.empty() && line.back() == '\r') line.pop_back();
-      lines.push_back(std::move(line));
-    }
-  };
-  if (body.empty() || body.front() != '{') {
-    add_all(body);
-    return lines;
-  }
-  const Json json = Json::parse(body, nullptr, false);
-  const bool one = json.is_object() && json.size() == 1 && json.contains("say");
-  if (!one || !json["say"].is_string()) {
-    return make_error(Code::syntax,
-                      "what is to be said are lines of text, or {\"say\": \"lines of text\"}");
-  }
-  add_all(json["say"].get<std::string>());
+  std::istringstream stream(body);
+  for (std::string line; std::getline(stream, line);) lines.emplace_back(media::trim(line));
   return lines;
 }
 
@@ -121,8 +106,7 @@ HouseReply HeadServer::put(const std::string& name, const std::string& body) {
 }
 
 HouseReply HeadServer::say(const std::string& name, const std::string& body) {
-  Result<std::vector<std::string>> lines = lines_of(body);
-  if (!lines) return refusal(lines.error());
+  std::vector<std::string> lines = lines_of(body);
   std::shared_ptr<Head> head = find(name);
   if (!head && options_.make_on_say) {
     const auto made = make(name, options_.defaults);
@@ -130,8 +114,8 @@ HouseReply HeadServer::say(const std::string& name, const std::string& body) {
     head = *made;
   }
   if (!head) return refusal(404, "There is no such head.");
-  const std::size_t count = lines->size();
-  if (auto ok = head->say(std::move(*lines)); !ok) return refusal(ok.error());
+  const std::size_t count = lines.size();
+  if (auto ok = head->say(std::move(lines)); !ok) return refusal(ok.error());
   return reply(202, {{"lines", count}, {"waiting", head->figures().lines}});
 }
 

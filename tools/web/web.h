@@ -5,10 +5,10 @@
 ///     (*sink)->start(info);                       // now http://127.0.0.1:8080/ shows the page
 ///     auto source = make_web_source("ws://127.0.0.1:8080/");
 ///
-/// What the server offers, and each byte of it, stands in tools/web/README.md: the page `/`,
-/// `/face` (access units), `/faps` (decoded values), `/audio` (segments for MediaSource), all three
-/// as WebSockets, `/talk.mp4` (endless mp4 of the sound) and `/info.json`. Nothing is read from
-/// disk. No encryption: put a proxy in front of it where that is wanted.
+/// What the server offers, and each byte of it, stands in tools/web/protocol.md: the page `/`,
+/// `/face` (access units), `/faps` (decoded values, as JSON or small), `/audio` (segments for
+/// MediaSource), all three as WebSockets, `/talk.mp4` (endless mp4 of the sound) and `/info.json`.
+/// Nothing is read from disk. No encryption: put a proxy in front of it where that is wanted.
 ///
 /// The clock that browsers see is that of the sound segments. It runs one second ahead of LiveUnit
 /// times (kWebTimeZero), so that the priming of the sound has a place; the source takes it off.
@@ -30,6 +30,12 @@ namespace animeme::web {
 /// Seconds on the clock of the segments at time 0.
 inline constexpr int kWebTimeZero = 1;
 
+/// Another head for the page.
+struct WebHead {
+  std::string name;                 ///< what people choose; any text
+  std::vector<std::uint8_t> model;  ///< bytes of viewer::pack_head()
+};
+
 /// For both directions.
 struct WebOptions {
   /// Viewers at the same time, 1..1000; whoever comes then gets 503. A viewer has a WebSocket for
@@ -48,8 +54,9 @@ struct WebOptions {
   bool catch_up = true;
   /// Packets of sound in a segment, 1..64. Less delay or less traffic: 4 of AAC are 85 ms.
   int packets_per_segment = 4;
-  /// Origins of pages elsewhere that may use this server ("https://example.org"; "*": all). None:
-  /// only pages of this server and programs that are no browsers.
+  /// Origins of pages elsewhere that may use this server and show its page in a frame
+  /// ("https://example.org"; "*": all). None: only pages of this server and programs that are no
+  /// browsers.
   std::vector<std::string> allow_origins;
   /// Names and addresses by which this server may be called in the Host header of a request,
   /// besides its own: localhost, the address at which it listens and, if that is open to others,
@@ -61,6 +68,9 @@ struct WebOptions {
   /// WebGL2 keep the schematic face.
   std::string head_script;
   std::vector<std::uint8_t> head_model;  ///< see head_script
+  std::string head_name;                 ///< of that head, for a list of several; any text
+  /// Further heads, /heads/1.bin and so on: people choose one, or the address does (?head=NAME).
+  std::vector<WebHead> other_heads;
   /// Source: bytes that may wait for next(); the network waits when they are full.
   std::size_t queue_bytes = std::size_t(4) << 20;
 };

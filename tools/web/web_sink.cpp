@@ -6,6 +6,7 @@
 #include "tools/media/live/audio_segments.h"
 #include "tools/web/detail/headers.h"
 #include "tools/web/detail/messages.h"
+#include "tools/web/detail/planes.h"
 #include "tools/web/detail/server.h"
 #include "tools/web/detail/values.h"
 #include "tools/web/house.h"
@@ -23,7 +24,9 @@ constexpr double kSoundAlone = 1;      // the same where there is no face
 Error invalid(const std::string& what) { return make_error(Code::invalid_argument, what); }
 
 bool is_plain(const std::string& text) {
-  return std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c <= '~'; });
+  // What separates in headers is in no name and no origin.
+  return std::all_of(text.begin(), text.end(),
+                     [](char c) { return c > ' ' && c <= '~' && c != ';' && c != ','; });
 }
 
 template <class Body>
@@ -117,6 +120,7 @@ class Sink : public WebSink {
   bool over_ = false;
   Values values_;
   std::vector<LiveUnit> unread_;  // since the last intra plane; nobody wanted their values
+  PlaneWriter planes_;
   std::vector<media::AudioPacket> packets_;  // of the next segment
   std::uint32_t segments_ = 0;
   double now_ = 0;  // on the clock of the segments
@@ -144,8 +148,10 @@ Result<void> Sink::begin(const media::LiveInfo& info) {
   const Hello hello{info_.visual_profile, info_.audio.has_value(), info_.timescale,
                     info_.face_config};
   stage_->set_hello(Channel::face, {.bytes = write_hello(hello)});
-  const std::string names = values_hello();
-  stage_->set_hello(Channel::faps, {.bytes = {names.begin(), names.end()}, .text = true});
+  const std::string names = values_hello(info_.timescale);
+  for (const Channel channel : {Channel::faps, Channel::planes}) {
+    stage_->set_hello(channel, {.bytes = {names.begin(), names.end()}, .text = true});
+  }
   if (!init.empty()) stage_->set_hello(Channel::audio, {.bytes = std::move(init)});
   describe();
   if (!server.open(path_, stage_)) {
@@ -170,8 +176,13 @@ void Sink::describe() {
                      {"sample_rate", info_.audio->sample_rate},
                      {"channels", info_.audio->channels}};
   }
+  if (!options_.other_heads.empty()) {
+    json["heads"] = {options_.head_name};
+    for (const WebHead& head : options_.other_heads) json["heads"].push_back(head.name);
+  }
   json["clients"] = stats().receivers;
-  stage_->set_info(json.dump());
+  // Names of heads may be any text.
+  stage_->set_info(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 Result<void> Sink::send_face(const LiveUnit& unit) {
@@ -201,10 +212,13 @@ Result<void> Sink::send_face(const LiveUnit& unit) {
 /// gets, with the next plane, all since the last intra plane.
 void Sink::send_values(const LiveUnit& unit) {
   if (house_ && unit.intra) unread_.clear();
-  if (house_ && !stage_->wanted(Channel::faps)) {
+  const bool wanted = stage_->wanted(Channel::faps) || stage_->wanted(Channel::planes);
+  if (house_ && !wanted) {
     if (unit.intra || !unread_.empty()) unread_.push_back(unit);
     values_ = Values();
+    planes_ = PlaneWriter();
     stage_->forget(Channel::faps);
+    stage_->forget(Channel::planes);
     return;
   }
   unread_.push_back(unit);
@@ -219,6 +233,10 @@ void Sink::send_values(const LiveUnit& unit) {
     stage_->publish(
         Channel::faps,
         {.bytes = {text.begin(), text.end()}, .text = true, .entry = next.intra, .time = seconds});
+    const PlaneWriter::Plane plane{std::uint64_t(time), std::uint32_t(next.duration), next.intra,
+                                   next.bytes.size()};
+    stage_->publish(Channel::planes,
+                    {.bytes = planes_.write(plane, *face), .entry = next.intra, .time = seconds});
   }
 }
 
@@ -244,8 +262,8 @@ Result<void> Sink::publish_note(const std::string& json) {
     *time = time->get<double>() + kWebTimeZero;
   }
   const std::string text = note.dump();
-  for (const Channel channel : {Channel::face, Channel::faps}) {
-    server_->publish(channel, {.bytes = {text.begin(), text.end()}, .text = true, .time = now_});
+  for (const Channel channel : {Channel::face, Channel::faps, Channel::planes}) {
+    stage_->publish(channel, {.bytes = {text.begin(), text.end()}, .text = true, .time = now_});
   }
   return {};
 }
@@ -276,7 +294,10 @@ Result<void> check(const WebOptions& options, int most_clients) {
   if (options.client_bytes < 4096 || !(options.stall_seconds > 0)) {
     return invalid("a client needs at least 4096 bytes and some patience");
   }
-  if (options.head_script.empty() != options.head_model.empty()) {
+  const auto has_none = [](const WebHead& head) { return head.model.empty(); };
+  if (options.head_script.empty() != options.head_model.empty() ||
+      (options.head_script.empty() && !options.other_heads.empty()) ||
+      std::any_of(options.other_heads.begin(), options.other_heads.end(), has_none)) {
     return invalid("a head for the page needs its script and its model");
   }
   if (options.per_address < 0) return invalid("connections of an address cannot be negative");
@@ -306,6 +327,7 @@ class House : public WebHouse {
     address_.port = server_->port();
     options_.head_script.clear();  // the server has them
     options_.head_model.clear();
+    for (WebHead& head : options_.other_heads) head.model.clear();  // their names are told
   }
   std::string address() const override { return address_.text(); }
   std::unique_ptr<WebSink> make_sink(const std::string& path,

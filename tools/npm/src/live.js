@@ -1,11 +1,12 @@
-// The sockets of `animeme stream --to http://...`: /face, and /audio if there is a sound. tools/web/README.md has the
+// The sockets of `animeme stream --to http://...`: /face, and /audio if there is a sound. tools/web/protocol.md has the
 // bytes.
 import {AnimemeError} from './library.js';
 import {SoundBuffer} from './sound.js';
 import {UnitDecoder} from './track.js';
 
 const kTarget = 0.35;  // seconds that are kept in front of the player
-const kJump = 1.2;     // further behind than that: jump instead of hurrying
+const kJump = 0.6;     // further behind than that: jump instead of hurrying
+const kSkip = 0.3;     // the same without a sound, where nobody hears it
 const kKeep = 10;      // seconds of frames that are kept
 
 /** First message of /face. */
@@ -34,7 +35,7 @@ function listen(url, signal, take) {
     socket.binaryType = 'arraybuffer';
     signal.addEventListener('abort', () => socket.close(), {once: true});
     socket.onmessage = ({data}) => {
-      if (typeof data === 'string') return;  // what is told of lines
+      if (typeof data === 'string') return;  // told in words
       try {
         take(new Uint8Array(data));
       } catch (problem) {
@@ -51,13 +52,16 @@ function listen(url, signal, take) {
 function steer(media, buffer) {
   const {range} = buffer;
   if (!range) return;
-  const lag = range.end - media.currentTime;
-  if (media.currentTime < range.begin || lag > kTarget + kJump) {
-    const target = Math.max(range.begin, range.end - kTarget);
-    if (range.end - range.begin >= kTarget) media.currentTime = target;
+  const target = range.end - kTarget, off = target - media.currentTime;
+  // What lies behind a gap is played when there is enough of it, and at once if it has to be.
+  const cut = media.currentTime < range.begin && (media.paused || media.readyState < 3);
+  if (target >= range.begin && (cut || off > kJump)) {
+    media.currentTime = target;
+    media.playbackRate = 1;
     return;
   }
-  media.playbackRate = lag > kTarget + 0.15 ? 1.05 : lag < kTarget - 0.2 ? 0.96 : 1;
+  buffer.hurries = off > (buffer.hurries ? 0.03 : 0.15);
+  media.playbackRate = buffer.hurries ? 1 + Math.min(0.2, Math.max(0.05, off / 2)) : off < -0.2 ? 0.96 : 1;
 }
 
 const kRetry = [0.5, 1, 2, 4];  // seconds
@@ -86,7 +90,7 @@ async function session(url, {media, silent, track, signal}, heard) {
     track.add(decoder?.decode(unit) ?? []);
     if (!hello.sound) {
       player.duration = track.end;
-      if (player.currentTime < track.end - kTarget - kJump) player.currentTime = track.end - kTarget;
+      if (player.currentTime < track.end - kTarget - kSkip) player.currentTime = track.end - kTarget;
     }
     track.forget(player.currentTime - kKeep);
   };

@@ -15,10 +15,11 @@ constexpr std::size_t kMostRecentBytes = std::size_t(1) << 20;
 /// The message with the note that others in front of it were dropped. (Segments of sound need none:
 /// their times show it.)
 MessagePtr marked(Message message, Channel channel) {
-  if (channel == Channel::face) message.bytes[kFlagsAt] |= kMissed;
-  if (channel == Channel::faps) {
+  if (message.text) {
     constexpr std::string_view kNote = "\"missed\":true,";
     message.bytes.insert(message.bytes.begin() + 1, kNote.begin(), kNote.end());  // behind the {
+  } else if (channel != Channel::audio) {
+    message.bytes[channel == Channel::face ? kFlagsAt : 0] |= kMissed;
   }
   return std::make_shared<const Message>(std::move(message));
 }

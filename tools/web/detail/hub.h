@@ -12,8 +12,8 @@
 
 namespace animeme::web {
 
-enum class Channel : std::uint8_t { face, faps, audio };
-inline constexpr std::size_t kChannels = 3;
+enum class Channel : std::uint8_t { face, faps, planes, audio };  // planes: /faps?binary
+inline constexpr std::size_t kChannels = 4;
 
 struct Message {
   std::vector<std::uint8_t> bytes;

@@ -1,4 +1,4 @@
-// The binary messages of /face. Big endian throughout; see README.md.
+// The binary messages of /face. Big endian throughout; see protocol.md.
 #pragma once
 
 #include <cstdint>

@@ -15,7 +15,7 @@ namespace {
 constexpr const char* kPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
     "media-src 'self' blob:; img-src 'self' data: blob:; base-uri 'none'; form-action 'none'; "
-    "frame-ancestors 'self'";
+    "frame-ancestors ";
 
 /// Value of a header, empty: absent or longer than 512 bytes.
 std::string header_of(lws* wsi, lws_token_indexes token) {
@@ -26,7 +26,8 @@ std::string header_of(lws* wsi, lws_token_indexes token) {
 
 class Header {
  public:
-  Header(lws* wsi, unsigned status) : wsi_(wsi) {
+  /// `more`: bytes that it takes beyond the usual.
+  Header(lws* wsi, unsigned status, std::size_t more) : wsi_(wsi), buffer_(LWS_PRE + 3072 + more) {
     good_ = lws_add_http_header_status(wsi, status, &at_, end()) == 0;
   }
   void add(const char* name, std::string_view value) {
@@ -47,7 +48,7 @@ class Header {
   unsigned char* end() { return buffer_.data() + buffer_.size() - 1; }
 
   lws* wsi_;
-  std::array<unsigned char, LWS_PRE + 3072> buffer_{};
+  std::vector<unsigned char> buffer_;
   unsigned char* at_ = buffer_.data() + LWS_PRE;
   bool good_ = false;
 };
@@ -85,7 +86,7 @@ Resource resource_of(const std::string& path) {
   if (path == "/live.css") return Resource::style;
   if (path == "/live.js") return Resource::script;
   if (path == "/head.js") return Resource::head_script;
-  if (path == "/head.bin") return Resource::head;
+  if (path == "/head.bin" || path.starts_with("/heads/")) return Resource::head;
   if (path == "/info.json") return Resource::info;
   if (path == "/talk.mp4") return Resource::talk;
   if (path == "/face") return Resource::face;
@@ -146,14 +147,23 @@ Request request_of(lws* wsi) {
   request.authorization = header_of(wsi, WSI_TOKEN_HTTP_AUTHORIZATION);
   request.has_origin = lws_hdr_total_length(wsi, WSI_TOKEN_ORIGIN) > 0;
   request.origin = header_of(wsi, WSI_TOKEN_ORIGIN);
+  request.query = header_of(wsi, WSI_TOKEN_HTTP_URI_ARGS);
   request.host = header_of(wsi, WSI_TOKEN_HOST);
   request.accept_encoding = header_of(wsi, WSI_TOKEN_HTTP_ACCEPT_ENCODING);
   request.if_none_match = header_of(wsi, WSI_TOKEN_HTTP_IF_NONE_MATCH);
   return request;
 }
 
+std::string extensions_of(lws* wsi) { return header_of(wsi, WSI_TOKEN_EXTENSIONS); }
+
+bool Request::asks(std::string_view name) const {
+  const std::string each = "&" + query + "&", own = "&" + std::string(name);
+  return each.find(own + "&") != each.npos ||
+         (each.find(own + "=") != each.npos && each.find(own + "=0&") == each.npos);
+}
+
 bool send_header(lws* wsi, const Answer& answer) {
-  Header header(wsi, answer.status);
+  Header header(wsi, answer.status, answer.frames.size());
   if (!answer.type.empty()) header.add("content-type:", answer.type);
   if (answer.status == HTTP_STATUS_NOT_MODIFIED) {
   } else if (answer.size != LWS_ILLEGAL_HTTP_CONTENT_LEN) {
@@ -173,7 +183,7 @@ bool send_header(lws* wsi, const Answer& answer) {
   if (answer.status == HTTP_STATUS_METHOD_NOT_ALLOWED) header.add("allow:", "GET, HEAD");
   header.add("x-content-type-options:", "nosniff");
   header.add("referrer-policy:", "no-referrer");
-  header.add("content-security-policy:", kPolicy);
+  header.add("content-security-policy:", kPolicy + std::string(answer.frames));
   header.add("cross-origin-resource-policy:", answer.embedded ? "cross-origin" : "same-origin");
   if (!answer.origin.empty()) header.add("access-control-allow-origin:", answer.origin);
   return header.send();

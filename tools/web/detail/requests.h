@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/web/detail/documents.h"
@@ -42,9 +43,15 @@ struct Request {
   bool has_length = false;  ///< it says how many bytes are to follow
   std::int64_t body = 0;    ///< these; -1: nobody knows how many
   std::string authorization;
-  std::string path, host, origin, accept_encoding, if_none_match;
+  std::string path, query, host, origin, accept_encoding, if_none_match;
+
+  /// Is `name` in the query, as itself or with a value but 0?
+  bool asks(std::string_view name) const;
 };
 Request request_of(lws* wsi);
+
+/// Sec-WebSocket-Extensions.
+std::string extensions_of(lws* wsi);
 
 /// The header of an answer; what is empty is left out.
 struct Answer {
@@ -55,6 +62,8 @@ struct Answer {
   bool packed = false;     ///< by gzip
   std::string origin;      ///< pages there may read it; "*": all
   bool embedded = false;   ///< pages elsewhere may show it without reading it
+  std::string_view frames =
+      "'self'";  ///< origins of pages that may have it in a frame, a blank between them
 };
 
 /// False: it could not be sent.

@@ -15,22 +15,35 @@ constexpr int kSpareHandles = 64;  // our own, and connections that are being cl
 
 constexpr std::string_view kMark = "<!-- head -->\n";
 
-std::map<Resource, DocumentPtr> documents_of(const WebOptions& options) {
-  std::map<Resource, DocumentPtr> documents;
+DocumentPtr document_of(const std::vector<std::uint8_t>& bytes) {
+  return make_document({bytes.begin(), bytes.end()});
+}
+
+std::map<std::string, DocumentPtr> documents_of(const WebOptions& options) {
+  std::map<std::string, DocumentPtr> documents;
   std::string page(page_text()), head;
   if (!options.head_script.empty()) {
     head = "<script type=\"module\" src=\"head.js\"></script>\n";
-    documents[Resource::head_script] =
-        make_document(options.head_script + std::string(head_glue()));
-    documents[Resource::head] =
-        make_document({options.head_model.begin(), options.head_model.end()});
+    documents["/head.js"] = make_document(options.head_script + std::string(head_glue()));
+    documents["/head.bin"] = document_of(options.head_model);
+    for (std::size_t i = 0; i < options.other_heads.size(); ++i) {
+      documents["/heads/" + std::to_string(i + 1) + ".bin"] =
+          document_of(options.other_heads[i].model);
+    }
   }
   const std::size_t at = page.find(kMark);
   if (at != std::string::npos) page.replace(at, kMark.size(), head);
-  documents[Resource::page] = make_document(std::move(page));
-  documents[Resource::style] = make_document(std::string(page_style()));
-  documents[Resource::script] = make_document(std::string(page_script()));
+  documents["/"] = documents["/index.html"] = make_document(std::move(page));
+  documents["/live.css"] = make_document(std::string(page_style()));
+  documents["/live.js"] = make_document(std::string(page_script()));
   return documents;
+}
+
+/// For frame-ancestors of the content security policy: who may use the server may show its page.
+std::string frames_of(const WebOptions& options) {
+  std::string frames = "'self'";
+  for (const std::string& origin : options.allow_origins) frames += " " + origin;
+  return frames;
 }
 
 /// Files that may be open: two connections a viewer, those that pass, and others.
@@ -51,6 +64,7 @@ Server::Server(const WebAddress& address, const HouseOptions& options, HouseHand
       most_body_(options.most_body),
       handler_(std::move(handler)),
       names_(address, options_.host_names),
+      frames_(frames_of(options_)),
       documents_(documents_of(options_)),
       visitors_({options_.max_clients, options_.per_address, options_.stall_seconds}) {
   timer_.server = this;
@@ -68,6 +82,9 @@ Result<std::unique_ptr<Server>> Server::listen(const WebAddress& address,
                                                const HouseOptions& options, HouseHandler handler) {
   static const lws_protocols protocols[] = {{"animeme", &Server::callback, 0, 1024, 0, nullptr, 0},
                                             {nullptr, nullptr, 0, 0, 0, nullptr, 0}};
+  static const lws_extension extensions[] = {
+      {"permessage-deflate", lws_extension_callback_pm_deflate, "permessage-deflate"},
+      {nullptr, nullptr, nullptr}};
   if (Result<void> possible = check_listening(address); !possible) return possible.error();
   Result<unsigned> handles = handles_for(options.web.max_clients);
   if (!handles) return handles.error();
@@ -76,6 +93,7 @@ Result<std::unique_ptr<Server>> Server::listen(const WebAddress& address,
   info.port = address.port;
   info.iface = address.host == "0.0.0.0" || address.host == "::" ? nullptr : address.host.c_str();
   info.protocols = protocols;
+  info.extensions = extensions;
   info.user = server.get();
   info.timeout_secs = 10;
   info.keepalive_timeout = 10;

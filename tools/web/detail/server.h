@@ -42,6 +42,7 @@ struct Session {
   std::shared_ptr<Stage> stage;  // whose resource it is
   std::shared_ptr<Exchange> exchange;
   std::optional<HouseReply> reply;  // of it
+  bool small = false;               // /faps?binary
   bool open = false;                // a WebSocket or /talk.mp4 with a place in the hub
   ClientId client = 0;
   DocumentPtr document;  // that is being sent
@@ -85,12 +86,14 @@ class Server {
   int handle(lws* wsi, lws_callback_reasons reason, const char* in, std::size_t size);
   struct Place {
     std::shared_ptr<Stage> stage;
+    std::string path;  // below it
     Resource resource = Resource::none;
   };
   Place place_of(const std::string& path) const;
   bool exists(const Place& place) const;
   unsigned objection(lws* wsi, const Request& request);
   std::string shared_with(const Request& request) const;
+  bool may_deflate(lws* wsi) const;
   bool admit(lws* wsi, Session& session);
   int refuse(lws* wsi, const Request& request, unsigned status);
   int request(lws* wsi);
@@ -116,7 +119,8 @@ class Server {
   const std::size_t most_body_;
   const HouseHandler handler_;
   const OwnNames names_;
-  std::map<Resource, DocumentPtr> documents_;  // but for info.json
+  const std::string frames_;                      // where the page may be in a frame
+  std::map<std::string, DocumentPtr> documents_;  // by path, but for info.json
   Service service_;
   int port_ = 0;
   const std::shared_ptr<Answers> answers_ = std::make_shared<Answers>();

@@ -1,6 +1,7 @@
 #include "tools/web/detail/stage.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace animeme::web {
@@ -47,9 +48,9 @@ media::SendStats Stage::stats() const {
   stats.packets = hub_.messages();
   stats.bytes = hub_.bytes();
   stats.dropped = hub_.dropped();
-  stats.receivers =
-      std::max(clients_[std::size_t(Channel::face)] + clients_[std::size_t(Channel::faps)],
-               clients_[std::size_t(Channel::audio)]);
+  const int sound = clients_[std::size_t(Channel::audio)];
+  const int all = std::accumulate(clients_.begin(), clients_.end(), 0);
+  stats.receivers = std::max(all - sound, sound);
   return stats;
 }
 

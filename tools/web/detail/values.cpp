@@ -34,8 +34,8 @@ double microseconds(double seconds) { return std::round(seconds * 1e6) / 1e6; }
 
 }  // namespace
 
-std::string values_hello() {
-  Json hello{{"version", 1}};
+std::string values_hello(std::uint32_t timescale) {
+  Json hello{{"version", 1}, {"timescale", timescale}};
   Json& faps = hello["faps"];
   for (const fap::FapInfo& info : fap::kFaps) {
     faps[std::to_string(info.number)] = {{"name", info.name}, {"unit", fap::unit_name(info.unit)}};

@@ -11,8 +11,8 @@
 
 namespace animeme::web {
 
-/// First message: version and what each FAP is.
-std::string values_hello();
+/// First message: version, ticks of a second in the small form, and what each FAP is.
+std::string values_hello(std::uint32_t timescale);
 
 /// Decodes unit by unit.
 class Values {

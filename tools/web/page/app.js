@@ -1,48 +1,96 @@
 // The page itself. Other scripts may take part by window.animeme:
 //   onFrame(values, time)  is called for each plane when it is due; values by FAP number
+//   onMessage(message)     what the server tells in words
 //   stage                  the element of the face; setView(element) replaces what it shows
 //   session                frames, clock(), latency(), buffered(), gaps
+//   asked, flag(name)      parameters of the address; README.md of tools/web has them
 (() => {
   const element = (id) => document.getElementById(id);
-  const audio = element('audio'), start = element('start'), badge = element('state');
-  let names = {}, shown, values = {}, measured = 0, counted = [];
+  const audio = element('audio'), start = element('start'), sound = element('sound');
+  const badge = element('state');
+  let names = {}, shown, values = {}, measured = 0, counted = [], wanted = true, again;
   const curves = {numbers: []};
 
+  const asked = new URLSearchParams(location.search);
+  const flag = (name) => asked.has(name) && asked.get(name) !== '0';
+  const bare = flag('transparent') || asked.get('controls') === '0';
+  const root = document.documentElement;
+  root.className = bare ? 'bare' : 'whole';
+  root.classList.toggle('transparent', flag('transparent'));
+  root.classList.toggle('controlled', flag('controls'));
+  // A frame whose scheme differs from that of the page around it would be filled with a colour.
+  if (flag('transparent')) document.querySelector('meta[name=color-scheme]').remove();
+  audio.muted = flag('muted');
+  // Nothing until it is there, which runs behind this script.
+  element('face').hidden = Boolean(document.querySelector('script[src="head.js"]'));
+
   const animeme = window.animeme = {
-    onFrame: undefined,
+    onFrame: undefined, onMessage: undefined,
     stage: element('stage'),
     setView(view) { animeme.stage.replaceChildren(view); },
-    state: 'idle', shown: 0, time: 0, offset: 0,
+    asked, flag,
+    state: 'idle', shown: 0, time: 0, offset: 0, blocked: false,
   };
 
+  // The button is there in the whole page, and wherever the browser wants a click before sound.
+  function showSound() {
+    const silent = audio.muted || session.soundless;
+    sound.setAttribute('aria-pressed', String(!silent));
+    sound.textContent = silent ? 'Sound on' : 'Sound off';
+    root.classList.toggle('blocked', animeme.blocked);
+  }
+
+  function show(name, text) {
+    animeme.state = name;
+    badge.dataset.state = name;
+    if (badge.textContent !== text) badge.textContent = text;
+    start.textContent = name === 'idle' || name === 'ended' ? 'Start' : 'Stop';
+    const mute = Boolean(session.info) && !session.info.audio;  // as a whole
+    sound.hidden = element('volume').parentElement.hidden = mute;
+    // Nobody is there to press Start.
+    clearTimeout(again);
+    if (name === 'ended' && bare) again = setTimeout(begin, 4000);
+  }
+
+  function begin() {
+    element('message').hidden = true;
+    session.stop();
+    shown = undefined;
+    session.start();
+  }
+
   const session = animeme.session = new Live.Session(audio, {
-    state(name, text) {
-      animeme.state = name;
-      badge.dataset.state = name;
-      if (badge.textContent !== text) badge.textContent = text;
-      start.textContent = name === 'idle' || name === 'ended' ? 'Start' : 'Stop';
-    },
+    state: show,
     hello(faps) { names = faps; },
     frame(frame) { counted.push(frame); },
+    told(message) { animeme.onMessage?.(message); },
+    blocked() {
+      animeme.blocked = true;
+      showSound();
+    },
     error(text) {
       element('message').textContent = text;
       element('message').hidden = false;
+      console.info(text);
     },
   });
 
   start.addEventListener('click', () => {
-    element('message').hidden = true;
-    const idle = animeme.state === 'idle' || animeme.state === 'ended';
-    session.stop();
-    shown = undefined;
-    if (idle) {
-      session.start();
+    wanted = animeme.state === 'idle' || animeme.state === 'ended';
+    if (wanted) {
+      begin();
     } else {
-      badge.dataset.state = animeme.state = 'idle';
-      badge.textContent = 'not started';
-      start.textContent = 'Start';
+      session.stop();
+      show('idle', 'stopped');
     }
   });
+  sound.addEventListener('click', () => {
+    audio.muted = !(audio.muted || session.soundless);
+    animeme.blocked = false;
+    if (session.soundless && wanted) begin();
+    showSound();
+  });
+  audio.addEventListener('volumechange', showSound);
   element('volume').addEventListener('input', (event) => { audio.volume = event.target.value; });
 
   const write = (id, value, digits) => {
@@ -52,6 +100,7 @@
   function measure(now) {
     const wall = performance.now() / 1000;
     counted = counted.filter((frame) => frame.arrived > wall - 2);
+    if (bare) return;
     const running = session.running && session.info;
     write('latency', running ? session.latency() : NaN, 2);
     write('buffered', running && session.info.audio ? session.buffered() : NaN, 2);
@@ -95,4 +144,6 @@
     requestAnimationFrame(tick);
   }
   requestAnimationFrame(tick);
+  showSound();
+  begin();
 })();
