@@ -67,6 +67,7 @@ inline constexpr Room kRooms[] = {
     {"tools/sheet", "tools/plot tools/viewer"},
     {"tools/inspect", "codec/text dam/evaluation dam/training fap/head tools/xml.h"},
     {"tools/live", "tools/engines tools/speech tools/viewer tools/web"},
+    {"tools/serve", "tools/live tools/json.h tools/text.h", false},
     {"tools/studio", "fap/xml tools/gltf tools/plot tools/render"},
     {"tools/crossmap", "tools/exchange tools/studio"},
     {"tools/check", "conformance tools/programs tools/xml.h", false},
@@ -74,8 +75,8 @@ inline constexpr Room kRooms[] = {
     {"tools/batch", "conformance tools/programs tools/json.h tools/text.h tools/xml.h", false},
     {"tools/python", "tools/exchange tools/inspect tools/speech tools/studio", false},
     {"tools/commands",
-     "tools/batch tools/capture tools/crossmap tools/exchange tools/inspect tools/live tools/sheet "
-     "tools/studio tools/check tools/mpi",
+     "tools/batch tools/capture tools/crossmap tools/exchange tools/inspect tools/live tools/serve "
+     "tools/sheet tools/studio tools/check tools/mpi",
      false},
     {"tools/trackers/dlib", "", false},  // a program for dlib's users, no part of ours
     {"tools", "tools/commands", false},

@@ -42,7 +42,7 @@ struct Command {
 /// The commands of the program, one file each.
 extern const Command kAlign, kBatch, kCheck, kCompare, kCorpus, kCrossmap, kDecode, kDemux, kEncode,
     kEvaluate, kExport, kFollow, kHead, kImport, kInfo, kManual, kMux, kPhones, kPlot, kReceive,
-    kRender, kRetarget, kSpeak, kStats, kStream, kTrain, kView;
+    kRender, kRetarget, kServe, kSpeak, kStats, kStream, kTrain, kView;
 /// @}
 
 /// Prints a usage error on standard error; returns kUsage for the command to return.

@@ -11,13 +11,13 @@ namespace animeme::tools {
 
 namespace {
 
-std::atomic<bool> noted = false;
+std::atomic<int> noted = 0;  // the signal
 int living = 0;
 struct sigaction old_interrupt, old_terminate, old_pipe;
 
 // The second one does what it always does.
 void note(int signal_number) {
-  if (!noted.exchange(true)) return;
+  if (noted.exchange(signal_number) == 0) return;
   remove_unfinished();
   ::signal(signal_number, SIG_DFL);
   ::raise(signal_number);
@@ -27,7 +27,7 @@ void note(int signal_number) {
 
 Interrupt::Interrupt() {
   if (living++ > 0) return;
-  noted = false;
+  noted = 0;
   struct sigaction action = {};
   action.sa_handler = note;
   sigemptyset(&action.sa_mask);
@@ -44,6 +44,8 @@ Interrupt::~Interrupt() {
   sigaction(SIGPIPE, &old_pipe, nullptr);
 }
 
-bool Interrupt::requested() { return noted; }
+bool Interrupt::requested() { return noted != 0; }
+
+bool Interrupt::terminated() { return noted == SIGTERM; }
 
 }  // namespace animeme::tools

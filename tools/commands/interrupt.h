@@ -21,6 +21,8 @@ class Interrupt {
 
   /// Has a signal come since the first of them was made? Safe in any thread.
   static bool requested();
+  /// Was it SIGTERM, by which service managers end programs? Likewise.
+  static bool terminated();
 };
 
 }  // namespace animeme::tools

@@ -24,9 +24,10 @@ int report_error(const Error& error) {
 }
 
 constexpr const Command* kCommands[] = {
-    &kSpeak, &kBatch,  &kFollow,   &kAlign,    &kCorpus, &kTrain,  &kEvaluate, &kEncode, &kDecode,
-    &kMux,   &kDemux,  &kInfo,     &kCompare,  &kCheck,  &kStats,  &kPlot,     &kView,   &kRender,
-    &kHead,  &kImport, &kCrossmap, &kRetarget, &kExport, &kStream, &kReceive,  &kPhones, &kManual};
+    &kSpeak,    &kBatch,  &kFollow, &kAlign,  &kCorpus,  &kTrain,   &kEvaluate,
+    &kEncode,   &kDecode, &kMux,    &kDemux,  &kInfo,    &kCompare, &kCheck,
+    &kStats,    &kPlot,   &kView,   &kRender, &kHead,    &kImport,  &kCrossmap,
+    &kRetarget, &kExport, &kStream, &kServe,  &kReceive, &kPhones,  &kManual};
 
 // Common options, and where they go.
 struct CommonFlags {

@@ -150,8 +150,8 @@ void add_options(CLI::App& app, StreamOptions& options) {
                    {"--tier",         "--script-format", "--max-seconds", "--speed",
                     "--pitch",        "--seed",          "--mtu",         "--repeat",
                     "--repeat-after", "--bundle",        "--max-clients", "--max-per-address",
-                    "--allow-origin", "--host-name",     "--points",      "--gain",
-                    "--delay",        "--intra-seconds", "--copy",        "--quant",
+                    "--allow-origin", "--host-name",     "--delay",       "--intra-seconds",
+                    "--points",       "--gain",          "--copy",        "--quant",
                     "--audio-codec",  "--audio-bitrate"});
 }
 

@@ -1,6 +1,8 @@
 #include "tools/crossmap/project.h"
 
 #include <toml++/toml.h>
+
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <initializer_list>

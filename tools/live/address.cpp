@@ -24,7 +24,8 @@ bool is_web(const std::string& url) {
 
 bool is_media(const std::string& url) { return begins(url, {"rtp://", "udp://", "srt://"}); }
 
-/// The page shows a head of ours unless it has one.
+}  // namespace
+
 web::WebOptions with_head(web::WebOptions options) {
   if (!options.head_script.empty()) return options;
   const Result<head::Head> head = head::make_head();
@@ -33,8 +34,6 @@ web::WebOptions with_head(web::WebOptions options) {
   options.head_model = viewer::pack_head(*head, head::make_rig(*head));
   return options;
 }
-
-}  // namespace
 
 bool is_rtp(const std::string& url) { return begins(url, {"rtp://"}); }
 

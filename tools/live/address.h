@@ -38,6 +38,9 @@ Result<std::unique_ptr<media::LiveSink>> open_sink(const std::string& url,
 Result<std::unique_ptr<media::LiveSource>> open_source(const std::string& where,
                                                        const SourceOptions& options);
 
+/// With a head of ours for the page of a web server, unless there is one.
+web::WebOptions with_head(web::WebOptions options);
+
 /// True for an address whose receivers need a session description.
 bool is_rtp(const std::string& url);
 

@@ -14,6 +14,9 @@ namespace {
 // The resampler gets blocks of this size, so that nothing depends on how the sound was cut.
 constexpr std::size_t kEncoderBlock = 256;
 
+constexpr int kMostEffort = 10;
+constexpr int kAnalysing = 7;  // libopus looks at the sound from this complexity on
+
 // The encoders refuse NaN and infinity for the whole track, and a resampler would spread them.
 float legal_sample(float sample) {
   if (sample >= -1.0f && sample <= 1.0f) return sample;
@@ -32,6 +35,9 @@ Result<void> check(int sample_rate, const AudioSettings& settings) {
                                                   std::to_string(rates.lowest) + " to " +
                                                   std::to_string(rates.highest) + " bits a second");
   }
+  if (settings.effort < 0 || settings.effort > kMostEffort) {
+    return make_error(Code::invalid_argument, "the effort of an encoder of sound is 0 to 10");
+  }
   return {};
 }
 
@@ -41,7 +47,9 @@ const AVCodec* find_encoder(AudioCodec codec) {
                                    : avcodec_find_encoder(AV_CODEC_ID_AAC);
 }
 
-Result<av::Codec> open_encoder(AudioCodec codec, int sample_rate, std::int64_t bit_rate) {
+Result<av::Codec> open_encoder(const AudioSettings& settings, int sample_rate,
+                               std::int64_t bit_rate) {
+  const AudioCodec codec = settings.codec;
   const AVCodec* encoder = find_encoder(codec);
   if (encoder == nullptr) {
     return make_error(Code::unsupported,
@@ -56,6 +64,11 @@ Result<av::Codec> open_encoder(AudioCodec codec, int sample_rate, std::int64_t b
   av_channel_layout_default(&context->ch_layout, 1);
   context->bit_rate = bit_rate;
   context->thread_count = 1;
+  if (codec == AudioCodec::opus) {
+    context->compression_level = settings.effort;
+    // What it would spend without having looked is far from what it was told.
+    if (settings.effort < kAnalysing) av_opt_set(context->priv_data, "vbr", "constrained", 0);
+  }
   context->flags |= AV_CODEC_FLAG_GLOBAL_HEADER | AV_CODEC_FLAG_BITEXACT;
   const int status = avcodec_open2(context.get(), encoder, nullptr);
   if (status < 0) {
@@ -95,8 +108,7 @@ struct AudioEncoder::Impl {
 Result<void> AudioEncoder::Impl::open(int sample_rate, const AudioSettings& settings) {
   if (!frame || !packet) return av::no_memory();
   const int rate = coded_sample_rate(settings.codec, sample_rate);
-  Result<av::Codec> opened =
-      open_encoder(settings.codec, rate, coded_bit_rate(settings, sample_rate));
+  Result<av::Codec> opened = open_encoder(settings, rate, coded_bit_rate(settings, sample_rate));
   if (!opened) return opened.error();
   codec = std::move(*opened);
   format = {settings.codec, rate, 1, codec->frame_size, codec->initial_padding, {}};

@@ -61,6 +61,11 @@ struct AudioSettings {
   /// Bits a second, 8000..320000 (Opus: 6000..256000). AAC allows at most 6 bits a sample, so
   /// 64000 becomes 48000 at 8 kHz. 0: 64000 for AAC, 40000 for Opus.
   int bit_rate = 0;
+  /// Opus: how hard its encoder works (libopus' complexity), 0..10. Below 7 it does not look what
+  /// kind of sound it has: a quarter of the time, and the bit rate is held by the packet, since
+  /// it would be missed by half without that look. A voice of 22 kHz at 40000 bits a second has a
+  /// signal to noise ratio of 17.7 dB with 10, 16.7 dB with 5.
+  int effort = 10;
 };
 
 /// Sound in, packets out, for sound that is still being made. Movable, not copyable. Same sound in

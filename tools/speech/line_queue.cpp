@@ -131,6 +131,16 @@ bool LineQueue::full() {
   return bytes_ >= kQueueBytes || entries_.size() >= kQueueLines;
 }
 
+std::size_t LineQueue::waiting() {
+  const std::lock_guard lock(mutex_);
+  return entries_.size();
+}
+
+std::size_t LineQueue::bytes() {
+  const std::lock_guard lock(mutex_);
+  return bytes_;
+}
+
 std::optional<LineQueue::Job> LineQueue::look_for_job() {
   std::size_t ahead = 0;
   for (const Entry& entry : entries_) {

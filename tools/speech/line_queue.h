@@ -33,6 +33,8 @@ class LineQueue : public LineSource {
   void close();
   /// As much waits as may: 64 MB or 100000 lines. More can be pushed all the same.
   bool full();
+  std::size_t waiting();  ///< lines and marks that take() has not given
+  std::size_t bytes();    ///< of these, before the voice made speech of them
 
   /// A line for the voice.
   struct Job {

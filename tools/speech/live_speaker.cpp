@@ -74,9 +74,7 @@ const media::LiveInfo& LiveSpeaker::info() const { return impl_->info; }
 double LiveSpeaker::audio_ahead() const { return impl_->options.audio_ahead; }
 
 std::optional<double> LiveSpeaker::next_due() {
-  const bool silent = !impl_->waiting && !impl_->face.speaking();
-  const bool settled = impl_->frame_due() >= std::max(impl_->settled, impl_->end_of_speech());
-  if (silent && settled && impl_->lines->ended()) return std::nullopt;
+  if (silent() && impl_->lines->ended()) return std::nullopt;
   const double due = std::min(impl_->frame_due(), impl_->sound_due());
   if (due >= impl_->options.duration) return std::nullopt;
   return due;
@@ -101,6 +99,11 @@ void LiveSpeaker::sent(const LiveUnit& unit, double instant) {
     impl_->events.tell(media::seconds_of(impl_->info, unit.track, unit.time));
     if (!impl_->options.events) impl_->events.take();
   }
+}
+
+bool LiveSpeaker::silent() const {
+  const bool settled = impl_->frame_due() >= std::max(impl_->settled, impl_->end_of_speech());
+  return !impl_->waiting && !impl_->face.speaking() && settled;
 }
 
 std::vector<LineEvent> LiveSpeaker::take_events() { return impl_->events.take(); }

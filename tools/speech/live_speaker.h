@@ -82,6 +82,8 @@ class LiveSpeaker : public media::LiveInput {
 
   /// Every line that was begun, the last 1000 of them.
   const std::deque<LineTrace>& traces() const;
+  /// Nothing is being said and no line waits: what comes next is idling until a line comes.
+  bool silent() const;
   /// One sentence for every line that could not be shown, since the last call.
   std::vector<std::string> take_warnings();
 

@@ -136,12 +136,17 @@ bool receive_request(int socket, std::string& request, int& descriptor) {
 
 double seconds_of(const timeval& time) { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); }
 
-[[noreturn]] void stay(int socket, const std::function<void()>& prepare,
-                       const KeptChild::Work& work, unsigned seconds) {
+// In a new child, which keeps nothing of its parent but a socket.
+void isolate(int socket) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // it would keep open what tells that its parent has gone
   ::close_range(STDERR_FILENO + 1, unsigned(socket) - 1, 0);
   ::close_range(unsigned(socket) + 1, ~0U, 0);
   be_silent();
+}
+
+[[noreturn]] void stay(int socket, const std::function<void()>& prepare,
+                       const KeptChild::Work& work, unsigned seconds) {
+  isolate(socket);
   prepare();
   std::string request;
   int descriptor = -1;
@@ -223,7 +228,53 @@ Result<std::unique_ptr<KeptChild>> KeptChild::start(const std::function<void()>&
 
 KeptChild::~KeptChild() {
   ::close(socket_);
+  if (pid_ > 0) wait_for(pid_);
+}
+
+Result<std::unique_ptr<Nursery>> Nursery::start(
+    const std::function<void(std::string_view name)>& prepare, const KeptChild::Work& work,
+    unsigned seconds) {
+  std::array<int, 2> ends{};
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    return not_started("a process for voices", errno);
+  }
+  const pid_t nursery = ::fork();
+  if (nursery == 0) {
+    isolate(ends[1]);
+    ::signal(SIGCHLD, SIG_IGN);  // nobody asks how a child ended
+    std::string name;
+    for (int socket = -1; receive_request(ends[1], name, socket); ::close(socket)) {
+      if (::fork() != 0) continue;
+      ::signal(SIGCHLD, SIG_DFL);
+      stay(
+          socket, [&] { prepare(name); }, work, seconds);
+    }
+    ::_exit(0);
+  }
+  ::close(ends[1]);
+  if (nursery < 0) {
+    const int fork_error = errno;
+    ::close(ends[0]);
+    return not_started("a process for voices", fork_error);
+  }
+  return std::unique_ptr<Nursery>(new Nursery(nursery, ends[0]));
+}
+
+Nursery::~Nursery() {
+  ::close(socket_);
   wait_for(pid_);
+}
+
+Result<std::unique_ptr<KeptChild>> Nursery::child(std::string_view name) {
+  std::array<int, 2> ends{};
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    return not_started("a child", errno);
+  }
+  const bool sent = send_request(socket_, name, ends[1]);
+  ::close(ends[1]);
+  std::unique_ptr<KeptChild> child(new KeptChild(-1, ends[0]));
+  if (!sent) return refused("a process for voices", "ended early");
+  return child;
 }
 
 Result<void> KeptChild::run(std::string_view what, std::string_view request,

@@ -52,7 +52,30 @@ class KeptChild {
                    const std::function<bool(std::uint32_t, std::string)>& receive);
 
  private:
+  friend class Nursery;
   KeptChild(int pid, int socket) : pid_(pid), socket_(socket) {}
+  int pid_;  // -1: a child of a nursery
+  int socket_;
+};
+
+/// A process that starts such children, each a copy of what this program was when the nursery
+/// began: small, however large the program is by then. It and they end with the thread that
+/// started it. Not thread safe.
+class Nursery {
+ public:
+  /// `prepare` runs in each child once, with the name that it was started by; the rest is as for
+  /// KeptChild::start(). Errors: io.
+  static Result<std::unique_ptr<Nursery>> start(
+      const std::function<void(std::string_view name)>& prepare, const KeptChild::Work& work,
+      unsigned seconds);
+  Nursery(const Nursery&) = delete;
+  ~Nursery();  ///< its children end, too
+
+  /// One more child. Errors: io.
+  Result<std::unique_ptr<KeptChild>> child(std::string_view name);
+
+ private:
+  Nursery(int pid, int socket) : pid_(pid), socket_(socket) {}
   int pid_, socket_;
 };
 

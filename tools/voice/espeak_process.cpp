@@ -7,6 +7,7 @@
 #include <iterator>
 #include <list>
 #include <memory>
+#include <utility>
 
 #include "tools/voice/child.h"
 
@@ -76,9 +77,11 @@ constexpr std::string_view kNoData =
 
 // What all jobs with a voice have in common; g_rate is 0 where there are no data.
 std::int32_t g_rate = 0;
+std::string g_voice_name;
 bool g_voice = false;
 
 void prepare(const std::string& data_path, const std::string& voice) {
+  g_voice_name = voice;
   g_rate = std::max(initialise(data_path), 0);
   if (g_rate > 0) g_voice = espeak_SetVoiceByName(voice.c_str()) == EE_OK;
 }
@@ -88,7 +91,7 @@ bool speak_all(Sender& sender, const EspeakJob& job) {
   if (!sender.send(kSampleRate, bytes_of(&g_rate, 1))) return false;
   g_sender = &sender;
   espeak_SetSynthCallback(on_speech);
-  if (!g_voice) return sender.send(kFailure, "espeak-ng cannot load its voice " + job.voice);
+  if (!g_voice) return sender.send(kFailure, "espeak-ng cannot load its voice " + g_voice_name);
   espeak_SetParameter(espeakRATE, job.options.words_per_minute, 0);
   espeak_SetParameter(espeakPITCH, job.options.pitch, 0);
   espeak_SetParameter(espeakRANGE, job.options.pitch_range, 0);
@@ -175,11 +178,10 @@ std::string request_of(const EspeakJob& job) {
   return request;
 }
 
-EspeakJob job_of(std::string_view request, const std::string& voice) {
+EspeakJob job_of(std::string_view request) {
   std::int32_t numbers[6];
   std::memcpy(numbers, request.data(), sizeof numbers);
   EspeakJob job;
-  job.voice = voice;
   job.options.words_per_minute = numbers[0];
   job.options.pitch = numbers[1];
   job.options.pitch_range = numbers[2];
@@ -195,14 +197,28 @@ EspeakJob job_of(std::string_view request, const std::string& voice) {
 }
 
 constexpr unsigned kMostSecondsOfWork = 300;
-constexpr std::size_t kMostKept = 8;
+// One takes some 3 MB, starting one as long as a few lines.
+constexpr std::size_t kMostKept = 32;
 
 struct KeptVoice {
   std::string name, data_path;
   std::unique_ptr<KeptChild> child;
 };
 bool g_keep = false;
-std::list<KeptVoice> g_kept;  // the last that was asked for first
+std::unique_ptr<Nursery> g_nursery;  // null: there is none, children are copies of what we are now
+std::list<KeptVoice> g_kept;         // the last that was asked for first
+
+// A voice and its data in the name of a child, and in front of its requests.
+std::string name_of(const EspeakJob& job) { return job.voice + '\0' + job.options.data_path; }
+
+void prepare_named(std::string_view name) {
+  const std::size_t end = name.find('\0');
+  prepare(std::string(name.substr(end + 1)), std::string(name.substr(0, end)));
+}
+
+bool answer_request(Sender& sender, std::string_view request) {
+  return speak_all(sender, job_of(request));
+}
 
 // Nothing: it cannot be started.
 KeptChild* kept_child(const EspeakJob& job) {
@@ -211,11 +227,9 @@ KeptChild* kept_child(const EspeakJob& job) {
     g_kept.splice(g_kept.begin(), g_kept, at);
     return g_kept.front().child.get();
   }
-  auto child = KeptChild::start([&job] { prepare(job.options.data_path, job.voice); },
-                                [voice = job.voice](Sender& sender, std::string_view request) {
-                                  return speak_all(sender, job_of(request, voice));
-                                },
-                                kMostSecondsOfWork);
+  auto child = g_nursery ? g_nursery->child(name_of(job))
+                         : KeptChild::start([&job] { prepare_named(name_of(job)); }, answer_request,
+                                            kMostSecondsOfWork);
   if (!child) return nullptr;
   g_kept.push_front({job.voice, job.options.data_path, std::move(*child)});
   if (g_kept.size() > kMostKept) g_kept.pop_back();
@@ -229,7 +243,11 @@ void forget_kept(const KeptChild* child) {
 
 }  // namespace
 
-void keep_voices() { g_keep = true; }
+void keep_voices() {
+  if (std::exchange(g_keep, true)) return;
+  auto nursery = Nursery::start(prepare_named, answer_request, kMostSecondsOfWork);
+  if (nursery) g_nursery = std::move(*nursery);
+}
 
 Result<EspeakResult> run_espeak(const EspeakJob& job) {
   EspeakResult result;

@@ -101,9 +101,10 @@ struct VoiceInfo {
 /// Errors: unsupported, io, not_found; see speak_text().
 Result<std::vector<VoiceInfo>> list_voices(const std::string& data_path = {});
 
-/// From now on a process stays for each of the last eight voices that have spoken, loaded, and each
-/// text is spoken by a copy of it: the same sound, sooner. For programs with one thread that speak
-/// a lot.
+/// From now on a process stays for each of the last 32 voices that have spoken, loaded, and each
+/// text is spoken by a copy of it: the same sound, sooner. They begin as copies of what the program
+/// is now, so that a large one does well to call it early, in a thread that stays. For programs
+/// with one thread that speaks a lot.
 void keep_voices();
 
 /// Letters to phones: the ARPAbet labels of each text, spoken by itself, without SIL. An empty

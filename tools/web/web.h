@@ -41,8 +41,8 @@ struct WebOptions {
   /// Viewers at the same time, 1..1000; whoever comes then gets 503. A viewer has a WebSocket for
   /// the face, one for the sound (or /talk.mp4), or both.
   int max_clients = 64;
-  /// Connections of one address (of IPv6: of one network) at the same time; 0: any number, as a
-  /// proxy in front of the server wants it.
+  /// Connections of one address (of IPv6: of one network) at the same time; 0: any number, also of
+  /// requests, as a proxy in front of the server wants it.
   int per_address = 32;
   /// Bytes that may wait for one client. When it has more, they are thrown away
   /// (SendStats::dropped), and it goes on with the next intra plane or segment.
@@ -95,7 +95,8 @@ class WebSink : public media::LiveSink {
 Result<std::unique_ptr<WebSink>> make_web_sink(const std::string& url,
                                                const WebOptions& options = {});
 
-/// Receives from the server at ws://HOST:PORT/ (or http://). Connects now, for 5 seconds at most.
+/// Receives from the server at ws://HOST:PORT/ (or http://), of one of many heads at
+/// ws://HOST:PORT/heads/NAME/. Connects now, for 5 seconds at most.
 /// Units come back byte for byte, with their times and durations; a late joiner begins as
 /// WebOptions::catch_up says. LiveGap stands where the server had to drop units for this client
 /// (`packets` 0: not known). AudioFormat::priming is that of the sender if the first packet was at

@@ -1,4 +1,5 @@
 // What is left without libwebsockets.
+#include "tools/web/house.h"
 #include "tools/web/web.h"
 
 namespace animeme::web {
@@ -15,6 +16,11 @@ Error absent() {
 bool is_open_to_others(const std::string&) { return false; }
 
 Result<std::unique_ptr<WebSink>> make_web_sink(const std::string&, const WebOptions&) {
+  return absent();
+}
+
+Result<std::unique_ptr<WebHouse>> WebHouse::open(const std::string&, const HouseOptions&,
+                                                 HouseHandler) {
   return absent();
 }
 

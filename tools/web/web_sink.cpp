@@ -9,6 +9,7 @@
 #include "tools/web/detail/planes.h"
 #include "tools/web/detail/server.h"
 #include "tools/web/detail/values.h"
+#include "tools/web/house.h"
 #include "tools/web/web.h"
 
 namespace animeme::web {
@@ -20,7 +21,7 @@ using media::LiveUnit;
 constexpr double kSoundBefore = 0.25;  // seconds of it that newcomers get before the face
 constexpr double kSoundAlone = 1;      // the same where there is no face
 
-Error invalid(const char* what) { return make_error(Code::invalid_argument, what); }
+Error invalid(const std::string& what) { return make_error(Code::invalid_argument, what); }
 
 bool is_plain(const std::string& text) {
   // What separates in headers is in no name and no origin.
@@ -29,7 +30,7 @@ bool is_plain(const std::string& text) {
 }
 
 template <class Body>
-Result<void> guarded(const Body& body) {
+auto guarded(const Body& body) -> decltype(body()) {
   try {
     return body();
   } catch (const std::exception& problem) {
@@ -41,13 +42,24 @@ class Sink : public WebSink {
  public:
   Sink(WebAddress address, const WebOptions& options)
       : address_(std::move(address)), options_(options) {}
+  /// In a house, below `path`.
+  Sink(WebAddress address, const WebOptions& options, std::shared_ptr<Server> house,
+       std::string path, std::function<void()> joined)
+      : address_(std::move(address)),
+        options_(options),
+        house_(std::move(house)),
+        path_(std::move(path)),
+        joined_(std::move(joined)) {}
+  ~Sink() override {
+    if (house_ && stage_) house_->close(path_);
+  }
 
   Result<void> start(const media::LiveInfo& info) override {
     return guarded([&] { return begin(info); });
   }
   Result<void> send(const LiveUnit& unit) override {
     return guarded([&]() -> Result<void> {
-      if (!server_ || over_) return invalid("the sink is not running");
+      if (!stage_ || over_) return invalid("the sink is not running");
       return unit.track == LiveTrack::face ? send_face(unit) : send_sound(unit);
     });
   }
@@ -61,29 +73,37 @@ class Sink : public WebSink {
 
   Result<void> finish() override {
     return guarded([&]() -> Result<void> {
-      if (!server_ || over_) return {};
+      if (!stage_ || over_) return {};
       Result<void> flushed = flush();
       over_ = true;
-      server_->finish();
+      if (house_) {
+        house_->close(path_);
+      } else {
+        server_->finish();
+      }
       return flushed;
     });
   }
 
   media::SendStats stats() const override {
-    media::SendStats stats = server_ ? server_->stats() : media::SendStats{};
+    media::SendStats stats = stage_ ? stage_->stats() : media::SendStats{};
+    if (server_) stats.receivers = server_->viewers();
     stats.face_units = face_units_;
     stats.audio_units = audio_units_;
     return stats;
   }
 
   std::string address() const override {
-    if (!server_) return {};
-    return WebAddress{address_.host, server_->port()}.text();
+    if (!stage_) return {};
+    const int port = house_ ? house_->port() : server_->port();
+    const std::string text = WebAddress{address_.host, port}.text();
+    return house_ ? text + path_.substr(1) + "/" : text;
   }
 
  private:
   Result<void> begin(const media::LiveInfo& info);
   Result<void> send_face(const LiveUnit& unit);
+  void send_values(const LiveUnit& unit);
   Result<void> send_sound(const LiveUnit& unit);
   Result<void> publish_note(const std::string& json);
   Result<void> flush();
@@ -92,9 +112,14 @@ class Sink : public WebSink {
   const WebAddress address_;
   const WebOptions options_;
   media::LiveInfo info_;
+  const std::shared_ptr<Server> house_;  // null: it has a server of its own
+  const std::string path_;
+  const std::function<void()> joined_;
   std::unique_ptr<Server> server_;
+  std::shared_ptr<Stage> stage_;
   bool over_ = false;
   Values values_;
+  std::vector<LiveUnit> unread_;  // since the last intra plane; nobody wanted their values
   PlaneWriter planes_;
   std::vector<media::AudioPacket> packets_;  // of the next segment
   std::uint32_t segments_ = 0;
@@ -103,7 +128,7 @@ class Sink : public WebSink {
 };
 
 Result<void> Sink::begin(const media::LiveInfo& info) {
-  if (server_) return invalid("the sink has been started already");
+  if (stage_) return invalid("the sink has been started already");
   if (info.face_config.empty() && !info.audio) return invalid("there is neither face nor sound");
   if (info.timescale == 0) return invalid("the time scale is 0");
   info_ = info;
@@ -113,19 +138,27 @@ Result<void> Sink::begin(const media::LiveInfo& info) {
     if (!written) return written.error();
     init = std::move(*written);
   }
-  auto server = Server::listen(address_, options_, info_.audio ? info_.audio->sample_rate : 0);
-  if (!server) return server.error();
+  if (!house_) {
+    auto server = Server::listen(address_, {options_}, nullptr);
+    if (!server) return server.error();
+    server_ = std::move(*server);
+  }
+  Server& server = house_ ? *house_ : *server_;
+  stage_ = server.make_stage(info_.audio ? info_.audio->sample_rate : 0, joined_);
   const Hello hello{info_.visual_profile, info_.audio.has_value(), info_.timescale,
                     info_.face_config};
-  (*server)->set_hello(Channel::face, {.bytes = write_hello(hello)});
+  stage_->set_hello(Channel::face, {.bytes = write_hello(hello)});
   const std::string names = values_hello(info_.timescale);
   for (const Channel channel : {Channel::faps, Channel::planes}) {
-    (*server)->set_hello(channel, {.bytes = {names.begin(), names.end()}, .text = true});
+    stage_->set_hello(channel, {.bytes = {names.begin(), names.end()}, .text = true});
   }
-  if (!init.empty()) (*server)->set_hello(Channel::audio, {.bytes = std::move(init)});
-  server_ = std::move(*server);
+  if (!init.empty()) stage_->set_hello(Channel::audio, {.bytes = std::move(init)});
   describe();
-  server_->serve();
+  if (!server.open(path_, stage_)) {
+    stage_.reset();
+    return invalid("another presentation has this path");
+  }
+  if (server_) server_->serve();
   return {};
 }
 
@@ -147,9 +180,9 @@ void Sink::describe() {
     json["heads"] = {options_.head_name};
     for (const WebHead& head : options_.other_heads) json["heads"].push_back(head.name);
   }
-  json["clients"] = server_->stats().receivers;
+  json["clients"] = stats().receivers;
   // Names of heads may be any text.
-  server_->set_info(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  stage_->set_info(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 Result<void> Sink::send_face(const LiveUnit& unit) {
@@ -161,30 +194,50 @@ Result<void> Sink::send_face(const LiveUnit& unit) {
   }
   const double seconds = double(time) / info_.timescale;
   now_ = std::max(now_, seconds);
-  server_->publish(Channel::face,
-                   {.bytes = write_unit({std::uint64_t(time), std::uint32_t(unit.duration),
-                                         std::uint8_t(unit.intra ? kIntra : 0), unit.bytes}),
-                    .entry = unit.intra,
-                    .time = seconds});
-  const auto face = values_.push(unit.bytes);
-  if (face) {
-    const ValuesMessage message{seconds, double(unit.duration) / info_.timescale, unit.intra,
-                                unit.bytes.size()};
-    const std::string text = write_values(message, *face);
-    server_->publish(
-        Channel::faps,
-        {.bytes = {text.begin(), text.end()}, .text = true, .entry = unit.intra, .time = seconds});
-    const PlaneWriter::Plane plane{std::uint64_t(time), std::uint32_t(unit.duration), unit.intra,
-                                   unit.bytes.size()};
-    server_->publish(Channel::planes,
-                     {.bytes = planes_.write(plane, *face), .entry = unit.intra, .time = seconds});
-  }
+  stage_->publish(Channel::face,
+                  {.bytes = write_unit({std::uint64_t(time), std::uint32_t(unit.duration),
+                                        std::uint8_t(unit.intra ? kIntra : 0), unit.bytes}),
+                   .entry = unit.intra,
+                   .time = seconds});
+  send_values(unit);
   if (unit.intra) {
-    server_->forget_before(Channel::audio, seconds - kSoundBefore);
+    stage_->forget_before(Channel::audio, seconds - kSoundBefore);
     describe();
   }
   ++face_units_;
   return {};
+}
+
+/// What nobody looks at is not decoded in a house: it may have hundreds of faces. Who comes then
+/// gets, with the next plane, all since the last intra plane.
+void Sink::send_values(const LiveUnit& unit) {
+  if (house_ && unit.intra) unread_.clear();
+  const bool wanted = stage_->wanted(Channel::faps) || stage_->wanted(Channel::planes);
+  if (house_ && !wanted) {
+    if (unit.intra || !unread_.empty()) unread_.push_back(unit);
+    values_ = Values();
+    planes_ = PlaneWriter();
+    stage_->forget(Channel::faps);
+    stage_->forget(Channel::planes);
+    return;
+  }
+  unread_.push_back(unit);
+  for (const LiveUnit& next : std::exchange(unread_, {})) {
+    const auto face = values_.push(next.bytes);
+    if (!face) continue;
+    const std::int64_t time = next.time + std::int64_t(info_.timescale) * kWebTimeZero;
+    const double seconds = double(time) / info_.timescale;
+    const ValuesMessage message{seconds, double(next.duration) / info_.timescale, next.intra,
+                                next.bytes.size()};
+    const std::string text = write_values(message, *face);
+    stage_->publish(
+        Channel::faps,
+        {.bytes = {text.begin(), text.end()}, .text = true, .entry = next.intra, .time = seconds});
+    const PlaneWriter::Plane plane{std::uint64_t(time), std::uint32_t(next.duration), next.intra,
+                                   next.bytes.size()};
+    stage_->publish(Channel::planes,
+                    {.bytes = planes_.write(plane, *face), .entry = next.intra, .time = seconds});
+  }
 }
 
 Result<void> Sink::send_sound(const LiveUnit& unit) {
@@ -210,7 +263,7 @@ Result<void> Sink::publish_note(const std::string& json) {
   }
   const std::string text = note.dump();
   for (const Channel channel : {Channel::face, Channel::faps, Channel::planes}) {
-    server_->publish(channel, {.bytes = {text.begin(), text.end()}, .text = true, .time = now_});
+    stage_->publish(channel, {.bytes = {text.begin(), text.end()}, .text = true, .time = now_});
   }
   return {};
 }
@@ -222,27 +275,18 @@ Result<void> Sink::flush() {
   const double seconds = double(packets_.front().time) / info_.audio->sample_rate;
   packets_.clear();
   if (!segment) return segment.error();
-  server_->publish(Channel::audio, {.bytes = std::move(*segment), .entry = true, .time = seconds});
+  stage_->publish(Channel::audio, {.bytes = std::move(*segment), .entry = true, .time = seconds});
   now_ = std::max(now_, seconds);
   if (info_.face_config.empty()) {
-    server_->forget_before(Channel::audio, seconds - kSoundAlone);
+    stage_->forget_before(Channel::audio, seconds - kSoundAlone);
     if (segments_ % 16 == 0) describe();
   }
   return {};
 }
 
-}  // namespace
-
-bool is_open_to_others(const std::string& url) {
-  const Result<WebAddress> address = parse_web_address(url);
-  return address && listens_for_others(*address);
-}
-
-Result<std::unique_ptr<WebSink>> make_web_sink(const std::string& url, const WebOptions& options) {
-  Result<WebAddress> address = parse_web_address(url);
-  if (!address) return address.error();
-  if (options.max_clients < 1 || options.max_clients > 1000) {
-    return invalid("1 to 1000 clients can be served");
+Result<void> check(const WebOptions& options, int most_clients) {
+  if (options.max_clients < 1 || options.max_clients > most_clients) {
+    return invalid("1 to " + std::to_string(most_clients) + " clients can be served");
   }
   if (options.packets_per_segment < 1 || options.packets_per_segment > 64) {
     return invalid("a segment takes 1 to 64 packets of sound");
@@ -273,7 +317,59 @@ Result<std::unique_ptr<WebSink>> make_web_sink(const std::string& url, const Web
           "'" + name + "' is no name of a host; write it as example.org, without http://");
     }
   }
+  return {};
+}
+
+class House : public WebHouse {
+ public:
+  House(std::shared_ptr<Server> server, WebAddress address, WebOptions options)
+      : server_(std::move(server)), address_(std::move(address)), options_(std::move(options)) {
+    address_.port = server_->port();
+    options_.head_script.clear();  // the server has them
+    options_.head_model.clear();
+    for (WebHead& head : options_.other_heads) head.model.clear();  // their names are told
+  }
+  std::string address() const override { return address_.text(); }
+  std::unique_ptr<WebSink> make_sink(const std::string& path,
+                                     std::function<void()> joined) override {
+    return std::make_unique<Sink>(address_, options_, server_, path, std::move(joined));
+  }
+  int viewers() const override { return server_->viewers(); }
+  void finish() override { server_->finish(); }
+
+ private:
+  std::shared_ptr<Server> server_;
+  WebAddress address_;
+  WebOptions options_;
+};
+
+}  // namespace
+
+bool is_open_to_others(const std::string& url) {
+  const Result<WebAddress> address = parse_web_address(url);
+  return address && listens_for_others(*address);
+}
+
+Result<std::unique_ptr<WebSink>> make_web_sink(const std::string& url, const WebOptions& options) {
+  Result<WebAddress> address = parse_web_address(url);
+  if (!address) return address.error();
+  if (auto ok = check(options, 1000); !ok) return ok.error();
   return std::unique_ptr<WebSink>(new Sink(std::move(*address), options));
+}
+
+Result<std::unique_ptr<WebHouse>> WebHouse::open(const std::string& url,
+                                                 const HouseOptions& options,
+                                                 HouseHandler handler) {
+  return guarded([&]() -> Result<std::unique_ptr<WebHouse>> {
+    Result<WebAddress> address = parse_web_address(url);
+    if (!address) return address.error();
+    if (auto ok = check(options.web, 10000); !ok) return ok.error();
+    auto server = Server::listen(*address, options, std::move(handler));
+    if (!server) return server.error();
+    (*server)->serve();
+    return std::unique_ptr<WebHouse>(
+        new House(std::move(*server), std::move(*address), options.web));
+  });
 }
 
 }  // namespace animeme::web

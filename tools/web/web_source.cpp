@@ -141,7 +141,7 @@ void Source::describe(bool whatever_is_known) {
 
 Result<std::unique_ptr<media::LiveSource>> make_web_source(const std::string& url,
                                                            const WebOptions& options) {
-  Result<WebAddress> address = parse_web_address(url);
+  Result<WebAddress> address = parse_web_address(url, true);
   if (!address) return address.error();
   if (address->port == 0) {
     return make_error(Code::invalid_argument, "the port of the server is missing");

@@ -51,6 +51,21 @@ void LatenessMeter::add(double seconds) {
   worst_ = std::max(worst_, seconds);
 }
 
+void LatenessMeter::add(const LatenessMeter& other) {
+  for (std::size_t i = 0; i < bins_.size(); ++i) bins_[i] += other.bins_[i];
+  count_ += other.count_;
+  sum_ += other.sum_;
+  worst_ = std::max(worst_, other.worst_);
+}
+
+std::int64_t LatenessMeter::count_below(double seconds) const {
+  std::int64_t count = 0;
+  for (int bin = 0; bin < kFine + kCoarse && upper_border(bin) <= seconds + kFineStep / 2; ++bin) {
+    count += bins_[std::size_t(bin)];
+  }
+  return count;
+}
+
 double LatenessMeter::percentile(double part) const {
   const auto wanted = std::int64_t(std::ceil(part * double(count_)));
   std::int64_t seen = 0;

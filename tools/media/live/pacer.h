@@ -45,8 +45,11 @@ class JumpingClock : public Clock {
 /// How late things were, in seconds; memory does not grow. Negative values count as 0.
 class LatenessMeter {
  public:
-  void add(double seconds);                      ///< one more, seconds
-  std::int64_t count() const { return count_; }  ///< values added
+  void add(double seconds);                        ///< one more, seconds
+  void add(const LatenessMeter& other);            ///< all of another one
+  std::int64_t count() const { return count_; }    ///< values added
+  std::int64_t count_below(double seconds) const;  ///< of these, to the precision of percentile()
+  double sum() const { return sum_; }              ///< seconds
   /// Seconds; 0 if nothing was added.
   double mean() const { return count_ == 0 ? 0 : sum_ / double(count_); }
   double worst() const { return worst_; }  ///< seconds; 0 if nothing was added

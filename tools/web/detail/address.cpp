@@ -4,6 +4,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -17,9 +18,16 @@ Error bad(const std::string& what) {
                     what + "; give http://HOST:PORT/ for a server, ws://HOST:PORT/ for a client");
 }
 
+bool is_plain_path(const std::string& path) {
+  return std::all_of(path.begin(), path.end(), [](char c) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    return letter || c == '/' || c == '-' || c == '_' || c == '.' || c == '~';
+  });
+}
+
 }  // namespace
 
-Result<WebAddress> parse_web_address(const std::string& url) {
+Result<WebAddress> parse_web_address(const std::string& url, bool with_path) {
   const std::size_t scheme = url.find("://");
   const std::string name = url.substr(0, scheme);
   if (scheme != std::string::npos && (name == "https" || name == "wss")) {
@@ -31,9 +39,14 @@ Result<WebAddress> parse_web_address(const std::string& url) {
   }
   std::string place = url.substr(scheme + 3);
   const std::size_t path = place.find('/');
-  if (path != std::string::npos && path + 1 != place.size()) return bad("the address has a path");
-  place = place.substr(0, path);
   WebAddress address;
+  if (path != std::string::npos && path + 1 != place.size()) {
+    address.path = place.substr(path);
+    if (!with_path) return bad("the address has a path");
+    if (!is_plain_path(address.path)) return bad("the path has a character that is none of ours");
+    while (address.path.ends_with('/')) address.path.pop_back();
+  }
+  place = place.substr(0, path);
   const std::size_t bracket = place.rfind(']');
   const std::size_t colon = place.rfind(':');
   const bool has_port =

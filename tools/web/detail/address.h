@@ -10,6 +10,8 @@ namespace animeme::web {
 struct WebAddress {
   std::string host;  ///< without the brackets of IPv6; never empty
   int port = 80;     ///< 0: any free one (servers)
+  /// In front of the names of resources: "", or "/heads/anna" (clients).
+  std::string path = {};
 
   /// "http://HOST:PORT/"
   std::string text() const {
@@ -18,9 +20,9 @@ struct WebAddress {
   }
 };
 
-/// http://HOST:PORT/ or ws://HOST:PORT/; no host: this machine. Errors: invalid_argument (another
-/// address, a path), unsupported (https, wss).
-Result<WebAddress> parse_web_address(const std::string& url);
+/// http://HOST:PORT/ or ws://HOST:PORT/; no host: this machine. `with_path`: a path may follow.
+/// Errors: invalid_argument (another address, a path), unsupported (https, wss).
+Result<WebAddress> parse_web_address(const std::string& url, bool with_path = false);
 
 /// Can a server listen there? Errors: io, in the words of the system.
 Result<void> check_listening(const WebAddress& address);

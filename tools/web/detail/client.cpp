@@ -66,7 +66,8 @@ bool Client::ask(Connection& connection) {
   info.address = address_.host.c_str();
   info.host = info.address;
   info.port = address_.port;
-  info.path = connection.sound ? "/audio" : "/face";
+  const std::string path = address_.path + (connection.sound ? "/audio" : "/face");
+  info.path = path.c_str();
   info.local_protocol_name = "animeme";
   info.ietf_version_or_minus_one = -1;
   info.opaque_user_data = &connection;

@@ -74,11 +74,14 @@ int Server::handle(lws* wsi, lws_callback_reasons reason, const char* in, std::s
       return 0;
     case LWS_CALLBACK_RECEIVE:
       return (sessions_[wsi].received += size) > kMostFromClient ? -1 : 0;
-    case LWS_CALLBACK_HTTP_BODY:  // of a POST: nobody wants it
-      return -1;
+    case LWS_CALLBACK_HTTP_BODY:
+      return take_body(wsi, in, size);
+    case LWS_CALLBACK_HTTP_BODY_COMPLETION:
+      return ask_handler(wsi);
     case LWS_CALLBACK_HTTP_WRITEABLE: {
       const auto session = sessions_.find(wsi);
       if (session == sessions_.end()) return 0;
+      if (session->second.reply) return write_reply(wsi, session->second);
       return session->second.resource == Resource::talk ? write_message(wsi, session->second)
                                                         : write_body(wsi, session->second);
     }
@@ -87,7 +90,7 @@ int Server::handle(lws* wsi, lws_callback_reasons reason, const char* in, std::s
       return session == sessions_.end() ? -1 : write_message(wsi, session->second);
     }
     case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
-      look_around();
+      look_at_news();
       return 0;
     case LWS_CALLBACK_CLOSED:
     case LWS_CALLBACK_CLOSED_HTTP:
@@ -103,11 +106,27 @@ int Server::handle(lws* wsi, lws_callback_reasons reason, const char* in, std::s
   }
 }
 
-bool Server::exists(const std::string& path) const {
-  const Resource resource = resource_of(path);
-  if (documents_.contains(path) || resource == Resource::info) return true;
+/// What a path leads to. Resources lie below the paths of stages.
+Server::Place Server::place_of(const std::string& path) const {
+  const std::lock_guard lock(mutex_);
+  auto found = stages_.find("");
+  if (found != stages_.end()) return {found->second, path, resource_of(path)};
+  std::size_t slash = path.rfind('/');
+  for (; slash != std::string::npos && slash > 0; slash = path.rfind('/', slash - 1)) {
+    found = stages_.find(std::string_view(path).substr(0, slash));
+    if (found == stages_.end()) continue;
+    return {found->second, path.substr(slash), resource_of(path.substr(slash))};
+  }
+  return {};
+}
+
+bool Server::exists(const Place& place) const {
+  const Resource resource = place.resource;
+  if (!place.stage) return false;
+  if (documents_.contains(place.path) || resource == Resource::info) return true;
   if (resource == Resource::face || resource == Resource::faps) return true;
-  return (resource == Resource::audio || resource == Resource::talk) && sample_rate_ > 0;
+  return (resource == Resource::audio || resource == Resource::talk) &&
+         place.stage->sample_rate() > 0;
 }
 
 /// Why it is not answered, whatever it asks for; 0: it is.
@@ -137,23 +156,30 @@ bool Server::may_deflate(lws* wsi) const {
 /// A place in the hub. False: all are taken.
 bool Server::admit(lws* wsi, Session& session) {
   const Channel channel = channel_of(session);
-  const std::lock_guard lock(mutex_);
-  if (finishing_ || !visitors_.watch(wsi, channel == Channel::audio)) return false;
+  if (!visitors_.watch(wsi, channel == Channel::audio)) return false;
   viewers_ = visitors_.viewers();
-  session.client = hub_.add(channel);
+  const std::optional<ClientId> client = session.stage->add(channel);
+  if (!client) return false;
+  session.client = *client;
   session.open = true;
+  session.stage->watching.insert(wsi);
   return true;
 }
 
 /// The answer is complete.
 int Server::transaction_over(lws* wsi) {
+  const auto session = sessions_.find(wsi);
+  const bool last =
+      session != sessions_.end() && session->second.exchange && session->second.exchange->last;
   leave(wsi);
+  if (last) return -1;
   visitors_.answered(wsi, Visitors::Clock::now());
   return lws_http_transaction_completed(wsi) != 0 ? -1 : 0;
 }
 
 int Server::refuse(lws* wsi, const Request& request, unsigned status) {
-  if (!send_refusal(wsi, status, request.method != Request::Method::head)) return -1;
+  if (!send_refusal(wsi, status, request.method != Request::Method::head, handler_ != nullptr))
+    return -1;
   // Whatever comes behind another method stays unread.
   return request.method == Request::Method::other ? -1 : transaction_over(wsi);
 }
@@ -162,25 +188,24 @@ int Server::request(lws* wsi) {
   const Request request = request_of(wsi);
   const unsigned status = objection(wsi, request);
   if (status != 0) return refuse(wsi, request, status);
-  if (request.method == Request::Method::other) {
+  const bool other = request.method == Request::Method::other;
+  if (other && (!handler_ || request.verb.empty())) {
     return refuse(wsi, request, HTTP_STATUS_METHOD_NOT_ALLOWED);
   }
-  const Resource resource = resource_of(request.path);
-  if (!exists(request.path)) return refuse(wsi, request, HTTP_STATUS_NOT_FOUND);
-  if (is_socket(resource)) return refuse(wsi, request, 426);  // upgrade required
+  const Place place = other ? Place() : place_of(request.path);
+  if (!exists(place)) {
+    return handler_ ? begin_exchange(wsi, request) : refuse(wsi, request, HTTP_STATUS_NOT_FOUND);
+  }
+  if (is_socket(place.resource)) return refuse(wsi, request, 426);
   leave(wsi);
-  return resource == Resource::talk ? talk(wsi, request) : serve(wsi, request, resource);
+  return place.resource == Resource::talk ? talk(wsi, request, place) : serve(wsi, request, place);
 }
 
 /// What there is as a whole.
-int Server::serve(lws* wsi, const Request& request, Resource resource) {
-  Session session{.resource = resource};
-  if (resource == Resource::info) {
-    const std::lock_guard lock(mutex_);
-    session.document = info_;
-  } else {
-    session.document = documents_.at(request.path);
-  }
+int Server::serve(lws* wsi, const Request& request, const Place& place) {
+  const Resource resource = place.resource;
+  Session session{.resource = resource, .stage = place.stage};
+  session.document = resource == Resource::info ? place.stage->info() : documents_.at(place.path);
   const Document& document = *session.document;
   session.packed = !document.packed.empty() && takes_gzip(request.accept_encoding);
   Answer answer{.type = type_of(resource), .origin = shared_with(request)};
@@ -198,7 +223,7 @@ int Server::serve(lws* wsi, const Request& request, Resource resource) {
   return 0;
 }
 
-int Server::talk(lws* wsi, const Request& request) {
+int Server::talk(lws* wsi, const Request& request, const Place& place) {
   Answer answer{.type = type_of(Resource::talk),
                 .size = LWS_ILLEGAL_HTTP_CONTENT_LEN,
                 .origin = shared_with(request)};
@@ -206,6 +231,7 @@ int Server::talk(lws* wsi, const Request& request) {
   if (request.method == Request::Method::head) return send_header(wsi, answer), -1;
   Session& session = sessions_[wsi];
   session.resource = Resource::talk;
+  session.stage = place.stage;
   if (!admit(wsi, session)) return refuse(wsi, request, HTTP_STATUS_SERVICE_UNAVAILABLE);
   if (!send_header(wsi, answer)) return -1;
   lws_set_timeout(wsi, NO_PENDING_TIMEOUT, 0);
@@ -218,14 +244,15 @@ int Server::upgrade(lws* wsi) {
   const auto refused = [&](unsigned status) { return send_refusal(wsi, status, true), -1; };
   const unsigned status = objection(wsi, request);
   if (status != 0) return refused(status);
-  const Resource resource = resource_of(request.path);
-  if (!is_socket(resource) || !exists(request.path)) return refused(HTTP_STATUS_NOT_FOUND);
+  const Place place = place_of(request.path);
+  if (!is_socket(place.resource) || !exists(place)) return refused(HTTP_STATUS_NOT_FOUND);
   if (request.has_origin && !origin_allowed(request.origin, request.host, options_.allow_origins)) {
     return refused(HTTP_STATUS_FORBIDDEN);
   }
   leave(wsi);
   Session& session = sessions_[wsi];
-  session.resource = resource;
+  session.resource = place.resource;
+  session.stage = place.stage;
   session.small = request.asks("binary");
   return admit(wsi, session) ? 0 : refused(HTTP_STATUS_SERVICE_UNAVAILABLE);
 }
@@ -252,7 +279,7 @@ bool Server::send_message(lws* wsi, Session& session, const Message& message) {
   }
   std::vector<std::uint8_t> bytes = message.bytes;
   if (message.entry) {  // a segment: the first one begins at 0, for players that wait for it
-    const std::int64_t time = std::llround(message.time * sample_rate_);
+    const std::int64_t time = std::llround(message.time * session.stage->sample_rate());
     if (session.begin < 0) session.begin = time;
     media::set_segment_time(bytes, time - session.begin);
   }
@@ -260,10 +287,7 @@ bool Server::send_message(lws* wsi, Session& session, const Message& message) {
 }
 
 int Server::write_message(lws* wsi, Session& session) {
-  std::unique_lock lock(mutex_);
-  const MessagePtr message = hub_.next(session.client);
-  const bool more = hub_.waiting(session.client), over = finishing_ && !more;
-  lock.unlock();
+  const auto [message, more, over] = session.stage->next(session.client);
   if (message && !send_message(wsi, session, *message)) return -1;
   if (!message && over) {
     std::array<unsigned char, 4> reason{'e', 'n', 'd', 0};
@@ -276,18 +300,46 @@ int Server::write_message(lws* wsi, Session& session) {
   return 0;
 }
 
-/// Something was published, or it is over.
-void Server::look_around() {
-  const std::lock_guard lock(mutex_);
-  const auto patience = std::chrono::microseconds(std::int64_t(options_.stall_seconds * 1e6));
-  const auto since = Hub::Clock::now() - patience;
-  for (auto& [wsi, session] : sessions_) {
-    if (!session.open) continue;
-    if (hub_.stalled(session.client, since)) {
+void Server::look_at(const Stage& stage, Hub::Clock::time_point since) {
+  for (lws* wsi : stage.watching) {
+    const Stage::Need need = stage.need_of(sessions_[wsi].client, since);
+    if (need == Stage::Need::to_go) {
       lws_set_timeout(wsi, PENDING_TIMEOUT_CLOSE_SEND, LWS_TO_KILL_ASYNC);
-    } else if (finishing_ || hub_.waiting(session.client)) {
+    } else if (need == Stage::Need::to_write) {
       lws_callback_on_writable(wsi);
     }
+  }
+}
+
+void Server::look_around() {
+  const auto patience = std::chrono::microseconds(std::int64_t(options_.stall_seconds * 1e6));
+  const auto since = Hub::Clock::now() - patience;
+  std::set<std::shared_ptr<Stage>> stages;  // also those that are over
+  for (const auto& [wsi, session] : sessions_) {
+    if (session.open) stages.insert(session.stage);
+  }
+  for (const auto& stage : stages) look_at(*stage, since);
+}
+
+/// Something was published, is over, or was answered.
+void Server::look_at_news() {
+  std::vector<std::shared_ptr<Stage>> stages;
+  {
+    const std::lock_guard lock(mutex_);
+    stages.swap(touched_);
+  }
+  std::sort(stages.begin(), stages.end());
+  stages.erase(std::unique(stages.begin(), stages.end()), stages.end());
+  for (const auto& stage : stages) look_at(*stage, {});
+  std::vector<std::pair<std::shared_ptr<Exchange>, HouseReply>> given;
+  {
+    const std::lock_guard lock(answers_->mutex);
+    given.swap(answers_->given);
+  }
+  for (auto& [exchange, reply] : given) {
+    if (exchange->wsi == nullptr) continue;
+    sessions_[exchange->wsi].reply = std::move(reply);
+    lws_callback_on_writable(exchange->wsi);
   }
 }
 
@@ -310,14 +362,15 @@ void Server::disconnect_overdue() {
 }
 
 void Server::leave(lws* wsi) {
-  const auto session = sessions_.find(wsi);
-  if (session == sessions_.end()) return;
-  if (session->second.open) {
-    const std::lock_guard lock(mutex_);
-    hub_.remove(session->second.client);
-    changed_.notify_all();
+  const auto found = sessions_.find(wsi);
+  if (found == sessions_.end()) return;
+  Session& session = found->second;
+  if (session.exchange) session.exchange->wsi = nullptr;
+  if (session.open) {
+    session.stage->watching.erase(wsi);
+    session.stage->remove(session.client, channel_of(session));
   }
-  sessions_.erase(session);
+  sessions_.erase(found);
 }
 
 }  // namespace animeme::web

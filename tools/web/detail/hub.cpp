@@ -65,6 +65,12 @@ void Hub::forget_before(Channel channel, double time) {
   }
 }
 
+void Hub::forget(Channel channel) {
+  Feed& feed = feeds_[std::size_t(channel)];
+  feed.recent.clear();
+  feed.bytes = 0;
+}
+
 void Hub::push(Client& client, const MessagePtr& message) {
   if (client.waits_for_entry && !message->entry) {
     if (client.missed) ++dropped_;

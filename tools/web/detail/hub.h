@@ -37,6 +37,8 @@ class Hub {
   void publish(Channel channel, Message message);
   /// Newcomers need nothing that lies in front of this time.
   void forget_before(Channel channel, double time);
+  /// Newcomers get nothing that was published so far.
+  void forget(Channel channel);
 
   ClientId add(Channel channel);
   void remove(ClientId client);

@@ -4,6 +4,7 @@
 #include <sys/socket.h>
 
 #include <array>
+#include <charconv>
 #include <cstring>
 #include <string_view>
 
@@ -60,6 +61,10 @@ std::string_view sentence_of(unsigned status) {
       return "Pages of other servers need --allow-origin.\n";
     case HTTP_STATUS_METHOD_NOT_ALLOWED:
       return "There is GET and HEAD.\n";
+    case HTTP_STATUS_REQ_ENTITY_TOO_LARGE:
+      return "The request is too long.\n";
+    case 411:
+      return "The request does not say how long it is (Content-Length).\n";
     case 421:
       return "This server does not go by that name; it is started with --host-name NAME for others "
              "than those of its machine.\n";
@@ -113,14 +118,33 @@ bool is_socket(Resource resource) {
 }
 
 Request request_of(lws* wsi) {
+  static constexpr struct {
+    lws_token_indexes token;
+    Request::Method method;
+    const char* verb;
+  } kMethods[] = {{WSI_TOKEN_GET_URI, Request::Method::get, "GET"},
+                  {WSI_TOKEN_HEAD_URI, Request::Method::head, "GET"},
+                  {WSI_TOKEN_POST_URI, Request::Method::other, "POST"},
+                  {WSI_TOKEN_PUT_URI, Request::Method::other, "PUT"},
+                  {WSI_TOKEN_DELETE_URI, Request::Method::other, "DELETE"}};
   Request request;
-  if (lws_hdr_total_length(wsi, WSI_TOKEN_GET_URI) > 0) {
-    request.method = Request::Method::get;
-    request.path = header_of(wsi, WSI_TOKEN_GET_URI);
-  } else if (lws_hdr_total_length(wsi, WSI_TOKEN_HEAD_URI) > 0) {
-    request.method = Request::Method::head;
-    request.path = header_of(wsi, WSI_TOKEN_HEAD_URI);
+  for (const auto& known : kMethods) {
+    if (lws_hdr_total_length(wsi, known.token) <= 0) continue;
+    request.method = known.method;
+    request.verb = known.verb;
+    request.path = header_of(wsi, known.token);
+    break;
   }
+  const std::string length = header_of(wsi, WSI_TOKEN_HTTP_CONTENT_LENGTH);
+  request.has_length = !length.empty();
+  if (lws_hdr_total_length(wsi, WSI_TOKEN_HTTP_TRANSFER_ENCODING) > 0) {
+    request.body = -1;
+  } else if (!length.empty()) {
+    const char* end = length.data() + length.size();
+    const auto read = std::from_chars(length.data(), end, request.body);
+    if (read.ec != std::errc() || read.ptr != end || request.body < 0) request.body = -1;
+  }
+  request.authorization = header_of(wsi, WSI_TOKEN_HTTP_AUTHORIZATION);
   request.has_origin = lws_hdr_total_length(wsi, WSI_TOKEN_ORIGIN) > 0;
   request.origin = header_of(wsi, WSI_TOKEN_ORIGIN);
   request.query = header_of(wsi, WSI_TOKEN_HTTP_URI_ARGS);
@@ -155,6 +179,7 @@ bool send_header(lws* wsi, const Answer& answer) {
     header.add("etag:", answer.etag);
     header.add("vary:", "accept-encoding, origin");
   }
+  if (answer.status == HTTP_STATUS_UNAUTHORIZED) header.add("www-authenticate:", "Bearer");
   if (answer.status == HTTP_STATUS_METHOD_NOT_ALLOWED) header.add("allow:", "GET, HEAD");
   header.add("x-content-type-options:", "nosniff");
   header.add("referrer-policy:", "no-referrer");
@@ -164,10 +189,11 @@ bool send_header(lws* wsi, const Answer& answer) {
   return header.send();
 }
 
-bool send_refusal(lws* wsi, unsigned status, bool with_body) {
-  const std::string_view text = sentence_of(status);
-  if (!send_header(wsi,
-                   {.status = status, .type = "text/plain; charset=utf-8", .size = text.size()})) {
+bool send_refusal(lws* wsi, unsigned status, bool with_body, bool as_json) {
+  std::string text(sentence_of(status));
+  if (as_json) text = "{\"error\":\"" + text.substr(0, text.size() - 1) + "\"}\n";
+  const char* type = as_json ? "application/json" : "text/plain; charset=utf-8";
+  if (!send_header(wsi, {.status = status, .type = type, .size = text.size()})) {
     return false;
   }
   if (!with_body) return true;

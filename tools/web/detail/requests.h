@@ -39,6 +39,10 @@ struct Request {
   enum class Method : std::uint8_t { get, head, other };
   Method method = Method::other;
   bool has_origin = false;
+  std::string verb;  ///< "GET", also for HEAD; "POST", "PUT", "DELETE"; empty: another method
+  bool has_length = false;  ///< it says how many bytes are to follow
+  std::int64_t body = 0;    ///< these; -1: nobody knows how many
+  std::string authorization;
   std::string path, query, host, origin, accept_encoding, if_none_match;
 
   /// Is `name` in the query, as itself or with a value but 0?
@@ -65,7 +69,7 @@ struct Answer {
 /// False: it could not be sent.
 bool send_header(lws* wsi, const Answer& answer);
 /// Answers with a status and a sentence. The connection is to be closed if this is false.
-bool send_refusal(lws* wsi, unsigned status, bool with_body);
+bool send_refusal(lws* wsi, unsigned status, bool with_body, bool as_json = false);
 
 /// Who is at the other end of a socket: an address of IPv4 or the network of one of IPv6, whose
 /// owner has all of it, as bytes. Empty: not known.

@@ -59,33 +59,36 @@ Result<unsigned> handles_for(int viewers) {
 
 }  // namespace
 
-Server::Server(const WebAddress& address, const WebOptions& options, int sample_rate)
-    : options_(options),
-      sample_rate_(sample_rate),
-      names_(address, options.host_names),
-      frames_(frames_of(options)),
-      documents_(documents_of(options)),
-      hub_(options.client_bytes, options.catch_up),
-      info_(make_document("{}")),
-      visitors_({options.max_clients, options.per_address, options.stall_seconds}) {
+Server::Server(const WebAddress& address, const HouseOptions& options, HouseHandler handler)
+    : options_(options.web),
+      most_body_(options.most_body),
+      handler_(std::move(handler)),
+      names_(address, options_.host_names),
+      frames_(frames_of(options_)),
+      documents_(documents_of(options_)),
+      visitors_({options_.max_clients, options_.per_address, options_.stall_seconds}) {
   timer_.server = this;
 }
 
 void Server::stop() {
+  {
+    const std::lock_guard lock(answers_->mutex);
+    answers_->service = nullptr;
+  }
   service_.stop([this] { lws_sul_cancel(&timer_.entry); });
 }
 
-Result<std::unique_ptr<Server>> Server::listen(const WebAddress& address, const WebOptions& options,
-                                               int sample_rate) {
+Result<std::unique_ptr<Server>> Server::listen(const WebAddress& address,
+                                               const HouseOptions& options, HouseHandler handler) {
   static const lws_protocols protocols[] = {{"animeme", &Server::callback, 0, 1024, 0, nullptr, 0},
                                             {nullptr, nullptr, 0, 0, 0, nullptr, 0}};
   static const lws_extension extensions[] = {
       {"permessage-deflate", lws_extension_callback_pm_deflate, "permessage-deflate"},
       {nullptr, nullptr, nullptr}};
   if (Result<void> possible = check_listening(address); !possible) return possible.error();
-  Result<unsigned> handles = handles_for(options.max_clients);
+  Result<unsigned> handles = handles_for(options.web.max_clients);
   if (!handles) return handles.error();
-  std::unique_ptr<Server> server(new Server(address, options, sample_rate));
+  std::unique_ptr<Server> server(new Server(address, options, std::move(handler)));
   lws_context_creation_info info{};
   info.port = address.port;
   info.iface = address.host == "0.0.0.0" || address.host == "::" ? nullptr : address.host.c_str();
@@ -108,53 +111,52 @@ Result<std::unique_ptr<Server>> Server::listen(const WebAddress& address, const 
                       "cannot listen at " + address.text() +
                           "; is the port in use, or the host no address of this machine?");
   }
+  server->answers_->service = &server->service_;
   server->keep_looking();
   return server;
 }
 
-void Server::set_hello(Channel channel, Message hello) {
-  const std::lock_guard lock(mutex_);
-  hub_.set_hello(channel, std::move(hello));
+std::shared_ptr<Stage> Server::make_stage(int sample_rate, std::function<void()> joined) {
+  const auto touched = [this](std::shared_ptr<Stage> stage) {
+    bool first = false;
+    {
+      const std::lock_guard lock(mutex_);
+      first = touched_.empty();
+      touched_.push_back(std::move(stage));
+    }
+    if (first) service_.wake();
+  };
+  return std::make_shared<Stage>(sample_rate, options_.client_bytes, options_.catch_up, touched,
+                                 std::move(joined));
 }
 
-void Server::set_info(std::string json) {
-  auto document = std::make_shared<Document>();  // small, and another one each second
-  document->bytes = std::move(json);
+bool Server::open(const std::string& path, const std::shared_ptr<Stage>& stage) {
   const std::lock_guard lock(mutex_);
-  info_ = std::move(document);
+  return !finishing_ && stages_.try_emplace(path, stage).second;
 }
 
-void Server::publish(Channel channel, Message message) {
+void Server::close(const std::string& path) {
+  std::shared_ptr<Stage> stage;
   {
     const std::lock_guard lock(mutex_);
-    hub_.publish(channel, std::move(message));
+    const auto found = stages_.find(path);
+    if (found == stages_.end()) return;
+    stage = std::move(found->second);
+    stages_.erase(found);
   }
-  service_.wake();
-}
-
-void Server::forget_before(Channel channel, double time) {
-  const std::lock_guard lock(mutex_);
-  hub_.forget_before(channel, time);
-}
-
-media::SendStats Server::stats() const {
-  const std::lock_guard lock(mutex_);
-  media::SendStats stats;
-  stats.packets = hub_.messages();
-  stats.bytes = hub_.bytes();
-  stats.dropped = hub_.dropped();
-  stats.receivers = viewers_;
-  return stats;
+  stage->end();
 }
 
 void Server::finish() {
-  std::unique_lock lock(mutex_);
-  finishing_ = true;
-  lock.unlock();
-  service_.wake();
-  lock.lock();
-  changed_.wait_for(lock, kGoodbye, [this] { return hub_.clients() == 0; });
-  lock.unlock();
+  std::vector<std::shared_ptr<Stage>> stages;
+  {
+    const std::lock_guard lock(mutex_);
+    finishing_ = true;
+    for (const auto& [path, stage] : stages_) stages.push_back(stage);
+  }
+  for (const auto& stage : stages) stage->end();
+  const auto patience = Hub::Clock::now() + kGoodbye;
+  for (const auto& stage : stages) stage->wait_until_empty(patience);
   stop();
 }
 

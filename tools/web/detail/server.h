@@ -2,28 +2,48 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "fap/result.h"
 #include "tools/web/detail/address.h"
 #include "tools/web/detail/headers.h"
-#include "tools/web/detail/hub.h"
 #include "tools/web/detail/requests.h"
 #include "tools/web/detail/service.h"
+#include "tools/web/detail/stage.h"
 #include "tools/web/detail/visitors.h"
+#include "tools/web/house.h"
 #include "tools/web/web.h"
 
 namespace animeme::web {
 
+/// A request that a HouseHandler answers.
+struct Exchange {
+  lws* wsi = nullptr;  // its connection; null: that has gone
+  HouseRequest request;
+  bool with_body = true;  // not HEAD
+  bool last = false;      // of its connection
+};
+
+/// What was answered, until the server looks. Answers may come when that has gone.
+struct Answers {
+  std::mutex mutex;
+  Service* service = nullptr;  // to be woken
+  std::vector<std::pair<std::shared_ptr<Exchange>, HouseReply>> given;
+};
+
 /// One connection, from its first request on.
 struct Session {
   Resource resource = Resource::none;
-  bool small = false;  // /faps?binary
-  bool open = false;   // a WebSocket or /talk.mp4 with a place in the hub
+  std::shared_ptr<Stage> stage;  // whose resource it is
+  std::shared_ptr<Exchange> exchange;
+  std::optional<HouseReply> reply;  // of it
+  bool small = false;               // /faps?binary
+  bool open = false;                // a WebSocket or /talk.mp4 with a place in the hub
   ClientId client = 0;
   DocumentPtr document;  // that is being sent
   bool packed = false;   // in its form of gzip
@@ -34,10 +54,10 @@ struct Session {
 
 class Server {
  public:
-  /// Listens. `sample_rate`: of `/audio` and `/talk.mp4`, 0: there is no sound. Errors: io,
+  /// Listens. `handler`: for what is no resource of a stage; nothing: that is refused. Errors: io,
   /// invalid_argument (more viewers than files may be open).
   static Result<std::unique_ptr<Server>> listen(const WebAddress& address,
-                                                const WebOptions& options, int sample_rate);
+                                                const HouseOptions& options, HouseHandler handler);
   ~Server() { stop(); }
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
@@ -48,51 +68,66 @@ class Server {
   void serve() { service_.run(); }
 
   // All of these may be called from any thread.
-  void set_hello(Channel channel, Message hello);
-  void set_info(std::string json);
-  void publish(Channel channel, Message message);
-  void forget_before(Channel channel, double time);
-  media::SendStats stats() const;
+  /// A stage that nobody sees yet. `joined` may be nothing.
+  std::shared_ptr<Stage> make_stage(int sample_rate, std::function<void()> joined);
+  /// Its resources lie below `path`, "" for all paths. False: there is one already.
+  bool open(const std::string& path, const std::shared_ptr<Stage>& stage);
+  /// Nobody finds it any more; its viewers get what waits for them and are told.
+  void close(const std::string& path);
+  int viewers() const { return viewers_; }
 
   /// Lets the clients have what waits for them, for two seconds at most, and says goodbye.
   void finish();
 
  private:
-  Server(const WebAddress& address, const WebOptions& options, int sample_rate);
+  Server(const WebAddress& address, const HouseOptions& options, HouseHandler handler);
   void stop();
   static int callback(lws* wsi, lws_callback_reasons reason, void* user, void* in, size_t size);
   int handle(lws* wsi, lws_callback_reasons reason, const char* in, std::size_t size);
-  bool exists(const std::string& path) const;
+  struct Place {
+    std::shared_ptr<Stage> stage;
+    std::string path;  // below it
+    Resource resource = Resource::none;
+  };
+  Place place_of(const std::string& path) const;
+  bool exists(const Place& place) const;
   unsigned objection(lws* wsi, const Request& request);
   std::string shared_with(const Request& request) const;
   bool may_deflate(lws* wsi) const;
   bool admit(lws* wsi, Session& session);
   int refuse(lws* wsi, const Request& request, unsigned status);
   int request(lws* wsi);
-  int serve(lws* wsi, const Request& request, Resource resource);
-  int talk(lws* wsi, const Request& request);
+  int begin_exchange(lws* wsi, const Request& request);
+  int take_body(lws* wsi, const char* bytes, std::size_t size);
+  int ask_handler(lws* wsi);
+  int write_reply(lws* wsi, Session& session);
+  int serve(lws* wsi, const Request& request, const Place& place);
+  int talk(lws* wsi, const Request& request, const Place& place);
   int upgrade(lws* wsi);
   int write_body(lws* wsi, Session& session);
   int transaction_over(lws* wsi);
   bool send_message(lws* wsi, Session& session, const Message& message);
   int write_message(lws* wsi, Session& session);
+  void look_at(const Stage& stage, Hub::Clock::time_point since);
   void look_around();
+  void look_at_news();
   void keep_looking();
   void disconnect_overdue();
   void leave(lws* wsi);
 
   const WebOptions options_;
-  const int sample_rate_;  // of the sound, 0: there is none
+  const std::size_t most_body_;
+  const HouseHandler handler_;
   const OwnNames names_;
   const std::string frames_;                      // where the page may be in a frame
   std::map<std::string, DocumentPtr> documents_;  // by path, but for info.json
   Service service_;
   int port_ = 0;
+  const std::shared_ptr<Answers> answers_ = std::make_shared<Answers>();
 
   mutable std::mutex mutex_;  // for what follows
-  std::condition_variable changed_;
-  Hub hub_;
-  DocumentPtr info_;
+  std::map<std::string, std::shared_ptr<Stage>, std::less<>> stages_;
+  std::vector<std::shared_ptr<Stage>> touched_;  // since the thread has looked
   bool finishing_ = false;
 
   // Of the service thread alone.

@@ -62,6 +62,7 @@ bool Visitors::ask(Key key, Clock::time_point now) {
   if (found == connections_.end()) return false;
   found->second.phase = Phase::taking;
   found->second.since = now;
+  if (limits_.per_address == 0) return true;
   const auto [budget, first] = budgets_.try_emplace(found->second.address, Budget{kBurst, now});
   double& requests = budget->second.requests;
   requests += kRate * seconds_between(budget->second.filled, now);

@@ -13,7 +13,7 @@ namespace animeme::web {
 /// What may be taken.
 struct VisitorLimits {
   int viewers = 64;      ///< all together
-  int per_address = 32;  ///< connections; 0: any number
+  int per_address = 32;  ///< connections; 0: any number, of requests, too
   double patience = 20;  ///< seconds after which an answer that nobody takes is given up
 };
 
