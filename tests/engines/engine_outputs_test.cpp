@@ -224,6 +224,11 @@ TEST_F(EngineOutputs, ParametersMayHaveAPrefixOfTheirAvatar) {
       read_by_others("osc", sent_to("osc://192.0.2.1?prefix=FT/v2", moving_face(0.2)));
   EXPECT_TRUE(frames[0]["values"].contains("FT/v2/JawOpen"));
   EXPECT_FALSE(frames[0]["values"].contains("v2/JawOpen"));
+  EXPECT_TRUE(frames[0]["values"].contains("LeftRightPitchYaw"));
+  const auto blind = read_by_others("osc", sent_to("osc://192.0.2.1?gaze=off", moving_face(0.2)));
+  EXPECT_TRUE(blind[0]["values"].contains("v2/EyeLeftX"));
+  EXPECT_FALSE(blind[0]["values"].contains("LeftRightPitchYaw"));
+  EXPECT_FALSE(blind[0]["values"].contains("EyesClosedAmount"));
 }
 
 TEST_F(EngineOutputs, WhatDoesNotChangeIsSentOnceASecond) {
@@ -266,6 +271,7 @@ TEST_F(EngineOutputs, AddressesThatAreWrongSayWhatThereIs) {
   EXPECT_THAT(message("vmc://h?rate="), HasSubstr("from 15 to 120"));
   EXPECT_THAT(message("vmc://h?names=vrm2"), HasSubstr("arkit, vrm0 or vrm1"));
   EXPECT_THAT(message("vmc://h?bones=yes"), HasSubstr("on or off"));
+  EXPECT_THAT(message("osc://h?gaze=1"), HasSubstr("on or off"));
   EXPECT_THAT(message("osc://h?prefix="), HasSubstr("1 to 64"));
   EXPECT_THAT(message("osc://:9000"), HasSubstr("name the machine"));
   EXPECT_THAT(message("osc://h:0"), HasSubstr("port 0"));
