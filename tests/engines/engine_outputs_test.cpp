@@ -19,6 +19,13 @@ using test::read_by_others;
 using test::sent_to;
 using testing::HasSubstr;
 
+class EngineOutputs : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!test::has_program("python3")) GTEST_SKIP() << "python3 is not installed";
+  }
+};
+
 // Made once.
 const MovingFace& ten_minutes() {
   static const MovingFace face = moving_face(600, {15, 1});
@@ -78,11 +85,11 @@ void expect_live_link(const MovingFace& face, const std::vector<fap::ArkitFrame>
   }
 }
 
-TEST(EngineOutputs, TenMinutesOfLiveLinkAreTheFit) {
+TEST_F(EngineOutputs, TenMinutesOfLiveLinkAreTheFit) {
   expect_live_link(ten_minutes(), fit_of_ten_minutes(), "", 15, 600);
 }
 
-TEST(EngineOutputs, LiveLinkKeepsAnyRate) {
+TEST_F(EngineOutputs, LiveLinkKeepsAnyRate) {
   const MovingFace face = moving_face(20);
   const auto fit = fit_of(face);
   for (const int rate : {15, 24, 30, 60, 120}) {
@@ -92,7 +99,7 @@ TEST(EngineOutputs, LiveLinkKeepsAnyRate) {
   expect_live_link(ntsc, fit_of(ntsc), "", 30000.0 / 1001, 20);
 }
 
-TEST(EngineOutputs, LiveLinkHasItsNameAndItsDevice) {
+TEST_F(EngineOutputs, LiveLinkHasItsNameAndItsDevice) {
   const MovingFace face = moving_face(0.2);
   const auto plain = sent_to("livelink://192.0.2.1", face);
   const auto phone = sent_to("livelink://192.0.2.1?subject=iPhone", face);
@@ -118,7 +125,7 @@ Four turn(std::size_t axis, double angle) {
   return out;
 }
 
-TEST(EngineOutputs, TenMinutesOfVmcAreTheFit) {
+TEST_F(EngineOutputs, TenMinutesOfVmcAreTheFit) {
   const MovingFace& face = ten_minutes();
   auto frames = read_by_others("vmc", sent_to("vmc://192.0.2.1", face));
   ASSERT_TRUE(frames.back().contains("end"));
@@ -143,7 +150,7 @@ TEST(EngineOutputs, TenMinutesOfVmcAreTheFit) {
   }
 }
 
-TEST(EngineOutputs, VmcHasTheNamesOfVrmIfAskedFor) {
+TEST_F(EngineOutputs, VmcHasTheNamesOfVrmIfAskedFor) {
   const MovingFace face = moving_face(4);
   const auto fit = fit_of(face);
   const auto old = read_by_others("vmc", sent_to("vmc://192.0.2.1?names=vrm0&bones=off", face));
@@ -194,7 +201,7 @@ std::map<std::string, double> unified_of(const fap::ArkitFrame& face) {
           {"EyesClosedAmount", (at("eyeBlinkLeft") + at("eyeBlinkRight")) / 2}};
 }
 
-TEST(EngineOutputs, TenMinutesOfUnifiedExpressionsAreTheFit) {
+TEST_F(EngineOutputs, TenMinutesOfUnifiedExpressionsAreTheFit) {
   const MovingFace& face = ten_minutes();
   const auto frames = read_by_others("osc", sent_to("osc://192.0.2.1", face));
   expect_times(frames, 15, 600);
@@ -212,14 +219,19 @@ TEST(EngineOutputs, TenMinutesOfUnifiedExpressionsAreTheFit) {
   }
 }
 
-TEST(EngineOutputs, ParametersMayHaveAPrefixOfTheirAvatar) {
+TEST_F(EngineOutputs, ParametersMayHaveAPrefixOfTheirAvatar) {
   const auto frames =
       read_by_others("osc", sent_to("osc://192.0.2.1?prefix=FT/v2", moving_face(0.2)));
   EXPECT_TRUE(frames[0]["values"].contains("FT/v2/JawOpen"));
   EXPECT_FALSE(frames[0]["values"].contains("v2/JawOpen"));
+  EXPECT_TRUE(frames[0]["values"].contains("LeftRightPitchYaw"));
+  const auto blind = read_by_others("osc", sent_to("osc://192.0.2.1?gaze=off", moving_face(0.2)));
+  EXPECT_TRUE(blind[0]["values"].contains("v2/EyeLeftX"));
+  EXPECT_FALSE(blind[0]["values"].contains("LeftRightPitchYaw"));
+  EXPECT_FALSE(blind[0]["values"].contains("EyesClosedAmount"));
 }
 
-TEST(EngineOutputs, WhatDoesNotChangeIsSentOnceASecond) {
+TEST_F(EngineOutputs, WhatDoesNotChangeIsSentOnceASecond) {
   MovingFace face = moving_face(3);
   const auto sent = sent_to("osc://192.0.2.1", face);
   std::map<std::string, int> count;
@@ -233,7 +245,7 @@ TEST(EngineOutputs, WhatDoesNotChangeIsSentOnceASecond) {
   EXPECT_GT(count["/v2/JawOpen"], 70);
 }
 
-TEST(EngineOutputs, APlaneThatLastsIsSentAgain) {
+TEST_F(EngineOutputs, APlaneThatLastsIsSentAgain) {
   MovingFace face = moving_face(2);
   face.units.erase(face.units.begin() + 1, face.units.end());
   face.units[0].duration *= 25;  // a second
@@ -244,7 +256,7 @@ TEST(EngineOutputs, APlaneThatLastsIsSentAgain) {
   EXPECT_EQ(fast.front()["values"], fast.back()["values"]);
 }
 
-TEST(EngineOutputs, AddressesThatAreWrongSayWhatThereIs) {
+TEST_F(EngineOutputs, AddressesThatAreWrongSayWhatThereIs) {
   const auto message = [](const std::string& url) {
     const auto sink = engines::make_engine_sink(url);
     EXPECT_FALSE(sink) << url;
@@ -259,6 +271,7 @@ TEST(EngineOutputs, AddressesThatAreWrongSayWhatThereIs) {
   EXPECT_THAT(message("vmc://h?rate="), HasSubstr("from 15 to 120"));
   EXPECT_THAT(message("vmc://h?names=vrm2"), HasSubstr("arkit, vrm0 or vrm1"));
   EXPECT_THAT(message("vmc://h?bones=yes"), HasSubstr("on or off"));
+  EXPECT_THAT(message("osc://h?gaze=1"), HasSubstr("on or off"));
   EXPECT_THAT(message("osc://h?prefix="), HasSubstr("1 to 64"));
   EXPECT_THAT(message("osc://:9000"), HasSubstr("name the machine"));
   EXPECT_THAT(message("osc://h:0"), HasSubstr("port 0"));
@@ -266,7 +279,7 @@ TEST(EngineOutputs, AddressesThatAreWrongSayWhatThereIs) {
   EXPECT_FALSE(engines::make_engine_source("vmc://:1?bones=on"));
 }
 
-TEST(EngineOutputs, SoundAloneIsNothingForEngines) {
+TEST_F(EngineOutputs, SoundAloneIsNothingForEngines) {
   auto sink = engines::make_engine_sink("livelink://127.0.0.1:9", {.fast = true});
   ASSERT_TRUE(sink);
   media::LiveInfo info;

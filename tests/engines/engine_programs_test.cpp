@@ -74,6 +74,7 @@ std::vector<Json> lines_of(const std::string& text) {
 }
 
 TEST_F(EnginePrograms, SeveralEnginesAtATimeGetTheFaceThatExportWrites) {
+  if (!test::has_program("python3")) GTEST_SKIP() << "python3 is not installed";
   const std::string script = std::string(test::kSourceFolder) + "/tests/engines/reader.py";
   std::vector<std::unique_ptr<Listener>> readers;
   std::vector<std::string> to = {"stream", talk};

@@ -63,7 +63,8 @@ class FaceDecoder {
 /// Faces as datagrams.
 class FaceWriter {
  public:
-  explicit FaceWriter(const EngineAddress& address) : address_(address), unified_(address.prefix) {
+  explicit FaceWriter(const EngineAddress& address)
+      : address_(address), unified_(address.prefix, address.gaze) {
     packet_.subject = address.subject.value_or(kSubject);
     packet_.device = device_of(packet_.subject);
   }

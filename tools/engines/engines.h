@@ -24,6 +24,7 @@
 /// | names=arkit, vrm0, vrm1 | vmc, to send | JawOpen ..., A Blink_L Joy ..., aa blinkLeft ... |
 /// | bones=on, off | vmc, to send | head and eyes go along; on |
 /// | prefix=NAME | osc, to send | before the name of a parameter; v2 |
+/// | gaze=on, off | osc, to send | /tracking/eye goes along; on |
 ///
 /// Weights are those of fap::ArkitFitter, faces those of fap::arkit_to_fap(). Sound is not sent.
 /// Layouts are from public receivers and specifications, which detail/ names file by file.

@@ -25,7 +25,7 @@ constexpr std::array<Scheme, 3> kSchemes{{
      "rate=15..120, subject=NAME"},
     {"vmc://", Protocol::vmc, 39539, "rate=15..120, names=arkit|vrm0|vrm1, bones=on|off",
      "rate=15..120"},
-    {"osc://", Protocol::unified, 9000, "rate=15..120, prefix=NAME", "rate=15..120"},
+    {"osc://", Protocol::unified, 9000, "rate=15..120, prefix=NAME, gaze=on|off", "rate=15..120"},
 }};
 
 const Scheme* scheme_of(std::string_view url) {
@@ -78,9 +78,9 @@ std::string take_member(const std::string& name, const std::string& value, Engin
     out.names = value == "arkit"  ? ShapeNames::arkit
                 : value == "vrm1" ? ShapeNames::vrm1
                                   : ShapeNames::vrm0;
-  } else if (name == "bones") {
-    if (value != "on" && value != "off") return "bones are on or off";
-    out.bones = value == "on";
+  } else if (name == "bones" || name == "gaze") {
+    if (value != "on" && value != "off") return name + " is on or off";
+    (name == "bones" ? out.bones : out.gaze) = value == "on";
   } else {
     if (!is_name(value)) return name + " has 1 to 64 characters";
     (name == "prefix" ? out.prefix : out.subject.emplace()) = value;

@@ -23,6 +23,7 @@ struct EngineAddress {
   ShapeNames names = ShapeNames::arkit;
   bool bones = true;
   std::string prefix = "v2";
+  bool gaze = true;
 };
 
 /// Errors: invalid_argument.

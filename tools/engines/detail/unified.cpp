@@ -190,21 +190,22 @@ std::span<const UnifiedParameter> unified_parameters() {
   return all;
 }
 
-UnifiedWriter::UnifiedWriter(const std::string& prefix)
-    : begin_(std::string(kParameters) + prefix + "/") {}
+UnifiedWriter::UnifiedWriter(const std::string& prefix, bool gaze)
+    : begin_(std::string(kParameters) + prefix + "/"), gaze_(gaze) {}
 
 std::vector<OscMessage> UnifiedWriter::write(const fap::ArkitFrame& frame, double seconds) {
   std::vector<OscMessage> all;
   for (const UnifiedParameter& parameter : unified_parameters()) {
     all.push_back({begin_ + parameter.name, {float(parameter.value(frame))}});
   }
-  all.push_back({std::string(kClosed), {float((frame[kBlinks[0]] + frame[kBlinks[1]]) / 2)}});
-  all.push_back(gaze_message(frame));
+  if (gaze_) {
+    all.push_back({std::string(kClosed), {float((frame[kBlinks[0]] + frame[kBlinks[1]]) / 2)}});
+    all.push_back(gaze_message(frame));
+  }
   const bool whole = last_.empty() || !whole_ || seconds >= *whole_ + kWholeSeconds;
   std::vector<OscMessage> out;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    // VRChat looks elsewhere by itself when no gaze has come for a while, so that goes always.
-    if (whole || i + 1 == all.size() || all[i].values != last_[i].values) out.push_back(all[i]);
+    if (whole || all[i].values != last_[i].values) out.push_back(all[i]);
   }
   if (whole) whole_ = seconds;
   last_ = std::move(all);

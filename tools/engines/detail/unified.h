@@ -42,12 +42,13 @@ std::span<const UnifiedParameter> unified_parameters();
 /// Says what has changed, and everything once a second.
 class UnifiedWriter {
  public:
-  /// `prefix` as in "v2" or "FT/v2".
-  explicit UnifiedWriter(const std::string& prefix);
+  /// `prefix` as in "v2" or "FT/v2". `gaze`: /tracking/eye goes along.
+  explicit UnifiedWriter(const std::string& prefix, bool gaze = true);
   std::vector<OscMessage> write(const fap::ArkitFrame& frame, double seconds);
 
  private:
   std::string begin_;
+  bool gaze_;
   std::vector<OscMessage> last_;
   std::optional<double> whole_;  // seconds of the last frame with everything
 };
