@@ -43,7 +43,7 @@ void add_source_options(CLI::App& app, StreamOptions& options) {
          "--control", options.program.control,
          "Path of a socket (Unix domain, mode 0600) for more lines and commands; events come "
          "back on it")
-      ->option_text("SOCKET")
+      ->option_text("FILE")
       ->excludes("--say-audio");
   add_output(
       app.add_option("--events", options.events,

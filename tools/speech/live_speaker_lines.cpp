@@ -37,7 +37,7 @@ void LiveSpeaker::Impl::collect(double now) {
 
 // A line is taken when it can begin, so that all others can still be put in order.
 void LiveSpeaker::Impl::take_line() {
-  if (waiting) return;
+  if (waiting || face.closing()) return;
   const bool speaking = face.speaking();
   if (speaking && end_of_speech() >= frame_due() + kLead) return;
   while (auto line = lines->take(speaking)) {
