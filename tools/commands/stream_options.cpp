@@ -103,8 +103,9 @@ void add_options(CLI::App& app, StreamOptions& options) {
   add_source_options(app, options);
   app.add_option(
          "--to", options.to,
-         "Address: rtp://host:port, udp://host:port, srt://host:port, or http://host:port to "
-         "serve browsers; may be repeated")
+         "Address: rtp://host:port, udp://host:port, srt://host:port; http://host:port to serve "
+         "browsers, webrtc://host:port the same by WebRTC; whip://host:port/path to a WebRTC "
+         "server; may be repeated")
       ->required()
       ->allow_extra_args(false);
   add_output(app.add_option("--sdp", options.sdp,

@@ -6,6 +6,7 @@
 #include "fap/head/model.h"
 #include "fap/head/rig.h"
 #include "tools/viewer/viewer.h"
+#include "tools/webrtc/webrtc.h"
 
 namespace animeme::live {
 
@@ -24,8 +25,9 @@ bool is_web(const std::string& url) {
 
 bool is_media(const std::string& url) { return begins(url, {"rtp://", "udp://", "srt://"}); }
 
-/// The page shows a head of ours unless it has one.
+/// The page shows a head of ours unless it has one; browsers come by WebRTC where they can.
 web::WebOptions with_head(web::WebOptions options) {
+  if (!options.make_peers) options.make_peers = [] { return webrtc::make_peers(); };
   if (!options.head_script.empty()) return options;
   const Result<head::Head> head = head::make_head();
   if (!head) return options;  // it has a schematic face for that
@@ -36,20 +38,27 @@ web::WebOptions with_head(web::WebOptions options) {
 
 }  // namespace
 
+bool takes_opus_alone(const std::string& url) {
+  return webrtc::is_webrtc(url) || webrtc::is_whip(url);
+}
+
 bool is_rtp(const std::string& url) { return begins(url, {"rtp://"}); }
 
 Result<std::unique_ptr<media::LiveSink>> open_sink(const std::string& url,
                                                    const SinkOptions& options) {
-  if (is_web(url)) {
-    auto sink = web::make_web_sink(url, with_head(options.web));
+  if (is_web(url) || webrtc::is_webrtc(url)) {
+    auto sink = webrtc::is_webrtc(url) ? webrtc::make_webrtc_sink(url, with_head(options.web))
+                                       : web::make_web_sink(url, with_head(options.web));
     if (!sink) return sink.error();
     return std::unique_ptr<media::LiveSink>(std::move(*sink));
   }
+  if (webrtc::is_whip(url)) return webrtc::make_whip_sink(url);
   if (is_media(url)) return media::open_sink(url, options.media);
   return make_error(Code::invalid_argument,
                     "'" + url +
                         "' is no address to send to; write rtp://host:port, udp://host:port, "
-                        "srt://host:port or http://host:port");
+                        "srt://host:port, http://host:port, webrtc://host:port or "
+                        "whip://host:port/path");
 }
 
 Result<std::unique_ptr<media::LiveSource>> open_source(const std::string& where,

@@ -55,6 +55,7 @@ class Sink : public WebSink {
       if (!server_ || over_) return {};
       Result<void> flushed = flush();
       over_ = true;
+      if (peers_) peers_->finish();
       server_->finish();
       return flushed;
     });
@@ -62,6 +63,14 @@ class Sink : public WebSink {
 
   media::SendStats stats() const override {
     media::SendStats stats = server_ ? server_->stats() : media::SendStats{};
+    if (peers_) {
+      const media::SendStats more = peers_->stats();
+      stats.receivers += more.receivers;
+      stats.packets += more.packets;
+      stats.bytes += more.bytes;
+      stats.dropped += more.dropped;
+      stats.repeated += more.repeated;
+    }
     stats.face_units = face_units_;
     stats.audio_units = audio_units_;
     return stats;
@@ -83,6 +92,7 @@ class Sink : public WebSink {
   const WebOptions options_;
   media::LiveInfo info_;
   std::unique_ptr<Server> server_;
+  std::shared_ptr<Peers> peers_;  // nullptr: no WebRTC
   bool over_ = false;
   Values values_;
   std::vector<media::AudioPacket> packets_;  // of the next segment
@@ -110,6 +120,13 @@ Result<void> Sink::begin(const media::LiveInfo& info) {
   const std::string names = values_hello();
   (*server)->set_hello(Channel::faps, {.bytes = {names.begin(), names.end()}, .text = true});
   if (!init.empty()) (*server)->set_hello(Channel::audio, {.bytes = std::move(init)});
+  if (options_.make_peers) {
+    peers_ = options_.make_peers();
+    Result<void> ready = peers_->start(info_, options_.max_clients, options_.per_address);
+    if (!ready && options_.must_have_peers) return ready;
+    if (!ready) peers_.reset();
+  }
+  (*server)->set_peers(peers_);
   server_ = std::move(*server);
   describe();
   server_->serve();
@@ -130,7 +147,8 @@ void Sink::describe() {
                      {"sample_rate", info_.audio->sample_rate},
                      {"channels", info_.audio->channels}};
   }
-  json["clients"] = server_->stats().receivers;
+  if (peers_) json["webrtc"] = true;  // at /whep
+  json["clients"] = stats().receivers;
   server_->set_info(json.dump());
 }
 
@@ -149,14 +167,16 @@ Result<void> Sink::send_face(const LiveUnit& unit) {
                     .entry = unit.intra,
                     .time = seconds});
   const auto face = values_.push(unit.bytes);
+  std::string text;
   if (face) {
     const ValuesMessage message{seconds, double(unit.duration) / info_.timescale, unit.intra,
                                 unit.bytes.size()};
-    const std::string text = write_values(message, *face);
+    text = write_values(message, *face);
     server_->publish(
         Channel::faps,
         {.bytes = {text.begin(), text.end()}, .text = true, .entry = unit.intra, .time = seconds});
   }
+  if (peers_) peers_->send(unit, text);
   if (unit.intra) {
     server_->forget_before(Channel::audio, seconds - kSoundBefore);
     describe();
@@ -169,6 +189,7 @@ Result<void> Sink::send_sound(const LiveUnit& unit) {
   if (!info_.audio) return invalid("start() was not told of a sound");
   const std::int64_t time = unit.time + std::int64_t(info_.audio->sample_rate) * kWebTimeZero;
   if (time < 0) return invalid("a packet lies more than a second before time 0");
+  if (peers_) peers_->send(unit, {});
   const bool follows = packets_.empty() || packets_.back().time + packets_.back().duration == time;
   if (!follows) {
     if (Result<void> flushed = flush(); !flushed) return flushed;

@@ -58,11 +58,14 @@ int Server::handle(lws* wsi, lws_callback_reasons reason, const char* in, std::s
       return 0;
     case LWS_CALLBACK_RECEIVE:
       return (sessions_[wsi].received += size) > kMostFromClient ? -1 : 0;
-    case LWS_CALLBACK_HTTP_BODY:  // of a POST: nobody wants it
-      return -1;
+    case LWS_CALLBACK_HTTP_BODY:
+      return whep_body(wsi, in, size);
+    case LWS_CALLBACK_HTTP_BODY_COMPLETION:
+      return whep_offer(wsi);
     case LWS_CALLBACK_HTTP_WRITEABLE: {
       const auto session = sessions_.find(wsi);
       if (session == sessions_.end()) return 0;
+      if (session->second.resource == Resource::whep) return whep_answer(wsi, session->second);
       return session->second.resource == Resource::talk ? write_message(wsi, session->second)
                                                         : write_body(wsi, session->second);
     }
@@ -129,17 +132,16 @@ int Server::transaction_over(lws* wsi) {
 int Server::refuse(lws* wsi, const Request& request, unsigned status) {
   if (!send_refusal(wsi, status, request.method != Request::Method::head)) return -1;
   // Whatever comes behind another method stays unread.
-  return request.method == Request::Method::other ? -1 : transaction_over(wsi);
+  return request.is_read() ? transaction_over(wsi) : -1;
 }
 
 int Server::request(lws* wsi) {
   const Request request = request_of(wsi);
   const unsigned status = objection(wsi, request);
   if (status != 0) return refuse(wsi, request, status);
-  if (request.method == Request::Method::other) {
-    return refuse(wsi, request, HTTP_STATUS_METHOD_NOT_ALLOWED);
-  }
   const Resource resource = resource_of(request.path);
+  if (resource == Resource::whep && peers_) return whep(wsi, request);
+  if (!request.is_read()) return refuse(wsi, request, HTTP_STATUS_METHOD_NOT_ALLOWED);
   if (!exists(resource)) return refuse(wsi, request, HTTP_STATUS_NOT_FOUND);
   if (is_socket(resource)) return refuse(wsi, request, 426);  // upgrade required
   leave(wsi);
@@ -157,6 +159,7 @@ int Server::serve(lws* wsi, const Request& request, Resource resource) {
   }
   const Document& document = *session.document;
   session.packed = !document.packed.empty() && takes_gzip(request.accept_encoding);
+  if (resource == Resource::page && peers_) peers_->expect();
   Answer answer{.type = type_of(resource), .origin = shared_with(request)};
   answer.embedded = answer.origin == "*";
   answer.packed = session.packed;
@@ -251,6 +254,7 @@ int Server::write_message(lws* wsi, Session& session) {
 /// Something was published, or it is over.
 void Server::look_around() {
   const std::lock_guard lock(mutex_);
+  hand_out_answers();
   const auto patience = std::chrono::microseconds(std::int64_t(options_.stall_seconds * 1e6));
   const auto since = Hub::Clock::now() - patience;
   for (auto& [wsi, session] : sessions_) {

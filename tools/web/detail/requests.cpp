@@ -6,6 +6,7 @@
 #include <array>
 #include <cstring>
 #include <string_view>
+#include <utility>
 
 namespace animeme::web {
 namespace {
@@ -86,6 +87,7 @@ Resource resource_of(const std::string& path) {
   if (path == "/face") return Resource::face;
   if (path == "/faps") return Resource::faps;
   if (path == "/audio") return Resource::audio;
+  if (path == "/whep" || path.starts_with("/whep/")) return Resource::whep;
   return Resource::none;
 }
 
@@ -113,18 +115,23 @@ bool is_socket(Resource resource) {
 
 Request request_of(lws* wsi) {
   Request request;
-  if (lws_hdr_total_length(wsi, WSI_TOKEN_GET_URI) > 0) {
-    request.method = Request::Method::get;
-    request.path = header_of(wsi, WSI_TOKEN_GET_URI);
-  } else if (lws_hdr_total_length(wsi, WSI_TOKEN_HEAD_URI) > 0) {
-    request.method = Request::Method::head;
-    request.path = header_of(wsi, WSI_TOKEN_HEAD_URI);
+  using Method = Request::Method;
+  for (const auto& [token, method] :
+       {std::pair{WSI_TOKEN_GET_URI, Method::get}, std::pair{WSI_TOKEN_HEAD_URI, Method::head},
+        std::pair{WSI_TOKEN_POST_URI, Method::post}, std::pair{WSI_TOKEN_PATCH_URI, Method::patch},
+        std::pair{WSI_TOKEN_DELETE_URI, Method::remove},
+        std::pair{WSI_TOKEN_OPTIONS_URI, Method::options}}) {
+    if (lws_hdr_total_length(wsi, token) <= 0) continue;
+    request.method = method;
+    request.path = header_of(wsi, token);
+    break;
   }
   request.has_origin = lws_hdr_total_length(wsi, WSI_TOKEN_ORIGIN) > 0;
   request.origin = header_of(wsi, WSI_TOKEN_ORIGIN);
   request.host = header_of(wsi, WSI_TOKEN_HOST);
   request.accept_encoding = header_of(wsi, WSI_TOKEN_HTTP_ACCEPT_ENCODING);
   request.if_none_match = header_of(wsi, WSI_TOKEN_HTTP_IF_NONE_MATCH);
+  request.content_type = header_of(wsi, WSI_TOKEN_HTTP_CONTENT_TYPE);
   return request;
 }
 
@@ -145,7 +152,16 @@ bool send_header(lws* wsi, const Answer& answer) {
     header.add("etag:", answer.etag);
     header.add("vary:", "accept-encoding, origin");
   }
-  if (answer.status == HTTP_STATUS_METHOD_NOT_ALLOWED) header.add("allow:", "GET, HEAD");
+  if (answer.status == HTTP_STATUS_METHOD_NOT_ALLOWED) header.add("allow:", answer.allow);
+  if (answer.status == HTTP_STATUS_NO_CONTENT) {  // what pages elsewhere may do
+    header.add("access-control-allow-methods:", answer.allow);
+    header.add("access-control-allow-headers:", "content-type, authorization");
+    header.add("accept-post:", "application/sdp");
+  }
+  if (!answer.location.empty()) {
+    header.add("location:", answer.location);
+    header.add("access-control-expose-headers:", "location");
+  }
   header.add("x-content-type-options:", "nosniff");
   header.add("referrer-policy:", "no-referrer");
   header.add("content-security-policy:", kPolicy);

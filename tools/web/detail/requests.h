@@ -23,7 +23,8 @@ enum class Resource : std::uint8_t {
   talk,
   face,
   faps,
-  audio
+  audio,
+  whep
 };
 
 /// `path`: as in the request line, without the query.
@@ -35,10 +36,11 @@ bool is_socket(Resource resource);
 /// The part of a request that counts here. Values are empty if they are absent or longer than 512
 /// bytes.
 struct Request {
-  enum class Method : std::uint8_t { get, head, other };
+  enum class Method : std::uint8_t { get, head, post, patch, remove, options, other };
   Method method = Method::other;
+  bool is_read() const { return method == Method::get || method == Method::head; }
   bool has_origin = false;
-  std::string path, host, origin, accept_encoding, if_none_match;
+  std::string path, host, origin, accept_encoding, if_none_match, content_type;
 };
 Request request_of(lws* wsi);
 
@@ -51,6 +53,8 @@ struct Answer {
   bool packed = false;     ///< by gzip
   std::string origin;      ///< pages there may read it; "*": all
   bool embedded = false;   ///< pages elsewhere may show it without reading it
+  std::string location;    ///< of what was made
+  const char* allow = "GET, HEAD";  ///< 405, 204: what there is
 };
 
 /// False: it could not be sent.

@@ -58,6 +58,7 @@ Server::Server(const WebAddress& address, const WebOptions& options, int sample_
 }
 
 void Server::stop() {
+  if (peers_) peers_->finish();  // it answers no more
   service_.stop([this] { lws_sul_cancel(&timer_.entry); });
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "fap/result.h"
@@ -29,6 +30,10 @@ struct Session {
   std::size_t at = 0;
   std::size_t received = 0;
   std::int64_t begin = -1;  // of /talk.mp4: time of its first segment, in samples
+  // Of /whep: what was posted, by which number the answer comes, and who else may read it.
+  std::string upload, origin;
+  std::uint64_t ticket = 0;
+  std::optional<PeerAnswer> answer;
 };
 
 class Server {
@@ -45,6 +50,9 @@ class Server {
   /// From now on clients are served, in a thread. The first of them is to find everything: who
   /// comes before waits.
   void serve() { service_.run(); }
+
+  /// Who answers `/whep`; before serve(). nullptr: nobody, there is none.
+  void set_peers(std::shared_ptr<Peers> peers) { peers_ = std::move(peers); }
 
   // All of these may be called from any thread.
   void set_hello(Channel channel, Message hello);
@@ -70,6 +78,12 @@ class Server {
   int serve(lws* wsi, const Request& request, Resource resource);
   int talk(lws* wsi, const Request& request);
   int upgrade(lws* wsi);
+  int whep(lws* wsi, const Request& request);
+  int whep_body(lws* wsi, const char* bytes, std::size_t size);
+  int whep_offer(lws* wsi);
+  int whep_answer(lws* wsi, Session& session);
+  int whep_reply(lws* wsi, Answer answer, const std::string& text);
+  void hand_out_answers();
   int write_body(lws* wsi, Session& session);
   int transaction_over(lws* wsi);
   bool send_message(lws* wsi, Session& session, const Message& message);
@@ -83,6 +97,7 @@ class Server {
   const int sample_rate_;  // of the sound, 0: there is none
   const OwnNames names_;
   std::map<Resource, DocumentPtr> documents_;  // but for info.json
+  std::shared_ptr<Peers> peers_;
   Service service_;
   int port_ = 0;
 
@@ -91,6 +106,7 @@ class Server {
   Hub hub_;
   DocumentPtr info_;
   bool finishing_ = false;
+  std::map<std::uint64_t, PeerAnswer> answers_;  // by ticket
 
   // Of the service thread alone.
   struct Timer {
@@ -98,6 +114,7 @@ class Server {
     Server* server = nullptr;
   } timer_;
   std::map<lws*, Session> sessions_;
+  std::uint64_t tickets_ = 0;
   Visitors visitors_;
   std::string entering_;  // address of the connection that is just being accepted
 

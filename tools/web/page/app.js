@@ -15,7 +15,7 @@
     state: 'idle', shown: 0, time: 0, offset: 0,
   };
 
-  const session = animeme.session = new Live.Session(audio, {
+  const session = animeme.session = new Rtc.Session(audio, {
     state(name, text) {
       animeme.state = name;
       badge.dataset.state = name;

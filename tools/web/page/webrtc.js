@@ -1,0 +1,170 @@
+'use strict';
+// The connections by WebRTC where the server and the browser have it, else those of live.js. Sound
+// and values come over UDP, without a player's buffer; the RTP time of the sound is its clock.
+const Rtc = (() => {
+  // Milliseconds, after which it goes by WebSockets: without a way through, without the first message.
+  const kPatience = 2000, kMostPatience = 6000;
+  const kWindow = 60;      // packets of sound that tell how its clock goes
+
+  const wanted = () => window.RTCPeerConnection &&
+      new URLSearchParams(location.search).get('transport') !== 'ws';
+
+  class Session extends Live.Session {
+    constructor(audio, events) {
+      super(audio, events);
+      if (wanted()) this.prepare();  // the first offer takes a browser a while
+    }
+
+    async start() {
+      if (!wanted() || this.refusedRtc) return super.start();
+      this.running = true;
+      this.ended = false;
+      this.events.state('connecting', 'connecting');
+      try {
+        this.info = await (await fetch('info.json', {cache: 'no-store'})).json();
+      } catch {
+        return this.lost();
+      }
+      if (!this.running) return;
+      if (!this.info.webrtc) {
+        this.hangUp();
+        return super.start();
+      }
+      this.frames = [];
+      try {
+        await this.connect();
+      } catch (problem) {
+        if (!this.running) return;
+        console.info(`WebRTC does not work here (${problem.message}), WebSockets do`);
+        this.hangUp();
+        this.refusedRtc = true;
+        super.start();
+      }
+    }
+
+    // An offer; whether it is made use of is seen later.
+    prepare() {
+      const peer = this.peer = new RTCPeerConnection();
+      this.receiver = peer.addTransceiver('audio', {direction: 'recvonly'}).receiver;
+      this.channel = peer.createDataChannel('animeme.faps', {ordered: false, maxRetransmits: 0});
+      this.offered = peer.setLocalDescription();
+      this.offered.catch(() => {});  // connect() sees it, too
+    }
+
+    // WHEP. All candidates of the server are in its answer; ours would be names that mean nothing to
+    // it (mDNS), so it is not kept waiting for them: it sees where we come from.
+    async connect() {
+      if (!this.peer) this.prepare();
+      const peer = this.peer;
+      if (this.info.audio) this.hear();  // while the click counts
+      await this.offered;
+      const response = await fetch('whep', {
+        method: 'POST', headers: {'Content-Type': 'application/sdp'}, body: peer.localDescription.sdp,
+        signal: AbortSignal.timeout(kPatience),
+      });
+      const sdp = await response.text();
+      if (response.status !== 201) throw new Error(sdp.trim());
+      if (peer !== this.peer) return;
+      this.resource = response.headers.get('Location');
+      await peer.setRemoteDescription({type: 'answer', sdp});
+      if (peer !== this.peer) return;
+      if (this.info.audio) this.hear();  // Chromium at times stays silent where the track was not live
+      await this.opened(peer);
+      if (peer === this.peer) this.connected = true;
+    }
+
+    hear() {
+      this.audio.srcObject = new MediaStream([this.receiver.track]);
+      this.audio.play().catch((problem) => this.refused(problem));
+    }
+
+    opened(peer) {
+      return new Promise((done, failed) => {
+        const late = () => failed(new Error('no connection in time'));
+        const found = () => /^(connected|completed)$/.test(peer.iceConnectionState);
+        setTimeout(() => { if (!found()) late(); }, kPatience);
+        setTimeout(late, kMostPatience);
+        const look = () => {
+          const state = peer.connectionState;
+          if (state === 'failed' || state === 'closed') {
+            failed(new Error('no way through'));
+            this.broken();
+          } else if (this.channel.readyState === 'open' || (!this.info.face && state === 'connected')) {
+            done();
+          }
+        };
+        peer.onconnectionstatechange = this.channel.onopen = look;
+        this.channel.onmessage = (event) => this.read(JSON.parse(event.data));
+        this.channel.onclose = () => this.broken();
+        look();
+      });
+    }
+
+    read(message) {
+      if (message.end) {
+        this.over = true;
+        return;
+      }
+      // Messages overtake each other; a plane that is late is no news.
+      if (this.frames.length && message.time <= this.frames.at(-1).time) return;
+      this.take(message);
+      this.live();
+    }
+
+    // The server has closed, or the network has.
+    broken() {
+      if (!this.connected || !this.peer) return;
+      if (!this.over) return this.lost();
+      // What is still in the buffer is heard.
+      const rest = this.frames.length ? this.frames.at(-1).time - this.clock() : 0;
+      setTimeout(() => { if (this.running) this.end(); }, Math.max(0, rest * 1000));
+    }
+
+    hangUp() {
+      if (!this.peer) return;
+      this.channel.onclose = this.channel.onmessage = this.peer.onconnectionstatechange = null;
+      this.peer.close();
+      if (this.resource) fetch(this.resource, {method: 'DELETE', keepalive: true}).catch(() => {});
+      this.audio.srcObject = null;
+      this.peer = this.channel = this.receiver = this.resource = this.heard = this.offset = undefined;
+      this.connected = this.over = false;
+      this.samples = [];
+    }
+
+    stop() {
+      this.hangUp();
+      super.stop();
+    }
+
+    // Seconds on the clock of the sound: which packet was given to the loudspeaker when.
+    clock() {
+      if (!this.connected) return super.clock();
+      const now = performance.now() / 1000;
+      if (this.info.audio) this.listen();
+      if (this.offset !== undefined) return now + this.offset;
+      return this.info.audio || this.begun === undefined ? 0 : now + this.begun;
+    }
+
+    listen() {
+      const heard = this.receiver.getSynchronizationSources()[0];
+      if (!heard || heard.rtpTimestamp === this.heard) return;
+      this.heard = heard.rtpTimestamp;
+      const at = (heard.timestamp - performance.timeOrigin) / 1000;
+      // RTP times are those of the common clock, but begin anew every 24.9 hours.
+      const turn = 2 ** 32 / 48000, time = heard.rtpTimestamp / 48000;
+      const near = this.frames.length ? this.frames.at(-1).time : time;
+      const offset = time + Math.round((near - time) / turn) * turn - at;
+      this.samples.push(offset);
+      if (this.samples.length > kWindow) this.samples.shift();
+      const sorted = [...this.samples].sort((a, b) => a - b);
+      this.offset = sorted[sorted.length >> 1];
+    }
+
+    buffered() { return this.connected ? this.latency() : super.buffered(); }
+    latency() {
+      if (!this.connected) return super.latency();
+      return this.frames.length ? this.frames.at(-1).time - this.clock() : 0;
+    }
+  }
+  return {Session};
+})();
