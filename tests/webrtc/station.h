@@ -5,7 +5,9 @@
 
 #include <atomic>
 #include <cmath>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <numbers>
 #include <optional>
 #include <thread>
@@ -66,6 +68,11 @@ class Station {
 
   const Result<void>& started() const { return started_; }
   media::LiveSink& sink() { return *sink_; }
+  /// Units of the face so far, by their time.
+  std::map<std::int64_t, media::LiveUnit> sent() const {
+    const std::lock_guard lock(mutex_);
+    return sent_;
+  }
   /// Says goodbye, if that was not done before.
   void stop() {
     over_ = true;
@@ -86,6 +93,9 @@ class Station {
       if (!units) return;
       for (const media::LiveUnit& unit : *units) {
         if (!sink_->send(unit)) return;
+        if (unit.track != media::LiveTrack::face) continue;
+        const std::lock_guard lock(mutex_);
+        sent_[unit.time] = unit;
       }
     }
   }
@@ -95,6 +105,8 @@ class Station {
   Result<void> started_;
   std::atomic<bool> over_ = false;
   bool finished_ = false;
+  mutable std::mutex mutex_;
+  std::map<std::int64_t, media::LiveUnit> sent_;
   std::thread thread_;
 };
 

@@ -74,10 +74,11 @@ class Whep : public ::testing::Test {
   std::string ask_for(const std::string& what, const std::string& headers = "",
                       const std::string& body = "") {
     Connection connection(port_);
-    connection.send(what + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port_) +
-                    "\r\nConnection: close\r\n" + headers +
-                    (body.empty() ? "" : "Content-Length: " + std::to_string(body.size()) + "\r\n") +
-                    "\r\n" + body);
+    connection.send(
+        what + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port_) +
+        "\r\nConnection: close\r\n" + headers +
+        (body.empty() ? "" : "Content-Length: " + std::to_string(body.size()) + "\r\n") + "\r\n" +
+        body);
     return connection.read_all();
   }
   std::string post(const std::string& headers = "", const std::string& body = "v=0 offer") {
@@ -120,8 +121,8 @@ TEST_F(Whep, UnitsGoWithTheirValues) {
 TEST_F(Whep, WhatIsNoOfferIsRefused) {
   serve();
   EXPECT_EQ(status_of(ask_for("POST /whep", "Content-Type: text/plain\r\n", "x")), 415);
-  for (const char* what : {"GET /whep", "HEAD /whep", "PATCH /whep/abc", "DELETE /whep",
-                           "POST /whep/abc"}) {
+  for (const char* what :
+       {"GET /whep", "HEAD /whep", "PATCH /whep/abc", "DELETE /whep", "POST /whep/abc"}) {
     const std::string answer = ask_for(what);
     EXPECT_EQ(status_of(answer), 405) << what;
     EXPECT_EQ(header_of(answer, "allow"), "POST, DELETE, OPTIONS") << what;

@@ -16,13 +16,13 @@ Feed::Feed(const media::LiveInfo& info, std::vector<std::uint8_t> hello, int rep
 
 Result<Feed> Feed::make(const media::LiveInfo& info, int repeat) {
   if (info.audio && info.audio->codec != media::AudioCodec::opus) {
-    return make_error(Code::unsupported,
-                      std::string("WebRTC carries Opus, and this sound is ") +
-                          media::name_of(info.audio->codec) + "; write --audio-codec opus");
+    return make_error(Code::unsupported, std::string("WebRTC carries Opus, and this sound is ") +
+                                             media::name_of(info.audio->codec) +
+                                             "; write --audio-codec opus");
   }
   return Feed(info,
-              web::write_hello({info.visual_profile, info.audio.has_value(), info.timescale,
-                                info.face_config}),
+              web::write_hello(
+                  {info.visual_profile, info.audio.has_value(), info.timescale, info.face_config}),
               repeat);
 }
 
@@ -84,8 +84,8 @@ void Feed::end(Receiver& receiver) {
   static constexpr std::string_view kEnd = R"({"end":true})";
   if (receiver.face) receiver.peer->send(kFace, end_message(), false);
   if (receiver.values) {
-    receiver.peer->send(
-        kValues, {reinterpret_cast<const std::uint8_t*>(kEnd.data()), kEnd.size()}, true);
+    receiver.peer->send(kValues, {reinterpret_cast<const std::uint8_t*>(kEnd.data()), kEnd.size()},
+                        true);
   }
 }
 

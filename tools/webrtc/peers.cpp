@@ -144,10 +144,9 @@ void PeerHub::send(const media::LiveUnit& unit, std::string_view values) {
 void PeerHub::run() {
   std::unique_lock lock(mutex_);
   while (!over_) {
-    changed_.wait_for(lock, kLookEvery,
-                      [this] {
-                        return over_ || !offers_.empty() || !gone_.empty() || expected_ > loaded_;
-                      });
+    changed_.wait_for(lock, kLookEvery, [this] {
+      return over_ || !offers_.empty() || !gone_.empty() || expected_ > loaded_;
+    });
     std::vector<Offer> offers = std::exchange(offers_, {});
     std::vector<Viewer> gone = std::exchange(gone_, {});
     look_after(gone);
@@ -155,7 +154,7 @@ void PeerHub::run() {
     if (offers.empty() && gone.empty() && !first) continue;
     lock.unlock();
     if (first) (void)load();  // who comes is told of its errors
-    gone.clear();  // waits for their threads
+    gone.clear();             // waits for their threads
     for (Offer& offer : offers) let_in(std::move(offer));
     lock.lock();
   }

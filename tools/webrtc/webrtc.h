@@ -3,7 +3,8 @@
 /// it is asked for.
 ///
 ///     auto sink = make_webrtc_sink("webrtc://127.0.0.1:8080", options);  // WHEP: viewers come
-///     auto other = make_whip_sink("whips://media.example/whip/ada");     // WHIP: a server takes it
+///     auto other = make_whip_sink("whips://media.example/whip/ada");     // WHIP: a server takes
+///     it
 ///
 /// Packets of Opus go out as they are, as RTP whose clock is that of the web server: time 0 is
 /// 48000. Access units and decoded values are messages of data channels that lose rather than wait.
@@ -59,12 +60,11 @@ Result<std::unique_ptr<web::WebSink>> make_webrtc_sink(const std::string& url,
                                                        const web::WebOptions& options = {});
 
 /// whip://HOST:PORT/PATH publishes to the WHIP server at http://HOST:PORT/PATH, whips:// to https.
-/// `whip://TOKEN@HOST/PATH` or the environment's ANIMEME_WHIP_TOKEN is sent as bearer token. Options
-/// as above, behind the path. start() waits for the answer, for 10 s at most; a server that takes
-/// no data channel gets the sound alone.
-/// Errors: invalid_argument (address). Those of start(): unsupported (as load(); the sound is not
-/// Opus; there is none and no face), io (the server does not answer or refuses). Those of send(): io
-/// (the connection broke).
+/// `whip://TOKEN@HOST/PATH` or the environment's ANIMEME_WHIP_TOKEN is sent as bearer token.
+/// Options as above, behind the path. start() waits for the answer, for 10 s at most; a server that
+/// takes no data channel gets the sound alone. Errors: invalid_argument (address). Those of
+/// start(): unsupported (as load(); the sound is not Opus; there is none and no face), io (the
+/// server does not answer or refuses). Those of send(): io (the connection broke).
 Result<std::unique_ptr<media::LiveSink>> make_whip_sink(const std::string& url);
 
 }  // namespace animeme::webrtc

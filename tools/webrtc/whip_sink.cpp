@@ -81,8 +81,8 @@ Result<void> WhipSink::start(const media::LiveInfo& info) {
     return make_error(Code::io, "no candidates were found; is the STUN or TURN server there?");
   }
   if (!offered->problem.empty()) return make_error(Code::io, offered->problem);
-  const HttpAnswer answer =
-      module_->exchange({"POST", where_.address, token_, offered->sdp, double(kServerPatience.count())});
+  const HttpAnswer answer = module_->exchange(
+      {"POST", where_.address, token_, offered->sdp, double(kServerPatience.count())});
   if (!answer.problem.empty()) {
     return make_error(Code::io, "the server does not answer: " + answer.problem);
   }

@@ -48,12 +48,12 @@ Request request_of(lws* wsi);
 struct Answer {
   unsigned status = HTTP_STATUS_OK;
   std::string type;
-  lws_filepos_t size = 0;  ///< LWS_ILLEGAL_HTTP_CONTENT_LEN: until the connection ends
-  std::string etag;        ///< caches may keep it and ask whether there is another version
-  bool packed = false;     ///< by gzip
-  std::string origin;      ///< pages there may read it; "*": all
-  bool embedded = false;   ///< pages elsewhere may show it without reading it
-  std::string location;    ///< of what was made
+  lws_filepos_t size = 0;           ///< LWS_ILLEGAL_HTTP_CONTENT_LEN: until the connection ends
+  std::string etag;                 ///< caches may keep it and ask whether there is another version
+  bool packed = false;              ///< by gzip
+  std::string origin;               ///< pages there may read it; "*": all
+  bool embedded = false;            ///< pages elsewhere may show it without reading it
+  std::string location;             ///< of what was made
   const char* allow = "GET, HEAD";  ///< 405, 204: what there is
 };
 

@@ -2,8 +2,9 @@
 // The connections by WebRTC where the server and the browser have it, else those of live.js. Sound
 // and values come over UDP, without a player's buffer; the RTP time of the sound is its clock.
 const Rtc = (() => {
-  // Milliseconds, after which it goes by WebSockets: without a way through, without the first message.
-  const kPatience = 2000, kMostPatience = 6000;
+  // Milliseconds, after which it goes by WebSockets: without an answer, then without a way through, then
+  // without the channel.
+  const kAnswer = 5000, kPatience = 2000, kMostPatience = 6000;
   const kWindow = 60;      // packets of sound that tell how its clock goes
 
   const wanted = () => window.RTCPeerConnection &&
@@ -60,7 +61,7 @@ const Rtc = (() => {
       await this.offered;
       const response = await fetch('whep', {
         method: 'POST', headers: {'Content-Type': 'application/sdp'}, body: peer.localDescription.sdp,
-        signal: AbortSignal.timeout(kPatience),
+        signal: AbortSignal.timeout(kAnswer),
       });
       const sdp = await response.text();
       if (response.status !== 201) throw new Error(sdp.trim());

@@ -6,7 +6,8 @@ namespace animeme::webrtc {
 namespace {
 
 constexpr std::size_t kHeader = 9, kMostUnits = 255;
-constexpr std::size_t kMostRecent = 512;  // units: streams without intra planes have to end somewhere
+constexpr std::size_t kMostRecent =
+    512;  // units: streams without intra planes have to end somewhere
 
 void put(std::vector<std::uint8_t>& bytes, std::uint64_t value, int size) {
   for (int i = size - 1; i >= 0; --i) bytes.push_back(std::uint8_t(value >> (8 * i)));

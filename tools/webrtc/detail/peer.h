@@ -13,10 +13,10 @@ namespace animeme::webrtc {
 
 /// What a connection is opened with.
 struct PeerSettings {
-  std::string offer;     ///< session description of the other end; empty: we offer
-  bool sound = false;    ///< there is Opus to send
-  std::string stun;      ///< "host:port", empty: none is asked
-  std::string turn;      ///< "user:password@host:port", empty: none
+  std::string offer;   ///< session description of the other end; empty: we offer
+  bool sound = false;  ///< there is Opus to send
+  std::string stun;    ///< "host:port", empty: none is asked
+  std::string turn;    ///< "user:password@host:port", empty: none
   /// Data channels that are opened, where we offer. Elsewhere the other end opens those it wants.
   std::vector<std::string> channels;
 };
@@ -56,10 +56,10 @@ struct HttpRequest {
   double seconds = 10;  ///< that it may take
 };
 struct HttpAnswer {
-  int status = 0;                 ///< 0: none came
-  std::string location = {};      ///< a whole address; empty: none was given
+  int status = 0;             ///< 0: none came
+  std::string location = {};  ///< a whole address; empty: none was given
   std::string body = {};
-  std::string problem = {};       ///< why none came; empty: one came
+  std::string problem = {};  ///< why none came; empty: one came
 };
 
 /// The module's table.

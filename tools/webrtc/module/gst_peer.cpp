@@ -13,8 +13,8 @@
 namespace animeme::webrtc {
 namespace {
 
-constexpr int kOwnPayloadType = 111;          // of our offers
-constexpr guint64 kMostWaiting = 64 * 1024;   // bytes of a channel
+constexpr int kOwnPayloadType = 111;           // of our offers
+constexpr guint64 kMostWaiting = 64 * 1024;    // bytes of a channel
 constexpr std::chrono::seconds kPatience{10};  // without a sign of life
 
 using SdpPtr = std::unique_ptr<GstSDPMessage, decltype(&gst_sdp_message_free)>;
@@ -85,9 +85,8 @@ GstPeer::GstPeer(const PeerSettings& settings, Described described)
     return;
   }
   if (settings_.offer.empty()) {
-    GstStructure* options =
-        gst_structure_new("application/data-channel", "ordered", G_TYPE_BOOLEAN, FALSE,
-                          "max-retransmits", G_TYPE_INT, 0, nullptr);
+    GstStructure* options = gst_structure_new("application/data-channel", "ordered", G_TYPE_BOOLEAN,
+                                              FALSE, "max-retransmits", G_TYPE_INT, 0, nullptr);
     for (const std::string& label : settings_.channels) {
       GstWebRTCDataChannel* channel = nullptr;
       g_signal_emit_by_name(bin_, "create-data-channel", label.c_str(), options, &channel);
@@ -146,9 +145,8 @@ bool GstPeer::build() {
     static_cast<GstPeer*>(self)->add_channel(channel);
   };
   g_signal_connect(bin_, "on-data-channel", G_CALLBACK(on_channel), this);
-  const auto on_gathering = +[](GstElement*, GParamSpec*, gpointer self) {
-    static_cast<GstPeer*>(self)->gathered();
-  };
+  const auto on_gathering =
+      +[](GstElement*, GParamSpec*, gpointer self) { static_cast<GstPeer*>(self)->gathered(); };
   g_signal_connect(bin_, "notify::ice-gathering-state", G_CALLBACK(on_gathering), this);
   // What comes in, of whatever kind, is a sign of life.
   const auto on_element = +[](GstBin*, GstBin*, GstElement* element, gpointer self) {
@@ -156,8 +154,7 @@ bool GstPeer::build() {
     if (factory == nullptr || g_strcmp0(GST_OBJECT_NAME(factory), "nicesrc") != 0) return;
     GstPad* pad = gst_element_get_static_pad(element, "src");
     gst_pad_add_probe(
-        pad,
-        GstPadProbeType(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_BUFFER_LIST),
+        pad, GstPadProbeType(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_BUFFER_LIST),
         [](GstPad*, GstPadProbeInfo*, gpointer same) {
           static_cast<GstPeer*>(same)->waiting_since_ = 0;
           return GST_PAD_PROBE_OK;
@@ -182,15 +179,18 @@ void GstPeer::add_sound(int payload_type) {
   g_object_set(sound_, "caps", caps, "is-live", TRUE, "do-timestamp", TRUE, "format",
                GST_FORMAT_TIME, "max-buffers", guint64(50), "leaky-type", 2 /* old ones go */,
                nullptr);
-  gst_caps_unref(caps);
   gst_bin_add(GST_BIN(pipeline_.get()), sound_);
-  if (!gst_element_link(sound_, bin_)) return fail("webrtcbin takes no sound");
+  if (!gst_element_link(sound_, bin_)) {
+    gst_caps_unref(caps);
+    return fail("webrtcbin takes no sound");
+  }
   GArray* all = nullptr;
   g_signal_emit_by_name(bin_, "get-transceivers", &all);
   for (guint i = 0; all != nullptr && i < all->len; ++i) {
     g_object_set(g_array_index(all, GstWebRTCRTPTransceiver*, i), "direction",
-                 GST_WEBRTC_RTP_TRANSCEIVER_DIRECTION_SENDONLY, nullptr);
+                 GST_WEBRTC_RTP_TRANSCEIVER_DIRECTION_SENDONLY, "codec-preferences", caps, nullptr);
   }
+  gst_caps_unref(caps);
   if (all != nullptr) g_array_unref(all);
 }
 
@@ -339,11 +339,18 @@ void GstPeer::goodbye() {
 void GstPeer::send_sound(std::span<const std::uint8_t> packet, std::uint32_t time) {
   if (over_ || sound_ == nullptr) return;
   GstBuffer* buffer = gst_buffer_new_allocate(nullptr, 12 + packet.size(), nullptr);
-  const std::uint8_t header[12] = {
-      0x80, std::uint8_t(payload_type_), std::uint8_t(sequence_ >> 8), std::uint8_t(sequence_),
-      std::uint8_t(time >> 24), std::uint8_t(time >> 16), std::uint8_t(time >> 8),
-      std::uint8_t(time), std::uint8_t(ssrc_ >> 24), std::uint8_t(ssrc_ >> 16),
-      std::uint8_t(ssrc_ >> 8), std::uint8_t(ssrc_)};
+  const std::uint8_t header[12] = {0x80,
+                                   std::uint8_t(payload_type_),
+                                   std::uint8_t(sequence_ >> 8),
+                                   std::uint8_t(sequence_),
+                                   std::uint8_t(time >> 24),
+                                   std::uint8_t(time >> 16),
+                                   std::uint8_t(time >> 8),
+                                   std::uint8_t(time),
+                                   std::uint8_t(ssrc_ >> 24),
+                                   std::uint8_t(ssrc_ >> 16),
+                                   std::uint8_t(ssrc_ >> 8),
+                                   std::uint8_t(ssrc_)};
   ++sequence_;
   gst_buffer_fill(buffer, 0, header, sizeof header);
   gst_buffer_fill(buffer, sizeof header, packet.data(), packet.size());

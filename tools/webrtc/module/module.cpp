@@ -28,8 +28,8 @@ std::string begin() {
   for (const auto& [element, package] : kNeeded) {
     GstElementFactory* factory = gst_element_factory_find(element);
     if (factory == nullptr) {
-      return std::string("WebRTC needs GStreamer's ") + element + "; install it (Debian: " +
-             package + ")";
+      return std::string("WebRTC needs GStreamer's ") + element +
+             "; install it (Debian: " + package + ")";
     }
     gst_object_unref(factory);
   }
@@ -38,9 +38,8 @@ std::string begin() {
   std::promise<std::string> problem;
   PeerSettings settings;
   settings.channels = {"first"};
-  const GstPeer first(settings, [&](const std::string&, const std::string& why) {
-    problem.set_value(why);
-  });
+  const GstPeer first(settings,
+                      [&](const std::string&, const std::string& why) { problem.set_value(why); });
   std::future<std::string> known = problem.get_future();
   const bool told = known.wait_for(kFirst) == std::future_status::ready;
   return told ? known.get() : "GStreamer's webrtcbin makes no offer";
