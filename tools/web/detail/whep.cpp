@@ -1,5 +1,5 @@
 // WHEP: a browser posts its offer and gets the answer of Peers, when there is one. Source:
-// draft-ietf-wish-whep, sections 4.2 to 4.5; RFC 9725, section 4.3.
+// draft-ietf-wish-whep.
 #include <algorithm>
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "tools/webrtc/module/http.h"
+#include "tools/webrtc/detail/http.h"
 
 #ifdef ANIMEME_HAS_CURL
 

@@ -1,4 +1,4 @@
-#include "tools/webrtc/module/gst_peer.h"
+#include "tools/webrtc/detail/gst_peer.h"
 
 #include <arpa/inet.h>
 #include <gst/app/gstappsrc.h>

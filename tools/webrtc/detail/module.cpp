@@ -4,8 +4,8 @@
 #include <chrono>
 #include <future>
 
-#include "tools/webrtc/module/gst_peer.h"
-#include "tools/webrtc/module/http.h"
+#include "tools/webrtc/detail/gst_peer.h"
+#include "tools/webrtc/detail/http.h"
 
 namespace animeme::webrtc {
 namespace {
