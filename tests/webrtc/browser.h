@@ -44,9 +44,10 @@ class WebRtcBrowser : public ::testing::Test {
     if (const auto there = webrtc::load(); !there) GTEST_SKIP() << there.error().message;
     double load = 0;
     const double cores = std::max(1u, std::thread::hardware_concurrency());
-    if (std::getenv("ANIMEME_BUSY") == nullptr && getloadavg(&load, 1) == 1 && load > 5 * cores) {
+    if (getloadavg(&load, 1) == 1 && load > 5 * cores && std::getenv("ANIMEME_BUSY") == nullptr) {
       GTEST_SKIP() << "this machine is too busy to play in real time: load " << load;
     }
+    quiet_ = load < cores;
     browser_.emplace();
     ASSERT_TRUE(browser_->is_open()) << "Chromium does not start";
   }
@@ -86,6 +87,7 @@ class WebRtcBrowser : public ::testing::Test {
     EXPECT_EQ(web_->stats().receivers, 1);
   }
 
+  bool quiet_ = false;  // nobody else wants this machine: times are what they are said to be
   std::optional<Chromium> browser_;
   web::WebSink* web_ = nullptr;
   std::optional<Station> station_;

@@ -62,10 +62,10 @@ TEST_F(WebRtcPage, ShowsFaceAndSoundTogether) {
   expect_webrtc();
   const double first = browser_->evaluate("rtc.first");
   std::printf("first picture after %.0f ms\n", first);
-  EXPECT_LT(first, 3000);
+  EXPECT_LT(first, quiet_ ? 1000 : 6000);
   const auto late = distances();
   ASSERT_GE(late.size(), 6u);
-  EXPECT_LT(std::abs(late[late.size() / 2]), 40);
+  EXPECT_LT(std::abs(late[late.size() / 2]), quiet_ ? 40 : 120);
   EXPECT_THAT(browser_->complaints(), ::testing::IsEmpty());
 }
 
@@ -76,7 +76,7 @@ TEST_F(WebRtcPage, SurvivesLossAndJitter) {
   std::printf("first picture after %.0f ms\n", double(browser_->evaluate("rtc.first")));
   const auto late = distances();
   ASSERT_GE(late.size(), 6u);
-  EXPECT_LT(std::abs(late[late.size() / 2]), 40);
+  EXPECT_LT(std::abs(late[late.size() / 2]), quiet_ ? 40 : 120);
   const Json sound = browser_->evaluate(
       "(async () => [...(await rtc.peer.getStats()).values()].find(one => one.type === "
       "'inbound-rtp'))()");
