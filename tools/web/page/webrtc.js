@@ -5,7 +5,9 @@ const Rtc = (() => {
   // Milliseconds, after which it goes by WebSockets: without an answer, then without a way through, then
   // without the channel.
   const kAnswer = 5000, kPatience = 2000, kMostPatience = 6000;
-  const kWindow = 60;      // packets of sound that tell how its clock goes
+  const kWindow = 25;            // packets of sound that tell how its clock goes
+  const kPlanes = 50;            // that tell whether the face is there when it is due
+  const kHold = 0.1, kMostHold = 0.6;  // seconds that sound is held back: at first, at most
 
   const wanted = () => window.RTCPeerConnection &&
       new URLSearchParams(location.search).get('transport') !== 'ws';
@@ -48,6 +50,10 @@ const Rtc = (() => {
       const peer = this.peer = new RTCPeerConnection();
       this.receiver = peer.addTransceiver('audio', {direction: 'recvonly'}).receiver;
       this.channel = peer.createDataChannel('animeme.faps', {ordered: false, maxRetransmits: 0});
+      this.held = kHold;
+      this.samples = [];
+      this.spares = [];
+      this.ask();
       this.offered = peer.setLocalDescription();
       this.offered.catch(() => {});  // connect() sees it, too
     }
@@ -108,8 +114,27 @@ const Rtc = (() => {
       }
       // Messages overtake each other; a plane that is late is no news.
       if (this.frames.length && message.time <= this.frames.at(-1).time) return;
+      if (this.offset !== undefined) this.hold(message.time - this.clock());
       this.take(message);
       this.live();
+    }
+
+    // Sound is sent a little ahead of the face, and comes on another way: the browser is asked to hold it
+    // back until nearly every plane is there before it is due, by `spare` seconds.
+    hold(spare) {
+      this.spares.push(spare);
+      if (this.spares.length < kPlanes) return;
+      const least = this.spares.sort((a, b) => a - b)[2];
+      this.spares = [];
+      if (least < 0.005) this.held += 0.02 - least;
+      else if (least > 0.08) this.held -= 0.02;
+      this.ask();
+    }
+
+    ask() {
+      this.held = Math.min(Math.max(this.held, 0), kMostHold);
+      if ('jitterBufferTarget' in this.receiver) this.receiver.jitterBufferTarget = 1000 * this.held;
+      else this.receiver.playoutDelayHint = this.held;
     }
 
     // The server has closed, or the network has.
@@ -129,7 +154,6 @@ const Rtc = (() => {
       this.audio.srcObject = null;
       this.peer = this.channel = this.receiver = this.resource = this.heard = this.offset = undefined;
       this.connected = this.over = false;
-      this.samples = [];
     }
 
     stop() {

@@ -21,7 +21,8 @@ using SdpPtr = std::unique_ptr<GstSDPMessage, decltype(&gst_sdp_message_free)>;
 
 SdpPtr parse(const std::string& text) {
   GstSDPMessage* message = nullptr;
-  if (gst_sdp_message_new_from_text(text.c_str(), &message) != GST_SDP_OK) message = nullptr;
+  if (text.empty() || gst_sdp_message_new_from_text(text.c_str(), &message) != GST_SDP_OK)
+    message = nullptr;
   return {message, &gst_sdp_message_free};
 }
 
@@ -114,6 +115,9 @@ GstPeer::~GstPeer() {
   over_ = true;
   if (bin_ != nullptr) g_signal_handlers_disconnect_by_data(bin_, this);
   if (pipeline_) gst_element_set_state(pipeline_.get(), GST_STATE_NULL);
+  channels_.clear();
+  pipeline_
+      .reset();  // promises that are still open are let go of here, while there is somebody to tell
   describe("", "no description was ready in time");
 }
 
