@@ -72,9 +72,9 @@ class WebRtcBrowser : public ::testing::Test {
     if (relayed) relay(loss, jitter);
   }
   /// Once the answer is there.
-  void relay(double loss, double jitter) {
+  void relay(double loss, double jitter, bool overtake = false) {
     ASSERT_TRUE(wait_for(*browser_, "rtc.relayTo"));
-    relay_.emplace(int(browser_->evaluate("rtc.port")), loss, jitter);
+    relay_.emplace(int(browser_->evaluate("rtc.port")), loss, jitter, overtake);
     browser_->evaluate("rtc.relayTo(" + std::to_string(relay_->port()) + ")");
   }
 

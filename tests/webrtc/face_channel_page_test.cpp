@@ -46,7 +46,7 @@ TEST_F(FaceChannelPage, LosesNothingAtFivePercent) {
   browser_->call("Page.addScriptToEvaluateOnNewDocument", {{"source", kWatch}});
   browser_->open(web_->address() + "?transport=ws", 800, 600, true);
   browser_->evaluate(kJoin);
-  relay(0.05, 0.03);
+  relay(0.05, 0.03, true);
   ASSERT_TRUE(wait_for(*browser_, "Object.keys(rtc.units).length > 250", 60));
   station_->stop();
   EXPECT_TRUE(wait_for(*browser_, "rtc.ended", 5));

@@ -1,5 +1,5 @@
 // A bad network between two ends of UDP on this machine: it loses and delays datagrams, each on its
-// own, so that they overtake each other.
+// own. They overtake each other or, as where they wait in a queue, do not.
 #pragma once
 
 #include <arpa/inet.h>
@@ -8,10 +8,12 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <cstdlib>
 #include <map>
 #include <random>
 #include <thread>
@@ -23,8 +25,9 @@ namespace animeme::test {
 class Relay {
  public:
   /// To 127.0.0.1:`port` and back. `loss`: share of the datagrams; `jitter`: seconds of delay at
-  /// most.
-  Relay(int port, double loss, double jitter) : loss_(loss), jitter_(jitter) {
+  /// most. `overtake`: one that is delayed less than the one before it comes before it.
+  Relay(int port, double loss, double jitter, bool overtake)
+      : loss_(loss), jitter_(jitter), overtake_(overtake) {
     server_.sin_family = AF_INET;
     server_.sin_port = htons(std::uint16_t(port));
     server_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
@@ -99,16 +102,26 @@ class Relay {
         continue;
       }
       const double delay = std::uniform_real_distribution<double>(0, jitter_)(random_);
-      waiting_.emplace(Clock::now() + std::chrono::microseconds(std::int64_t(delay * 1e6)),
-                       Datagram{to_server, {block.begin(), block.begin() + count}});
+      Clock::time_point when = Clock::now() + std::chrono::microseconds(std::int64_t(delay * 1e6));
+      Clock::time_point& last = to_server ? last_there_ : last_back_;
+      if (!overtake_) when = std::max(when, last);
+      last = when;
+      waiting_.emplace(when, Datagram{to_server, {block.begin(), block.begin() + count}});
     }
   }
 
   std::atomic<double> loss_;
   const double jitter_;
+  const bool overtake_;
+  Clock::time_point last_there_, last_back_;
   sockaddr_in server_{}, browser_{};
   int front_ = -1, back_ = -1;
-  std::mt19937 random_{1};
+  /// ANIMEME_SEED: for a network that is as bad in another way.
+  static unsigned seed() {
+    const char* given = std::getenv("ANIMEME_SEED");
+    return given != nullptr ? unsigned(std::atoi(given)) : 1;
+  }
+  std::mt19937 random_{seed()};
   std::multimap<Clock::time_point, Datagram> waiting_;
   std::atomic<int> passed_ = 0, lost_ = 0;
   std::atomic<bool> over_ = false;

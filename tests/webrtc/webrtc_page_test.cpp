@@ -76,7 +76,12 @@ TEST_F(WebRtcPage, SurvivesLossAndJitter) {
   serve();
   start(0.05, 0.03);
   expect_webrtc();
-  std::printf("first picture after %.0f ms\n", double(browser_->evaluate("rtc.first")));
+  std::printf("first picture after %.0f ms: %s\n", double(browser_->evaluate("rtc.first")),
+              browser_
+                  ->evaluate("rtc.log.map(([what, at]) => `${what} ${Math.round(at - "
+                             "rtc.clicked)}`).join(', ')")
+                  .dump()
+                  .c_str());
   const auto late = distances();
   ASSERT_GE(late.size(), 6u);
   EXPECT_LT(std::abs(late[late.size() / 2]), quiet_ ? 40 : 120);

@@ -126,7 +126,7 @@ const Rtc = (() => {
       if (this.spares.length < kPlanes) return;
       const least = this.spares.sort((a, b) => a - b)[2];
       this.spares = [];
-      if (least < 0.005) this.held += 0.02 - least;
+      if (least < 0.005) this.held += Math.min(0.02 - least, 0.06);
       else if (least > 0.08) this.held -= 0.02;
       this.ask();
     }

@@ -44,6 +44,7 @@ class GstPeer : public Peer {
   using Clock = std::chrono::steady_clock;
 
   bool build();
+  void send_twice(GstPad* sink, GstBuffer* datagram);
   void add_sound(int payload_type);
   void add_channel(GstWebRTCDataChannel* channel);  // takes it
   void set_remote(const std::string& sdp, GstWebRTCSDPType type, GstPromiseChangeFunc then);
@@ -60,6 +61,8 @@ class GstPeer : public Peer {
   int payload_type_ = 0;
   std::uint32_t ssrc_ = 0;
   std::uint16_t sequence_ = 0;
+  int copies_ = 60;       // of datagrams, that still go twice
+  bool copying_ = false;  // both of the thread that sends
   std::atomic<bool> over_ = false;
   /// When something was sent that nothing has been heard since; 0: everything was heard of.
   std::atomic<Clock::rep> waiting_since_ = 0;

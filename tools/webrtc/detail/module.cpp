@@ -13,6 +13,8 @@ namespace {
 constexpr std::chrono::seconds kFirst{20};
 
 std::string begin() {
+  // What GLib and GStreamer tell developers is no talk of the program.
+  g_log_set_default_handler([](const gchar*, GLogLevelFlags, const gchar*, gpointer) {}, nullptr);
   GError* error = nullptr;
   if (!gst_init_check(nullptr, nullptr, &error)) {
     const std::string why = error != nullptr ? error->message : "no reason given";
