@@ -52,8 +52,8 @@ class WebRtcBrowser : public ::testing::Test {
     ASSERT_TRUE(browser_->is_open()) << "Chromium does not start";
   }
 
-  void serve(const web::WebOptions& options = {}) {
-    auto sink = webrtc::make_webrtc_sink("webrtc://127.0.0.1:0", options);
+  void serve() { run(webrtc::make_webrtc_sink("webrtc://127.0.0.1:0")); }
+  void run(Result<std::unique_ptr<web::WebSink>> sink) {
     ASSERT_TRUE(sink);
     web_ = sink->get();
     station_.emplace(std::move(*sink));

@@ -97,6 +97,13 @@ TEST_F(WebRtcPage, SurvivesLossAndJitter) {
   EXPECT_GT(int(sound["packetsLost"]), 0) << "nobody sends them again";
 }
 
+TEST_F(WebRtcPage, HttpHasItToo) {
+  run(web::make_web_sink("http://127.0.0.1:0",
+                         {.make_peers = [] { return webrtc::make_peers(); }}));
+  start();
+  expect_webrtc();
+}
+
 TEST_F(WebRtcPage, EndsWithThePresentation) {
   serve();
   start();
