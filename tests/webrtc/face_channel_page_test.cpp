@@ -59,12 +59,8 @@ TEST_F(FaceChannelPage, LosesNothingAtFivePercent) {
          for (const auto& [name, value] : units.items()) sorted[std::stoi(name)] = value;
          return sorted;
        }())) {
-    if (number >= 0) {
-      EXPECT_EQ(key, number + 1) << "a unit is missing";
-    }
-    if (number < 0) {
-      EXPECT_EQ(unit["intra"], true) << "a decoder can begin";
-    }
+    if (number < 0 && unit["intra"] != true) continue;  // a decoder cannot begin
+    EXPECT_TRUE(number < 0 || key == number + 1) << key << " follows " << number;
     number = key;
     late += int(bool(unit["late"]));
     const auto own = sent.find(std::int64_t(unit["time"]) - 25000);
@@ -75,6 +71,7 @@ TEST_F(FaceChannelPage, LosesNothingAtFivePercent) {
   std::printf("%zu units in %d messages; relay lost %d of %d; %d units came with a later message\n",
               units.size(), int(browser_->evaluate("rtc.messages")), relay_->lost(),
               relay_->lost() + relay_->passed(), late);
+  EXPECT_GT(number, 230);
   EXPECT_LT(int(browser_->evaluate("rtc.messages")), int(units.size()));
   EXPECT_GT(late, 0) << "what was lost came by repetition";
 }

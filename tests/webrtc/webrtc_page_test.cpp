@@ -159,6 +159,12 @@ TEST_F(WebRtcPage, WhoIsHeardOfNoMoreIsDropped) {
   std::printf("dropped after %.1f s\n",
               std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   EXPECT_EQ(web_->stats().receivers, 0);
+  // The page notices, too, and comes back.
+  browser_->evaluate("rtc.first = rtc.peer; rtc.relayed = false");
+  EXPECT_TRUE(wait_for(*browser_,
+                       "animeme.session.connected && rtc.peer !== rtc.first && animeme.state === "
+                       "'live'",
+                       60));
 }
 
 }  // namespace webrtc_page_test

@@ -96,6 +96,8 @@ const Rtc = (() => {
           if (state === 'failed' || state === 'closed') {
             failed(new Error('no way through'));
             this.broken();
+          } else if (state === 'disconnected') {  // it may come back, but rarely does
+            setTimeout(() => { if (peer.connectionState === state) this.broken(); }, kPatience);
           } else if (this.channel.readyState === 'open' || (!this.info.face && state === 'connected')) {
             done();
           }

@@ -16,15 +16,13 @@ void put(std::vector<std::uint8_t>& bytes, std::uint64_t value, int size) {
 }  // namespace
 
 std::vector<std::uint8_t> BundleWriter::push(std::vector<std::uint8_t> unit, bool intra) {
-  if (intra || !begun_) {
-    number_ += std::uint32_t(recent_.size());
-    recent_.clear();
-  }
-  begun_ = true;
-  if (recent_.size() == kMostRecent) {
+  const std::size_t most = intra ? repeat_ : kMostRecent - 1;
+  while (recent_.size() > most) {
     recent_.pop_front();
     ++number_;
+    if (intra_ > 0) --intra_;
   }
+  if (intra) intra_ = recent_.size();
   recent_.push_back(std::move(unit));
   std::size_t first = recent_.size() - 1, size = kHeader + hello_.size() + size_of(first);
   for (std::size_t again = 0; again < repeat_ && first > 0; ++again) {
@@ -38,7 +36,7 @@ std::vector<std::uint8_t> BundleWriter::push(std::vector<std::uint8_t> unit, boo
 
 std::vector<std::vector<std::uint8_t>> BundleWriter::catch_up() const {
   std::vector<std::vector<std::uint8_t>> messages;
-  for (std::size_t first = 0; first < recent_.size();) {
+  for (std::size_t first = intra_; first < recent_.size();) {
     std::size_t last = first, size = kHeader + hello_.size();
     do {
       size += size_of(last++);
@@ -54,9 +52,9 @@ std::vector<std::uint8_t> BundleWriter::write(std::size_t first, std::size_t las
   std::vector<std::uint8_t> bytes{'B', 1};
   put(bytes, number_ + first, 4);
   put(bytes, last - first, 1);
-  // Who begins here has to know what it is; the first unit since the intra plane is that plane.
-  put(bytes, first == 0 ? hello_.size() : 0, 2);
-  if (first == 0) bytes.insert(bytes.end(), hello_.begin(), hello_.end());
+  const bool entry = first <= intra_ && intra_ < last;  // who begins here has to know what it is
+  put(bytes, entry ? hello_.size() : 0, 2);
+  if (entry) bytes.insert(bytes.end(), hello_.begin(), hello_.end());
   for (std::size_t at = first; at < last; ++at) {
     put(bytes, recent_[at].size(), 2);
     bytes.insert(bytes.end(), recent_[at].begin(), recent_[at].end());

@@ -16,8 +16,7 @@ class BundleWriter {
   BundleWriter(std::vector<std::uint8_t> hello, int repeat)
       : hello_(std::move(hello)), repeat_(std::size_t(repeat)) {}
 
-  /// The message for a unit, given as a message of /face. A decoder can begin with an intra plane,
-  /// and so nothing is repeated from in front of it.
+  /// The message for a unit, given as a message of /face.
   std::vector<std::uint8_t> push(std::vector<std::uint8_t> unit, bool intra);
   /// Everything since the newest intra plane, for one who comes now.
   std::vector<std::vector<std::uint8_t>> catch_up() const;
@@ -30,9 +29,10 @@ class BundleWriter {
 
   const std::vector<std::uint8_t> hello_;
   const std::size_t repeat_;
-  std::deque<std::vector<std::uint8_t>> recent_;  // since the newest intra plane, that one first
-  std::uint32_t number_ = 0;                      // of the first of these
-  bool begun_ = false;
+  std::deque<std::vector<std::uint8_t>>
+      recent_;                // since the newest intra plane, and what may go again
+  std::uint32_t number_ = 0;  // of the first of these
+  std::size_t intra_ = 0;     // where among them the newest intra plane is
   std::int64_t repeated_ = 0;
 };
 
