@@ -31,6 +31,7 @@ case $mode in
 esac
 if [ "$mode" = packages ]; then
   packages="$packages dpkg-dev debhelper fakeroot doxygen lintian mmdebstrap libopenmpi-dev
+    libgstreamer1.0-dev libgstreamer-plugins-base1.0-dev libgstreamer-plugins-bad1.0-dev libcurl4-gnutls-dev
     dh-python python3-dev pybind11-dev python3-numpy"
 fi
 foreign="emscripten g++-aarch64-linux-gnu qemu-user"
@@ -39,7 +40,8 @@ foreign="emscripten g++-aarch64-linux-gnu qemu-user"
 readers="curl haproxy ffmpeg liblo-tools mediainfo mkvtoolnix clang-format-14 universal-ctags make parallel python3-yaml
   pybind11-dev python3-dev python3-pytest python3-numpy python3-matplotlib python3-pip python3-setuptools python3-wheel"
 [ "$mode" = full ] && readers="$readers mpv chromium doxygen slurm-wlm munge libopenmpi-dev man-db zsh fish ruby
-  gstreamer1.0-tools gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad"
+  gstreamer1.0-tools gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad gstreamer1.0-nice
+  libgstreamer1.0-dev libgstreamer-plugins-base1.0-dev libgstreamer-plugins-bad1.0-dev libcurl4-gnutls-dev"
 [ "$mode" = bindings ] && readers="$readers $foreign chromium blender"
 
 # True if node 18 or later and npm are there, from wherever.

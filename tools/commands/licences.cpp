@@ -111,7 +111,8 @@ std::string licence_of_all(const std::vector<Found>& found, std::string& why) {
 
 std::vector<Module> load_modules() {
   std::vector<Module> modules = {{"animeme_ffmpeg.so", "containers, sound, video", ""},
-                                 {"animeme_mpi.so", "training by many processes", ""}};
+                                 {"animeme_mpi.so", "training by many processes", ""},
+                                 {"animeme_webrtc.so", "WebRTC", ""}};
   for (Module& module : modules) {
     load_module(module.name, ANIMEME_MODULE_FOLDER, RTLD_NOW | RTLD_LOCAL, module.problem);
   }

@@ -237,14 +237,15 @@ Result<int> run(StreamOptions& options) {
     if (!bare) return bare.error();
     options.program.bare = *bare;
   }
-  options.program.coding.codec_given = !options.codec.empty();
+  const bool rtc = std::any_of(options.to.begin(), options.to.end(), live::takes_opus_alone);
+  options.program.coding.codec_given = rtc || !options.codec.empty();
   options.program.coding.sound = !options.no_sound;
   options.sink.engines.fast = options.fast;
   // Opus packets are shorter, which is what counts when sound is made while it is sent.
   const live::ProgramOptions& what = options.program;
   const bool live = !what.say.empty() || !what.say_json.empty() || !what.control.empty() ||
                     !what.say_audio.empty();
-  const bool opus = options.codec.empty() ? live : options.codec == "opus";
+  const bool opus = options.codec.empty() ? live || rtc : options.codec == "opus";
   options.program.coding.audio.codec = opus ? media::AudioCodec::opus : media::AudioCodec::aac;
   if (!options.heads.heads.empty()) {
     if (const std::string bad = problem_of(options.heads); !bad.empty()) return usage_error(bad);

@@ -115,8 +115,9 @@ void add_options(CLI::App& app, StreamOptions& options) {
   add_source_options(app, options);
   app.add_option(
          "--to", options.to,
-         "Address: rtp://host:port, udp://host:port, srt://host:port, http://host:port to serve "
-         "browsers; for engines livelink://host:port, vmc://host:port, osc://host:port; may be "
+         "Address: rtp://host:port, udp://host:port, srt://host:port; http://host:port to serve "
+         "browsers, webrtc://host:port the same by WebRTC; whip://host:port/path to a WebRTC "
+         "server; for engines livelink://host:port, vmc://host:port, osc://host:port; may be "
          "repeated")
       ->required()
       ->allow_extra_args(false);

@@ -6,6 +6,7 @@
 #include "fap/head/model.h"
 #include "fap/head/rig.h"
 #include "tools/viewer/viewer.h"
+#include "tools/webrtc/webrtc.h"
 
 namespace animeme::live {
 
@@ -27,6 +28,7 @@ bool is_media(const std::string& url) { return begins(url, {"rtp://", "udp://", 
 }  // namespace
 
 web::WebOptions with_head(web::WebOptions options) {
+  if (!options.make_peers) options.make_peers = [] { return webrtc::make_peers(); };
   if (!options.head_script.empty()) return options;
   const Result<head::Head> head = head::make_head();
   if (!head) return options;  // it has a schematic face for that
@@ -35,23 +37,29 @@ web::WebOptions with_head(web::WebOptions options) {
   return options;
 }
 
+bool takes_opus_alone(const std::string& url) {
+  return webrtc::is_webrtc(url) || webrtc::is_whip(url);
+}
+
 bool is_rtp(const std::string& url) { return begins(url, {"rtp://"}); }
 
 Result<std::unique_ptr<media::LiveSink>> open_sink(const std::string& url,
                                                    const SinkOptions& options) {
-  if (is_web(url)) {
-    auto sink = web::make_web_sink(url, with_head(options.web));
+  if (is_web(url) || webrtc::is_webrtc(url)) {
+    auto sink = webrtc::is_webrtc(url) ? webrtc::make_webrtc_sink(url, with_head(options.web))
+                                       : web::make_web_sink(url, with_head(options.web));
     if (!sink) return sink.error();
     return std::unique_ptr<media::LiveSink>(std::move(*sink));
   }
+  if (webrtc::is_whip(url)) return webrtc::make_whip_sink(url);
   if (is_media(url)) return media::open_sink(url, options.media);
   if (engines::is_engine(url)) return engines::make_engine_sink(url, options.engines);
   return make_error(
       Code::invalid_argument,
       "'" + url +
           "' is no address to send to; write rtp://host:port, udp://host:port, "
-          "srt://host:port, http://host:port, livelink://host:port, vmc://host:port or "
-          "osc://host:port");
+          "srt://host:port, http://host:port, webrtc://host:port, whip://host:port/path, "
+          "livelink://host:port, vmc://host:port or osc://host:port");
 }
 
 Result<std::unique_ptr<media::LiveSource>> open_source(const std::string& where,

@@ -6,6 +6,8 @@
 /// | rtp://host:port, NAME.sdp | RTP |
 /// | udp://host:port, srt://host:port | MPEG transport stream |
 /// | http://host:port | a web server with a page that shows the face; its clients use ws:// |
+/// | webrtc://host:port | the same, and for certain with WebRTC (WHEP), tools/webrtc |
+/// | whip://host:port/path, whips:// | WebRTC to a server of WHIP |
 /// | livelink://, vmc://, osc://host:port | the face alone, for engines (tools/engines/engines.h) |
 #pragma once
 
@@ -38,9 +40,12 @@ Result<std::unique_ptr<media::LiveSink>> open_sink(const std::string& url,
 Result<std::unique_ptr<media::LiveSource>> open_source(const std::string& where,
                                                        const SourceOptions& options);
 
-/// With a head of ours for the page of a web server, unless there is one.
+/// With a head of ours for the page of a web server, unless there is one; browsers come by WebRTC
+/// where they can.
 web::WebOptions with_head(web::WebOptions options);
 
+/// True for an address of WebRTC, which carries no other sound than Opus.
+bool takes_opus_alone(const std::string& url);
 /// True for an address whose receivers need a session description.
 bool is_rtp(const std::string& url);
 

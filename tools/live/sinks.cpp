@@ -4,6 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include "tools/webrtc/webrtc.h"
+
 namespace animeme::live {
 
 Result<Sinks> Sinks::open(const std::vector<std::string>& urls, const std::vector<std::string>& sdp,
@@ -46,7 +48,7 @@ Result<void> Sinks::each(Act act) {
 Result<void> Sinks::start(const media::LiveInfo& info) {
   for (Address& address : addresses_) {
     if (auto ok = address.sink->start(info); !ok) return ok.error().in_file(address.url);
-    if (!web::is_open_to_others(address.url)) continue;
+    if (!web::is_open_to_others(webrtc::page_of(address.url))) continue;
     talk_.warn(
         address.url +
         " is open to every machine that can reach this one: the page, the values and the "

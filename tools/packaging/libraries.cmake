@@ -80,7 +80,7 @@ function(animeme_install_licences)
     set(models Eigen)
   endif()
   if(TARGET animeme)
-    animeme_spdx(animeme COMPONENT program LINKED animeme LOADED animeme_ffmpeg animeme_mpi
+    animeme_spdx(animeme COMPONENT program LINKED animeme LOADED animeme_ffmpeg animeme_mpi animeme_webrtc_module
       CONTAINS ${models} CLI11 nlohmann_json toml++)
     set(tools nlohmann_json toml++)
   endif()

@@ -17,12 +17,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "fap/result.h"
 #include "tools/media/live/live.h"
+#include "tools/web/peers.h"
 
 /// A web server and its client as live transports.
 namespace animeme::web {
@@ -71,6 +73,10 @@ struct WebOptions {
   std::string head_name;                 ///< of that head, for a list of several; any text
   /// Further heads, /heads/1.bin and so on: people choose one, or the address does (?head=NAME).
   std::vector<WebHead> other_heads;
+  /// Makes what answers WebRTC, which the server then offers at `/whep`; none: no WebRTC. If its
+  /// start() fails the server goes on without, unless `must_have_peers`.
+  std::function<std::unique_ptr<Peers>()> make_peers;
+  bool must_have_peers = false;  ///< see make_peers
   /// Source: bytes that may wait for next(); the network waits when they are full.
   std::size_t queue_bytes = std::size_t(4) << 20;
 };

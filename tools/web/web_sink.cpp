@@ -65,7 +65,7 @@ class Sink : public WebSink {
   }
   Result<void> tell(const std::string& json) override {
     return guarded([&]() -> Result<void> {
-      if (!server_ || over_) return invalid("the sink is not running");
+      if (!stage_ || over_) return invalid("the sink is not running");
       return publish_note(json);
     });
   }
@@ -76,6 +76,7 @@ class Sink : public WebSink {
       if (!stage_ || over_) return {};
       Result<void> flushed = flush();
       over_ = true;
+      if (peers_) peers_->finish();
       if (house_) {
         house_->close(path_);
       } else {
@@ -88,6 +89,14 @@ class Sink : public WebSink {
   media::SendStats stats() const override {
     media::SendStats stats = stage_ ? stage_->stats() : media::SendStats{};
     if (server_) stats.receivers = server_->viewers();
+    if (peers_) {
+      const media::SendStats more = peers_->stats();
+      stats.receivers += more.receivers;
+      stats.packets += more.packets;
+      stats.bytes += more.bytes;
+      stats.dropped += more.dropped;
+      stats.repeated += more.repeated;
+    }
     stats.face_units = face_units_;
     stats.audio_units = audio_units_;
     return stats;
@@ -117,6 +126,7 @@ class Sink : public WebSink {
   const std::function<void()> joined_;
   std::unique_ptr<Server> server_;
   std::shared_ptr<Stage> stage_;
+  std::shared_ptr<Peers> peers_;  // null: no WebRTC
   bool over_ = false;
   Values values_;
   std::vector<LiveUnit> unread_;  // since the last intra plane; nobody wanted their values
@@ -153,6 +163,13 @@ Result<void> Sink::begin(const media::LiveInfo& info) {
     stage_->set_hello(channel, {.bytes = {names.begin(), names.end()}, .text = true});
   }
   if (!init.empty()) stage_->set_hello(Channel::audio, {.bytes = std::move(init)});
+  if (server_ && options_.make_peers) {
+    peers_ = options_.make_peers();
+    Result<void> ready = peers_->start(info_, options_.max_clients, options_.per_address);
+    if (!ready && options_.must_have_peers) return ready;
+    if (!ready) peers_.reset();
+    server_->set_peers(peers_);
+  }
   describe();
   if (!server.open(path_, stage_)) {
     stage_.reset();
@@ -180,6 +197,7 @@ void Sink::describe() {
     json["heads"] = {options_.head_name};
     for (const WebHead& head : options_.other_heads) json["heads"].push_back(head.name);
   }
+  if (peers_) json["webrtc"] = true;  // at /whep
   json["clients"] = stats().receivers;
   // Names of heads may be any text.
   stage_->set_info(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
@@ -224,19 +242,22 @@ void Sink::send_values(const LiveUnit& unit) {
   unread_.push_back(unit);
   for (const LiveUnit& next : std::exchange(unread_, {})) {
     const auto face = values_.push(next.bytes);
-    if (!face) continue;
-    const std::int64_t time = next.time + std::int64_t(info_.timescale) * kWebTimeZero;
-    const double seconds = double(time) / info_.timescale;
-    const ValuesMessage message{seconds, double(next.duration) / info_.timescale, next.intra,
-                                next.bytes.size()};
-    const std::string text = write_values(message, *face);
-    stage_->publish(
-        Channel::faps,
-        {.bytes = {text.begin(), text.end()}, .text = true, .entry = next.intra, .time = seconds});
-    const PlaneWriter::Plane plane{std::uint64_t(time), std::uint32_t(next.duration), next.intra,
-                                   next.bytes.size()};
-    stage_->publish(Channel::planes,
-                    {.bytes = planes_.write(plane, *face), .entry = next.intra, .time = seconds});
+    std::string text;
+    if (face) {
+      const std::int64_t time = next.time + std::int64_t(info_.timescale) * kWebTimeZero;
+      const double seconds = double(time) / info_.timescale;
+      text = write_values(
+          {seconds, double(next.duration) / info_.timescale, next.intra, next.bytes.size()}, *face);
+      stage_->publish(Channel::faps, {.bytes = {text.begin(), text.end()},
+                                      .text = true,
+                                      .entry = next.intra,
+                                      .time = seconds});
+      const PlaneWriter::Plane plane{std::uint64_t(time), std::uint32_t(next.duration), next.intra,
+                                     next.bytes.size()};
+      stage_->publish(Channel::planes,
+                      {.bytes = planes_.write(plane, *face), .entry = next.intra, .time = seconds});
+    }
+    if (peers_) peers_->send(next, text);
   }
 }
 
@@ -244,6 +265,7 @@ Result<void> Sink::send_sound(const LiveUnit& unit) {
   if (!info_.audio) return invalid("start() was not told of a sound");
   const std::int64_t time = unit.time + std::int64_t(info_.audio->sample_rate) * kWebTimeZero;
   if (time < 0) return invalid("a packet lies more than a second before time 0");
+  if (peers_) peers_->send(unit, {});
   const bool follows = packets_.empty() || packets_.back().time + packets_.back().duration == time;
   if (!follows) {
     if (Result<void> flushed = flush(); !flushed) return flushed;
@@ -265,6 +287,7 @@ Result<void> Sink::publish_note(const std::string& json) {
   for (const Channel channel : {Channel::face, Channel::faps, Channel::planes}) {
     stage_->publish(channel, {.bytes = {text.begin(), text.end()}, .text = true, .time = now_});
   }
+  if (peers_) peers_->tell(text);
   return {};
 }
 

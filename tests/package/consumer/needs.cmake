@@ -17,7 +17,7 @@ endforeach()
 foreach(name engines speech plot)
   set(needs_${name} Threads LibXml2 PkgConfig)
 endforeach()
-foreach(name crossmap live sheet studio web)
+foreach(name crossmap live sheet studio web webrtc)
   set(needs_${name} Threads LibXml2 PkgConfig ZLIB)
 endforeach()
 

@@ -75,13 +75,14 @@ int Server::handle(lws* wsi, lws_callback_reasons reason, const char* in, std::s
     case LWS_CALLBACK_RECEIVE:
       return (sessions_[wsi].received += size) > kMostFromClient ? -1 : 0;
     case LWS_CALLBACK_HTTP_BODY:
-      return take_body(wsi, in, size);
+      return waits_for_peers(wsi) ? whep_body(wsi, in, size) : take_body(wsi, in, size);
     case LWS_CALLBACK_HTTP_BODY_COMPLETION:
-      return ask_handler(wsi);
+      return waits_for_peers(wsi) ? whep_offer(wsi) : ask_handler(wsi);
     case LWS_CALLBACK_HTTP_WRITEABLE: {
       const auto session = sessions_.find(wsi);
       if (session == sessions_.end()) return 0;
       if (session->second.reply) return write_reply(wsi, session->second);
+      if (session->second.resource == Resource::whep) return whep_answer(wsi, session->second);
       return session->second.resource == Resource::talk ? write_message(wsi, session->second)
                                                         : write_body(wsi, session->second);
     }
@@ -181,22 +182,22 @@ int Server::refuse(lws* wsi, const Request& request, unsigned status) {
   if (!send_refusal(wsi, status, request.method != Request::Method::head, handler_ != nullptr))
     return -1;
   // Whatever comes behind another method stays unread.
-  return request.method == Request::Method::other ? -1 : transaction_over(wsi);
+  return request.is_read() ? transaction_over(wsi) : -1;
 }
 
 int Server::request(lws* wsi) {
   const Request request = request_of(wsi);
   const unsigned status = objection(wsi, request);
   if (status != 0) return refuse(wsi, request, status);
-  const bool other = request.method == Request::Method::other;
-  if (other && (!handler_ || request.verb.empty())) {
+  if (peers_ && resource_of(request.path) == Resource::whep) return whep(wsi, request);
+  if (!request.is_read() && (!handler_ || request.verb.empty())) {
     return refuse(wsi, request, HTTP_STATUS_METHOD_NOT_ALLOWED);
   }
-  const Place place = other ? Place() : place_of(request.path);
+  const Place place = request.is_read() ? place_of(request.path) : Place();
   if (!exists(place)) {
     return handler_ ? begin_exchange(wsi, request) : refuse(wsi, request, HTTP_STATUS_NOT_FOUND);
   }
-  if (is_socket(place.resource)) return refuse(wsi, request, 426);
+  if (is_socket(place.resource)) return refuse(wsi, request, 426);  // upgrade required
   leave(wsi);
   return place.resource == Resource::talk ? talk(wsi, request, place) : serve(wsi, request, place);
 }
@@ -208,6 +209,7 @@ int Server::serve(lws* wsi, const Request& request, const Place& place) {
   session.document = resource == Resource::info ? place.stage->info() : documents_.at(place.path);
   const Document& document = *session.document;
   session.packed = !document.packed.empty() && takes_gzip(request.accept_encoding);
+  if (resource == Resource::page && peers_) peers_->expect();
   Answer answer{.type = type_of(resource), .origin = shared_with(request)};
   answer.embedded = answer.origin == "*";
   answer.frames = frames_;
@@ -331,6 +333,7 @@ void Server::look_at_news() {
   std::sort(stages.begin(), stages.end());
   stages.erase(std::unique(stages.begin(), stages.end()), stages.end());
   for (const auto& stage : stages) look_at(*stage, {});
+  hand_out_answers();
   std::vector<std::pair<std::shared_ptr<Exchange>, HouseReply>> given;
   {
     const std::lock_guard lock(answers_->mutex);

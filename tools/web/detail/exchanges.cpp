@@ -25,10 +25,10 @@ int Server::begin_exchange(lws* wsi, const Request& request) {
   exchange->wsi = wsi;
   exchange->with_body = request.method != Request::Method::head;
   // libwebsockets waits for a body where no length is told; there is none.
-  exchange->last = request.method == Request::Method::other && !request.has_length;
+  exchange->last = !request.is_read() && !request.has_length;
   exchange->request = {request.verb, request.path, request.authorization, {}};
   sessions_[wsi].exchange = std::move(exchange);
-  const bool body = request.body > 0 && request.method == Request::Method::other;
+  const bool body = request.body > 0 && !request.is_read();
   return body ? 0 : ask_handler(wsi);
 }
 

@@ -92,6 +92,7 @@ Resource resource_of(const std::string& path) {
   if (path == "/face") return Resource::face;
   if (path == "/faps") return Resource::faps;
   if (path == "/audio") return Resource::audio;
+  if (path == "/whep" || path.starts_with("/whep/")) return Resource::whep;
   return Resource::none;
 }
 
@@ -118,15 +119,20 @@ bool is_socket(Resource resource) {
 }
 
 Request request_of(lws* wsi) {
+  using Method = Request::Method;
   static constexpr struct {
     lws_token_indexes token;
-    Request::Method method;
+    Method method;
     const char* verb;
-  } kMethods[] = {{WSI_TOKEN_GET_URI, Request::Method::get, "GET"},
-                  {WSI_TOKEN_HEAD_URI, Request::Method::head, "GET"},
-                  {WSI_TOKEN_POST_URI, Request::Method::other, "POST"},
-                  {WSI_TOKEN_PUT_URI, Request::Method::other, "PUT"},
-                  {WSI_TOKEN_DELETE_URI, Request::Method::other, "DELETE"}};
+  } kMethods[] = {
+      {WSI_TOKEN_GET_URI, Method::get, "GET"},
+      {WSI_TOKEN_HEAD_URI, Method::head, "GET"},
+      {WSI_TOKEN_POST_URI, Method::post, "POST"},
+      {WSI_TOKEN_PUT_URI, Method::other, "PUT"},
+      {WSI_TOKEN_PATCH_URI, Method::patch, ""},
+      {WSI_TOKEN_DELETE_URI, Method::remove, "DELETE"},
+      {WSI_TOKEN_OPTIONS_URI, Method::options, ""},
+  };
   Request request;
   for (const auto& known : kMethods) {
     if (lws_hdr_total_length(wsi, known.token) <= 0) continue;
@@ -151,6 +157,7 @@ Request request_of(lws* wsi) {
   request.host = header_of(wsi, WSI_TOKEN_HOST);
   request.accept_encoding = header_of(wsi, WSI_TOKEN_HTTP_ACCEPT_ENCODING);
   request.if_none_match = header_of(wsi, WSI_TOKEN_HTTP_IF_NONE_MATCH);
+  request.content_type = header_of(wsi, WSI_TOKEN_HTTP_CONTENT_TYPE);
   return request;
 }
 
@@ -180,7 +187,16 @@ bool send_header(lws* wsi, const Answer& answer) {
     header.add("vary:", "accept-encoding, origin");
   }
   if (answer.status == HTTP_STATUS_UNAUTHORIZED) header.add("www-authenticate:", "Bearer");
-  if (answer.status == HTTP_STATUS_METHOD_NOT_ALLOWED) header.add("allow:", "GET, HEAD");
+  if (answer.status == HTTP_STATUS_METHOD_NOT_ALLOWED) header.add("allow:", answer.allow);
+  if (answer.status == HTTP_STATUS_NO_CONTENT) {  // what pages elsewhere may do
+    header.add("access-control-allow-methods:", answer.allow);
+    header.add("access-control-allow-headers:", "content-type, authorization");
+    header.add("accept-post:", "application/sdp");
+  }
+  if (!answer.location.empty()) {
+    header.add("location:", answer.location);
+    header.add("access-control-expose-headers:", "location");
+  }
   header.add("x-content-type-options:", "nosniff");
   header.add("referrer-policy:", "no-referrer");
   header.add("content-security-policy:", kPolicy + std::string(answer.frames));

@@ -24,7 +24,8 @@ enum class Resource : std::uint8_t {
   talk,
   face,
   faps,
-  audio
+  audio,
+  whep
 };
 
 /// `path`: as in the request line, without the query.
@@ -36,14 +37,15 @@ bool is_socket(Resource resource);
 /// The part of a request that counts here. Values are empty if they are absent or longer than 512
 /// bytes.
 struct Request {
-  enum class Method : std::uint8_t { get, head, other };
+  enum class Method : std::uint8_t { get, head, post, patch, remove, options, other };
   Method method = Method::other;
+  bool is_read() const { return method == Method::get || method == Method::head; }
   bool has_origin = false;
   std::string verb;  ///< "GET", also for HEAD; "POST", "PUT", "DELETE"; empty: another method
   bool has_length = false;  ///< it says how many bytes are to follow
   std::int64_t body = 0;    ///< these; -1: nobody knows how many
   std::string authorization;
-  std::string path, query, host, origin, accept_encoding, if_none_match;
+  std::string path, query, host, origin, accept_encoding, if_none_match, content_type;
 
   /// Is `name` in the query, as itself or with a value but 0?
   bool asks(std::string_view name) const;
@@ -63,7 +65,9 @@ struct Answer {
   std::string origin;      ///< pages there may read it; "*": all
   bool embedded = false;   ///< pages elsewhere may show it without reading it
   std::string_view frames =
-      "'self'";  ///< origins of pages that may have it in a frame, a blank between them
+      "'self'";          ///< origins of pages that may have it in a frame, a blank between them
+  std::string location;  ///< of what was made
+  const char* allow = "GET, HEAD";  ///< 405, 204: what there is
 };
 
 /// False: it could not be sent.

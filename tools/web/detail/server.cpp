@@ -71,6 +71,7 @@ Server::Server(const WebAddress& address, const HouseOptions& options, HouseHand
 }
 
 void Server::stop() {
+  if (peers_) peers_->finish();  // it answers no more
   {
     const std::lock_guard lock(answers_->mutex);
     answers_->service = nullptr;

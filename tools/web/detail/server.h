@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,10 @@ struct Session {
   std::size_t at = 0;
   std::size_t received = 0;
   std::int64_t begin = -1;  // of /talk.mp4: time of its first segment, in samples
+  // Of /whep: what was posted, by which number the answer comes, and who else may read it.
+  std::string upload, origin;
+  std::uint64_t ticket = 0;
+  std::optional<PeerAnswer> answer;
 };
 
 class Server {
@@ -66,6 +71,9 @@ class Server {
   /// From now on clients are served, in a thread. The first of them is to find everything: who
   /// comes before waits.
   void serve() { service_.run(); }
+
+  /// Who answers `/whep`; before serve(). nullptr: nobody, there is none.
+  void set_peers(std::shared_ptr<Peers> peers) { peers_ = std::move(peers); }
 
   // All of these may be called from any thread.
   /// A stage that nobody sees yet. `joined` may be nothing.
@@ -104,6 +112,13 @@ class Server {
   int serve(lws* wsi, const Request& request, const Place& place);
   int talk(lws* wsi, const Request& request, const Place& place);
   int upgrade(lws* wsi);
+  bool waits_for_peers(lws* wsi) const;
+  int whep(lws* wsi, const Request& request);
+  int whep_body(lws* wsi, const char* bytes, std::size_t size);
+  int whep_offer(lws* wsi);
+  int whep_answer(lws* wsi, Session& session);
+  int whep_reply(lws* wsi, Answer answer, const std::string& text);
+  void hand_out_answers();
   int write_body(lws* wsi, Session& session);
   int transaction_over(lws* wsi);
   bool send_message(lws* wsi, Session& session, const Message& message);
@@ -121,6 +136,7 @@ class Server {
   const OwnNames names_;
   const std::string frames_;                      // where the page may be in a frame
   std::map<std::string, DocumentPtr> documents_;  // by path, but for info.json
+  std::shared_ptr<Peers> peers_;
   Service service_;
   int port_ = 0;
   const std::shared_ptr<Answers> answers_ = std::make_shared<Answers>();
@@ -129,6 +145,7 @@ class Server {
   std::map<std::string, std::shared_ptr<Stage>, std::less<>> stages_;
   std::vector<std::shared_ptr<Stage>> touched_;  // since the thread has looked
   bool finishing_ = false;
+  std::map<std::uint64_t, PeerAnswer> peer_answers_;  // by ticket
 
   // Of the service thread alone.
   struct Timer {
@@ -136,6 +153,7 @@ class Server {
     Server* server = nullptr;
   } timer_;
   std::map<lws*, Session> sessions_;
+  std::uint64_t tickets_ = 0;
   Visitors visitors_;
   std::string entering_;  // address of the connection that is just being accepted
 

@@ -54,12 +54,12 @@
 
   function begin() {
     element('message').hidden = true;
-    session.stop();
+    if (session.info) session.stop();
     shown = undefined;
     session.start();
   }
 
-  const session = animeme.session = new Live.Session(audio, {
+  const session = animeme.session = new Rtc.Session(audio, {
     state: show,
     hello(faps) { names = faps; },
     frame(frame) { counted.push(frame); },
