@@ -193,6 +193,44 @@ TEST(Underrun, AVoiceThatPausesIsRestedAndGoesOnTogetherWithItsFace) {
   }
 }
 
+// A tone that breaks off at its peak, since the next piece is late, and goes on at a peak.
+TEST(Underrun, APieceThatIsLateMakesNoClick) {
+  constexpr int kRate = 48000;
+  LineQueue queue(1000, true, false);
+  media::JumpingClock clock;
+  SpeakerOptions options;
+  options.voice_rate = kRate;
+  options.audio = media::AudioSettings{media::AudioCodec::aac, 128000};
+  auto speaker = LiveSpeaker::open(character(), queue, clock, options);
+  ASSERT_TRUE(speaker);
+  int sent = 0;
+  const Received got = receive(**speaker, [&](double due) {
+    clock.sleep_until(due);
+    for (const double at : {0.5, 1.9}) {
+      if (due < at || sent > (at > 1)) continue;
+      EXPECT_TRUE(queue.push("piece", due));
+      SpokenLine piece;
+      piece.joins = true;
+      piece.speech.script.phones = {{0, 0.5, "AA", {}}};
+      piece.speech.audio.sample_rate = kRate;
+      for (int i = 0; i <= kRate / 2; ++i) {
+        piece.speech.audio.samples.push_back(float(0.4 * std::cos(i * 2 * M_PI * 200 / kRate)));
+      }
+      queue.made(queue.try_job()->line, std::move(piece), due);
+      if (++sent == 2) queue.close();
+    }
+    return true;
+  });
+  double largest = 0;
+  for (std::size_t i = 1; i < got.sound.samples.size(); ++i) {
+    largest = std::max(largest, double(std::abs(got.sound.samples[i] - got.sound.samples[i - 1])));
+  }
+  // The tone itself moves by 0.0105 a sample, its fade in 2 ms by 0.0065 more; a click by 0.1 and
+  // more.
+  EXPECT_GT(largest, 0.008);
+  EXPECT_LT(largest, 0.025);
+}
+
 // Ten minutes of pieces of half a second, a tone and an open mouth each, that come in real time,
 // but with pauses and late by chance.
 TEST(Underrun, PiecesKeepTheirOrderAndNothingDriftsInTenMinutes) {

@@ -24,6 +24,15 @@ Result<LiveSound> LiveSound::open(int sample_rate, const media::AudioSettings& s
 }
 
 void LiveSound::add(std::int64_t start, std::vector<float> samples) {
+  const bool follows = std::any_of(pieces_.begin(), pieces_.end(), [start](const Piece& piece) {
+    return piece.start + std::int64_t(piece.samples.size()) == start;
+  });
+  const std::int64_t from = std::max(start, made_);
+  for (std::int64_t at = from; !follows && at < from + fade_; ++at) {
+    if (at - start >= std::int64_t(samples.size())) break;
+    samples[std::size_t(at - start)] *=
+        float(dam::raised_step(double(at - from + 1) / double(fade_ + 1)));
+  }
   pieces_.push_back({start, std::move(samples)});
 }
 
@@ -42,14 +51,29 @@ void LiveSound::end_at(std::int64_t end, std::int64_t fade) {
   std::erase_if(pieces_, [](const Piece& piece) { return piece.samples.empty(); });
 }
 
+// Whether a piece is heard at a sample.
+bool LiveSound::goes_on(std::int64_t at) const {
+  return std::any_of(pieces_.begin(), pieces_.end(), [at](const Piece& piece) {
+    return piece.start <= at && at < piece.start + std::int64_t(piece.samples.size());
+  });
+}
+
 std::vector<float> LiveSound::block() {
-  std::vector<float> block(block_, 0.0F);
-  const std::int64_t end = made_ + std::int64_t(block_);
+  // No piece ends shortly behind the block: its end would be too short for a fade.
+  std::int64_t end = made_ + std::int64_t(block_);
   for (const Piece& piece : pieces_) {
-    const std::int64_t first = std::max(made_, piece.start);
-    const std::int64_t last = std::min(end, piece.start + std::int64_t(piece.samples.size()));
+    const std::int64_t last = piece.start + std::int64_t(piece.samples.size());
+    if (last > end && last <= end + fade_) end = last;
+  }
+  std::vector<float> block(std::size_t(end - made_), 0.0F);
+  for (const Piece& piece : pieces_) {
+    const std::int64_t over = piece.start + std::int64_t(piece.samples.size());
+    const std::int64_t first = std::max(made_, piece.start), last = std::min(end, over);
+    const bool breaks_off = over <= end && !goes_on(over);
     for (std::int64_t at = first; at < last; ++at) {
-      block[std::size_t(at - made_)] += piece.samples[std::size_t(at - piece.start)];
+      const double left = breaks_off ? double(over - at) / double(fade_ + 1) : 1;
+      block[std::size_t(at - made_)] +=
+          piece.samples[std::size_t(at - piece.start)] * float(dam::raised_step(left));
     }
   }
   made_ = end;

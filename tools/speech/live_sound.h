@@ -11,7 +11,9 @@
 
 namespace animeme::speech {
 
-/// Movable, not copyable. Memory does not grow with time.
+/// Where a piece begins without one before it, or ends without one behind it, it fades within 2 ms:
+/// sound that comes too late breaks off and begins anew without a click. Movable, not copyable.
+/// Memory does not grow with time.
 class LiveSound {
  public:
   /// Pieces will have `sample_rate`. Errors: those of media::AudioEncoder::open().
@@ -39,11 +41,14 @@ class LiveSound {
   LiveSound(media::AudioEncoder encoder, int sample_rate)
       : encoder_(std::move(encoder)),
         block_(std::size_t(sample_rate / 100)),
+        fade_(sample_rate / 500),
         next_time_(-encoder_.format().priming) {}
+  bool goes_on(std::int64_t at) const;
   std::vector<float> block();
 
   media::AudioEncoder encoder_;
   std::size_t block_;  // samples, 10 ms
+  std::int64_t fade_;  // samples, 2 ms
   std::deque<Piece> pieces_;
   std::deque<media::AudioPacket> ready_;
   std::int64_t made_ = 0;
