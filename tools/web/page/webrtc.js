@@ -21,7 +21,7 @@ const Rtc = (() => {
     async start() {
       if (!wanted() || this.refusedRtc) return super.start();
       this.running = true;
-      this.ended = false;
+      this.ended = this.soundless = false;
       this.events.state('connecting', 'connecting');
       try {
         this.info = await (await fetch('info.json', {cache: 'no-store'})).json();
@@ -82,7 +82,10 @@ const Rtc = (() => {
 
     hear() {
       this.audio.srcObject = new MediaStream([this.receiver.track]);
-      this.audio.play().catch((problem) => this.refused(problem));
+      this.audio.play().catch((problem) => {
+        this.refused(problem);
+        if (this.running && this.audio.muted) this.audio.play().catch(() => {});
+      });
     }
 
     opened(peer) {
@@ -117,6 +120,7 @@ const Rtc = (() => {
       // Messages overtake each other; a plane that is late is no news.
       if (this.frames.length && message.time <= this.frames.at(-1).time) return;
       if (this.offset !== undefined) this.hold(message.time - this.clock());
+      this.unheard ??= message.time - kHold - performance.now() / 1000;
       this.take(message);
       this.live();
     }
@@ -154,7 +158,8 @@ const Rtc = (() => {
       this.peer.close();
       if (this.resource) fetch(this.resource, {method: 'DELETE', keepalive: true}).catch(() => {});
       this.audio.srcObject = null;
-      this.peer = this.channel = this.receiver = this.resource = this.heard = this.offset = undefined;
+      this.peer = this.channel = this.receiver = this.resource = undefined;
+      this.packet = this.offset = this.unheard = undefined;
       this.connected = this.over = false;
     }
 
@@ -169,13 +174,13 @@ const Rtc = (() => {
       const now = performance.now() / 1000;
       if (this.info.audio) this.listen();
       if (this.offset !== undefined) return now + this.offset;
-      return this.info.audio || this.begun === undefined ? 0 : now + this.begun;
+      return this.unheard === undefined ? 0 : now + this.unheard;  // no sound (yet): as planes come
     }
 
     listen() {
       const heard = this.receiver.getSynchronizationSources()[0];
-      if (!heard || heard.rtpTimestamp === this.heard) return;
-      this.heard = heard.rtpTimestamp;
+      if (!heard || heard.rtpTimestamp === this.packet) return;
+      this.packet = heard.rtpTimestamp;
       const at = (heard.timestamp - performance.timeOrigin) / 1000;
       // RTP times are those of the common clock, but begin anew every 24.9 hours.
       const turn = 2 ** 32 / 48000, time = heard.rtpTimestamp / 48000;
