@@ -7,7 +7,6 @@ const Rtc = (() => {
   const kAnswer = 5000, kPatience = 2000, kMostPatience = 6000;
   const kWindow = 25;            // packets of sound that tell how its clock goes
   const kPlanes = 50;            // that tell whether the face is there when it is due
-  const kStep = 200;
   const kHold = 0.1, kMostHold = 0.6;  // seconds that sound is held back: at first, at most
 
   const wanted = () => window.RTCPeerConnection &&
@@ -22,8 +21,7 @@ const Rtc = (() => {
     async start() {
       if (!wanted() || this.refusedRtc) return super.start();
       this.running = true;
-      this.ended = this.soundless = this.hurries = false;
-      this.target = kHold;  // without sound
+      this.ended = this.soundless = false;
       this.events.state('connecting', 'connecting');
       try {
         this.info = await (await fetch('info.json', {cache: 'no-store'})).json();
@@ -79,18 +77,14 @@ const Rtc = (() => {
       if (peer !== this.peer) return;
       if (this.info.audio) this.hear();  // Chromium at times stays silent where the track was not live
       await this.opened(peer);
-      if (peer !== this.peer) return;
-      this.connected = true;
-      clearInterval(this.timer);
-      this.timer = setInterval(() => this.steer(), kStep);
+      if (peer === this.peer) this.connected = true;
     }
 
     hear() {
       this.audio.srcObject = new MediaStream([this.receiver.track]);
       this.audio.play().catch((problem) => {
-        const again = problem.name === 'NotAllowedError' && !this.audio.muted;
-        this.refused(problem);  // which mutes it
-        if (again && this.peer) this.hear();
+        this.refused(problem);
+        if (this.running && this.audio.muted) this.audio.play().catch(() => {});
       });
     }
 
@@ -127,6 +121,7 @@ const Rtc = (() => {
       // Messages overtake each other; a plane that is late is no news.
       if (this.frames.length && message.time <= this.frames.at(-1).time) return;
       if (this.offset !== undefined) this.hold(message.time - this.clock());
+      this.unheard ??= message.time - kHold - performance.now() / 1000;
       this.take(message);
       this.live();
     }
@@ -164,7 +159,8 @@ const Rtc = (() => {
       this.peer.close();
       if (this.resource) fetch(this.resource, {method: 'DELETE', keepalive: true}).catch(() => {});
       this.audio.srcObject = null;
-      this.peer = this.channel = this.receiver = this.resource = this.stamp = this.offset = undefined;
+      this.peer = this.channel = this.receiver = this.resource = undefined;
+      this.packet = this.offset = this.unheard = undefined;
       this.connected = this.over = false;
     }
 
@@ -176,15 +172,16 @@ const Rtc = (() => {
     // Seconds on the clock of the sound: which packet was given to the loudspeaker when.
     clock() {
       if (!this.connected) return super.clock();
-      if (!this.heard) return super.clock();
-      this.listen();
-      return this.offset === undefined ? 0 : performance.now() / 1000 + this.offset;
+      const now = performance.now() / 1000;
+      if (this.info.audio) this.listen();
+      if (this.offset !== undefined) return now + this.offset;
+      return this.unheard === undefined ? 0 : now + this.unheard;  // no sound (yet): as planes come
     }
 
     listen() {
       const heard = this.receiver.getSynchronizationSources()[0];
-      if (!heard || heard.rtpTimestamp === this.stamp) return;
-      this.stamp = heard.rtpTimestamp;
+      if (!heard || heard.rtpTimestamp === this.packet) return;
+      this.packet = heard.rtpTimestamp;
       const at = (heard.timestamp - performance.timeOrigin) / 1000;
       // RTP times are those of the common clock, but begin anew every 24.9 hours.
       const turn = 2 ** 32 / 48000, time = heard.rtpTimestamp / 48000;
@@ -194,11 +191,6 @@ const Rtc = (() => {
       if (this.samples.length > kWindow) this.samples.shift();
       const sorted = [...this.samples].sort((a, b) => a - b);
       this.offset = sorted[sorted.length >> 1];
-    }
-
-    steer() {
-      if (!this.connected) super.steer();
-      else if (!this.heard && this.frames.length) this.steerFace();
     }
 
     buffered() { return this.connected ? this.latency() : super.buffered(); }
