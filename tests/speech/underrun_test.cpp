@@ -135,9 +135,11 @@ TEST(Underrun, AVoiceThatPausesIsRestedAndGoesOnTogetherWithItsFace) {
   }
   const auto run = [&](double pause, bool catches_up) {
     double now = 0;
+    LiveVoiceOptions options;
+    options.audio = media::AudioSettings{media::AudioCodec::opus};
     auto voice = LiveVoice::open(
         character(), std::make_unique<PausingFeed>(samples, rate, now, 1.7, pause, catches_up),
-        rate, {});
+        rate, options);
     EXPECT_TRUE(voice);
     return receive(**voice, [&now](double due) {
       now = due;
