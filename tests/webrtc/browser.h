@@ -16,7 +16,7 @@ namespace animeme::test {
 
 /// Counts what comes, and lets the test put a relay between browser and server.
 constexpr const char* kWatch = R"(
-  window.rtc = {};
+  window.rtc ??= {};
   const real = RTCPeerConnection.prototype.setRemoteDescription;
   RTCPeerConnection.prototype.setRemoteDescription = async function(description) {
     rtc.peer = this;
@@ -60,15 +60,21 @@ class WebRtcBrowser : public ::testing::Test {
     ASSERT_TRUE(station_->started()) << station_->started().error().message;
   }
 
-  /// Opens the page and clicks. A relay with this loss stands in between if it is not negative.
+  /// Opens the page and, if it waits for that, clicks. A relay with this loss stands in between if
+  /// it is not negative.
   void start(double loss = -1, double jitter = 0, const std::string& query = "") {
-    browser_->call("Page.addScriptToEvaluateOnNewDocument", {{"source", kWatch}});
-    browser_->open(web_->address() + query, 800, 600, true);
     const bool relayed = loss >= 0;
-    browser_->evaluate(std::string("rtc.relayed = ") + (relayed ? "true" : "false") +
-                       "; rtc.clicked = performance.now(); (function look() { if (animeme.shown) "
-                       "rtc.first = performance.now() - rtc.clicked; else setTimeout(look, 2); "
-                       "})(); document.getElementById('start').click()");
+    const std::string before =
+        std::string("window.rtc = {clicked: performance.now(), relayed: ") +
+        (relayed ? "true" : "false") +
+        "}; (function look() { if (window.animeme?.shown) rtc.first = performance.now() - "
+        "rtc.clicked; else setTimeout(look, 2); })();";
+    browser_->call("Page.addScriptToEvaluateOnNewDocument", {{"source", before + kWatch}});
+    browser_->open(web_->address() + query, 800, 600, true);
+    // It may begin by itself.
+    browser_->evaluate(
+        "if (animeme.state === 'idle') { rtc.clicked = performance.now(); "
+        "document.getElementById('start').click(); }");
     if (relayed) relay(loss, jitter);
   }
   /// Once the answer is there.
