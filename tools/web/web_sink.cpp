@@ -65,7 +65,7 @@ class Sink : public WebSink {
   }
   Result<void> tell(const std::string& json) override {
     return guarded([&]() -> Result<void> {
-      if (!server_ || over_) return invalid("the sink is not running");
+      if (!stage_ || over_) return invalid("the sink is not running");
       return publish_note(json);
     });
   }
