@@ -96,6 +96,13 @@ class Socket:
                 return whole
         return None
 
+    def unit(self):
+        """The next one that is no event told in words."""
+        message = self.next()
+        while message and message.startswith(b"{"):
+            message = self.next()
+        return message
+
     def close(self):
         self.socket.close()
 

@@ -20,7 +20,7 @@ def planes_of(viewer, count):
     """Flags and times of so many messages behind the first one."""
     planes = []
     for _ in range(count):
-        message = viewer.next()
+        message = viewer.unit()
         planes.append((message[12], int.from_bytes(message[:8], "big")))
     return planes
 

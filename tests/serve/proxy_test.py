@@ -66,7 +66,7 @@ def main():
         check(viewers[lost].closed == 0, "the killed one's viewers lose their connection")
         times = []
         for _ in range(75):
-            message = viewers[kept].next()
+            message = viewers[kept].unit()
             assert message is not None
             times.append(int.from_bytes(message[:8], "big"))
         check(all(b - a == 1000 for a, b in zip(times, times[1:])),
@@ -77,7 +77,7 @@ def main():
               "the head is made again, in the process that is left")
         back = Socket(port, f"/heads/{lost}/face")
         assert back.status == 101 and back.next()[:1] == b"A"
-        check(back.next()[12] & 1, "its viewer is back, and begins with an intra plane")
+        check(back.unit()[12] & 1, "its viewer is back, and begins with an intra plane")
         assert ask(f"{front}/heads/{lost}/say", "POST", "I am back.")[0] == 202
         check(ask(f"{front}/heads/{kept}")[0] == 200, "the others are where they were")
     finally:

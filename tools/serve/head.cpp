@@ -91,6 +91,7 @@ double Head::step() {
   if (asleep_) return kNever;
   if (auto ok = send_due(); !ok) {
     failure_ = ok.error().describe();
+    asleep_ = true;  // for good, until it is forgotten
     (void)sink_->finish();
     speaker_.reset();
     return kNever;
