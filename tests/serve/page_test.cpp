@@ -31,7 +31,9 @@ TEST(PageOfAHead, TalksAndStaysWithItsHead) {
   Chromium browser;
   ASSERT_TRUE(browser.is_open());
   browser.open((*server)->address() + "heads/anna/", 1000, 800, false);
-  browser.evaluate("document.getElementById('start').click()");
+  // It begins by itself, without sound as long as nobody has clicked.
+  EXPECT_TRUE(shows(browser, "animeme.blocked || animeme.state === 'live'"));
+  browser.evaluate("document.getElementById('sound').click()");
   ASSERT_TRUE(shows(browser, "animeme.state === 'live' && animeme.shown > 20"));
   EXPECT_FALSE((*server)->find("anna")->figures().asleep);
   EXPECT_TRUE((*server)->find("ben")->figures().asleep);
