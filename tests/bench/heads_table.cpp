@@ -104,11 +104,12 @@ Server start(int most) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) return {};
   const std::string heads = std::to_string(most);
+  const std::string program = std::string(test::kBinaryFolder) + "/bin/animeme";
   const pid_t process = ::fork();
   if (process == 0) {
     ::dup2(ends[1], STDOUT_FILENO);
-    ::execl(std::string(test::kBinaryFolder) + "/bin/animeme", "animeme", "serve", "--listen",
-            "http://127.0.0.1:0", "--json", "--quiet", "--max-heads", heads.c_str(), nullptr);
+    ::execl(program.c_str(), "animeme", "serve", "--listen", "http://127.0.0.1:0", "--json",
+            "--quiet", "--max-heads", heads.c_str(), nullptr);
     ::_exit(127);
   }
   ::close(ends[1]);
