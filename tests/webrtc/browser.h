@@ -96,7 +96,7 @@ class WebRtcBrowser : public ::testing::Test {
   bool quiet_ = false;  // nobody else wants this machine: times are what they are said to be
   std::optional<Chromium> browser_;
   web::WebSink* web_ = nullptr;
-  std::optional<Station> station_;
+  std::optional<Broadcast> station_;
   std::optional<Relay> relay_;
 };
 

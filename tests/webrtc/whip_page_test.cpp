@@ -39,7 +39,7 @@ TEST_F(WhipPage, PublishesToAServer) {
   ASSERT_TRUE(sink);
   browser_->open("about:blank", 800, 600, true);
   auto station =
-      std::async(std::launch::async, [&] { return std::make_unique<Station>(std::move(*sink)); });
+      std::async(std::launch::async, [&] { return std::make_unique<Broadcast>(std::move(*sink)); });
   const std::string offer = server.offer();
   ASSERT_NE(offer, "");
   const Json answer = browser_->evaluate(std::string(kAnswer) + "(" + Json(offer).dump() + ")");

@@ -153,7 +153,7 @@ void add_options(CLI::App& app, StreamOptions& options) {
                     "--repeat-after", "--bundle",        "--max-clients", "--max-per-address",
                     "--allow-origin", "--host-name",     "--delay",       "--intra-seconds",
                     "--points",       "--gain",          "--copy",        "--quant",
-                    "--audio-codec",  "--audio-bitrate"});
+                    "--sharpness",    "--articulate",    "--audio-codec", "--audio-bitrate"});
 }
 
 }  // namespace animeme::tools
