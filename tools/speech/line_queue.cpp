@@ -41,24 +41,23 @@ Result<void> LineQueue::push(std::string line, double arrived) {
     error.message = "line " + std::to_string(number_) + ": " + error.message;
     return error;
   }
-  using Do = LineCommand::Do;
   switch (command->what) {
-    case Do::say:
+    case LineCommand::Do::say:
       say(std::move(*command), arrived);
       break;
-    case Do::stop:
+    case LineCommand::Do::stop:
       forget_all(LineNews::What::stopped, "stopped", arrived);
       break;
-    case Do::drop:
+    case LineCommand::Do::drop:
       forget_all(LineNews::What::dropped, "dropped", arrived);
       break;
-    case Do::mark: {
+    case LineCommand::Do::mark: {
       Entry mark{.line = number_, .id = std::move(command->id), .arrived = arrived, .mark = true};
       if (mark.id.empty()) mark.id = std::to_string(number_);
       entries_.push_back(std::move(mark));
       break;
     }
-    case Do::end:
+    case LineCommand::Do::end:
       closed_ = true;
       break;
   }

@@ -21,10 +21,12 @@ constexpr std::chrono::seconds kPatience{10};  // without a sign of life
 using SdpPtr = std::unique_ptr<GstSDPMessage, decltype(&gst_sdp_message_free)>;
 
 SdpPtr parse(const std::string& text) {
-  GstSDPMessage* message = nullptr;
-  if (text.empty() || gst_sdp_message_new_from_text(text.c_str(), &message) != GST_SDP_OK)
-    message = nullptr;
-  return {message, &gst_sdp_message_free};
+  GstSDPMessage* made = nullptr;
+  const bool whole =
+      !text.empty() && gst_sdp_message_new_from_text(text.c_str(), &made) == GST_SDP_OK;
+  SdpPtr message(made, &gst_sdp_message_free);  // there is one of a broken text, too
+  if (!whole) message.reset();
+  return message;
 }
 
 /// The number that the other end gives Opus; -1: it does not take any.
