@@ -27,12 +27,7 @@ class Page : public ::testing::TestWithParam<media::AudioCodec> {
  protected:
   void SetUp() override {
     if (Chromium::find().empty()) GTEST_SKIP() << "Chromium is not installed";
-    // A browser that draws in software and plays in real time wants a processor for itself.
-    double load = 0;
-    const double cores = std::max(1u, std::thread::hardware_concurrency());
-    if (getloadavg(&load, 1) == 1 && load > 5 * cores) {
-      GTEST_SKIP() << "this machine is too busy to play in real time: load " << load;
-    }
+    if (const std::string why = too_busy(); !why.empty()) GTEST_SKIP() << why;
     browser_.emplace();
     ASSERT_TRUE(browser_->is_open()) << "Chromium does not start";
   }
@@ -73,33 +68,8 @@ TEST_P(Page, PlaysSoundAndFaceTogether) {
 TEST_P(Page, TheMouthOpensWithTheTone) {
   Station station(GetParam());
   start(station, 800, 600, true);
-  const Json seen = browser_->evaluate(R"(new Promise(async done => {
-    const context = new AudioContext();
-    const tap = context.createAnalyser();
-    tap.fftSize = 512;
-    context.createMediaElementSource(audio).connect(tap).connect(context.destination);
-    await context.resume();
-    const wave = new Float32Array(512), tones = [], mouths = [];
-    let loud = false, open = false, begin = performance.now();
-    animeme.onFrame = (values) => {
-      if ((values[3] > 300) !== open) {
-        open = !open;
-        if (open) mouths.push(performance.now() / 1000);
-      }
-    };
-    const timer = setInterval(() => {
-      tap.getFloatTimeDomainData(wave);
-      const level = Math.sqrt(wave.reduce((sum, x) => sum + x * x, 0) / wave.length);
-      if ((level > 0.1) !== loud) {
-        loud = !loud;
-        if (loud) tones.push(performance.now() / 1000);
-      }
-      if (performance.now() - begin > 5000) {
-        clearInterval(timer);
-        done({tones, mouths});
-      }
-    }, 4);
-  }))");
+  const Json seen = browser_->evaluate(tones_and_mouths(
+      "context.createMediaElementSource(audio).connect(tap).connect(context.destination)", 5000));
   ASSERT_TRUE(seen.contains("tones"));
   std::vector<double> distances;
   for (const double mouth : seen["mouths"]) {

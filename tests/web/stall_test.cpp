@@ -14,11 +14,7 @@ class PageStall : public ::testing::TestWithParam<bool> {
  protected:
   void SetUp() override {
     if (Chromium::find().empty()) GTEST_SKIP() << "Chromium is not installed";
-    double load = 0;
-    const double cores = std::max(1u, std::thread::hardware_concurrency());
-    if (getloadavg(&load, 1) == 1 && load > 5 * cores) {
-      GTEST_SKIP() << "this machine is too busy to play in real time: load " << load;
-    }
+    if (const std::string why = too_busy(); !why.empty()) GTEST_SKIP() << why;
     browser_.emplace(std::vector<std::string>{"--autoplay-policy=no-user-gesture-required"});
     ASSERT_TRUE(browser_->is_open());
     start();

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -123,6 +125,49 @@ inline bool wait_for(Chromium& browser, const std::string& expression, int secon
                               ") done(true); else if (Date.now() > end) done(false); "
                               "else setTimeout(look, 50); })(); })",
                           click) == true;
+}
+
+/// Why a browser that draws in software cannot play in real time here, which takes a processor for
+/// itself; empty: it can.
+inline std::string too_busy() {
+  double load = 0;
+  const double cores = std::max(1u, std::thread::hardware_concurrency());
+  if (getloadavg(&load, 1) != 1 || load <= 5 * cores) return {};
+  return "this machine is too busy to play in real time: load " + std::to_string(load);
+}
+
+/// Script that tells when tones and mouths began, as they come out of the browser: {tones, mouths},
+/// seconds. `connect` ends what leads from `context` to `tap`.
+inline std::string tones_and_mouths(const std::string& connect, int milliseconds) {
+  return R"(new Promise(async done => {
+    const context = new AudioContext();
+    const tap = context.createAnalyser();
+    tap.fftSize = 512;
+    )" + connect +
+         R"(;
+    await context.resume();
+    const wave = new Float32Array(512), tones = [], mouths = [];
+    let loud = false, open = false, begin = performance.now();
+    animeme.onFrame = (values) => {
+      if ((values[3] > 300) !== open) {
+        open = !open;
+        if (open) mouths.push(performance.now() / 1000);
+      }
+    };
+    const timer = setInterval(() => {
+      tap.getFloatTimeDomainData(wave);
+      const level = Math.sqrt(wave.reduce((sum, x) => sum + x * x, 0) / wave.length);
+      if ((level > 0.1) !== loud) {
+        loud = !loud;
+        if (loud) tones.push(performance.now() / 1000);
+      }
+      if (performance.now() - begin > )" +
+         std::to_string(milliseconds) + R"() {
+        clearInterval(timer);
+        done({tones, mouths, latency: context.outputLatency, base: context.baseLatency});
+      }
+    }, 4);
+  }))";
 }
 
 }  // namespace animeme::test

@@ -5,40 +5,12 @@
 namespace animeme::test {
 namespace webrtc_page_test {
 
-/// When tones and mouths began, as they come out of the browser.
-constexpr const char* kListen = R"(new Promise(async done => {
-    const context = new AudioContext();
-    const tap = context.createAnalyser();
-    tap.fftSize = 512;
-    context.createMediaStreamSource(audio.srcObject).connect(tap);
-    await context.resume();
-    const wave = new Float32Array(512), tones = [], mouths = [];
-    let loud = false, open = false, begin = performance.now();
-    animeme.onFrame = (values) => {
-      if ((values[3] > 300) !== open) {
-        open = !open;
-        if (open) mouths.push(performance.now() / 1000);
-      }
-    };
-    const timer = setInterval(() => {
-      tap.getFloatTimeDomainData(wave);
-      const level = Math.sqrt(wave.reduce((sum, x) => sum + x * x, 0) / wave.length);
-      if ((level > 0.1) !== loud) {
-        loud = !loud;
-        if (loud) tones.push(performance.now() / 1000);
-      }
-      if (performance.now() - begin > 8000) {
-        clearInterval(timer);
-        done({tones, mouths, latency: context.outputLatency, base: context.baseLatency});
-      }
-    }, 4);
-  }))";
-
 class WebRtcPage : public WebRtcBrowser {
  protected:
   /// Milliseconds that mouths open behind their tones, ascending.
   std::vector<double> distances() {
-    const Json seen = browser_->evaluate(kListen);
+    const Json seen = browser_->evaluate(
+        tones_and_mouths("context.createMediaStreamSource(audio.srcObject).connect(tap)", 8000));
     std::vector<double> found;
     if (!seen.contains("tones")) return found;
     for (const double mouth : seen["mouths"]) {

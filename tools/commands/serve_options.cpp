@@ -4,6 +4,7 @@
 
 #include "tools/commands/bounds.h"
 #include "tools/commands/brief_help.h"
+#include "tools/commands/stream_options.h"
 
 namespace animeme::tools {
 
@@ -26,14 +27,7 @@ void add_web_options(CLI::App& app, web::WebOptions& options) {
                  "are then limited, too; 0: any number, behind a proxy")
       ->check(between(0, 10000))
       ->capture_default_str();
-  app.add_option("--allow-origin", options.allow_origins,
-                 "Pages elsewhere that may use the server, as https://example.org; may be "
-                 "repeated; *: all")
-      ->allow_extra_args(false);
-  app.add_option("--host-name", options.host_names,
-                 "A name by which browsers call the server, besides the names and addresses of its "
-                 "machine; may be repeated; *: any")
-      ->allow_extra_args(false);
+  add_guard_options(app, options);
 }
 
 }  // namespace

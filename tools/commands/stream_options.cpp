@@ -99,17 +99,21 @@ void add_web_options(CLI::App& app, web::WebOptions& options) {
                  "number, behind a proxy")
       ->check(between(0, 10000))
       ->capture_default_str();
-  app.add_option("--allow-origin", options.allow_origins,
-                 "http: pages elsewhere that may use the server, as https://example.org; may be "
-                 "repeated; *: all")
-      ->allow_extra_args(false);
-  app.add_option("--host-name", options.host_names,
-                 "http: a name by which browsers call the server, besides the names and addresses "
-                 "of its machine; may be repeated; *: any")
-      ->allow_extra_args(false);
+  add_guard_options(app, options);
 }
 
 }  // namespace
+
+void add_guard_options(CLI::App& app, web::WebOptions& options) {
+  app.add_option("--allow-origin", options.allow_origins,
+                 "Pages elsewhere that may use the web server, as https://example.org; may be "
+                 "repeated; *: all")
+      ->allow_extra_args(false);
+  app.add_option("--host-name", options.host_names,
+                 "A name by which browsers call the web server, besides the names and addresses of "
+                 "its machine; may be repeated; *: any")
+      ->allow_extra_args(false);
+}
 
 void add_options(CLI::App& app, StreamOptions& options) {
   add_source_options(app, options);

@@ -36,6 +36,9 @@ struct StreamOptions {
 /// Adds them.
 void add_options(CLI::App& app, StreamOptions& options);
 
+/// Adds --allow-origin and --host-name: who may use a web server, and by which names.
+void add_guard_options(CLI::App& app, web::WebOptions& options);
+
 /// Runs the command with them.
 Result<int> run(StreamOptions& options);
 
