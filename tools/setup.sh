@@ -22,12 +22,13 @@ packages="
   libespeak-ng-dev espeak-ng-data
   libicu-dev libexpat1-dev libcld2-dev libdraco-dev libmeshoptimizer-dev libmecab-dev mecab-ipadic-utf8 rime-data-pinyin-simp rime-data-terra-pinyin
   libpocketsphinx-dev libsphinxbase-dev libspeexdsp-dev pocketsphinx-en-us
+  clang-14 lld-14 wasi-libc libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32
 "
 mode=${1:-}
 # Only the tests need these.
 case $mode in
   tests | full | bindings) packages="$packages ccache libgtest-dev libgmock-dev libbenchmark-dev
-    clang-14 libclang-rt-14-dev llvm-14" ;;
+    libclang-rt-14-dev llvm-14" ;;
 esac
 if [ "$mode" = packages ]; then
   packages="$packages dpkg-dev debhelper fakeroot doxygen lintian mmdebstrap libopenmpi-dev

@@ -255,7 +255,10 @@ void deform(const Rig& rig, const Values& values, bool contact, Pose& out) {
 }  // namespace
 
 void pose(const Rig& rig, const fap::Frame& frame, Pose& out, const PoseOptions& options) {
-  const Values wanted = control_values(rig, frame, options);
+  pose(rig, control_values(rig, frame, options), out, options);
+}
+
+void pose(const Rig& rig, const ControlValues& wanted, Pose& out, const PoseOptions& options) {
   Values values;
   std::vector<Vec3>& skin = out.positions[index(Part::skin)];
   const auto show = [&](const Values& shown) {

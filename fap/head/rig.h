@@ -165,6 +165,9 @@ struct Pose {
 /// of the standard look as they may.
 void pose(const Rig& rig, const fap::Frame& frame, Pose& out, const PoseOptions& options = {});
 
+/// The same by what control_values() gave, or by values between two frames; as many as that gives.
+void pose(const Rig& rig, const ControlValues& values, Pose& out, const PoseOptions& options = {});
+
 /// One pose.
 Pose pose(const Rig& rig, const fap::Frame& frame, const PoseOptions& options = {});
 

@@ -60,7 +60,8 @@ inline constexpr Room kRooms[] = {
     {"tools/text", "dam/script"},
     {"tools/voice", "tools/text tools/media"},
     {"tools/speech", "dam/speaking codec/encode tools/voice tools/scripts tools/programs"},
-    {"tools/viewer", "dam/script tools/render tools/xml.h"},
+    {"tools/viewer/rig", "fap/head", false},  // also the page's WebAssembly
+    {"tools/viewer", "dam/script tools/render tools/viewer/rig tools/xml.h"},
     {"tools/web", "tools/media"},
     {"tools/webrtc", "tools/web tools/module.h"},
     {"tools/engines", "codec/encode tools/media"},

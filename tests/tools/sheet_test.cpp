@@ -48,6 +48,7 @@ TEST(Sheet, HasEverythingAndLoadsNothing) {
   EXPECT_EQ(count(html, "src=\"http") + count(html, "href=\"http") + count(html, "=&quot;http"),
             0u);
   EXPECT_THAT(html, HasSubstr("default-src 'none'"));
+  EXPECT_THAT(html, HasSubstr("'wasm-unsafe-eval'")) << "frames inherit it, and heads need it";
   const auto again =
       animeme({"evaluate", "builtin", corpus.string(), "--report", dir / "you.html"});
   ASSERT_EQ(again.exit_code, 0);

@@ -235,40 +235,87 @@ TEST(Page, FitsTheScreen) {
   EXPECT_EQ(screens, 6);
 }
 
-// What README.md says about pages with motion of their own.
-TEST(Page, HeadTakesValuesFromElsewhere) {
-  NEEDS_BROWSER();
-  const TempDir dir;
+// What README.md says about pages with motion of their own: the feature points that a page shows
+// for `values`, a script, as JSON.
+Json shown(const TestHead& h, const std::string& values, const TempDir& dir) {
   const std::string html =
       "<!doctype html><link rel=icon href='data:,'><canvas id=face style='width:200px'></canvas>"
       "<script type=module>" +
       std::string(viewer::head_script()) + "const bytes = fromBase64('" +
-      viewer::detail::base64(viewer::pack_head(test_head().head, test_head().rig)) +
+      viewer::detail::base64(viewer::pack_head(h.head, h.rig)) +
       "');\n"
       "const view = new HeadView(document.getElementById('face'), readModel(bytes));\n"
       "view.camera.listen(view.canvas);\n"
       "const at = () => view.model.points.map(({part, vertex}) =>\n"
       "    [...view.rigs[0].placed(part).slice(vertex * 3, vertex * 3 + 3)]);\n"
-      "view.show({1: {select1: 10, select2: 0, blend: 40}, 3: 100, 25: 20000});\n"
-      "window.result = at();</script>";
+      "view.show(" +
+      values + ");\nwindow.result = at();</script>";
   const Json report = report_of("live", html, dir);
-  ASSERT_TRUE(report.contains("result"));
   EXPECT_EQ(said(report), std::vector<std::string>());
+  return report.value("result", Json::array());
+}
+
+void expect_points(const TestHead& h, const fap::Frame& frame, const Json& is) {
+  const head::Pose pose = head::pose(h.rig, frame);
+  std::size_t next = 0;
+  for (const head::FeaturePoint& point : h.head.feature_points) {
+    if (!point.exists()) continue;
+    ASSERT_LT(next, is.size());
+    const auto part = std::size_t(point.part);
+    const auto& places =
+        pose.positions[part].empty() ? h.rig.parts[part].positions : pose.positions[part];
+    const head::Vec3 want = pose.transforms[part](places[point.vertex]);
+    const Json& place = is[next++];
+    EXPECT_LT(length(want - head::Vec3{place[0], place[1], place[2]}), 0.02f);
+  }
+  EXPECT_EQ(next, is.size());
+}
+
+TEST(Page, HeadTakesValuesFromElsewhere) {
+  NEEDS_BROWSER();
+  const TempDir dir;
   fap::Frame frame = frame_of({{3, 100}, {25, 20000}});
   frame.mask.set(1);
   frame.viseme = {.select1 = 10, .select2 = 0, .blend = 40};
-  const head::Pose pose = head::pose(test_head().rig, frame);
-  std::size_t next = 0;
-  for (const head::FeaturePoint& point : test_head().head.feature_points) {
-    if (!point.exists()) continue;
-    const auto part = std::size_t(point.part);
-    const auto& places =
-        pose.positions[part].empty() ? test_head().rig.parts[part].positions : pose.positions[part];
-    const head::Vec3 want = pose.transforms[part](places[point.vertex]);
-    const Json& is = report["result"][next++];
-    EXPECT_LT(length(want - head::Vec3{is[0], is[1], is[2]}), 0.02f);
+  expect_points(
+      test_head(), frame,
+      shown(test_head(), "{1: {select1: 10, select2: 0, blend: 40}, 3: 100, 25: 20000}", dir));
+}
+
+// As avatars do: shapes of their maker, which are fitted to each frame.
+TestHead head_with_shapes() {
+  TestHead out;
+  const auto targets = out.rig.targets;
+  for (const auto& [fap, value] : std::vector<std::pair<int, int>>{
+           {3, 700}, {5, -500}, {12, 200}, {13, 200}, {19, 1000}, {20, 1000}, {51, -200}}) {
+    head::ShapeControl shape;
+    shape.name = "shape" + std::to_string(fap);
+    shape.faps.set(fap, value);
+    for (head::Target target : targets) {
+      if (target.control != fap) continue;
+      target.control = head::kFirstShape + int(out.head.shapes.size());
+      for (head::Vec3& delta : target.deltas) delta *= float(value) / head::kFullShape;
+      target.low = 0;
+      target.high = head::kFullShape;
+      out.head.targets.push_back(std::move(target));
+    }
+    out.head.shapes.push_back(std::move(shape));
   }
-  EXPECT_EQ(next, report["result"].size());
+  out.rig = head::make_rig(out.head);
+  return out;
+}
+
+TEST(Page, ShapesOfAnAvatarFollowFaps) {
+  NEEDS_BROWSER();
+  const TempDir dir;
+  const TestHead avatar = head_with_shapes();
+  const fap::Frame frame =
+      frame_of({{3, 400}, {5, -300}, {12, 100}, {13, 60}, {19, 500}, {48, 9000}});
+  const head::Pose open = head::pose(avatar.rig, frame), rest = head::pose(avatar.rig, {});
+  const std::uint32_t lip = avatar.head.point("2.3").vertex;
+  ASSERT_LT(open.positions[0][lip].y, rest.positions[0][lip].y - 0.3f);
+  expect_points(avatar, frame,
+                shown(avatar, "{3: 400, 5: -300, 12: 100, 13: 60, 19: 500, 48: 9000}", dir));
 }
 
 }  // namespace page_test

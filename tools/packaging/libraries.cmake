@@ -79,10 +79,11 @@ function(animeme_install_licences)
   if(TARGET animeme_dam)
     set(models Eigen)
   endif()
+  set(pages "libc++ (pages)" "wasi-libc (pages)")  # part of the WebAssembly of tools/viewer/rig
   if(TARGET animeme)
     animeme_spdx(animeme COMPONENT program LINKED animeme LOADED animeme_ffmpeg animeme_mpi animeme_webrtc_module
-      CONTAINS ${models} CLI11 nlohmann_json toml++)
-    set(tools nlohmann_json toml++)
+      CONTAINS ${models} CLI11 nlohmann_json toml++ ${pages})
+    set(tools nlohmann_json toml++ ${pages})
   endif()
   if(TARGET animeme_c)
     animeme_spdx(libanimeme0 COMPONENT c LINKED animeme_c CONTAINS ${models})

@@ -10,7 +10,7 @@
 function(animeme_public_headers folder result)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
     ${PROJECT_SOURCE_DIR}/${folder}/*.h)
-  list(FILTER headers EXCLUDE REGEX "/(detail|kinds|maths)/|_internal\\.h$")
+  list(FILTER headers EXCLUDE REGEX "/(detail|kinds|maths|rig)/|_internal\\.h$")
   if(folder STREQUAL "fap")
     list(FILTER headers EXCLUDE REGEX "^fap/(head|xml)/")
   endif()

@@ -102,7 +102,7 @@ Result<std::string> make_sheet(const Sheet& sheet) {
   return "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width\">\n"
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src "
-         "'unsafe-inline'; "
+         "'unsafe-inline' 'wasm-unsafe-eval'; "
          "style-src 'unsafe-inline'; img-src data:; media-src data: blob:; frame-src "
          "'self'\">\n<title>" +
          title + "</title>\n<style>" + kStyle + "</style>\n<h1>" + title + "</h1>\n" +

@@ -1,4 +1,4 @@
-# cmake -DOUTPUT=parts.cpp -DSOURCE=folder "-DHEAD=a.js b.js" "-DPAGE=c.js ..." -P pack.cmake
+# cmake -DOUTPUT=parts.cpp -DSOURCE=folder -DRIG=rig.wasm "-DHEAD=a.js b.js" "-DPAGE=c.js ..." -P pack.cmake
 # Modules become one script: their imports and the word export go, so names must be unique.
 set(text "#include \"tools/viewer/detail/parts.h\"\n\nnamespace animeme::viewer::detail {\n")
 
@@ -37,4 +37,8 @@ read_modules(content "${HEAD}")
 add_constant(kHeadModules "${content}")
 read_modules(content "${PAGE}")
 add_constant(kPageModules "${content}")
+file(READ ${RIG} bytes HEX)
+string(REGEX REPLACE "(................................)" "\\1\n" bytes "${bytes}")
+string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${bytes}")
+set(text "${text}\nconstexpr std::uint8_t kRigBytes[] = {\n${bytes}};\nconst std::span<const std::uint8_t> kRigModule = kRigBytes;\n")
 file(WRITE ${OUTPUT} "${text}\n}  // namespace animeme::viewer::detail\n")

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <span>
 
 #include "fap/head/shapes.h"
 #include "fap/tables.h"
@@ -22,7 +23,7 @@ std::string script_text(const Json& json) {
   return out;
 }
 
-std::string packed(const std::vector<std::uint8_t>& bytes) {
+std::string packed(std::span<const std::uint8_t> bytes) {
   return detail::base64(detail::deflated(bytes));
 }
 
@@ -143,6 +144,11 @@ std::string filled(std::string_view text, const std::vector<Mark>& marks) {
   return out;
 }
 
+std::string head_modules() {
+  return "const RIG_MODULE = '" + packed(detail::kRigModule) + "';\n" +
+         std::string(detail::kHeadModules);
+}
+
 }  // namespace
 
 Result<std::string> make_page(const Page& page) {
@@ -164,13 +170,17 @@ Result<std::string> make_page(const Page& page) {
   }
   // Through JSON and back: what is no UTF-8 becomes a replacement mark.
   const std::string name = Json::parse(detail::text_of(page.clips[0].name)).get<std::string>();
-  const std::string script = std::string(detail::kHeadModules) + std::string(detail::kPageModules);
+  const std::string script = head_modules() + std::string(detail::kPageModules);
   return filled(detail::kTemplate, {{"<!--title-->", tools::escape_xml(name)},
                                     {"/*style*/", std::string(detail::kStyle)},
                                     {"<!--data-->", data_elements(page)},
                                     {"/*script*/", script}});
 }
 
-std::string_view head_script() { return detail::kHeadModules; }
+std::string_view head_script() {
+  // Who uses it reads heads at once; the page has something else to do meanwhile.
+  static const std::string script = head_modules() + "await rigReady;\n";
+  return script;
+}
 
 }  // namespace animeme::viewer

@@ -7,8 +7,9 @@
 ///     page.clips.push_back({.motion = filled, .name = "talk.fba"});
 ///     std::string html = viewer::make_page(page);
 ///
-/// The file needs a browser with WebGL2 and nothing else: it opens from disk and loads nothing.
-/// What it can do, and how its parts serve other pages, stands in README.md of this folder.
+/// The file needs a browser with WebGL2 and WebAssembly and nothing else: it opens from disk and
+/// loads nothing. What it can do, and how its parts serve other pages, stands in README.md of this
+/// folder.
 #pragma once
 
 #include <cstdint>
@@ -67,8 +68,9 @@ Result<std::string> make_page(const Page& page);
 /// A head for the browser, as model.js reads it: about 1.8 MB. The format stands in README.md.
 std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig);
 
-/// The modules that draw a head, as one script without imports and exports: class HeadView and what
-/// it needs, for pages that have their own source of motion.
+/// The modules that draw a head, as one script without imports and exports, and the WebAssembly
+/// that moves it: class HeadView and what it needs, for pages that have their own source of motion.
+/// A module script; a policy of its page must allow 'wasm-unsafe-eval'.
 std::string_view head_script();
 
 }  // namespace animeme::viewer

@@ -6,20 +6,6 @@
 
 namespace animeme::viewer::detail {
 
-void Bytes::u16(std::uint32_t value) {
-  u8(value & 0xFF);
-  u8(value >> 8 & 0xFF);
-}
-
-void Bytes::varint(std::uint64_t value) {
-  for (; value >= 0x80; value >>= 7) u8(std::uint32_t(value & 0x7F) | 0x80);
-  u8(std::uint32_t(value));
-}
-
-void Bytes::zigzag(std::int64_t value) {
-  varint(value < 0 ? ~(std::uint64_t(value) << 1) : std::uint64_t(value) << 1);
-}
-
 std::string text_of(const tools::Json& json) {
   return json.dump(-1, ' ', true, tools::Json::error_handler_t::replace);
 }
@@ -28,15 +14,14 @@ std::vector<std::uint8_t> with_header(const tools::Json& header, const Bytes& re
   const std::string json = text_of(header);
   const auto size = std::uint32_t(json.size());
   Bytes length;
-  length.u16(size & 0xFFFF);
-  length.u16(size >> 16);
+  length.u32(size);
   std::vector<std::uint8_t> out = length.data();
   out.insert(out.end(), json.begin(), json.end());
   out.insert(out.end(), rest.data().begin(), rest.data().end());
   return out;
 }
 
-std::vector<std::uint8_t> deflated(const std::vector<std::uint8_t>& bytes) {
+std::vector<std::uint8_t> deflated(std::span<const std::uint8_t> bytes) {
   uLongf size = ::compressBound(uLong(bytes.size()));
   std::vector<std::uint8_t> out(size);
   // With room for the worst case, memory alone can be missing; then the result would be empty.

@@ -1,6 +1,8 @@
 // The sources of the page, packed into the program when it is built (pack.cmake).
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string_view>
 
 namespace animeme::viewer::detail {
@@ -9,5 +11,6 @@ extern const std::string_view kTemplate;     ///< page.html with the marks that 
 extern const std::string_view kStyle;        ///< page.css
 extern const std::string_view kHeadModules;  ///< the modules that draw a head
 extern const std::string_view kPageModules;  ///< the others
+extern const std::span<const std::uint8_t> kRigModule;  ///< rig/module.cpp as WebAssembly
 
 }  // namespace animeme::viewer::detail

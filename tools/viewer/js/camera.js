@@ -1,5 +1,4 @@
 // A camera that goes around a head, by mouse, touch or keys.
-import {smoothStep} from './vector.js';
 
 const cross = (a, b) => [
   a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -32,7 +31,8 @@ export class Camera {
 
   /** What it looks at: nearer pictures have the face in their middle. */
   get target() {
-    const near = smoothStep(1, 1.8, this.zoom);
+    const t = Math.min(Math.max((this.zoom - 1) / 0.8, 0), 1);
+    const near = t * t * (3 - 2 * t);
     return sum([this.home.target, 1 - near], [this.home.near, near], [this.offset, 1]);
   }
 

@@ -59,8 +59,7 @@ export class Renderer {
 
   /** The buffers of a rig. */
   load(rig) {
-    return rig.model.parts.map(
-        (part, i) => new Mesh(this.gl, part, rig.deforming.includes(i)));
+    return rig.model.parts.map((part) => new Mesh(this.gl, part, part.deforms));
   }
 
   /** Brings a pose to the buffers. */

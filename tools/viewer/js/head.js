@@ -6,10 +6,11 @@
 //
 // show() moves the head and draws it; call it once a displayed frame at most. Values are FAP units,
 // an array or an object; 1 may be {select1, select2, blend}, 2 {select1, intensity1, select2,
-// intensity2}, whose shapes are shown where the values have no own.
+// intensity2}, whose shapes are shown where the values have no own. Heads with shapes of their maker
+// are fitted.
 import {Camera} from './camera.js';
 import {Renderer} from './gl.js';
-import {Rig, lowLevel} from './rig.js';
+import {Rig} from './rig.js';
 
 const PLAIN = [0, 0, 0, 0];
 const GHOST = [0.10, 0.35, 0.85, 0.35];  // the second head where both are in one place
@@ -61,10 +62,15 @@ export class HeadView {
     return {renderer, rigs, meshes: rigs.map((rig) => renderer.load(rig)), ready: renderer.coats.ready};
   }
 
-  /** Moves head `which` without drawing it. */
+  /** Moves head `which` without drawing it, by FAPs. */
   pose(values, which = 0) {
-    const shapes = typeof values[1] === 'object' || typeof values[2] === 'object';
-    this.rigs[which].pose(shapes ? lowLevel(this.model, values[1], values[2], values) : values);
+    this.rigs[which].pose(values);
+    this.stale[which] = true;
+  }
+
+  /** The same by control, as Clip has them. */
+  move(values, which = 0) {
+    this.rigs[which].move(values);
     this.stale[which] = true;
   }
 

@@ -9,6 +9,7 @@ import {inflate} from './inflate.js';
 import {fillHelp, keyTable, listenToKeys} from './keys.js';
 import {readModel} from './model.js';
 import {Player} from './player.js';
+import {rigReady} from './rig.js';
 import {MODES, Stage} from './stage.js';
 
 const byId = (id) => document.getElementById(id);
@@ -20,7 +21,7 @@ const flag = (name) => asked.has(name) && asked.get(name) !== '0';
 
 /** What the page does; controls and keys call it. */
 class App {
-  /** `model`: a head, null for none; `clips`: the bytes of one or two. */
+  /** `model`: a head, null for none, an Error where it cannot be; `clips`: the bytes of one or two. */
   constructor(facts, model, clips) {
     this.clips = clips.filter(Boolean).map((bytes) => new Clip(bytes));
     this.hasSound = Boolean(facts.sound);
@@ -198,7 +199,9 @@ function obey(app) {
 
 async function start() {
   const facts = JSON.parse(byId('facts').textContent);
-  const model = flag('nohead') ? null : readModel(await data('model'));
+  await rigReady;
+  const model = flag('nohead') ? null :
+      await data('model').then(readModel).catch((problem) => problem);
   const app = new App(facts, model, [await data('clip0'), await data('clip1')]);
   byId('title').textContent = app.clips.map((clip) => clip.name).join(' / ');
   byId('stage').classList.toggle('says', facts.phones.length > 0);

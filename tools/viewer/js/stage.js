@@ -6,7 +6,7 @@ import {PointOverlay} from './points.js';
 export const MODES = ['first', 'second', 'side', 'ghost', 'heat'];
 
 export class Stage {
-  /** `model` null: without a head; `table`: the FAPs of the page. */
+  /** `model` null: without a head, an Error: why there is none; `table`: the FAPs of the page. */
   constructor(elements, model, clips, table) {
     Object.assign(this, {...elements, clips});
     const moving = table.filter(({number}) => clips.some((clip) => clip.columns[number]));
@@ -16,8 +16,9 @@ export class Stage {
     this.angles = numbers(true);
     this.view = null;
     this.last = [];
-    this.element.classList.toggle('headless', !model);
-    if (model) this.open(model);
+    if (model instanceof Error) this.refuse(model);
+    else if (model) this.open(model);
+    this.element.classList.toggle('headless', !this.view);
     this.names.forEach((element, i) => { element.textContent = clips[i] ? clips[i].name : ''; });
   }
 
@@ -25,17 +26,20 @@ export class Stage {
     try {
       this.view = new HeadView(this.canvas, model, this.clips.length);
     } catch (error) {
-      this.canvas.hidden = true;
-      this.element.classList.add('headless');
-      this.message.hidden = false;
-      this.message.textContent = error.message === 'no WebGL2' ?
-          'This browser shows no WebGL2, which the head needs: switch hardware acceleration on, ' +
-          'or use a current Firefox, Chrome, Edge or Safari. Curves and sound work without it.' :
-          `The head cannot be drawn: ${error.message}`;
+      this.refuse(error);
       return;
     }
     this.points = new PointOverlay(this.overlay, this.tip, this.view);
     this.view.camera.listen(this.canvas);
+  }
+
+  refuse({message}) {
+    this.canvas.hidden = true;
+    this.message.hidden = false;
+    this.message.textContent = message === 'no WebGL2' ?
+        'This browser shows no WebGL2, which the head needs: switch hardware acceleration on, ' +
+        'or use a current Firefox, Chrome, Edge or Safari. Curves and sound work without it.' :
+        `The head cannot be drawn: ${message}. Curves and sound work without it.`;
   }
 
   /** Called when the picture is out of date. */
@@ -65,7 +69,7 @@ export class Stage {
     if (this.view) {
       values.forEach((v, i) => {
         const key = v.join();
-        if (key !== this.last[i]) this.view.pose(v, i);
+        if (key !== this.last[i]) this.view.move(v, i);
         this.last[i] = key;
       });
       this.view.draw();

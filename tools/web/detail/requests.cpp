@@ -13,7 +13,8 @@ namespace {
 
 // The page talks to its server alone, and nothing in it runs that is not one of the server's files.
 constexpr const char* kPolicy =
-    "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
+    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; connect-src "
+    "'self'; "
     "media-src 'self' blob:; img-src 'self' data: blob:; base-uri 'none'; form-action 'none'; "
     "frame-ancestors ";
 

@@ -1,6 +1,6 @@
 
-// A head in three dimensions in place of the schematic face. HeadView, readModel and lowLevel stand
-// in front of this, in the same script.
+// A head in three dimensions in place of the schematic face. HeadView and readModel stand in front of
+// this, in the same script.
 const before = [...animeme.stage.childNodes];
 try {
   const load = async (path) => {
@@ -28,8 +28,7 @@ try {
   let last = {};
   animeme.onFrame = (values) => {
     last = values;
-    const {1: viseme, 2: expression, ...own} = values;
-    view.show(lowLevel(model, viseme ?? null, expression ?? null, own));
+    view.show(values);
   };
   animeme.onFrame({});
   new ResizeObserver(() => view.draw()).observe(canvas);
