@@ -224,6 +224,19 @@ TEST_F(Guard, ThePolicyIsTight) {
   }
 }
 
+// What moves a head is WebAssembly: allowed on the page that has one, nowhere else.
+TEST_F(Guard, ThePolicyLetsAHeadMove) {
+  serve({.head_script = "class HeadView {}\n", .head_model = {1, 2, 3}});
+  for (const char* path : {"/", "/index.html", "/head.js", "/info.json", "/nothing"}) {
+    const std::string policy = header_of(get(port_, path), "content-security-policy");
+    const bool page = path == std::string("/") || path == std::string("/index.html");
+    EXPECT_THAT(policy,
+                HasSubstr(page ? "script-src 'self' 'wasm-unsafe-eval';" : "script-src 'self';"))
+        << path;
+    EXPECT_THAT(policy, Not(HasSubstr("'unsafe"))) << path;
+  }
+}
+
 // A third party: what it asks for and understands.
 TEST_F(Guard, CurlGetsTheHead) {
   if (std::system("curl --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "needs curl";

@@ -213,6 +213,7 @@ int Server::serve(lws* wsi, const Request& request, const Place& place) {
   Answer answer{.type = type_of(resource), .origin = shared_with(request)};
   answer.embedded = answer.origin == "*";
   answer.frames = frames_;
+  answer.has_head = resource == Resource::page && documents_.contains("/head.js");
   answer.packed = session.packed;
   answer.size = session.packed ? document.packed.size() : document.bytes.size();
   if (!document.etag.empty()) answer.etag = document.etag_of(session.packed);

@@ -11,12 +11,16 @@
 namespace animeme::web {
 namespace {
 
-// The page talks to its server alone, and nothing in it runs that is not one of the server's files.
-constexpr const char* kPolicy =
-    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; connect-src "
-    "'self'; "
-    "media-src 'self' blob:; img-src 'self' data: blob:; base-uri 'none'; form-action 'none'; "
-    "frame-ancestors ";
+// The page talks to its server alone, and nothing in it runs that is not one of the server's files;
+// one with a head makes a module of what is in them.
+std::string policy_of(const Answer& answer) {
+  return std::string("default-src 'none'; script-src 'self'") +
+         (answer.has_head ? " 'wasm-unsafe-eval'" : "") +
+         "; style-src 'self'; connect-src 'self'; media-src 'self' blob:; img-src 'self' data: "
+         "blob:; "
+         "base-uri 'none'; form-action 'none'; frame-ancestors " +
+         std::string(answer.frames);
+}
 
 /// Value of a header, empty: absent or longer than 512 bytes.
 std::string header_of(lws* wsi, lws_token_indexes token) {
@@ -200,7 +204,7 @@ bool send_header(lws* wsi, const Answer& answer) {
   }
   header.add("x-content-type-options:", "nosniff");
   header.add("referrer-policy:", "no-referrer");
-  header.add("content-security-policy:", kPolicy + std::string(answer.frames));
+  header.add("content-security-policy:", policy_of(answer));
   header.add("cross-origin-resource-policy:", answer.embedded ? "cross-origin" : "same-origin");
   if (!answer.origin.empty()) header.add("access-control-allow-origin:", answer.origin);
   return header.send();

@@ -65,8 +65,9 @@ struct Answer {
   std::string origin;      ///< pages there may read it; "*": all
   bool embedded = false;   ///< pages elsewhere may show it without reading it
   std::string_view frames =
-      "'self'";          ///< origins of pages that may have it in a frame, a blank between them
-  std::string location;  ///< of what was made
+      "'self'";           ///< origins of pages that may have it in a frame, a blank between them
+  bool has_head = false;  ///< a page that shows a head
+  std::string location;   ///< of what was made
   const char* allow = "GET, HEAD";  ///< 405, 204: what there is
 };
 
