@@ -110,7 +110,7 @@ void make_gltf(Folder folder) {
       {"gaze", {"lookUp", "lookDown", "look_left", "eyeLookInLeft", "eyeLookOutRight"}},
       {"unknown", {"", "target", "Basis", "jawOpen"}}};
   for (const auto& [name, shapes] : sets) {
-    make("shapes_" + name, [&](Face& face) {
+    make("shapes_" + name, [&shapes = shapes](Face& face) {
       for (std::size_t i = 0; i < shapes.size(); ++i) face.add_shape(shapes[i], int(i) % 9);
     });
   }
@@ -186,7 +186,7 @@ void make_gltf(Folder folder) {
       {"webp", test::webp_as(rgba, 4, 4, -1)},
       {"jpeg", test::jpeg_as(rgb, 4, 4, {.quality = 20})}};
   for (const auto& [name, picture] : pictures) {
-    make("texture_" + name, [&](Face& face) {
+    make("texture_" + name, [&picture = picture](Face& face) {
       face.add_uvs();
       face.add_picture(picture);
     });

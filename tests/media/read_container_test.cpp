@@ -196,6 +196,10 @@ TEST(ReadContainer, MatroskaAndTransportStreamOfOurOwn) {
     const auto ticks = double(back->face.timescale);
     const double start = double(back->face.units[0].time) / ticks;
     EXPECT_NEAR(start, 1024.0 / 48000, 0.0006) << "the AAC priming";
+    const Result<ContainerInfo> info = probe(dir.file(name));
+    ASSERT_TRUE(info) << info.error().describe();
+    EXPECT_NEAR(info->first(TrackKind::face)->start - info->first(TrackKind::audio)->start, start,
+                0.0006);
     for (std::size_t i = 0; i < face.units.size(); ++i) {
       EXPECT_NEAR(double(back->face.units[i].time) / ticks - start, double(i) * 1001 / 30000,
                   0.00101);

@@ -253,6 +253,40 @@ test('a live face, bytes beside values of the server', async () => {
   }
 });
 
+test('what a live head says is told when it is heard', async () => {
+  const port = 20000 + (process.pid + 1) % 20000;
+  const sender = spawn(program, ['stream', '--say', '-', '--to', `http://127.0.0.1:${port}/`,
+    '--allow-origin', server.url.replace(/\/$/, '')], {cwd: dir, stdio: ['pipe', 'ignore', 'ignore']});
+  try {
+    const page = await open();
+    for (let i = 0; i < 100; ++i) {
+      if (await fetch(`http://127.0.0.1:${port}/info.json`).then(() => true, () => false)) break;
+      await new Promise((done) => setTimeout(done, 100));
+    }
+    await put(page, {src: `http://127.0.0.1:${port}/`, live: ''});
+    await page.evaluate(() => {
+      window.told = [];
+      face.addEventListener('speech', ({detail}) => told.push({...detail, heard: face.currentTime}));
+    });
+    await page.wait('seen.length > 20');
+    sender.stdin.write('Hello my friend\n');
+    await page.wait('told.some(({event}) => event === "done")');
+    const told = await page.evaluate('told');
+    assert.deepEqual(told.filter(({event}) => event === 'word').map(({word}) => word.toLowerCase()),
+        ['hello', 'my', 'friend']);
+    assert.deepEqual(told.filter(({line}) => line).map(({event}) => event)
+        .filter((event, i, all) => event !== 'phone' && event !== 'word' || all[i - 1] === undefined),
+    ['queued', 'started', 'done']);
+    for (const {event, time, heard} of told) {
+      if (event === 'queued') continue;  // told at once
+      assert.ok(heard >= time && heard < time + 0.3, `${event} of ${time} s at ${heard} s`);
+    }
+    await page.close();
+  } finally {
+    sender.kill();
+  }
+});
+
 for (const name of ['arkit_and_visemes', 'visemes_only', 'brunette-t']) {
   const there = existsSync(`${avatars}/${name}.glb`);
   test(`an avatar of users: ${name}`, {skip: there ? false : 'no avatars beside the tree'}, async () => {

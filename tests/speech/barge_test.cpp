@@ -26,7 +26,7 @@ using What = LineEvent::What;
 
 constexpr double kSilent =
     0.003;  // of full scale: what a codec leaves behind speech fades below it
-constexpr int kUpper = 4, kLower = 5, kJaw = 3;  // FAPs of the inner lips, and the jaw
+constexpr int kUpper = 4, kLower = 5;  // FAPs of the inner lips
 
 const std::vector<voice::Speech>& voices() {
   static const std::vector<voice::Speech> all = [] {

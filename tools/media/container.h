@@ -92,7 +92,7 @@ struct TrackInfo {
   std::string codec;                  ///< "fba" for a face, else FFmpeg's name
   std::string tag;                    ///< four characters of mp4 and its like; may be empty
   std::uint32_t timescale = 0;        ///< ticks a second; 0: the clock is no whole number of them
-  double start = 0;                   ///< seconds
+  double start = 0;                   ///< seconds, on the clock of the file
   double duration = 0;                ///< seconds; 0: not stated
   std::int64_t bit_rate = 0;          ///< bits a second; 0: not stated
   std::int64_t samples = 0;           ///< access units or packets; 0: not stated

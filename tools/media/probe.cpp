@@ -41,7 +41,9 @@ TrackInfo describe(const AVStream& stream, const FaceTrack& face) {
   track.tag = tag_text(parameters.codec_tag);
   const AVRational base = stream.time_base;
   track.timescale = base.num == 1 && base.den > 0 ? std::uint32_t(base.den) : 0;
-  track.start = to_seconds(stream.start_time, base);
+  // FFmpeg does not look where data begin, and a face is data to it (see FaceTracks).
+  const bool known = track.kind == TrackKind::face && face.first != AV_NOPTS_VALUE;
+  track.start = to_seconds(known ? face.first : stream.start_time, base);
   track.duration = to_seconds(stream.duration, base);
   track.bit_rate = parameters.bit_rate;
   track.samples = stream.nb_frames;
@@ -73,19 +75,22 @@ TrackInfo describe(const AVStream& stream, const FaceTrack& face) {
   return track;
 }
 
-// Reads on until every track that may be a face has shown a packet.
+// Reads on until every track that may be a face has shown a packet, and every face when it begins.
 void settle(AVFormatContext& file, FaceTracks& tracks) {
   const av::Packet packet(av_packet_alloc());
   if (!packet) return;
   for (int i = 0; i < kPacketsToTry; ++i) {
     bool open = false;
     for (std::size_t t = 0; t < tracks.size(); ++t) {
-      open = open || tracks[int(t)].state == FaceTrack::State::maybe;
+      const FaceTrack& track = tracks[int(t)];
+      open = open || track.state == FaceTrack::State::maybe ||
+             (track.state == FaceTrack::State::yes && track.first == AV_NOPTS_VALUE);
     }
     if (!open || av_read_frame(&file, packet.get()) < 0) return;
     tracks.update(file);
     tracks.decide(*packet);
     FaceTrack& track = tracks[packet->stream_index];
+    if (track.first == AV_NOPTS_VALUE) track.first = packet->pts;
     if (track.state == FaceTrack::State::yes && track.profile == 0 && packet->size > 0) {
       track.profile = read_visual_headers({packet->data, std::size_t(packet->size)}).profile;
     }

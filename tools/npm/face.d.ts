@@ -4,9 +4,9 @@ import type {Frame, Track} from './index.js';
 /**
  * Attributes: `src` (.mp4, .m3u8, .fba, or the address of `animeme stream`), `head` (.glb), `autoplay`, `controls`,
  * `loop`, `muted`, `label`, `live` (src is a server). Events: `frame` (detail: Frame), `head`, `load`, `error`
- * (ErrorEvent), `lost` (a live connection, which is opened again), `blocked` (the browser wants a gesture first), and
- * play, pause, ended, seeked, timeupdate, volumechange, ratechange, durationchange. Parts for styles: `canvas` and
- * `audio`.
+ * (ErrorEvent), `lost` (a live connection, which is opened again), `blocked` (the browser wants a gesture first),
+ * `speech` (detail: what `animeme stream` tells of lines, words and phones, when it is heard), and play, pause, ended,
+ * seeked, timeupdate, volumechange, ratechange, durationchange. Parts for styles: `canvas` and `audio`.
  */
 export class AnimemeFace extends HTMLElement {
   src: string | null;

@@ -21,6 +21,7 @@ struct FaceTrack {
   bool video = false;                ///< libavformat thought of it as MPEG-4 video
   std::vector<std::uint8_t> config;  ///< as in the header; may be empty
   std::uint8_t profile = 0;
+  std::int64_t first = AV_NOPTS_VALUE;  ///< time of its first packet, where one was read
 };
 
 /// States of all streams, by stream index. Must be called before avformat_find_stream_info() and

@@ -38,6 +38,7 @@ export class AnimemeFace extends HTMLElement {
     for (const name of forwarded) this.audio.addEventListener(name, () => this.tell(name));
     this.use(this.audio);
     this.track = new Track();
+    this.told = [];
     this.weights = {frame: null, arkit: new Float32Array(61), visemes: new Float32Array(15)};
   }
 
@@ -149,7 +150,7 @@ export class AnimemeFace extends HTMLElement {
     const stopped = this.stopped = new AbortController();
     this.track = new Track();
     const source = {media: this.audio, silent: () => this.silent(), track: this.track, signal: stopped.signal,
-      lost: (problem) => this.lose(problem)};
+      lost: (problem) => this.lose(problem), told: (text) => this.hear(text)};
     if (open === openFba) source.media = this.silent();
     else this.use(this.audio);
     this.loading = ready().then(() => {
@@ -170,11 +171,19 @@ export class AnimemeFace extends HTMLElement {
     }
     for (const fitter of Object.values(this.fitters ?? {})) fitter.free();
     this.fitters = null;
+    this.told = [];
     this.weights.frame = null;
+  }
+
+  // What a server tells of its lines, each word when it is heard.
+  hear(text) {
+    const told = JSON.parse(text);
+    if (told.event) this.told.push(told);
   }
 
   // The next connection begins like the first.
   lose(problem) {
+    this.told = [];
     this.weights.frame = null;
     this.startsBySelf = true;
     this.tell('lost', problem);
@@ -201,7 +210,9 @@ export class AnimemeFace extends HTMLElement {
 
   draw() {
     this.begin();
-    const frame = this.track.at(this.clock.now()) ?? this.track.frames[0];
+    const now = this.clock.now();
+    while (this.told.length && !(this.told[0].time > now)) this.tell('speech', this.told.shift());
+    const frame = this.track.at(now) ?? this.track.frames[0];
     if (frame && frame !== this.weights.frame && this.fitters) {
       this.weights.frame = frame;
       this.fitters.arkit.fit(frame, this.weights.arkit);

@@ -28,16 +28,16 @@ export function readUnit(bytes, timescale) {
   };
 }
 
-// A socket as a queue of messages; ends quietly with status 1000, else with an error.
-function listen(url, signal, take) {
+// A socket as a queue of messages, words apart from bytes; ends quietly with status 1000, else with an error.
+function listen(url, signal, take, told = () => {}) {
   return new Promise((done, fail) => {
     const socket = new WebSocket(url);
     socket.binaryType = 'arraybuffer';
     signal.addEventListener('abort', () => socket.close(), {once: true});
     socket.onmessage = ({data}) => {
-      if (typeof data === 'string') return;  // what is told of lines, say
       try {
-        take(new Uint8Array(data));
+        if (typeof data === 'string') told(data);
+        else take(new Uint8Array(data));
       } catch (problem) {
         socket.close();
         fail(problem);
@@ -67,7 +67,7 @@ function steer(media, buffer) {
 const kRetry = [0.5, 1, 2, 4];  // seconds
 
 // One connection to the server. `heard()`: it has begun to speak.
-async function session(url, {media, silent, track, signal}, heard) {
+async function session(url, {media, silent, track, signal, told}, heard) {
   const address = (path) => new URL(path, url).href.replace(/^http/, 'ws');
   let hello = null, decoder = null, buffer = null, player = media, failSound;
   const noSound = new Promise((_, fail) => { failSound = fail; });
@@ -96,7 +96,7 @@ async function session(url, {media, silent, track, signal}, heard) {
   };
   const timer = setInterval(() => { if (buffer) steer(media, buffer); }, 200);
   try {
-    await Promise.race([listen(address('face'), signal, takeFace), noSound]);
+    await Promise.race([listen(address('face'), signal, takeFace, told), noSound]);
     await sound;
     if (buffer) await buffer.opened.then(() => buffer.queue).then(() => buffer.end());
   } catch (problem) {
