@@ -22,13 +22,14 @@ packages="
   libespeak-ng-dev espeak-ng-data
   libicu-dev libexpat1-dev libcld2-dev libdraco-dev libmeshoptimizer-dev libmecab-dev mecab-ipadic-utf8 rime-data-pinyin-simp rime-data-terra-pinyin
   libpocketsphinx-dev libsphinxbase-dev libspeexdsp-dev pocketsphinx-en-us
-  clang-14 lld-14 wasi-libc libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32
 "
+# WebAssembly that moves the heads of pages; without it, they have none.
+pages="clang-14 lld-14 wasi-libc libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32"
 mode=${1:-}
 # Only the tests need these.
 case $mode in
   tests | full | bindings) packages="$packages ccache libgtest-dev libgmock-dev libbenchmark-dev
-    libclang-rt-14-dev llvm-14" ;;
+    clang-14 libclang-rt-14-dev llvm-14" ;;
 esac
 if [ "$mode" = packages ]; then
   packages="$packages dpkg-dev debhelper fakeroot doxygen lintian mmdebstrap libopenmpi-dev
@@ -68,7 +69,8 @@ install_packages() {
     }
     as_root="sudo"
   fi
-  $as_root apt-get update -q
+  [ -n "${updated:-}" ] || $as_root apt-get update -q
+  updated=yes
   $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "$@"
 }
 
@@ -87,6 +89,15 @@ if [ -n "$missing" ]; then
   [ "$mode" = check ] && exit 1
   # shellcheck disable=SC2086
   install_packages $missing
+fi
+[ "$mode" = elsewhere ] && pages=""
+# shellcheck disable=SC2086
+missing=$(missing_of $pages)
+if [ -n "$missing" ]; then
+  echo "Missing Debian packages:$missing" >&2
+  [ "$mode" = check ] && exit 1
+  # shellcheck disable=SC2086
+  install_packages $missing || echo "warning: without$missing pages show no heads" >&2
 fi
 case $mode in
   tests | full | bindings) ;;

@@ -6,6 +6,7 @@
 #include "tests/support/folders.h"
 #include "tests/web/http.h"
 #include "tests/web/station.h"
+#include "tools/viewer/viewer.h"
 
 namespace animeme::test {
 namespace heads_test {
@@ -28,7 +29,7 @@ TEST_F(PageHeads, OfTheProgram) {
   }
   const auto info = nlohmann::json::parse(body_of(get(std::stoi(port), "/info.json")));
   EXPECT_EQ(info["heads"], nlohmann::json({"child", "me", "man"}));
-  if (!Chromium::find().empty()) {
+  if (!Chromium::find().empty() && viewer::moves_heads()) {
     Chromium browser;
     ASSERT_TRUE(browser.is_open());
     browser.open(url + "?head=me", 1100, 800, false);
@@ -40,6 +41,16 @@ TEST_F(PageHeads, OfTheProgram) {
       return int(browser.evaluate("animeme.head.rigs[0].positions[0].length"));
     };
     const int first = vertices();
+    // An avatar's own shapes show what is said.
+    const auto moves = browser.evaluate(R"(new Promise(done => {
+      const rig = animeme.head.rigs[0], skin = () => Array.from(rig.positions[0]), rest = skin();
+      let most = 0, left = 40;
+      (function look() {
+        skin().forEach((x, i) => { most = Math.max(most, Math.abs(x - rest[i])); });
+        if (--left) setTimeout(look, 50); else done(most);
+      })();
+    }))");
+    EXPECT_GT(moves.get<double>(), 0.2) << "cm";
     browser.save_picture(std::filesystem::path(test::kBinaryFolder) / "screenshots" /
                          "web_heads.png");
     browser.evaluate("heads.value = 2, heads.dispatchEvent(new Event('change'))");

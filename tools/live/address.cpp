@@ -29,7 +29,7 @@ bool is_media(const std::string& url) { return begins(url, {"rtp://", "udp://", 
 
 web::WebOptions with_head(web::WebOptions options) {
   if (!options.make_peers) options.make_peers = [] { return webrtc::make_peers(); };
-  if (!options.head_script.empty()) return options;
+  if (!options.head_script.empty() || !viewer::moves_heads()) return options;
   const Result<head::Head> head = head::make_head();
   if (!head) return options;  // it has a schematic face for that
   options.head_script = viewer::head_script();

@@ -1,5 +1,5 @@
 # Sets rig_module: rig.wasm, which moves the heads of the page. Made by clang with a C++ library for WebAssembly; or as
-# another build has made it.
+# another build has made it; or empty, for pages without heads.
 set(ANIMEME_RIG_MODULE "" CACHE FILEPATH "rig.wasm of another build of this version, where no clang has WebAssembly")
 if(ANIMEME_RIG_MODULE)
   set(rig_module ${ANIMEME_RIG_MODULE})
@@ -28,10 +28,13 @@ if(NOT ANIMEME_WASM_CXX)
     endif()
   endforeach()
   if(NOT ANIMEME_WASM_CXX)
-    message(FATAL_ERROR "The page that shows faces needs clang with a C++ library for WebAssembly. Debian: apt install clang-14 "
-      "lld-14 wasi-libc libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32 (tools/setup.sh does). Elsewhere: "
+    message(WARNING "Pages will show no heads: clang has no C++ library for WebAssembly here. Debian: apt install clang-14 lld-14 "
+      "wasi-libc libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32 (tools/setup.sh does). Elsewhere: "
       "\"-DANIMEME_WASM_CXX=clang++;--sysroot=/opt/wasi-sdk/share/wasi-sysroot\", or -DANIMEME_RIG_MODULE=rig.wasm of another "
       "build of this version.\n${why}")
+    set(rig_module ${CMAKE_CURRENT_BINARY_DIR}/no_rig.wasm)
+    file(CONFIGURE OUTPUT ${rig_module} CONTENT "")
+    return()
   endif()
 endif()
 
