@@ -14,8 +14,9 @@ namespace animeme::test {
 #define NEEDS_BROWSER()                                                                         \
   NEEDS_PROGRAM("chromium", "chromium");                                                        \
   if (!has_node()) GTEST_SKIP() << "node 18 or later is not installed (Debian package nodejs)"; \
-  if (!viewer::moves_heads()) GTEST_SKIP() << "built without clang for WebAssembly "            \
-                                              "(tools/setup.sh)"
+  if (!viewer::moves_heads())                                                                   \
+  GTEST_SKIP() << "built without clang for WebAssembly "                                        \
+                  "(tools/setup.sh)"
 
 inline constexpr int kSeconds = 11;
 inline constexpr std::size_t kOpen = 1;  // the frame with an open mouth; frame 0 is neutral
