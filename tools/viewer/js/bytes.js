@@ -46,8 +46,4 @@ export class ByteReader {
     const value = this.varint();
     return value % 2 ? -(value + 1) / 2 : value / 2;
   }
-
-  varints(count) {
-    return Uint32Array.from({length: count}, () => this.varint());
-  }
 }

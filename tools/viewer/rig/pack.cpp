@@ -70,20 +70,14 @@ class Packer {
     out_.varint(triangles.size());
     std::int64_t last = 0;
     for (const head::Triangle& triangle : triangles) {
-      for (const std::uint32_t vertex : triangle) {
-        out_.zigzag(std::int64_t(vertex) - last);
-        last = vertex;
-      }
+      for (const std::uint32_t vertex : triangle) index(vertex, last);
     }
   }
 
   void indices(const std::vector<std::uint32_t>& list) {
     out_.varint(list.size());
     std::int64_t last = 0;
-    for (const std::uint32_t vertex : list) {
-      out_.zigzag(std::int64_t(vertex) - last);
-      last = vertex;
-    }
+    for (const std::uint32_t vertex : list) index(vertex, last);
   }
 
   // Most targets move along one axis: a step of 0 stands for no numbers.
@@ -128,6 +122,10 @@ class Packer {
  private:
   static constexpr float Vec3::*kAxes[] = {&Vec3::x, &Vec3::y, &Vec3::z};
 
+  void index(std::uint32_t vertex, std::int64_t& last) {
+    out_.zigzag(std::int64_t(vertex) - last);
+    last = vertex;
+  }
   void u16(float value) { out_.u16(std::uint32_t(std::lround(std::clamp(value, 0.0f, 65535.0f)))); }
 
   Bytes out_;
