@@ -175,10 +175,15 @@ export class AnimemeFace extends HTMLElement {
     this.weights.frame = null;
   }
 
-  // What a server tells of its lines, each word when it is heard.
+  // What a server tells of its lines, each word when it is heard. Other words are none of our business.
   hear(text) {
-    const told = JSON.parse(text);
-    if (told.event) this.told.push(told);
+    let told = null;
+    try {
+      told = JSON.parse(text);
+    } catch {
+      return;
+    }
+    if (told?.event) this.told.push(told);
   }
 
   // The next connection begins like the first.
