@@ -14,7 +14,7 @@ constexpr int kMostBlend = 63;
 // FAPs of the columns below; those of the left side stand for both.
 constexpr std::array<int, 13> kColumns = {3, 4, 5, 6, 8, 10, 12, 51, 52, 53, 55, 57, 59};
 
-// See viseme.h. tests/tools/viseme_table_test.cpp measures it again.
+// See viseme.h. tests/app/program/viseme_table_test.cpp measures it again.
 constexpr std::array<std::array<std::int16_t, 13>, kVisemeCount> kTable = {{
     {},                                                                       // sil
     {161, 119, -104, -22, 104, -86, -56, 94, -133, -27, 82, -103, -50},       // PP

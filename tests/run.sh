@@ -98,7 +98,7 @@ npm_package() {
 fetched() {
   cmake --preset release --log-level=STATUS &&
     cmake -DLINK=ON -DCXX=c++ -DGENERATOR=Ninja -DWORK="$here/build/fetched" -DANIMEME_DIR="$here" \
-      -DTESTS="$here/tests/package" -DCOMPONENTS="$(cat build/release/components.txt)" -P tests/package/fetch_all.cmake
+      -DTESTS="$here/tests/release/package" -DCOMPONENTS="$(cat build/release/components.txt)" -P tests/release/package/fetch_all.cmake
 }
 
 # arm64_suite: tests of the codec by QEMU, which decode the streams of the conformance suite value for value.
@@ -126,7 +126,7 @@ if [ "$mode" = site ]; then
   presets=""
   part "site: configure" cmake --preset release --log-level=STATUS || finish
   part "site: build" cmake --build build/release --target docs || finish
-  part "site: check" node tests/site/check.js build/release/site || true
+  part "site: check" node tests/release/site/check.js build/release/site || true
   finish
 fi
 for preset in $presets; do
@@ -142,7 +142,7 @@ if [ "$mode" = elsewhere ]; then
 fi
 if [ "$mode" = packages ]; then
   rm -rf build/packages
-  part "packages: build, lintian" tools/packaging/deb.sh -o build/packages -w build/packages-tree || finish
-  part "packages: clean root" tools/packaging/clean_root.sh build/packages/*.deb || true
+  part "packages: build, lintian" tools/release/packaging/deb.sh -o build/packages -w build/packages-tree || finish
+  part "packages: clean root" tools/release/packaging/clean_root.sh build/packages/*.deb || true
 fi
 finish

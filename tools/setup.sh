@@ -5,11 +5,11 @@
 #   tools/setup.sh check     tells what of that is missing
 #   tools/setup.sh tests     also what the tests need, and small programs of others that read our files
 #   tools/setup.sh full      also large ones: Chromium, GStreamer, mpv, Doxygen, and npm packages into
-#                            tests/readers/js/node_modules and tools/trackers/mediapipe/node_modules
+#                            tests/readers/js/node_modules and tools/characters/trackers/mediapipe/node_modules
 #   tools/setup.sh bindings  also what packages for other languages are made and tested with: Emscripten, Chromium, npm, Blender
 #   tools/setup.sh site      what makes the site and looks for dead links there
 #   tools/setup.sh elsewhere compilers for WebAssembly and ARM, and what runs their programs
-#   tools/setup.sh packages  what tools/packaging/deb.sh and clean_root.sh need
+#   tools/setup.sh packages  what tools/release/packaging/deb.sh and clean_root.sh need
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 
@@ -115,7 +115,7 @@ if [ -n "$missing" ]; then
   # shellcheck disable=SC2086
   install_packages $missing || echo "warning: without$missing tests will skip" >&2
 fi
-folders="tests/readers/js tools/trackers/mediapipe"
+folders="tests/readers/js tools/characters/trackers/mediapipe"
 case $mode in
   full) ;;
   bindings | site) folders=tests/readers/js ;;

@@ -26,7 +26,8 @@ struct TimeBase {
   std::int64_t frame = 0;  // ticks a frame; 0: rates change, round absolute times
 };
 
-// Exact for every rate that the stream can express. Source: tools/media/containers.md, section 1.3.
+// Exact for every rate that the stream can express. Source: tools/formats/media/containers.md,
+// section 1.3.
 TimeBase time_base(const std::vector<Plane>& planes) {
   const fap::Rate rate = planes.front().rate;
   for (const Plane& plane : planes) {

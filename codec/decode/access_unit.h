@@ -1,6 +1,7 @@
 /// @file
 /// Access units: an FBA stream cut into planes that each start byte aligned behind a plane start
-/// code, as containers and packets carry them. Source: tools/media/containers.md, section 1.3.
+/// code, as containers and packets carry them. Source: tools/formats/media/containers.md,
+/// section 1.3.
 #pragma once
 
 #include <cstdint>

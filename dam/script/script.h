@@ -26,7 +26,7 @@
 ///   Rhubarb Lip Sync (.tsv, .xml) and Moho (.dat), whose mouths become phones; SubRip and WebVTT.
 ///
 /// Text is UTF-8, UTF-16 with or without a byte order mark, or else Latin-1. What JSON there is
-/// (Montreal aligner, Gentle, WhisperX, speech services) reads tools/scripts/script_text.h.
+/// (Montreal aligner, Gentle, WhisperX, speech services) reads tools/formats/scripts/script_text.h.
 ///
 /// Source: dam/script/phoneme_scripts.md, sections 1 and 3.
 #pragma once

@@ -5,9 +5,10 @@
 ///     auto timings = animeme::dam::read_timings(text);
 ///     auto script = animeme::dam::make_script(*timings);   // unless has_words(*timings)
 ///
-/// Words become phones by their pronunciation, which is not known here: tools/voice/word_phones.h.
-/// The formats are those of text; tools/scripts/script_text.h reads JSON, too. What each holds, its
-/// units and its silence: dam/script/phoneme_scripts.md, section 1.
+/// Words become phones by their pronunciation, which is not known here:
+/// tools/speech/voice/word_phones.h. The formats are those of text;
+/// tools/formats/scripts/script_text.h reads JSON, too. What each holds, its units and its silence:
+/// dam/script/phoneme_scripts.md, section 1.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 /// @file
 /// Motion for speech that is not known for sure: the mean over what may have been said. A phone
 /// that only some readings have moves the face by their share, so doubt makes small motions, not
-/// wrong ones. Source: tools/voice/engines.md, section 3.
+/// wrong ones. Source: tools/speech/voice/engines.md, section 3.
 #pragma once
 
 #include <cstddef>

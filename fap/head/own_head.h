@@ -9,8 +9,8 @@
 ///     animeme::head::Head head = *animeme::head::assemble(std::move(source), &notes);
 ///     animeme::head::Rig rig = animeme::head::make_rig(head);
 ///
-/// Readers of files (fap/xml, tools/gltf, obj.h) fill a Source; assemble() does what they have in
-/// common: it sorts the pieces into parts by their names, turns the head upright, brings it to
+/// Readers of files (fap/xml, tools/view/gltf, obj.h) fill a Source; assemble() does what they have
+/// in common: it sorts the pieces into parts by their names, turns the head upright, brings it to
 /// centimetres and to the origin, finds eyes, jaw, neck and FAPU, and turns triangles that show
 /// their inside because they are wound clockwise.
 #pragma once

@@ -9,7 +9,7 @@
 
 #include "tests/bench/edited_speech.h"
 #include "tests/bench/noises.h"
-#include "tools/voice/align.h"
+#include "tools/speech/voice/align.h"
 
 namespace animeme::bench {
 

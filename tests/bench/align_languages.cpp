@@ -10,10 +10,10 @@
 #include "tests/bench/align_material.h"
 #include "tests/bench/recorded_lists.h"
 #include "tests/support/files.h"
-#include "tools/media/audio.h"
-#include "tools/voice/align.h"
-#include "tools/voice/parted_words.h"
-#include "tools/voice/voice.h"
+#include "tools/formats/media/audio.h"
+#include "tools/speech/voice/align.h"
+#include "tools/speech/voice/parted_words.h"
+#include "tools/speech/voice/voice.h"
 
 namespace animeme::bench {
 

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "tests/support/files.h"
-#include "tools/media/audio.h"
+#include "tools/formats/media/audio.h"
 
 namespace animeme::bench {
 

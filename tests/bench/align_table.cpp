@@ -1,5 +1,5 @@
-// Prints the tables of tools/voice/measured.md: how far alignments are from the labels of a corpus
-// (grid_s1), clean and in noise.
+// Prints the tables of tools/speech/voice/measured.md: how far alignments are from the labels of a
+// corpus (grid_s1), clean and in noise.
 //   build/release/bin/align_table CORPUS [--every 4] [--from 2] [--levels 15,10,5] [--texts |
 //   --edits | --long 30]
 //   build/release/bin/align_table FOLDER --lang it             # made by festival_corpus.sh
@@ -12,7 +12,7 @@
 #include "tests/bench/align_languages.h"
 #include "tests/bench/align_material.h"
 #include "tests/bench/noises.h"
-#include "tools/voice/align.h"
+#include "tools/speech/voice/align.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include "fap/arkit.h"
 #include "fap/head/rig.h"
-#include "tools/render/scene.h"
+#include "tools/view/render/scene.h"
 
 namespace animeme::bench {
 namespace {

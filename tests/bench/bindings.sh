@@ -9,7 +9,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 stream=$work/wide.fba
 "$build/bin/bindings_table" --make "$stream"
-package=$npm/tools/npm/package
+package=$npm/tools/bindings/npm/package
 
 python() {
   [ -d "$build/python/animeme" ] || return 0
@@ -84,7 +84,7 @@ cpp=$(awk -F '\t' '$1 == "C++" {print $2}' "$work/best")
 while IFS="$(printf '\t')" read -r name speed; do
   case $name in
     C++) what="in your program" ;;
-    C) what="\`libanimeme.so\` (with speech): $(weight "$(realpath "$(ls "$build"/tools/c/libanimeme.so* "$build"/lib/libanimeme.so* 2>/dev/null | head -1)")")" ;;
+    C) what="\`libanimeme.so\` (with speech): $(weight "$(realpath "$(ls "$build"/tools/bindings/c/libanimeme.so* "$build"/lib/libanimeme.so* 2>/dev/null | head -1)")")" ;;
     Python*) what="the module (with all of the tools): $(weight "$build"/python/animeme/_animeme*.so)" ;;
     Web*) what="\`decoder.wasm\` and its scripts: $(weight "$package/wasm/decoder.wasm" "$package"/src/[!es]*.js)" ;;
   esac

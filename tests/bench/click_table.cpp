@@ -1,8 +1,8 @@
 // Prints how far sound and face are moved, and how far apart they end up, in every container and
-// codec that is offered: the table of tools/media/README.md.
+// codec that is offered: the table of tools/formats/media/README.md.
 #include <cstdio>
 
-#include "tests/media/click_measure.h"
+#include "tests/formats/media/click_measure.h"
 
 int main() {
   using namespace animeme;

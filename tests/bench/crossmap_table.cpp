@@ -1,6 +1,6 @@
-// Prints the tables of tools/crossmap/README.md: grid_s1/lips by key shapes to FAPs, to ARKit's
-// shapes and to the mesh of ICT-FaceKit, beside the FAPs that were measured on the same points. Key
-// shapes are those of every other sentence; the rest is scored.
+// Prints the tables of tools/characters/crossmap/README.md: grid_s1/lips by key shapes to FAPs, to
+// ARKit's shapes and to the mesh of ICT-FaceKit, beside the FAPs that were measured on the same
+// points. Key shapes are those of every other sentence; the rest is scored.
 //   build/release/bin/crossmap_table SHARED_DATA [--swap]   (the folder with grid_s1 and
 //   ict_facekit; the halves change places)
 #include <zlib.h>
@@ -15,7 +15,7 @@
 #include "dam/evaluation/evaluate.h"
 #include "dam/signal/fap_signal.h"
 #include "tests/support/temp_dir.h"
-#include "tools/crossmap/run.h"
+#include "tools/characters/crossmap/run.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tests/bench/align_material.h"
-#include "tools/voice/align.h"
+#include "tools/speech/voice/align.h"
 
 namespace animeme::bench {
 

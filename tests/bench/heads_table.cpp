@@ -1,4 +1,4 @@
-// The table of tools/serve/README.md: many heads that all talk, in one process.
+// The table of tools/live/serve/README.md: many heads that all talk, in one process.
 //
 //     heads_table [HEADS ...] [--seconds 30] [--watched 4] [--effort 5]
 //
@@ -356,7 +356,7 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   animeme::bench::Options options;
-  CLI::App app("Prints the table of tools/serve/README.md");
+  CLI::App app("Prints the table of tools/live/serve/README.md");
   app.add_option("heads", options.heads, "Numbers of heads");
   app.add_option("--seconds", options.seconds, "To measure each of them");
   app.add_option("--watched", options.watched, "Every so many heads have a viewer");

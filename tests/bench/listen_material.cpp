@@ -9,8 +9,8 @@
 #include "dam/speaking/synthesise.h"
 #include "dam/training/train.h"
 #include "tests/bench/recorded_lists.h"
-#include "tools/media/audio.h"
-#include "tools/voice/align.h"
+#include "tools/formats/media/audio.h"
+#include "tools/speech/voice/align.h"
 
 namespace animeme::bench {
 

@@ -8,7 +8,7 @@
 #include "dam/corpus/corpus.h"
 #include "dam/model/model.h"
 #include "fap/result.h"
-#include "tools/media/pcm.h"
+#include "tools/formats/media/pcm.h"
 
 namespace animeme::bench {
 

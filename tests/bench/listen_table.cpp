@@ -14,9 +14,9 @@
 #include "dam/speaking/readings.h"
 #include "tests/bench/listen_material.h"
 #include "tests/bench/noises.h"
-#include "tools/speech/heard_face.h"
-#include "tools/voice/align.h"
-#include "tools/voice/listen.h"
+#include "tools/speech/talking/heard_face.h"
+#include "tools/speech/voice/align.h"
+#include "tools/speech/voice/listen.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // How much of a face arrives over RTP when packets get lost: the table of
-// tools/media/live/README.md.
+// tools/formats/media/live/README.md.
 //
 //     build/release/bin/loss_table             in virtual time, without sockets
 //     build/release/bin/loss_table --sockets   in real time, over the sockets of this machine
@@ -13,9 +13,9 @@
 #include <cstdio>
 #include <thread>
 
-#include "tests/live/rtp_sockets.h"
-#include "tests/live/rtp_support.h"
-#include "tools/media/live/open.h"
+#include "tests/formats/media/live/rtp_sockets.h"
+#include "tests/formats/media/live/rtp_support.h"
+#include "tools/formats/media/live/open.h"
 
 namespace {
 

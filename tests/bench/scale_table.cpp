@@ -1,6 +1,6 @@
 // scale_table CORPUS: time and memory of training on corpora that no disk has to hold. Sentences
 // are copies of those of CORPUS, shifted and with noise, made one at a time. Prints the table of
-// tools/cluster/README.md and what more machines would take, computed from it.
+// tools/app/cluster/README.md and what more machines would take, computed from it.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>

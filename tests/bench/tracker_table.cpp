@@ -1,7 +1,8 @@
-// Prints the table of tools/trackers/README.md: heads say sentences of the sample, a tracker looks
-// at the video, and what `animeme import` makes of it stands beside what the head was moved by.
-//   ANIMEME_TRACKER="node tools/trackers/mediapipe/track.js" build/release/bin/tracker_table
-//   [HEAD...]
+// Prints the table of tools/characters/trackers/README.md: heads say sentences of the sample, a
+// tracker looks at the video, and what `animeme import` makes of it stands beside what the head was
+// moved by.
+//   ANIMEME_TRACKER="node tools/characters/trackers/mediapipe/track.js"
+//   build/release/bin/tracker_table [HEAD...]
 // Heads are those of `animeme render --head`; without any: woman, man, child.
 #include <chrono>
 #include <cstdio>

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "tools/exchange/arkit.h"
+#include "tools/formats/exchange/arkit.h"
 
 namespace {
 

@@ -8,8 +8,8 @@
 #include "dam/crossmap/blend.h"
 #include "dam/crossmap/face_points.h"
 #include "dam/crossmap/key_shapes.h"
-#include "tools/exchange/c3d.h"
-#include "tools/exchange/points.h"
+#include "tools/formats/exchange/c3d.h"
+#include "tools/formats/exchange/points.h"
 
 namespace {
 

@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "tools/exchange/arkit.h"
-#include "tools/exchange/capture_table.h"
-#include "tools/exchange/face_file.h"
+#include "tools/formats/exchange/arkit.h"
+#include "tools/formats/exchange/capture_table.h"
+#include "tools/formats/exchange/face_file.h"
 
 namespace {
 

@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <span>
 
-#include "tools/media/audio.h"
-#include "tools/media/container.h"
-#include "tools/media/text_track.h"
+#include "tools/formats/media/audio.h"
+#include "tools/formats/media/container.h"
+#include "tools/formats/media/text_track.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace animeme::media;

@@ -14,8 +14,8 @@
 #include "dam/corpus/corpus.h"
 #include "dam/corpus/rows_internal.h"
 #include "dam/signal/gain_offset.h"
-#include "tools/exchange/curves.h"
-#include "tools/exchange/pose_table.h"
+#include "tools/formats/exchange/curves.h"
+#include "tools/formats/exchange/pose_table.h"
 
 namespace {
 

@@ -8,8 +8,8 @@
 #include <span>
 #include <string>
 
-#include "tools/engines/detail/engine_input.h"
-#include "tools/media/live/live_frames.h"
+#include "tools/formats/media/live/live_frames.h"
+#include "tools/live/engines/detail/engine_input.h"
 
 using namespace animeme;
 

@@ -11,8 +11,8 @@
 
 #include "fap/head/own_head.h"
 #include "fap/head/rig.h"
-#include "tools/gltf/detail/file_edit.h"
-#include "tools/gltf/read_head.h"
+#include "tools/view/gltf/detail/file_edit.h"
+#include "tools/view/gltf/read_head.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "tools/exchange/landmarks.h"
+#include "tools/formats/exchange/landmarks.h"
 
 namespace {
 

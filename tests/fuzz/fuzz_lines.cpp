@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/speech/line_cutter_internal.h"
-#include "tools/speech/phone_line.h"
+#include "tools/speech/talking/line_cutter_internal.h"
+#include "tools/speech/talking/phone_line.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "tools/exchange/motion.h"
+#include "tools/formats/exchange/motion.h"
 
 namespace {
 

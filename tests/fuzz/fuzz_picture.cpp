@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tests/support/png_writer.h"
-#include "tools/gltf/detail/picture_decoder.h"
+#include "tools/view/gltf/detail/picture_decoder.h"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <string_view>
 
-#include "tools/media/detail/playlist_text.h"
-#include "tools/media/detail/presentation.h"
+#include "tools/formats/media/detail/segments/playlist_text.h"
+#include "tools/formats/media/detail/segments/presentation.h"
 
 namespace {
 

@@ -10,9 +10,9 @@
 #include <span>
 #include <string_view>
 
-#include "tools/media/live/recovery.h"
-#include "tools/media/live/rtp_receiver.h"
-#include "tools/media/live/session_clock.h"
+#include "tools/formats/media/rtp/recovery.h"
+#include "tools/formats/media/rtp/rtp_receiver.h"
+#include "tools/formats/media/rtp/session_clock.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 
 #include "dam/script/script.h"
 #include "dam/script/timings.h"
-#include "tools/scripts/script_text.h"
+#include "tools/formats/scripts/script_text.h"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <span>
 
-#include "tools/media/audio.h"
-#include "tools/media/container.h"
+#include "tools/formats/media/audio.h"
+#include "tools/formats/media/container.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace animeme::media;

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "tools/text/ssml.h"
-#include "tools/text/utterance.h"
+#include "tools/speech/text/ssml.h"
+#include "tools/speech/text/utterance.h"
 
 namespace {
 

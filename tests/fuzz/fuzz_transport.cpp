@@ -9,9 +9,9 @@
 #include <span>
 #include <vector>
 
-#include "tools/media/detail/ts_input.h"
-#include "tools/media/live/audio_segments.h"
-#include "tools/media/live/session_clock.h"
+#include "tools/formats/media/detail/ts/ts_input.h"
+#include "tools/formats/media/live/audio_segments.h"
+#include "tools/formats/media/rtp/session_clock.h"
 
 namespace {
 

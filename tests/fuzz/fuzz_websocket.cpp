@@ -25,12 +25,12 @@
 #include <vector>
 
 #include "tests/fuzz/web_presentation.h"
-#include "tools/media/live/audio_segments.h"
-#include "tools/media/live/recorder.h"
-#include "tools/web/detail/headers.h"
-#include "tools/web/detail/messages.h"
-#include "tools/web/detail/values.h"
-#include "tools/web/web.h"
+#include "tools/formats/media/live/audio_segments.h"
+#include "tools/formats/media/live/recorder.h"
+#include "tools/live/web/detail/headers.h"
+#include "tools/live/web/detail/messages.h"
+#include "tools/live/web/detail/values.h"
+#include "tools/live/web/web.h"
 
 namespace {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "tools/engines/detail/live_link.h"
-#include "tools/engines/detail/unified.h"
-#include "tools/engines/detail/vmc.h"
+#include "tools/live/engines/detail/live_link.h"
+#include "tools/live/engines/detail/unified.h"
+#include "tools/live/engines/detail/vmc.h"
 
 using namespace animeme;
 

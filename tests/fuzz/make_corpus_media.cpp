@@ -11,8 +11,8 @@
 
 #include "codec/decode/access_unit.h"
 #include "codec/encode/encode.h"
-#include "tools/media/encoded_audio.h"
-#include "tools/media/mux.h"
+#include "tools/formats/media/encoded_audio.h"
+#include "tools/formats/media/mux.h"
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "tests/fuzz/web_presentation.h"
-#include "tools/media/live/audio_segments.h"
-#include "tools/web/detail/messages.h"
+#include "tools/formats/media/live/audio_segments.h"
+#include "tools/live/web/detail/messages.h"
 
 namespace {
 

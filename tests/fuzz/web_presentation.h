@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "codec/encode/live.h"
-#include "tools/media/encoded_audio.h"
-#include "tools/media/live/live.h"
+#include "tools/formats/media/encoded_audio.h"
+#include "tools/formats/media/live/live.h"
 
 namespace animeme::fuzz {
 

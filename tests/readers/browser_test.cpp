@@ -1,6 +1,6 @@
 // Chromium: the sound decoded by WebAudio with the bursts in place, an <audio> element that plays,
-// and the units of the face by mp4box in the page (tools/media/containers.md, section 4.4). One
-// test, since starting a browser takes longer than all of its checks.
+// and the units of the face by mp4box in the page (tools/formats/media/containers.md, section 4.4).
+// One test, since starting a browser takes longer than all of its checks.
 #include "tests/readers/scripts.h"
 #include "tests/readers/talk.h"
 

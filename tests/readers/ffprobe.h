@@ -10,7 +10,7 @@
 namespace animeme::test {
 
 /// What ffprobe says of the face. In TS the parser for MPEG-4 video would glue the units
-/// (tools/media/containers.md, section 2.3).
+/// (tools/formats/media/containers.md, section 2.3).
 inline Json ask_ffprobe(const std::string& path, const std::string& options) {
   const std::string raw = path.ends_with(".ts") ? "-fflags noparse " : "";
   return run_json("ffprobe -v error " + raw + "-of json -select_streams v " + options + " '" +

@@ -1,5 +1,5 @@
 // Receivers: GStreamer's rtpmp4vdepay and ffprobe take what `animeme stream` sends by RTP or as a
-// transport stream, on loopback. Source: tools/media/containers.md, sections 3.2 and 4.1.
+// transport stream, on loopback. Source: tools/formats/media/containers.md, sections 3.2 and 4.1.
 #include <arpa/inet.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -130,7 +130,8 @@ TEST_F(Live, RtpToFfprobeGivesTheUnitsInTime) {
   NEEDS_PROGRAM("ffprobe", "ffmpeg");
   const int port = free_port();
   ASSERT_NE(port, 0);
-  // The description of tools/media/containers.md, section 4.1, not the one that the program writes.
+  // The description of tools/formats/media/containers.md, section 4.1, not the one that the program
+  // writes.
   std::ofstream(dir_.file("face.sdp"))
       << "v=0\no=- 0 0 IN IP4 127.0.0.1\ns=-\nc=IN IP4 127.0.0.1\nt=0 0\n"
          "m=video "

@@ -1,5 +1,5 @@
 // Players: the sound of every layout, its length, and the bursts in their places
-// (tools/media/containers.md, section 5.3).
+// (tools/formats/media/containers.md, section 5.3).
 #include "tests/readers/readers_support.h"
 #include "tests/readers/talk.h"
 
@@ -50,8 +50,8 @@ INSTANTIATE_TEST_SUITE_P(Layouts, Player, testing::ValuesIn(names_of(layouts()))
 INSTANTIATE_TEST_SUITE_P(SoundAlone, Player, testing::ValuesIn(names_of(sound_layouts())),
                          [](const auto& value) { return value.param; });
 
-// GStreamer's player stops at a face (see the README of tools/media): sound alone it plays. With
-// the decoder faad, AAC of whatever writer comes a frame early.
+// GStreamer's player stops at a face (see the README of tools/formats/media): sound alone it plays.
+// With the decoder faad, AAC of whatever writer comes a frame early.
 class SoundPlayer : public Player {};
 
 TEST_P(SoundPlayer, Playbin) {

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "tests/media/media_support.h"
+#include "tests/formats/media/media_support.h"
 
 /// Ends a test, visibly, when a program is not installed. `package` is what Debian calls it.
 #define NEEDS_PROGRAM(program, package)                                      \

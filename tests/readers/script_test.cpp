@@ -1,12 +1,13 @@
 // npm mp4box and codem-isoboxer: tracks, descriptors and every sample, against the bytes of the
-// tools/media/containers.md, sections 1.4 and 1.5.
+// tools/formats/media/containers.md, sections 1.4 and 1.5.
 #include "tests/readers/scripts.h"
 #include "tests/readers/talk.h"
 
 namespace animeme::test {
 namespace script_test {
 
-// tools/media/containers.md, section 1.4; bufferSizeDB and the two bit rates depend on the data.
+// tools/formats/media/containers.md, section 1.4; bufferSizeDB and the two bit rates depend on the
+// data.
 const std::string kFaceEsdsStart =
     "0000003c65736473"
     "00000000"
@@ -23,7 +24,7 @@ const std::string kFaceEsdsEnd =
     "02";
 constexpr std::size_t kEsdsFree = 3 + 4 + 4;
 
-// tools/media/containers.md, section 1.5.
+// tools/formats/media/containers.md, section 1.5.
 const std::string kSystemsIods =
     "00000021696f647300000000"
     "1013004ffefe2961fe"
@@ -39,8 +40,8 @@ const std::string kObjectUnit =
     "1106029f0f020001"
     "1106051f0f020002";
 
-// The box "esds" behind the fields of a sample entry (tools/media/containers.md, section 1.5: none
-// in mp4s).
+// The box "esds" behind the fields of a sample entry (tools/formats/media/containers.md,
+// section 1.5: none in mp4s).
 std::string esds_of(const Json& track) {
   const auto entry = track["entry_hex"].get<std::string>();
   const std::size_t fields = track["entry"] == "mp4v" ? 86 : track["entry"] == "mp4a" ? 36 : 16;
@@ -149,7 +150,7 @@ TEST(ScriptMp4, InitialObjectDescriptor) {
   NEEDS_NPM("mp4box");
   const TempDir dir;
   const std::string path = write_talk(dir, walking_talk(), layout_of("mp4"));
-  // tools/media/containers.md, section 1.4, with the tracks 1 and 2 named.
+  // tools/formats/media/containers.md, section 1.4, with the tracks 1 and 2 named.
   const std::string iods =
       "0000002a696f647300000000"
       "1080808019"

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "codec/encode/encode.h"
-#include "tests/media/media_support.h"
+#include "tests/formats/media/media_support.h"
 #include "tests/support/folders.h"
 #include "tests/support/random_clip.h"
-#include "tools/media/mux.h"
+#include "tools/formats/media/mux.h"
 
 namespace animeme::test {
 
@@ -73,7 +73,7 @@ inline void expect_bursts(const media::Pcm& heard, const Talk& talk, std::int64_
 }
 
 /// Times of a transport stream begin so late, seconds, and half of that behind its clock
-/// (tools/media/containers.md, section 3.2).
+/// (tools/formats/media/containers.md, section 3.2).
 inline constexpr double kTsBegin = 1.4;
 
 struct Layout {
@@ -87,10 +87,11 @@ struct Layout {
   bool fragments() const { return options.fragmented || segments(); }
   bool ts() const { return extension == ".ts"; }
   bool opus() const { return options.audio.codec == media::AudioCodec::opus; }
-  /// Samples that a decoder puts out before the sound (tools/media/containers.md, section 5.1).
+  /// Samples that a decoder puts out before the sound (tools/formats/media/containers.md,
+  /// section 5.1).
   std::int64_t priming() const { return opus() ? 312 : 1024; }
   /// Samples by which face and sound begin late: Matroska and TS cannot say what priming of AAC is
-  /// (tools/media/containers.md, section 5.2).
+  /// (tools/formats/media/containers.md, section 5.2).
   std::int64_t late() const {
     return mp4() || segments() || extension == ".m4a" || opus() ? 0 : priming();
   }
@@ -164,7 +165,7 @@ inline std::string write_talk(const TempDir& dir, const Talk& talk, const Layout
 }
 
 /// The units as a container without a place for the configuration has them: TS repeats it in
-/// front of each intra plane (tools/media/containers.md, section 3.2).
+/// front of each intra plane (tools/formats/media/containers.md, section 3.2).
 inline std::vector<Bytes> units_of(const Talk& talk, bool config_in_band) {
   std::vector<Bytes> out;
   for (const fba::AccessUnit& unit : talk.face.units) {

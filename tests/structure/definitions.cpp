@@ -235,7 +235,7 @@ std::string program_of(std::string_view path) {
     return {};
   }
   if (path.starts_with("tests/fuzz/") || path.starts_with("tests/bench/") ||
-      path.starts_with("tests/package/")) {
+      path.starts_with("tests/release/package/")) {
     return std::string(path);
   }
   return std::string(path.substr(0, path.find('/', 6)));

@@ -51,14 +51,14 @@ TEST(StructureRules, DoubleDefinitionsFire) {
   const auto found = [&](const char* a, const char* b) {
     return double_definitions({{a, one}, {b, other}});
   };
-  EXPECT_THAT(found("fap/a.h", "tools/media/detail/b.cpp"),
-              ElementsAre("animeme::Track: fap/a.h, tools/media/detail/b.cpp"));
+  EXPECT_THAT(found("fap/a.h", "tools/formats/media/detail/b.cpp"),
+              ElementsAre("animeme::Track: fap/a.h, tools/formats/media/detail/b.cpp"));
   EXPECT_THAT(found("fap/a.h", "tests/fap/b_test.cpp"), SizeIs(1));
   EXPECT_THAT(found("tests/support/a.h", "tests/fap/b_test.cpp"), SizeIs(1));
   EXPECT_THAT(found("tests/fap/a_test.cpp", "tests/fap/b_test.cpp"), SizeIs(1));
   EXPECT_THAT(found("tests/codec/a_test.cpp", "tests/fap/b_test.cpp"), IsEmpty());
   EXPECT_THAT(found("tests/fuzz/a.cpp", "tests/fuzz/b.cpp"), IsEmpty());
-  EXPECT_THAT(found("tools/web/web.cpp", "tools/web/web_absent.cpp"), IsEmpty());
+  EXPECT_THAT(found("tools/live/web/web.cpp", "tools/live/web/web_absent.cpp"), IsEmpty());
   EXPECT_THAT(double_definitions({{"a.cpp", "inline int f(int a) { return a; }"},
                                   {"b.cpp", "inline int f(int b) { return -b; }"}}),
               ElementsAre(HasSubstr("f(int): ")));

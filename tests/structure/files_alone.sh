@@ -18,20 +18,20 @@ flags="-std=c++20 -fsyntax-only -Wall -Wextra -Wshadow -Werror -Wno-missing-fiel
 # The header of the C interface is included as it is installed.
 installed=$(mktemp -d)
 trap 'rm -rf "$installed"' EXIT
-mkdir "$installed/animeme" && ln -s "$PWD/tools/c/animeme.h" "$installed/animeme/"
+mkdir "$installed/animeme" && ln -s "$PWD/tools/bindings/c/animeme.h" "$installed/animeme/"
 # This one the build makes.
-mkdir -p "$installed/tools/studio"
+mkdir -p "$installed/tools/view/studio"
 echo '#include <string_view>
-namespace animeme::studio { inline constexpr std::string_view kHeadBuild = "none"; }' >"$installed/tools/studio/head_build.h"
+namespace animeme::studio { inline constexpr std::string_view kHeadBuild = "none"; }' >"$installed/tools/view/studio/head_build.h"
 flags="$flags -I$installed"
 # The Python module, where there is what it stands on.
-python=tools/python
+python=tools/bindings/python
 if pkg-config --exists python3 && [ -f /usr/include/pybind11/pybind11.h ]; then
   python=none
   flags="$flags $(pkg-config --cflags-only-I python3 | sed 's/-I/-isystem /g')"
 fi
 # Modules likewise: those that gst/gst.h and mpi.h are for.
-webrtc=tools/webrtc/detail mpi=tools/mpi/module.cpp
+webrtc=tools/live/webrtc/detail mpi=tools/app/mpi/module.cpp
 if pkg-config --exists gstreamer-webrtc-1.0 gstreamer-sdp-1.0 gstreamer-app-1.0 libcurl; then
   webrtc=none
   flags="$flags $(pkg-config --cflags-only-I gstreamer-webrtc-1.0 gstreamer-sdp-1.0 gstreamer-app-1.0 libcurl | sed 's/-I/-isystem /g')"
@@ -41,7 +41,7 @@ if pkg-config --exists ompi; then
   flags="$flags $(pkg-config --cflags-only-I ompi | sed 's/-I/-isystem /g') -DOMPI_SKIP_MPICXX"
 fi
 files=$(find fap codec dam conformance tools tests -name '*.cpp' ! -name '*_absent.cpp' ! -path '*/node_modules/*' \
-  ! -path 'tests/package/*' ! -path 'tools/trackers/dlib/*' ! -path "$python/*" ! -path "$webrtc/*" ! -path "$mpi" | sort | awk -v every="$every" -v turn="$turn" 'NR % every == turn % every')
+  ! -path 'tests/release/package/*' ! -path 'tools/characters/trackers/dlib/*' ! -path "$python/*" ! -path "$webrtc/*" ! -path "$mpi" | sort | awk -v every="$every" -v turn="$turn" 'NR % every == turn % every')
 echo "$(echo "$files" | wc -l) files"
 # shellcheck disable=SC2086  # lists of words are meant
 echo "$files" | xargs -P "$jobs" -n 4 "$compiler" $flags

@@ -1,7 +1,7 @@
 // Descriptions of sound whose packets nobody decodes.
 #pragma once
 
-#include "tools/media/encoded_audio.h"
+#include "tools/formats/media/encoded_audio.h"
 
 namespace animeme::test {
 

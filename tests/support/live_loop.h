@@ -17,7 +17,7 @@
 #include "codec/decode/access_unit.h"
 #include "codec/encode/live.h"
 #include "tests/support/audio_formats.h"
-#include "tools/media/live/live.h"
+#include "tools/formats/media/live/live.h"
 
 namespace animeme::test {
 

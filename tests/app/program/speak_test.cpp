@@ -1,0 +1,318 @@
+// The main job end to end, through the program: text or voice in, a talking face out.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+#include "dam/script/phones.h"
+#include "dam/script/script.h"
+#include "fap/tables.h"
+#include "fap/text.h"
+#include "tests/app/program/commands.h"
+#include "tests/support/shared.h"
+
+namespace animeme {
+namespace speak_test {
+
+using test::animeme;
+using test::read_clip;
+using test::TempDir;
+using testing::HasSubstr;
+
+dam::Script read_script_file(const std::string& path) {
+  auto script = dam::read_script(test::slurp(path));
+  EXPECT_TRUE(script) << script.error().describe();
+  return script ? *script : dam::Script();
+}
+
+// Opening between the lips in FAP units: upper lip up plus lower lip down.
+int inner_gap(const fap::Frame& frame) { return -(frame.value[4] + frame.value[5]); }
+
+struct Range {
+  int low = 0;
+  int high = 0;
+};
+
+// Least and largest gap in the frames that a phone touches, one frame more on each side.
+Range gap_during(const fap::Sequence& clip, const dam::Phone& phone) {
+  const double fps = clip.rate.frames_per_second();
+  Range range{1 << 20, -(1 << 20)};
+  for (const fap::Frame& frame : clip.frames) {
+    const double time = double(frame.number) / fps;
+    if (time < phone.start - 0.04 || time > phone.end + 0.04) continue;
+    range.low = std::min(range.low, inner_gap(frame));
+    range.high = std::max(range.high, inner_gap(frame));
+  }
+  return range;
+}
+
+constexpr int kClosed = 45;  // FAP units, the threshold of the evaluation
+
+class SpeakText : public testing::TestWithParam<std::pair<const char*, const char*>> {};
+
+TEST_P(SpeakText, OpensOnVowelsClosesOnBilabialsAndRestsAtTheEnds) {
+  const auto [language, text] = GetParam();
+  const TempDir dir;
+  const auto made = animeme({"speak", "--text", text, "--lang", language, "-o", dir / "talk.fap",
+                             "--save-script", dir / "talk.TextGrid"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const fap::Sequence clip = read_clip(dir / "talk.fap");
+  const dam::Script script = read_script_file(dir / "talk.TextGrid");
+  ASSERT_FALSE(clip.frames.empty());
+  EXPECT_NEAR(clip.duration(), script.duration(), 0.05);
+
+  EXPECT_LT(std::abs(inner_gap(clip.frames.front())), kClosed);
+  EXPECT_LT(std::abs(inner_gap(clip.frames.back())), kClosed);
+
+  int vowels = 0;
+  int open = 0;
+  int bilabials = 0;
+  double vowel_gap = 0;
+  for (const dam::Phone& phone : script.phones) {
+    const dam::PhoneInfo* info = dam::find_phone(phone.label);
+    ASSERT_NE(info, nullptr) << phone.label;
+    const Range gap = gap_during(clip, phone);
+    if (info->bilabial) {
+      ++bilabials;
+      EXPECT_LT(gap.low, kClosed) << phone.label << " at " << phone.start << " s in " << phone.word;
+    } else if (info->vowel) {
+      ++vowels;
+      open += gap.high > 2 * kClosed ? 1 : 0;
+      vowel_gap += gap.high;
+    }
+  }
+  EXPECT_GT(bilabials, 0);
+  ASSERT_GT(vowels, 0);
+  EXPECT_GE(open * 10, vowels * 8) << "the mouth opens on " << open << " of " << vowels;
+  EXPECT_GT(vowel_gap / vowels, 3 * kClosed);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Languages, SpeakText,
+    testing::Values(std::pair{"en", "My baby mumbles about a purple apple pie."},
+                    std::pair{"de", "Ein guter Abend am Markt bringt Papa eine Ampel."},
+                    std::pair{"fr", "Bonjour Madame, voici un beau bateau."},
+                    std::pair{"es", "Buenos dias, mi amigo vive en Bilbao."}),
+    [](const auto& param_info) { return std::string(param_info.param.first); });
+
+TEST(Speak, Mp4HoldsTheVeryFapsAfterQuantisation) {
+  const TempDir dir;
+  const std::vector<std::string> what = {"speak", "--text", "Hello world, this is Animeme.", "-o"};
+  for (const char* name : {"a.fap", "a.fba", "a.mp4"}) {
+    auto arguments = what;
+    arguments.push_back(dir / name);
+    const auto made = animeme(arguments);
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+  }
+  for (const char* name : {"a.fba", "a.mp4"}) {
+    const std::string decoded = dir / (std::string(name) + ".fap");
+    ASSERT_EQ(animeme({"decode", dir / name, "-o", decoded}).exit_code, 0);
+    const fap::Sequence want = read_clip(dir / "a.fap");
+    const fap::Sequence got = read_clip(decoded);
+    ASSERT_EQ(got.frames.size(), want.frames.size());
+    for (std::size_t i = 0; i < got.frames.size(); ++i) {
+      ASSERT_EQ(got.frames[i].mask, want.frames[i].mask);
+      for (int fap = 3; fap <= fap::kFapCount; ++fap) {
+        const std::size_t n = std::size_t(fap);
+        ASSERT_LE(std::abs(got.frames[i].value[n] - want.frames[i].value[n]),
+                  fap::info(fap).quant_step / 2)
+            << name << " frame " << i << " FAP " << fap;
+      }
+    }
+  }
+  // A lossless stream gives exactly what synthesis made.
+  ASSERT_EQ(animeme({"speak", "--text", "Hello world, this is Animeme.", "--quant", "0", "-o",
+                     dir / "b.mp4"})
+                .exit_code,
+            0);
+  EXPECT_EQ(animeme({"compare", dir / "a.fap", dir / "b.mp4"}).exit_code, 0);
+}
+
+TEST(Speak, FfprobeSeesAacAndSimpleFaceAnimation) {
+  if (!test::has_program("ffprobe"))
+    GTEST_SKIP() << "ffprobe (Debian package ffmpeg) is not installed";
+  const TempDir dir;
+  ASSERT_EQ(animeme({"speak", "--text", "Hello", "-o", dir / "a.mp4"}).exit_code, 0);
+  const auto probe = test::run_command(
+      {"ffprobe", "-v", "quiet", "-print_format", "json", "-show_streams", dir / "a.mp4"});
+  ASSERT_EQ(probe.exit_code, 0) << probe.err;
+  const auto json = nlohmann::json::parse(probe.out);
+  bool aac = false;
+  bool face = false;
+  for (const auto& stream : json["streams"]) {
+    aac = aac || stream["codec_name"] == "aac";
+    face = face || (stream["codec_name"] == "mpeg4" &&
+                    stream["profile"].get<std::string>().find("Simple Face") == 0);
+  }
+  EXPECT_TRUE(aac);
+  EXPECT_TRUE(face) << probe.out;
+}
+
+TEST(Speak, EveryContainerCarriesTheSameFace) {
+  const TempDir dir;
+  for (const char* name : {"a.mp4", "a.mkv", "a.ts"}) {
+    ASSERT_EQ(animeme({"speak", "--text", "Bob and Pam", "-o", dir / name}).exit_code, 0) << name;
+  }
+  for (const char* name : {"a.mkv", "a.ts"}) {
+    EXPECT_EQ(animeme({"compare", dir / "a.mp4", dir / name, "--max-rms", "0"}).exit_code, 0)
+        << name;
+  }
+}
+
+TEST(Speak, CurvesForAnyRig) {
+  const TempDir dir;
+  const auto sample = test::data_dir() / "grid_s1_sample";
+  // A corpus of a rig of its own: the sample's curves under other names.
+  std::filesystem::copy(sample, dir.path() / "rig", std::filesystem::copy_options::recursive);
+  for (const auto& entry : std::filesystem::directory_iterator(dir.path() / "rig" / "fap")) {
+    std::string text = test::slurp(entry.path());
+    for (std::size_t at = 0; (at = text.find(",fap", at)) != std::string::npos;) {
+      text.replace(at, 4, ",rig");
+    }
+    test::spill(entry.path(), text);
+  }
+  ASSERT_EQ(animeme({"train", dir / "rig", "-o", dir / "rig.dam", "--ridge-factor", "1"}).exit_code,
+            0);
+  const auto made =
+      animeme({"speak", "--text", "Hello", "--model", dir / "rig.dam", "-o", dir / "a.csv"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_TRUE(test::slurp(dir / "a.csv").starts_with("time_s,rig3_open_jaw,"));
+  const auto refused =
+      animeme({"speak", "--text", "Hello", "--model", dir / "rig.dam", "-o", dir / "a.fap"});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_THAT(refused.err, HasSubstr(".csv"));
+}
+
+TEST(Speak, WithAModelOfAnyMethod) {
+  const TempDir dir;
+  const std::string sample = (test::data_dir() / "grid_s1_sample").string();
+  for (const char* method : {"cohen-massaro", "mmm", "mean", "viseme", "triphone"}) {
+    const auto trained = animeme(
+        {"train", sample, "--method", method, "--max-iterations", "1", "-o", dir / "m.dam"});
+    ASSERT_EQ(trained.exit_code, 0) << trained.err;
+    const auto info = animeme({"info", dir / "m.dam", "--json"});
+    ASSERT_EQ(info.exit_code, 0) << info.err;
+    EXPECT_EQ(nlohmann::json::parse(info.out)["method"], method);
+    const auto made =
+        animeme({"speak", "--text", "Hello", "--model", dir / "m.dam", "-o", dir / "a.fap"});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+  }
+  EXPECT_EQ(
+      animeme({"train", sample, "--method", "mmm", "--states", "9", "-o", dir / "m.dam"}).exit_code,
+      2);
+  // An option of another method is said, not swallowed.
+  const auto misplaced = animeme({"train", sample, "--plain-sum", "-o", dir / "m.dam"});
+  EXPECT_EQ(misplaced.exit_code, 2);
+  EXPECT_THAT(misplaced.err, HasSubstr("--plain-sum belongs to --method dam-paper"));
+}
+
+TEST(Speak, SameInputGivesTheSameBytes) {
+  const TempDir dir;
+  for (const char* name : {"a.mp4", "b.mp4"}) {
+    ASSERT_EQ(animeme({"speak", "--text", "Twice the same", "-o", dir / name}).exit_code, 0);
+  }
+  EXPECT_EQ(test::slurp(dir / "a.mp4"), test::slurp(dir / "b.mp4"));
+}
+
+TEST(Speak, AnyFrameRate) {
+  const TempDir dir;
+  for (const char* rate : {"25", "29.97", "60", "12.5", "120"}) {
+    ASSERT_EQ(animeme({"speak", "--text", "Hello", "--rate", rate, "-o", dir / "a.fba"}).exit_code,
+              0);
+    const auto info = animeme({"info", dir / "a.fba", "--json"});
+    ASSERT_EQ(info.exit_code, 0);
+    const auto json = nlohmann::json::parse(info.out);
+    EXPECT_EQ(json["clip"]["rate"], rate);
+    EXPECT_NEAR(json["seconds"].get<double>(), 1.1, 0.4);
+  }
+}
+
+TEST(Speak, RecordedUtteranceGoesTheSameWay) {
+  const auto shared = test::shared_dir();
+  if (shared.empty()) GTEST_SKIP() << "the recordings do not ship with the project";
+  const auto corpus = shared / "data" / "grid_s1";
+  const std::string id = "bbal8p";
+  const TempDir dir;
+  const auto made =
+      animeme({"speak", "--script", (corpus / "phonemes" / (id + ".tsv")).string(), "--audio",
+               (corpus / "audio" / (id + ".wav")).string(), "-o", dir / "a.mp4", "--json"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NEAR(nlohmann::json::parse(made.out)["seconds"].get<double>(), 3.0, 0.05);
+  const auto info = animeme({"info", dir / "a.mp4", "--json"});
+  ASSERT_EQ(info.exit_code, 0) << info.err;
+  const auto json = nlohmann::json::parse(info.out);
+  std::vector<std::string> kinds;
+  for (const auto& track : json["tracks"]) kinds.push_back(track["kind"]);
+  EXPECT_THAT(kinds, testing::ElementsAre("face", "audio", "text", "text")) << "words, phones";
+  EXPECT_EQ(json["face"]["planes"], 75);
+  ASSERT_EQ(animeme({"demux", dir / "a.mp4", "--face", dir / "a.fba", "--audio", dir / "a.wav"})
+                .exit_code,
+            0);
+  EXPECT_EQ(animeme({"compare", dir / "a.fba", dir / "a.mp4"}).exit_code, 0);
+
+  const auto aligned = animeme({"speak", "--audio", (corpus / "audio" / (id + ".wav")).string(),
+                                "--transcript", "bin blue at l eight please", "-o", dir / "b.mp4"});
+  EXPECT_EQ(aligned.exit_code, 0) << aligned.err;
+}
+
+TEST(Speak, ScriptOfTheSampleCorpusWithoutAudio) {
+  const TempDir dir;
+  const auto script = test::data_dir() / "grid_s1_sample" / "phonemes" / "bbbf9a.tsv";
+  const auto made = animeme({"speak", "--script", script.string(), "-o", dir / "a.fap"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_EQ(read_clip(dir / "a.fap").frames.size(), 75u);
+  // Standard input works as a script too.
+  const auto piped =
+      animeme({"speak", "--script", "-", "-o", dir / "b.fap"}, test::slurp(script.string()));
+  ASSERT_EQ(piped.exit_code, 0) << piped.err;
+  EXPECT_EQ(animeme({"compare", dir / "a.fap", dir / "b.fap"}).exit_code, 0);
+}
+
+TEST(Speak, StyleAndLife) {
+  const TempDir dir;
+  const auto clip_of = [&](std::vector<std::string> more) {
+    const std::string path = dir / "clip.fap";
+    std::vector<std::string> arguments = {"speak", "--text", "A lovely room.", "-o", path};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto result = animeme(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return read_clip(path);
+  };
+  const auto largest_jaw = [](const fap::Sequence& clip) {
+    int most = 0;
+    for (const fap::Frame& frame : clip.frames) most = std::max(most, frame.value[3]);
+    return most;
+  };
+  const fap::Sequence plain = clip_of({"--no-life"});
+  EXPECT_GT(largest_jaw(clip_of({"--style", "1.4"})), largest_jaw(plain));
+  EXPECT_LT(largest_jaw(clip_of({"--style", "0.5"})), largest_jaw(plain));
+  EXPECT_FALSE(plain.frames[0].mask[19]);
+  EXPECT_NE(clip_of({"--no-life", "--articulate", "0"}).frames, plain.frames);
+  const fap::Sequence alive = clip_of({});
+  EXPECT_TRUE(alive.frames[0].mask[19] && alive.frames[0].mask[48]);
+  EXPECT_EQ(largest_jaw(alive), largest_jaw(plain));
+  EXPECT_NE(clip_of({"--seed", "5"}).frames, alive.frames);
+  EXPECT_EQ(animeme({"speak", "--text", "A", "--style", "2", "-o", dir / "x.fap"}).exit_code, 2);
+}
+
+TEST(Follow, GivesTheCurvesOfTheWholeScript) {
+  const TempDir dir;
+  const std::string phones =
+      "start_s\tend_s\tphone\n0\t0.3\tSIL\n0.3\t0.42\tB\n0.42\t0.6\tay\n0.6\t0.7\tT\n";
+  test::spill(dir / "script.tsv", phones);
+  ASSERT_EQ(animeme({"speak", "--script", dir / "script.tsv", "-o", dir / "whole.csv"}).exit_code,
+            0);
+  const auto streamed = animeme({"follow"}, phones);
+  EXPECT_EQ(streamed.exit_code, 0) << streamed.err;
+  EXPECT_EQ(streamed.out, test::slurp(dir / "whole.csv"));
+  const auto early = animeme({"follow", "--look-ahead", "0.1"}, phones);
+  EXPECT_EQ(std::count(early.out.begin(), early.out.end(), '\n'),
+            std::count(streamed.out.begin(), streamed.out.end(), '\n'));
+  const auto bad = animeme({"follow"}, "0 0.1 SIL\n0.1 0.2 QQ\n");
+  EXPECT_EQ(bad.exit_code, 3);
+  EXPECT_THAT(bad.err, HasSubstr("standard input:2"));
+  EXPECT_THAT(bad.err, HasSubstr("QQ"));
+}
+
+}  // namespace speak_test
+}  // namespace animeme

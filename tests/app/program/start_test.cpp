@@ -1,0 +1,26 @@
+// What the program loads before it knows what is asked of it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/folders.h"
+#include "tests/support/program.h"
+
+namespace animeme::test {
+namespace start_test {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// The loader's own list of what is linked: the program is not run.
+TEST(Start, LoadsNoFfmpegForText) {
+  const auto result = run_command(
+      {"env", "LD_TRACE_LOADED_OBJECTS=1", std::string(test::kBinaryFolder) + "/bin/animeme"});
+  EXPECT_THAT(result.out, HasSubstr("libstdc++"));
+  for (const char* library : {"libav", "libsw"}) {
+    EXPECT_THAT(result.out, Not(HasSubstr(library)))
+        << "a call by-passes tools/formats/media/detail/ffmpeg/ffmpeg_calls.h";
+  }
+}
+
+}  // namespace start_test
+}  // namespace animeme::test

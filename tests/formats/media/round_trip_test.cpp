@@ -1,0 +1,149 @@
+// Every reference stream through every container: access units byte for byte, times in place.
+#include <gmock/gmock.h>
+
+#include "tests/formats/media/media_support.h"
+#include "tests/support/reference_streams.h"
+#include "tools/formats/media/audio.h"
+#include "tools/formats/media/container.h"
+#include "tools/formats/media/mux.h"
+
+namespace animeme::media {
+namespace round_trip_test {
+
+struct Way {
+  const char* extension;
+  AudioCodec codec;
+  bool fragmented;
+  double tolerance;   // seconds; 0: exact
+  double shared = 0;  // seconds of planes in a packet
+};
+
+constexpr Way kWays[] = {{".mp4", AudioCodec::aac, false, 0},
+                         {".mp4", AudioCodec::opus, true, 0},
+                         {".m3u8", AudioCodec::aac, false, 0},
+                         {".mpd", AudioCodec::opus, false, 0},
+                         {".mkv", AudioCodec::aac, false, 0.001},
+                         {".mkv", AudioCodec::opus, false, 0.001},
+                         {".ts", AudioCodec::aac, false, 1.01 / 90000},
+                         {".ts", AudioCodec::aac, false, 1.51 / 90000, 0.4}};
+
+class RoundTrip : public testing::Test {
+ protected:
+  void SetUp() override {
+    const Pcm sound = test::make_clicks(48000, 48000, {24000});
+    for (const AudioCodec codec : {AudioCodec::aac, AudioCodec::opus}) {
+      auto coded = encode_audio(sound, {.codec = codec});
+      ASSERT_TRUE(coded) << coded.error().describe();
+      sounds_.push_back(std::move(*coded));
+    }
+  }
+
+  void expect_same(const fba::AccessUnits& face, const fba::AccessUnits& back, double tolerance) {
+    EXPECT_EQ(back.config, face.config);
+    if (tolerance == 0) {
+      EXPECT_TRUE(back == face) << "times, durations, bytes or flags differ";
+      return;
+    }
+    ASSERT_EQ(back.units.size(), face.units.size());
+    const double first = double(back.units[0].time) / back.timescale;
+    for (std::size_t i = 0; i < face.units.size(); ++i) {
+      ASSERT_EQ(back.units[i].bytes, face.units[i].bytes) << i;
+      ASSERT_EQ(back.units[i].intra, face.units[i].intra) << i;
+      ASSERT_NEAR(double(back.units[i].time) / back.timescale - first,
+                  double(face.units[i].time) / face.timescale, tolerance)
+          << i;
+    }
+  }
+
+  void carry(const fba::AccessUnits& face) {
+    for (const Way& way : kWays) {
+      SCOPED_TRACE(std::string(way.extension) + " " + name_of(way.codec));
+      const std::string path = dir_.file(std::string("a") + way.extension);
+      MuxOptions options;
+      options.fragmented = way.fragmented;
+      options.shared_seconds = way.shared;
+      const MuxInput input{.face = &face, .encoded = &sounds_[std::size_t(way.codec)]};
+      const auto written = write_container(path, input, options);
+      ASSERT_TRUE(written) << written.error().describe();
+      const Result<Container> back = read_container(path);
+      ASSERT_TRUE(back) << back.error().describe();
+      EXPECT_THAT(back->warnings, testing::IsEmpty());
+      expect_same(face, back->face, way.tolerance);
+    }
+  }
+
+  test::TempDir dir_;
+  std::vector<EncodedAudio> sounds_;
+};
+
+TEST_F(RoundTrip, EveryReferenceStreamInEveryContainer) {
+  std::size_t count = 0, misleading = 0;
+  for (const auto& base : test::reference_streams()) {
+    SCOPED_TRACE(base.filename().string());
+    const auto stream = test::read_bytes(test::with(base, ".fba"));
+    const Result<fba::AccessUnits> face = fba::split_access_units(stream);
+    ASSERT_TRUE(face) << face.error().describe();
+    ++count;
+    for (const fba::AccessUnit& unit : face->units) {
+      const test::Bytes code = {0, 0, 1};
+      const auto inside =
+          unit.bytes.begin() + std::min<std::ptrdiff_t>(13, unit.bytes.end() - unit.bytes.begin());
+      const auto found = std::search(inside, unit.bytes.end(), code.begin(), code.end());
+      if (found != unit.bytes.end()) ++misleading;
+    }
+    carry(*face);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GE(count, 64u);
+  EXPECT_GE(misleading, 1u) << "no stream has start codes inside its planes";
+}
+
+TEST_F(RoundTrip, GapsAndALateStart) {
+  fba::AccessUnits face = test::make_face(100, 30000, 1001, 25);
+  for (std::size_t i = 0; i < face.units.size(); ++i) {
+    face.units[i].time += 30030 + (i >= 40 ? 60060 : 0);
+  }
+  face.units[39].duration += 60060;
+  const auto first = face.units[0].time;
+  for (const Way& way : kWays) {
+    SCOPED_TRACE(way.extension);
+    const std::string path = dir_.file(std::string("a") + way.extension);
+    MuxOptions options;
+    options.fragmented = way.fragmented;
+    options.shared_seconds = way.shared;
+    const MuxInput input{.face = &face, .encoded = &sounds_[std::size_t(way.codec)]};
+    ASSERT_TRUE(write_container(path, input, options));
+    const Result<Container> back = read_container(path);
+    ASSERT_TRUE(back) << back.error().describe();
+    if (way.tolerance == 0) {
+      EXPECT_TRUE(back->face == face);
+      continue;
+    }
+    ASSERT_EQ(back->face.units.size(), face.units.size());
+    const double shift = way.codec == AudioCodec::aac ? 1024.0 / 48000 : 0;
+    for (std::size_t i = 0; i < face.units.size(); ++i) {
+      EXPECT_NEAR(double(back->face.units[i].time) / back->face.timescale,
+                  double(face.units[i].time) / 30000 + shift, way.tolerance);
+    }
+  }
+  EXPECT_EQ(first, 30030);
+}
+
+TEST_F(RoundTrip, FacesWithoutSound) {
+  const fba::AccessUnits face = test::make_face(120, 25000, 1000, 30);
+  for (const Way& way : kWays) {
+    SCOPED_TRACE(way.extension);
+    const std::string path = dir_.file(std::string("a") + way.extension);
+    MuxOptions options;
+    options.fragmented = way.fragmented;
+    options.shared_seconds = way.shared;
+    ASSERT_TRUE(write_container(path, {.face = &face}, options));
+    const Result<Container> back = read_container(path);
+    ASSERT_TRUE(back) << back.error().describe();
+    EXPECT_FALSE(back->audio);
+    expect_same(face, back->face, way.tolerance);
+  }
+}
+
+}  // namespace round_trip_test
+}  // namespace animeme::media

@@ -1,0 +1,306 @@
+"""`animeme serve` as clients use and misuse it.  http_test.py PROGRAM"""
+
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+from client import Server, Socket, ask, until
+
+PROGRAM = sys.argv[1]
+INTRA = 1  # bit of the flags of a unit of /face (tools/live/web/README.md)
+
+
+def planes_of(viewer, count):
+    """Flags and times of so many messages behind the first one."""
+    planes = []
+    for _ in range(count):
+        message = viewer.unit()
+        planes.append((message[12], int.from_bytes(message[:8], "big")))
+    return planes
+
+
+class Heads(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.server = Server(PROGRAM, "--max-heads", "12", "--max-clients", "30")
+
+    @classmethod
+    def tearDownClass(cls):
+        code, out = cls.server.end()
+        assert code == 0, code
+        assert json.loads(out)["count"] >= 0
+
+    def setUp(self):
+        for head in self.server.json("/heads")[1]["heads"]:
+            self.server.ask("/heads/" + head["name"], "DELETE")
+
+    def figures(self, name):
+        return self.server.json("/heads/" + name)[1]["figures"]
+
+    def test_a_head_is_made_talks_and_goes(self):
+        made = self.server.json("/heads/anna", "PUT", '{"lang": "en+f3", "seed": 7}')
+        self.assertEqual(made, (201, {"name": "anna", "path": "/heads/anna/"}))
+        status, page = self.server.ask("/heads/anna/")
+        self.assertEqual(status, 200)
+        self.assertIn("<title>Animeme live</title>", page)
+        self.assertEqual(self.server.json("/heads/anna")[1]["settings"]["lang"], "en+f3")
+        face = Socket(self.server.port, "/heads/anna/face")
+        sound = Socket(self.server.port, "/heads/anna/audio")
+        self.assertEqual(face.next()[:2], b"A\x01")
+        self.assertEqual(sound.next()[4:8], b"ftyp")
+        said = self.server.json("/heads/anna/say", "POST", "Hello.\n\nHow are you?\r\n")
+        self.assertEqual(said[0], 202)
+        self.assertTrue(until(lambda: self.figures("anna")["lines_spoken"] == 2))
+        self.assertIn(b"moof", sound.next())
+        self.assertEqual(self.figures("anna")["viewers"], 1)
+        self.assertEqual(self.server.json("/heads/anna", "DELETE"), (200, {"ended": "anna"}))
+        while face.next() is not None:
+            pass
+        self.assertEqual(face.closed, 1000)  # told that it is over
+        self.assertEqual(self.server.json("/heads/anna")[0], 404)
+        self.assertEqual(Socket(self.server.port, "/heads/anna/face").status, 404)
+
+    def test_receive_hears_one_of_many(self):
+        for name in ("ida", "jan"):
+            self.server.ask("/heads/" + name, "PUT")
+        self.server.ask("/heads/ida/say", "POST", "Only Ida speaks.")
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "ida.mp4")
+            address = self.server.url.replace("http", "ws") + "/heads/ida/"
+            done = subprocess.run([PROGRAM, "receive", address, "-o", path, "--duration", "2", "--json"],
+                                  capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertGreater(os.path.getsize(path), 1000)
+        self.assertEqual(self.figures("jan")["planes"], 0)
+
+    def test_a_mouth_moves_for_values(self):
+        self.server.ask("/heads/ben", "PUT")
+        values = Socket(self.server.port, "/heads/ben/faps")
+        self.assertIn("faps", json.loads(values.next()))
+        first = json.loads(values.next())
+        self.assertTrue(first["intra"])
+        self.server.ask("/heads/ben/say", "POST", '{"do": "say", "text": "Many mouths move."}')
+        last, opened = first, 0
+        for _ in range(100):
+            frame = json.loads(values.next())
+            if "event" in frame:
+                continue
+            self.assertAlmostEqual(frame["time"] - last["time"], 0.04, places=4)
+            opened = max(opened, -frame["values"]["5"])  # raise_b_midlip
+            last = frame
+        self.assertGreater(opened, 50)
+
+    def test_it_can_be_interrupted(self):
+        self.server.ask("/heads/kim", "PUT")
+        told = Socket(self.server.port, "/heads/kim/faps")
+        def event(name):
+            for _ in range(500):
+                message = json.loads(told.next())
+                if message.get("event") == name:
+                    return message
+            self.fail(name)
+        self.server.ask("/heads/kim/say", "POST", "One, two, three, four, five, six, seven.\nEight.")
+        self.assertIn("One", event("started")["text"])
+        status, answer = self.server.json("/heads/kim/say", "POST", '{"do": "stop"}\nYes?')
+        self.assertEqual(status, 202)
+        self.assertTrue(event("cancelled"))
+        self.assertEqual(event("started")["text"], "Yes?")
+        event("done")
+        self.assertEqual(self.server.ask("/heads/kim/say", "POST", '{"do": "dance"}')[0], 400)
+        self.assertEqual(self.server.ask("/heads/kim/say", "POST", '{"do": "end"}')[0], 400)
+
+    def test_one_that_nobody_watches_sleeps_and_wakes_with_an_intra_plane(self):
+        self.server.ask("/heads/cleo", "PUT")
+        asleep = lambda: self.figures("cleo")["asleep"]
+        self.assertTrue(until(asleep))
+        self.assertEqual(self.figures("cleo")["planes"], 0)
+        for _ in range(2):
+            viewer = Socket(self.server.port, "/heads/cleo/face")
+            viewer.next()
+            planes = planes_of(viewer, 30)
+            self.assertTrue(planes[0][0] & INTRA)
+            times = [time for _, time in planes]
+            self.assertEqual(times, list(range(times[0], times[0] + 30 * 1000, 1000)))
+            viewer.close()
+            self.assertTrue(until(asleep))
+        made = self.figures("cleo")["planes"]
+        self.assertLess(made, 400)
+        self.assertEqual(self.figures("cleo")["planes"], made)
+
+    def test_values_come_to_who_joins_between_intra_planes(self):
+        self.server.ask("/heads/dora", "PUT", '{"intra_seconds": 20}')
+        face = Socket(self.server.port, "/heads/dora/face")
+        face.next()
+        planes_of(face, 20)
+        values = Socket(self.server.port, "/heads/dora/faps")
+        values.next()
+        times = []
+        for number in range(40):
+            frame = json.loads(values.next())
+            self.assertEqual(frame["intra"], number == 0)
+            times.append(round(frame["time"] * 25))
+        self.assertEqual(times, list(range(times[0], times[0] + 40)))
+
+    def test_the_same_again_is_no_other_head(self):
+        self.assertEqual(self.server.ask("/heads/eva", "PUT", '{"pitch": 60}')[0], 201)
+        self.assertEqual(self.server.ask("/heads/eva", "PUT", '{"pitch": 60}')[0], 200)
+        status, told = self.server.json("/heads/eva", "PUT", '{"pitch": 61}')
+        self.assertEqual(status, 409)
+        self.assertIn("DELETE", told["error"])
+
+    def test_what_is_wrong_is_told(self):
+        for body, sentence in [
+                ('{"pitch": 101}', '"pitch" is a whole number from 0 to 100'),
+                ('{"pitch": 1.5}', '"pitch" is a whole number'), ('{"life": 1}', '"life" is true or false'),
+                ('{"colour": "red"}', 'no "colour"; there are articulate'), ('[1]', "JSON object"),
+                ('{"pitch": ', "no JSON"), ('{"model": "../../etc/passwd"}', "there is no model"),
+                ('{"lang": "no such language"}', "no such"), ('{"rate": "1e9"}', "rate"),
+                ('{"audio_codec": "mp3"}', "opus"), ("[" * 60000, "no JSON"),
+                ('{"seed": 1e999}', "no JSON"), ('{"seed": -1}', '"seed"')]:
+            status, told = self.server.json("/heads/fred", "PUT", body)
+            self.assertEqual(status, 400, body[:40])
+            self.assertIn(sentence, told["error"], body[:40])
+        for name in ["a b", "..", ".a", "%2e%2e", "x" * 65, "a%00b", "%F0%9F%98%80"]:
+            path = "/heads/" + name.replace(" ", "%20")
+            try:
+                self.assertIn(self.server.ask(path, "PUT")[0], (400, 403, 404, 405), name)
+            except ConnectionError:
+                pass  # not worth an answer
+        for method, path, status in [("GET", "/nothing", 404), ("DELETE", "/heads/nobody", 404),
+                                     ("POST", "/heads/nobody/say", 404), ("PUT", "/heads", 405),
+                                     ("PATCH", "/heads/a", 405), ("GET", "/heads/nobody/face", 404),
+                                     ("POST", "/heads/a/say", 404)]:
+            self.assertEqual(self.server.ask(path, method, "" if method == "POST" else None)[0], status, path)
+        self.assertEqual(self.server.json("/heads")[1]["count"], 0)
+
+    def test_there_are_limits(self):
+        for i in range(12):
+            self.assertEqual(self.server.ask(f"/heads/h{i}", "PUT")[0], 201)
+        status, told = self.server.json("/heads/h12", "PUT")
+        self.assertEqual(status, 429)
+        self.assertIn("--max-heads", told["error"])
+        self.assertEqual(self.server.ask("/heads/h0/say", "POST", "a.\n" * 1001)[0], 429)
+        self.assertEqual(self.server.json("/heads/h0")[1]["figures"]["lines_waiting"], 0)
+        try:
+            self.assertEqual(self.server.ask("/heads/h0/say", "POST", "x" * 1_000_000)[0], 413)
+        except OSError:
+            pass  # it does not read all of that
+        viewers = [Socket(self.server.port, f"/heads/h{i % 12}/face") for i in range(33)]
+        self.assertEqual([viewer.status for viewer in viewers].count(101), 30)
+        for viewer in viewers:
+            viewer.close()
+
+    def test_strangers_do_not_hurt_it(self):
+        self.server.ask("/heads/gina", "PUT")
+        viewer = Socket(self.server.port, "/heads/gina/face")
+        viewer.next()
+        bad = [b"\x00" * 5000, b"GET", b"PUT /heads/x HTTP/1.1\r\nHost: a\r\nContent-Length: -1\r\n\r\n",
+               b"PUT /heads/x HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 99999999999999999999\r\n\r\n",
+               b"PUT /heads/x HTTP/1.1\r\nHost: 127.0.0.1\r\nTransfer-Encoding: chunked\r\n\r\nfff\r\n{}",
+               b"PUT /heads/x HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 50\r\n\r\n{",
+               b"POST /heads/gina/say HTTP/1.1\r\n" + b"X: y\r\n" * 3000 + b"\r\n",
+               b"PUT " + b"/a" * 9000 + b" HTTP/1.1\r\n\r\n", b"DELETE /heads/gina HTTP/1.1\r\n\r\n",
+               b"DELETE /heads/gina HTTP/1.1\r\nHost: evil.example\r\n\r\n",
+               b"DELETE /heads/gina HTTP/1.1\r\nHost: 127.0.0.1\r\nOrigin: http://evil.example\r\n\r\n"]
+        kept = []
+        for number in range(100):
+            stranger = socket.create_connection(("127.0.0.1", self.server.port))
+            stranger.sendall(bad[number % len(bad)])
+            if number % 3:
+                stranger.close()
+            else:
+                kept.append(stranger)
+        self.assertIsNotNone(viewer.next())
+        for stranger in kept:
+            stranger.close()
+        self.assertTrue(until(lambda: self.server.ask("/health")[0] == 200))
+        self.assertEqual([head["name"] for head in self.server.json("/heads")[1]["heads"]], ["gina"])
+        planes_of(viewer, 25)
+
+    def test_many_ask_at_once(self):
+        answers = []
+        def make_and_talk(number):
+            name = f"/heads/t{number % 8}"
+            answers.append(self.server.ask(name, "PUT")[0])
+            answers.append(self.server.ask(name + "/say", "POST", f"Number {number}.")[0])
+            answers.append(self.server.ask(name, "DELETE" if number % 5 == 0 else "GET")[0])
+        threads = [threading.Thread(target=make_and_talk, args=(i,)) for i in range(24)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(len(answers), 72)
+        self.assertLessEqual(set(answers), {200, 201, 202, 404})
+
+    def test_metrics_are_as_prometheus_reads_them(self):
+        self.server.ask("/heads/hugo", "PUT")
+        self.server.ask("/heads/hugo/say", "POST", "Count me.")
+        self.assertTrue(until(lambda: self.figures("hugo")["planes"] > 20))
+        status, text = self.server.ask("/metrics")
+        self.assertEqual(status, 200)
+        values = {}
+        for line in text.splitlines():
+            if not line.startswith("#"):
+                name, value = line.rsplit(" ", 1)
+                values[name] = float(value)
+        self.assertEqual(values["animeme_heads"], 1)
+        self.assertGreater(values["animeme_planes_total"], 20)
+        bars = [values[name] for name in values if "_bucket" in name]
+        self.assertEqual(bars, sorted(bars))
+        self.assertEqual(bars[-1], values["animeme_late_seconds_count"])
+
+
+class Ends(unittest.TestCase):
+    def test_signals_and_viewers(self):
+        for how, code in [(signal.SIGTERM, 0), (signal.SIGINT, 130)]:
+            server = Server(PROGRAM)
+            server.ask("/heads/anna", "PUT")
+            viewer = Socket(server.port, "/heads/anna/face")
+            viewer.next()
+            planes_of(viewer, 3)
+            server.process.send_signal(how)
+            while viewer.next() is not None:
+                pass
+            self.assertEqual(viewer.closed, 1000)
+            self.assertEqual(server.end(None)[0], code)
+
+    def test_a_token_is_needed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "token")
+            with open(path, "w") as file:
+                file.write("secret-1\n")
+            server = Server(PROGRAM, "--token-file", path)
+            right = {"Authorization": "Bearer secret-1"}
+            for wrong in [{}, {"Authorization": "Bearer secret-2"}, {"Authorization": "Bearer "},
+                          {"Authorization": "Basic secret-1"}, {"Authorization": "Bearer secret-11"}]:
+                for method, path in [("PUT", "/heads/a"), ("GET", "/heads"), ("GET", "/metrics"),
+                                     ("POST", "/heads/a/say"), ("DELETE", "/heads/a")]:
+                    body = "" if method in ("PUT", "POST") else None
+                    self.assertEqual(server.ask(path, method, body, headers=wrong)[0], 401)
+            self.assertEqual(server.ask("/heads/a", "PUT", "{}", headers=right)[0], 201)
+            self.assertEqual(server.ask("/health")[0], 200)
+            self.assertEqual(server.ask("/heads/a/")[0], 200)  # viewers need none
+            self.assertEqual(server.end()[0], 0)
+
+    def test_heads_of_a_file_and_those_that_are_forgotten(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "heads.json")
+            with open(path, "w") as file:
+                json.dump({"defaults": {"lang": "en-gb"}, "heads": [{"name": "anna", "seed": 3}]}, file)
+            server = Server(PROGRAM, path, "--expire", "1", "--make-on-say")
+            self.assertEqual(server.json("/heads/anna")[1]["settings"]["lang"], "en-gb")
+            self.assertEqual(server.ask("/heads/new/say", "POST", "Hi.")[0], 202)
+            self.assertEqual(server.json("/heads/new")[1]["settings"]["lang"], "en-gb")
+            self.assertTrue(until(lambda: server.json("/heads")[1]["count"] == 1, 60))
+            self.assertEqual(server.ask("/heads/anna")[0], 200)
+            self.assertEqual(server.end()[0], 0)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2, warnings="ignore")

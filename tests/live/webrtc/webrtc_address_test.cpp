@@ -1,0 +1,41 @@
+// Addresses of WebRTC, and what their options may be.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tools/live/webrtc/webrtc.h"
+
+namespace animeme::test {
+namespace webrtc_address_test {
+
+using ::testing::HasSubstr;
+
+TEST(WebRtcAddress, TellsWhatAddressesAre) {
+  EXPECT_TRUE(webrtc::is_webrtc("webrtc://127.0.0.1:8080"));
+  EXPECT_FALSE(webrtc::is_webrtc("http://127.0.0.1:8080"));
+  EXPECT_TRUE(webrtc::is_whip("whip://host/a"));
+  EXPECT_TRUE(webrtc::is_whip("whips://host/a"));
+  EXPECT_EQ(webrtc::page_of("webrtc://0.0.0.0:80?stun=a:1"), "http://0.0.0.0:80");
+  EXPECT_EQ(webrtc::page_of("http://a:1/"), "http://a:1/");
+}
+
+TEST(WebRtcAddress, OptionsThatDoNotFitAreNamed) {
+  for (const std::string good :
+       {"", "?repeat=0", "?repeat=30", "?stun=a:1&turn=u:p@b:2&repeat=3"}) {
+    EXPECT_TRUE(webrtc::make_webrtc_sink("webrtc://127.0.0.1:0" + good)) << good;
+    EXPECT_TRUE(webrtc::make_whip_sink("whip://127.0.0.1:1/path" + good)) << good;
+  }
+  for (const std::string bad : {"?repeat=31", "?repeat=-1", "?repeat=x", "?repeat=1x",
+                                "?stun=", "?turn=host", "?", "?a=b"}) {
+    for (const auto& error : {webrtc::make_webrtc_sink("webrtc://127.0.0.1:0" + bad).error(),
+                              webrtc::make_whip_sink("whip://127.0.0.1:1/path" + bad).error()}) {
+      EXPECT_EQ(error.code, Code::invalid_argument);
+      EXPECT_THAT(error.message, HasSubstr("repeat=0..30")) << bad;
+    }
+  }
+  for (const std::string bad : {"whip://", "whip:///path", "whip://token@/path"}) {
+    EXPECT_EQ(webrtc::make_whip_sink(bad).error().code, Code::invalid_argument) << bad;
+  }
+}
+
+}  // namespace webrtc_address_test
+}  // namespace animeme::test

@@ -1,0 +1,458 @@
+// A head that is interrupted: on a clock of the test's own, with a voice that takes its time. What
+// it sends is decoded and looked at; the plans are random and the same each time.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <random>
+#include <set>
+
+#include "codec/decode/access_unit.h"
+#include "codec/decode/decoder.h"
+#include "dam/model/builtin.h"
+#include "dam/signal/fap_signal.h"
+#include "tools/speech/talking/line_queue.h"
+#include "tools/speech/talking/live_speaker.h"
+
+namespace animeme::speech {
+namespace barge_test {
+
+using media::LiveTrack;
+using media::LiveUnit;
+using What = LineEvent::What;
+
+constexpr double kSilent =
+    0.003;  // of full scale: what a codec leaves behind speech fades below it
+constexpr int kUpper = 4, kLower = 5;  // FAPs of the inner lips
+
+const std::vector<voice::Speech>& voices() {
+  static const std::vector<voice::Speech> all = [] {
+    std::vector<voice::Speech> made;
+    for (const char* text : {"Good morning, my old friend, how are you today?", "Yes.",
+                             "I wonder whether all of this will fit into one sentence.",
+                             "Bob may buy a map of Mobile.", "Wow, how loud you shout!"}) {
+      voice::VoiceOptions options;
+      options.lead_silence = 0.1;
+      options.tail_silence = 0.3;
+      if (auto speech = voice::speak_text(text, options)) made.push_back(std::move(*speech));
+    }
+    return made;
+  }();
+  return all;
+}
+
+const dam::Model& character() {
+  static const dam::Model model = std::move(*dam::builtin_model());
+  return model;
+}
+
+// A queue, a voice that takes `voice_seconds` a line, a head, and what came out of it.
+struct Stage {
+  LineQueue queue{4000, true, false};
+  media::JumpingClock clock;
+  std::unique_ptr<LiveSpeaker> speaker;
+  std::vector<LiveUnit> planes, packets;
+  std::vector<LineEvent> events;
+  double voice_seconds = 0.015;
+  double ready = -1;  // when the line that is being made will be there
+  std::optional<LineQueue::Job> job;
+  bool joins = false;
+
+  explicit Stage(bool life = false) {
+    SpeakerOptions options;
+    options.face.life = life;
+    options.events = true;
+    options.fap_quant = 0;  // exactly
+    options.audio = media::AudioSettings{media::AudioCodec::opus};
+    auto opened = LiveSpeaker::open(character(), queue, clock, options);
+    EXPECT_TRUE(opened);
+    speaker = std::move(*opened);
+  }
+  void push(const std::string& line) { EXPECT_TRUE(queue.push(line, clock.now())) << line; }
+  void let_the_voice_work() {
+    if (job && clock.now() >= ready) {
+      SpokenLine line;
+      line.speech = voices()[std::size_t(job->payload[0]) % voices().size()];
+      line.text = job->payload;
+      line.joins = joins;
+      queue.made(job->line, std::move(line), clock.now());
+      job.reset();
+    }
+    if (job) return;
+    job = queue.try_job();
+    ready = clock.now() + voice_seconds;
+  }
+  // To `until` or to the end.
+  void run(double until) {
+    for (;;) {
+      let_the_voice_work();
+      const auto due = speaker->next_due();
+      if (!due || *due >= until) break;
+      clock.sleep_until(*due);
+      auto made = speaker->take(std::max(clock.now(), *due));
+      ASSERT_TRUE(made) << made.error().describe();
+      for (LiveUnit& unit : *made) {
+        speaker->sent(unit, clock.now());
+        (unit.track == LiveTrack::face ? planes : packets).push_back(std::move(unit));
+      }
+      for (LineEvent& event : speaker->take_events()) events.push_back(std::move(event));
+    }
+    if (std::isfinite(until)) clock.sleep_until(until);
+  }
+  void end() {
+    queue.close();
+    run(std::numeric_limits<double>::infinity());
+    EXPECT_FALSE(speaker->next_due());
+    EXPECT_TRUE(queue.ended());
+    speaker->end("over");
+    for (LineEvent& event : speaker->take_events()) events.push_back(std::move(event));
+  }
+  fap::Sequence face() const {
+    fba::AccessUnits units;
+    for (const LiveUnit& plane : planes) units.units.push_back({plane.bytes, plane.intra, 0, 1});
+    const auto decoded = fba::decode(fba::join_access_units(units));
+    EXPECT_TRUE(decoded);
+    return decoded ? fba::face_sequence(*decoded) : fap::Sequence{};
+  }
+  media::Pcm sound() const {
+    media::EncodedAudio audio;
+    audio.format = *speaker->info().audio;
+    for (const LiveUnit& packet : packets) {
+      audio.packets.push_back({packet.bytes, packet.time, packet.duration});
+    }
+    const auto pcm = media::decode_audio(audio);
+    EXPECT_TRUE(pcm);
+    return pcm ? *pcm : media::Pcm{};
+  }
+};
+
+std::string command(const std::string& rest) { return "{\"do\":" + rest + "}"; }
+
+// Of each FAP the largest change from a frame to the next.
+std::array<int, fap::kFapCount + 1> largest_steps(const fap::Sequence& clip) {
+  std::array<int, fap::kFapCount + 1> steps{};
+  for (std::size_t i = 1; i < clip.frames.size(); ++i) {
+    for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+      const int step = std::abs(clip.frames[i].value[fap] - clip.frames[i - 1].value[fap]);
+      steps[fap] = std::max(steps[fap], step);
+    }
+  }
+  return steps;
+}
+
+int opening(const fap::Frame& frame) { return -(frame.value[kUpper] + frame.value[kLower]); }
+
+// Level of the sound about an instant, 5 ms to both sides.
+double level(const media::Pcm& pcm, double time) {
+  double sum = 0;
+  const auto first = std::max<std::int64_t>(0, std::int64_t((time - 0.005) * pcm.sample_rate));
+  const auto last = std::min<std::int64_t>(std::int64_t(pcm.samples.size()),
+                                           std::int64_t((time + 0.005) * pcm.sample_rate));
+  for (auto i = first; i < last; ++i) sum += std::pow(double(pcm.samples[std::size_t(i)]), 2);
+  return last > first ? std::sqrt(sum / double(last - first)) : 0;
+}
+
+// Every line ends once, in order, and nothing is told of it before it begins or after it ended.
+void check_events(const std::vector<LineEvent>& events) {
+  struct Life {
+    int queued = 0, started = 0, ended = 0;
+  };
+  std::map<std::uint64_t, Life> lines;
+  double last = 0;
+  for (const LineEvent& event : events) {
+    EXPECT_GE(event.time, last) << to_json(event);
+    last = event.time;
+    if (event.line == 0) continue;
+    Life& life = lines[event.line];
+    switch (event.what) {
+      case What::queued:
+        EXPECT_EQ(life.queued++ + life.started + life.ended, 0) << to_json(event);
+        break;
+      case What::started:
+        EXPECT_EQ(life.started++ + life.ended, 0) << to_json(event);
+        EXPECT_EQ(life.queued, 1) << to_json(event);
+        break;
+      case What::done:
+        EXPECT_EQ(life.started, 1) << to_json(event);
+        EXPECT_EQ(life.ended++, 0) << to_json(event);
+        break;
+      case What::cancelled:
+        EXPECT_EQ(life.queued, 1) << to_json(event);
+        EXPECT_EQ(life.ended++, 0) << to_json(event);
+        break;
+      default:
+        EXPECT_EQ(life.started, 1) << to_json(event);
+        EXPECT_EQ(life.ended, 0) << to_json(event);
+    }
+  }
+  for (const auto& [number, life] : lines) EXPECT_EQ(life.ended, 1) << number;
+}
+
+class Barge : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (voices().empty()) GTEST_SKIP() << "no voice";
+  }
+};
+
+TEST_F(Barge, AStopClosesTheMouthIn100MsAndFadesTheSound) {
+  for (const double at : {1.0, 1.317, 1.613, 2.05}) {
+    Stage stage;
+    stage.run(0.5);
+    stage.push("Wow, how loud you shout!");
+    stage.push("And more.");
+    stage.run(at);
+    stage.push(command("\"stop\""));
+    stage.run(at + 1);
+    stage.end();
+    check_events(stage.events);
+    const fap::Sequence clip = stage.face();
+    const int rest = opening(clip.frames[0]);
+    // The command is heard with the next unit that is due, the mouth closes from the next frame on.
+    const auto next = std::size_t(std::ceil(at * 25));
+    EXPECT_GT(std::abs(opening(clip.frames[next - 1]) - rest), 5) << at;
+    for (std::size_t i = std::size_t(std::ceil((at + 0.04 + 0.1) * 25)); i < clip.frames.size();
+         ++i) {
+      EXPECT_LE(std::abs(opening(clip.frames[i]) - rest), 4) << at << ", frame " << i;
+    }
+    const media::Pcm pcm = stage.sound();
+    double spoken = 0;
+    for (double time = at - 0.1; time < at; time += 0.01)
+      spoken = std::max(spoken, level(pcm, time));
+    EXPECT_GT(spoken, 0.01);
+    // What the encoder has already been given, and 20 ms.
+    for (double time = at + 0.1; time < at + 0.9; time += 0.005) {
+      EXPECT_LT(level(pcm, time), kSilent) << at << ", " << time;
+    }
+  }
+}
+
+TEST_F(Barge, SayNowInterruptsAndIsSpoken) {
+  Stage stage;
+  stage.run(0.5);
+  stage.push("I wonder whether all of this will fit into one sentence.");
+  stage.push("More.");
+  stage.run(1.7);
+  stage.push(command("\"say\",\"text\":\"Yes, please?\",\"when\":\"now\",\"id\":\"x\""));
+  stage.end();
+  check_events(stage.events);
+  std::vector<std::string> ends;
+  double x = 0;
+  for (const LineEvent& event : stage.events) {
+    if (event.what == What::done) ends.push_back("done " + event.id);
+    if (event.what == What::cancelled) ends.push_back("cancelled " + event.id);
+    if (event.what == What::started && event.id == "x") x = event.time;
+  }
+  EXPECT_GT(x, 1.7);
+  EXPECT_LT(x, 1.9);  // when the mouth is closed
+  EXPECT_THAT(ends, testing::ElementsAre("cancelled 1", "cancelled 2", "done x"));
+  EXPECT_EQ(stage.speaker->traces().back().waited, false);
+}
+
+TEST_F(Barge, AStopInSilenceDoesNothing) {
+  Stage still, stopped;
+  still.run(1);
+  stopped.run(0.4);
+  stopped.push(command("\"stop\""));
+  stopped.push(command("\"stop\""));
+  stopped.run(1);
+  EXPECT_EQ(still.planes, stopped.planes);
+  EXPECT_EQ(still.packets, stopped.packets);
+  ASSERT_EQ(stopped.events.size(), 2u);
+  EXPECT_EQ(stopped.events[0].what, What::stopped);
+}
+
+TEST_F(Barge, WhatIsBeingMadeIsThrownAwayByAStop) {
+  Stage stage;
+  stage.voice_seconds = 0.5;
+  stage.run(0.5);
+  stage.push("Hello.");
+  stage.run(0.8);
+  stage.push(command("\"stop\""));
+  stage.run(2);
+  stage.end();
+  check_events(stage.events);
+  for (const LineEvent& event : stage.events) EXPECT_NE(event.what, What::started);
+  EXPECT_LT(level(stage.sound(), 1.5), 1e-3);
+}
+
+TEST_F(Barge, AStopJustBeforeTheEndOfTheInputEndsInGoodOrder) {
+  Stage stage;
+  stage.run(0.5);
+  stage.push("Wow, how loud you shout!");
+  stage.run(1.3);
+  stage.push(command("\"stop\""));
+  stage.end();
+  check_events(stage.events);
+  const fap::Sequence clip = stage.face();
+  EXPECT_NEAR(opening(clip.frames.back()), opening(clip.frames.front()), 4);  // quantised
+  EXPECT_LT(clip.duration(), 1.7);
+}
+
+TEST_F(Barge, MarksAreToldWhenAllBeforeThemIsSpoken) {
+  Stage stage;
+  stage.run(0.5);
+  stage.push("Yes.");
+  stage.push(command("\"mark\",\"id\":\"one\""));
+  stage.push("Yes.");
+  stage.push(command("\"mark\",\"id\":\"two\""));
+  stage.push(command("\"drop\""));  // before anything was begun
+  stage.push(command("\"mark\",\"id\":\"three\""));
+  stage.push("Wow.");
+  stage.push(command("\"mark\",\"id\":\"four\""));
+  stage.end();
+  check_events(stage.events);
+  std::vector<std::string> seen;
+  double done = 0, four = 0;
+  for (const LineEvent& event : stage.events) {
+    if (event.what == What::done) done = event.time;
+    if (event.what == What::mark) seen.push_back(event.text);
+    if (event.what == What::mark && event.text == "four") four = event.time;
+    if (event.what == What::cancelled && event.line == 0) seen.push_back("no " + event.id);
+  }
+  EXPECT_NEAR(four, done, 0.041);
+  EXPECT_THAT(seen, testing::ElementsAre("no one", "no two", "three", "four"));
+}
+
+TEST_F(Barge, TheEndOfTheStreamEndsEveryLine) {
+  Stage stage;
+  stage.run(0.5);
+  for (int i = 0; i < 7; ++i) stage.push("Good morning.");
+  stage.push(command("\"mark\""));
+  stage.run(1.5);
+  stage.speaker->end("the stream has ended");
+  for (LineEvent& event : stage.speaker->take_events()) stage.events.push_back(std::move(event));
+  check_events(stage.events);
+  EXPECT_EQ(stage.events.back().why, "the stream has ended");
+}
+
+TEST_F(Barge, TextsOfEventsAreJson) {
+  LineEvent event{.what = What::cancelled, .time = 1.25, .line = 3, .id = "ä\"", .text = "zwei\n"};
+  event.why = "stopped";
+  EXPECT_EQ(
+      to_json(event),
+      "{\"event\":\"cancelled\",\"time\":1.25,\"line\":3,\"id\":\"ä\\\"\",\"said\":\"zwei\\n\","
+      "\"why\":\"stopped\"}");
+  event.id = "\xff";  // no UTF-8
+  EXPECT_THAT(to_json(event), testing::HasSubstr("\xEF\xBF\xBD"));
+}
+
+// 200 interruptions at random times, of lines and of pieces that join.
+void soak(bool joins, unsigned seed) {
+  std::mt19937 random(seed);
+  const auto some = [&random](double low, double high) {
+    return low + (high - low) * double(random()) / double(std::mt19937::max());
+  };
+  // What speech itself does: the same lines, at one after the other and after pauses.
+  std::array<int, fap::kFapCount + 1> limits{};
+  for (int round = 0; round < 6; ++round) {
+    Stage speech;
+    speech.joins = joins;
+    double at = 0;
+    for (int i = 0; i < 10; ++i) {
+      speech.push(std::string(1, char('a' + (i + round) % 5)));
+      if (i % 2 == round % 2) speech.run(at += some(0, 4));
+    }
+    speech.end();
+    const auto steps = largest_steps(speech.face());
+    for (std::size_t fap = 0; fap < steps.size(); ++fap) {
+      limits[fap] = std::max(limits[fap], steps[fap]);
+    }
+  }
+
+  Stage stage;
+  stage.joins = joins;
+  int interruptions = 0;
+  double now = 0;
+  std::vector<double> stops;  // after which nothing was said for 0.3 s
+  while (interruptions < 200) {
+    const int count = 1 + int(random() % 3);
+    for (int i = 0; i < count; ++i) {
+      const bool next = random() % 4 == 0;
+      const std::string text = std::string(1, char('a' + random() % 12));
+      stage.push(next ? command("\"say\",\"when\":\"next\",\"text\":\"" + text + "\"") : text);
+      if (random() % 5 == 0) stage.push(command("\"mark\""));
+    }
+    stage.voice_seconds = random() % 3 == 0 ? some(0.1, 0.5) : some(0.005, 0.03);
+    stage.run(now += some(0.02, random() % 3 == 0 ? 6 : 2));
+    if (random() % 6 == 0) stage.push(command("\"drop\""));
+    if (random() % 3 == 0) {
+      stage.push(command("\"say\",\"when\":\"now\",\"text\":\"z\""));
+    } else {
+      stage.push(command("\"stop\""));
+      if (random() % 4 == 0) stage.push(command("\"stop\""));
+      if (random() % 2 == 0) {
+        stops.push_back(now);
+        stage.run(now += 0.3);
+      }
+    }
+    ++interruptions;
+    if (random() % 3 == 0) stage.run(now += some(0, 0.2));
+  }
+  stage.end();
+  check_events(stage.events);
+
+  const fap::Sequence clip = stage.face();
+  const auto steps = largest_steps(clip);
+  double worst = 0;
+  for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+    EXPECT_LE(steps[fap], limits[fap] + 1) << "FAP " << fap;  // values are whole numbers
+    if (limits[fap] > 0) worst = std::max(worst, double(steps[fap]) / limits[fap]);
+  }
+  const media::Pcm pcm = stage.sound();
+  const int rest = opening(clip.frames[0]);
+  double silent_after = 0, closed_after = 0, silence = 0, closing = 0, speaking = 0;
+  for (const double at : stops) {
+    double silent = 0, closed = 0;
+    for (double time = at; time < at + 0.29; time += 0.001) {
+      if (level(pcm, time) > kSilent) silent = time + 0.005 - at;
+    }
+    for (std::size_t i = 0; i < 7; ++i) {
+      const std::size_t frame = std::size_t(std::ceil(at * 25)) + i;
+      if (std::abs(opening(clip.frames[frame]) - rest) > 4) closed = double(frame + 1) / 25 - at;
+    }
+    silent_after = std::max(silent_after, silent);
+    closed_after = std::max(closed_after, closed);
+    if (closed == 0 || silent == 0) continue;  // nobody spoke
+    ++speaking;
+    silence += silent;
+    closing += closed;
+  }
+  ASSERT_GT(speaking, 20);
+  silence /= speaking;
+  closing /= speaking;
+  // A frame until it is followed, 0.1 s for most mouths; the widest take a frame more.
+  EXPECT_LE(closed_after, 0.04 + 0.12);
+  EXPECT_LE(closing, 0.1);
+  EXPECT_LE(silent_after, 0.11);
+  std::printf(
+      "%.0f s: largest step %.2f of that of speech; %.0f stops: mouth closed after %.0f ms (worst "
+      "%.0f), "
+      "silent after %.0f ms (worst %.0f)\n",
+      clip.duration(), worst, speaking, 1e3 * closing, 1e3 * closed_after, 1e3 * silence,
+      1e3 * silent_after);
+  int queued = 0, done = 0, cancelled = 0;
+  for (const LineEvent& event : stage.events) {
+    if (event.line == 0) continue;
+    queued += event.what == What::queued;
+    done += event.what == What::done;
+    cancelled += event.what == What::cancelled;
+  }
+  EXPECT_EQ(queued, done + cancelled);
+  EXPECT_GT(done, 20);
+  EXPECT_GT(cancelled, 200);
+}
+
+unsigned seed() {
+  const char* given = std::getenv("ANIMEME_BARGE_SEED");  // others, by hand
+  return given == nullptr ? 1 : unsigned(std::atoi(given));
+}
+
+TEST_F(Barge, TwoHundredInterruptionsOfLines) { soak(false, seed()); }
+TEST_F(Barge, TwoHundredInterruptionsOfPieces) { soak(true, seed()); }
+
+}  // namespace barge_test
+}  // namespace animeme::speech

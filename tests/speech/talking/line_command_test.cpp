@@ -1,0 +1,91 @@
+// Commands among lines of text and pieces.
+#include "tools/speech/talking/line_command.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tools/speech/talking/line_cutter_internal.h"
+
+namespace animeme::speech {
+namespace line_command_test {
+
+using testing::HasSubstr;
+using Do = LineCommand::Do;
+using When = LineCommand::When;
+
+LineCommand good(const std::string& line, bool json = false) {
+  auto command = read_line(line, json);
+  EXPECT_TRUE(command) << line << ": " << command.error().describe();
+  return command ? std::move(*command) : LineCommand{};
+}
+
+TEST(LineCommand, ReadsAllOfThem) {
+  EXPECT_EQ(good(R"({"do":"stop"})").what, Do::stop);
+  EXPECT_EQ(good(R"({"do" : "drop"})").what, Do::drop);
+  EXPECT_EQ(good(R"({"do":"end"})").what, Do::end);
+  const LineCommand mark = good(R"({"id":"half","do":"mark"})");
+  EXPECT_EQ(mark.what, Do::mark);
+  EXPECT_EQ(mark.id, "half");
+  const LineCommand say =
+      good(R"({"do":"say","text":"Ja, b\u00fctte \"so\"","when":"next","id":7})");
+  EXPECT_EQ(say.what, Do::say);
+  EXPECT_EQ(say.when, When::next);
+  EXPECT_EQ(say.id, "7");
+  EXPECT_EQ(say.payload, "Ja, bütte \"so\"");
+  EXPECT_EQ(good(R"({"do":"say","text":"x"})").when, When::last);
+  EXPECT_EQ(good(R"({"do":"say","text":"x","when":"now","id":null})").when, When::now);
+}
+
+TEST(LineCommand, AllOtherLinesAreSaid) {
+  for (const char* text : {"Hello.", "{ is a bracket", "{}", R"({"text": "no do"})", "[1]",
+                           "{\"what\" to \"do\" now?", R"(say {"do":"stop"})"}) {
+    const LineCommand command = good(text);
+    EXPECT_EQ(command.what, Do::say) << text;
+    EXPECT_EQ(command.payload, text);
+    EXPECT_EQ(command.text, text);
+    EXPECT_TRUE(command.id.empty());
+  }
+}
+
+TEST(LineCommand, PiecesKeepTheirLine) {
+  const std::string piece = R"({"id":"a","text":"Hi","words":[{"word":"do","start":0,"end":1}]})";
+  const LineCommand said = good(piece, true);
+  EXPECT_EQ(said.id, "a");
+  EXPECT_EQ(said.text, "Hi");
+  EXPECT_EQ(said.payload, piece);
+  const std::string next = R"({"do":"say","when":"next","script":"0 1 AA"})";
+  EXPECT_EQ(good(next, true).when, When::next);
+  EXPECT_EQ(good(next, true).payload, next);
+  // Who reads pieces says what is wrong with this one.
+  EXPECT_EQ(good(R"({"do":)", true).payload, R"({"do":)");
+}
+
+TEST(LineCommand, SaysWhatIsWrong) {
+  const auto said = [](const std::string& line) {
+    const auto command = read_line(line, false);
+    EXPECT_FALSE(command) << line;
+    return command ? std::string() : command.error().describe();
+  };
+  EXPECT_THAT(said(R"({"do":"jump"})"), HasSubstr("say, stop, drop, mark, end"));
+  EXPECT_THAT(said(R"({"do":"say","text":"x","when":"soon"})"), HasSubstr("now, next, last"));
+  EXPECT_THAT(said(R"({"do":"say"})"), HasSubstr("nothing to say"));
+  EXPECT_THAT(said(R"({"do":"say","text":"  "})"), HasSubstr("nothing to say"));
+  EXPECT_THAT(said(R"({"do":"say","text":["x"]})"), HasSubstr("\"text\" has to be a text"));
+  EXPECT_THAT(said(R"({"do":true})"), HasSubstr("\"do\" has to be a text"));
+  EXPECT_THAT(said(R"({"do": "stop")"), HasSubstr("no JSON"));
+  EXPECT_THAT(said(R"({"do":"stop","x":)" + std::string(100, '[')), HasSubstr("no JSON"));
+}
+
+TEST(LineCutter, KeepsACommandWhole) {
+  LineCutter cutter(20, true);
+  const std::string command = R"({"do":"say","text":"one two three four five six"})";
+  auto lines = cutter.push("  " + command.substr(0, 9));
+  EXPECT_TRUE(lines.empty());
+  lines = cutter.push(command.substr(9) + "\none two three four five six\n");
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(lines[0], command);
+  EXPECT_EQ(lines[1], "one two three four");
+}
+
+}  // namespace line_command_test
+}  // namespace animeme::speech

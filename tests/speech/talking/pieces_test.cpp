@@ -1,0 +1,193 @@
+// Pieces of speech as other programs push them, written as they write them.
+#include "tools/speech/talking/pieces.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/support/program.h"
+#include "tools/formats/media/audio.h"
+
+namespace animeme::speech {
+namespace pieces_test {
+
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+std::string encoded(const std::string& bytes) {
+  const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t bits = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      bits = bits << 8 | (i + k < bytes.size() ? std::uint8_t(bytes[i + k]) : 0);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      out += i + k <= bytes.size() ? digits[bits >> (18 - 6 * k) & 63] : '=';
+    }
+  }
+  return out;
+}
+
+// 16-bit samples of a ramp, little-endian.
+std::string samples(std::size_t count) {
+  std::string bytes;
+  for (std::size_t i = 0; i < count; ++i) {
+    bytes += char(i & 255);
+    bytes += char(i >> 8 & 127);
+  }
+  return bytes;
+}
+
+SpokenLine good(const Json& json) {
+  auto line = read_piece(json.dump(), {});
+  EXPECT_TRUE(line) << line.error().describe();
+  return line ? std::move(*line) : SpokenLine{};
+}
+
+std::string labels_of(const dam::Script& script) {
+  std::string out;
+  for (const dam::Phone& phone : script.phones) out += (out.empty() ? "" : " ") + phone.label;
+  return out;
+}
+
+constexpr const char* kScript = "0 0.1 SIL\n0.1 0.2 B\n0.2 0.4 AA\n";
+
+TEST(Piece, SamplesAndAScript) {
+  const SpokenLine line = good({{"audio", encoded(samples(8000))},
+                                {"sample_rate", 16000},
+                                {"script", kScript},
+                                {"text", "bah"}});
+  EXPECT_TRUE(line.joins);
+  EXPECT_EQ(line.text, "bah");
+  EXPECT_EQ(line.speech.audio.sample_rate, 16000);
+  ASSERT_EQ(line.speech.audio.samples.size(), 8000u);
+  EXPECT_EQ(line.speech.audio.samples[0x1234], float(0x1234) / 32768);
+  EXPECT_EQ(labels_of(line.speech.script), "SIL B AA SIL");
+  EXPECT_DOUBLE_EQ(line.speech.script.duration(), 0.5);
+  EXPECT_EQ(line.doubt, "");
+}
+
+TEST(Piece, AFileInsideOrBesideInAnyOfItsNames) {
+  const test::TempDir dir;
+  media::Pcm pcm{24000, std::vector<float>(12000, 0.25F)};
+  ASSERT_TRUE(media::write_wav(dir / "a.wav", pcm));
+  const std::string bytes = test::slurp(dir / "a.wav");
+  for (const char* name : {"audio", "audio_base64", "audioContent", "Data"}) {
+    // The rate of a file is its own, whatever is said beside it.
+    const SpokenLine line =
+        good({{name, encoded(bytes)}, {"sampleRate", 16000}, {"script", kScript}});
+    EXPECT_EQ(line.speech.audio.sample_rate, 24000) << name;
+    EXPECT_EQ(line.speech.audio.samples.size(), 12000u);
+  }
+  const SpokenLine line = good({{"file", dir / "a.wav"}, {"script", kScript}});
+  EXPECT_EQ(line.speech.audio.samples.size(), 12000u);
+}
+
+TEST(Piece, FloatsThatAreNoSamplesAreTamed) {
+  std::string bytes;
+  for (const std::uint32_t bits : {0x3f000000U, 0x7fc00000U, 0xff800000U, 0x41200000U}) {
+    for (int i = 0; i < 4; ++i) bytes += char(bits >> (8 * i) & 255);
+  }
+  const SpokenLine line = good({{"audio", encoded(bytes)},
+                                {"sample_rate", 1000},
+                                {"encoding", "pcm_f32le"},
+                                {"script", "0 0.004 AA"}});
+  EXPECT_EQ(line.speech.audio.samples, (std::vector<float>{0.5F, 0, -1, 1}));
+}
+
+TEST(Piece, TimesOfServicesStandInThePieceItself) {
+  const std::string audio = encoded(samples(16000));
+  // ElevenLabs.
+  const SpokenLine eleven = good({{"audio_base64", audio},
+                                  {"encoding", "pcm_s16le"},
+                                  {"sample_rate", 16000},
+                                  {"alignment",
+                                   {{"characters", {"B", "o", "b"}},
+                                    {"character_start_times_seconds", {0.1, 0.2, 0.3}},
+                                    {"character_end_times_seconds", {0.2, 0.3, 0.4}}}}});
+  // Azure.
+  const SpokenLine azure = good({{"audio", audio},
+                                 {"sample_rate", 16000},
+                                 {"visemes",
+                                  {{{"AudioOffset", 1000000}, {"VisemeId", 21}},
+                                   {{"AudioOffset", 2000000}, {"VisemeId", 2}},
+                                   {{"AudioOffset", 4000000}, {"VisemeId", 0}}}}});
+  EXPECT_EQ(labels_of(azure.speech.script).substr(0, 3), "SIL");
+  EXPECT_EQ(azure.speech.script.phones.size(), 4u);
+  EXPECT_DOUBLE_EQ(azure.speech.script.phones[1].start, 0.1);
+  if (eleven.speech.script.phones.empty()) return;  // no pronunciations: told by good()
+  EXPECT_EQ(labels_of(eleven.speech.script), "SIL B AA B SIL");
+}
+
+TEST(Piece, TimesWithoutSoundMoveTheFaceAlone) {
+  const SpokenLine line = good({{"script", kScript}});
+  EXPECT_TRUE(line.speech.audio.samples.empty());
+  EXPECT_DOUBLE_EQ(line.speech.script.duration(), 0.4);
+}
+
+TEST(Piece, SaysWhatIsWrong) {
+  const std::string audio = encoded(samples(1000));
+  const auto said = [](const std::string& json) {
+    const auto line = read_piece(json, {});
+    EXPECT_FALSE(line) << json;
+    return line ? std::string() : line.error().describe();
+  };
+  EXPECT_THAT(said("{\"text\": \"x\""), HasSubstr("no JSON from its byte"));
+  EXPECT_THAT(said("[1, 2]"), HasSubstr("a JSON object"));
+  EXPECT_THAT(said("{\"audio\": 5, \"script\": \"0 1 AA\"}"), HasSubstr("\"audio\" has to be"));
+  EXPECT_THAT(said("{\"audio\": \"@@\", \"script\": \"0 1 AA\"}"), HasSubstr("no base64"));
+  EXPECT_THAT(said(Json({{"audio", audio}, {"sample_rate", 10}, {"script", kScript}}).dump()),
+              HasSubstr("from 1000 to 384000"));
+  EXPECT_THAT(said(Json({{"audio", audio}, {"encoding", "pcm"}, {"script", kScript}}).dump()),
+              HasSubstr("sample_rate"));
+  EXPECT_THAT(said(Json({{"audio", audio}, {"sample_rate", 16000}}).dump()),
+              HasSubstr("neither times nor a text"));
+  EXPECT_THAT(said(Json({{"audio", audio}, {"sample_rate", 16000}, {"script", kScript}}).dump()),
+              HasSubstr("the script lasts 0.4 s"));
+  EXPECT_THAT(said(Json({{"audio", audio}, {"script", kScript}}).dump()), HasSubstr("media"));
+  EXPECT_THAT(said("{\"file\": \"no.wav\", \"script\": \"0 1 AA\"}"), HasSubstr("no.wav"));
+  EXPECT_THAT(said("{\"script\": \"0 1 AA\\n0.5 2 B\"}"), HasSubstr("overlap"));
+  EXPECT_THAT(said("{\"a\":" + std::string(100000, '[')), HasSubstr("no JSON"));
+  EXPECT_THAT(said("{\"a\":" + std::string(1000, '[') + std::string(1000, ']') + "}"),
+              HasSubstr("too deep"));
+}
+
+TEST(Piece, LinesOfAnyLengthAreLeftOutOrKeptWhole) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  LineMaker maker = piece_lines({});
+  maker.most_bytes = 40000;
+  auto lines = VoiceLines::open(ends[0], maker, media::steady_clock());
+  ASSERT_TRUE(lines) << lines.error().describe();
+  const std::string text =
+      Json({{"audio", encoded(samples(7000))}, {"sample_rate", 16000}, {"script", kScript}})
+          .dump() +
+      "\n" + Json({{"audio", encoded(samples(30000))}, {"sample_rate", 16000}}).dump() + "\n" +
+      Json({{"script", kScript}}).dump();
+  std::thread writer([&] {
+    EXPECT_EQ(::write(ends[1], text.data(), text.size()), ssize_t(text.size()));
+    ::close(ends[1]);
+  });
+  std::vector<SpokenLine> all;
+  while (!(*lines)->ended()) {
+    while (auto line = (*lines)->take(false)) all.push_back(std::move(*line));
+    (void)(*lines)->take_news();
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  writer.join();
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].speech.audio.samples.size(), 7000u);
+  EXPECT_TRUE(all[1].speech.audio.samples.empty());
+  EXPECT_THAT((*lines)->take_warnings(),
+              testing::ElementsAre(testing::AllOf(HasSubstr("line 2"), HasSubstr("40000"))));
+  lines->reset();
+  ::close(ends[0]);
+}
+
+}  // namespace pieces_test
+}  // namespace animeme::speech

@@ -1,0 +1,30 @@
+#include "tools/speech/talking/spoken.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/support/files.h"
+
+namespace animeme::speech {
+namespace spoken_test {
+
+TEST(WordsOfFile, AreThoseOfAnyScript) {
+  const auto path = std::filesystem::temp_directory_path() / "animeme_words_of_file.txt";
+  test::spill(path,
+              "1\n00:00:00,500 --> 00:00:02,500\nbin blue\n\n2\n00:00:03,000 --> "
+              "00:00:04,000\nat f\n");
+  EXPECT_EQ(*words_of_file(path.string(), {}), "bin blue at f ");
+  test::spill(path,
+              "start_s\tend_s\tphone\tword\n0\t0.2\tN\tno\n0.2\t0.4\tOW\tno\n0.4\t0.5\tSIL\t\n"
+              "0.5\t0.7\tN\tno\n0.7\t0.9\tOW\tno\n");
+  const auto words = words_of_file(path.string(), {});
+  ASSERT_TRUE(words) << words.error().describe();
+  EXPECT_EQ(*words, "no  no ");
+  test::spill(path, "start_s\tend_s\tphone\n0\t0.2\tN\n0.2\t0.4\tOW\n");
+  EXPECT_EQ(words_of_file(path.string(), {}).error().code, Code::not_found);
+  std::filesystem::remove(path);
+}
+
+}  // namespace spoken_test
+}  // namespace animeme::speech

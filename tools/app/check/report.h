@@ -1,0 +1,36 @@
+/// @file
+/// The results of a run, for people and for programs.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tools/app/check/run_suite.h"
+
+namespace animeme::tools {
+
+/// How many cases had each verdict, and so on.
+struct Tally {
+  std::size_t cases = 0,                                       ///< all
+      right = 0,                                               ///< with a right verdict
+      skipped = 0,                                             ///< not asked
+      bad_data = 0;                                            ///< damaged suite
+  std::size_t parameters = 0,                                  ///< with an EPF
+      encoded_again = 0;                                       ///< written byte for byte
+  std::map<Verdict, std::size_t> verdicts;                     ///< how many of each
+  bool all_right() const { return right + skipped == cases; }  ///< nothing is left that went wrong
+};
+Tally tally(const std::vector<CaseResult>& results);  ///< counts the results of a run
+
+/// A table by family of features, the cases that are not right, and a closing line.
+std::string text_report(const std::vector<CaseResult>& results, bool own);
+/// Everything, with every feature.
+std::string json_report(const Suite& suite, const std::vector<CaseResult>& results,
+                        const std::string& decoder);
+/// JUnit XML, one test a case.
+std::string junit_report(const Suite& suite, const std::vector<CaseResult>& results);
+/// The vocabulary with the number of cases for each feature, as a Markdown table.
+std::string coverage_table(const std::vector<const SuiteCase*>& cases);
+
+}  // namespace animeme::tools

@@ -1,0 +1,198 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+
+#include "dam/script/script.h"
+#include "tools/app/commands/bounds.h"
+#include "tools/app/commands/command.h"
+#include "tools/app/commands/script_options.h"
+#include "tools/app/commands/terminal.h"
+#include "tools/formats/common/json.h"
+#include "tools/formats/files/files.h"
+#include "tools/formats/files/output_file.h"
+#include "tools/speech/talking/spoken.h"
+
+namespace animeme::tools {
+
+namespace {
+
+struct AlignOptions {
+  std::string audio;
+  std::string transcript;
+  bool has_transcript = false;  // it may be empty
+  std::string script;
+  dam::ScriptOptions reading;
+  voice::AlignOptions aligner;
+  std::optional<double> least;
+  std::string output;
+  bool json = false;
+};
+
+// The words that are less sure than they have to be.
+Result<void> check_words(const voice::Alignment& alignment, double least) {
+  std::string list;
+  for (const voice::AlignedWord& word : alignment.words) {
+    if (!word.known || word.confidence >= least) continue;
+    char where[64];
+    std::snprintf(where, sizeof where, " (%.2f s, %.2f)", word.start, word.confidence);
+    list += (list.empty() ? "" : ", ") + word.text + where;
+  }
+  if (list.empty()) return {};
+  return make_error(Code::out_of_range, "words below --min-confidence: " + list);
+}
+
+Json json_of_word(const voice::AlignedWord& word) {
+  return {{"word", word.text},
+          {"start", word.start},
+          {"end", word.end},
+          {"confidence", word.confidence},
+          {"said", word.said}};
+}
+
+Json json_of_put_in(const voice::PutIn& one) {
+  return {
+      {"start", one.start}, {"end", one.end}, {"phones", one.phones}, {"before_word", one.before}};
+}
+
+Json phone_list(const voice::Alignment& alignment) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < alignment.script.phones.size(); ++i) {
+    const dam::Phone& phone = alignment.script.phones[i];
+    list.push_back({{"phone", phone.label},
+                    {"start", phone.start},
+                    {"end", phone.end},
+                    {"word", phone.word},
+                    {"confidence", alignment.confidences[i]}});
+  }
+  return list;
+}
+
+void print_json(const voice::Alignment& alignment, bool heard) {
+  const Json json = {{"phones", alignment.script.phones.size()},
+                     {"confidence", alignment.confidence},
+                     {"approximate", alignment.approximate},
+                     {"heard", heard},
+                     {"warnings", alignment.warnings},
+                     {"words", json_list(alignment.words, json_of_word)},
+                     {"put_in", json_list(alignment.put_in, json_of_put_in)},
+                     {"timed_phones", phone_list(alignment)}};
+  std::printf("%s\n", pretty(json).c_str());
+}
+
+// Of the text that there is.
+Result<voice::Alignment> align_to_text(const AlignOptions& options) {
+  std::string transcript = options.transcript;
+  if (!options.script.empty()) {
+    auto words = speech::words_of_file(options.script, options.reading);
+    if (!words) return words.error();
+    transcript = std::move(*words);
+  }
+  voice::AlignOptions settings = options.aligner;
+  if (options.least && *options.least == 0) settings.least_confidence = 0;
+  return speech::align_file(options.audio, transcript, settings, talk());
+}
+
+// Of what is heard, where there is no text.
+Result<voice::Alignment> align_by_ear(const AlignOptions& options) {
+  ProgressLine progress("listening");
+  voice::ListenOptions settings{.language = options.aligner.language};
+  settings.progress = [&](double done) { progress.update(done); };
+  auto heard = speech::listen_to_file(options.audio, settings, talk());
+  progress.clear();
+  if (!heard) return heard.error();
+  voice::Alignment alignment;
+  std::string words;
+  for (const voice::HeardWord& one : heard->words) {
+    voice::AlignedWord& word = alignment.words.emplace_back();
+    word.text = one.text;
+    word.start = one.start;
+    word.end = one.end;
+    word.confidence = one.confidence;
+    words += (words.empty() ? "" : " ") + one.text;
+  }
+  say(options.audio + ": without its text, by what is heard" +
+      (words.empty() ? "" : ": \"" + words + "\"") + "; --transcript is more exact");
+  alignment.script = std::move(heard->script);
+  alignment.confidences = std::move(heard->confidences);
+  alignment.confidence = heard->confidence;
+  alignment.warnings = std::move(heard->warnings);
+  return alignment;
+}
+
+// "voice.TextGrid" of "recordings/voice.wav", beside it.
+std::string usual_output(const std::string& audio) {
+  return std::filesystem::path(audio).replace_extension(".TextGrid").string();
+}
+
+Result<int> run(AlignOptions options) {
+  if (options.output.empty()) {
+    options.output = usual_output(options.audio);
+    // Somebody may have corrected it by hand.
+    std::error_code unknown;
+    if (std::filesystem::exists(options.output, unknown)) {
+      return usage_error(options.output + " is there already; -o " + options.output +
+                         " replaces it, -o with another name keeps it");
+    }
+    if (auto can = try_output(options.output); !can) return can.error();
+  }
+  const bool told = options.has_transcript || !options.script.empty();
+  const auto alignment = told ? align_to_text(options) : align_by_ear(options);
+  if (!alignment) return alignment.error();
+  if (options.least) {
+    if (auto sure = check_words(*alignment, *options.least); !sure) {
+      return sure.error().in_file(options.audio);
+    }
+  }
+  const dam::Script& script = alignment->script;
+  const std::string lines = dam::write_script(script, extension_of(options.output));
+  if (auto written = write_file(options.output, lines); !written) return written.error();
+  if (options.json) print_json(*alignment, !told);
+  char sure[32];
+  std::snprintf(sure, sizeof sure, "%.2f", alignment->confidence);
+  say(name_of_output(options.output) + ": " + std::to_string(script.phones.size()) +
+      " phones, confidence " + sure);
+  return kOk;
+}
+
+void add_options(CLI::App& app, AlignOptions& options) {
+  app.add_option("audio,--audio", options.audio, "Recorded voice in any format that FFmpeg reads")
+      ->required();
+  auto* said = app.add_option("--transcript", options.transcript,
+                              "What is said in it; without it, and without --script, what is heard")
+                   ->each([&options](const std::string&) { options.has_transcript = true; });
+  app.add_option("--script", options.script,
+                 "The same as a script of words: subtitles, what a recogniser wrote; its times "
+                 "are not used")
+      ->excludes(said);
+  add_script_options(app, options.reading);
+  app.add_option("--lang", options.aligner.language,
+                 "Language of the transcript, as en, it or es-419")
+      ->capture_default_str();
+  app.add_option("--min-confidence", options.least,
+                 "Refuse words that are less sure, 0 to 1 (0.05: those that hardly fit), by name; "
+                 "0: refuse nothing at all. Without it a recording is refused whose text does not "
+                 "fit on the whole: another text, noise, nobody speaks")
+      ->check(between(0.0, 1.0));
+  add_output(app.add_option(
+                 "-o,--output", options.output,
+                 "Script to write: .TextGrid (Praat), .tsv, .pho (MBROLA), .vtt (WebVTT), - "
+                 "for a TextGrid on standard output; default: the recording's name with .TextGrid, "
+                 "beside it, if there is none yet"),
+             dam::script_endings(), OutputKind::file_or_dash);
+  app.add_flag(
+      "--json", options.json,
+      "On standard output: words with times, confidences and whether they are said; speech "
+      "that the transcript does not have (put_in); each phone with its confidence");
+}
+
+}  // namespace
+
+const Command kAlign{"align", "Find the timed phones of a recording, from its text or by ear",
+                     "  animeme align voice.wav --transcript \"what she said\"      # writes "
+                     "voice.TextGrid\n"
+                     "  animeme align voice.wav -o heard.TextGrid                 # without its "
+                     "text: less exact\n"
+                     "  animeme align voice.wav --script voice.srt --json -o voice.tsv",
+                     set_up<AlignOptions>};
+
+}  // namespace animeme::tools

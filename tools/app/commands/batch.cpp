@@ -1,0 +1,257 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <thread>
+
+#include "tools/app/batch/batch.h"
+#include "tools/app/commands/bounds.h"
+#include "tools/app/commands/common.h"
+#include "tools/app/commands/interrupt.h"
+#include "tools/app/commands/line.h"
+#include "tools/app/commands/shard.h"
+#include "tools/formats/common/json.h"
+#include "tools/formats/common/text.h"
+#include "tools/formats/programs/command_template.h"
+#include "tools/speech/talking/spoken.h"
+#include "tools/speech/voice/voice.h"
+#include "tools/view/studio/head_file.h"
+
+namespace animeme::tools {
+
+namespace {
+
+struct BatchOptions {
+  batch::Settings settings;
+  std::vector<std::string> sets;
+  std::string form, shard;
+  unsigned jobs = 0;
+  bool check = false, join = false, json = false, profile = false;
+};
+
+std::string clock_text(double seconds) {
+  const auto whole = static_cast<long long>(std::max(seconds, 0.0) + 0.5);
+  return whole < 3600 ? format("%lld:%02lld", whole / 60, whole % 60)
+                      : format("%lld:%02lld:%02lld", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+class Shown {
+ public:
+  void at(const batch::Standing& now) {
+    if (now.wanted == 0) return;
+    // What is only looked at goes by fast and tells nothing of the rest.
+    const double rate = double(now.done) / std::max(seconds(), 1e-3);
+    line_.update(double(now.done) / double(now.wanted),
+                 format("%llu of %llu, %.1f clips a second, %s left",
+                        static_cast<unsigned long long>(now.done),
+                        static_cast<unsigned long long>(now.wanted), rate,
+                        clock_text(double(now.wanted - now.done) / std::max(rate, 1e-9)).c_str()));
+  }
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
+  void clear() { line_.clear(); }
+
+ private:
+  ProgressLine line_{"batch"};
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+double cpu_seconds(const batch::Standing& standing) {
+  double sum = 0;
+  for (const Cost& one : standing.costs) sum += one.cpu_seconds;
+  return sum;
+}
+
+Json steps_json(const batch::Standing& standing) {
+  Json steps = Json::object();
+  for (std::size_t i = 0; i < kSteps; ++i) {
+    steps[kStepNames[i]] = {{"cpu_seconds", standing.costs[i].cpu_seconds},
+                            {"bytes", standing.costs[i].bytes}};
+  }
+  return steps;
+}
+
+// What was done now, a minute of speech of it.
+void print_profile(const batch::Standing& standing) {
+  const double minutes = standing.speech_seconds / 60;
+  if (minutes <= 0) return say("--profile: nothing was spoken of which the length is known");
+  say(format("%-10s %14s %14s   of %.1f min of speech", "step", "CPU s a min", "bytes a min",
+             minutes));
+  for (std::size_t i = 0; i < kSteps; ++i) {
+    const Cost& cost = standing.costs[i];
+    if (cost.cpu_seconds == 0 && cost.bytes == 0) continue;
+    say(format("%-10s %14.4f %14.0f", kStepNames[i], cost.cpu_seconds / minutes,
+               double(cost.bytes) / minutes));
+  }
+  say(format("%-10s %14.4f", "all", cpu_seconds(standing) / minutes));
+}
+
+void print_json(const batch::Standing& standing, const batch::Totals& totals, double seconds,
+                bool stopped) {
+  std::printf("%s\n", pretty(Json{{"clips", totals.rows},
+                                  {"ok", totals.good},
+                                  {"failed", totals.failed},
+                                  {"with_warnings", totals.with_warnings},
+                                  {"speech_seconds", totals.seconds},
+                                  {"bytes", totals.bytes},
+                                  {"done_now", standing.done - standing.skipped},
+                                  {"skipped", standing.skipped},
+                                  {"stopped", stopped},
+                                  {"seconds", seconds},
+                                  {"cpu_seconds", cpu_seconds(standing)},
+                                  {"steps", steps_json(standing)}})
+                          .c_str());
+}
+
+// What is wrong with the options, as a sentence; fills in what they say.
+std::string take(const BatchOptions& given, batch::Settings& settings) {
+  if (settings.shared.out.empty()) return "-o FOLDER is missing";
+  settings.form = batch::form_of(settings.manifest);
+  if (given.form == "tsv") settings.form = batch::Form::table;
+  if (given.form == "jsonl") settings.form = batch::Form::json;
+  if (given.form == "list") settings.form = batch::Form::list;
+  for (const std::string& one : given.sets) {
+    const std::size_t equals = one.find('=');
+    if (equals == std::string::npos) return "--set wants COLUMN=VALUE, not " + one;
+    settings.defaults.emplace_back(one.substr(0, equals), one.substr(equals + 1));
+  }
+  if (!given.shard.empty()) read_shard(given.shard, settings.shard, settings.shards);
+  if (!settings.shared.store.empty() && settings.shared.to.empty()) {
+    return "--store wants --to, what {uri} begins with";
+  }
+  for (const std::string* hook : {&settings.shared.fetch, &settings.shared.store}) {
+    if (hook->empty()) continue;
+    const auto command = parse_command(*hook);
+    if (!command) return command.error().message;
+    if (!command->names("file") || !command->names("uri")) {
+      return "--fetch and --store want {uri} and {file}";
+    }
+  }
+  settings.jobs = given.jobs != 0 ? given.jobs : std::max(1U, std::thread::hardware_concurrency());
+  settings.shared.version = ANIMEME_VERSION;
+  // In workers alone: there the first row begins to keep them.
+  settings.shared.run = [](std::span<const char* const> line) {
+    voice::keep_voices();
+    return run_line(line);
+  };
+  return {};
+}
+
+Result<int> check(const batch::Settings& settings) {
+  auto manifest = batch::Manifest::open(settings.manifest, settings.form, settings.defaults);
+  if (!manifest) return manifest.error();
+  std::vector<std::string> problems;
+  const auto rows = batch::check_manifest(*manifest, settings.shard, settings.shards, problems);
+  if (!rows) return rows.error();
+  for (const std::string& one : problems) std::fprintf(stderr, "%s\n", one.c_str());
+  say(format("%llu rows, %zu problems", static_cast<unsigned long long>(*rows), problems.size()));
+  return problems.empty() ? kOk : kBadInput;
+}
+
+Result<int> run(const BatchOptions& options) {
+  batch::Settings settings = options.settings;
+  if (const std::string text = take(options, settings); !text.empty()) return usage_error(text);
+  if (options.check) return check(settings);
+  if (options.join) {
+    const Result<batch::Totals> totals = batch::join_batch(settings);
+    if (!totals) return totals.error();
+    if (options.json) print_json({}, *totals, 0, false);
+    say(settings.shared.out + format("/index.tsv: %llu clips, %llu failed",
+                                     static_cast<unsigned long long>(totals->rows),
+                                     static_cast<unsigned long long>(totals->failed)));
+    return totals->failed > 0 ? kCheckFailed : kOk;
+  }
+  // Read once, for all workers; what is wrong with them the rows tell.
+  for (const auto& [column, value] : settings.defaults) {
+    if (column == "model") static_cast<void>(speech::read_model(value));
+    if (column == "head") static_cast<void>(studio::load_head({.head = value}, {}));
+  }
+  static_cast<void>(speech::read_model({}));
+  const Interrupt interrupt;
+  Shown shown;
+  batch::Watch watch;
+  watch.at = [&](const batch::Standing& now) { shown.at(now); };
+  watch.failed = [&](const std::string& line) {
+    shown.clear();
+    warn(line);
+  };
+  watch.stop = [] { return Interrupt::requested(); };
+  const Result<batch::Ending> ending = batch::run_batch(settings, watch);
+  shown.clear();
+  if (!ending) return ending.error();
+  const batch::Standing& now = ending->standing;
+  if (options.json) print_json(now, ending->totals, shown.seconds(), ending->stopped);
+  say(settings.shared.out +
+      format(
+          ": %llu of %llu clips in %s, %llu of them unchanged, %llu failed; %.1f s of processors",
+          static_cast<unsigned long long>(now.done), static_cast<unsigned long long>(now.wanted),
+          clock_text(shown.seconds()).c_str(), static_cast<unsigned long long>(now.skipped),
+          static_cast<unsigned long long>(now.failed), cpu_seconds(now)));
+  if (options.profile) print_profile(now);
+  if (ending->stopped) {
+    say("stopped; go on with the same command and --resume");
+    return kInterrupted;
+  }
+  return ending->totals.failed > 0 ? kCheckFailed : kOk;
+}
+
+void add_options(CLI::App& app, BatchOptions& options) {
+  batch::Settings& settings = options.settings;
+  app.add_option(
+         "manifest", settings.manifest,
+         "A row a clip: .tsv with the columns' names in its first line, .jsonl with an object "
+         "a line, .txt or .lst with a file a line; - for standard input")
+      ->required();
+  add_output(app.add_option("-o,--output", settings.shared.out,
+                            "Folder for the outputs, index.tsv and report.html"),
+             {}, OutputKind::folder)
+      ->required();
+  app.add_option("--set", options.sets,
+                 "Value of a column for rows that have none: lang=de, outputs=\".fba .TextGrid\"")
+      ->option_text("COLUMN=VALUE")
+      ->expected(1);
+  app.add_option("--form", options.form, "How the manifest is written: tsv, jsonl or list")
+      ->check(CLI::IsMember({"tsv", "jsonl", "list"}));
+  app.add_option("--jobs", options.jobs, "Clips at a time; default: one a core")
+      ->check(between(1, 512));
+  app.add_flag("--resume", settings.resume,
+               "Skip what is done and unchanged: row, content of inputs, version of the program");
+  app.add_option("--shard", options.shard, "Only these clips, by their ids: 1/4 to 4/4")
+      ->option_text("I/N")
+      ->check(written_so(problem_of_shard));
+  app.add_flag("--join", options.join,
+               "Check that all shards in the folder are complete, and make one index of theirs");
+  app.add_flag("--check", options.check, "Only check the manifest");
+  app.add_option(
+         "--fetch", settings.shared.fetch,
+         "Program that brings inputs whose names have ://, as \"rclone copyto {uri} {file}\"")
+      ->option_text("COMMAND");
+  app.add_option("--store", settings.shared.store,
+                 "Program that takes outputs away, as \"rclone copyto {file} {uri}\"; they do not "
+                 "stay in the folder")
+      ->option_text("COMMAND");
+  app.add_option("--to", settings.shared.to,
+                 "What {uri} of --store begins with: s3://bucket/talk/");
+  app.add_flag("--profile", options.profile,
+               "Seconds of processors and bytes a minute of speech, for each step");
+  app.add_flag("--json", options.json, "Machine-readable summary on standard output");
+}
+
+}  // namespace
+
+const Command kBatch{
+    "batch", "Many clips at once: a table with a row a clip, resumed, in shards",
+    "  printf 'id\\ttext\\tlang\\nhello\\tHello world\\ten\\nhallo\\tGuten Tag\\tde\\n' > "
+    "clips.tsv\n"
+    "  animeme batch clips.tsv -o out --set outputs=.fba\n"
+    "  animeme batch clips.tsv -o out --set outputs=.fba --resume    # after Ctrl-C, or a change\n"
+    "  animeme batch clips.jsonl -o out --shard 2/8                  # on the second machine of "
+    "eight\n"
+    "  animeme batch clips.jsonl -o out --join                       # behind all of them\n"
+    "  ls *.wav | animeme batch - --form list -o out --set outputs=\".mp4 render:.video.mp4\"\n"
+    "Columns: id text text_file script audio transcript input lang voice tts model head outputs\n"
+    "options encode_options render_options export_options align_options",
+    set_up<BatchOptions>};
+
+}  // namespace animeme::tools

@@ -1,0 +1,55 @@
+/// @file
+/// From a clip or stream to access units and media files, for speak and mux.
+#pragma once
+
+#include <string>
+
+#include "codec/decode/access_unit.h"
+#include "codec/encode/encode.h"
+#include "tools/app/commands/common.h"
+#include "tools/formats/media/mux.h"
+
+namespace animeme::tools {
+
+/// How a face is coded for a container.
+struct StreamSettings {
+  int quant = 1;             ///< fap_quant
+  double rms = 0;            ///< > 0: fewest bits at this error, see fba::EncodeOptions::max_rms
+  double kbps = 0;           ///< > 0: smallest error at this rate
+  double intra_seconds = 5;  ///< random access points of containers; raw streams have one
+};
+
+/// Adds --quant, --rms and --kbps.
+void add_coding_options(CLI::App& app, StreamSettings& settings);
+
+/// Adds the same and --intra-seconds.
+void add_stream_options(CLI::App& app, StreamSettings& settings);
+
+/// The options for a raw stream: one intra plane. With a limit of error or rate, those of preset
+/// `file`; else every FAP of the clip is coded.
+fba::EncodeOptions encode_options(const StreamSettings& settings);
+
+/// "1.25 s".
+std::string seconds_text(double seconds);
+
+/// The access units of a face: a stream keeps its own coding, a clip is coded with `settings`.
+Result<fba::AccessUnits> access_units(const FaceInput& face, const StreamSettings& settings);
+
+/// How the sound of a container is coded, as it was asked for.
+struct SoundSettings {
+  std::string codec;  ///< "aac", "opus", "copy" (mux only); empty: as the container wants it
+  int bit_rate = 0;   ///< bits a second; 0: usual
+};
+
+/// Adds --audio-codec and --audio-bitrate; with `copy`, sound may also be taken as it is.
+void add_sound_options(CLI::App& app, SoundSettings& settings, bool copy);
+
+/// For a container of this name.
+media::AudioSettings audio_settings(const SoundSettings& settings, const std::string& path);
+
+/// Writes a container with progress and says what was written. Ctrl-C completes what was written
+/// so far: the exit code is kInterrupted then.
+Result<int> write_media(const std::string& path, const media::MuxInput& input,
+                        media::MuxOptions options);
+
+}  // namespace animeme::tools

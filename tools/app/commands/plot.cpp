@@ -1,0 +1,110 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "dam/script/script.h"
+#include "tools/app/commands/bounds.h"
+#include "tools/app/commands/common.h"
+#include "tools/app/commands/fap_names.h"
+#include "tools/app/commands/script_options.h"
+#include "tools/speech/talking/voice_file.h"
+#include "tools/view/plot/clips.h"
+
+namespace animeme::tools {
+
+namespace {
+
+struct PlotOptions {
+  std::string a;
+  std::string b;
+  std::string output;
+  std::string script;
+  speech::ScriptInput reading;
+  std::vector<std::string> faps = {"3", "4", "5", "6"};
+  bool difference = false;
+  LengthLimit length;
+  double from = 0;
+  double to = -1;
+};
+
+Result<int> run(const PlotOptions& options) {
+  const Result<std::vector<int>> faps = fap_numbers(options.faps);
+  if (!faps) return faps.error();
+  if (options.to > 0 && options.to <= options.from) {
+    return usage_error("--to has to lie behind --from");
+  }
+  if (options.difference && options.b.empty()) {
+    return usage_error("--difference needs two clips");
+  }
+  std::vector<plot::TimedClip> clips;
+  std::vector<std::string> names;
+  for (const std::string& path : {options.a, options.b}) {
+    if (path.empty()) continue;
+    Result<FaceInput> input = read_face(path);
+    if (!input) return input.error();
+    Result<fap::Sequence> filled = shown_face(*input, path, {}, options.length);
+    if (!filled) return filled.error();
+    clips.push_back({std::move(*filled), input->start});
+    names.push_back(std::filesystem::path(path).filename().string());
+  }
+  plot::Panel panel;
+  for (const plot::TimedClip& clip : clips) panel.seconds = std::max(panel.seconds, clip.end());
+  if (options.from >= panel.seconds) {
+    return usage_error("--from lies behind the end of the clip");
+  }
+  panel.begin = options.from;
+  if (options.to > 0) panel.seconds = std::min(panel.seconds, options.to);
+  if (panel.seconds - panel.begin > plot::kLongest) {
+    return make_error(
+               Code::out_of_range,
+               "more than ten minutes are too wide to plot; choose a part by --from and --to")
+        .in_file(options.a);
+  }
+  const Result<dam::Script> script =
+      script_for(options.script, {options.a, options.b}, options.reading);
+  if (!script) return script.error();
+  if (!script->phones.empty()) panel.script = &*script;
+  for (const int fap : *faps) {
+    panel.rows.push_back(plot::fap_row(fap, clips));
+    if (options.difference) panel.rows.push_back(plot::difference_row(fap, clips[0], clips[1]));
+  }
+  if (options.difference) names.emplace_back("difference: second less first");
+  const auto drawing = plot::drawing_bytes(options.output, plot::curves_svg({panel}, names));
+  if (!drawing) return drawing.error();
+  if (auto written = write_file(options.output, *drawing); !written) return written.error();
+  return kOk;
+}
+
+void add_options(CLI::App& app, PlotOptions& options) {
+  app.add_option("a", options.a, "FAP text, FBA stream or container (blue line)")->required();
+  app.add_option("b", options.b, "A second one to compare with (orange, dashed)");
+  add_output(app.add_option("-o,--output", options.output,
+                            "Picture to write: .svg or .png; - is SVG on standard output"),
+             {".svg", ".png"}, OutputKind::file_or_dash)
+      ->required();
+  app.add_option(
+      "--script", options.script,
+      "Phoneme script to show behind the curves; default: that which a container carries");
+  add_script_options(app, options.reading.reading, options.reading.language);
+  app.add_option("--faps", options.faps, "FAPs by number, name or range (3-13), one row each")
+      ->delimiter(',')
+      ->type_name("FAPS")
+      ->check(read_by(faps_of))
+      ->capture_default_str();
+  app.add_flag("--difference", options.difference, "A row with the second less the first for each");
+  add_length_option(app, options.length);
+  app.add_option("--from", options.from, "Seconds at which the picture begins")
+      ->check(at_least_zero());
+  app.add_option("--to", options.to, "Seconds at which it ends")->check(above_zero());
+}
+
+}  // namespace
+
+const Command kPlot{"plot", "Curves of one clip or two as a picture",
+                    "  animeme plot talk.fap -o curves.svg\n"
+                    "  animeme plot measured.fap talk.fap --script talk.TextGrid --faps 3,4,5,51 "
+                    "-o curves.svg\n"
+                    "  animeme plot talk.fap talk.fba --difference --faps open_jaw,raise_b_midlip "
+                    "-o loss.png",
+                    set_up<PlotOptions>};
+
+}  // namespace animeme::tools

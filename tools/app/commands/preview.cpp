@@ -1,0 +1,69 @@
+#include "tools/app/commands/preview.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iterator>
+
+#include "fap/detail/text_scanner.h"
+#include "fap/rate_text.h"
+#include "tools/app/commands/common.h"
+#include "tools/app/commands/face_stream.h"
+#include "tools/app/commands/interrupt.h"
+
+namespace animeme::tools {
+
+Result<int> write_preview(const std::string& path, const fap::Sequence& clip,
+                          const media::MuxInput& sound, const studio::FilmOptions& options) {
+  const Interrupt interrupt;
+  ProgressLine line("rendering " + path);
+  // Who looks at a film wants to read its words, not its phones.
+  std::vector<media::TextTrack> words;
+  if (sound.texts != nullptr && media::takes_text(path)) {
+    std::copy_if(sound.texts->begin(), sound.texts->end(), std::back_inserter(words),
+                 [](const media::TextTrack& track) {
+                   return fap::detail::lower_case(track.name) == "words";
+                 });
+  }
+  media::MuxInput tracks = sound;
+  tracks.texts = &words;
+  const auto film = studio::write_film(
+      path, clip, tracks, options, talk(),
+      {[&line](double done) { line.update(done); }, [] { return Interrupt::requested(); }});
+  line.clear();
+  if (!film) return film.error();
+  say(path + ": " + std::to_string(film->pictures) + " pictures, " + std::to_string(film->width) +
+      "x" + std::to_string(film->height) + ", " + fap::format_rate(film->rate) + " a second, " +
+      film->codec);
+  if (!film->stopped) return kOk;
+  say(path + ": stopped; the file holds the first " + seconds_text(film->seconds));
+  return kInterrupted;
+}
+
+Result<int> write_preview(const std::string& path, const fba::AccessUnits& face,
+                          const media::MuxInput& sound) {
+  Result<FaceInput> input = parse_face(fba::join_access_units(face), path);
+  if (!input) return input.error();
+  const Result<fap::Sequence> clip = shown_face(*input, path, {.interpolate = true});
+  if (!clip) return clip.error();
+  media::MuxInput tracks = sound;
+  tracks.face = nullptr;
+  if (media::usual_codec(path) != media::AudioCodec::opus || sound.encoded == nullptr ||
+      sound.encoded->format.codec == media::AudioCodec::opus) {
+    return write_preview(path, *clip, tracks, {});
+  }
+  Result<media::Pcm> samples = media::decode_audio(*sound.encoded);
+  if (!samples) return samples.error().in_file(path);
+  tracks.encoded = nullptr;
+  tracks.audio = &*samples;
+  return write_preview(path, *clip, tracks, {});
+}
+
+void add_preview_option(CLI::App& app, std::string& path) {
+  add_output(
+      app.add_option(
+          "--preview", path,
+          "Also render a video that any player shows: .mp4 (H.264), .webm (VP9) or .webp (silent)"),
+      {".mp4", ".webm", ".mkv", ".webp"}, OutputKind::file);
+}
+
+}  // namespace animeme::tools

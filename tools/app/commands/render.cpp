@@ -1,0 +1,299 @@
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "dam/script/script.h"
+#include "fap/rate_text.h"
+#include "tools/app/commands/bounds.h"
+#include "tools/app/commands/common.h"
+#include "tools/app/commands/fap_names.h"
+#include "tools/app/commands/head_options.h"
+#include "tools/app/commands/preview.h"
+#include "tools/app/commands/script_options.h"
+#include "tools/formats/files/cost.h"
+#include "tools/speech/talking/voice_file.h"
+#include "tools/view/render/png.h"
+#include "tools/view/render/scene.h"
+#include "tools/view/studio/frames.h"
+#include "tools/view/studio/head_view.h"
+#include "tools/view/studio/picture_file.h"
+
+namespace animeme::tools {
+
+namespace {
+
+constexpr int kLargestPicture = 8192;  // pixels a side, a whole sheet
+constexpr int kMostPictures = 400;
+
+struct RenderOptions {
+  LengthLimit length;
+  std::string input;
+  std::string output;
+  std::string shapes;
+  std::int64_t frame = -1;
+  std::vector<double> times;
+  std::string sheet;
+  studio::HeadChoice head;
+  std::string view = "front";
+  double up = 0;
+  double zoom = 1;
+  std::string size = "640x640";
+  std::string audio;
+  std::string script;
+  speech::ScriptInput reading;
+  std::string rate;
+  std::vector<std::string> curves;
+  int quality = 20;
+  int audio_bit_rate = 0;
+};
+
+struct Pair {
+  int x = 0;
+  int y = 0;
+};
+
+// "640x480"; both from 1 to `most`.
+std::optional<Pair> parse_pair(const std::string& text, int most) {
+  Pair pair;
+  const char* end = text.data() + text.size();
+  const auto [middle, bad_x] = std::from_chars(text.data(), end, pair.x);
+  if (bad_x != std::errc() || middle == end || *middle != 'x') return std::nullopt;
+  const auto [stop, bad_y] = std::from_chars(middle + 1, end, pair.y);
+  if (bad_y != std::errc() || stop != end) return std::nullopt;
+  if (pair.x < 1 || pair.y < 1 || pair.x > most || pair.y > most) return std::nullopt;
+  return pair;
+}
+
+// What is wrong with a value, for the line that is read.
+std::string problem_of_pixels(const std::string& text) {
+  return parse_pair(text, kLargestPicture) ? ""
+                                           : "WIDTHxHEIGHT is wanted, such as 640x640, up to 8192";
+}
+
+std::string problem_of_sheet(const std::string& text) {
+  const auto sheet = parse_pair(text, kMostPictures);
+  return sheet && sheet->x * sheet->y <= kMostPictures
+             ? ""
+             : "COLUMNSxROWS is wanted, such as 4x3, of 400 pictures at most";
+}
+
+std::string problem_of_view(const std::string& text) {
+  const auto degrees = render::view_degrees(text);
+  return degrees && std::abs(*degrees) <= 360
+             ? ""
+             : "front, three-quarter, side or degrees to the left are wanted";
+}
+
+// What was asked for, checked.
+struct Plan {
+  Pair size;
+  Pair sheet;
+  studio::HeadLook look;
+};
+
+Result<Plan> make_plan(const RenderOptions& options) {
+  Plan plan;
+  plan.size = parse_pair(options.size, kLargestPicture).value_or(Pair{});
+  plan.sheet = parse_pair(options.sheet, kMostPictures).value_or(Pair{1, 1});
+  if (plan.size.x * plan.sheet.x > kLargestPicture ||
+      plan.size.y * plan.sheet.y > kLargestPicture) {
+    return make_error(
+        Code::invalid_argument,
+        "the sheet is larger than 8192 pixels: make the pictures smaller with --size");
+  }
+  if (std::string problem = studio::problem_of(options.head); !problem.empty()) {
+    return make_error(Code::invalid_argument, std::move(problem));
+  }
+  plan.look = {options.head, render::view_degrees(options.view).value_or(0),
+               options.up,   options.zoom,
+               plan.size.x,  plan.size.y};
+  return plan;
+}
+
+Result<std::vector<studio::ShownFrame>> choose_frames(const RenderOptions& options,
+                                                      const Plan& plan) {
+  if (!options.shapes.empty()) return studio::shape_frames(options.shapes);
+  Result<FaceInput> input = read_face(options.input);
+  if (!input) return input.error();
+  const Result<fap::Sequence> clip = shown_face(*input, options.input, {}, options.length);
+  if (!clip) return clip.error();
+  Result<std::vector<studio::ShownFrame>> frames =
+      options.frame >= 0       ? studio::frame_number(*clip, options.frame)
+      : !options.times.empty() ? studio::frames_at(*clip, options.times)
+                               : studio::even_frames(*clip, plan.sheet.x * plan.sheet.y);
+  if (!frames) return frames.error().in_file(options.input);
+  return frames;
+}
+
+// All pictures in rows of `columns`, as a file.
+Result<std::vector<std::uint8_t>> draw(const Plan& plan,
+                                       const std::vector<studio::ShownFrame>& frames, int columns,
+                                       const RenderOptions& options) {
+  Result<render::Image> sheet = studio::draw_sheet(plan.look, frames, columns, talk());
+  if (!sheet) return sheet.error();
+  const std::string extension = options.output == "-" ? ".png" : extension_of(options.output);
+  return studio::picture_of(*sheet, extension, studio::picture_quality(options.quality));
+}
+
+// The sound of the video, copied where the file takes it; nothing where the face has none.
+Result<std::optional<speech::SoundInput>> sound_of(const RenderOptions& options) {
+  const bool own = options.audio.empty();
+  const bool only_opus = media::usual_codec(options.output) == media::AudioCodec::opus;
+  Result<speech::SoundInput> sound = speech::read_sound(
+      own ? options.input : options.audio,
+      [only_opus](media::AudioCodec codec) {
+        return !only_opus || codec == media::AudioCodec::opus;
+      },
+      talk());
+  if (sound) return std::optional(std::move(*sound));
+  if (!own) return sound.error();
+  return std::optional<speech::SoundInput>();
+}
+
+Result<int> render_video(const RenderOptions& options, const Plan& plan) {
+  studio::FilmOptions preview{
+      .look = plan.look, .quality = options.quality, .audio_bit_rate = options.audio_bit_rate};
+  if (!options.rate.empty()) {
+    const Result<fap::Rate> rate = fap::parse_rate(options.rate);
+    if (!rate) return rate.error();
+    preview.rate = *rate;
+  }
+  Result<std::vector<int>> faps = fap_numbers(options.curves);
+  if (!faps) return faps.error();
+  if (faps->size() > 3) return usage_error("--curves shows three FAPs at most");
+  preview.faps = std::move(*faps);
+  Result<FaceInput> input = read_face(options.input);
+  if (!input) return input.error();
+  const Result<fap::Sequence> clip =
+      shown_face(*input, options.input, {.interpolate = true}, options.length);
+  if (!clip) return clip.error();
+  Result<dam::Script> script = dam::Script{};
+  if (!options.script.empty()) {
+    script = speech::read_script(options.script, options.reading, talk());
+    if (!script) return script.error();
+    preview.script = &*script;
+  }
+  const Result<std::optional<speech::SoundInput>> sound = sound_of(options);
+  if (!sound) return sound.error();
+  media::MuxInput tracks;
+  if (*sound) (*sound)->give_to(tracks);
+  const auto texts = speech::carried_tracks(options.input, talk());
+  tracks.texts = &texts;
+  return write_preview(options.output, *clip, tracks, preview);
+}
+
+// Columns that make the sheet about as wide as high.
+int columns_for(std::size_t pictures) {
+  int columns = 1;
+  while (std::size_t(columns * columns) < pictures) ++columns;
+  return columns;
+}
+
+Result<int> draw_all(const RenderOptions& options) {
+  if (options.input.empty() == options.shapes.empty()) {
+    return usage_error("give a file to show, or --shapes visemes or expressions");
+  }
+  const Result<Plan> plan = make_plan(options);
+  if (!plan) return usage_error(plan.error().message);
+  const std::string extension = extension_of(options.output);
+  const bool still = options.frame >= 0 || !options.times.empty() || !options.sheet.empty();
+  const bool pictures = still || !options.shapes.empty();
+  if (pictures && studio::is_film(extension) && !studio::is_picture(extension)) {
+    return usage_error(
+        "a video shows the whole clip; --frame, --time, --sheet and --shapes are for "
+        ".png, .jpg and .webp");
+  }
+  if (studio::is_film(extension) && !pictures) return render_video(options, *plan);
+  Result<std::vector<studio::ShownFrame>> frames = choose_frames(options, *plan);
+  if (!frames) return frames.error();
+  const int columns = options.sheet.empty() ? columns_for(frames->size()) : plan->sheet.x;
+  const auto file = draw(*plan, *frames, columns, options);
+  if (!file) return file.error();
+  if (auto written = write_file(options.output, *file); !written) return written.error();
+  return kOk;
+}
+
+Result<int> run(const RenderOptions& options) {
+  AtStep step(Step::rendering);
+  Result<int> code = draw_all(options);
+  std::error_code unknown;
+  const std::uintmax_t bytes = std::filesystem::file_size(options.output, unknown);
+  if (code && !unknown) step.made(bytes);
+  return code;
+}
+
+void add_options(CLI::App& app, RenderOptions& options) {
+  app.add_option("input", options.input, "FAP text, FBA stream, container or table of curves");
+  add_output(app.add_option("-o,--output", options.output,
+                            "File to write: .mp4 or .mkv (H.264), .webm (VP9), .webp (moves, "
+                            "silent); a still or sheet as .png, .jpg or .webp (with --time and the "
+                            "like); - is PNG on standard output"),
+             {".png", ".jpg", ".jpeg", ".webp", ".mp4", ".webm", ".mkv"}, OutputKind::file_or_dash)
+      ->required();
+  auto* shapes = app.add_option("--shapes", options.shapes,
+                                "Instead of a file: neutral and all visemes or expressions")
+                     ->check(CLI::IsMember({"visemes", "expressions"}));
+  auto* frame =
+      app.add_option("--frame", options.frame, "Frame to show, from 0")->check(at_least_zero());
+  auto* time = app.add_option("--time", options.times, "Seconds to show; several make a sheet")
+                   ->delimiter(',')
+                   ->check(at_least_zero());
+  auto* sheet = app.add_option("--sheet", options.sheet,
+                               "Contact sheet, COLUMNSxROWS: frames evenly over the clip")
+                    ->type_name("COLUMNSxROWS")
+                    ->check(written_so(problem_of_sheet));
+  frame->excludes(time)->excludes(shapes)->excludes(sheet);
+  time->excludes(shapes);
+  add_length_option(app, options.length);
+  add_head_options(app, options.head);
+  app.add_option("--view", options.view,
+                 "front, three-quarter, side, or degrees to the person's left")
+      ->type_name("VIEW")
+      ->check(written_so(problem_of_view))
+      ->capture_default_str();
+  app.add_option("--up", options.up, "Degrees to look from above")
+      ->check(between(-80, 80))
+      ->capture_default_str();
+  app.add_option("--zoom", options.zoom, "1: head and shoulders; 2 is twice as near")
+      ->check(between(0.2, 20.0))
+      ->capture_default_str();
+  app.add_option("--size", options.size, "Pixels of one picture, WIDTHxHEIGHT")
+      ->type_name("WIDTHxHEIGHT")
+      ->check(written_so(problem_of_pixels))
+      ->capture_default_str();
+  app.add_option("--audio", options.audio,
+                 "Video: sound beside the face; default: that of the input, if it has any");
+  app.add_option("--script", options.script, "Video: phones to show below the face");
+  add_script_options(app, options.reading.reading, options.reading.language);
+  app.add_option("--curves", options.curves,
+                 "Video: FAPs to draw below the face, three at most, by number or name")
+      ->delimiter(',')
+      ->expected(1, 3)
+      ->type_name("FAPS")
+      ->check(read_by(faps_of));
+  app.add_option("--rate", options.rate, "Video: pictures a second; default: those of the clip")
+      ->type_name("RATE")
+      ->check(frame_rate());
+  app.add_option("--quality", options.quality, "Video, .jpg and .webp: 0 (best) to 51 (smallest)")
+      ->check(between(0, 51))
+      ->capture_default_str();
+  app.add_option("--audio-bitrate", options.audio_bit_rate, "Video: bits a second of its sound")
+      ->check(between(6000, 320000));
+}
+
+}  // namespace
+
+const Command kRender{
+    "render", "Videos and pictures of a face",
+    "  animeme render talk.mp4 -o video.mp4\n"
+    "  animeme render talk.fba --audio voice.wav --script talk.TextGrid --curves "
+    "open_jaw,raise_b_midlip -o talk.webm\n"
+    "  animeme render talk.fap --time 1.5 -o still.png     # .jpg, .webp\n"
+    "  animeme render talk.fap --size 256x256 -o talk.webp    # moves in READMEs and chats\n"
+    "  animeme render talk.mp4 --sheet 4x3 --head man --view three-quarter "
+    "-o sheet.png\n"
+    "  animeme render --shapes visemes --size 200x200 -o visemes.png",
+    set_up<RenderOptions>};
+
+}  // namespace animeme::tools

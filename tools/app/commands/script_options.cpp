@@ -1,0 +1,82 @@
+#include "tools/app/commands/script_options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "dam/script/table_text_internal.h"
+#include "tools/app/commands/terminal.h"
+#include "tools/formats/scripts/script_text.h"
+
+namespace animeme::tools {
+
+namespace {
+
+std::string list_of_formats() {
+  std::string list;
+  for (const dam::ScriptFormat& format : scripts::script_formats()) {
+    list += "\n  " + std::string(format.name) +
+            std::string(12 - std::min<std::size_t>(11, format.name.size()), ' ') +
+            std::string(format.title);
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string parse_script_format(const std::string& text, dam::ScriptOptions& reading) {
+  if (text.empty()) return "wants a name; help: a list";
+  std::string_view name = text;
+  const std::size_t at = name.find('@');
+  if (at != std::string_view::npos) {
+    const auto rate = dam::parse_number(name.substr(at + 1));
+    if (!rate || !(*rate > 0) || !(*rate < 1e12)) {
+      return "behind @ stands how often a second its numbers count, as in timit@8000";
+    }
+    reading.rate = *rate;
+    name = name.substr(0, at);
+  }
+  const std::size_t colon = name.find(':');
+  if (colon != std::string_view::npos) {
+    const std::string_view unit = name.substr(colon + 1);
+    if (unit != "words" && unit != "phones") return "behind : stands words or phones";
+    reading.unit = unit == "words" ? dam::LabelUnit::words : dam::LabelUnit::phones;
+    name = name.substr(0, colon);
+  }
+  const auto formats = scripts::script_formats();
+  const bool known = name.empty() || std::any_of(formats.begin(), formats.end(),
+                                                 [&](const auto& f) { return f.name == name; });
+  if (!known) return "there is no format " + std::string(name) + "; these are:" + list_of_formats();
+  reading.format = name;
+  return {};
+}
+
+Result<dam::Script> script_for(const std::string& path, const std::vector<std::string>& files,
+                               const speech::ScriptInput& reading) {
+  if (!path.empty()) return speech::read_script(path, reading, talk());
+  for (const std::string& file : files) {
+    auto carried = speech::carried_script(file, reading, talk());
+    if (carried) return std::move(*carried);
+  }
+  return dam::Script{};
+}
+
+void add_script_options(CLI::App& app, dam::ScriptOptions& reading) {
+  app.add_option("--tier", reading.tier, "Tier of the script, or recording, if it has several")
+      ->option_text("NAME");
+  app.add_option_function<std::string>(
+         "--script-format",
+         [&reading](const std::string& text) {
+           const std::string problem = parse_script_format(text, reading);
+           if (!problem.empty()) throw CLI::ValidationError("--script-format", problem);
+         },
+         "Format of the script, NAME[:words][@RATE], where its content does not tell; help: a list")
+      ->option_text("FORMAT");
+}
+
+void add_script_options(CLI::App& app, dam::ScriptOptions& reading, std::string& language) {
+  add_script_options(app, reading);
+  app.add_option("--lang", language, "Language of a script of words: en, de, fr ...")
+      ->capture_default_str();
+}
+
+}  // namespace animeme::tools

@@ -1,0 +1,374 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <optional>
+
+#include "codec/encode/encode.h"
+#include "dam/script/script.h"
+#include "dam/signal/fap_signal.h"
+#include "dam/speaking/life.h"
+#include "dam/speaking/synthesise.h"
+#include "dam/speaking/viseme_track.h"
+#include "fap/rate_text.h"
+#include "tools/app/commands/bounds.h"
+#include "tools/app/commands/brief_help.h"
+#include "tools/app/commands/common.h"
+#include "tools/app/commands/face_stream.h"
+#include "tools/app/commands/face_text.h"
+#include "tools/app/commands/motion_options.h"
+#include "tools/app/commands/preview.h"
+#include "tools/app/commands/spoken_options.h"
+#include "tools/formats/common/json.h"
+#include "tools/formats/common/text.h"
+#include "tools/formats/exchange/arkit.h"
+#include "tools/formats/exchange/curves.h"
+#include "tools/formats/files/cost.h"
+#include "tools/speech/talking/marks.h"
+
+namespace animeme::tools {
+
+namespace {
+
+struct SpeakOptions {
+  speech::SpokenOptions spoken;
+  std::vector<std::string> outputs;
+  std::string output;  // of those, the one that is written
+  std::string preview;
+  std::string model;
+  std::string rate = "25";
+  std::string save_script;
+  StreamSettings stream;
+  SoundSettings sound;
+  dam::SynthesisOptions motion;
+  bool no_closure = false;
+  std::optional<bool> life;  // nothing: where it can be had
+  bool exact = false;
+  std::string visemes;
+  bool no_words = false;
+  bool language_told = false;
+  std::uint64_t seed = 1;
+  bool json = false;
+};
+
+// A model of another rig can only be written as curves.
+Error not_faps(const Error& error) {
+  if (error.code != Code::not_found) return error;
+  return make_error(
+      Code::not_found,
+      "the controls of this model are neither FAPs nor shapes of ARKit; write them as curves "
+      "with -o NAME.csv");
+}
+
+// The signal as it is, one column a control: for models of other rigs than FAPs.
+Result<int> write_curves(const std::string& path, const dam::Signal& signal) {
+  std::string text = exchange::write_curve_header(signal.names);
+  for (std::size_t frame = 0; frame < signal.frames(); ++frame)
+    text += exchange::write_curve_row(signal, frame);
+  if (auto done = write_file(path, text); !done) return done.error();
+  say(path + ": " + std::to_string(signal.frames()) + " frames of " +
+      std::to_string(signal.names.size()) + " controls");
+  return kOk;
+}
+
+// Curves of ARKit's shapes: those of the model, or fitted to its FAPs.
+Result<int> write_arkit(const SpeakOptions& options, const dam::Signal& signal) {
+  ProgressLine progress("fitting");
+  const auto curves =
+      exchange::arkit_of_signal(signal, [&](double done) { progress.update(done); });
+  if (!curves) return not_faps(curves.error());
+  progress.clear();
+  const std::string sound = std::filesystem::path(options.spoken.audio).filename().string();
+  const std::string text = extension_of(options.output) == ".json"
+                               ? exchange::write_arkit_json(*curves, sound)
+                               : exchange::write_live_link(*curves);
+  if (auto done = write_file(options.output, text); !done) return done.error();
+  say(options.output + ": " + std::to_string(curves->frames.size()) + " frames of 52 shapes, " +
+      fap::format_rate(curves->rate) + " frames a second");
+  return kOk;
+}
+
+// talk.json, and talk.livelink.csv beside talk.csv, which has the controls of the model.
+bool is_arkit_output(const std::string& path) {
+  const std::string inner = extension_of(std::filesystem::path(path).stem().string());
+  return extension_of(path) == ".json" || (extension_of(path) == ".csv" && inner == ".livelink");
+}
+
+// Of the words. A script may be in any, whatever the default of --lang is.
+std::string language_of(const SpeakOptions& options, const speech::Spoken& spoken) {
+  if (!spoken.languages.empty()) return spoken.languages.front().language;
+  const bool script = !options.spoken.script.empty() && options.spoken.tts.empty();
+  return script && !options.language_told ? std::string() : options.spoken.language;
+}
+
+Result<std::vector<std::uint8_t>> coded_clip(const fap::Sequence& clip,
+                                             const StreamSettings& settings) {
+  AtStep step(Step::coding);
+  auto stream = fba::encode(clip, encode_options(settings));
+  if (stream) step.made(stream->size());
+  return stream;
+}
+
+Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
+                         const speech::Spoken& spoken) {
+  const std::string extension = extension_of(options.output);
+  if (extension == ".fap") {
+    FaceText face = face_text(clip);
+    face.exact = options.exact;
+    OutputFile file(options.output);
+    const Result<std::int64_t> frames = write_face_text(file, options.output, face);
+    if (!frames) return frames.error();
+    if (auto done = file.publish(); !done) return done.error();
+    say(options.output + ": " + std::to_string(*frames) + " frames, " +
+        seconds_text(clip.duration()));
+    return kOk;
+  }
+  if (extension == ".fba") {
+    Result<std::vector<std::uint8_t>> stream = coded_clip(clip, options.stream);
+    if (!stream) return stream.error();
+    if (auto done = write_file(options.output, *stream); !done) return done.error();
+    say(options.output + ": " + std::to_string(clip.frames.size()) + " planes, " +
+        std::to_string(stream->size()) + " bytes, " + seconds_text(clip.duration()) +
+        format(", %.2f kbit/s", double(stream->size()) * 8e-3 / clip.duration()));
+    return kOk;
+  }
+  Result<fba::AccessUnits> units = access_units({clip, {}}, options.stream);
+  if (!units) return units.error();
+  const media::Pcm* audio = spoken.audio ? &*spoken.audio : nullptr;
+  if (audio == nullptr) warn("there is no recorded voice (--audio), the file will be silent");
+  media::MuxOptions mux;
+  mux.audio = audio_settings(options.sound, options.output);
+  std::vector<media::TextTrack> texts;
+  if (!options.no_words && media::takes_text(options.output)) {
+    texts = speech::carried_texts(spoken.script, language_of(options, spoken));
+  }
+  const media::MuxInput input{.face = &*units, .audio = audio, .texts = &texts};
+  Result<int> written = write_media(options.output, input, mux);
+  if (!written || *written != kOk || options.preview.empty()) return written;
+  return write_preview(options.preview, *units, input);
+}
+
+// Phones inside words, or all of them, lie where they usually do instead of where they were heard.
+bool is_approximate(const speech::Spoken& spoken) {
+  return spoken.times == speech::TimesFrom::words ||
+         (spoken.alignment && spoken.alignment->approximate);
+}
+
+Json confidence_of(const speech::Spoken& spoken) {
+  if (spoken.heard) return spoken.heard->confidence;
+  return spoken.alignment ? Json(spoken.alignment->confidence) : Json(nullptr);
+}
+
+Json doubtful_words(const speech::Spoken& spoken) {
+  Json list = Json::array();
+  if (!spoken.alignment) return list;
+  for (const voice::AlignedWord& word : spoken.alignment->words) {
+    if (word.confidence >= voice::kDoubtful) continue;
+    list.push_back({{"word", word.text},
+                    {"start", word.start},
+                    {"end", word.end},
+                    {"confidence", word.confidence}});
+  }
+  return list;
+}
+
+struct HeardPhone {
+  dam::Phone phone;
+  double confidence = 0;
+};
+
+std::vector<HeardPhone> heard_phones(const speech::Spoken& spoken) {
+  std::vector<HeardPhone> all;
+  for (std::size_t i = 0; i < spoken.script.phones.size(); ++i) {
+    all.push_back({spoken.script.phones[i], spoken.heard->confidences[i]});
+  }
+  return all;
+}
+
+Json language_json(const voice::SpokenLanguage& part) {
+  return {{"start", part.start}, {"end", part.end},   {"language", part.language},
+          {"voice", part.voice}, {"text", part.text}, {"by_itself", part.by_itself}};
+}
+
+void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam::Signal& signal,
+            const dam::SynthesisReport& synthesis) {
+  for (const auto& [label, by] : synthesis.replaced) {
+    say_more("the model has no " + label + ", spoken as " + by);
+  }
+  if (!options.json) return;
+  Json replaced = Json::object();
+  for (const auto& [label, by] : synthesis.replaced) replaced[label] = by;
+  const bool heard = spoken.heard.has_value();
+  Json json = {{"output", options.outputs.front()},
+               {"voice", spoken.voice},
+               {"times", speech::name_of(spoken.times)},
+               {"approximate", is_approximate(spoken)},
+               {"confidence", confidence_of(spoken)},
+               {"doubtful_words", doubtful_words(spoken)},
+               {"seconds", signal.rate.seconds(double(signal.frames()))},
+               {"frames", signal.frames()},
+               {"phones", synthesis.phones},
+               {"replaced_phones", synthesis.replaced_phones},
+               {"replaced", replaced},
+               {"closures_forced", synthesis.closures},
+               {"lip_tooth_forced", synthesis.lip_tooth_contacts},
+               {"recognised", heard},
+               {"languages", json_list(spoken.languages, language_json)},
+               {"marks", json_list(spoken.marks,
+                                   [](const voice::SpeechMark& mark) -> Json {
+                                     return {{"time", mark.time}, {"name", mark.name}};
+                                   })},
+               {"warnings", spoken.warnings}};
+  if (options.outputs.size() > 1) json["outputs"] = options.outputs;
+  if (heard) {
+    json["warnings"] = spoken.heard->warnings;
+    json["heard"] = json_list(heard_phones(spoken), [](const HeardPhone& one) -> Json {
+      return {{"start", one.phone.start},
+              {"end", one.phone.end},
+              {"phone", one.phone.label},
+              {"confidence", one.confidence}};
+    });
+    json["words"] = json_list(spoken.heard->words, [](const voice::HeardWord& one) -> Json {
+      return {{"word", one.text},
+              {"start", one.start},
+              {"end", one.end},
+              {"confidence", one.confidence}};
+    });
+  }
+  std::printf("%s\n", pretty(json).c_str());
+}
+
+// options.output, of a face that moves by the phones alone.
+Result<int> write_output(const SpeakOptions& options, dam::Signal signal,
+                         const speech::Spoken& spoken) {
+  // A model's curves are its own, and who knows visemes only knows no brows.
+  const bool curves = extension_of(options.output) == ".csv" && !is_arkit_output(options.output);
+  const bool plain = curves || options.visemes == "instead";
+  if (options.life.value_or(!plain)) {
+    // Without being asked: where the names of a rig are not known, writing will say what it needs.
+    auto added = dam::add_life(signal, spoken.script, {1, options.seed});
+    if (!added && options.life.has_value()) return added.error();
+  }
+  if (is_arkit_output(options.output)) return write_arkit(options, signal);
+  if (curves) return write_curves(options.output, signal);
+  Result<fap::Sequence> clip = dam::to_sequence(signal);
+  if (!clip) return not_faps(clip.error());
+  clip->name = std::filesystem::path(options.output).stem().string();
+  if (!options.visemes.empty()) {
+    const bool instead = options.visemes == "instead";
+    dam::show_visemes(spoken.script, *clip,
+                      instead ? dam::VisemePlace::instead : dam::VisemePlace::beside);
+  }
+  return write_result(options, *clip, spoken);
+}
+
+Result<int> run(const SpeakOptions& options) {
+  if (const std::string missing = missing_options(options.spoken); !missing.empty()) {
+    return usage_error(missing);
+  }
+  for (const std::string& output : options.outputs) {
+    const std::string extension = extension_of(output);
+    if (!options.visemes.empty() && (extension == ".csv" || extension == ".json"))
+      return usage_error(
+          "--visemes is for FAPs; export writes tables of visemes (talk.visemes.csv)");
+  }
+  Result<fap::Rate> rate = fap::parse_rate(options.rate);
+  if (!rate) return rate.error();
+  Result<dam::Model> model = speech::read_model(options.model);
+  if (!model) return model.error();
+  ProgressLine progress("listening");
+  speech::SpokenOptions source = options.spoken;
+  source.heard = [&](double done) { progress.update(done); };
+  Result<speech::Spoken> spoken = speech::get_spoken(source, talk());
+  progress.clear();
+  if (!spoken) return spoken.error();
+  if (spoken->heard) {
+    say_more(options.spoken.audio + ": " + std::to_string(spoken->script.phones.size()) +
+             format(" phones heard, confidence %.2f", spoken->heard->confidence));
+  }
+
+  dam::SynthesisOptions settings = options.motion;
+  settings.rate = *rate;
+  settings.closure = !options.no_closure;
+  if (spoken->audio) {
+    settings.tail = std::max(0.0, spoken->audio->duration() - spoken->script.duration());
+  }
+  dam::SynthesisReport synthesis;
+  Result<dam::Signal> signal = speech::move_face(*model, *spoken, settings, &synthesis);
+  if (!signal) {
+    return signal.error().in_file(spoken->heard ? options.spoken.audio : options.spoken.script);
+  }
+  Result<int> written = kOk;
+  SpeakOptions one = options;
+  for (const std::string& output : options.outputs) {
+    one.output = output;
+    written = write_output(one, *signal, *spoken);
+    if (!written || *written != kOk) return written;
+  }
+  // Last, so that a failure leaves no file behind.
+  if (!options.save_script.empty()) {
+    const std::string text = speech::write_marked_script(spoken->script, spoken->marks,
+                                                         extension_of(options.save_script));
+    if (auto done = write_file(options.save_script, text); !done) return done.error();
+  }
+  report(options, *spoken, *signal, synthesis);
+  return written;
+}
+
+void add_options(CLI::App& app, SpeakOptions& options) {
+  options.spoken.listen = true;
+  add_spoken_options(app, options.spoken);
+  add_output(
+      app.add_option(
+          "-o,--output", options.outputs,
+          "What to write, once or more: .mp4 .mkv .ts .m3u8 .mpd (face and voice), .fba "
+          "(stream), .fap (text), .csv (curves of the model), .livelink.csv (Live Link Face), "
+          ".json (ARKit's shapes)"),
+      {".mp4", ".mkv", ".ts", ".m3u8", ".mpd", ".fba", ".fap", ".csv", ".json"}, OutputKind::file)
+      ->required()
+      ->allow_extra_args(false);
+  app.add_option("--model", options.model, "Model file of a character; default: the built-in one");
+  app.add_option("--rate", options.rate, "Frames a second: 25, 29.97, 60 ...")
+      ->type_name("RATE")
+      ->check(frame_rate())
+      ->capture_default_str();
+  add_output(app.add_option("--save-script", options.save_script,
+                            "Also write the timed phones: .TextGrid, .tsv, .pho or .vtt"),
+             dam::script_endings(), OutputKind::file);
+  add_motion_options(app, options.motion);
+  app.add_flag("--no-closure", options.no_closure,
+               "Do not force the lips shut on p, b and m, nor to the teeth on f and v");
+  app.add_flag(
+      "--life,!--no-life", [&options](std::int64_t on) { options.life = on > 0; },
+      "Blinks, and brows and head that move a little at stresses, or none; default: yes, "
+      "but not in the model's curves (.csv)");
+  app.add_option("--visemes", options.visemes,
+                 "FAP 1, for players that know visemes only: 'instead' of jaw, lips and tongue, or "
+                 "'beside' them")
+      ->option_text("PLACE")
+      ->check(CLI::IsMember({"instead", "beside"}));
+  app.add_flag("--no-words", options.no_words,
+               "No words and phones in .mp4, .mkv, .m3u8, where they are subtitles to players and "
+               "view, plot, export, demux find them");
+  app.get_option("--lang")->each([&options](const std::string&) { options.language_told = true; });
+  add_exact_option(app, options.exact);
+  app.add_option("--seed", options.seed, "Other times of blinks and another sway of the head")
+      ->option_text("NUMBER=1")
+      ->check(between(0, 1e9));
+  add_stream_options(app, options.stream);
+  add_preview_option(app, options.preview);
+  add_sound_options(app, options.sound, false);
+  app.add_flag("--json", options.json, "Machine-readable summary on standard output");
+  show_in_help_all(app, "Details of coding",
+                   {"--intra-seconds", "--audio-codec", "--audio-bitrate", "--exact"});
+}
+
+}  // namespace
+
+const Command kSpeak{
+    "speak", "Make a face talk: from text, from a recorded voice, best with its phonemes or text",
+    "  animeme speak --text \"Hello world\" -o hello.mp4    # its words are subtitles in players\n"
+    "  animeme speak --audio voice.wav --transcript \"what she said\" -o talk.mp4\n"
+    "  animeme speak --text Hello --tts \"piper -m en.onnx -f {wav}\" -o hello.mp4   # your voice\n"
+    "  animeme speak --script voice.TextGrid --audio voice.wav --model me.dam -o talk.fba",
+    set_up<SpeakOptions>};
+
+}  // namespace animeme::tools

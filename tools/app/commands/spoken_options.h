@@ -1,0 +1,22 @@
+/// @file
+/// The options of commands that speak.
+#pragma once
+
+#include <string>
+
+#include "tools/speech/talking/spoken.h"
+
+namespace CLI {
+class App;
+}
+
+namespace animeme::tools {
+
+/// Adds --text, --text-file, --script, --tier, --script-format, --audio, --transcript, --lang,
+/// --speed, --pitch.
+void add_spoken_options(CLI::App& app, speech::SpokenOptions& options);
+
+/// A sentence about what is missing on the command line, empty if nothing is.
+std::string missing_options(const speech::SpokenOptions& options);
+
+}  // namespace animeme::tools

@@ -1,0 +1,45 @@
+/// @file
+/// Options of stream.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/app/commands/shown_heads.h"
+#include "tools/live/sessions/address.h"
+#include "tools/live/sessions/program.h"
+
+namespace CLI {
+class App;
+}  // namespace CLI
+
+namespace animeme::tools {
+
+/// What was said on the command line.
+struct StreamOptions {
+  std::string input;             ///< the clip
+  std::vector<std::string> to;   ///< --to
+  std::vector<std::string> sdp;  ///< --sdp
+  live::SinkOptions sink;        ///< --mtu, --repeat, --bundle, --max-clients ...
+  HeadChoices heads;             ///< --head, for the page
+  live::ProgramOptions program;  ///< what is sent, and how it is coded
+  std::string codec;             ///< --audio-codec
+  std::string rate = "25";       ///< --rate
+  std::string pcm;               ///< --pcm
+  std::string events;            ///< --events
+  bool no_sound = false;         ///< --no-sound
+  bool fast = false;             ///< --fast
+  bool stats = false;            ///< --stats
+  bool json = false;             ///< --json
+};
+
+/// Adds them.
+void add_options(CLI::App& app, StreamOptions& options);
+
+/// Adds --allow-origin and --host-name: who may use a web server, and by which names.
+void add_guard_options(CLI::App& app, web::WebOptions& options);
+
+/// Runs the command with them.
+Result<int> run(StreamOptions& options);
+
+}  // namespace animeme::tools

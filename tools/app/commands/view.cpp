@@ -1,0 +1,176 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "fap/head/rig.h"
+#include "tools/app/commands/common.h"
+#include "tools/app/commands/face_stream.h"
+#include "tools/app/commands/head_options.h"
+#include "tools/app/commands/page_sound.h"
+#include "tools/app/commands/script_options.h"
+#include "tools/app/commands/shown_heads.h"
+#include "tools/formats/common/text.h"
+#include "tools/speech/talking/voice_file.h"
+#include "tools/view/viewer/viewer.h"
+
+namespace animeme::tools {
+
+namespace {
+
+constexpr double kAboutEqual = 1;         // seconds
+constexpr double kLargePage = 3'000'000;  // bytes
+constexpr int kLeastKilobits = 12;        // a second; Opus is not worth hearing with less,
+constexpr int kMostKilobits = 40;         // and with more not better
+
+struct ViewOptions {
+  std::string first;
+  std::string second;
+  std::string output;
+  std::string audio;
+  SoundSettings sound;
+  std::string script;
+  speech::ScriptInput reading;
+  LengthLimit length;
+  HeadChoices heads;
+};
+
+// A clip, and whether it came with a container that may hold sound.
+struct ViewedClip {
+  viewer::Clip clip;
+  bool container = false;
+};
+
+Result<ViewedClip> read_shown(const std::string& path, const LengthLimit& length) {
+  Result<MotionInput> input = read_motion(path);
+  if (!input) return input.error();
+  const bool container = input->kind == FileKind::media;
+  const Result<FaceInput> face = face_of(std::move(*input), path);
+  if (!face) return face.error();
+  Result<fap::Sequence> filled = shown_face(*face, path, {}, length);
+  if (!filled) return filled.error();
+  const std::string name = std::filesystem::path(path).filename().string();
+  return ViewedClip{{std::move(*filled), face->start, name}, container};
+}
+
+std::string megabytes(double bytes) { return format("%.2f MB", bytes / 1e6); }
+
+// The sound that was asked for, else that of the first container that has one; nothing if none has.
+Result<std::optional<PageSound>> sound_of(const ViewOptions& options,
+                                          const std::vector<std::string>& containers) {
+  const bool asked = !options.audio.empty();
+  for (const std::string& path : asked ? std::vector{options.audio} : containers) {
+    Result<PageSound> sound = page_sound(path, options.sound);
+    if (sound) return std::optional(std::move(*sound));
+    if (asked || sound.error().code != Code::not_found) return sound.error();
+  }
+  return std::optional<PageSound>();
+}
+
+// What belongs together lasts about equally long.
+void warn_of_lengths(const viewer::Page& page, const ViewOptions& options, double sound) {
+  const double face = page.clips.front().motion.duration();
+  const auto check = [face](const std::string& what, double seconds) {
+    if (std::abs(seconds - face) <= kAboutEqual) return;
+    warn("the face lasts " + seconds_text(face) + ", " + what + " " + seconds_text(seconds));
+  };
+  if (page.clips.size() > 1) check(options.second, page.clips[1].motion.duration());
+  if (page.sound) check("the sound", sound);
+  if (!options.script.empty()) check(options.script, page.script.duration());
+}
+
+// A page that is too large for mail and phones, and what makes it smaller.
+void warn_of_size(const viewer::Page& page, std::size_t size, double seconds) {
+  if (double(size) <= kLargePage) return;
+  const double sound = page.sound ? double(page.sound->file.size()) * 4 / 3 : 0;
+  std::string text = "the page has more than 3 MB, which is much for mail and phones";
+  if (page.sound) text += "; " + megabytes(sound) + " of it are sound";
+  // What is left for the sound, in base64 and with what an mp4 needs besides.
+  const double left = kLargePage - (double(size) - sound);
+  const int kilobits = left > 0 && page.sound ? int(left * 3 / 4 * 8 / seconds * 0.9 / 1000) : 0;
+  if (kilobits >= kLeastKilobits) {
+    text += ": --audio-codec opus --audio-bitrate " +
+            std::to_string(std::min(kilobits, kMostKilobits)) + "000 makes it small enough";
+  } else {
+    text += "; show a shorter clip or a head with fewer vertices";
+  }
+  warn(text);
+}
+
+Result<int> run(const ViewOptions& options) {
+  if (const std::string problem = problem_of(options.heads); !problem.empty()) {
+    return usage_error(problem);
+  }
+  auto loaded = load_shown(options.heads);
+  if (!loaded) return loaded.error();
+  const std::vector<std::unique_ptr<ShownHead>> heads = std::move(*loaded);
+  viewer::Page page;
+  std::vector<std::string> containers;
+  for (const std::string& path : {options.first, options.second}) {
+    if (path.empty()) continue;
+    Result<ViewedClip> shown = read_shown(path, options.length);
+    if (!shown) return shown.error();
+    if (shown->container && path == "-")
+      warn("the sound of standard input is not read; give --audio");
+    if (shown->container && path != "-") containers.push_back(path);
+    page.clips.push_back(std::move(shown->clip));
+  }
+  Result<std::optional<PageSound>> sound = sound_of(options, containers);
+  if (!sound) return sound.error();
+  const double seconds = *sound ? (*sound)->seconds : 0;
+  if (*sound) page.sound = std::move((*sound)->sound);
+  Result<dam::Script> script = script_for(options.script, containers, options.reading);
+  if (!script) return script.error();
+  page.script = std::move(*script);
+  page.head = &heads.front()->head;
+  page.rig = &heads.front()->rig;
+  page.head_name = heads.front()->name;
+  for (std::size_t i = 1; i < heads.size(); ++i) {
+    page.others.push_back({&heads[i]->head, &heads[i]->rig, heads[i]->name});
+  }
+  const Result<std::string> html = viewer::make_page(page);
+  if (!html) return html.error();
+  if (auto written = write_file(options.output, *html); !written) return written.error();
+  say(name_of_output(options.output) + ": " + megabytes(double(html->size())) +
+      (page.sound ? ", with sound" : ", silent") + "; open it in a browser");
+  warn_of_lengths(page, options, seconds);
+  warn_of_size(page, html->size(), seconds);
+  return kOk;
+}
+
+void add_options(CLI::App& app, ViewOptions& options) {
+  app.add_option("input", options.first,
+                 "FAP text, FBA stream, a container with a face, or a table of curves")
+      ->required();
+  app.add_option("second", options.second, "Another one to compare it with");
+  add_output(
+      app.add_option("-o,--output", options.output, "HTML file to write, - for standard output"),
+      {".html", ".htm"})
+      ->required();
+  app.add_option("--audio", options.audio,
+                 "Sound in any format that FFmpeg reads; default: that of a container. AAC and "
+                 "Opus stay as they are unless one of the options below is given");
+  app.add_option("--script", options.script,
+                 "Phoneme script (of any format) to show with the curves; default: that which a "
+                 "container carries");
+  add_script_options(app, options.reading.reading, options.reading.language);
+  add_sound_options(app, options.sound, false);
+  add_length_option(app, options.length);
+  add_heads_options(app, options.heads.heads, options.heads.rest);
+}
+
+}  // namespace
+
+const Command kView{
+    "view", "A page that shows the talking head: one HTML file for any browser",
+    "  animeme view talk.mp4 -o talk.html\n"
+    "  animeme view talk.fap --audio voice.wav --script voice.TextGrid --head man "
+    "-o talk.html\n"
+    "  animeme view talk.mp4 --head woman,man,me.glb -o heads.html\n"
+    "  animeme view original.fap coded.fba --audio voice.wav -o loss.html\n"
+    "  animeme view lecture.mp4 --audio-codec opus --audio-bitrate 20000 -o lecture.html\n"
+    "The page needs no network; ? shows its keys.",
+    set_up<ViewOptions>};
+
+}  // namespace animeme::tools

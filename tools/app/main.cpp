@@ -1,0 +1,46 @@
+// The program `animeme`: one command for each task, see commands/.
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "tools/app/commands/line.h"
+#include "tools/formats/common/exit_code.h"
+#include "tools/formats/files/output_file.h"
+#include "tools/formats/files/unfinished.h"
+
+#ifdef __GLIBC__  // known from the headers above
+#include <malloc.h>
+#endif
+
+namespace {
+
+// Meshes, pictures and sums of some megabytes come and go: taken back by the system each time, they
+// cost a tenth of the time of training, or of a picture, for pages that are new.
+void keep_memory() {
+#ifdef __GLIBC__
+  ::mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  ::mallopt(M_TRIM_THRESHOLD, 256 << 20);
+#endif
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  keep_memory();
+  std::ios::sync_with_stdio(false);
+  animeme::tools::clean_up_on_signals();
+  try {
+    const int code = animeme::tools::run_line({argv, std::size_t(argc)});
+    const auto told = animeme::tools::flush_standard_output();
+    if (told || code != animeme::tools::kOk) return code;
+    std::cerr << "animeme: error: " + told.error().describe() + "\n";
+    return animeme::tools::kBadInput;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "animeme: error: there is not enough memory for this; close other programs, raise "
+                 "the limit (ulimit -v), or work on a part\n";
+    return animeme::tools::kInternal;
+  } catch (const std::exception& error) {
+    std::cerr << "animeme: internal error: " << error.what() << "\n";
+    return animeme::tools::kInternal;
+  }
+}

@@ -1,0 +1,254 @@
+// Speech: text, phones or a recorded voice in, a face with its sound out.
+#include <cmath>
+#include <cstring>
+
+#include "dam/signal/fap_signal.h"
+#include "dam/speaking/life.h"
+#include "dam/speaking/stream.h"
+#include "tools/bindings/python/python_internal.h"
+#include "tools/speech/talking/spoken.h"
+
+namespace animeme::python {
+
+namespace {
+
+// What was said, and how the face moves.
+struct Speech {
+  speech::Spoken spoken;
+  dam::Signal signal;
+  std::string language;
+};
+
+struct Motion {
+  dam::SynthesisOptions synthesis;
+  std::optional<bool> life;
+  std::uint64_t seed = 1;
+};
+
+Result<Speech> spoken_of(speech::SpokenOptions source, const dam::Script* script, Heard& heard) {
+  if (script == nullptr) {
+    auto spoken = speech::get_spoken(source, heard.talk());
+    if (!spoken) return spoken.error();
+    return Speech{std::move(*spoken), {}, {}};
+  }
+  Speech speech;
+  speech.spoken.script = *script;
+  speech.spoken.times = speech::TimesFrom::script;
+  if (source.audio.empty()) return speech;
+  auto audio = speech::read_voice(source.audio, heard.talk());
+  if (!audio) return audio.error();
+  if (auto ok = dam::check_against_audio(*script, audio->duration()); !ok) return ok.error();
+  speech.spoken.audio = std::move(*audio);
+  return speech;
+}
+
+// As the program does: the face goes on as long as the sound.
+Result<void> move_face(const dam::Model& model, Motion motion, Speech& speech) {
+  const auto& audio = speech.spoken.audio;
+  if (audio) {
+    motion.synthesis.tail = std::max(0.0, audio->duration() - speech.spoken.script.duration());
+  }
+  auto signal = speech::move_face(model, speech.spoken, motion.synthesis);
+  if (!signal) return signal.error();
+  speech.signal = std::move(*signal);
+  if (!motion.life.value_or(true)) return {};
+  const auto added = dam::add_life(speech.signal, speech.spoken.script, {1, motion.seed});
+  // Without being asked: models of other rigs do without.
+  if (!added && motion.life) return added.error();
+  return {};
+}
+
+std::unique_ptr<Speech> speak(const Model& model, const py::object& said, const py::object& audio,
+                              const py::object& transcript, const std::string& lang,
+                              const py::object& rate, double style, double sharpness,
+                              double articulation, bool closure, std::optional<bool> life,
+                              std::uint64_t seed, int speed, int pitch, const std::string& tts) {
+  speech::SpokenOptions source;
+  std::optional<dam::Script> script;
+  if (py::isinstance<py::str>(said)) {
+    source.text = said.cast<std::string>();
+    source.has_text = true;
+  } else if (!said.is_none()) {
+    script = script_of(said);
+  } else if (audio.is_none()) {
+    throw py::type_error("speak() needs a text, phones, or audio");
+  }
+  if (source.has_text && !audio.is_none()) {
+    throw py::type_error("what is said in audio is its transcript");
+  }
+  if (!audio.is_none()) source.audio = path_of(audio);
+  if (!transcript.is_none()) {
+    if (source.audio.empty()) throw py::type_error("a transcript is that of audio");
+    source.transcript = transcript.cast<std::string>();
+    source.has_transcript = true;
+  }
+  source.listen = !source.audio.empty() && !source.has_transcript;
+  source.language = lang;
+  source.words_per_minute = speed;
+  source.pitch = pitch;
+  source.tts = tts;
+  Motion motion{{.rate = rate_of(rate),
+                 .closure = closure,
+                 .style = style,
+                 .sharpness = sharpness,
+                 .articulation = articulation},
+                life,
+                seed};
+  Heard heard;
+  auto speech = unlocked([&]() -> Result<Speech> {
+    auto made = spoken_of(source, script ? &*script : nullptr, heard);
+    if (!made) return made;
+    if (auto done = move_face(model.model, motion, *made); !done) return done.error();
+    return made;
+  });
+  heard.tell();
+  auto done = std::make_unique<Speech>(value_of(std::move(speech)));
+  const auto& languages = done->spoken.languages;
+  done->language = !languages.empty() ? languages.front().language : script ? "" : lang;
+  return done;
+}
+
+Clip clip_of_speech(const Speech& speech) {
+  return clip_of(value_of(dam::to_sequence(speech.signal)));
+}
+
+py::object sound_of(const Speech& speech) {
+  if (!speech.spoken.audio) return py::none();
+  const auto& samples = speech.spoken.audio->samples;
+  return py::array_t<float>(py::ssize_t(samples.size()), samples.data());
+}
+
+void save_speech(const Speech& speech, const py::object& path, const std::string& preset, int quant,
+                 double max_rms, double max_bits_per_second, std::optional<double> intra_seconds) {
+  Beside beside;
+  if (speech.spoken.audio) beside.sound = &*speech.spoken.audio;
+  beside.texts = speech::carried_texts(speech.spoken.script, speech.language);
+  save(value_of(dam::to_sequence(speech.signal)), path_of(path),
+       {preset, quant, max_rms, max_bits_per_second, intra_seconds}, beside);
+}
+
+py::array_t<double> speech_times(const Speech& speech) {
+  py::array_t<double> times(py::ssize_t(speech.signal.frames()));
+  for (std::size_t i = 0; i < speech.signal.frames(); ++i) {
+    times.mutable_at(i) = speech.signal.time(i);
+  }
+  return times;
+}
+
+std::unique_ptr<dam::SpeechStream> make_stream(const Model& model, const py::object& rate,
+                                               std::optional<double> look_ahead, double style,
+                                               double sharpness, double articulation,
+                                               bool closure) {
+  const dam::StreamOptions options{{.rate = rate_of(rate),
+                                    .closure = closure,
+                                    .style = style,
+                                    .sharpness = sharpness,
+                                    .articulation = articulation},
+                                   look_ahead};
+  value_of(dam::validate(options.synthesis));
+  return std::make_unique<dam::SpeechStream>(model.model, options);
+}
+
+void bind_speech_stream(py::module_& module) {
+  py::class_<dam::SpeechStream>(module, "SpeechStream",
+                                R"(Speaks while the script is being made: phones in, frames out.
+
+    for phone in my_voice:
+        show(stream.push(*phone))
+
+A frame comes out as soon as no later phone can change it, or `look_ahead` says not to wait.)")
+      .def(py::init(&make_stream), py::arg("model"), py::kw_only(), py::arg("rate") = 25,
+           py::arg("look_ahead") = py::none(), py::arg("style") = 1.0, py::arg("sharpness") = 1.0,
+           py::arg("articulation") = 1.0, py::arg("closure") = true, py::keep_alive<1, 2>(),
+           R"(A stream that begins at time 0.
+
+model: who speaks.
+rate: frames a second.
+look_ahead: seconds of script that have to be known beyond a frame; None: all that can change it.
+style, sharpness, articulation, closure: as of Model.speak().)")
+      .def(
+          "push",
+          [](dam::SpeechStream& s, double start, double end, const std::string& label,
+             const std::string& word) {
+            value_of(s.push({start, end, label, word}));
+            return array_of(value_of(s.pull()));
+          },
+          py::arg("start"), py::arg("end"), py::arg("label"), py::arg("word") = "",
+          R"(The next phone; the frames that became final: float64 (frames, controls), often none.
+
+start, end: seconds, not before the end of the last phone; gaps are silence.
+label: ARPAbet without stress or "SIL".
+word: to which it belongs.
+
+Raises Error.)")
+      .def(
+          "finish", [](dam::SpeechStream& s) { return array_of(value_of(s.finish())); },
+          "The end of the script: the frames that are left, float64 (frames, controls).");
+}
+
+}  // namespace
+
+void bind_speak(py::module_& module) {
+  py::class_<Speech>(module, "Speech", "What Model.speak() made: a face with its script and sound.")
+      .def_property_readonly("clip", &clip_of_speech,
+                             "The face as a Clip; raises Error if the controls of the model are\n"
+                             "neither FAPs nor ARKit's.")
+      .def_property_readonly(
+          "values", [](const Speech& s) { return array_of(s.signal); },
+          "float64 (frames, names): the controls in their own units.")
+      .def_property_readonly(
+          "names", [](const Speech& s) { return s.signal.names; },
+          "Names of the columns of `values`.")
+      .def_property_readonly("times", &speech_times, "float64 (frames,): seconds of each frame.")
+      .def_property_readonly(
+          "rate", [](const Speech& s) { return s.signal.rate.frames_per_second(); },
+          "Frames a second.")
+      .def_property_readonly(
+          "phones", [](const Speech& s) { return phones_of(s.spoken.script); },
+          "list of Phone: what is said when, seconds.")
+      .def_property_readonly("audio", &sound_of,
+                             "float32 (samples,): one channel, +-1 is full scale; None: no sound.")
+      .def_property_readonly(
+          "sample_rate",
+          [](const Speech& s) { return s.spoken.audio ? s.spoken.audio->sample_rate : 0; },
+          "Samples a second; 0: no sound.")
+      .def_property_readonly(
+          "voice", [](const Speech& s) { return s.spoken.voice; },
+          "Name of the synthetic voice; empty: there was none.")
+      .def("save", &save_speech, py::arg("path"), py::kw_only(), py::arg("preset") = "file",
+           py::arg("quant") = 1, py::arg("max_rms") = 0.0, py::arg("max_bits_per_second") = 0.0,
+           py::arg("intra_seconds") = py::none(),
+           R"(Writes face, sound, words and phones as the name of the file says.
+
+path, preset, quant, max_rms, max_bits_per_second, intra_seconds: as of Clip.save().)");
+
+  auto model = py::reinterpret_borrow<py::class_<Model>>(module.attr("Model"));
+  model.def("speak", &speak, py::arg("said") = py::none(), py::kw_only(),
+            py::arg("audio") = py::none(), py::arg("transcript") = py::none(),
+            py::arg("lang") = "en", py::arg("rate") = 25, py::arg("style") = 1.0,
+            py::arg("sharpness") = 1.0, py::arg("articulation") = 1.0, py::arg("closure") = true,
+            py::arg("life") = py::none(), py::arg("seed") = 1, py::arg("speed") = 175,
+            py::arg("pitch") = 50, py::arg("tts") = "", R"(Says something: a Speech.
+
+said: a text, plain or SSML, for a synthetic voice; or phones, tuples (start, end, label[, word]):
+    seconds, ARPAbet without stress or "SIL"; None: what is heard in audio.
+audio: a sound file: with phones beside them, with a transcript aligned with it, alone listened
+    to.
+transcript: what is said in audio.
+lang: language of the text: "en", "de", "pt-br"; "zh+en": further ones by script; "auto".
+rate: frames a second.
+style: intensity, 0 keeps the mouth at rest, 1 is as learned, 0..1.5.
+sharpness: quickness, 0 is the mean of sentences, 1 more as people, 0..3.
+articulation: how clearly vowels show, 0 is as learned, 0..2.
+closure: P, B and M close the lips, F and V reach the teeth.
+life: blinks, brows and head; None: where the controls of the model are known.
+seed: of life: another seed, other times of blinks.
+speed, pitch: words a minute (80..450) and pitch (0..100) of the synthetic voice.
+tts: command of a voice of yours, that writes sound to {wav}.
+
+What a voice left out or spelled is warned of as InputWarning. Raises Error. Other threads run
+meanwhile.)");
+  bind_speech_stream(module);
+}
+
+}  // namespace animeme::python

@@ -1,0 +1,95 @@
+/// @file
+/// Curves of ARKit's blend shapes: those of Live Link Face, which Unreal, Blender and Maya read and
+/// write, and those of web avatars.
+///
+///     auto take = animeme::exchange::read_arkit_table(text);
+///     if (take) use(take->clip, take->warnings);
+///
+///     const auto curves = animeme::exchange::fit_arkit(*animeme::fap::fill(clip, filling));
+///     save("talk.csv", animeme::exchange::write_live_link(curves));
+///
+/// What a shape does to a face, and the fit back, are in fap/arkit.h.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dam/signal/signal.h"
+#include "fap/arkit.h"
+#include "fap/frame.h"
+#include "fap/rate.h"
+#include "fap/result.h"
+#include "tools/formats/exchange/imported.h"
+
+namespace animeme::exchange {
+
+/// What the user says of a table.
+struct ArkitOptions {
+  std::optional<fap::Rate> rate;  ///< valid; nothing: told from the times
+  bool degrees = false;           ///< the angles of head and eyes are degrees, not radians
+};
+
+/// True if the first line of a text names two ARKit shapes at least: read_arkit_table() is for it.
+bool is_arkit_table(std::string_view text);
+
+/// Reads a table with a header line, fields between commas, semicolons or tabs:
+///
+///     Timecode,BlendShapeCount,EyeBlinkLeft,...          Live Link Face
+///     time_s,browDownLeft,browDownRight,...              corpus curves
+///
+/// Times are the column timecode, time_s, time or timestamp, in seconds ("1.0333") or as
+/// hh:mm:ss:ff.fff, where .fff is a fraction of a timecode frame. Timecode frames a second are the
+/// smallest of 24, 25, 30, 48, 50, 60, 100, 120 that no frame number reaches, or fewer if rows
+/// count up by one and never get that far; in a take within one second, what fits options.rate,
+/// else 60 with a warning. The rest are channels (fap/arkit.h, any case); missing ones are 0, and
+/// an angle that is 0 throughout counts as missing. Columns that are no channel are left out and
+/// named in the warnings.
+///
+/// The rate is that of the median step, snapped to a rate in common use (10 to 120, NTSC ones
+/// included) within 1 %, else to one that FBA can code (k/16). Timecodes count whole frames,
+/// so 29.97 is 30 there unless options.rate says otherwise. Each row becomes the frame next to its
+/// time; steps that are a little off do not matter, larger ones leave frame numbers out (skipped
+/// frames). Of rows that fall on the same frame the last one counts. Rows of Live Link Face without
+/// a face (BlendShapeCount 0) are left out likewise.
+///
+/// Errors, with line and column: truncated (no rows), not_found (no time, no channel), syntax (a
+/// field that is no number, missing fields, a column named twice), out_of_range (times that go
+/// back or span more than 10 million frames), invalid_argument (a rate that is not valid; a
+/// single row and no rate; steps that are no rate from 1/16 to 255).
+Result<Imported> read_arkit_table(std::string_view text, const ArkitOptions& options = {});
+
+/// One frame after the other, from time 0.
+struct ArkitCurves {
+  fap::Rate rate;                       ///< frames a second
+  std::vector<fap::ArkitFrame> frames;  ///< one after the other
+};
+
+/// The channels of such a table as they are, a frame after the other from frame 0: what stands in
+/// the clip of read_arkit_table() under the same number, rows that are missing as the row before.
+/// Errors: those of read_arkit_table().
+Result<ArkitCurves> read_arkit_weights(std::string_view text, const ArkitOptions& options = {});
+
+/// The curves that show a clip best, by fap::ArkitFitter; its frames should be complete and follow
+/// each other (fap::fill()). `progress`, if any, gets the share that is done after each frame,
+/// 0..1. About 0.1 ms a frame.
+ArkitCurves fit_arkit(const fap::Sequence& clip, const std::function<void(double)>& progress = {});
+
+/// The curves of a signal: its own channels, if they are ARKit's by name, missing ones 0; else what
+/// fit_arkit() makes of its FAPs, completed by fap::fill(). Errors: those of dam::to_sequence().
+Result<ArkitCurves> arkit_of_signal(const dam::Signal& signal,
+                                    const std::function<void(double)>& progress = {});
+
+/// The table that Live Link Face writes: Timecode (hh:mm:ss:ff.fff, frames of the next whole
+/// rate), BlendShapeCount 61, then the channels of fap::kArkitNames with a capital first letter,
+/// six decimals. read_arkit_table() reads it back.
+std::string write_live_link(const ArkitCurves& curves);
+
+/// {"format": "animeme-arkit", "version": 1, "fps": 25.0, "rate": [25, 1], "audio": null,
+///  "names": [61 names], "frames": [[61 numbers], ...]}, angles in radians, a line a frame. `audio`
+/// is the name of the sound beside it; empty: null. Bytes of it that are no UTF-8 become U+FFFD.
+std::string write_arkit_json(const ArkitCurves& curves, std::string_view audio = {});
+
+}  // namespace animeme::exchange

@@ -1,0 +1,150 @@
+#include "tools/formats/exchange/capture_table.h"
+
+#include <algorithm>
+
+#include "dam/signal/fap_signal.h"
+#include "tools/formats/exchange/arkit.h"
+#include "tools/formats/exchange/detail/json_landmarks.h"
+#include "tools/formats/exchange/detail/landmark_columns.h"
+#include "tools/formats/exchange/detail/long_table.h"
+#include "tools/formats/exchange/detail/table.h"
+
+namespace animeme::exchange {
+
+namespace {
+
+constexpr std::size_t kRowsToLookAt = 20;
+
+std::span<const std::uint8_t> bytes_of(std::string_view text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+bool is_fap_header(std::string_view header) {
+  const Row names({1, header}, separator_of(header));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (dam::fap_of_channel(lower_case(names.text(i))) > 0) return true;
+  }
+  return false;
+}
+
+bool is_numeric(std::string_view field) {
+  return !field.empty() && field.find_first_not_of("+-0123456789.eE") == std::string_view::npos;
+}
+
+// Decimal commas in rows behind the header, which has other separators: some, and nothing else.
+bool has_decimal_commas(const std::vector<dam::TableLine>& lines) {
+  const char separator = separator_of(lines[0].text);
+  if (separator == ',') return false;
+  bool any = false;
+  for (std::size_t i = 1; i < std::min(lines.size(), kRowsToLookAt); ++i) {
+    for (const std::string_view field : dam::split_fields(lines[i].text, separator)) {
+      std::string number(dam::trimmed(field));
+      const std::size_t comma = number.find(',');
+      if (comma == std::string::npos) continue;
+      number[comma] = '.';
+      if (!is_numeric(number)) return false;
+      any = true;
+    }
+  }
+  return any;
+}
+
+// The first line with content: readers leave empty lines out.
+std::string_view header_of(const std::vector<dam::TableLine>& lines) { return lines[0].text; }
+
+Error no_table(const std::vector<dam::TableLine>& lines) {
+  const std::string_view header = header_of(lines);
+  const Row names({lines[0].number, header}, separator_of(header));
+  const auto at = std::int64_t(lines[0].number);
+  std::size_t numbers = 0;
+  std::vector<std::string> list;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    numbers += is_numeric(names.text(i)) ? 1 : 0;
+    list.emplace_back(names.text(i));
+  }
+  if (numbers * 2 > names.size()) {
+    return error_at_line(
+        Code::not_found,
+        "the first line holds " + std::to_string(numbers) +
+            " numbers and no names of columns; put a header line before it (time_s,"
+            "x_0,y_0,x_1,y_1 ... for landmarks, time_s,jawOpen ... for shapes)",
+        at);
+  }
+  if (names.size() < 2) {
+    return error_at_line(Code::not_found,
+                         "this is text, but no table: its first line is one field, '" +
+                             std::string(header.substr(0, 60)) +
+                             "'; commas, semicolons or tabs part the columns of a table",
+                         at);
+  }
+  return error_at_line(Code::not_found,
+                       "no column is an ARKit blend shape (jawOpen, EyeBlinkLeft ...), and there "
+                       "are not all points of a set of landmarks (x_0, y_0 ... x_67, y_67; see "
+                       "import --help), nor four of them, nor FAPs (fap3); there are: " +
+                           list_of_names(list) +
+                           "; name the columns so, or say what they are (--column NAME=jawOpen)",
+                       at);
+}
+
+}  // namespace
+
+bool has_times(std::string_view table) {
+  const std::string_view header = first_line(table);
+  const Row names({1, header}, separator_of(header));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (is_time_name(lower_case(names.text(i)))) return true;
+  }
+  return false;
+}
+
+Result<CaptureTable> capture_table(std::string_view text, const CaptureTableOptions& options) {
+  if (const std::string what = foreign_file(bytes_of(text)); !what.empty()) {
+    return make_error(Code::unsupported, what);
+  }
+  CaptureTable out;
+  if (is_json(text)) {
+    Result<JsonTable> json = json_to_table(text, options.shapes);
+    if (!json) return std::move(json).error();
+    out = {{}, std::move(json->table), json->size, json->layout, std::move(json->warnings)};
+  } else {
+    out.table = text;
+  }
+  auto lines = dam::table_lines(out.table);
+  if (lines.empty()) return make_error(Code::truncated, "the file is empty");
+  if (lines.size() > 1 && has_decimal_commas(lines)) {
+    const std::size_t body = std::size_t(lines[1].text.data() - out.table.data());
+    std::replace(out.table.begin() + std::ptrdiff_t(body), out.table.end(), ',', '.');
+    out.warnings.emplace_back("decimal commas are read as points");
+    lines = dam::table_lines(out.table);
+  }
+  if (is_long_table(header_of(lines))) {
+    auto wide = long_to_wide(out.table, options.columns);
+    if (!wide) return wide.error();
+    out.table = std::move(*wide);
+    out.warnings.emplace_back("the table has a row a point, which are put together to frames");
+  } else if (!options.columns.empty()) {
+    auto named = rename_columns(out.table, options.columns);
+    if (!named) return named.error();
+    out.table = std::move(*named);
+  }
+  lines = dam::table_lines(out.table);
+  if (lines.empty()) return make_error(Code::truncated, "no column is left");
+  const std::string_view header = header_of(lines);
+  if (is_arkit_table(header) || (has_shape(header) && !has_landmark_columns(header))) {
+    out.kind = CaptureKind::arkit;
+  } else if (is_landmark_header(header) || has_landmark_columns(header) || out.layout) {
+    out.kind = CaptureKind::landmarks;
+  } else if (is_fap_header(header)) {
+    out.kind = CaptureKind::faps;
+    // Their reader knows commas alone.
+    const char separator = separator_of(header);
+    if (separator != ',') std::replace(out.table.begin(), out.table.end(), separator, ',');
+  } else if (has_numbered_points(header)) {
+    out.kind = CaptureKind::landmarks;  // its reader says what is missing
+  } else {
+    return no_table(lines);
+  }
+  return out;
+}
+
+}  // namespace animeme::exchange

@@ -1,0 +1,247 @@
+#include "tools/formats/exchange/detail/times.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "fap/rate_text.h"
+#include "tools/formats/exchange/detail/table.h"
+
+namespace animeme::exchange {
+
+namespace {
+
+constexpr double kDay = 86400;
+constexpr double kLargestFrame = 10'000'000;
+constexpr double kSlack = 0.75;          // of a frame
+constexpr double kSnap = 0.01;           // of a rate
+constexpr double kLongestStep = 3;       // seconds between frames that are not milliseconds
+constexpr double kShortestStep = 0.003;  // seconds between frames, 1/333
+constexpr double kUsualStep = 1.0;
+constexpr std::size_t kStepsToTell = 4;  // of a unit: two rows may be any time apart
+constexpr double kNtscFrom = 2.0;        // seconds: shorter clips cannot tell 29.97 from 30
+constexpr int kTimecodeRates[] = {24, 25, 30, 48, 50, 60, 100, 120};
+constexpr fap::Rate kRates[] = {{24, 1},       {25, 1}, {30, 1}, {50, 1}, {60, 1},  {30000, 1001},
+                                {60000, 1001}, {10, 1}, {12, 1}, {25, 2}, {15, 1},  {20, 1},
+                                {24000, 1001}, {48, 1}, {72, 1}, {90, 1}, {100, 1}, {120, 1}};
+
+std::optional<double> plain_number(std::string_view text) {
+  if (text.empty() || text.find_first_not_of("0123456789.") != std::string_view::npos) {
+    return std::nullopt;
+  }
+  return dam::parse_number(text);
+}
+
+std::string plain(double number) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.4g", number);
+  return text;
+}
+
+std::vector<double> steps_of(const std::vector<double>& seconds) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < seconds.size(); ++i) {
+    if (seconds[i] > seconds[i - 1]) steps.push_back(seconds[i] - seconds[i - 1]);
+  }
+  return steps;
+}
+
+// The timecode rate above `last_frame` that is next to `about`; the smallest if that is 0.
+int timecode_rate(double last_frame, double about = 0) {
+  int best = 0;
+  for (const int rate : kTimecodeRates) {
+    if (last_frame >= rate) continue;
+    if (best == 0 || std::abs(rate - about) < std::abs(best - about)) best = rate;
+  }
+  return best != 0 ? best : int(last_frame) + 1;
+}
+
+// The whole number that timecodes of an NTSC rate count to.
+double counted_rate(fap::Rate rate) {
+  const double exact = rate.frames_per_second();
+  const double whole = std::round(exact);
+  return rate.den == 1001 && std::abs(exact - whole) < 0.002 * whole ? whole : exact;
+}
+
+// Timecode frames between rows, within seconds; 0: none seen.
+double timecode_step(const std::vector<RowTime>& times) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    const double step = times[i].frames.value_or(0) - times[i - 1].frames.value_or(0);
+    if (times[i].seconds == times[i - 1].seconds && step > 0) steps.push_back(step);
+  }
+  return steps.empty() ? 0 : median(std::move(steps));
+}
+
+int tell_timecode_rate(const std::vector<RowTime>& times, std::optional<fap::Rate> rate,
+                       std::vector<std::string>& warnings) {
+  double last = 0;
+  for (const RowTime& time : times) last = std::max(last, time.frames.value_or(0));
+  // If some second ends within the recording, its last frame number tells the rate.
+  if (times.front().seconds != times.back().seconds) {
+    // Slower than any camera, and no row missing: the second ends where it ends.
+    const bool slow = last < kTimecodeRates[0] - 1 && timecode_step(times) == 1;
+    return slow ? int(last) + 1 : timecode_rate(last);
+  }
+  if (rate) return timecode_rate(last, counted_rate(*rate) * std::max(1.0, timecode_step(times)));
+  warnings.push_back(
+      "the recording is too short to tell how many timecode frames make a second: 60 are assumed; "
+      "give the frame rate");
+  return timecode_rate(last, 60);
+}
+
+std::vector<double> seconds_of(const std::vector<RowTime>& times, int per_second) {
+  std::vector<double> seconds;
+  double midnight = 0;
+  for (const RowTime& time : times) {
+    double now = time.seconds + midnight;
+    if (time.frames) {
+      now += *time.frames / per_second;
+      if (!seconds.empty() && seconds.back() - now > kDay / 2) {
+        midnight += kDay;
+        now += kDay;
+      }
+    }
+    seconds.push_back(now);
+  }
+  return seconds;
+}
+
+// How many seconds a time counts: trackers write milliseconds (MediaPipe), micro- and nanoseconds.
+double tell_unit(const std::vector<double>& seconds, std::vector<std::string>& warnings) {
+  const std::vector<double> steps = steps_of(seconds);
+  if (steps.size() < kStepsToTell) return 1;
+  const double step = median(steps);
+  if (!(step > kLongestStep)) return 1;
+  constexpr std::pair<double, const char*> kUnits[] = {
+      {1e-3, "milliseconds"}, {1e-6, "microseconds"}, {1e-9, "nanoseconds"}};
+  for (const auto& [unit, name] : kUnits) {
+    if (step * unit < kShortestStep || step * unit > kUsualStep) continue;
+    warnings.push_back("the times are " + plain(step) + " apart and taken as " + name);
+    return unit;
+  }
+  return 1;
+}
+
+// Frames a second, counted over the whole recording: frames that were left out count.
+double measured_rate(const std::vector<double>& seconds, double step) {
+  double frames = 0;
+  for (const double one : steps_of(seconds)) frames += std::round(one / step);
+  return frames / (seconds.back() - seconds.front());
+}
+
+fap::Rate snapped(double measured, double duration, bool timecode) {
+  fap::Rate best{0, 1};
+  double error = kSnap;
+  for (const fap::Rate& rate : kRates) {
+    if (rate.den == 1001 && (timecode || duration < kNtscFrom)) continue;
+    const double off = std::abs(measured / rate.frames_per_second() - 1);
+    if (off < error) {
+      error = off;
+      best = rate;
+    }
+  }
+  if (best.valid()) return best;
+  return fap::make_rate(std::uint32_t(std::lround(measured * 16)), 16);
+}
+
+Result<fap::Rate> tell_rate(const std::vector<double>& seconds, bool timecode) {
+  const std::vector<double> steps = steps_of(seconds);
+  if (steps.empty()) {
+    return make_error(Code::invalid_argument,
+                      "rows at one time only do not tell the frame rate; give it");
+  }
+  const double step = median(steps);
+  const double duration = seconds.back() - seconds.front();
+  const double measured = duration > 0 ? measured_rate(seconds, step) : 1 / step;
+  if (!(measured >= 1.0 / 16 && measured <= 255)) {
+    return make_error(Code::invalid_argument,
+                      "the times are " + std::to_string(step) +
+                          " s apart, which is no frame rate; correct them or give the rate");
+  }
+  return snapped(measured, duration, timecode);
+}
+
+// The frame number of a row at `position` behind a row with number `previous` (-1: none). Rows
+// that are less than 3/4 of a frame off the number that follows take it, so that jitter neither
+// skips nor merges; equal to `previous`: both rows fall on one frame.
+std::int64_t next_number(std::int64_t previous, double position) {
+  const double expected = double(previous + 1);
+  if (std::abs(position - expected) <= kSlack) return previous + 1;
+  const std::int64_t nearest = std::llround(position);
+  return std::max(nearest, std::max<std::int64_t>(previous, 0));
+}
+
+}  // namespace
+
+std::optional<RowTime> parse_time(std::string_view field, std::size_t line) {
+  const auto parts = dam::split_fields(field, ':');
+  if (parts.size() == 1) {
+    const auto seconds = dam::parse_number(field);
+    if (!seconds || !std::isfinite(*seconds)) return std::nullopt;
+    return RowTime{*seconds, std::nullopt, line};
+  }
+  if (parts.size() != 3 && parts.size() != 4) return std::nullopt;
+  std::array<double, 4> value{};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto number = plain_number(parts[i]);
+    const bool whole = number && *number == std::floor(*number);
+    if (!number || *number >= 1000 || (i + 1 < parts.size() && !whole)) return std::nullopt;
+    value[i] = *number;
+  }
+  RowTime time{value[0] * 3600 + value[1] * 60 + value[2], std::nullopt, line};
+  if (parts.size() == 4) time.frames = value[3];
+  return time;
+}
+
+Result<PlacedRows> place_rows(const std::vector<RowTime>& times, std::optional<fap::Rate> rate,
+                              std::vector<std::string>& warnings) {
+  if (rate && !rate->valid()) {
+    return make_error(Code::invalid_argument, "the frame rate that was given is none");
+  }
+  const bool timecode = times.front().frames.has_value();
+  const int per_second = timecode ? tell_timecode_rate(times, rate, warnings) : 1;
+  std::vector<double> seconds = seconds_of(times, per_second);
+  const double unit = timecode ? 1 : tell_unit(seconds, warnings);
+  for (double& time : seconds) time *= unit;
+  if (!rate) {
+    Result<fap::Rate> told = tell_rate(seconds, timecode);
+    if (!told) return std::move(told).error();
+    rate = *told;
+  }
+  const double scale = timecode ? counted_rate(*rate) : rate->frames_per_second();
+  PlacedRows placed{*rate, unit, {}};
+  std::size_t merged = 0;
+  std::int64_t number = -1;
+  double before = 0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const auto at = std::int64_t(times[i].line);
+    const double position = (seconds[i] - seconds.front()) * scale;  // in frames after the first
+    if (position < before) {
+      return error_at_line(Code::out_of_range, "the time goes back; sort the rows by time", at);
+    }
+    if (position > kLargestFrame) {
+      return error_at_line(Code::out_of_range,
+                           "the time is more than 10 million frames after the first; correct it",
+                           at);
+    }
+    const std::int64_t next = next_number(number, position);
+    before = position;
+    if (next == number) {
+      placed.numbers.back().reset();
+      ++merged;
+    }
+    number = next;
+    placed.numbers.emplace_back(number);
+  }
+  if (merged > 0) {
+    warnings.push_back(
+        "rows on the same frame as the next one, left out: " + std::to_string(merged) + " (at " +
+        fap::format_rate(placed.rate) + " frames a second)");
+  }
+  return placed;
+}
+
+}  // namespace animeme::exchange

@@ -1,0 +1,60 @@
+#include "tools/formats/exchange/motion.h"
+
+#include <utility>
+
+#include "fap/text.h"
+#include "tools/formats/exchange/curves.h"
+
+namespace animeme::exchange {
+
+Result<Motion> read_motion(std::vector<std::uint8_t> bytes, FrameNumbers numbers) {
+  if (bytes.empty()) return make_error(Code::truncated, "the file is empty");
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  Motion motion;
+  motion.kind = kind_of(bytes);
+  switch (motion.kind) {
+    case FileKind::fap_text: {
+      const bool keep = numbers == FrameNumbers::keep;
+      auto clip = fap::read_text(text, {.keep_numbers = keep}, &motion.warnings);
+      if (!clip) return clip.error();
+      motion.face = std::move(*clip);
+      return motion;
+    }
+    case FileKind::bap_text: {
+      auto body = fba::read_bap_text(text, &motion.warnings);
+      if (!body) return body.error();
+      motion.body = std::move(*body);
+      return motion;
+    }
+    case FileKind::curves: {
+      auto table = read_any_table(text);
+      if (!table) return table.error();
+      motion.face = std::move(table->clip);
+      motion.warnings = std::move(table->warnings);
+      return motion;
+    }
+    case FileKind::fba_stream:
+      return decode_motion(std::move(bytes));
+    case FileKind::media:
+      return make_error(Code::unsupported, "a container is to be opened before it is read");
+    default:
+      return make_error(Code::syntax,
+                        "this holds no face: .fap text, a raw .fba stream or an mp4, mkv or ts "
+                        "file with an FBA track is needed");
+  }
+}
+
+Result<Motion> decode_motion(std::vector<std::uint8_t> stream) {
+  Motion motion;
+  motion.kind = FileKind::fba_stream;
+  motion.stream = std::move(stream);
+  Result<fba::DecodedStream> decoded = fba::decode(motion.stream);
+  if (!decoded) return decoded.error();
+  motion.face = fba::face_sequence(*decoded);
+  motion.body = fba::body_sequence(*decoded);
+  motion.warnings = decoded->warnings;
+  motion.decoded = std::move(*decoded);
+  return motion;
+}
+
+}  // namespace animeme::exchange

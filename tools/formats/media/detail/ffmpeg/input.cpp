@@ -1,0 +1,173 @@
+#include "tools/formats/media/detail/ffmpeg/input.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include "tools/formats/media/detail/ffmpeg/extension.h"
+#include "tools/formats/media/detail/mp4/mp4_check.h"
+#include "tools/formats/media/detail/tracks/face_header.h"
+
+namespace animeme::media {
+namespace {
+
+// Reading a file more often than this is not needed for anything but a hostile index.
+constexpr std::int64_t kRereads = 16;
+constexpr std::int64_t kSpareBudget = std::int64_t(64) << 20;
+
+int refuse_open(AVFormatContext*, AVIOContext**, const char*, int, AVDictionary**) {
+  return AVERROR(EPERM);
+}
+
+// Only the extension: a name must not choose a protocol or a file pattern.
+std::string name_hint(const std::string& path) {
+  const std::string extension = extension_of(path);
+  const bool plain = extension.size() >= 2 && extension.size() <= 6 &&
+                     std::all_of(extension.begin() + 1, extension.end(),
+                                 [](unsigned char c) { return std::isalnum(c) != 0; });
+  return plain ? "input" + extension : "input";
+}
+
+Error file_error(const std::string& path, int number) {
+  const Code code = number == ENOENT || number == ENOTDIR ? Code::not_found : Code::io;
+  return make_error(code, std::string("cannot be opened: ") + std::strerror(number)).in_file(path);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Input>> Input::open(const std::string& path, const char* formats) {
+  std::error_code status;
+  if (std::filesystem::is_directory(path, status)) return file_error(path, EISDIR);
+  std::unique_ptr<Input> input(new Input);
+  input->file_ = std::fopen(path.c_str(), "rb");
+  if (input->file_ == nullptr) return file_error(path, errno);
+  if (std::fseek(input->file_, 0, SEEK_END) == 0) {
+    input->size_ = std::ftell(input->file_);
+    std::rewind(input->file_);
+  }
+  if (input->size_ == 0) {
+    return make_error(Code::truncated, "the file is empty").in_file(path);
+  }
+  Result<void> started = input->start(name_hint(path), formats);
+  if (!started) return std::move(started.error()).in_file(path);
+  return input;
+}
+
+Result<std::unique_ptr<Input>> Input::open(std::span<const std::uint8_t> memory,
+                                           const char* formats) {
+  if (memory.empty()) return make_error(Code::truncated, "the input is empty");
+  std::unique_ptr<Input> input(new Input);
+  input->memory_ = memory;
+  input->size_ = std::int64_t(memory.size());
+  Result<void> started = input->start("input", formats);
+  if (!started) return started.error();
+  return input;
+}
+
+Result<void> Input::start(const std::string& hint, const char* formats) {
+  budget_ = size_ < 0 ? INT64_MAX : std::min(size_, INT64_MAX / 32) * kRereads + kSpareBudget;
+  context_ = avformat_alloc_context();
+  io_ = av::make_io(this, &Input::read, nullptr, size_ < 0 ? nullptr : &Input::seek);
+  if (!io_ || context_ == nullptr) return av::no_memory();
+  if (holds_raw_stream()) {
+    return make_error(Code::unsupported,
+                      "a raw FBA stream, not a container; decode or mux it as it is");
+  }
+  Result<void> sound = check_mp4();
+  if (!sound) return sound;
+  context_->pb = io_.get();
+  context_->io_open = refuse_open;
+  av::Options options;
+  options.set("protocol_whitelist", std::string("none"));  // for demuxers that open others
+  if (formats != nullptr) options.set("format_whitelist", std::string(formats));
+  const int status = avformat_open_input(&context_, hint.c_str(), nullptr, options.get());
+  if (status >= 0) return {};
+  if (formats != nullptr && status == AVERROR(EINVAL)) {
+    return make_error(Code::unsupported,
+                      "this format cannot carry a face; give an mp4, mkv, ts or nut file");
+  }
+  return av::make_av_error(status, "not a media file that can be read, or damaged");
+}
+
+// The first bytes mean other things to libavformat, so look before it does.
+bool Input::holds_raw_stream() {
+  if (size_ < 0) return false;
+  std::array<std::uint8_t, 64> head{};
+  const int count = read_some(head.data(), int(head.size()));
+  seek_to(0, SEEK_SET);
+  return count > 0 && looks_like_raw_stream(std::span(head).first(std::size_t(count)));
+}
+
+Result<void> Input::check_mp4() {
+  if (size_ < 0) return {};
+  Result<void> checked = check_fragmented_mp4(
+      std::uint64_t(size_), [this](std::uint64_t offset, std::span<std::uint8_t> buffer) {
+        return seek_to(std::int64_t(offset), SEEK_SET) >= 0 &&
+               read_some(buffer.data(), int(buffer.size())) == int(buffer.size());
+      });
+  seek_to(0, SEEK_SET);
+  return checked;
+}
+
+Input::~Input() {
+  avformat_close_input(&context_);
+  if (file_ != nullptr) std::fclose(file_);
+}
+
+int Input::read(void* self, std::uint8_t* buffer, int size) {
+  return static_cast<Input*>(self)->read_some(buffer, size);
+}
+
+int Input::read_some(std::uint8_t* buffer, int size) {
+  if (size <= 0) return AVERROR(EINVAL);
+  if (budget_ <= 0) {
+    exhausted_ = true;
+    return AVERROR_EOF;
+  }
+  std::size_t count = 0;
+  if (file_ != nullptr) {
+    count = std::fread(buffer, 1, std::size_t(size), file_);
+    if (count == 0 && std::ferror(file_) != 0) return AVERROR(EIO);
+  } else if (position_ < size_) {
+    count = std::size_t(std::min<std::int64_t>(size, size_ - position_));
+    std::memcpy(buffer, memory_.data() + position_, count);
+    position_ += std::int64_t(count);
+  }
+  if (count == 0) return AVERROR_EOF;
+  budget_ -= std::int64_t(count);
+  return int(count);
+}
+
+std::int64_t Input::seek(void* self, std::int64_t offset, int whence) {
+  return static_cast<Input*>(self)->seek_to(offset, whence & ~AVSEEK_FORCE);
+}
+
+std::int64_t Input::seek_to(std::int64_t offset, int whence) {
+  if (whence == AVSEEK_SIZE) return size_;
+  if (file_ != nullptr) {
+    if (std::fseek(file_, long(offset), whence) != 0) return AVERROR(errno);
+    return std::ftell(file_);
+  }
+  const std::int64_t base = whence == SEEK_CUR ? position_ : whence == SEEK_END ? size_ : 0;
+  if (offset < -base || offset > INT64_MAX - base) return AVERROR(EINVAL);
+  return position_ = base + offset;
+}
+
+std::string Input::format() const {
+  const std::string names = context_->iformat->name;
+  if (is_mp4_family()) {
+    const AVDictionaryEntry* brand = av_dict_get(context_->metadata, "major_brand", nullptr, 0);
+    return brand != nullptr && std::string(brand->value) == "qt  " ? "mov" : "mp4";
+  }
+  return names.substr(0, names.find(','));
+}
+
+bool Input::is_mp4_family() const {
+  return std::string(context_->iformat->name).find("mp4") != std::string::npos;
+}
+
+}  // namespace animeme::media

@@ -1,0 +1,58 @@
+// Opening a file or a memory block with libavformat in a closed room: whatever the content says,
+// no other file, device or network address is opened.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "tools/formats/media/detail/ffmpeg/ffmpeg.h"
+
+namespace animeme::media {
+
+/// An open AVFormatContext with its own reader beneath. Not movable: FFmpeg keeps its address.
+class Input {
+ public:
+  /// `formats`: libavformat names, comma separated, that are let in; nullptr: all.
+  /// Errors: not_found, io (the file), truncated (empty), syntax (no known media format, or
+  /// damaged), unsupported (a format outside `formats`, or a raw FBA stream).
+  static Result<std::unique_ptr<Input>> open(const std::string& path, const char* formats);
+  static Result<std::unique_ptr<Input>> open(std::span<const std::uint8_t> memory,
+                                             const char* formats);
+  ~Input();
+  Input(const Input&) = delete;
+  Input& operator=(const Input&) = delete;
+
+  AVFormatContext* context() const { return context_; }
+  /// Bytes of the whole input, -1: a pipe.
+  std::int64_t size() const { return size_; }
+  /// Short name: "mp4", "mov", "matroska", "mpegts", else libavformat's first name.
+  std::string format() const;
+  /// mp4 and its relatives: edit lists give exact begin and end.
+  bool is_mp4_family() const;
+  /// The read budget ran out: the index sends the reader over the same bytes again and again.
+  bool exhausted() const { return exhausted_; }
+
+ private:
+  Input() = default;
+  Result<void> start(const std::string& hint, const char* formats);
+  bool holds_raw_stream();
+  Result<void> check_mp4();
+  static int read(void* self, std::uint8_t* buffer, int size);
+  static std::int64_t seek(void* self, std::int64_t offset, int whence);
+  std::int64_t seek_to(std::int64_t offset, int whence);
+  int read_some(std::uint8_t* buffer, int size);
+
+  std::FILE* file_ = nullptr;
+  std::span<const std::uint8_t> memory_;
+  std::int64_t position_ = 0;  // in memory_
+  std::int64_t size_ = -1;     // -1: a pipe
+  std::int64_t budget_ = 0;
+  bool exhausted_ = false;
+  av::Io io_;
+  AVFormatContext* context_ = nullptr;
+};
+
+}  // namespace animeme::media

@@ -1,0 +1,160 @@
+#include "tools/formats/media/detail/tracks/interleaver.h"
+
+#include <algorithm>
+
+namespace animeme::media {
+namespace {
+
+constexpr int kReportEvery = 64;
+constexpr double kShortestFile = 0.5;  // seconds; readers cannot tell what less is (TS)
+
+/// Packets that are there as a whole.
+template <class Packet>
+class ListFeed : public TrackFeed {
+ public:
+  using Write = Result<void> (Muxer::*)(const Packet&);
+  ListFeed(Muxer& muxer, const std::vector<Packet>& packets, AVRational base, bool Packet::*sync,
+           Write how)
+      : muxer_(muxer), packets_(packets), base_(base), sync_(sync), write_(how) {}
+
+  Result<void> begin() override { return {}; }
+  bool ready() const override { return next_ < packets_.size(); }
+  std::int64_t time() const override { return packets_[next_].time; }
+  AVRational time_base() const override { return base_; }
+  bool sync() const override { return packets_[next_].*sync_; }
+  Result<void> write() override { return (muxer_.*write_)(packets_[next_++]); }
+  double end() const override {
+    if (next_ == 0) return 0;
+    const Packet& last = packets_[next_ - 1];
+    return double(last.time + duration_of(last)) * base_.num / base_.den;
+  }
+  double share() const override { return double(next_) / double(packets_.size()); }
+
+ private:
+  static std::int64_t duration_of(const fba::AccessUnit& unit) { return unit.duration; }
+  static std::int64_t duration_of(const VideoPacket&) { return 1; }
+
+  Muxer& muxer_;
+  const std::vector<Packet>& packets_;
+  AVRational base_;
+  bool Packet::*sync_;
+  Write write_;
+  std::size_t next_ = 0;
+};
+
+class SoundFeed : public TrackFeed {
+ public:
+  SoundFeed(Muxer& muxer, SoundSource& sound, double seconds)
+      : muxer_(muxer), sound_(sound), seconds_(seconds) {}
+
+  Result<void> begin() override {
+    Result<const AudioPacket*> packet = sound_.next();
+    if (!packet) return packet.error();
+    packet_ = *packet;
+    return {};
+  }
+  bool ready() const override { return packet_ != nullptr; }
+  std::int64_t time() const override { return packet_->time; }
+  AVRational time_base() const override { return {1, sound_.format().sample_rate}; }
+  bool sync() const override { return true; }
+  Result<void> write() override {
+    end_ = packet_->time + packet_->duration;
+    Result<void> written = muxer_.write_sound(*packet_);
+    return written ? begin() : written;
+  }
+  double end() const override { return double(end_) / sound_.format().sample_rate; }
+  double share() const override { return seconds_ > 0 ? end() / seconds_ : 1; }
+
+ private:
+  Muxer& muxer_;
+  SoundSource& sound_;
+  double seconds_;
+  const AudioPacket* packet_ = nullptr;
+  std::int64_t end_ = 0;
+};
+
+class TextFeed : public TrackFeed {
+ public:
+  TextFeed(Muxer& muxer, const TextSamples& text, int number)
+      : muxer_(muxer), text_(text), number_(number) {}
+
+  Result<void> begin() override { return {}; }
+  bool ready() const override { return next_ < text_.samples.size(); }
+  std::int64_t time() const override { return text_.samples[next_].time; }
+  AVRational time_base() const override { return text_.time_base; }
+  bool sync() const override { return true; }
+  Result<void> write() override { return muxer_.write_text(text_.samples[next_++], number_); }
+  double end() const override { return 0; }  // what is shown does not make the file longer
+  double share() const override { return 1; }
+  bool sparse() const override { return true; }
+
+ private:
+  Muxer& muxer_;
+  const TextSamples& text_;
+  int number_;
+  std::size_t next_ = 0;
+};
+
+/// The feed whose packet is due first, the earlier feed on a tie; nullptr: all are empty.
+TrackFeed* first_due(const std::vector<std::unique_ptr<TrackFeed>>& feeds) {
+  TrackFeed* first = nullptr;
+  for (const auto& feed : feeds) {
+    if (!feed->ready()) continue;
+    const bool earlier = first == nullptr || av_compare_ts(feed->time(), feed->time_base(),
+                                                           first->time(), first->time_base()) < 0;
+    if (earlier) first = feed.get();
+  }
+  return first;
+}
+
+}  // namespace
+
+std::unique_ptr<TrackFeed> face_feed(Muxer& muxer, const fba::AccessUnits& face) {
+  return std::make_unique<ListFeed<fba::AccessUnit>>(muxer, face.units,
+                                                     AVRational{1, int(face.timescale)},
+                                                     &fba::AccessUnit::intra, &Muxer::write_unit);
+}
+
+std::unique_ptr<TrackFeed> video_feed(Muxer& muxer, const EncodedVideo& video) {
+  return std::make_unique<ListFeed<VideoPacket>>(
+      muxer, video.packets, AVRational{int(video.rate.den), int(video.rate.num)}, &VideoPacket::key,
+      &Muxer::write_picture);
+}
+
+std::unique_ptr<TrackFeed> sound_feed(Muxer& muxer, SoundSource& sound, double seconds) {
+  return std::make_unique<SoundFeed>(muxer, sound, seconds);
+}
+
+std::unique_ptr<TrackFeed> text_feed(Muxer& muxer, const TextSamples& samples, int text) {
+  return std::make_unique<TextFeed>(muxer, samples, text);
+}
+
+Result<Interleaved> interleave(std::vector<std::unique_ptr<TrackFeed>>& feeds,
+                               const std::function<bool()>& stop,
+                               const std::function<void(double)>& progress) {
+  for (const auto& feed : feeds) {
+    if (auto begun = feed->begin(); !begun) return begun.error();
+  }
+  Interleaved result;
+  const auto has_begun = [](const auto& feed) {
+    return feed->sparse() || feed->end() >= kShortestFile || !feed->ready();
+  };
+  for (int steps = 1; TrackFeed* feed = first_due(feeds); ++steps) {
+    if (stop && std::all_of(feeds.begin(), feeds.end(), has_begun) && stop()) {
+      result.stopped = true;
+      break;
+    }
+    if (feed->before) {
+      if (auto done = feed->before(*feed); !done) return done.error();
+    }
+    if (auto written = feed->write(); !written) return written.error();
+    if (!progress || steps % kReportEvery != 0) continue;
+    double done = 1;
+    for (const auto& each : feeds) done = std::min(done, each->share());
+    progress(std::clamp(done, 0.0, 0.999));
+  }
+  for (const auto& feed : feeds) result.seconds = std::max(result.seconds, feed->end());
+  return result;
+}
+
+}  // namespace animeme::media

@@ -1,0 +1,223 @@
+#include "tools/formats/media/detail/tracks/muxer.h"
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "tools/formats/media/detail/sound/audio_parameters.h"
+#include "tools/formats/media/detail/tracks/unit_facts.h"
+
+namespace animeme::media {
+namespace {
+
+// Below this libavformat's mp4 writer doubles the time scale until it is reached.
+constexpr std::uint32_t kLowestTimescale = 10000;
+
+std::uint32_t container_timescale(std::uint32_t timescale) {
+  if (timescale >= kLowestTimescale) return timescale;
+  return timescale * ((kLowestTimescale + timescale - 1) / timescale);
+}
+
+bool set_buffer_facts(AVStream& stream, const fba::AccessUnits& face) {
+  std::size_t size = 0;
+  AVCPBProperties* facts = av_cpb_properties_alloc(&size);
+  if (facts == nullptr) return false;
+  facts->buffer_size = 8 * std::int64_t(largest_unit(face));
+  facts->max_bitrate = peak_bit_rate(face);
+  auto* data = reinterpret_cast<std::uint8_t*>(facts);
+  if (av_stream_add_side_data(&stream, AV_PKT_DATA_CPB_PROPERTIES, data, size) >= 0) return true;
+  av_free(facts);
+  return false;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Muxer>> Muxer::open(const std::string& path, const char* format,
+                                           OutputStream::Filter filter) {
+  std::unique_ptr<Muxer> muxer(new Muxer);
+  muxer->packet_.reset(av_packet_alloc());
+  if (!muxer->packet_) return av::no_memory();
+  const std::string url = "file:" + path;  // a colon in the name must not mean a protocol
+  int status = avformat_alloc_output_context2(&muxer->context_, nullptr, format, url.c_str());
+  if (status == AVERROR(EINVAL)) {
+    return make_error(Code::unsupported,
+                      std::string("this FFmpeg was built without the format ") + format);
+  }
+  if (status < 0) return write_error(status);
+  Result<std::unique_ptr<OutputStream>> out = OutputStream::to_file(path, std::move(filter));
+  if (!out) return out.error();
+  muxer->out_ = std::move(*out);
+  muxer->context_->pb = muxer->out_->io();
+  muxer->context_->flags |= AVFMT_FLAG_BITEXACT;
+  return muxer;
+}
+
+Muxer::~Muxer() { avformat_free_context(context_); }
+
+bool Muxer::is(const char* format) const {
+  return std::strcmp(context_->oformat->name, format) == 0;
+}
+
+Result<void> Muxer::add_face(const fba::AccessUnits& units, Whole whole) {
+  AVStream* stream = avformat_new_stream(context_, nullptr);
+  if (stream == nullptr) return av::no_memory();
+  AVCodecParameters& parameters = *stream->codecpar;
+  parameters.codec_type = AVMEDIA_TYPE_VIDEO;
+  parameters.codec_id = AV_CODEC_ID_MPEG4;
+  parameters.width = 320;  // as the reference library writes it; 0 is refused
+  parameters.height = 240;
+  if (!av::set_extradata(parameters, units.config) ||
+      (whole == Whole::yes && !set_buffer_facts(*stream, units))) {
+    return av::no_memory();
+  }
+  stream->time_base = {1, int(container_timescale(units.timescale))};
+  const std::int64_t first_duration = units.units.front().duration;
+  av_reduce(&stream->avg_frame_rate.num, &stream->avg_frame_rate.den, units.timescale,
+            first_duration, INT32_MAX);
+  av_dict_set(&stream->metadata, "handler_name", "FBA", 0);
+  face_ = &units;
+  face_track_ = {stream, {1, int(units.timescale)}};
+  return {};
+}
+
+Result<void> Muxer::add_video(const EncodedVideo& video) {
+  AVStream* stream = avformat_new_stream(context_, nullptr);
+  if (stream == nullptr) return av::no_memory();
+  AVCodecParameters& parameters = *stream->codecpar;
+  parameters.codec_type = AVMEDIA_TYPE_VIDEO;
+  parameters.codec_id = video.codec == VideoCodec::h264  ? AV_CODEC_ID_H264
+                        : video.codec == VideoCodec::vp9 ? AV_CODEC_ID_VP9
+                                                         : AV_CODEC_ID_MPEG4;
+  parameters.width = video.width;
+  parameters.height = video.height;
+  parameters.format = AV_PIX_FMT_YUV420P;
+  parameters.color_range = AVCOL_RANGE_MPEG;
+  parameters.color_space = AVCOL_SPC_BT709;
+  parameters.color_primaries = AVCOL_PRI_BT709;
+  parameters.color_trc = AVCOL_TRC_BT709;
+  if (!av::set_extradata(parameters, video.config)) return av::no_memory();
+  video_track_ = {stream, {int(video.rate.den), int(video.rate.num)}};
+  stream->avg_frame_rate = av_inv_q(video_track_.base);
+  stream->time_base = {1, int(container_timescale(video.rate.num))};
+  stream->disposition = AV_DISPOSITION_DEFAULT;
+  return {};
+}
+
+Result<void> Muxer::add_stream(const AVCodecParameters& parameters, AVRational time_base) {
+  AVStream* stream = avformat_new_stream(context_, nullptr);
+  if (stream == nullptr) return av::no_memory();
+  const int status = avcodec_parameters_copy(stream->codecpar, &parameters);
+  if (status < 0) return write_error(status);
+  stream->codecpar->codec_tag = 0;
+  stream->time_base = time_base;
+  other_track_ = {stream, time_base};
+  return {};
+}
+
+Result<void> Muxer::add_sound(const AudioFormat& format, std::int64_t bit_rate) {
+  Result<av::Parameters> parameters = codec_parameters(format, bit_rate);
+  if (!parameters) return parameters.error();
+  sound_ = format;
+  // libavformat 5.1 moves the blocks by the pre-skip and has players skip it, too. Source:
+  // tools/formats/media/containers.md, section 3.1.
+  if (format.codec == AudioCodec::opus && (is("matroska") || is("webm"))) {
+    sound_shift_ = format.priming;
+  }
+  return add_stream(**parameters, {1, format.sample_rate});
+}
+
+Result<int> Muxer::add_text(const TextSamples& text) {
+  AVStream* stream = avformat_new_stream(context_, nullptr);
+  if (stream == nullptr) return av::no_memory();
+  stream->codecpar->codec_type = AVMEDIA_TYPE_SUBTITLE;
+  stream->codecpar->codec_id = text.codec;
+  if (!av::set_extradata(*stream->codecpar, text.config)) return av::no_memory();
+  stream->time_base = text.time_base;
+  av_dict_set(&stream->metadata, "language", text.language.c_str(), 0);
+  // Matroska's name of a track, and mp4's.
+  av_dict_set(&stream->metadata, is("mp4") ? "handler_name" : "title", text.name.c_str(), 0);
+  text_tracks_.push_back({stream, text.time_base});
+  return int(text_tracks_.size()) - 1;
+}
+
+Result<void> Muxer::check(int status) {
+  // The reason lies where the bytes went; libavformat passes on what it made of it.
+  if (context_->pb->error < 0) status = context_->pb->error;
+  return status < 0 ? write_error(status) : Result<void>();
+}
+
+Result<void> Muxer::write_header(av::Options& options) {
+  Result<void> written = check(avformat_write_header(context_, options.get()));
+  if (!written) return written;
+  if (const char* name = options.unused()) {
+    return make_error(Code::internal, std::string("this FFmpeg does not know the option ") + name);
+  }
+  return {};
+}
+
+Result<void> Muxer::write(AVPacket& packet, const Track& track) {
+  packet.stream_index = track.stream->index;
+  av_packet_rescale_ts(&packet, track.base, track.stream->time_base);
+  packet.pos = -1;
+  return check(av_interleaved_write_frame(context_, &packet));
+}
+
+Result<void> Muxer::write_unit(const fba::AccessUnit& unit) {
+  const std::size_t prefix = is("mpegts") && unit.intra ? face_->config.size() : 0;
+  const int status = av_new_packet(packet_.get(), int(prefix + unit.bytes.size()));
+  if (status < 0) return av::no_memory();
+  if (prefix > 0) std::memcpy(packet_->data, face_->config.data(), prefix);
+  std::memcpy(packet_->data + prefix, unit.bytes.data(), unit.bytes.size());
+  packet_->pts = packet_->dts = unit.time;
+  packet_->duration = unit.duration;
+  if (unit.intra) packet_->flags |= AV_PKT_FLAG_KEY;
+  return write(*packet_, face_track_);
+}
+
+Result<void> Muxer::write_sound(const AudioPacket& packet) {
+  Result<void> copied = copy_packet(packet, sound_, *packet_);
+  if (!copied) return copied;
+  packet_->pts += sound_shift_;
+  packet_->dts += sound_shift_;
+  return write_packet(*packet_);
+}
+
+Result<void> Muxer::write_picture(const VideoPacket& picture) {
+  if (av_new_packet(packet_.get(), int(picture.bytes.size())) < 0) return av::no_memory();
+  std::memcpy(packet_->data, picture.bytes.data(), picture.bytes.size());
+  packet_->pts = packet_->dts = picture.time;
+  packet_->duration = 1;
+  if (picture.key) packet_->flags |= AV_PKT_FLAG_KEY;
+  return write(*packet_, video_track_);
+}
+
+Result<void> Muxer::write_text(const TextSample& sample, int text) {
+  if (av_new_packet(packet_.get(), int(sample.bytes.size())) < 0) return av::no_memory();
+  std::memcpy(packet_->data, sample.bytes.data(), sample.bytes.size());
+  packet_->pts = packet_->dts = sample.time;
+  packet_->duration = sample.duration;
+  packet_->flags |= AV_PKT_FLAG_KEY;
+  return write(*packet_, text_tracks_[std::size_t(text)]);
+}
+
+Result<void> Muxer::write_packet(AVPacket& packet) { return write(packet, other_track_); }
+
+Result<void> Muxer::end_fragment() {
+  Result<void> flushed = check(av_interleaved_write_frame(context_, nullptr));
+  // With delay_moov the first call writes the contents only; one too many does nothing.
+  for (int i = 0; flushed && i < 2; ++i) flushed = check(av_write_frame(context_, nullptr));
+  avio_flush(context_->pb);
+  return flushed ? check(0) : flushed;
+}
+
+void Muxer::allow_late_track() {
+  // Else libavformat 5.1 begins it at 0. Other formats do not know the option.
+  if (is("mp4")) av_opt_set(context_->priv_data, "movflags", "+frag_discont", 0);
+}
+
+Result<void> Muxer::finish() {
+  Result<void> ended = check(av_write_trailer(context_));
+  return ended ? out_->close() : ended;
+}
+
+}  // namespace animeme::media

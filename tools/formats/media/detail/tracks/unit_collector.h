@@ -1,0 +1,51 @@
+// From packets of the face stream to access units.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tools/formats/media/container.h"
+#include "tools/formats/media/detail/ffmpeg/ffmpeg.h"
+#include "tools/formats/media/detail/tracks/plane_cutter.h"
+
+namespace animeme::media {
+
+class UnitCollector {
+ public:
+  /// `config`: from the file's header, may be empty. `shared`: a packet may hold several units.
+  UnitCollector(const ReadOptions& options, std::vector<std::uint8_t> config, bool shared);
+
+  /// Takes one packet. Errors: out_of_range (limits).
+  Result<void> add(const AVPacket& packet, AVRational time_base);
+
+  /// Durations, time shift (subtracted, in ticks), configuration, warnings. Errors: syntax (no
+  /// unit could be read).
+  Result<void> finish(std::int64_t shift, Container& result);
+
+  bool empty() const { return units_.empty(); }
+  std::size_t count() const { return units_.size() + std::size_t(lost_); }
+  std::int64_t first_time() const { return units_.front().time; }
+  AVRational time_base() const { return base_; }
+
+ private:
+  void lose();
+  Error too_long() const;
+  bool continues(const AVPacket& packet) const;
+  Result<void> append(std::span<const std::uint8_t> bytes);
+  void set_durations();
+
+  ReadOptions options_;
+  std::vector<std::uint8_t> config_;
+  std::optional<PlaneCutter> cutter_;  // of shared packets
+  std::vector<fba::AccessUnit> units_;
+  AVRational base_{1, 1};
+  std::size_t bytes_ = 0;
+  std::int64_t lost_ = 0;
+  std::int64_t late_ = 0;  // units whose time does not ascend
+  std::int64_t last_duration_ = 0;
+  bool wait_for_intra_ = true;
+};
+
+}  // namespace animeme::media

@@ -1,0 +1,268 @@
+#include "tools/formats/media/mux.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string_view>
+
+#include "tools/formats/files/output_file.h"
+#include "tools/formats/media/detail/ffmpeg/extension.h"
+#include "tools/formats/media/detail/mp4/mp4_fix.h"
+#include "tools/formats/media/detail/mp4/systems_movie.h"
+#include "tools/formats/media/detail/segments/segment_writer.h"
+#include "tools/formats/media/detail/tracks/interleaver.h"
+#include "tools/formats/media/detail/tracks/mux_parts.h"
+#include "tools/formats/media/detail/tracks/plane_cutter.h"
+#include "tools/formats/media/detail/tracks/text_samples.h"
+#include "tools/formats/media/detail/ts/ts_pmt.h"
+
+namespace animeme::media {
+namespace {
+
+// What goes into files with an extension, and who writes them.
+struct FileType {
+  std::string_view extension;
+  const char* muxer;
+  bool face, aac, opus, h264, vp9, text;
+
+  bool is_mp4() const { return std::string_view(muxer) == "mp4"; }
+  bool is_ts() const { return std::string_view(muxer) == "mpegts"; }
+  bool is_segments() const { return std::string_view(muxer) == "segments"; }
+  bool takes(AudioCodec codec) const { return codec == AudioCodec::opus ? opus : aac; }
+  bool takes(VideoCodec codec) const { return codec == VideoCodec::vp9 ? vp9 : h264; }
+};
+
+// clang-format off
+constexpr FileType kTypes[] = {
+    // extension, muxer,  face,  aac,   opus,  h264,  vp9,   text (h264 stands for MPEG-4 video, too)
+    {".mp4",  "mp4",      true,  true,  true,  true,  true,  true},
+    {".mkv",  "matroska", true,  true,  true,  true,  true,  true},
+    {".ts",   "mpegts",   true,  true,  false, false, false, false},
+    {".m3u8", "segments", true,  true,  true,  false, false, true},
+    {".mpd",  "segments", true,  true,  true,  false, false, false},
+    {".m4a",  "mp4",      false, true,  false, false, false, false},
+    {".mka",  "matroska", false, true,  true,  false, false, false},
+    {".webm", "webm",     false, false, true,  false, true,  false},
+    {".weba", "webm",     false, false, true,  false, false, false},
+    {".opus", "opus",     false, false, true,  false, false, false},
+};
+// clang-format on
+
+const FileType* type_of(const std::string& path) {
+  const std::string extension = extension_of(path);
+  const auto* found = std::find_if(std::begin(kTypes), std::end(kTypes), [&](const FileType& type) {
+    return type.extension == extension;
+  });
+  return found == std::end(kTypes) ? nullptr : found;
+}
+
+Error unsupported(std::string message) { return make_error(Code::unsupported, std::move(message)); }
+
+Result<void> check_type(const FileType& type, const MuxInput& input, const MuxOptions& options) {
+  const std::string name(type.extension);
+  if (options.systems && name != ".mp4") {
+    return unsupported("a Systems presentation is an .mp4 file");
+  }
+  if (options.fragmented && !type.is_mp4()) return unsupported("only an mp4 can be fragmented");
+  if (options.shared_seconds > 0 && !type.is_ts()) {
+    return unsupported("planes share packets in .ts files only");
+  }
+  if (input.video != nullptr && !type.takes(input.video->codec)) {
+    return unsupported("a " + name + " file takes no " + name_of(input.video->codec) +
+                       " video; use .mp4 or .mkv");
+  }
+  const bool text = input.texts != nullptr && !input.texts->empty();
+  if (text && (options.systems || !type.text)) {
+    return unsupported("text goes into plain .mp4, .mkv and .m3u8 files only");
+  }
+  if (input.face != nullptr && !type.face) {
+    return unsupported("a " + name + " file holds sound only; use .mp4, .mkv or .ts for a face");
+  }
+  const AudioCodec codec =
+      input.encoded != nullptr ? input.encoded->format.codec : options.audio.codec;
+  const bool sound =
+      input.audio != nullptr || input.audio_file != nullptr || input.encoded != nullptr;
+  if (sound && !type.takes(codec)) {
+    return unsupported("a " + name + " file takes no " + name_of(codec) + "; " +
+                       (type.opus ? "code the sound as opus" : "code the sound as aac") +
+                       ", or use .mp4 or .mkv");
+  }
+  if (sound && options.systems && codec != AudioCodec::aac) {
+    return unsupported("a Systems presentation takes AAC; code the sound as aac");
+  }
+  return {};
+}
+
+OutputStream::Filter filter_of(const FileType& type, const MuxInput& input) {
+  if (!type.is_ts() || input.face == nullptr) return nullptr;
+  const auto filter = std::make_shared<ProgramMapFilter>(std::uint8_t(visual_profile(input)));
+  return [filter](std::span<const std::uint8_t> bytes) { return filter->push(bytes); };
+}
+
+Result<MuxResult> write_streams(const std::string& path, const FileType& type,
+                                const MuxInput& input, const MuxOptions& options) {
+  Result<std::optional<SoundSource>> sound = open_sound(input, options);
+  if (!sound) return sound.error();
+  Result<std::unique_ptr<Muxer>> opened = Muxer::open(path, type.muxer, filter_of(type, input));
+  if (!opened) return opened.error();
+  Muxer& muxer = **opened;
+  std::vector<std::unique_ptr<TrackFeed>> feeds;
+  if (input.video != nullptr) {
+    if (auto added = muxer.add_video(*input.video); !added) return added.error();
+    feeds.push_back(video_feed(muxer, *input.video));
+  }
+  fba::AccessUnits shared;
+  const fba::AccessUnits* face = input.face;
+  if (face != nullptr && type.is_ts() && options.shared_seconds > 0) {
+    shared = share_packets(*face, options.shared_seconds);
+    face = &shared;
+  }
+  if (face != nullptr) {
+    if (auto added = muxer.add_face(*face); !added) return added.error();
+    feeds.push_back(face_feed(muxer, *face));
+  }
+  const AudioFormat* format = *sound ? &(*sound)->format() : nullptr;
+  if (format != nullptr) {
+    auto added = muxer.add_sound(*format, (*sound)->bit_rate());
+    if (!added) return added.error();
+    feeds.push_back(sound_feed(muxer, **sound, (*sound)->seconds()));
+  }
+  std::vector<TextSamples> texts;
+  for (const TextTrack& track : input.texts != nullptr ? *input.texts : std::vector<TextTrack>()) {
+    texts.push_back(type.is_mp4() ? mov_text_samples(track) : subrip_samples(track));
+  }
+  for (const TextSamples& track : texts) {
+    Result<int> added = muxer.add_text(track);
+    if (!added) return added.error();
+    feeds.push_back(text_feed(muxer, track, *added));
+  }
+  av::Options header;
+  if (type.is_mp4()) {
+    set_mp4_options({input.face, visual_profile(input), format, input.video}, header);
+    if (options.fragmented) {
+      set_fragment_options("frag_keyframe", options.fragment_seconds, header);
+    } else {
+      set_chunk_options(header);
+    }
+  }
+  if (type.is_ts()) set_ts_options(options.shared_seconds, header);
+  if (auto started = muxer.write_header(header); !started) return started.error();
+  Result<Interleaved> done = interleave(feeds, options.stop, options.progress);
+  if (!done) return done.error();
+  if (auto finished = muxer.finish(); !finished) return finished.error();
+  if (type.is_mp4()) {
+    auto completed = complete_mp4(
+        path, options.faststart || options.fragmented ? Layout::indexed : Layout::as_written);
+    if (!completed) return completed.error();
+  }
+  if (type.is_ts()) {
+    if (auto filled = fill_up_ts(path); !filled) return filled.error();
+  }
+  return MuxResult{done->seconds, *sound ? (*sound)->seconds_so_far() : 0, done->stopped};
+}
+
+Result<EncodedAudio> read_all(SoundSource& source) {
+  EncodedAudio audio{source.format(), {}, 0};
+  for (;;) {
+    const Result<const AudioPacket*> packet = source.next();
+    if (!packet) return packet.error();
+    if (*packet == nullptr) break;
+    audio.packets.push_back(**packet);
+  }
+  if (audio.packets.empty()) {
+    return make_error(Code::invalid_argument, "the sound is shorter than one coded sample");
+  }
+  audio.length = audio.packets.back().time + audio.packets.back().duration;
+  return audio;
+}
+
+Result<MuxResult> write_systems(const std::string& path, const MuxInput& input,
+                                const MuxOptions& options) {
+  const EncodedAudio* sound = input.encoded;
+  std::optional<EncodedAudio> coded;
+  if (sound == nullptr) {
+    Result<std::optional<SoundSource>> source = open_sound(input, options);
+    if (!source) return source.error();
+    if (*source) {
+      Result<EncodedAudio> made = read_all(**source);
+      if (!made) return made.error();
+      sound = &coded.emplace(std::move(*made));
+    }
+  }
+  Result<std::vector<std::uint8_t>> bytes =
+      write_movie(systems_movie(*input.face, sound, visual_profile(input)));
+  if (!bytes) return bytes.error();
+  std::ofstream out(path, std::ios::binary | std::ios::trunc);
+  out.write(reinterpret_cast<const char*>(bytes->data()), std::streamsize(bytes->size()));
+  out.close();
+  if (!out) return make_error(Code::io, "cannot write the file; check the free space");
+  const fba::AccessUnit& last = input.face->units.back();
+  MuxResult result{double(last.time + last.duration) / input.face->timescale, 0, false};
+  if (sound != nullptr) {
+    result.sound_seconds = double(sound->length) / sound->format.sample_rate;
+    result.seconds = std::max(result.seconds, result.sound_seconds);
+  }
+  return result;
+}
+
+Result<MuxResult> write_file(const std::string& path, const FileType& type, const MuxInput& input,
+                             const MuxOptions& options) {
+  if (auto legal = check_input(input, options); !legal) return legal.error();
+  if (auto legal = check_type(type, input, options); !legal) return legal.error();
+  const av::LogCapture log;
+  if (type.is_segments()) return write_segments(path, input, options);
+  tools::OutputFile out(path);
+  const Result<std::string> place = out.place();
+  if (!place) return place.error();
+  Result<MuxResult> written = options.systems ? write_systems(*place, input, options)
+                                              : write_streams(*place, type, input, options);
+  if (!written) return written;
+  if (auto published = out.publish(); !published) return published.error();
+  return written;
+}
+
+Result<MuxResult> guarded_write(const std::string& path, const FileType& type,
+                                const MuxInput& input, const MuxOptions& options) {
+  return av::guarded(path, [&] {
+    Result<MuxResult> written = write_file(path, type, input, options);
+    if (written && options.progress) options.progress(1.0);
+    return written;
+  });
+}
+
+}  // namespace
+
+bool takes_text(const std::string& path) {
+  const FileType* type = type_of(path);
+  return type != nullptr && type->text;
+}
+
+AudioCodec usual_codec(const std::string& path) {
+  const FileType* type = type_of(path);
+  return type == nullptr || type->aac ? AudioCodec::aac : AudioCodec::opus;
+}
+
+Result<MuxResult> write_mp4(const std::string& path, const MuxInput& input,
+                            const MuxOptions& options) {
+  return guarded_write(path, kTypes[0], input, options);
+}
+
+Result<MuxResult> write_container(const std::string& path, const MuxInput& input,
+                                  const MuxOptions& options) {
+  if (path == "-") {
+    return unsupported(
+        "a container cannot go to standard output, because its writer goes back in it; write a "
+        "file");
+  }
+  const FileType* type = type_of(path);
+  if (type != nullptr) return guarded_write(path, *type, input, options);
+  const bool face = input.face != nullptr;
+  return unsupported("cannot write a \"" + extension_of(path) + "\" file; use .mp4, .mkv or .ts" +
+                     (face ? "" : ", .m4a, .mka, .webm or .opus"))
+      .in_file(path);
+}
+
+}  // namespace animeme::media

@@ -1,0 +1,135 @@
+/// @file
+/// The packets of one medium as they come in: who sends them, in which order, and what there is to
+/// report back about it. Source: RFC 3550 sections 6.4, 8.2 and appendix A.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tools/formats/media/rtp/jitter.h"
+#include "tools/formats/media/rtp/rtcp.h"
+#include "tools/formats/media/rtp/udp_socket.h"
+
+namespace animeme::media {
+
+/// Hears one sender at a time: an identifier (SSRC) at an address. It is the first that has sent
+/// two packets near to each other in sequence, one of them with the begin of a unit where that can
+/// be seen. The one of the session description needs a single packet and comes before all others,
+/// who wait a second for it. Another one takes over when the first has been silent for a second, or
+/// if it comes from the very same address; what it has sent meanwhile is kept. All else is counted
+/// as foreign.
+class RtpInput {
+ public:
+  /// What the session description says of the medium.
+  struct Settings {
+    int payload_type = -1;              ///< others are not for us; -1: any
+    std::uint32_t clock = 90000;        ///< ticks a second
+    int bundle_id = 0;                  ///< of the header extension; 0: none
+    ReorderLimits limits;               ///< see ReorderBuffer
+    std::optional<std::uint32_t> ssrc;  ///< of the sender that was described
+    bool face = false;                  ///< units begin with a start code
+    bool any_source = false;            ///< addresses do not matter
+  };
+  /// Settings as they are, unchecked.
+  explicit RtpInput(const Settings& settings) : settings_(settings), buffer_(settings.limits) {}
+
+  /// What became of a datagram.
+  enum class Taken : std::uint8_t {
+    no,       ///< not RTP, not for us, came before, or has to prove itself
+    yes,      ///< next() may have something
+    restart,  ///< a new sender: take what flush() leaves of the old one, then accept()
+  };
+  /// `now`: seconds of a steady clock, as everywhere below.
+  Taken add(std::span<const std::uint8_t> datagram, const UdpAddress& from, double now);
+  /// Whether a datagram is of the sender in force, as its identifier and its address say.
+  bool hears(std::span<const std::uint8_t> datagram, const UdpAddress& from) const;
+  void flush() { buffer_.flush(); }  ///< what is missing is lost
+  /// Goes over to the new sender, or, where there is none, to whoever comes next.
+  void accept();
+
+  /// Nothing: wait for deadline() or the next datagram.
+  std::optional<ReorderBuffer::Item> next(double now) { return buffer_.next(now); }
+  /// When next() will have something by itself.
+  std::optional<double> deadline() const { return buffer_.deadline(); }
+
+  /// false: not of the sender in force, at its host. That of a sender that is still to come is kept
+  /// for take_report().
+  bool add_report(const RtcpReport& report, const UdpAddress& from, double now);
+  /// What the sender has reported before it was accepted; given once.
+  std::optional<SenderInfo> take_report();
+  /// A sender leaves; false: not ours.
+  bool add_bye(std::uint32_t ssrc, const UdpAddress& from, double now);
+  /// Of the sender in force; nothing: none yet.
+  std::optional<std::uint32_t> ssrc() const { return ssrc_; }
+  std::optional<double> bye_at() const { return bye_at_; }  ///< when it said goodbye
+  double last_heard() const { return last_heard_; }         ///< when its last packet came
+
+  /// What a receiver report says of the time since the last call.
+  ReportBlock report(double now);
+  /// Totals over all senders.
+  ReorderBuffer::Counts counts() const;
+  std::int64_t bytes() const { return bytes_; }           ///< of all RTP datagrams taken
+  std::int64_t foreign() const { return foreign_; }       ///< datagrams that were not
+  void ignore() { ++foreign_; }                           ///< one more of these
+  double wait() const { return buffer_.longest_wait(); }  ///< ReorderBuffer::longest_wait()
+  double latest() const { return buffer_.latest(); }      ///< ReorderBuffer::latest()
+  /// Interarrival jitter.
+  double jitter_seconds() const { return jitter_.ticks() / settings_.clock; }
+
+  /// A datagram that may prove to be of a sender.
+  struct Early {
+    std::vector<std::uint8_t> bytes;  ///< as it came
+    UdpAddress from;                  ///< who sent it
+    double at = 0;                    ///< instant of its arrival, seconds
+  };
+  /// Of all who are not in force, in the order of their arrival.
+  std::vector<Early> early() const;
+
+ private:
+  struct Candidate {
+    std::uint32_t ssrc = 0;
+    UdpAddress from;
+    double begin = 0;  // when it was heard first
+    std::deque<Early> datagrams;
+    std::size_t bytes = 0;
+    std::uint16_t sequence = 0;  // of its last packet
+    bool begins = false;         // one of them is the begin of a unit
+    bool follows = false;        // two of them are near to each other
+  };
+  struct EarlyReport {
+    std::uint32_t ssrc = 0;
+    UdpAddress from;
+    SenderInfo info;
+  };
+
+  Taken consider(const RtpPacket& packet, Early datagram);
+  bool proved(const Candidate& candidate) const;
+  bool may_take_over(const Candidate& candidate, double now) const;
+  void take(RtpPacket packet, std::size_t size, double now);
+  bool is_control(std::uint32_t ssrc, const UdpAddress& from, double now);
+
+  Settings settings_;
+  ReorderBuffer buffer_;
+  JitterMeter jitter_;
+  std::optional<std::uint32_t> ssrc_;
+  UdpAddress from_, control_;  // where the sender sends from; control_: nobody yet
+  double control_heard_ = 0;
+  std::vector<Candidate> candidates_;
+  std::optional<Candidate> chosen_;
+  bool renewed_ = false;  // whoever was described has gone
+  std::deque<EarlyReport> early_reports_;
+  std::optional<double> bye_at_;
+  double last_heard_ = 0;
+  std::int64_t bytes_ = 0;
+  std::int64_t foreign_ = 0;
+  ReorderBuffer::Counts before_;  // of earlier senders
+  std::int64_t reported_expected_ = 0;
+  std::int64_t reported_received_ = 0;
+  std::uint32_t last_sr_ = 0;
+  double last_sr_at_ = 0;
+};
+
+}  // namespace animeme::media

@@ -1,0 +1,79 @@
+/// @file
+/// What a presentation looks like as RTP and RTCP packets, without sockets: a caller hands in units
+/// and the time, and sends the datagrams that come out.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tools/formats/media/rtp/rtcp.h"
+#include "tools/formats/media/rtp/rtp.h"
+#include "tools/formats/media/rtp/rtp_listeners.h"
+#include "tools/formats/media/rtp/rtp_packetizer.h"
+#include "tools/formats/media/rtp/sdp.h"
+
+namespace animeme::media {
+
+/// Errors: invalid_argument (an option outside its range; a presentation of nothing; a time scale
+/// of 0 or above kMaxTimescale; a sample rate of 0).
+Result<void> check(const LiveInfo& info, const RtpOptions& options);
+
+/// Both media of a session on their way out.
+class RtpSender {
+ public:
+  /// `address` and `port` go into the session description. `seed`: as RtpOptions::seed. `ntp`: the
+  /// NTP time at `now` 0. Info and options are good.
+  RtpSender(const LiveInfo& info, const RtpOptions& options, const std::string& address, int port,
+            std::uint64_t seed, std::uint64_t ntp);
+
+  /// For write_sdp().
+  const RtpSession& session() const { return session_; }
+
+  using Datagrams = std::vector<RtpDatagram>;  ///< in the order in which they are to be sent
+  /// Appends what is to be sent now. Times ("now") are seconds and ascend. Errors:
+  /// invalid_argument (RtpPacketizer::check(), or a track that the presentation does not have).
+  Result<void> send(const LiveUnit& unit, double now, Datagrams& out);
+  /// Reports that are due, and what has waited for a next unit for too long.
+  void poll(double now, Datagrams& out);
+  /// The rest, and goodbye.
+  void finish(double now, Datagrams& out);
+  /// A report of a receiver.
+  void rtcp(std::span<const std::uint8_t> datagram, double now);
+
+  /// `packets` and `bytes` count RTCP, too.
+  SendStats stats(double now) const;
+
+ private:
+  struct Track {
+    RtpPacketizer packets;
+    double next_report = 0;
+    double gather_until = 0;
+  };
+  struct Copy {
+    RtpDatagram datagram;
+    int after = 0;  // planes, or bundles of them
+  };
+
+  void add_track(LiveTrack track, RtpTrack& described, const RtpIdentity& identity);
+  Track* find(LiveTrack track);
+  void flush(Track& track, double now, Datagrams& out);
+  void send_copies(bool all, Datagrams& out);
+  void report(Track& track, double now, bool bye, Datagrams& out);
+  void emit(RtpDatagram datagram, Datagrams& out);
+
+  LiveInfo info_;
+  RtpOptions options_;
+  RtpSession session_;
+  std::uint64_t ntp_;
+  std::vector<Track> tracks_;
+  std::vector<Copy> copies_;
+  double last_plane_ = 0;
+  std::optional<double> zero_;  // when time 0 is, or was
+  RtpListeners listeners_;
+  SendStats stats_;
+};
+
+}  // namespace animeme::media

@@ -1,0 +1,163 @@
+#include "tools/formats/scripts/detail/json_script.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dam/script/script_text_internal.h"
+#include "dam/script/table_text_internal.h"
+
+namespace animeme::scripts {
+
+namespace {
+
+constexpr int kDeepest = 12;  // an event in a list in a message in a stream is six deep
+
+// Programs in C# write AudioOffset, in JavaScript audioOffset, in Python audio_offset.
+bool same_name(std::string_view key, std::string_view name) {
+  std::size_t at = 0;
+  for (const char c : key) {
+    if (c == '_') continue;
+    const char lower = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+    if (at >= name.size() || lower != name[at]) return false;
+    ++at;
+  }
+  return at == name.size();
+}
+
+void find_in(const Node& node, const std::function<bool(const Node&)>& wanted, int depth,
+             std::vector<Node>& found) {
+  if (depth > kDeepest) return;
+  if (node.is_object()) {
+    if (wanted(node)) {
+      found.push_back(node);
+      return;
+    }
+    for (const auto& [key, value] : node.value->items()) {
+      if (value.is_structured()) find_in({&value, node.path + "/" + key}, wanted, depth + 1, found);
+    }
+  } else if (node.is_array()) {
+    for (std::size_t i = 0; i < node.size(); ++i) {
+      if (!(*node.value)[i].is_structured()) return;  // a list of numbers
+      find_in(node.at(i), wanted, depth + 1, found);
+    }
+  }
+}
+
+}  // namespace
+
+Node Node::member(std::initializer_list<std::string_view> names) const {
+  if (!is_object()) return {};
+  for (const std::string_view name : names) {
+    for (const auto& [key, member] : value->items()) {
+      if (same_name(key, name)) return {&member, path + "/" + key};
+    }
+  }
+  return {};
+}
+
+Node Node::at(std::size_t index) const {
+  if (index >= size()) return {};
+  return {&(*value)[index], path + "/" + std::to_string(index)};
+}
+
+std::optional<double> Node::number() const {
+  if (!exists()) return std::nullopt;
+  std::optional<double> number;
+  if (value->is_number()) number = value->get<double>();
+  if (value->is_string()) number = dam::parse_number(value->get_ref<const std::string&>());
+  return number && std::isfinite(*number) ? number : std::nullopt;
+}
+
+std::optional<std::string> Node::text() const {
+  if (!exists() || !value->is_string()) return std::nullopt;
+  return std::string(dam::trimmed(value->get_ref<const std::string&>()));
+}
+
+dam::TimedLabel& JsonLabels::add(const Node& node, double start, double end, std::string label,
+                                 bool is_word) {
+  paths.push_back(node.path);
+  return labels.emplace_back(
+      dam::TimedLabel{start, end, std::move(label), {}, std::int64_t(paths.size()), 0, is_word});
+}
+
+Error JsonLabels::error(Code code, std::string message, const Node& node) {
+  paths.push_back(node.path);
+  return error_at_line(code, std::move(message), std::int64_t(paths.size()));
+}
+
+std::vector<Node> find_objects(const std::vector<Node>& roots,
+                               const std::function<bool(const Node&)>& wanted) {
+  std::vector<Node> found;
+  for (const Node& root : roots) find_in(root, wanted, 0, found);
+  return found;
+}
+
+Result<std::string> viseme_label(JsonLabels& out, const Node& node, dam::VisemeSet set,
+                                 const std::string& name) {
+  const auto label = dam::phone_of_viseme(set, name);
+  if (label) return std::string(*label);
+  return out.error(Code::not_found, "unknown viseme \"" + name.substr(0, 40) + "\"", node);
+}
+
+void attach_words(std::vector<dam::TimedLabel>& phones, const std::vector<dam::TimedLabel>& words) {
+  auto word = words.begin();
+  for (dam::TimedLabel& phone : phones) {
+    const double middle = 0.5 * (phone.start + phone.end);
+    while (word != words.end() && word->end <= middle) ++word;
+    if (word == words.end()) return;
+    if (word->start <= middle) phone.word = word->label;
+  }
+}
+
+bool is_spoken(char32_t code) {
+  if (code < 0x80) {
+    return (code >= U'0' && code <= U'9') || ((code | 0x20) >= U'a' && (code | 0x20) <= U'z');
+  }
+  return code >= 0xC0 && !(code >= 0x2000 && code <= 0x206F) && !(code >= 0x3000 && code <= 0x3003);
+}
+
+void drop_unspoken(std::vector<dam::TimedLabel>& labels) {
+  std::erase_if(labels, [](const dam::TimedLabel& label) {
+    if (!label.is_word) return false;
+    for (std::string_view rest = label.label; !rest.empty();) {
+      if (is_spoken(dam::take_code_point(rest))) return false;
+    }
+    return true;
+  });
+}
+
+void give_times(std::vector<dam::TimedLabel>& words) {
+  drop_unspoken(words);
+  constexpr double kLeastOfWord = 0.06;  // seconds; in less nothing can be said
+  const auto timed = [](const dam::TimedLabel& word) { return word.end > word.start; };
+  std::vector<dam::TimedLabel> out;
+  std::string waiting;  // words before the first that has a time
+  for (std::size_t i = 0; i < words.size();) {
+    if (timed(words[i])) {
+      out.push_back(std::move(words[i++]));
+      if (!waiting.empty()) out.back().label = waiting + " " + out.back().label;
+      waiting.clear();
+      continue;
+    }
+    std::size_t until = i;
+    while (until < words.size() && !timed(words[until])) ++until;
+    const double from = out.empty() ? 0 : out.back().end;
+    const double to = until < words.size() ? words[until].start : from;
+    const double each = (to - from) / double(until - i);
+    for (std::size_t k = i; k < until; ++k) {
+      if (!out.empty() && each >= kLeastOfWord) {
+        words[k].start = from + each * double(k - i);
+        words[k].end = from + each * double(k - i + 1);
+        out.push_back(std::move(words[k]));
+      } else if (!out.empty()) {
+        out.back().label += " " + words[k].label;
+      } else {
+        waiting += (waiting.empty() ? "" : " ") + words[k].label;
+      }
+    }
+    i = until;
+  }
+  words = std::move(out);
+}
+
+}  // namespace animeme::scripts

@@ -1,0 +1,13 @@
+/// @file
+/// How heads are doing, as JSON.
+#pragma once
+
+#include "tools/formats/common/json.h"
+#include "tools/live/serve/head.h"
+
+namespace animeme::serve {
+
+/// Of one head.
+tools::Json head_json(const HeadFigures& figures);
+
+}  // namespace animeme::serve

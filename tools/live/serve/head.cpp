@@ -1,0 +1,132 @@
+#include "tools/live/serve/head.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace animeme::serve {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kLinger = 1;  // seconds that a head stays awake when nobody wants it
+
+speech::SpeakerOptions speaker_options(const HeadSettings& settings, int voice_rate) {
+  speech::SpeakerOptions options;
+  options.face = {settings.motion, settings.life, settings.seed};
+  options.fap_quant = settings.quant;
+  options.intra_seconds = settings.intra_seconds;
+  options.voice_rate = voice_rate;
+  options.audio.reset();
+  if (settings.sound) options.audio = settings.audio;
+  options.events = true;
+  return options;
+}
+
+}  // namespace
+
+Result<std::shared_ptr<Head>> Head::open(const std::string& name, const HeadSettings& settings,
+                                         std::shared_ptr<const dam::Model> model,
+                                         const HeadRoom& room) {
+  Result<speech::LineMaker> maker = room.voices.maker(settings.voice);
+  if (!maker) return maker.error();
+  std::shared_ptr<Head> head(new Head(settings, std::move(model), room.clock));
+  // Not the head itself: who calls may be the last to know it, in a thread that it waits for.
+  const auto wake = [&loop = room.loop, beat = static_cast<const Beat*>(head.get())] {
+    loop.wake(beat);
+  };
+  head->lines_ = std::make_shared<HeadLines>(std::move(*maker), room.voices, room.clock, wake);
+  auto speaker = speech::LiveSpeaker::open(*head->model_, *head->lines_, room.clock,
+                                           speaker_options(settings, head->lines_->sample_rate()));
+  if (!speaker) return speaker.error();
+  head->speaker_ = std::move(*speaker);
+  head->resume_ = std::min(0.0, head->speaker_->next_due().value_or(0));  // priming is before 0
+  head->wanted_ = room.clock.now();
+  head->sink_ = room.house.make_sink("/heads/" + name, wake);
+  if (auto ok = head->sink_->start(head->speaker_->info()); !ok) return ok.error();
+  return head;
+}
+
+Head::~Head() { finish(); }
+
+Result<void> Head::say(std::vector<std::string> lines) { return lines_->push(std::move(lines)); }
+
+void Head::finish() {
+  if (lines_) lines_->stop();
+  const std::lock_guard lock(mutex_);
+  if (sink_) (void)sink_->finish();
+  speaker_.reset();
+}
+
+bool Head::wanted() const {
+  return sink_->stats().receivers > 0 || !lines_->idle() || !speaker_->silent();
+}
+
+Result<void> Head::send_due() {
+  const std::optional<double> due = speaker_->next_due();
+  if (!due || pacer_.now() < *due) return {};
+  Result<std::vector<media::LiveUnit>> units = speaker_->take(pacer_.now());
+  if (!units) return units.error();
+  for (const media::LiveUnit& unit : *units) {
+    if (auto ok = sink_->send(unit); !ok) return ok;
+    speaker_->sent(unit, clock_.now());
+    for (const speech::LineEvent& event : speaker_->take_events()) {
+      if (auto ok = sink_->tell(speech::to_json(event)); !ok) return ok;
+    }
+    if (unit.track == media::LiveTrack::face) {
+      late_.add(pacer_.now() - media::due_of(*speaker_, unit));
+    }
+  }
+  return {};
+}
+
+double Head::step() {
+  const std::lock_guard lock(mutex_);
+  if (!speaker_) return kNever;
+  const double now = clock_.now();
+  if (wanted()) {
+    wanted_ = now;
+    if (std::exchange(asleep_, false)) pacer_.restart(-resume_);
+  }
+  if (asleep_) return kNever;
+  if (auto ok = send_due(); !ok) {
+    failure_ = ok.error().describe();
+    asleep_ = true;  // for good, until it is forgotten
+    (void)sink_->finish();
+    speaker_.reset();
+    return kNever;
+  }
+  const std::optional<double> due = speaker_->next_due();
+  if (!due) return kNever;
+  if (clock_.now() - wanted_ > kLinger) {
+    asleep_ = true;
+    resume_ = *due;
+    return kNever;
+  }
+  return clock_.now() + *due - pacer_.now();
+}
+
+HeadFigures Head::figures() const {
+  HeadFigures figures;
+  const std::lock_guard lock(mutex_);
+  const media::SendStats stats = sink_->stats();
+  figures.planes = stats.face_units;
+  figures.packets = stats.audio_units;
+  figures.viewers = stats.receivers;
+  figures.dropped = stats.dropped;
+  figures.late_50 = late_.percentile(0.5);
+  figures.late_99 = late_.percentile(0.99);
+  figures.lines = lines_->waiting();
+  figures.spoken = lines_->given();
+  figures.asleep = asleep_;
+  figures.idle = asleep_ ? clock_.now() - wanted_ : 0;
+  figures.warning = failure_.empty() ? lines_->last_warning() : failure_;
+  return figures;
+}
+
+void Head::add_lateness(media::LatenessMeter& meter) const {
+  const std::lock_guard lock(mutex_);
+  meter.add(late_);
+}
+
+}  // namespace animeme::serve

@@ -1,0 +1,91 @@
+/// @file
+/// One head of many: a LiveSpeaker, its lines and its place on the server, on its own clock.
+///
+/// A head that says nothing and that nobody watches sleeps: its clock stands, nothing is made. A
+/// viewer or a line wakes it; its times go on where they were.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "dam/model/model.h"
+#include "tools/formats/media/live/pacer.h"
+#include "tools/live/serve/clock_loop.h"
+#include "tools/live/serve/head_lines.h"
+#include "tools/live/serve/settings.h"
+#include "tools/live/web/house.h"
+#include "tools/speech/talking/live_speaker.h"
+
+namespace animeme::serve {
+
+/// What a head needs of its house; all of it outlives the head.
+struct HeadRoom {
+  Voices& voices;        ///< they speak for it
+  web::WebHouse& house;  ///< where it is seen
+  ClockLoop& loop;       ///< its steps
+  media::Clock& clock;   ///< that of the loop
+};
+
+/// How it goes.
+struct HeadFigures {
+  std::int64_t planes = 0;   ///< that were made
+  std::int64_t packets = 0;  ///< of sound, likewise
+  double late_50 = 0;        ///< seconds that planes were late: median
+  double late_99 = 0;        ///< ... 99th percentile
+  std::int64_t viewers = 0;  ///< now
+  std::int64_t dropped = 0;  ///< messages that slow viewers did not get
+  std::size_t lines = 0;     ///< that wait to be spoken
+  std::int64_t spoken = 0;   ///< lines that were begun
+  bool asleep = false;       ///< nothing is made
+  double idle = 0;           ///< seconds that it has slept
+  std::string warning;       ///< the last one; empty: none
+};
+
+/// Thread safe.
+class Head : public Beat {
+ public:
+  /// At `name` of the house: /heads/NAME/. Waits for the voice. `model` is shared. Errors: those of
+  /// Voices::maker(), LiveSpeaker::open() and WebSink::start().
+  static Result<std::shared_ptr<Head>> open(const std::string& name, const HeadSettings& settings,
+                                            std::shared_ptr<const dam::Model> model,
+                                            const HeadRoom& room);
+  ~Head() override;
+
+  const HeadSettings& settings() const { return settings_; }  ///< as they were given
+  /// Errors: those of HeadLines::push().
+  Result<void> say(std::vector<std::string> lines);
+  /// Its viewers are told. No step may run: ClockLoop::remove() comes first.
+  void finish();
+  HeadFigures figures() const;  ///< now
+  double step() override;
+  /// Every plane so far is added to `meter`.
+  void add_lateness(media::LatenessMeter& meter) const;
+
+ private:
+  Head(const HeadSettings& settings, std::shared_ptr<const dam::Model> model, media::Clock& clock)
+      : settings_(settings), model_(std::move(model)), clock_(clock), pacer_(clock) {}
+  bool wanted() const;
+  Result<void> send_due();
+
+  const HeadSettings settings_;
+  const std::shared_ptr<const dam::Model> model_;
+  media::Clock& clock_;
+  std::shared_ptr<HeadLines> lines_;
+
+  mutable std::mutex mutex_;  // for what follows
+  std::unique_ptr<speech::LiveSpeaker> speaker_;
+  std::unique_ptr<web::WebSink> sink_;
+  media::Pacer pacer_;
+  bool asleep_ = true;
+  double resume_ = 0;  // presentation time at which it sleeps
+  double wanted_ = 0;  // instant at which it was last
+  media::LatenessMeter late_;
+  std::string failure_;
+};
+
+}  // namespace animeme::serve

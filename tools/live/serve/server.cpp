@@ -1,0 +1,216 @@
+#include "tools/live/serve/server.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include "tools/speech/talking/spoken.h"
+
+namespace animeme::serve {
+namespace {
+
+constexpr std::size_t kMostAsked = 256;  // requests that wait
+constexpr int kMostHeads = 10000;
+
+Error bad(const std::string& sentence) { return make_error(Code::invalid_argument, sentence); }
+
+int threads_of(const ServerOptions& options) {
+  return options.threads > 0 ? options.threads : int(std::thread::hardware_concurrency());
+}
+
+}  // namespace
+
+HeadServer::HeadServer(const ServerOptions& options) : options_(options) {}
+
+Result<std::unique_ptr<HeadServer>> HeadServer::open(
+    const ServerOptions& options, const std::vector<std::pair<std::string, HeadSettings>>& heads) {
+  if (options.most_heads < 1 || options.most_heads > kMostHeads) {
+    return bad("a server has 1 to 10000 heads");
+  }
+  if (!(options.expire >= 0)) return bad("heads cannot expire before they are made");
+  std::unique_ptr<HeadServer> server(new HeadServer(options));
+  voice::keep_voices();  // one thread speaks: that of the voices
+  try {
+    server->voices_ =
+        std::make_unique<Voices>(options.voices ? options.voices : speech::voice_lines);
+    server->loop_ =
+        std::make_unique<ClockLoop>(media::steady_clock(), LoopOptions{threads_of(options)});
+    // Processes of voices begin as copies of this one: the first one while it is small.
+    Result<speech::LineMaker> voice = server->voices_->maker(options.defaults.voice);
+    if (!voice) return voice.error();
+    server->answering_ = std::thread([raw = server.get()] { raw->answer_all(); });
+  } catch (const std::system_error&) {
+    return make_error(Code::io, "no threads can be started for the heads");
+  }
+  auto house =
+      web::WebHouse::open(options.url, {options.web},
+                          [raw = server.get()](web::HouseRequest request, web::HouseAnswer answer) {
+                            raw->ask(std::move(request), std::move(answer));
+                          });
+  if (!house) return house.error();
+  {
+    const std::lock_guard lock(server->mutex_);
+    server->house_ = std::move(*house);
+  }
+  for (const auto& [name, settings] : heads) {
+    const auto made = server->make(name, settings, false);
+    if (!made) return make_error(made.error().code, name + ": " + made.error().describe());
+  }
+  return server;
+}
+
+HeadServer::~HeadServer() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  if (house_) finish();
+  changed_.notify_all();
+  if (answering_.joinable()) answering_.join();
+  for (const auto& [name, head] : all()) head->finish();
+  const std::lock_guard lock(mutex_);
+  heads_.clear();
+}
+
+Result<std::shared_ptr<const dam::Model>> HeadServer::model(const std::string& name) {
+  const auto known = models_.find(name);
+  if (known != models_.end()) return known->second;
+  const auto file = options_.models.find(name);
+  if (!name.empty() && file == options_.models.end()) {
+    std::string all;
+    for (const auto& [each, path] : options_.models) all += (all.empty() ? "" : ", ") + each;
+    return make_error(
+        Code::not_found,
+        "there is no model '" + name.substr(0, 60) + "'" +
+            (all.empty() ? "; models are named with --model NAME=FILE" : "; there are " + all));
+  }
+  Result<dam::Model> read = speech::read_model(name.empty() ? std::string() : file->second);
+  if (!read) return read.error();
+  return models_[name] = std::make_shared<const dam::Model>(std::move(*read));
+}
+
+Result<std::shared_ptr<Head>> HeadServer::make(const std::string& name,
+                                               const HeadSettings& settings, bool expires) {
+  if (!is_head_name(name)) {
+    return bad("a head is called by 1 to 64 letters, digits, -, _ and .");
+  }
+  const std::lock_guard one_at_a_time(making_);
+  {
+    const std::lock_guard lock(mutex_);
+    const auto known = heads_.find(name);
+    if (known != heads_.end()) {
+      if (settings_json(known->second.head->settings()) == settings_json(settings)) {
+        return known->second.head;
+      }
+      return bad("there is a head " + name + " with other settings; DELETE it before");
+    }
+    if (heads_.size() >= std::size_t(options_.most_heads)) {
+      return make_error(Code::out_of_range, "there are " + std::to_string(heads_.size()) +
+                                                " heads already, as many as may be (--max-heads)");
+    }
+  }
+  auto found = model(settings.model);
+  if (!found) return found.error();
+  Result<std::shared_ptr<Head>> head = Head::open(name, settings, *found, room());
+  if (!head) return head;
+  {
+    const std::lock_guard lock(mutex_);
+    heads_[name] = {*head, expires};
+    most_ = std::max(most_, heads_.size());
+  }
+  loop_->add(*head);
+  return head;
+}
+
+std::shared_ptr<Head> HeadServer::find(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = heads_.find(name);
+  return found == heads_.end() ? nullptr : found->second.head;
+}
+
+void HeadServer::end(const std::shared_ptr<Head>& head) {
+  loop_->remove(head.get());
+  const HeadFigures figures = head->figures();
+  {
+    const std::lock_guard lock(mutex_);
+    head->add_lateness(gone_late_);
+    gone_planes_ += figures.planes;
+  }
+  head->finish();
+}
+
+bool HeadServer::remove(const std::string& name) {
+  std::shared_ptr<Head> head;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = heads_.find(name);
+    if (found == heads_.end()) return false;
+    head = std::move(found->second.head);
+    heads_.erase(found);
+  }
+  end(head);
+  return true;
+}
+
+std::vector<std::pair<std::string, std::shared_ptr<Head>>> HeadServer::all() const {
+  std::vector<std::pair<std::string, std::shared_ptr<Head>>> heads;
+  const std::lock_guard lock(mutex_);
+  for (const auto& [name, kept] : heads_) heads.emplace_back(name, kept.head);
+  return heads;
+}
+
+void HeadServer::look() {
+  if (options_.expire <= 0) return;
+  std::vector<std::string> old;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [name, kept] : heads_) {
+      if (kept.expires && kept.head->figures().idle > options_.expire) old.push_back(name);
+    }
+  }
+  for (const std::string& name : old) remove(name);
+}
+
+void HeadServer::finish() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  if (answering_.joinable()) answering_.join();
+  for (const auto& [name, head] : all()) loop_->remove(head.get());
+  house_->finish();
+}
+
+// In the thread of the server.
+void HeadServer::ask(web::HouseRequest request, web::HouseAnswer answer) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!stopping_ && house_ && asked_.size() < kMostAsked) {
+      asked_.push_back({std::move(request), std::move(answer)});
+      changed_.notify_one();
+      return;
+    }
+  }
+  answer({503, "{\"error\": \"The server is busy or about to end; try again.\"}\n"});
+}
+
+void HeadServer::answer_all() {
+  std::unique_lock lock(mutex_);
+  while (!stopping_) {
+    if (asked_.empty()) {
+      changed_.wait(lock);
+      continue;
+    }
+    const Asked asked = std::move(asked_.front());
+    asked_.pop_front();
+    lock.unlock();
+    try {
+      asked.answer(answer(asked.request));
+    } catch (const std::exception&) {  // memory
+      asked.answer({500, "{\"error\": \"There is not enough memory for this.\"}\n"});
+    }
+    lock.lock();
+  }
+}
+
+}  // namespace animeme::serve

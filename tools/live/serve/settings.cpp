@@ -1,0 +1,195 @@
+#include "tools/live/serve/settings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "fap/rate_text.h"
+#include "tools/formats/common/text.h"
+#include "tools/formats/files/files.h"
+
+namespace animeme::serve {
+namespace {
+
+using tools::Json;
+
+Error bad_setting(std::string sentence) {
+  return make_error(Code::invalid_argument, std::move(sentence));
+}
+
+/// Reads members of an object one by one; keeps the first fault.
+class Members {
+ public:
+  explicit Members(const Json& json) : json_(json) {}
+
+  template <class Number>
+  void number(const char* name, double low, double high, Number& value) {
+    const Json* found = find(name);
+    if (found == nullptr) return;
+    const bool whole = !std::is_integral_v<Number> || found->is_number_integer();
+    const double read = found->is_number() && whole ? found->get<double>() : NAN;
+    if (!(read >= low && read <= high)) {
+      return fault(tools::format("\"%s\" is %s from %g to %g", name,
+                                 std::is_integral_v<Number> ? "a whole number" : "a number", low,
+                                 high));
+    }
+    value = Number(read);
+  }
+  void flag(const char* name, bool& value) {
+    const Json* found = find(name);
+    if (found == nullptr) return;
+    if (!found->is_boolean()) return fault(tools::format("\"%s\" is true or false", name));
+    value = found->get<bool>();
+  }
+  /// True: it is there.
+  bool text(const char* name, std::string& value) {
+    const Json* found = find(name);
+    if (found == nullptr) return false;
+    if (!found->is_string() || found->get_ref<const std::string&>().size() > 200) {
+      fault(tools::format("\"%s\" is a text of up to 200 bytes", name));
+      return false;
+    }
+    value = found->get<std::string>();
+    return true;
+  }
+  void fault(std::string sentence) {
+    if (fault_.empty()) fault_ = std::move(sentence);
+  }
+  /// What was wrong, or that there is a member that was not asked for.
+  Result<void> done() const {
+    if (!fault_.empty()) return bad_setting(fault_);
+    for (const auto& [name, value] : json_.items()) {
+      if (known_.contains(name)) continue;
+      std::string all;
+      for (const std::string& one : known_) all += (all.empty() ? "" : ", ") + one;
+      return bad_setting("a head has no \"" + name.substr(0, 60) + "\"; there are " + all);
+    }
+    return {};
+  }
+
+ private:
+  const Json* find(const char* name) {
+    known_.insert(name);
+    const auto found = json_.find(name);
+    return found == json_.end() ? nullptr : &*found;
+  }
+  const Json& json_;
+  std::set<std::string, std::less<>> known_;
+  std::string fault_;
+};
+
+}  // namespace
+
+HeadSettings::HeadSettings() {
+  voice.lead_silence = 0.1;  // time to open the mouth, as for `stream --say`
+  voice.tail_silence = 0.3;
+  motion.articulation = 1;
+  audio = {media::AudioCodec::opus, 48000, 5};
+}
+
+Result<HeadSettings> read_settings(const Json& json, HeadSettings settings) {
+  if (!json.is_object()) return bad_setting("settings of a head are a JSON object, {...}");
+  Members members(json);
+  members.text("model", settings.model);
+  members.text("lang", settings.voice.language);
+  members.number("speed", 80, 450, settings.voice.words_per_minute);
+  members.number("pitch", 0, 100, settings.voice.pitch);
+  std::string rate;
+  double hertz = settings.motion.rate.frames_per_second();
+  if (json.contains("rate") && json["rate"].is_string()) {
+    members.text("rate", rate);
+  } else {
+    members.number("rate", 1, 100, hertz);
+    if (json.contains("rate")) rate = tools::format("%g", hertz);
+  }
+  if (!rate.empty()) {
+    const Result<fap::Rate> read = fap::parse_rate(rate);
+    if (!read) {
+      members.fault("\"rate\": " + read.error().message);
+    } else if (read->frames_per_second() > 100) {
+      members.fault("\"rate\" is 100 at most");
+    } else {
+      settings.motion.rate = *read;
+    }
+  }
+  members.number("style", 0, dam::kMostStyle, settings.motion.style);
+  members.number("sharpness", 0, dam::kMostSharpness, settings.motion.sharpness);
+  members.number("articulate", 0, dam::kMostArticulation, settings.motion.articulation);
+  members.flag("life", settings.life);
+  members.number("seed", 0, 1e9, settings.seed);
+  members.number("intra_seconds", 0.04, 60, settings.intra_seconds);
+  members.number("quant", 0, 31, settings.quant);
+  members.flag("sound", settings.sound);
+  std::string codec;
+  if (members.text("audio_codec", codec)) {
+    if (codec != "opus" && codec != "aac") members.fault("\"audio_codec\" is \"opus\" or \"aac\"");
+    settings.audio.codec = codec == "aac" ? media::AudioCodec::aac : media::AudioCodec::opus;
+  }
+  members.number("audio_bitrate", 8000, 256000, settings.audio.bit_rate);
+  members.number("audio_effort", 0, 10, settings.audio.effort);
+  if (auto ok = members.done(); !ok) return ok.error();
+  return settings;
+}
+
+Json settings_json(const HeadSettings& settings) {
+  return {{"model", settings.model},
+          {"lang", settings.voice.language},
+          {"speed", settings.voice.words_per_minute},
+          {"pitch", settings.voice.pitch},
+          {"rate", fap::format_rate(settings.motion.rate)},
+          {"style", settings.motion.style},
+          {"sharpness", settings.motion.sharpness},
+          {"articulate", settings.motion.articulation},
+          {"life", settings.life},
+          {"seed", settings.seed},
+          {"intra_seconds", settings.intra_seconds},
+          {"quant", settings.quant},
+          {"sound", settings.sound},
+          {"audio_codec", media::name_of(settings.audio.codec)},
+          {"audio_bitrate", settings.audio.bit_rate},
+          {"audio_effort", settings.audio.effort}};
+}
+
+bool is_head_name(std::string_view name) {
+  constexpr std::size_t kMostName = 64;
+  if (name.empty() || name.size() > kMostName || name.front() == '.') return false;
+  return std::all_of(name.begin(), name.end(), [](char c) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    return letter || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.';
+  });
+}
+
+Result<HeadList> read_head_list(const std::string& path, const HeadSettings& defaults) {
+  Result<std::vector<std::uint8_t>> bytes = tools::read_file(path);
+  if (!bytes) return bytes.error();
+  const Json json = Json::parse(bytes->begin(), bytes->end(), nullptr, false);
+  const bool listed = json.is_object() && json.contains("heads") && json["heads"].is_array();
+  if (!listed) {
+    return make_error(Code::syntax,
+                      "no list of heads; write {\"heads\": [{\"name\": \"anna\"}, ...]}")
+        .in_file(path);
+  }
+  HeadList list{defaults, {}};
+  if (json.contains("defaults")) {
+    Result<HeadSettings> read = read_settings(json["defaults"], defaults);
+    if (!read) return read.error().in_file(path);
+    list.defaults = *read;
+  }
+  std::set<std::string> names;
+  for (Json head : json["heads"]) {
+    const bool named = head.is_object() && head.contains("name") && head["name"].is_string();
+    const std::string name = named ? head["name"].get<std::string>() : std::string();
+    if (!is_head_name(name)) {
+      return bad_setting("each head has a \"name\" of letters, digits, -, _ and .").in_file(path);
+    }
+    if (!names.insert(name).second)
+      return bad_setting("two heads are called " + name).in_file(path);
+    head.erase("name");
+    Result<HeadSettings> read = read_settings(head, list.defaults);
+    if (!read) return bad_setting(name + ": " + read.error().message).in_file(path);
+    list.heads.emplace_back(name, *read);
+  }
+  return list;
+}
+
+}  // namespace animeme::serve

@@ -1,0 +1,160 @@
+#include "tools/live/sessions/program.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "dam/signal/fap_signal.h"
+#include "dam/speaking/life.h"
+#include "tools/speech/talking/pieces.h"
+
+namespace animeme::live {
+
+namespace {
+
+constexpr double kAhead = 0.02;    // seconds that sound is sent before its time
+constexpr double kLiveLead = 0.1;  // silence before a live line, time to open the mouth
+constexpr double kLiveTail = 0.3;  // after it, to close it
+
+dam::SynthesisOptions synthesis_of(const ProgramOptions& options, fap::Rate rate) {
+  dam::SynthesisOptions settings = options.motion;
+  settings.rate = rate;
+  return settings;
+}
+
+voice::VoiceOptions voice_of(const speech::SpokenOptions& spoken) {
+  voice::VoiceOptions voice;
+  voice.language = spoken.language;
+  voice.words_per_minute = spoken.words_per_minute;
+  voice.pitch = spoken.pitch;
+  voice.lead_silence = kLiveLead;
+  voice.tail_silence = kLiveTail;
+  return voice;
+}
+
+Result<speech::LineMaker> maker_of(const ProgramOptions& options) {
+  const speech::SpokenOptions& spoken = options.spoken;
+  if (!options.say_json.empty()) {
+    return speech::piece_lines(voice_of(spoken), {spoken.script_reading, spoken.language});
+  }
+  if (!spoken.tts.empty()) return speech::command_lines(speech::voice_command(spoken));
+  return speech::voice_lines(voice_of(spoken));
+}
+
+}  // namespace
+
+Result<Clip> spoken_clip(const ProgramOptions& options, fap::Rate rate, const tools::Talk& talk) {
+  Result<dam::Model> model = speech::read_model(options.model);
+  if (!model) return model.error();
+  Result<speech::Spoken> spoken = speech::get_spoken(options.spoken, talk);
+  if (!spoken) return spoken.error();
+  dam::SynthesisOptions settings = synthesis_of(options, rate);
+  if (spoken->audio) {
+    settings.tail = std::max(0.0, spoken->audio->duration() - spoken->script.duration());
+  }
+  Result<dam::Signal> signal = speech::move_face(*model, *spoken, settings);
+  if (!signal) return signal.error();
+  if (options.life) {
+    auto added = dam::add_life(*signal, spoken->script, {1, options.seed});
+    if (!added) return added.error();
+  }
+  Result<fap::Sequence> clip = dam::to_sequence(*signal);
+  if (!clip) return clip.error();
+  return code_live_clip(*clip, spoken->audio ? &*spoken->audio : nullptr, options.coding);
+}
+
+Result<void> open_speaker(const ProgramOptions& options, fap::Rate rate, Program& program) {
+  Result<dam::Model> model = speech::read_model(options.model);
+  if (!model) return model.error();
+  program.model = std::move(*model);
+  const std::string& say = options.say.empty() ? options.say_json : options.say;
+  if (say != "-" && !say.empty()) {
+    program.descriptor = ::open(say.c_str(), O_RDONLY | O_CLOEXEC);
+    if (program.descriptor < 0) {
+      return make_error(Code::not_found, "cannot open the lines to say").in_file(say);
+    }
+  }
+  const int descriptor = say == "-" ? STDIN_FILENO : program.descriptor;
+  Result<speech::LineMaker> maker = maker_of(options);
+  if (!maker) return maker.error();
+  if (!options.control.empty()) {
+    auto control = speech::ControlSocket::open(options.control);
+    if (!control) return control.error();
+    program.control = std::move(*control);
+  }
+  auto lines = speech::VoiceLines::open(descriptor, std::move(*maker), media::steady_clock(),
+                                        program.control.get());
+  if (!lines) return lines.error();
+  program.lines = std::move(*lines);
+
+  speech::SpeakerOptions settings;
+  settings.face = {synthesis_of(options, rate), options.life, options.seed};
+  settings.fap_quant = options.coding.quant;
+  settings.intra_seconds = options.coding.intra_seconds;
+  settings.voice_rate = program.lines->sample_rate();
+  settings.audio_ahead = kAhead;
+  settings.audio.reset();
+  if (options.coding.sound) settings.audio = options.coding.audio;
+  settings.duration = options.duration;
+  settings.events = true;
+  auto speaker =
+      speech::LiveSpeaker::open(program.model, *program.lines, media::steady_clock(), settings);
+  if (!speaker) return speaker.error();
+  program.speaker = std::move(*speaker);
+  return {};
+}
+
+Result<void> open_voice(const ProgramOptions& options, fap::Rate rate, Program& program) {
+  Result<dam::Model> model = speech::read_model(options.model);
+  if (!model) return model.error();
+  program.model = std::move(*model);
+  const std::string name = options.say_audio == "-" ? "standard input" : options.say_audio;
+  if (options.say_audio != "-") {
+    program.descriptor = ::open(options.say_audio.c_str(), O_RDONLY | O_CLOEXEC);
+    if (program.descriptor < 0) {
+      return make_error(Code::not_found, "cannot open the voice").in_file(name);
+    }
+  }
+  speech::LiveVoiceOptions settings;
+  settings.synthesis = synthesis_of(options, rate);
+  settings.language = options.spoken.language;
+  settings.bare = options.bare;
+  settings.delay = options.delay;
+  settings.fap_quant = options.coding.quant;
+  settings.intra_seconds = options.coding.intra_seconds;
+  settings.audio_ahead = kAhead;
+  settings.audio.reset();
+  if (options.coding.sound) settings.audio = options.coding.audio;
+  settings.duration = options.duration;
+  auto voice = speech::LiveVoice::open(
+      program.model, options.say_audio == "-" ? STDIN_FILENO : program.descriptor, settings);
+  if (!voice) return voice.error().in_file(name);
+  program.voice = std::move(*voice);
+  return {};
+}
+
+Program::~Program() {
+  voice.reset();
+  speaker.reset();
+  lines.reset();
+  control.reset();
+  if (descriptor >= 0) ::close(descriptor);
+}
+
+media::LiveInput& Program::input() const {
+  if (voice) return *voice;
+  return speaker ? static_cast<media::LiveInput&>(*speaker) : *clip;
+}
+
+void play_clip(Clip clip, const ProgramOptions& options, Program& program) {
+  media::ClipOptions settings;
+  settings.audio_ahead = kAhead;
+  settings.loop = options.loop;
+  settings.duration = options.duration;
+  program.clip =
+      std::make_unique<media::ClipInput>(std::move(clip.face), std::move(clip.sound), settings);
+}
+
+}  // namespace animeme::live

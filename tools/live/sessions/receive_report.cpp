@@ -1,0 +1,121 @@
+#include "tools/live/sessions/receive_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tools/formats/common/json.h"
+#include "tools/formats/common/text.h"
+
+namespace animeme::live {
+
+namespace {
+
+double share_of(const media::IntraInterval& interval) {
+  return interval.planes > 0 ? double(interval.usable) / double(interval.planes) : 1;
+}
+
+}  // namespace
+
+IntervalShares shares_of(const std::vector<media::IntraInterval>& intervals) {
+  IntervalShares shares;
+  if (intervals.empty()) return shares;
+  double sum = 0;
+  for (const media::IntraInterval& interval : intervals) {
+    const double share = share_of(interval);
+    sum += share;
+    shares.least = std::min(shares.least, share);
+    shares.spoilt += interval.usable < interval.planes;
+  }
+  shares.mean = sum / double(intervals.size());
+  return shares;
+}
+
+std::string receive_advice(const media::ReceiveStats& stats) {
+  std::string out;
+  if (stats.sessions > 1) {
+    out += tools::format("sessions: %lld, on one clock\n", (long long)(stats.sessions));
+  }
+  if (stats.foreign > 0) {
+    out += tools::format("ignored: %lld datagrams, damaged or of others than the sender\n",
+                         (long long)(stats.foreign));
+  }
+  if (stats.wait <= 0 || stats.latest <= 0.01) return out;
+  out +=
+      tools::format("packets or copies came up to %.2f s late and were waited for up to %.2f s\n",
+                    stats.latest, stats.wait);
+  if (stats.late > 0 && stats.latest > stats.wait) {
+    out += tools::format("%lld came too late: --reorder-most %.1f would have waited for them\n",
+                         (long long)(stats.late), std::ceil(12.5 * stats.latest) / 10);
+  }
+  return out;
+}
+
+std::string receive_line(double seconds, const media::Recorder& recorder,
+                         const media::ReceiveStats& stats) {
+  return tools::format(
+      "%.0f s: %lld planes usable, %lld not, packets %lld, lost %lld, late %lld, "
+      "jitter %.2f ms, sound %.1f s",
+      seconds, (long long)(recorder.recovery().usable), (long long)(recorder.recovery().dropped),
+      (long long)(stats.packets), (long long)(stats.lost), (long long)(stats.late),
+      1e3 * stats.jitter, recorder.sound_seconds());
+}
+
+std::string receive_summary(const media::Recorder& recorder, const media::ReceiveStats& stats,
+                            const std::vector<media::IntraInterval>& intervals) {
+  const media::RecoveryStats& recovery = recorder.recovery();
+  const IntervalShares shares = shares_of(intervals);
+  return receive_advice(stats) +
+         tools::format(
+             "packets: %lld, lost %lld, late %lld, duplicates %lld, reordered %lld; jitter %.2f "
+             "ms\n"
+             "planes: %lld usable, %lld received in vain, %.2f %% usable; still for %.2f s, %.2f s "
+             "at "
+             "most\n"
+             "intra intervals: %zu, usable on average %.2f %%, in the worst %.2f %%\n"
+             "face %.2f s, sound %.2f s",
+             (long long)(stats.packets), (long long)(stats.lost), (long long)(stats.late),
+             (long long)(stats.duplicates), (long long)(stats.reordered), 1e3 * stats.jitter,
+             (long long)(recovery.usable), (long long)(recovery.dropped), 100 * recovery.share(),
+             recovery.frozen_seconds, recovery.longest_seconds, intervals.size(), 100 * shares.mean,
+             100 * shares.least, recorder.face_seconds(), recorder.sound_seconds());
+}
+
+std::string receive_json(const media::Recorder& recorder, const media::ReceiveStats& stats,
+                         const std::vector<media::IntraInterval>& intervals) {
+  using nlohmann::ordered_json;
+  const media::RecoveryStats& recovery = recorder.recovery();
+  const IntervalShares shares = shares_of(intervals);
+  const double scale = recorder.info() ? recorder.info()->timescale : 1;
+  ordered_json rows = ordered_json::array();
+  for (const media::IntraInterval& interval : intervals) {
+    rows.push_back({{"begin_s", double(interval.begin) / scale},
+                    {"planes", interval.planes},
+                    {"usable", interval.usable}});
+  }
+  const ordered_json json = {{"packets", stats.packets},
+                             {"bytes", stats.bytes},
+                             {"lost", stats.lost},
+                             {"late", stats.late},
+                             {"duplicates", stats.duplicates},
+                             {"reordered", stats.reordered},
+                             {"jitter_ms", 1e3 * stats.jitter},
+                             {"latest_seconds", stats.latest},
+                             {"wait_seconds", stats.wait},
+                             {"sessions", stats.sessions},
+                             {"ignored", stats.foreign},
+                             {"planes_usable", recovery.usable},
+                             {"planes_dropped", recovery.dropped},
+                             {"usable_share", recovery.share()},
+                             {"freezes", recovery.freezes},
+                             {"frozen_seconds", recovery.frozen_seconds},
+                             {"longest_freeze_seconds", recovery.longest_seconds},
+                             {"interval_share_mean", shares.mean},
+                             {"interval_share_least", shares.least},
+                             {"intervals", rows},
+                             {"face_seconds", recorder.face_seconds()},
+                             {"sound_seconds", recorder.sound_seconds()}};
+  return tools::pretty(json);
+}
+
+}  // namespace animeme::live

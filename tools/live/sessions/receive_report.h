@@ -1,0 +1,36 @@
+/// @file
+/// What a reception tells of what came and what did not.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/formats/media/live/recorder.h"
+
+namespace animeme::live {
+
+/// Share of usable planes of the intra intervals.
+struct IntervalShares {
+  double mean = 1,         ///< over all intervals
+      least = 1;           ///< of the worst
+  std::size_t spoilt = 0;  ///< intervals with a plane that is missing
+};
+/// 1 and 1 for no intervals.
+IntervalShares shares_of(const std::vector<media::IntraInterval>& intervals);
+
+/// "5 s: 125 planes, 0 lost, ..." for --stats.
+std::string receive_line(double seconds, const media::Recorder& recorder,
+                         const media::ReceiveStats& stats);
+
+/// What is unusual, a sentence a line: senders that began again, datagrams of others, packets so
+/// late that an option helps. Empty as a rule.
+std::string receive_advice(const media::ReceiveStats& stats);
+
+/// Sentences at the end, one a line.
+std::string receive_summary(const media::Recorder& recorder, const media::ReceiveStats& stats,
+                            const std::vector<media::IntraInterval>& intervals);
+/// The same as JSON text, with a row for every interval.
+std::string receive_json(const media::Recorder& recorder, const media::ReceiveStats& stats,
+                         const std::vector<media::IntraInterval>& intervals);
+
+}  // namespace animeme::live

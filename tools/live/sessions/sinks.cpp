@@ -1,0 +1,101 @@
+#include "tools/live/sessions/sinks.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "tools/live/webrtc/webrtc.h"
+
+namespace animeme::live {
+
+Result<Sinks> Sinks::open(const std::vector<std::string>& urls, const std::vector<std::string>& sdp,
+                          const SinkOptions& options, const tools::Talk& talk) {
+  Sinks sinks;
+  sinks.talk_ = talk;
+  std::size_t described = 0;
+  for (const std::string& url : urls) {
+    SinkOptions own = options;
+    own.media.rtp.sdp_path.clear();
+    if (is_rtp(url) && described < sdp.size()) own.media.rtp.sdp_path = sdp[described++];
+    auto sink = open_sink(url, own);
+    if (!sink) return sink.error().in_file(url);
+    sinks.addresses_.push_back({url, std::move(*sink), false});
+  }
+  return sinks;
+}
+
+template <class Act>
+Result<void> Sinks::each(Act act) {
+  std::optional<Error> last;
+  bool alive = false;
+  for (Address& address : addresses_) {
+    if (address.broken) continue;
+    auto done = act(*address.sink);
+    if (done) {
+      alive = true;
+      continue;
+    }
+    address.broken = true;
+    if (last) talk_.warn(last->describe() + "; it is left out from here on");
+    last = done.error().in_file(address.url);
+  }
+  if (!last) return {};
+  if (!alive) return *last;
+  talk_.warn(last->describe() + "; it is left out from here on");
+  return {};
+}
+
+Result<void> Sinks::start(const media::LiveInfo& info) {
+  for (Address& address : addresses_) {
+    if (auto ok = address.sink->start(info); !ok) return ok.error().in_file(address.url);
+    if (!web::is_open_to_others(webrtc::page_of(address.url))) continue;
+    talk_.warn(
+        address.url +
+        " is open to every machine that can reach this one: the page, the values and the "
+        "sound, without a password. http://127.0.0.1:PORT is for this machine alone; a proxy "
+        "in front of that one can ask for a password");
+  }
+  return {};
+}
+
+Result<void> Sinks::send(const media::LiveUnit& unit) {
+  return each([&](media::LiveSink& sink) { return sink.send(unit); });
+}
+
+Result<void> Sinks::tell(const std::string& json) {
+  return each([&](media::LiveSink& sink) { return sink.tell(json); });
+}
+
+Result<void> Sinks::poll() {
+  return each([](media::LiveSink& sink) { return sink.poll(); });
+}
+
+Result<void> Sinks::finish() {
+  std::optional<Error> first;
+  for (Address& address : addresses_) {
+    if (address.broken) continue;
+    if (auto done = address.sink->finish(); !done && !first) {
+      first = done.error().in_file(address.url);
+    }
+  }
+  if (first) return *first;
+  return {};
+}
+
+media::SendStats Sinks::stats() const {
+  media::SendStats sum;
+  for (const Address& address : addresses_) {
+    const media::SendStats one = address.sink->stats();
+    sum.face_units = std::max(sum.face_units, one.face_units);
+    sum.audio_units = std::max(sum.audio_units, one.audio_units);
+    sum.packets += one.packets;
+    sum.bytes += one.bytes;
+    sum.repeated += one.repeated;
+    sum.receivers += one.receivers;
+    sum.dropped += one.dropped;
+    sum.reported_loss = std::max(sum.reported_loss, one.reported_loss);
+  }
+  return sum;
+}
+
+}  // namespace animeme::live

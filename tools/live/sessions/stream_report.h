@@ -1,0 +1,65 @@
+/// @file
+/// What a stream tells while it runs and when it is over.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <string>
+
+#include "tools/formats/media/live/pacer.h"
+#include "tools/live/sessions/sinks.h"
+#include "tools/speech/talking/live_speaker.h"
+
+namespace animeme::live {
+
+/// Counts what was sent, for lines on the way and a summary.
+class StreamReport {
+ public:
+  explicit StreamReport(const media::LiveInfo& info) : info_(info) {}  ///< `info` is kept
+
+  void add(const media::LiveUnit& unit);  ///< one more unit was sent
+  /// "12.0 s: face 25 planes 6.2 kbit/s, ..." of the time since the last call. `now`: seconds
+  /// since the begin.
+  std::string line(double now, const Sinks& sinks, const media::Pacer& pacer);
+
+  /// Sentences at the end, one a line. `traces` may be empty.
+  std::string summary(double seconds, const Sinks& sinks, const media::Pacer& pacer,
+                      const std::deque<speech::LineTrace>& traces) const;
+  /// The same as JSON text.
+  std::string json(double seconds, const Sinks& sinks, const media::Pacer& pacer,
+                   const std::deque<speech::LineTrace>& traces) const;
+
+ private:
+  struct Track {
+    std::int64_t units = 0, intra = 0, bytes = 0;
+    double seconds = 0;  // of media
+  };
+  double kbps(const Track& track) const;
+
+  media::LiveInfo info_;
+  Track face_, sound_;
+  Track last_face_, last_sound_;
+  std::int64_t last_packets_ = 0;
+  double last_ = 0;
+};
+
+/// Where the milliseconds from a line of text to a sent packet went.
+struct Latency {
+  std::size_t lines = 0;  ///< that count here
+  double voice = 0,       ///< until the voice was done
+      synthesis = 0,      ///< frames
+      coding = 0,         ///< planes and packets
+      sending = 0,        ///< until they were due
+      waiting = 0;        ///< all the rest
+  double mean = 0,        ///< from the line's arrival to its first packet
+      worst = 0;          ///< likewise
+};
+/// What of a line counts: its first moving plane, or its first packet with sound.
+enum class Sign : std::uint8_t { face, sound };
+/// Whose turn it was when they came, or those that waited for another line.
+enum class Turn : std::uint8_t { at_once, waited };
+/// Zeros if no such line was spoken. Lines that were cancelled before their sign do not count.
+Latency latency_of(const std::deque<speech::LineTrace>& traces, Sign sign,
+                   Turn turn = Turn::at_once);
+
+}  // namespace animeme::live

@@ -1,0 +1,380 @@
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "tools/formats/media/live/audio_segments.h"
+#include "tools/live/web/detail/server.h"
+
+namespace animeme::web {
+namespace {
+
+constexpr lws_usec_t kLookEvery = 250'000;      // microseconds
+constexpr std::size_t kPiece = 16384;           // of a body, at once
+constexpr std::size_t kMostFromClient = 65536;  // bytes; clients have nothing to say
+
+Channel channel_of(const Session& session) {
+  if (session.resource == Resource::face) return Channel::face;
+  if (session.resource != Resource::faps) return Channel::audio;
+  return session.small ? Channel::planes : Channel::faps;
+}
+
+/// Writes `size` bytes with the room that libwebsockets wants in front of them.
+bool send_bytes(lws* wsi, const void* bytes, std::size_t size, lws_write_protocol how) {
+  std::vector<unsigned char> buffer(LWS_PRE + size);
+  std::memcpy(buffer.data() + LWS_PRE, bytes, size);
+  return lws_write(wsi, buffer.data() + LWS_PRE, size, how) >= int(size);
+}
+
+/// Of a client whose messages are deflated: 40 kB, not the 270 kB of zlib's own choice. A window of
+/// 4 kB has the dozen planes before, and more make nothing smaller.
+void set_deflate(lws* wsi) {
+  for (const auto& [name, value] : {std::pair{"server_max_window_bits", "12"},
+                                    {"mem_level", "5"},
+                                    {"compression_level", "6"},
+                                    {"tx_buf_size", "13"}}) {
+    (void)lws_set_extension_option(wsi, "permessage-deflate", name, value);
+  }
+}
+
+}  // namespace
+
+int Server::callback(lws* wsi, lws_callback_reasons reason, void*, void* in, size_t size) {
+  auto* server = static_cast<Server*>(lws_context_user(lws_get_context(wsi)));
+  if (server == nullptr) return 0;
+  try {
+    return server->handle(wsi, reason, static_cast<const char*>(in), size);
+  } catch (...) {  // memory: this client has to go, the server stays
+    return -1;
+  }
+}
+
+int Server::handle(lws* wsi, lws_callback_reasons reason, const char* in, std::size_t size) {
+  switch (reason) {
+    case LWS_CALLBACK_FILTER_NETWORK_CONNECTION:  // `in` is the handle
+      entering_ = peer_of(int(reinterpret_cast<std::intptr_t>(in)));
+      return visitors_.may_enter(entering_) ? 0 : -1;
+    case LWS_CALLBACK_SERVER_NEW_CLIENT_INSTANTIATED:
+      visitors_.enter(wsi, entering_, Visitors::Clock::now());
+      disconnect_overdue();
+      return 0;
+    case LWS_CALLBACK_HTTP:
+      return request(wsi);
+    case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION:
+      return upgrade(wsi);
+    case LWS_CALLBACK_CONFIRM_EXTENSION_OKAY:
+      return may_deflate(wsi) ? 0 : 1;
+    case LWS_CALLBACK_ESTABLISHED:
+      set_deflate(wsi);
+      lws_callback_on_writable(wsi);
+      return 0;
+    case LWS_CALLBACK_RECEIVE:
+      return (sessions_[wsi].received += size) > kMostFromClient ? -1 : 0;
+    case LWS_CALLBACK_HTTP_BODY:
+      return waits_for_peers(wsi) ? whep_body(wsi, in, size) : take_body(wsi, in, size);
+    case LWS_CALLBACK_HTTP_BODY_COMPLETION:
+      return waits_for_peers(wsi) ? whep_offer(wsi) : ask_handler(wsi);
+    case LWS_CALLBACK_HTTP_WRITEABLE: {
+      const auto session = sessions_.find(wsi);
+      if (session == sessions_.end()) return 0;
+      if (session->second.reply) return write_reply(wsi, session->second);
+      if (session->second.resource == Resource::whep) return whep_answer(wsi, session->second);
+      return session->second.resource == Resource::talk ? write_message(wsi, session->second)
+                                                        : write_body(wsi, session->second);
+    }
+    case LWS_CALLBACK_SERVER_WRITEABLE: {
+      const auto session = sessions_.find(wsi);
+      return session == sessions_.end() ? -1 : write_message(wsi, session->second);
+    }
+    case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
+      look_at_news();
+      return 0;
+    case LWS_CALLBACK_CLOSED:
+    case LWS_CALLBACK_CLOSED_HTTP:
+      leave(wsi);
+      return 0;
+    case LWS_CALLBACK_WSI_DESTROY:
+      leave(wsi);
+      visitors_.leave(wsi);
+      viewers_ = visitors_.viewers();
+      return 0;
+    default:
+      return 0;
+  }
+}
+
+/// What a path leads to. Resources lie below the paths of stages.
+Server::Place Server::place_of(const std::string& path) const {
+  const std::lock_guard lock(mutex_);
+  auto found = stages_.find("");
+  if (found != stages_.end()) return {found->second, path, resource_of(path)};
+  std::size_t slash = path.rfind('/');
+  for (; slash != std::string::npos && slash > 0; slash = path.rfind('/', slash - 1)) {
+    found = stages_.find(std::string_view(path).substr(0, slash));
+    if (found == stages_.end()) continue;
+    return {found->second, path.substr(slash), resource_of(path.substr(slash))};
+  }
+  return {};
+}
+
+bool Server::exists(const Place& place) const {
+  const Resource resource = place.resource;
+  if (!place.stage) return false;
+  if (documents_.contains(place.path) || resource == Resource::info) return true;
+  if (resource == Resource::face || resource == Resource::faps) return true;
+  return (resource == Resource::audio || resource == Resource::talk) &&
+         place.stage->sample_rate() > 0;
+}
+
+/// Why it is not answered, whatever it asks for; 0: it is.
+unsigned Server::objection(lws* wsi, const Request& request) {
+  if (!visitors_.ask(wsi, Visitors::Clock::now())) return 429;
+  if (request.host.empty()) return HTTP_STATUS_BAD_REQUEST;
+  return names_.contains(request.host) ? 0 : 421;
+}
+
+/// The origin for which an answer is meant, too; empty: for that of the server alone.
+std::string Server::shared_with(const Request& request) const {
+  for (const std::string& allowed : options_.allow_origins) {
+    if (allowed == "*" || allowed == request.origin) return allowed;
+  }
+  return {};
+}
+
+/// JSON alone gains by it. Whoever wants a window of another size, or none that is kept, gets the
+/// text as it is: libwebsockets would agree and go on as before.
+bool Server::may_deflate(lws* wsi) const {
+  const auto session = sessions_.find(wsi);
+  if (session == sessions_.end() || channel_of(session->second) != Channel::faps) return false;
+  const std::string offers = extensions_of(wsi);
+  return !offers.empty() && offers.find("server_") == offers.npos;
+}
+
+/// A place in the hub. False: all are taken.
+bool Server::admit(lws* wsi, Session& session) {
+  const Channel channel = channel_of(session);
+  if (!visitors_.watch(wsi, channel == Channel::audio)) return false;
+  viewers_ = visitors_.viewers();
+  const std::optional<ClientId> client = session.stage->add(channel);
+  if (!client) return false;
+  session.client = *client;
+  session.open = true;
+  session.stage->watching.insert(wsi);
+  return true;
+}
+
+/// The answer is complete.
+int Server::transaction_over(lws* wsi) {
+  const auto session = sessions_.find(wsi);
+  const bool last =
+      session != sessions_.end() && session->second.exchange && session->second.exchange->last;
+  leave(wsi);
+  if (last) return -1;
+  visitors_.answered(wsi, Visitors::Clock::now());
+  return lws_http_transaction_completed(wsi) != 0 ? -1 : 0;
+}
+
+int Server::refuse(lws* wsi, const Request& request, unsigned status) {
+  if (!send_refusal(wsi, status, request.method != Request::Method::head, handler_ != nullptr))
+    return -1;
+  // Whatever comes behind another method stays unread.
+  return request.is_read() ? transaction_over(wsi) : -1;
+}
+
+int Server::request(lws* wsi) {
+  const Request request = request_of(wsi);
+  const unsigned status = objection(wsi, request);
+  if (status != 0) return refuse(wsi, request, status);
+  if (peers_ && resource_of(request.path) == Resource::whep) return whep(wsi, request);
+  if (!request.is_read() && (!handler_ || request.verb.empty())) {
+    return refuse(wsi, request, HTTP_STATUS_METHOD_NOT_ALLOWED);
+  }
+  const Place place = request.is_read() ? place_of(request.path) : Place();
+  if (!exists(place)) {
+    return handler_ ? begin_exchange(wsi, request) : refuse(wsi, request, HTTP_STATUS_NOT_FOUND);
+  }
+  if (is_socket(place.resource)) return refuse(wsi, request, 426);  // upgrade required
+  leave(wsi);
+  return place.resource == Resource::talk ? talk(wsi, request, place) : serve(wsi, request, place);
+}
+
+/// What there is as a whole.
+int Server::serve(lws* wsi, const Request& request, const Place& place) {
+  const Resource resource = place.resource;
+  Session session{.resource = resource, .stage = place.stage};
+  session.document = resource == Resource::info ? place.stage->info() : documents_.at(place.path);
+  const Document& document = *session.document;
+  session.packed = !document.packed.empty() && takes_gzip(request.accept_encoding);
+  if (resource == Resource::page && peers_) peers_->expect();
+  Answer answer{.type = type_of(resource), .origin = shared_with(request)};
+  answer.embedded = answer.origin == "*";
+  answer.frames = frames_;
+  answer.has_head = resource == Resource::page && documents_.contains("/head.js");
+  answer.packed = session.packed;
+  answer.size = session.packed ? document.packed.size() : document.bytes.size();
+  if (!document.etag.empty()) answer.etag = document.etag_of(session.packed);
+  const bool known = !answer.etag.empty() && has_version(request.if_none_match, answer.etag);
+  if (known) answer.status = HTTP_STATUS_NOT_MODIFIED;
+  if (!send_header(wsi, answer)) return -1;
+  if (known || request.method == Request::Method::head) return transaction_over(wsi);
+  sessions_[wsi] = std::move(session);
+  lws_callback_on_writable(wsi);
+  return 0;
+}
+
+int Server::talk(lws* wsi, const Request& request, const Place& place) {
+  Answer answer{.type = type_of(Resource::talk),
+                .size = LWS_ILLEGAL_HTTP_CONTENT_LEN,
+                .origin = shared_with(request)};
+  answer.embedded = answer.origin == "*";
+  if (request.method == Request::Method::head) return send_header(wsi, answer), -1;
+  Session& session = sessions_[wsi];
+  session.resource = Resource::talk;
+  session.stage = place.stage;
+  if (!admit(wsi, session)) return refuse(wsi, request, HTTP_STATUS_SERVICE_UNAVAILABLE);
+  if (!send_header(wsi, answer)) return -1;
+  lws_set_timeout(wsi, NO_PENDING_TIMEOUT, 0);
+  lws_callback_on_writable(wsi);
+  return 0;
+}
+
+int Server::upgrade(lws* wsi) {
+  const Request request = request_of(wsi);
+  const auto refused = [&](unsigned status) { return send_refusal(wsi, status, true), -1; };
+  const unsigned status = objection(wsi, request);
+  if (status != 0) return refused(status);
+  const Place place = place_of(request.path);
+  if (!is_socket(place.resource) || !exists(place)) return refused(HTTP_STATUS_NOT_FOUND);
+  if (request.has_origin && !origin_allowed(request.origin, request.host, options_.allow_origins)) {
+    return refused(HTTP_STATUS_FORBIDDEN);
+  }
+  leave(wsi);
+  Session& session = sessions_[wsi];
+  session.resource = place.resource;
+  session.stage = place.stage;
+  session.small = request.asks("binary");
+  return admit(wsi, session) ? 0 : refused(HTTP_STATUS_SERVICE_UNAVAILABLE);
+}
+
+int Server::write_body(lws* wsi, Session& session) {
+  const std::string& body = session.packed ? session.document->packed : session.document->bytes;
+  const std::size_t size = std::min(kPiece, body.size() - session.at);
+  const bool last = session.at + size == body.size();
+  if (!send_bytes(wsi, body.data() + session.at, size,
+                  last ? LWS_WRITE_HTTP_FINAL : LWS_WRITE_HTTP)) {
+    return -1;
+  }
+  session.at += size;
+  visitors_.progress(wsi, Visitors::Clock::now());
+  if (last) return transaction_over(wsi);
+  lws_callback_on_writable(wsi);
+  return 0;
+}
+
+bool Server::send_message(lws* wsi, Session& session, const Message& message) {
+  if (session.resource != Resource::talk) {
+    const lws_write_protocol how = message.text ? LWS_WRITE_TEXT : LWS_WRITE_BINARY;
+    return send_bytes(wsi, message.bytes.data(), message.bytes.size(), how);
+  }
+  std::vector<std::uint8_t> bytes = message.bytes;
+  if (message.entry) {  // a segment: the first one begins at 0, for players that wait for it
+    const std::int64_t time = std::llround(message.time * session.stage->sample_rate());
+    if (session.begin < 0) session.begin = time;
+    media::set_segment_time(bytes, time - session.begin);
+  }
+  return send_bytes(wsi, bytes.data(), bytes.size(), LWS_WRITE_HTTP);
+}
+
+int Server::write_message(lws* wsi, Session& session) {
+  const auto [message, more, over] = session.stage->next(session.client);
+  if (message && !send_message(wsi, session, *message)) return -1;
+  if (!message && over) {
+    std::array<unsigned char, 4> reason{'e', 'n', 'd', 0};
+    if (session.resource != Resource::talk) {
+      lws_close_reason(wsi, LWS_CLOSE_STATUS_NORMAL, reason.data(), 3);
+    }
+    return -1;
+  }
+  if (more || over) lws_callback_on_writable(wsi);
+  return 0;
+}
+
+void Server::look_at(const Stage& stage, Hub::Clock::time_point since) {
+  for (lws* wsi : stage.watching) {
+    const Stage::Need need = stage.need_of(sessions_[wsi].client, since);
+    if (need == Stage::Need::to_go) {
+      lws_set_timeout(wsi, PENDING_TIMEOUT_CLOSE_SEND, LWS_TO_KILL_ASYNC);
+    } else if (need == Stage::Need::to_write) {
+      lws_callback_on_writable(wsi);
+    }
+  }
+}
+
+void Server::look_around() {
+  const auto patience = std::chrono::microseconds(std::int64_t(options_.stall_seconds * 1e6));
+  const auto since = Hub::Clock::now() - patience;
+  std::set<std::shared_ptr<Stage>> stages;  // also those that are over
+  for (const auto& [wsi, session] : sessions_) {
+    if (session.open) stages.insert(session.stage);
+  }
+  for (const auto& stage : stages) look_at(*stage, since);
+}
+
+/// Something was published, is over, or was answered.
+void Server::look_at_news() {
+  std::vector<std::shared_ptr<Stage>> stages;
+  {
+    const std::lock_guard lock(mutex_);
+    stages.swap(touched_);
+  }
+  std::sort(stages.begin(), stages.end());
+  stages.erase(std::unique(stages.begin(), stages.end()), stages.end());
+  for (const auto& stage : stages) look_at(*stage, {});
+  hand_out_answers();
+  std::vector<std::pair<std::shared_ptr<Exchange>, HouseReply>> given;
+  {
+    const std::lock_guard lock(answers_->mutex);
+    given.swap(answers_->given);
+  }
+  for (auto& [exchange, reply] : given) {
+    if (exchange->wsi == nullptr) continue;
+    sessions_[exchange->wsi].reply = std::move(reply);
+    lws_callback_on_writable(exchange->wsi);
+  }
+}
+
+/// Looks after those who do nothing, again and again.
+void Server::keep_looking() {
+  const auto look = [](lws_sorted_usec_list_t* entry) {
+    // The entry is the first member.
+    reinterpret_cast<Timer*>(entry)->server->keep_looking();
+  };
+  disconnect_overdue();
+  look_around();
+  lws_sul_schedule(service_.context(), 0, &timer_.entry, look, kLookEvery);
+}
+
+void Server::disconnect_overdue() {
+  for (const Visitors::Key key : visitors_.overdue(Visitors::Clock::now())) {
+    auto* wsi = const_cast<lws*>(static_cast<const lws*>(key));
+    lws_set_timeout(wsi, PENDING_TIMEOUT_CLOSE_SEND, LWS_TO_KILL_ASYNC);
+  }
+}
+
+void Server::leave(lws* wsi) {
+  const auto found = sessions_.find(wsi);
+  if (found == sessions_.end()) return;
+  Session& session = found->second;
+  if (session.exchange) session.exchange->wsi = nullptr;
+  if (session.open) {
+    session.stage->watching.erase(wsi);
+    session.stage->remove(session.client, channel_of(session));
+  }
+  sessions_.erase(found);
+}
+
+}  // namespace animeme::web

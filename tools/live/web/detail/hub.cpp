@@ -1,0 +1,137 @@
+#include "tools/live/web/detail/hub.h"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "tools/live/web/detail/messages.h"
+
+namespace animeme::web {
+namespace {
+
+// More than that since the last intra plane: the newcomer had better wait for the next one.
+constexpr std::size_t kMostRecentBytes = std::size_t(1) << 20;
+
+/// The message with the note that others in front of it were dropped. (Segments of sound need none:
+/// their times show it.)
+MessagePtr marked(Message message, Channel channel) {
+  if (message.text) {
+    constexpr std::string_view kNote = "\"missed\":true,";
+    message.bytes.insert(message.bytes.begin() + 1, kNote.begin(), kNote.end());  // behind the {
+  } else if (channel != Channel::audio) {
+    message.bytes[channel == Channel::face ? kFlagsAt : 0] |= kMissed;
+  }
+  return std::make_shared<const Message>(std::move(message));
+}
+
+}  // namespace
+
+void Hub::set_hello(Channel channel, Message hello) {
+  feeds_[std::size_t(channel)].hello = std::make_shared<const Message>(std::move(hello));
+}
+
+void Hub::publish(Channel channel, Message message) {
+  const auto shared = std::make_shared<const Message>(std::move(message));
+  keep(feeds_[std::size_t(channel)], channel, shared);
+  for (auto& [id, client] : clients_) {
+    if (client.channel == channel) push(client, shared);
+  }
+}
+
+// Units since the newest intra plane. Segments of sound are all entries: those are kept until
+// forget_before().
+void Hub::keep(Feed& feed, Channel channel, const MessagePtr& message) {
+  if (message->entry && channel != Channel::audio) {
+    feed.recent.clear();
+    feed.bytes = 0;
+  }
+  if (!message->entry && feed.recent.empty()) return;
+  feed.recent.push_back(message);
+  feed.bytes += message->bytes.size();
+  while (feed.bytes > kMostRecentBytes && !feed.recent.empty()) {
+    feed.bytes -= feed.recent.front()->bytes.size();
+    feed.recent.pop_front();
+    if (channel == Channel::audio) continue;
+    feed.recent.clear();
+    feed.bytes = 0;
+  }
+}
+
+void Hub::forget_before(Channel channel, double time) {
+  Feed& feed = feeds_[std::size_t(channel)];
+  while (feed.recent.size() > 1 && feed.recent[1]->time <= time) {
+    feed.bytes -= feed.recent.front()->bytes.size();
+    feed.recent.pop_front();
+  }
+}
+
+void Hub::forget(Channel channel) {
+  Feed& feed = feeds_[std::size_t(channel)];
+  feed.recent.clear();
+  feed.bytes = 0;
+}
+
+void Hub::push(Client& client, const MessagePtr& message) {
+  if (client.waits_for_entry && !message->entry) {
+    if (client.missed) ++dropped_;
+    return;
+  }
+  const bool full = client.bytes + message->bytes.size() > client_bytes_;
+  if (full && !client.queue.empty()) {
+    const bool greeted = client.queue.front() != feeds_[std::size_t(client.channel)].hello;
+    const std::size_t kept = greeted ? 0 : 1;
+    dropped_ += std::int64_t(client.queue.size() - kept) + 1;
+    client.queue.resize(kept);
+    client.bytes = greeted ? 0 : client.queue.front()->bytes.size();
+    client.waits_for_entry = client.missed = true;
+    return;
+  }
+  client.waits_for_entry = false;
+  MessagePtr own = message;
+  if (client.missed) own = marked(*message, client.channel);
+  // Of one that has just lost all that waited for it, nobody can say that it takes anything.
+  if (client.queue.empty() && !client.missed) client.taken = Clock::now();
+  client.missed = false;
+  client.bytes += own->bytes.size();
+  client.queue.push_back(std::move(own));
+}
+
+ClientId Hub::add(Channel channel) {
+  Client client{.channel = channel, .waits_for_entry = true, .taken = Clock::now()};
+  const Feed& feed = feeds_[std::size_t(channel)];
+  if (feed.hello) {
+    client.queue.push_back(feed.hello);
+    client.bytes = feed.hello->bytes.size();
+  }
+  if (catch_up_) {
+    for (const MessagePtr& message : feed.recent) push(client, message);
+  }
+  clients_.emplace(++last_id_, std::move(client));
+  return last_id_;
+}
+
+void Hub::remove(ClientId client) { clients_.erase(client); }
+
+MessagePtr Hub::next(ClientId id) {
+  const auto found = clients_.find(id);
+  if (found == clients_.end() || found->second.queue.empty()) return nullptr;
+  Client& client = found->second;
+  MessagePtr message = std::move(client.queue.front());
+  client.queue.pop_front();
+  client.bytes -= std::min(client.bytes, message->bytes.size());
+  client.taken = Clock::now();
+  ++messages_;
+  bytes_ += std::int64_t(message->bytes.size());
+  return message;
+}
+
+bool Hub::waiting(ClientId client) const {
+  const auto found = clients_.find(client);
+  return found != clients_.end() && !found->second.queue.empty();
+}
+
+bool Hub::stalled(ClientId client, Clock::time_point since) const {
+  return waiting(client) && clients_.at(client).taken < since;
+}
+
+}  // namespace animeme::web

@@ -1,0 +1,164 @@
+#include "tools/live/web/detail/server.h"
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <utility>
+
+#include "tools/live/web/detail/page.h"
+
+namespace animeme::web {
+namespace {
+
+constexpr std::chrono::seconds kGoodbye{2};
+constexpr int kSpareHandles = 64;  // our own, and connections that are being closed
+
+constexpr std::string_view kMark = "<!-- head -->\n";
+
+DocumentPtr document_of(const std::vector<std::uint8_t>& bytes) {
+  return make_document({bytes.begin(), bytes.end()});
+}
+
+std::map<std::string, DocumentPtr> documents_of(const WebOptions& options) {
+  std::map<std::string, DocumentPtr> documents;
+  std::string page(page_text()), head;
+  if (!options.head_script.empty()) {
+    head = "<script type=\"module\" src=\"head.js\"></script>\n";
+    documents["/head.js"] = make_document(options.head_script + std::string(head_glue()));
+    documents["/head.bin"] = document_of(options.head_model);
+    for (std::size_t i = 0; i < options.other_heads.size(); ++i) {
+      documents["/heads/" + std::to_string(i + 1) + ".bin"] =
+          document_of(options.other_heads[i].model);
+    }
+  }
+  const std::size_t at = page.find(kMark);
+  if (at != std::string::npos) page.replace(at, kMark.size(), head);
+  documents["/"] = documents["/index.html"] = make_document(std::move(page));
+  documents["/live.css"] = make_document(std::string(page_style()));
+  documents["/live.js"] = make_document(std::string(page_script()));
+  return documents;
+}
+
+/// For frame-ancestors of the content security policy: who may use the server may show its page.
+std::string frames_of(const WebOptions& options) {
+  std::string frames = "'self'";
+  for (const std::string& origin : options.allow_origins) frames += " " + origin;
+  return frames;
+}
+
+/// Files that may be open: two connections a viewer, those that pass, and others.
+Result<unsigned> handles_for(int viewers) {
+  const auto wanted = unsigned(2 * viewers + int(Visitors::kMostPassing) + kSpareHandles);
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= wanted) return wanted;
+  return make_error(Code::invalid_argument,
+                    std::to_string(viewers) + " viewers take " + std::to_string(wanted) +
+                        " open files, and this process may have " + std::to_string(limit.rlim_cur) +
+                        "; allow more (ulimit -n) or fewer viewers");
+}
+
+}  // namespace
+
+Server::Server(const WebAddress& address, const HouseOptions& options, HouseHandler handler)
+    : options_(options.web),
+      most_body_(options.most_body),
+      handler_(std::move(handler)),
+      names_(address, options_.host_names),
+      frames_(frames_of(options_)),
+      documents_(documents_of(options_)),
+      visitors_({options_.max_clients, options_.per_address, options_.stall_seconds}) {
+  timer_.server = this;
+}
+
+void Server::stop() {
+  if (peers_) peers_->finish();  // it answers no more
+  {
+    const std::lock_guard lock(answers_->mutex);
+    answers_->service = nullptr;
+  }
+  service_.stop([this] { lws_sul_cancel(&timer_.entry); });
+}
+
+Result<std::unique_ptr<Server>> Server::listen(const WebAddress& address,
+                                               const HouseOptions& options, HouseHandler handler) {
+  static const lws_protocols protocols[] = {{"animeme", &Server::callback, 0, 1024, 0, nullptr, 0},
+                                            {nullptr, nullptr, 0, 0, 0, nullptr, 0}};
+  static const lws_extension extensions[] = {
+      {"permessage-deflate", lws_extension_callback_pm_deflate, "permessage-deflate"},
+      {nullptr, nullptr, nullptr}};
+  if (Result<void> possible = check_listening(address); !possible) return possible.error();
+  Result<unsigned> handles = handles_for(options.web.max_clients);
+  if (!handles) return handles.error();
+  std::unique_ptr<Server> server(new Server(address, options, std::move(handler)));
+  lws_context_creation_info info{};
+  info.port = address.port;
+  info.iface = address.host == "0.0.0.0" || address.host == "::" ? nullptr : address.host.c_str();
+  info.protocols = protocols;
+  info.extensions = extensions;
+  info.user = server.get();
+  info.timeout_secs = 10;
+  info.keepalive_timeout = 10;
+  info.max_http_header_data = 4096;
+  info.max_http_header_pool = static_cast<unsigned short>(*handles);
+  info.fd_limit_per_thread = *handles;
+  info.server_string = "animeme";
+  if (address.host.find(':') == std::string::npos) info.options |= LWS_SERVER_OPTION_DISABLE_IPV6;
+  const bool listening = server->service_.start(info);
+  lws_vhost* host =
+      listening ? lws_get_vhost_by_name(server->service_.context(), "default") : nullptr;
+  server->port_ = host != nullptr ? lws_get_vhost_listen_port(host) : 0;
+  if (server->port_ <= 0) {
+    return make_error(Code::io,
+                      "cannot listen at " + address.text() +
+                          "; is the port in use, or the host no address of this machine?");
+  }
+  server->answers_->service = &server->service_;
+  server->keep_looking();
+  return server;
+}
+
+std::shared_ptr<Stage> Server::make_stage(int sample_rate, std::function<void()> joined) {
+  const auto touched = [this](std::shared_ptr<Stage> stage) {
+    bool first = false;
+    {
+      const std::lock_guard lock(mutex_);
+      first = touched_.empty();
+      touched_.push_back(std::move(stage));
+    }
+    if (first) service_.wake();
+  };
+  return std::make_shared<Stage>(sample_rate, options_.client_bytes, options_.catch_up, touched,
+                                 std::move(joined));
+}
+
+bool Server::open(const std::string& path, const std::shared_ptr<Stage>& stage) {
+  const std::lock_guard lock(mutex_);
+  return !finishing_ && stages_.try_emplace(path, stage).second;
+}
+
+void Server::close(const std::string& path) {
+  std::shared_ptr<Stage> stage;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = stages_.find(path);
+    if (found == stages_.end()) return;
+    stage = std::move(found->second);
+    stages_.erase(found);
+  }
+  stage->end();
+}
+
+void Server::finish() {
+  std::vector<std::shared_ptr<Stage>> stages;
+  {
+    const std::lock_guard lock(mutex_);
+    finishing_ = true;
+    for (const auto& [path, stage] : stages_) stages.push_back(stage);
+  }
+  for (const auto& stage : stages) stage->end();
+  const auto patience = Hub::Clock::now() + kGoodbye;
+  for (const auto& stage : stages) stage->wait_until_empty(patience);
+  stop();
+}
+
+}  // namespace animeme::web

@@ -1,0 +1,163 @@
+// The HTTP and WebSocket server: which address gives what, and to whom.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fap/result.h"
+#include "tools/live/web/detail/address.h"
+#include "tools/live/web/detail/headers.h"
+#include "tools/live/web/detail/requests.h"
+#include "tools/live/web/detail/service.h"
+#include "tools/live/web/detail/stage.h"
+#include "tools/live/web/detail/visitors.h"
+#include "tools/live/web/house.h"
+#include "tools/live/web/web.h"
+
+namespace animeme::web {
+
+/// A request that a HouseHandler answers.
+struct Exchange {
+  lws* wsi = nullptr;  // its connection; null: that has gone
+  HouseRequest request;
+  bool with_body = true;  // not HEAD
+  bool last = false;      // of its connection
+};
+
+/// What was answered, until the server looks. Answers may come when that has gone.
+struct Answers {
+  std::mutex mutex;
+  Service* service = nullptr;  // to be woken
+  std::vector<std::pair<std::shared_ptr<Exchange>, HouseReply>> given;
+};
+
+/// One connection, from its first request on.
+struct Session {
+  Resource resource = Resource::none;
+  std::shared_ptr<Stage> stage;  // whose resource it is
+  std::shared_ptr<Exchange> exchange;
+  std::optional<HouseReply> reply;  // of it
+  bool small = false;               // /faps?binary
+  bool open = false;                // a WebSocket or /talk.mp4 with a place in the hub
+  ClientId client = 0;
+  DocumentPtr document;  // that is being sent
+  bool packed = false;   // in its form of gzip
+  std::size_t at = 0;
+  std::size_t received = 0;
+  std::int64_t begin = -1;  // of /talk.mp4: time of its first segment, in samples
+  // Of /whep: what was posted, by which number the answer comes, and who else may read it.
+  std::string upload, origin;
+  std::uint64_t ticket = 0;
+  std::optional<PeerAnswer> answer;
+};
+
+class Server {
+ public:
+  /// Listens. `handler`: for what is no resource of a stage; nothing: that is refused. Errors: io,
+  /// invalid_argument (more viewers than files may be open).
+  static Result<std::unique_ptr<Server>> listen(const WebAddress& address,
+                                                const HouseOptions& options, HouseHandler handler);
+  ~Server() { stop(); }
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  int port() const { return port_; }
+  /// From now on clients are served, in a thread. The first of them is to find everything: who
+  /// comes before waits.
+  void serve() { service_.run(); }
+
+  /// Who answers `/whep`; before serve(). nullptr: nobody, there is none.
+  void set_peers(std::shared_ptr<Peers> peers) { peers_ = std::move(peers); }
+
+  // All of these may be called from any thread.
+  /// A stage that nobody sees yet. `joined` may be nothing.
+  std::shared_ptr<Stage> make_stage(int sample_rate, std::function<void()> joined);
+  /// Its resources lie below `path`, "" for all paths. False: there is one already.
+  bool open(const std::string& path, const std::shared_ptr<Stage>& stage);
+  /// Nobody finds it any more; its viewers get what waits for them and are told.
+  void close(const std::string& path);
+  int viewers() const { return viewers_; }
+
+  /// Lets the clients have what waits for them, for two seconds at most, and says goodbye.
+  void finish();
+
+ private:
+  Server(const WebAddress& address, const HouseOptions& options, HouseHandler handler);
+  void stop();
+  static int callback(lws* wsi, lws_callback_reasons reason, void* user, void* in, size_t size);
+  int handle(lws* wsi, lws_callback_reasons reason, const char* in, std::size_t size);
+  struct Place {
+    std::shared_ptr<Stage> stage;
+    std::string path;  // below it
+    Resource resource = Resource::none;
+  };
+  Place place_of(const std::string& path) const;
+  bool exists(const Place& place) const;
+  unsigned objection(lws* wsi, const Request& request);
+  std::string shared_with(const Request& request) const;
+  bool may_deflate(lws* wsi) const;
+  bool admit(lws* wsi, Session& session);
+  int refuse(lws* wsi, const Request& request, unsigned status);
+  int request(lws* wsi);
+  int begin_exchange(lws* wsi, const Request& request);
+  int take_body(lws* wsi, const char* bytes, std::size_t size);
+  int ask_handler(lws* wsi);
+  int write_reply(lws* wsi, Session& session);
+  int serve(lws* wsi, const Request& request, const Place& place);
+  int talk(lws* wsi, const Request& request, const Place& place);
+  int upgrade(lws* wsi);
+  bool waits_for_peers(lws* wsi) const;
+  int whep(lws* wsi, const Request& request);
+  int whep_body(lws* wsi, const char* bytes, std::size_t size);
+  int whep_offer(lws* wsi);
+  int whep_answer(lws* wsi, Session& session);
+  int whep_reply(lws* wsi, Answer answer, const std::string& text);
+  void hand_out_answers();
+  int write_body(lws* wsi, Session& session);
+  int transaction_over(lws* wsi);
+  bool send_message(lws* wsi, Session& session, const Message& message);
+  int write_message(lws* wsi, Session& session);
+  void look_at(const Stage& stage, Hub::Clock::time_point since);
+  void look_around();
+  void look_at_news();
+  void keep_looking();
+  void disconnect_overdue();
+  void leave(lws* wsi);
+
+  const WebOptions options_;
+  const std::size_t most_body_;
+  const HouseHandler handler_;
+  const OwnNames names_;
+  const std::string frames_;                      // where the page may be in a frame
+  std::map<std::string, DocumentPtr> documents_;  // by path, but for info.json
+  std::shared_ptr<Peers> peers_;
+  Service service_;
+  int port_ = 0;
+  const std::shared_ptr<Answers> answers_ = std::make_shared<Answers>();
+
+  mutable std::mutex mutex_;  // for what follows
+  std::map<std::string, std::shared_ptr<Stage>, std::less<>> stages_;
+  std::vector<std::shared_ptr<Stage>> touched_;  // since the thread has looked
+  bool finishing_ = false;
+  std::map<std::uint64_t, PeerAnswer> peer_answers_;  // by ticket
+
+  // Of the service thread alone.
+  struct Timer {
+    lws_sorted_usec_list_t entry{};
+    Server* server = nullptr;
+  } timer_;
+  std::map<lws*, Session> sessions_;
+  std::uint64_t tickets_ = 0;
+  Visitors visitors_;
+  std::string entering_;  // address of the connection that is just being accepted
+
+  std::atomic<int> viewers_ = 0;
+};
+
+}  // namespace animeme::web

@@ -1,0 +1,398 @@
+#include <algorithm>
+#include <exception>
+#include <nlohmann/json.hpp>
+
+#include "tools/formats/media/detail/tracks/words_internal.h"
+#include "tools/formats/media/live/audio_segments.h"
+#include "tools/live/web/detail/headers.h"
+#include "tools/live/web/detail/messages.h"
+#include "tools/live/web/detail/planes.h"
+#include "tools/live/web/detail/server.h"
+#include "tools/live/web/detail/values.h"
+#include "tools/live/web/house.h"
+#include "tools/live/web/web.h"
+
+namespace animeme::web {
+namespace {
+
+using media::LiveTrack;
+using media::LiveUnit;
+
+constexpr double kSoundBefore = 0.25;  // seconds of it that newcomers get before the face
+constexpr double kSoundAlone = 1;      // the same where there is no face
+
+Error invalid(const std::string& what) { return make_error(Code::invalid_argument, what); }
+
+bool is_plain(const std::string& text) {
+  // What separates in headers is in no name and no origin.
+  return std::all_of(text.begin(), text.end(),
+                     [](char c) { return c > ' ' && c <= '~' && c != ';' && c != ','; });
+}
+
+template <class Body>
+auto guarded(const Body& body) -> decltype(body()) {
+  try {
+    return body();
+  } catch (const std::exception& problem) {
+    return make_error(Code::out_of_range, problem.what());
+  }
+}
+
+class Sink : public WebSink {
+ public:
+  Sink(WebAddress address, const WebOptions& options)
+      : address_(std::move(address)), options_(options) {}
+  /// In a house, below `path`.
+  Sink(WebAddress address, const WebOptions& options, std::shared_ptr<Server> house,
+       std::string path, std::function<void()> joined)
+      : address_(std::move(address)),
+        options_(options),
+        house_(std::move(house)),
+        path_(std::move(path)),
+        joined_(std::move(joined)) {}
+  ~Sink() override {
+    if (house_ && stage_) house_->close(path_);
+  }
+
+  Result<void> start(const media::LiveInfo& info) override {
+    return guarded([&] { return begin(info); });
+  }
+  Result<void> send(const LiveUnit& unit) override {
+    return guarded([&]() -> Result<void> {
+      if (!stage_ || over_) return invalid("the sink is not running");
+      return unit.track == LiveTrack::face ? send_face(unit) : send_sound(unit);
+    });
+  }
+  Result<void> tell(const std::string& json) override {
+    return guarded([&]() -> Result<void> {
+      if (!stage_ || over_) return invalid("the sink is not running");
+      return publish_note(json);
+    });
+  }
+  Result<void> poll() override { return {}; }
+
+  Result<void> finish() override {
+    return guarded([&]() -> Result<void> {
+      if (!stage_ || over_) return {};
+      Result<void> flushed = flush();
+      over_ = true;
+      if (peers_) peers_->finish();
+      if (house_) {
+        house_->close(path_);
+      } else {
+        server_->finish();
+      }
+      return flushed;
+    });
+  }
+
+  media::SendStats stats() const override {
+    media::SendStats stats = stage_ ? stage_->stats() : media::SendStats{};
+    if (server_) stats.receivers = server_->viewers();
+    if (peers_) {
+      const media::SendStats more = peers_->stats();
+      stats.receivers += more.receivers;
+      stats.packets += more.packets;
+      stats.bytes += more.bytes;
+      stats.dropped += more.dropped;
+      stats.repeated += more.repeated;
+    }
+    stats.face_units = face_units_;
+    stats.audio_units = audio_units_;
+    return stats;
+  }
+
+  std::string address() const override {
+    if (!stage_) return {};
+    const int port = house_ ? house_->port() : server_->port();
+    const std::string text = WebAddress{address_.host, port}.text();
+    return house_ ? text + path_.substr(1) + "/" : text;
+  }
+
+ private:
+  Result<void> begin(const media::LiveInfo& info);
+  Result<void> send_face(const LiveUnit& unit);
+  void send_values(const LiveUnit& unit);
+  Result<void> send_sound(const LiveUnit& unit);
+  Result<void> publish_note(const std::string& json);
+  Result<void> flush();
+  void describe();
+
+  const WebAddress address_;
+  const WebOptions options_;
+  media::LiveInfo info_;
+  const std::shared_ptr<Server> house_;  // null: it has a server of its own
+  const std::string path_;
+  const std::function<void()> joined_;
+  std::unique_ptr<Server> server_;
+  std::shared_ptr<Stage> stage_;
+  std::shared_ptr<Peers> peers_;  // null: no WebRTC
+  bool over_ = false;
+  Values values_;
+  std::vector<LiveUnit> unread_;  // since the last intra plane; nobody wanted their values
+  PlaneWriter planes_;
+  std::vector<media::AudioPacket> packets_;  // of the next segment
+  std::uint32_t segments_ = 0;
+  double now_ = 0;  // on the clock of the segments
+  std::int64_t face_units_ = 0, audio_units_ = 0;
+};
+
+Result<void> Sink::begin(const media::LiveInfo& info) {
+  if (stage_) return invalid("the sink has been started already");
+  if (info.face_config.empty() && !info.audio) return invalid("there is neither face nor sound");
+  if (info.timescale == 0) return invalid("the time scale is 0");
+  info_ = info;
+  std::vector<std::uint8_t> init;
+  if (info_.audio) {
+    Result<std::vector<std::uint8_t>> written = media::write_audio_init(*info_.audio);
+    if (!written) return written.error();
+    init = std::move(*written);
+  }
+  if (!house_) {
+    auto server = Server::listen(address_, {options_}, nullptr);
+    if (!server) return server.error();
+    server_ = std::move(*server);
+  }
+  Server& server = house_ ? *house_ : *server_;
+  stage_ = server.make_stage(info_.audio ? info_.audio->sample_rate : 0, joined_);
+  const Hello hello{info_.visual_profile, info_.audio.has_value(), info_.timescale,
+                    info_.face_config};
+  stage_->set_hello(Channel::face, {.bytes = write_hello(hello)});
+  const std::string names = values_hello(info_.timescale);
+  for (const Channel channel : {Channel::faps, Channel::planes}) {
+    stage_->set_hello(channel, {.bytes = {names.begin(), names.end()}, .text = true});
+  }
+  if (!init.empty()) stage_->set_hello(Channel::audio, {.bytes = std::move(init)});
+  if (server_ && options_.make_peers) {
+    peers_ = options_.make_peers();
+    Result<void> ready = peers_->start(info_, options_.max_clients, options_.per_address);
+    if (!ready && options_.must_have_peers) return ready;
+    if (!ready) peers_.reset();
+    server_->set_peers(peers_);
+  }
+  describe();
+  if (!server.open(path_, stage_)) {
+    stage_.reset();
+    return invalid("another presentation has this path");
+  }
+  if (server_) server_->serve();
+  return {};
+}
+
+/// /info.json
+void Sink::describe() {
+  nlohmann::ordered_json json{{"version", kVersion}, {"time_zero", kWebTimeZero}, {"now", now_}};
+  if (!info_.face_config.empty()) {
+    json["face"] = {{"timescale", info_.timescale},
+                    {"profile", info_.visual_profile},
+                    {"config", media::lower_case(media::to_hex(info_.face_config))}};
+  }
+  if (info_.audio) {
+    json["audio"] = {{"mime", media::audio_mime(*info_.audio)},
+                     {"codec", media::name_of(info_.audio->codec)},
+                     {"sample_rate", info_.audio->sample_rate},
+                     {"channels", info_.audio->channels}};
+  }
+  if (!options_.other_heads.empty()) {
+    json["heads"] = {options_.head_name};
+    for (const WebHead& head : options_.other_heads) json["heads"].push_back(head.name);
+  }
+  if (peers_) json["webrtc"] = true;  // at /whep
+  json["clients"] = stats().receivers;
+  // Names of heads may be any text.
+  stage_->set_info(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+Result<void> Sink::send_face(const LiveUnit& unit) {
+  if (info_.face_config.empty()) return invalid("start() was not told of a face");
+  const std::int64_t time = unit.time + std::int64_t(info_.timescale) * kWebTimeZero;
+  if (time < 0) return invalid("a unit lies more than a second before time 0");
+  if (unit.duration < 0 || unit.duration > UINT32_MAX || unit.bytes.empty()) {
+    return invalid("a unit is empty or its duration does not fit in 32 bits");
+  }
+  const double seconds = double(time) / info_.timescale;
+  now_ = std::max(now_, seconds);
+  stage_->publish(Channel::face,
+                  {.bytes = write_unit({std::uint64_t(time), std::uint32_t(unit.duration),
+                                        std::uint8_t(unit.intra ? kIntra : 0), unit.bytes}),
+                   .entry = unit.intra,
+                   .time = seconds});
+  send_values(unit);
+  if (unit.intra) {
+    stage_->forget_before(Channel::audio, seconds - kSoundBefore);
+    describe();
+  }
+  ++face_units_;
+  return {};
+}
+
+/// What nobody looks at is not decoded in a house: it may have hundreds of faces. Who comes then
+/// gets, with the next plane, all since the last intra plane.
+void Sink::send_values(const LiveUnit& unit) {
+  if (house_ && unit.intra) unread_.clear();
+  const bool wanted = stage_->wanted(Channel::faps) || stage_->wanted(Channel::planes);
+  if (house_ && !wanted) {
+    if (unit.intra || !unread_.empty()) unread_.push_back(unit);
+    values_ = Values();
+    planes_ = PlaneWriter();
+    stage_->forget(Channel::faps);
+    stage_->forget(Channel::planes);
+    return;
+  }
+  unread_.push_back(unit);
+  for (const LiveUnit& next : std::exchange(unread_, {})) {
+    const auto face = values_.push(next.bytes);
+    std::string text;
+    if (face) {
+      const std::int64_t time = next.time + std::int64_t(info_.timescale) * kWebTimeZero;
+      const double seconds = double(time) / info_.timescale;
+      text = write_values(
+          {seconds, double(next.duration) / info_.timescale, next.intra, next.bytes.size()}, *face);
+      stage_->publish(Channel::faps, {.bytes = {text.begin(), text.end()},
+                                      .text = true,
+                                      .entry = next.intra,
+                                      .time = seconds});
+      const PlaneWriter::Plane plane{std::uint64_t(time), std::uint32_t(next.duration), next.intra,
+                                     next.bytes.size()};
+      stage_->publish(Channel::planes,
+                      {.bytes = planes_.write(plane, *face), .entry = next.intra, .time = seconds});
+    }
+    if (peers_) peers_->send(next, text);
+  }
+}
+
+Result<void> Sink::send_sound(const LiveUnit& unit) {
+  if (!info_.audio) return invalid("start() was not told of a sound");
+  const std::int64_t time = unit.time + std::int64_t(info_.audio->sample_rate) * kWebTimeZero;
+  if (time < 0) return invalid("a packet lies more than a second before time 0");
+  if (peers_) peers_->send(unit, {});
+  const bool follows = packets_.empty() || packets_.back().time + packets_.back().duration == time;
+  if (!follows) {
+    if (Result<void> flushed = flush(); !flushed) return flushed;
+  }
+  packets_.push_back({unit.bytes, time, unit.duration});
+  ++audio_units_;
+  if (packets_.size() < std::size_t(options_.packets_per_segment)) return {};
+  return flush();
+}
+
+/// All sockets of the face have it, between the frames.
+Result<void> Sink::publish_note(const std::string& json) {
+  auto note = nlohmann::ordered_json::parse(json);
+  if (!note.is_object()) return invalid("what is told has to be a JSON object");
+  if (const auto time = note.find("time"); time != note.end() && time->is_number()) {
+    *time = time->get<double>() + kWebTimeZero;
+  }
+  const std::string text = note.dump();
+  for (const Channel channel : {Channel::face, Channel::faps, Channel::planes}) {
+    stage_->publish(channel, {.bytes = {text.begin(), text.end()}, .text = true, .time = now_});
+  }
+  if (peers_) peers_->tell(text);
+  return {};
+}
+
+/// Publishes the segment that was being collected.
+Result<void> Sink::flush() {
+  if (packets_.empty()) return {};
+  auto segment = media::write_audio_segment(++segments_, packets_);
+  const double seconds = double(packets_.front().time) / info_.audio->sample_rate;
+  packets_.clear();
+  if (!segment) return segment.error();
+  stage_->publish(Channel::audio, {.bytes = std::move(*segment), .entry = true, .time = seconds});
+  now_ = std::max(now_, seconds);
+  if (info_.face_config.empty()) {
+    stage_->forget_before(Channel::audio, seconds - kSoundAlone);
+    if (segments_ % 16 == 0) describe();
+  }
+  return {};
+}
+
+Result<void> check(const WebOptions& options, int most_clients) {
+  if (options.max_clients < 1 || options.max_clients > most_clients) {
+    return invalid("1 to " + std::to_string(most_clients) + " clients can be served");
+  }
+  if (options.packets_per_segment < 1 || options.packets_per_segment > 64) {
+    return invalid("a segment takes 1 to 64 packets of sound");
+  }
+  if (options.client_bytes < 4096 || !(options.stall_seconds > 0)) {
+    return invalid("a client needs at least 4096 bytes and some patience");
+  }
+  const auto has_none = [](const WebHead& head) { return head.model.empty(); };
+  if (options.head_script.empty() != options.head_model.empty() ||
+      (options.head_script.empty() && !options.other_heads.empty()) ||
+      std::any_of(options.other_heads.begin(), options.other_heads.end(), has_none)) {
+    return invalid("a head for the page needs its script and its model");
+  }
+  if (options.per_address < 0) return invalid("connections of an address cannot be negative");
+  for (const std::string& origin : options.allow_origins) {
+    const bool known =
+        origin == "*" || origin.starts_with("http://") || origin.starts_with("https://");
+    const bool whole = origin.find('/', origin.find("//") + 2) == std::string::npos;
+    if (!known || (origin != "*" && !whole) || !is_plain(origin)) {
+      return make_error(Code::invalid_argument,
+                        "'" + origin + "' is no origin; write it as https://example.org, or *");
+    }
+  }
+  for (const std::string& name : options.host_names) {
+    if (name.empty() || !is_plain(name) || name.find('/') != std::string::npos) {
+      return make_error(
+          Code::invalid_argument,
+          "'" + name + "' is no name of a host; write it as example.org, without http://");
+    }
+  }
+  return {};
+}
+
+class House : public WebHouse {
+ public:
+  House(std::shared_ptr<Server> server, WebAddress address, WebOptions options)
+      : server_(std::move(server)), address_(std::move(address)), options_(std::move(options)) {
+    address_.port = server_->port();
+    options_.head_script.clear();  // the server has them
+    options_.head_model.clear();
+    for (WebHead& head : options_.other_heads) head.model.clear();  // their names are told
+  }
+  std::string address() const override { return address_.text(); }
+  std::unique_ptr<WebSink> make_sink(const std::string& path,
+                                     std::function<void()> joined) override {
+    return std::make_unique<Sink>(address_, options_, server_, path, std::move(joined));
+  }
+  int viewers() const override { return server_->viewers(); }
+  void finish() override { server_->finish(); }
+
+ private:
+  std::shared_ptr<Server> server_;
+  WebAddress address_;
+  WebOptions options_;
+};
+
+}  // namespace
+
+bool is_open_to_others(const std::string& url) {
+  const Result<WebAddress> address = parse_web_address(url);
+  return address && listens_for_others(*address);
+}
+
+Result<std::unique_ptr<WebSink>> make_web_sink(const std::string& url, const WebOptions& options) {
+  Result<WebAddress> address = parse_web_address(url);
+  if (!address) return address.error();
+  if (auto ok = check(options, 1000); !ok) return ok.error();
+  return std::unique_ptr<WebSink>(new Sink(std::move(*address), options));
+}
+
+Result<std::unique_ptr<WebHouse>> WebHouse::open(const std::string& url,
+                                                 const HouseOptions& options,
+                                                 HouseHandler handler) {
+  return guarded([&]() -> Result<std::unique_ptr<WebHouse>> {
+    Result<WebAddress> address = parse_web_address(url);
+    if (!address) return address.error();
+    if (auto ok = check(options.web, 10000); !ok) return ok.error();
+    auto server = Server::listen(*address, options, std::move(handler));
+    if (!server) return server.error();
+    (*server)->serve();
+    return std::unique_ptr<WebHouse>(
+        new House(std::move(*server), std::move(*address), options.web));
+  });
+}
+
+}  // namespace animeme::web

@@ -1,0 +1,61 @@
+// What goes to every connection, in the forms it goes in: RTP times and messages of the channels.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/formats/media/live/live.h"
+#include "tools/live/webrtc/detail/bundle.h"
+#include "tools/live/webrtc/detail/peer.h"
+
+namespace animeme::webrtc {
+
+/// Labels of the data channels.
+inline constexpr const char* kFace = "animeme.face";
+inline constexpr const char* kValues = "animeme.faps";
+
+/// One connection and what it has been given.
+struct Receiver {
+  std::unique_ptr<Peer> peer;
+  bool face = false, values = false;  ///< that channel is open and was begun with
+};
+
+/// Not thread safe.
+class Feed {
+ public:
+  /// `repeat`: as WebRtcOptions. Errors: unsupported (the sound is not Opus).
+  static Result<Feed> make(const media::LiveInfo& info, int repeat);
+
+  /// Takes a unit and says what it is, for those who come later, too.
+  void push(const media::LiveUnit& unit, std::string_view values);
+  /// Gives what was pushed last to a receiver that is connected; one whose channels have opened
+  /// since gets what it needs to begin.
+  void give(Receiver& receiver);
+  /// JSON between the values, to who has these.
+  void tell(Receiver& receiver, std::string_view json);
+  /// It is over.
+  void end(Receiver& receiver);
+  /// What was handed to connections so far, without `receivers`.
+  const media::SendStats& stats() const { return stats_; }
+
+ private:
+  Feed(const media::LiveInfo& info, std::vector<std::uint8_t> hello, int repeat);
+  void send(Receiver& receiver, const char* label, std::span<const std::uint8_t> message,
+            bool text);
+  bool begins(Receiver& receiver, const char* label, bool& known);
+
+  std::uint32_t timescale_;
+  int sample_rate_ = 0;
+  BundleWriter bundles_;
+  media::SendStats stats_;
+  // Of the newest unit.
+  bool is_sound_ = false;
+  std::vector<std::uint8_t> message_;  // or the packet of sound
+  std::uint32_t rtp_time_ = 0;
+  std::string values_, newest_values_;
+};
+
+}  // namespace animeme::webrtc

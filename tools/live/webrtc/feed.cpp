@@ -1,0 +1,94 @@
+#include "tools/live/webrtc/detail/feed.h"
+
+#include <utility>
+
+#include "tools/live/web/detail/messages.h"
+#include "tools/live/web/web.h"
+
+namespace animeme::webrtc {
+
+using media::LiveTrack;
+
+Feed::Feed(const media::LiveInfo& info, std::vector<std::uint8_t> hello, int repeat)
+    : timescale_(info.timescale),
+      sample_rate_(info.audio ? info.audio->sample_rate : 0),
+      bundles_(std::move(hello), repeat) {}
+
+Result<Feed> Feed::make(const media::LiveInfo& info, int repeat) {
+  if (info.audio && info.audio->codec != media::AudioCodec::opus) {
+    return make_error(Code::unsupported, std::string("WebRTC carries Opus, and this sound is ") +
+                                             media::name_of(info.audio->codec) +
+                                             "; write --audio-codec opus");
+  }
+  return Feed(info,
+              web::write_hello(
+                  {info.visual_profile, info.audio.has_value(), info.timescale, info.face_config}),
+              repeat);
+}
+
+void Feed::push(const media::LiveUnit& unit, std::string_view values) {
+  is_sound_ = unit.track == LiveTrack::audio;
+  values_.clear();
+  if (is_sound_) {
+    message_ = unit.bytes;
+    rtp_time_ = std::uint32_t(unit.time + std::int64_t(sample_rate_) * web::kWebTimeZero);
+    return;
+  }
+  const std::int64_t time = unit.time + std::int64_t(timescale_) * web::kWebTimeZero;
+  const std::uint8_t flags = unit.intra ? web::kIntra : 0;
+  message_ = bundles_.push(
+      web::write_unit({std::uint64_t(time), std::uint32_t(unit.duration), flags, unit.bytes}),
+      unit.intra);
+  values_ = values;
+  if (!values.empty()) newest_values_ = values;
+}
+
+void Feed::send(Receiver& receiver, const char* label, std::span<const std::uint8_t> message,
+                bool text) {
+  if (!receiver.peer->send(label, message, text)) {
+    ++stats_.dropped;
+    return;
+  }
+  ++stats_.packets;
+  stats_.bytes += std::int64_t(message.size());
+}
+
+/// True if that channel is open; `known` if what it begins with has been sent before.
+bool Feed::begins(Receiver& receiver, const char* label, bool& known) {
+  return receiver.peer->has_channel(label) && !std::exchange(known, true);
+}
+
+void Feed::give(Receiver& receiver) {
+  const auto text = [](const std::string& json) {
+    return std::span(reinterpret_cast<const std::uint8_t*>(json.data()), json.size());
+  };
+  // The newest unit is among those that a newcomer begins with.
+  if (begins(receiver, kFace, receiver.face)) {
+    for (const auto& message : bundles_.catch_up()) send(receiver, kFace, message, false);
+  } else if (receiver.face && !is_sound_) {
+    send(receiver, kFace, message_, false);
+    stats_.repeated = bundles_.repeated();
+  }
+  if (begins(receiver, kValues, receiver.values)) {
+    if (!newest_values_.empty()) send(receiver, kValues, text(newest_values_), true);
+  } else if (receiver.values && !is_sound_ && !values_.empty()) {
+    send(receiver, kValues, text(values_), true);
+  }
+  if (!is_sound_) return;
+  receiver.peer->send_sound(message_, rtp_time_);
+  ++stats_.packets;
+  stats_.bytes += std::int64_t(message_.size());
+}
+
+void Feed::tell(Receiver& receiver, std::string_view json) {
+  if (!receiver.values) return;
+  receiver.peer->send(kValues, {reinterpret_cast<const std::uint8_t*>(json.data()), json.size()},
+                      true);
+}
+
+void Feed::end(Receiver& receiver) {
+  if (receiver.face) receiver.peer->send(kFace, end_message(), false);
+  tell(receiver, R"({"end":true})");
+}
+
+}  // namespace animeme::webrtc

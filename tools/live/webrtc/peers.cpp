@@ -1,0 +1,244 @@
+// Viewers who come by WHEP: who they are, and a thread that lets them in and out.
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <random>
+#include <thread>
+#include <utility>
+
+#include "tools/live/webrtc/detail/feed.h"
+#include "tools/live/webrtc/detail/load.h"
+#include "tools/live/webrtc/webrtc.h"
+
+namespace animeme::webrtc {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Answer = std::function<void(web::PeerAnswer)>;
+
+constexpr std::chrono::milliseconds kLookEvery{100};
+constexpr std::chrono::seconds kToAnswer{4}, kToConnect{15};
+constexpr std::chrono::milliseconds kGoodbye{60};  // three times; ends of streams get lost, too
+
+/// Nobody guesses it, and who knows it may end the connection.
+std::string make_id() {
+  std::random_device device;
+  std::string id;
+  for (int i = 0; i < 32; ++i) id += "0123456789abcdef"[device() & 15];
+  return id;
+}
+
+class PeerHub : public web::Peers {
+ public:
+  PeerHub(const WebRtcOptions& options, bool now) : options_(options), now_(now) {}
+  ~PeerHub() override { finish(); }
+
+  Result<void> start(const media::LiveInfo& info, int most, int per_address) override;
+  void expect() override;
+  void offer(std::string sdp, std::string address, Answer answer) override;
+  bool end(const std::string& id) override;
+  void send(const media::LiveUnit& unit, std::string_view values) override;
+  void tell(std::string_view json) override;
+  void finish() override;
+  media::SendStats stats() const override;
+
+ private:
+  struct Viewer : Receiver {
+    std::string address;
+    Clock::time_point since = Clock::now();
+    bool connected = false;
+    std::shared_ptr<std::atomic<bool>> answered;
+  };
+  struct Offer {
+    std::string sdp, address, id;
+    Answer answer;
+  };
+  using Viewers = std::map<std::string, Viewer>;  // by id
+
+  void run();
+  void let_in(Offer offer);
+  void look_after(std::vector<Viewer>& gone);
+  bool has_place(const std::string& address) const;
+
+  const WebRtcOptions options_;
+  const bool now_;
+  int most_ = 0, per_address_ = 0;
+  bool has_sound_ = false;
+
+  mutable std::mutex mutex_;  // for what follows
+  std::condition_variable changed_;
+  std::optional<Feed> feed_;
+  Viewers viewers_;
+  std::vector<Offer> offers_;
+  std::vector<Viewer> gone_;  // to be closed by the thread
+  bool expected_ = false, loaded_ = false, over_ = false;
+  std::thread thread_;
+};
+
+Result<void> PeerHub::start(const media::LiveInfo& info, int most, int per_address) {
+  if (now_) {
+    if (Result<void> loaded = load(); !loaded) return loaded;
+  }
+  Result<Feed> feed = Feed::make(info, options_.repeat);
+  if (!feed) return feed.error();
+  if (!now_ && !is_there()) return make_error(Code::unsupported, "there is no module for WebRTC");
+  feed_.emplace(std::move(*feed));
+  most_ = most;
+  per_address_ = per_address;
+  has_sound_ = info.audio.has_value();
+  thread_ = std::thread([this] { run(); });
+  return {};
+}
+
+/// With the lock held.
+bool PeerHub::has_place(const std::string& address) const {
+  int all = int(offers_.size()), there = 0;
+  for (const Offer& offer : offers_) there += offer.address == address ? 1 : 0;
+  for (const auto& [id, viewer] : viewers_) {
+    ++all;
+    there += viewer.address == address ? 1 : 0;
+  }
+  return all < most_ && (per_address_ == 0 || there < per_address_);
+}
+
+void PeerHub::expect() {
+  const std::lock_guard lock(mutex_);
+  if (std::exchange(expected_, true)) return;
+  changed_.notify_all();
+}
+
+void PeerHub::offer(std::string sdp, std::string address, Answer answer) {
+  std::unique_lock lock(mutex_);
+  if (over_ || !has_place(address)) {
+    lock.unlock();
+    answer({503, "", "All places are taken (--max-clients).\n"});
+    return;
+  }
+  offers_.push_back({std::move(sdp), std::move(address), make_id(), std::move(answer)});
+  changed_.notify_all();
+}
+
+bool PeerHub::end(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  const auto found = viewers_.find(id);
+  if (found == viewers_.end()) return false;
+  gone_.push_back(std::move(found->second));
+  viewers_.erase(found);
+  changed_.notify_all();
+  return true;
+}
+
+void PeerHub::send(const media::LiveUnit& unit, std::string_view values) {
+  const std::lock_guard lock(mutex_);
+  if (over_ || !feed_) return;
+  feed_->push(unit, values);
+  for (auto& [id, viewer] : viewers_) {
+    viewer.connected = viewer.peer->state() == Peer::State::connected;
+    if (viewer.connected) feed_->give(viewer);
+  }
+}
+
+void PeerHub::tell(std::string_view json) {
+  const std::lock_guard lock(mutex_);
+  if (over_ || !feed_) return;
+  for (auto& [id, viewer] : viewers_) {
+    if (viewer.connected) feed_->tell(viewer, json);
+  }
+}
+
+void PeerHub::run() {
+  std::unique_lock lock(mutex_);
+  while (!over_) {
+    changed_.wait_for(lock, kLookEvery, [this] {
+      return over_ || !offers_.empty() || !gone_.empty() || expected_ > loaded_;
+    });
+    std::vector<Offer> offers = std::exchange(offers_, {});
+    std::vector<Viewer> gone = std::exchange(gone_, {});
+    look_after(gone);
+    const bool first = expected_ && !std::exchange(loaded_, true);
+    if (offers.empty() && gone.empty() && !first) continue;
+    lock.unlock();
+    if (first) (void)load();  // who comes is told of its errors
+    gone.clear();             // waits for their threads
+    for (Offer& offer : offers) let_in(std::move(offer));
+    lock.lock();
+  }
+}
+
+/// Those whose connection is over, or was never made. With the lock held.
+void PeerHub::look_after(std::vector<Viewer>& gone) {
+  for (auto at = viewers_.begin(); at != viewers_.end();) {
+    const Peer::State state = at->second.peer->state();
+    at->second.connected = state == Peer::State::connected;
+    const auto patience = *at->second.answered ? kToConnect : kToAnswer;
+    const bool late =
+        state == Peer::State::connecting && Clock::now() - at->second.since > patience;
+    if (state == Peer::State::over || late) {
+      gone.push_back(std::move(at->second));
+      at = viewers_.erase(at);
+    } else {
+      ++at;
+    }
+  }
+}
+
+/// In the thread, without the lock: connections take a while to be made.
+void PeerHub::let_in(Offer offer) {
+  const Result<const Functions*> module = functions();
+  if (!module) return offer.answer({501, "", module.error().message + "\n"});
+  PeerSettings settings;
+  settings.offer = std::move(offer.sdp);
+  settings.sound = has_sound_;
+  settings.stun = options_.stun;
+  settings.turn = options_.turn;
+  Viewer viewer;
+  viewer.address = std::move(offer.address);
+  viewer.answered = std::make_shared<std::atomic<bool>>(false);
+  viewer.peer = (*module)->open(
+      settings, [id = offer.id, answer = std::move(offer.answer), answered = viewer.answered](
+                    const std::string& description, const std::string& problem) {
+        *answered = true;
+        if (problem.empty()) return answer({201, id, description});
+        answer({400, "", problem + "\n"});
+      });
+  const std::lock_guard lock(mutex_);
+  viewers_[offer.id] = std::move(viewer);
+}
+
+void PeerHub::finish() {
+  {
+    std::unique_lock lock(mutex_);
+    if (over_) return;
+    for (int i = 0; i < 3 && !viewers_.empty(); ++i) {
+      for (auto& [id, viewer] : viewers_) feed_->end(viewer);
+      changed_.wait_for(lock, kGoodbye, [] { return false; });
+    }
+    for (auto& [id, viewer] : viewers_) viewer.peer->goodbye();
+    if (!viewers_.empty()) changed_.wait_for(lock, kGoodbye, [] { return false; });
+    over_ = true;
+    changed_.notify_all();
+  }
+  if (thread_.joinable()) thread_.join();
+  viewers_.clear();
+  gone_.clear();
+  offers_.clear();
+}
+
+media::SendStats PeerHub::stats() const {
+  const std::lock_guard lock(mutex_);
+  media::SendStats stats = feed_ ? feed_->stats() : media::SendStats{};
+  for (const auto& [id, viewer] : viewers_) stats.receivers += viewer.connected ? 1 : 0;
+  return stats;
+}
+
+}  // namespace
+
+std::unique_ptr<web::Peers> make_peers(const WebRtcOptions& options, bool now) {
+  return std::make_unique<PeerHub>(options, now);
+}
+
+}  // namespace animeme::webrtc

@@ -1,0 +1,106 @@
+#include "tools/speech/talking/line_command.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "tools/speech/talking/json_line_internal.h"
+
+namespace animeme::speech {
+
+namespace {
+
+using tools::Json;
+using Do = LineCommand::Do;
+using When = LineCommand::When;
+
+constexpr std::pair<std::string_view, Do> kDos[] = {
+    {"say", Do::say}, {"stop", Do::stop}, {"drop", Do::drop}, {"mark", Do::mark}, {"end", Do::end}};
+constexpr std::pair<std::string_view, When> kWhens[] = {
+    {"now", When::now}, {"next", When::next}, {"last", When::last}};
+
+// Whether something that is no JSON was meant as a command: "do" and a colon.
+bool has_a_do(std::string_view line) {
+  constexpr std::string_view kDo = "\"do\"";
+  for (std::size_t at = line.find(kDo); at != std::string_view::npos; at = line.find(kDo, at)) {
+    at += kDo.size();
+    const std::size_t next = line.find_first_not_of(" \t", at);
+    if (next != std::string_view::npos && line[next] == ':') return true;
+  }
+  return false;
+}
+
+Result<std::string> text_of(const Json& object, const char* name) {
+  const auto found = object.find(name);
+  if (found == object.end() || found->is_null()) return std::string();
+  if (found->is_string()) return found->get<std::string>();
+  if (found->is_number()) return found->dump();  // an id may be a number
+  return make_error(Code::syntax, "\"" + std::string(name) + "\" has to be a text");
+}
+
+// The value of a name; an error that lists all names.
+template <class Value, std::size_t kCount>
+Result<Value> value_of(const std::string& member, const std::string& name,
+                       const std::pair<std::string_view, Value> (&known)[kCount]) {
+  std::string list;
+  for (const auto& [text, value] : known) {
+    if (text == name) return value;
+    list += (list.empty() ? "" : ", ") + std::string(text);
+  }
+  return make_error(Code::not_found, "\"" + member + "\" cannot be \"" + name.substr(0, 40) +
+                                         "\"; it is one of " + list);
+}
+
+LineCommand said(std::string line) {
+  LineCommand command;
+  command.text = line;
+  command.payload = std::move(line);
+  return command;
+}
+
+Result<LineCommand> command_of(const Json& object, std::string line, bool json) {
+  const Result<std::string> what = text_of(object, "do"), when = text_of(object, "when");
+  Result<std::string> id = text_of(object, "id"), text = text_of(object, "text");
+  for (const auto* one : {&what, &when}) {
+    if (!*one) return one->error();
+  }
+  if (!id) return id.error();
+  if (!text) return text.error();
+  LineCommand command;
+  const Result<Do> wanted = value_of("do", *what, kDos);
+  if (!wanted) return wanted.error();
+  command.what = *wanted;
+  if (!when->empty()) {
+    const Result<When> place = value_of("when", *when, kWhens);
+    if (!place) return place.error();
+    command.when = *place;
+  }
+  command.id = std::move(*id);
+  if (command.what != Do::say) return command;
+  command.text = std::move(*text);
+  command.payload = json ? std::move(line) : command.text;
+  if (command.payload.find_first_not_of(" \t\r\n") == std::string::npos) {
+    return make_error(Code::invalid_argument,
+                      "there is nothing to say; it is to stand in \"text\"");
+  }
+  return command;
+}
+
+}  // namespace
+
+Result<LineCommand> read_line(std::string line, bool json) {
+  if (!line.starts_with('{')) return said(std::move(line));
+  const Result<Json> object = parse_object(line);
+  if (!object) {
+    if (!json && has_a_do(line)) return object.error();
+    return said(std::move(line));  // who makes pieces of lines says what is wrong with this one
+  }
+  if (object->contains("do")) return command_of(*object, std::move(line), json);
+  if (!json) return said(std::move(line));
+  LineCommand piece;
+  if (const auto id = text_of(*object, "id")) piece.id = *id;
+  if (const auto text = text_of(*object, "text")) piece.text = *text;
+  piece.payload = std::move(line);
+  return piece;
+}
+
+}  // namespace animeme::speech

@@ -1,0 +1,67 @@
+// Lines out of bytes that come in pieces.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "tools/formats/media/detail/tracks/words_internal.h"
+#include "tools/speech/talking/line_command.h"
+
+namespace animeme::speech {
+
+/// Leaves at most `most` bytes of a text; what stands before goes to `lines`.
+inline void cut_at_blanks(std::string& text, std::size_t most, std::vector<std::string>& lines) {
+  while (text.size() > most) {
+    const std::size_t blank = text.rfind(' ', most);
+    const std::size_t end = blank == std::string::npos || blank == 0 ? most : blank;
+    lines.emplace_back(media::trim(text.substr(0, end)));
+    text.erase(0, end);
+  }
+}
+
+/// Cuts lines out of bytes as they come, without the blanks around them. What waits is never more
+/// than `most` bytes: a line that is longer is cut at its last blank before that; or, without
+/// `cut`, its first `most` + 1 bytes stand for it and the rest is dropped. With `cut`, one that
+/// begins with { may be a command and is treated so, too, with kMostCommand.
+class LineCutter {
+ public:
+  LineCutter(std::size_t most, bool cut) : most_(most), cut_(cut) {}
+
+  std::vector<std::string> push(std::string_view bytes) {
+    std::vector<std::string> lines;
+    while (!bytes.empty()) {
+      const std::size_t end = bytes.find('\n');
+      append(bytes.substr(0, end), lines);
+      if (end == std::string_view::npos) break;
+      lines.push_back(rest());
+      bytes.remove_prefix(end + 1);
+    }
+    return lines;
+  }
+  std::string rest() { return std::string(media::trim(std::exchange(rest_, {}))); }
+
+ private:
+  void append(std::string_view bytes, std::vector<std::string>& lines) {
+    if (!cut_) return append_up_to(most_, bytes);
+    if (may_be_command(rest_.empty() ? bytes : rest_)) return append_up_to(kMostCommand, bytes);
+    rest_ += bytes;
+    cut_at_blanks(rest_, most_, lines);
+  }
+
+  void append_up_to(std::size_t most, std::string_view bytes) {
+    rest_ += bytes.substr(0, most + 1 - std::min(rest_.size(), most + 1));
+  }
+  static bool may_be_command(std::string_view line) {
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    return first != std::string_view::npos && line[first] == '{';
+  }
+
+  std::size_t most_;
+  bool cut_;
+  std::string rest_;
+};
+
+}  // namespace animeme::speech

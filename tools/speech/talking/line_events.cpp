@@ -1,0 +1,128 @@
+#include "tools/speech/talking/line_events.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "tools/formats/common/json.h"
+
+namespace animeme::speech {
+
+namespace {
+
+using What = LineEvent::What;
+
+constexpr const char* kNames[] = {"queued", "started",   "word",    "phone",  "mark",
+                                  "done",   "cancelled", "stopped", "dropped"};
+
+double rounded(double seconds) { return std::round(seconds * 1e6) / 1e6; }
+
+}  // namespace
+
+std::string to_json(const LineEvent& event) {
+  tools::Json json = {{"event", kNames[std::size_t(event.what)]}, {"time", rounded(event.time)}};
+  if (event.line > 0) {
+    json["line"] = event.line;
+    json["id"] = event.id;
+  }
+  switch (event.what) {
+    case What::queued:
+    case What::started:
+      json["text"] = event.text;
+      break;
+    case What::word:
+    case What::phone:
+    case What::mark:
+      json[kNames[std::size_t(event.what)]] = event.text;
+      if (event.what != What::mark) json["duration"] = rounded(event.duration);
+      break;
+    case What::cancelled:
+      if (event.line == 0) {
+        json["mark"] = event.id;
+      } else {
+        json["said"] = event.text;
+      }
+      json["why"] = event.why;
+      break;
+    default:
+      break;
+  }
+  return json.dump(-1, ' ', false, tools::Json::error_handler_t::replace);
+}
+
+void LineEvents::add(LineEvent event) {
+  const auto later = [](double time, const LineEvent& other) { return time < other.time; };
+  const auto place = std::upper_bound(waiting_.begin(), waiting_.end(), event.time, later);
+  waiting_.insert(place, std::move(event));
+}
+
+void LineEvents::begin(const SpokenLine& line, double start, double end) {
+  Begun begun{.line = line.line, .id = line.id, .end = end, .words = {}};
+  const auto event = [&](What what, double time, const std::string& text, double seconds) {
+    LineEvent one{.what = what, .time = time, .line = line.line, .id = line.id, .text = text};
+    one.duration = seconds;
+    add(std::move(one));
+  };
+  event(What::started, start, line.text, 0);
+  const std::vector<dam::Phone>& phones = line.speech.script.phones;
+  std::string_view last;
+  for (auto phone = phones.begin(); phone != phones.end(); ++phone) {
+    const double time = start + phone->start;
+    if (!phone->word.empty() && phone->word != last) {
+      auto after = phone;
+      while (after != phones.end() && after->word == phone->word) ++after;
+      event(What::word, time, phone->word, std::prev(after)->end - phone->start);
+      begun.words.emplace_back(time, phone->word);
+    }
+    last = phone->word;
+    if (phone->label == dam::kSilence) continue;
+    event(What::phone, time, phone->label, phone->duration());
+  }
+  for (const voice::SpeechMark& mark : line.speech.marks) {
+    event(What::mark, start + mark.time, mark.name, 0);
+  }
+  event(What::done, end, {}, 0);
+  begun_.push_back(std::move(begun));
+}
+
+void LineEvents::cut(double time, std::uint64_t before, const std::string& why) {
+  const auto is_cut = [&](std::uint64_t line) {
+    return std::any_of(begun_.begin(), begun_.end(), [&](const Begun& begun) {
+      return begun.line == line && line < before && begun.end > time;
+    });
+  };
+  std::vector<LineEvent> cancelled;
+  std::erase_if(waiting_, [&](const LineEvent& event) {
+    if (event.time <= time) return false;
+    const bool mark = event.line == 0 && event.what == What::mark;
+    if (mark) cancelled.push_back({.what = What::cancelled, .time = time, .id = event.text});
+    return mark || is_cut(event.line);
+  });
+  for (const Begun& begun : begun_) {
+    if (!is_cut(begun.line)) continue;
+    LineEvent event{.what = What::cancelled, .time = time, .line = begun.line, .id = begun.id};
+    for (const auto& [start, word] : begun.words) {
+      if (start <= time) event.text += (event.text.empty() ? "" : " ") + word;
+    }
+    cancelled.push_back(std::move(event));
+  }
+  std::erase_if(begun_, [&](const Begun& begun) { return begun.line < before; });
+  for (LineEvent& event : cancelled) {
+    event.why = why;
+    add(std::move(event));
+  }
+}
+
+void LineEvents::tell(double time) {
+  while (!waiting_.empty() && waiting_.front().time <= time) {
+    told_.push_back(std::move(waiting_.front()));
+    waiting_.pop_front();
+  }
+  std::erase_if(begun_, [time](const Begun& begun) { return begun.end <= time; });
+}
+
+std::vector<LineEvent> LineEvents::take() { return std::exchange(told_, {}); }
+
+}  // namespace animeme::speech

@@ -1,0 +1,184 @@
+// Which lines a live head speaks when, and what becomes of those that it does not speak.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "tools/formats/media/audio.h"
+#include "tools/speech/talking/live_speaker_internal.h"
+
+namespace animeme::speech {
+
+namespace {
+
+constexpr double kOpening = 0.1;     // seconds in which the mouth opens before sound that is late
+constexpr double kLead = 0.5;        // seconds before its sound in which a piece bears on the mouth
+constexpr float kAudible = 0.003F;   // of full scale
+constexpr double kSoundFade = 0.02;  // seconds, of sound that is cut off
+constexpr double kSettling = 0.2;    // seconds from there on until all is at rest
+// Index of the first sample for which `heard` holds, the size if there is none.
+template <class Heard>
+std::int64_t first_sample(const std::vector<float>& samples, Heard heard) {
+  return std::find_if(samples.begin(), samples.end(), heard) - samples.begin();
+}
+
+}  // namespace
+
+// Presentation time at which all that has begun is over.
+double LiveSpeaker::Impl::end_of_speech() const {
+  return std::max(frame_due(), double(sound_end) / options.voice_rate);
+}
+
+void LiveSpeaker::Impl::collect(double now) {
+  take_line();
+  // After that: what is told of may stand in the way of the line that was taken.
+  const double time = std::min(now, frame_due());
+  for (const LineNews& news : lines->take_news()) follow(news, time);
+}
+
+// A line is taken when it can begin, so that all others can still be put in order.
+void LiveSpeaker::Impl::take_line() {
+  if (waiting || face.closing()) return;
+  const bool speaking = face.speaking();
+  if (speaking && end_of_speech() >= frame_due() + kLead) return;
+  while (auto line = lines->take(speaking)) {
+    if (line->mark) {
+      LineEvent mark{.what = LineEvent::What::mark, .time = end_of_speech(), .id = {}};
+      mark.text = line->id;
+      events.add(std::move(mark));
+      continue;
+    }
+    const bool waited = speaking || line->arrived < silent_since;
+    waiting = Waiting{std::move(*line), waited};
+    return;
+  }
+}
+
+void LiveSpeaker::Impl::follow(const LineNews& news, double time) {
+  LineEvent event{.time = time, .line = news.line, .id = news.id};
+  switch (news.what) {
+    case LineNews::What::queued:
+      event.what = LineEvent::What::queued;
+      event.text = news.text;
+      break;
+    case LineNews::What::cancelled:
+      event.what = LineEvent::What::cancelled;
+      event.why = news.why;
+      if (news.mark) event.line = 0;
+      break;
+    case LineNews::What::stopped:
+    case LineNews::What::dropped: {
+      const bool all = news.what == LineNews::What::stopped;
+      events.add({.what = all ? LineEvent::What::stopped : LineEvent::What::dropped, .time = time});
+      if (all) stop(news, time);
+      if (waiting && waiting->line.line < news.line) {
+        cancel(waiting->line, all ? "stopped" : "dropped");
+        waiting.reset();
+      }
+      return;
+    }
+  }
+  events.add(std::move(event));
+}
+
+void LiveSpeaker::Impl::cancel(const SpokenLine& line, const std::string& why) {
+  LineEvent event{.what = LineEvent::What::cancelled, .time = frame_due(), .line = line.line};
+  event.id = line.id;
+  event.why = why;
+  events.add(std::move(event));
+}
+
+// The next frame is the first in which the mouth closes.
+void LiveSpeaker::Impl::stop(const LineNews& news, double time) {
+  const bool heard = sound && sound_end > sound->made();
+  if (face.speaking() || heard) {
+    if (auto ok = face.cut(); !ok) warnings.push_back(ok.error().message);
+    const auto fade = std::llround(kSoundFade * options.voice_rate);
+    if (sound) sound->end_at(sound->made() + fade, fade);
+    settled = frame_due() + kSettling;
+    silent_since = news.at;  // what came with it or after it has not waited
+    sound_end = 0;
+    traces.stop();
+  }
+  events.cut(time, news.line, "stopped");
+}
+
+// Where a line goes that joins the one before: at its end, if that has not been made.
+std::int64_t LiveSpeaker::Impl::place_after_the_last() const {
+  const auto now = std::llround(frame_due() * options.voice_rate);
+  const std::int64_t made = sound ? sound->made() : 0;
+  if (sound_end >= std::max<std::int64_t>(made, now) && sound_end > 0) return sound_end;
+  return std::max<std::int64_t>(made, now + std::llround(kOpening * options.voice_rate));
+}
+
+// Gives where its first sign will be.
+std::int64_t LiveSpeaker::Impl::lay(std::int64_t start, SpokenLine& line) {
+  std::vector<float>& samples = line.speech.audio.samples;
+  const double seconds = line.speech.script.duration();
+  const auto length = std::max<std::int64_t>(std::int64_t(samples.size()),
+                                             std::llround(seconds * options.voice_rate));
+  sound_end = start + length;
+  if (!sound) return 0;
+  const auto audible = first_sample(samples, [](float x) { return std::abs(x) >= kAudible; });
+  sound->add(start, std::move(samples));
+  return std::llround(double(start + audible) / options.voice_rate * info.audio->sample_rate);
+}
+
+Result<void> LiveSpeaker::Impl::convert(media::Pcm& audio) const {
+  if (audio.sample_rate == options.voice_rate || audio.samples.empty()) return {};
+  Result<media::Pcm> converted = media::resample(audio, options.voice_rate);
+  if (!converted) return converted.error();
+  audio = std::move(*converted);
+  return {};
+}
+
+// The first sound of a line must not lie where the sound has been made already.
+bool LiveSpeaker::Impl::has_to_wait(const SpokenLine& line) const {
+  if (face.closing()) return true;
+  if (line.joins) return false;
+  if (face.speaking()) return true;
+  const media::Pcm& audio = line.speech.audio;
+  const auto silence = first_sample(audio.samples, [](float x) { return x != 0; });
+  return sound_made() - double(silence) / audio.sample_rate > frame_due();
+}
+
+// A line that cannot be shown is left out; the next one may be shown.
+void LiveSpeaker::Impl::begin_lines(double now) {
+  while (waiting && !has_to_wait(waiting->line)) {
+    SpokenLine& line = waiting->line;
+    LineTrace trace;
+    trace.waited = waiting->waited;
+    trace.arrived = line.arrived;
+    trace.spoken = line.spoken;
+    if (auto ok = begin(line, trace); !ok) {
+      warnings.push_back("\"" + line.text.substr(0, 60) + "\" is left out: " + ok.error().message);
+      cancel(line, ok.error().message);
+    }
+    waiting.reset();
+    collect(now);
+  }
+}
+
+Result<void> LiveSpeaker::Impl::begin(SpokenLine& line, LineTrace& trace) {
+  trace.begun = clock->now();
+  if (auto ok = convert(line.speech.audio); !ok) return ok;
+  const dam::Script& script = line.speech.script;
+  Result<Line> shown = Line{};
+  std::int64_t start = 0;
+  if (line.joins) {
+    // Its face is made with that of the piece before, so that the mouth goes from one to the other
+    // as within a sentence.
+    start = place_after_the_last();
+    shown = face.join(script, std::max(double(start) / options.voice_rate - frame_due(), 0.0));
+  } else {
+    start = std::llround(frame_due() * options.voice_rate);
+    shown = face.say(script);
+  }
+  if (!shown) return shown.error();
+  const LineTraces::Signs signs{shown->first_moved * frame_ticks, lay(start, line)};
+  events.begin(line, double(start) / options.voice_rate, double(sound_end) / options.voice_rate);
+  trace.synthesised = clock->now();
+  traces.add(trace, signs);
+  return {};
+}
+
+}  // namespace animeme::speech

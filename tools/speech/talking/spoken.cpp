@@ -1,0 +1,174 @@
+#include "tools/speech/talking/spoken.h"
+
+#include <utility>
+
+#include "dam/model/builtin.h"
+#include "dam/speaking/readings.h"
+#include "tools/formats/files/cost.h"
+#include "tools/formats/files/file_cache.h"
+#include "tools/formats/files/files.h"
+#include "tools/formats/scripts/script_text.h"
+#include "tools/speech/talking/voice_file.h"
+#include "tools/speech/voice/align.h"
+#include "tools/speech/voice/voice.h"
+
+namespace animeme::speech {
+
+namespace {
+
+Result<Spoken> speak(const SpokenOptions& options, const std::string& text,
+                     const tools::Talk& talk) {
+  tools::AtStep step(tools::Step::voice);
+  if (!options.tts.empty()) {
+    Result<TimedSpeech> timed = run_voice_command(text, voice_command(options), talk);
+    if (!timed) return timed.error();
+    voice::Speech& speech = timed->speech;
+    return Spoken{std::move(speech.script),    std::move(speech.audio),
+                  std::move(speech.voice),     timed->times,
+                  std::move(timed->alignment), {}};
+  }
+  voice::VoiceOptions settings;
+  settings.language = options.language;
+  settings.words_per_minute = options.words_per_minute;
+  settings.pitch = options.pitch;
+  Result<voice::Speech> speech = voice::speak_text(text, settings);
+  if (!speech) return speech.error();
+  for (const std::string& warning : speech->warnings) talk.warn(warning);
+  step.made(2 * speech->audio.samples.size());
+  Spoken spoken{
+      std::move(speech->script), std::move(speech->audio), speech->voice, TimesFrom::voice, {}, {}};
+  spoken.languages = std::move(speech->languages);
+  spoken.marks = std::move(speech->marks);
+  spoken.warnings = std::move(speech->warnings);
+  return spoken;
+}
+
+Result<Spoken> follow_script(const SpokenOptions& options, const tools::Talk& talk) {
+  bool words = false;
+  Result<dam::Script> script =
+      read_script(options.script, {options.script_reading, options.language, options.most_seconds},
+                  talk, &words);
+  if (!script) return script.error();
+  Spoken spoken{
+      std::move(*script), std::nullopt, {}, words ? TimesFrom::words : TimesFrom::script, {}, {}};
+  if (options.audio.empty()) return spoken;
+  Result<media::Pcm> audio = read_voice(options.audio, talk);
+  if (!audio) return audio.error();
+  if (auto ok = dam::check_against_audio(spoken.script, audio->duration()); !ok) {
+    return ok.error().in_file(options.script);
+  }
+  spoken.audio = std::move(*audio);
+  return spoken;
+}
+
+Result<Spoken> align_voice(const SpokenOptions& options, const tools::Talk& talk) {
+  voice::AlignOptions settings;
+  settings.language = options.language;
+  Result<voice::Alignment> aligned = align_file(options.audio, options.transcript, settings, talk);
+  if (!aligned) return aligned.error();
+  Result<media::Pcm> audio = read_voice(options.audio, talk);
+  if (!audio) return audio.error();
+  dam::Script script = std::exchange(aligned->script, {});
+  return Spoken{std::move(script),    std::move(*audio),   {},
+                TimesFrom::alignment, std::move(*aligned), {}};
+}
+
+Result<Spoken> hear_voice(const SpokenOptions& options, const tools::Talk& talk) {
+  voice::ListenOptions settings;
+  settings.language = options.language;
+  settings.progress = options.heard;
+  Result<voice::Heard> heard = listen_to_file(options.audio, settings, talk);
+  if (!heard) return heard.error();
+  Result<media::Pcm> audio = read_voice(options.audio, talk);
+  if (!audio) return audio.error();
+  dam::Script script = heard->script;
+  return Spoken{std::move(script), std::move(*audio), {}, TimesFrom::sound, {}, std::move(*heard)};
+}
+
+}  // namespace
+
+VoiceCommand voice_command(const SpokenOptions& options) {
+  return {options.tts, {options.script_reading, options.language, options.most_seconds}};
+}
+
+Result<voice::Alignment> align_file(const std::string& audio, const std::string& transcript,
+                                    const voice::AlignOptions& options, const tools::Talk& talk) {
+  const tools::AtStep step(tools::Step::alignment);
+  Result<media::Pcm> pcm = read_voice(audio, talk, voice::kAlignRate);
+  if (!pcm) return pcm.error();
+  Result<voice::Alignment> alignment = voice::align(*pcm, transcript, options);
+  if (!alignment) return alignment.error().in_file(audio);
+  for (const std::string& text : alignment->warnings) talk.warn(audio + ": " + text);
+  return alignment;
+}
+
+Result<voice::Heard> listen_to_file(const std::string& audio, const voice::ListenOptions& options,
+                                    const tools::Talk& talk) {
+  const tools::AtStep step(tools::Step::alignment);
+  Result<media::Pcm> pcm = read_voice(audio, talk, voice::kAlignRate);
+  if (!pcm) return pcm.error();
+  Result<voice::Heard> heard = voice::listen(*pcm, options);
+  if (!heard) return heard.error().in_file(audio);
+  for (const std::string& text : heard->warnings) talk.warn(audio + ": " + text);
+  return heard;
+}
+
+Result<dam::Signal> move_face(const dam::Model& model, const Spoken& spoken,
+                              const dam::SynthesisOptions& options, dam::SynthesisReport* report) {
+  const tools::AtStep step(tools::Step::speaking);
+  if (!spoken.heard) return dam::synthesise(model, spoken.script, options, report);
+  return dam::synthesise_readings(model, spoken.heard->readings, spoken.script, options, report);
+}
+
+Result<std::string> words_of_file(const std::string& path, const dam::ScriptOptions& reading) {
+  Result<std::string> text = tools::read_text_file(path, tools::kMostWritten);
+  if (!text) return text.error();
+  Result<dam::Timings> timings = scripts::read_labels(*text, reading);
+  if (!timings) return timings.error().in_file(path);
+  std::string words;
+  const dam::TimedLabel* before = nullptr;
+  for (const dam::TimedLabel& label : timings->labels) {
+    // The phones of a word follow each other without a gap.
+    const bool same = before != nullptr && !label.is_word && label.word == before->word &&
+                      label.start <= before->end + dam::kTimeTolerance;
+    before = &label;
+    if (!same) words += (label.is_word ? label.label : label.word) + " ";
+  }
+  if (words.find_first_not_of(' ') == std::string::npos) {
+    return make_error(Code::not_found, "the script has no words to align, only phones")
+        .in_file(path);
+  }
+  return words;
+}
+
+bool has_source(const SpokenOptions& options) {
+  return options.has_text || !options.text_file.empty() || !options.script.empty() ||
+         options.has_transcript || (options.listen && !options.audio.empty());
+}
+
+Result<Spoken> get_spoken(const SpokenOptions& options, const tools::Talk& talk) {
+  if (!options.text_file.empty()) {
+    Result<std::string> text = tools::read_text_file(options.text_file, tools::kMostWritten);
+    if (!text) return text.error();
+    Result<Spoken> spoken = speak(options, *text, talk);
+    if (!spoken) return spoken.error().in_file(options.text_file);
+    return spoken;
+  }
+  if (options.has_text) return speak(options, options.text, talk);
+  if (!options.script.empty()) return follow_script(options, talk);
+  if (options.listen && !options.has_transcript) return hear_voice(options, talk);
+  return align_voice(options, talk);
+}
+
+Result<dam::Model> read_model(const std::string& path) {
+  // Batches ask again and again.
+  static tools::FileCache<dam::Model> cache;
+  return cache.get(path == "builtin" ? "" : path, {}, [&]() -> Result<dam::Model> {
+    if (path.empty() || path == "builtin") return dam::builtin_model();
+    Result<dam::Model> model = dam::load_model(path);
+    if (!model) return model.error().in_file(path);
+    return model;
+  });
+}
+
+}  // namespace animeme::speech

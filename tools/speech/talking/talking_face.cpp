@@ -1,0 +1,256 @@
+#include "tools/speech/talking/talking_face.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "dam/maths/raised_cosine.h"
+#include "dam/signal/fap_signal.h"
+#include "dam/speaking/life.h"
+
+namespace animeme::speech {
+
+namespace {
+
+constexpr double kFade = 0.25;  // seconds
+// A mouth that is cut off: seconds, at most where there is far to go; share of the speed of speech.
+constexpr double kClosing = 0.1, kLongestClosing = 0.16, kOfSpeed = 0.75;
+constexpr double kIdleSeconds = 20;  // of one piece
+constexpr double kHistory = 1;       // seconds of a line that may still bear on what follows
+
+dam::Script silence() {
+  dam::Script script;
+  script.phones.push_back({0, kIdleSeconds, std::string(dam::kSilence), {}});
+  return script;
+}
+
+/// Channels first..last of a signal, whose row `at` follows or replaces `shown`: the difference
+/// fades.
+void lead_over(const std::vector<double>& shown, std::size_t first, std::size_t last,
+               dam::Signal& signal, std::size_t at) {
+  if (shown.size() < last || at >= signal.frames()) return;
+  for (std::size_t c = first; c < last; ++c) {
+    const double offset = shown[c] - signal.at(at, c);
+    for (std::size_t i = at; i < signal.frames(); ++i) {
+      const double share = dam::raised_bell(signal.rate.seconds(double(i - at + 1)) / kFade);
+      if (share <= 0) break;
+      signal.at(i, c) += share * offset;
+    }
+  }
+}
+
+/// The same for a mouth that is cut off, evenly, so that no frame moves more than it has to.
+/// `speeds`: at which channels move in speech, a second. Gives the seconds that it takes.
+double close_mouth(const std::vector<double>& shown, const std::vector<double>& speeds,
+                   dam::Signal& signal) {
+  double longest = kClosing;
+  if (shown.size() < speeds.size()) return longest;
+  for (std::size_t c = 0; c < speeds.size(); ++c) {
+    const double offset = shown[c] - signal.at(0, c);
+    const double wanted = speeds[c] > 0 ? std::abs(offset) / (kOfSpeed * speeds[c]) : kClosing;
+    const double seconds = std::clamp(wanted, kClosing, kLongestClosing);
+    longest = std::max(longest, seconds);
+    for (std::size_t i = 0; i < signal.frames(); ++i) {
+      const double share = 1 - signal.rate.seconds(double(i + 1)) / seconds;
+      if (share <= 0) break;
+      signal.at(i, c) += share * offset;
+    }
+  }
+  return longest;
+}
+
+// Each sound of the model between open mouths.
+dam::Script example(const dam::Model& model) {
+  constexpr double kSeconds = 0.1;
+  dam::Script script;
+  for (const dam::PhoneModel& phone : model.phones) {
+    for (const std::string& label : {std::string("AA"), phone.label}) {
+      const double start = script.duration();
+      script.phones.push_back({start, start + kSeconds, label, {}});
+    }
+  }
+  return script;
+}
+
+std::vector<double> row(const dam::Signal& signal, std::size_t frame) {
+  if (frame >= signal.frames()) return {};
+  const std::size_t controls = signal.names.size();
+  const auto begin = signal.values.begin() + std::ptrdiff_t(frame * controls);
+  return {begin, begin + std::ptrdiff_t(controls)};
+}
+
+// What is left of a script from `cut` seconds on, and behind it another one that begins at `start`.
+dam::Script joint(const dam::Script& before, double cut, const dam::Script& after, double start) {
+  dam::Script script;
+  for (dam::Phone phone : before.phones) {
+    phone.start = std::max(phone.start, cut) - cut;
+    phone.end = std::min(phone.end, start) - cut;
+    if (phone.end > phone.start) script.phones.push_back(std::move(phone));
+  }
+  start -= cut;
+  if (start > script.duration()) {
+    script.phones.push_back({script.duration(), start, std::string(dam::kSilence), {}});
+  }
+  for (dam::Phone phone : after.phones) {
+    phone.start += start;
+    phone.end += start;
+    // Two silences in a row are one.
+    if (phone.label == dam::kSilence && !script.phones.empty() &&
+        script.phones.back().label == dam::kSilence) {
+      script.phones.back().end = phone.end;
+    } else {
+      script.phones.push_back(std::move(phone));
+    }
+  }
+  return script;
+}
+
+bool mouth_differs(const fap::Frame& a, const fap::Frame& b, const fap::Mask& mouth) {
+  for (std::size_t fap = fap::kFirstLowLevel; fap < mouth.size(); ++fap) {
+    if (mouth[fap] && a.value[fap] != b.value[fap]) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Result<TalkingFace> TalkingFace::open(const dam::Model& model, const FaceOptions& options) {
+  TalkingFace face(model, options);
+  const Result<dam::Signal> moving = face.synthesise(example(model));
+  if (!moving) return moving.error();
+  face.speeds_.assign(moving->names.size(), 0);
+  for (std::size_t i = 1; i < moving->frames(); ++i) {
+    for (std::size_t c = 0; c < face.speeds_.size(); ++c) {
+      const double speed =
+          std::abs(moving->at(i, c) - moving->at(i - 1, c)) * moving->rate.frames_per_second();
+      face.speeds_[c] = std::max(face.speeds_[c], speed);
+    }
+  }
+  if (auto ok = face.begin(silence(), false); !ok) return ok.error();
+  face.mask_ = face.clip_.frames.front().mask;
+  return face;
+}
+
+Result<dam::Signal> TalkingFace::synthesise(const dam::Script& script) const {
+  dam::SynthesisOptions synthesis = options_.synthesis;
+  synthesis.frames = 0;
+  synthesis.tail = 0;
+  return dam::synthesise(*model_, script, synthesis);
+}
+
+// The next frame will be row `at`.
+Result<void> TalkingFace::show(dam::Signal signal, std::size_t at) {
+  Result<fap::Sequence> clip = dam::to_sequence(signal);
+  if (!clip) return clip.error();
+  if (clip->frames.size() <= at) {
+    return make_error(Code::invalid_argument, "the script lasts no time");
+  }
+  ++pieces_;
+  signal_ = std::move(signal);
+  clip_ = std::move(*clip);
+  at_ = at;
+  return {};
+}
+
+Result<void> TalkingFace::begin(const dam::Script& script, bool closing) {
+  Result<dam::Signal> signal = synthesise(script);
+  if (!signal) return signal.error();
+  const std::size_t mouth = signal->names.size();
+  if (options_.life) {
+    auto added = dam::add_life(*signal, script, {1, options_.seed + pieces_});
+    if (!added) return added.error();
+  }
+  if (closing) {
+    const double frames = close_mouth(shown_, speeds_, *signal) * signal->rate.frames_per_second();
+    closed_ = number_ + std::int64_t(std::ceil(frames - 1e-9));
+  } else {
+    lead_over(shown_, 0, mouth, *signal, 0);
+  }
+  // Lids, brows and head take their time.
+  lead_over(shown_, mouth, signal->names.size(), *signal, 0);
+  if (auto ok = show(std::move(*signal), 0); !ok) return ok;
+  script_ = script;
+  return {};
+}
+
+// Of the clip from its row `first` on.
+Line TalkingFace::line_from(std::size_t first, const fap::Frame& before) const {
+  fap::Mask mouth;
+  for (const dam::Control& control : model_->controls) {
+    const int fap = dam::fap_of_channel(control.name);
+    if (fap > 0) mouth.set(std::size_t(fap));
+  }
+  const std::int64_t number = number_ + std::int64_t(first - at_);
+  Line line{number, std::int64_t(clip_.frames.size() - first), number};
+  for (std::size_t i = first; i < clip_.frames.size(); ++i) {
+    if (!mouth_differs(clip_.frames[i], before, mouth)) continue;
+    line.first_moved += std::int64_t(i - first);
+    break;
+  }
+  return line;
+}
+
+Result<Line> TalkingFace::say(const dam::Script& script) {
+  const fap::Frame before = at_ == 0 ? clip_.frames.front() : clip_.frames[at_ - 1];
+  if (auto ok = begin(script, false); !ok) return ok.error();
+  speaking_ = true;
+  return line_from(0, before);
+}
+
+Result<void> TalkingFace::cut() {
+  if (!speaking()) return {};
+  if (auto ok = begin(silence(), true); !ok) return ok;
+  speaking_ = false;
+  return {};
+}
+
+Result<Line> TalkingFace::join(const dam::Script& script, double start) {
+  if (!(start >= 0)) return make_error(Code::invalid_argument, "a line begins in the past");
+  if (!speaking()) {
+    return say(joint({}, 0, script, start));
+  }
+  const fap::Rate rate = signal_.rate;
+  const auto kept = std::size_t(std::ceil(kHistory * rate.frames_per_second()));
+  const std::size_t cut = at_ > kept ? at_ - kept : 0;
+  const double begin = rate.seconds(double(at_)) + start;  // in the piece that is shown
+  const dam::Script both = joint(script_, rate.seconds(double(cut)), script, begin);
+  Result<dam::Signal> signal = synthesise(both);
+  if (!signal) return signal.error();
+  const std::size_t at = at_ - cut, mouth = signal->names.size();
+  if (options_.life) {
+    // What lids, brows and head are about to do they do; the new line has its own.
+    dam::Signal alone = *signal;
+    auto added = dam::add_life(alone, joint({}, 0, script, begin - rate.seconds(double(cut))),
+                               {1, options_.seed + pieces_});
+    if (!added) return added.error();
+    const std::size_t old = std::min(signal_.frames() - cut, alone.frames());
+    for (std::size_t i = 0; i < old; ++i) {
+      for (std::size_t c = mouth; c < alone.names.size(); ++c) {
+        alone.at(i, c) = signal_.at(cut + i, c);
+      }
+    }
+    lead_over(row(alone, old - 1), mouth, alone.names.size(), alone, old);
+    signal = std::move(alone);
+  }
+  // From the frame that was to come: its motion goes on.
+  lead_over(row(signal_, at_), 0, mouth, *signal, at);
+  const fap::Frame before = at_ == 0 ? clip_.frames.front() : clip_.frames[at_ - 1];
+  if (auto ok = show(std::move(*signal), at); !ok) return ok.error();
+  script_ = both;
+  const auto first = std::size_t(start * rate.frames_per_second());
+  return line_from(std::min(at + first, clip_.frames.size() - 1), before);
+}
+
+Result<fap::Frame> TalkingFace::next() {
+  if (at_ >= clip_.frames.size()) {
+    if (auto ok = begin(silence(), false); !ok) return ok.error();
+    speaking_ = false;
+  }
+  shown_ = row(signal_, at_);
+  fap::Frame frame = clip_.frames[at_++];
+  frame.number = number_++;
+  return frame;
+}
+
+}  // namespace animeme::speech

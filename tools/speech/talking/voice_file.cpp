@@ -1,0 +1,188 @@
+#include "tools/speech/talking/voice_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "dam/script/script_text_internal.h"
+#include "dam/script/textgrid.h"
+#include "tools/formats/files/files.h"
+#include "tools/formats/media/audio.h"
+#include "tools/formats/media/container.h"
+#include "tools/formats/scripts/script_text.h"
+#include "tools/speech/text/unicode.h"
+#include "tools/speech/voice/word_phones.h"
+
+namespace animeme::speech {
+
+namespace {
+
+// From labels to phones.
+Result<dam::Script> script_of(Result<dam::Timings> timings, const std::string& path,
+                              const ScriptInput& input, const tools::Talk& talk, bool* from_words) {
+  if (!timings) return timings.error().in_file(path);
+  if (from_words != nullptr) *from_words = dam::has_words(*timings);
+  if (dam::has_words(*timings)) {
+    std::vector<std::string> warnings;
+    voice::AlignOptions settings;
+    settings.language = input.language;
+    timings = voice::words_to_phones(*timings, settings, warnings);
+    if (!timings) return timings.error().in_file(path);
+    for (const std::string& warning : warnings) talk.warn(path + ": " + warning);
+    talk.say(path + ": words with times; their phones are guessed by pronunciation");
+  }
+  Result<dam::Script> script = dam::make_script(*timings);
+  if (!script) return script.error().in_file(path);
+  if (script->duration() > input.most_seconds) {
+    return make_error(Code::out_of_range,
+                      "the script lasts " + std::to_string(std::llround(script->duration())) +
+                          " s, at most " + std::to_string(std::llround(input.most_seconds)) +
+                          " s are spoken; correct its times or allow more (--max-seconds)")
+        .in_file(path);
+  }
+  return script;
+}
+
+constexpr std::string_view kCarriedNames[] = {"words", "phones"};
+
+bool is_ours(const media::TextTrack& track) {
+  return !track.cues.empty() && std::find(std::begin(kCarriedNames), std::end(kCarriedNames),
+                                          dam::lower_case(track.name)) != std::end(kCarriedNames);
+}
+
+// Tracks of a file are tiers by another name.
+dam::TextGrid grid_of(const std::vector<media::TextTrack>& tracks) {
+  dam::TextGrid grid;
+  for (const media::TextTrack& track : tracks) {
+    dam::TextGridTier& tier = grid.tiers.emplace_back();
+    tier.name = track.name;
+    for (const media::TextCue& cue : track.cues) {
+      tier.items.push_back({cue.start, cue.end, cue.text, 0, 0});
+    }
+  }
+  return grid;
+}
+
+// By the first bytes of a file that can be read again.
+bool carries_text(const std::string& path) {
+  std::error_code status;
+  if (path == "-" || !std::filesystem::is_regular_file(path, status)) return false;
+  std::array<char, 12> begin{};
+  std::ifstream in(path, std::ios::binary);
+  in.read(begin.data(), begin.size());
+  return media::may_hold_text(
+      {reinterpret_cast<const std::uint8_t*>(begin.data()), std::size_t(in.gcount())});
+}
+
+}  // namespace
+
+std::vector<media::TextTrack> carried_texts(const dam::Script& script, std::string_view language) {
+  std::vector<media::TextTrack> tracks;
+  for (const dam::TextGridTier& tier : dam::textgrid_of(script).tiers) {
+    // Phones are no language, so that nobody who looks for his own gets them.
+    media::TextTrack track{
+        tier.name, tier.name == "words" ? text::language_code(language) : "zxx", {}};
+    for (const dam::TextGridItem& item : tier.items) {
+      if (!item.text.empty()) track.cues.push_back({item.start, item.end, item.text});
+    }
+    if (!track.cues.empty()) tracks.push_back(std::move(track));
+  }
+  return tracks;
+}
+
+std::vector<media::TextTrack> carried_tracks(const std::string& path, const tools::Talk& talk) {
+  if (!carries_text(path)) return {};
+  Result<std::vector<media::TextTrack>> tracks = media::read_text_tracks(path);
+  if (!tracks) {
+    // What else is wrong with the file tells whoever reads it for its face.
+    if (tracks.error().code == Code::out_of_range) talk.warn(tracks.error().describe());
+    return {};
+  }
+  std::erase_if(*tracks, [](const media::TextTrack& track) { return !is_ours(track); });
+  return std::move(*tracks);
+}
+
+std::optional<dam::Script> carried_script(const std::string& path, const ScriptInput& input,
+                                          const tools::Talk& talk) {
+  const std::vector<media::TextTrack> tracks = carried_tracks(path, talk);
+  if (tracks.empty()) return std::nullopt;
+  Result<dam::Script> script =
+      script_of(dam::labels_of_tier(grid_of(tracks), input.reading), path, input, talk, nullptr);
+  if (script) return std::move(*script);
+  talk.warn("its words are left out: " + script.error().describe());
+  return std::nullopt;
+}
+
+Result<dam::Script> read_script(const std::string& path, const ScriptInput& input,
+                                const tools::Talk& talk, bool* from_words) {
+  if (carries_text(path)) {
+    const Result<std::vector<media::TextTrack>> tracks = media::read_text_tracks(path);
+    if (!tracks) return tracks.error();
+    if (tracks->empty()) {
+      return make_error(Code::not_found, "the file carries no words and no phones").in_file(path);
+    }
+    return script_of(dam::labels_of_tier(grid_of(*tracks), input.reading), path, input, talk,
+                     from_words);
+  }
+  const Result<std::string> text = tools::read_text_file(path, tools::kMostWritten);
+  if (!text) return text.error();
+  return parse_script(*text, path, input, talk, from_words);
+}
+
+Result<dam::Script> parse_script(const std::string& text, const std::string& path,
+                                 const ScriptInput& input, const tools::Talk& talk,
+                                 bool* from_words) {
+  return script_of(scripts::read_labels(text, input.reading), path, input, talk, from_words);
+}
+
+Result<media::Pcm> read_voice(const std::string& path, const tools::Talk& talk, int sample_rate) {
+  std::vector<std::string> warnings;
+  media::ReadAudioOptions options;
+  options.sample_rate = sample_rate;
+  options.warnings = &warnings;
+  Result<media::Pcm> audio = media::read_audio(path, options);
+  if (!audio) return audio.error().in_file(path);
+  for (const std::string& text : warnings) talk.warn(path + ": " + text);
+  return audio;
+}
+
+double SoundInput::seconds() const {
+  if (samples) return samples->duration();
+  if (coded->length > 0) return double(coded->length) / coded->format.sample_rate;
+  const media::AudioPacket& last = coded->packets.back();
+  return double(last.time + last.duration) / coded->format.sample_rate;
+}
+
+void SoundInput::give_to(media::MuxInput& input) const {
+  if (samples) input.audio = &*samples;
+  if (coded) input.encoded = &*coded;
+}
+
+Result<SoundInput> read_sound(const std::string& path, const KeepCodec& keep,
+                              const tools::Talk& talk) {
+  SoundInput sound;
+  Result<media::EncodedAudio> coded = media::read_encoded_audio(path);
+  if (coded && keep(coded->format.codec)) {
+    sound.coded = std::move(*coded);
+    return sound;
+  }
+  if (!coded && coded.error().code != Code::unsupported) return coded.error().in_file(path);
+  Result<media::Pcm> samples = read_voice(path, talk);
+  if (!samples) return samples.error();
+  sound.samples = std::move(*samples);
+  return sound;
+}
+
+Result<media::EncodedAudio> read_coded_sound(const std::string& path, const KeepCodec& keep,
+                                             const media::AudioSettings& settings,
+                                             const tools::Talk& talk) {
+  Result<SoundInput> sound = read_sound(path, keep, talk);
+  if (!sound) return sound.error();
+  if (sound->coded) return std::move(*sound->coded);
+  return media::encode_audio(*sound->samples, settings);
+}
+
+}  // namespace animeme::speech

@@ -1,0 +1,293 @@
+#include "tools/speech/text/amounts_internal.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+#include "dam/script/script_text_internal.h"
+#include "tools/speech/text/said.h"
+#include "tools/speech/text/unicode.h"
+#include "tools/speech/text/units_internal.h"
+
+namespace animeme::text {
+namespace {
+
+bool is_english(std::string_view language) {
+  return language == "en" || language.starts_with("en-");
+}
+
+bool locale_is_chinese(std::string_view language) {
+  return language.starts_with("zh") || language.starts_with("cmn") || language.starts_with("yue");
+}
+
+class Amounts {
+ public:
+  Amounts(std::u32string_view text, const std::string& language)
+      : text_(text),
+        language_(language),
+        point_(char32_t(decimal_point(language))),
+        groups_by_blank_(groups_by_blank(language)) {}
+
+  char32_t at(std::size_t i) const { return i < text_.size() ? text_[i] : U' '; }
+  bool digit(std::size_t i) const { return digit_value(at(i)) >= 0; }
+
+  std::size_t digits_end(std::size_t i) const {
+    while (digit(i)) ++i;
+    return i;
+  }
+  std::size_t blanks_end(std::size_t i) const {
+    while (i < text_.size() && (text_[i] == U' ' || text_[i] == 0xA0 || text_[i] == 0x202F)) ++i;
+    return i;
+  }
+  bool free_at(std::size_t i) const {
+    return (!is_letter(at(i)) || is_unparted(at(i))) && !digit(i);
+  }
+  std::string ascii(std::size_t first, std::size_t last) const {
+    std::string out;
+    for (; first < last; ++first) {
+      if (digit(first)) out += char('0' + digit_value(at(first)));
+    }
+    return out;
+  }
+
+  // A day in numbers. The two separators have to be the same.
+  Amount date(std::size_t from) const {
+    std::array<std::size_t, 3> first{}, last{};
+    std::size_t i = from;
+    char32_t separator = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      first[k] = i;
+      last[k] = i = digits_end(i);
+      if (last[k] == first[k] || last[k] - first[k] > 4) return {};
+      if (k == 2) break;
+      const char32_t c = at(i);
+      if ((c != U'/' && c != U'-' && c != U'.') || (separator != 0 && c != separator)) return {};
+      separator = c;
+      ++i;
+    }
+    if (!free_at(i) || ((at(i) == U'/' || at(i) == U'-' || at(i) == U'.') && digit(i + 1)))
+      return {};
+    std::array<int, 3> value{};
+    for (std::size_t k = 0; k < 3; ++k) value[k] = std::atoi(ascii(first[k], last[k]).c_str());
+    std::string order = date_order(language_);
+    const bool year_first = last[0] - first[0] == 4, year_last = last[2] - first[2] == 4;
+    // 1.2.3 is no day.
+    if (!year_first && !year_last && last[2] - first[2] != 2) return {};
+    if (year_first)
+      order = "ymd";
+    else if (separator == U'.' || (year_last && order == "ymd"))
+      order = "dmy";
+    std::string words = named(value, order, !year_first && !year_last);
+    if (words.empty() && order != "ymd")
+      words = named(value, order == "mdy" ? "dmy" : "mdy", !year_last);
+    if (words.empty()) return {};
+    return {i, code_points(words)};
+  }
+
+  // 12:30, 15:45:10 stay; "3:45pm" is parted.
+  std::size_t time_end(std::size_t from) const {
+    const std::size_t colon = digits_end(from);
+    if (at(colon) != U':' || colon - from > 2) return 0;
+    const std::size_t end = digits_end(colon + 1);
+    return end - colon == 3 ? end : 0;
+  }
+
+  // ASCII digits with a point, from a number in the manner of the language; `end` behind it.
+  std::string number(std::size_t from, std::size_t& end) const {
+    std::size_t i = digits_end(from);
+    std::string out = ascii(from, i);
+    bool fraction = false;
+    for (;;) {
+      const char32_t sign = at(i);
+      const bool blank = sign == 0xA0 || sign == 0x202F || (sign == U' ' && parts_by_blanks(from));
+      const bool group_blank = blank && digits_end(i + 1) == i + 4;
+      if ((sign != U'.' && sign != U',' && !group_blank) || !digit(i + 1) || fraction) break;
+      const std::size_t next = digits_end(i + 1);
+      const bool again = at(next) == sign && digit(next + 1);
+      const bool group = group_blank || again || (sign != point_ && next - i == 4);
+      if (!group) {
+        out += '.';
+        fraction = true;
+      }
+      out += ascii(i + 1, next);
+      i = next;
+    }
+    end = i;
+    return out;
+  }
+
+  // 100 000 in languages that write so.
+  bool parts_by_blanks(std::size_t from) const {
+    return groups_by_blank_ && digits_end(from) - from <= 3 && at(from) != U'0';
+  }
+
+  // The longest sign of a unit; 0 if there is none.
+  std::size_t unit_end(std::size_t from) const {
+    for (std::size_t end = std::min(from + 4, text_.size()); end > from; --end) {
+      const bool whole = !is_letter(at(end - 1)) || free_at(end);
+      if (whole && !unit_of(text_.substr(from, end - from)).empty()) return end;
+    }
+    return 0;
+  }
+
+  // "5 million": the number of what follows, with its blank; 0 if there is none.
+  std::size_t multiple_end(std::size_t from) const {
+    const std::size_t first = blanks_end(from);
+    std::size_t last = first;
+    while (is_letter(at(last))) ++last;
+    const std::string word = dam::lower_case(utf8(text_.substr(first, last - first)));
+    for (const std::string_view begin :
+         {"million", "billion", "trillion", "thousand", "milliard", "mio", "mrd", "mill", "миллион",
+          "миллиард", "млн", "млрд", "тыс", "bn", "万", "亿", "億"}) {
+      if (first > from && word.starts_with(begin)) return last;
+    }
+    return 0;
+  }
+
+  Amount money(std::size_t first_digit, std::string_view currency) const {
+    std::size_t end = 0;
+    const std::string value = number(first_digit, end);
+    if (!free_at(end)) return {};
+    // The yen and the yuan share a sign.
+    const bool chinese = locale_is_chinese(language_);
+    if (chinese && currency == "JPY") currency = "CNY";
+    std::string words = spell_amount(value, currency, language_);
+    if (words.empty()) return {};
+    // People say "yuan" and "won", CLDR the names of the money.
+    if (chinese && currency == "CNY") words = value + "元";
+    if (language_ == "ko" && currency == "KRW") words = value + "원";
+    if (const std::size_t more = multiple_end(end); more != 0) {
+      // Number, "million", name of the currency.
+      const std::string plural = spell_amount("5", currency, language_);
+      const std::size_t name = plural.find_first_not_of("5 ");
+      words = utf8(text_.substr(first_digit, more - first_digit)) + " " +
+              (chinese && currency == "CNY" ? "元"
+               : name == std::string::npos  ? ""
+                                            : plural.substr(name));
+      end = more;
+    } else if (is_english(language_) && !english_money(value, currency).empty())
+      words = english_money(value, currency);
+    return {end, code_points(words)};
+  }
+
+  // +49 30 1234-567, (555) 123-4567, 555-123-4567.
+  Amount telephone(std::size_t from) const {
+    std::u32string words;
+    std::size_t i = from, digits = 0, groups = 0, end = from;
+    const bool plus = at(i) == U'+';
+    if (plus) ++i;
+    while (i < text_.size()) {
+      std::size_t next = i;
+      while (next < text_.size() &&
+             (text_[next] == U'(' || text_[next] == U')' || text_[next] == U'-' ||
+              text_[next] == U' ' || text_[next] == 0xA0 || (text_[next] == U'/' && groups == 1))) {
+        ++next;
+      }
+      if (!digit(next) || next - i > 2) break;
+      if (groups > 0) words += U", ";
+      i = digits_end(next);
+      for (std::size_t k = next; k < i; ++k) {
+        words += k > next ? U" " : U"";
+        words += char32_t(U'0' + digit_value(at(k)));
+      }
+      digits += i - next;
+      ++groups;
+      end = i;
+    }
+    const bool american = groups >= 2 && digits_end(from) - from == 3 && at(from + 3) == U'-' &&
+                          (digits == 7 || digits == 10);
+    const bool bracket = at(from) == U'(' && digits >= 7 && digits <= 15 && groups >= 2;
+    const bool local = at(from) == U'0' && digits >= 7 && digits <= 15;
+    const bool all = (plus && digits >= 7 && digits <= 15) || american || bracket || local;
+    if (!all || !free_at(end)) return {};
+    return {end, words};
+  }
+
+ private:
+  std::string named(const std::array<int, 3>& value, const std::string& order,
+                    bool short_year) const {
+    const auto part = [&](char name) { return value[order.find(name)]; };
+    int year = part('y');
+    if (short_year) year += year < 70 ? 2000 : 1900;
+    if (!is_date(year, part('m'), part('d'))) return {};
+    std::string words = spell_date(year, part('m'), part('d'), language_);
+    // Abbreviations of "year" that nobody reads as such.
+    for (const auto& [written, year_word] : {std::pair{"г.", "года"}, std::pair{"р.", "року"}}) {
+      if (words.ends_with(written)) {
+        words.replace(words.size() - std::string_view(written).size(), std::string::npos,
+                      year_word);
+      }
+    }
+    if (!is_english(language_)) return words;
+    const std::string day = std::to_string(part('d'));
+    const std::size_t place = words.find(day);
+    const std::string ordinal = spell_number(day, language_, NumberForm::ordinal_digits);
+    if (place != std::string::npos && !ordinal.empty()) words.replace(place, day.size(), ordinal);
+    return words;
+  }
+
+  std::u32string_view text_;
+  const std::string& language_;
+  char32_t point_;
+  bool groups_by_blank_;
+};
+
+// Digits of any script as those of ASCII, a number in words if the voice says none.
+std::u32string in_words(const std::string& number, const std::string& language) {
+  std::u32string out;
+  for (const char32_t c : code_points(spell_number(number, language, NumberForm::cardinal))) {
+    if (c != 0xAD) out += c;  // where a word may be parted
+  }
+  return out;
+}
+
+}  // namespace
+
+Amount amount_at(std::u32string_view text, std::size_t at, const std::string& language,
+                 bool spell_digits) {
+  // Told before the language is asked for its decimal point, which takes a while.
+  const char32_t begin = at < text.size() ? text[at] : U' ';
+  const std::string_view currency = currency_of(begin);
+  if (currency.empty() && begin != U'+' && begin != U'(' && digit_value(begin) < 0) return {};
+  const Amounts all(text, language);
+  if (!currency.empty()) {
+    const std::size_t first = all.blanks_end(at + 1);
+    return all.digit(first) ? all.money(first, currency) : Amount{};
+  }
+  if (all.at(at) == U'+' || all.at(at) == U'(') return all.telephone(at);
+  if (!all.digit(at)) return {};
+  if (Amount date = all.date(at); date.end > 0) return date;
+  if (Amount telephone = all.telephone(at); telephone.end > 0) return telephone;
+  if (const std::size_t hours = all.digits_end(at); language.starts_with("fr") && hours - at <= 2 &&
+                                                    all.at(hours) == U'h' && all.digit(hours + 1)) {
+    const std::size_t end = all.digits_end(hours + 1);
+    std::u32string words(text.substr(at, hours - at));
+    words += U" heures ";
+    words += text.substr(hours + 1, end - hours - 1);
+    if (end - hours == 3 && all.free_at(end)) return {end, words};
+  }
+  if (const std::size_t end = all.time_end(at); end > 0) {
+    const bool half = is_letter(all.at(end));
+    return {half ? end : 0, half ? std::u32string(text.substr(at, end - at)) + U" " : U""};
+  }
+  std::size_t end = 0;
+  const std::string number = all.number(at, end);
+  const std::size_t sign = all.blanks_end(end);
+  if (const std::size_t unit = all.unit_end(sign); unit > 0 && sign - end <= 1) {
+    const std::string words =
+        spell_amount(number, unit_of(text.substr(sign, unit - sign)), language);
+    if (!words.empty()) return {unit, code_points(words)};
+  }
+  if (!all.free_at(end)) return {};
+  if (!spell_digits) {
+    // A voice would take the parts of 100 000 for two numbers.
+    if (text.substr(at, end - at).find(U' ') == std::u32string_view::npos) return {};
+    std::u32string whole(text.substr(at, end - at));
+    std::erase(whole, U' ');
+    return {end, whole};
+  }
+  std::u32string words = in_words(number, language);
+  return {words.empty() ? 0 : end, words};
+}
+
+}  // namespace animeme::text

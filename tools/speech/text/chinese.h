@@ -1,0 +1,43 @@
+/// @file
+/// Chinese characters to pinyin, as espeak-ng's voice cmn-latn-pinyin reads it.
+///
+/// Words and their syllables are those of Rime's dictionary pinyin_simp (Debian package
+/// rime-data-pinyin-simp, 65,000 words), tones those of its terra_pinyin (rime-data-terra-pinyin);
+/// where neither is installed each character is read by itself, by ICU: 银行 is then "yin xing".
+/// Traditional characters are looked up by their simplified ones.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/speech/text/said.h"
+
+namespace animeme::text {
+
+/// Where Debian puts Rime's dictionaries.
+inline constexpr const char* kRimeFolder = "/usr/share/rime-data";
+
+/// A word of a Chinese text.
+struct ChineseWord {
+  /// characters, from 0, one behind
+  std::size_t first = 0, last = 0;  ///< characters of the text
+  std::string pinyin;               ///< "yin2hang2"; empty: no Chinese word, or no reading
+};
+
+/// All of a text in order: words, and what is between them as one piece each.
+std::vector<ChineseWord> chinese_words(std::u32string_view text,
+                                       const std::string& folder = kRimeFolder);
+
+/// True if the dictionary of words is installed.
+bool has_chinese_words(const std::string& folder = kRimeFolder);
+
+/// Words become pinyin with blanks between them, numbers are read in Chinese, all the rest stays.
+/// Characters without a reading are left out and named in `unread`.
+Said read_chinese(const Said& said, std::u32string& unread,
+                  const std::string& folder = kRimeFolder);
+
+/// Digits of a Chinese or Japanese text as Chinese characters: 2024年 (in Chinese) 二〇二四年, 15%
+/// 百分之十五, 3:45 三点四十五分, long numbers digit by digit.
+Said spell_han_numbers(const Said& said, bool japanese);
+
+}  // namespace animeme::text

@@ -1,0 +1,279 @@
+#include "tools/speech/text/utterance.h"
+
+#include <algorithm>
+
+#include "dam/script/script_text_internal.h"
+#include "tools/speech/text/chinese.h"
+#include "tools/speech/text/japanese.h"
+#include "tools/speech/text/say_as_internal.h"
+#include "tools/speech/text/ssml.h"
+#include "tools/speech/text/unicode.h"
+#include "tools/speech/text/written.h"
+
+namespace animeme::text {
+namespace {
+
+constexpr std::string_view kNoWords =
+    "Chinese is read character by character, which is wrong for words as 银行; install the Debian "
+    "packages rime-data-pinyin-simp and rime-data-terra-pinyin";
+
+// ＡＢＣ１２３ as ABC123, blanks as blanks.
+Said narrow(const Said& said) {
+  Said out = said;
+  for (char32_t& c : out.text) {
+    if (c >= 0xFF01 && c <= 0xFF5E) c -= 0xFEE0;
+    if (c == 0x3000) c = U' ';
+  }
+  return out;
+}
+
+void replace_brackets(Said& said) { std::replace(said.text.begin(), said.text.end(), U'[', U' '); }
+
+class Maker {
+ public:
+  Maker(Utterance& out, Speakers& speakers, const Helpers& helpers)
+      : out_(out), speakers_(speakers), helpers_(helpers) {}
+
+  Result<void> plain(const Said& said, bool keep_emoji) {
+    auto passages = part_passages(narrow(said), speakers_);
+    if (!passages) return passages.error();
+    keep_emoji_ = keep_emoji;
+    out_.markup = passages->size() > 1 || (!passages->empty() && passages->front().speaker != 0);
+    for (const Passage& passage : *passages) {
+      auto read = read_passage(passage);
+      if (!read) return read.error();
+      emit(*read, passage.speaker, {});
+    }
+    close();
+    return {};
+  }
+
+  Result<void> document(const Document& document) {
+    out_.markup = true;
+    out_.warnings.insert(out_.warnings.end(), document.warnings.begin(), document.warnings.end());
+    std::size_t at = 0;
+    for (const Item& item : document.items) {
+      if (item.kind == ItemKind::pause) add_pause(item.seconds);
+      if (item.kind == ItemKind::mark) {
+        tag("<mark name=\"" + std::to_string(out_.marks.size()) + "\"/>");
+        out_.marks.push_back(item.name);
+      }
+      if (item.kind != ItemKind::text) continue;
+      Said said = as_written(item.text, at);
+      at += item.text.size();
+      if (!item.alias.empty() && said.size() > 0) said = say_instead(said, utf8(item.alias));
+      if (auto done = add_text(item, said); !done) return done;
+    }
+    close();
+    return {};
+  }
+
+ private:
+  void tag(const std::string& markup) { out_.input.add(code_points(markup), {}); }
+
+  void close() {
+    if (!(manner_ == Manner{}) && open_) tag("</prosody>");
+    if (open_) tag("</voice>");
+    open_ = false;
+    manner_ = {};
+  }
+
+  // A pause before anything is said would be part of the silence before speech.
+  void add_pause(double seconds) {
+    tag("<break time=\"" + std::to_string(int(seconds * 1000)) + "ms\"/>");
+  }
+
+  // Opens voice and prosody if they are others than before. espeak-ng 1.51 forgets which voice
+  // spoke around an element <voice>, so that there is one around everything.
+  void begin(std::size_t speaker, const Manner& manner) {
+    Manner wanted = manner;
+    wanted.language.clear();
+    wanted.voice.clear();
+    if (open_ && speaker == speaker_ && wanted == manner_) return;
+    if (open_ && speaker == speaker_) {
+      if (!(manner_ == Manner{})) tag("</prosody>");
+    } else {
+      close();
+      tag("<voice name=\"" + out_speaker(speaker).voice + "\">");
+    }
+    if (!(wanted == Manner{})) {
+      const auto percent = [](const char* name, int value, int usual) {
+        return value == usual ? std::string()
+                              : std::string(" ") + name + "=\"" + std::to_string(value) + "%\"";
+      };
+      tag("<prosody" + percent("rate", wanted.rate, 100) + percent("pitch", wanted.pitch, 100) +
+          percent("range", wanted.range, 100) + percent("volume", wanted.volume, 100) + ">");
+    }
+    open_ = true;
+    speaker_ = speaker;
+    manner_ = wanted;
+  }
+
+  const Speaker& out_speaker(std::size_t speaker) const { return speakers_.list[speaker]; }
+
+  void emit(const Said& said, std::size_t speaker, const Manner& manner) {
+    if (out_.markup) begin(speaker, manner);
+    const std::size_t first = out_.input.size();
+    for (std::size_t i = 0; i < said.size(); ++i) {
+      const char32_t c = said.text[i];
+      const bool special = out_.markup && (c == U'<' || c == U'>' || c == U'&');
+      if (!special) {
+        out_.input.add(said, i, i + 1);
+      } else {
+        out_.input.add(c == U'<' ? U"&lt;" : c == U'>' ? U"&gt;" : U"&amp;", said.places[i]);
+      }
+    }
+    if (said.size() > 0) out_.stretches.push_back({first, out_.input.size(), speaker});
+  }
+
+  Result<void> add_text(const Item& item, const Said& said) {
+    const auto main = speaker_of(item.manner);
+    if (!main) return main.error();
+    // The voice of the item first, the others by their scripts.
+    Speakers around = speakers_;
+    std::vector<std::size_t> numbers = {*main};
+    for (std::size_t i = 0; i < speakers_.list.size(); ++i) {
+      if (i != *main) numbers.push_back(i);
+    }
+    around.list.clear();
+    for (const std::size_t i : numbers) around.list.push_back(speakers_.list[i]);
+    around.by_words = item.manner.language.empty() && item.manner.voice.empty();
+    auto passages = part_passages(narrow(said), around);
+    if (!passages) return passages.error();
+    for (std::size_t i = numbers.size(); i < around.list.size(); ++i) {
+      numbers.push_back(speakers_.list.size());
+      speakers_.list.push_back(around.list[i]);
+    }
+    for (Passage& passage : *passages) {
+      passage.speaker = numbers[passage.speaker];
+      if (auto done = add_passage(item, passage); !done) return done;
+    }
+    return {};
+  }
+
+  Result<void> add_passage(const Item& item, Passage passage) {
+    const Speaker& speaker = speakers_.list[passage.speaker];
+    replace_brackets(passage.said);
+    if (!item.ipa.empty()) return add_ipa(item, passage);
+    switch (item.say_as) {
+      case SayAs::characters:
+        begin(passage.speaker, item.manner);
+        tag("<say-as interpret-as=\"characters\">");
+        emit(passage.said, passage.speaker, item.manner);
+        tag("</say-as>");
+        return {};
+      case SayAs::digits:
+        passage.said = say_apart(passage.said);
+        break;
+      case SayAs::telephone:
+        passage.said = say_telephone(passage.said);
+        break;
+      case SayAs::ordinal:
+        passage.said = say_ordinal(passage.said, speaker.language);
+        break;
+      case SayAs::date:
+        passage.said = say_date(passage.said, item.format, speaker.language);
+        break;
+      case SayAs::words:
+        break;
+    }
+    auto read = read_passage(passage);
+    if (!read) return read.error();
+    emit(*read, passage.speaker, item.manner);
+    return {};
+  }
+
+  Result<void> add_ipa(const Item& item, const Passage& passage) {
+    const Speaker& speaker = speakers_.list[passage.speaker];
+    const std::string names = helpers_.mnemonics ? helpers_.mnemonics(speaker, item.ipa) : "";
+    if (names.empty()) {
+      out_.warnings.push_back("<phoneme ph=\"" + item.ipa + "\"> has sounds that the voice " +
+                              speaker.name + " does not have; its text is spoken");
+      auto read = read_passage(passage);
+      if (!read) return read.error();
+      emit(*read, passage.speaker, item.manner);
+      return {};
+    }
+    out_.mnemonics = true;
+    Said said;
+    if (passage.said.size() > 0) {
+      said.add(U" [[" + code_points(names) + U"]] ", passage.said.place(0, passage.said.size()));
+    }
+    emit(said, passage.speaker, item.manner);
+    return {};
+  }
+
+  // The number of the voice that an item asks for.
+  Result<std::size_t> speaker_of(const Manner& manner) {
+    if (manner.language.empty() && manner.voice.empty()) return std::size_t(0);
+    const std::string language =
+        manner.language.empty() ? speakers_.list[0].language : manner.language;
+    const auto found = helpers_.find ? helpers_.find(language, manner.voice) : std::nullopt;
+    if (!found) {
+      return make_error(Code::not_found,
+                        manner.voice.empty()
+                            ? "no voice for xml:lang=\"" + manner.language +
+                                  "\" of this document; espeak-ng --voices lists all"
+                            : "no voice \"" + manner.voice +
+                                  "\" for this document; espeak-ng --voices lists all");
+    }
+    for (std::size_t i = 0; i < speakers_.list.size(); ++i) {
+      if (speakers_.list[i].voice == found->voice) return i;
+    }
+    speakers_.list.push_back(*found);
+    return speakers_.list.size() - 1;
+  }
+
+  Result<Said> read_passage(const Passage& passage) {
+    const Speaker& speaker = speakers_.list[passage.speaker];
+    const bool han = speaker.letters != Letters::as_written || speaker.language == "yue";
+    const Said written =
+        read_written(passage.said, {speaker.language, keep_emoji_, !han && !speaker.says_digits});
+    std::u32string unread;
+    Said said = written;
+    if (speaker.letters == Letters::pinyin) {
+      if (!has_chinese_words() && !warned_) out_.warnings.emplace_back(kNoWords);
+      warned_ = warned_ || !has_chinese_words();
+      said = read_chinese(spell_han_numbers(written, false), unread);
+    } else if (speaker.letters == Letters::kana) {
+      auto kana = read_japanese(written, unread);
+      if (!kana) return kana.error();
+      said = *std::move(kana);
+    } else if (speaker.language == "yue") {
+      said = spell_han_numbers(written, false);
+    }
+    if (!unread.empty()) {
+      out_.warnings.push_back("no reading for \"" + utf8(unread) + "\", which is left out");
+    }
+    return said;
+  }
+
+  Utterance& out_;
+  Speakers& speakers_;
+  const Helpers& helpers_;
+  bool keep_emoji_ = false;
+  bool open_ = false, warned_ = false;
+  std::size_t speaker_ = 0;
+  Manner manner_;
+};
+
+}  // namespace
+
+Result<Utterance> make_utterance(std::string_view text, Speakers speakers, const Helpers& helpers) {
+  Utterance out;
+  Maker maker(out, speakers, helpers);
+  if (is_ssml(text)) {
+    const auto document = read_ssml(text);
+    if (!document) return document.error();
+    for (const Item& item : document->items) out.source += item.text;
+    if (auto done = maker.document(*document); !done) return done.error();
+  } else {
+    out.source = code_points(text);
+    const bool only_pictures = !has_words(out.source);
+    if (auto done = maker.plain(as_written(out.source), only_pictures); !done) return done.error();
+  }
+  out.speakers = std::move(speakers.list);
+  return out;
+}
+
+}  // namespace animeme::text

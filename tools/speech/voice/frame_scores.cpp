@@ -1,0 +1,146 @@
+#include "tools/speech/voice/frame_scores.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tools/speech/voice/hearing.h"
+
+namespace animeme::voice {
+
+namespace {
+
+constexpr double kRoomShare = 0.3;        // of the frames tell the room, not the voice
+constexpr std::size_t kSoundBlock = 160;  // samples
+constexpr std::size_t kMeanReach = 1500;  // frames to either side that the mean is taken of
+constexpr std::size_t kFrameHop = 160, kHalfWindow = 205;  // samples
+constexpr std::size_t kLevelReach = 800;                   // samples to either side
+constexpr double kFloor = 0.1;
+constexpr double kLoud = 0.9;      // of the frames are less loud
+constexpr float kNewPhone = 4.6f;  // a phone of the free path costs so much
+
+float loudness_of_voice(const std::vector<float>& samples) {
+  std::vector<float> peaks;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (i % kSoundBlock == 0) peaks.push_back(0);
+    peaks.back() = std::max(peaks.back(), std::abs(samples[i]));
+  }
+  const auto high = peaks.begin() + std::ptrdiff_t(0.9 * double(peaks.size() - 1));
+  std::nth_element(peaks.begin(), high, peaks.end());
+  return *high;
+}
+
+// dB over 0.1 s around the middle of each frame.
+std::vector<float> smooth_levels(const std::vector<std::int16_t>& samples, std::size_t frames) {
+  std::vector<float> levels;
+  for (std::size_t t = 0; t < frames; ++t) {
+    const std::size_t middle = std::min(t * kFrameHop + kHalfWindow, samples.size());
+    const std::size_t first = middle > kLevelReach ? middle - kLevelReach : 0;
+    const std::size_t last = std::min(middle + kLevelReach, samples.size());
+    double sum = 0;
+    for (std::size_t i = first; i < last; ++i) sum += double(samples[i]) * double(samples[i]);
+    const double mean = sum / double(std::max<std::size_t>(last - first, 1));
+    levels.push_back(float(10 * std::log10(mean + 1)));
+  }
+  return levels;
+}
+
+Cepstrum mean_of_loud(std::span<const Cepstrum> frames) {
+  std::vector<float> levels;
+  for (const Cepstrum& frame : frames) levels.push_back(frame[0]);
+  const auto quiet = levels.begin() + std::ptrdiff_t(kRoomShare * double(levels.size() - 1));
+  std::nth_element(levels.begin(), quiet, levels.end());
+  std::array<double, kCepstra> sums{};
+  double count = 0;
+  for (const Cepstrum& frame : frames) {
+    if (frame[0] < *quiet) continue;
+    ++count;
+    for (std::size_t i = 0; i < kCepstra; ++i) sums[i] += double(frame[i]);
+  }
+  Cepstrum mean{};
+  for (std::size_t i = 0; i < kCepstra; ++i) mean[i] = float(sums[i] / std::max(count, 1.0));
+  return mean;
+}
+
+// The best path of any phones, taken off the scores.
+void take_free_path(const SoundModel& model, FrameScores& scores) {
+  const std::size_t states = scores.states, frames = scores.frames();
+  std::vector<float> stay(states), leave(states);
+  for (std::size_t s = 0; s < states; ++s) {
+    stay[s] = std::log(model.stay[s]);
+    leave[s] = std::log(1 - model.stay[s]);
+  }
+  std::vector<float> best(states), next(states);
+  std::vector<std::uint8_t> from(frames * states);  // 0: stayed, 1: from the state before
+  std::vector<std::uint8_t> last(frames);           // the phone that a new one follows
+  float exit = 0;
+  for (std::size_t t = 0; t < frames; ++t) {
+    const auto now = scores[t];
+    for (std::size_t s = 0; s < states; ++s) {
+      const bool first = s % kStatesPerPhone == 0;
+      const float held = t == 0 ? -1e30f : best[s] + stay[s];
+      const float come = first ? exit - kNewPhone : t == 0 ? -1e30f : best[s - 1] + leave[s - 1];
+      from[t * states + s] = come > held;
+      next[s] = std::max(held, come) + now[s];
+    }
+    std::swap(best, next);
+    exit = -1e30f;
+    for (std::size_t s = kStatesPerPhone - 1; s < states; s += kStatesPerPhone) {
+      if (best[s] + leave[s] <= exit) continue;
+      exit = best[s] + leave[s];
+      last[t] = std::uint8_t(s / kStatesPerPhone);
+    }
+  }
+  scores.free.resize(frames);
+  auto state = std::size_t(std::max_element(best.begin(), best.end()) - best.begin());
+  for (std::size_t t = frames; t-- > 0;) {
+    scores.free[t] = std::uint8_t(state / kStatesPerPhone);
+    float* row = &scores.values[t * states];
+    const float free = row[state];
+    for (std::size_t s = 0; s < states; ++s) row[s] -= free;
+    if (from[t * states + state] == 0 || t == 0) continue;
+    state = state % kStatesPerPhone == 0 ? last[t - 1] * kStatesPerPhone + kStatesPerPhone - 1
+                                         : state - 1;
+  }
+}
+
+}  // namespace
+
+MeasuredSound measure_sound(CepstraReader& reader, const std::vector<float>& samples) {
+  MeasuredSound sound;
+  if (samples.empty()) return sound;
+  std::vector<std::int16_t> whole;
+  Trace trace{loudness_of_voice(samples), 0};
+  to_whole(samples, trace, whole);
+  reader.push(whole, sound.cepstra);
+  reader.finish(sound.cepstra);
+  sound.levels = smooth_levels(whole, sound.cepstra.size());
+  return sound;
+}
+
+FrameScores score_frames(const SoundModel& model, const MeasuredSound& sound, std::size_t first,
+                         std::size_t count) {
+  FrameScores scores;
+  const auto& cepstra = sound.cepstra;
+  if (first >= cepstra.size()) return scores;
+  count = std::min(count, cepstra.size() - first);
+  const std::size_t begin = first > kMeanReach ? first - kMeanReach : 0;
+  const std::size_t end = std::min(first + count + kMeanReach, cepstra.size());
+  const Cepstrum mean = mean_of_loud(std::span(cepstra).subspan(begin, end - begin));
+  std::vector<float> around(sound.levels.begin() + std::ptrdiff_t(begin),
+                            sound.levels.begin() + std::ptrdiff_t(end));
+  std::sort(around.begin(), around.end());
+  const float quiet = around[std::size_t(kFloor * double(around.size() - 1))];
+  scores.range = around[std::size_t(kLoud * double(around.size() - 1))] - quiet;
+  scores.states = model.states();
+  scores.values.resize(count * scores.states);
+  for (std::size_t t = 0; t < count; ++t) {
+    score_states(model, features_of(cepstra, first + t, mean),
+                 std::span(scores.values).subspan(t * scores.states, scores.states));
+    scores.levels.push_back(sound.levels[first + t] - quiet);
+  }
+  take_free_path(model, scores);
+  return scores;
+}
+
+}  // namespace animeme::voice

@@ -1,0 +1,141 @@
+#include "tools/speech/voice/pronunciation.h"
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "dam/script/phones.h"
+#include "dam/script/script_text_internal.h"
+#include "tools/speech/voice/voice.h"
+
+namespace animeme::voice {
+namespace {
+
+using Dictionary = std::map<std::string, std::vector<Labels>, std::less<>>;
+
+constexpr std::size_t kMaxVariants = 8;
+
+std::string_view take_field(std::string_view& line) {
+  line = dam::trimmed(line);
+  const std::string_view field = line.substr(0, line.find_first_of(" \t"));
+  line.remove_prefix(field.size());
+  return field;
+}
+
+// One line, if it is about a word of `wanted`. "read(2) R EH D" is a further way to say "read".
+void read_line(std::string_view line, const std::set<std::string, std::less<>>& wanted,
+               Dictionary& dictionary) {
+  std::string_view name = take_field(line);
+  const std::size_t bracket = name.find('(');
+  if (bracket != std::string_view::npos && bracket > 0) name = name.substr(0, bracket);
+  const std::string word = dam::lower_case(name);
+  if (!wanted.contains(word)) return;
+  Labels labels;
+  for (std::string_view field = take_field(line); !field.empty(); field = take_field(line)) {
+    const std::string_view label = dam::arpabet_label(field);
+    if (label.empty() || label == dam::kSilence) return;
+    labels.emplace_back(label);
+  }
+  if (labels.empty()) return;
+  std::vector<Labels>& variants = dictionary[word];
+  if (variants.size() < kMaxVariants) variants.push_back(std::move(labels));
+}
+
+Result<Dictionary> read_dictionary(const std::string& path, const std::vector<std::string>& words) {
+  std::ifstream file(path);
+  if (!file) {
+    return make_error(Code::not_found, "no pronunciation dictionary at " + path +
+                                           "; install the Debian package pocketsphinx-en-us or "
+                                           "set the path");
+  }
+  std::set<std::string, std::less<>> wanted;
+  for (const std::string& word : words) wanted.insert(dam::lower_case(word));
+  Dictionary dictionary;
+  for (std::string line; std::getline(file, line);) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    read_line(line, wanted, dictionary);
+  }
+  return dictionary;
+}
+
+// The model has the 39 phones of the dictionary; AX is its AH.
+Labels for_recogniser(Labels labels) {
+  std::replace(labels.begin(), labels.end(), std::string("AX"), std::string("AH"));
+  return labels;
+}
+
+// Pictures and signs have no sound that all people agree on, and nor have, to an English voice,
+// letters of other scripts than Latin: espeak-ng reads out their names.
+bool can_be_said(std::string_view word, bool english) {
+  constexpr char32_t kLatinEnds = 0x250, kArrows = 0x2190, kLettersAgain = 0x2C00,
+                     kPictures = 0x1F000, kIdeographsAgain = 0x20000;
+  while (!word.empty()) {
+    const char32_t code = dam::take_code_point(word);
+    if (english && code >= kLatinEnds) continue;
+    if (code >= kArrows && code < kLettersAgain) continue;
+    if (code >= kPictures && code < kIdeographsAgain) continue;
+    return true;
+  }
+  return false;
+}
+
+Result<void> add_spoken(const std::vector<std::string>& missing, const AlignOptions& options,
+                        Dictionary& dictionary) {
+  VoiceOptions voice;
+  voice.language = options.language;
+  auto spoken = pronounce(missing, voice);
+  if (!spoken && spoken.error().code == Code::unsupported) {
+    return make_error(Code::not_found, "no pronunciation for \"" + missing.front() +
+                                           "\"; add it to the dictionary, or build with espeak-ng "
+                                           "(Debian package libespeak-ng-dev), which can guess it");
+  }
+  if (!spoken) return spoken.error();
+  for (std::size_t i = 0; i < missing.size(); ++i) {
+    Labels labels = for_recogniser((*spoken)[i]);
+    if (!labels.empty()) dictionary[dam::lower_case(missing[i])] = {std::move(labels)};
+  }
+  return {};
+}
+
+}  // namespace
+
+bool is_english(std::string_view language) {
+  const std::string lower = dam::lower_case(language);
+  return lower == "en" || lower.starts_with("en-") || lower.starts_with("en_") ||
+         lower.starts_with("english");
+}
+
+Result<std::vector<SpokenWord>> find_pronunciations(const std::vector<std::string>& words,
+                                                    const AlignOptions& options,
+                                                    std::vector<std::string>& warnings) {
+  Dictionary dictionary;
+  const bool english = is_english(options.language);
+  if (english) {
+    auto read = read_dictionary(options.dictionary_path, words);
+    if (!read) return read.error();
+    dictionary = *std::move(read);
+  }
+  std::set<std::string> missing;
+  for (const std::string& word : words) {
+    if (dictionary.contains(dam::lower_case(word)) || !can_be_said(word, english)) continue;
+    missing.insert(word);
+  }
+  if (!missing.empty()) {
+    const auto added = add_spoken({missing.begin(), missing.end()}, options, dictionary);
+    if (!added) return added.error();
+  }
+  std::vector<SpokenWord> spoken;
+  for (const std::string& word : words) {
+    const auto known = dictionary.find(dam::lower_case(word));
+    if (known == dictionary.end()) {
+      warnings.push_back("no pronunciation for \"" + word + "\"; it gets what is heard there");
+      spoken.push_back({word, {}, true});
+    } else {
+      spoken.push_back({word, known->second, english && missing.contains(word)});
+    }
+  }
+  return spoken;
+}
+
+}  // namespace animeme::voice

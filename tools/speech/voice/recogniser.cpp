@@ -1,0 +1,121 @@
+#include "tools/speech/voice/recogniser.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "dam/script/phones.h"
+#include "dam/script/script_text_internal.h"
+#include "tools/speech/voice/place_words.h"
+
+namespace animeme::voice {
+namespace {
+
+// A frame is 10 ms and speaks for the middle of its window of 25.6 ms, so that a phone should begin
+// half way between the middle of its first frame and that of the frame before: 12.8 - 5 = 7.8 ms.
+// Labels disagree about that by 14 ms; in the middle of eight sets (tools/speech/voice/engines.md,
+// section 1) lie 5.
+double frame_time(std::size_t frame) { return frame == 0 ? 0.0 : double(frame * 2 + 1) / 200.0; }
+
+// Words that English says with less than their sounds. Of other languages: all short ones.
+constexpr std::string_view kWeakWords[] = {
+    "a",     "am",    "an",   "and",  "are",   "as",   "at",   "be",  "but",  "by",
+    "can",   "could", "do",   "does", "for",   "from", "had",  "has", "have", "he",
+    "her",   "him",   "his",  "i",    "i'm",   "if",   "in",   "is",  "it",   "it's",
+    "its",   "just",  "me",   "must", "my",    "nor",  "not",  "of",  "on",   "or",
+    "our",   "shall", "she",  "so",   "some",  "than", "that", "the", "them", "then",
+    "there", "they",  "this", "to",   "up",    "us",   "was",  "we",  "were", "what",
+    "when",  "who",   "will", "with", "would", "you",  "your"};
+constexpr std::size_t kShortPhones = 3;
+
+bool is_weak(const SpokenWord& word, bool english) {
+  if (!english) return word.variants.empty() || word.variants[0].size() <= kShortPhones;
+  return std::binary_search(std::begin(kWeakWords), std::end(kWeakWords),
+                            dam::lower_case(word.text));
+}
+
+std::vector<WordModel> models_of(const SoundModel& model, const std::vector<SpokenWord>& words,
+                                 bool english) {
+  std::map<std::string, std::uint8_t> numbers;
+  for (std::size_t i = 0; i < model.phones.size(); ++i) {
+    numbers[model.phones[i]] = std::uint8_t(i);
+  }
+  std::vector<WordModel> models;
+  for (const SpokenWord& word : words) {
+    WordModel one;
+    one.weak = is_weak(word, english);
+    for (const Labels& labels : word.variants) {
+      std::vector<std::uint8_t> phones;
+      for (const std::string& label : labels) {
+        const auto found = numbers.find(label);
+        if (found != numbers.end()) phones.push_back(found->second);
+      }
+      if (!phones.empty()) one.variants.push_back(std::move(phones));
+    }
+    models.push_back(std::move(one));
+  }
+  return models;
+}
+
+std::string label_of(const SoundModel& model, std::size_t phone) {
+  const dam::PhoneInfo* info = dam::find_phone(model.phones[phone]);
+  return std::string(info != nullptr ? info->label : dam::kSilence);  // noises are silence
+}
+
+void append(const SoundModel& model, const PlacedPart& placed, const std::vector<WordModel>& models,
+            std::vector<Segment>& segments) {
+  const PathPart& part = placed.part;
+  const double score = double(part.score) / double(part.frames);
+  if (part.kind == PartKind::pause) {
+    segments.push_back(
+        {frame_time(part.first), std::string(dam::kSilence), kNoWord, score, part.frames, false});
+  } else if (part.kind == PartKind::phone) {
+    const std::size_t phone = models[part.word].variants[part.variant][part.index];
+    segments.push_back(
+        {frame_time(part.first), label_of(model, phone), part.word, score, part.frames, false});
+  } else {
+    const std::size_t begun = segments.size();
+    for (std::size_t i = 0; i < placed.heard.size(); ++i) {
+      std::string label = label_of(model, placed.heard[i]);
+      if (segments.size() > begun && segments.back().label == label) {
+        ++segments.back().frames;
+      } else {
+        segments.push_back({frame_time(part.first + i), std::move(label), part.word, 0, 1, true});
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Result<void> check_recogniser(const AlignOptions& options) {
+  const auto reader = CepstraReader::open(options.model_path);
+  if (!reader) return reader.error();
+  for (const char* file : {"mdef", "means", "variances", "sendump", "transition_matrices"}) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(std::filesystem::path(options.model_path) / file,
+                                          ignored)) {
+      return make_error(Code::not_found, "no acoustic model at " + options.model_path + " (" +
+                                             file +
+                                             " is missing); install the Debian package "
+                                             "pocketsphinx-en-us or set the path");
+    }
+  }
+  return {};
+}
+
+Result<Recognised> recognise(const std::vector<float>& samples,
+                             const std::vector<SpokenWord>& words, const AlignOptions& options) {
+  const auto model = read_sound_model(options.model_path);
+  if (!model) return model.error();
+  const auto reader = CepstraReader::open(options.model_path);
+  if (!reader) return reader.error();
+  const bool english = is_english(options.language);
+  const auto models = models_of(*model, words, english);
+  const auto placed = place_words(*model, measure_sound(**reader, samples), models, !english);
+  Recognised result{{}, placed.explained};
+  for (const PlacedPart& part : placed.parts) append(*model, part, models, result.segments);
+  return result;
+}
+
+}  // namespace animeme::voice

@@ -1,0 +1,41 @@
+/// @file
+/// The search of the recogniser. Internal.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "fap/result.h"
+#include "tools/speech/voice/pronunciation.h"
+
+namespace animeme::voice {
+
+/// A phone that the search has placed. Segments follow each other without gaps.
+struct Segment {
+  double start = 0;      ///< seconds; the bias of the analysis window is already taken off
+  std::string label;     ///< ARPAbet or SIL
+  std::size_t word = 0;  ///< index into the words; kNoWord for silence
+  /// How well the sound fits, a frame: 0 is as well as the phones that fit best when nobody says
+  /// which; logarithm of the likelihood.
+  double score = 0;
+  std::size_t frames = 1;  ///< of 10 ms
+  bool foreign = false;    ///< heard, not of the text
+};
+
+inline constexpr std::size_t kNoWord = ~std::size_t(0);  ///< no word: silence
+
+/// Is there a recogniser and the model it needs? Errors: unsupported, not_found.
+Result<void> check_recogniser(const AlignOptions& options);
+
+/// What is recognised.
+struct Recognised {
+  std::vector<Segment> segments;  ///< empty if no path was found
+  double explained = 0;           ///< Placement::explained
+};
+
+/// Places the words in samples of 16 kHz. Errors as check_recogniser().
+Result<Recognised> recognise(const std::vector<float>& samples,
+                             const std::vector<SpokenWord>& words, const AlignOptions& options);
+
+}  // namespace animeme::voice

@@ -1,0 +1,154 @@
+#include "tools/speech/voice/voice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "dam/script/script_text_internal.h"
+#include "tools/speech/text/utterance.h"
+#include "tools/speech/voice/voice_events.h"
+#include "tools/speech/voice/voice_job.h"
+#include "tools/speech/voice/voice_languages.h"
+
+namespace animeme::voice {
+namespace {
+
+constexpr std::size_t kMaxTextBytes = 400000;  // of UTF-8
+constexpr std::size_t kMaxCharacters = 100000;
+
+// UTF-8 that espeak-ng can be trusted with: valid, no control characters.
+Result<std::string> clean_text(std::string_view text) {
+  const auto too_long = [] {
+    return make_error(Code::out_of_range,
+                      "more than 100000 characters to speak; speak them in parts");
+  };
+  if (text.size() > kMaxTextBytes) return too_long();
+  std::string out;
+  std::size_t characters = 0;
+  bool speakable = false;
+  std::string utf8 = dam::to_utf8(text);
+  for (std::string_view rest = utf8; !rest.empty(); ++characters) {
+    const char32_t code = dam::take_code_point(rest);
+    const bool blank = code <= U' ' || code == 0x7F || code == 0xA0 || code == 0xFFFD;
+    dam::append_utf8(out, blank && code != U'\n' ? U' ' : code);
+    speakable = speakable || !blank;
+  }
+  if (characters > kMaxCharacters) return too_long();
+  if (!speakable) {
+    return make_error(Code::invalid_argument, "there is no text to speak; give at least one word");
+  }
+  return out;
+}
+
+// Silence before and after; the events move along.
+void pad(RawSpeech& raw, std::size_t before, std::size_t after) {
+  raw.samples.insert(raw.samples.begin(), before, 0);
+  raw.samples.insert(raw.samples.end(), after, 0);
+  for (VoiceEvent& event : raw.events) event.sample += std::int64_t(before);
+  VoiceEvent rest;
+  rest.sample = std::int64_t(raw.samples.size() - after);
+  rest.ipa = "_";
+  raw.events.push_back(rest);
+}
+
+bool has_sound(const dam::Script& script) {
+  return std::any_of(script.phones.begin(), script.phones.end(),
+                     [](const dam::Phone& phone) { return phone.label != dam::kSilence; });
+}
+
+Error nothing_to_say(const std::string& voice) {
+  return make_error(Code::invalid_argument,
+                    "the voice " + voice +
+                        " has nothing to say for this text; give words in its language or "
+                        "choose another voice");
+}
+
+EspeakJob job_of(const text::Utterance& utterance, const VoiceOptions& options) {
+  EspeakJob job;
+  job.voice = utterance.speakers.front().voice;
+  job.texts = {text::utf8(utterance.input.text)};
+  job.options = options;
+  job.markup = utterance.markup;
+  job.mnemonics = utterance.mnemonics;
+  return job;
+}
+
+}  // namespace
+
+Result<Speech> speak_text(std::string_view text, const VoiceOptions& options) {
+  const auto cleaned = clean_text(text);
+  auto speakers = find_speakers(options, cleaned ? text::code_points(*cleaned) : std::u32string());
+  if (!speakers) return speakers.error();
+  if (!cleaned) return cleaned.error();
+  auto utterance = text::make_utterance(*cleaned, *std::move(speakers), helpers_of(options));
+  if (!utterance) return utterance.error();
+  Speech speech;
+  speech.voice = utterance->speakers.front().name;
+  speech.warnings = std::move(utterance->warnings);
+  EspeakJob job = job_of(*utterance, options);
+  auto spoken = run_voice(job);
+  if (!spoken) return spoken.error();
+  const int rate = spoken->sample_rate;
+  RawSpeech& raw = spoken->speech.front();
+  if (job.markup) correct_ipa(raw, *utterance);
+  pad(raw, std::size_t(std::lround(options.lead_silence * rate)),
+      std::size_t(std::lround(options.tail_silence * rate)));
+  speech.script = make_voice_script(raw, rate, *utterance);
+  if (!has_sound(speech.script)) return nothing_to_say(speech.voice);
+  speech.languages = find_languages(raw, rate, *utterance);
+  speech.marks = find_marks(raw, rate, *utterance);
+  std::string letters = warn_of_letters(raw, *utterance, speech.languages);
+  if (!letters.empty()) speech.warnings.push_back(std::move(letters));
+  speech.audio.sample_rate = rate;
+  speech.audio.samples.reserve(raw.samples.size());
+  for (const std::int16_t sample : raw.samples) {
+    speech.audio.samples.push_back(float(sample) / 32768.0f);
+  }
+  return speech;
+}
+
+Result<std::vector<std::vector<std::string>>> pronounce(const std::vector<std::string>& texts,
+                                                        const VoiceOptions& options) {
+  // Texts that one voice speaks as they are go together; the others have markup, or another voice.
+  std::map<std::pair<std::string, bool>, std::vector<std::size_t>> together;
+  std::vector<text::Utterance> utterances;
+  std::optional<text::Speakers> known;
+  for (const std::string& text : texts) {
+    auto cleaned = clean_text(text);
+    if (!known || known->automatic) {
+      auto speakers =
+          find_speakers(options, cleaned ? text::code_points(*cleaned) : std::u32string());
+      if (!speakers) return speakers.error();
+      known = *std::move(speakers);
+    }
+    if (!cleaned) return cleaned.error();
+    auto utterance = text::make_utterance(*cleaned, *known, helpers_of(options));
+    if (!utterance) return utterance.error();
+    together[{utterance->speakers.front().voice, utterance->markup}].push_back(utterances.size());
+    utterances.push_back(*std::move(utterance));
+  }
+  std::vector<std::vector<std::string>> all(texts.size());
+  for (const auto& [key, numbers] : together) {
+    EspeakJob job = job_of(utterances[numbers.front()], options);
+    job.texts.clear();
+    for (const std::size_t i : numbers) job.texts.push_back(text::utf8(utterances[i].input.text));
+    auto spoken = run_voice(job);
+    if (!spoken) return spoken.error();
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      RawSpeech& raw = spoken->speech[k];
+      const text::Utterance& utterance = utterances[numbers[k]];
+      if (utterance.markup) correct_ipa(raw, utterance);
+      for (const dam::Phone& phone :
+           make_voice_script(raw, spoken->sample_rate, utterance).phones) {
+        if (phone.label != dam::kSilence) all[numbers[k]].push_back(phone.label);
+      }
+    }
+  }
+  if (texts.empty()) {
+    if (const auto voice = find_voice(options); !voice) return voice.error();
+  }
+  return all;
+}
+
+}  // namespace animeme::voice

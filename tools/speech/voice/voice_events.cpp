@@ -1,0 +1,193 @@
+#include "tools/speech/voice/voice_events.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "dam/script/ipa.h"
+#include "dam/script/script_text_internal.h"
+#include "tools/speech/text/unicode.h"
+#include "tools/speech/voice/transcript.h"
+
+namespace animeme::voice {
+namespace {
+
+using dam::IpaPhone;
+
+constexpr int kSilentLevel = 8;            // of 32768: what espeak-ng leaves between sounds
+constexpr double kMaxClosure = 0.2;        // seconds of silence before a burst that are closure
+constexpr double kMaxFirstClosure = 0.08;  // the same after a pause: the rest is rest
+constexpr std::size_t kMostSigns = 3;      // between the place of an event and its word
+constexpr double kMinPhone = 0.01;         // seconds that the phone before keeps
+
+// A stretch of sound with its labels. No labels: silence.
+struct VoicedSegment {
+  std::int64_t start = 0, end = 0;
+  std::vector<IpaPhone> labels;
+  std::string word;
+};
+
+bool is_silent(std::int16_t sample) { return std::abs(int(sample)) <= kSilentLevel; }
+
+// A pause comes as an empty name, just like a mark without a sound of its own; the ear decides.
+bool is_mostly_silent(const std::vector<std::int16_t>& samples, std::int64_t start,
+                      std::int64_t end) {
+  const auto first = samples.begin() + start, last = samples.begin() + end;
+  return 2 * std::count_if(first, last, is_silent) >= last - first;
+}
+
+// espeak-ng cuts names at 8 bytes, maybe inside a character.
+std::string_view whole_characters(std::string_view ipa) {
+  for (std::string_view rest = ipa; !rest.empty();) {
+    const std::size_t at = ipa.size() - rest.size();
+    if (dam::take_code_point(rest) == 0xFFFD) return ipa.substr(0, at);
+  }
+  return ipa;
+}
+
+std::vector<IpaPhone> labels_of(std::string_view ipa) {
+  auto parsed = dam::parse_ipa(whole_characters(ipa));
+  if (!parsed) return {{"AX", 1.0}};
+  return *std::move(parsed);
+}
+
+// The word of the source that an event names.
+std::string word_of(const VoiceEvent& event, const text::Utterance& utterance) {
+  const text::Place place = place_of(event, utterance);
+  const std::u32string& source = utterance.source;
+  std::size_t first = place.first, last = place.last;
+  // Behind "z. B." a word is said to begin at the sign before it.
+  const auto spoken = [&](std::size_t at) { return text::is_letter_or_digit(source[at]); };
+  std::size_t next = first;
+  while (next < source.size() && !spoken(next)) ++next;
+  if (first < last && next >= last && next < source.size() && next - first <= kMostSigns) {
+    first = next;
+    for (last = next; last < source.size() && spoken(last);) ++last;
+  }
+  // The parts of a number come one by one: "2024", then "024".
+  const auto digit = [&](std::size_t at) { return text::digit_value(source[at]) >= 0; };
+  while (first < last && first > 0 && digit(first) && digit(first - 1)) --first;
+  while (first < last && last < source.size() && digit(last - 1) && digit(last)) ++last;
+  const auto sign = [&](std::size_t at) {
+    return source[at] >= 0x80 && text::kind_of(source[at]) == text::Kind::punctuation;
+  };
+  while (first < last && sign(first)) ++first;
+  while (first < last && sign(last - 1)) --last;
+  return std::string(strip_punctuation(text::utf8(source.substr(first, last - first))));
+}
+
+void add_segment(std::vector<VoicedSegment>& segments, const RawSpeech& raw, VoicedSegment segment,
+                 std::string_view ipa) {
+  if (segment.end <= segment.start) return;
+  const bool pause = ipa.starts_with('_');
+  const bool language_switch = ipa.starts_with('(');
+  if (!pause && !language_switch) segment.labels = labels_of(ipa);
+  const bool silent = pause || (segment.labels.empty() &&
+                                is_mostly_silent(raw.samples, segment.start, segment.end));
+  if (silent) segment.word.clear();
+  if (segment.labels.empty() && !silent && !segments.empty()) {
+    segments.back().end = segment.end;  // a mark: the sound before it goes on
+  } else {
+    segments.push_back(std::move(segment));
+  }
+}
+
+std::vector<VoicedSegment> cut(const RawSpeech& raw, const text::Utterance& utterance) {
+  const auto size = std::int64_t(raw.samples.size());
+  std::vector<VoicedSegment> segments;
+  VoicedSegment current{0, 0, {}, {}};
+  std::string ipa = "_", word;
+  for (const VoiceEvent& event : raw.events) {
+    if (event.kind == EventKind::word) {
+      // Of markup there are words of no length.
+      if (!utterance.markup || event.text_length > 0) word = word_of(event, utterance);
+      continue;
+    }
+    if (event.kind == EventKind::mark) continue;
+    current.end = std::clamp(event.sample, current.start, size);
+    const std::int64_t next = current.end;
+    add_segment(segments, raw, std::move(current), ipa);
+    current = {next, next, {}, word};
+    ipa = event.ipa;
+  }
+  current.end = size;
+  add_segment(segments, raw, std::move(current), ipa);
+  return segments;
+}
+
+bool begins_with_closure(const VoicedSegment& segment) {
+  constexpr std::string_view kStops[] = {"P", "B", "T", "D", "K", "G", "CH", "JH"};
+  return !segment.labels.empty() && std::find(std::begin(kStops), std::end(kStops),
+                                              segment.labels[0].label) != std::end(kStops);
+}
+
+// The event of a stop is at its burst; the silence before it is the closure and belongs to it.
+void move_stops_to_closure(std::vector<VoicedSegment>& segments, const RawSpeech& raw, int rate) {
+  for (std::size_t i = 1; i < segments.size(); ++i) {
+    if (!begins_with_closure(segments[i])) continue;
+    VoicedSegment& before = segments[i - 1];
+    const double reach = before.labels.empty() ? kMaxFirstClosure : kMaxClosure;
+    const std::int64_t floor = std::max(segments[i].start - std::int64_t(reach * rate),
+                                        before.start + std::int64_t(kMinPhone * rate));
+    std::int64_t start = segments[i].start;
+    while (start > floor && is_silent(raw.samples[std::size_t(start - 1)])) --start;
+    segments[i].start = before.end = start;
+  }
+}
+
+void append(std::vector<dam::Phone>& phones, dam::Phone phone) {
+  if (phone.label == dam::kSilence && !phones.empty() && phones.back().label == dam::kSilence) {
+    phones.back().end = phone.end;
+  } else {
+    phones.push_back(std::move(phone));
+  }
+}
+
+}  // namespace
+
+text::Place place_of(const VoiceEvent& event, const text::Utterance& utterance) {
+  // Positions count characters of the input, from 1.
+  const auto count = std::int64_t(utterance.input.size());
+  const std::int64_t first = std::clamp<std::int64_t>(event.text_position - 1, 0, count);
+  const std::int64_t last = std::clamp<std::int64_t>(first + event.text_length, first, count);
+  text::Place all;
+  for (std::int64_t i = first; i < last; ++i) {
+    const text::Place place = utterance.input.places[std::size_t(i)];
+    if (place.last <= place.first) continue;
+    all.first = all.last == 0 ? place.first : std::min(all.first, place.first);
+    all.last = std::max(all.last, place.last);
+  }
+  return all;
+}
+
+dam::Script make_voice_script(const RawSpeech& raw, int sample_rate, std::string_view text) {
+  text::Utterance utterance;
+  utterance.source = text::code_points(text);
+  utterance.input = text::as_written(utterance.source);
+  return make_voice_script(raw, sample_rate, utterance);
+}
+
+dam::Script make_voice_script(const RawSpeech& raw, int sample_rate,
+                              const text::Utterance& utterance) {
+  std::vector<VoicedSegment> segments = cut(raw, utterance);
+  move_stops_to_closure(segments, raw, sample_rate);
+  dam::Script script;
+  const auto seconds = [&](double sample) { return sample / double(sample_rate); };
+  for (const VoicedSegment& segment : segments) {
+    const double start = seconds(double(segment.start)), end = seconds(double(segment.end));
+    if (segment.labels.empty()) {
+      append(script.phones, {start, end, std::string(dam::kSilence), {}});
+    }
+    double share = 0, from = start;
+    for (std::size_t i = 0; i < segment.labels.size(); ++i) {
+      share += segment.labels[i].share;
+      const double to = i + 1 == segment.labels.size() ? end : start + share * (end - start);
+      append(script.phones, {from, to, std::string(segment.labels[i].label), segment.word});
+      from = to;
+    }
+  }
+  return script;
+}
+
+}  // namespace animeme::voice

@@ -1,0 +1,186 @@
+#include "tools/speech/voice/voice_languages.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+
+#include "dam/script/script_text_internal.h"
+#include "tools/speech/text/unicode.h"
+#include "tools/speech/voice/espeak_ipa.h"
+#include "tools/speech/voice/transcript.h"
+#include "tools/speech/voice/voice_events.h"
+
+namespace animeme::voice {
+namespace {
+
+// "(en-us)" is "en-us".
+std::string changed_to(std::string_view ipa) {
+  ipa.remove_prefix(1);
+  return std::string(ipa.substr(0, ipa.find(')')));
+}
+
+std::size_t speaker_at(std::int32_t position, const text::Utterance& utterance) {
+  const auto at = std::size_t(std::max(position - 1, 0));
+  std::size_t speaker = 0;
+  for (const text::Stretch& stretch : utterance.stretches) {
+    if (stretch.first <= at) speaker = stretch.speaker;
+  }
+  return speaker;
+}
+
+// A language that is being put together.
+struct Open {
+  SpokenLanguage language;
+  text::Place place;
+  std::size_t speaker = 0;
+};
+
+void widen(text::Place& place, text::Place more) {
+  if (more.last <= more.first) return;
+  place.first = place.last == 0 ? more.first : std::min(place.first, more.first);
+  place.last = std::max(place.last, more.last);
+}
+
+std::string text_of(text::Place place, const text::Utterance& utterance) {
+  const std::string all =
+      text::utf8(utterance.source.substr(place.first, place.last - place.first));
+  return std::string(dam::trimmed(all));
+}
+
+bool is_foreign(std::string_view text) {
+  const std::u32string code = text::code_points(text);
+  return std::any_of(code.begin(), code.end(), [](char32_t c) {
+    return text::kind_of(c) == text::Kind::letter && c >= 0x80 && text::script_of(c) != "Latn";
+  });
+}
+
+}  // namespace
+
+std::vector<SpokenLanguage> find_languages(const RawSpeech& raw, int sample_rate,
+                                           const text::Utterance& utterance) {
+  std::vector<Open> parts;
+  const double rate = sample_rate;
+  if (utterance.speakers.empty()) return {};
+  text::Place word;
+  std::size_t speaker = 0;
+  std::string foreign;  // the language that the voice changed to by itself
+  const auto begin = [&](double seconds) {
+    const text::Speaker& who = utterance.speakers[speaker];
+    const bool same = !parts.empty() && parts.back().speaker == speaker &&
+                      parts.back().language.by_itself == !foreign.empty() &&
+                      (foreign.empty() || parts.back().language.language == foreign);
+    if (!same) {
+      if (!parts.empty()) parts.back().language.end = seconds;
+      Open part;
+      part.speaker = speaker;
+      part.language = {seconds,
+                       seconds,
+                       foreign.empty() ? who.language : foreign,
+                       foreign.empty() ? who.name : "espeak-ng's " + foreign,
+                       {},
+                       !foreign.empty()};
+      parts.push_back(std::move(part));
+    }
+    widen(parts.back().place, word);
+  };
+  bool fresh = false;  // a word whose first sound has not come yet
+  for (const VoiceEvent& event : raw.events) {
+    if (event.kind == EventKind::word) {
+      if (utterance.markup && event.text_length == 0) continue;
+      word = place_of(event, utterance);
+      const std::size_t next = speaker_at(event.text_position, utterance);
+      if (next != speaker) foreign.clear();
+      speaker = next;
+      fresh = true;
+    } else if (event.kind == EventKind::phoneme) {
+      if (event.ipa.starts_with('(')) {
+        const std::string to = changed_to(event.ipa);
+        const bool home =
+            text::main_language(to) == text::main_language(utterance.speakers[speaker].language);
+        foreign = home ? std::string() : to;
+      } else if (fresh && !event.ipa.empty() && !event.ipa.starts_with('_')) {
+        begin(double(event.sample) / rate);
+        fresh = false;
+      }
+    }
+  }
+  std::vector<SpokenLanguage> out;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    Open& part = parts[i];
+    // With what follows the last word that the voice told of: "-vous" of "allez-vous", "?".
+    const auto next =
+        i + 1 < parts.size() ? parts[i + 1].place.first : std::uint32_t(utterance.source.size());
+    part.place.last = std::max(part.place.last, next);
+    part.language.text = text_of(part.place, utterance);
+    out.push_back(std::move(part.language));
+  }
+  if (!out.empty()) out.back().end = double(raw.samples.size()) / rate;
+  return out;
+}
+
+std::vector<SpeechMark> find_marks(const RawSpeech& raw, int sample_rate,
+                                   const text::Utterance& utterance) {
+  std::vector<SpeechMark> marks;
+  for (const VoiceEvent& event : raw.events) {
+    if (event.kind != EventKind::mark) continue;
+    const auto number = std::size_t(std::strtoul(event.ipa.c_str(), nullptr, 10));
+    if (number >= utterance.marks.size()) continue;
+    marks.push_back({double(event.sample) / sample_rate, utterance.marks[number]});
+  }
+  return marks;
+}
+
+std::string warn_of_letters(const RawSpeech& raw, const text::Utterance& utterance,
+                            const std::vector<SpokenLanguage>& languages) {
+  std::vector<std::string> words;
+  std::set<std::string> known;
+  const auto add = [&](const std::string& word) {
+    if (known.insert(word).second) words.push_back(word);
+  };
+  for (const SpokenLanguage& part : languages) {
+    if (part.by_itself && is_foreign(part.text)) add(part.text);
+  }
+  // A word that is said letter by letter comes as several words of one place; numbers do, too.
+  const VoiceEvent* before = nullptr;
+  for (const VoiceEvent& event : raw.events) {
+    if (event.kind != EventKind::word) continue;
+    const bool again =
+        before != nullptr && before->text_position == event.text_position && event.text_length > 0;
+    before = &event;
+    if (!again) continue;
+    const text::Place place = place_of(event, utterance);
+    const auto at = std::size_t(std::max(event.text_position - 1, 0));
+    const bool as_it_is = place.last - place.first == std::uint32_t(event.text_length) &&
+                          at < utterance.input.size() &&
+                          utterance.input.text[at] == utterance.source[place.first];
+    const std::string word(strip_punctuation(text_of(place, utterance)));
+    const std::u32string letters = text::code_points(word);
+    const bool digits = std::any_of(letters.begin(), letters.end(), [](char32_t c) {
+      return text::kind_of(c) == text::Kind::digit;
+    });
+    if (as_it_is && !digits && is_foreign(word)) add(word);
+  }
+  if (words.empty()) return {};
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(words.size(), 5); ++i) {
+    text += (i > 0 ? ", \"" : "\"") + words[i] + "\"";
+  }
+  if (words.size() > 5) text += " and " + std::to_string(words.size() - 5) + " more";
+  return text +
+         ": letters that the voice does not know are spoken by name or in another language; "
+         "take a voice of the language they are in (--lang)";
+}
+
+void correct_ipa(RawSpeech& raw, const text::Utterance& utterance) {
+  std::size_t speaker = 0;
+  for (VoiceEvent& event : raw.events) {
+    if (event.kind == EventKind::word && event.text_length > 0) {
+      speaker = speaker_at(event.text_position, utterance);
+    }
+    if (event.kind == EventKind::phoneme && speaker < utterance.speakers.size()) {
+      event.ipa = meant_ipa(utterance.speakers[speaker].voice, event.ipa);
+    }
+  }
+}
+
+}  // namespace animeme::voice

@@ -1,0 +1,31 @@
+/// @file
+/// Who spoke which part of a text, and what was not spoken as it should be. Internal.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/speech/text/utterance.h"
+#include "tools/speech/voice/espeak_process.h"
+
+namespace animeme::voice {
+
+/// The languages of `raw` in order, told by the words of `utterance` and by what the voice itself
+/// says of its changes ("(en)"). They cover the sound from its first word to its end.
+std::vector<SpokenLanguage> find_languages(const RawSpeech& raw, int sample_rate,
+                                           const text::Utterance& utterance);
+
+/// The marks of the document.
+std::vector<SpeechMark> find_marks(const RawSpeech& raw, int sample_rate,
+                                   const text::Utterance& utterance);
+
+/// Words that were not read: letters of another script than Latin that a voice took to another
+/// language, and words that it spelled because of a letter that it does not know. A sentence for
+/// all of them; empty if there are none.
+std::string warn_of_letters(const RawSpeech& raw, const text::Utterance& utterance,
+                            const std::vector<SpokenLanguage>& languages);
+
+/// Of events in several voices: the IPA that each of them means (espeak_ipa.h).
+void correct_ipa(RawSpeech& raw, const text::Utterance& utterance);
+
+}  // namespace animeme::voice

@@ -1,0 +1,86 @@
+/// @file
+/// A software renderer for heads: no GPU, the same pixels with any number of threads.
+///
+///     animeme::render::Renderer renderer({.width = 640, .height = 640});
+///     const animeme::render::Image& image = renderer.render(scene, camera);
+///
+/// Four samples a pixel for edges, one for colour; light is computed at the vertices, highlights of
+/// eyes and what has coats at the pixels. Coats blend as browsers do: in sRGB, farther ones first.
+/// Lights stand beside the camera: a warm key from the upper right with a red
+/// terminator (light inside of skin), a cool fill from the left, a weak rim from behind.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "fap/head/model.h"
+#include "tools/view/render/image.h"
+
+/// Pictures of heads by a software renderer.
+namespace animeme::render {
+
+/// A perspective camera. Right-handed: the picture's right is cross(target - eye, up).
+struct Camera {
+  head::Vec3 eye = {0, 0, 100};   ///< where it stands, cm
+  head::Vec3 target = {0, 0, 0};  ///< where it looks, cm
+  head::Vec3 up = {0, 1, 0};      ///< any direction but that of the view
+  float view_angle = 0.45f;       ///< from the bottom of the picture to its top, rad
+};
+
+/// A mesh to draw. All spans are borrowed; those of vertices have the same length.
+/// Triangles that the camera sees clockwise are not drawn.
+struct Surface {
+  std::span<const head::Vec3> positions;           ///< cm
+  std::span<const head::Vec3> normals;             ///< length 1
+  std::span<const head::Vec3> colours;             ///< linear RGB
+  std::span<const float> occlusion;                ///< 0..1
+  std::span<const head::Triangle> triangles;       ///< indices of the vertices
+  head::Material material = head::Material::skin;  ///< how light falls on it
+  head::Transform transform;                       ///< applied to positions and normals
+  /// What is drawn in place of `triangles` if there are any: see head::Mesh. Facets with an index
+  /// or coat that does not exist are not drawn.
+  std::span<const head::Triangle> facets;
+  std::span<const head::Corner> corners;        ///< of facets
+  std::span<const std::uint16_t> facet_coats;   ///< of each facet, index of `coats`
+  std::span<const head::Coat> coats;            ///< see head::Head
+  std::span<const head::Vec3> normals_at_rest;  ///< of vertices; corners turn along with them
+};
+
+/// What is drawn; depth decides what is in front.
+struct Scene {
+  std::vector<Surface> surfaces;  ///< in any order
+};
+
+/// Size and effort; the pixels do not depend on `threads`.
+struct RenderOptions {
+  int width = 640;                             ///< pixels, 1..8192
+  int height = 640;                            ///< pixels, 1..8192
+  int threads = 0;                             ///< 0: as many as the machine has
+  std::uint32_t background_top = 0x51606E;     ///< sRGB
+  std::uint32_t background_bottom = 0x262B33;  ///< sRGB
+};
+
+/// Draws one picture after the other and keeps its memory.
+class Renderer {
+ public:
+  /// Sizes outside of their range are clamped.
+  explicit Renderer(const RenderOptions& options);
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;  ///< movable
+  Renderer& operator=(Renderer&&) noexcept;
+
+  /// The picture is valid until the next call. Triangles nearer to the camera than 1 or with an
+  /// index beyond the vertices are not drawn.
+  const Image& render(const Scene& scene, const Camera& camera);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// One picture.
+Image render(const Scene& scene, const Camera& camera, const RenderOptions& options = {});
+
+}  // namespace animeme::render

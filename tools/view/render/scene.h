@@ -1,0 +1,23 @@
+/// @file
+/// Heads as scenes, and cameras that look at them.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "fap/head/rig.h"
+#include "tools/view/render/raster.h"
+
+namespace animeme::render {
+
+/// The parts of a head in a pose. The scene borrows from all three.
+Scene scene_of(const head::Head& head, const head::Rig& rig, const head::Pose& pose);
+
+/// A camera in front of a head, turned about it: degrees to the person's left (90: the left side)
+/// and up. `zoom` 1 shows head and shoulders, larger values come nearer to the face.
+Camera look_at(const head::Head& head, double left_degrees, double up_degrees = 0, double zoom = 1);
+
+/// Degrees of "front" (0), "three-quarter" (35), "side" (90) or a number; nothing for other text.
+std::optional<double> view_degrees(std::string_view text);
+
+}  // namespace animeme::render

@@ -1,0 +1,165 @@
+#include "tools/view/studio/film.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <span>
+
+#include "tools/formats/files/files.h"
+#include "tools/formats/media/video.h"
+#include "tools/view/plot/strip.h"
+#include "tools/view/studio/picture_file.h"
+
+namespace animeme::studio {
+
+namespace {
+
+constexpr int kStripHeight = 128;
+constexpr double kLongestPage = 6;  // seconds of curves in view
+
+double seconds_of(const media::MuxInput& sound) {
+  if (sound.audio != nullptr) return sound.audio->duration();
+  if (sound.encoded == nullptr) return 0;
+  return double(sound.encoded->length) / sound.encoded->format.sample_rate;
+}
+
+// The face at `seconds`: between two frames, in proportion.
+fap::Frame face_at(const fap::Sequence& clip, double seconds) {
+  const double at = seconds * clip.rate.frames_per_second();
+  const auto last = clip.frames.size() - 1;
+  // A picture that falls on a frame shows it exactly.
+  const auto index = std::size_t(std::clamp(std::floor(at + 1e-6), 0.0, double(last)));
+  fap::Frame frame = clip.frames[index];
+  const double share = at - double(index);
+  if (index == last || share < 1e-3 || frame.mask[1] || frame.mask[2]) return frame;
+  const fap::Frame& next = clip.frames[index + 1];
+  for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+    const double value = frame.value[fap] + share * (double(next.value[fap]) - frame.value[fap]);
+    frame.value[fap] = std::int32_t(std::lround(value));
+  }
+  return frame;
+}
+
+// Encoders halve the colour, so sides are even.
+int even(int side) { return side - side % 2; }
+
+// Takes the pictures one by one, with their numbers.
+using TakePicture = std::function<Result<void>(std::span<const std::uint8_t> rgba, std::int64_t)>;
+
+// The film as it will be; `pictures` counts what was drawn when it ended.
+Result<Film> render_all(const fap::Sequence& clip, double seconds, const FilmOptions& options,
+                        const TakePicture& take, const tools::Talk& talk,
+                        const tools::Progress& progress) {
+  const HeadLook& look = options.look;
+  const fap::Rate rate = options.rate.value_or(clip.rate);
+  const bool has_strip = options.script != nullptr || !options.faps.empty();
+  HeadLook above = look;  // the head keeps clear of the strip
+  const int strip_height = has_strip ? std::min(kStripHeight, look.height / 3) : 0;
+  above.height -= strip_height;
+  Result<HeadView> view = HeadView::make(above, talk);
+  if (!view) return view.error();
+  plot::Strip strip(clip, {look.width, strip_height, options.faps, options.script,
+                           std::clamp(seconds, 0.5, kLongestPage)});
+  const auto pictures = std::int64_t(std::ceil(seconds * rate.frames_per_second() - 1e-6));
+  Film out{.width = look.width, .height = look.height, .rate = rate};
+  for (std::int64_t i = 0; i < std::max<std::int64_t>(pictures, 1); ++i) {
+    if (i > 0 && progress.stop()) {
+      out.stopped = true;
+      break;
+    }
+    const double time = rate.seconds(double(i));
+    const render::Image& image = view->draw(face_at(clip, time));
+    Result<void> taken;
+    if (has_strip) {
+      std::vector<std::uint8_t> rgba = image.rgba;
+      rgba.resize(std::size_t(look.width) * std::size_t(look.height) * 4);
+      if (auto drawn = strip.draw(time, look.height, rgba); !drawn) return drawn.error();
+      taken = take(rgba, i);
+    } else {
+      taken = take(image.rgba, i);
+    }
+    if (!taken) return taken.error();
+    ++out.pictures;
+    progress.at(double(i + 1) / double(pictures));
+  }
+  out.seconds = rate.seconds(double(out.pictures));
+  return out;
+}
+
+Result<Film> write_video(const std::string& path, const fap::Sequence& clip,
+                         const media::MuxInput& sound, const FilmOptions& options,
+                         const tools::Talk& talk, const tools::Progress& progress) {
+  Result<media::VideoCodec> codec = media::video_codec_for(tools::extension_of(path));
+  if (!codec) return codec.error();
+  const fap::Rate rate = options.rate.value_or(clip.rate);
+  Result<media::VideoEncoder> encoder = media::VideoEncoder::open(
+      {*codec, options.look.width, options.look.height, rate, options.quality});
+  if (!encoder) return encoder.error();
+  Result<Film> film = render_all(
+      clip, std::max(clip.duration(), seconds_of(sound)), options,
+      [&](std::span<const std::uint8_t> rgba, std::int64_t) { return encoder->push(rgba); }, talk,
+      progress);
+  if (!film) return film;
+  Result<media::EncodedVideo> video = encoder->finish();
+  if (!video) return video.error();
+  media::MuxInput input = sound;
+  input.video = &*video;
+  media::MuxOptions mux;
+  mux.audio = {media::usual_codec(path), options.audio_bit_rate};
+  Result<media::MuxResult> written = media::write_container(path, input, mux);
+  if (!written) return written.error();
+  film->codec = name_of(video->codec);
+  return film;
+}
+
+// Without sound.
+Result<Film> write_animation(const std::string& path, const fap::Sequence& clip,
+                             const FilmOptions& options, const tools::Talk& talk,
+                             const tools::Progress& progress) {
+  Result<Animation> animation =
+      Animation::open(options.look.width, options.look.height, picture_quality(options.quality));
+  if (!animation) return animation.error();
+  const fap::Rate rate = options.rate.value_or(clip.rate);
+  const auto instant = [&](std::int64_t picture) {
+    return int(std::lround(rate.seconds(double(picture)) * 1000));
+  };
+  Result<Film> film = render_all(
+      clip, clip.duration(), options,
+      [&](std::span<const std::uint8_t> rgba, std::int64_t picture) {
+        return animation->push(rgba, instant(picture));
+      },
+      talk, progress);
+  if (!film) return film;
+  const auto file = animation->finish(instant(std::int64_t(film->pictures)));
+  if (!file) return file.error();
+  if (auto done = tools::write_file(path, *file); !done) return done.error();
+  film->codec = "animated WebP";
+  return film;
+}
+
+}  // namespace
+
+bool is_animation(const std::string& extension) { return extension == ".webp"; }
+
+int picture_quality(int quality) { return std::clamp(100 - quality, 1, 100); }
+
+bool is_film(const std::string& extension) {
+  return extension == ".mp4" || extension == ".webm" || extension == ".mkv" ||
+         is_animation(extension);
+}
+
+Result<Film> write_film(const std::string& path, const fap::Sequence& clip,
+                        const media::MuxInput& sound, const FilmOptions& options,
+                        const tools::Talk& talk, const tools::Progress& progress) {
+  if (clip.frames.empty()) return make_error(Code::not_found, "there is no frame to show");
+  FilmOptions own = options;
+  own.look.width = even(options.look.width);
+  own.look.height = even(options.look.height);
+  Result<Film> film = is_animation(tools::extension_of(path))
+                          ? write_animation(path, clip, own, talk, progress)
+                          : write_video(path, clip, sound, own, talk, progress);
+  if (!film) return film.error().in_file(path);
+  return film;
+}
+
+}  // namespace animeme::studio

@@ -1,0 +1,211 @@
+#include "tools/view/studio/head_file.h"
+
+#include <array>
+#include <charconv>
+#include <cstdio>
+#include <filesystem>
+#include <new>
+#include <optional>
+
+#include "fap/head/obj.h"
+#include "fap/head/own_head.h"
+#include "fap/head/point_list.h"
+#include "fap/wider.h"
+#include "fap/xml/fdp.h"
+#include "fap/xml/xmt.h"
+#include "tools/formats/files/file_cache.h"
+#include "tools/formats/files/files.h"
+#include "tools/view/gltf/read_head.h"
+#include "tools/view/studio/head_store.h"
+#include "tools/view/studio/speak_check.h"
+
+namespace animeme::studio {
+namespace {
+
+constexpr const char* kOurs = "woman, man or child";
+
+// What a file name says of its format.
+enum class Format : std::uint8_t { none, obj, gltf, fdp, xmt };
+
+Format format_of(const std::string& path) {
+  const std::string kind = tools::extension_of(path);
+  if (kind == ".obj") return Format::obj;
+  if (kind == ".glb" || kind == ".gltf" || kind == ".vrm") return Format::gltf;
+  if (kind == ".fdp") return Format::fdp;
+  if (kind == ".xmt" || kind == ".xmta") return Format::xmt;
+  return Format::none;
+}
+
+Result<std::vector<head::PointRow>> read_point_list(const std::string& path) {
+  const Result<std::string> text = tools::read_text_file(path);
+  if (!text) return text.error();
+  Result<std::vector<head::PointRow>> rows = head::read_points(*text);
+  if (!rows) return rows.error().in_file(path);
+  return rows;
+}
+
+Result<head::Source> read_obj_head(const HeadChoice& choice) {
+  const Result<std::string> text = tools::read_text_file(choice.head);
+  if (!text) return text.error();
+  Result<head::ObjFile> file = head::read_obj(*text);
+  if (!file) return file.error().in_file(choice.head);
+  const Result<std::vector<head::PointRow>> rows = read_point_list(choice.points);
+  if (!rows) return rows.error();
+  Result<std::vector<head::PiecePoint>> points = head::points_on(*file, *rows);
+  if (!points) return points.error().in_file(choice.points);
+  head::Source source;
+  source.pieces = std::move(file->pieces);
+  source.points = std::move(*points);
+  return source;
+}
+
+Result<head::Source> read_gltf_head(const HeadChoice& choice) {
+  gltf::ReadOptions options;
+  if (!choice.colours_at_vertices) options.vertices = 0;
+  Result<gltf::HeadFile> file = gltf::read_head_and_vertices(choice.head, std::move(options));
+  if (!file) return file.error();
+  if (choice.points.empty()) {
+    const head::Source& source = file->source;
+    if (source.shapes.empty() && source.points.empty() && !source.eyes[0]) {
+      return make_error(Code::not_found,
+                        "there is no face in it: no morph target has a name that is known (ARKit, "
+                        "visemes, VRM), and nothing in it is an eye; with --points LIST a head is "
+                        "made of its mesh")
+          .in_file(choice.head);
+    }
+    return std::move(file->source);
+  }
+  const Result<std::vector<head::PointRow>> rows = read_point_list(choice.points);
+  if (!rows) return rows.error();
+  Result<std::vector<head::PiecePoint>> points = gltf::points_on(*file, *rows);
+  if (!points) return points.error().in_file(choice.points);
+  // The points move it then, not its shapes.
+  file->source.points = std::move(*points);
+  file->source.shapes.clear();
+  file->source.targets.clear();
+  return std::move(file->source);
+}
+
+Result<head::Source> read_xml_head(const HeadChoice& choice, Format format) {
+  const Result<std::string> text = tools::read_text_file(choice.head);
+  if (!text) return text.error();
+  const std::filesystem::path folder = std::filesystem::path(choice.head).parent_path();
+  const auto load =
+      [&, files = gltf::files_of(folder.string())](const std::string& name) -> Result<std::string> {
+    const auto bytes = files(name);
+    if (!bytes) return bytes.error().in_file((folder / name).string());
+    return std::string(bytes->begin(), bytes->end());
+  };
+  Result<head::Source> source =
+      format == Format::fdp ? head::read_fdp(*text, load) : head::read_xmt(*text);
+  if (!source) {
+    return source.error().where.file.empty() ? source.error().in_file(choice.head) : source.error();
+  }
+  return source;
+}
+
+Result<head::Source> read_source(const HeadChoice& choice) {
+  const Format format = format_of(choice.head);
+  if (format == Format::obj) return read_obj_head(choice);
+  if (format == Format::gltf) return read_gltf_head(choice);
+  return read_xml_head(choice, format);
+}
+
+Result<LoadedHead> load_as_it_is(const HeadChoice& choice) {
+  LoadedHead loaded;
+  if (head::head_parameters(choice.head)) {
+    Result<head::Head> made = ready_head(choice.head);
+    if (!made) return made.error();
+    loaded.head = std::move(*made);
+    return loaded;
+  }
+  Result<head::Source> source = read_source(choice);
+  if (!source) return source.error();
+  source->name = std::filesystem::path(choice.head).stem().string();
+  Result<head::Head> made = head::assemble(std::move(*source), &loaded.notes);
+  if (!made) return made.error().in_file(choice.head);
+  loaded.head = std::move(*made);
+  return loaded;
+}
+
+std::string gain_note(double gain) {
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), "--gain auto: lips open %.2f times as wide", gain);
+  return text.data();
+}
+
+}  // namespace
+
+std::optional<double> gain_of(const std::string& text) {
+  double gain = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, gain);
+  const bool fits = error == std::errc() && stop == end && gain >= fap::kLeastMouthGain &&
+                    gain <= fap::kMostMouthGain;
+  return fits ? std::optional(gain) : std::nullopt;
+}
+
+std::string problem_of(const HeadChoice& choice) {
+  if (choice.gain != "auto" && !gain_of(choice.gain)) {
+    return "--gain is auto or a number from 0.25 to 4, not \"" + choice.gain + "\"";
+  }
+  if (head::head_parameters(choice.head)) {
+    if (choice.points.empty()) return "";
+    return "--points is for a head of your own; give its file with --head";
+  }
+  if (!std::filesystem::exists(choice.head)) {
+    return "--head is " + std::string(kOurs) + ", or a file; there is no file \"" + choice.head +
+           "\"";
+  }
+  const Format format = format_of(choice.head);
+  if (format == Format::none) {
+    return "--head " + choice.head +
+           ": a head of your own is a .glb, .gltf, .vrm, .fdp or .xmt file, or an .obj with "
+           "--points";
+  }
+  if (format == Format::obj && choice.points.empty()) {
+    return "an .obj does not tell where its face is: add --points LIST, a text with lines such as "
+           "2.1,966 (feature point, vertex counted from 0)";
+  }
+  if ((format == Format::fdp || format == Format::xmt) && !choice.points.empty()) {
+    return "--points is for .obj and .glb; " + choice.head + " has its own points";
+  }
+  return "";
+}
+
+Result<LoadedHead> load_head(const HeadChoice& choice) {
+  if (std::string problem = problem_of(choice); !problem.empty()) {
+    return make_error(Code::invalid_argument, std::move(problem));
+  }
+  try {
+    Result<LoadedHead> loaded = load_as_it_is(choice);
+    if (!loaded) return loaded;
+    if (choice.gain == "auto") {
+      const Result<double> gain = speaking_gain(loaded->head);
+      if (!gain && gain.error().code != Code::not_found) return gain.error().in_file(choice.head);
+      loaded->head.mouth_gain = gain ? *gain : 1;
+      loaded->notes.push_back(gain ? gain_note(*gain)
+                                   : "--gain auto: lips open as the clip says, since " +
+                                         gain.error().message);
+    } else {
+      loaded->head.mouth_gain = gain_of(choice.gain).value_or(1);
+    }
+    return loaded;
+  } catch (const std::bad_alloc&) {
+    return make_error(Code::out_of_range,
+                      "there is not enough memory for this head; reduce its meshes")
+        .in_file(choice.head);
+  }
+}
+
+Result<head::Head> load_head(const HeadChoice& choice, const tools::Talk& talk) {
+  static tools::FileCache<LoadedHead> cache;  // batches ask again and again
+  const std::string how =
+      choice.points + "\n" + choice.gain + (choice.colours_at_vertices ? "c" : "");
+  Result<LoadedHead> loaded = cache.get(choice.head, how, [&] { return load_head(choice); });
+  if (!loaded) return loaded.error();
+  for (const std::string& note : loaded->notes) talk.say(choice.head + ": " + note);
+  return std::move(loaded->head);
+}
+
+}  // namespace animeme::studio

@@ -1,0 +1,49 @@
+/// @file
+/// A head, a camera and a renderer: frames in, pictures out.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "fap/frame.h"
+#include "fap/result.h"
+#include "tools/view/render/image.h"
+#include "tools/view/studio/frames.h"
+#include "tools/view/studio/head_file.h"
+
+namespace animeme::studio {
+
+/// How a head is looked at.
+struct HeadLook {
+  HeadChoice head;     ///< whose head
+  double degrees = 0;  ///< to the person's left
+  double up = 0;       ///< degrees from above
+  double zoom = 1;     ///< 1: head and shoulders
+  int width = 640;     ///< pixels
+  int height = 640;    ///< pixels
+};
+
+/// Movable, not copyable.
+class HeadView {
+ public:
+  /// Errors and talk: those of load_head().
+  static Result<HeadView> make(const HeadLook& look, const tools::Talk& talk = {});
+  HeadView(HeadView&&) noexcept;  ///< leaves the other one empty
+  HeadView& operator=(HeadView&&) noexcept;
+  ~HeadView();
+
+  /// The picture is valid until the next call.
+  const render::Image& draw(const fap::Frame& frame);
+
+ private:
+  struct State;
+  explicit HeadView(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+/// Pictures of frames side by side, `columns` in a row. Errors: those of HeadView::make() and
+/// render::contact_sheet().
+Result<render::Image> draw_sheet(const HeadLook& look, std::span<const ShownFrame> frames,
+                                 int columns, const tools::Talk& talk = {});
+
+}  // namespace animeme::studio

@@ -1,0 +1,188 @@
+#include <algorithm>
+#include <span>
+
+#include "fap/head/shapes.h"
+#include "fap/tables.h"
+#include "tools/formats/common/json.h"
+#include "tools/formats/common/xml.h"
+#include "tools/view/viewer/detail/bytes.h"
+#include "tools/view/viewer/detail/parts.h"
+#include "tools/view/viewer/viewer.h"
+
+namespace animeme::viewer {
+namespace {
+
+using detail::Bytes;
+using tools::Json;
+using tools::json_list;
+
+// JSON inside of a script element: nothing in it can end the element.
+std::string script_text(const Json& json) {
+  std::string out;
+  for (const char c : detail::text_of(json)) out += c == '<' ? "\\u003c" : std::string(1, c);
+  return out;
+}
+
+std::string packed(std::span<const std::uint8_t> bytes) {
+  return detail::base64(detail::deflated(bytes));
+}
+
+void write_column(const std::vector<head::ControlValues>& frames, std::size_t control, Bytes& out) {
+  std::int64_t last = 0;
+  for (const head::ControlValues& frame : frames) {
+    const std::int64_t value = std::lround(frame[control]);
+    out.zigzag(value - last);
+    last = value;
+  }
+}
+
+// The columns of a clip: for each control that moves, differences from frame to frame; then those
+// that the clip does not carry and that follow from others.
+std::string pack_clip(const Clip& clip, const head::Rig& rig) {
+  std::vector<head::ControlValues> frames;
+  frames.reserve(clip.motion.frames.size());
+  fap::Mask carried;
+  for (const fap::Frame& frame : clip.motion.frames) {
+    frames.push_back(head::control_values(rig, frame));
+    carried |= head::low_level(frame).mask;
+  }
+  std::vector<std::size_t> controls;
+  std::vector<std::size_t> derived;
+  for (std::size_t c = fap::kFirstLowLevel; c < frames.front().size(); ++c) {
+    const bool moves = std::any_of(frames.begin(), frames.end(),
+                                   [c](const auto& frame) { return std::lround(frame[c]) != 0; });
+    const bool own = c > std::size_t(fap::kFapCount) || carried[c];
+    if (moves) (own ? controls : derived).push_back(c);
+  }
+  Bytes data;
+  for (const auto* list : {&controls, &derived}) {
+    for (const std::size_t c : *list) write_column(frames, c, data);
+  }
+  const fap::Rate rate = clip.motion.rate;
+  const Json header{{"name", clip.name},       {"rate", {rate.num, rate.den}},
+                    {"start", clip.start},     {"first", clip.motion.frames.front().number},
+                    {"frames", frames.size()}, {"controls", controls},
+                    {"derived", derived}};
+  return packed(detail::with_header(header, data));
+}
+
+Json fap_of(const fap::FapInfo& info) {
+  return {{"number", info.number},
+          {"name", info.name},
+          {"group", info.group},
+          {"unit", fap::unit_name(info.unit)},
+          {"point", info.feature_point}};
+}
+
+Json phone_of(const dam::Phone& phone) {
+  return Json::array({phone.start, phone.end, phone.label, phone.word});
+}
+
+Json facts_of(const Page& page) {
+  Json facts{{"faps", json_list(fap::kFaps, fap_of)},
+             {"groups", json_list(fap::kGroups, &fap::GroupInfo::name)},
+             {"phones", json_list(page.script.phones, phone_of)}};
+  if (page.sound) facts["sound"] = page.sound->type;
+  if (!page.others.empty()) {
+    Json names = json_list(page.others, &OtherHead::name);
+    names.insert(names.begin(), page.head_name);
+    facts["heads"] = std::move(names);
+  }
+  return facts;
+}
+
+std::string data_element(const std::string& id, const std::string& text) {
+  return "<script type=\"text/plain\" id=\"" + id + "\">" + text + "</script>\n";
+}
+
+std::string data_elements(const Page& page) {
+  std::string out = "<script type=\"application/json\" id=\"facts\">" +
+                    script_text(facts_of(page)) + "</script>\n" +
+                    data_element("model", packed(pack_head(*page.head, *page.rig)));
+  std::vector<std::string> clips;
+  for (std::size_t i = 0; i < page.clips.size(); ++i) {
+    clips.push_back(pack_clip(page.clips[i], *page.rig));
+    out += data_element("clip" + std::to_string(i), clips.back());
+  }
+  for (std::size_t k = 0; k < page.others.size(); ++k) {
+    const OtherHead& other = page.others[k];
+    const std::string number = "_" + std::to_string(k + 1);
+    out += data_element("model" + number, packed(pack_head(*other.head, *other.rig)));
+    // Shapes have columns of their own; what moves by FAPs takes those of the first head.
+    for (std::size_t i = 0; i < page.clips.size(); ++i) {
+      const std::string clip = pack_clip(page.clips[i], *other.rig);
+      if (clip != clips[i]) out += data_element("clip" + std::to_string(i) + number, clip);
+    }
+  }
+  if (page.sound) out += data_element("sound", detail::base64(page.sound->file));
+  return out;
+}
+
+struct Mark {
+  std::string_view name;
+  std::string text;
+};
+
+// One pass: marks inside of what was put in are no marks.
+std::string filled(std::string_view text, const std::vector<Mark>& marks) {
+  std::string out;
+  while (!text.empty()) {
+    std::size_t first = std::string_view::npos;
+    const Mark* next = nullptr;
+    for (const Mark& mark : marks) {
+      const std::size_t at = text.find(mark.name);
+      if (at < first) {
+        first = at;
+        next = &mark;
+      }
+    }
+    out += text.substr(0, first);
+    if (next == nullptr) break;
+    out += next->text;
+    text.remove_prefix(first + next->name.size());
+  }
+  return out;
+}
+
+std::string head_modules() {
+  return "const RIG_MODULE = '" + packed(detail::kRigModule) + "';\n" +
+         std::string(detail::kHeadModules);
+}
+
+}  // namespace
+
+Result<std::string> make_page(const Page& page) {
+  if (page.head == nullptr || page.rig == nullptr) {
+    return make_error(Code::invalid_argument, "a page needs a head and its rig");
+  }
+  for (const OtherHead& other : page.others) {
+    if (other.head == nullptr || other.rig == nullptr) {
+      return make_error(Code::invalid_argument, "another head needs its rig, too");
+    }
+  }
+  if (page.clips.empty() || page.clips.size() > 2) {
+    return make_error(Code::invalid_argument, "a page shows one clip, or two to compare");
+  }
+  for (const Clip& clip : page.clips) {
+    if (clip.motion.frames.empty() || !clip.motion.rate.valid()) {
+      return make_error(Code::invalid_argument, "a clip needs frames and a rate");
+    }
+  }
+  // Through JSON and back: what is no UTF-8 becomes a replacement mark.
+  const std::string name = Json::parse(detail::text_of(page.clips[0].name)).get<std::string>();
+  const std::string script = head_modules() + std::string(detail::kPageModules);
+  return filled(detail::kTemplate, {{"<!--title-->", tools::escape_xml(name)},
+                                    {"/*style*/", std::string(detail::kStyle)},
+                                    {"<!--data-->", data_elements(page)},
+                                    {"/*script*/", script}});
+}
+
+bool moves_heads() { return !detail::kRigModule.empty(); }
+
+std::string_view head_script() {
+  // Who uses it reads heads at once; the page has something else to do meanwhile.
+  static const std::string script = head_modules() + "await rigReady;\n";
+  return script;
+}
+
+}  // namespace animeme::viewer

@@ -1,9 +1,0 @@
-#include "tools/voice/rate_change.h"
-
-namespace animeme::voice {
-
-Result<std::unique_ptr<RateChange>> RateChange::open(int) {
-  return make_error(Code::unsupported, "this build cannot listen: it was made without speexdsp");
-}
-
-}  // namespace animeme::voice
