@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "tests/structure/rooms.h"
+#include "tests/structure/modules.h"
 #include "tests/structure/rules.h"
 #include "tests/structure/tree.h"
 
@@ -48,7 +48,7 @@ TEST(Structure, NoFileNamesPathsOfOneMachine) {
   EXPECT_THAT(violations(path_violations, [](std::string_view) { return true; }), IsEmpty());
 }
 
-TEST(Structure, FoldersHaveAReadmeAndAPlaceAmongTheRooms) {
+TEST(Structure, FoldersHaveAReadmeAndAModule) {
   std::vector<std::string> paths;
   for (const SourceFile& file : tree()) paths.push_back(file.path);
   EXPECT_THAT(folder_violations(paths), IsEmpty());
@@ -137,8 +137,8 @@ TEST(StructureRules, LayersFire) {
 TEST(StructureRules, NoRowGoesRoundInCircles) {
   // "a/b.h" for the first folder of each row; a row may be that of a file.
   std::vector<std::string> headers;
-  for (const Room& room : kRooms) {
-    std::string first(room.folders.substr(0, room.folders.find(' ')));
+  for (const Module& module : kModules) {
+    std::string first(module.folders.substr(0, module.folders.find(' ')));
     if (first.ends_with("/*")) first.back() = 'x';
     headers.push_back(first.ends_with(".h") ? first : first + "/x.h");
   }

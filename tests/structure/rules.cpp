@@ -5,7 +5,7 @@
 #include <iterator>
 #include <set>
 
-#include "tests/structure/rooms.h"
+#include "tests/structure/modules.h"
 #include "tests/structure/tree.h"
 
 namespace animeme::test {
@@ -49,21 +49,22 @@ bool fits(std::string_view name, std::string_view pattern) {
                                  : name == pattern;
 }
 
-const Room* room_of(std::string_view path) {
+const Module* module_of(std::string_view path) {
   std::string_view folder = path.substr(0, std::min(path.rfind('/'), path.size()));
   if (folder.ends_with("/detail")) folder.remove_suffix(7);
-  for (const Room& room : kRooms) {
-    if (any_word(room.folders, [&](std::string_view f) { return fits(folder, f) || path == f; })) {
-      return &room;
+  for (const Module& module : kModules) {
+    if (any_word(module.folders,
+                 [&](std::string_view f) { return fits(folder, f) || path == f; })) {
+      return &module;
     }
   }
   return nullptr;
 }
 
-bool reaches(const Room& room, const Room& below) {
-  if (&room == &below) return true;
-  return any_word(room.stands_on, [&](std::string_view pattern) {
-    return std::any_of(std::begin(kRooms), std::end(kRooms), [&](const Room& next) {
+bool reaches(const Module& module, const Module& below) {
+  if (&module == &below) return true;
+  return any_word(module.depends_on, [&](std::string_view pattern) {
+    return std::any_of(std::begin(kModules), std::end(kModules), [&](const Module& next) {
       return any_word(next.folders, [&](std::string_view f) { return fits(f, pattern); }) &&
              reaches(next, below);
     });
@@ -71,15 +72,16 @@ bool reaches(const Room& room, const Room& below) {
 }
 
 bool is_installed(std::string_view path) {
-  const Room* room = room_of(path);
-  return is_header(path) && !is_internal(path) && room != nullptr && room->installed;
+  const Module* module = module_of(path);
+  return is_header(path) && !is_internal(path) && module != nullptr && module->installed;
 }
 
 std::string own_rule(std::string_view path, std::string_view header) {
-  const Room* room = room_of(path);
-  if (room == nullptr) return "this folder has no row in tests/structure/rooms.h";
-  if (room_of(header) == nullptr) return "no room has this header; paths start at the root";
-  if (!may_include(path, header)) return "the room does not stand on that of";
+  const Module* module = module_of(path);
+  if (module == nullptr) return "this folder has no row in tests/structure/modules.h";
+  if (module_of(header) == nullptr)
+    return "no module has this header; paths start at the top folder";
+  if (!may_include(path, header)) return "the module does not depend on that of";
   if (is_installed(path) && is_internal(header)) return "an installed header shows an internal one";
   return {};
 }
@@ -92,10 +94,10 @@ std::string library_rule(std::string_view path, std::string_view header) {
       continue;
     }
     const std::string name(library.name);
-    if (!any_word(library.homes, [&](std::string_view home) {
+    if (!any_word(library.allowed_in, [&](std::string_view home) {
           return path == home || fits(path, std::string(home) + "/*");
         })) {
-      return name + " belongs to " + std::string(library.homes);
+      return name + " belongs to " + std::string(library.allowed_in);
     }
     if (is_header(path) && library.sources_only) return name + " must not show in a header";
     if (is_installed(path)) return name + " must not show in a header that is installed";
@@ -147,8 +149,8 @@ std::vector<Include> includes_of(std::string_view text) {
 }
 
 bool may_include(std::string_view path, std::string_view header) {
-  const Room *room = room_of(path), *other = room_of(header);
-  return room != nullptr && other != nullptr && reaches(*room, *other);
+  const Module *module = module_of(path), *other = module_of(header);
+  return module != nullptr && other != nullptr && reaches(*module, *other);
 }
 
 std::vector<std::string> include_violations(std::string_view path, std::string_view text) {
@@ -214,8 +216,8 @@ std::vector<std::string> folder_violations(const std::vector<std::string>& paths
     if ((!is_code(path) && !script) || starts_with(path, "tests/data/")) continue;
     const std::string folder = path.substr(0, path.rfind('/'));
     if (!seen.insert(folder).second) continue;
-    if (!script && room_of(path) == nullptr) {
-      result.push_back(folder + ": has no row in tests/structure/rooms.h");
+    if (!script && module_of(path) == nullptr) {
+      result.push_back(folder + ": has no row in tests/structure/modules.h");
     }
     if (contains(folder, "/detail/")) continue;  // detail/README.md covers what is inside
     if (std::find(paths.begin(), paths.end(), folder + "/README.md") == paths.end()) {

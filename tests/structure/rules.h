@@ -17,7 +17,8 @@ struct Include {
 
 std::vector<Include> includes_of(std::string_view text);
 
-/// True if a file of one folder may include one of another, by rooms.h. Paths of files of the tree.
+/// True if a file of one folder may include one of another, by modules.h. Paths of files of the
+/// tree.
 bool may_include(std::string_view path, std::string_view header);
 
 /// What breaks the rules in a file. `path` is relative to the root of the tree, with '/'. Each
@@ -29,7 +30,7 @@ std::vector<std::string> path_violations(std::string_view path, std::string_view
 /// A README of more than a page: 60 lines, where empty lines, tables and code do not count.
 std::vector<std::string> page_violations(std::string_view path, std::string_view text);
 
-/// Folders of sources that have no README.md or, for C++, no row in rooms.h. `paths`: all files.
+/// Folders of sources that have no README.md or, for C++, no row in modules.h. `paths`: all files.
 std::vector<std::string> folder_violations(const std::vector<std::string>& paths);
 
 }  // namespace animeme::test

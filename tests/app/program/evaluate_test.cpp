@@ -172,7 +172,7 @@ void write_tracks(const std::string& folder, const std::string& model,
   for (const dam::Utterance& u : read->utterances) {
     const auto made =
         animeme({"speak", "--model", model, "--script", corpus() + "/phonemes/" + u.id + ".tsv",
-                 "--articulate", "0", "--no-life", "-o", folder + "/" + u.id + extension});
+                 "--articulate", "0", "--no-idle-motion", "-o", folder + "/" + u.id + extension});
     ASSERT_EQ(made.exit_code, 0) << made.err;
   }
 }

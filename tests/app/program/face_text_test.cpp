@@ -200,7 +200,8 @@ TEST(FaceText, SpeechIsForPlayers) {
   spill(dir / "s.tsv",
         "start_s\tend_s\tphone\n0\t0.2\tSIL\n0.2\t0.3\tB\n0.3\t0.5\tAA\n0.5\t0.6\tM\n");
   for (const char* rate : {"25", "29.97"}) {
-    succeeds({"speak", "--script", dir / "s.tsv", "--rate", rate, "--life", "-o", dir / "a.fap"});
+    succeeds(
+        {"speak", "--script", dir / "s.tsv", "--rate", rate, "--idle-motion", "-o", dir / "a.fap"});
     expect_right(dir / "a.fap");
   }
   succeeds({"speak", "--script", dir / "s.tsv", "--rate", "29.97", "--exact", "-o", dir / "b.fap"});

@@ -97,10 +97,11 @@ TEST_F(Rig, SpeaksWithinItsLimits) {
 
 TEST_F(Rig, ShapesGoToOtherProgramsAndBecomeAFace) {
   const std::string model = train("a.dam");
-  const dam::Signal own = curves(model, {"--life"});
-  const std::vector<std::string> speak = {"speak",   "--text", "Papa was far away. Mama, too.",
-                                          "--model", model,    "--style",
-                                          "1.5",     "--life", "-o"};
+  const dam::Signal own = curves(model, {"--idle-motion"});
+  const std::vector<std::string> speak = {
+      "speak",   "--text",        "Papa was far away. Mama, too.",
+      "--model", model,           "--style",
+      "1.5",     "--idle-motion", "-o"};
   const auto write = [&](const std::string& name) {
     auto arguments = speak;
     arguments.push_back(dir_ / name);
@@ -119,7 +120,7 @@ TEST_F(Rig, ShapesGoToOtherProgramsAndBecomeAFace) {
     EXPECT_NEAR(double(json["frames"][i][jaw]), own.at(i, 0), 1e-6);
     closed = std::max(closed, double(json["frames"][i][blink]));
   }
-  EXPECT_DOUBLE_EQ(closed, 1) << "--life closes the eyes";
+  EXPECT_DOUBLE_EQ(closed, 1) << "--idle-motion closes the eyes";
   EXPECT_EQ(own.names[3], "eyeBlink_L") << "in the spelling of its own";
   const std::string table = slurp(write("talk.livelink.csv"));
   EXPECT_TRUE(table.starts_with("Timecode,BlendShapeCount,EyeBlinkLeft"));

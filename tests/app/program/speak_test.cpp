@@ -283,11 +283,11 @@ TEST(Speak, StyleAndLife) {
     for (const fap::Frame& frame : clip.frames) most = std::max(most, frame.value[3]);
     return most;
   };
-  const fap::Sequence plain = clip_of({"--no-life"});
+  const fap::Sequence plain = clip_of({"--no-idle-motion"});
   EXPECT_GT(largest_jaw(clip_of({"--style", "1.4"})), largest_jaw(plain));
   EXPECT_LT(largest_jaw(clip_of({"--style", "0.5"})), largest_jaw(plain));
   EXPECT_FALSE(plain.frames[0].mask[19]);
-  EXPECT_NE(clip_of({"--no-life", "--articulate", "0"}).frames, plain.frames);
+  EXPECT_NE(clip_of({"--no-idle-motion", "--articulate", "0"}).frames, plain.frames);
   const fap::Sequence alive = clip_of({});
   EXPECT_TRUE(alive.frames[0].mask[19] && alive.frames[0].mask[48]);
   EXPECT_EQ(largest_jaw(alive), largest_jaw(plain));

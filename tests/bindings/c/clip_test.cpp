@@ -3,7 +3,7 @@
 #include "codec/encode/live.h"
 #include "dam/model/builtin.h"
 #include "dam/signal/fap_signal.h"
-#include "dam/speaking/life.h"
+#include "dam/speaking/idle_motion.h"
 #include "dam/speaking/synthesise.h"
 #include "fap/arkit.h"
 #include "fap/fill.h"
@@ -314,7 +314,7 @@ TEST_F(CSpeech, SpeaksAsTheLibraryDoes) {
   options.articulation = 1;
   auto signal = dam::synthesise(*builtin, *script, options);
   ASSERT_TRUE(signal);
-  ASSERT_TRUE(dam::add_life(*signal, *script));
+  ASSERT_TRUE(dam::add_idle_motion(*signal, *script));
   expect_same(speak(nullptr).get(), *dam::to_sequence(*signal));
   EXPECT_NE(std::string(animeme_model_attribution(model.get())).find("GRID"), std::string::npos);
 }
@@ -322,7 +322,7 @@ TEST_F(CSpeech, SpeaksAsTheLibraryDoes) {
 TEST_F(CSpeech, AStreamHasTheSameFramesAndOutlivesItsModel) {
   animeme_speak_options options;
   animeme_speak_options_init(&options, sizeof options);
-  options.life = -1;
+  options.idle_motion = -1;
   const auto want = speak(&options);
   animeme_speech* made = nullptr;
   ASSERT_EQ(animeme_speech_new(model.get(), &options, &made, nullptr), ANIMEME_OK);

@@ -111,7 +111,7 @@ test('the values of the page are those of node', async () => {
 test('an mp4 plays on a head', async () => {
   const page = await open();
   await put(page, {src: '/media/talk.mp4', head: '/media/head.glb', controls: '', autoplay: '', label: 'Ada'});
-  await page.evaluate('face.dressed.then(() => true)');
+  await page.evaluate('face.headLoaded.then(() => true)');
   const size = await page.evaluate('[face.canvas.clientWidth, face.canvas.clientHeight]');
   assert.deepEqual(size, [320, 400]);
   await page.wait('events.includes("ended")');
@@ -295,7 +295,7 @@ for (const name of ['arkit_and_visemes', 'visemes_only', 'brunette-t']) {
   test(`an avatar of users: ${name}`, {skip: there ? false : 'no avatars beside the tree'}, async () => {
     const page = await open();
     await put(page, {src: '/media/talk.fba', head: `/avatars/${name}.glb`});
-    await page.evaluate('face.dressed.then(() => true)');
+    await page.evaluate('face.headLoaded.then(() => true)');
     await page.evaluate('face.loaded.then(() => true)');
     const moved = await page.evaluate(async () => {
       face.currentTime = 0.5;

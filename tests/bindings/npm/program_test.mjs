@@ -103,7 +103,7 @@ test('a speaker says what the program says', async () => {
     const [start, end, phone] = line.split('\t');
     return {start: Number(start), end: Number(end), phone: phone.replace(/[0-9]$/, '')};
   });
-  const plain = speaker.speak(phones, {life: -1, rate: 50});
+  const plain = speaker.speak(phones, {idleMotion: -1, rate: 50});
   const speech = speaker.begin({rate: 50});
   const live = [];
   for (const phone of phones) {

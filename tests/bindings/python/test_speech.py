@@ -34,13 +34,13 @@ def spoken(model):
 
 
 def test_phones_become_a_face(model, phones):
-    speech = model.speak(phones, life=False)
+    speech = model.speak(phones, idle_motion=False)
     assert speech.names == model.controls and speech.values.shape == (len(speech.times), len(speech.names))
     assert speech.audio is None and speech.sample_rate == 0 and speech.phones == phones
     assert speech.rate == 25 and len(speech.clip) == len(speech.times)
     assert (speech.clip["open_jaw"] == np.round(speech.values[:, speech.names.index("fap3_open_jaw")])).all()
     assert len(model.speak(phones, rate=50).clip) == pytest.approx(2 * len(speech.clip), abs=1)
-    still = model.speak([tuple(p)[:3] for p in phones], style=0, articulation=0, life=False).values
+    still = model.speak([tuple(p)[:3] for p in phones], style=0, articulation=0, idle_motion=False).values
     assert np.ptp(still, axis=0).max() < np.ptp(speech.values, axis=0).max() / 2
     lively = model.speak(phones, seed=3)
     assert lively.names[: len(model.controls)] == model.controls and "fap19_close_t_l_eyelid" in lively.names
@@ -48,7 +48,7 @@ def test_phones_become_a_face(model, phones):
 
 @pytest.mark.skipif(not PROGRAM.exists(), reason="the program is not built")
 def test_the_face_is_that_of_the_program(model, phones, tmp_path):
-    command = [PROGRAM, "speak", "--script", SAMPLE / "phonemes/prac8p.tsv", "-o", tmp_path / "a.csv", "--life"]
+    command = [PROGRAM, "speak", "--script", SAMPLE / "phonemes/prac8p.tsv", "-o", tmp_path / "a.csv", "--idle-motion"]
     subprocess.run(command, check=True, capture_output=True)
     assert animeme.load(tmp_path / "a.csv") == model.speak(phones).clip
 
@@ -101,7 +101,7 @@ def test_wrong_wishes(model, phones):
 
 
 def test_streams_give_the_frames_of_the_whole(model, phones):
-    whole = model.speak(phones, life=False).values
+    whole = model.speak(phones, idle_motion=False).values
     stream = animeme.SpeechStream(model)
     pieces = [stream.push(*phone) for phone in phones]
     assert any(len(piece) for piece in pieces)
@@ -126,7 +126,7 @@ def test_models_of_other_rigs_have_values_alone(phones):
         speech.clip
     assert caught.value.code == "not_found"
     with pytest.raises(animeme.Error):
-        rig.speak(phones, life=True)
+        rig.speak(phones, idle_motion=True)
 
 
 @pytest.fixture(scope="module")

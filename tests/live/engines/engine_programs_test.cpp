@@ -26,8 +26,8 @@ using testing::HasSubstr;
 class EnginePrograms : public testing::Test {
  protected:
   void SetUp() override {
-    const auto made = animeme({"speak", "--text", "Hello my old friend, how are you?", "--life",
-                               "--intra-seconds", "0.4", "-o", talk});
+    const auto made = animeme({"speak", "--text", "Hello my old friend, how are you?",
+                               "--idle-motion", "--intra-seconds", "0.4", "-o", talk});
     ASSERT_EQ(made.exit_code, 0) << made.err;
     ASSERT_EQ(animeme({"export", talk, "-o", dir / "talk.json"}).exit_code, 0);
     exported = Json::parse(slurp(dir / "talk.json"));

@@ -157,7 +157,7 @@ class Heads(unittest.TestCase):
     def test_what_is_wrong_is_told(self):
         for body, sentence in [
                 ('{"pitch": 101}', '"pitch" is a whole number from 0 to 100'),
-                ('{"pitch": 1.5}', '"pitch" is a whole number'), ('{"life": 1}', '"life" is true or false'),
+                ('{"pitch": 1.5}', '"pitch" is a whole number'), ('{"idle_motion": 1}', '"idle_motion" is true or false'),
                 ('{"colour": "red"}', 'no "colour"; there are articulate'), ('[1]', "JSON object"),
                 ('{"pitch": ', "no JSON"), ('{"model": "../../etc/passwd"}', "there is no model"),
                 ('{"lang": "no such language"}', "no such"), ('{"rate": "1e9"}', "rate"),

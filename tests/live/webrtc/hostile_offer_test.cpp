@@ -51,17 +51,18 @@ class HostileOffer : public ::testing::Test {
  protected:
   void SetUp() override {
     if (const auto there = webrtc::load(); !there) GTEST_SKIP() << there.error().message;
-    peers_ = webrtc::make_peers({}, true);
+    peer_connections_ = webrtc::make_peer_connections({}, true);
     media::AudioFormat opus;
     opus.codec = media::AudioCodec::opus;
-    ASSERT_TRUE(peers_->start({.face_config = {0, 0, 1, 0xB0, 0x61}, .audio = opus}, 1000, 0));
+    ASSERT_TRUE(
+        peer_connections_->start({.face_config = {0, 0, 1, 0xB0, 0x61}, .audio = opus}, 1000, 0));
   }
 
   /// The status of the answer, 0: none came.
   unsigned offer(const std::string& sdp) {
     std::unique_lock lock(mutex_);
     answered_ = false;
-    peers_->offer(sdp, "x", [this](web::PeerAnswer answer) {
+    peer_connections_->offer(sdp, "x", [this](web::PeerAnswer answer) {
       const std::lock_guard inner(mutex_);
       answer_ = std::move(answer);
       answered_ = true;
@@ -77,12 +78,12 @@ class HostileOffer : public ::testing::Test {
     ++(status == 201 ? taken_ : refused_);
     if (status != 201) return;
     EXPECT_THAT(answer_.text, ::testing::StartsWith("v=0"));
-    for (int i = 0; i < 1000 && !peers_->end(answer_.id); ++i) {
+    for (int i = 0; i < 1000 && !peer_connections_->end(answer_.id); ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
   }
 
-  std::unique_ptr<web::Peers> peers_;
+  std::unique_ptr<web::PeerConnections> peer_connections_;
   std::mutex mutex_;
   std::condition_variable changed_;
   bool answered_ = false;

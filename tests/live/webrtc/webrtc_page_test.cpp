@@ -70,8 +70,9 @@ TEST_F(WebRtcPage, SurvivesLossAndJitter) {
 }
 
 TEST_F(WebRtcPage, HttpHasItToo) {
-  run(web::make_web_sink("http://127.0.0.1:0",
-                         {.make_peers = [] { return webrtc::make_peers(); }}));
+  run(web::make_web_sink("http://127.0.0.1:0", {.make_peer_connections = [] {
+                           return webrtc::make_peer_connections();
+                         }}));
   start();
   expect_webrtc();
 }

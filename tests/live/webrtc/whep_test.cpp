@@ -25,7 +25,7 @@ struct Seen {
   bool answers = true, starts = true;
 };
 
-class Fake : public web::Peers {
+class Fake : public web::PeerConnections {
  public:
   explicit Fake(Seen& seen) : seen_(seen) {}
   ~Fake() override { finish(); }
@@ -63,7 +63,7 @@ class Fake : public web::Peers {
 class Whep : public ::testing::Test {
  protected:
   void serve(web::WebOptions options = {}) {
-    options.make_peers = [this] { return std::make_unique<Fake>(seen_); };
+    options.make_peer_connections = [this] { return std::make_unique<Fake>(seen_); };
     auto sink = web::make_web_sink("http://127.0.0.1:0/", options);
     ASSERT_TRUE(sink);
     sink_ = std::move(*sink);
@@ -173,8 +173,8 @@ TEST_F(Whep, WithoutWebRtcThereIsNone) {
   EXPECT_EQ(status_of(ask_for("GET /whep")), 404);
   EXPECT_THAT(get(port_, "/info.json"), ::testing::Not(HasSubstr("webrtc")));
   web::WebOptions options;
-  options.must_have_peers = true;
-  options.make_peers = [this] { return std::make_unique<Fake>(seen_); };
+  options.must_have_peer_connections = true;
+  options.make_peer_connections = [this] { return std::make_unique<Fake>(seen_); };
   auto sink = web::make_web_sink("http://127.0.0.1:0/", options);
   ASSERT_TRUE(sink);
   const auto started = (*sink)->start(show_.info);

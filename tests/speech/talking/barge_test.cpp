@@ -63,7 +63,7 @@ struct Stage {
 
   explicit Stage(bool life = false) {
     SpeakerOptions options;
-    options.face.life = life;
+    options.face.idle_motion = life;
     options.events = true;
     options.fap_quant = 0;  // exactly
     options.audio = media::AudioSettings{media::AudioCodec::opus};

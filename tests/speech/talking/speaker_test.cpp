@@ -266,7 +266,7 @@ TEST_F(Speaker, LinesThatComeTogetherFollowEachOther) {
 
 TEST_F(Speaker, LifeBlinksWhileIdleAndNeverJumps) {
   SpeakerOptions options;
-  options.face.life = true;
+  options.face.idle_motion = true;
   open(options);
   run(7.6);
   lines.waiting.push_back(make_line());
@@ -325,7 +325,7 @@ TEST_F(Speaker, SameLinesAtTheSameTimesGiveTheSameBytes) {
     planes.clear();
     packets.clear();
     SpeakerOptions options;
-    options.face.life = true;
+    options.face.idle_motion = true;
     open(options);
     run(1.5);
     lines.waiting.push_back(make_line());

@@ -45,17 +45,17 @@ class Face : public testing::Test {
     ASSERT_TRUE(built);
     model = std::move(*built);
   }
-  TalkingFace open(bool life = false) {
+  TalkingFace open(bool idle_motion = false) {
     FaceOptions options;
-    options.life = life;
+    options.idle_motion = idle_motion;
     auto face = TalkingFace::open(model, options);
     return std::move(*face);
   }
   // A sentence in pieces of `phones` phones, each told `lead` seconds before its sound or, where
   // that has passed, with the first one.
-  std::vector<fap::Frame> speak(std::size_t phones, double lead, bool life = false) {
+  std::vector<fap::Frame> speak(std::size_t phones, double lead, bool idle_motion = false) {
     const dam::Script script = sentence();
-    TalkingFace face = open(life);
+    TalkingFace face = open(idle_motion);
     std::vector<fap::Frame> frames;
     std::size_t next = 0;
     const auto total = std::size_t(std::ceil(script.duration() * 25));

@@ -27,9 +27,9 @@ class VoiceProgram : public testing::Test {
   }
   Result<TimedSpeech> speak(const VoiceCommand& voice, const std::string& text = "bah") {
     said.clear();
-    tools::Talk talk;
-    talk.say = talk.warn = [this](const std::string& line) { said += line + "\n"; };
-    return run_voice_command(text, voice, talk);
+    tools::Log log;
+    log.info = log.warn = [this](const std::string& line) { said += line + "\n"; };
+    return run_voice_command(text, voice, log);
   }
   std::string error_of(const VoiceCommand& voice, const std::string& text = "bah") {
     const auto speech = speak(voice, text);

@@ -89,7 +89,7 @@ Result<voice::Alignment> align_to_text(const AlignOptions& options) {
   }
   voice::AlignOptions settings = options.aligner;
   if (options.least && *options.least == 0) settings.least_confidence = 0;
-  return speech::align_file(options.audio, transcript, settings, talk());
+  return speech::align_file(options.audio, transcript, settings, terminal_log());
 }
 
 // Of what is heard, where there is no text.
@@ -97,7 +97,7 @@ Result<voice::Alignment> align_by_ear(const AlignOptions& options) {
   ProgressLine progress("listening");
   voice::ListenOptions settings{.language = options.aligner.language};
   settings.progress = [&](double done) { progress.update(done); };
-  auto heard = speech::listen_to_file(options.audio, settings, talk());
+  auto heard = speech::listen_to_file(options.audio, settings, terminal_log());
   progress.clear();
   if (!heard) return heard.error();
   voice::Alignment alignment;

@@ -223,10 +223,10 @@ Result<int> run(const CrossmapOptions& options) {
     return project.error();
   }
   if (auto ok = check_names(*project); !ok) return ok.error();
-  Talk talk;
-  talk.say = [](const std::string& text) { say(text); };
-  talk.warn = [](const std::string& text) { warn(text); };
-  const Result<Mapped> mapped = crossmap::run(*project, talk);
+  Log log;
+  log.info = [](const std::string& text) { say(text); };
+  log.warn = [](const std::string& text) { warn(text); };
+  const Result<Mapped> mapped = crossmap::run(*project, log);
   if (!mapped) return mapped.error();
   tell(*mapped);
   if (!options.picture.empty()) {

@@ -87,7 +87,7 @@ Result<int> run(DemuxOptions options) {
     json["audio"] = {{"file", options.audio}};
   }
   if (!options.script.empty()) {
-    const auto script = speech::carried_script(options.input, {}, talk());
+    const auto script = speech::carried_script(options.input, {}, terminal_log());
     if (!script) {
       return make_error(Code::not_found,
                         "carries no words and phones, as speak puts into .mp4, .mkv and .m3u8")

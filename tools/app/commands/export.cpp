@@ -133,7 +133,7 @@ Result<int> write_head(const ExportOptions& options, std::vector<std::uint8_t> b
   if (!clip) return clip.error();
   studio::HeadChoice choice = options.head;
   choice.colours_at_vertices = true;
-  const Result<head::Head> head = studio::load_head(choice, talk());
+  const Result<head::Head> head = studio::load_head(choice, terminal_log());
   if (!head) return head.error();
   ProgressLine progress("exporting");
   gltf::GlbOptions settings;
@@ -188,7 +188,7 @@ Result<ShownVisemes> visemes_of_voice(const ExportOptions& options, const fap::R
     source.transcript = std::move(*text);
     source.has_transcript = true;
   }
-  const auto spoken = speech::get_spoken(source, talk());
+  const auto spoken = speech::get_spoken(source, terminal_log());
   progress.clear();
   if (!spoken) return spoken.error();
   return visemes_of(spoken->script, rate, options.crossfade);
@@ -204,7 +204,7 @@ Result<ShownVisemes> visemes_of(const ExportOptions& options, std::vector<std::u
                                 bool from_script, const fap::Rate& rate) {
   if (from_script) {
     auto script = speech::parse_script({bytes.begin(), bytes.end()}, options.input,
-                                       input_of(options), talk());
+                                       input_of(options), terminal_log());
     if (!script) return script.error();
     auto shown = visemes_of(std::move(*script), rate, options.crossfade);
     if (!shown) return std::move(shown).error().in_file(options.input);

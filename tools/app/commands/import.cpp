@@ -148,7 +148,7 @@ Result<std::vector<Capture>> read_captures(const ImportOptions& options,
   watched.tracking.at = [&](double share) { line.update(share); };
   watched.tracking.stop = [] { return Interrupt::requested(); };
   for (const std::string& input : options.inputs) {
-    Result<Capture> capture = read_capture(input, watched, talk());
+    Result<Capture> capture = read_capture(input, watched, terminal_log());
     line.clear();
     if (!capture) return std::move(capture).error();
     captures.push_back(std::move(*capture));
@@ -183,7 +183,7 @@ Result<int> run(const ImportOptions& options) {
   if (!options.save_face.empty() && !points) {
     return usage_error("--save-face: there is no neutral face in blend shapes and FAPs");
   }
-  const auto rest = neutral_face(options.neutral, *captures, *settings, talk());
+  const auto rest = neutral_face(options.neutral, *captures, *settings, terminal_log());
   if (!rest) return rest.error();
   std::optional<fap::RestingFace> saved = *rest;
   for (Capture& capture : *captures) {

@@ -32,12 +32,12 @@ Result<int> run(const MakeCorpusOptions& options) {
   }
   const Interrupt interrupt;
   ProgressLine line("corpus");
-  Talk talk;
-  talk.say = [&](const std::string& text) {
+  Log log;
+  log.info = [&](const std::string& text) {
     line.clear();
     say(text);
   };
-  talk.warn = [&](const std::string& text) {
+  log.warn = [&](const std::string& text) {
     if (Interrupt::requested()) return;  // of what was left unfinished
     line.clear();
     warn(text);
@@ -45,7 +45,7 @@ Result<int> run(const MakeCorpusOptions& options) {
   Progress progress;
   progress.at = [&](double share) { line.update(share); };
   progress.stop = [] { return Interrupt::requested(); };
-  const Result<CorpusReport> report = build_corpus(plan, talk, progress);
+  const Result<CorpusReport> report = build_corpus(plan, log, progress);
   line.clear();
   if (!report) {
     if (Interrupt::requested()) {

@@ -78,7 +78,7 @@ Result<speech::SoundInput> sound_of(const MuxOptions& options) {
     return sound;
   }
   if (options.preview.empty()) return sound;
-  Result<media::Pcm> samples = speech::read_voice(options.audio, talk());
+  Result<media::Pcm> samples = speech::read_voice(options.audio, terminal_log());
   if (!samples) return samples.error();
   sound.samples = std::move(*samples);
   return sound;
@@ -99,7 +99,7 @@ Result<int> run(MuxOptions options) {
   sound->give_to(input);
   std::vector<media::TextTrack> texts;  // go with a face that is spoken to them
   if (!options.mux.systems && media::takes_text(options.output)) {
-    texts = speech::carried_tracks(options.face, talk());
+    texts = speech::carried_tracks(options.face, terminal_log());
     input.texts = &texts;
   }
   if (!sound->coded && !sound->samples) input.audio_file = &options.audio;

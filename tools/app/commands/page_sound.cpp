@@ -10,7 +10,7 @@ Result<PageSound> page_sound(const std::string& path, const SoundSettings& setti
   const bool as_it_is = settings.codec.empty() && settings.bit_rate == 0;
   Result<media::EncodedAudio> coded = speech::read_coded_sound(
       path, [as_it_is](media::AudioCodec) { return as_it_is; },
-      audio_settings(settings, "sound.mp4"), talk());
+      audio_settings(settings, "sound.mp4"), terminal_log());
   if (!coded) return coded.error();
   const speech::SoundInput sound{std::move(*coded), {}};
   const auto folder = ScratchFolder::make();

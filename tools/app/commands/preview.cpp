@@ -27,7 +27,7 @@ Result<int> write_preview(const std::string& path, const fap::Sequence& clip,
   media::MuxInput tracks = sound;
   tracks.texts = &words;
   const auto film = studio::write_film(
-      path, clip, tracks, options, talk(),
+      path, clip, tracks, options, terminal_log(),
       {[&line](double done) { line.update(done); }, [] { return Interrupt::requested(); }});
   line.clear();
   if (!film) return film.error();

@@ -201,7 +201,7 @@ Result<int> run(ReceiveOptions& options) {
   if (!options.output.empty()) {
     if (auto ok = live::check_place(options.output); !ok) return ok.error();
   }
-  auto relay = live::Relay::open(options.to, options.sdp, talk());
+  auto relay = live::Relay::open(options.to, options.sdp, terminal_log());
   if (!relay && relay.error().code == Code::invalid_argument) {
     return usage_error(relay.error().message);
   }

@@ -130,7 +130,7 @@ Result<std::vector<studio::ShownFrame>> choose_frames(const RenderOptions& optio
 Result<std::vector<std::uint8_t>> draw(const Plan& plan,
                                        const std::vector<studio::ShownFrame>& frames, int columns,
                                        const RenderOptions& options) {
-  Result<render::Image> sheet = studio::draw_sheet(plan.look, frames, columns, talk());
+  Result<render::Image> sheet = studio::draw_sheet(plan.look, frames, columns, terminal_log());
   if (!sheet) return sheet.error();
   const std::string extension = options.output == "-" ? ".png" : extension_of(options.output);
   return studio::picture_of(*sheet, extension, studio::picture_quality(options.quality));
@@ -145,7 +145,7 @@ Result<std::optional<speech::SoundInput>> sound_of(const RenderOptions& options)
       [only_opus](media::AudioCodec codec) {
         return !only_opus || codec == media::AudioCodec::opus;
       },
-      talk());
+      terminal_log());
   if (sound) return std::optional(std::move(*sound));
   if (!own) return sound.error();
   return std::optional<speech::SoundInput>();
@@ -170,7 +170,7 @@ Result<int> render_video(const RenderOptions& options, const Plan& plan) {
   if (!clip) return clip.error();
   Result<dam::Script> script = dam::Script{};
   if (!options.script.empty()) {
-    script = speech::read_script(options.script, options.reading, talk());
+    script = speech::read_script(options.script, options.reading, terminal_log());
     if (!script) return script.error();
     preview.script = &*script;
   }
@@ -178,7 +178,7 @@ Result<int> render_video(const RenderOptions& options, const Plan& plan) {
   if (!sound) return sound.error();
   media::MuxInput tracks;
   if (*sound) (*sound)->give_to(tracks);
-  const auto texts = speech::carried_tracks(options.input, talk());
+  const auto texts = speech::carried_tracks(options.input, terminal_log());
   tracks.texts = &texts;
   return write_preview(options.output, *clip, tracks, preview);
 }

@@ -52,9 +52,9 @@ std::string parse_script_format(const std::string& text, dam::ScriptOptions& rea
 
 Result<dam::Script> script_for(const std::string& path, const std::vector<std::string>& files,
                                const speech::ScriptInput& reading) {
-  if (!path.empty()) return speech::read_script(path, reading, talk());
+  if (!path.empty()) return speech::read_script(path, reading, terminal_log());
   for (const std::string& file : files) {
-    auto carried = speech::carried_script(file, reading, talk());
+    auto carried = speech::carried_script(file, reading, terminal_log());
     if (carried) return std::move(*carried);
   }
   return dam::Script{};

@@ -16,7 +16,7 @@ std::string bad_model(const std::string& text) {
   return named && equals + 1 < text.size() ? std::string() : "write it as NAME=FILE";
 }
 
-void add_web_options(CLI::App& app, web::WebOptions& options) {
+void add_server_web_options(CLI::App& app, web::WebOptions& options) {
   options.max_clients = 1000;
   options.per_address = 0;
   app.add_option("--max-clients", options.max_clients, "Viewers of all heads at the same time")
@@ -64,7 +64,7 @@ void add_options(CLI::App& app, ServeOptions& options) {
   app.add_option("--threads", server.threads, "Threads that make planes and sound; 0: one a core")
       ->check(between(0, 64))
       ->capture_default_str();
-  add_web_options(app, server.web);
+  add_server_web_options(app, server.web);
   app.add_flag("--stats", options.stats, "Tell once a second how it goes");
   app.add_flag("--json", options.json,
                "The address as JSON on standard output at the start, the figures at the end");

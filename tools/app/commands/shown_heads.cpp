@@ -31,7 +31,7 @@ Result<std::vector<std::unique_ptr<ShownHead>>> load_shown(const HeadChoices& ch
   }
   std::vector<std::unique_ptr<ShownHead>> heads;
   for (const studio::HeadChoice& choice : choices.each()) {
-    Result<head::Head> head = studio::load_head(choice, talk());
+    Result<head::Head> head = studio::load_head(choice, terminal_log());
     if (!head) return head.error();
     if (const std::size_t count = studio::shrink_pictures(*head); count > 0) {
       say(choice.head + ": " + std::to_string(count) +

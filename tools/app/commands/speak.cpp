@@ -5,7 +5,7 @@
 #include "codec/encode/encode.h"
 #include "dam/script/script.h"
 #include "dam/signal/fap_signal.h"
-#include "dam/speaking/life.h"
+#include "dam/speaking/idle_motion.h"
 #include "dam/speaking/synthesise.h"
 #include "dam/speaking/viseme_track.h"
 #include "fap/rate_text.h"
@@ -40,7 +40,7 @@ struct SpeakOptions {
   SoundSettings sound;
   dam::SynthesisOptions motion;
   bool no_closure = false;
-  std::optional<bool> life;  // nothing: where it can be had
+  std::optional<bool> idle_motion;  // nothing: where it can be had
   bool exact = false;
   std::string visemes;
   bool no_words = false;
@@ -242,10 +242,10 @@ Result<int> write_output(const SpeakOptions& options, dam::Signal signal,
   // A model's curves are its own, and who knows visemes only knows no brows.
   const bool curves = extension_of(options.output) == ".csv" && !is_arkit_output(options.output);
   const bool plain = curves || options.visemes == "instead";
-  if (options.life.value_or(!plain)) {
+  if (options.idle_motion.value_or(!plain)) {
     // Without being asked: where the names of a rig are not known, writing will say what it needs.
-    auto added = dam::add_life(signal, spoken.script, {1, options.seed});
-    if (!added && options.life.has_value()) return added.error();
+    auto added = dam::add_idle_motion(signal, spoken.script, {1, options.seed});
+    if (!added && options.idle_motion.has_value()) return added.error();
   }
   if (is_arkit_output(options.output)) return write_arkit(options, signal);
   if (curves) return write_curves(options.output, signal);
@@ -277,7 +277,7 @@ Result<int> run(const SpeakOptions& options) {
   ProgressLine progress("listening");
   speech::SpokenOptions source = options.spoken;
   source.heard = [&](double done) { progress.update(done); };
-  Result<speech::Spoken> spoken = speech::get_spoken(source, talk());
+  Result<speech::Spoken> spoken = speech::get_spoken(source, terminal_log());
   progress.clear();
   if (!spoken) return spoken.error();
   if (spoken->heard) {
@@ -337,7 +337,8 @@ void add_options(CLI::App& app, SpeakOptions& options) {
   app.add_flag("--no-closure", options.no_closure,
                "Do not force the lips shut on p, b and m, nor to the teeth on f and v");
   app.add_flag(
-      "--life,!--no-life", [&options](std::int64_t on) { options.life = on > 0; },
+      "--idle-motion,--life,!--no-idle-motion,!--no-life",
+      [&options](std::int64_t on) { options.idle_motion = on > 0; },
       "Blinks, and brows and head that move a little at stresses, or none; default: yes, "
       "but not in the model's curves (.csv)");
   app.add_option("--visemes", options.visemes,

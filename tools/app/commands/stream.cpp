@@ -38,7 +38,7 @@ std::string bad_options(const StreamOptions& options) {
   if (voice && (what.loop || options.fast)) {
     return "--loop and --fast are for clips, --say-audio comes in its own time";
   }
-  if (voice && what.life) return "--life is for clips and --say";
+  if (voice && what.idle_motion) return "--idle-motion is for clips and --say";
   if (said && !what.spoken.audio.empty()) {
     return "--audio goes with a face, not with --say, whose voice speaks as the lines come";
   }
@@ -148,7 +148,7 @@ Result<live::Clip> load_clip(const std::string& path, const std::string& audio,
     clip.face = std::move(container->face);
     const bool own_sound = audio.empty() && coding.sound && container->audio.has_value();
     if (own_sound) {
-      Result<media::EncodedAudio> sound = live::live_sound(path, coding, talk());
+      Result<media::EncodedAudio> sound = live::live_sound(path, coding, terminal_log());
       if (!sound) return sound.error();
       clip.sound = std::move(*sound);
     }
@@ -166,12 +166,13 @@ Result<live::Clip> load_clip(const std::string& path, const std::string& audio,
       if (!units) return units.error().in_file(path);
       clip.face = std::move(*units);
     }
-    auto face = live::for_live_use(std::move(clip.face), motion->decoded, path, coding, talk());
+    auto face =
+        live::for_live_use(std::move(clip.face), motion->decoded, path, coding, terminal_log());
     if (!face) return face.error();
     clip.face = std::move(*face);
   }
   if (!audio.empty() && coding.sound) {
-    Result<media::EncodedAudio> sound = live::live_sound(audio, coding, talk());
+    Result<media::EncodedAudio> sound = live::live_sound(audio, coding, terminal_log());
     if (!sound) return sound.error();
     clip.sound = std::move(*sound);
   }
@@ -185,7 +186,7 @@ Result<void> open_program(const StreamOptions& options, fap::Rate rate, live::Pr
   }
   if (!what.say_audio.empty()) return live::open_voice(what, rate, program);
   Result<live::Clip> clip = options.input.empty()
-                                ? live::spoken_clip(what, rate, talk())
+                                ? live::spoken_clip(what, rate, terminal_log())
                                 : load_clip(options.input, what.spoken.audio, what.coding);
   if (!clip) return clip.error();
   live::play_clip(std::move(*clip), what, program);
@@ -256,7 +257,7 @@ Result<int> run(StreamOptions& options) {
       return ok.error();
     }
   }
-  auto sinks = live::Sinks::open(options.to, options.sdp, options.sink, talk());
+  auto sinks = live::Sinks::open(options.to, options.sdp, options.sink, terminal_log());
   if (!sinks && sinks.error().code == Code::invalid_argument) {
     return usage_error(sinks.error().message);
   }
@@ -276,7 +277,7 @@ const Command kStream{
     "  animeme stream talk.mp4 --to rtp://192.0.2.7:5004 --sdp talk.sdp --loop\n"
     "  animeme stream talk.fba --audio talk.wav --to udp://239.1.2.3:5004 --intra-seconds 1\n"
     "  animeme stream --text \"Hello\" --to srt://192.0.2.7:5005 --to http://127.0.0.1:8080\n"
-    "  my_chat_bot | animeme stream --say - --life --to rtp://192.0.2.7:5004 --sdp bot.sdp "
+    "  my_chat_bot | animeme stream --say - --idle-motion --to rtp://192.0.2.7:5004 --sdp bot.sdp "
     "--stats\n"
     "  arecord -q -f S16_LE -r 16000 | animeme stream --say-audio - --to http://127.0.0.1:8080\n"
     "  my_chat_bot | animeme stream --say - --control bot.sock --to http://127.0.0.1:8080 --events "

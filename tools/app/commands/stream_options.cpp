@@ -61,10 +61,11 @@ void add_source_options(CLI::App& app, StreamOptions& options) {
       ->check(frame_rate())
       ->capture_default_str();
   add_motion_options(app, options.program.motion);
-  app.add_flag("--life", options.program.life, "Add blinks, and brows and head that move a little");
+  app.add_flag("--idle-motion,--life", options.program.idle_motion,
+               "Add blinks, and brows and head that move a little");
   app.add_option("--seed", options.program.seed,
                  "Other times of blinks and another sway of the head")
-      ->needs("--life")
+      ->needs("--idle-motion")
       ->check(between(0, 1e9));
 }
 

@@ -32,7 +32,7 @@ void say_more(const std::string& text) {
   if (verbose_setting) say(text);
 }
 
-Talk talk() { return {say, warn}; }
+Log terminal_log() { return {say, warn}; }
 
 int usage_error(const std::string& text) {
   std::cerr << "animeme: " << text << "\nRun with --help for more information.\n";

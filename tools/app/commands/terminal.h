@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "tools/formats/files/talk.h"
+#include "tools/formats/files/log.h"
 
 namespace animeme::tools {
 
@@ -13,7 +13,7 @@ void warn(const std::string& text);
 /// Prints a line of talk on standard error, unless --quiet was given.
 void say(const std::string& text);
 /// The same for libraries, which have something to say but do not print.
-Talk talk();
+Log terminal_log();
 /// Set by main() from --quiet.
 void set_quiet(bool quiet);
 /// Prints a line of talk if --verbose was given, and not --quiet.

@@ -329,9 +329,9 @@ typedef struct animeme_speak_options {
   double sharpness;     ///< 1; 0..3, how quick it is
   double articulation;  ///< 1; 0..2, how clearly vowels show
   double tail;          ///< 0; 0..60 seconds behind the script
-  double life;        ///< 1; 0..2, brows and head; below 0: no blinks either. animeme_speak() only
-  uint64_t seed;      ///< 1; another one, other blinks
-  double look_ahead;  ///< -1; seconds, 0..60; below 0: as far as it takes. animeme_speech only
+  double idle_motion;  ///< 1; 0..2, brows and head; below 0: no blinks either. animeme_speak() only
+  uint64_t seed;       ///< 1; another one, other blinks
+  double look_ahead;   ///< -1; seconds, 0..60; below 0: as far as it takes. animeme_speech only
 } animeme_speak_options;
 
 /// The defaults.

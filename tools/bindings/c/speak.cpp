@@ -6,7 +6,7 @@
 #include "dam/model/model.h"
 #include "dam/script/script.h"
 #include "dam/signal/fap_signal.h"
-#include "dam/speaking/life.h"
+#include "dam/speaking/idle_motion.h"
 #include "dam/speaking/stream.h"
 #include "dam/speaking/synthesise.h"
 #include "tools/bindings/c/c_internal.h"
@@ -53,9 +53,9 @@ animeme_status speak_clip(const dam::Model& model, std::string_view text,
   if (!script) return fail(error, script.error());
   auto signal = dam::synthesise(model, *script, synthesis_options(options));
   if (!signal) return fail(error, signal.error());
-  if (options.life >= 0) {
-    const auto added = dam::add_life(*signal, *script, {options.life, options.seed});
-    // Whose rig is unknown has the life of its own channels.
+  if (options.idle_motion >= 0) {
+    const auto added = dam::add_idle_motion(*signal, *script, {options.idle_motion, options.seed});
+    // Whose rig is unknown moves by its own channels alone.
     if (!added && added.error().code != Code::unsupported) return fail(error, added.error());
   }
   auto sequence = dam::to_sequence(*signal);

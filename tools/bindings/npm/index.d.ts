@@ -141,7 +141,7 @@ export interface SpeakOptions {
   /** Seconds behind the script: 0..60 (0). */
   tail?: number;
   /** Brows and head: 0..2 (1); below 0: no blinks either. Not of begin(). */
-  life?: number;
+  idleMotion?: number;
   /** Another one, other blinks (1). */
   seed?: number | bigint;
   /** Of begin(): seconds; below 0: as far as it takes (-1). */

@@ -21,7 +21,7 @@
 #include "fap/fill.h"
 #include "fap/frame.h"
 #include "fap/result.h"
-#include "tools/formats/files/talk.h"
+#include "tools/formats/files/log.h"
 #include "tools/formats/media/pcm.h"
 #include "tools/formats/media/text_track.h"
 
@@ -38,7 +38,7 @@ void warn(const std::string& sentence);
 /// Collects what a library has to say while the interpreter belongs to others.
 struct Heard {
   std::vector<std::string> sentences;             ///< for warn()
-  tools::Talk talk();                             ///< puts them there
+  tools::Log log();                      ///< puts them there
   void tell(const std::string& file = {}) const;  ///< warns of all
 };
 

@@ -63,10 +63,10 @@ void warn(const std::string& sentence) {
   py::module_::import("warnings").attr("warn")(text, type_named("InputWarning"), 1);
 }
 
-tools::Talk Heard::talk() {
-  tools::Talk talk;
-  talk.warn = [this](const std::string& sentence) { sentences.push_back(sentence); };
-  return talk;
+tools::Log Heard::log() {
+  tools::Log log;
+  log.warn = [this](const std::string& sentence) { sentences.push_back(sentence); };
+  return log;
 }
 
 void Heard::tell(const std::string& file) const {

@@ -14,7 +14,7 @@ py::list read_script(const py::object& file, const std::string& lang) {
   speech::ScriptInput input;
   input.language = lang;
   Heard heard;
-  auto script = unlocked([&] { return speech::read_script(path, input, heard.talk()); });
+  auto script = unlocked([&] { return speech::read_script(path, input, heard.log()); });
   heard.tell();
   return phones_of(value_of(std::move(script)));
 }

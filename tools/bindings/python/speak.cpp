@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "dam/signal/fap_signal.h"
-#include "dam/speaking/life.h"
+#include "dam/speaking/idle_motion.h"
 #include "dam/speaking/stream.h"
 #include "tools/bindings/python/python_internal.h"
 #include "tools/speech/talking/spoken.h"
@@ -21,13 +21,13 @@ struct Speech {
 
 struct Motion {
   dam::SynthesisOptions synthesis;
-  std::optional<bool> life;
+  std::optional<bool> idle_motion;
   std::uint64_t seed = 1;
 };
 
 Result<Speech> spoken_of(speech::SpokenOptions source, const dam::Script* script, Heard& heard) {
   if (script == nullptr) {
-    auto spoken = speech::get_spoken(source, heard.talk());
+    auto spoken = speech::get_spoken(source, heard.log());
     if (!spoken) return spoken.error();
     return Speech{std::move(*spoken), {}, {}};
   }
@@ -35,7 +35,7 @@ Result<Speech> spoken_of(speech::SpokenOptions source, const dam::Script* script
   speech.spoken.script = *script;
   speech.spoken.times = speech::TimesFrom::script;
   if (source.audio.empty()) return speech;
-  auto audio = speech::read_voice(source.audio, heard.talk());
+  auto audio = speech::read_voice(source.audio, heard.log());
   if (!audio) return audio.error();
   if (auto ok = dam::check_against_audio(*script, audio->duration()); !ok) return ok.error();
   speech.spoken.audio = std::move(*audio);
@@ -51,17 +51,17 @@ Result<void> move_face(const dam::Model& model, Motion motion, Speech& speech) {
   auto signal = speech::move_face(model, speech.spoken, motion.synthesis);
   if (!signal) return signal.error();
   speech.signal = std::move(*signal);
-  if (!motion.life.value_or(true)) return {};
-  const auto added = dam::add_life(speech.signal, speech.spoken.script, {1, motion.seed});
+  if (!motion.idle_motion.value_or(true)) return {};
+  const auto added = dam::add_idle_motion(speech.signal, speech.spoken.script, {1, motion.seed});
   // Without being asked: models of other rigs do without.
-  if (!added && motion.life) return added.error();
+  if (!added && motion.idle_motion) return added.error();
   return {};
 }
 
 std::unique_ptr<Speech> speak(const Model& model, const py::object& said, const py::object& audio,
                               const py::object& transcript, const std::string& lang,
                               const py::object& rate, double style, double sharpness,
-                              double articulation, bool closure, std::optional<bool> life,
+                              double articulation, bool closure, std::optional<bool> idle_motion,
                               std::uint64_t seed, int speed, int pitch, const std::string& tts) {
   speech::SpokenOptions source;
   std::optional<dam::Script> script;
@@ -92,7 +92,7 @@ std::unique_ptr<Speech> speak(const Model& model, const py::object& said, const 
                  .style = style,
                  .sharpness = sharpness,
                  .articulation = articulation},
-                life,
+                idle_motion,
                 seed};
   Heard heard;
   auto speech = unlocked([&]() -> Result<Speech> {
@@ -227,7 +227,7 @@ path, preset, quant, max_rms, max_bits_per_second, intra_seconds: as of Clip.sav
             py::arg("audio") = py::none(), py::arg("transcript") = py::none(),
             py::arg("lang") = "en", py::arg("rate") = 25, py::arg("style") = 1.0,
             py::arg("sharpness") = 1.0, py::arg("articulation") = 1.0, py::arg("closure") = true,
-            py::arg("life") = py::none(), py::arg("seed") = 1, py::arg("speed") = 175,
+            py::arg("idle_motion") = py::none(), py::arg("seed") = 1, py::arg("speed") = 175,
             py::arg("pitch") = 50, py::arg("tts") = "", R"(Says something: a Speech.
 
 said: a text, plain or SSML, for a synthetic voice; or phones, tuples (start, end, label[, word]):
@@ -241,8 +241,8 @@ style: intensity, 0 keeps the mouth at rest, 1 is as learned, 0..1.5.
 sharpness: quickness, 0 is the mean of sentences, 1 more as people, 0..3.
 articulation: how clearly vowels show, 0 is as learned, 0..2.
 closure: P, B and M close the lips, F and V reach the teeth.
-life: blinks, brows and head; None: where the controls of the model are known.
-seed: of life: another seed, other times of blinks.
+idle_motion: blinks, brows and head; None: where the controls of the model are known.
+seed: of the idle motion: another seed, other times of blinks.
 speed, pitch: words a minute (80..450) and pitch (0..100) of the synthetic voice.
 tts: command of a voice of yours, that writes sound to {wav}.
 

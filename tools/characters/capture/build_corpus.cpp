@@ -27,8 +27,8 @@ namespace fs = std::filesystem;
 constexpr double kLeastMeasured = 0.5;  // of the frames of a sentence
 class Builder {
  public:
-  Builder(const CorpusPlan& plan, const Talk& talk, const Progress& progress)
-      : plan_(plan), talk_(talk), progress_(progress), capture_(plan.capture) {}
+  Builder(const CorpusPlan& plan, const Log& log, const Progress& progress)
+      : plan_(plan), log_(log), progress_(progress), capture_(plan.capture) {}
 
   Result<CorpusReport> build() {
     auto takes = find_takes(plan_.places);
@@ -59,14 +59,14 @@ class Builder {
         std::any_of(takes.begin(), takes.end(), [](const Take& t) { return !t.table.empty(); })) {
       return {};
     }
-    auto refused = read_capture_table(takes[0].video, plan_.capture, talk_);
+    auto refused = read_capture_table(takes[0].video, plan_.capture, log_);
     if (refused) return {};
     return std::move(refused).error();
   }
 
   void leave_out(const Take& take, const char* stage, const Error& error) {
     report_.left_out.push_back({take.id, stage, error.describe()});
-    talk_.warn(take.id + ": left out: " + error.describe());
+    log_.warn(take.id + ": left out: " + error.describe());
   }
 
   // The tables, from files or trackers: most of the time goes here.
@@ -104,7 +104,7 @@ class Builder {
     if (video) sentence.shift = video->picture_after_sound;
     TrackedCache cache{plan_.output + "/tracked", plan_.track_again};
     if (!take.table.empty()) {
-      auto read = read_capture_table(take.table, plan_.capture, talk_);
+      auto read = read_capture_table(take.table, plan_.capture, log_);
       if (!read) return read.error();
       table.text = std::move(read->text);
       sentence.report.source = "table";
@@ -112,7 +112,7 @@ class Builder {
       table.text = std::move(*before);
       sentence.report.source = "tracked before";
     } else {
-      auto read = read_capture_table(take.video, capture_, talk_);
+      auto read = read_capture_table(take.video, capture_, log_);
       if (!read) return read.error();
       table.text = std::move(read->text);
       sentence.report.source = "tracked";
@@ -134,7 +134,7 @@ class Builder {
     std::vector<Capture> captures;
     for (const Sentence& sentence : sentences_) captures.push_back(sentence.capture);
     leave_out_other_points(captures);
-    const auto rest = neutral_face(plan_.neutral, captures, plan_.capture, talk_);
+    const auto rest = neutral_face(plan_.neutral, captures, plan_.capture, log_);
     if (!rest) return rest.error();
     rest_ = *rest;
     report_.neutral = !plan_.neutral.face_file.empty() ? "of " + plan_.neutral.face_file
@@ -191,7 +191,7 @@ class Builder {
     const Take& take = sentence.take;
     const std::string sound = !take.sound.empty() ? take.sound : take.video;
     if (!sound.empty()) {
-      auto pcm = speech::read_voice(sound, talk_, voice::kAlignRate);
+      auto pcm = speech::read_voice(sound, log_, voice::kAlignRate);
       const bool silent = !pcm && pcm.error().code == Code::not_found && take.sound.empty();
       if (!pcm && !silent) return pcm.error();
       if (pcm && !pcm->samples.empty()) sentence.sound = std::move(*pcm);
@@ -337,7 +337,7 @@ class Builder {
   }
 
   const CorpusPlan& plan_;
-  const Talk& talk_;
+  const Log& log_;
   const Progress& progress_;
   CaptureSettings capture_;  // with the progress of the tracker
   std::vector<Sentence> sentences_;
@@ -347,9 +347,9 @@ class Builder {
 
 }  // namespace
 
-Result<CorpusReport> build_corpus(const CorpusPlan& plan, const Talk& talk,
+Result<CorpusReport> build_corpus(const CorpusPlan& plan, const Log& log,
                                   const Progress& progress) {
-  return Builder(plan, talk, progress).build();
+  return Builder(plan, log, progress).build();
 }
 
 }  // namespace animeme::tools

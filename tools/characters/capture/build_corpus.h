@@ -15,7 +15,7 @@
 #include "tools/characters/capture/corpus_checks.h"
 #include "tools/characters/capture/corpus_files.h"
 #include "tools/characters/capture/read_capture.h"
-#include "tools/formats/files/talk.h"
+#include "tools/formats/files/log.h"
 
 namespace animeme::tools {
 
@@ -89,7 +89,6 @@ struct CorpusReport {
 /// the message has the first reason); io (the folder cannot be written to, or another program works
 /// on it). `progress` is told the share; true of stop ends it after a recording, with an error
 /// (io, "stopped"), and what was tracked is kept.
-Result<CorpusReport> build_corpus(const CorpusPlan& plan, const Talk& talk,
-                                  const Progress& progress);
+Result<CorpusReport> build_corpus(const CorpusPlan& plan, const Log& log, const Progress& progress);
 
 }  // namespace animeme::tools

@@ -111,7 +111,7 @@ void hold_the_first(CapturedFace& face) {
 }  // namespace
 
 Result<TrackedTable> read_capture_table(const std::string& path, const CaptureSettings& settings,
-                                        const Talk& talk) {
+                                        const Log& log) {
   if (const auto video = video_at(path)) {
     if (!*video) return video->error();
     if (!settings.tracker) {
@@ -122,7 +122,7 @@ Result<TrackedTable> read_capture_table(const std::string& path, const CaptureSe
                             "one wrote")
           .in_file(path);
     }
-    talk.say(path + ": " + (*video)->text + ", tracking");
+    log.info(path + ": " + (*video)->text + ", tracking");
     const double most = std::max(kUsualPatience, kSlowest * (*video)->seconds);
     auto text =
         settings.tracker->run(path, settings.tracker_seconds.value_or(most), settings.tracking);
@@ -167,8 +167,8 @@ Result<Capture> parse_capture(const TrackedTable& tracked, const std::string& pa
 }
 
 Result<Capture> read_capture(const std::string& path, const CaptureSettings& settings,
-                             const Talk& talk) {
-  const auto table = read_capture_table(path, settings, talk);
+                             const Log& log) {
+  const auto table = read_capture_table(path, settings, log);
   if (!table) return table.error();
   return parse_capture(*table, path, settings);
 }
@@ -220,7 +220,7 @@ void mark_made(dam::Signal& signal, const std::vector<std::int64_t>& made) {
 Result<std::optional<fap::RestingFace>> neutral_face(const NeutralSource& source,
                                                      const std::vector<Capture>& captures,
                                                      const CaptureSettings& settings,
-                                                     const Talk& talk) {
+                                                     const Log& log) {
   using Rest = std::optional<fap::RestingFace>;
   if (!source.face_file.empty()) {
     if (!source.from.empty() || !settings.landmarks.neutral.empty()) {
@@ -235,7 +235,7 @@ Result<std::optional<fap::RestingFace>> neutral_face(const NeutralSource& source
   }
   std::vector<exchange::LandmarkTable> tables;
   if (!source.from.empty()) {
-    auto capture = read_capture(source.from, settings, talk);
+    auto capture = read_capture(source.from, settings, log);
     if (!capture) return capture.error();
     if (!capture->points) {
       return make_error(Code::invalid_argument,

@@ -12,7 +12,7 @@
 #include "tools/characters/capture/tracker.h"
 #include "tools/formats/exchange/capture_table.h"
 #include "tools/formats/exchange/imported.h"
-#include "tools/formats/files/talk.h"
+#include "tools/formats/files/log.h"
 
 namespace animeme::tools {
 
@@ -46,7 +46,7 @@ struct TrackedTable {
 /// The table of a capture: that of a file, of standard input ("-"), or of a tracker. Errors: those
 /// of read_file(), look_at_video() and Tracker::run(); unsupported (a video, and no tracker).
 Result<TrackedTable> read_capture_table(const std::string& path, const CaptureSettings& settings,
-                                        const Talk& talk);
+                                        const Log& log);
 
 /// A table as a capture; `path` is for messages. Errors, with the path: those of
 /// exchange::capture_table() and of the reader for its kind.
@@ -55,7 +55,7 @@ Result<Capture> parse_capture(const TrackedTable& table, const std::string& path
 
 /// Both.
 Result<Capture> read_capture(const std::string& path, const CaptureSettings& settings,
-                             const Talk& talk);
+                             const Log& log);
 
 /// A face of its own: FAPs of a clip and what is to be said of them.
 struct CapturedFace {
@@ -86,6 +86,6 @@ struct NeutralSource {
 Result<std::optional<fap::RestingFace>> neutral_face(const NeutralSource& source,
                                                      const std::vector<Capture>& captures,
                                                      const CaptureSettings& settings,
-                                                     const Talk& talk);
+                                                     const Log& log);
 
 }  // namespace animeme::tools

@@ -13,7 +13,7 @@
 #include "fap/rate.h"
 #include "fap/result.h"
 #include "tools/formats/exchange/landmarks.h"
-#include "tools/formats/files/talk.h"
+#include "tools/formats/files/log.h"
 #include "tools/formats/programs/command_template.h"
 
 namespace animeme::tools {

@@ -77,7 +77,7 @@ Result<Indices> indices_of(const Names& names, const Names& wanted, const std::s
 }
 
 // The recordings with the points that all of them have, in the order of the first.
-Result<void> bring_together(std::vector<PointRecording>& takes, const tools::Talk& talk) {
+Result<void> bring_together(std::vector<PointRecording>& takes, const tools::Log& log) {
   Names common;
   for (const std::string& name : takes[0].track.names) {
     const bool everywhere = std::all_of(takes.begin(), takes.end(), [&](const auto& take) {
@@ -86,7 +86,7 @@ Result<void> bring_together(std::vector<PointRecording>& takes, const tools::Tal
     if (everywhere) {
       common.push_back(name);
     } else {
-      talk.warn("the point " + name + " is not in all recordings and is left out");
+      log.warn("the point " + name + " is not in all recordings and is left out");
     }
   }
   if (common.empty()) return missing("the recordings have no point in common");
@@ -155,7 +155,7 @@ std::optional<std::pair<double, double>> parse_seconds(std::string text) {
 }
 
 Result<NeutralFace> neutral_face(const Project& project, const std::vector<dam::PointTrack>& tracks,
-                                 const Indices& used, const tools::Talk& talk) {
+                                 const Indices& used, const tools::Log& log) {
   const dam::PointTrack& first = tracks[0];
   if (project.neutral.empty()) {
     std::vector<dam::PointTrack> some;
@@ -169,7 +169,7 @@ Result<NeutralFace> neutral_face(const Project& project, const std::vector<dam::
         out.shape[used[i] * first.dimensions + k] = (*rest)[i * first.dimensions + k];
       }
     }
-    talk.say("neutral shape: the stillest 0.2 seconds of the recordings (--neutral says it)");
+    log.info("neutral shape: the stillest 0.2 seconds of the recordings (--neutral says it)");
     return out;
   }
   if (const auto seconds = parse_seconds(project.neutral)) {
@@ -400,7 +400,7 @@ Indices used_points(const Roles& roles, const std::vector<dam::PointTrack>& trac
 
 }  // namespace
 
-Result<Capture> load_capture(const Project& project, const tools::Talk& talk) {
+Result<Capture> load_capture(const Project& project, const tools::Log& log) {
   const auto options = table_options(project);
   if (!options) return options.error();
   if (project.inputs.empty()) return refused("there is no recording to be mapped");
@@ -408,18 +408,18 @@ Result<Capture> load_capture(const Project& project, const tools::Talk& talk) {
   for (const std::string& path : project.inputs) {
     Result<PointRecording> take = read_recording(path, *options);
     if (!take) return take.error();
-    for (const std::string& warning : take->warnings) talk.warn(path + ": " + warning);
+    for (const std::string& warning : take->warnings) log.warn(path + ": " + warning);
     takes.push_back(std::move(*take));
   }
   Capture out;
   out.unit = !project.unit.empty() ? project.unit : takes[0].unit;
-  if (auto ok = bring_together(takes, talk); !ok) return ok.error();
+  if (auto ok = bring_together(takes, log); !ok) return ok.error();
   for (PointRecording& take : takes) out.tracks.push_back(std::move(take.track));
   if (auto ok = dam::check_tracks(out.tracks); !ok) return ok.error();
   const Names names = out.tracks[0].names;
   const auto roles = roles_of(project, names);
   if (!roles) return roles.error();
-  const auto neutral = neutral_face(project, out.tracks, used_points(*roles, out.tracks), talk);
+  const auto neutral = neutral_face(project, out.tracks, used_points(*roles, out.tracks), log);
   if (!neutral) return neutral.error();
 
   const Indices& kept = roles->fitted;
@@ -429,7 +429,7 @@ Result<Capture> load_capture(const Project& project, const tools::Talk& talk) {
       const auto lost = dam::hold_head_still(track, roles->head, neutral->shape);
       if (!lost) return lost.error();
       if (*lost > 0) {
-        talk.warn(track.name + ": the head is not seen in " + std::to_string(*lost) + " frames");
+        log.warn(track.name + ": the head is not seen in " + std::to_string(*lost) + " frames");
       }
     }
     dam::subtract(track, neutral->shape);
@@ -455,7 +455,7 @@ Result<Capture> load_capture(const Project& project, const tools::Talk& talk) {
     out.no_face = whole.error();
     return out;
   }
-  for (const std::string& note : whole->notes) talk.say(note);
+  for (const std::string& note : whole->notes) log.info(note);
   dam::FaceOptions same{whole->axes, whole->fapu, 0};
   auto face = dam::make_face(out.tracks[0].names, dimensions, out.neutral, mapped, same);
   if (face) {

@@ -11,7 +11,7 @@
 #include "dam/crossmap/points.h"
 #include "fap/result.h"
 #include "tools/characters/crossmap/project.h"
-#include "tools/formats/files/talk.h"
+#include "tools/formats/files/log.h"
 
 namespace animeme::crossmap {
 
@@ -29,6 +29,6 @@ struct Capture {
 /// Reads the inputs of a project and takes the head off. Says what it found and warns of what is
 /// missing. Errors: those of the readers, with the file; invalid_argument and not_found for what
 /// the project names and is not there.
-Result<Capture> load_capture(const Project& project, const tools::Talk& talk);
+Result<Capture> load_capture(const Project& project, const tools::Log& log);
 
 }  // namespace animeme::crossmap

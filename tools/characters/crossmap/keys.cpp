@@ -39,7 +39,7 @@ void add(Keys& keys, const Capture& capture, std::size_t track, std::size_t fram
   keys.sources.push_back({take.name, take.rate.seconds(double(frame)), share});
 }
 
-Result<Keys> found_keys(const Project& project, const Capture& capture, const tools::Talk& talk) {
+Result<Keys> found_keys(const Project& project, const Capture& capture, const tools::Log& log) {
   const auto found = dam::find_key_frames(capture.tracks, capture.fit.weights, project.search);
   if (!found) return found.error();
   double largest = 0;
@@ -56,17 +56,17 @@ Result<Keys> found_keys(const Project& project, const Capture& capture, const to
   if (out.shapes.names.empty()) {
     return make_error(Code::not_found, "nothing moves in the recordings: there is no key shape");
   }
-  talk.say(std::to_string(out.shapes.names.size()) + " key shapes, by affinity propagation of " +
+  log.info(std::to_string(out.shapes.names.size()) + " key shapes, by affinity propagation of " +
            std::to_string(found->compared) + " frames" +
            (found->keys.size() > out.shapes.names.size() ? ", without the face at rest" : ""));
   if (!found->converged) {
-    talk.warn(
+    log.warn(
         "affinity propagation did not come to rest; another number of key shapes or more "
         "damping may");
   }
   if (project.search.count > 0 && found->keys.size() != project.search.count) {
-    talk.warn("there is no preference that gives " + std::to_string(project.search.count) +
-              " key shapes; the nearest number is " + std::to_string(found->keys.size()));
+    log.warn("there is no preference that gives " + std::to_string(project.search.count) +
+             " key shapes; the nearest number is " + std::to_string(found->keys.size()));
   }
   return out;
 }
@@ -157,7 +157,7 @@ Result<Keys> read_keys_file(const std::string& path, const Capture& capture) {
 
 }  // namespace
 
-Result<Keys> load_keys(const Project& project, const Capture& capture, const tools::Talk& talk) {
+Result<Keys> load_keys(const Project& project, const Capture& capture, const tools::Log& log) {
   if (!project.keys.empty()) {
     const std::filesystem::path path = project.keys;
     return read_keys_file(
@@ -165,7 +165,7 @@ Result<Keys> load_keys(const Project& project, const Capture& capture, const too
         capture);
   }
   if (!project.named.empty()) return named_keys(project, capture);
-  return found_keys(project, capture, talk);
+  return found_keys(project, capture, log);
 }
 
 std::string write_keys(const Keys& keys, const Capture& capture) {

@@ -32,7 +32,7 @@ struct Keys {
 /// square) is left out: no coefficient makes it already. Errors: those of find_key_frames() and of
 /// the file, with its name; not_found (a recording or a time that is not there; a point of the
 /// recordings that the file lacks).
-Result<Keys> load_keys(const Project& project, const Capture& capture, const tools::Talk& talk);
+Result<Keys> load_keys(const Project& project, const Capture& capture, const tools::Log& log);
 
 /// keys.csv of a folder: a row a shape; key, input, at_s, share and the displacement of each point.
 std::string write_keys(const Keys& keys, const Capture& capture);

@@ -329,7 +329,7 @@ std::string obj_with_vertices(std::string_view obj, const std::vector<Vec3>& ver
   return out;
 }
 
-Result<TargetMesh> load_mesh(const Project& project, const tools::Talk& talk) {
+Result<TargetMesh> load_mesh(const Project& project, const tools::Log& log) {
   TargetMesh out;
   if (tools::extension_of(project.to) == ".obj" && !project.shapes.empty()) {
     auto read = load_obj(project);
@@ -341,7 +341,7 @@ Result<TargetMesh> load_mesh(const Project& project, const tools::Talk& talk) {
                         "shapes are OBJ files of a head that is an .obj itself");
     }
     const Result<head::Head> head = studio::load_head(
-        {.head = project.to, .points = project.head_points, .colours_at_vertices = true}, talk);
+        {.head = project.to, .points = project.head_points, .colours_at_vertices = true}, log);
     if (!head) return head.error();
     out.obj = head::write_obj(*head);
     for (const head::Mesh& part : head->parts) {

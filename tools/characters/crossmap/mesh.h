@@ -13,7 +13,7 @@
 #include "fap/head/model.h"
 #include "fap/result.h"
 #include "tools/characters/crossmap/project.h"
-#include "tools/formats/files/talk.h"
+#include "tools/formats/files/log.h"
 
 namespace animeme::crossmap {
 
@@ -54,6 +54,6 @@ std::string obj_with_vertices(std::string_view obj, const std::vector<head::Vec3
 ///
 /// Errors: those of the readers, with the file; not_found (a control that is not there; a head
 /// without controls), invalid_argument (an OBJ file with another number of vertices).
-Result<TargetMesh> load_mesh(const Project& project, const tools::Talk& talk);
+Result<TargetMesh> load_mesh(const Project& project, const tools::Log& log);
 
 }  // namespace animeme::crossmap

@@ -24,27 +24,27 @@ RegionResidual region_residual(const Mapped& mapped, std::size_t take, std::size
   return out;
 }
 
-Result<Mapped> run(const Project& project, const tools::Talk& talk) {
+Result<Mapped> run(const Project& project, const tools::Log& log) {
   Mapped out;
-  auto capture = load_capture(project, talk);
+  auto capture = load_capture(project, log);
   if (!capture) return capture.error();
   out.capture = std::move(*capture);
-  auto keys = load_keys(project, out.capture, talk);
+  auto keys = load_keys(project, out.capture, log);
   if (!keys) return keys.error();
   out.keys = std::move(*keys);
-  auto target = load_target(project, out.capture, out.keys, talk);
+  auto target = load_target(project, out.capture, out.keys, log);
   if (!target) return target.error();
   out.target = std::move(*target);
   for (const dam::PointTrack& track : out.capture.tracks) {
     auto blend = dam::fit_blend(track, out.keys.shapes, out.capture.regions, out.capture.fit);
     if (!blend) return blend.error();
     if (blend->partly > 0) {
-      talk.warn(track.name + ": points are missing in " + std::to_string(blend->partly) +
-                " frames, which are fitted to the others");
+      log.warn(track.name + ": points are missing in " + std::to_string(blend->partly) +
+               " frames, which are fitted to the others");
     }
     if (blend->unseen > 0) {
-      talk.warn(track.name + ": nothing is seen in " + std::to_string(blend->unseen) +
-                " frames; they are bridged and marked as not measured");
+      log.warn(track.name + ": nothing is seen in " + std::to_string(blend->unseen) +
+               " frames; they are bridged and marked as not measured");
     }
     auto retarget = fit_target(out.target, *blend, track.rate, project.controls_fit);
     if (!retarget) return retarget.error();

@@ -13,7 +13,7 @@
 #include "tools/characters/crossmap/keys.h"
 #include "tools/characters/crossmap/project.h"
 #include "tools/characters/crossmap/target.h"
-#include "tools/formats/files/talk.h"
+#include "tools/formats/files/log.h"
 
 namespace animeme::crossmap {
 
@@ -33,7 +33,7 @@ struct Mapped {
 
 /// Does all of Appendix A: loads, finds key shapes, fits frames, retargets. Deterministic. Errors:
 /// those of load_capture(), load_keys(), load_target(), fit_blend() and fit_target().
-Result<Mapped> run(const Project& project, const tools::Talk& talk = {});
+Result<Mapped> run(const Project& project, const tools::Log& log = {});
 
 /// Root mean square of the residuals of a region over the frames of a recording in which it is
 /// seen, and the frame that is off most.

@@ -301,10 +301,10 @@ void add_rows(Target& out) {
 }
 
 Result<Target> mesh_target(const Project& project, const Capture& capture, const Keys& keys,
-                           const std::optional<dam::Poses>& table, const tools::Talk& talk) {
+                           const std::optional<dam::Poses>& table, const tools::Log& log) {
   Target out;
   out.kind = TargetKind::mesh;
-  auto mesh = load_mesh(project, talk);
+  auto mesh = load_mesh(project, log);
   if (!mesh) return mesh.error();
   // Without FAPs there is no guess, and with none of these controls nothing to be guessed.
   const FapSpace space(capture.face ? capture.face->faps : std::vector<int>());
@@ -349,18 +349,18 @@ Result<Target> mesh_target(const Project& project, const Capture& capture, const
 }  // namespace
 
 Result<Target> load_target(const Project& project, const Capture& capture, const Keys& keys,
-                           const tools::Talk& talk) {
+                           const tools::Log& log) {
   if (project.to == "keys") return coefficient_target(keys);
   if (tools::extension_of(project.to) == ".csv") return table_target(project, keys);
   const auto table = adjusted_values(project);
   if (!table) return table.error();
   Result<Target> out = project.to == "faps"    ? fap_target(capture, keys, *table)
                        : project.to == "arkit" ? arkit_target(project, capture, keys, *table)
-                                               : mesh_target(project, capture, keys, *table, talk);
+                                               : mesh_target(project, capture, keys, *table, log);
   if (!out) return out;
   const auto adjusted = std::count(out->adjusted.begin(), out->adjusted.end(), true);
   if (adjusted > 0) {
-    talk.say(std::to_string(adjusted) + " of " + std::to_string(out->adjusted.size()) +
+    log.info(std::to_string(adjusted) + " of " + std::to_string(out->adjusted.size()) +
              " key shapes were adjusted in " + project.keys);
   }
   return out;

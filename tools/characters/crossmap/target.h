@@ -46,7 +46,7 @@ struct Target {
 /// Errors: those of the readers, with the file; Capture::no_face and not_found (a shape that nobody
 /// adjusted and that cannot be guessed: the remedy is named).
 Result<Target> load_target(const Project& project, const Capture& capture, const Keys& keys,
-                           const tools::Talk& talk);
+                           const tools::Log& log);
 
 /// The recordings as control curves: fit_controls() or mix_controls(). Errors: as there.
 Result<dam::Retarget> fit_target(const Target& target, const dam::Blend& blend, fap::Rate rate,

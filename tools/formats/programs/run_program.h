@@ -6,7 +6,7 @@
 #include <string>
 
 #include "fap/result.h"
-#include "tools/formats/files/talk.h"
+#include "tools/formats/files/log.h"
 #include "tools/formats/programs/children.h"
 
 namespace animeme::tools {

@@ -93,7 +93,7 @@ Json HeadServer::figures() const {
   return {{"count", sums.heads},
           {"awake", sums.awake},
           {"most", options_.most_heads},
-          {"viewers", house_->viewers()},
+          {"viewers", server_->viewers()},
           {"planes", sums.planes},
           {"late_50_ms", milliseconds(late.percentile(0.5))},
           {"late_99_ms", milliseconds(late.percentile(0.99))},
@@ -122,7 +122,7 @@ std::string HeadServer::metrics() const {
   };
   add("heads", "gauge", "Heads that there are.", double(sums.heads));
   add("heads_awake", "gauge", "Heads that talk or are watched.", double(sums.awake));
-  add("viewers", "gauge", "Viewers of all heads.", house_->viewers());
+  add("viewers", "gauge", "Viewers of all heads.", server_->viewers());
   add("lines_waiting", "gauge", "Lines that wait to be spoken.", double(sums.lines));
   add("planes_total", "counter", "Planes that were made.", double(sums.planes));
   add("dropped_total", "counter", "Messages that slow viewers of the present heads did not get.",

@@ -13,7 +13,7 @@ constexpr double kLinger = 1;  // seconds that a head stays awake when nobody wa
 
 speech::SpeakerOptions speaker_options(const HeadSettings& settings, int voice_rate) {
   speech::SpeakerOptions options;
-  options.face = {settings.motion, settings.life, settings.seed};
+  options.face = {settings.motion, settings.idle_motion, settings.seed};
   options.fap_quant = settings.quant;
   options.intra_seconds = settings.intra_seconds;
   options.voice_rate = voice_rate;
@@ -42,7 +42,7 @@ Result<std::shared_ptr<Head>> Head::open(const std::string& name, const HeadSett
   head->speaker_ = std::move(*speaker);
   head->resume_ = std::min(0.0, head->speaker_->next_due().value_or(0));  // priming is before 0
   head->wanted_ = room.clock.now();
-  head->sink_ = room.house.make_sink("/heads/" + name, wake);
+  head->sink_ = room.server.make_sink("/heads/" + name, wake);
   if (auto ok = head->sink_->start(head->speaker_->info()); !ok) return ok.error();
   return head;
 }

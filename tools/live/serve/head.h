@@ -18,17 +18,17 @@
 #include "tools/live/serve/clock_loop.h"
 #include "tools/live/serve/head_lines.h"
 #include "tools/live/serve/settings.h"
-#include "tools/live/web/house.h"
+#include "tools/live/web/web_server.h"
 #include "tools/speech/talking/live_speaker.h"
 
 namespace animeme::serve {
 
-/// What a head needs of its house; all of it outlives the head.
+/// What a head needs of its server; all of it outlives the head.
 struct HeadRoom {
-  Voices& voices;        ///< they speak for it
-  web::WebHouse& house;  ///< where it is seen
-  ClockLoop& loop;       ///< its steps
-  media::Clock& clock;   ///< that of the loop
+  Voices& voices;          ///< they speak for it
+  web::WebServer& server;  ///< where it is seen
+  ClockLoop& loop;         ///< its steps
+  media::Clock& clock;     ///< that of the loop
 };
 
 /// How it goes.
@@ -49,7 +49,7 @@ struct HeadFigures {
 /// Thread safe.
 class Head : public Beat {
  public:
-  /// At `name` of the house: /heads/NAME/. Waits for the voice. `model` is shared. Errors: those of
+  /// At `name` of the server: /heads/NAME/. Waits for the voice. `model` is shared. Errors: those of
   /// Voices::maker(), LiveSpeaker::open() and WebSink::start().
   static Result<std::shared_ptr<Head>> open(const std::string& name, const HeadSettings& settings,
                                             std::shared_ptr<const dam::Model> model,

@@ -10,19 +10,19 @@ namespace animeme::serve {
 namespace {
 
 using tools::Json;
-using web::HouseReply;
+using web::ServerReply;
 
 constexpr std::string_view kHeads = "/heads/", kSay = "/say";
 
-HouseReply reply(unsigned status, const Json& json) {
+ServerReply reply(unsigned status, const Json& json) {
   return {status, json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"};
 }
 
-HouseReply refusal(unsigned status, const std::string& sentence) {
+ServerReply refusal(unsigned status, const std::string& sentence) {
   return reply(status, {{"error", sentence}});
 }
 
-HouseReply refusal(const Error& error) {
+ServerReply refusal(const Error& error) {
   const bool busy = error.code == Code::out_of_range;
   const bool ours = error.code == Code::io || error.code == Code::internal;
   return refusal(ours ? 500 : busy ? 429 : 400, error.describe());
@@ -46,14 +46,14 @@ std::vector<std::string> lines_of(const std::string& body) {
 
 }  // namespace
 
-bool HeadServer::allowed(const web::HouseRequest& request) const {
+bool HeadServer::allowed(const web::ServerRequest& request) const {
   constexpr std::string_view kBearer = "Bearer ";
   if (options_.token.empty()) return true;
   const std::string_view given = request.authorization;
   return given.starts_with(kBearer) && same(given.substr(kBearer.size()), options_.token);
 }
 
-HouseReply HeadServer::answer(const web::HouseRequest& request) {
+ServerReply HeadServer::answer(const web::ServerRequest& request) {
   if (request.path == "/health" && request.method == "GET") {
     const std::lock_guard lock(mutex_);
     return reply(200, {{"status", "ok"}, {"heads", heads_.size()}});
@@ -75,7 +75,7 @@ HouseReply HeadServer::answer(const web::HouseRequest& request) {
   return refusal(404, "There are /heads, /heads/NAME, /heads/NAME/say, /health and /metrics.");
 }
 
-HouseReply HeadServer::answer_head(const web::HouseRequest& request, const std::string& name) {
+ServerReply HeadServer::answer_head(const web::ServerRequest& request, const std::string& name) {
   const bool made = request.method == "PUT" || request.method == "POST";
   if (name.ends_with(kSay)) {
     if (request.method != "POST") return refusal(405, "There is POST.");
@@ -93,7 +93,7 @@ HouseReply HeadServer::answer_head(const web::HouseRequest& request, const std::
                      {"figures", head_json(head->figures())}});
 }
 
-HouseReply HeadServer::put(const std::string& name, const std::string& body) {
+ServerReply HeadServer::put(const std::string& name, const std::string& body) {
   const bool blank = body.find_first_not_of(" \t\r\n") == std::string::npos;
   const Json json = blank ? Json::object() : Json::parse(body, nullptr, false);
   if (json.is_discarded()) return refusal(400, "The body is no JSON.");
@@ -105,7 +105,7 @@ HouseReply HeadServer::put(const std::string& name, const std::string& body) {
   return reply(known ? 200 : 201, {{"name", name}, {"path", std::string(kHeads) + name + "/"}});
 }
 
-HouseReply HeadServer::say(const std::string& name, const std::string& body) {
+ServerReply HeadServer::say(const std::string& name, const std::string& body) {
   std::vector<std::string> lines = lines_of(body);
   std::shared_ptr<Head> head = find(name);
   if (!head && options_.make_on_say) {

@@ -41,15 +41,15 @@ Result<std::unique_ptr<HeadServer>> HeadServer::open(
   } catch (const std::system_error&) {
     return make_error(Code::io, "no threads can be started for the heads");
   }
-  auto house =
-      web::WebHouse::open(options.url, {options.web},
-                          [raw = server.get()](web::HouseRequest request, web::HouseAnswer answer) {
-                            raw->ask(std::move(request), std::move(answer));
-                          });
-  if (!house) return house.error();
+  auto web = web::WebServer::open(
+      options.url, {options.web},
+      [raw = server.get()](web::ServerRequest request, web::ServerAnswer answer) {
+        raw->ask(std::move(request), std::move(answer));
+      });
+  if (!web) return web.error();
   {
     const std::lock_guard lock(server->mutex_);
-    server->house_ = std::move(*house);
+    server->server_ = std::move(*web);
   }
   for (const auto& [name, settings] : heads) {
     const auto made = server->make(name, settings, false);
@@ -63,7 +63,7 @@ HeadServer::~HeadServer() {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
   }
-  if (house_) finish();
+  if (server_) finish();
   changed_.notify_all();
   if (answering_.joinable()) answering_.join();
   for (const auto& [name, head] : all()) head->finish();
@@ -178,14 +178,14 @@ void HeadServer::finish() {
   changed_.notify_all();
   if (answering_.joinable()) answering_.join();
   for (const auto& [name, head] : all()) loop_->remove(head.get());
-  house_->finish();
+  server_->finish();
 }
 
 // In the thread of the server.
-void HeadServer::ask(web::HouseRequest request, web::HouseAnswer answer) {
+void HeadServer::ask(web::ServerRequest request, web::ServerAnswer answer) {
   {
     const std::lock_guard lock(mutex_);
-    if (!stopping_ && house_ && asked_.size() < kMostAsked) {
+    if (!stopping_ && server_ && asked_.size() < kMostAsked) {
       asked_.push_back({std::move(request), std::move(answer)});
       changed_.notify_one();
       return;

@@ -22,7 +22,7 @@
 #include "tools/live/serve/head.h"
 #include "tools/live/serve/settings.h"
 #include "tools/live/serve/voices.h"
-#include "tools/live/web/house.h"
+#include "tools/live/web/web_server.h"
 
 namespace animeme::serve {
 
@@ -46,14 +46,14 @@ struct ServerOptions {
 class HeadServer {
  public:
   /// Serves from now on. `heads`: that are there from the beginning, and never forgotten. Errors:
-  /// those of WebHouse::open() and make(); invalid_argument (options).
+  /// those of WebServer::open() and make(); invalid_argument (options).
   static Result<std::unique_ptr<HeadServer>> open(
       const ServerOptions& options, const std::vector<std::pair<std::string, HeadSettings>>& heads);
   ~HeadServer();
   HeadServer(const HeadServer&) = delete;
   HeadServer& operator=(const HeadServer&) = delete;
 
-  std::string address() const { return house_->address(); }  ///< with the real port
+  std::string address() const { return server_->address(); }  ///< with the real port
   /// A head that is not there yet; or is, with these settings. Errors: invalid_argument (the name;
   /// settings; one of this name has others), out_of_range (too many heads), those of Head::open()
   /// and read_model(). `expires`: ServerOptions::expire is for it.
@@ -72,20 +72,20 @@ class HeadServer {
     bool expires = true;
   };
   struct Asked {
-    web::HouseRequest request;
-    web::HouseAnswer answer;
+    web::ServerRequest request;
+    web::ServerAnswer answer;
   };
   explicit HeadServer(const ServerOptions& options);
 
-  void ask(web::HouseRequest request, web::HouseAnswer answer);
+  void ask(web::ServerRequest request, web::ServerAnswer answer);
   void answer_all();
-  web::HouseReply answer(const web::HouseRequest& request);
-  web::HouseReply answer_head(const web::HouseRequest& request, const std::string& name);
-  web::HouseReply put(const std::string& name, const std::string& body);
-  web::HouseReply say(const std::string& name, const std::string& body);
-  bool allowed(const web::HouseRequest& request) const;
+  web::ServerReply answer(const web::ServerRequest& request);
+  web::ServerReply answer_head(const web::ServerRequest& request, const std::string& name);
+  web::ServerReply put(const std::string& name, const std::string& body);
+  web::ServerReply say(const std::string& name, const std::string& body);
+  bool allowed(const web::ServerRequest& request) const;
   Result<std::shared_ptr<const dam::Model>> model(const std::string& name);
-  HeadRoom room() { return {*voices_, *house_, *loop_, media::steady_clock()}; }
+  HeadRoom room() { return {*voices_, *server_, *loop_, media::steady_clock()}; }
   void end(const std::shared_ptr<Head>& head);
   std::vector<std::pair<std::string, std::shared_ptr<Head>>> all() const;
 
@@ -94,7 +94,7 @@ class HeadServer {
   std::map<std::string, std::shared_ptr<const dam::Model>> models_;  // with making_
   std::unique_ptr<Voices> voices_;
   std::unique_ptr<ClockLoop> loop_;
-  std::unique_ptr<web::WebHouse> house_;
+  std::unique_ptr<web::WebServer> server_;
 
   std::mutex making_;         // one head at a time
   mutable std::mutex mutex_;  // for what follows

@@ -115,7 +115,7 @@ Result<HeadSettings> read_settings(const Json& json, HeadSettings settings) {
   members.number("style", 0, dam::kMostStyle, settings.motion.style);
   members.number("sharpness", 0, dam::kMostSharpness, settings.motion.sharpness);
   members.number("articulate", 0, dam::kMostArticulation, settings.motion.articulation);
-  members.flag("life", settings.life);
+  members.flag("idle_motion", settings.idle_motion);
   members.number("seed", 0, 1e9, settings.seed);
   members.number("intra_seconds", 0.04, 60, settings.intra_seconds);
   members.number("quant", 0, 31, settings.quant);
@@ -140,7 +140,7 @@ Json settings_json(const HeadSettings& settings) {
           {"style", settings.motion.style},
           {"sharpness", settings.motion.sharpness},
           {"articulate", settings.motion.articulation},
-          {"life", settings.life},
+          {"idle_motion", settings.idle_motion},
           {"seed", settings.seed},
           {"intra_seconds", settings.intra_seconds},
           {"quant", settings.quant},

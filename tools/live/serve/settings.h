@@ -22,8 +22,8 @@ struct HeadSettings {
   std::string model;             ///< "model": a name that the server was started with; empty: ours
   voice::VoiceOptions voice;     ///< "lang", "speed" (words a minute), "pitch"
   dam::SynthesisOptions motion;  ///< "rate", "style", "sharpness", "articulate"
-  bool life = true;              ///< "life": blinks, and brows and head that move a little
-  std::uint64_t seed = 1;        ///< "seed" of life, 0..1e9
+  bool idle_motion = true;       ///< "idle_motion": blinks, and brows and head that move a little
+  std::uint64_t seed = 1;        ///< "seed" of idle motion, 0..1e9
   double intra_seconds = 1;      ///< "intra_seconds": between planes with which decoders can begin
   int quant = 1;                 ///< "quant", 0..31
   bool sound = true;             ///< "sound"

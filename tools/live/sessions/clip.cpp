@@ -129,19 +129,19 @@ Result<std::optional<fba::AccessUnits>> with_joints(const fba::AccessUnits& unit
 
 Result<fba::AccessUnits> for_live_use(fba::AccessUnits units, const fba::DecodedStream& decoded,
                                       const std::string& name, const Coding& coding,
-                                      const tools::Talk& talk) {
+                                      const tools::Log& log) {
   if (!coding.copy) {
     auto again = with_joints(units, decoded, coding);
     if (!again) return again.error().in_file(name);
     if (*again) {
-      talk.say(name + ": coded again, so that receivers can join every " +
+      log.info(name + ": coded again, so that receivers can join every " +
                interval_text(coding.intra_seconds) + "; --copy keeps it as it is");
       return std::move(**again);
     }
   }
   const double longest = longest_intra_interval(with_true_joints(units, decoded));
   if (longest > kLongInterval) {
-    talk.warn(
+    log.warn(
         name + ": up to " + interval_text(longest) +
         " pass between two intra planes, so long a receiver that joins or loses a packet has to "
         "wait; without --copy it is coded again");
@@ -150,11 +150,11 @@ Result<fba::AccessUnits> for_live_use(fba::AccessUnits units, const fba::Decoded
 }
 
 Result<media::EncodedAudio> live_sound(const std::string& path, const Coding& coding,
-                                       const tools::Talk& talk) {
+                                       const tools::Log& log) {
   const auto keep = [&](media::AudioCodec codec) {
     return !coding.codec_given || codec == coding.audio.codec;
   };
-  return speech::read_coded_sound(path, keep, coding.audio, talk);
+  return speech::read_coded_sound(path, keep, coding.audio, log);
 }
 
 }  // namespace animeme::live

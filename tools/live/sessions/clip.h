@@ -9,7 +9,7 @@
 #include "codec/decode/decoder.h"
 #include "fap/frame.h"
 #include "fap/result.h"
-#include "tools/formats/files/talk.h"
+#include "tools/formats/files/log.h"
 #include "tools/formats/media/encoded_audio.h"
 #include "tools/formats/media/pcm.h"
 
@@ -49,12 +49,12 @@ Result<std::optional<fba::AccessUnits>> with_joints(const fba::AccessUnits& unit
 /// only. `name` is that of the file in what is said and in errors.
 Result<fba::AccessUnits> for_live_use(fba::AccessUnits units, const fba::DecodedStream& decoded,
                                       const std::string& name, const Coding& coding,
-                                      const tools::Talk& talk = {});
+                                      const tools::Log& log = {});
 
 /// Sound from any file: its packets as they are where that is possible and `coding` allows it.
 /// Errors: those of speech::read_coded_sound().
 Result<media::EncodedAudio> live_sound(const std::string& path, const Coding& coding,
-                                       const tools::Talk& talk = {});
+                                       const tools::Log& log = {});
 
 /// A clip and its sound (may be null) coded.
 Result<Clip> code_live_clip(const fap::Sequence& clip, const media::Pcm* audio,

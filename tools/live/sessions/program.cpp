@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "dam/signal/fap_signal.h"
-#include "dam/speaking/life.h"
+#include "dam/speaking/idle_motion.h"
 #include "tools/speech/talking/pieces.h"
 
 namespace animeme::live {
@@ -45,10 +45,10 @@ Result<speech::LineMaker> maker_of(const ProgramOptions& options) {
 
 }  // namespace
 
-Result<Clip> spoken_clip(const ProgramOptions& options, fap::Rate rate, const tools::Talk& talk) {
+Result<Clip> spoken_clip(const ProgramOptions& options, fap::Rate rate, const tools::Log& log) {
   Result<dam::Model> model = speech::read_model(options.model);
   if (!model) return model.error();
-  Result<speech::Spoken> spoken = speech::get_spoken(options.spoken, talk);
+  Result<speech::Spoken> spoken = speech::get_spoken(options.spoken, log);
   if (!spoken) return spoken.error();
   dam::SynthesisOptions settings = synthesis_of(options, rate);
   if (spoken->audio) {
@@ -56,8 +56,8 @@ Result<Clip> spoken_clip(const ProgramOptions& options, fap::Rate rate, const to
   }
   Result<dam::Signal> signal = speech::move_face(*model, *spoken, settings);
   if (!signal) return signal.error();
-  if (options.life) {
-    auto added = dam::add_life(*signal, spoken->script, {1, options.seed});
+  if (options.idle_motion) {
+    auto added = dam::add_idle_motion(*signal, spoken->script, {1, options.seed});
     if (!added) return added.error();
   }
   Result<fap::Sequence> clip = dam::to_sequence(*signal);
@@ -90,7 +90,7 @@ Result<void> open_speaker(const ProgramOptions& options, fap::Rate rate, Program
   program.lines = std::move(*lines);
 
   speech::SpeakerOptions settings;
-  settings.face = {synthesis_of(options, rate), options.life, options.seed};
+  settings.face = {synthesis_of(options, rate), options.idle_motion, options.seed};
   settings.fap_quant = options.coding.quant;
   settings.intra_seconds = options.coding.intra_seconds;
   settings.voice_rate = program.lines->sample_rate();

@@ -31,9 +31,9 @@ struct ProgramOptions {
   Coding coding;                                    ///< of face and sound
   std::string model;                                ///< as speech::read_model() takes it
   dam::SynthesisOptions motion;                     ///< its rate, frames and tail are not used
-  bool life = false;       ///< blinks, and brows and head that move a little
-  std::uint64_t seed = 1;  ///< of life
-  bool loop = false;       ///< clips begin again at their end
+  bool idle_motion = false;  ///< blinks, and brows and head that move a little
+  std::uint64_t seed = 1;    ///< of the idle motion
+  bool loop = false;         ///< clips begin again at their end
   double duration = std::numeric_limits<double>::infinity();  ///< seconds
 };
 
@@ -56,8 +56,7 @@ struct Program {
 
 /// Text, script or recorded voice as a clip of `rate`, as `animeme speak` makes it. Errors: those
 /// of speech::read_model(), speech::get_spoken(), dam::synthesise() and code_live_clip().
-Result<Clip> spoken_clip(const ProgramOptions& options, fap::Rate rate,
-                         const tools::Talk& talk = {});
+Result<Clip> spoken_clip(const ProgramOptions& options, fap::Rate rate, const tools::Log& log = {});
 
 /// Makes `program` play a clip.
 void play_clip(Clip clip, const ProgramOptions& options, Program& program);

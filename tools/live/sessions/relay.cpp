@@ -5,8 +5,8 @@
 namespace animeme::live {
 
 Result<Relay> Relay::open(const std::vector<std::string>& urls, const std::vector<std::string>& sdp,
-                          const tools::Talk& talk) {
-  auto sinks = Sinks::open(urls, sdp, {}, talk);
+                          const tools::Log& log) {
+  auto sinks = Sinks::open(urls, sdp, {}, log);
   if (!sinks) return sinks.error();
   Relay relay;
   relay.sinks_ = std::move(*sinks);

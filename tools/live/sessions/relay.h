@@ -22,7 +22,7 @@ class Relay {
  public:
   /// No address: it does nothing. `sdp` as of Sinks::open(). Errors: those of Sinks::open().
   static Result<Relay> open(const std::vector<std::string>& urls,
-                            const std::vector<std::string>& sdp, const tools::Talk& talk = {});
+                            const std::vector<std::string>& sdp, const tools::Log& log = {});
 
   bool wanted() const { return !sinks_.addresses().empty(); }  ///< there is an address
   /// `info`, of the presentation, counts with the first unit. Errors: those of Sinks.

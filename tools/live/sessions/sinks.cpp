@@ -9,9 +9,9 @@
 namespace animeme::live {
 
 Result<Sinks> Sinks::open(const std::vector<std::string>& urls, const std::vector<std::string>& sdp,
-                          const SinkOptions& options, const tools::Talk& talk) {
+                          const SinkOptions& options, const tools::Log& log) {
   Sinks sinks;
-  sinks.talk_ = talk;
+  sinks.log_ = log;
   std::size_t described = 0;
   for (const std::string& url : urls) {
     SinkOptions own = options;
@@ -36,12 +36,12 @@ Result<void> Sinks::each(Act act) {
       continue;
     }
     address.broken = true;
-    if (last) talk_.warn(last->describe() + "; it is left out from here on");
+    if (last) log_.warn(last->describe() + "; it is left out from here on");
     last = done.error().in_file(address.url);
   }
   if (!last) return {};
   if (!alive) return *last;
-  talk_.warn(last->describe() + "; it is left out from here on");
+  log_.warn(last->describe() + "; it is left out from here on");
   return {};
 }
 
@@ -49,11 +49,10 @@ Result<void> Sinks::start(const media::LiveInfo& info) {
   for (Address& address : addresses_) {
     if (auto ok = address.sink->start(info); !ok) return ok.error().in_file(address.url);
     if (!web::is_open_to_others(webrtc::page_of(address.url))) continue;
-    talk_.warn(
-        address.url +
-        " is open to every machine that can reach this one: the page, the values and the "
-        "sound, without a password. http://127.0.0.1:PORT is for this machine alone; a proxy "
-        "in front of that one can ask for a password");
+    log_.warn(address.url +
+              " is open to every machine that can reach this one: the page, the values and the "
+              "sound, without a password. http://127.0.0.1:PORT is for this machine alone; a proxy "
+              "in front of that one can ask for a password");
   }
   return {};
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fap/result.h"
-#include "tools/formats/files/talk.h"
+#include "tools/formats/files/log.h"
 #include "tools/live/sessions/address.h"
 
 namespace animeme::live {
@@ -27,7 +27,7 @@ class Sinks {
   /// Errors: those of open_sink(), with the address.
   static Result<Sinks> open(const std::vector<std::string>& urls,
                             const std::vector<std::string>& sdp, const SinkOptions& options,
-                            const tools::Talk& talk = {});
+                            const tools::Log& log = {});
 
   /// A web server that is open to other machines is warned of. Errors: of any address.
   Result<void> start(const media::LiveInfo& info);
@@ -47,7 +47,7 @@ class Sinks {
   Result<void> each(Act act);
 
   std::vector<Address> addresses_;
-  tools::Talk talk_;
+  tools::Log log_;
 };
 
 }  // namespace animeme::live

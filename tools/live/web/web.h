@@ -24,7 +24,7 @@
 
 #include "fap/result.h"
 #include "tools/formats/media/live/live.h"
-#include "tools/live/web/peers.h"
+#include "tools/live/web/peer_connections.h"
 
 /// A web server and its client as live transports.
 namespace animeme::web {
@@ -75,8 +75,8 @@ struct WebOptions {
   std::vector<WebHead> other_heads;
   /// Makes what answers WebRTC, which the server then offers at `/whep`; none: no WebRTC. If its
   /// start() fails the server goes on without, unless `must_have_peers`.
-  std::function<std::unique_ptr<Peers>()> make_peers;
-  bool must_have_peers = false;  ///< see make_peers
+  std::function<std::unique_ptr<PeerConnections>()> make_peer_connections;
+  bool must_have_peer_connections = false;  ///< see make_peers
   /// Source: bytes that may wait for next(); the network waits when they are full.
   std::size_t queue_bytes = std::size_t(4) << 20;
 };

@@ -1,6 +1,6 @@
 // What is left without libwebsockets.
-#include "tools/live/web/house.h"
 #include "tools/live/web/web.h"
+#include "tools/live/web/web_server.h"
 
 namespace animeme::web {
 namespace {
@@ -19,8 +19,8 @@ Result<std::unique_ptr<WebSink>> make_web_sink(const std::string&, const WebOpti
   return absent();
 }
 
-Result<std::unique_ptr<WebHouse>> WebHouse::open(const std::string&, const HouseOptions&,
-                                                 HouseHandler) {
+Result<std::unique_ptr<WebServer>> WebServer::open(const std::string&, const ServerOptions&,
+                                                   ServerHandler) {
   return absent();
 }
 

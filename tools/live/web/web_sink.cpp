@@ -9,8 +9,8 @@
 #include "tools/live/web/detail/planes.h"
 #include "tools/live/web/detail/server.h"
 #include "tools/live/web/detail/values.h"
-#include "tools/live/web/house.h"
 #include "tools/live/web/web.h"
+#include "tools/live/web/web_server.h"
 
 namespace animeme::web {
 namespace {
@@ -42,16 +42,16 @@ class Sink : public WebSink {
  public:
   Sink(WebAddress address, const WebOptions& options)
       : address_(std::move(address)), options_(options) {}
-  /// In a house, below `path`.
-  Sink(WebAddress address, const WebOptions& options, std::shared_ptr<Server> house,
+  /// On a shared server, below `path`.
+  Sink(WebAddress address, const WebOptions& options, std::shared_ptr<Server> server,
        std::string path, std::function<void()> joined)
       : address_(std::move(address)),
         options_(options),
-        house_(std::move(house)),
+        shared_server_(std::move(server)),
         path_(std::move(path)),
         joined_(std::move(joined)) {}
   ~Sink() override {
-    if (house_ && stage_) house_->close(path_);
+    if (shared_server_ && stage_) shared_server_->close(path_);
   }
 
   Result<void> start(const media::LiveInfo& info) override {
@@ -76,9 +76,9 @@ class Sink : public WebSink {
       if (!stage_ || over_) return {};
       Result<void> flushed = flush();
       over_ = true;
-      if (peers_) peers_->finish();
-      if (house_) {
-        house_->close(path_);
+      if (peer_connections_) peer_connections_->finish();
+      if (shared_server_) {
+        shared_server_->close(path_);
       } else {
         server_->finish();
       }
@@ -89,8 +89,8 @@ class Sink : public WebSink {
   media::SendStats stats() const override {
     media::SendStats stats = stage_ ? stage_->stats() : media::SendStats{};
     if (server_) stats.receivers = server_->viewers();
-    if (peers_) {
-      const media::SendStats more = peers_->stats();
+    if (peer_connections_) {
+      const media::SendStats more = peer_connections_->stats();
       stats.receivers += more.receivers;
       stats.packets += more.packets;
       stats.bytes += more.bytes;
@@ -104,9 +104,9 @@ class Sink : public WebSink {
 
   std::string address() const override {
     if (!stage_) return {};
-    const int port = house_ ? house_->port() : server_->port();
+    const int port = shared_server_ ? shared_server_->port() : server_->port();
     const std::string text = WebAddress{address_.host, port}.text();
-    return house_ ? text + path_.substr(1) + "/" : text;
+    return shared_server_ ? text + path_.substr(1) + "/" : text;
   }
 
  private:
@@ -121,12 +121,12 @@ class Sink : public WebSink {
   const WebAddress address_;
   const WebOptions options_;
   media::LiveInfo info_;
-  const std::shared_ptr<Server> house_;  // null: it has a server of its own
+  const std::shared_ptr<Server> shared_server_;  // null: the sink has its own server
   const std::string path_;
   const std::function<void()> joined_;
   std::unique_ptr<Server> server_;
   std::shared_ptr<Stage> stage_;
-  std::shared_ptr<Peers> peers_;  // null: no WebRTC
+  std::shared_ptr<PeerConnections> peer_connections_;  // null: no WebRTC
   bool over_ = false;
   Values values_;
   std::vector<LiveUnit> unread_;  // since the last intra plane; nobody wanted their values
@@ -148,12 +148,12 @@ Result<void> Sink::begin(const media::LiveInfo& info) {
     if (!written) return written.error();
     init = std::move(*written);
   }
-  if (!house_) {
+  if (!shared_server_) {
     auto server = Server::listen(address_, {options_}, nullptr);
     if (!server) return server.error();
     server_ = std::move(*server);
   }
-  Server& server = house_ ? *house_ : *server_;
+  Server& server = shared_server_ ? *shared_server_ : *server_;
   stage_ = server.make_stage(info_.audio ? info_.audio->sample_rate : 0, joined_);
   const Hello hello{info_.visual_profile, info_.audio.has_value(), info_.timescale,
                     info_.face_config};
@@ -163,12 +163,13 @@ Result<void> Sink::begin(const media::LiveInfo& info) {
     stage_->set_hello(channel, {.bytes = {names.begin(), names.end()}, .text = true});
   }
   if (!init.empty()) stage_->set_hello(Channel::audio, {.bytes = std::move(init)});
-  if (server_ && options_.make_peers) {
-    peers_ = options_.make_peers();
-    Result<void> ready = peers_->start(info_, options_.max_clients, options_.per_address);
-    if (!ready && options_.must_have_peers) return ready;
-    if (!ready) peers_.reset();
-    server_->set_peers(peers_);
+  if (server_ && options_.make_peer_connections) {
+    peer_connections_ = options_.make_peer_connections();
+    Result<void> ready =
+        peer_connections_->start(info_, options_.max_clients, options_.per_address);
+    if (!ready && options_.must_have_peer_connections) return ready;
+    if (!ready) peer_connections_.reset();
+    server_->set_peer_connections(peer_connections_);
   }
   describe();
   if (!server.open(path_, stage_)) {
@@ -197,7 +198,7 @@ void Sink::describe() {
     json["heads"] = {options_.head_name};
     for (const WebHead& head : options_.other_heads) json["heads"].push_back(head.name);
   }
-  if (peers_) json["webrtc"] = true;  // at /whep
+  if (peer_connections_) json["webrtc"] = true;  // at /whep
   json["clients"] = stats().receivers;
   // Names of heads may be any text.
   stage_->set_info(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
@@ -226,12 +227,12 @@ Result<void> Sink::send_face(const LiveUnit& unit) {
   return {};
 }
 
-/// What nobody looks at is not decoded in a house: it may have hundreds of faces. Who comes then
-/// gets, with the next plane, all since the last intra plane.
+/// What nobody looks at is not decoded on a shared server: it may have hundreds of faces. Who comes
+/// then gets, with the next plane, all since the last intra plane.
 void Sink::send_values(const LiveUnit& unit) {
-  if (house_ && unit.intra) unread_.clear();
+  if (shared_server_ && unit.intra) unread_.clear();
   const bool wanted = stage_->wanted(Channel::faps) || stage_->wanted(Channel::planes);
-  if (house_ && !wanted) {
+  if (shared_server_ && !wanted) {
     if (unit.intra || !unread_.empty()) unread_.push_back(unit);
     values_ = Values();
     planes_ = PlaneWriter();
@@ -257,7 +258,7 @@ void Sink::send_values(const LiveUnit& unit) {
       stage_->publish(Channel::planes,
                       {.bytes = planes_.write(plane, *face), .entry = next.intra, .time = seconds});
     }
-    if (peers_) peers_->send(next, text);
+    if (peer_connections_) peer_connections_->send(next, text);
   }
 }
 
@@ -265,7 +266,7 @@ Result<void> Sink::send_sound(const LiveUnit& unit) {
   if (!info_.audio) return invalid("start() was not told of a sound");
   const std::int64_t time = unit.time + std::int64_t(info_.audio->sample_rate) * kWebTimeZero;
   if (time < 0) return invalid("a packet lies more than a second before time 0");
-  if (peers_) peers_->send(unit, {});
+  if (peer_connections_) peer_connections_->send(unit, {});
   const bool follows = packets_.empty() || packets_.back().time + packets_.back().duration == time;
   if (!follows) {
     if (Result<void> flushed = flush(); !flushed) return flushed;
@@ -287,7 +288,7 @@ Result<void> Sink::publish_note(const std::string& json) {
   for (const Channel channel : {Channel::face, Channel::faps, Channel::planes}) {
     stage_->publish(channel, {.bytes = {text.begin(), text.end()}, .text = true, .time = now_});
   }
-  if (peers_) peers_->tell(text);
+  if (peer_connections_) peer_connections_->tell(text);
   return {};
 }
 
@@ -343,9 +344,9 @@ Result<void> check(const WebOptions& options, int most_clients) {
   return {};
 }
 
-class House : public WebHouse {
+class SharedServer : public WebServer {
  public:
-  House(std::shared_ptr<Server> server, WebAddress address, WebOptions options)
+  SharedServer(std::shared_ptr<Server> server, WebAddress address, WebOptions options)
       : server_(std::move(server)), address_(std::move(address)), options_(std::move(options)) {
     address_.port = server_->port();
     options_.head_script.clear();  // the server has them
@@ -380,18 +381,18 @@ Result<std::unique_ptr<WebSink>> make_web_sink(const std::string& url, const Web
   return std::unique_ptr<WebSink>(new Sink(std::move(*address), options));
 }
 
-Result<std::unique_ptr<WebHouse>> WebHouse::open(const std::string& url,
-                                                 const HouseOptions& options,
-                                                 HouseHandler handler) {
-  return guarded([&]() -> Result<std::unique_ptr<WebHouse>> {
+Result<std::unique_ptr<WebServer>> WebServer::open(const std::string& url,
+                                                   const ServerOptions& options,
+                                                   ServerHandler handler) {
+  return guarded([&]() -> Result<std::unique_ptr<WebServer>> {
     Result<WebAddress> address = parse_web_address(url);
     if (!address) return address.error();
     if (auto ok = check(options.web, 10000); !ok) return ok.error();
     auto server = Server::listen(*address, options, std::move(handler));
     if (!server) return server.error();
     (*server)->serve();
-    return std::unique_ptr<WebHouse>(
-        new House(std::move(*server), std::move(*address), options.web));
+    return std::unique_ptr<WebServer>(
+        new SharedServer(std::move(*server), std::move(*address), options.web));
   });
 }
 

@@ -67,8 +67,10 @@ Result<std::unique_ptr<web::WebSink>> make_webrtc_sink(const std::string& url,
   Result<Where> where = parse_where(url);
   if (!where) return where.error();
   web::WebOptions own = options;
-  own.must_have_peers = true;
-  own.make_peers = [settings = where->options] { return make_peers(settings, true); };
+  own.must_have_peer_connections = true;
+  own.make_peer_connections = [settings = where->options] {
+    return make_peer_connections(settings, true);
+  };
   return web::make_web_sink(page_of(url), own);
 }
 

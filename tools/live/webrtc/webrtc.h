@@ -41,7 +41,8 @@ Result<void> load();
 /// For WebOptions::make_peers: `/whep` of a web server. `now`: its start() loads the module, else
 /// the first offer does, and one that cannot be answered gets 501. Errors of start(): unsupported
 /// (the sound is not Opus; those of load()).
-std::unique_ptr<web::Peers> make_peers(const WebRtcOptions& options = {}, bool now = false);
+std::unique_ptr<web::PeerConnections> make_peer_connections(const WebRtcOptions& options = {},
+                                                            bool now = false);
 
 /// Is this webrtc://...?
 bool is_webrtc(const std::string& url);

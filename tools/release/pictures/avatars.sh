@@ -8,7 +8,7 @@ shift 2
 scripts=$(dirname "$0")/../../../tests/view/gltf/scripts
 dir=$(mktemp -d)
 trap 'rm -rf "$dir"' EXIT
-"$animeme" speak --no-life --text "Papa saw two blue moons" -o "$dir/talk.fba"
+"$animeme" speak --no-idle-motion --text "Papa saw two blue moons" -o "$dir/talk.fba"
 inputs= rows=0
 for head in "$@"; do
   columns= count=0

@@ -1,11 +1,11 @@
 /// @file
 /// A talking head that is live: lines of text in, face and sound on one clock out.
 ///
-/// The clock never stops. Between lines the face rests (or idles, with life) and the sound is
-/// silence; a line begins with the next frame that has not been made, and its sound at the sample
-/// of that frame, so face and sound agree to the sample. Lines that come while another is spoken
-/// follow it. Nothing is made ahead of time but what the sound's encoder needs, so a line is seen
-/// and heard as soon as it can be.
+/// The clock never stops. Between lines the face rests (or moves a little, with idle motion) and
+/// the sound is silence; a line begins with the next frame that has not been made, and its sound at
+/// the sample of that frame, so face and sound agree to the sample. Lines that come while another
+/// is spoken follow it. Nothing is made ahead of time but what the sound's encoder needs, so a line
+/// is seen and heard as soon as it can be.
 ///
 /// What is spoken can be stopped (line_command.h): with the next frame the mouth begins to close
 /// and is at rest within 0.1 s; the sound fades in 20 ms, from the first sample on that its encoder

@@ -193,11 +193,11 @@ Result<SpokenLine> read_piece(std::string_view json, const voice::VoiceOptions& 
   }
   sound.text = std::move(*text);
   sound.audio = std::move(*audio);
-  tools::Talk talk;
-  talk.warn = [&line](const std::string& warning) {
+  tools::Log log;
+  log.warn = [&line](const std::string& warning) {
     line.doubt += (line.doubt.empty() ? "" : "; ") + warning;
   };
-  Result<TimedSpeech> timed = time_sound(std::move(sound), reading, talk);
+  Result<TimedSpeech> timed = time_sound(std::move(sound), reading, log);
   if (!timed) {
     Error error = timed.error();
     error.where = {};  // in a part of the line that nobody sees as a file

@@ -16,11 +16,10 @@ namespace animeme::speech {
 
 namespace {
 
-Result<Spoken> speak(const SpokenOptions& options, const std::string& text,
-                     const tools::Talk& talk) {
+Result<Spoken> speak(const SpokenOptions& options, const std::string& text, const tools::Log& log) {
   tools::AtStep step(tools::Step::voice);
   if (!options.tts.empty()) {
-    Result<TimedSpeech> timed = run_voice_command(text, voice_command(options), talk);
+    Result<TimedSpeech> timed = run_voice_command(text, voice_command(options), log);
     if (!timed) return timed.error();
     voice::Speech& speech = timed->speech;
     return Spoken{std::move(speech.script),    std::move(speech.audio),
@@ -33,7 +32,7 @@ Result<Spoken> speak(const SpokenOptions& options, const std::string& text,
   settings.pitch = options.pitch;
   Result<voice::Speech> speech = voice::speak_text(text, settings);
   if (!speech) return speech.error();
-  for (const std::string& warning : speech->warnings) talk.warn(warning);
+  for (const std::string& warning : speech->warnings) log.warn(warning);
   step.made(2 * speech->audio.samples.size());
   Spoken spoken{
       std::move(speech->script), std::move(speech->audio), speech->voice, TimesFrom::voice, {}, {}};
@@ -43,16 +42,16 @@ Result<Spoken> speak(const SpokenOptions& options, const std::string& text,
   return spoken;
 }
 
-Result<Spoken> follow_script(const SpokenOptions& options, const tools::Talk& talk) {
+Result<Spoken> follow_script(const SpokenOptions& options, const tools::Log& log) {
   bool words = false;
   Result<dam::Script> script =
       read_script(options.script, {options.script_reading, options.language, options.most_seconds},
-                  talk, &words);
+                  log, &words);
   if (!script) return script.error();
   Spoken spoken{
       std::move(*script), std::nullopt, {}, words ? TimesFrom::words : TimesFrom::script, {}, {}};
   if (options.audio.empty()) return spoken;
-  Result<media::Pcm> audio = read_voice(options.audio, talk);
+  Result<media::Pcm> audio = read_voice(options.audio, log);
   if (!audio) return audio.error();
   if (auto ok = dam::check_against_audio(spoken.script, audio->duration()); !ok) {
     return ok.error().in_file(options.script);
@@ -61,25 +60,25 @@ Result<Spoken> follow_script(const SpokenOptions& options, const tools::Talk& ta
   return spoken;
 }
 
-Result<Spoken> align_voice(const SpokenOptions& options, const tools::Talk& talk) {
+Result<Spoken> align_voice(const SpokenOptions& options, const tools::Log& log) {
   voice::AlignOptions settings;
   settings.language = options.language;
-  Result<voice::Alignment> aligned = align_file(options.audio, options.transcript, settings, talk);
+  Result<voice::Alignment> aligned = align_file(options.audio, options.transcript, settings, log);
   if (!aligned) return aligned.error();
-  Result<media::Pcm> audio = read_voice(options.audio, talk);
+  Result<media::Pcm> audio = read_voice(options.audio, log);
   if (!audio) return audio.error();
   dam::Script script = std::exchange(aligned->script, {});
   return Spoken{std::move(script),    std::move(*audio),   {},
                 TimesFrom::alignment, std::move(*aligned), {}};
 }
 
-Result<Spoken> hear_voice(const SpokenOptions& options, const tools::Talk& talk) {
+Result<Spoken> hear_voice(const SpokenOptions& options, const tools::Log& log) {
   voice::ListenOptions settings;
   settings.language = options.language;
   settings.progress = options.heard;
-  Result<voice::Heard> heard = listen_to_file(options.audio, settings, talk);
+  Result<voice::Heard> heard = listen_to_file(options.audio, settings, log);
   if (!heard) return heard.error();
-  Result<media::Pcm> audio = read_voice(options.audio, talk);
+  Result<media::Pcm> audio = read_voice(options.audio, log);
   if (!audio) return audio.error();
   dam::Script script = heard->script;
   return Spoken{std::move(script), std::move(*audio), {}, TimesFrom::sound, {}, std::move(*heard)};
@@ -92,24 +91,24 @@ VoiceCommand voice_command(const SpokenOptions& options) {
 }
 
 Result<voice::Alignment> align_file(const std::string& audio, const std::string& transcript,
-                                    const voice::AlignOptions& options, const tools::Talk& talk) {
+                                    const voice::AlignOptions& options, const tools::Log& log) {
   const tools::AtStep step(tools::Step::alignment);
-  Result<media::Pcm> pcm = read_voice(audio, talk, voice::kAlignRate);
+  Result<media::Pcm> pcm = read_voice(audio, log, voice::kAlignRate);
   if (!pcm) return pcm.error();
   Result<voice::Alignment> alignment = voice::align(*pcm, transcript, options);
   if (!alignment) return alignment.error().in_file(audio);
-  for (const std::string& text : alignment->warnings) talk.warn(audio + ": " + text);
+  for (const std::string& text : alignment->warnings) log.warn(audio + ": " + text);
   return alignment;
 }
 
 Result<voice::Heard> listen_to_file(const std::string& audio, const voice::ListenOptions& options,
-                                    const tools::Talk& talk) {
+                                    const tools::Log& log) {
   const tools::AtStep step(tools::Step::alignment);
-  Result<media::Pcm> pcm = read_voice(audio, talk, voice::kAlignRate);
+  Result<media::Pcm> pcm = read_voice(audio, log, voice::kAlignRate);
   if (!pcm) return pcm.error();
   Result<voice::Heard> heard = voice::listen(*pcm, options);
   if (!heard) return heard.error().in_file(audio);
-  for (const std::string& text : heard->warnings) talk.warn(audio + ": " + text);
+  for (const std::string& text : heard->warnings) log.warn(audio + ": " + text);
   return heard;
 }
 
@@ -146,18 +145,18 @@ bool has_source(const SpokenOptions& options) {
          options.has_transcript || (options.listen && !options.audio.empty());
 }
 
-Result<Spoken> get_spoken(const SpokenOptions& options, const tools::Talk& talk) {
+Result<Spoken> get_spoken(const SpokenOptions& options, const tools::Log& log) {
   if (!options.text_file.empty()) {
     Result<std::string> text = tools::read_text_file(options.text_file, tools::kMostWritten);
     if (!text) return text.error();
-    Result<Spoken> spoken = speak(options, *text, talk);
+    Result<Spoken> spoken = speak(options, *text, log);
     if (!spoken) return spoken.error().in_file(options.text_file);
     return spoken;
   }
-  if (options.has_text) return speak(options, options.text, talk);
-  if (!options.script.empty()) return follow_script(options, talk);
-  if (options.listen && !options.has_transcript) return hear_voice(options, talk);
-  return align_voice(options, talk);
+  if (options.has_text) return speak(options, options.text, log);
+  if (!options.script.empty()) return follow_script(options, log);
+  if (options.listen && !options.has_transcript) return hear_voice(options, log);
+  return align_voice(options, log);
 }
 
 Result<dam::Model> read_model(const std::string& path) {

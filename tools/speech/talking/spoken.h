@@ -13,7 +13,7 @@
 #include "dam/signal/signal.h"
 #include "dam/speaking/synthesise.h"
 #include "fap/result.h"
-#include "tools/formats/files/talk.h"
+#include "tools/formats/files/log.h"
 #include "tools/formats/media/pcm.h"
 #include "tools/speech/talking/timed_sound.h"
 #include "tools/speech/talking/voice_command.h"
@@ -67,18 +67,17 @@ VoiceCommand voice_command(const SpokenOptions& options);
 /// Speaks, reads, aligns or listens. What a voice left out or spelled goes to talk.warn. Errors:
 /// those of reading the files, of voice::speak_text(), run_voice_command(),
 /// dam::check_against_audio(), align_file() and listen_to_file().
-Result<Spoken> get_spoken(const SpokenOptions& options, const tools::Talk& talk = {});
+Result<Spoken> get_spoken(const SpokenOptions& options, const tools::Log& log = {});
 
 /// The timed phones of a recording and its text. What the aligner doubts goes to talk.warn.
 /// Errors: those of read_voice() and voice::align().
 Result<voice::Alignment> align_file(const std::string& audio, const std::string& transcript,
-                                    const voice::AlignOptions& options,
-                                    const tools::Talk& talk = {});
+                                    const voice::AlignOptions& options, const tools::Log& log = {});
 
 /// The phones of a recording alone. What is to be told of it goes to talk.warn. Errors: those of
 /// read_voice() and voice::listen().
 Result<voice::Heard> listen_to_file(const std::string& audio, const voice::ListenOptions& options,
-                                    const tools::Talk& talk = {});
+                                    const tools::Log& log = {});
 
 /// The motion: of the script, or the mean of all that may have been heard. Errors: those of
 /// dam::synthesise() and dam::synthesise_readings().

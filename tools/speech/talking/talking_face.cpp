@@ -7,7 +7,7 @@
 
 #include "dam/maths/raised_cosine.h"
 #include "dam/signal/fap_signal.h"
-#include "dam/speaking/life.h"
+#include "dam/speaking/idle_motion.h"
 
 namespace animeme::speech {
 
@@ -157,8 +157,8 @@ Result<void> TalkingFace::begin(const dam::Script& script, bool closing) {
   Result<dam::Signal> signal = synthesise(script);
   if (!signal) return signal.error();
   const std::size_t mouth = signal->names.size();
-  if (options_.life) {
-    auto added = dam::add_life(*signal, script, {1, options_.seed + pieces_});
+  if (options_.idle_motion) {
+    auto added = dam::add_idle_motion(*signal, script, {1, options_.seed + pieces_});
     if (!added) return added.error();
   }
   if (closing) {
@@ -218,11 +218,12 @@ Result<Line> TalkingFace::join(const dam::Script& script, double start) {
   Result<dam::Signal> signal = synthesise(both);
   if (!signal) return signal.error();
   const std::size_t at = at_ - cut, mouth = signal->names.size();
-  if (options_.life) {
+  if (options_.idle_motion) {
     // What lids, brows and head are about to do they do; the new line has its own.
     dam::Signal alone = *signal;
-    auto added = dam::add_life(alone, joint({}, 0, script, begin - rate.seconds(double(cut))),
-                               {1, options_.seed + pieces_});
+    auto added =
+        dam::add_idle_motion(alone, joint({}, 0, script, begin - rate.seconds(double(cut))),
+                             {1, options_.seed + pieces_});
     if (!added) return added.error();
     const std::size_t old = std::min(signal_.frames() - cut, alone.frames());
     for (std::size_t i = 0; i < old; ++i) {

@@ -1,7 +1,7 @@
 /// @file
 /// The frames of a face that speaks when there is something to say and idles when there is not.
 ///
-///     auto face = TalkingFace::open(model, {.life = true});
+///     auto face = TalkingFace::open(model, {.idle_motion = true});
 ///     for (;;) {
 ///       if (have_line && !face->speaking()) face->say(script);
 ///       auto frame = face->next();                   // one every 1/rate seconds, for ever
@@ -28,8 +28,8 @@ namespace animeme::speech {
 /// How a face speaks and idles.
 struct FaceOptions {
   dam::SynthesisOptions synthesis;  ///< `frames` and `tail` are not used
-  bool life = false;                ///< blinks, brows, head: see dam/speaking/life.h
-  std::uint64_t seed = 1;           ///< of life
+  bool idle_motion = false;         ///< blinks, brows, head: see dam/speaking/idle_motion.h
+  std::uint64_t seed = 1;           ///< of the idle motion
 };
 
 /// What say() makes of a script.
@@ -45,7 +45,7 @@ struct Line {
 class TalkingFace {
  public:
   /// The model must outlive the face. Errors: not_found (the model has no FAPs), those of
-  /// dam::synthesise() and dam::add_life().
+  /// dam::synthesise() and dam::add_idle_motion().
   static Result<TalkingFace> open(const dam::Model& model, const FaceOptions& options);
 
   /// The FAPs of every frame.
@@ -55,7 +55,7 @@ class TalkingFace {
   /// True while frames of a line are left.
   bool speaking() const { return speaking_ && at_ < clip_.frames.size(); }
   /// Begins a line with the next frame; what is left of the line before is dropped.
-  /// Errors: those of dam::synthesise() and dam::add_life().
+  /// Errors: those of dam::synthesise() and dam::add_idle_motion().
   Result<Line> say(const dam::Script& script);
   /// Goes on with a line: `script` begins `start` seconds after the next frame (0 or more; not
   /// before the end of what is said so far) and is coarticulated with what is left of that, which

@@ -18,10 +18,9 @@ void cover(dam::Script& script, double seconds) {
   }
 }
 
-Result<TimedSpeech> by_labels(TimedSound& sound, const ScriptInput& input,
-                              const tools::Talk& talk) {
+Result<TimedSpeech> by_labels(TimedSound& sound, const ScriptInput& input, const tools::Log& log) {
   bool words = false;
-  Result<dam::Script> script = parse_script(sound.labels, sound.from, input, talk, &words);
+  Result<dam::Script> script = parse_script(sound.labels, sound.from, input, log, &words);
   if (!script) return script.error();
   if (!sound.audio.samples.empty()) {
     if (auto ok = dam::check_against_audio(*script, sound.audio.duration()); !ok) {
@@ -35,14 +34,14 @@ Result<TimedSpeech> by_labels(TimedSound& sound, const ScriptInput& input,
 }
 
 Result<TimedSpeech> by_alignment(const TimedSound& sound, const ScriptInput& input,
-                                 const tools::Talk& talk) {
+                                 const tools::Log& log) {
   Result<media::Pcm> pcm = media::resample(sound.audio, voice::kAlignRate);
   if (!pcm) return pcm.error();
   voice::AlignOptions settings;
   settings.language = input.language;
   Result<voice::Alignment> alignment = voice::align(*pcm, sound.text, settings);
   if (!alignment) return alignment.error();
-  for (const std::string& warning : alignment->warnings) talk.warn(warning);
+  for (const std::string& warning : alignment->warnings) log.warn(warning);
   TimedSpeech timed;
   timed.speech.script = std::exchange(alignment->script, {});
   timed.times = TimesFrom::alignment;
@@ -68,17 +67,16 @@ const char* name_of(TimesFrom times) {
   return "sound";
 }
 
-Result<TimedSpeech> time_sound(TimedSound sound, const ScriptInput& input,
-                               const tools::Talk& talk) {
+Result<TimedSpeech> time_sound(TimedSound sound, const ScriptInput& input, const tools::Log& log) {
   std::optional<TimedSpeech> timed;
   if (!sound.labels.empty()) {
-    Result<TimedSpeech> labelled = by_labels(sound, input, talk);
+    Result<TimedSpeech> labelled = by_labels(sound, input, log);
     if (labelled) {
       timed = std::move(*labelled);
     } else if (!sound.labels_may_be_none || sound.text.empty()) {
       return labelled.error();
     } else {
-      talk.say(sound.from + ": no script (" + labelled.error().message +
+      log.info(sound.from + ": no script (" + labelled.error().message +
                "); the sounds are found by alignment");
     }
   }
@@ -87,7 +85,7 @@ Result<TimedSpeech> time_sound(TimedSound sound, const ScriptInput& input,
       return make_error(Code::invalid_argument,
                         "neither times nor a text to find them by; give one of them");
     }
-    Result<TimedSpeech> aligned = by_alignment(sound, input, talk);
+    Result<TimedSpeech> aligned = by_alignment(sound, input, log);
     if (!aligned) return aligned.error();
     timed = std::move(*aligned);
   }

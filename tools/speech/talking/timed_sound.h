@@ -9,7 +9,7 @@
 
 #include "dam/script/script.h"
 #include "fap/result.h"
-#include "tools/formats/files/talk.h"
+#include "tools/formats/files/log.h"
 #include "tools/formats/media/pcm.h"
 #include "tools/speech/talking/voice_file.h"
 #include "tools/speech/voice/align.h"
@@ -48,6 +48,6 @@ struct TimedSpeech {
 /// Speech of a sound. The script is made as long as the audio. Errors: those of parse_script(),
 /// dam::check_against_audio() and voice::align(); invalid_argument (neither labels nor text).
 Result<TimedSpeech> time_sound(TimedSound sound, const ScriptInput& input,
-                               const tools::Talk& talk = {});
+                               const tools::Log& log = {});
 
 }  // namespace animeme::speech

@@ -30,7 +30,7 @@ bool has_words_to_say(const std::string& text) {
 }  // namespace
 
 Result<TimedSpeech> run_voice_command(const std::string& text, const VoiceCommand& voice,
-                                      const tools::Talk& talk, const tools::Progress& progress) {
+                                      const tools::Log& log, const tools::Progress& progress) {
   const Result<tools::CommandTemplate> command = tools::parse_command(voice.command);
   if (!command) return command.error();
   if (!has_words_to_say(text)) {
@@ -80,7 +80,7 @@ Result<TimedSpeech> run_voice_command(const std::string& text, const VoiceComman
     error.where = {};
     return error;
   }
-  for (const std::string& warning : warnings) talk.warn(program + ": " + warning);
+  for (const std::string& warning : warnings) log.warn(program + ": " + warning);
   sound.audio = std::move(*audio);
   const std::string& script_file = times_in_file ? times : out;
   if ((times_in_file || sound_in_file) && is_there(script_file)) {
@@ -90,7 +90,7 @@ Result<TimedSpeech> run_voice_command(const std::string& text, const VoiceComman
     // Standard output may be anything; a format that was asked for is insisted on.
     sound.labels_may_be_none = !times_in_file && voice.input.reading.format.empty();
   }
-  Result<TimedSpeech> timed = time_sound(std::move(sound), voice.input, talk);
+  Result<TimedSpeech> timed = time_sound(std::move(sound), voice.input, log);
   if (timed) timed->speech.voice = program;
   return timed;
 }
@@ -102,13 +102,13 @@ Result<LineMaker> command_lines(const VoiceCommand& voice) {
   maker.sample_rate = kLiveRate;
   maker.make = [voice](std::string line, const Wanted& wanted) -> Result<SpokenLine> {
     SpokenLine spoken;
-    tools::Talk talk;
-    talk.warn = [&spoken](const std::string& text) {
+    tools::Log log;
+    log.warn = [&spoken](const std::string& text) {
       spoken.doubt += (spoken.doubt.empty() ? "" : "; ") + text;
     };
     tools::Progress progress;
     progress.stop = [&wanted] { return !wanted(); };
-    Result<TimedSpeech> timed = run_voice_command(line, voice, talk, progress);
+    Result<TimedSpeech> timed = run_voice_command(line, voice, log, progress);
     if (!timed) return timed.error();
     spoken.text = std::move(line);
     spoken.speech = std::move(timed->speech);

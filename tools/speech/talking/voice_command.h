@@ -10,7 +10,7 @@
 #include <string>
 
 #include "fap/result.h"
-#include "tools/formats/files/talk.h"
+#include "tools/formats/files/log.h"
 #include "tools/speech/talking/lines.h"
 #include "tools/speech/talking/timed_sound.h"
 
@@ -31,7 +31,7 @@ struct VoiceCommand {
 /// Errors: those of tools::parse_command(), tools::run_program(), media::read_audio() and
 /// time_sound(); invalid_argument (the text is empty), not_found (no sound), io (progress.stop()).
 Result<TimedSpeech> run_voice_command(const std::string& text, const VoiceCommand& voice,
-                                      const tools::Talk& talk = {},
+                                      const tools::Log& log = {},
                                       const tools::Progress& progress = {});
 
 /// The same for lines as they come. Errors: those of tools::parse_command().

@@ -22,7 +22,7 @@ namespace {
 
 // From labels to phones.
 Result<dam::Script> script_of(Result<dam::Timings> timings, const std::string& path,
-                              const ScriptInput& input, const tools::Talk& talk, bool* from_words) {
+                              const ScriptInput& input, const tools::Log& log, bool* from_words) {
   if (!timings) return timings.error().in_file(path);
   if (from_words != nullptr) *from_words = dam::has_words(*timings);
   if (dam::has_words(*timings)) {
@@ -31,8 +31,8 @@ Result<dam::Script> script_of(Result<dam::Timings> timings, const std::string& p
     settings.language = input.language;
     timings = voice::words_to_phones(*timings, settings, warnings);
     if (!timings) return timings.error().in_file(path);
-    for (const std::string& warning : warnings) talk.warn(path + ": " + warning);
-    talk.say(path + ": words with times; their phones are guessed by pronunciation");
+    for (const std::string& warning : warnings) log.warn(path + ": " + warning);
+    log.info(path + ": words with times; their phones are guessed by pronunciation");
   }
   Result<dam::Script> script = dam::make_script(*timings);
   if (!script) return script.error().in_file(path);
@@ -93,12 +93,12 @@ std::vector<media::TextTrack> carried_texts(const dam::Script& script, std::stri
   return tracks;
 }
 
-std::vector<media::TextTrack> carried_tracks(const std::string& path, const tools::Talk& talk) {
+std::vector<media::TextTrack> carried_tracks(const std::string& path, const tools::Log& log) {
   if (!carries_text(path)) return {};
   Result<std::vector<media::TextTrack>> tracks = media::read_text_tracks(path);
   if (!tracks) {
     // What else is wrong with the file tells whoever reads it for its face.
-    if (tracks.error().code == Code::out_of_range) talk.warn(tracks.error().describe());
+    if (tracks.error().code == Code::out_of_range) log.warn(tracks.error().describe());
     return {};
   }
   std::erase_if(*tracks, [](const media::TextTrack& track) { return !is_ours(track); });
@@ -106,46 +106,46 @@ std::vector<media::TextTrack> carried_tracks(const std::string& path, const tool
 }
 
 std::optional<dam::Script> carried_script(const std::string& path, const ScriptInput& input,
-                                          const tools::Talk& talk) {
-  const std::vector<media::TextTrack> tracks = carried_tracks(path, talk);
+                                          const tools::Log& log) {
+  const std::vector<media::TextTrack> tracks = carried_tracks(path, log);
   if (tracks.empty()) return std::nullopt;
   Result<dam::Script> script =
-      script_of(dam::labels_of_tier(grid_of(tracks), input.reading), path, input, talk, nullptr);
+      script_of(dam::labels_of_tier(grid_of(tracks), input.reading), path, input, log, nullptr);
   if (script) return std::move(*script);
-  talk.warn("its words are left out: " + script.error().describe());
+  log.warn("its words are left out: " + script.error().describe());
   return std::nullopt;
 }
 
 Result<dam::Script> read_script(const std::string& path, const ScriptInput& input,
-                                const tools::Talk& talk, bool* from_words) {
+                                const tools::Log& log, bool* from_words) {
   if (carries_text(path)) {
     const Result<std::vector<media::TextTrack>> tracks = media::read_text_tracks(path);
     if (!tracks) return tracks.error();
     if (tracks->empty()) {
       return make_error(Code::not_found, "the file carries no words and no phones").in_file(path);
     }
-    return script_of(dam::labels_of_tier(grid_of(*tracks), input.reading), path, input, talk,
+    return script_of(dam::labels_of_tier(grid_of(*tracks), input.reading), path, input, log,
                      from_words);
   }
   const Result<std::string> text = tools::read_text_file(path, tools::kMostWritten);
   if (!text) return text.error();
-  return parse_script(*text, path, input, talk, from_words);
+  return parse_script(*text, path, input, log, from_words);
 }
 
 Result<dam::Script> parse_script(const std::string& text, const std::string& path,
-                                 const ScriptInput& input, const tools::Talk& talk,
+                                 const ScriptInput& input, const tools::Log& log,
                                  bool* from_words) {
-  return script_of(scripts::read_labels(text, input.reading), path, input, talk, from_words);
+  return script_of(scripts::read_labels(text, input.reading), path, input, log, from_words);
 }
 
-Result<media::Pcm> read_voice(const std::string& path, const tools::Talk& talk, int sample_rate) {
+Result<media::Pcm> read_voice(const std::string& path, const tools::Log& log, int sample_rate) {
   std::vector<std::string> warnings;
   media::ReadAudioOptions options;
   options.sample_rate = sample_rate;
   options.warnings = &warnings;
   Result<media::Pcm> audio = media::read_audio(path, options);
   if (!audio) return audio.error().in_file(path);
-  for (const std::string& text : warnings) talk.warn(path + ": " + text);
+  for (const std::string& text : warnings) log.warn(path + ": " + text);
   return audio;
 }
 
@@ -162,7 +162,7 @@ void SoundInput::give_to(media::MuxInput& input) const {
 }
 
 Result<SoundInput> read_sound(const std::string& path, const KeepCodec& keep,
-                              const tools::Talk& talk) {
+                              const tools::Log& log) {
   SoundInput sound;
   Result<media::EncodedAudio> coded = media::read_encoded_audio(path);
   if (coded && keep(coded->format.codec)) {
@@ -170,7 +170,7 @@ Result<SoundInput> read_sound(const std::string& path, const KeepCodec& keep,
     return sound;
   }
   if (!coded && coded.error().code != Code::unsupported) return coded.error().in_file(path);
-  Result<media::Pcm> samples = read_voice(path, talk);
+  Result<media::Pcm> samples = read_voice(path, log);
   if (!samples) return samples.error();
   sound.samples = std::move(*samples);
   return sound;
@@ -178,8 +178,8 @@ Result<SoundInput> read_sound(const std::string& path, const KeepCodec& keep,
 
 Result<media::EncodedAudio> read_coded_sound(const std::string& path, const KeepCodec& keep,
                                              const media::AudioSettings& settings,
-                                             const tools::Talk& talk) {
-  Result<SoundInput> sound = read_sound(path, keep, talk);
+                                             const tools::Log& log) {
+  Result<SoundInput> sound = read_sound(path, keep, log);
   if (!sound) return sound.error();
   if (sound->coded) return std::move(*sound->coded);
   return media::encode_audio(*sound->samples, settings);

@@ -11,7 +11,7 @@
 
 #include "dam/script/script.h"
 #include "fap/result.h"
-#include "tools/formats/files/talk.h"
+#include "tools/formats/files/log.h"
 #include "tools/formats/media/encoded_audio.h"
 #include "tools/formats/media/mux.h"
 #include "tools/formats/media/pcm.h"
@@ -36,11 +36,11 @@ struct ScriptInput {
 /// scripts::read_labels(), dam::make_script() and voice::words_to_phones(),
 /// media::read_text_tracks(); out_of_range (it lasts more than `most_seconds`).
 Result<dam::Script> read_script(const std::string& path, const ScriptInput& input = {},
-                                const tools::Talk& talk = {}, bool* from_words = nullptr);
+                                const tools::Log& log = {}, bool* from_words = nullptr);
 /// The same from its text; `path` is for messages. `from_words`, if not null, is told whether the
 /// phones are guessed.
 Result<dam::Script> parse_script(const std::string& text, const std::string& path,
-                                 const ScriptInput& input = {}, const tools::Talk& talk = {},
+                                 const ScriptInput& input = {}, const tools::Log& log = {},
                                  bool* from_words = nullptr);
 
 /// Words and phones of a script as a media file carries them: for media::MuxInput::texts. Tracks
@@ -50,16 +50,16 @@ std::vector<media::TextTrack> carried_texts(const dam::Script& script, std::stri
 
 /// These tracks of a file; empty: it has none, or cannot be read again ("-", pipes). More text than
 /// is read is told to talk.warn.
-std::vector<media::TextTrack> carried_tracks(const std::string& path, const tools::Talk& talk = {});
+std::vector<media::TextTrack> carried_tracks(const std::string& path, const tools::Log& log = {});
 
 /// They as a script again; nothing: there are none, or they cannot be used, which talk.warn is
 /// told.
 std::optional<dam::Script> carried_script(const std::string& path, const ScriptInput& input = {},
-                                          const tools::Talk& talk = {});
+                                          const tools::Log& log = {});
 
 /// A recording as samples of one channel; `sample_rate` 0: its own. Errors: those of
 /// media::read_audio().
-Result<media::Pcm> read_voice(const std::string& path, const tools::Talk& talk = {},
+Result<media::Pcm> read_voice(const std::string& path, const tools::Log& log = {},
                               int sample_rate = 0);
 
 /// A sound that goes into a file: coded already (with packets), or samples to be coded; one of
@@ -80,12 +80,12 @@ using KeepCodec = std::function<bool(media::AudioCodec)>;
 /// Errors: those of media::read_encoded_audio() and media::read_audio(); not_found: no file, or no
 /// sound in it.
 Result<SoundInput> read_sound(const std::string& path, const KeepCodec& keep,
-                              const tools::Talk& talk = {});
+                              const tools::Log& log = {});
 
 /// The same, coded with `settings` where it could not stay. Errors: also those of
 /// media::encode_audio().
 Result<media::EncodedAudio> read_coded_sound(const std::string& path, const KeepCodec& keep,
                                              const media::AudioSettings& settings,
-                                             const tools::Talk& talk = {});
+                                             const tools::Log& log = {});
 
 }  // namespace animeme::speech

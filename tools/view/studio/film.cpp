@@ -48,7 +48,7 @@ using TakePicture = std::function<Result<void>(std::span<const std::uint8_t> rgb
 
 // The film as it will be; `pictures` counts what was drawn when it ended.
 Result<Film> render_all(const fap::Sequence& clip, double seconds, const FilmOptions& options,
-                        const TakePicture& take, const tools::Talk& talk,
+                        const TakePicture& take, const tools::Log& log,
                         const tools::Progress& progress) {
   const HeadLook& look = options.look;
   const fap::Rate rate = options.rate.value_or(clip.rate);
@@ -56,7 +56,7 @@ Result<Film> render_all(const fap::Sequence& clip, double seconds, const FilmOpt
   HeadLook above = look;  // the head keeps clear of the strip
   const int strip_height = has_strip ? std::min(kStripHeight, look.height / 3) : 0;
   above.height -= strip_height;
-  Result<HeadView> view = HeadView::make(above, talk);
+  Result<HeadView> view = HeadView::make(above, log);
   if (!view) return view.error();
   plot::Strip strip(clip, {look.width, strip_height, options.faps, options.script,
                            std::clamp(seconds, 0.5, kLongestPage)});
@@ -88,7 +88,7 @@ Result<Film> render_all(const fap::Sequence& clip, double seconds, const FilmOpt
 
 Result<Film> write_video(const std::string& path, const fap::Sequence& clip,
                          const media::MuxInput& sound, const FilmOptions& options,
-                         const tools::Talk& talk, const tools::Progress& progress) {
+                         const tools::Log& log, const tools::Progress& progress) {
   Result<media::VideoCodec> codec = media::video_codec_for(tools::extension_of(path));
   if (!codec) return codec.error();
   const fap::Rate rate = options.rate.value_or(clip.rate);
@@ -97,7 +97,7 @@ Result<Film> write_video(const std::string& path, const fap::Sequence& clip,
   if (!encoder) return encoder.error();
   Result<Film> film = render_all(
       clip, std::max(clip.duration(), seconds_of(sound)), options,
-      [&](std::span<const std::uint8_t> rgba, std::int64_t) { return encoder->push(rgba); }, talk,
+      [&](std::span<const std::uint8_t> rgba, std::int64_t) { return encoder->push(rgba); }, log,
       progress);
   if (!film) return film;
   Result<media::EncodedVideo> video = encoder->finish();
@@ -114,7 +114,7 @@ Result<Film> write_video(const std::string& path, const fap::Sequence& clip,
 
 // Without sound.
 Result<Film> write_animation(const std::string& path, const fap::Sequence& clip,
-                             const FilmOptions& options, const tools::Talk& talk,
+                             const FilmOptions& options, const tools::Log& log,
                              const tools::Progress& progress) {
   Result<Animation> animation =
       Animation::open(options.look.width, options.look.height, picture_quality(options.quality));
@@ -128,7 +128,7 @@ Result<Film> write_animation(const std::string& path, const fap::Sequence& clip,
       [&](std::span<const std::uint8_t> rgba, std::int64_t picture) {
         return animation->push(rgba, instant(picture));
       },
-      talk, progress);
+      log, progress);
   if (!film) return film;
   const auto file = animation->finish(instant(std::int64_t(film->pictures)));
   if (!file) return file.error();
@@ -150,14 +150,14 @@ bool is_film(const std::string& extension) {
 
 Result<Film> write_film(const std::string& path, const fap::Sequence& clip,
                         const media::MuxInput& sound, const FilmOptions& options,
-                        const tools::Talk& talk, const tools::Progress& progress) {
+                        const tools::Log& log, const tools::Progress& progress) {
   if (clip.frames.empty()) return make_error(Code::not_found, "there is no frame to show");
   FilmOptions own = options;
   own.look.width = even(options.look.width);
   own.look.height = even(options.look.height);
   Result<Film> film = is_animation(tools::extension_of(path))
-                          ? write_animation(path, clip, own, talk, progress)
-                          : write_video(path, clip, sound, own, talk, progress);
+                          ? write_animation(path, clip, own, log, progress)
+                          : write_video(path, clip, sound, own, log, progress);
   if (!film) return film.error().in_file(path);
   return film;
 }

@@ -10,7 +10,7 @@
 #include "dam/script/script.h"
 #include "fap/frame.h"
 #include "fap/result.h"
-#include "tools/formats/files/talk.h"
+#include "tools/formats/files/log.h"
 #include "tools/formats/media/mux.h"
 #include "tools/view/studio/head_view.h"
 
@@ -53,6 +53,6 @@ bool is_film(const std::string& extension);
 /// and write_container(), with the path.
 Result<Film> write_film(const std::string& path, const fap::Sequence& clip,
                         const media::MuxInput& sound, const FilmOptions& options,
-                        const tools::Talk& talk = {}, const tools::Progress& progress = {});
+                        const tools::Log& log = {}, const tools::Progress& progress = {});
 
 }  // namespace animeme::studio

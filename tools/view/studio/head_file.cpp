@@ -198,13 +198,13 @@ Result<LoadedHead> load_head(const HeadChoice& choice) {
   }
 }
 
-Result<head::Head> load_head(const HeadChoice& choice, const tools::Talk& talk) {
+Result<head::Head> load_head(const HeadChoice& choice, const tools::Log& log) {
   static tools::FileCache<LoadedHead> cache;  // batches ask again and again
   const std::string how =
       choice.points + "\n" + choice.gain + (choice.colours_at_vertices ? "c" : "");
   Result<LoadedHead> loaded = cache.get(choice.head, how, [&] { return load_head(choice); });
   if (!loaded) return loaded.error();
-  for (const std::string& note : loaded->notes) talk.say(choice.head + ": " + note);
+  for (const std::string& note : loaded->notes) log.info(choice.head + ": " + note);
   return std::move(loaded->head);
 }
 

@@ -8,7 +8,7 @@
 
 #include "fap/head/model.h"
 #include "fap/result.h"
-#include "tools/formats/files/talk.h"
+#include "tools/formats/files/log.h"
 
 namespace animeme::studio {
 
@@ -43,6 +43,6 @@ std::string problem_of(const HeadChoice& choice);
 Result<LoadedHead> load_head(const HeadChoice& choice);
 
 /// The same; each note goes to talk.say, behind the name of the file.
-Result<head::Head> load_head(const HeadChoice& choice, const tools::Talk& talk);
+Result<head::Head> load_head(const HeadChoice& choice, const tools::Log& log);
 
 }  // namespace animeme::studio

@@ -29,8 +29,8 @@ HeadView::HeadView(HeadView&&) noexcept = default;
 HeadView& HeadView::operator=(HeadView&&) noexcept = default;
 HeadView::~HeadView() = default;
 
-Result<HeadView> HeadView::make(const HeadLook& look, const tools::Talk& talk) {
-  Result<head::Head> made = load_head(look.head, talk);
+Result<HeadView> HeadView::make(const HeadLook& look, const tools::Log& log) {
+  Result<head::Head> made = load_head(look.head, log);
   if (!made) return made.error();
   return HeadView(std::make_unique<State>(std::move(*made), look));
 }
@@ -42,8 +42,8 @@ const render::Image& HeadView::draw(const fap::Frame& frame) {
 }
 
 Result<render::Image> draw_sheet(const HeadLook& look, std::span<const ShownFrame> frames,
-                                 int columns, const tools::Talk& talk) {
-  Result<HeadView> view = HeadView::make(look, talk);
+                                 int columns, const tools::Log& log) {
+  Result<HeadView> view = HeadView::make(look, log);
   if (!view) return view.error();
   std::vector<render::Image> pictures;
   for (const ShownFrame& shown : frames) pictures.push_back(view->draw(shown.frame));

@@ -27,7 +27,7 @@ struct HeadLook {
 class HeadView {
  public:
   /// Errors and talk: those of load_head().
-  static Result<HeadView> make(const HeadLook& look, const tools::Talk& talk = {});
+  static Result<HeadView> make(const HeadLook& look, const tools::Log& log = {});
   HeadView(HeadView&&) noexcept;  ///< leaves the other one empty
   HeadView& operator=(HeadView&&) noexcept;
   ~HeadView();
@@ -44,6 +44,6 @@ class HeadView {
 /// Pictures of frames side by side, `columns` in a row. Errors: those of HeadView::make() and
 /// render::contact_sheet().
 Result<render::Image> draw_sheet(const HeadLook& look, std::span<const ShownFrame> frames,
-                                 int columns, const tools::Talk& talk = {});
+                                 int columns, const tools::Log& log = {});
 
 }  // namespace animeme::studio

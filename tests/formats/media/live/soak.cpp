@@ -147,7 +147,7 @@ int soak(const Settings& settings) {
     return all;
   };
   Player sender("sender",
-                {"stream", "--say", "-", "--life", "--seed", "%", "--to",
+                {"stream", "--say", "-", "--idle-motion", "--seed", "%", "--to",
                  "rtp://127.0.0.1:" + std::to_string(rtp), "--sdp", sdp, "--to", "http://" + http},
                 folder);
   Player by_rtp("rtp", receiver(sdp, "rtp"), folder),

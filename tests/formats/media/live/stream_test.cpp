@@ -107,8 +107,8 @@ TEST_F(Streams, TextAndStreamHaveTheFapsOfTheSource) {
 TEST_F(Streams, LinesFromStandardInputAreSpokenAsTheyCome) {
   int pipe[2];
   ASSERT_EQ(::pipe2(pipe, O_CLOEXEC), 0);
-  Running send(sender({"--say", "-", "--life", "--stats", "--json"}), dir / "s.out", dir / "s.err",
-               pipe[0]);
+  Running send(sender({"--say", "-", "--idle-motion", "--stats", "--json"}), dir / "s.out",
+               dir / "s.err", pipe[0]);
   ::close(pipe[0]);
   ASSERT_TRUE(wait_for([&] { return described(); }));
   Running receive({"receive", dir / "talk.sdp", "-o", dir / "got.mp4"}, dir / "1.out",

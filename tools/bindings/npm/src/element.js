@@ -63,7 +63,7 @@ export class AnimemeFace extends HTMLElement {
     this.stop();
     this.stage?.close();
     this.stage = null;
-    this.worn = null;
+    this.loadedHead = null;
   }
 
   attributeChangedCallback(name, before, now) {
@@ -80,7 +80,7 @@ export class AnimemeFace extends HTMLElement {
     this.pending ??= Promise.resolve().then(() => {
       this.pending = null;
       if (!this.connected) return;
-      this.wear();
+      this.loadHead();
       this.open();
     });
   }
@@ -88,7 +88,7 @@ export class AnimemeFace extends HTMLElement {
   /** Resolves when the face of `src` was read to its end (of a live one: when it is over), or rejects. */
   get loaded() { return Promise.resolve(this.pending).then(() => this.loading); }
   /** Resolves when the head is there. */
-  get dressed() { return Promise.resolve(this.pending).then(() => this.dressing); }
+  get headLoaded() { return Promise.resolve(this.pending).then(() => this.headLoading); }
 
   get src() { return this.getAttribute('src'); }
   set src(url) { this.setAttribute('src', url); }
@@ -127,17 +127,17 @@ export class AnimemeFace extends HTMLElement {
     return media;
   }
 
-  wear() {
+  loadHead() {
     const {head} = this;
-    if (!head || head === this.worn) return;
-    this.worn = head;
-    this.dressing = ready().then(async () => {
+    if (!head || head === this.loadedHead) return;
+    this.loadedHead = head;
+    this.headLoading = ready().then(async () => {
       this.stage ??= new Stage(this.canvas);
-      await this.stage.wear(head);
+      await this.stage.loadHead(head);
       this.weights.frame = null;  // shown again on this head
       this.tell('head');
     }).catch((problem) => this.fail(problem));
-    this.dressing.catch(() => {});
+    this.headLoading.catch(() => {});
   }
 
   open() {

@@ -17,10 +17,10 @@ export class Stage {
   }
 
   /** Shows a .glb in place of the one before. */
-  async wear(url) {
+  async loadHead(url) {
     const {scene} = await new GLTFLoader().loadAsync(url);
     const head = new Head(scene);
-    this.undress();
+    this.removeHead();
     this.head = head;
     this.scene.add(scene);
     this.frame(head.box());
@@ -36,7 +36,7 @@ export class Stage {
     this.camera.updateProjectionMatrix();
   }
 
-  undress() {
+  removeHead() {
     if (!this.head) return;
     this.scene.remove(this.head.root);
     this.head.root.traverse((node) => {
@@ -63,7 +63,7 @@ export class Stage {
   }
 
   close() {
-    this.undress();
+    this.removeHead();
     this.renderer.dispose();
   }
 }

@@ -67,14 +67,14 @@ const expression6 = ({select1 = 0, intensity1 = 0, select2 = 0, intensity2 = 0, 
   [select1, intensity1, select2, intensity2, initFace ? 1 : 0, def ? 1 : 0];
 
 /** An animeme_speak_options that `_init` has filled. */
-export function writeSpeakOptions(memory, at, {rate, style, sharpness, articulation, tail, life, seed, lookAhead}) {
+export function writeSpeakOptions(memory, at, {rate, style, sharpness, articulation, tail, idleMotion, seed, lookAhead}) {
   const view = new DataView(memory, at, SPEAK_OPTIONS_SIZE);
   if (rate !== undefined) {
     const [num, den] = Array.isArray(rate) ? rate : rateOf(rate);
     view.setUint32(4, num, true);
     view.setUint32(8, den, true);
   }
-  [style, sharpness, articulation, tail, life].forEach((value, i) => {
+  [style, sharpness, articulation, tail, idleMotion].forEach((value, i) => {
     if (value !== undefined) view.setFloat64(16 + 8 * i, value, true);
   });
   if (seed !== undefined) view.setBigUint64(56, BigInt(seed), true);

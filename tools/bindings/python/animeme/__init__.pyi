@@ -250,7 +250,7 @@ class Model:
         sharpness: float = 1.0,
         articulation: float = 1.0,
         closure: bool = True,
-        life: Optional[bool] = None,
+        idle_motion: Optional[bool] = None,
         seed: int = 1,
         speed: int = 175,
         pitch: int = 50,

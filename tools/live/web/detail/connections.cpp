@@ -75,9 +75,9 @@ int Server::handle(lws* wsi, lws_callback_reasons reason, const char* in, std::s
     case LWS_CALLBACK_RECEIVE:
       return (sessions_[wsi].received += size) > kMostFromClient ? -1 : 0;
     case LWS_CALLBACK_HTTP_BODY:
-      return waits_for_peers(wsi) ? whep_body(wsi, in, size) : take_body(wsi, in, size);
+      return waits_for_peer_connections(wsi) ? whep_body(wsi, in, size) : take_body(wsi, in, size);
     case LWS_CALLBACK_HTTP_BODY_COMPLETION:
-      return waits_for_peers(wsi) ? whep_offer(wsi) : ask_handler(wsi);
+      return waits_for_peer_connections(wsi) ? whep_offer(wsi) : ask_handler(wsi);
     case LWS_CALLBACK_HTTP_WRITEABLE: {
       const auto session = sessions_.find(wsi);
       if (session == sessions_.end()) return 0;
@@ -189,7 +189,7 @@ int Server::request(lws* wsi) {
   const Request request = request_of(wsi);
   const unsigned status = objection(wsi, request);
   if (status != 0) return refuse(wsi, request, status);
-  if (peers_ && resource_of(request.path) == Resource::whep) return whep(wsi, request);
+  if (peer_connections_ && resource_of(request.path) == Resource::whep) return whep(wsi, request);
   if (!request.is_read() && (!handler_ || request.verb.empty())) {
     return refuse(wsi, request, HTTP_STATUS_METHOD_NOT_ALLOWED);
   }
@@ -209,7 +209,7 @@ int Server::serve(lws* wsi, const Request& request, const Place& place) {
   session.document = resource == Resource::info ? place.stage->info() : documents_.at(place.path);
   const Document& document = *session.document;
   session.packed = !document.packed.empty() && takes_gzip(request.accept_encoding);
-  if (resource == Resource::page && peers_) peers_->expect();
+  if (resource == Resource::page && peer_connections_) peer_connections_->expect();
   Answer answer{.type = type_of(resource), .origin = shared_with(request)};
   answer.embedded = answer.origin == "*";
   answer.frames = frames_;
@@ -335,7 +335,7 @@ void Server::look_at_news() {
   stages.erase(std::unique(stages.begin(), stages.end()), stages.end());
   for (const auto& stage : stages) look_at(*stage, {});
   hand_out_answers();
-  std::vector<std::pair<std::shared_ptr<Exchange>, HouseReply>> given;
+  std::vector<std::pair<std::shared_ptr<Exchange>, ServerReply>> given;
   {
     const std::lock_guard lock(answers_->mutex);
     given.swap(answers_->given);

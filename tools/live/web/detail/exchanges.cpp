@@ -48,7 +48,7 @@ int Server::ask_handler(lws* wsi) {
   const std::shared_ptr<Exchange> exchange = session->second.exchange;
   if (exchange->request.method.empty()) return 0;  // it has been asked
   lws_set_timeout(wsi, NO_PENDING_TIMEOUT, 0);
-  const auto answer = [answers = answers_, exchange](HouseReply reply) {
+  const auto answer = [answers = answers_, exchange](ServerReply reply) {
     const std::lock_guard lock(answers->mutex);
     if (answers->service == nullptr) return;
     answers->given.emplace_back(exchange, std::move(reply));
@@ -59,7 +59,7 @@ int Server::ask_handler(lws* wsi) {
 }
 
 int Server::write_reply(lws* wsi, Session& session) {
-  const HouseReply reply = *std::exchange(session.reply, std::nullopt);
+  const ServerReply reply = *std::exchange(session.reply, std::nullopt);
   Answer answer{.status = reply.status, .type = reply.type, .size = reply.body.size()};
   const bool with_body = session.exchange->with_body && !reply.body.empty();
   if (!send_header(wsi, answer)) return -1;

@@ -59,7 +59,7 @@ Result<unsigned> handles_for(int viewers) {
 
 }  // namespace
 
-Server::Server(const WebAddress& address, const HouseOptions& options, HouseHandler handler)
+Server::Server(const WebAddress& address, const ServerOptions& options, ServerHandler handler)
     : options_(options.web),
       most_body_(options.most_body),
       handler_(std::move(handler)),
@@ -71,7 +71,7 @@ Server::Server(const WebAddress& address, const HouseOptions& options, HouseHand
 }
 
 void Server::stop() {
-  if (peers_) peers_->finish();  // it answers no more
+  if (peer_connections_) peer_connections_->finish();  // it answers no more
   {
     const std::lock_guard lock(answers_->mutex);
     answers_->service = nullptr;
@@ -80,7 +80,8 @@ void Server::stop() {
 }
 
 Result<std::unique_ptr<Server>> Server::listen(const WebAddress& address,
-                                               const HouseOptions& options, HouseHandler handler) {
+                                               const ServerOptions& options,
+                                               ServerHandler handler) {
   static const lws_protocols protocols[] = {{"animeme", &Server::callback, 0, 1024, 0, nullptr, 0},
                                             {nullptr, nullptr, 0, 0, 0, nullptr, 0}};
   static const lws_extension extensions[] = {

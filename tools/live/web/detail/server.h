@@ -17,15 +17,15 @@
 #include "tools/live/web/detail/service.h"
 #include "tools/live/web/detail/stage.h"
 #include "tools/live/web/detail/visitors.h"
-#include "tools/live/web/house.h"
 #include "tools/live/web/web.h"
+#include "tools/live/web/web_server.h"
 
 namespace animeme::web {
 
-/// A request that a HouseHandler answers.
+/// A request that a ServerHandler answers.
 struct Exchange {
   lws* wsi = nullptr;  // its connection; null: that has gone
-  HouseRequest request;
+  ServerRequest request;
   bool with_body = true;  // not HEAD
   bool last = false;      // of its connection
 };
@@ -34,7 +34,7 @@ struct Exchange {
 struct Answers {
   std::mutex mutex;
   Service* service = nullptr;  // to be woken
-  std::vector<std::pair<std::shared_ptr<Exchange>, HouseReply>> given;
+  std::vector<std::pair<std::shared_ptr<Exchange>, ServerReply>> given;
 };
 
 /// One connection, from its first request on.
@@ -42,9 +42,9 @@ struct Session {
   Resource resource = Resource::none;
   std::shared_ptr<Stage> stage;  // whose resource it is
   std::shared_ptr<Exchange> exchange;
-  std::optional<HouseReply> reply;  // of it
-  bool small = false;               // /faps?binary
-  bool open = false;                // a WebSocket or /talk.mp4 with a place in the hub
+  std::optional<ServerReply> reply;  // of it
+  bool small = false;                // /faps?binary
+  bool open = false;                 // a WebSocket or /talk.mp4 with a place in the hub
   ClientId client = 0;
   DocumentPtr document;  // that is being sent
   bool packed = false;   // in its form of gzip
@@ -62,7 +62,8 @@ class Server {
   /// Listens. `handler`: for what is no resource of a stage; nothing: that is refused. Errors: io,
   /// invalid_argument (more viewers than files may be open).
   static Result<std::unique_ptr<Server>> listen(const WebAddress& address,
-                                                const HouseOptions& options, HouseHandler handler);
+                                                const ServerOptions& options,
+                                                ServerHandler handler);
   ~Server() { stop(); }
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
@@ -73,7 +74,9 @@ class Server {
   void serve() { service_.run(); }
 
   /// Who answers `/whep`; before serve(). nullptr: nobody, there is none.
-  void set_peers(std::shared_ptr<Peers> peers) { peers_ = std::move(peers); }
+  void set_peer_connections(std::shared_ptr<PeerConnections> peer_connections) {
+    peer_connections_ = std::move(peer_connections);
+  }
 
   // All of these may be called from any thread.
   /// A stage that nobody sees yet. `joined` may be nothing.
@@ -88,7 +91,7 @@ class Server {
   void finish();
 
  private:
-  Server(const WebAddress& address, const HouseOptions& options, HouseHandler handler);
+  Server(const WebAddress& address, const ServerOptions& options, ServerHandler handler);
   void stop();
   static int callback(lws* wsi, lws_callback_reasons reason, void* user, void* in, size_t size);
   int handle(lws* wsi, lws_callback_reasons reason, const char* in, std::size_t size);
@@ -112,7 +115,7 @@ class Server {
   int serve(lws* wsi, const Request& request, const Place& place);
   int talk(lws* wsi, const Request& request, const Place& place);
   int upgrade(lws* wsi);
-  bool waits_for_peers(lws* wsi) const;
+  bool waits_for_peer_connections(lws* wsi) const;
   int whep(lws* wsi, const Request& request);
   int whep_body(lws* wsi, const char* bytes, std::size_t size);
   int whep_offer(lws* wsi);
@@ -132,11 +135,11 @@ class Server {
 
   const WebOptions options_;
   const std::size_t most_body_;
-  const HouseHandler handler_;
+  const ServerHandler handler_;
   const OwnNames names_;
   const std::string frames_;                      // where the page may be in a frame
   std::map<std::string, DocumentPtr> documents_;  // by path, but for info.json
-  std::shared_ptr<Peers> peers_;
+  std::shared_ptr<PeerConnections> peer_connections_;
   Service service_;
   int port_ = 0;
   const std::shared_ptr<Answers> answers_ = std::make_shared<Answers>();

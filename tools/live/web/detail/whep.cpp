@@ -46,7 +46,7 @@ int Server::whep(lws* wsi, const Request& request) {
   const std::string id = request.path.substr(std::min<std::size_t>(request.path.size(), 6));
   if (request.method == Method::options) return reply(HTTP_STATUS_NO_CONTENT, "");
   if (request.method == Method::remove && !id.empty()) {
-    if (peers_->end(id)) return reply(HTTP_STATUS_OK, "");
+    if (peer_connections_->end(id)) return reply(HTTP_STATUS_OK, "");
     return reply(HTTP_STATUS_NOT_FOUND, "There is no such connection.\n");
   }
   // Candidates come with offer and answer, and a connection that broke is made anew: no PATCH.
@@ -56,7 +56,7 @@ int Server::whep(lws* wsi, const Request& request) {
   if (!request.content_type.starts_with("application/sdp")) {
     return reply(HTTP_STATUS_UNSUPPORTED_MEDIA_TYPE, "An offer is application/sdp.\n");
   }
-  if (visitors_.viewers() + peers_->stats().receivers >= options_.max_clients) {
+  if (visitors_.viewers() + peer_connections_->stats().receivers >= options_.max_clients) {
     return reply(HTTP_STATUS_SERVICE_UNAVAILABLE, "All places are taken (--max-clients).\n");
   }
   leave(wsi);
@@ -66,7 +66,7 @@ int Server::whep(lws* wsi, const Request& request) {
   return 0;  // the body comes
 }
 
-bool Server::waits_for_peers(lws* wsi) const {
+bool Server::waits_for_peer_connections(lws* wsi) const {
   const auto session = sessions_.find(wsi);
   return session != sessions_.end() && session->second.resource == Resource::whep;
 }
@@ -81,14 +81,14 @@ int Server::whep_body(lws* wsi, const char* bytes, std::size_t size) {
 int Server::whep_offer(lws* wsi) {
   const auto session = sessions_.find(wsi);
   const std::uint64_t ticket = session->second.ticket = ++tickets_;
-  peers_->offer(std::move(session->second.upload), peer_of(lws_get_socket_fd(wsi)),
-                [this, ticket](PeerAnswer answer) {
-                  {
-                    const std::lock_guard lock(mutex_);
-                    peer_answers_[ticket] = std::move(answer);
-                  }
-                  service_.wake();
-                });
+  peer_connections_->offer(std::move(session->second.upload), peer_of(lws_get_socket_fd(wsi)),
+                           [this, ticket](PeerAnswer answer) {
+                             {
+                               const std::lock_guard lock(mutex_);
+                               peer_answers_[ticket] = std::move(answer);
+                             }
+                             service_.wake();
+                           });
   return 0;
 }
 

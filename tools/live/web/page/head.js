@@ -38,14 +38,14 @@ try {
   list.append(...heads.map((name, which) => new Option(name, which, false, which === first)));
   list.parentElement.hidden = heads.length < 2;
   /** Another head, by its number in the list. */
-  animeme.wear = async (which) => {
+  animeme.showHead = async (which) => {
     if (!models.has(which)) models.set(which, await load(path(which)));
     model = models.get(which);
-    view.wear(model);
+    view.setModel(model);
     animeme.onFrame(last);
     list.value = which;
   };
-  list.addEventListener('change', () => animeme.wear(Number(list.value)));
+  list.addEventListener('change', () => animeme.showHead(Number(list.value)));
 } catch (problem) {
   animeme.stage.replaceChildren(...before);
   document.getElementById('face').hidden = false;

@@ -29,12 +29,12 @@ export class Coats {
     };
     const waits = [];
     for (const coat of this.coats) {
-      for (const worn of Object.values(coat.textures)) {
-        const name = String(worn);
-        if (!worn || this.textures.has(name)) continue;
+      for (const texture of Object.values(coat.textures)) {
+        const name = String(texture);
+        if (!texture || this.textures.has(name)) continue;
         this.textures.set(name, this.white);
-        waits.push(file(worn[0]).then((bitmap) => {
-          this.textures.set(name, this.texture(bitmap, worn));
+        waits.push(file(texture[0]).then((bitmap) => {
+          this.textures.set(name, this.texture(bitmap, texture));
           onNeed();
         }));
       }
@@ -71,15 +71,15 @@ export class Coats {
   }
 
   /** Sets the uniforms of a program that is in use. `hiding`: of a veil its opaque texels alone. */
-  wear(number, program, hiding) {
+  bind(number, program, hiding) {
     const {gl} = this;
     const coat = this.coats[number];
     const [alpha, cutoff] = hiding && this.blends(number) ? ['mask', 0.995] :
         [coat.alpha, coat.cutoff];
     MAPS.forEach((name, unit) => {
       gl.activeTexture(gl.TEXTURE0 + unit);
-      const worn = coat.textures[name];
-      gl.bindTexture(gl.TEXTURE_2D, worn ? this.textures.get(String(worn)) : this.white);
+      const texture = coat.textures[name];
+      gl.bindTexture(gl.TEXTURE_2D, texture ? this.textures.get(String(texture)) : this.white);
       gl.uniform1i(program.place(`${name}Map`), unit);
     });
     const numbers = {cutoff, normalScale: coat.normal_scale, metallic: coat.metallic,

@@ -39,7 +39,7 @@ export class Controls {
     byId('modes').hidden = app.clips.length < 2;
     byId('whose').hidden = app.heads.length < 2 || !app.stage.view;
     byId('heads').replaceChildren(...app.heads.map((name, i) => new Option(name, i)));
-    byId('heads').addEventListener('change', (event) => app.wear(Number(event.target.value)));
+    byId('heads').addEventListener('change', (event) => app.showHead(Number(event.target.value)));
     byId('full').hidden = !document.fullscreenEnabled;
   }
 

@@ -147,7 +147,7 @@ export class Renderer {
     // At first what hides: also what is opaque of a veil, as many files have nothing but veils.
     const draw = ({mesh, run, transform}, hiding) => {
       this.setPart(coated, transform);
-      coats.wear(run.coat, coated, hiding);
+      coats.bind(run.coat, coated, hiding);
       mesh.drawRun(run);
     };
     const veils = runs.filter(({run}) => coats.blends(run.coat));

@@ -41,11 +41,11 @@ export class HeadView {
 
   setUp() {
     this.kept = new Map();  // what was made of each model
-    this.wear(this.model);
+    this.setModel(this.model);
   }
 
   /** Takes another head, which stands as it was left: pose() it. */
-  wear(model) {
+  setModel(model) {
     this.model = model;
     this.camera.home = model.camera;
     if (!this.kept.has(model)) this.kept.set(model, this.made(model));

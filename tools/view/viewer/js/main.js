@@ -86,7 +86,7 @@ class App {
   }
 
   /** Shows head `which`, a number; what is in the page of it is unpacked when it is wanted. */
-  async wear(which) {
+  async showHead(which) {
     if (!this.stage.view) return;
     this.wanted = which;
     if (!this.wardrobe[which]) {
@@ -97,7 +97,7 @@ class App {
     if (this.wanted !== which) return;  // somebody was faster
     const {model, clips} = this.wardrobe[which];
     this.whose = which;
-    this.stage.wear(model, clips);
+    this.stage.setModel(model, clips);
     await this.stage.view.ready;
     this.changed();
   }
@@ -232,7 +232,7 @@ async function start() {
     },
     points: () => (stage.view ? stage.view.points() : []),
     /** Another head, by its number in the list. */
-    wear: (which) => app.wear(which),
+    showHead: (which) => app.showHead(which),
     /** Draws now. */
     draw: () => app.draw(),
     context: () => player.context,
@@ -240,7 +240,7 @@ async function start() {
   };
   Object.assign(window.animeme, api);
   obey(app);
-  if (app.heads.includes(asked.get('head'))) await app.wear(app.heads.indexOf(asked.get('head')));
+  if (app.heads.includes(asked.get('head'))) await app.showHead(app.heads.indexOf(asked.get('head')));
   if (facts.sound) {
     await player.loadSound(coded('sound')).catch(() => {
       byId('silent').hidden = false;

@@ -50,10 +50,10 @@ export class Stage {
   }
 
   /** Another head, and the clips with its columns. */
-  wear(model, clips) {
+  setModel(model, clips) {
     this.clips = clips;
     this.last = [];
-    this.view.wear(model);
+    this.view.setModel(model);
   }
 
   setMode(mode) {

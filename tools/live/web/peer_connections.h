@@ -21,9 +21,9 @@ struct PeerAnswer {
 
 /// Connections to browsers by WebRTC. Functions may be called from any thread; none waits for a
 /// browser.
-class Peers {
+class PeerConnections {
  public:
-  virtual ~Peers() = default;
+  virtual ~PeerConnections() = default;
   /// Before all others, once. `most` connections at the same time, `per_address` of one address
   /// (0: any number). Errors: unsupported (not with this sound, or not on this machine).
   virtual Result<void> start(const media::LiveInfo& info, int most, int per_address) = 0;

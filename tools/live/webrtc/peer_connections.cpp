@@ -32,7 +32,7 @@ std::string make_id() {
   return id;
 }
 
-class PeerHub : public web::Peers {
+class PeerHub : public web::PeerConnections {
  public:
   PeerHub(const WebRtcOptions& options, bool now) : options_(options), now_(now) {}
   ~PeerHub() override { finish(); }
@@ -237,7 +237,8 @@ media::SendStats PeerHub::stats() const {
 
 }  // namespace
 
-std::unique_ptr<web::Peers> make_peers(const WebRtcOptions& options, bool now) {
+std::unique_ptr<web::PeerConnections> make_peer_connections(const WebRtcOptions& options,
+                                                            bool now) {
   return std::make_unique<PeerHub>(options, now);
 }
 

@@ -1,4 +1,4 @@
-#include "dam/speaking/life.h"
+#include "dam/speaking/idle_motion.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include "dam/signal/fap_signal.h"
 
 namespace animeme::dam {
-namespace life_test {
+namespace idle_motion_test {
 
 Signal mouth(std::size_t frames, std::vector<std::string> names = {"fap3_open_jaw"}) {
   Signal signal;
@@ -37,9 +37,9 @@ std::size_t channel(const Signal& signal, int fap) {
   return 0;
 }
 
-TEST(Life, BlinksInThePauseAndEverySoOften) {
+TEST(IdleMotion, BlinksInThePauseAndEverySoOften) {
   Signal signal = mouth(1000);
-  const auto report = add_life(signal, phrases());
+  const auto report = add_idle_motion(signal, phrases());
   ASSERT_TRUE(report) << report.error().describe();
   const std::size_t lid = channel(signal, 19), lower = channel(signal, 21);
   std::vector<double> closed;  // times at which the lids meet
@@ -62,9 +62,9 @@ TEST(Life, BlinksInThePauseAndEverySoOften) {
   EXPECT_EQ(signal.at(999, lid), 0);
 }
 
-TEST(Life, BrowsRiseAtTheDrawnOutVowel) {
+TEST(IdleMotion, BrowsRiseAtTheDrawnOutVowel) {
   Signal signal = mouth(1000);
-  const auto report = add_life(signal, phrases());
+  const auto report = add_idle_motion(signal, phrases());
   ASSERT_TRUE(report);
   EXPECT_EQ(report->accents, 2u);  // one a phrase
   const std::size_t brow = channel(signal, 31);
@@ -75,9 +75,9 @@ TEST(Life, BrowsRiseAtTheDrawnOutVowel) {
   EXPECT_GT(signal.at(57, pitch) - signal.at(120, pitch), 0);  // positive is down
 }
 
-TEST(Life, KeepsWhatTheCharacterHasLearned) {
+TEST(IdleMotion, KeepsWhatTheCharacterHasLearned) {
   Signal signal = mouth(100, {"fap3_open_jaw", "fap31_raise_l_i_eyebrow"});
-  ASSERT_TRUE(add_life(signal, phrases()));
+  ASSERT_TRUE(add_idle_motion(signal, phrases()));
   EXPECT_EQ(signal.names.size(), 2u + 12u);
   for (std::size_t i = 0; i < 100; ++i) {
     EXPECT_EQ(signal.at(i, 0), 7);
@@ -85,19 +85,19 @@ TEST(Life, KeepsWhatTheCharacterHasLearned) {
   }
 }
 
-TEST(Life, SeedsDifferAndRepeat) {
+TEST(IdleMotion, SeedsDifferAndRepeat) {
   const auto make = [](std::uint64_t seed) {
     Signal signal = mouth(1000);
-    EXPECT_TRUE(add_life(signal, phrases(), {1, seed}));
+    EXPECT_TRUE(add_idle_motion(signal, phrases(), {1, seed}));
     return signal.values;
   };
   EXPECT_EQ(make(3), make(3));
   EXPECT_NE(make(3), make(4));
 }
 
-TEST(Life, MovesGentlyAndWithinWhatCanBeCoded) {
+TEST(IdleMotion, MovesGentlyAndWithinWhatCanBeCoded) {
   Signal signal = mouth(1000);
-  ASSERT_TRUE(add_life(signal, phrases(), {2, 1}));
+  ASSERT_TRUE(add_idle_motion(signal, phrases(), {2, 1}));
   for (const int fap : {48, 49, 50}) {
     const std::size_t c = channel(signal, fap);
     for (std::size_t i = 1; i < 1000; ++i) {
@@ -107,19 +107,19 @@ TEST(Life, MovesGentlyAndWithinWhatCanBeCoded) {
   }
 }
 
-TEST(Life, ChecksWhatItGets) {
+TEST(IdleMotion, ChecksWhatItGets) {
   Signal rig = mouth(10, {"snout"});
-  EXPECT_EQ(add_life(rig, phrases()).error().code, Code::unsupported);
+  EXPECT_EQ(add_idle_motion(rig, phrases()).error().code, Code::unsupported);
   Signal signal = mouth(10);
-  EXPECT_FALSE(add_life(signal, phrases(), {-1, 1}));
-  EXPECT_FALSE(add_life(signal, phrases(), {std::nan(""), 1}));
+  EXPECT_FALSE(add_idle_motion(signal, phrases(), {-1, 1}));
+  EXPECT_FALSE(add_idle_motion(signal, phrases(), {std::nan(""), 1}));
   signal.first_frame = 3;
-  EXPECT_FALSE(add_life(signal, phrases()));
+  EXPECT_FALSE(add_idle_motion(signal, phrases()));
   Signal still = mouth(100);
-  EXPECT_TRUE(add_life(still, {{{0, 2, "SIL", ""}}}));  // silence blinks, too
+  EXPECT_TRUE(add_idle_motion(still, {{{0, 2, "SIL", ""}}}));  // silence blinks, too
 }
 
-TEST(Life, ArkitShapesHaveIt) {
+TEST(IdleMotion, ArkitShapesHaveIt) {
   Signal signal = mouth(500, {"JawOpen", "EyeBlinkLeft", "EyeWideLeft", "BrowInnerUp"});
   for (std::size_t i = 0; i < 500; ++i) {
     signal.at(i, 0) = 0.3;
@@ -127,7 +127,7 @@ TEST(Life, ArkitShapesHaveIt) {
     signal.at(i, 2) = 0.2;
     signal.at(i, 3) = 0.05;
   }
-  const auto report = add_life(signal, phrases());
+  const auto report = add_idle_motion(signal, phrases());
   ASSERT_TRUE(report) << report.error().describe();
   const std::vector<std::string> wanted = {
       "JawOpen",         "EyeBlinkLeft",     "EyeWideLeft", "BrowInnerUp", "EyeBlinkRight",
@@ -152,11 +152,11 @@ TEST(Life, ArkitShapesHaveIt) {
   EXPECT_LT(head, 0.1) << "radians";
 }
 
-TEST(Life, ArkitAndFapsMoveAlike) {
+TEST(IdleMotion, ArkitAndFapsMoveAlike) {
   Signal shapes = mouth(500, {"jawOpen"}), faps = mouth(500);
   std::fill(shapes.values.begin(), shapes.values.end(), 0.0);
-  ASSERT_TRUE(add_life(shapes, phrases()));
-  ASSERT_TRUE(add_life(faps, phrases()));
+  ASSERT_TRUE(add_idle_motion(shapes, phrases()));
+  ASSERT_TRUE(add_idle_motion(faps, phrases()));
   const auto clip = to_sequence(shapes);
   ASSERT_TRUE(clip);
   for (const int fap : {31, 48, 49, 50}) {
@@ -166,5 +166,5 @@ TEST(Life, ArkitAndFapsMoveAlike) {
   }
 }
 
-}  // namespace life_test
+}  // namespace idle_motion_test
 }  // namespace animeme::dam

@@ -1,4 +1,4 @@
-#include "dam/speaking/life.h"
+#include "dam/speaking/idle_motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -102,7 +102,8 @@ struct Moment {
 
 class Rules {
  public:
-  Rules(const Script& script, double duration, const LifeOptions& options) : duration_(duration) {
+  Rules(const Script& script, double duration, const IdleMotionOptions& options)
+      : duration_(duration) {
     Random random(options.seed);
     const auto speech = speech_stretches(script);
     for (double& phase : phase_) phase = random.between(0, 2 * std::numbers::pi);
@@ -129,7 +130,7 @@ class Rules {
     m.roll = shown * 0.25 * (sine(4, 11.1) + sine(5, 5.3));
     return m;
   }
-  LifeReport report() const { return {blinks_.size(), accents_.size()}; }
+  IdleMotionReport report() const { return {blinks_.size(), accents_.size()}; }
 
  private:
   double duration_;
@@ -157,7 +158,7 @@ double value_of(int fap, const Moment& m, double amount) {
   }
 }
 
-constexpr int kLifeFaps[] = {19, 20, 21, 22, 31, 32, 33, 34, 35, 36, 48, 49, 50};
+constexpr int kIdleMotionFaps[] = {19, 20, 21, 22, 31, 32, 33, 34, 35, 36, 48, 49, 50};
 
 /// A row of a signal with room for what is added.
 class Wider {
@@ -184,7 +185,7 @@ class Wider {
 
 void live_faps(Signal& signal, const std::vector<int>& known, const Rules& rules, double amount) {
   std::vector<int> added;
-  for (const int fap : kLifeFaps)
+  for (const int fap : kIdleMotionFaps)
     if (std::find(known.begin(), known.end(), fap) == known.end()) added.push_back(fap);
   std::vector<std::string> names;
   for (const int fap : added) names.push_back(fap_channel(fap));
@@ -277,7 +278,8 @@ void live_arkit(Signal& signal, const ArkitLayout& layout, const Rules& rules, d
 
 }  // namespace
 
-Result<LifeReport> add_life(Signal& signal, const Script& script, const LifeOptions& options) {
+Result<IdleMotionReport> add_idle_motion(Signal& signal, const Script& script,
+                                         const IdleMotionOptions& options) {
   if (!(options.amount >= 0 && options.amount <= 2))
     return make_error(Code::invalid_argument, "the amount of life must lie between 0 and 2");
   if (signal.first_frame != 0)

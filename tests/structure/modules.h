@@ -1,22 +1,23 @@
-// The rooms of the source tree and the homes of the libraries of others, as tables. A new room
-// gets a row here and a README; include_violations() of rules.h fails for a folder without a row.
+// The modules of the source tree and where third-party libraries may be used, as tables. A new
+// module gets a row here and a README; include_violations() of rules.h fails for a folder without a
+// row.
 #pragma once
 
 #include <string_view>
 
 namespace animeme::test {
 
-/// A room is a folder and its detail/; folders that know each other are one room, with one row.
-/// Names are separated by spaces, "x/*" are all folders below x/.
-struct Room {
+/// A module is a folder and its detail/. Folders that include each other are one module, with one
+/// row. Names are separated by spaces, "x/*" are all folders below x/.
+struct Module {
   std::string_view folders;  ///< or single files, if their row is above that of the folder
-  /// The rooms it stands on: its files include these, and whatever those may include. They have
-  /// rows above this one, so that nothing goes round in circles.
-  std::string_view stands_on;
+  /// The modules it depends on: its files may include these, and whatever those may include. They
+  /// have rows above this one, so that nothing goes round in circles.
+  std::string_view depends_on;
   bool installed = true;  ///< its headers, unless they are internal
 };
 
-inline constexpr Room kRooms[] = {
+inline constexpr Module kModules[] = {
     {"fap", ""},
     {"fap/head", "fap"},
     {"fap/xml", "fap/head"},
@@ -92,15 +93,15 @@ inline constexpr Room kRooms[] = {
     {"tools/characters/trackers/dlib", "", false},  // a program for dlib's users, no part of ours
     {"tools/app", "tools/app/commands", false},
 
-    // Tests of a room may use its neighbours to make what they test.
+    // Tests of a module may use its neighbours to make what they test.
     {"tests/*", "fap/* fap codec/* dam/* conformance tools/*", false},
 };
 
 /// A library of others. Headers that are installed show none; some show in no header at all.
 struct Library {
   std::string_view name;
-  std::string_view headers;  ///< what their names start with, separated by spaces
-  std::string_view homes;    ///< the files and folders that may include them, with all below
+  std::string_view headers;     ///< what their names start with, separated by spaces
+  std::string_view allowed_in;  ///< the files and folders that may include them, with all below
   bool sources_only = false;
 };
 

@@ -1,13 +1,13 @@
 /// @file
 /// Many presentations on one port, and what a program answers to other requests there.
 ///
-///     auto house = WebHouse::open("http://127.0.0.1:8080/", {}, answer_requests);
-///     auto sink = (*house)->make_sink("/heads/anna", [] { ... });   // a viewer has come
+///     auto server = WebServer::open("http://127.0.0.1:8080/", {}, answer_requests);
+///     auto sink = (*server)->make_sink("/heads/anna", [] { ... });   // a viewer has come
 ///     (*sink)->start(info);            // http://127.0.0.1:8080/heads/anna/ shows the page
 ///     (*sink)->finish();               // and is gone; the others stay
 ///
 /// Each has below its path what make_web_sink() offers at `/`. What lies below no such path, and
-/// all methods but GET and HEAD, go to the function that the house was opened with.
+/// all methods but GET and HEAD, go to the function that the server was opened with.
 #pragma once
 
 #include <cstddef>
@@ -20,29 +20,29 @@
 namespace animeme::web {
 
 /// A request that is no viewer's.
-struct HouseRequest {
+struct ServerRequest {
   std::string method;         ///< "GET" (also for HEAD), "POST", "PUT", "DELETE"
   std::string path;           ///< as in the request line, without the query
   std::string authorization;  ///< value of that header, 512 bytes at most; empty: none
-  std::string body;           ///< HouseOptions::most_body at most
+  std::string body;           ///< ServerOptions::most_body at most
 };
 
 /// What is answered.
-struct HouseReply {
+struct ServerReply {
   unsigned status = 200;                  ///< of HTTP
   std::string body;                       ///< never empty, but see HEAD
   std::string type = "application/json";  ///< its media type
 };
 
 /// Gives the answer, from any thread, once. If nobody waits for it any more, it is dropped; after
-/// the end of the house, too.
-using HouseAnswer = std::function<void(HouseReply)>;
+/// the end of the server, too.
+using ServerAnswer = std::function<void(ServerReply)>;
 
 /// Called in the thread that serves all viewers: it must not wait, but may answer later.
-using HouseHandler = std::function<void(HouseRequest, HouseAnswer)>;
+using ServerHandler = std::function<void(ServerRequest, ServerAnswer)>;
 
-/// All settings of WebHouse.
-struct HouseOptions {
+/// All settings of WebServer.
+struct ServerOptions {
   /// Of all presentations together, but for `packets_per_segment`, which each has. Up to 10000
   /// viewers. `per_address` 0 also lifts the limit of requests that an address may make.
   WebOptions web;
@@ -50,14 +50,15 @@ struct HouseOptions {
 };
 
 /// A web server with any number of presentations. Thread safe.
-class WebHouse {
+class WebServer {
  public:
   /// Listens and serves from now on, in a thread of its own. Errors: as make_web_sink() and
   /// WebSink::start().
-  static Result<std::unique_ptr<WebHouse>> open(const std::string& url, const HouseOptions& options,
-                                                HouseHandler handler);
+  static Result<std::unique_ptr<WebServer>> open(const std::string& url,
+                                                 const ServerOptions& options,
+                                                 ServerHandler handler);
   /// As finish(), without its patience. Sinks must be gone before.
-  virtual ~WebHouse() = default;
+  virtual ~WebServer() = default;
 
   virtual std::string address() const = 0;  ///< "http://127.0.0.1:8080/" with the real port
   /// A presentation below `path` ("/heads/anna"), from its start() to its finish(). `joined` is

@@ -1,5 +1,5 @@
 /// @file
-/// Signs of life around a talking mouth: blinks, brows that rise and a head that nods at stresses,
+/// Idle motion around a talking mouth: blinks, brows that rise and a head that nods at stresses,
 /// a head that is never quite still. Not learned but made by rule, for models that have the mouth
 /// alone. Off in evaluation.
 ///
@@ -25,13 +25,13 @@
 namespace animeme::dam {
 
 /// How lively a face is made.
-struct LifeOptions {
+struct IdleMotionOptions {
   double amount = 1;       ///< scales brows and head, 0..2; lids always close
   std::uint64_t seed = 1;  ///< another seed, other times of blinks and another drift
 };
 
-/// What add_life() added.
-struct LifeReport {
+/// What add_idle_motion() added.
+struct IdleMotionReport {
   std::size_t blinks = 0;   ///< lids that closed
   std::size_t accents = 0;  ///< vowels with a gesture
 };
@@ -48,6 +48,7 @@ struct LifeReport {
 /// The signal must begin at frame 0. Errors: invalid_argument (amount out of range, a piece of a
 /// stream), unsupported (the signal has neither FAPs nor shapes of ARKit: the names of another rig
 /// are not known).
-Result<LifeReport> add_life(Signal& signal, const Script& script, const LifeOptions& options = {});
+Result<IdleMotionReport> add_idle_motion(Signal& signal, const Script& script,
+                                         const IdleMotionOptions& options = {});
 
 }  // namespace animeme::dam
