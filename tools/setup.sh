@@ -1,35 +1,43 @@
 #!/bin/sh
-# Installs what building and running Animeme needs and a fresh Debian 12 lacks. Asks for
-# nothing; uses sudo when it is not root.
-#   tools/setup.sh           what the program needs
-#   tools/setup.sh check     tells what of that is missing
-#   tools/setup.sh tests     also what the tests need, and small programs of others that read our files
-#   tools/setup.sh full      also large ones: Chromium, GStreamer, mpv, Doxygen, and npm packages into
-#                            tests/readers/js/node_modules and tools/characters/trackers/mediapipe/node_modules
+# Installs the Debian packages that Animeme needs and that are missing on a Debian 12. Asks no questions; uses sudo
+# when it is not root.
+#   tools/setup.sh           what the program needs to be built and to speak, show and stream
+#   tools/setup.sh check     prints which of these are missing; exit code 1 if any is
+#   tools/setup.sh all       also what single features need: alignment and recognition of speech (English model),
+#                            Chinese and Japanese readings, languages guessed by their words, Draco in glTF files
+#   tools/setup.sh tests     also what tests/run.sh needs, and small programs that read our files
+#   tools/setup.sh full      also what tests/run.sh full needs: clang with WebAssembly, Chromium, GStreamer, mpv, Doxygen, and
+#                            npm packages in tests/readers/js/node_modules and tools/characters/trackers/mediapipe/node_modules
 #   tools/setup.sh bindings  also what packages for other languages are made and tested with: Emscripten, Chromium, npm, Blender
-#   tools/setup.sh site      what makes the site and looks for dead links there
+#   tools/setup.sh site      what builds the site and looks for dead links in it
 #   tools/setup.sh elsewhere compilers for WebAssembly and ARM, and what runs their programs
 #   tools/setup.sh packages  what tools/release/packaging/deb.sh and clean_root.sh need
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 
+# 190 MB of downloads on a minimal Debian 12: what is large or for one feature only is in `features`.
 packages="
-  g++ cmake ninja-build pkg-config ca-certificates
+  g++ cmake ninja-build pkg-config
   libeigen3-dev libcli11-dev nlohmann-json3-dev libpng-dev libjpeg-dev libwebp-dev
   libtomlplusplus-dev
   libavformat-dev libavcodec-dev libavutil-dev libswresample-dev libswscale-dev
   libwebsockets-dev zlib1g-dev libxml2-dev
   libespeak-ng-dev espeak-ng-data
-  libicu-dev libexpat1-dev libcld2-dev libdraco-dev libmeshoptimizer-dev libmecab-dev mecab-ipadic-utf8 rime-data-pinyin-simp rime-data-terra-pinyin
-  libpocketsphinx-dev libsphinxbase-dev libspeexdsp-dev pocketsphinx-en-us
+  libicu-dev libexpat1-dev libmeshoptimizer-dev libmecab-dev
+  libpocketsphinx-dev libsphinxbase-dev libspeexdsp-dev
 "
-# WebAssembly that moves the heads of pages; without it, they have none.
-pages="clang-14 lld-14 wasi-libc libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32"
+features="pocketsphinx-en-us mecab-ipadic-utf8 rime-data-pinyin-simp rime-data-terra-pinyin libcld2-dev libdraco-dev"
 mode=${1:-}
+case $mode in
+  "" | check | all | tests | full | bindings | site | elsewhere | packages) ;;
+  *) sed -n 's/^#   //p' "$0" >&2; exit 2 ;;
+esac
 # Only the tests need these.
 case $mode in
-  tests | full | bindings) packages="$packages ccache libgtest-dev libgmock-dev libbenchmark-dev
-    clang-14 libclang-rt-14-dev llvm-14" ;;
+  tests | full | bindings) packages="$packages ca-certificates ccache libgtest-dev libgmock-dev libbenchmark-dev" ;;
+esac
+case $mode in
+  full) packages="$packages clang-14 libclang-rt-14-dev llvm-14 lld-14 wasi-libc libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32" ;;
 esac
 if [ "$mode" = packages ]; then
   packages="$packages dpkg-dev debhelper fakeroot doxygen lintian mmdebstrap libopenmpi-dev
@@ -90,14 +98,14 @@ if [ -n "$missing" ]; then
   # shellcheck disable=SC2086
   install_packages $missing
 fi
-[ "$mode" = elsewhere ] && pages=""
+[ "$mode" = elsewhere ] && features=""
+case $mode in "" | check) exit 0 ;; esac
 # shellcheck disable=SC2086
-missing=$(missing_of $pages)
+missing=$(missing_of $features)
 if [ -n "$missing" ]; then
   echo "Missing Debian packages:$missing" >&2
-  [ "$mode" = check ] && exit 1
   # shellcheck disable=SC2086
-  install_packages $missing || echo "warning: without$missing pages show no heads" >&2
+  install_packages $missing || echo "warning: without$missing their features are missing" >&2
 fi
 case $mode in
   tests | full | bindings) ;;

@@ -176,7 +176,6 @@ TEST_F(PageElsewhere, HasTheFaceInAFrameIfItMay) {
 }
 
 TEST_F(PageElsewhere, IsABrowserSource) {
-  if (!viewer::moves_heads()) GTEST_SKIP() << "built without clang for WebAssembly";
   Station station(kSound, with_head());
   Chromium browser(kObs);
   ASSERT_TRUE(browser.is_open());

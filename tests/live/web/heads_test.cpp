@@ -6,7 +6,6 @@
 #include "tests/live/web/http.h"
 #include "tests/live/web/station.h"
 #include "tests/support/folders.h"
-#include "tools/view/viewer/viewer.h"
 
 namespace animeme::test {
 namespace heads_test {
@@ -29,7 +28,7 @@ TEST_F(PageHeads, OfTheProgram) {
   }
   const auto info = nlohmann::json::parse(body_of(get(std::stoi(port), "/info.json")));
   EXPECT_EQ(info["heads"], nlohmann::json({"child", "me", "man"}));
-  if (!Chromium::find().empty() && viewer::moves_heads()) {
+  if (!Chromium::find().empty()) {
     Chromium browser;
     ASSERT_TRUE(browser.is_open());
     browser.open(url + "?head=me", 1100, 800, false);

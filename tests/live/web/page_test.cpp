@@ -116,7 +116,6 @@ TEST_P(PageOnce, FitsAPhoneAndSurvivesAPause) {
 }
 
 TEST_P(PageOnce, ShowsAHead) {
-  if (!viewer::moves_heads()) GTEST_SKIP() << "built without clang for WebAssembly";
   const auto head = head::make_head();
   ASSERT_TRUE(head);
   web::WebOptions options;

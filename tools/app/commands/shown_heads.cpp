@@ -24,11 +24,6 @@ std::string problem_of(const HeadChoices& choices) {
 }
 
 Result<std::vector<std::unique_ptr<ShownHead>>> load_shown(const HeadChoices& choices) {
-  if (!viewer::moves_heads()) {
-    warn(
-        "pages show no heads: this program was built without clang for WebAssembly, which "
-        "tools/setup.sh installs");
-  }
   std::vector<std::unique_ptr<ShownHead>> heads;
   for (const studio::HeadChoice& choice : choices.each()) {
     Result<head::Head> head = studio::load_head(choice, terminal_log());

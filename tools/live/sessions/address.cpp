@@ -30,7 +30,7 @@ bool is_media(const std::string& url) { return begins(url, {"rtp://", "udp://", 
 web::WebOptions with_head(web::WebOptions options) {
   if (!options.make_peer_connections)
     options.make_peer_connections = [] { return webrtc::make_peer_connections(); };
-  if (!options.head_script.empty() || !viewer::moves_heads()) return options;
+  if (!options.head_script.empty()) return options;
   const Result<head::Head> head = head::make_head();
   if (!head) return options;  // it has a schematic face for that
   options.head_script = viewer::head_script();

@@ -177,8 +177,6 @@ Result<std::string> make_page(const Page& page) {
                                     {"/*script*/", script}});
 }
 
-bool moves_heads() { return !detail::kRigModule.empty(); }
-
 std::string_view head_script() {
   // Who uses it reads heads at once; the page has something else to do meanwhile.
   static const std::string script = head_modules() + "await rigReady;\n";

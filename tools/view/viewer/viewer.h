@@ -65,10 +65,6 @@ struct Page {
 /// is missing; not one clip or two; a clip without frames).
 Result<std::string> make_page(const Page& page);
 
-/// False: this was built where nothing makes WebAssembly, and pages show curves and play sound, but
-/// have no heads.
-bool moves_heads();
-
 /// A head for the browser, as model.js reads it: about 1.8 MB. The format stands in README.md.
 std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig);
 

@@ -10,14 +10,10 @@ class Animeme < Formula
   depends_on "cli11" => :build
   depends_on "cmake" => :build
   depends_on "eigen" => :build
-  depends_on "lld" => :build
-  depends_on "llvm" => :build
   depends_on "ninja" => :build
   depends_on "nlohmann-json" => :build
   depends_on "pkgconf" => :build
   depends_on "tomlplusplus" => :build
-  depends_on "wasi-libc" => :build
-  depends_on "wasi-runtimes" => :build
   depends_on "draco"
   depends_on "espeak-ng"
   depends_on "expat"
@@ -35,8 +31,6 @@ class Animeme < Formula
   uses_from_macos "zlib"
 
   def install
-    # Heads of pages are WebAssembly, which Apple's clang does not make.
-    ENV.append_path "PATH", Formula["llvm"].opt_bin
     # The aligner wants pocketsphinx 0.8, CLD2 and MPI are left out.
     system "cmake", "-S", ".", "-B", "build", "-G", "Ninja",
            "-DANIMEME_BUILD_TESTS=OFF", "-DANIMEME_WITH_ALIGNER=OFF", "-DANIMEME_WITH_CLD2=OFF",

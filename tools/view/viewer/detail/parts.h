@@ -11,6 +11,6 @@ extern const std::string_view kTemplate;     ///< page.html with the marks that 
 extern const std::string_view kStyle;        ///< page.css
 extern const std::string_view kHeadModules;  ///< the modules that draw a head
 extern const std::string_view kPageModules;  ///< the others
-extern const std::span<const std::uint8_t> kRigModule;  ///< WebAssembly, or nothing
+extern const std::span<const std::uint8_t> kRigModule;  ///< rig/rig.wasm
 
 }  // namespace animeme::viewer::detail

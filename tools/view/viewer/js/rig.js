@@ -9,10 +9,7 @@ let missing = new Error('it is not there yet');
 
 /** To be awaited before the first head. */
 export const rigReady = inflate(fromBase64(RIG_MODULE))
-    .then((bytes) => {
-      if (bytes.length === 0) throw new Error('the program that made this page was built without it');
-      return WebAssembly.instantiate(bytes);
-    })
+    .then((bytes) => WebAssembly.instantiate(bytes))
     .then(({instance}) => {
       wasm = instance.exports;
       wasm._initialize();
