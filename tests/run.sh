@@ -1,21 +1,21 @@
 #!/bin/sh
-# Installs what is missing, builds everything and runs all tests: once as released, once under
-# the address and undefined behaviour sanitizers. Ends with the tests that were skipped,
-# the slowest steps and tests, what failed, and the time of each part.
-#   tests/run.sh             with the programs that read most of our files
-#   tests/run.sh full        also with those that take long to install: browsers, players, npm packages
-#   tests/run.sh quick       the release build only
+# Installs what is missing, builds and runs tests. Ends with the tests that were skipped, the slowest steps and tests,
+# what failed, and the time of each part.
+#   tests/run.sh             the release build of what the tests with the label "core" need, and these: all tests of the codec, the
+#                            models and heads, some of every other module. At most ten minutes on two cores
+#   tests/run.sh full        everything, once as released, once under the address and undefined behaviour sanitizers, with
+#                            browsers, players and npm packages to look at the results
 #   tests/run.sh bindings    the codec for other languages and machines: C, Python, npm, Blender, ARM; their speeds and weights
 #   tests/run.sh site        makes the site, and looks at all its pages in Chromium: dead links, what axe finds
 #   tests/run.sh elsewhere   the libraries as WebAssembly under node, and for ARM under QEMU
 #   tests/run.sh packages    the Debian packages, into build/packages, and what they do in a clean root
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
-mode=${1:-tests}
+mode=${1:-core}
 case $mode in
-  tests | quick) packages=tests ;;
+  core) packages=tests ;;
   full | bindings | site | elsewhere | packages) packages=$mode ;;
-  *) echo "usage: tests/run.sh [full|quick|bindings|site|elsewhere|packages]" >&2; exit 2 ;;
+  *) echo "usage: tests/run.sh [full|bindings|site|elsewhere|packages]" >&2; exit 2 ;;
 esac
 cd "$here"
 # Large pages for what compilers and trainings allocate: an eighth of the time of clang, a quarter of training. Other
@@ -25,7 +25,7 @@ times=$(mktemp)
 trap 'rm -f "$times"' EXIT
 status=0
 case $mode in
-  quick | bindings) presets=release ;;
+  core | bindings) presets=release ;;
   elsewhere) presets="wasm arm64" ;;
   packages) presets="" ;;
   *) presets="release asan" ;;
@@ -53,25 +53,28 @@ finish() {
   done
   # shellcheck disable=SC2086  # a word a preset
   "$here/tests/failed.sh" $presets || true
+  [ "$mode" != core ] || "$here/tests/left_out.sh" || true
   echo "== Time"
   cat "$times"
   exit "$status"
 }
 
-# tests PRESET MORE: more at a time than there are cores, since live streams and pages mostly wait. What times out
+# tests PRESET MORE [OPTIONS of ctest]: more at a time than there are cores, since live streams and pages mostly wait. What times out
 # gets a second try. What fails runs again alone, which tells a fault from a machine that was too busy for a stream
 # or a page; that is a finding, too, and told at the end.
 tests() {
-  ctest --test-dir "build/$1" --output-on-failure -j "$(($(nproc) + $2))" --repeat after-timeout:2 \
-    --output-junit "$here/build/$1/tests.xml" && return 0
+  preset=$1 more=$2
+  shift 2
+  ctest --test-dir "build/$preset" --output-on-failure -j "$(($(nproc) + more))" --repeat after-timeout:2 \
+    --output-junit "$here/build/$preset/tests.xml" "$@" && return 0
   echo "== Those that failed, alone"
-  log=build/$1/Testing/Temporary/LastTest.log
+  log=build/$preset/Testing/Temporary/LastTest.log
   cp "$log" "$log.first"
   alone=0
-  ctest --test-dir "build/$1" --output-on-failure --rerun-failed || alone=$?
+  ctest --test-dir "build/$preset" --output-on-failure --rerun-failed || alone=$?
   mv "$log.first" "$log"  # the one that tells what was skipped
   [ $alone = 0 ] || return $alone
-  printf '%-36s         %s\n' "$1: failed beside others only:" "$(tests/failed.sh "$1" | sed -n 's/^== Failed.*: //p' | xargs)" >>"$times"
+  printf '%-36s         %s\n' "$preset: failed beside others only:" "$(tests/failed.sh "$preset" | sed -n 's/^== Failed.*: //p' | xargs)" >>"$times"
 }
 
 # needs_program PRESET PROGRAM: tells that it is skipped without.
@@ -80,12 +83,35 @@ needs_program() {
   command -v "$2" >/dev/null
 }
 
+# untouched COMMAND...: fails if the command changes a file of the checkout outside build/: tests write into the build folder or
+# a temporary one.
+untouched() {
+  tree >"$times.before"
+  result=0
+  "$@" || result=$?
+  tree | diff "$times.before" - >"$times.changed" || {
+    echo "Changed in the checkout while the tests ran:"
+    sed -n 's/^[<>] [^ ]* [^ ]* /  /p' "$times.changed" | sort -u
+    [ $result != 0 ] || result=1
+  }
+  rm -f "$times.before" "$times.changed"
+  return $result
+}
+
+# tree: the files of the checkout with their times and sizes.
+tree() {
+  find . \( -path ./build -o -path ./.git -o -name node_modules -o -name __pycache__ \) -prune -o -type f -printf '%T@ %s %p\n' | sort -k 3
+}
+
 run() {
   preset=$1 more=$2
+  target=all select=""
+  [ "$mode" != core ] || { target=core select="-L ^core$"; }
   rm -f "build/$preset/Testing/Temporary/LastTest.log" "build/$preset/tests.xml"
   part "$preset: configure" cmake --preset "$preset" --log-level=STATUS -DANIMEME_WERROR=ON || finish
-  part "$preset: build" cmake --build "build/$preset" || finish
-  part "$preset: tests" tests "$preset" "$more" || true  # the other round is of use all the same
+  part "$preset: build" cmake --build "build/$preset" --target "$target" || finish
+  # shellcheck disable=SC2086  # words
+  part "$preset: tests" untouched tests "$preset" "$more" $select || true  # the other round is of use all the same
 }
 
 # npm_package: by its own preset, then its tests in the tree of the release build, which has the program and the suite.

@@ -2,7 +2,7 @@
 # Installs the Debian packages that Animeme needs and that are missing on a Debian 12. Asks no questions; uses sudo
 # when it is not root.
 #   tools/setup.sh           what the program needs to be built and to speak, show and stream
-#   tools/setup.sh check     prints which of these are missing; exit code 1 if any is
+#   tools/setup.sh check     prints which of these are missing; exit code 1 if any is ("check all": also of the next line)
 #   tools/setup.sh all       also what single features need: alignment and recognition of speech (English model),
 #                            Chinese and Japanese readings, languages guessed by their words, Draco in glTF files
 #   tools/setup.sh tests     also what tests/run.sh needs, and small programs that read our files
@@ -99,11 +99,13 @@ if [ -n "$missing" ]; then
   install_packages $missing
 fi
 [ "$mode" = elsewhere ] && features=""
-case $mode in "" | check) exit 0 ;; esac
+[ "$mode" = check ] && [ "${2:-}" != all ] && exit 0
+[ -z "$mode" ] && exit 0
 # shellcheck disable=SC2086
 missing=$(missing_of $features)
 if [ -n "$missing" ]; then
   echo "Missing Debian packages:$missing" >&2
+  [ "$mode" = check ] && exit 1
   # shellcheck disable=SC2086
   install_packages $missing || echo "warning: without$missing their features are missing" >&2
 fi

@@ -2,6 +2,16 @@
 # made.
 include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
 step("install" ${CMAKE_COMMAND} --install ${BINARY_DIR} --prefix ${WORK}/made)
+if(output MATCHES "Warning|Not built")
+  message(FATAL_ERROR "all is built, and installed without a warning:\n${output}")
+endif()
+# Names of components are no names of variables.
+foreach(component fba text)
+  step("install ${component}" ${CMAKE_COMMAND} --install ${BINARY_DIR} --prefix ${WORK}/parts --component ${component})
+  if(output MATCHES "Warning")
+    message(FATAL_ERROR "component ${component}:\n${output}")
+  endif()
+endforeach()
 file(REMOVE_RECURSE ${PREFIX})
 file(RENAME ${WORK}/made ${PREFIX})
 

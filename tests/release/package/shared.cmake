@@ -11,6 +11,18 @@ foreach(component fap fba package)
 endforeach()
 file(RENAME ${WORK}/made ${WORK}/installed)
 
+# Of a tree that is built in part, an installation has what is built, and says what is not.
+step("install what is built" ${CMAKE_COMMAND} --install ${WORK}/build --prefix ${WORK}/part)
+if(NOT output MATCHES "Not built, so not installed: library head" OR NOT EXISTS ${WORK}/part/lib/cmake/animeme/animeme-fba.cmake
+    OR EXISTS ${WORK}/part/lib/cmake/animeme/animeme-head.cmake OR EXISTS ${WORK}/part/include/animeme/head)
+  message(FATAL_ERROR "the library head was left out of the build:\n${output}")
+endif()
+execute_process(COMMAND ${CMAKE_COMMAND} --install ${WORK}/build --prefix ${WORK}/part --component head
+  RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+if(status EQUAL 0 OR NOT output MATCHES "head is not built")
+  message(FATAL_ERROR "a component that is not built was installed:\n${output}")
+endif()
+
 set(version "")
 file(STRINGS ${ANIMEME_DIR}/CMakeLists.txt line REGEX "^project\\(animeme VERSION" LIMIT_COUNT 1)
 string(REGEX MATCH "[0-9]+\\.[0-9]+" version "${line}")

@@ -18,6 +18,18 @@ function(animeme_public_headers folder result)
   set(${result} ${headers} PARENT_SCOPE)
 endfunction()
 
+# animeme_install_if_built(NAME component FILE): `cmake --install` leaves out the rest of the rules of this folder unless
+# FILE is there, and says so at the end. A component that is asked for by its name has to be there.
+function(animeme_install_if_built name component file)
+  install(CODE "if(NOT EXISTS \"${file}\")
+  if(CMAKE_INSTALL_COMPONENT)
+    message(FATAL_ERROR \"${name} is not built: run cmake --build ${PROJECT_BINARY_DIR} first\")
+  endif()
+  list(APPEND animeme_not_built \"${name}\")
+  return()
+endif()" COMPONENT ${component})
+endfunction()
+
 # animeme_library(NAME folder FILES...): a library with alias animeme::NAME, exported as component
 # NAME of the package.
 function(animeme_library name folder)
@@ -30,6 +42,7 @@ function(animeme_library name folder)
   # C++ interfaces change with every minor version, as the CMake package says, too (SameMinorVersion).
   set_target_properties(animeme_${name} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  animeme_install_if_built("library ${name}" ${name} $<TARGET_FILE:animeme_${name}>)
   install(TARGETS animeme_${name} EXPORT animeme_${name} COMPONENT ${name}
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(EXPORT animeme_${name} NAMESPACE animeme:: FILE animeme-${name}.cmake COMPONENT ${name}
@@ -38,9 +51,8 @@ function(animeme_library name folder)
 
   animeme_public_headers(${folder} headers)
   set_property(GLOBAL PROPERTY ANIMEME_HEADERS_${name} "${headers}")
-  install(CODE "set(animeme_component ${name})\nset(animeme_destination \"${CMAKE_INSTALL_INCLUDEDIR}\")"
-    COMPONENT ${name})
-  install(SCRIPT ${PROJECT_BINARY_DIR}/install_headers.cmake COMPONENT ${name})
+  install(CODE "include(\"${PROJECT_BINARY_DIR}/install_headers.cmake\")
+animeme_install_headers(${name} \"${CMAKE_INSTALL_INCLUDEDIR}\" \"${PROJECT_BINARY_DIR}/public\")" COMPONENT ${name})
   if(NOT PROJECT_IS_TOP_LEVEL)
     foreach(header IN LISTS headers)
       get_filename_component(file ${header} NAME)
@@ -92,4 +104,12 @@ function(animeme_install_package)
   string(REPLACE ";" " " animeme_components "${animeme_components}")
   configure_file(${PROJECT_SOURCE_DIR}/tools/release/packaging/install_headers.cmake.in
     ${PROJECT_BINARY_DIR}/install_headers.cmake @ONLY)
+
+  # The last rule: what the rules above left out.
+  install(CODE "if(\"\${animeme_not_built}\" MATCHES \"^library fap;\")
+  message(FATAL_ERROR \"Nothing is built yet: run cmake --build ${PROJECT_BINARY_DIR} first\")
+elseif(animeme_not_built)
+  list(JOIN animeme_not_built \", \" animeme_not_built)
+  message(STATUS \"Not built, so not installed: \${animeme_not_built} (cmake --build ${PROJECT_BINARY_DIR} builds all)\")
+endif()")
 endfunction()
