@@ -1,13 +1,13 @@
 /// @file
-/// Sound files in and out.
+/// Reading and writing sound files.
 ///
 ///     Result<Pcm> voice = read_audio("voice.mp3", {.sample_rate = 16000});
 ///     if (!voice) return voice.error();
 ///     Result<void> written = write_wav("voice.wav", *voice);
 ///
-/// Safe for untrusted input: no other file or address than the given one is opened, and memory
-/// and time stay bounded. Not for several threads on one object; different calls may run in
-/// different threads. Source: tools/formats/media/containers.md, section 5.4.
+/// Safe for untrusted input: no other file or address than the given one is opened, and memory and
+/// time stay bounded. Use an object from one thread at a time; separate calls may run in separate
+/// threads. Source: tools/formats/media/containers.md, section 5.4.
 #pragma once
 
 #include <cstdint>
@@ -21,48 +21,47 @@
 
 namespace animeme::media {
 
-/// What read_audio() makes of a file, and where it stops.
+/// Output rate and limits of read_audio().
 struct ReadAudioOptions {
   int sample_rate = 0;  ///< Hz of the result, 1000..384000; 0: the file's own rate
-  /// Longer sound is refused. Whatever is set here, 2^29 samples (3.1 hours at 48 kHz, 2 GiB)
-  /// are the end of what read_audio() gives.
+  /// Longer sound is rejected. Regardless of this, read_audio() returns at most 2^29 samples (3.1
+  /// hours at 48 kHz, 2 GiB).
   double max_seconds = 3 * 3600.0;
-  /// Receives one sentence for everything odd (damaged packets, early end); nullptr: not wanted.
+  /// Receives one sentence for each anomaly (damaged packets, early end); nullptr: none.
   std::vector<std::string>* warnings = nullptr;
 };
 
-/// Reads the best audio track of any file that FFmpeg knows, or of a playlist (see container.h),
-/// and mixes it down to one channel.
-/// Sample 0 is the first sample that a player would play: encoder delay is skipped where the file
-/// tells it (mp4, mkv, ogg, mp3; raw ADTS .aac does not: 1024 samples too many). Padding at the
-/// end of an mp4 or m4a is cut at the duration that the file states. Gaps between the time stamps
-/// inside the sound become silence. A damaged packet is skipped with a warning.
-/// Errors: not_found (no file, no audio track), io, syntax (no media file, or nothing in it can be
-/// decoded), unsupported (unknown codec), out_of_range (too long, absurd sample rate, memory),
+/// Reads the best audio track of any file that FFmpeg supports, or of a playlist (see container.h),
+/// and mixes it down to one channel. Sample 0 is the first sample that a player would play: encoder
+/// delay is skipped if the file states it (mp4, mkv, ogg, mp3; raw ADTS .aac does not and gives
+/// 1024 samples too many). Padding at the end of an mp4 or m4a is cut at the duration that the file
+/// states. Gaps between the timestamps become silence. A damaged packet is skipped with a warning.
+/// Errors: not_found (no file, no audio track), io, syntax (not a media file, or nothing in it can
+/// be decoded), unsupported (unknown codec), out_of_range (too long, absurd sample rate, memory),
 /// invalid_argument (options).
 Result<Pcm> read_audio(const std::string& path, const ReadAudioOptions& options = {});
 
 /// The same from memory.
 Result<Pcm> read_audio(std::span<const std::uint8_t> file, const ReadAudioOptions& options = {});
 
-/// The same sound block by block, for what is made of it meanwhile: memory does not grow with its
-/// length. Movable, not copyable.
+/// Reads the same sound block by block, so that memory does not grow with its length. Movable, not
+/// copyable.
 class AudioReader {
  public:
-  /// Opens the file and decodes the begin of its sound. Errors: those of read_audio().
+  /// Opens the file and decodes the beginning of its sound. Errors: those of read_audio().
   static Result<AudioReader> open(const std::string& path, const ReadAudioOptions& options = {});
-  /// From memory, which has to outlive the reader.
+  /// From memory, which must outlive the reader.
   static Result<AudioReader> open(std::span<const std::uint8_t> file,
                                   const ReadAudioOptions& options = {});
   AudioReader(AudioReader&&) noexcept;  ///< movable
   AudioReader& operator=(AudioReader&&) noexcept;
   ~AudioReader();
 
-  int sample_rate() const;  ///< Hz, of the samples that come out
-  /// Length as the file tells it, seconds, for progress; 0: it does not.
+  int sample_rate() const;  ///< Hz, of the returned samples
+  /// Length in seconds as stated by the file, for progress; 0: not stated.
   double told_seconds() const;
-  /// The next samples, one or more, valid until the next call; empty: there are no more. Errors:
-  /// those of read_audio() that show later than at the begin.
+  /// The next samples, one or more, valid until the next call; empty at the end. Errors: those of
+  /// read_audio() that occur after the beginning.
   Result<std::span<const float>> next();
 
  private:
@@ -71,8 +70,8 @@ class AudioReader {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Converts to another rate, sample 0 stays at time 0, the length is rounded to the nearest
-/// sample. Errors: invalid_argument (a rate outside 1000..384000), out_of_range (memory).
+/// Converts to another rate. Sample 0 stays at time 0; the length is rounded to the nearest sample.
+/// Errors: invalid_argument (a rate outside 1000..384000), out_of_range (memory).
 Result<Pcm> resample(const Pcm& pcm, int sample_rate);
 
 /// Writes a 16-bit WAV file, whole or not at all. Values outside +-1 are clipped, NaN is 0.

@@ -1,5 +1,5 @@
 /// @file
-/// Coded sound: the form in which every container and every live transport carries it.
+/// Coded sound, as all containers and live transports carry it.
 ///
 ///     Result<EncodedAudio> sound = encode_audio(voice, {.codec = AudioCodec::opus});
 ///     Result<Pcm> heard = decode_audio(*sound);     // as long as `voice`, sample 0 at sample 0
@@ -18,19 +18,19 @@
 
 namespace animeme::media {
 
-/// Codecs that every container and transport here takes.
+/// Codecs that all containers and transports here support.
 enum class AudioCodec : std::uint8_t { aac, opus };
 
 /// "aac" or "opus".
 const char* name_of(AudioCodec codec);
 
-/// What a decoder has to know before the first packet.
+/// What a decoder needs before the first packet.
 struct AudioFormat {
-  AudioCodec codec = AudioCodec::aac;  ///< by codec, other fields differ in meaning
+  AudioCodec codec = AudioCodec::aac;  ///< determines the meaning of the other fields
   int sample_rate = 48000;             ///< Hz; Opus: 48000
   int channels = 1;                    ///< as decoded
-  int frame_samples = 1024;            ///< samples a packet; 0: they differ
-  int priming = 0;                     ///< samples that a decoder puts out before sample 0
+  int frame_samples = 1024;            ///< samples a packet; 0: variable
+  int priming = 0;                     ///< samples that a decoder outputs before sample 0
   std::vector<std::uint8_t> config;    ///< AudioSpecificConfig of AAC, OpusHead of Opus
 
   friend bool operator==(const AudioFormat&, const AudioFormat&) = default;
@@ -49,13 +49,13 @@ struct AudioPacket {
 struct EncodedAudio {
   AudioFormat format;                ///< of all packets
   std::vector<AudioPacket> packets;  ///< ascending times
-  /// Samples from sample 0 on that are meant to be heard; 0: up to the end of the last packet.
+  /// Number of samples to be played, from sample 0; 0: up to the end of the last packet.
   std::int64_t length = 0;
 
   friend bool operator==(const EncodedAudio&, const EncodedAudio&) = default;
 };
 
-/// How sound is coded.
+/// Encoder settings.
 struct AudioSettings {
   AudioCodec codec = AudioCodec::aac;  ///< aac in mp4, opus for browsers
   /// Bits a second, 8000..320000 (Opus: 6000..256000). AAC allows at most 6 bits a sample, so

@@ -1,13 +1,12 @@
 /// @file
-/// Writing a face and its sound into one file.
+/// Writing a face and its sound to one file.
 ///
 ///     MuxInput input{.face = &units, .audio = &voice};
 ///     Result<MuxResult> written = write_container("talk.mp4", input);
-///
-/// Access units and sound stay the caller's; nothing is changed in them. Sound given as samples is
-/// coded, mono; sound that is coded already goes in as it is. Time 0 of the face is sample 0 of the
-/// sound. Files are written whole or not at all, and the same input gives the same bytes (with the
-/// same FFmpeg on the same machine; other versions of its encoders may round differently).
+/// The caller keeps access units and sound; they are not modified. Samples are encoded as mono;
+/// coded sound is copied unchanged. Time 0 of the face is sample 0 of the sound. Files are written
+/// whole or not at all, and the same input gives the same bytes (with the same FFmpeg on the same
+/// machine; other versions of its encoders may round differently).
 /// Source: tools/formats/media/containers.md, sections 2.1, 2.2, 3.1, 3.2.
 #pragma once
 
@@ -25,7 +24,7 @@
 
 namespace animeme::media {
 
-/// What goes into the file: a face, a sound, pictures, or several of them.
+/// Contents of the file: face, sound, pictures, or any of them.
 struct MuxInput {
   const fba::AccessUnits* face = nullptr;  ///< nullptr: sound only
   const Pcm* audio = nullptr;              ///< samples to be coded; nullptr: none
@@ -34,13 +33,12 @@ struct MuxInput {
   const std::string* audio_file = nullptr;
   /// Coded sound to be copied, packet by packet; nullptr: none. One of these three at most.
   const EncodedAudio* encoded = nullptr;
-  /// Pictures for players that know no faces; nullptr: none. They become the first track, and the
-  /// face beside them is not shown by default. In .mp4, .mkv and .webm (VP9), not in Systems
+  /// Video for players without FBA support; nullptr: none. It becomes the first track, and the face
+  /// track is then disabled by default. In .mp4, .mkv and .webm (VP9), not in Systems
   /// presentations.
   const EncodedVideo* video = nullptr;
-  /// Text beside them, the last tracks of the file, in this order; nullptr: none. No player shows
-  /// them until it is asked to. In files of takes_text(), not in Systems presentations. Cleaned by
-  /// clean_text().
+  /// Text tracks, the last ones of the file, in this order; nullptr: none. Players do not show them
+  /// by default. For files of takes_text(), not for Systems presentations. Cleaned by clean_text().
   const std::vector<TextTrack>* texts = nullptr;
   /// Visual profile and level for the file's own table of contents (mp4 `iods`): 0x61..0x64.
   /// 0: as in the face's configuration, 0x61 if that has none.
@@ -50,41 +48,42 @@ struct MuxInput {
 /// How a container is written.
 struct MuxOptions {
   AudioSettings audio;  ///< how MuxInput::audio or MuxInput::audio_file is coded
-  /// Receives one sentence for everything odd in MuxInput::audio_file; nullptr: not wanted.
+  /// Receives one sentence for each anomaly of MuxInput::audio_file; nullptr: none.
   std::vector<std::string>* warnings = nullptr;
-  /// mp4: contents before data, so that a player can begin while it loads.
+  /// mp4: moov before mdat, so that a player can start while it loads.
   bool faststart = true;
-  /// mp4: in fragments, each of which is complete, so that a reader can begin while the file is
-  /// still being made or sent. A fragment begins with each intra plane, too.
+  /// mp4: self-contained fragments, so that a reader can start while the file is still being
+  /// written or sent. Each intra plane also begins a fragment.
   bool fragmented = false;
-  /// The longest fragment, and the shortest segment of HLS and DASH but for the last; 0.02..600.
+  /// Maximum length of a fragment, and minimum of a segment of HLS and DASH except the last;
+  /// 0.02..600.
   double fragment_seconds = 1;
-  /// ts: planes that begin within so many seconds share a PES packet, which takes 188 bytes or more
-  /// each, and tables come every 0.5 s, or with each packet, instead of every 0.1 s; 0..2. Several
-  /// planes in a packet are legal and read back here, but not by every reader. 0: a packet for each
-  /// plane.
+  /// ts: planes that begin within so many seconds share a PES packet, which takes at least 188
+  /// bytes, and tables are written every 0.5 s, or with each packet, instead of every 0.1 s; 0..2.
+  /// Several planes in a packet are legal and supported here, but not by every reader. 0: one
+  /// packet per plane.
   double shared_seconds = 0;
   /// mp4: a complete MPEG-4 Systems presentation with a scene of a face and a sound, an object
   /// stream and the initial object descriptor; for players and tools of MPEG-4 Systems. It is made
   /// in memory, with the contents first, and limited to 4 GB. Sound: AAC.
   bool systems = false;
-  /// Asked before each packet, once every track has half a second: true completes the file with
-  /// what it has so far. Not asked for Systems presentations, which are made in one piece. Empty:
+  /// Called before each packet, once every track has half a second: returning true ends the file
+  /// early but complete. Not called for Systems presentations, which are written at once. Empty:
   /// never.
   std::function<bool()> stop = {};
-  /// Called with 0..1 from time to time, at last with 1; empty: not wanted.
+  /// Called with 0..1 from time to time, finally with 1; may be empty.
   std::function<void(double)> progress = {};
 };
 
-/// What became of it.
+/// Result of writing.
 struct MuxResult {
   double seconds = 0;        ///< end of the longer track in the file
   double sound_seconds = 0;  ///< length of the sound, as far as it was written; 0: none
   bool stopped = false;      ///< MuxOptions::stop ended it: the file holds the first `seconds` only
 };
 
-/// The codec to take for a file of this name when nobody chose: Opus for .opus, .webm and .weba,
-/// which hold no AAC, else AAC.
+/// The default codec for a file of this name: Opus for .opus, .webm and .weba, which do not support
+/// AAC, else AAC.
 AudioCodec usual_codec(const std::string& path);
 
 /// MPEG-4 file: brand mp42, `iods` with profile bytes and tracks, face as handler `vide`, entry
@@ -92,9 +91,9 @@ AudioCodec usual_codec(const std::string& path);
 /// data) and sync table; exact media time scale (times a whole factor if it is below 10000);
 /// priming of the sound in the edit list, so sound and face agree to the sample. A sample rate
 /// that the codec lacks is resampled (see AudioEncoder).
-/// Errors: invalid_argument (nothing to write; no units; configuration not of a face; an empty
-/// unit or packet; times not ascending or negative; durations not positive; empty sound; bit rate;
-/// sound given twice; fragment length; cues of a text not ascending, or without a length), those of
+/// Errors: invalid_argument (nothing to write; no units; configuration not of a face; an empty unit
+/// or packet; times not ascending or negative; durations not positive; empty sound; bit rate; sound
+/// given twice; fragment length; cues of a text not ascending, or without a length), those of
 /// AudioReader for a sound file, io (folder missing, disk full ...), unsupported (this FFmpeg lacks
 /// the encoder; Opus in a Systems presentation), out_of_range (memory).
 Result<MuxResult> write_mp4(const std::string& path, const MuxInput& input,
@@ -106,7 +105,7 @@ Result<MuxResult> write_mp4(const std::string& path, const MuxInput& input,
 ///                        moved by its priming (21.3 ms at 48 kHz); face against sound at most
 ///                        0.5 ms off
 ///   .ts                  face, AAC; configuration in front of each intra plane, stream type 0x10
-///                        with an MPEG-4 video descriptor, the same common shift and 1.4 s, 90 kHz
+///   with an MPEG-4 video descriptor, the same common shift plus 1.4 s, 90 kHz
 ///                        clock, 188 bytes or more for each plane, but see
 ///                        MuxOptions::shared_seconds
 ///   .m3u8 .mpd           HLS or DASH: face and sound as fragmented mp4 segments, each a rendition
@@ -123,10 +122,10 @@ Result<MuxResult> write_mp4(const std::string& path, const MuxInput& input,
 Result<MuxResult> write_container(const std::string& path, const MuxInput& input,
                                   const MuxOptions& options = {});
 
-/// The folder of segments beside a playlist, "talk_hls" for talk.m3u8; of other files "".
+/// The segment folder of a playlist, "talk_hls" for talk.m3u8; "" for other files.
 std::string segment_folder(const std::string& path);
 
-/// Whether the folder of segments of this playlist could be made or replaced now. Error: io.
+/// Checks that the segment folder of this playlist can be created or replaced. Errors: io.
 Result<void> try_segments(const std::string& path);
 
 }  // namespace animeme::media

@@ -1,5 +1,5 @@
 /// @file
-/// Sound in memory. No dependency, so that voices and aligners need not know FFmpeg.
+/// Sound in memory. Without dependencies, so that voices and aligners do not need FFmpeg.
 #pragma once
 
 #include <cstddef>

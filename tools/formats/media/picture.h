@@ -1,5 +1,5 @@
 /// @file
-/// Drawings as pixels.
+/// Rendering SVG drawings.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ struct Pixels {
 /// An SVG drawing as pixels; see svg_to_png(). Errors: as there.
 Result<Pixels> svg_to_rgba(std::string_view svg);
 
-/// A PNG file (RGB, 8 bits) of an SVG drawing in its own size. What is transparent is undefined:
-/// give the drawing a background. Text looks as the fonts of the machine make it.
+/// A PNG file (RGB, 8 bits) of an SVG drawing in its own size. Transparent pixels are undefined:
+/// give the drawing a background. Text depends on the fonts of the machine.
 /// Errors: unsupported (this FFmpeg was built without librsvg or PNG), syntax (no SVG),
 /// out_of_range (memory; more than 32767 pixels in width or height).
 Result<std::vector<std::uint8_t>> svg_to_png(std::string_view svg);

@@ -1,5 +1,5 @@
 /// @file
-/// Pictures in, coded video out: the rendered preview of a face that any player shows.
+/// Video encoding, for the rendered preview of a face that any player shows.
 ///
 ///     Result<VideoEncoder> encoder = VideoEncoder::open({.width = 640, .height = 640});
 ///     for (const Picture& picture : pictures) {
@@ -24,19 +24,19 @@ namespace animeme::media {
 
 /// Codecs of the preview.
 enum class VideoCodec : std::uint8_t {
-  h264,   ///< by libx264; for reach
+  h264,   ///< by libx264; most compatible
   vp9,    ///< by libvpx; free of patent questions
-  mpeg4,  ///< part 2, which every FFmpeg has; large
+  mpeg4,  ///< part 2, which every FFmpeg has; large files
 };
 
 /// "h264", "vp9" or "mpeg4".
 const char* name_of(VideoCodec codec);
 
-/// The first of the codecs that suit a file with this extension (".mp4", ".webm", ".mkv") and that
-/// this FFmpeg can write. Errors: unsupported (another extension, or none of them is there).
+/// The first codec that suits a file with this extension (".mp4", ".webm", ".mkv") and that this
+/// FFmpeg can encode. Errors: unsupported (another extension, or no encoder available).
 Result<VideoCodec> video_codec_for(std::string_view extension);
 
-/// How pictures are coded.
+/// Encoder settings.
 struct VideoSettings {
   VideoCodec codec = VideoCodec::h264;  ///< see video_codec_for()
   int width = 640;                      ///< pixels, even, 16..8192
@@ -44,30 +44,30 @@ struct VideoSettings {
   fap::Rate rate{25, 1};                ///< pictures a second
   /// 0 (best) to 51 (smallest); about 20 is hard to tell from the original.
   int quality = 20;
-  /// Of the encoder. The bytes depend on it, so that it is not taken from the machine.
+  /// Encoder threads. The output depends on the number, so it does not default to the machine's.
   int threads = 4;
 };
 
 /// One coded picture.
 struct VideoPacket {
-  std::vector<std::uint8_t> bytes;  ///< as the codec puts it
+  std::vector<std::uint8_t> bytes;  ///< in the codec's format
   bool key = false;                 ///< a player can begin here
   std::int64_t time = 0;            ///< frame number; presentation = decoding order
 
   friend bool operator==(const VideoPacket&, const VideoPacket&) = default;
 };
 
-/// A coded picture track: one packet a picture, in order.
+/// A coded video track: one packet per picture, in order.
 struct EncodedVideo {
   VideoCodec codec = VideoCodec::h264;  ///< of the packets
   int width = 0;                        ///< pixels
   int height = 0;                       ///< pixels
   fap::Rate rate;                       ///< pictures a second
-  std::vector<std::uint8_t> config;     ///< what a decoder has to know first ("extradata")
-  std::vector<VideoPacket> packets;     ///< one a picture
+  std::vector<std::uint8_t> config;     ///< decoder configuration ("extradata")
+  std::vector<VideoPacket> packets;     ///< one per picture
 };
 
-/// Movable, not copyable, not thread safe. Colours are BT.709, limited range; a key picture comes
+/// Movable, not copyable, not thread safe. Colours are BT.709, limited range; there is a key frame
 /// every second.
 class VideoEncoder {
  public:
@@ -81,7 +81,7 @@ class VideoEncoder {
   /// Adds one picture: width x height x 4 bytes, rows from the top, R G B A; A is not used.
   /// Errors: invalid_argument (another size), io (the encoder fails), out_of_range (memory).
   Result<void> push(std::span<const std::uint8_t> rgba);
-  /// Ends the video and hands it out. Nothing can be pushed after it.
+  /// Ends and returns the video. Nothing can be pushed afterwards.
   /// Errors: as push(); invalid_argument (no picture was pushed).
   Result<EncodedVideo> finish();
 

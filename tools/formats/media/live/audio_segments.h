@@ -1,13 +1,13 @@
 /// @file
-/// Sound as the pieces of a fragmented mp4, as browsers take them while they come: one
-/// initialisation segment, then media segments (moof and mdat) of a few packets each.
+/// Sound as segments of a fragmented mp4 that browsers can play as they arrive: one initialisation
+/// segment, then media segments (moof and mdat) of a few packets each.
 ///
 ///     auto begin = write_audio_init(format);                 // once
 ///     auto piece = write_audio_segment(1, packets);          // again and again
 ///
 /// The clock of the track has `sample_rate` ticks a second; tfdt is the time of the first packet.
-/// There is no edit list: a packet with the time t begins at t, priming included, so times have to
-/// be shifted until none is negative. Opus: the pre-skip in dOps is 0 for the same reason, and
+/// There is no edit list: a packet with time t begins at t, priming included, so times must be
+/// shifted so that none is negative. Opus: the pre-skip in dOps is 0 for the same reason, and
 /// browsers then play every sample at its time.
 /// Source: tools/formats/media/containers.md, section 4.4; the boxes are those of ISO/IEC 14496-12,
 /// 14496-14 and of the Opus encapsulation.
@@ -34,16 +34,16 @@ Result<std::vector<std::uint8_t>> write_audio_init(const AudioFormat& format);
 Result<std::vector<std::uint8_t>> write_audio_segment(std::uint32_t sequence,
                                                       std::span<const AudioPacket> packets);
 
-/// The same segment with another time (tfdt) of its first packet; what is no segment of ours stays
-/// as it is.
+/// Changes the time (tfdt) of the first packet of a segment; anything but a segment written here is
+/// left unchanged.
 void set_segment_time(std::span<std::uint8_t> segment, std::int64_t time);
 
-/// Reads back what write_audio_init() writes; priming is 0 and frame_samples what the segments'
-/// default is. Errors: syntax.
+/// Reads back what write_audio_init() writes; priming is 0 and frame_samples the default of the
+/// segments. Errors: syntax.
 Result<AudioFormat> read_audio_init(std::span<const std::uint8_t> segment);
 
-/// Reads back what write_audio_segment() writes, in any cut of that box layout; at most 4096
-/// packets. Errors: syntax.
+/// Reads segments with the box layout of write_audio_segment(), at most 4096 packets. Errors:
+/// syntax.
 Result<std::vector<AudioPacket>> read_audio_segment(std::span<const std::uint8_t> segment);
 
 /// Sets `priming`, and the pre-skip in the OpusHead of Opus.

@@ -1,5 +1,5 @@
 /// @file
-/// A face and its sound while they are being made: what all live transports have in common.
+/// The common interface of all live transports of a face and its sound.
 ///
 ///     auto sink = open_sink("rtp://192.0.2.7:5004", {});
 ///     if (auto ok = (*sink)->start(info); !ok) return ok.error();
@@ -8,9 +8,8 @@
 ///
 ///     auto source = open_source("talk.sdp", {});
 ///     while (auto event = (*source)->next(1.0)) { ... }
-///
-/// Sinks send at once what they are given; pacing is the caller's (see pacer.h). Sources give out
-/// what came, with its losses marked; recovery.h decides what of it can be used.
+/// Sinks send units immediately; the caller paces them (see pacer.h). Sources return what was
+/// received and report losses; recovery.h decides what can be used.
 /// Source: tools/formats/media/containers.md, section 4.
 #pragma once
 
@@ -32,7 +31,7 @@ struct LiveInfo {
   std::vector<std::uint8_t> face_config;  ///< as AccessUnits::config; empty: no face
   std::uint32_t timescale = 25000;        ///< of face times, ticks a second
   std::uint8_t visual_profile = 0x61;     ///< 0x61..0x64
-  std::optional<AudioFormat> audio;       ///< nothing: silent
+  std::optional<AudioFormat> audio;       ///< nullopt: no sound
 
   friend bool operator==(const LiveInfo&, const LiveInfo&) = default;
 };
@@ -42,7 +41,7 @@ enum class LiveTrack : std::uint8_t { face, audio };
 
 /// One access unit of the face or one packet of sound.
 struct LiveUnit {
-  LiveTrack track = LiveTrack::face;  ///< whose unit
+  LiveTrack track = LiveTrack::face;  ///< track of the unit
   std::vector<std::uint8_t> bytes;    ///< access unit or packet
   bool intra = false;                 ///< face: a receiver can begin here
   /// Face: ticks of LiveInfo::timescale. Sound: samples. 0 is the same instant in both; the first
@@ -60,8 +59,8 @@ struct SendStats {
   std::int64_t packets = 0;      ///< datagrams, messages or transport packets
   std::int64_t bytes = 0;        ///< on the wire, without the headers of UDP, TCP and IP
   std::int64_t repeated = 0;     ///< packets sent again by setting
-  std::int64_t receivers = 0;    ///< now connected (HTTP, SRT) or heard of (RTCP)
-  std::int64_t dropped = 0;      ///< units that a slow receiver did not get
+  std::int64_t receivers = 0;    ///< currently connected (HTTP, SRT) or reporting (RTCP)
+  std::int64_t dropped = 0;      ///< units dropped for slow receivers
   double reported_loss = 0;      ///< share of packets, from receiver reports; 0..1
 };
 
@@ -71,17 +70,17 @@ class LiveSink {
   virtual ~LiveSink() = default;
   /// Errors: invalid_argument, io (address, port in use), unsupported.
   virtual Result<void> start(const LiveInfo& info) = 0;
-  /// Sends now. Does not wait for receivers. Errors: io, which for datagrams without a listener
-  /// is no error.
+  /// Sends now, without waiting for receivers. Errors: io (datagrams without a receiver are not an
+  /// error).
   virtual Result<void> send(const LiveUnit& unit) = 0;
-  /// Tells receivers what happens in the presentation, where the transport has a place for that: a
-  /// JSON object on one line. Its member "time", if it has one, is in seconds, on the clock of
-  /// LiveUnit::time. Errors: as send().
+  /// Sends an event of the presentation to receivers, if the transport supports it: a JSON object
+  /// on one line. Its optional member "time" is in seconds, on the clock of LiveUnit::time. Errors:
+  /// as send().
   virtual Result<void> tell(const std::string& json) {
     (void)json;
     return {};
   }
-  /// Looks after connections and reports; to be called at least ten times a second.
+  /// Maintains connections and sends reports; call it at least ten times a second.
   virtual Result<void> poll() = 0;
   /// Says goodbye and closes.
   virtual Result<void> finish() = 0;
@@ -90,15 +89,15 @@ class LiveSink {
 
 /// Packets are missing before the next unit of this track.
 struct LiveGap {
-  LiveTrack track = LiveTrack::face;  ///< whose packets
-  std::int64_t packets = 0;           ///< how many; 0: not known
+  LiveTrack track = LiveTrack::face;  ///< track of the packets
+  std::int64_t packets = 0;           ///< number missing; 0: unknown
 
   friend bool operator==(const LiveGap&, const LiveGap&) = default;
 };
 
-/// What follows is of another sender, or of the same one that has begun anew: its times have
-/// nothing to do with those before, and its first planes may be predicted from others. LiveInfo
-/// comes again.
+/// What follows comes from another sender, or from a restarted one: its times are unrelated to the
+/// previous ones, and its first planes may be predicted from planes that were not received.
+/// LiveInfo is repeated.
 struct LiveRestart {
   friend bool operator==(const LiveRestart&, const LiveRestart&) = default;
 };
@@ -108,7 +107,7 @@ struct LiveEnd {
   friend bool operator==(const LiveEnd&, const LiveEnd&) = default;
 };
 
-/// Nothing came within the time given to next().
+/// Nothing arrived within the time given to next().
 struct LiveIdle {
   friend bool operator==(const LiveIdle&, const LiveIdle&) = default;
 };
@@ -118,20 +117,20 @@ using LiveEvent = std::variant<LiveInfo, LiveUnit, LiveGap, LiveRestart, LiveEnd
 
 /// Totals since the beginning.
 struct ReceiveStats {
-  std::int64_t packets = 0;     ///< that were read
+  std::int64_t packets = 0;     ///< received
   std::int64_t bytes = 0;       ///< of these
-  std::int64_t lost = 0;        ///< packets that never came
-  std::int64_t late = 0;        ///< came after they had been given up
-  std::int64_t duplicates = 0;  ///< came again (repetition)
-  std::int64_t reordered = 0;   ///< came behind a later one
+  std::int64_t lost = 0;        ///< packets that never arrived
+  std::int64_t late = 0;        ///< arrived after they had been given up
+  std::int64_t duplicates = 0;  ///< repeated packets
+  std::int64_t reordered = 0;   ///< arrived after a later one
   double jitter = 0;            ///< seconds, RFC 3550 section 6.4.1, of the face
-  std::int64_t foreign = 0;     ///< datagrams of others than the sender, and damaged ones: ignored
-  std::int64_t sessions = 0;    ///< senders, or begins of one
-  double wait = 0;              ///< seconds that missing packets were waited for at most
-  double latest = 0;            ///< seconds that a packet came behind one that was sent later
+  std::int64_t foreign = 0;     ///< ignored datagrams: from other senders, or damaged
+  std::int64_t sessions = 0;    ///< senders, counting restarts
+  double wait = 0;              ///< longest wait for missing packets, seconds
+  double latest = 0;            ///< largest delay of a packet after one sent later, seconds
 
-  /// Those of a sender and of the one after it: counts add up, the largest `latest` and the newest
-  /// jitter and wait count.
+  /// Adds the totals of a following sender: counts are summed; `latest` is the maximum, jitter and
+  /// wait are the newer ones.
   ReceiveStats& operator+=(const ReceiveStats& next) {
     packets += next.packets;
     bytes += next.bytes;
@@ -148,14 +147,14 @@ struct ReceiveStats {
   }
 };
 
-/// Receives one presentation. Not thread safe. Safe for whatever comes over the network: memory
-/// stays bounded, damaged packets are counted and dropped. Times are those of the sender, true or
-/// not; session_clock.h has a clock that goes on when the sender begins anew.
+/// Receives one presentation. Not thread safe. Safe for untrusted input: memory stays bounded,
+/// damaged packets are counted and dropped. Times are those of the sender and not verified;
+/// session_clock.h has a clock that continues when the sender restarts.
 class LiveSource {
  public:
   virtual ~LiveSource() = default;
-  /// The next event, waiting at most `seconds`. Errors: io (the connection broke), syntax (not
-  /// what this transport carries).
+  /// The next event, waiting at most `seconds`. Errors: io (the connection broke), syntax (data of
+  /// another protocol).
   virtual Result<LiveEvent> next(double seconds) = 0;
   virtual ReceiveStats stats() const = 0;  ///< since the beginning
 };

@@ -1,5 +1,5 @@
 /// @file
-/// FAP frames out of planes as they are received, and as text.
+/// Converts received planes to FAP frames, also for text output.
 ///
 ///     LiveFrames frames(GapRule::hold, fap::FillOptions{.keep_high_level = true});
 ///     if (auto unit = recorder.accept(event); unit && unit->track == LiveTrack::face) {
@@ -20,26 +20,26 @@
 
 namespace animeme::media {
 
-/// What is shown while planes are missing.
+/// Output while planes are missing.
 enum class GapRule : std::uint8_t {
-  hold,     ///< the last values
-  neutral,  ///< they ease to the neutral face within 0.4 s
-  skip,     ///< nothing: the frame numbers have a gap
+  hold,     ///< repeat the last values
+  neutral,  ///< blend to the neutral face within 0.4 s
+  skip,     ///< no frames: the frame numbers have a gap
 };
 
-/// Decodes planes one by one and numbers the frames by their times, from 0 on.
+/// Decodes planes one by one and numbers the frames by their times, from 0.
 class LiveFrames {
  public:
-  /// With `shown` frames are what a receiver shows (fap/receiver.h), their masks grow, and there is
-  /// one for each number unless GapRule::skip leaves some out. Without it they are as coded, and
-  /// frames that the sender left out stay out.
+  /// With `shown`, frames have the values that a receiver shows (fap/receiver.h), masks accumulate,
+  /// and there is a frame for each number (unless GapRule::skip omits some). Without it they are as
+  /// coded, and frames that the sender omitted are missing.
   LiveFrames(GapRule gap, const std::optional<fap::FillOptions>& shown) : gap_(gap) {
     if (shown) receiver_.emplace(*shown);
   }
 
-  /// The frames that a plane adds: those of the gap before it, if planes are missing there, and its
-  /// own; none if it has no face. Planes must begin with an intra plane and, behind a gap, go on
-  /// with one. A plane that cannot be decoded gives no frame, nor do those up to the next intra
+  /// The frames that a plane adds: those of the gap before it, if planes are missing, and its own;
+  /// none if it has no face. Planes must begin with an intra plane and continue with one after a
+  /// gap. A plane that cannot be decoded gives no frame, nor do those after it up to the next intra
   /// plane.
   std::vector<fap::Frame> push(const LiveUnit& unit, std::uint32_t timescale, bool after_gap);
   /// Rate of the last plane that was decoded.

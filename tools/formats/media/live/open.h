@@ -32,8 +32,8 @@ struct SourceOptions {
   TsOptions ts;           ///< for udp:// and srt://
 };
 
-/// A sink for `url`, not yet started. Errors: invalid_argument (no address of ours; the message
-/// lists them), those of the transport.
+/// A sink for `url`, not yet started. Errors: invalid_argument (unknown kind of address; the
+/// message lists the known ones), those of the transport.
 Result<std::unique_ptr<LiveSink>> open_sink(const std::string& url,
                                             const SinkOptions& options = {});
 

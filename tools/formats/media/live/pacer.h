@@ -1,5 +1,5 @@
 /// @file
-/// When to send: a clock that can be replaced, and a pacer that holds units to it.
+/// When to send: a replaceable clock, and a pacer that follows it.
 ///
 ///     Pacer pacer(steady_clock());
 ///     while (auto due = input.next_due()) {
@@ -8,9 +8,9 @@
 ///       pacer.sent(*due);
 ///     }
 ///
-/// Instants are absolute: that of a unit is the start of the presentation plus its own time, never
-/// the instant of the unit before plus a distance. So errors of one wait do not add up, and the
-/// sender keeps the speed of the machine's steady clock for days.
+/// Times are absolute: a unit is due at the start of the presentation plus its own time, not at a
+/// distance from the previous unit. So errors do not accumulate, and the sender keeps to the
+/// machine's steady clock for days.
 #pragma once
 
 #include <array>
@@ -18,19 +18,19 @@
 
 namespace animeme::media {
 
-/// Seconds from an arbitrary instant that never go back.
+/// Monotonic seconds from an arbitrary origin.
 class Clock {
  public:
   virtual ~Clock() = default;
   virtual double now() = 0;  ///< seconds, never less than before
-  /// Returns at `instant` or a little later, at once if that is over.
+  /// Returns at `instant` or a little later; immediately if it has passed.
   virtual void sleep_until(double instant) = 0;
 };
 
-/// The steady clock of the machine, sleeping for real. Lives as long as the program.
+/// The machine's steady clock, which really sleeps. Lives as long as the program.
 Clock& steady_clock();
 
-/// A clock that jumps to where one sleeps: presentations run as fast as they are made.
+/// A simulated clock that jumps instead of sleeping, so that presentations run as fast as possible.
 class JumpingClock : public Clock {
  public:
   double now() override { return now_; }  ///< where it jumped to
@@ -42,14 +42,15 @@ class JumpingClock : public Clock {
   double now_ = 0;
 };
 
-/// How late things were, in seconds; memory does not grow. Negative values count as 0.
+/// Statistics of lateness in seconds, in constant memory. Negative values count as 0.
 class LatenessMeter {
  public:
-  void add(double seconds);                        ///< one more, seconds
-  void add(const LatenessMeter& other);            ///< all of another one
-  std::int64_t count() const { return count_; }    ///< values added
-  std::int64_t count_below(double seconds) const;  ///< of these, to the precision of percentile()
-  double sum() const { return sum_; }              ///< seconds
+  void add(double seconds);                      ///< adds a value, seconds
+  void add(const LatenessMeter& other);          ///< adds all values of another meter
+  std::int64_t count() const { return count_; }  ///< values added
+  std::int64_t count_below(
+      double seconds) const;           ///< values below, to the precision of percentile()
+  double sum() const { return sum_; }  ///< seconds
   /// Seconds; 0 if nothing was added.
   double mean() const { return count_ == 0 ? 0 : sum_ / double(count_); }
   double worst() const { return worst_; }  ///< seconds; 0 if nothing was added
@@ -66,11 +67,11 @@ class LatenessMeter {
   double sum_ = 0, worst_ = 0;
 };
 
-/// Holds a presentation to a clock. Time 0 of the presentation is the instant of construction
-/// or of the last restart().
+/// Runs a presentation by a clock. Time 0 of the presentation is the instant of construction or of
+/// the last restart().
 class Pacer {
  public:
-  /// `slice` seconds are the longest that wait_until() sleeps. The clock must outlive the pacer.
+  /// wait_until() sleeps at most `slice` seconds. The clock must outlive the pacer.
   explicit Pacer(Clock& clock, double slice = 0.05);
 
   /// Time 0 is `lead` seconds from now (negative: ago).
@@ -79,7 +80,7 @@ class Pacer {
   double now() const;
   /// Sleeps towards presentation time `due`, for one slice at most. True once it is reached.
   bool wait_until(double due);
-  /// Notes that what was due at `due` has just been sent.
+  /// Records that what was due at `due` has just been sent.
   void sent(double due);
   const LatenessMeter& lateness() const { return lateness_; }  ///< of everything sent
 

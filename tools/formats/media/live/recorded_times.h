@@ -1,10 +1,8 @@
 /// @file
-/// Units as they come, on the clock of a file.
-///
-/// Time 0 of a file is where the first of both tracks begins: the first plane, or the first sample
-/// that can be heard (behind the priming of the first packet). A presentation that was received
-/// from its begin on has the times of its sender. Where time 0 lies between two ticks of the other
-/// track, that is rounded to the nearest one, all of it alike.
+/// Maps the times of received units to the clock of a file. Time 0 of a file is where the earlier
+/// of the tracks begins: the first plane, or the first audible sample (after the priming of the
+/// first packet). A presentation received from its beginning keeps the times of its sender. If time
+/// 0 lies between two ticks of the other track, all of its times are shifted to the nearest tick.
 #pragma once
 
 #include <cstdint>
@@ -15,17 +13,17 @@
 
 namespace animeme::media {
 
-/// Knows each unit's time once both tracks have begun or one of them has lasted for a second, and a
-/// plane's duration once the next one is there, or the sound is a second further. Not thread safe.
+/// Knows a unit's time once both tracks have begun or one of them has lasted for a second, and a
+/// plane's duration once the next one has arrived or the sound is a second ahead. Not thread safe.
 class RecordedTimes {
  public:
   /// `unit`: its times ascend in its track, its duration is positive. `info`: of the presentation;
-  /// of the sound the first one counts that is there when time 0 is decided on.
+  /// for the sound, the one known when time 0 is determined counts.
   void push(const LiveInfo& info, LiveUnit unit);
-  /// Nothing comes any more: what was held is certain now.
+  /// Nothing more will come; releases what was held.
   void finish(const LiveInfo& info);
-  /// What is certain. The first plane begins with the object start code. Units before time 0 of a
-  /// track that came too late are left out.
+  /// The units with known times. The first plane begins with the object start code. Units before
+  /// time 0 of a track that arrived too late are dropped.
   std::vector<LiveUnit> take();
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// What a source gives out, as it can be shown and written into a file while it comes.
+/// Prepares received events for display and for writing to a file as they arrive.
 ///
 ///     Recorder recorder;
 ///     RecordingFile file("talk.mp4");
@@ -11,9 +11,9 @@
 ///     }
 ///     file.finish();
 ///
-/// Planes and packets keep their bytes and their distances. After a loss the plane before it is
-/// held (it lasts longer) until the next plane that can be decoded; missing sound is a gap in the
-/// packets' times. Who joins in the middle begins with the first intra plane.
+/// Planes and packets keep their bytes and relative times. After a loss the previous plane lasts
+/// until the next plane that can be decoded; missing sound is a gap in the packets' times. Joining
+/// in the middle begins with the first intra plane.
 #pragma once
 
 #include <cstdint>
@@ -26,40 +26,39 @@
 
 namespace animeme::media {
 
-/// When a recording ends by itself.
+/// Options for recording.
 struct RecorderOptions {
   /// Seconds of presentation after which it ends; 0: never.
   double duration = 0;
-  /// False: take_units() has nothing, for who only wants to see them.
+  /// False: take_units() returns nothing, for display without a file.
   bool keep = true;
 };
 
-/// Sorts out what a source gives out. Its memory does not grow with time, as long as what there is
-/// is taken.
+/// Filters the events of a source. Uses bounded memory if the results are taken regularly.
 class Recorder {
  public:
-  /// Options as they are, unchecked.
+  /// Options are not checked.
   explicit Recorder(const RecorderOptions& options = {}) : options_(options) {}
 
-  /// Keeps what can be used of an event. Gives back the unit that was kept, for whoever shows it
-  /// at once. Units whose times do not ascend are left out. Nothing is kept once it has ended.
+  /// Keeps what can be used of an event and returns the kept unit for immediate display. Units
+  /// whose times do not ascend are dropped. Nothing is kept after the end.
   std::optional<LiveUnit> accept(LiveEvent event);
 
   /// The sender has ended, the recording is as long as it may be, or another presentation began.
   bool ended() const { return ended_; }
-  /// Was a plane lost or left out between the last two planes that were kept?
+  /// Was a plane lost or dropped between the last two planes that were kept?
   bool after_gap() const { return after_gap_; }
-  /// Nothing: the source has not said yet.
+  /// nullopt: not yet received.
   const std::optional<LiveInfo>& info() const { return info_; }
   const RecoveryStats& recovery() const { return recovery_.stats(); }  ///< totals
-  /// Intra intervals that are complete; each is given once.
+  /// Complete intra intervals; each is returned once.
   std::vector<IntraInterval> take_intervals() { return recovery_.take_intervals(); }
-  /// Seconds of face and of sound that were received.
+  /// Seconds of face that were received.
   double face_seconds() const;
-  double sound_seconds() const;  ///< likewise
+  double sound_seconds() const;  ///< the same for sound
 
-  /// What a file gets next: units whose time and duration are certain by now, see RecordedTimes.
-  /// Each is given once; the last ones come when it has ended.
+  /// The next units for a file, with known time and duration (see RecordedTimes). Each is returned
+  /// once, the last ones after the end.
   std::vector<LiveUnit> take_units() { return times_.take(); }
 
  private:

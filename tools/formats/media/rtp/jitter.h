@@ -1,6 +1,6 @@
 /// @file
-/// Packets that overtake each other, come twice or not at all, put in order. Knows nothing of
-/// sockets and clocks; the caller says what time it is. Source: RFC 3550 appendix A.1 and A.8.
+/// Puts packets in order that arrive reordered, duplicated or not at all. Uses no sockets or
+/// clocks; the caller passes the time. Source: RFC 3550 appendix A.1 and A.8.
 #pragma once
 
 #include <array>
@@ -14,70 +14,68 @@
 
 namespace animeme::media {
 
-/// A 32-bit counter without its wraps: the value next to the last one.
+/// Unwraps a 32-bit counter: picks the value nearest to the last one.
 class Unwrapper {
  public:
-  std::int64_t add(std::uint32_t value);  ///< the value without wraps; near the one before
-  void reset() { known_ = false; }        ///< the next value begins anew
+  std::int64_t add(std::uint32_t value);  ///< the unwrapped value, nearest to the previous one
+  void reset() { known_ = false; }        ///< the next value starts afresh
 
  private:
   bool known_ = false;
   std::int64_t last_ = 0;
 };
 
-/// How long a packet may keep others waiting.
+/// Limits on waiting for missing packets.
 struct ReorderLimits {
-  double seconds = 0.1;     ///< time that a packet waits for an earlier one, at first and at least
-  double most_seconds = 1;  ///< at most, however late packets come
-  std::size_t packets = 256;                 ///< at most so many wait
-  std::size_t bytes = std::size_t(1) << 20;  ///< with so much payload
+  double seconds = 0.1;                      ///< initial and minimum wait for an earlier packet
+  double most_seconds = 1;                   ///< maximum wait, however late packets are
+  std::size_t packets = 256;                 ///< maximum number of waiting packets
+  std::size_t bytes = std::size_t(1) << 20;  ///< and of their payload bytes
 };
 
-/// One sender's packets in order of sequence numbers. The first packet waits, too: an earlier one,
-/// or its copy, may be on its way, and a face that begins with a loss begins an intra plane later.
-/// How long packets wait follows from how late others came, copies included: a quarter longer than
-/// the worst of the last 15 to 30 seconds (tools/formats/media/live/receiving.md, section 3).
-///
-/// A jump of more than 3000 numbers, or back to numbers that came more than five seconds ago, is
-/// taken for a sender that has begun anew if the packet after it goes on from there; else the
-/// packet is dropped.
+/// Orders one sender's packets by sequence number. The first packet waits, too, since an earlier
+/// one or its copy may still arrive, and a face that begins with a loss cannot be shown before the
+/// next intra plane. The wait is 1.25 times the largest lateness, including copies, of the last 15
+/// to 30 seconds (tools/formats/media/live/receiving.md, section 3). A jump of more than 3000
+/// numbers, or back to numbers received more than five seconds ago, counts as a restart of the
+/// sender if the following packet continues from there; otherwise the packet is dropped.
 class ReorderBuffer {
  public:
-  /// So many packets are missing at this place; 0: not known.
+  /// Packets are missing here; 0: unknown number.
   struct Missing {
-    std::int64_t packets = 0;  ///< at least 1 where known
+    std::int64_t packets = 0;  ///< at least 1 if known
   };
-  using Item = std::variant<RtpPacket, Missing>;  ///< what comes out
+  using Item = std::variant<RtpPacket, Missing>;  ///< result of next()
 
   /// Limits as they are, unchecked.
   explicit ReorderBuffer(ReorderLimits limits) : limits_(limits) {}
 
-  /// true: it had not come before (late ones count as old).
+  /// true: a new packet (late ones count as old).
   bool add(RtpPacket packet, double now);
-  /// The next packet, or the gap in front of it once the wait is over.
+  /// The next packet, or the gap before it once the wait is over.
   std::optional<Item> next(double now);
-  /// When next() will have something without a further packet.
+  /// When next() returns something even without a further packet.
   std::optional<double> deadline() const;
   /// Nothing more will come: what is missing is lost.
   void flush() { flushing_ = true; }
-  /// An empty one for another sender on the same way: knows how late packets come here.
+  /// An empty buffer for another sender on the same path, which keeps the measured lateness.
   ReorderBuffer renewed() const;
-  double longest_wait() const { return longest_wait_; }  ///< the most that wait() was
-  double wait() const;                                   ///< seconds that a packet waits by now
+  double longest_wait() const { return longest_wait_; }  ///< maximum of wait() so far
+  double wait() const;                                   ///< current wait, seconds
   double latest() const {
     return latest_;
-  }  ///< seconds that one came behind its successor, or copy
+  }  ///< largest lateness after a successor or copy, seconds
 
   /// Totals over the life of the buffer.
   struct Counts {
-    std::int64_t received = 0;    ///< without duplicates and late ones
+    std::int64_t received = 0;    ///< excluding duplicates and late ones
     std::int64_t lost = 0;        ///< given up
-    std::int64_t late = 0;        ///< came after they had been given up
-    std::int64_t duplicates = 0;  ///< came before
-    std::int64_t reordered = 0;   ///< came behind a later one
+    std::int64_t late = 0;        ///< arrived after they had been given up
+    std::int64_t duplicates = 0;  ///< already received
+    std::int64_t reordered = 0;   ///< arrived after a later one
   };
   const Counts& counts() const { return counts_; }  ///< so far
-  /// Packets that should have come up to now, by their sequence numbers.
+  /// Packets expected so far, by sequence numbers.
   std::int64_t expected() const { return expected_before_ + (begun_ ? highest_ - first_ + 1 : 0); }
   /// Highest sequence number, wraps in the bits above 16.
   std::uint32_t highest() const { return std::uint32_t(highest_); }
@@ -128,7 +126,7 @@ class ReorderBuffer {
 /// Interarrival jitter of RFC 3550 section 6.4.1, in ticks.
 class JitterMeter {
  public:
-  /// A packet of `timestamp` came at `now` seconds; `clock` ticks a second.
+  /// A packet with `timestamp` arrived at `now` seconds; `clock` ticks a second.
   void add(std::uint32_t timestamp, double now, std::uint32_t clock);
   double ticks() const { return jitter_; }  ///< of the clock
 

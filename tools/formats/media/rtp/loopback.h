@@ -1,6 +1,5 @@
 /// @file
-/// A sink and a source that are joined in memory, with losses where they are wanted: for tests of
-/// what stands before a sink and behind a source.
+/// A sink and a source connected in memory, with optional losses, for tests of code that uses them.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +10,15 @@
 
 namespace animeme::media {
 
-/// What goes wrong on the way.
+/// Simulated losses.
 struct LoopbackOptions {
   double loss = 0;         ///< share of units that do not arrive, 0..1
   std::uint64_t seed = 1;  ///< of the losses: the same seed loses the same units
 };
 
-/// Both ends of one presentation. They may be used after each other or in turn, in one thread.
-/// What is sent before the source looks is kept. Losses show as a LiveGap before the next unit
-/// of the track.
+/// Both ends of one presentation. They may be used one after the other or alternately, in one
+/// thread. Units are kept until the source reads them. Losses appear as a LiveGap before the next
+/// unit of the track.
 struct Loopback {
   std::unique_ptr<LiveSink> sink;      ///< writes
   std::unique_ptr<LiveSource> source;  ///< reads what it wrote

@@ -1,6 +1,6 @@
 /// @file
-/// What of a received face can be shown. A predictive plane holds differences to the plane before
-/// it, so after a loss everything up to the next intra plane is wrong and is left out here.
+/// Selects the received planes that can be shown. A predicted plane has differences to the previous
+/// plane, so after a loss everything up to the next intra plane is wrong and is dropped here.
 ///
 ///     FaceRecovery recovery;
 ///     while (auto event = source->next(1.0)) {
@@ -23,14 +23,14 @@ namespace animeme::media {
 struct IntraInterval {
   std::int64_t begin = 0;   ///< time of the intra plane, ticks of LiveInfo::timescale
   std::int64_t planes = 0;  ///< received and lost; exact if each packet carries one plane
-  std::int64_t usable = 0;  ///< of these, those that accept() gave out
+  std::int64_t usable = 0;  ///< of these, those that accept() returned
 
   friend bool operator==(const IntraInterval&, const IntraInterval&) = default;
 };
 
 /// Totals.
 struct RecoveryStats {
-  std::int64_t usable = 0;     ///< planes given out
+  std::int64_t usable = 0;     ///< planes returned
   std::int64_t dropped = 0;    ///< planes received that could not be used
   std::int64_t lost = 0;       ///< packets of the face that are missing; unknown numbers count as 1
   std::int64_t freezes = 0;    ///< times without a plane, from a usable one to the next intra plane
@@ -47,16 +47,16 @@ struct RecoveryStats {
 /// Passes on the planes that can be decoded, and keeps count.
 class FaceRecovery {
  public:
-  /// Takes the events of a source in their order. Gives back sound as it is, and planes that can be
-  /// decoded: from the first intra plane on, and after a gap from the next one on. A new
-  /// configuration or time scale counts as a gap, and so does another sender.
+  /// Takes the events of a source in order. Returns sound unchanged, and planes that can be
+  /// decoded: from the first intra plane, and after a gap from the next one. A new configuration or
+  /// time scale counts as a gap, and so does another sender.
   std::optional<LiveUnit> accept(LiveEvent event);
 
   /// Is the face wrong or unknown since the last gap?
   bool waiting() const { return waiting_; }
   const RecoveryStats& stats() const { return stats_; }  ///< totals
-  /// Intervals that are complete (LiveEnd completes the last), oldest first; each is given once. Of
-  /// those that nobody takes the last 4096 are kept.
+  /// Complete intervals (LiveEnd completes the last), oldest first; each is returned once. At most
+  /// the last 4096 are kept.
   std::vector<IntraInterval> take_intervals();
 
  private:

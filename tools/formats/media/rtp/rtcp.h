@@ -1,6 +1,6 @@
 /// @file
-/// RTCP: sender reports tie RTP times to a wall clock, so that face and sound can be brought
-/// together; receiver reports tell the sender what was lost. Source: RFC 3550 section 6.
+/// RTCP: sender reports relate RTP times to a wall clock, to synchronise face and sound; receiver
+/// reports inform the sender about losses. Source: RFC 3550 section 6.
 #pragma once
 
 #include <cstdint>
@@ -15,16 +15,16 @@ namespace animeme::media {
 struct ReportBlock {
   std::uint32_t ssrc = 0;      ///< of the sender
   std::uint8_t fraction = 0;   ///< of 256, lost since the last report
-  std::int32_t lost = 0;       ///< since the begin; 24 bits, more becomes the limit
+  std::int32_t lost = 0;       ///< since the start; 24 bits, saturated
   std::uint32_t highest = 0;   ///< sequence number with its count of wraps above
   std::uint32_t jitter = 0;    ///< ticks of the RTP clock
   std::uint32_t last_sr = 0;   ///< middle 32 bits of the NTP time of the last sender report
-  std::uint32_t since_sr = 0;  ///< 1/65536 s since it came
+  std::uint32_t since_sr = 0;  ///< 1/65536 s since it arrived
 
   friend bool operator==(const ReportBlock&, const ReportBlock&) = default;
 };
 
-/// What a sender says of itself.
+/// Sender information of a report.
 struct SenderInfo {
   std::uint64_t ntp = 0;      ///< 32 bits of seconds since 1900, 32 bits of fraction
   std::uint32_t rtp = 0;      ///< the same instant
@@ -36,8 +36,8 @@ struct SenderInfo {
 
 /// A sender report, or a receiver report if there is no sender information.
 struct RtcpReport {
-  std::uint32_t ssrc = 0;            ///< who reports
-  std::optional<SenderInfo> sender;  ///< nothing: a receiver's
+  std::uint32_t ssrc = 0;            ///< of the reporter
+  std::optional<SenderInfo> sender;  ///< nullopt: a receiver report
   std::vector<ReportBlock> blocks;   ///< at most 31
 
   friend bool operator==(const RtcpReport&, const RtcpReport&) = default;
@@ -55,21 +55,21 @@ struct RtcpName {
 struct RtcpMessage {
   std::vector<RtcpReport> reports;  ///< usually one
   std::vector<RtcpName> names;      ///< at most 31
-  std::vector<std::uint32_t> byes;  ///< who leaves; at most 31
+  std::vector<std::uint32_t> byes;  ///< senders that leave; at most 31
 
   friend bool operator==(const RtcpMessage&, const RtcpMessage&) = default;
 };
 
-/// The bytes on the wire. RFC 3550 wants a report first, so there has to be one.
+/// The bytes on the wire. RFC 3550 requires a report first, so there must be one.
 std::vector<std::uint8_t> write_rtcp(const RtcpMessage& message);
 
-/// Reads a datagram; packets of other types are passed over. nullopt: not RTCP, or one of its
-/// packets is cut off.
+/// Reads a datagram; packets of other types are ignored. nullopt: not RTCP, or one of its packets
+/// is cut off.
 std::optional<RtcpMessage> read_rtcp(std::span<const std::uint8_t> datagram);
 
-/// The NTP time of now by the system's clock.
+/// The current NTP time by the system clock.
 std::uint64_t ntp_now();
-/// For identifiers that nobody else on the net should have.
+/// For identifiers that are unique on the network.
 std::uint64_t random_number();
 
 }  // namespace animeme::media

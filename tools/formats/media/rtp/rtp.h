@@ -22,72 +22,69 @@ namespace animeme::media {
 /// How a presentation is sent.
 struct RtpOptions {
   int mtu = 1400;  ///< largest datagram, bytes of UDP payload, 256..65000; larger planes are split
-  /// How often each packet of the face is sent, 1..8. Planes are smaller than the headers around
-  /// them, and a lost one spoils the face up to the next intra plane, hence 2. Receivers that do
-  /// not drop duplicates want 1 (a bare `rtpmp4vdepay` of GStreamer without `rtpjitterbuffer`;
-  /// FFmpeg drops all but copies right behind their original, which come where no plane follows for
-  /// 0.2 s and at the end).
+  /// How often each packet of the face is sent, 1..8. Planes are smaller than their headers, and a
+  /// lost one corrupts the face up to the next intra plane, hence 2. Receivers that do not drop
+  /// duplicates need 1 (a bare `rtpmp4vdepay` of GStreamer without `rtpjitterbuffer`; FFmpeg drops
+  /// all except copies directly after their original, which are sent if no plane follows for 0.2 s
+  /// and at the end).
   int repeat = 2;
   /// A copy follows its original by so many further packets of the face, 1..50, the next copy by
-  /// twice as many, so that a burst of losses has to last that long to take them all. Where no
-  /// plane follows for 0.2 s, copies wait no longer. A loss costs that much delay; receivers of
-  /// ours learn to wait so long.
+  /// twice as many, so that only a burst of that length loses them all. If no plane follows for 0.2
+  /// s, copies are sent. A loss costs that much delay; our receivers adapt their wait.
   int repeat_after = 3;
-  /// Planes a packet, 1..16. More save headers and cost delay. Their sizes and times go into an RTP
-  /// header extension that the session description announces; receivers that do not know it see
+  /// Planes per packet, 1..16. More planes save headers but add delay. Their sizes and times go
+  /// into an RTP header extension that the session description announces; receivers without it get
   /// the planes in order, all with the time of the first. Intra planes begin a packet.
   int bundle = 1;
   int audio_bundle = 1;          ///< AAC frames a packet, 1..32; Opus: always 1
-  bool config_in_band = true;    ///< the configuration in front of each intra plane
-  std::string sdp_path;          ///< the session description goes here at start(); empty: nowhere
+  bool config_in_band = true;    ///< repeat the configuration before each intra plane
+  std::string sdp_path;          ///< start() writes the session description here; empty: none
   std::string name = "animeme";  ///< of the session
   int ttl = 1;                   ///< hops of multicast packets, 0..255
   std::string interface;         ///< address (IPv4) or name (IPv6) for multicast; empty: default
-  /// Identifiers, names, first sequence numbers and time stamps follow from it; nothing: random, as
-  /// RFC 3550 asks for.
+  /// Determines identifiers, names, first sequence numbers and timestamps; nullopt: random, as RFC
+  /// 3550 requires.
   std::optional<std::uint64_t> seed;
 };
 
 /// How a presentation is received.
 struct RtpReceiveOptions {
-  /// Time that a packet waits for an earlier one, seconds, 0..10: at first, and at least. It grows
-  /// when packets, or their copies, come later than that, and shrinks slowly when they do no more.
+  /// Initial and minimum wait for an earlier packet, seconds, 0..10. It grows when packets or their
+  /// copies are later than that, and shrinks slowly when they no longer are.
   double reorder_seconds = 0.1;
-  double reorder_most_seconds = 1;  ///< what it grows to at most, 0..10
-  int reorder_packets = 256;        ///< at most so many wait, 0..1000
-  /// Longest time to wait at the begin for the sender reports that tie face and sound together,
-  /// 0..10. Not needed with a session description that has the media clock, as ours.
+  double reorder_most_seconds = 1;  ///< maximum wait, 0..10
+  int reorder_packets = 256;        ///< maximum number of waiting packets, 0..1000
+  /// Maximum wait at the start for the sender reports that synchronise face and sound, 0..10. Not
+  /// needed if the session description has the media clock, as ours does.
   double sync_seconds = 0.5;
   bool send_reports = true;  ///< receiver reports back to the sender
-  /// One sender may send from several addresses and ports (a farm of relays). Anybody who can see
-  /// what it sends can then speak in its place.
+  /// Allows a sender to use several addresses and ports (a farm of relays). Anyone who can see its
+  /// packets can then impersonate it.
   bool any_source = false;
   std::string interface;  ///< as RtpOptions::interface
 };
 
-/// Sends to "rtp://host:port" (port even, default 5004; IPv6 in brackets; a multicast address will
-/// do). Errors: invalid_argument (address, options), io (no such host, sockets).
-/// The sink's own errors: invalid_argument (a unit before start(), without bytes, for a track that
-/// info does not have, audio packets larger than a datagram), io.
+/// Sends to "rtp://host:port" (port even, default 5004; IPv6 in brackets; may be a multicast
+/// address). Errors: invalid_argument (address, options), io (no such host, sockets). The sink's
+/// own errors: invalid_argument (a unit before start(), without bytes, for a track that info does
+/// not have, audio packets larger than a datagram), io.
 Result<std::unique_ptr<LiveSink>> make_rtp_sink(const std::string& url,
                                                 const RtpOptions& options = {});
 
-/// Receives what a session description tells: a file, or "rtp://address:port", which binds the
-/// port (host empty, 0.0.0.0 or [::]: all addresses; a multicast address is joined) and takes a
-/// face alone, with the configuration in front of its intra planes.
+/// Receives the session of a description file, or of "rtp://address:port", which binds the port
+/// (host empty, 0.0.0.0 or [::]: all addresses; a multicast group is joined) and accepts a face
+/// only, with the configuration before its intra planes. Accepts one sender, from one address and
+/// port (see rtp_input.h): the described one if it sends, else the first valid one. When it has
+/// been silent for a second, another active sender takes over (LiveRestart). The description is
+/// reread when its file changes.
 ///
-/// Heard is one sender, from one address and port, as rtp_input.h has it: the first that proves to
-/// be one, the one that was described before all others. When it is silent for a second, another
-/// one that sends meanwhile takes over (LiveRestart). The description is read again when its file
-/// changes.
+/// Times: face times are in the timescale of the sender's LiveInfo if the description has it (ours
+/// do) and are exactly those sent if that is at most 90000; other face times are ticks of 1/90000
+/// s. Durations follow from the rate and the skip count in the planes. Time 0 is the sender's if
+/// the description is that of the running sender, else the first plane received.
 ///
-/// Times: face times are in the timescale of the sender's LiveInfo if the description has it
-/// (ours do) and come back exactly as they were sent if that is at most 90000; other face times are
-/// ticks of 1/90000 s. Durations follow from the rate and the skip count in the planes. Time 0 is
-/// the sender's if the description is that of the running sender, else the first plane received.
-///
-/// Errors: invalid_argument (options), not_found, io (address in use ...), syntax (no session
-/// description), unsupported (neither a face nor a sound that is known here).
+/// Errors: invalid_argument (options), not_found, io (address in use ...), syntax (not a session
+/// description), unsupported (no supported face or sound).
 Result<std::unique_ptr<LiveSource>> make_rtp_source(const std::string& where,
                                                     const RtpReceiveOptions& options = {});
 

@@ -1,6 +1,6 @@
 /// @file
-/// The packets of one medium as they come in: who sends them, in which order, and what there is to
-/// report back about it. Source: RFC 3550 sections 6.4, 8.2 and appendix A.
+/// Receives the packets of one medium: selects the sender, orders packets and prepares receiver
+/// reports. Source: RFC 3550 sections 6.4, 8.2 and appendix A.
 #pragma once
 
 #include <cstdint>
@@ -15,77 +15,76 @@
 
 namespace animeme::media {
 
-/// Hears one sender at a time: an identifier (SSRC) at an address. It is the first that has sent
-/// two packets near to each other in sequence, one of them with the begin of a unit where that can
-/// be seen. The one of the session description needs a single packet and comes before all others,
-/// who wait a second for it. Another one takes over when the first has been silent for a second, or
-/// if it comes from the very same address; what it has sent meanwhile is kept. All else is counted
-/// as foreign.
+/// Accepts one sender at a time: an identifier (SSRC) at an address. It is the first that has sent
+/// two packets close in sequence, one of them with the start of a unit if that can be determined.
+/// The sender of the session description needs only one packet and has priority: others wait a
+/// second for it. Another sender takes over when the first has been silent for a second, or if it
+/// has the same address; its packets are kept until then. Everything else is counted as foreign.
 class RtpInput {
  public:
-  /// What the session description says of the medium.
+  /// The medium according to the session description.
   struct Settings {
-    int payload_type = -1;              ///< others are not for us; -1: any
+    int payload_type = -1;              ///< others are ignored; -1: any
     std::uint32_t clock = 90000;        ///< ticks a second
     int bundle_id = 0;                  ///< of the header extension; 0: none
     ReorderLimits limits;               ///< see ReorderBuffer
-    std::optional<std::uint32_t> ssrc;  ///< of the sender that was described
+    std::optional<std::uint32_t> ssrc;  ///< of the described sender
     bool face = false;                  ///< units begin with a start code
-    bool any_source = false;            ///< addresses do not matter
+    bool any_source = false;            ///< ignore addresses
   };
-  /// Settings as they are, unchecked.
+  /// Settings are not checked.
   explicit RtpInput(const Settings& settings) : settings_(settings), buffer_(settings.limits) {}
 
-  /// What became of a datagram.
+  /// Result of add().
   enum class Taken : std::uint8_t {
-    no,       ///< not RTP, not for us, came before, or has to prove itself
-    yes,      ///< next() may have something
-    restart,  ///< a new sender: take what flush() leaves of the old one, then accept()
+    no,       ///< not RTP, not for us, a duplicate, or from a sender not yet accepted
+    yes,      ///< next() may return something
+    restart,  ///< a new sender: flush() and take the rest of the old one, then accept()
   };
   /// `now`: seconds of a steady clock, as everywhere below.
   Taken add(std::span<const std::uint8_t> datagram, const UdpAddress& from, double now);
-  /// Whether a datagram is of the sender in force, as its identifier and its address say.
+  /// Whether a datagram is from the current sender, by identifier and address.
   bool hears(std::span<const std::uint8_t> datagram, const UdpAddress& from) const;
-  void flush() { buffer_.flush(); }  ///< what is missing is lost
-  /// Goes over to the new sender, or, where there is none, to whoever comes next.
+  void flush() { buffer_.flush(); }  ///< gives up missing packets
+  /// Switches to the new sender, or waits for one if there is none.
   void accept();
 
-  /// Nothing: wait for deadline() or the next datagram.
+  /// nullopt: wait for deadline() or the next datagram.
   std::optional<ReorderBuffer::Item> next(double now) { return buffer_.next(now); }
-  /// When next() will have something by itself.
+  /// When next() returns something without a further packet.
   std::optional<double> deadline() const { return buffer_.deadline(); }
 
-  /// false: not of the sender in force, at its host. That of a sender that is still to come is kept
+  /// false: not from the current sender at its host. A report of a sender not yet accepted is kept
   /// for take_report().
   bool add_report(const RtcpReport& report, const UdpAddress& from, double now);
-  /// What the sender has reported before it was accepted; given once.
+  /// The report that the sender sent before it was accepted; returned once.
   std::optional<SenderInfo> take_report();
-  /// A sender leaves; false: not ours.
+  /// A sender leaves; false: not the current one.
   bool add_bye(std::uint32_t ssrc, const UdpAddress& from, double now);
-  /// Of the sender in force; nothing: none yet.
+  /// Of the current sender; nullopt: none yet.
   std::optional<std::uint32_t> ssrc() const { return ssrc_; }
   std::optional<double> bye_at() const { return bye_at_; }  ///< when it said goodbye
-  double last_heard() const { return last_heard_; }         ///< when its last packet came
+  double last_heard() const { return last_heard_; }         ///< when its last packet arrived
 
-  /// What a receiver report says of the time since the last call.
+  /// The receiver report block for the time since the last call.
   ReportBlock report(double now);
   /// Totals over all senders.
   ReorderBuffer::Counts counts() const;
-  std::int64_t bytes() const { return bytes_; }           ///< of all RTP datagrams taken
-  std::int64_t foreign() const { return foreign_; }       ///< datagrams that were not
-  void ignore() { ++foreign_; }                           ///< one more of these
+  std::int64_t bytes() const { return bytes_; }           ///< of all accepted RTP datagrams
+  std::int64_t foreign() const { return foreign_; }       ///< ignored datagrams
+  void ignore() { ++foreign_; }                           ///< counts another one
   double wait() const { return buffer_.longest_wait(); }  ///< ReorderBuffer::longest_wait()
   double latest() const { return buffer_.latest(); }      ///< ReorderBuffer::latest()
   /// Interarrival jitter.
   double jitter_seconds() const { return jitter_.ticks() / settings_.clock; }
 
-  /// A datagram that may prove to be of a sender.
+  /// A datagram of a potential sender.
   struct Early {
-    std::vector<std::uint8_t> bytes;  ///< as it came
+    std::vector<std::uint8_t> bytes;  ///< unchanged
     UdpAddress from;                  ///< who sent it
-    double at = 0;                    ///< instant of its arrival, seconds
+    double at = 0;                    ///< time of arrival, seconds
   };
-  /// Of all who are not in force, in the order of their arrival.
+  /// Of all potential senders, in order of arrival.
   std::vector<Early> early() const;
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// Who listens to a sender, by the reports that come back.
+/// Keeps track of a sender's receivers by their reports.
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@
 
 namespace animeme::media {
 
-/// At most 4096; one who has not reported for 30 seconds is forgotten.
+/// At most 4096; one that has not reported for 30 seconds is removed.
 class RtpListeners {
  public:
-  /// `reporter` says of this track that it lost this share of packets.
+  /// Adds a report of `reporter` about this track.
   void add(std::uint32_t reporter, LiveTrack track, const ReportBlock& block, double now);
   void remove(std::uint32_t reporter) { listeners_.erase(reporter); }  ///< it said goodbye
 
-  std::int64_t count(double now) const;  ///< heard of lately
+  std::int64_t count(double now) const;  ///< that reported recently
   /// Mean over listeners of the worse of their tracks; 0..1.
   double loss(double now) const;
 

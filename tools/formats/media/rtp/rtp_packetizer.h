@@ -1,5 +1,5 @@
 /// @file
-/// The units of one track into its RTP packets: numbers, time stamps, pieces and bundles.
+/// Packs the units of one track into RTP packets: sequence numbers, timestamps, fragments, bundles.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace animeme::media {
 
-/// Random at the begin of a sender's life, RFC 3550 section 5.1.
+/// Chosen at random when a sender starts, RFC 3550 section 5.1.
 struct RtpIdentity {
   std::uint32_t ssrc = 0;      ///< of the sender
   std::uint32_t offset = 0;    ///< RTP time at time 0
@@ -22,11 +22,11 @@ struct RtpIdentity {
 /// Collects units until a packet is full, and numbers packets.
 class RtpPacketizer {
  public:
-  /// `info` has this track; options are good.
+  /// Requires that `info` has this track and that options are valid.
   RtpPacketizer(LiveTrack track, const LiveInfo& info, const RtpOptions& options,
                 const RtpIdentity& identity, std::uint8_t payload_type);
 
-  LiveTrack track() const { return track_; }                 ///< whose units
+  LiveTrack track() const { return track_; }                 ///< track of the units
   std::uint32_t clock() const { return clock_; }             ///< of RTP times, ticks a second
   std::uint32_t ssrc() const { return identity_.ssrc; }      ///< of the packets
   std::uint32_t offset() const { return identity_.offset; }  ///< RTP time at time 0
@@ -37,14 +37,14 @@ class RtpPacketizer {
 
   /// Errors: invalid_argument (a unit without bytes; AAC over 8191 bytes, Opus over a datagram).
   Result<void> check(const LiveUnit& unit) const;
-  /// Would this unit share a packet with those that wait? Else flush() comes first.
+  /// Does this unit fit into a packet with the pending ones? Otherwise call flush() first.
   bool fits(const LiveUnit& unit) const;
-  void add(const LiveUnit& unit);  ///< fits() and check() have to be true
-  /// As many units wait as a packet may have.
+  void add(const LiveUnit& unit);  ///< requires fits() and check()
+  /// As many units are pending as a packet may have.
   bool full() const { return int(units_.size()) >= most_; }
-  bool empty() const { return units_.empty(); }  ///< nothing waits
+  bool empty() const { return units_.empty(); }  ///< nothing is pending
   int most() const { return most_; }             ///< units of a packet at most
-  /// Makes packets of what waits.
+  /// Makes packets of the pending units.
   std::vector<std::vector<std::uint8_t>> flush();
 
  private:

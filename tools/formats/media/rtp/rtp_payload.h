@@ -1,6 +1,7 @@
 /// @file
-/// Access units into RTP payloads and back. Source: RFC 6416 section 5 (MP4V-ES), RFC 3640 section
-/// 3.3.6 (AAC-hbr), RFC 7587 section 4.2 (Opus); tools/formats/media/containers.md, section 4.1.
+/// Converts access units to RTP payloads and back. Source: RFC 6416 section 5 (MP4V-ES), RFC 3640
+/// section 3.3.6 (AAC-hbr), RFC 7587 section 4.2 (Opus); tools/formats/media/containers.md, section
+/// 4.1.
 #pragma once
 
 #include <cstdint>
@@ -11,41 +12,40 @@
 
 namespace animeme::media {
 
-/// One payload on its way out.
+/// One outgoing payload.
 struct RtpPayload {
-  std::vector<std::uint8_t> bytes;  ///< behind the RTP header
+  std::vector<std::uint8_t> bytes;  ///< after the RTP header
   bool marker = false;              ///< the last, or only, piece of its access unit
 };
 
-/// A plane, which goes into as many packets as it needs, each at most `room` (> 0) bytes, all with
-/// one time stamp, the last one marked.
+/// Splits a plane into packets of at most `room` (> 0) bytes, all with one timestamp, the last one
+/// marked.
 std::vector<RtpPayload> split_plane(std::span<const std::uint8_t> plane, std::size_t room);
 
-/// AAC frames that belong in one packet if they fit into `room` (> 4) bytes: headers of 13 + 3
-/// bits, then the frames. Only a single frame may be larger; it goes into several packets. Frames
-/// have 1..8191 bytes.
+/// Packs AAC frames into one packet of at most `room` (> 4) bytes: headers of 13 + 3 bits, then the
+/// frames. Only a single frame may be larger; it is split into several packets. Frames have 1..8191
+/// bytes.
 std::vector<RtpPayload> pack_aac(std::span<const std::vector<std::uint8_t>> frames,
                                  std::size_t room);
 inline constexpr std::size_t kMaxAacFrame = 8191;  ///< 13 bits of size
-/// Bytes of such a packet with `frames` frames of `bytes` in all.
+/// Size of such a packet with `frames` frames of `bytes` in total.
 std::size_t aac_packet_size(std::size_t frames, std::size_t bytes);
 
-/// An access unit on its way in, its time in ticks of the RTP clock.
+/// A received access unit, its time in ticks of the RTP clock.
 struct RtpUnit {
   std::vector<std::uint8_t> bytes;  ///< joined, complete
-  std::int64_t time = 0;            ///< without wraps
+  std::int64_t time = 0;            ///< unwrapped
 
   friend bool operator==(const RtpUnit&, const RtpUnit&) = default;
 };
 
-/// Joins the pieces of planes. Holds at most 1 MB.
+/// Reassembles planes. Holds at most 1 MB.
 class PlaneJoiner {
  public:
   /// The next packet in order, its time unwrapped. Complete planes are appended to `units`. false:
-  /// a plane had to be dropped that no gap has told of.
+  /// a plane was dropped without a reported gap.
   bool add(const RtpPacket& packet, std::int64_t time, std::vector<RtpUnit>& units);
-  /// Packets are missing here. A plane without a mark is complete if the next packet is, too, so
-  /// an unfinished one is dropped.
+  /// Packets are missing here: drops a plane that has not been marked complete.
   void gap();
 
  private:
@@ -63,14 +63,14 @@ struct AacFields {
   friend bool operator==(const AacFields&, const AacFields&) = default;
 };
 
-/// Takes AAC frames out of packets and joins pieces. Holds at most 64 kB.
+/// Extracts AAC frames from packets and joins fragments. Holds at most 64 kB.
 class AacJoiner {
  public:
   /// `frame_samples`: ticks of a frame.
   AacJoiner(AacFields fields, int frame_samples) : fields_(fields), samples_(frame_samples) {}
   /// Appends what is complete; false: the packet is broken.
   bool add(const RtpPacket& packet, std::int64_t time, std::vector<RtpUnit>& units);
-  void gap() { piece_.bytes.clear(); }  ///< a piece that waits is dropped
+  void gap() { piece_.bytes.clear(); }  ///< drops an incomplete frame
 
  private:
   AacFields fields_;

@@ -1,15 +1,14 @@
 /// @file
-/// What RTP and RTCP packets say, without sockets: a caller hands in datagrams and the time, and
-/// takes out events and reports.
+/// RTP and RTCP reception without sockets: the caller passes datagrams and the time, and takes
+/// events and reports.
 ///
 ///     RtpReceiver receiver(*read_sdp(text), {}, 1);
 ///     receiver.rtp(LiveTrack::face, datagram, from, seconds);
 ///     while (auto event = receiver.next(seconds)) { ... }
-///
-/// Safe for whatever comes in. At most 8 MB wait in it, besides what RtpInput keeps of a track (2
-/// MB at most); when the caller does not take them out, further units are dropped and reported as a
-/// gap. Whom it hears is said in rtp_input.h. When one track has a new sender, both begin anew: a
-/// LiveRestart stands between the events of the old and of the new one.
+/// Safe for untrusted input. Queues at most 8 MB, besides what RtpInput keeps for a track (2 MB at
+/// most); if the caller does not take events, further units are dropped and reported as a gap.
+/// rtp_input.h documents which sender is accepted. When one track has a new sender, both restart: a
+/// LiveRestart separates the events of the old and the new one.
 #pragma once
 
 #include <cstdint>
@@ -26,35 +25,34 @@
 
 namespace animeme::media {
 
-/// Both media of a session on their way in.
+/// Receives both media of a session.
 class RtpReceiver {
  public:
   /// `id`: own identifier in reports. Times ("now") are seconds of any steady clock.
   RtpReceiver(const RtpSession& session, const RtpReceiveOptions& options, std::uint32_t id);
 
-  /// Takes an RTP datagram; anything may come. next() gives what it has brought: only once all that
-  /// lies in a socket has been handed in, since next() gives up what is still missing when it is
-  /// due.
+  /// Takes an RTP datagram, which may be invalid. Pass all datagrams available in a socket before
+  /// calling next(), since next() gives up missing packets when they are due.
   void rtp(LiveTrack track, std::span<const std::uint8_t> datagram, const UdpAddress& from,
            double now);
-  /// Takes an RTCP datagram; anything may come. true: it was a report of the sender.
+  /// Takes an RTCP datagram, which may be invalid. true: it was a report of the sender.
   bool rtcp(LiveTrack track, std::span<const std::uint8_t> datagram, const UdpAddress& from,
             double now);
-  /// Whether a datagram is of the sender that is heard in a track (RTCP: always), rather than of
-  /// one who may begin.
+  /// Whether a datagram is from the accepted sender of a track (RTCP: always), not from a potential
+  /// one.
   bool hears(LiveTrack track, std::span<const std::uint8_t> datagram, const UdpAddress& from) const;
-  /// Nobody is heard any more: what waits for others, or for a clock, is ready now.
+  /// Ends reception: packets that wait for others, or for synchronisation, become ready.
   void flush(double now);
   /// The next event, never LiveIdle. nullopt: nothing is ready.
   std::optional<LiveEvent> next(double now);
-  /// When next() will have something without a further datagram; in the past: now.
+  /// When next() returns something even without a further datagram; in the past: now.
   std::optional<double> deadline() const;
   /// Receiver reports that are due: about every five seconds.
   std::vector<RtpDatagram> reports(double now);
 
   ReceiveStats stats() const;                        ///< of both media
-  RtpSync sync() const { return timeline_.sync(); }  ///< how the two clocks were brought together
-  /// Datagrams of a track that nobody was heard in, RtpInput::early().
+  RtpSync sync() const { return timeline_.sync(); }  ///< how the two clocks were synchronised
+  /// Datagrams of potential senders of a track, see RtpInput::early().
   std::vector<RtpInput::Early> early(LiveTrack track) const;
 
  private:

@@ -1,6 +1,6 @@
 /// @file
-/// What a presentation looks like as RTP and RTCP packets, without sockets: a caller hands in units
-/// and the time, and sends the datagrams that come out.
+/// RTP and RTCP sending without sockets: the caller passes units and the time, and sends the
+/// resulting datagrams.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +17,15 @@
 
 namespace animeme::media {
 
-/// Errors: invalid_argument (an option outside its range; a presentation of nothing; a time scale
-/// of 0 or above kMaxTimescale; a sample rate of 0).
+/// Errors: invalid_argument (an option outside its range; an empty presentation; a time scale of 0
+/// or above kMaxTimescale; a sample rate of 0).
 Result<void> check(const LiveInfo& info, const RtpOptions& options);
 
-/// Both media of a session on their way out.
+/// Sends both media of a session.
 class RtpSender {
  public:
   /// `address` and `port` go into the session description. `seed`: as RtpOptions::seed. `ntp`: the
-  /// NTP time at `now` 0. Info and options are good.
+  /// NTP time at `now` 0. Info and options must be valid.
   RtpSender(const LiveInfo& info, const RtpOptions& options, const std::string& address, int port,
             std::uint64_t seed, std::uint64_t ntp);
 
@@ -33,14 +33,14 @@ class RtpSender {
   const RtpSession& session() const { return session_; }
 
   using Datagrams = std::vector<RtpDatagram>;  ///< in the order in which they are to be sent
-  /// Appends what is to be sent now. Times ("now") are seconds and ascend. Errors:
+  /// Appends the datagrams to send now. Times ("now") are seconds and ascend. Errors:
   /// invalid_argument (RtpPacketizer::check(), or a track that the presentation does not have).
   Result<void> send(const LiveUnit& unit, double now, Datagrams& out);
-  /// Reports that are due, and what has waited for a next unit for too long.
+  /// Appends reports that are due, and units that have waited too long for the next one.
   void poll(double now, Datagrams& out);
-  /// The rest, and goodbye.
+  /// Appends the rest and a goodbye.
   void finish(double now, Datagrams& out);
-  /// A report of a receiver.
+  /// Takes a report of a receiver.
   void rtcp(std::span<const std::uint8_t> datagram, double now);
 
   /// `packets` and `bytes` count RTCP, too.

@@ -1,5 +1,5 @@
 /// @file
-/// One clock for face and sound, whose RTP times begin at random numbers each.
+/// One clock for face and sound, whose RTP times begin at independent random numbers.
 /// Source: RFC 3550 section 6.4.1 (sender reports), RFC 7273 (media clock in the description).
 #pragma once
 
@@ -13,12 +13,12 @@
 
 namespace animeme::media {
 
-/// What ties the tracks together, from worst to best.
+/// How the tracks are synchronised, from worst to best.
 enum class RtpSync : std::uint8_t {
   none,         ///< nothing yet
-  arrival,      ///< what came together belongs together; wrong by the delays of sender and net
-  reports,      ///< sender reports of both
-  description,  ///< the session description says when time 0 was
+  arrival,      ///< by time of arrival; wrong by the delays of sender and network
+  reports,      ///< by sender reports of both
+  description,  ///< the session description defines time 0
 };
 
 /// Tracks by LiveTrack. A presentation of one track has time 0 at its first packet unless it is
@@ -29,23 +29,25 @@ class RtpTimeline {
   /// of both.
   RtpTimeline(std::uint32_t face_clock, std::uint32_t audio_clock, double patience);
 
-  /// A packet came; returns its time without wraps.
+  /// Adds a packet; returns its unwrapped time.
   std::int64_t add(LiveTrack track, std::uint32_t timestamp, double now);
   void add_report(LiveTrack track, const SenderInfo& report);  ///< times of a sender report
-  /// RTP time at time 0 as the description has it; nothing: it is that of another sender. Counts if
-  /// all tracks have it.
+  /// RTP time at time 0 from the description; nullopt: the description is that of another sender.
+  /// Used if all tracks have it.
   void describe(LiveTrack track, std::optional<std::uint32_t> offset);
-  void restart();  ///< another sender: forgets all that was known
+  void restart();  ///< another sender: resets everything
 
-  /// Can times be given out? After the wait it can in any case.
+  /// Are times available? Always true after the wait.
   bool settle(double now);
-  /// When settle() will say yes by itself; nothing: it does, or no packet came yet.
+  /// When settle() becomes true without further packets; nullopt: it is true, or no packet has
+  /// arrived.
   std::optional<double> deadline() const;
-  RtpSync sync() const { return sync_; }  ///< what the clock rests on
+  RtpSync sync() const { return sync_; }  ///< how the tracks are synchronised
   /// Ticks of the track's clock since time 0, of a time from add(). Only when settled. Three
-  /// reports in a row that contradict the clock in force by more than 20 ms, and agree, move the
-  /// sound from then on; after a guess by arrival the first one does. Reports that put face and
-  /// sound that came together more than ten seconds apart are passed over.
+  /// consecutive reports that agree with each other and contradict the current clock by more than
+  /// 20 ms shift the sound from then on; after synchronisation by arrival one report is enough.
+  /// Reports are ignored if they place face and sound that arrived together more than ten seconds
+  /// apart.
   std::int64_t time(LiveTrack track, std::int64_t unwrapped);
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// From packets in order to units of the face and the sound; times stay those of RTP.
+/// Converts ordered packets to units of face and sound, with RTP times.
 /// Source: tools/formats/media/containers.md, sections 1.3 and 4.1.
 #pragma once
 
@@ -15,27 +15,28 @@
 
 namespace animeme::media {
 
-/// What packets became.
+/// Units made from packets.
 struct RtpUnits {
   std::vector<LiveUnit> units;  ///< times in ticks of the RTP clock, durations as in LiveUnit
-  bool damaged = false;         ///< something was dropped in front of the first unit
+  bool damaged = false;         ///< something was dropped before the first unit
 };
 
-/// Planes. The configuration in front of them is taken off.
+/// Reassembles planes and strips the configuration before them.
 class FaceAssembler {
  public:
-  /// `timescale` of durations. `config` may be empty; planes are dropped until one comes then.
+  /// `timescale` of durations. If `config` is empty, planes are dropped until one arrives.
   FaceAssembler(std::vector<std::uint8_t> config, std::uint32_t timescale)
       : config_(std::move(config)), timescale_(timescale) {}
 
-  RtpUnits add(const RtpPacket& packet, std::int64_t time);  ///< units that are complete now
-  void gap() { joiner_.gap(); }  ///< packets are missing; a piece that waits is dropped
-  /// A new sender: the same, but what was in work is dropped.
+  RtpUnits add(const RtpPacket& packet,
+               std::int64_t time);  ///< returns units that are now complete
+  void gap() { joiner_.gap(); }     ///< packets are missing; drops an incomplete unit
+  /// A new sender: drops an incomplete unit.
   void restart() { joiner_ = {}; }
 
   /// Decoder configuration, from the description or in band.
   const std::vector<std::uint8_t>& config() const { return config_; }
-  /// Of the last intra plane; nothing: there was none, or it did not say.
+  /// Of the last intra plane; nullopt: there was none, or it has no rate.
   std::optional<fap::Rate> rate() const { return rate_; }
 
  private:
@@ -47,24 +48,25 @@ class FaceAssembler {
   PlaneJoiner joiner_;
 };
 
-/// Packets of sound.
+/// Reassembles audio packets.
 class AudioAssembler {
  public:
   explicit AudioAssembler(const RtpAudioTrack& track);  ///< `track` as described
 
-  RtpUnits add(const RtpPacket& packet, std::int64_t time);  ///< units that are complete now
-  void gap() { joiner_.gap(); }  ///< packets are missing; a piece that waits is dropped
+  RtpUnits add(const RtpPacket& packet,
+               std::int64_t time);  ///< returns units that are now complete
+  void gap() { joiner_.gap(); }     ///< packets are missing; drops an incomplete unit
 
  private:
   AudioFormat format_;
   AacJoiner joiner_;
 };
 
-/// Ticks of 1/90000 s to ticks of `timescale`, to the nearest. Above 90000 the times of planes are
-/// told apart no more; then a time that lies within a tick of a whole number of planes is that.
+/// Converts ticks of 1/90000 s to the nearest ticks of `timescale`. Above 90000, where this is
+/// ambiguous, a time within a tick of a whole number of planes is rounded to that.
 std::int64_t to_timescale(std::int64_t ticks, std::uint32_t timescale,
                           std::optional<fap::Rate> rate);
-/// And back.
+/// The inverse.
 std::int64_t from_timescale(std::int64_t time, std::uint32_t timescale);
 
 }  // namespace animeme::media

@@ -1,5 +1,5 @@
 /// @file
-/// Session descriptions: where the packets of a presentation come from and what is in them.
+/// Session descriptions: addresses and formats of the packets of a presentation.
 /// Source: RFC 8866, 6416, 3640, 7587, 5576 (ssrc), 7273 (media clock), 8285 (extmap);
 /// tools/formats/media/containers.md, section 4.1.
 ///
@@ -8,7 +8,7 @@
 ///     a=fmtp:96 profile-level-id=97; config=000001B061000001B58947
 ///     a=ssrc:305419896 cname:animeme
 ///     a=mediaclk:direct=2271560481       RTP time of time 0
-///     a=x-animeme:timescale=25000        ours; others pass over it
+///     a=x-animeme:timescale=25000        private; others ignore it
 #pragma once
 
 #include <cstdint>
@@ -24,37 +24,37 @@
 namespace animeme::media {
 
 inline constexpr std::uint32_t kFaceClock = 90000;  ///< ticks a second, of MP4V-ES
-inline constexpr int kRtpPort = 5004;               ///< of a face whose address names none
+inline constexpr int kRtpPort = 5004;               ///< default port of the face
 inline constexpr std::size_t kMaxConfig = 1024;     ///< bytes of a face's configuration
 /// Largest LiveInfo::timescale; that of the fastest stream of 14496-2 is 4095000.
 inline constexpr std::uint32_t kMaxTimescale = 10000000;
 
-/// What face and sound have in common.
+/// Common fields of face and sound.
 struct RtpTrack {
-  std::string address;      ///< numbers as a rule: "192.0.2.7", "ff15::1"
+  std::string address;      ///< usually numeric: "192.0.2.7", "ff15::1"
   int port = 0;             ///< 1..65534
-  int rtcp_port = 0;        ///< as a rule port + 1
-  int ttl = 0;              ///< of multicast packets; 0: not said
+  int rtcp_port = 0;        ///< usually port + 1
+  int ttl = 0;              ///< of multicast packets; 0: not given
   int payload_type = 96;    ///< 0..127
   std::uint32_t clock = 0;  ///< ticks a second
-  /// Sender and its RTP time at time 0; the second holds for this sender only.
+  /// Sender; `clock_offset` is valid for this sender only.
   std::optional<std::uint32_t> ssrc;
   std::optional<std::uint32_t> clock_offset;  ///< RTP time at time 0
 
   friend bool operator==(const RtpTrack&, const RtpTrack&) = default;
 };
 
-/// The face, as a description has it.
+/// The face in a description.
 struct RtpFaceTrack : RtpTrack {
-  std::vector<std::uint8_t> config;    ///< empty: comes in band
+  std::vector<std::uint8_t> config;    ///< empty: in band
   std::uint8_t visual_profile = 0x61;  ///< profile-level-id
-  std::uint32_t timescale = 0;         ///< of the sender; 0: not said
+  std::uint32_t timescale = 0;         ///< of the sender; 0: not given
   int bundle_id = 0;                   ///< number of the extension kBundleExtension; 0: not used
 
   friend bool operator==(const RtpFaceTrack&, const RtpFaceTrack&) = default;
 };
 
-/// The sound, as a description has it.
+/// The sound in a description.
 struct RtpAudioTrack : RtpTrack {
   AudioFormat format;  ///< codec, rate, channels
   AacFields fields;    ///< of mpeg4-generic
@@ -62,13 +62,13 @@ struct RtpAudioTrack : RtpTrack {
   friend bool operator==(const RtpAudioTrack&, const RtpAudioTrack&) = default;
 };
 
-/// What a description says, or is to say.
+/// Contents of a description.
 struct RtpSession {
   std::string name = "animeme";        ///< s=
-  std::string cname = "animeme";       ///< of both media, so that they are known to belong together
-  std::optional<RtpFaceTrack> face;    ///< nothing: no face
-  std::optional<RtpAudioTrack> audio;  ///< nothing: no sound
-  /// Media that are not for us, a sentence each.
+  std::string cname = "animeme";       ///< of both media, which identifies them as one session
+  std::optional<RtpFaceTrack> face;    ///< nullopt: no face
+  std::optional<RtpAudioTrack> audio;  ///< nullopt: no sound
+  /// Unsupported media, one sentence each.
   std::vector<std::string> ignored;
 
   friend bool operator==(const RtpSession&, const RtpSession&) = default;
@@ -77,10 +77,10 @@ struct RtpSession {
 /// The text, lines ended by CR LF. Line ends in names become spaces.
 std::string write_sdp(const RtpSession& session);
 
-/// Reads a description of ours, of FFmpeg, GStreamer or VLC: any line ends, any case of names,
-/// unknown lines passed over. Of several faces or sounds the first that can be received counts.
-/// Errors: syntax (no "v=0" and no "m=" line, a number that is none, larger than 64 kB; with
-/// line), unsupported (neither a face nor a sound that is known here).
+/// Reads descriptions of Animeme, FFmpeg, GStreamer or VLC: any line ends, any case of names;
+/// unknown lines are ignored. The first supported face and the first supported sound are used.
+/// Errors: syntax (no "v=0" and no "m=" line, an invalid number, larger than 64 kB; with line),
+/// unsupported (no supported face or sound).
 Result<RtpSession> read_sdp(std::string_view text);
 
 }  // namespace animeme::media

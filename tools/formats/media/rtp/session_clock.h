@@ -1,15 +1,16 @@
 /// @file
-/// One clock for all that a receiver hears: of a sender, of the one that comes after it, and of
-/// whoever says something else about the time than its packets before.
+/// One continuous clock for everything that a receiver gets: from one sender, from the next one,
+/// and from a sender whose timestamps jump.
 ///
 ///     SessionClock clock;
 ///     clock.push(*source->next(0.1), seconds, events);   // events: times that can be trusted
 ///
-/// Times of units are claims. What fills gaps (text with every frame, silence) costs what they
-/// claim, so a gap is believed as far as time has passed at the receiver, and a little further; so
-/// much data as there is may come faster (a file sent without waiting). A unit elsewhere in time
-/// has to be confirmed by two more that follow it. Then, or behind a LiveRestart, time goes on by
-/// the arrival of packets, behind what was given out before. Each track ascends.
+/// Timestamps of units are only claims, and filling gaps (text with every frame, silence) costs
+/// memory in proportion. So a gap is accepted as far as time has passed at the receiver, and a
+/// little further; units without gaps may arrive faster (a file sent without pacing). A jump in
+/// time must be confirmed by two more units that follow it. Then, or after a LiveRestart, time
+/// continues by the arrival of packets, after what was already delivered. Times ascend in each
+/// track.
 ///
 ///     auto source = make_steady(open_source("talk.sdp"));   // the same as a source
 ///
@@ -26,17 +27,17 @@
 
 namespace animeme::media {
 
-/// Knows neither sources nor clocks: the caller says what time it is.
+/// Uses neither sources nor clocks: the caller passes the time.
 class SessionClock {
  public:
-  /// Takes an event that came at `now`, seconds of any steady clock, and appends to `out` what
-  /// follows from it. Times of the first sender stay as they are. LiveRestart becomes a LiveGap of
-  /// both tracks. The first LiveInfo decides on the time scale of the face; a sound of later
-  /// senders that differs in its priming only has that of the first.
+  /// Takes an event that arrived at `now`, seconds of any steady clock, and appends the resulting
+  /// events to `out`. Times of the first sender are unchanged. LiveRestart becomes a LiveGap of
+  /// both tracks. The first LiveInfo determines the time scale of the face; if the sound of a later
+  /// sender differs only in its priming, it gets that of the first.
   void push(LiveEvent event, double now, std::deque<LiveEvent>& out);
 
-  std::int64_t sessions() const { return sessions_; }  ///< senders, or begins of one; 0: none yet
-  /// Units that were left out, as their time was not confirmed or before that of others.
+  std::int64_t sessions() const { return sessions_; }  ///< senders, counting restarts; 0: none yet
+  /// Units that were dropped because their time was not confirmed or not ascending.
   std::int64_t refused() const { return refused_; }
 
  private:

@@ -30,7 +30,7 @@ class UdpAddress {
   bool is_loopback() const;                       ///< this machine
   bool is_ipv6() const;                           ///< true: IPv6, false: IPv4
   bool same_host(const UdpAddress& other) const;  ///< whatever the port
-  /// Same host and port. What was default constructed is nobody, and the same as itself.
+  /// Same host and port. A default-constructed address equals only itself.
   bool is(const UdpAddress& other) const;
   /// is()
   friend bool operator==(const UdpAddress& a, const UdpAddress& b) { return a.is(b); }
@@ -42,45 +42,46 @@ class UdpAddress {
   std::uint32_t size_ = 0;
 };
 
-/// Settings of multicast. Elsewhere they do nothing.
+/// Multicast settings, ignored for unicast.
 struct Multicast {
   int ttl = 1;            ///< hops of what is sent
-  std::string interface;  ///< IPv4: address of ours, IPv6: name; empty: the system's choice
+  std::string interface;  ///< IPv4: a local address, IPv6: name; empty: system default
 };
 
 /// Owner of one socket. Movable, not copyable.
 class UdpSocket {
  public:
-  /// For receiving at an address of ours, or from a group (which is joined). Host empty: all
-  /// addresses, IPv4. Port 0: any. Errors: io (address in use, not ours ...).
+  /// For receiving at a local address, or from a group (which is joined). Host empty: all
+  /// addresses, IPv4. Port 0: any. Errors: io (address in use, not local ...).
   static Result<UdpSocket> bind(const std::string& host, int port, const Multicast& multicast = {});
-  /// For sending to `to` and receiving answers; if that is this machine, from this machine alone.
+  /// For sending to `to` and receiving answers; if `to` is this machine, only from this machine.
   /// Errors: io.
   static Result<UdpSocket> open_for(const UdpAddress& to, const Multicast& multicast = {});
   UdpSocket(UdpSocket&& other) noexcept;  ///< movable
   UdpSocket& operator=(UdpSocket&& other) noexcept;
   ~UdpSocket();
 
-  /// Sends at once. A receiver that is not there, a full buffer or a network that is down for now
-  /// are no errors: datagrams get lost. Errors: io (anything else, as a message too long).
+  /// Sends immediately. A missing receiver, a full buffer or a temporarily unavailable network are
+  /// not errors: datagrams get lost. Errors: io (anything else, such as a message that is too
+  /// long).
   Result<void> send(std::span<const std::uint8_t> datagram, const UdpAddress& to);
-  /// A datagram that is there, without waiting; nullopt: none is. `from` may be null. Errors: io.
+  /// Returns an available datagram without waiting; nullopt: none. `from` may be null. Errors: io.
   Result<std::optional<std::vector<std::uint8_t>>> receive(UdpAddress* from = nullptr);
-  /// The port that it is bound to.
+  /// The bound port.
   int port() const;
-  int handle() const { return handle_; }  ///< of the system, for poll()
+  int handle() const { return handle_; }  ///< file descriptor, for poll()
 
  private:
   explicit UdpSocket(int handle) : handle_(handle) {}
   int handle_ = -1;
 };
 
-/// Waits until one of the sockets has a datagram, at most `seconds` (>= 0). false: time is over.
+/// Waits until one of the sockets has a datagram, at most `seconds` (>= 0). false: timeout.
 /// Errors: io.
 Result<bool> wait_for_any(std::span<const UdpSocket* const> sockets, double seconds);
 
-/// host and port of "scheme://host:port"; IPv6 hosts in brackets. `standard_port` where there is
-/// none. Errors: invalid_argument.
+/// host and port of "scheme://host:port"; IPv6 hosts in brackets. `standard_port` if there is none.
+/// Errors: invalid_argument.
 struct HostPort {
   std::string host;  ///< without brackets
   int port = 0;      ///< 1..65535
