@@ -1,5 +1,5 @@
 /// @file
-/// How the program ends.
+/// Exit codes.
 #pragma once
 
 namespace animeme::tools {
@@ -11,7 +11,7 @@ enum ExitCode : int {
   kUsage = 2,
   kBadInput = 3,
   kInternal = 4,
-  kInterrupted = 130,  ///< Ctrl-C; what was written is complete as far as it goes
+  kInterrupted = 130,  ///< Ctrl-C; outputs are complete up to this point
 };
 
 }  // namespace animeme::tools

@@ -1,5 +1,5 @@
 /// @file
-/// JSON as the commands write it: members stay in the order in which they were added.
+/// JSON for output, with members in the order of insertion.
 #pragma once
 
 #include <functional>
@@ -8,10 +8,10 @@
 
 namespace animeme::tools {
 
-/// Ordered: a script sees members as they were added.
+/// A JSON value that keeps the order of members.
 using Json = nlohmann::ordered_json;
 
-/// What `entry`, a function or a member, gives for each of a list.
+/// An array with the result of `entry`, a function or a member, for each element of a list.
 template <class List, class Entry>
 Json json_list(const List& list, Entry entry) {
   Json json = Json::array();
@@ -19,8 +19,8 @@ Json json_list(const List& list, Entry entry) {
   return json;
 }
 
-/// As it is printed: two blanks a level. Bytes that are no UTF-8, as names of files may have,
-/// become U+FFFD.
+/// Formats JSON with an indentation of two. Invalid UTF-8, which file names may contain, becomes
+/// U+FFFD.
 inline std::string pretty(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }

@@ -1,5 +1,6 @@
 /// @file
-/// Modules: shared objects that the program loads when it first needs what they are linked with.
+/// Modules: shared objects that the program loads on first use, with the libraries that they are
+/// linked with.
 #pragma once
 
 #include <dlfcn.h>
@@ -9,9 +10,9 @@
 
 namespace animeme::tools {
 
-/// Loads a module by the name of its file: from beside the program (the build tree), else from
-/// where it was installed to: `installed`, seen from the program, as both may have been moved.
-/// `flags`: of dlopen(). nullptr: `problem` says why.
+/// Loads a module by its file name from the program's folder (build tree), or else from
+/// `installed`, a path relative to the program, as an installation may be moved. `flags`: for
+/// dlopen(). Returns nullptr on failure, with the reason in `problem`.
 inline void* load_module(const std::string& name, const char* installed, int flags,
                          std::string& problem) {
   std::error_code ignored;

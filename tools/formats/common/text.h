@@ -1,5 +1,5 @@
 /// @file
-/// Sentences and tables as text: printf into a string, lists in a line.
+/// Text formatting: printf to a string, joining of lists.
 #pragma once
 
 #include <cstdarg>
@@ -9,7 +9,7 @@
 
 namespace animeme::tools {
 
-/// As std::printf(), of any length.
+/// Like std::printf(), to a string of any length.
 [[gnu::format(printf, 1, 2)]] inline std::string format(const char* pattern, ...) {
   va_list values;
   va_start(values, pattern);
@@ -23,7 +23,7 @@ namespace animeme::tools {
   return text;
 }
 
-/// The texts of a list, one behind the other.
+/// Joins the texts of a list.
 inline std::string joined(const std::vector<std::string>& list, const char* between) {
   std::string text;
   for (const std::string& one : list) text += (text.empty() ? "" : between) + one;

@@ -1,5 +1,5 @@
 /// @file
-/// Small texts of XML, SVG and HTML.
+/// Helpers for writing XML, SVG and HTML.
 #pragma once
 
 #include <cstdio>
@@ -8,8 +8,8 @@
 
 namespace animeme::tools {
 
-/// Text as the content of an element, or of an attribute in quotes of either kind. (fap/xml has its
-/// own, xml_escaped(): it must not use the tools, and keeps the line ends of attributes.)
+/// Escapes text for an element, or for an attribute in quotes of either kind. (fap/xml has its own
+/// xml_escaped(), as it cannot depend on tools/, and it keeps the line ends of attributes.)
 inline std::string escape_xml(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -36,7 +36,7 @@ inline std::string escape_xml(std::string_view text) {
   return out;
 }
 
-/// A place or a length in a drawing: "12.5".
+/// Formats a coordinate or a length of a drawing: "12.5".
 inline std::string drawn(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f", value);

@@ -7,8 +7,7 @@
 ///
 ///     const auto curves = animeme::exchange::fit_arkit(*animeme::fap::fill(clip, filling));
 ///     save("talk.csv", animeme::exchange::write_live_link(curves));
-///
-/// What a shape does to a face, and the fit back, are in fap/arkit.h.
+/// fap/arkit.h has the mapping from shapes to FAPs and the inverse fit.
 #pragma once
 
 #include <functional>
@@ -26,13 +25,14 @@
 
 namespace animeme::exchange {
 
-/// What the user says of a table.
+/// Options for reading a table.
 struct ArkitOptions {
-  std::optional<fap::Rate> rate;  ///< valid; nothing: told from the times
+  std::optional<fap::Rate> rate;  ///< valid; nullopt: from the times
   bool degrees = false;           ///< the angles of head and eyes are degrees, not radians
 };
 
-/// True if the first line of a text names two ARKit shapes at least: read_arkit_table() is for it.
+/// Whether the first line of a text names at least two ARKit shapes, so that read_arkit_table()
+/// applies.
 bool is_arkit_table(std::string_view text);
 
 /// Reads a table with a header line, fields between commas, semicolons or tabs:
@@ -45,40 +45,39 @@ bool is_arkit_table(std::string_view text);
 /// smallest of 24, 25, 30, 48, 50, 60, 100, 120 that no frame number reaches, or fewer if rows
 /// count up by one and never get that far; in a take within one second, what fits options.rate,
 /// else 60 with a warning. The rest are channels (fap/arkit.h, any case); missing ones are 0, and
-/// an angle that is 0 throughout counts as missing. Columns that are no channel are left out and
-/// named in the warnings.
+/// an angle that is 0 throughout counts as missing. Other columns are ignored and named in the
+/// warnings.
 ///
 /// The rate is that of the median step, snapped to a rate in common use (10 to 120, NTSC ones
-/// included) within 1 %, else to one that FBA can code (k/16). Timecodes count whole frames,
-/// so 29.97 is 30 there unless options.rate says otherwise. Each row becomes the frame next to its
-/// time; steps that are a little off do not matter, larger ones leave frame numbers out (skipped
-/// frames). Of rows that fall on the same frame the last one counts. Rows of Live Link Face without
-/// a face (BlendShapeCount 0) are left out likewise.
+/// included) within 1 %, else to one that FBA can code (k/16). Timecodes count whole frames, so
+/// 29.97 is 30 there unless options.rate says otherwise. Each row becomes the frame nearest to its
+/// time; small deviations do not matter, larger steps skip frame numbers (skipped frames). If
+/// several rows fall on the same frame, the last one is used. Rows of Live Link Face without a face
+/// (BlendShapeCount 0) are skipped.
 ///
 /// Errors, with line and column: truncated (no rows), not_found (no time, no channel), syntax (a
-/// field that is no number, missing fields, a column named twice), out_of_range (times that go
-/// back or span more than 10 million frames), invalid_argument (a rate that is not valid; a
-/// single row and no rate; steps that are no rate from 1/16 to 255).
+/// field that is not a number, missing fields, a duplicate column), out_of_range (times that go
+/// back or span more than 10 million frames), invalid_argument (a rate that is not valid; a single
+/// row and no rate; steps that do not give a rate from 1/16 to 255).
 Result<Imported> read_arkit_table(std::string_view text, const ArkitOptions& options = {});
 
-/// One frame after the other, from time 0.
+/// Consecutive frames, from time 0.
 struct ArkitCurves {
   fap::Rate rate;                       ///< frames a second
-  std::vector<fap::ArkitFrame> frames;  ///< one after the other
+  std::vector<fap::ArkitFrame> frames;  ///< consecutive
 };
 
-/// The channels of such a table as they are, a frame after the other from frame 0: what stands in
-/// the clip of read_arkit_table() under the same number, rows that are missing as the row before.
+/// The channels of such a table, unconverted, as consecutive frames: frame n corresponds to frame n
+/// of read_arkit_table(), and missing rows repeat the previous row.
 /// Errors: those of read_arkit_table().
 Result<ArkitCurves> read_arkit_weights(std::string_view text, const ArkitOptions& options = {});
 
-/// The curves that show a clip best, by fap::ArkitFitter; its frames should be complete and follow
-/// each other (fap::fill()). `progress`, if any, gets the share that is done after each frame,
-/// 0..1. About 0.1 ms a frame.
+/// Fits curves to a clip with fap::ArkitFitter; frames should be complete and consecutive
+/// (fap::fill()). `progress`, if given, receives 0..1 after each frame. About 0.1 ms a frame.
 ArkitCurves fit_arkit(const fap::Sequence& clip, const std::function<void(double)>& progress = {});
 
-/// The curves of a signal: its own channels, if they are ARKit's by name, missing ones 0; else what
-/// fit_arkit() makes of its FAPs, completed by fap::fill(). Errors: those of dam::to_sequence().
+/// The curves of a signal: its own channels if they have ARKit names (missing ones are 0), else
+/// fit_arkit() of its FAPs, completed by fap::fill(). Errors: those of dam::to_sequence().
 Result<ArkitCurves> arkit_of_signal(const dam::Signal& signal,
                                     const std::function<void(double)>& progress = {});
 
@@ -88,8 +87,8 @@ Result<ArkitCurves> arkit_of_signal(const dam::Signal& signal,
 std::string write_live_link(const ArkitCurves& curves);
 
 /// {"format": "animeme-arkit", "version": 1, "fps": 25.0, "rate": [25, 1], "audio": null,
-///  "names": [61 names], "frames": [[61 numbers], ...]}, angles in radians, a line a frame. `audio`
-/// is the name of the sound beside it; empty: null. Bytes of it that are no UTF-8 become U+FFFD.
+///  "names": [61 names], "frames": [[61 numbers], ...]}, angles in radians, one line per frame.
+///  `audio` is the name of the sound file; empty: null. Invalid UTF-8 in it becomes U+FFFD.
 std::string write_arkit_json(const ArkitCurves& curves, std::string_view audio = {});
 
 }  // namespace animeme::exchange

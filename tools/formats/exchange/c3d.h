@@ -1,5 +1,6 @@
 /// @file
-/// C3D, the file of motion capture systems (Vicon, Qualisys, OptiTrack, Motion Analysis): markers.
+/// Markers from C3D, the file format of motion capture systems (Vicon, Qualisys, OptiTrack, Motion
+/// Analysis).
 ///
 ///     if (is_c3d(bytes)) { auto take = animeme::exchange::read_c3d(bytes); ... }
 ///
@@ -14,19 +15,18 @@
 
 namespace animeme::exchange {
 
-/// Told by the second byte of the header, 0x50, and the number of its first parameter block.
+/// Recognised by the second byte of the header, 0x50, and the number of its first parameter block.
 bool is_c3d(std::span<const std::uint8_t> bytes);
 
-/// Reads the markers: numbers as Intel, DEC or MIPS processors write them, places as whole numbers
-/// times POINT:SCALE or as floating point (a negative scale). A marker with a negative residual is
-/// not seen. Names are POINT:LABELS, LABELS2 ... without blanks at their ends; a marker without one
-/// is "M7", counted from 1, and a name that is there already gets "_2". Rate: POINT:RATE, else that
-/// of the header. Unit: POINT:UNITS. Analogue channels, events and all else are passed over.
-///
-/// A file that ends before its last frame gives those that are whole, with a warning.
-/// Errors, with the bit: syntax (no C3D; parameters that do not hold together; a rate that is
-/// none), truncated (it ends in its header or parameters, or before its first frame), not_found (no
-/// markers), out_of_range (more than kMostCoordinates).
+/// Reads the markers: numbers in Intel, DEC or MIPS format, coordinates as integers times
+/// POINT:SCALE or as floating point (a negative scale). A marker with a negative residual is
+/// missing. Names are POINT:LABELS, LABELS2 ... without surrounding blanks; a marker without a name
+/// is "M7", counted from 1, and a duplicate name gets "_2". Rate: POINT:RATE, or that of the
+/// header. Unit: POINT:UNITS. Analogue channels, events and everything else are ignored. If a file
+/// ends before its last frame, the complete frames are returned, with a warning. Errors, with the
+/// bit: syntax (not C3D; inconsistent parameters; an invalid rate), truncated (ends in its header
+/// or parameters, or before its first frame), not_found (no markers), out_of_range (more than
+/// kMostCoordinates).
 Result<PointRecording> read_c3d(std::span<const std::uint8_t> bytes);
 
 }  // namespace animeme::exchange

@@ -1,13 +1,13 @@
 /// @file
-/// A neutral face as a file, so that all recordings of a person are measured against one.
+/// A neutral face as a file, used as the reference for all recordings of a person.
 ///
 ///     write_file("me.face", animeme::exchange::write_face_file(take->face.rest));
 ///     options.face.rest = *animeme::exchange::read_face_file(text);
 ///
 /// JSON: {"format": "animeme-face", "version": 1, "depth": true, "fapu": {"IRISD": 1.1, "ES": 6.2,
 /// "ENS": 4.7, "MNS": 2.1, "MW": 5}, "points": {"2.1": [0, -7.6, 10.2], ...}, "turn": [pitch, yaw,
-/// roll], "gaze": [[yaw, pitch], null]}. Points are feature points by their id, axes those of
-/// fap::Point, angles rad; `turn` and `gaze` may be missing.
+/// roll], "gaze": [[yaw, pitch], null]}. Points are feature points by their id, axes are those of
+/// fap::Point, angles rad; `turn` and `gaze` are optional.
 #pragma once
 
 #include <string>
@@ -18,18 +18,18 @@
 
 namespace animeme::exchange {
 
-/// True if a text looks like such a file, ours or that of a corpus (below).
+/// Whether a text looks like such a file, Animeme's or that of a corpus (below).
 bool is_face_file(std::string_view text);
 
-/// Reads a face file; also the neutral.json of a corpus of MediaPipe's points: "fapu_px" with the
-/// five units and "neutral_px" with points by their number, x to the right, y down.
+/// Reads a face file, or the neutral.json of a corpus of MediaPipe points: "fapu_px" with the five
+/// units and "neutral_px" with points by their number, x to the right, y down.
 ///
-/// Errors: syntax (no JSON; fields of another type), not_found (a unit or the points are missing),
+/// Errors: syntax (not JSON; fields of a wrong type), not_found (a unit or the points are missing),
 /// invalid_argument (a unit that is not positive, points that are unknown or not finite),
 /// unsupported (another format or version).
 Result<fap::RestingFace> read_face_file(std::string_view text);
 
-/// Numbers with nine digits; the same face gives the same text.
+/// Writes numbers with nine digits; the same face gives the same text.
 std::string write_face_file(const fap::RestingFace& face);
 
 }  // namespace animeme::exchange

@@ -1,5 +1,5 @@
 /// @file
-/// What a file holds, told by its first bytes, whatever its name.
+/// Detects the kind of a file by its first bytes, regardless of its name.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace animeme::exchange {
 
-/// What a file is.
+/// Kinds of files.
 enum class FileKind : std::uint8_t {
   fap_text,    ///< fap/text.h
   bap_text,    ///< codec/text/bap_text.h
@@ -15,16 +15,16 @@ enum class FileKind : std::uint8_t {
   model,       ///< dam/model/model.h
   script,      ///< dam/script/script.h
   curves,      ///< curves.h
-  media,       ///< a container, a playlist of one, or bytes that are nothing of the others
+  media,       ///< a container, a playlist of one, or unknown bytes
   unknown      ///< text without content
 };
 
-/// Never fails. Text is told by its first line with content, and for tables of landmarks, which
-/// have long ones, the whole of it is looked at; of anything else the first 4 kB at most.
+/// Never fails. Text is recognised by its first non-empty line, which for tables of landmarks may
+/// be long; of anything else at most the first 4 kB are examined.
 FileKind kind_of(std::span<const std::uint8_t> bytes);
 
-/// Is it media in segments (HLS, DASH)? Such a file is to be read by its path, never by its bytes:
-/// what it names lies beside it.
+/// Is it a playlist of segments (HLS, DASH)? Such a file must be read by its path, not from memory,
+/// as it refers to other files.
 bool is_playlist(std::span<const std::uint8_t> bytes);
 
 }  // namespace animeme::exchange

@@ -1,5 +1,5 @@
 /// @file
-/// What the readers of this folder give: motion, and what a person should know about it.
+/// Result of the readers of this folder: motion and warnings.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace animeme::exchange {
 
-/// A recording of another program as a clip, which has one frame at least. It has no name; frames
-/// are numbered from 0, and numbers that are not there are skipped frames (fap/frame.h).
+/// A recording of another program as a clip with at least one frame. It has no name; frames are
+/// numbered from 0, and missing numbers are skipped frames (fap/frame.h).
 struct Imported {
   fap::Sequence clip;  ///< FAPs
-  /// Sentences for people, without a full stop: what was left out, guessed or assumed. Where the
-  /// user can do something about it, the option of `animeme import` is named.
+  /// Sentences for the user, without a full stop, about what was dropped, guessed or assumed. They
+  /// name the option of `animeme import` that helps, if there is one.
   std::vector<std::string> warnings;
 };
 

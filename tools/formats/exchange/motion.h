@@ -1,6 +1,6 @@
 /// @file
-/// Motion out of any bytes: text, streams, tables of curves. No containers: tools/formats/media
-/// opens them, and decode_motion() takes the stream that it finds.
+/// Reads motion from bytes: text, streams, tables of curves. Containers are opened by
+/// tools/formats/media; pass the stream to decode_motion().
 #pragma once
 
 #include <cstdint>
@@ -15,26 +15,27 @@
 
 namespace animeme::exchange {
 
-/// What some bytes hold.
+/// Motion read from bytes.
 struct Motion {
-  FileKind kind = FileKind::unknown;  ///< what it was read from
-  fap::Sequence face;                 ///< no frames: there is no face
-  fba::BodySequence body;             ///< no frames: there is no body
+  FileKind kind = FileKind::unknown;  ///< format it was read from
+  fap::Sequence face;                 ///< no frames if there is no face
+  fba::BodySequence body;             ///< no frames if there is no body
   std::vector<std::uint8_t> stream;   ///< the raw FBA stream; empty for text
   fba::DecodedStream decoded;         ///< of the stream; no planes for text
-  std::vector<std::string> warnings;  ///< sentences for people: quirks, what was left out
+  std::vector<std::string> warnings;  ///< sentences for the user: quirks, dropped data
 };
 
-/// Frame numbers of FAP text start at 0 unless they are to be kept.
+/// Whether frame numbers of FAP text are shifted to start at 0, or kept.
 enum class FrameNumbers : std::uint8_t { from_zero, keep };
 
-/// Reads FAP text, BAP text, a raw FBA stream or a table of curves (curves.h), told by kind_of().
+/// Reads FAP text, BAP text, a raw FBA stream or a table of curves (curves.h), detected by
+/// kind_of().
 /// Errors: those of the readers; truncated (no bytes), unsupported (a container), syntax (a model,
-/// a script, nothing at all).
+/// a script, empty text).
 Result<Motion> read_motion(std::vector<std::uint8_t> bytes,
                            FrameNumbers numbers = FrameNumbers::from_zero);
 
-/// A raw FBA stream. Errors: those of fba::decode().
+/// Decodes a raw FBA stream. Errors: those of fba::decode().
 Result<Motion> decode_motion(std::vector<std::uint8_t> stream);
 
 }  // namespace animeme::exchange

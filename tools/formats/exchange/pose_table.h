@@ -1,5 +1,5 @@
 /// @file
-/// Tables of poses: a row a pose, a column a control, as a spreadsheet saves them.
+/// Tables of poses, as saved by a spreadsheet: one row per pose, one column per control.
 ///
 ///     pose,jawOpen,mouthPucker
 ///     rest,0.02,0
@@ -14,18 +14,18 @@
 
 namespace animeme::exchange {
 
-/// Whether a field may have nothing in it.
+/// Whether fields may be empty.
 enum class Blanks : unsigned char {
-  refused,  ///< every pose has a value of every control
-  allowed,  ///< they become NaN: the pose says nothing of that control
+  refused,  ///< every pose needs a value for every control
+  allowed,  ///< they become NaN: the pose leaves the control undefined
 };
 
-/// Reads one with commas, semicolons or tabs, a point as decimal sign. The column of names is
-/// called "pose" or "key". Errors, with line and column: truncated, syntax (fields, numbers, names
-/// twice), not_found (no column of names, no control).
+/// Reads a table with commas, semicolons or tabs and a decimal point. The column of names is called
+/// "pose" or "key". Errors, with line and column: truncated, syntax (fields, numbers, duplicate
+/// names), not_found (no column of names, no control).
 Result<dam::Poses> read_pose_table(std::string_view text, Blanks blanks = Blanks::refused);
 
-/// Writes one, six digits behind the point. `first` is what the column of names is called.
+/// Writes a table with six decimals. `first` is the header of the column of names.
 std::string write_pose_table(const dam::Poses& poses, std::string_view first = "pose");
 
 }  // namespace animeme::exchange

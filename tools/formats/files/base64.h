@@ -1,5 +1,5 @@
 /// @file
-/// Bytes as text, and back.
+/// Base64.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 
 namespace animeme::tools {
 
-/// The bytes of base64 (RFC 4648), in the alphabet of files or of URLs, with or without "=" at its
-/// end. Nothing: another character.
+/// Decodes base64 (RFC 4648) in the standard or the URL alphabet, with or without "=" padding.
+/// nullopt: an invalid character.
 std::optional<std::vector<std::uint8_t>> decode_base64(std::string_view text);
 
-/// As base64 (RFC 4648) in the alphabet of files, with "=" at its end.
+/// Encodes base64 (RFC 4648) in the standard alphabet, with "=" padding.
 std::string base64_of(std::span<const std::uint8_t> bytes);
 
 }  // namespace animeme::tools

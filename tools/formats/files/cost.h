@@ -1,5 +1,5 @@
 /// @file
-/// What steps of the work cost, counted where they are done: seconds of processors, and bytes made.
+/// Accounting of CPU time and bytes for each step of the work.
 #pragma once
 
 #include <array>
@@ -8,20 +8,19 @@
 
 namespace animeme::tools {
 
-/// The steps from a text to a film; `other` is what is none of them.
+/// The steps from a text to a video; `other` is everything else.
 enum class Step : std::uint8_t { other, voice, alignment, speaking, coding, muxing, rendering };
 inline constexpr std::size_t kSteps = 7;  ///< number of them
 inline constexpr std::array<const char*, kSteps> kStepNames = {
-    "other", "voice", "alignment", "speaking", "coding", "muxing", "rendering"};  ///< for people
+    "other", "voice", "alignment", "speaking", "coding", "muxing", "rendering"};  ///< for output
 
-/// Of one step.
+/// Cost of one step.
 struct Cost {
-  double cpu_seconds =
-      0;  ///< of this process with all its threads, and of children that have ended
-  std::uint64_t bytes = 0;  ///< that it made: sound, coded planes, files
+  double cpu_seconds = 0;   ///< of all threads of this process and of finished children
+  std::uint64_t bytes = 0;  ///< of output: sound, coded planes, files
 };
 
-/// From here to its end, this thread is at a step; a step within a step counts for itself alone.
+/// During its lifetime, this thread's cost counts for a step; nested steps count separately.
 class AtStep {
  public:
   explicit AtStep(Step step);  ///< begins
@@ -33,10 +32,10 @@ class AtStep {
   Step step_, before_;
 };
 
-/// Seconds of processes that the system does not count as ours.
+/// Adds CPU seconds of processes that the system does not attribute to this one.
 void add_cpu_seconds(double seconds);
 
-/// What this thread's steps have cost since the last call.
+/// Costs of this thread's steps since the last call.
 std::array<Cost, kSteps> take_costs();
 
 }  // namespace animeme::tools

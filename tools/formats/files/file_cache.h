@@ -1,5 +1,5 @@
 /// @file
-/// What was made of a file, kept for who asks for it again.
+/// A cache of values derived from files.
 #pragma once
 
 #include <chrono>
@@ -14,14 +14,13 @@
 
 namespace animeme::tools {
 
-/// Keeps the last few values that were read from files. A file that has another time or size than
-/// it had is read again; what it names itself is not looked at. Thread safe.
+/// Keeps the last few values read from files. A file whose time or size has changed is read again;
+/// files that it refers to are not checked. Thread safe.
 template <class T>
 class FileCache {
  public:
-  /// What `read` gives for the file `path`, or gave before with the same settings `how`. A path
-  /// that is no file is the name of something that does not change. Errors: those of `read`, not
-  /// kept.
+  /// The result of `read` for the file `path`, cached by path and settings `how`. A path that is
+  /// not a file names something constant. Errors: those of `read`, not cached.
   template <class Read>
   Result<T> get(const std::string& path, const std::string& how, Read read) {
     const std::lock_guard lock(mutex_);

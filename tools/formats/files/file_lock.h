@@ -1,5 +1,5 @@
 /// @file
-/// One program at a time: for files that are read, added to and written again.
+/// File locks, for files that are read, extended and rewritten.
 #pragma once
 
 #include <string>
@@ -8,14 +8,13 @@
 
 namespace animeme::tools {
 
-/// Keeps a file from other programs that ask, too, as long as it lives. The lock is the file
-/// ".NAME.lock" beside it (flock(2)); it goes when the program ends, however it ends.
+/// Holds an advisory lock on a file during its lifetime. The lock is the file ".NAME.lock" next to
+/// it (flock(2)); it is released when the program ends in any way.
 class FileLock {
  public:
-  /// Error, with the path: io (somebody has it; there is no such folder, or it cannot be written
-  /// to).
+  /// Errors, with the path: io (already locked; no such folder, or not writable).
   static Result<FileLock> take(const std::string& path);
-  FileLock(FileLock&& other) noexcept;  ///< the other one no longer holds it
+  FileLock(FileLock&& other) noexcept;  ///< transfers the lock
   FileLock(const FileLock&) = delete;
   FileLock& operator=(FileLock&&) = delete;
   ~FileLock();

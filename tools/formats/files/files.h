@@ -1,5 +1,5 @@
 /// @file
-/// Files as the tools read them: whole, by path, with "-" for standard input.
+/// Reading whole files by path, with "-" for standard input.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,17 @@
 
 namespace animeme::tools {
 
-/// Most bytes of a text that a person or another program wrote down: a script, a transcript,
-/// settings. Days of speech fit in.
+/// Maximum size of a text input such as a script, a transcript or settings. Enough for days of
+/// speech.
 inline constexpr std::uint64_t kMostWritten = std::uint64_t(64) << 20;
 
-/// All bytes of a file, or of standard input for "-". Errors, with the path: not_found; io, also
-/// for folders and devices; out_of_range (more than `most` bytes, 1 GB: known from its size before
-/// anything is read); syntax (4 kB of zeros at its beginning: a hole, or no file at all).
+/// Reads all bytes of a file, or of standard input for "-". Errors, with the path: not_found; io,
+/// also for folders and devices; out_of_range (more than `most` bytes, default 1 GB; checked by its
+/// size before reading); syntax (begins with 4 kB of zeros, such as a sparse file).
 Result<std::vector<std::uint8_t>> read_file(const std::string& path,
                                             std::uint64_t most = std::uint64_t(1) << 30);
-/// Likewise, as text; a zero byte at its beginning is an error, too (syntax), unless it is UTF-16.
+/// The same for text; a zero byte near the beginning is also an error (syntax), unless it is
+/// UTF-16.
 Result<std::string> read_text_file(const std::string& path, std::uint64_t most = std::uint64_t(1)
                                                                                  << 30);
 

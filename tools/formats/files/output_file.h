@@ -1,11 +1,9 @@
 /// @file
-/// The one way in which files are written: whole or not at all.
-///
-/// What is written lies in the folder of the wanted file under a name that nobody can foresee
-/// (".animeme-" with twelve random letters and ".part", made with O_EXCL), is brought to the disk
-/// (fsync), and takes the wanted name at the end. It has the mode of the file that it replaces. A
-/// symbolic link is followed: the file that it leads to is replaced, the link stays. Whatever is
-/// not published is removed when the object goes, when the program exits, and by
+/// Atomic file output: a file is written completely or not at all. Data is written to a temporary
+/// file in the same folder with an unpredictable name (".animeme-" with twelve random letters and
+/// ".part", created with O_EXCL), flushed to disk (fsync) and renamed at the end. It has the mode
+/// of the file that it replaces. Symbolic links are followed: the target is replaced, the link
+/// stays. Unpublished files are removed by the destructor, when the program exits, and by
 /// clean_up_on_signals().
 #pragma once
 
@@ -19,23 +17,22 @@
 
 namespace animeme::tools {
 
-/// A file that is written bit by bit. "-" is standard output, which gets everything at once, as do
-/// devices and pipes (/dev/null, /dev/stdout).
+/// A file that is written piecewise. "-" is standard output; like devices and pipes (/dev/null,
+/// /dev/stdout), it is written directly.
 class OutputFile {
  public:
-  explicit OutputFile(std::string path);    ///< nothing is opened yet
-  OutputFile(OutputFile&& other) noexcept;  ///< the other one no longer writes
+  explicit OutputFile(std::string path);    ///< opens nothing yet
+  OutputFile(OutputFile&& other) noexcept;  ///< movable
   OutputFile(const OutputFile&) = delete;
   ~OutputFile();
 
-  /// Appends. Errors, with the path: io (no room, no such folder, no right
-  /// to write to it).
+  /// Appends. Errors, with the path: io (disk full, no such folder, no permission).
   Result<void> write(std::span<const std::uint8_t> bytes);
-  Result<void> write(std::string_view text);  ///< likewise, of a text
-  /// The file as it is called now, for those who write it by its name; it is there, and empty.
-  /// Errors: as write(); io where it is no ordinary file, "-" included.
+  Result<void> write(std::string_view text);  ///< the same for text
+  /// The temporary name, for libraries that write to a file name; the file exists and is empty.
+  /// Errors: as write(); io if the output is not a regular file, including "-".
   Result<std::string> place();
-  /// All is written: the file takes its name. Errors: as write().
+  /// Completes the file and renames it. Errors: as write().
   Result<void> publish();
 
  private:
@@ -49,23 +46,23 @@ class OutputFile {
   int descriptor_ = -1;
 };
 
-/// Whether a file of this name could be written now, so that it is known before long work: makes
-/// one beside it, of a few bytes, and takes it away. Devices and standard output, "-", are asked by
-/// a write of nothing, pipes only for the right. Errors: those of OutputFile.
+/// Checks before long work that a file of this name can be written: creates and removes a temporary
+/// file next to it. Devices and standard output ("-") are tested with an empty write, pipes only
+/// for permission. Errors: those of OutputFile.
 Result<void> try_output(const std::string& path);
-/// Whether all that was printed arrived: standard output is flushed. Errors: io.
+/// Flushes standard output and checks that everything was written. Errors: io.
 Result<void> flush_standard_output();
 
 /// Writes a file whole or not at all; "-" is standard output. Errors: those of OutputFile.
 Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes);
-Result<void> write_file(const std::string& path, std::string_view text);  ///< likewise, of a text
+Result<void> write_file(const std::string& path, std::string_view text);  ///< the same for text
 
-/// A file to be written; the text is borrowed.
+/// A file to be written.
 struct OutputText {
-  std::string path;       ///< where to
+  std::string path;       ///< path of the file
   std::string_view text;  ///< borrowed
 };
-/// Writes several files: all of them whole, or none. Errors: io.
+/// Writes several files, all of them or none. Errors: io.
 Result<void> write_files(std::span<const OutputText> files);
 
 }  // namespace animeme::tools

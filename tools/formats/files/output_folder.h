@@ -1,6 +1,6 @@
 /// @file
-/// A whole folder or none: files go into a temporary folder beside the wanted one, whose name
-/// nobody can foresee.
+/// Atomic output of a folder: files are written to a temporary folder with an unpredictable name
+/// next to it.
 #pragma once
 
 #include <string>
@@ -10,28 +10,28 @@
 
 namespace animeme::tools {
 
-/// Whether a folder of this name is there and can be written into, or could be made with those
-/// above it. Nothing stays behind. Errors: io.
+/// Checks that a folder exists and is writable, or can be created with its parents. Leaves nothing
+/// behind. Errors: io.
 Result<void> try_output_folder(const std::string& path);
 
-/// A folder that takes its name when all its files are written.
+/// A folder that gets its name when all its files are written.
 class OutputFolder {
  public:
-  /// May a folder that is there be replaced? Told by the names of the files in it.
+  /// Decides by the names of its files whether an existing folder may be replaced.
   using Replaceable = bool (*)(std::string_view file);
 
-  /// Creates the temporary folder. Errors: io (not writable; `path` is there and is no folder, or
-  /// holds a file that is not `replaceable`).
+  /// Creates the temporary folder. Errors: io (not writable; `path` exists and is not a folder, or
+  /// has a file that is not `replaceable`).
   static Result<OutputFolder> create(const std::string& path, Replaceable replaceable);
-  OutputFolder(OutputFolder&& other) noexcept;  ///< the other one no longer removes anything
+  OutputFolder(OutputFolder&& other) noexcept;  ///< movable
   OutputFolder& operator=(OutputFolder&&) = delete;
-  ~OutputFolder();  ///< removes what has not been committed, and puts the old folder back
+  ~OutputFolder();  ///< removes an uncommitted folder and restores the old one
 
   /// Path of a file in the temporary folder.
   std::string file(const std::string& name) const { return temporary_ + "/" + name; }
-  /// Gives the folder its name; the old one is kept aside until keep(). Error: io.
+  /// Renames the folder to its final name; the old one is preserved until keep(). Errors: io.
   Result<void> commit();
-  /// Removes the old folder for good.
+  /// Removes the old folder.
   void keep();
 
  private:

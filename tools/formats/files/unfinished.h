@@ -1,5 +1,5 @@
 /// @file
-/// Files that are not finished yet, so that a program that is stopped leaves none behind.
+/// Registry of unfinished files, so that a terminated program leaves none behind.
 #pragma once
 
 #include <cstddef>
@@ -7,19 +7,19 @@
 
 namespace animeme::tools {
 
-/// Notes a temporary file, or folder with files but no folders in it; the number is for
-/// forget_unfinished(). 0: there are too many already (64), or the path is too long; such a file is
-/// removed by its owner alone.
+/// Registers a temporary file, or a folder without subfolders; returns a number for
+/// forget_unfinished(). 0: too many entries (64), or the path is too long; then only its owner
+/// removes it.
 std::size_t note_unfinished(const std::string& path);
-void forget_unfinished(std::size_t note);  ///< it is finished, or removed; 0 is nothing
+void forget_unfinished(std::size_t note);  ///< unregisters it; ignores 0
 
-/// Removes all that are noted. May be called from a signal handler. Does nothing in a process that
-/// was forked from the one that noted them.
+/// Removes all registered files. May be called from a signal handler. Does nothing in a forked
+/// child process.
 void remove_unfinished();
 
-/// For the main function of a program: from now on the signals that end it (SIGINT, SIGTERM,
-/// SIGHUP, those of a crash ...) remove unfinished files first, and so does exit(). Signals that
-/// are ignored or handled already stay so.
+/// For main(): from now on signals that end the program (SIGINT, SIGTERM, SIGHUP, crashes ...) and
+/// exit() remove unfinished files first. Signals that are ignored or already handled are not
+/// affected.
 void clean_up_on_signals();
 
 }  // namespace animeme::tools

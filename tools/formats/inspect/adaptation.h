@@ -1,5 +1,5 @@
 /// @file
-/// What an adaptation has found, as text and JSON.
+/// Report on an adaptation, as text and JSON.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace animeme::inspect {
 
-/// Everything of the report, as JSON text. `output` is the file of the model, `base` what the user
-/// calls the base, `left_out` what the corpus had that was not read.
+/// The complete report as JSON text. `output` is the model file, `base` the user's name of the base
+/// model, `left_out` what was excluded from the corpus.
 std::string adaptation_json(const std::string& output, const std::string& base,
                             const dam::Model& model, const dam::AdaptReport& report,
                             const dam::LeftOut& left_out = {});
 
-/// Lines of talk: sentences, what base and own curves come to, controls that the base does not
-/// tell. No line end behind the last one.
+/// The report as text: sentences, results of base and own curves, controls that the base does not
+/// predict. No line end after the last line.
 std::string adaptation_text(const std::string& output, const std::string& base,
                             const dam::Model& model, const dam::AdaptReport& report);
 

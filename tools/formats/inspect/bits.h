@@ -1,5 +1,5 @@
 /// @file
-/// Where the bits of a stream go.
+/// Statistics on where the bits of a stream go.
 #pragma once
 
 #include <array>
@@ -23,24 +23,24 @@ struct PlaneBits {
 struct BitStatistics {
   double seconds = 0;          ///< from the first plane to the end of the last
   double kbit_per_s = 0;       ///< the whole stream
-  double peak_kbit_per_s = 0;  ///< the costliest second (of shorter streams: all of it)
-  PlaneBits intra;             ///< planes with settings
-  PlaneBits predictive;        ///< all others
+  double peak_kbit_per_s = 0;  ///< the largest second (shorter streams: everything)
+  PlaneBits intra;             ///< intra planes
+  PlaneBits predictive;        ///< predicted planes
 
   // Every bit of the stream is one of these three kinds.
   std::int64_t framing_bits = 0;  ///< start codes, stuffing, sequence headers
   std::int64_t header_bits = 0;   ///< types, temporal headers, masks, quantisers, ranges
   std::int64_t value_bits = 0;    ///< segments, and flags of FAP 1 and 2
 
-  /// What each parameter costs at best: -log2 of the frequencies that the adaptive models have
-  /// when the value comes, summed over the stream. Segment ends and stuffed bits are not in it.
+  /// Ideal cost of each parameter: -log2 of its probability in the adaptive models, summed over the
+  /// stream, without segment ends and stuffed bits.
   std::array<double, fap::kFapCount + 1> ideal_fap_bits{};
   std::array<double, fba::kBapCount + 1> ideal_bap_bits{};  ///< by BAP number
 
   double ideal_bits() const;  ///< sum of both
 };
 
-/// Bits of a plane's header: all that stands before its segments. Exact.
+/// Exact number of bits of a plane's header, everything before its segments.
 std::int64_t header_bits(const fba::Plane& plane);
 
 /// Counts plane by plane. Memory: 4 bytes a plane, and the planes of one second.
@@ -48,8 +48,8 @@ class BitMeter {
  public:
   BitMeter();
   ~BitMeter();
-  void add(const fba::Plane& plane);  ///< in the order of the stream
-  /// `bytes`: the size of the stream; one plane at least was added.
+  void add(const fba::Plane& plane);  ///< in stream order
+  /// `bytes`: the size of the stream. Requires at least one plane.
   BitStatistics measured(std::size_t bytes) const;
 
  private:

@@ -1,12 +1,11 @@
 /// @file
-/// What other ways of sending a face put on the wire, message by message: to be counted, and to
-/// check senders by.
+/// Messages of other face protocols, for measuring their size and for testing senders.
 ///
 ///     const auto packet = animeme::inspect::live_link_packet(weights, {});
 ///     count(packet.size() + header_bytes(Headers::udp, packet.size()));
 ///
 /// Layouts are from public documents and receivers, named at each function; codec/standards.md,
-/// section 4, tells what was taken from where.
+/// section 4, lists the sources.
 #pragma once
 
 #include <array>
@@ -26,7 +25,7 @@ namespace animeme::inspect {
 /// Bytes of a message.
 using Message = std::vector<std::uint8_t>;
 
-/// What stands in front of each message, without the network's own (Ethernet).
+/// Headers before each message, excluding Ethernet.
 enum class Headers : std::uint8_t {
   none,       ///< nothing: a file
   udp,        ///< IPv4 (20, again for each further fragment of 1480 bytes) and UDP (8)
@@ -35,26 +34,26 @@ enum class Headers : std::uint8_t {
 };
 /// "IP/UDP" ...; "-" for none.
 std::string_view headers_name(Headers headers);
-/// Bytes of all headers of a message of `size` bytes that is sent for itself. Sources: RFC 791,
+/// Total bytes of headers of a message of `size` bytes that is sent separately. Sources: RFC 791,
 /// 768, 3550, 9293, 6455 (from a server: no mask).
 std::size_t header_bytes(Headers headers, std::size_t size);
 
-/// The 52 shapes as float32, big endian, and nothing else: 208 bytes.
+/// Only the 52 shapes as float32, big endian: 208 bytes.
 Message float_weights(const fap::ArkitFrame& weights);
-/// Weight `k / (2^bits - 1)` that comes next to one in 0..1 (others are clipped), k.
+/// The k for which `k / (2^bits - 1)` is nearest to a weight, which is clipped to 0..1.
 std::uint32_t weight_level(double weight, int bits);
-/// The 52 shapes as levels of `bits` bits (1..16), one behind the other, most significant bit
-/// first, and zeros to the byte border.
+/// The 52 shapes as levels of `bits` bits (1..16), packed, most significant bit first, padded with
+/// zeros to a byte.
 Message packed_weights(const fap::ArkitFrame& weights, int bits);
 
-/// What a packet of Live Link Face says besides the curves.
+/// Fields of a Live Link Face packet besides the curves.
 struct LiveLinkNames {
   std::string device = "00000000-0000-0000-0000-000000000000";  ///< a UUID as text
-  std::string subject = "iPhone";                               ///< as Unreal lists it
+  std::string subject = "iPhone";                               ///< name in Unreal's list
   std::int32_t frame = 0;                                       ///< number of the frame
   std::int32_t rate = 60;                                       ///< frames a second
 };
-/// A UDP packet of Live Link Face: 61 float32 behind version, device, subject and time; 312 bytes
+/// A UDP packet of Live Link Face: 61 float32 after version, device, subject and time; 312 bytes
 /// with these names. Sources: JimWest/PyLiveLinkFace, pylivelinkface/pylivelinkface.py;
 /// shun126/livelinkface_arkit_receiver, __init__.py.
 Message live_link_packet(const fap::ArkitFrame& weights, const LiveLinkNames& names);
@@ -74,19 +73,20 @@ Message arf_unit(const fap::ArkitFrame& weights, std::uint32_t time);
 /// MicrosoftDocs/azure-ai-docs, how-to-speech-synthesis-viseme.md.
 std::string azure_event(std::span<const fap::ArkitFrame> frames, std::size_t first, int decimals);
 
-/// A message of our own /faps (tools/live/web/README.md): FAPs by number, JSON, with all of `faps`.
+/// A message of Animeme's /faps (tools/live/web/README.md): FAPs by number, JSON, with all of
+/// `faps`.
 std::string faps_message(const fap::Frame& face, const fap::Mask& faps, const fap::Rate& rate,
                          bool intra, std::size_t unit_bytes);
 
-/// Messages packed one by one as permessage-deflate packs them (RFC 7692, the memory of the
-/// messages before is kept): raw deflate, flushed, without the last four bytes.
+/// Compresses messages one by one like permessage-deflate (RFC 7692, with context takeover): raw
+/// deflate, flushed, without the last four bytes.
 class Deflater {
  public:
-  Deflater();                     ///< nothing was sent yet
+  Deflater();                     ///< starts a new context
   Deflater(Deflater&&) noexcept;  ///< movable
   Deflater& operator=(Deflater&&) noexcept;
   ~Deflater();
-  /// The next message, packed.
+  /// Compresses the next message.
   Message pack(std::span<const std::uint8_t> message);
 
  private:

@@ -1,9 +1,7 @@
 /// @file
-/// The same face by other carriers: what FBA, ARKit's weights, Live Link, VMC, ARF and JSON take
-/// for a clip, and how far each leaves the face from what it was given.
-///
-/// All bytes are those of messages that were written (carrier_messages.h). All errors are
-/// millimetres on one head, so carriers whose precision can be chosen are compared at one error.
+/// Compares protocols for a face: bits and errors of FBA, ARKit weights, Live Link, VMC, ARF and
+/// JSON for a clip. Sizes are those of real messages (carrier_messages.h). Errors are millimetres
+/// on one head; carriers with adjustable precision are compared at the same error.
 #pragma once
 
 #include <cstdint>
@@ -18,46 +16,44 @@
 
 namespace animeme::inspect {
 
-/// What measure_carriers() is to do.
+/// Options of measure_carriers().
 struct CarrierOptions {
   int quant = 1;        ///< fap_quant of the first row, 0..31
-  double error = 0.05;  ///< mm; precisions that can be chosen are the coarsest within it, 1e-4..10
-  /// Gets the share that is done, 0..1.
+  double error = 0.05;  ///< mm; adjustable precisions are the coarsest within it, 1e-4..10
+  /// Receives the progress, 0..1.
   std::function<void(double)> progress;
 };
 
-/// What a carrier made of a clip.
+/// Result of one carrier for a clip.
 struct Carrier {
   std::string name;                  ///< "FBA, live" ...
-  std::string setting;               ///< "quant 4", "7 bit" ...; empty: there is none
+  std::string setting;               ///< "quant 4", "7 bit" ...; empty: none
   bool fitted = false;               ///< the setting was chosen for CarrierOptions::error
   Headers headers = Headers::none;   ///< none: a file, read as a whole
-  double error = 0;                  ///< mm RMS from what the carrier was given
+  double error = 0;                  ///< mm RMS relative to the carrier's input
   std::size_t messages = 0;          ///< sent
-  std::size_t bytes = 0;             ///< of them, without headers
+  std::size_t bytes = 0;             ///< of the messages, without headers
   std::size_t bytes_of_headers = 0;  ///< of all messages
 };
 
-/// A clip by all carriers.
+/// Results of all carriers for a clip.
 struct ClipCarriers {
   std::string name;               ///< of the file
-  std::size_t frames = 0;         ///< all of the clip
+  std::size_t frames = 0;         ///< of the clip
   double rate = 0;                ///< frames a second
-  double seconds = 0;             ///< that the clip lasts
-  std::size_t points = 0;         ///< vertices that the errors are over
-  double shapes_error = 0;        ///< mm RMS between the face and what 52 shapes can show of it
+  double seconds = 0;             ///< duration of the clip
+  std::size_t points = 0;         ///< number of vertices over which errors are computed
+  double shapes_error = 0;        ///< mm RMS error of the fit with 52 shapes
   std::vector<Carrier> carriers;  ///< in the order of the table
   /// kbit/s with and without headers.
   double kbps(const Carrier& carrier, bool with_headers) const;
 };
 
-/// Sends `clip`, complete (fap::fill()), by all carriers. `weights` are ARKit's, one a frame;
-/// empty: those that show the clip best (fap::ArkitFitter).
-///
-/// Errors are RMS over those vertices of the skin of a built-in head that the clip moves by 0.1 mm
-/// at some time, without the turn of the head, on at most 200 frames that lie evenly in the clip.
-/// FBA is measured from the FAPs of the clip, all others from the weights they get; what lies
-/// between the two is shapes_error. Deterministic, for one version of zlib.
+/// Encodes `clip`, which is complete (fap::fill()), with all carriers. `weights` are ARKit's, one
+/// per frame; empty: fitted to the clip (fap::ArkitFitter). Errors are RMS over those skin vertices
+/// of a built-in head that the clip moves by at least 0.1 mm, without head rotation, on at most 200
+/// evenly spaced frames. FBA is compared with the FAPs of the clip, the others with their input
+/// weights; the difference between the two is shapes_error. Deterministic, for one version of zlib.
 ///
 /// Errors: truncated (no frame), invalid_argument (not as many weights as frames), those of
 /// fba::LiveEncoder and fba::encode().
@@ -65,11 +61,11 @@ Result<ClipCarriers> measure_carriers(const std::string& name, const fap::Sequen
                                       const std::vector<fap::ArkitFrame>& weights,
                                       const CarrierOptions& options);
 
-/// The table of a clip, with what its columns are.
+/// The table of a clip, with an explanation of its columns.
 std::string carriers_text(const ClipCarriers& clip, const CarrierOptions& options);
-/// All clips together (one at least): bits of all by seconds of all, errors as RMS over frames.
+/// Averages all clips (at least one): total bits by total seconds, errors as RMS over frames.
 ClipCarriers carriers_of_all(const std::vector<ClipCarriers>& clips);
-/// All of it as JSON text.
+/// The results as JSON text.
 std::string carriers_json(const std::vector<ClipCarriers>& clips, const CarrierOptions& options);
 
 }  // namespace animeme::inspect

@@ -1,5 +1,5 @@
 /// @file
-/// Differences of faces and bodies, told.
+/// Report on differences of faces and bodies.
 #pragma once
 
 #include <optional>
@@ -10,19 +10,19 @@
 
 namespace animeme::inspect {
 
-/// What two inputs were compared in.
+/// Result of comparing two inputs.
 struct Comparison {
-  std::optional<fap::Difference> face;  ///< nothing: one of them cannot hold a face
-  std::optional<BodyDifference> body;   ///< nothing: one of them cannot hold a body
+  std::optional<fap::Difference> face;  ///< nullopt: one of them cannot contain a face
+  std::optional<BodyDifference> body;   ///< nullopt: one of them cannot contain a body
 
-  /// Equal in all that was compared.
+  /// Equal in everything that was compared.
   bool equal() const { return (!face || face->equal()) && (!body || body->equal()); }
 };
 
-/// Everything as JSON text; parameters that neither has are left out.
+/// The comparison as JSON text, without parameters that neither has.
 std::string comparison_json(const Comparison& comparison);
 
-/// A line, or a line and a table of the parameters that differ, for the face and for the body.
+/// A line, and a table if parameters differ, for the face and for the body.
 std::string comparison_text(const Comparison& comparison);
 
 }  // namespace animeme::inspect

@@ -1,6 +1,6 @@
 /// @file
-/// How good a system is: its tracks against recordings, the codec's share, and the report of it
-/// all.
+/// Evaluation of a system: its tracks compared with recordings, the error added by coding, and the
+/// report.
 #pragma once
 
 #include <functional>
@@ -17,47 +17,47 @@
 
 namespace animeme::inspect {
 
-/// The sentences `recorded` with somebody's tracks of them, which have the same ids. Tracks must
-/// have the rate of the recording and its length up to 0.5 s; they are cut, or hold their last
-/// frame. A sentence without a track is left out with `skip_missing`. Errors: not_found (no track),
+/// Pairs the sentences `recorded` with a system's tracks, which have the same ids. Tracks must have
+/// the rate of the recording and its length within 0.5 s; they are cut, or extended by their last
+/// frame. With `skip_missing`, sentences without a track are skipped. Errors: not_found (no track),
 /// out_of_range (another length).
 Result<std::vector<dam::SentencePair>> pair_up(std::vector<dam::Utterance> tracks,
                                                const std::vector<dam::Utterance>& recorded,
                                                bool skip_missing);
 
-/// What errors of tracks are measured by: the recordings, for the controls that the tracks have,
-/// too. `pairs` is not empty. Error: not_found if there is none.
+/// The reference for errors of tracks: the recordings, restricted to the controls that the tracks
+/// have as well. `pairs` is not empty. Errors: not_found if there is no such control.
 Result<std::vector<dam::Control>> scale_of(const std::vector<dam::SentencePair>& pairs);
 
-/// What coding does to the motion.
+/// Effect of coding on the motion.
 struct CodecScore {
   std::size_t bytes = 0;  ///< of all streams
   double kbps = 0;        ///< of all sentences, 1000 bits a second
-  dam::Evaluation error;  ///< decoded against the motion before coding
-  dam::Evaluation total;  ///< decoded against the recordings
+  dam::Evaluation error;  ///< decoded, relative to the motion before coding
+  dam::Evaluation total;  ///< decoded, relative to the recordings
 };
-/// Codes and decodes every sentence as a stream of its own; `progress`, if any, gets the share that
-/// is done, 0..1. Errors: those of encode() and score(); not_found without FAPs.
+/// Encodes and decodes every sentence as a separate stream; `progress`, if given, receives 0..1.
+/// Errors: those of encode() and score(); not_found without FAPs.
 Result<CodecScore> score_codec(const std::vector<dam::SentencePair>& pairs,
                                const fba::EncodeOptions& coding, const dam::ScoreOptions& scoring,
                                const std::function<void(double)>& progress = {});
 
-/// Everything that was found out.
+/// The complete report.
 struct EvaluationReport {
-  std::string system;                               ///< its name
-  dam::Evaluation evaluation;                       ///< of the system
-  double closed_gap = 45;                           ///< FAP units: a smaller inner gap is closed
-  std::string against;                              ///< name of the other system; empty: none
-  std::optional<dam::PairedDifference> difference;  ///< system less the other one
-  std::size_t compared_controls = 0;                ///< scored ones that both systems have
-  std::optional<CodecScore> codec;                  ///< nothing: not asked for
+  std::string system;          ///< its name
+  dam::Evaluation evaluation;  ///< of the system
+  double closed_gap = 45;      ///< FAP units: a smaller inner lip gap counts as closed
+  std::string against;         ///< name of the other system; empty: none
+  std::optional<dam::PairedDifference> difference;  ///< system minus the other one
+  std::size_t compared_controls = 0;                ///< scored controls of both systems
+  std::optional<CodecScore> codec;                  ///< nullopt: not requested
   dam::LeftOut left_out;                            ///< of the recordings
-  std::vector<dam::Glitch> glitches;                ///< likewise
+  std::vector<dam::Glitch> glitches;                ///< of the recordings
 };
 
 /// The report as JSON text.
 std::string evaluation_json(const EvaluationReport& report);
-/// The report for people; `full` adds the tables by control, phoneme, viseme, class and sentence.
+/// The report as text; `full` adds the tables by control, phoneme, viseme, class and sentence.
 std::string evaluation_text(const EvaluationReport& report, bool full);
 
 }  // namespace animeme::inspect

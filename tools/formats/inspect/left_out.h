@@ -1,5 +1,5 @@
 /// @file
-/// What of a corpus is not learned from or scored, as text and JSON.
+/// Data of a corpus excluded from training or scoring, as text and JSON.
 #pragma once
 
 #include <span>
@@ -11,17 +11,17 @@
 
 namespace animeme::inspect {
 
-/// Sentences for people about the blanks of a corpus: at most ten of its sentences by name,
-/// controls with the same blanks together; nothing if there are none.
+/// Sentences about the blanks of a corpus: at most ten corpus sentences by name, controls with the
+/// same blanks together; empty if there are none.
 std::vector<std::string> blanks_text(const dam::LeftOut& left_out);
 
-/// The first eight glitches as sentences for people, and how many more there are.
+/// The first eight glitches as sentences, and the number of further ones.
 std::vector<std::string> glitches_text(std::span<const dam::Glitch> glitches);
 
-/// All of it, as a list in JSON text: id, control, rows, of, first_line.
+/// All blanks as a JSON list: id, control, rows, of, first_line.
 std::string blanks_json(const dam::LeftOut& left_out);
 
-/// The same of glitches: id, control, kind, time_s, frames, bridged.
+/// All glitches as a JSON list: id, control, kind, time_s, frames, bridged.
 std::string glitches_json(std::span<const dam::Glitch> glitches);
 
 }  // namespace animeme::inspect

@@ -1,5 +1,5 @@
 /// @file
-/// How small a clip gets: the form that is common in the wild beside the presets.
+/// Sizes of a clip: the form common in the wild compared with the presets.
 #pragma once
 
 #include <string>
@@ -15,16 +15,16 @@ struct ClipSizes {
   std::string name;          ///< of the file
   std::size_t planes = 0;    ///< coded
   double all_bits = 0;       ///< all 66 FAPs coded in ranges of +-1860 at fap_quant 1
-  double file_bits = 0;      ///< preset file, the same values after filling in
-  bool same_values = false;  ///< that they are the same, decoded and filled in
+  double file_bits = 0;      ///< preset file, with the same values after filling in
+  bool same_values = false;  ///< whether they are, decoded and filled in
   double floor_bits = 0;     ///< a bound for these values, see floor_of()
   double kept_bits = 0;      ///< preset file with kept ranges
-  double live5_bits = 0;     ///< preset live with a joining point every 5 s ...
+  double live5_bits = 0;     ///< preset live with a random access point every 5 s ...
   double live1_bits = 0;     ///< ... every second
-  double seconds = 0;        ///< what the clip lasts
-  double limited_bits = 0;   ///< preset file with a limit of the error
-  int limited_quant = 0;     ///< fap_quant that was chosen for it
-  double limited_rms = 0;    ///< FAP units, over the FAPs that move and are no angles
+  double seconds = 0;        ///< duration of the clip
+  double limited_bits = 0;   ///< preset file with limited error
+  int limited_quant = 0;     ///< its fap_quant
+  double limited_rms = 0;    ///< FAP units, over the moving FAPs except angles
   double floor_ratio() const { return floor_bits / all_bits; }       ///< bound : common form
   double file_ratio() const { return file_bits / all_bits; }         ///< preset file : common form
   double kept_ratio() const { return kept_bits / file_bits; }        ///< kept ranges : preset file
@@ -35,17 +35,17 @@ struct ClipSizes {
   double limited_ratio() const { return limited_bits / all_bits; }
 };
 
-/// Codes a clip in these forms, at `quant` but for the common one; `max_rms` as in
+/// Encodes a clip in these forms, at `quant` except for the common one; `max_rms` as in
 /// fba::EncodeOptions. Errors: those of encode().
 Result<ClipSizes> measure_sizes(const std::string& name, const fap::Sequence& clip, int quant,
                                 double max_rms);
 
-/// The heading of a table of sizes, and the row of a clip; they end with a line end.
+/// Heading and rows of a table of sizes, each with a line end.
 std::string sizes_heading();
 std::string sizes_row(const ClipSizes& clip);  ///< likewise
-/// The last row, with the means of all clips (one at least), and what the columns are.
+/// The last row, with the means of all clips (at least one), and an explanation of the columns.
 std::string sizes_means(const std::vector<ClipSizes>& clips, int quant, double max_rms);
-/// All of it as JSON text.
+/// The sizes as JSON text.
 std::string sizes_json(const std::vector<ClipSizes>& clips, int quant, double max_rms);
 
 }  // namespace animeme::inspect

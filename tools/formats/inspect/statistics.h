@@ -1,5 +1,5 @@
 /// @file
-/// How much a clip moves, and where the bits of its stream go: all of it measured and told.
+/// Report on how much a clip moves and where the bits of its stream go.
 #pragma once
 
 #include <optional>
@@ -14,25 +14,25 @@
 
 namespace animeme::inspect {
 
-/// What was measured of one input.
+/// Statistics of one input.
 struct Statistics {
-  std::string kind;                   ///< what the input was
+  std::string kind;                   ///< kind of the input
   std::size_t faces = 0;              ///< frames with a face
   std::size_t bodies = 0;             ///< frames with a body
-  fap::Rate rate;                     ///< of the face, or of a body alone
+  fap::Rate rate;                     ///< of the face, or else of the body
   double seconds = 0;                 ///< of the stream, else of the face, else of the body
   std::optional<BitStatistics> bits;  ///< streams only
   std::vector<Activity> faps;         ///< those that occur
   std::vector<Activity> baps;         ///< those that occur
 };
 
-/// Measures frame by frame what is not in memory as a whole.
+/// Measures frame by frame, without a whole clip in memory.
 class Measurement {
  public:
   void add(const fba::Plane& plane);      ///< of a stream, in order
   void add(const fap::Frame& frame);      ///< of a text
   void add(const fba::BodyFrame& frame);  ///< likewise
-  /// `kind` as it is to be told; `face` and `body` rates of a text; `bytes` of a stream, else 0.
+  /// `kind`: for the report; `face`, `body`: rates of a text; `bytes`: of a stream, else 0.
   Statistics measured(std::string kind, fap::Rate face, fap::Rate body, std::size_t bytes) const;
 
  private:
@@ -44,9 +44,9 @@ class Measurement {
   std::int64_t last_face_ = -1, last_body_ = -1;
 };
 
-/// Everything as JSON text.
+/// The statistics as JSON text.
 std::string statistics_json(const Statistics& statistics);
-/// The same for people, with a row for each parameter.
+/// The statistics as text, with a row for each parameter.
 std::string statistics_text(const Statistics& statistics);
 
 }  // namespace animeme::inspect

@@ -1,6 +1,6 @@
 /// @file
-/// Child processes that run side by side, each with its own time limit: programs, or functions of
-/// ours in a forked copy, so that nothing a child does can end the parent.
+/// Parallel child processes, each with a time limit: programs, or functions in a forked copy,
+/// isolated from the parent.
 #pragma once
 
 #include <chrono>
@@ -14,14 +14,14 @@
 
 namespace animeme::tools {
 
-/// What a child is to do: run `arguments`, or call `work` if there are none.
+/// The job of a child: run `arguments`, or call `work` if there are none.
 struct ChildJob {
   std::vector<std::string> arguments;                   ///< program and arguments; empty: `work`
-  std::function<int()> work;                            ///< its value is the exit code
-  std::string in;                                       ///< read by it; empty: nothing to read
-  std::string out,                                      ///< empty: thrown away
+  std::function<int()> work;                            ///< returns the exit code
+  std::string in;                                       ///< standard input; empty: none
+  std::string out,                                      ///< standard output; empty: discarded
       err;                                              ///< likewise
-  std::uint64_t most_bytes = std::uint64_t(256) << 20;  ///< that each of its files may have
+  std::uint64_t most_bytes = std::uint64_t(256) << 20;  ///< maximum size of each of its files
 };
 
 /// How a child ended.
@@ -33,32 +33,32 @@ struct ChildEnd {
   double seconds = 0;     ///< wall clock
 };
 
-/// Some children at once. Not thread safe. Jobs with `work` want that no other thread runs: they
-/// fork and go on.
+/// Runs several children. Not thread safe. Jobs with `work` require that no other thread runs,
+/// since they fork without exec.
 class Children {
  public:
   /// `timeout_seconds` for each child.
   explicit Children(double timeout_seconds) : timeout_(timeout_seconds) {}
   Children(const Children&) = delete;
   Children& operator=(const Children&) = delete;
-  /// Ends what still runs.
+  /// Kills running children.
   ~Children();
 
-  /// Starts one. Its files have a limit, and it leaves no core file.
-  /// `id` comes back from wait(). Errors, io: it cannot be started.
+  /// Starts a child with limited file sizes and without core dumps. wait() returns `id`. Errors: io
+  /// (cannot be started).
   Result<void> start(std::size_t id, const ChildJob& job);
-  /// Started and not yet given out by wait().
+  /// Number of children started and not yet returned by wait().
   std::size_t running() const { return running_.size(); }
 
   /// A child that has ended.
   struct Finished {
-    std::size_t id = 0;  ///< as given to start()
-    ChildEnd end;        ///< how
+    std::size_t id = 0;  ///< of start()
+    ChildEnd end;        ///< how it ended
   };
-  /// Waits until one has ended or was stopped at its time limit, with all the children that it had
-  /// itself. running() must not be 0.
+  /// Waits until one has ended or was killed at its time limit, together with its own children.
+  /// running() must not be 0.
   Finished wait();
-  /// The same, but nothing if all still run after `seconds`.
+  /// The same; nullopt if all still run after `seconds`.
   std::optional<Finished> wait_for(double seconds);
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// A program of others, run to its end.
+/// Runs an external program to its end.
 #pragma once
 
 #include <functional>
@@ -11,23 +11,25 @@
 
 namespace animeme::tools {
 
-/// How a program is run and spoken of.
+/// How to run a program and report on it.
 struct ProgramRun {
   std::string what = "the program";  ///< subject of error messages: "the tracker"
-  std::string allow_more;            ///< how to allow more time, for messages: "--tracker-seconds"
-  double seconds = 60;               ///< then it is ended
-  Progress progress;                 ///< told a share where `share_told` finds one; may stop it
-  /// How far a line of what it says on standard error tells that it is, 0..1, or a negative number:
-  /// such lines are no last words. Empty: no line does.
+  std::string
+      allow_more;       ///< option that extends the time limit, for messages: "--tracker-seconds"
+  double seconds = 60;  ///< time limit
+  Progress progress;    ///< receives what `share_told` finds; may stop the program
+  /// Extracts progress (0..1) from a line of its standard error, or returns a negative number if
+  /// there is none. Progress lines are not part of error messages. Empty: none.
   std::function<double(const std::string& line)> share_told;
 };
 
-/// Runs `job`, whose `err` must be set, and waits. Errors: those of Children::start();
-/// io (progress.stop()), out_of_range (too long), not_found (it crashed, or ended with another
-/// exit code than 0); the last two end with what it said last.
+/// Runs `job`, whose `err` must be set, and waits. Errors: those of Children::start(); io
+/// (progress.stop()), out_of_range (too long), not_found (it crashed, or its exit code was not 0);
+/// the last two end with the last output of the program.
 Result<void> run_program(const ChildJob& job, const ProgramRun& run);
 
-/// "; it said: " and the last lines that a program wrote to the file `err`; empty if it wrote none.
+/// "; it said: " and the last lines that a program wrote to the file `err`; empty if there are
+/// none.
 std::string last_words(const std::string& err, const ProgramRun& run);
 
 }  // namespace animeme::tools

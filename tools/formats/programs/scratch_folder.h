@@ -1,5 +1,5 @@
 /// @file
-/// A folder for temporary files.
+/// Temporary folders.
 #pragma once
 
 #include <filesystem>
@@ -10,12 +10,12 @@
 
 namespace animeme::tools {
 
-/// A folder that is removed with its content at the end.
+/// A folder that the destructor removes with its content.
 class ScratchFolder {
  public:
-  /// A new one where the system keeps such (TMPDIR). Errors: io.
+  /// Creates a folder in the system's temporary folder (TMPDIR). Errors: io.
   static Result<std::unique_ptr<ScratchFolder>> make();
-  /// Takes over a folder that exists.
+  /// Takes ownership of an existing folder.
   explicit ScratchFolder(std::filesystem::path path) : path_(std::move(path)) {}
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
