@@ -23,6 +23,8 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
   return()
 endif()
 
+cmake_policy(VERSION 3.25)
+
 # suites(FILTER RESULT): the suites with tests that a filter matches.
 function(suites filter result)
   execute_process(COMMAND ${program} --gtest_list_tests --gtest_filter=${filter}
