@@ -1,10 +1,9 @@
 /// @file
-/// Lines and commands by a Unix domain socket, and what becomes of them back on it.
+/// A Unix domain socket that receives lines and commands and sends their events.
 ///
 ///     $ printf '{"do": "say", "text": "Hello", "when": "now"}\n' | nc -U head.sock
-///
-/// The socket is a file that its owner alone may use (mode 0600). A program that reads what is told
-/// too slowly is left: nobody waits for it.
+/// Only its owner may use the socket file (mode 0600). A client that reads events too slowly is
+/// disconnected.
 #pragma once
 
 #include <cstdint>
@@ -21,24 +20,24 @@ struct pollfd;
 
 namespace animeme::speech {
 
-/// One thread may read while another one tells.
+/// One thread may read while another one sends.
 class ControlSocket {
  public:
-  /// Listens at a path (at most 107 bytes). A socket that nobody listens at any more is replaced.
-  /// Errors: invalid_argument (the path is too long), io (somebody listens there, it is another
-  /// kind of file, the folder is not writable).
+  /// Listens at a path (at most 107 bytes). A stale socket is replaced. Errors: invalid_argument
+  /// (the path is too long), io (the socket is in use, is another kind of file, or the folder is
+  /// not writable).
   static Result<std::unique_ptr<ControlSocket>> open(const std::string& path);
   /// Removes the file.
   ~ControlSocket();
   ControlSocket(const ControlSocket&) = delete;
   ControlSocket& operator=(const ControlSocket&) = delete;
 
-  /// Adds what is to be watched.
+  /// Adds the descriptors to poll.
   void add_to(std::vector<pollfd>& wanted);
-  /// Reads from those of `ready` that are its own and have something; each line, without blanks
-  /// around it, goes to `take`. Who sent a line that was refused is told why.
+  /// Reads from its descriptors in `ready` that have input; passes each line, without surrounding
+  /// blanks, to `take`. The sender of a rejected line receives the error.
   void read(const std::vector<pollfd>& ready, const std::function<Result<void>(std::string)>& take);
-  /// Sends a line to all who are connected.
+  /// Sends a line to all clients.
   void tell(const std::string& line);
 
  private:

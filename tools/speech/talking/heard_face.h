@@ -1,5 +1,5 @@
 /// @file
-/// A face that follows a voice by its sound alone, while it speaks.
+/// A face that follows a live voice by its sound alone.
 ///
 ///     auto face = speech::HeardFace::open(model, 48000, {});
 ///     while (read(block)) {
@@ -7,10 +7,9 @@
 ///       auto frames = (*face)->pull();               // those that are due
 ///     }
 ///     auto rest = (*face)->finish();
-///
-/// A frame is made when `delay` seconds more of the sound have come: what is said is heard in what
-/// follows. It is the mean over what may have been said (dam/speaking/readings.h), so where the
-/// sound does not tell yet the face moves less.
+/// A frame is made when `delay` more seconds of sound have arrived, since recognition needs the
+/// following sound. It is the mean over several hypotheses (dam/speaking/readings.h), so the face
+/// moves less while the sound is ambiguous.
 #pragma once
 
 #include <memory>
@@ -24,14 +23,14 @@
 
 namespace animeme::speech {
 
-/// How a face follows a voice.
+/// Options for following a voice.
 struct HeardFaceOptions {
   dam::SynthesisOptions synthesis;  ///< `frames`, `tail` and `rest_at_ends` are not used
   std::string language = "en";      ///< of the voice, see voice::ListenOptions
   double delay = 0.25;              ///< seconds of sound beyond a frame, 0.08..2
 };
 
-/// Memory and the cost of a second do not grow with time. Not thread safe.
+/// Memory and CPU time per second are constant. Not thread safe.
 class HeardFace {
  public:
   /// `model` must outlive the face. `sample_rate` 4000 to 384000 Hz. Errors: invalid_argument
@@ -45,7 +44,7 @@ class HeardFace {
   /// The frames that became due since the last call, in order; often none. Signal::first_frame is
   /// the number of the first. Errors: those of dam::synthesise_readings().
   virtual Result<dam::Signal> pull() = 0;
-  /// The voice is over: all frames that are left.
+  /// Ends the voice and returns the remaining frames.
   virtual Result<dam::Signal> finish() = 0;
 };
 

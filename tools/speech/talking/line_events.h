@@ -1,5 +1,5 @@
 /// @file
-/// What is told of lines while they are spoken: for subtitles, turn-taking, logs.
+/// Events of spoken lines, for subtitles, turn-taking and logs.
 ///
 ///     {"event": "queued", "time": 2.36, "line": 1, "id": "1", "text": "Hello there."}
 ///     {"event": "started", "time": 2.4, "line": 1, "id": "1", "text": "Hello there."}
@@ -7,8 +7,8 @@
 ///     {"event": "phone", "time": 2.5, "line": 1, "id": "1", "phone": "HH", "duration": 0.06}
 ///     {"event": "done", "time": 3.92, "line": 1, "id": "1"}
 ///
-/// Every line that was queued ends in exactly one `done` or `cancelled`. Times are those of the
-/// presentation, in seconds; they never go back from one event to the next.
+/// Every line that was queued ends in exactly one `done` or `cancelled`. Times are presentation
+/// times in seconds, and ascend.
 #pragma once
 
 #include <cstdint>
@@ -22,47 +22,47 @@
 
 namespace animeme::speech {
 
-/// Something that happened to a line.
+/// An event of a line.
 struct LineEvent {
-  /// What happened.
+  /// Kind of the event.
   enum class What : std::uint8_t {
-    queued,     ///< it came
-    started,    ///< it begins
-    word,       ///< a word of it begins
-    phone,      ///< a sound of it begins
-    mark,       ///< all before a mark has been spoken, or a mark of SSML in the line
-    done,       ///< it has been spoken
-    cancelled,  ///< it will not be spoken (to its end)
-    stopped,    ///< a command was followed; `cancelled` of what it ended comes behind it
-    dropped,    ///< likewise
+    queued,   ///< it was received
+    started,  ///< it begins
+    word,     ///< a word of it begins
+    phone,    ///< a phone of it begins
+    mark,     ///< everything before a mark has been spoken, or an SSML mark in the line is reached
+    done,     ///< it has been spoken
+    cancelled,  ///< it, or its rest, will not be spoken
+    stopped,    ///< a command was executed; `cancelled` events of the affected lines follow
+    dropped,    ///< the same for "drop"
   };
-  What what = What::queued;  ///< what
+  What what = What::queued;  ///< kind
   double time = 0;           ///< seconds, presentation time
-  std::uint64_t line = 0;    ///< SpokenLine::line; 0: of no line
+  std::uint64_t line = 0;    ///< SpokenLine::line; 0: no line
   std::string id;            ///< SpokenLine::id
-  std::string text;          ///< queued, started: what is said; word, phone, mark: which;
+  std::string text;          ///< queued, started: the text; word, phone, mark: its name;
                              ///< cancelled: the words that had begun, if it was being spoken
   double duration = 0;       ///< word, phone: seconds
   std::string why;           ///< cancelled
 };
 
-/// As a line of JSON, without its end.
+/// The event as JSON on one line, without a line end.
 std::string to_json(const LineEvent& event);
 
-/// Holds events back until their time has come.
+/// Delays events until they are due.
 class LineEvents {
  public:
-  /// Says something at `time`, which must not lie before the last one given to tell().
+  /// Adds an event, whose time must not be before the last time passed to tell().
   void add(LineEvent event);
-  /// A line begins: its words and phones, and its end. Times of the line's script count from
+  /// Adds the events of a line: its words and phones, and its end. Times of its script count from
   /// `start`.
   void begin(const SpokenLine& line, double start, double end);
-  /// Ends all lines before number `before` that have begun and are not over at `time`; marks behind
-  /// them, too.
+  /// Cancels all lines before number `before` that have begun and not ended at `time`, and their
+  /// marks.
   void cut(double time, std::uint64_t before, const std::string& why);
-  /// Gives out what lies at or before `time`.
+  /// Releases events up to and including `time`.
   void tell(double time);
-  /// What has been given out since the last call.
+  /// Events released since the last call.
   std::vector<LineEvent> take();
 
  private:

@@ -1,8 +1,7 @@
 /// @file
-/// Lines that wait to be spoken, from the reader by way of the voice to the head.
-///
-/// Three threads may use it: one pushes lines and commands, one makes speech of them, one takes
-/// what is made. A command takes effect when it is pushed, whatever the voice is at.
+/// The queue of lines to speak, between the reader, the voice and the head. Three threads may use
+/// it: one pushes lines and commands, one synthesises them, one takes the results. A command takes
+/// effect when it is pushed, even during synthesis.
 #pragma once
 
 #include <condition_variable>
@@ -26,29 +25,29 @@ class LineQueue : public LineSource {
   LineQueue(std::size_t most_bytes, bool cut, bool json)
       : most_bytes_(most_bytes), cut_(cut), json_(json) {}
 
-  /// A line of the input, without blanks around it; an empty one is nothing. Errors: those of
-  /// read_line(), which are warnings, too (take_warnings()).
+  /// Adds a line of the input without surrounding blanks; ignores empty lines. Errors: those of
+  /// read_line(), which are also warnings (take_warnings()).
   Result<void> push(std::string line, double arrived);
-  /// No more lines will come: what waits is spoken, then it is over.
+  /// No more lines will come: the queue is spoken, then it ends.
   void close();
-  /// As much waits as may: 64 MB or 100000 lines. More can be pushed all the same.
+  /// Whether the limit of 64 MB or 100000 lines is reached. push() still works.
   bool full();
-  std::size_t waiting();  ///< lines and marks that take() has not given
-  std::size_t bytes();    ///< of these, before the voice made speech of them
+  std::size_t waiting();  ///< lines and marks not yet returned by take()
+  std::size_t bytes();    ///< of these, before synthesis
 
-  /// A line for the voice.
+  /// A line to synthesise.
   struct Job {
     std::uint64_t line = 0;  ///< its number
     std::string payload;     ///< LineCommand::payload
   };
-  /// The next line to be made, in the order in which they are going to be spoken. Waits while four
-  /// that are made wait before it. Nothing: leave() was called.
+  /// The next line to synthesise, in the order in which they will be spoken. Waits while four
+  /// synthesised lines are queued before it. nullopt: leave() was called.
   std::optional<Job> next_job();
   /// The same without waiting.
   std::optional<Job> try_job();
-  /// Whether a line still waits, so that its speech is wanted.
+  /// Whether a line is still in the queue, so that its speech is needed.
   bool wanted(std::uint64_t line);
-  /// What the voice made of it at instant `spoken`. Thrown away if it is not wanted any more.
+  /// Stores the result of the voice, finished at `spoken`. Discarded if it is no longer needed.
   void made(std::uint64_t line, Result<SpokenLine> speech, double spoken);
   /// Ends next_job().
   void leave();
@@ -58,7 +57,7 @@ class LineQueue : public LineSource {
   bool ended() override;
   void abandon(const std::string& why) override;
 
-  /// One sentence for every line that was left out or is in doubt, since the last call.
+  /// One sentence for every skipped or doubtful line since the last call.
   std::vector<std::string> take_warnings();
 
  private:

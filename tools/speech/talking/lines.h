@@ -1,12 +1,11 @@
 /// @file
-/// Lines that become speech while they arrive: text, or pieces of sound with their times.
+/// Synthesises lines as they arrive: text, or pieces of sound with timings.
 ///
 ///     auto maker = voice_lines({});
 ///     auto lines = VoiceLines::open(STDIN_FILENO, *maker, media::steady_clock());
 ///     for (;;) while (auto line = (*lines)->take(false)) ...      // never waits
-///
-/// Reading and the voice run in threads of their own, so that the clock of a presentation never
-/// stands still for them, and a command (line_command.h) never waits for the voice.
+/// Reader and voice run in separate threads, so that they never block the presentation clock, and a
+/// command (line_command.h) never waits for the voice.
 #pragma once
 
 #include <cstddef>
@@ -23,87 +22,86 @@
 
 namespace animeme::speech {
 
-/// A line and what the voice made of it. Instants are those of one media::Clock.
+/// A synthesised line. Instants are those of one media::Clock.
 struct SpokenLine {
   std::string text;      ///< as it was typed
   voice::Speech speech;  ///< sound and phones
   double arrived = 0;    ///< when its last character was read
-  double spoken = 0;     ///< when the voice was done with it
-  /// Its sound follows that of the line before without a gap, if it comes in time; else 0.1 s after
-  /// it came, in which the mouth opens. False: it brings silence of its own.
+  double spoken = 0;     ///< when synthesis ended
+  /// Its sound directly follows that of the previous line if it arrives in time, else it starts 0.1
+  /// s after its arrival, while the mouth opens. False: it includes silence.
   bool joins = false;
-  std::string doubt;       ///< what is not sure about it, a sentence; empty: nothing
+  std::string doubt;       ///< a sentence about an uncertainty; empty: none
   std::uint64_t line = 0;  ///< number of the line in the input, from 1; later ones are larger
-  std::string id;          ///< the name that it was given, or else its number
-  bool mark = false;       ///< nothing to say: a place in the queue, called `id`
+  std::string id;          ///< the given name, or else its number
+  bool mark = false;       ///< a mark in the queue without speech, named `id`
 };
 
-/// What became of a line that a source does not give out, or is about to give out.
+/// News of a line in the queue.
 struct LineNews {
-  /// What happened.
+  /// Kind of the news.
   enum class What : std::uint8_t {
-    queued,     ///< it has come and waits
-    cancelled,  ///< it will never be given out: `why`
-    stopped,    ///< what is spoken is to end now, with all lines before number `line`
-    dropped,  ///< lines before number `line` that were given out and not begun are to be forgotten
+    queued,     ///< it was received
+    cancelled,  ///< it will never be returned: `why`
+    stopped,    ///< end current speech and all lines before number `line`
+    dropped,    ///< drop lines before number `line` that were returned but have not begun
   };
-  What what = What::queued;  ///< what
+  What what = What::queued;  ///< kind
   std::uint64_t line = 0;    ///< SpokenLine::line
   std::string id;            ///< SpokenLine::id
-  std::string text;          ///< what is to be said
+  std::string text;          ///< the text
   std::string why;           ///< a few words
   bool mark = false;         ///< it is a mark
-  double at = 0;             ///< when, on the clock of the lines
+  double at = 0;             ///< instant on the clock of the lines
 };
 
-/// Asked by who makes speech of a line whether somebody still wants it.
+/// Returns whether the speech of a line is still needed.
 using Wanted = std::function<bool()>;
 
-/// Makes speech of lines as they come.
+/// Synthesises lines.
 struct LineMaker {
-  /// Called in the thread of the voice. Sets sound, phones, `joins` and `doubt`, and `text` where
-  /// only it knows that. An error leaves the line out. May give up where `wanted` says no.
+  /// Called in the voice thread. Sets sound, phones, `joins` and `doubt`, and `text` if it alone
+  /// knows the text. An error skips the line. May stop early if `wanted` returns false.
   std::function<Result<SpokenLine>(std::string line, const Wanted& wanted)> make;
-  int sample_rate = 22050;        ///< Hz; lines may have others, which are converted
-  std::size_t most_bytes = 4000;  ///< of a line
-  bool cut = true;                ///< longer ones are cut at a blank; false: they are left out
+  int sample_rate = 22050;        ///< Hz; other rates of lines are converted
+  std::size_t most_bytes = 4000;  ///< maximum size of a line
+  bool cut = true;                ///< longer lines are cut at a blank; false: skipped
   bool json = false;              ///< lines are pieces (pieces.h), not text
 };
 
-/// Speaks each line. Says something once, so that a voice that is missing is known at once and the
-/// first line finds everything warm. Errors: those of voice::speak_text() except a text without
-/// words.
+/// Speaks each line. Synthesises something once, so that a missing voice is detected immediately
+/// and the first line is fast. Errors: those of voice::speak_text() except a text without words.
 Result<LineMaker> voice_lines(const voice::VoiceOptions& options);
 
-/// Where lines come from. To be used from one thread.
+/// A source of lines. Use from one thread.
 class LineSource {
  public:
   virtual ~LineSource() = default;
-  /// The next line or mark, if it is ready. Does not wait. `only_joining`: no line that does not
-  /// join the one before.
+  /// The next line or mark, if ready. Does not wait. `only_joining`: only a line that joins the
+  /// previous one.
   virtual std::optional<SpokenLine> take(bool only_joining) = 0;
-  /// What happened since the last call, in order. Of what take() gives out before, nothing in it is
-  /// meant but by its number.
+  /// News since the last call, in order. Lines that take() has already returned are referred to by
+  /// number.
   virtual std::vector<LineNews> take_news() { return {}; }
-  /// True when neither will ever return anything again.
+  /// True when neither will return anything again.
   virtual bool ended() = 0;
-  /// No more lines are wanted: those that wait are cancelled.
+  /// Ends the source: queued lines are cancelled.
   virtual void abandon(const std::string& why) { (void)why; }
 };
 
 class ControlSocket;
 
-/// Lines from a file descriptor, and from a control socket, made into speech in a thread of their
-/// own. Empty lines are skipped; a last line without its end counts. While four lines wait to be
-/// taken, no more are made; while 64 MB of them wait, no more are read from the descriptor.
+/// Reads lines from a file descriptor and from a control socket, and synthesises them in a separate
+/// thread. Empty lines are skipped; a last line without a line end counts. At most four lines are
+/// synthesised ahead; while 64 MB are queued, the descriptor is not read.
 class VoiceLines : public LineSource {
  public:
-  /// `descriptor` is borrowed; -1: lines come from the control socket alone. The clock and the
-  /// socket must outlive the lines. Errors: io (no thread).
+  /// `descriptor` is borrowed; -1: only the control socket. Clock and socket must outlive the
+  /// lines. Errors: io (no thread).
   static Result<std::unique_ptr<VoiceLines>> open(int descriptor, LineMaker maker,
                                                   media::Clock& clock,
                                                   ControlSocket* control = nullptr);
-  /// Stops reading. A line that is just being made is waited for.
+  /// Stops reading and waits for the line being synthesised.
   ~VoiceLines() override;
 
   std::optional<SpokenLine> take(bool only_joining) override;
@@ -112,7 +110,7 @@ class VoiceLines : public LineSource {
   void abandon(const std::string& why) override;
   /// LineMaker::sample_rate.
   int sample_rate() const { return sample_rate_; }
-  /// One sentence for every line that was left out or is in doubt, since the last call.
+  /// One sentence for every skipped or doubtful line since the last call.
   std::vector<std::string> take_warnings();
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// Coded sound without an end: silence into which pieces of sound are laid while it is made.
+/// An endless coded audio stream: silence into which pieces of sound are mixed.
 #pragma once
 
 #include <cstddef>
@@ -11,26 +11,25 @@
 
 namespace animeme::speech {
 
-/// Where a piece begins without one before it, or ends without one behind it, it fades within 2 ms:
-/// sound that comes too late breaks off and begins anew without a click. Movable, not copyable.
-/// Memory does not grow with time.
+/// A piece without a predecessor or successor is faded in or out over 2 ms, so that late sound
+/// stops and restarts without a click. Movable, not copyable. Uses constant memory.
 class LiveSound {
  public:
   /// Pieces will have `sample_rate`. Errors: those of media::AudioEncoder::open().
   static Result<LiveSound> open(int sample_rate, const media::AudioSettings& settings);
 
   const media::AudioFormat& format() const { return encoder_.format(); }  ///< of the packets
-  /// Lays in a piece (full scale +-1) whose first sample is heard at sample `start` of
-  /// `sample_rate`. What of it lies before made() is lost.
+  /// Adds a piece (full scale +-1) that begins at sample `start`, counted at `sample_rate`. Samples
+  /// before made() are lost.
   void add(std::int64_t start, std::vector<float> samples);
-  /// All that was added fades over `fade` samples and is silent from sample `end` on. What of that
-  /// lies before made() stays as it is: the fade is then shorter.
+  /// Fades everything out over `fade` samples to silence from sample `end`. Samples before made()
+  /// do not change, which may shorten the fade.
   void end_at(std::int64_t end, std::int64_t fade);
-  /// Samples of `sample_rate` that the encoder has been given, so that nothing can be added there.
+  /// Number of samples, at `sample_rate`, already passed to the encoder.
   std::int64_t made() const { return made_; }
-  /// Time of the packet that next() will make, in samples of the format.
+  /// Time of the next packet, in samples of the format.
   std::int64_t next_time() const { return next_time_; }
-  /// The next packet; gives the encoder no more sound than it needs. Errors: those of the encoder.
+  /// The next packet; passes the encoder no more sound than it needs. Errors: those of the encoder.
   Result<media::AudioPacket> next();
 
  private:

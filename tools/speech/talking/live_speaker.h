@@ -1,15 +1,13 @@
 /// @file
-/// A talking head that is live: lines of text in, face and sound on one clock out.
+/// A live talking head: lines of text in, synchronised face and sound out.
 ///
 /// The clock never stops. Between lines the face rests (or moves a little, with idle motion) and
 /// the sound is silence; a line begins with the next frame that has not been made, and its sound at
-/// the sample of that frame, so face and sound agree to the sample. Lines that come while another
-/// is spoken follow it. Nothing is made ahead of time but what the sound's encoder needs, so a line
-/// is seen and heard as soon as it can be.
-///
-/// What is spoken can be stopped (line_command.h): with the next frame the mouth begins to close
-/// and is at rest within 0.1 s; the sound fades in 20 ms, from the first sample on that its encoder
-/// has not been given.
+/// the sample of that frame, so they are in sync to the sample. Lines that arrive while another is
+/// spoken follow it. Nothing is generated ahead of time except what the audio encoder needs, so a
+/// line starts as early as possible. Speech can be interrupted (line_command.h): the mouth begins
+/// to close with the next frame and is at rest within 0.1 s; the sound fades out in 20 ms, from the
+/// first sample not yet passed to its encoder.
 #pragma once
 
 #include <cstdint>
@@ -26,30 +24,29 @@
 #include "tools/speech/talking/lines.h"
 #include "tools/speech/talking/talking_face.h"
 
-/// A talking head while it is being made.
+/// Live talking heads and their lines.
 namespace animeme::speech {
 
 /// All settings of LiveSpeaker.
 struct SpeakerOptions {
-  FaceOptions face;          ///< how the face moves
+  FaceOptions face;          ///< motion of the face
   int fap_quant = 1;         ///< 0..31
   double intra_seconds = 1;  ///< seconds between intra planes
   int voice_rate = 22050;    ///< Hz, of the lines' sound; other rates are converted
-  /// How the sound is coded; nothing: the face alone.
+  /// Audio encoder settings; nullopt: face only.
   std::optional<media::AudioSettings> audio = media::AudioSettings{};
-  double audio_ahead = 0.02;  ///< seconds that sound is sent before its time, 0..1
-  double duration = std::numeric_limits<double>::infinity();  ///< seconds, then it is over
-  bool events = false;  ///< keep them until LiveSpeaker::take_events()
+  double audio_ahead = 0.02;  ///< seconds by which sound is sent early, 0..1
+  double duration = std::numeric_limits<double>::infinity();  ///< seconds until the end
+  bool events = false;  ///< record events for LiveSpeaker::take_events()
 };
 
-/// What happened to a line and when, on the clock of the lines. Instants that did not come (yet)
-/// are 0.
+/// Timestamps of a line, on the clock of the lines; 0: not (yet) reached.
 struct LineTrace {
-  bool waited = false;     ///< another line was waiting or being spoken when it came
+  bool waited = false;     ///< another line was queued or being spoken when it arrived
   double arrived = 0;      ///< its last character was read
-  double spoken = 0;       ///< the voice was done
-  double begun = 0;        ///< its face was begun to be made ...
-  double synthesised = 0;  ///< ... and all its frames were there
+  double spoken = 0;       ///< synthesis of the voice ended
+  double begun = 0;        ///< motion synthesis began ...
+  double synthesised = 0;  ///< ... and ended
   double face_begun = 0;   ///< coding of the first frame in which the mouth moves ...
   double face_coded = 0;   ///< ... its end
   double face_sent = 0;    ///< that frame has been sent
@@ -70,19 +67,19 @@ class LiveSpeaker : public media::LiveInput {
 
   const media::LiveInfo& info() const override;
   double audio_ahead() const override;
-  /// Over when the lines have ended and the last one is spoken, or at the duration.
+  /// Ends when the lines have ended and the last one is spoken, or at the duration.
   std::optional<double> next_due() override;
   Result<std::vector<media::LiveUnit>> take(double now) override;
   void sent(const media::LiveUnit& unit, double instant) override;
 
-  /// What happened up to the last frame that was sent, in order, since the last call.
+  /// Events up to the last sent frame, in order, since the last call.
   std::vector<LineEvent> take_events();
-  /// It is over: lines that are not done are cancelled. Events of that come from take_events().
+  /// Ends: unfinished lines are cancelled, with events from take_events().
   void end(const std::string& why);
 
-  /// Every line that was begun, the last 1000 of them.
+  /// Traces of the last 1000 lines that began.
   const std::deque<LineTrace>& traces() const;
-  /// Nothing is being said and no line waits: what comes next is idling until a line comes.
+  /// Whether nothing is being said and no line is queued.
   bool silent() const;
   /// One sentence for every line that could not be shown, since the last call.
   std::vector<std::string> take_warnings();

@@ -1,11 +1,9 @@
 /// @file
-/// A live voice and the face that follows it by its sound alone, on one clock:
-/// what `animeme stream --say-audio -` sends.
-///
-/// Sound that comes is heard and its face seen LiveVoiceOptions::delay seconds later, both
-/// together. Where none comes in time the voice fades, the mouth rests, and both go on when 60 ms
-/// of it have come again; sound that comes faster than it is heard waits in the pipe. Nothing of it
-/// is left out, so each pause of the sender that is longer than 60 ms moves what follows back.
+/// A live voice with a face that follows it by its sound alone: what `animeme stream --say-audio -`
+/// sends. Sound and face are presented together, LiveVoiceOptions::delay seconds after the sound
+/// arrives. If sound is late, the voice fades out and the mouth rests, and both continue when 60 ms
+/// have arrived; sound that arrives early waits in the pipe. Nothing is dropped, so each pause of
+/// the sender that is longer than 60 ms delays what follows.
 #pragma once
 
 #include <cstdint>
@@ -29,26 +27,26 @@ namespace animeme::speech {
 struct LiveVoiceOptions {
   dam::SynthesisOptions synthesis;  ///< `frames` and `tail` are not used
   std::string language = "en";      ///< of the voice, see voice::ListenOptions
-  std::optional<BareSound> bare;    ///< how the samples lie; nothing: WAV
-  double delay = 0.3;               ///< seconds from sound that comes to its face, 0.25..2
+  std::optional<BareSound> bare;    ///< format of raw samples; nullopt: WAV
+  double delay = 0.3;               ///< seconds from arrival of sound to its face, 0.25..2
   int fap_quant = 1;                ///< 0..31
   double intra_seconds = 1;         ///< seconds between intra planes
-  /// How the sound is coded; nothing: the face alone.
+  /// Audio encoder settings; nullopt: face only.
   std::optional<media::AudioSettings> audio = media::AudioSettings{};
-  double audio_ahead = 0.02;  ///< seconds that sound is sent before its time, 0..0.1
-  double duration = std::numeric_limits<double>::infinity();  ///< seconds, then it is over
+  double audio_ahead = 0.02;  ///< seconds by which sound is sent early, 0..0.1
+  double duration = std::numeric_limits<double>::infinity();  ///< seconds until the end
 };
 
-/// Sound is read in a thread of its own. Not thread safe.
+/// Reads sound in a separate thread. Not thread safe.
 class LiveVoice : public media::LiveInput {
  public:
-  /// Waits for the head of the sound, which tells its rate. `descriptor` is borrowed; the model
+  /// Waits for the header of the sound, which has its rate. `descriptor` is borrowed; the model
   /// must outlive the voice. Errors: those of SoundBytes, HeardFace::open(), TalkingFace::open(),
-  /// fba::LiveEncoder and media::AudioEncoder::open(); truncated (no sound at all),
-  /// invalid_argument (options out of range).
+  /// fba::LiveEncoder and media::AudioEncoder::open(); truncated (no sound), invalid_argument
+  /// (options out of range).
   static Result<std::unique_ptr<LiveVoice>> open(const dam::Model& model, int descriptor,
                                                  const LiveVoiceOptions& options);
-  /// The same with samples of `rate` from wherever they come.
+  /// The same with samples of `rate` from any feed.
   static Result<std::unique_ptr<LiveVoice>> open(const dam::Model& model,
                                                  std::unique_ptr<SoundFeed> feed, int rate,
                                                  const LiveVoiceOptions& options);
@@ -56,10 +54,10 @@ class LiveVoice : public media::LiveInput {
 
   const media::LiveInfo& info() const override;
   double audio_ahead() const override;
-  /// Over when the sound has ended and been heard, or at the duration.
+  /// Ends when the sound has ended and been presented, or at the duration.
   std::optional<double> next_due() override;
   Result<std::vector<media::LiveUnit>> take(double now) override;
-  /// One sentence for all that went wrong since the last call: a sound that broke off.
+  /// Warnings since the last call, such as sound that was interrupted.
   std::vector<std::string> take_warnings();
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// Scripts with the marks of an SSML document.
+/// Scripts with SSML marks.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@
 namespace animeme::speech {
 
 /// dam::write_script() with marks: a TextGrid has a tier of points "marks" for them, WebVTT a
-/// comment each ("NOTE mark 00:00:01.234 name"). Other formats cannot hold any. Without marks the
-/// bytes are those of dam::write_script().
+/// comment each ("NOTE mark 00:00:01.234 name"). Other formats do not support marks. Without marks
+/// the bytes are those of dam::write_script().
 std::string write_marked_script(const dam::Script& script,
                                 const std::vector<voice::SpeechMark>& marks,
                                 std::string_view ending);

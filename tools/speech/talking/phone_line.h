@@ -1,5 +1,5 @@
 /// @file
-/// Phones as a speech engine tells them while it speaks: a line each.
+/// Phones from a live speech engine, one per line.
 #pragma once
 
 #include <optional>
@@ -10,9 +10,9 @@
 
 namespace animeme::speech {
 
-/// "start_s end_s phone", in seconds, by blanks or tabs; more fields are ignored. Nothing for an
-/// empty line, a comment (#) and a header ("start ..."). Errors: syntax (fewer fields, a time that
-/// is no finite number), not_found (a phone that is not known; the message has the nearest).
+/// "start_s end_s phone", in seconds, separated by blanks or tabs; further fields are ignored.
+/// nullopt for an empty line, a comment (#) and a header ("start ..."). Errors: syntax (too few
+/// fields, an invalid time), not_found (an unknown phone; the message suggests similar ones).
 Result<std::optional<dam::Phone>> parse_phone_line(std::string_view line);
 
 }  // namespace animeme::speech

@@ -1,5 +1,5 @@
 /// @file
-/// Sound from a pipe: WAV or bare samples, byte by byte as they come, without looking back.
+/// Sound from a pipe: WAV or raw samples, parsed incrementally.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace animeme::speech {
 
-/// How bare samples lie: 16 bit, little endian, channels side by side.
+/// Format of raw samples: 16 bit, little endian, interleaved channels.
 struct BareSound {
   int sample_rate = 16000;  ///< 4000..384000 Hz
   int channels = 1;         ///< 1..16
@@ -22,19 +22,19 @@ struct BareSound {
 /// Reads "16000" or "48000:2" (rate, channels). Errors: invalid_argument.
 Result<BareSound> parse_bare_sound(const std::string& text);
 
-/// The bytes of a sound, piece by piece, become samples of one channel (the mean of all).
+/// Converts bytes incrementally to samples of one channel (the mean of all channels).
 ///
-/// WAV: samples of 8, 16, 24, 32 bit and of float 32 and 64. The length that its head promises is
-/// not believed if it is 0 or more than 2 GB, as pipes write it; else what follows it is left out.
-/// A sound that is cut off ends with its last whole sample.
+/// WAV: samples of 8, 16, 24, 32 bit and of float 32 and 64. The length in the header is ignored if
+/// it is 0 or more than 2 GB, as pipes write it; otherwise data after it is ignored. A truncated
+/// sound ends with its last complete sample.
 class SoundBytes {
  public:
-  /// Nothing: WAV.
+  /// `bare`: nullopt for WAV.
   explicit SoundBytes(std::optional<BareSound> bare = std::nullopt);
-  /// Appends the samples to `out`. Errors: syntax (no WAV, no sound chunk within its first MB),
+  /// Appends the samples to `out`. Errors: syntax (not WAV, no data chunk within the first MB),
   /// unsupported (another coding; a rate or a number of channels out of range).
   Result<void> push(std::span<const std::uint8_t> bytes, std::vector<float>& out);
-  /// Known once the head is read; 0 before.
+  /// Known once the header has been read; 0 before.
   int sample_rate() const { return rate_; }
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// Where the samples of a live voice come from.
+/// Sources of live audio samples.
 #pragma once
 
 #include <cstddef>
@@ -12,26 +12,26 @@
 
 namespace animeme::speech {
 
-/// Samples as they come. To be used from one thread.
+/// A feed of samples. Use from one thread.
 class SoundFeed {
  public:
   virtual ~SoundFeed() = default;
-  /// At most `most` samples, full scale +-1; none if none are there. Does not wait.
+  /// Up to `most` available samples, full scale +-1. Does not wait.
   virtual std::vector<float> take(std::size_t most) = 0;
   /// Nothing more will come.
   virtual bool over() = 0;
-  /// What went wrong, once.
+  /// An error, returned once.
   virtual std::optional<Error> take_error() { return std::nullopt; }
 };
 
-/// Samples from a descriptor, read in a thread of its own. What is not taken waits: half a second
-/// of it here, the rest in the pipe.
+/// Samples from a descriptor, read in a separate thread. Buffers half a second; the rest waits in
+/// the pipe.
 class SoundPipe : public SoundFeed {
  public:
   /// The descriptor is borrowed. `bare`: as SoundBytes.
   SoundPipe(int descriptor, std::optional<BareSound> bare);
   ~SoundPipe() override;
-  /// The rate of the samples, once it is known; 0: there are none. Errors: those of SoundBytes.
+  /// Waits for the sample rate; 0: there are no samples. Errors: those of SoundBytes.
   Result<int> wait_for_rate();
 
   std::vector<float> take(std::size_t most) override;

@@ -1,6 +1,6 @@
 /// @file
-/// What is said and when: from text (a synthetic voice), from an aligned script, from a recorded
-/// voice and its text, or from the voice alone. And who says it.
+/// Timed speech: from text (a synthetic voice), from an aligned script, from a recording with its
+/// transcript, or from a recording alone.
 #pragma once
 
 #include <functional>
@@ -24,21 +24,21 @@
 
 namespace animeme::speech {
 
-/// Where speech comes from: one of text, text_file, script, and audio with transcript, or with
-/// `listen`. A script may have audio, too.
+/// The source of speech: one of text, text_file, script, or audio with transcript or with `listen`.
+/// A script may also have audio.
 struct SpokenOptions {
   std::string text;                    ///< what to say
   bool has_text = false;               ///< text may be empty
   std::string text_file;               ///< "-": standard input
   std::string script;                  ///< a script of any format
-  dam::ScriptOptions script_reading;   ///< how it is read
+  dam::ScriptOptions script_reading;   ///< options for reading it
   std::string audio;                   ///< a recorded voice
   std::string transcript;              ///< what is said in it
   bool has_transcript = false;         ///< transcript may be empty
-  bool listen = false;                 ///< audio alone: what is said is recognised
-  std::function<void(double)> heard;   ///< told how much has been recognised, 0..1; may be empty
+  bool listen = false;                 ///< audio alone: phones are recognised
+  std::function<void(double)> heard;   ///< receives the progress of recognition, 0..1; may be empty
   std::string language = "en";         ///< as voice::VoiceOptions::language
-  std::string tts;                     ///< command of a voice for text; empty: espeak-ng
+  std::string tts;                     ///< external TTS command; empty: espeak-ng
   int words_per_minute = 175;          ///< of a synthetic voice, 80 to 450
   int pitch = 50;                      ///< of a synthetic voice, 0 to 100
   double most_seconds = kMostSeconds;  ///< longest script
@@ -47,45 +47,45 @@ struct SpokenOptions {
 /// Speech as phones, with its sound.
 struct Spoken {
   dam::Script script;                         ///< timed phones
-  std::optional<media::Pcm> audio;            ///< nothing: a script without sound
+  std::optional<media::Pcm> audio;            ///< nullopt: a script without sound
   std::string voice;                          ///< of synthetic speech
-  TimesFrom times = TimesFrom::voice;         ///< where the script is from
-  std::optional<voice::Alignment> alignment;  ///< where it was aligned; without its script
-  /// Where the sound was all there was: `script` is its best guess.
+  TimesFrom times = TimesFrom::voice;         ///< source of the timings
+  std::optional<voice::Alignment> alignment;  ///< if aligned; without its script
+  /// If only the sound was given; `script` is its best hypothesis.
   std::optional<voice::Heard> heard;
   std::vector<voice::SpokenLanguage> languages;  ///< of synthetic speech by espeak-ng
   std::vector<voice::SpeechMark> marks;          ///< of SSML
-  std::vector<std::string> warnings;             ///< what was left out or spelled
+  std::vector<std::string> warnings;             ///< about skipped or spelled words
 };
 
-/// Whether one of the sources is named, and all that it needs.
+/// Whether a source is given completely.
 bool has_source(const SpokenOptions& options);
 
-/// The voice that options.tts names, and how its times are read.
+/// The TTS command of options.tts, with options for its timings.
 VoiceCommand voice_command(const SpokenOptions& options);
 
-/// Speaks, reads, aligns or listens. What a voice left out or spelled goes to talk.warn. Errors:
-/// those of reading the files, of voice::speak_text(), run_voice_command(),
+/// Synthesises, reads, aligns or recognises speech. Skipped or spelled words are reported to
+/// log.warn. Errors: those of reading the files, of voice::speak_text(), run_voice_command(),
 /// dam::check_against_audio(), align_file() and listen_to_file().
 Result<Spoken> get_spoken(const SpokenOptions& options, const tools::Log& log = {});
 
-/// The timed phones of a recording and its text. What the aligner doubts goes to talk.warn.
+/// Aligns a recording with its transcript. Doubtful words are reported to log.warn.
 /// Errors: those of read_voice() and voice::align().
 Result<voice::Alignment> align_file(const std::string& audio, const std::string& transcript,
                                     const voice::AlignOptions& options, const tools::Log& log = {});
 
-/// The phones of a recording alone. What is to be told of it goes to talk.warn. Errors: those of
-/// read_voice() and voice::listen().
+/// Recognises the phones of a recording. Warnings go to log.warn. Errors: those of read_voice() and
+/// voice::listen().
 Result<voice::Heard> listen_to_file(const std::string& audio, const voice::ListenOptions& options,
                                     const tools::Log& log = {});
 
-/// The motion: of the script, or the mean of all that may have been heard. Errors: those of
+/// The motion of the script, or the mean over all hypotheses of recognised speech. Errors: those of
 /// dam::synthesise() and dam::synthesise_readings().
 Result<dam::Signal> move_face(const dam::Model& model, const Spoken& spoken,
                               const dam::SynthesisOptions& options,
                               dam::SynthesisReport* report = nullptr);
 
-/// The words of a script of any format, in order, with blanks between. Errors: those of reading it,
+/// The words of a script of any format, in order, separated by blanks. Errors: those of reading it,
 /// not_found (it has phones only).
 Result<std::string> words_of_file(const std::string& path, const dam::ScriptOptions& reading);
 

@@ -1,15 +1,14 @@
 /// @file
-/// The frames of a face that speaks when there is something to say and idles when there is not.
+/// An endless sequence of frames of a face that speaks lines and idles between them.
 ///
 ///     auto face = TalkingFace::open(model, {.idle_motion = true});
 ///     for (;;) {
 ///       if (have_line && !face->speaking()) face->say(script);
 ///       auto frame = face->next();                   // one every 1/rate seconds, for ever
 ///     }
-///
-/// What is said begins with the next frame. Between two pieces (a line, idling, another line)
-/// nothing jumps: the difference at the joint fades within 0.25 s. What is said can be cut off: the
-/// mouth closes in 0.1 s.
+/// Speech begins with the next frame. Transitions between pieces (a line, idling, another line) are
+/// smooth: the difference at the joint is faded over 0.25 s. Speech can be cut off: the mouth
+/// closes in 0.1 s.
 #pragma once
 
 #include <cstddef>
@@ -25,19 +24,19 @@
 
 namespace animeme::speech {
 
-/// How a face speaks and idles.
+/// Options for speaking and idling.
 struct FaceOptions {
   dam::SynthesisOptions synthesis;  ///< `frames` and `tail` are not used
   bool idle_motion = false;         ///< blinks, brows, head: see dam/speaking/idle_motion.h
   std::uint64_t seed = 1;           ///< of the idle motion
 };
 
-/// What say() makes of a script.
+/// Result of say().
 struct Line {
   std::int64_t first = 0;   ///< number of its first frame
   std::int64_t frames = 0;  ///< at least one
-  /// The first frame in which a FAP of the mouth is not where it was before the line; the first
-  /// frame if the mouth never moves.
+  /// The first frame in which a mouth FAP differs from its value before the line; the first frame
+  /// if the mouth never moves.
   std::int64_t first_moved = 0;
 };
 
@@ -50,23 +49,24 @@ class TalkingFace {
 
   /// The FAPs of every frame.
   const fap::Mask& mask() const { return mask_; }
-  /// Number of the frame that next() makes, from 0.
+  /// Number of the next frame, from 0.
   std::int64_t number() const { return number_; }
-  /// True while frames of a line are left.
+  /// Whether a line has remaining frames.
   bool speaking() const { return speaking_ && at_ < clip_.frames.size(); }
-  /// Begins a line with the next frame; what is left of the line before is dropped.
+  /// Begins a line with the next frame; the rest of the previous line is dropped.
   /// Errors: those of dam::synthesise() and dam::add_idle_motion().
   Result<Line> say(const dam::Script& script);
-  /// Goes on with a line: `script` begins `start` seconds after the next frame (0 or more; not
-  /// before the end of what is said so far) and is coarticulated with what is left of that, which
-  /// is made anew. If nothing is being said it is a line of its own. Errors: as say();
-  /// invalid_argument (`start` is negative or no number).
+  /// Extends the current line: `script` begins `start` seconds after the next frame (0 or more; not
+  /// before the end of the current speech) and is coarticulated with the rest of that, which is
+  /// recomputed. Without current speech it begins a new line. Errors: as say(); invalid_argument
+  /// (`start` is negative or NaN).
   Result<Line> join(const dam::Script& script, double start);
-  /// Ends what is being said: with the next frame the mouth begins to close, evenly, and is at rest
-  /// 0.1 s after the frame before; what would move faster than in speech takes longer, at most
-  /// 0.16 s. Errors: as say().
+  /// Interrupts speech: the mouth begins to close evenly with the next frame and is at rest 0.1 s
+  /// after the previous frame, or up to 0.16 s if it would otherwise move faster than in speech.
+  /// Errors: as say().
   Result<void> cut();
-  /// The mouth is still closing: a line that begins now would begin with it open.
+  /// Whether the mouth is still closing, so that a line beginning now would start with an open
+  /// mouth.
   bool closing() const { return number_ < closed_; }
   /// The next frame. Errors: as say().
   Result<fap::Frame> next();

@@ -1,6 +1,5 @@
 /// @file
-/// Sound of somebody else's voice becomes speech: with the times that came with it, or with those
-/// that alignment finds.
+/// Turns external sound into speech, with given timings or by alignment.
 #pragma once
 
 #include <optional>
@@ -17,36 +16,37 @@
 
 namespace animeme::speech {
 
-/// Where the times of phones come from.
+/// Source of phone timings.
 enum class TimesFrom : std::uint8_t {
-  voice,      ///< the voice that made the sound told them
+  voice,      ///< from the synthetic voice
   script,     ///< a script with phones, or with visemes
-  words,      ///< a script with words: phones inside a word are a guess
+  words,      ///< a script with words: phones inside a word are estimated
   alignment,  ///< a recording was aligned with its text
-  sound,      ///< they were recognised in a recording, without a text
+  sound,      ///< recognised in a recording, without a text
 };
 
 /// "voice", "script", "words", "alignment" or "sound".
 const char* name_of(TimesFrom times);
 
-/// A sound and what is known of it.
+/// A sound with its known properties.
 struct TimedSound {
-  media::Pcm audio;    ///< without samples: times alone, which somebody else gives the sound to
-  std::string text;    ///< what is said; may be empty where there are labels
-  std::string labels;  ///< a script of any format; empty: by alignment of the text
-  std::string from;    ///< where the labels are from, for messages
-  bool labels_may_be_none = false;  ///< labels that are no script are passed over, with a sentence
+  media::Pcm audio;                 ///< without samples: only timings, with sound from elsewhere
+  std::string text;                 ///< what is said; may be empty with labels
+  std::string labels;               ///< a script of any format; empty: align the text
+  std::string from;                 ///< origin of the labels, for messages
+  bool labels_may_be_none = false;  ///< ignore labels that are not a script, with a warning
 };
 
-/// Speech with what is known about its times.
+/// Speech with the source of its timings.
 struct TimedSpeech {
   voice::Speech speech;                       ///< its script covers the audio
   TimesFrom times = TimesFrom::voice;         ///< source of the script
-  std::optional<voice::Alignment> alignment;  ///< where it was aligned; without its script
+  std::optional<voice::Alignment> alignment;  ///< if aligned; without its script
 };
 
-/// Speech of a sound. The script is made as long as the audio. Errors: those of parse_script(),
-/// dam::check_against_audio() and voice::align(); invalid_argument (neither labels nor text).
+/// Converts a sound to speech. The script is extended to the length of the audio. Errors: those of
+/// parse_script(), dam::check_against_audio() and voice::align(); invalid_argument (neither labels
+/// nor text).
 Result<TimedSpeech> time_sound(TimedSound sound, const ScriptInput& input,
                                const tools::Log& log = {});
 

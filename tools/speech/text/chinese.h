@@ -2,8 +2,8 @@
 /// Chinese characters to pinyin, as espeak-ng's voice cmn-latn-pinyin reads it.
 ///
 /// Words and their syllables are those of Rime's dictionary pinyin_simp (Debian package
-/// rime-data-pinyin-simp, 65,000 words), tones those of its terra_pinyin (rime-data-terra-pinyin);
-/// where neither is installed each character is read by itself, by ICU: 银行 is then "yin xing".
+/// rime-data-pinyin-simp, 65,000 words), tones those of its terra_pinyin (rime-data-terra-pinyin).
+/// If neither is installed, ICU reads each character separately: 银行 is then "yin xing".
 /// Traditional characters are looked up by their simplified ones.
 #pragma once
 
@@ -14,25 +14,25 @@
 
 namespace animeme::text {
 
-/// Where Debian puts Rime's dictionaries.
+/// Debian's location of Rime's dictionaries.
 inline constexpr const char* kRimeFolder = "/usr/share/rime-data";
 
 /// A word of a Chinese text.
 struct ChineseWord {
   /// characters, from 0, one behind
   std::size_t first = 0, last = 0;  ///< characters of the text
-  std::string pinyin;               ///< "yin2hang2"; empty: no Chinese word, or no reading
+  std::string pinyin;               ///< "yin2hang2"; empty: not a Chinese word, or no reading
 };
 
-/// All of a text in order: words, and what is between them as one piece each.
+/// Splits a text into words and the pieces between them, in order.
 std::vector<ChineseWord> chinese_words(std::u32string_view text,
                                        const std::string& folder = kRimeFolder);
 
-/// True if the dictionary of words is installed.
+/// Whether the dictionary of words is installed.
 bool has_chinese_words(const std::string& folder = kRimeFolder);
 
-/// Words become pinyin with blanks between them, numbers are read in Chinese, all the rest stays.
-/// Characters without a reading are left out and named in `unread`.
+/// Converts words to pinyin separated by blanks, and numbers to Chinese words; everything else is
+/// unchanged. Characters without a reading are removed and added to `unread`.
 Said read_chinese(const Said& said, std::u32string& unread,
                   const std::string& folder = kRimeFolder);
 

@@ -1,7 +1,7 @@
 /// @file
-/// The language that a text is written in, by its words: for languages that share an alphabet. By
-/// CLD2 (Debian package libcld2-dev), an optional part of the build (ANIMEME_WITH_CLD2). Without it
-/// can_guess() is false and nothing is guessed.
+/// Detects the language of a text by its words, for languages that share an alphabet, with CLD2
+/// (Debian package libcld2-dev), an optional part of the build (ANIMEME_WITH_CLD2). Without it
+/// can_guess() is false and nothing is detected.
 #pragma once
 
 #include <string>
@@ -10,17 +10,17 @@
 
 namespace animeme::text {
 
-/// True if this build can guess.
+/// Whether this build has language detection.
 bool can_guess();
 
-/// The language of most of a text, as a code that espeak-ng's voices have: "fr", "pt", "nb",
-/// "cmn". Empty where it is not sure: less than two words and seven letters, or words that several
-/// languages have ("mama papa"). Names and single words are often guessed wrong, so a caller
-/// should ask for sentences and keep what it knows where this is empty.
+/// The language of most of a text, as a code that espeak-ng's voices have: "fr", "pt", "nb", "cmn".
+/// Empty if uncertain: less than two words and seven letters, or words of several languages ("mama
+/// papa"). Names and single words are often detected wrongly, so callers should pass sentences and
+/// keep their default if the result is empty.
 std::string guess_language(std::u32string_view text);
 
 /// The language of each character, sentence by sentence: a sentence of less than twelve letters is
-/// taken to be in the language of the whole. Empty where guess_language() is not sure of either.
+/// taken to be in the language of the whole. Empty if guess_language() is uncertain about both.
 std::vector<std::string> guess_sentences(std::u32string_view text);
 
 }  // namespace animeme::text

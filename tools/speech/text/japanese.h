@@ -1,8 +1,8 @@
 /// @file
-/// Japanese as kana, as espeak-ng's voice ja reads it, by MeCab and its dictionary IPAdic.
+/// Converts Japanese to kana for espeak-ng's voice ja, with MeCab and its dictionary IPAdic.
 ///
 /// The library (Debian package libmecab-dev) is an optional part of the build (ANIMEME_WITH_MECAB),
-/// the dictionary (mecab-ipadic-utf8) has to be there at run time. Kana alone needs neither.
+/// the dictionary (mecab-ipadic-utf8) is needed at run time. Text in kana alone needs neither.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@
 
 namespace animeme::text {
 
-/// Where Debian puts the dictionary.
+/// Debian's location of the dictionary.
 inline constexpr const char* kJapaneseFolder = "/var/lib/mecab/dic/ipadic-utf8";
 
 /// A word of a Japanese text.
@@ -25,14 +25,14 @@ struct JapaneseWord {
   bool leans = false;   ///< a particle or ending, spoken with the word before it
 };
 
-/// The words of a text in order; blanks are none. Errors: unsupported (built without MeCab),
-/// not_found (no dictionary), both naming the package.
+/// Splits a text into words, without blanks. Errors: unsupported (built without MeCab), not_found
+/// (no dictionary), both naming the package.
 Result<std::vector<JapaneseWord>> japanese_words(std::u32string_view text,
                                                  const std::string& folder = kJapaneseFolder);
 
-/// Words become kana, numbers are read in Japanese, all the rest stays. Long vowels are written
-/// twice, as espeak-ng 1.51 drops the sign for length. Characters without a reading are left out
-/// and named in `unread`. Errors: those of japanese_words(), if there is anything but kana.
+/// Converts words to kana and numbers to Japanese words; everything else is unchanged. Long vowels
+/// are doubled, as espeak-ng 1.51 ignores the length mark. Characters without a reading are removed
+/// and added to `unread`. Errors: those of japanese_words(), unless the text is all kana.
 Result<Said> read_japanese(const Said& said, std::u32string& unread,
                            const std::string& folder = kJapaneseFolder);
 

@@ -1,6 +1,6 @@
 /// @file
-/// Text on its way to a voice, with the place in the text of the user that each character stands
-/// for: "12/05/2024" is spoken as "May 12, 2024", and the words of the script are what was written.
+/// Text prepared for a voice, in which each character keeps its position in the user's text:
+/// "12/05/2024" is spoken as "May 12, 2024", but the script has the words as written.
 #pragma once
 
 #include <cstdint>
@@ -10,33 +10,33 @@
 
 namespace animeme::text {
 
-/// Characters of the text as it was written, counted in code points.
+/// A range of the text as written, in code points.
 struct Place {
   std::uint32_t first = 0;  ///< from 0
   std::uint32_t last = 0;   ///< one behind
   friend bool operator==(const Place&, const Place&) = default;
 };
 
-/// What is said for a text. Both have the same length.
+/// Spoken text. Both members have the same length.
 struct Said {
   /// characters
   std::u32string text;
   /// of each character
   std::vector<Place> places;
 
-  /// Count of characters.
+  /// Number of characters.
   std::size_t size() const { return text.size(); }
-  /// Adds characters that all stand for `place`.
+  /// Appends characters, all with position `place`.
   void add(std::u32string_view more, Place place);
-  /// Adds characters of another one with their places.
+  /// Appends characters of another text with their positions.
   void add(const Said& other, std::size_t first, std::size_t last);
-  /// What characters first..last stand for, all together; first < last <= size().
+  /// The combined position of characters first..last; first < last <= size().
   Place place(std::size_t first, std::size_t last) const;
   /// A part.
   Said part(std::size_t first, std::size_t last) const;
 };
 
-/// Each character stands for itself; the first one is number `first` of the text.
+/// Unchanged text; its first character has position `first`.
 Said as_written(std::u32string_view text, std::size_t first = 0);
 
 /// UTF-8 to code points. Invalid bytes become U+FFFD.

@@ -1,6 +1,6 @@
 /// @file
-/// A text as it is handed to espeak-ng: parted by script, read by language, with its markup, and
-/// with the way back to what the user wrote.
+/// The input for espeak-ng: split by script, normalised by language, with markup, and with
+/// positions in the user's text.
 #pragma once
 
 #include <functional>
@@ -14,39 +14,39 @@
 
 namespace animeme::text {
 
-/// Which characters of Utterance::input are spoken by whom.
+/// The speaker of a range of Utterance::input.
 struct Stretch {
   /// characters, from 0, one behind
   std::size_t first = 0, last = 0;  ///< code points of the input, from 0, one behind
   std::size_t speaker = 0;          ///< in Utterance::speakers
 };
 
-/// What espeak-ng is given.
+/// The input for espeak-ng.
 struct Utterance {
-  std::u32string source;   ///< what was written; of SSML its text alone
-  Said input;              ///< for espeak-ng; markup stands for empty places
+  std::u32string source;   ///< the text as written; for SSML without markup
+  Said input;              ///< for espeak-ng; markup has empty positions
   bool markup = false;     ///< the input is SSML for espeak-ng
   bool mnemonics = false;  ///< [[ ]] in the input are phonemes
-  /// who speaks
+  /// the voices
   std::vector<Speaker> speakers;
   std::vector<Stretch> stretches;     ///< ascending
   std::vector<std::string> marks;     ///< mark number N of the input is called "N"
-  std::vector<std::string> warnings;  ///< sentences for people
+  std::vector<std::string> warnings;  ///< sentences for the user
 };
 
-/// Where help from outside is needed.
+/// Callbacks.
 struct Helpers {
-  /// The voice of a name in the document, a language or a variant, for one of `language`.
+  /// Finds the voice for a name in the document, a language or a variant, in `language`.
   std::function<std::optional<Speaker>(const std::string& language, const std::string& voice)> find;
-  /// IPA in the phoneme names of a voice; empty if it has none for a letter.
+  /// Converts IPA to the phoneme names of a voice; empty if it lacks one.
   std::function<std::string(const Speaker& speaker, const std::string& ipa)> mnemonics;
 };
 
-/// Makes an utterance of plain text or, told by its content (is_ssml()), of an SSML document.
-/// A plain text of one voice that reads it as it stands is handed on unchanged.
+/// Makes an utterance from plain text or from an SSML document (detected by is_ssml()). Plain text
+/// for one voice that needs no conversion is unchanged.
 ///
-/// Errors: those of part_passages(), read_ssml() and read_japanese(); not_found (an xml:lang or
-/// voice of the document that is not there).
+/// Errors: those of part_passages(), read_ssml() and read_japanese(); not_found (an unavailable
+/// xml:lang or voice of the document).
 Result<Utterance> make_utterance(std::string_view text, Speakers speakers, const Helpers& helpers);
 
 }  // namespace animeme::text

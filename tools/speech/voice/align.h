@@ -1,11 +1,11 @@
 /// @file
-/// Forced alignment: when is each sound of a known text spoken in a recording.
+/// Forced alignment: finds when each phone of a known text is spoken in a recording.
 ///
-/// The recogniser is pocketsphinx with its US English model (Debian packages libpocketsphinx-dev
-/// to build, pocketsphinx-en-us to run; BSD-style licences), an optional part of the build
-/// (ANIMEME_WITH_ALIGNER). English words are looked up in its dictionary; words that are not there
-/// and all words of other languages get their phones from espeak-ng (see voice.h), and the English
-/// model then aligns them: less exact, but lips forgive more than ears.
+/// The recogniser is pocketsphinx with its US English model (Debian packages libpocketsphinx-dev to
+/// build, pocketsphinx-en-us to run; BSD-style licences), an optional part of the build
+/// (ANIMEME_WITH_ALIGNER). English words are looked up in its dictionary; unknown words and all
+/// words of other languages get their phones from espeak-ng (see voice.h) and are then aligned with
+/// the English model: less exact, but sufficient for lips.
 /// Source: tools/speech/voice/engines.md, section 1.
 #pragma once
 
@@ -25,43 +25,43 @@ struct AlignOptions {
   std::string language = "en";  ///< of the transcript, as in VoiceOptions::language
   /// Folder of the acoustic model (with mdef, means ...).
   std::string model_path = "/usr/share/pocketsphinx/model/en-us/en-us";
-  /// Pronunciations: "word PH PH ..." a line, further ones as "word(2) ...". Not read when the
-  /// language is not English.
+  /// Pronunciations: lines "word PH PH ...", variants as "word(2) ...". Used for English only.
   std::string dictionary_path = "/usr/share/pocketsphinx/model/en-us/cmudict-en-us.dict";
-  /// Alignments that are less sure on the whole (Alignment::confidence), 0..1, are refused: noise,
-  /// silence, the text of another recording. 0: nothing is.
+  /// Minimum overall confidence (Alignment::confidence), 0..1; others are rejected, such as noise,
+  /// silence, or a wrong transcript. 0: accept everything.
   double least_confidence = 0.5;
 };
 
-/// A word where it was found.
+/// A word of the transcript with its position.
 struct AlignedWord {
-  std::string text;  ///< as the transcript spells it
+  std::string text;  ///< as in the transcript
   double start = 0;  ///< seconds
   double end = 0;    ///< seconds; `start` if it is not said
-  /// How well the sound fits, 0..1: its frames are compared with the phones that fit best when
-  /// nobody says which. At 0.5 right and wrong texts are as likely, of whole recordings; a single
-  /// short word may be right far below. 0 where Alignment::approximate, and if it is not said.
+  /// How well the sound fits, 0..1, compared with the best unconstrained phones. For whole
+  /// recordings, correct and wrong texts are equally likely at 0.5; a single short word may be
+  /// correct far below. 0 if Alignment::approximate, and if not said.
   double confidence = 0;
-  /// False: the recording goes from the word before to the one behind, or there is so little room
-  /// between them that it is there for the text only.
+  /// False: the word is omitted in the recording, or there is too little room for it between its
+  /// neighbours.
   bool said = true;
-  bool known = true;  ///< false: nobody knows how it is pronounced; it has what is heard there
+  bool known = true;  ///< false: unknown pronunciation; it gets the recognised phones
 };
 
-/// Speech that the transcript does not have.
+/// Speech that is missing in the transcript.
 struct PutIn {
   double start = 0;                 ///< seconds
   double end = 0;                   ///< seconds
-  std::vector<std::string> phones;  ///< what it sounds like, ARPAbet; often wrong one by one
-  std::size_t before = 0;           ///< number of the word that follows, of Alignment::words
+  std::vector<std::string> phones;  ///< recognised ARPAbet phones, often individually wrong
+  std::size_t before = 0;           ///< index of the following word in Alignment::words
 };
 
-/// What align() found.
+/// Result of align().
 struct Alignment {
-  /// Covers the audio exactly; labels are ARPAbet, words as the transcript spells them. Speech that
-  /// the transcript does not have has the phones that are heard, without a word.
+  /// Covers the audio exactly; labels are ARPAbet, words as in the transcript. Speech that is
+  /// missing in the transcript has the recognised phones, without a word.
   dam::Script script;
-  /// Of each phone of `script`, as AlignedWord::confidence, of its own frames: few are less sure.
+  /// Of each phone of `script`, like AlignedWord::confidence, but from few frames and thus less
+  /// reliable.
   std::vector<double> confidences;
   /// True if the recogniser found no path: the phones are then spread over the loud part of
   /// the recording in proportion to their usual durations.
@@ -69,28 +69,28 @@ struct Alignment {
   std::vector<AlignedWord> words;     ///< all of the transcript, in order
   std::vector<PutIn> put_in;          ///< in order
   double confidence = 0;              ///< of the whole recording, as AlignedWord::confidence
-  std::vector<std::string> warnings;  ///< sentences for people; empty if all went well
+  std::vector<std::string> warnings;  ///< sentences for the user; may be empty
 };
 
-/// The rate that align() wants.
+/// The sample rate required by align().
 inline constexpr int kAlignRate = 16000;
-/// Longer recordings have to be parted.
+/// Maximum length of a recording.
 inline constexpr double kMaxAlignSeconds = 4 * 3600.0;
-/// Words that are less sure are named in the warnings.
+/// Words with a lower confidence are named in the warnings.
 inline constexpr double kDoubtful = 0.05;
-/// Bytes of the longest transcript.
+/// Maximum length of a transcript, bytes.
 inline constexpr std::size_t kMostTranscript = 1000000;
 
-/// Aligns. Pauses between words are found. Noise that stays is taken out before, as much as there
-/// is (tools/speech/voice/engines.md, section 1). Words below kDoubtful are named in the warnings.
-/// Recordings of more than a minute are aligned in pieces of up to 40 s that end in pauses.
+/// Aligns a recording, including pauses between words. Steady noise is removed first, depending on
+/// its level (tools/speech/voice/engines.md, section 1). Words below kDoubtful are named in the
+/// warnings. Recordings of more than a minute are aligned in pieces of up to 40 s that end in
+/// pauses.
 ///
-/// Errors: invalid_argument (audio that is not 16000 Hz - resample it first -, a transcript
-/// without words), truncated (less than 0.1 s of audio), out_of_range (more than
-/// kMaxAlignSeconds or kMostTranscript, or too short for so many phones), not_found (model or
-/// dictionary; a word without pronunciation where espeak-ng is not built in), unsupported (built
-/// without pocketsphinx), out_of_range also for an alignment below least_confidence, plus those of
-/// pronounce().
+/// Errors: invalid_argument (audio that is not 16000 Hz - resample it first -, a transcript without
+/// words), truncated (less than 0.1 s of audio), out_of_range (more than kMaxAlignSeconds or
+/// kMostTranscript, or too short for so many phones), not_found (model or dictionary; a word
+/// without pronunciation in a build without espeak-ng), unsupported (built without pocketsphinx),
+/// out_of_range also for an alignment below least_confidence, plus those of pronounce().
 Result<Alignment> align(const media::Pcm& audio, std::string_view transcript,
                         const AlignOptions& options = {});
 

@@ -1,17 +1,16 @@
 /// @file
-/// Speech from sound alone: which phones may have been said, by nobody's word.
+/// Phone recognition: speech from sound alone, without a transcript.
 ///
 ///     auto heard = animeme::voice::listen(*pcm);
 ///     for (std::size_t i = 0; i < heard->script.phones.size(); ++i)
 ///       std::cout << heard->script.phones[i].label << ' ' << heard->confidences[i] << '\n';
-///
-/// A recogniser of phones is wrong about every second one, and a face that follows its best guess
-/// shows that. So there are `readings`, too: what may have been said, each as often as it is
-/// probable. The mean of the motions that they give errs least (tools/speech/talking/heard_face.h).
+/// A phone recogniser gets every second phone wrong, and a face that follows its best hypothesis
+/// shows that. So there are also `readings`: hypotheses sampled by their probability. The mean of
+/// their motions has the smallest error (tools/speech/talking/heard_face.h).
 ///
 /// The sounds are those of the US English model of pocketsphinx (Debian packages
-/// libpocketsphinx-dev to build, pocketsphinx-en-us to run); other languages are heard through it,
-/// by the sounds that are nearest. Source: tools/speech/voice/engines.md, section 3.
+/// libpocketsphinx-dev to build, pocketsphinx-en-us to run); other languages are recognised with
+/// its nearest phones. Source: tools/speech/voice/engines.md, section 3.
 #pragma once
 
 #include <cstddef>
@@ -25,49 +24,50 @@
 
 namespace animeme::voice {
 
-/// How listen() hears.
+/// Options for recognition.
 struct ListenOptions {
-  /// Of the voice. English has its own pairs of phones; in others ("de") all are as likely.
+  /// Language of the voice. For English phone pairs are weighted; for others ("de") all are equally
+  /// likely.
   std::string language = "en";
   /// Folder of the acoustic model (with mdef, means ...).
   std::string model_path = "/usr/share/pocketsphinx/model/en-us/en-us";
-  /// Which phones follow each other: a language model of phones in any format of pocketsphinx.
+  /// Phone language model in any format of pocketsphinx.
   std::string phones_path = "/usr/share/pocketsphinx/model/en-us/en-us-phone.lm.bin";
-  /// English words are searched for, too, where the two files that follow are there. They are
-  /// followed as far as they are believed: the more of them make a sentence and fit, the more.
+  /// Also search for English words if the following two files exist. Words influence the result by
+  /// their confidence, which is higher if they fit and form a sentence.
   bool words = true;
-  /// Which words follow each other: a language model in any format of pocketsphinx.
+  /// Word language model in any format of pocketsphinx.
   std::string words_path = "/usr/share/pocketsphinx/model/en-us/en-us.lm.bin";
-  /// How they are spoken, see AlignOptions::dictionary_path.
+  /// Pronunciations, see AlignOptions::dictionary_path.
   std::string dictionary_path = "/usr/share/pocketsphinx/model/en-us/cmudict-en-us.dict";
-  std::size_t readings = 24;  ///< how many are drawn, 1..200
-  /// Told the share that is done, 0..1; may be empty.
+  std::size_t readings = 24;  ///< number of sampled hypotheses, 1..200
+  /// Receives the progress, 0..1; may be empty.
   std::function<void(double)> progress;
 };
 
-/// A word of English that may have been said.
+/// A recognised English word.
 struct HeardWord {
-  std::string text;       ///< in small letters
+  std::string text;       ///< in lower case
   double start = 0;       ///< seconds
   double end = 0;         ///< seconds
   double confidence = 0;  ///< 0..1
 };
 
-/// What listen() heard. All scripts cover the sound exactly, their labels are ARPAbet.
+/// Result of listen(). All scripts cover the sound exactly; labels are ARPAbet.
 struct Heard {
-  dam::Script script;  ///< what most readings agree on; with the words of `words`
+  dam::Script script;  ///< the consensus of the readings, with the words of `words`
   std::vector<double>
       confidences;        ///< of each phone of `script`: the share of readings that agree, 0..1
-  double confidence = 0;  ///< their mean over time, silence left out; 0: nothing was heard
-  std::vector<HeardWord> words;       ///< English ones that are believable, in order
-  std::vector<dam::Script> readings;  ///< each as likely as the others
-  std::vector<std::string> warnings;  ///< sentences for people; empty if all went well
+  double confidence = 0;  ///< their mean over time without silence; 0: no speech
+  std::vector<HeardWord> words;       ///< credible English words, in order
+  std::vector<dam::Script> readings;  ///< equally likely hypotheses
+  std::vector<std::string> warnings;  ///< sentences for the user; may be empty
 };
 
-/// Longer recordings have to be parted.
+/// Maximum length of a recording.
 inline constexpr double kMostListenSeconds = 4 * 3600.0;
 
-/// Listens. Noise that stays is taken out before (denoise.h). Memory: about 10 MB a minute.
+/// Recognises phones. Steady noise is removed first (denoise.h). Memory: about 10 MB a minute.
 /// Silence and steady noise give a script of silence, and a warning.
 ///
 /// Errors: invalid_argument (audio that is not 16000 Hz - resample it first -, readings out of

@@ -1,15 +1,13 @@
 /// @file
-/// Speech from sound alone while it comes: what may have been said up to now, again and again.
+/// Phone recognition of live sound.
 ///
 ///     auto listener = voice::SoundListener::open(48000, {});
 ///     for (const auto& block : blocks_as_they_come) {
 ///       (*listener)->push(block);
 ///       const voice::Heard tail = (*listener)->hear(from);      // from `from` seconds to the end
 ///     }
-///
-/// Each answer is about all that has been heard so far; what lies 0.2 s back hardly changes any
-/// more. Memory and the cost of a second do not grow with time. Source:
-/// tools/speech/voice/engines.md, section 3.
+/// Each result covers everything so far; what is more than 0.2 s old hardly changes. Memory and CPU
+/// time per second are constant. Source: tools/speech/voice/engines.md, section 3.
 #pragma once
 
 #include <memory>
@@ -23,20 +21,20 @@ namespace animeme::voice {
 /// Not thread safe, but several may be used at once.
 class SoundListener {
  public:
-  /// `rate` is that of the samples, 4000 to 384000 Hz. `options.progress` is not used. Errors:
-  /// those of listen() that are about options and models, invalid_argument (the rate).
+  /// `rate`: sample rate, 4000 to 384000 Hz. `options.progress` is not used. Errors: those of
+  /// listen() about options and models, invalid_argument (the rate).
   static Result<std::unique_ptr<SoundListener>> open(int rate, const ListenOptions& options);
   virtual ~SoundListener() = default;
 
-  /// The next samples, full scale +-1, one channel; those that are no numbers count as 0.
+  /// The next samples, full scale +-1, one channel; NaN counts as 0.
   virtual void push(std::span<const float> samples) = 0;
-  /// Seconds of sound up to which is heard: all of it but the last 70 ms, at the
-  /// beginning but the last 120 ms.
+  /// Seconds of sound that have been recognised: all except the last 70 ms (at the beginning 120
+  /// ms).
   virtual double heard() const = 0;
-  /// What was heard from `from` (seconds of sound, not before what forget() named) on. The scripts
-  /// begin at 0, which is `from`, and end at heard(). Empty scripts if there is nothing yet.
+  /// Result from time `from` (seconds, not before the argument of forget()). The scripts begin at
+  /// 0, which is `from`, and end at heard(); they are empty if there is nothing yet.
   virtual Heard hear(double from) const = 0;
-  /// Nothing before `before` seconds will be asked for.
+  /// Discards results before `before` seconds.
   virtual void forget(double before) = 0;
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// What a voice can say, and which phones are spoken for it.
+/// The symbols of a voice and the phones that they map to.
 #pragma once
 
 #include <string>

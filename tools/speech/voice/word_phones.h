@@ -1,6 +1,6 @@
 /// @file
-/// Words whose times are known become phones: what a recogniser, subtitles or a speech service say,
-/// by the pronunciation of each word and the usual lengths of its sounds.
+/// Converts timed words (from recognisers, subtitles, speech services) to phones, by their
+/// pronunciation and the usual durations of phones.
 #pragma once
 
 #include <string>
@@ -12,10 +12,10 @@
 
 namespace animeme::voice {
 
-/// Labels that are words are replaced by their phones; several words of one label share its time.
-/// Pronunciations are those of align(): the dictionary for English if it is installed, else a voice
-/// of `options.language`. Times inside a word are a guess: dam::spread_phones(). A word that
-/// nothing is said for ("-") becomes silence, with a warning.
+/// Replaces word labels by their phones; several words in one label share its time. Pronunciations
+/// are those of align(): the dictionary for English if it is installed, else a voice of
+/// `options.language`. Times inside a word are estimated: dam::spread_phones(). A word without a
+/// pronunciation ("-") becomes silence, with a warning.
 ///
 /// Errors: those of pronounce() and of align() about pronunciations; syntax, with its place (a word
 /// that does not end after its start).
