@@ -2,10 +2,9 @@
 /// A parsed line of input: text to speak, a piece of sound, or a command.
 ///
 ///     {"do": "stop"}                                          stop speaking, clear the queue
-///     {"do": "drop"}                                          clear the queue ///     {"do":
-///     "say", "text": "Yes?", "when": "now", "id": "7"} stop, then say this
-///     {"do": "mark", "id": "half"}                            report when everything before it is
-///     spoken
+///     {"do": "drop"}                                          clear the queue
+///     {"do": "say", "text": "Yes?", "when": "now", "id": "7"} stop, then say this
+///     {"do": "mark", "id": "half"}                            report when this is reached
 ///     {"do": "end"}                                           end when everything is spoken
 #pragma once
 
