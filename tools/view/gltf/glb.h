@@ -1,18 +1,15 @@
 /// @file
-/// A head that moves as a glTF 2.0 file: for Blender, Unreal, Unity, Godot and three.js.
+/// Writes a head and its motion as a glTF 2.0 file for Blender, Unreal, Unity, Godot and three.js.
 ///
 ///     GlbOptions options{.morphs = MorphNames::arkit, .audio = "voice.wav"};
 ///     Result<std::vector<std::uint8_t>> file = make_glb(head, rig, filled_clip, options);
-///
-/// What is in it: a mesh for each part of the head with vertex colours; morph targets with names
-/// (mesh.extras.targetNames); bones for the neck, the jaw and the eyes; one animation of weights
-/// and bones with a key at each frame. Metres, +Y up, the face looks along +Z.
-///
-/// A head that has shapes of its own (read_head.h) gets these as morph targets, by their names,
-/// whatever GlbOptions::morphs says; their weights are those of head::control_values().
-///
-/// Morph targets are linear, the rig is not quite: the lips of this head do not stop each other in
-/// a player, and lids slide exactly at 0 and 1 only. The jaw bone carries lower teeth and tongue.
+/// Contents: a mesh for each part of the head with vertex colours; named morph targets
+/// (mesh.extras.targetNames); bones for neck, jaw and eyes; one animation of weights and bones with
+/// a key at each frame. Metres, +Y up, the face looks along +Z. An imported head (read_head.h)
+/// keeps its own shapes as morph targets regardless of GlbOptions::morphs; their weights are those
+/// of head::control_values(). Morph targets are linear, but the rig is not quite: players do not
+/// resolve lip contact, and lids are exact only at 0 and 1. The jaw bone carries lower teeth and
+/// tongue.
 #pragma once
 
 #include <cstdint>
@@ -24,31 +21,31 @@
 #include "fap/head/rig.h"
 #include "fap/result.h"
 
-/// Heads and their motion as glTF 2.0, and back.
+/// glTF 2.0 import and export of heads and their motion.
 namespace animeme::gltf {
 
-/// Which morph targets a file has.
+/// Morph targets of a file.
 enum class MorphNames : std::uint8_t {
   arkit,  ///< the 52 shapes of ARKit ("jawOpen"), fitted to the clip; the eyes turn by bones
-  fap,    ///< one a FAP ("open_jaw"); weight 1 is 1024 units
+  fap,    ///< one per FAP ("open_jaw"); weight 1 is 1024 units
 };
 
-/// What make_glb() writes.
+/// Options of make_glb().
 struct GlbOptions {
-  MorphNames morphs = MorphNames::arkit;  ///< ignored for heads with shapes of their own
-  std::string audio;  ///< name of the sound beside it, for scene.extras.audio; empty: none
+  MorphNames morphs = MorphNames::arkit;  ///< ignored for imported heads with shapes
+  std::string audio;  ///< name of the sound file, for scene.extras.audio; empty: none
   std::string name;   ///< of the animation; empty: "talk"
-  /// Moves of vertices below this are left out, cm.
+  /// Smaller vertex displacements are omitted, cm.
   float smallest_move = 0.002f;
-  /// Normals of the morph targets as well: the file is twice as large, and players that do not
-  /// compute them (three.js) show better light.
+  /// Also write normals of the morph targets: the file is twice as large, and shading is better in
+  /// players that do not compute them (three.js).
   bool normals = false;
   std::function<void(double)> progress = {};  ///< 0..1; empty: not wanted
 };
 
-/// Makes the file. `clip` should be complete (fap::fill()); frame numbers that are missing have no
-/// key, so players interpolate. FAP 1 and 2 are shown as head::low_level() says. Deterministic.
-/// Errors: invalid_argument (no frame, or a rate that is none), out_of_range (more than 4 GB).
+/// Makes the file. `clip` should be complete (fap::fill()); missing frame numbers have no key, so
+/// players interpolate. FAP 1 and 2 are converted by head::low_level(). Deterministic. Errors:
+/// invalid_argument (no frame, or an invalid rate), out_of_range (more than 4 GB).
 Result<std::vector<std::uint8_t>> make_glb(const head::Head& head, const head::Rig& rig,
                                            const fap::Sequence& clip,
                                            const GlbOptions& options = {});

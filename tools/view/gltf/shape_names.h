@@ -1,5 +1,5 @@
 /// @file
-/// What the names of morph targets mean in FAPs.
+/// The meaning of morph target names in FAPs.
 ///
 ///     meaning_of("eyeBlink_L")       // ARKit, in any usual spelling
 ///     meaning_of("viseme_PP")        // Oculus and Meta; also "PP", "v_PP", "vrc.v_pp"
@@ -17,37 +17,35 @@
 
 namespace animeme::gltf {
 
-/// Whose convention a name follows.
+/// The naming convention of a shape.
 enum class ShapeSet : std::uint8_t { arkit, viseme, other };
 
 /// A part of a shape of ARKit.
 struct ArkitPart {
   int channel = 0;  ///< see fap::kArkitNames
-  int sides = 3;    ///< 1 the left half, 2 the right half, 3 all of it
+  int sides = 3;    ///< 1 left half, 2 right half, 3 both
 
   friend auto operator<=>(const ArkitPart&, const ArkitPart&) = default;
 };
 
-/// What a name says that its shape does.
+/// The meaning of a name.
 struct ShapeMeaning {
-  ShapeSet set = ShapeSet::other;  ///< whose name it is
+  ShapeSet set = ShapeSet::other;  ///< naming convention
   int viseme = -1;                 ///< of a viseme
   int mood = 0;                    ///< of a whole face: expression 1..6 of FAP 2; 7: a calm smile
   std::vector<ArkitPart> parts;    ///< of the others, ascending
-  /// At weight 1: sums of what fap::arkit_to_fap() says of the parts; head::viseme_shape() of a
-  /// viseme, so that FAP 1 at full strength is weight 1.
+  /// At weight 1: the sum of fap::arkit_to_fap() of the parts; for a viseme head::viseme_shape(),
+  /// so that FAP 1 at full strength is weight 1.
   fap::Frame faps;
 };
 
-/// Meaning of a name; nothing for unknown ones.
-///
-/// Upper and lower case, spaces, dots and underscores do not matter, nor do a prefix such as
-/// "blendShape1." or "A14_" and the spelling of the side ("_L", "Left"). A shape of ARKit with two
-/// sides may be split ("browInnerUp_L"); one with sides may come without ("mouthSmile"): both
-/// together. Other names: blink and eyesClosed, winks, mouthOpen, smile, gaze up, down, left,
-/// right, brows up and down, the brows of VRoid (BRW_Angry ...) and MMD; the vowels A I U E O of
-/// VRM, VRoid and MMD are visemes; joy, angry, sorrow, fun, surprised of VRM 0.x and VRoid (ALL_Joy
-/// ...), happy, sad and relaxed of VRM 1.0 are moods.
+/// Meaning of a name; nullopt if unknown. Ignores case, spaces, dots and underscores, a prefix such
+/// as "blendShape1." or "A14_", and the spelling of the side ("_L", "Left"). A shape of ARKit with
+/// two sides may be split ("browInnerUp_L"); one with sides may be joined ("mouthSmile"). Other
+/// names: blink and eyesClosed, winks, mouthOpen, smile, gaze up, down, left, right, brows up and
+/// down, the brows of VRoid (BRW_Angry ...) and MMD; the vowels A I U E O of VRM, VRoid and MMD are
+/// visemes; joy, angry, sorrow, fun, surprised of VRM 0.x and VRoid (ALL_Joy ...), happy, sad and
+/// relaxed of VRM 1.0 are moods.
 std::optional<ShapeMeaning> meaning_of(std::string_view name);
 
 /// A shape that a head uses.
@@ -57,12 +55,12 @@ struct ChosenShape {
   std::vector<std::size_t> names;  ///< all its names, as indices of the list given
 };
 
-/// The shape as a head has it.
+/// The shape as a control of a head.
 head::ShapeControl control_of(const ChosenShape& shape);
 
-/// Sorts out which shapes move a head: those of ARKit first. Visemes beside ARKit's complete jaw
-/// and mouth (see MouthShapes) have no FAPs: they are there for FAP 1 alone. Other names only for
-/// what no shape of ARKit does. What is unknown or not used is noted.
+/// Selects the shapes that move a head: first those of ARKit. If ARKit's jaw and mouth are complete
+/// (see MouthShapes), visemes have no FAPs and are used for FAP 1 only. Other names are used only
+/// for what no ARKit shape does. Unknown and unused shapes are noted.
 std::vector<ChosenShape> choose_shapes(const std::vector<std::string>& names, MouthShapes mouth,
                                        std::vector<std::string>& notes);
 

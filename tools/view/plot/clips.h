@@ -9,7 +9,7 @@
 
 namespace animeme::plot {
 
-/// A filled clip (fap/fill.h), and when its frame 0 is shown.
+/// A filled clip (fap/fill.h) and the time of its frame 0.
 struct TimedClip {
   fap::Sequence clip;  ///< filled
   double start = 0;    ///< seconds
@@ -17,12 +17,12 @@ struct TimedClip {
   double end() const { return start + clip.duration(); }  ///< seconds
 };
 
-/// FAP `fap`, 3 to 68, of up to three clips, a curve each in the order of the clips; no number
-/// where a frame does not have it, and a row without any says so.
+/// FAP `fap`, 3 to 68, of up to three clips, one curve per clip; NaN if a frame lacks it. A row
+/// without values says so.
 Row fap_row(int fap, const std::vector<TimedClip>& clips);
 
-/// b less a in the third colour, at the times of a; what b shows at a time is its last frame so
-/// far, its first one if it has not begun. No points if b has no frames.
+/// b minus a in the third colour, at the times of a; b contributes its last frame at that time, or
+/// its first one before it begins. No points if b has no frames.
 Row difference_row(int fap, const TimedClip& a, const TimedClip& b);
 
 }  // namespace animeme::plot

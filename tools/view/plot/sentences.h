@@ -1,5 +1,5 @@
 /// @file
-/// Pictures of evaluations: recorded and made motion of a few sentences.
+/// Plots for evaluations: recorded and synthesised motion of a few sentences.
 #pragma once
 
 #include <cstddef>
@@ -11,20 +11,20 @@
 
 namespace animeme::plot {
 
-/// A sentence that stands for others.
+/// A representative sentence.
 struct ChosenSentence {
   const char* place = "";  ///< "best", "median", "worst"
   std::size_t number = 0;  ///< index of Evaluation::per_utterance
 };
-/// Best, median and worst sentence by NRMSE; of two the best and the worst, of one that one.
+/// Best, median and worst sentence by NRMSE; best and worst if there are two, or the only one.
 std::vector<ChosenSentence> chosen_sentences(const dam::Evaluation& evaluation);
 
-/// chosen_sentences(), one below the other (of two sentences the best and the
-/// worst, of one that one): recorded and made curves of jaw (FAP 3), inner gap (-(FAP 4 + FAP 5))
-/// and width (FAP 6 + FAP 7), as far as both sides have these FAPs; if there is none of them, of
-/// the first three controls. Bars below the gap: when the lips are shut for P, B and M (less than
-/// dam::kShutGap), recorded above made. `pairs` is not empty, and `evaluation` is that of these
-/// pairs, in their order. Error: out_of_range (a sentence over ten minutes).
+/// chosen_sentences(), one below the other (of two sentences the best and the worst, of one that
+/// one): recorded and synthesised curves of jaw (FAP 3), inner gap (-(FAP 4 + FAP 5)) and width
+/// (FAP 6 + FAP 7), as far as both sides have these FAPs; without these, of the first three
+/// controls. Bars below the gap show when the lips are closed for P, B and M (less than
+/// dam::kShutGap), recorded above synthesised. `pairs` is not empty, and `evaluation` is that of
+/// these pairs, in their order. Error: out_of_range (a sentence over ten minutes).
 Result<std::string> sentences_svg(const std::vector<dam::SentencePair>& pairs,
                                   const dam::Evaluation& evaluation);
 

@@ -1,5 +1,5 @@
 /// @file
-/// The strip below a rendered face: curves, phones and where we are.
+/// The strip below a rendered face: curves, phones and a time cursor.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@
 
 namespace animeme::plot {
 
-/// What the strip shows.
+/// Contents of the strip.
 struct StripOptions {
   int width = 640;                      ///< pixels
   int height = 128;                     ///< pixels
   std::vector<int> faps;                ///< one colour each, three at most; may be empty
   const dam::Script* script = nullptr;  ///< nullptr: no phones
-  double page = 6;                      ///< seconds in view, > 0; then the next ones
+  double page = 6;                      ///< seconds in view, > 0; then the next page
 };
 
 /// Draws strips page by page. Movable, not copyable.

@@ -1,5 +1,5 @@
 /// @file
-/// Pictures as files.
+/// PNG files and contact sheets.
 #pragma once
 
 #include "fap/result.h"
@@ -7,8 +7,8 @@
 
 namespace animeme::render {
 
-/// A PNG file, RGB with 8 bits; alpha is left out. Errors: invalid_argument (no pixels, or not
-/// width * height * 4 bytes), out_of_range (memory).
+/// A PNG file, RGB with 8 bits; alpha is dropped. Errors: invalid_argument (no pixels, or not width
+/// * height * 4 bytes), out_of_range (memory).
 Result<std::vector<std::uint8_t>> png_of(const Image& image);
 
 /// The pictures, all of one size, in rows of `columns`, with `gap` pixels between them. Missing

@@ -3,10 +3,9 @@
 ///
 ///     animeme::render::Renderer renderer({.width = 640, .height = 640});
 ///     const animeme::render::Image& image = renderer.render(scene, camera);
-///
-/// Four samples a pixel for edges, one for colour; light is computed at the vertices, highlights of
-/// eyes and what has coats at the pixels. Coats blend as browsers do: in sRGB, farther ones first.
-/// Lights stand beside the camera: a warm key from the upper right with a red
+/// Four coverage samples and one colour sample per pixel; lighting is per vertex, but per pixel for
+/// eye highlights and for surfaces with materials (coats). These blend as in browsers: in sRGB,
+/// back to front. The lights are fixed to the camera: a warm key from the upper right with a red
 /// terminator (light inside of skin), a cool fill from the left, a weak rim from behind.
 #pragma once
 
@@ -18,37 +17,37 @@
 #include "fap/head/model.h"
 #include "tools/view/render/image.h"
 
-/// Pictures of heads by a software renderer.
+/// A software renderer for heads.
 namespace animeme::render {
 
 /// A perspective camera. Right-handed: the picture's right is cross(target - eye, up).
 struct Camera {
-  head::Vec3 eye = {0, 0, 100};   ///< where it stands, cm
-  head::Vec3 target = {0, 0, 0};  ///< where it looks, cm
-  head::Vec3 up = {0, 1, 0};      ///< any direction but that of the view
+  head::Vec3 eye = {0, 0, 100};   ///< position, cm
+  head::Vec3 target = {0, 0, 0};  ///< target, cm
+  head::Vec3 up = {0, 1, 0};      ///< not parallel to the view
   float view_angle = 0.45f;       ///< from the bottom of the picture to its top, rad
 };
 
-/// A mesh to draw. All spans are borrowed; those of vertices have the same length.
-/// Triangles that the camera sees clockwise are not drawn.
+/// A mesh to draw. All spans are borrowed; those of vertices have the same length. Back faces
+/// (clockwise as seen by the camera) are not drawn.
 struct Surface {
   std::span<const head::Vec3> positions;           ///< cm
   std::span<const head::Vec3> normals;             ///< length 1
   std::span<const head::Vec3> colours;             ///< linear RGB
   std::span<const float> occlusion;                ///< 0..1
   std::span<const head::Triangle> triangles;       ///< indices of the vertices
-  head::Material material = head::Material::skin;  ///< how light falls on it
+  head::Material material = head::Material::skin;  ///< material for vertex lighting
   head::Transform transform;                       ///< applied to positions and normals
-  /// What is drawn in place of `triangles` if there are any: see head::Mesh. Facets with an index
-  /// or coat that does not exist are not drawn.
+  /// Drawn instead of `triangles` if not empty: see head::Mesh. Facets with an invalid index or
+  /// coat are not drawn.
   std::span<const head::Triangle> facets;
   std::span<const head::Corner> corners;        ///< of facets
   std::span<const std::uint16_t> facet_coats;   ///< of each facet, index of `coats`
   std::span<const head::Coat> coats;            ///< see head::Head
-  std::span<const head::Vec3> normals_at_rest;  ///< of vertices; corners turn along with them
+  std::span<const head::Vec3> normals_at_rest;  ///< of vertices; corner normals rotate with them
 };
 
-/// What is drawn; depth decides what is in front.
+/// Surfaces to draw, with depth test.
 struct Scene {
   std::vector<Surface> surfaces;  ///< in any order
 };
@@ -62,10 +61,10 @@ struct RenderOptions {
   std::uint32_t background_bottom = 0x262B33;  ///< sRGB
 };
 
-/// Draws one picture after the other and keeps its memory.
+/// Renders pictures and reuses its memory.
 class Renderer {
  public:
-  /// Sizes outside of their range are clamped.
+  /// Sizes outside their range are clamped.
   explicit Renderer(const RenderOptions& options);
   ~Renderer();
   Renderer(Renderer&&) noexcept;  ///< movable

@@ -1,5 +1,5 @@
 /// @file
-/// Heads as scenes, and cameras that look at them.
+/// Scenes of heads, and cameras.
 #pragma once
 
 #include <optional>
@@ -10,14 +10,14 @@
 
 namespace animeme::render {
 
-/// The parts of a head in a pose. The scene borrows from all three.
+/// The parts of a head in a pose. The scene borrows all three.
 Scene scene_of(const head::Head& head, const head::Rig& rig, const head::Pose& pose);
 
-/// A camera in front of a head, turned about it: degrees to the person's left (90: the left side)
-/// and up. `zoom` 1 shows head and shoulders, larger values come nearer to the face.
+/// A camera in front of a head, rotated around it: degrees to the person's left (90: the left side)
+/// and up. `zoom` 1 shows head and shoulders; larger values move closer.
 Camera look_at(const head::Head& head, double left_degrees, double up_degrees = 0, double zoom = 1);
 
-/// Degrees of "front" (0), "three-quarter" (35), "side" (90) or a number; nothing for other text.
+/// Degrees of "front" (0), "three-quarter" (35), "side" (90) or a number; otherwise nullopt.
 std::optional<double> view_degrees(std::string_view text);
 
 }  // namespace animeme::render

@@ -1,5 +1,5 @@
 /// @file
-/// Which frames of a clip to show, and which shapes.
+/// Selects the frames of a clip, or the shapes, to show.
 #pragma once
 
 #include <cstdint>
@@ -11,21 +11,21 @@
 
 namespace animeme::studio {
 
-/// A frame and when it is shown.
+/// A frame and its time.
 struct ShownFrame {
   fap::Frame frame;    ///< filled
   double seconds = 0;  ///< in the clip
 };
 
-/// The frames at these times (the last one that has begun); `clip` is filled. Errors: out_of_range
-/// (a time before the first frame or behind the end), not_found (no frames).
+/// The frames shown at these times; `clip` is filled. Errors: out_of_range (a time before the first
+/// frame or after the end), not_found (no frames).
 Result<std::vector<ShownFrame>> frames_at(const fap::Sequence& clip,
                                           const std::vector<double>& times);
 
 /// Frame `number` of a filled clip. Errors: as above.
 Result<std::vector<ShownFrame>> frame_number(const fap::Sequence& clip, std::int64_t number);
 
-/// `count` frames, evenly from the first to the last. Errors: not_found (no frames).
+/// `count` evenly spaced frames from the first to the last. Errors: not_found (no frames).
 Result<std::vector<ShownFrame>> even_frames(const fap::Sequence& clip, int count);
 
 /// The neutral face, then "visemes" 1..14 or "expressions" 1..6 at full strength. Error:

@@ -1,10 +1,10 @@
 /// @file
-/// Heads of our own are made once: they wait in the user's cache, ready to move.
+/// A cache of the built-in heads, ready to move, in the user's cache folder.
 ///
-/// The folder is $XDG_CACHE_HOME/animeme, else ~/.cache/animeme; a file of some 5 MB a head. What
-/// lies there is taken only if this build made it and it is whole, and is made anew otherwise;
-/// without a folder that can be written to, heads are made each time. The heads are the same, bit
-/// by bit. Anybody may remove the files at any time.
+/// The folder is $XDG_CACHE_HOME/animeme, else ~/.cache/animeme; with a file of about 5 MB per
+/// head. A file is used only if it is intact and from this build, and is otherwise rewritten;
+/// without a writable folder, heads are made each time. Cached heads are identical, bit by bit. The
+/// files may be removed at any time.
 #pragma once
 
 #include <optional>
@@ -16,16 +16,16 @@
 
 namespace animeme::studio {
 
-/// Folder of the cache; empty if the environment names none. It may not be there yet.
+/// Folder of the cache, which may not exist yet; empty if the environment names none.
 std::string cache_folder();
 
-/// The head of that name (head::kHeadNames), with Head::targets as make_rig() finds them. `folder`:
-/// of the cache; empty: none is used. Errors: not_found for another name; the cache has none.
+/// The head of that name (head::kHeadNames), with Head::targets as found by make_rig(). `folder`:
+/// the cache; empty: no cache. Errors: not_found (another name); errors of the cache are ignored.
 Result<head::Head> ready_head(std::string_view name, const std::string& folder = cache_folder());
 
-/// A head as bytes, without coats, shapes and corners, which heads of our own do not have.
+/// Serialises a head, without coats, shapes and corners, which built-in heads do not have.
 std::string store_head(const head::Head& head);
-/// The head; nothing if the bytes are not those of store_head() of this build, whole.
+/// Restores the head; nullopt if the bytes are not complete output of store_head() of this build.
 std::optional<head::Head> restore_head(std::string_view bytes);
 
 }  // namespace animeme::studio

@@ -1,5 +1,5 @@
 /// @file
-/// A head, a camera and a renderer: frames in, pictures out.
+/// A head, a camera and a renderer: converts frames to pictures.
 #pragma once
 
 #include <memory>
@@ -13,9 +13,9 @@
 
 namespace animeme::studio {
 
-/// How a head is looked at.
+/// Head and camera.
 struct HeadLook {
-  HeadChoice head;     ///< whose head
+  HeadChoice head;     ///< the head
   double degrees = 0;  ///< to the person's left
   double up = 0;       ///< degrees from above
   double zoom = 1;     ///< 1: head and shoulders
@@ -28,7 +28,7 @@ class HeadView {
  public:
   /// Errors and talk: those of load_head().
   static Result<HeadView> make(const HeadLook& look, const tools::Log& log = {});
-  HeadView(HeadView&&) noexcept;  ///< leaves the other one empty
+  HeadView(HeadView&&) noexcept;  ///< movable
   HeadView& operator=(HeadView&&) noexcept;
   ~HeadView();
 
@@ -41,7 +41,7 @@ class HeadView {
   std::unique_ptr<State> state_;
 };
 
-/// Pictures of frames side by side, `columns` in a row. Errors: those of HeadView::make() and
+/// A contact sheet of frames, `columns` in a row. Errors: those of HeadView::make() and
 /// render::contact_sheet().
 Result<render::Image> draw_sheet(const HeadLook& look, std::span<const ShownFrame> frames,
                                  int columns, const tools::Log& log = {});

@@ -1,5 +1,5 @@
 /// @file
-/// Textures of heads for pages, which people send by mail and open on phones.
+/// Scales down textures of heads, to keep pages small for mail and mobile phones.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,9 @@
 
 namespace animeme::studio {
 
-/// Codes pictures of coats again whose files have more than `most_bytes`: as WebP, 1024 texels a
-/// side at most, alpha as it is. Those that get no smaller stay. How many were; 0.1 s each.
+/// Re-encodes textures with files larger than `most_bytes` as WebP, at most 1024 texels per side,
+/// with alpha. Files that would not get smaller are kept. Returns the number re-encoded; takes 0.1
+/// s each.
 std::size_t shrink_pictures(head::Head& head, std::size_t most_bytes = 250'000);
 
 }  // namespace animeme::studio

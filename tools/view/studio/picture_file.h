@@ -1,11 +1,10 @@
 /// @file
-/// Pictures of other formats than PNG: JPEG and WebP for pages and chats, WebP that moves.
+/// Image files: PNG, JPEG and WebP, and animated WebP.
 ///
 ///     auto animation = Animation::open(640, 640);
 ///     for (...) animation->push(image.rgba, milliseconds);
 ///     auto file = animation->finish(end);
-///
-/// By libjpeg-turbo and libwebp.
+/// Uses libjpeg-turbo and libwebp.
 #pragma once
 
 #include <cstdint>
@@ -19,16 +18,16 @@
 
 namespace animeme::studio {
 
-/// ".png", ".jpg", ".jpeg" or ".webp", in lower case.
+/// Whether the extension is ".png", ".jpg", ".jpeg" or ".webp", in lower case.
 bool is_picture(std::string_view extension);
 
-/// A file of that format; alpha is left out. `quality` 1..100 of JPEG and WebP. Errors:
+/// Encodes an image in that format, without alpha. `quality` 1..100 for JPEG and WebP. Errors:
 /// unsupported (another extension), invalid_argument (no pixels, or not width * height * 4 bytes; a
 /// side above 65535, of WebP 16383), out_of_range (memory).
 Result<std::vector<std::uint8_t>> picture_of(const render::Image& image, std::string_view extension,
                                              int quality = 90);
 
-/// An animated WebP, for ever repeated. Movable, not copyable.
+/// An animated WebP in an endless loop. Movable, not copyable.
 class Animation {
  public:
   /// Sides 1..16383, quality 1..100. Errors: invalid_argument, out_of_range (memory).
@@ -37,10 +36,10 @@ class Animation {
   Animation& operator=(Animation&&) noexcept;
   ~Animation();
 
-  /// The next picture, from `milliseconds` on; times ascend. Errors: invalid_argument (size),
+  /// Adds the picture shown from `milliseconds`; times ascend. Errors: invalid_argument (size),
   /// out_of_range (memory).
   Result<void> push(std::span<const std::uint8_t> rgba, int milliseconds);
-  /// The file; the last picture lasts until `milliseconds`. Errors: as above.
+  /// Returns the file; the last picture lasts until `milliseconds`. Errors: as above.
   Result<std::vector<std::uint8_t>> finish(int milliseconds);
 
  private:

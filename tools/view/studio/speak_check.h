@@ -1,5 +1,5 @@
 /// @file
-/// How well a head can show speech, measured on its moved mesh.
+/// Checks how well a head can show speech, measured on its deformed mesh.
 #pragma once
 
 #include <string>
@@ -14,21 +14,23 @@ struct SpeakRow {
   std::string sound;    ///< "P", "UW against IY", ...
   std::string what;     ///< what was measured, with its unit
   double value = 0;     ///< finite
-  double limit = 0;     ///< what it is held against
-  bool at_most = true;  ///< value <= limit is well; else value >= limit
-  bool ok() const { return at_most ? value <= limit : value >= limit; }  ///< the verdict
+  double limit = 0;     ///< limit for the value
+  bool at_most = true;  ///< requires value <= limit; else value >= limit
+  bool ok() const {
+    return at_most ? value <= limit : value >= limit;
+  }  ///< whether the requirement is met
 };
 
-/// Distance of the eyes (ES of its FAPU) that lengths are scaled to, mm.
+/// Reference distance of the eyes (ES of its FAPU) for scaling lengths, mm.
 inline constexpr double kEyesApart = 63;
 
-/// Share of the opening of a full jawOpen that a spoken AA should have.
+/// Minimum opening of a spoken AA, as a share of a full jawOpen.
 inline constexpr double kWideOpen = 0.7;
 
-/// Share of the opening of a spoken AA that a spoken IY should not exceed.
+/// Maximum opening of a spoken IY, as a share of a spoken AA.
 inline constexpr double kCloseVowel = 0.5;
 
-/// The Head::mouth_gain by which AA of the sentence of check_speech() opens that far, from 1 to
+/// The Head::mouth_gain with which the AA of check_speech() reaches this opening, from 1 to
 /// fap::kMostMouthGain (the latter if it never does). Deterministic. Errors: those of
 /// check_speech().
 Result<double> speaking_gain(const head::Head& head);
