@@ -1,5 +1,5 @@
 /// @file
-/// index.tsv: a line a clip. What is in it depends on the manifest alone, not on time, order or
+/// index.tsv: one line per clip. Its content depends only on the manifest, not on time, order or
 /// machine, so that the indices of two runs can be compared.
 #pragma once
 
@@ -23,17 +23,17 @@ std::string index_name(int shard, int shards);
 std::string_view index_header();
 /// The line of an entry, with its end.
 std::string index_line(const Entry& entry);
-/// An entry of a line without its end; nothing: it is none.
+/// Parses a line without its end; nullopt: not an entry.
 std::optional<Entry> read_index_line(std::string_view line);
 
-/// Where the last line of each clip lies, at 40 bytes a clip.
+/// The position of the last line of each clip; takes 40 bytes per clip.
 class Index {
  public:
-  /// Reads a file; one that is not there has no lines. A last line without its end, of a program
-  /// that was killed, is cut off if `repair`, else left out. Errors: io, syntax (no index).
+  /// Reads a file; a missing file has no lines. An incomplete last line, left by a killed program,
+  /// is cut off if `repair`, else ignored. Errors: io, syntax (not an index).
   static Result<Index> open(const std::string& path, bool repair);
 
-  /// What is known of a clip.
+  /// Properties of a clip.
   struct Known {
     std::uint64_t id = 0;      ///< stable_hash()
     std::uint64_t work = 0;    ///< stable_hash() of hash and version; 0: failed
@@ -41,7 +41,7 @@ class Index {
     std::int64_t offset = 0;   ///< of its line in the file
     std::uint32_t length = 0;  ///< of its line, with its end
   };
-  /// Nothing: it has no line.
+  /// nullptr: it has no line.
   const Known* find(std::string_view id) const;
   /// The line itself, with its end. Errors: io.
   Result<std::string> line(const Known& known) const;
@@ -52,7 +52,7 @@ class Index {
   std::vector<Known> known_;  // ascending by id
 };
 
-/// Appends lines, each whole, by one call of the system.
+/// Appends complete lines, each with one system call.
 class IndexWriter {
  public:
   /// Errors, io.
@@ -68,20 +68,20 @@ class IndexWriter {
   int descriptor_;
 };
 
-/// What a batch amounts to.
+/// Totals of a batch.
 struct Totals {
   std::uint64_t rows = 0;           ///< clips with a line
   std::uint64_t good = 0;           ///< clips without an error
-  std::uint64_t failed = 0;         ///< clips with one
+  std::uint64_t failed = 0;         ///< clips with an error
   std::uint64_t with_warnings = 0;  ///< good ones with warnings
   std::uint64_t missing = 0;        ///< clips without a line
   double seconds = 0;               ///< of speech
   std::uint64_t bytes = 0;          ///< of outputs
 };
 
-/// Writes `to` with the lines of the clips of a manifest, in its order, and report.html beside it
-/// (REPORT), the worst rows first. `index_of`: the index that has a clip's line; nullptr: it is not
-/// wanted. Errors: io, those of the manifest.
+/// Writes `to` with the lines of the clips of a manifest, in its order, and report.html next to it
+/// (REPORT), worst rows first. `index_of`: the index that has a clip's line; nullptr: omit the
+/// clip. Errors: io, those of the manifest.
 Result<Totals> put_in_order(Manifest& manifest,
                             const std::function<const Index*(std::string_view id)>& index_of,
                             const std::string& to, const std::string& report);

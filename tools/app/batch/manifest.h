@@ -1,5 +1,5 @@
 /// @file
-/// A manifest: a row a clip, read as a stream, so that a million rows take no more memory than one.
+/// A manifest with one row per clip, read as a stream in constant memory.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace animeme::batch {
 
-/// The columns that a manifest may have.
+/// The columns of a manifest.
 inline constexpr std::array<std::string_view, 18> kColumns = {"id",
                                                               "text",
                                                               "text_file",
@@ -46,11 +46,11 @@ struct Row {
   void fill(std::string_view column, const std::string& value);
 };
 
-/// How rows are written.
+/// Formats of a manifest.
 enum class Form : std::uint8_t {
-  table,  ///< columns between tabs, their names in the first line
-  json,   ///< an object a line
-  list,   ///< the path of a file a line
+  table,  ///< columns separated by tabs, names in the first line
+  json,   ///< one object per line
+  list,   ///< one file path per line
 };
 
 /// The form of a manifest by its name: .jsonl or .json, .txt or .lst, else a table.
@@ -60,14 +60,14 @@ Form form_of(const std::string& path);
 class Manifest {
  public:
   /// "-" is standard input, which is copied to a file without a name, so that it can be read twice.
-  /// `defaults`: values for columns that a row leaves empty.
-  /// Errors, with file, line and column: not_found, io, syntax (a column that there is not, or
-  /// twice; no column id).
+  /// `defaults`: values for columns that a row leaves empty. Errors, with file, line and column:
+  /// not_found, io, syntax (an unknown or duplicate column; no column id).
   static Result<Manifest> open(const std::string& path, Form form,
                                std::vector<std::pair<std::string, std::string>> defaults);
-  /// The next row; nothing behind the last. Errors: syntax, for this row; the next call goes on.
+  /// The next row; nullopt after the last. Errors: syntax, for this row only; the next call
+  /// continues.
   Result<std::optional<Row>> next();
-  /// From the first row again. Errors: io, syntax.
+  /// Restarts at the first row. Errors: io, syntax.
   Result<void> rewind();
   const std::string& name() const { return name_; }  ///< for messages
 
@@ -89,10 +89,10 @@ class Manifest {
   std::int64_t line_ = 0;
 };
 
-/// What is wrong with an id as the name of files below a folder, as a sentence; empty: nothing.
+/// Checks an id as a file name below a folder; returns a sentence, or empty if it is valid.
 std::string problem_of_id(std::string_view id);
 
-/// 64 bits of a text by FNV-1a: the same everywhere and for ever.
+/// 64-bit FNV-1a hash of a text, the same on all machines and in all versions.
 std::uint64_t stable_hash(std::string_view text);
 
 /// Which of `shards` parts, from 1, a clip belongs to.

@@ -1,5 +1,5 @@
 /// @file
-/// One row of a manifest, done.
+/// Processes one row of a manifest.
 #pragma once
 
 #include <array>
@@ -19,50 +19,50 @@ namespace animeme::batch {
 /// exit code.
 using RunLine = std::function<int(std::span<const char* const>)>;
 
-/// What all rows of a batch share.
+/// Settings shared by all rows of a batch.
 struct Shared {
   std::string out;      ///< folder of the outputs
-  std::string stage;    ///< folder in it for what is not finished
-  std::string fetch;    ///< command that brings an input, with {uri} and {file}; empty: none
-  std::string store;    ///< command that takes an output away, with {file} and {uri}; empty: none
-  std::string to;       ///< what {uri} of outputs begins with
+  std::string stage;    ///< folder in it for unfinished files
+  std::string fetch;    ///< command that fetches an input, with {uri} and {file}; empty: none
+  std::string store;    ///< command that stores an output, with {file} and {uri}; empty: none
+  std::string to;       ///< prefix of {uri} for outputs
   std::string version;  ///< of the program
   RunLine run;          ///< the program
 };
 
-/// What was done before, or is done now, for a row.
+/// The result for a row.
 struct Entry {
   std::string id;                     ///< of the row
   bool good = false;                  ///< false: `error` says why
   std::vector<std::string> outputs;   ///< files in the folder of outputs
-  std::optional<double> seconds;      ///< of speech, where it is known
+  std::optional<double> seconds;      ///< of speech, if known
   std::uint64_t bytes = 0;            ///< of all outputs
-  std::optional<double> confidence;   ///< of alignment or listening, 0..1
+  std::optional<double> confidence;   ///< of alignment or recognition, 0..1
   std::vector<std::string> warnings;  ///< of all commands
   std::string error;                  ///< empty: none
   std::string hash;     ///< of the row and the content of its inputs, 16 hexadecimal digits
-  std::string version;  ///< of the program that did it
+  std::string version;  ///< of the program
 };
 
-/// A row to do.
+/// A row to process.
 struct Task {
-  Row row;                        ///< what is wanted
-  std::string known;              ///< hash of it when it was done by this version; empty: never
-  std::uint64_t known_bytes = 0;  ///< of its outputs then
+  Row row;                        ///< the row
+  std::string known;              ///< its hash if it was done by this version; empty: not done
+  std::uint64_t known_bytes = 0;  ///< of its previous outputs
 };
 
-/// How a task ended.
+/// Result of a task.
 struct Outcome {
   Entry entry;                                     ///< for the index
-  bool same = false;                               ///< nothing had to be done
+  bool same = false;                               ///< already up to date
   std::array<tools::Cost, tools::kSteps> costs{};  ///< of its steps
 };
 
-/// Does a task in the folder stage/WORKER, and moves what it made to its place when all of it is
-/// there. Standard output and standard error belong to it meanwhile.
+/// Runs a task in the folder stage/WORKER and moves its outputs into place when all are complete.
+/// Redirects standard output and standard error meanwhile.
 Outcome do_task(const Task& task, const Shared& shared, std::size_t worker);
 
-/// What a worker that has ended without an answer said of its reason; empty: nothing.
+/// The last output of a worker that ended without an answer; may be empty.
 std::string last_said(const Shared& shared, std::size_t worker);
 
 /// @{

@@ -1,7 +1,6 @@
 /// @file
-/// Forked copies of this process that answer messages: work on all cores for libraries that keep
-/// one voice, one standard output and one current error a process. A crash is the end of one of
-/// them, which is replaced.
+/// Forked worker processes that answer messages, to use all cores with libraries that have global
+/// state (one voice, one standard output). A worker that crashes is replaced.
 #pragma once
 
 #include <cstddef>
@@ -15,30 +14,30 @@
 
 namespace animeme::batch {
 
-/// Some workers. Not thread safe; forks, so no other thread may run.
+/// A pool of workers. Not thread safe; forks, so no other thread may run.
 class Workers {
  public:
-  /// A message in, an answer out; runs in the copy.
+  /// Answers a message; runs in the worker.
   using Work = std::function<std::string(std::string_view message, std::size_t worker)>;
-  /// `work` is run in the copies, for one message after the other.
+  /// `work` runs in the workers, for one message at a time.
   Workers(std::size_t count, Work work) : work_(std::move(work)), all_(count) {}
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
   ~Workers();  ///< ends them
 
-  /// A worker that has nothing to do; nothing: all are busy.
+  /// An idle worker; nullopt: all are busy.
   std::optional<std::size_t> idle() const;
-  bool busy() const;  ///< whether any is at work
-  /// Gives a message to an idle worker, which is started if need be. Errors: io.
+  bool busy() const;  ///< whether any worker is busy
+  /// Sends a message to an idle worker, which is started if necessary. Errors: io.
   Result<void> give(std::size_t worker, std::string_view message);
 
-  /// What a worker answered.
+  /// An answer of a worker.
   struct Answer {
-    std::size_t worker = 0;  ///< which
+    std::size_t worker = 0;  ///< the worker
     std::string message;     ///< its answer
-    std::string crash;       ///< how it ended instead; empty: it did not
+    std::string crash;       ///< how it crashed; empty: it did not
   };
-  /// The next answer, or nothing after `milliseconds`.
+  /// The next answer, or nullopt after `milliseconds`.
   std::optional<Answer> wait(int milliseconds);
 
  private:

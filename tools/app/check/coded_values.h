@@ -1,5 +1,5 @@
 /// @file
-/// The coded values of a clip, face or body alike, and how two clips of them compare.
+/// The coded values of a face or body clip, and their comparison.
 #pragma once
 
 #include <cstdint>
@@ -31,28 +31,28 @@ CodedClip coded_values(const fba::BodySequence& clip);  ///< values of present B
 /// "FAP 5 raise_b_midlip", "FAP 1 viseme_blend", "BAP 17".
 std::string key_name(bool body, int key);
 
-/// The first place where a coded value is not right.
+/// The first wrong coded value.
 struct FirstDifference {
   std::int64_t frame = -1;    ///< frame number in the expected clip
   std::string parameter;      ///< key_name()
   std::int64_t expected = 0;  ///< value of the case
-  bool missing = false;       ///< nothing was there instead of the wrong value
+  bool missing = false;       ///< the value is missing
   std::int64_t got = 0;       ///< value of the decoder, unless missing
 };
 
-/// How two clips agree.
+/// Result of a comparison.
 struct Comparison {
-  bool right = false;  ///< every coded value is there and right
-  bool exact = false;  ///< and nothing else: masks, numbers and the rate too
+  bool right = false;  ///< every coded value is present and correct
+  bool exact = false;  ///< and also masks, frame numbers and rate
   std::string text;    ///< why not right, or why not exact; one sentence without a full stop
   FirstDifference difference;  ///< parameter is empty if whole frames are missing
 };
 
-/// Frames are paired in their order if there are as many as expected, else by number. Further
-/// frames are right if they fill gaps of the numbers, or repeat the last frame.
+/// Frames are paired in order if their number is as expected, else by frame number. Additional
+/// frames are correct if they fill gaps in the numbers, or repeat the last frame.
 Comparison compare(const CodedClip& expected, const CodedClip& got);
 
-/// True if `got` is a beginning of `expected`, with right values; it may be empty.
+/// Whether `got` is a prefix of `expected` with correct values; it may be empty.
 bool is_beginning(const CodedClip& expected, const CodedClip& got);
 
 }  // namespace animeme::tools

@@ -1,5 +1,5 @@
 /// @file
-/// The results of a run, for people and for programs.
+/// The results of a run as text, JSON and JUnit XML.
 #pragma once
 
 #include <map>
@@ -10,20 +10,20 @@
 
 namespace animeme::tools {
 
-/// How many cases had each verdict, and so on.
+/// Counts of a run.
 struct Tally {
   std::size_t cases = 0,                                       ///< all
       right = 0,                                               ///< with a right verdict
-      skipped = 0,                                             ///< not asked
+      skipped = 0,                                             ///< not run
       bad_data = 0;                                            ///< damaged suite
   std::size_t parameters = 0,                                  ///< with an EPF
       encoded_again = 0;                                       ///< written byte for byte
   std::map<Verdict, std::size_t> verdicts;                     ///< how many of each
-  bool all_right() const { return right + skipped == cases; }  ///< nothing is left that went wrong
+  bool all_right() const { return right + skipped == cases; }  ///< no failures
 };
 Tally tally(const std::vector<CaseResult>& results);  ///< counts the results of a run
 
-/// A table by family of features, the cases that are not right, and a closing line.
+/// A table by feature family, the failed cases, and a summary line.
 std::string text_report(const std::vector<CaseResult>& results, bool own);
 /// Everything, with every feature.
 std::string json_report(const Suite& suite, const std::vector<CaseResult>& results,

@@ -1,5 +1,5 @@
 /// @file
-/// Runs a suite of cases against this decoder or a foreign one.
+/// Runs a suite of cases on this decoder or an external one.
 #pragma once
 
 #include <functional>
@@ -14,41 +14,41 @@
 
 namespace animeme::tools {
 
-/// What a decoder made of a case.
+/// Result of a decoder for a case.
 enum class Verdict : std::uint8_t {
   exact,     ///< masks, frame numbers, rate and values
-  values,    ///< every coded value, but more than that, or other numbers
-  ignored,   ///< damaged case: the damage was not seen, the values are right all the same
-  stopped,   ///< damaged case: what was written is right and ends at the damage
-  wrong,     ///< a value, a frame or an error is not right
-  encoder,   ///< decoded exactly, but written again it is another stream (this codec alone)
-  error,     ///< the decoder refused, or gave nothing that can be read
-  crash,     ///< it ended by a signal
+  values,    ///< every coded value, but additional values or other frame numbers
+  ignored,   ///< damaged case: the damage was not detected, but the values are correct
+  stopped,   ///< damaged case: the output is correct and ends at the damage
+  wrong,     ///< a wrong value, frame or error
+  encoder,   ///< decoded exactly, but re-encoding gives another stream (this codec only)
+  error,     ///< the decoder failed, or its output is unreadable
+  crash,     ///< it was ended by a signal
   timeout,   ///< it did not end in time
-  skipped,   ///< it cannot be asked: a body, and the command has no {bap}
+  skipped,   ///< it cannot be run: a body, and the command has no {bap}
   bad_data,  ///< a file of the case is missing or was changed
 };
 const char* verdict_name(Verdict verdict);  ///< as in reports
 /// exact, values, ignored and stopped.
 bool is_right(Verdict verdict);
 
-/// One case after it was run.
+/// Result of one case.
 struct CaseResult {
   const SuiteCase* one = nullptr;      ///< borrowed from the suite
-  Verdict verdict = Verdict::skipped;  ///< what came of it
+  Verdict verdict = Verdict::skipped;  ///< the verdict
   std::string detail;                  ///< one sentence without a full stop, may be empty
   FirstDifference difference;          ///< if values are wrong
-  bool encoded_again = false;          ///< the byte-exact check of the encoder was made and passed
-  ChildEnd end;                        ///< of the foreign program
+  bool encoded_again = false;          ///< the byte-exact encoder check was run and passed
+  ChildEnd end;                        ///< of the external program
 };
 
-/// How a suite is run.
+/// Options for a run.
 struct RunOptions {
   std::optional<CommandTemplate> command;  ///< empty: this decoder
-  bool encode = true;                      ///< this codec: write the streams again, too
+  bool encode = true;                      ///< this codec: also re-encode the streams
   double timeout_seconds = 10;             ///< for each child
   std::size_t jobs = 1;                    ///< cases at once
-  /// Called as each case ends.
+  /// Called when a case ends.
   std::function<void(std::size_t done, const std::string& name)> progress;
 };
 

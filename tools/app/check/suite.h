@@ -14,23 +14,23 @@
 
 namespace animeme::tools {
 
-/// A case and where its files are.
+/// A case with its files.
 struct SuiteCase {
   conformance::Case info;                             ///< case.json
   std::map<std::string, std::filesystem::path> path;  ///< by role
   std::string problem;    ///< not empty: a file is missing or not the one of case.json
-  bool described = true;  ///< false: there is no case.json, the names of the files say it all
+  bool described = true;  ///< false: no case.json; described by file names only
 };
 
-/// All cases of a place.
+/// All cases of a folder or archive.
 struct Suite {
   std::string name;              ///< for reports
   std::vector<SuiteCase> cases;  ///< by name
-  /// Folders of archives, as long as the suite lives.
+  /// Folders of unpacked archives, kept as long as the suite.
   std::vector<std::unique_ptr<ScratchFolder>> unpacked;
 };
 
-/// Finds the cases of a place:
+/// Finds the cases at a path:
 ///   - a folder with case.json files somewhere in it; archives *.tar.xz directly in the folder are
 ///     unpacked (by the program tar) into a scratch folder and hold data of the cases;
 ///   - such an archive by itself;
@@ -41,7 +41,7 @@ struct Suite {
 /// case.json cannot be read, two cases of one name).
 Result<Suite> load_suite(const std::string& place);
 
-/// Holds every file of a case against its SHA-256, if it has one; sets `problem`.
+/// Verifies the SHA-256 of every file of a case, if given; sets `problem`.
 void verify(SuiteCase& one);
 
 }  // namespace animeme::tools

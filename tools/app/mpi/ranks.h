@@ -1,5 +1,5 @@
 /// @file
-/// Processes that mpirun has started together.
+/// Processes started by mpirun.
 #pragma once
 
 #include <cstdint>
@@ -10,31 +10,31 @@
 
 namespace animeme::mpi {
 
-/// What the module has of MPI. MPI itself ends all processes where it fails.
+/// The MPI functions of the module. On an error MPI itself ends all processes.
 struct Functions {
-  void (*join)(int* rank, int* size);  ///< once a process
+  void (*join)(int* rank, int* size);  ///< once per process
   void (*leave)(int status);           ///< once; a status other than 0 ends all processes with it
   /// To another process.
   void (*send)(const std::uint8_t* bytes, std::uint64_t size, int to);
-  std::uint64_t (*size_from)(int from);  ///< of what comes next
-  /// What was sent, with the size that size_from() gave.
+  std::uint64_t (*size_from)(int from);  ///< of the next message
+  /// Receives a message of the size returned by size_from().
   void (*receive)(std::uint8_t* bytes, std::uint64_t size, int from);
 };
 
-/// This process among the others. It leaves them when the program ends: well, or, with an exit code
-/// other than 0, so that all end with that.
+/// This process among the others. Leaves MPI when the program ends; with a non-zero exit code all
+/// processes end.
 class Ranks {
  public:
-  /// Loads MPI. Without mpirun there is one process. Once a program. Errors: unsupported (the
-  /// program was built without MPI, or it does not load).
+  /// Loads MPI. Without mpirun there is one process. Call once. Errors: unsupported (built without
+  /// MPI, or it cannot be loaded).
   static Result<Ranks> join();
 
   int rank() const { return rank_; }  ///< from 0
-  int size() const { return size_; }  ///< how many there are
+  int size() const { return size_; }  ///< number of processes
 
-  /// Waits until all of it has left, or arrived.
+  /// Blocks until everything has been sent.
   void send(std::span<const std::uint8_t> bytes, int to) const;
-  std::vector<std::uint8_t> receive(int from) const;  ///< what send() of that one sent
+  std::vector<std::uint8_t> receive(int from) const;  ///< receives what `from` sent
 
  private:
   Ranks(const Functions& functions, int rank, int size)

@@ -1,6 +1,5 @@
 /// @file
-/// What a corpus can be checked for without ears: lips that close where P B M are said, and phones
-/// that lie where phones lie.
+/// Plausibility checks of a corpus: lips that close for P B M, and phones with plausible durations.
 #pragma once
 
 #include <cstddef>
@@ -13,19 +12,19 @@
 
 namespace animeme::tools {
 
-/// Inner gap (FAP units) below which lips count as closed; as dam/evaluation counts.
+/// Inner lip gap (FAP units) below which lips count as closed, as in dam/evaluation.
 inline constexpr double kClosedGap = 45;
 
 /// P, B and M of a sentence.
 struct Closures {
   std::size_t phones = 0;  ///< in measured frames
-  std::size_t closed = 0;  ///< of them: the gap is below kClosedGap within 40 ms of the phone
-  std::vector<int> gaps;   ///< the least gap of each
+  std::size_t closed = 0;  ///< of these, with a gap below kClosedGap within 40 ms of the phone
+  std::vector<int> gaps;   ///< smallest gap of each
 };
 /// None without FAP 4 and 5.
 Closures closures_of(const dam::Signal& signal, const dam::Script& script);
 
-/// What looks wrong with the phones of a sentence, as sentences for people; none: nothing.
+/// Problems with the phones of a sentence, as sentences for the user; may be empty.
 ///
 /// - less than half of its P B M are closed (of two or more);
 /// - a third of its phones or more is no longer than 35 ms, the least that the aligner can make;
@@ -39,7 +38,7 @@ double phone_rate(const dam::Script& script);
 
 /// How much later than the sound the lips close, in seconds: the shift of the phones within 0.2 s
 /// that makes the mean gap in the middle of P B M, between other sounds, smallest, by steps of 10
-/// ms. Nothing if there are fewer than twenty.
+/// ms. nullopt if there are fewer than twenty.
 std::optional<double> lag_of_lips(const std::vector<const dam::Signal*>& signals,
                                   const std::vector<const dam::Script*>& scripts);
 

@@ -1,5 +1,5 @@
 /// @file
-/// What came of a corpus, for people and for programs.
+/// Report on a corpus, as text and JSON.
 #pragma once
 
 #include <string>
@@ -11,9 +11,9 @@
 
 namespace animeme::tools {
 
-/// A few lines, and one for each sentence or file that wants a look.
+/// A summary, and a line for each sentence or file that should be checked.
 std::string report_text(const CorpusReport& report);
-/// Everything.
+/// The complete report.
 Json report_json(const CorpusReport& report);
 
 /// utterances.tsv; `held_out`: hold_words_out().

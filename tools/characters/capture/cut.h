@@ -1,5 +1,5 @@
 /// @file
-/// Long recordings into sentences: cut at pauses.
+/// Splits long recordings into sentences at pauses.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace animeme::tools {
 /// A part of a recording, in frames of its curves: [first, last).
 struct Stretch {
   std::size_t first = 0;  ///< first frame
-  std::size_t last = 0;   ///< behind the last
+  std::size_t last = 0;   ///< one past the last
 };
 
 /// The sentences of a recording of `frames` frames at `rate`. What is longer than `most` seconds is

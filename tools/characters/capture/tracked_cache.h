@@ -1,5 +1,5 @@
 /// @file
-/// What trackers wrote, kept beside a corpus so that no video is tracked twice.
+/// A cache of tracking results in a corpus, so that videos are not tracked twice.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@
 
 namespace animeme::tools {
 
-/// A folder, made when the first table comes, with ID.csv and ID.key; the key names the video, its
+/// A folder, created with the first table, with ID.csv and ID.key; the key names the video, its
 /// size and time, and the command.
 struct TrackedCache {
   std::string folder;   ///< of all files
   bool forget = false;  ///< find() finds nothing
 
-  /// The table of a video that is as it was then.
+  /// The table of an unchanged video.
   std::optional<std::string> find(const std::string& id, const std::string& video,
                                   const CaptureSettings& settings) const;
   /// Errors: io.

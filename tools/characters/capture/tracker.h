@@ -1,10 +1,10 @@
 /// @file
-/// Trackers of others: programs that find a face in a video and write a table.
+/// External trackers: programs that track a face in a video and write a table.
 ///
 ///     auto tracker = Tracker::parse("node track.js {in} {out}");
 ///     auto table = tracker->run("clip.mp4");
 ///
-/// What a tracker has to write is told in tools/characters/trackers/README.md.
+/// tools/characters/trackers/README.md documents the required output.
 #pragma once
 
 #include <optional>
@@ -18,14 +18,14 @@
 
 namespace animeme::tools {
 
-/// What is known of a video before a tracker has seen it.
+/// Properties of a video before tracking.
 struct VideoFile {
-  exchange::PictureSize shown;     ///< pixels as players show it: square ones
-  double pixel_aspect = 1;         ///< of the pixels that are stored
-  std::optional<fap::Rate> rate;   ///< pictures a second, if the file says it
+  exchange::PictureSize shown;     ///< displayed size, in square pixels
+  double pixel_aspect = 1;         ///< of the stored pixels
+  std::optional<fap::Rate> rate;   ///< frames a second, if stated
   double seconds = 0;              ///< 0: not stated
   bool sound = false;              ///< has sound
-  double picture_after_sound = 0;  ///< seconds from the first sample to the first picture
+  double picture_after_sound = 0;  ///< seconds from the first sample to the first frame
 
   /// "a video (mpeg1video, 360x288, 25 frames a second, 3 s)".
   std::string text;
@@ -34,7 +34,7 @@ struct VideoFile {
 /// Errors: not_found (no file, no picture track); those of media::probe().
 Result<VideoFile> look_at_video(const std::string& path);
 
-/// A command that is run for each video. No shell is run.
+/// A command that is run for each video, without a shell.
 class Tracker {
  public:
   /// `command`: see parse_command(); {in} and {out} are added at its end if neither is there.
@@ -42,10 +42,9 @@ class Tracker {
   static Result<Tracker> parse(const std::string& command);
 
   /// What it writes to {out} (a file whose name ends in .csv), or to standard output if the command
-  /// has no {out}. `progress` is told how far it is by the lines of its standard error that end in
-  /// "N %", and asked whether it is to be stopped. Errors, with the path of the video: not_found
-  /// (the program failed, with the last lines it said; it wrote nothing), out_of_range (longer than
-  /// `seconds`), io (also: stopped).
+  /// has no {out}. `progress` receives the values of standard error lines that end in "N %", and
+  /// may stop it. Errors, with the path of the video: not_found (the program failed, with its last
+  /// output; it wrote nothing), out_of_range (longer than `seconds`), io (also: stopped).
   Result<std::string> run(const std::string& video, double seconds,
                           const Progress& progress = {}) const;
 

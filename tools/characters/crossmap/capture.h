@@ -1,5 +1,5 @@
 /// @file
-/// The recordings of a project, ready to be fitted.
+/// The recordings of a project, prepared for fitting.
 #pragma once
 
 #include <optional>
@@ -15,20 +15,20 @@
 
 namespace animeme::crossmap {
 
-/// Displacements of the points that count, and what is known of them.
+/// Displacements of the fitted points, and their properties.
 struct Capture {
-  std::vector<dam::PointTrack> tracks;  ///< one an input, named like its file without the ending
-  std::vector<double> neutral;          ///< places of the same points at rest
+  std::vector<dam::PointTrack> tracks;  ///< one per input, named like its file without extension
+  std::vector<double> neutral;          ///< positions of the same points at rest
   std::vector<dam::Region> regions;     ///< of the project, else by feature points, else "all"
   dam::BlendOptions fit;                ///< of the project, with weights and contacts
-  std::string unit;                     ///< of lengths: "mm", "px" ...; empty: not known
-  std::optional<dam::Face> face;        ///< nothing: the points are not known on a face
+  std::string unit;                     ///< of lengths: "mm", "px" ...; empty: unknown
+  std::optional<dam::Face> face;        ///< nullopt: unknown positions on a face
   Error no_face;                        ///< why there is none, with the remedy
 };
 
-/// Reads the inputs of a project and takes the head off. Says what it found and warns of what is
-/// missing. Errors: those of the readers, with the file; invalid_argument and not_found for what
-/// the project names and is not there.
+/// Reads the inputs of a project and removes head motion. Logs what it found and warns about
+/// missing data. Errors: those of the readers, with the file; invalid_argument and not_found for
+/// missing items that the project names.
 Result<Capture> load_capture(const Project& project, const tools::Log& log);
 
 }  // namespace animeme::crossmap

@@ -1,5 +1,5 @@
 /// @file
-/// The key shapes of a project: found, chosen by time, or from a folder that an artist works in.
+/// The key shapes of a project: found automatically, chosen by time, or from an artist's folder.
 #pragma once
 
 #include <string>
@@ -13,28 +13,29 @@
 
 namespace animeme::crossmap {
 
-/// Where a key shape is from.
+/// Origin of a key shape.
 struct KeySource {
   std::string input;   ///< name of the recording
-  double seconds = 0;  ///< in it
-  double share = 0;    ///< of the frames that look most like it, 0..1; 0: not known
+  double seconds = 0;  ///< time in the recording
+  double share = 0;    ///< of the frames nearest to it, 0..1; 0: unknown
 };
 
-/// Key shapes with what is known of them.
+/// Key shapes with their origins.
 struct Keys {
   dam::KeyShapes shapes;           ///< displacements of the points of the capture
-  std::vector<KeySource> sources;  ///< one a shape
-  std::size_t compared = 0;        ///< frames that were compared; 0: they were not looked for
+  std::vector<KeySource> sources;  ///< one per shape
+  std::size_t compared = 0;        ///< frames that were compared; 0: no search
 };
 
-/// Key shapes as the project says: those of its folder, those named, else found. A shape that was
-/// found and hardly differs from the neutral one (less than a twentieth of the largest, root mean
-/// square) is left out: no coefficient makes it already. Errors: those of find_key_frames() and of
-/// the file, with its name; not_found (a recording or a time that is not there; a point of the
-/// recordings that the file lacks).
+/// Key shapes of a project: those of its folder, those named, or found automatically. A found shape
+/// that hardly differs from the neutral one (RMS less than a twentieth of the largest) is dropped,
+/// since zero coefficients represent it. Errors: those of find_key_frames() and of the file, with
+/// its name; not_found (a missing recording or time; a point of the recordings that the file
+/// lacks).
 Result<Keys> load_keys(const Project& project, const Capture& capture, const tools::Log& log);
 
-/// keys.csv of a folder: a row a shape; key, input, at_s, share and the displacement of each point.
+/// keys.csv of a folder: one row per shape; key, input, at_s, share and the displacement of each
+/// point.
 std::string write_keys(const Keys& keys, const Capture& capture);
 
 }  // namespace animeme::crossmap

@@ -23,24 +23,24 @@ struct Take {
   dam::Retarget retarget;  ///< as control curves
 };
 
-/// What came of a project.
+/// Result of a project.
 struct Mapped {
   Capture capture;          ///< the recordings
   Keys keys;                ///< their key shapes
   Target target;            ///< the character
-  std::vector<Take> takes;  ///< one an input
+  std::vector<Take> takes;  ///< one per input
 };
 
-/// Does all of Appendix A: loads, finds key shapes, fits frames, retargets. Deterministic. Errors:
+/// Runs all of Appendix A: loads, finds key shapes, fits frames, retargets. Deterministic. Errors:
 /// those of load_capture(), load_keys(), load_target(), fit_blend() and fit_target().
 Result<Mapped> run(const Project& project, const tools::Log& log = {});
 
-/// Root mean square of the residuals of a region over the frames of a recording in which it is
-/// seen, and the frame that is off most.
+/// RMS residual of a region over the frames of a recording in which it is visible, and the worst
+/// frame.
 struct RegionResidual {
   double rms = 0;         ///< units of the points
-  double worst = 0;       ///< likewise, of one frame
-  std::size_t frame = 0;  ///< which
+  double worst = 0;       ///< the largest of a frame
+  std::size_t frame = 0;  ///< the worst frame
 };
 /// See RegionResidual; no check of the indices.
 RegionResidual region_residual(const Mapped& mapped, std::size_t take, std::size_t region);

@@ -1,6 +1,6 @@
 /// @file
-/// A picture of a project: each key shape as it was captured and as the target shows it, and frames
-/// of the first recording with their fit.
+/// A picture of a project: each key shape as captured and as shown by the target, and frames of the
+/// first recording with their fit.
 #pragma once
 
 #include <string>

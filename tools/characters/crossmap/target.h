@@ -14,18 +14,18 @@
 
 namespace animeme::crossmap {
 
-/// What a character is moved by.
+/// How a character is moved.
 enum class TargetKind : std::uint8_t {
-  keys,   ///< nothing but the coefficients of the key shapes
-  table,  ///< controls that a table gives for each key shape
+  keys,   ///< by the coefficients of the key shapes
+  table,  ///< by controls from a table for each key shape
   faps,   ///< FAPs
   arkit,  ///< the 52 shapes of ARKit
   mesh,   ///< the shapes of a head
 };
 
-/// A character that is ready to be fitted.
+/// A character prepared for fitting.
 struct Target {
-  TargetKind kind = TargetKind::faps;  ///< what moves it
+  TargetKind kind = TargetKind::faps;  ///< how it is moved
   dam::Character character;            ///< rows 0: its values are mixed, see dam::mix_controls()
   std::vector<double> values;          ///< of each control in each key shape: keys x controls
   std::vector<bool> adjusted;          ///< per key shape; false: the first guess
@@ -35,16 +35,16 @@ struct Target {
 
 /// Makes the character of a project.
 ///
-/// A key shape looks like what the artist says: KEY.obj in the folder of key shapes (heads), else
-/// its row of controls.csv there. Of others the guess is: the FAPs of its captured points, and the
-/// controls whose FAPs come nearest to them (least squares over lengths on a usual face, with the
-/// distances of the lips six times, 0 <= c <= 1).
+/// The shape for a key comes from the artist: KEY.obj in the folder of key shapes (heads), or its
+/// row of controls.csv there. Without these it is guessed: the FAPs of its captured points, and the
+/// controls whose FAPs are nearest to them (least squares over lengths on an average face, with lip
+/// distances weighted six times, 0 <= c <= 1).
 ///
-/// Controls that are not named (Project::controls) and do less than a third of their work where
-/// points were captured are left out.
+/// Controls that are not listed (Project::controls) and act mostly (more than two thirds) away from
+/// the captured points are dropped.
 ///
-/// Errors: those of the readers, with the file; Capture::no_face and not_found (a shape that nobody
-/// adjusted and that cannot be guessed: the remedy is named).
+/// Errors: those of the readers, with the file; Capture::no_face and not_found (a shape that is
+/// neither adjusted nor can be guessed; the message has the remedy).
 Result<Target> load_target(const Project& project, const Capture& capture, const Keys& keys,
                            const tools::Log& log);
 
@@ -52,7 +52,7 @@ Result<Target> load_target(const Project& project, const Capture& capture, const
 Result<dam::Retarget> fit_target(const Target& target, const dam::Blend& blend, fap::Rate rate,
                                  const dam::RetargetOptions& options);
 
-/// What a face shows at these values of the controls; nothing for keys and tables of other names.
+/// The FAPs for these values of the controls; nullopt for keys and for tables with unknown names.
 std::optional<fap::Frame> shown_faps(const Target& target, const double* values);
 
 }  // namespace animeme::crossmap

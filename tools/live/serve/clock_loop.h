@@ -1,5 +1,5 @@
 /// @file
-/// Many things that want to be done in time, on a few threads.
+/// Runs many timed tasks on a few threads.
 ///
 ///     ClockLoop loop(media::steady_clock(), {.threads = 2});
 ///     loop.add(head);              // head->step() is called at the instants that it returns
@@ -19,38 +19,37 @@
 
 #include "tools/formats/media/live/pacer.h"
 
-/// Many talking heads in one process, served on one port.
+/// Many talking heads in one process on one port.
 namespace animeme::serve {
 
-/// Something that is done step by step. Never two steps of one at a time.
+/// A task that runs in steps, never two at a time.
 class Beat {
  public:
   virtual ~Beat() = default;
-  /// Does what is due. Returns the instant of the next step, on the clock of the loop; infinity:
-  /// when it is woken.
+  /// Runs a step. Returns the instant of the next one, on the clock of the loop; infinity: when
+  /// woken.
   virtual double step() = 0;
 };
 
 /// All settings of ClockLoop.
 struct LoopOptions {
   int threads = 1;  ///< 1..64
-  /// Instants are rounded up to multiples of so many seconds, so that what is due at about the
-  /// same time costs one awakening; 0..1.
+  /// Instants are rounded up to multiples of this many seconds, to combine wake-ups; 0..1.
   double grain = 0.002;
 };
 
-/// Any thread takes whatever is due first. Thread safe, but for its end.
+/// Each thread runs the task that is due first. Thread safe, except destruction.
 class ClockLoop {
  public:
   /// The clock must outlive the loop. std::system_error if no thread can be started.
   ClockLoop(media::Clock& clock, const LoopOptions& options);
-  ~ClockLoop();  ///< steps that run are waited for
+  ~ClockLoop();  ///< waits for running steps
   ClockLoop(const ClockLoop&) = delete;
   ClockLoop& operator=(const ClockLoop&) = delete;
 
   void add(std::shared_ptr<Beat> beat);  ///< its first step is due now
-  void wake(const Beat* beat);           ///< a step is due now; one that is not known: nothing
-  /// No step of it runs any more when this returns. Not to be called from a step.
+  void wake(const Beat* beat);           ///< makes a step due now; ignores unknown tasks
+  /// Removes a task and waits for its running step. Do not call from a step.
   void remove(const Beat* beat);
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// How heads are doing, as JSON.
+/// Statistics of heads as JSON.
 #pragma once
 
 #include "tools/formats/common/json.h"

@@ -1,8 +1,8 @@
 /// @file
-/// One head of many: a LiveSpeaker, its lines and its place on the server, on its own clock.
+/// One head of many: a LiveSpeaker, its lines and its path on the server, on its own clock.
 ///
-/// A head that says nothing and that nobody watches sleeps: its clock stands, nothing is made. A
-/// viewer or a line wakes it; its times go on where they were.
+/// A head without viewers and lines sleeps: its clock stops and nothing is generated. A viewer or a
+/// line wakes it; its times continue where they stopped.
 #pragma once
 
 #include <atomic>
@@ -23,25 +23,25 @@
 
 namespace animeme::serve {
 
-/// What a head needs of its server; all of it outlives the head.
+/// The services that a head needs; they must outlive the head.
 struct HeadRoom {
-  Voices& voices;          ///< they speak for it
-  web::WebServer& server;  ///< where it is seen
-  ClockLoop& loop;         ///< its steps
+  Voices& voices;          ///< synthesise its lines
+  web::WebServer& server;  ///< serves it
+  ClockLoop& loop;         ///< runs its steps
   media::Clock& clock;     ///< that of the loop
 };
 
-/// How it goes.
+/// Statistics of a head.
 struct HeadFigures {
-  std::int64_t planes = 0;   ///< that were made
-  std::int64_t packets = 0;  ///< of sound, likewise
+  std::int64_t planes = 0;   ///< planes made
+  std::int64_t packets = 0;  ///< audio packets made
   double late_50 = 0;        ///< seconds that planes were late: median
   double late_99 = 0;        ///< ... 99th percentile
   std::int64_t viewers = 0;  ///< now
-  std::int64_t dropped = 0;  ///< messages that slow viewers did not get
-  std::size_t lines = 0;     ///< that wait to be spoken
+  std::int64_t dropped = 0;  ///< messages dropped for slow viewers
+  std::size_t lines = 0;     ///< queued lines
   std::int64_t spoken = 0;   ///< lines that were begun
-  bool asleep = false;       ///< nothing is made
+  bool asleep = false;       ///< whether it sleeps
   double idle = 0;           ///< seconds that it has slept
   std::string warning;       ///< the last one; empty: none
 };
@@ -49,8 +49,8 @@ struct HeadFigures {
 /// Thread safe.
 class Head : public Beat {
  public:
-  /// At `name` of the server: /heads/NAME/. Waits for the voice. `model` is shared. Errors: those of
-  /// Voices::maker(), LiveSpeaker::open() and WebSink::start().
+  /// At `name` of the server: /heads/NAME/. Waits for the voice. `model` is shared. Errors: those
+  /// of Voices::maker(), LiveSpeaker::open() and WebSink::start().
   static Result<std::shared_ptr<Head>> open(const std::string& name, const HeadSettings& settings,
                                             std::shared_ptr<const dam::Model> model,
                                             const HeadRoom& room);
@@ -59,7 +59,7 @@ class Head : public Beat {
   const HeadSettings& settings() const { return settings_; }  ///< as they were given
   /// Errors: those of HeadLines::push().
   Result<void> say(std::vector<std::string> lines);
-  /// Its viewers are told. No step may run: ClockLoop::remove() comes first.
+  /// Ends it and informs its viewers. Call ClockLoop::remove() first, so that no step runs.
   void finish();
   HeadFigures figures() const;  ///< now
   double step() override;

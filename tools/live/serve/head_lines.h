@@ -1,6 +1,6 @@
 /// @file
-/// The lines of one head, and commands among them (tools/speech/talking/line_command.h): they wait
-/// as text, and become speech shortly before they are wanted.
+/// The lines of one head, and commands among them (tools/speech/talking/line_command.h): they are
+/// queued as text and synthesised shortly before they are needed.
 #pragma once
 
 #include <cstddef>
@@ -19,26 +19,26 @@
 
 namespace animeme::serve {
 
-/// Thread safe, but for take(), which is one thread's at a time.
+/// Thread safe, except that take() may only be called from one thread at a time.
 class HeadLines : public speech::LineSource, public std::enable_shared_from_this<HeadLines> {
  public:
-  static constexpr std::size_t kMostLines = 1000;   ///< that wait
+  static constexpr std::size_t kMostLines = 1000;   ///< in the queue
   static constexpr std::size_t kMostBytes = 65536;  ///< of these
 
-  /// `changed` is called when take() or take_news() has something. Voices and clock must outlive
-  /// the lines.
+  /// `changed` is called when take() or take_news() returns something new. Voices and clock must
+  /// outlive the lines.
   HeadLines(speech::LineMaker maker, Voices& voices, media::Clock& clock,
             std::function<void()> changed);
 
-  /// Lines and commands, in their order; empty ones are skipped. Errors: out_of_range (too many
-  /// wait, or one is too long), invalid_argument ("end", which a head has not; the sentence says
-  /// what to do), those of read_line(). What stands in front of the one that is wrong is done
-  /// unless it is out_of_range or "end".
+  /// Adds lines and commands in order; empty ones are skipped. Errors: out_of_range (too many in
+  /// the queue, or a line is too long), invalid_argument ("end", which a head does not support; the
+  /// message has the alternative), those of read_line(). Lines before a wrong one are executed,
+  /// except for out_of_range and "end".
   Result<void> push(std::vector<std::string> lines);
-  bool idle() const;            ///< nothing waits, and nothing is left to be told
-  std::size_t waiting() const;  ///< lines that take() has not given
-  std::int64_t given() const;   ///< lines that it has
-  /// All lines are forgotten; `changed` is not called any more when this returns.
+  bool idle() const;            ///< no queued lines and no pending news
+  std::size_t waiting() const;  ///< lines not yet returned by take()
+  std::int64_t given() const;   ///< lines returned by take()
+  /// Drops all lines; `changed` is not called after this returns.
   void stop();
 
   std::optional<speech::SpokenLine> take(bool only_joining) override;
@@ -46,7 +46,7 @@ class HeadLines : public speech::LineSource, public std::enable_shared_from_this
   bool ended() override { return false; }  ///< never: more may come
   void abandon(const std::string& why) override;
   int sample_rate() const { return maker_.sample_rate; }  ///< Hz
-  /// The sentence for the line that was last left out or in doubt; empty: none was.
+  /// The sentence for the last skipped or doubtful line; empty: none.
   std::string last_warning() const;
 
  private:

@@ -1,12 +1,12 @@
 /// @file
-/// Many talking heads on one port, made and told what to say by HTTP requests.
+/// Many talking heads on one port, controlled by HTTP requests.
 ///
 ///     auto server = serve::HeadServer::open({.url = "http://127.0.0.1:8080/"}, {});
 ///     (*server)->make("anna", {});         // as PUT /heads/anna does
 ///     while (!stopped) (*server)->look();  // once a second
 ///     (*server)->finish();
 ///
-/// Which requests there are stands in tools/live/serve/README.md.
+/// tools/live/serve/README.md documents the requests.
 #pragma once
 
 #include <condition_variable>
@@ -30,23 +30,23 @@ namespace animeme::serve {
 struct ServerOptions {
   std::string url = "http://127.0.0.1:8080/";  ///< where to listen, as make_web_sink() takes it
   web::WebOptions web;                         ///< of all heads together
-  /// What requests other than viewers' must bring as "Authorization: Bearer TOKEN"; empty: nothing.
+  /// Token required as "Authorization: Bearer TOKEN" for requests other than viewers'; empty: none.
   std::string token;
-  int most_heads = 200;  ///< 1..10000; more are refused
-  /// Seconds that a head made by a request sleeps before it is forgotten; 0: it stays.
+  int most_heads = 200;  ///< maximum number of heads, 1..10000
+  /// Seconds that a head created by a request sleeps before it is deleted; 0: never.
   double expire = 900;
-  bool make_on_say = false;                   ///< what is said to a head that is not there makes it
-  HeadSettings defaults;                      ///< of heads that say nothing else
+  bool make_on_say = false;                   ///< saying something to a missing head creates it
+  HeadSettings defaults;                      ///< defaults for heads
   std::map<std::string, std::string> models;  ///< files of models, by name
-  int threads = 0;                            ///< that make planes and packets; 0: one a core
-  MakerOf voices;                             ///< nothing: speech::voice_lines()
+  int threads = 0;  ///< for generating planes and packets; 0: one per core
+  MakerOf voices;   ///< empty: speech::voice_lines()
 };
 
 /// Thread safe.
 class HeadServer {
  public:
-  /// Serves from now on. `heads`: that are there from the beginning, and never forgotten. Errors:
-  /// those of WebServer::open() and make(); invalid_argument (options).
+  /// Starts serving. `heads` exist from the start and never expire. Errors: those of
+  /// WebServer::open() and make(); invalid_argument (options).
   static Result<std::unique_ptr<HeadServer>> open(
       const ServerOptions& options, const std::vector<std::pair<std::string, HeadSettings>>& heads);
   ~HeadServer();
@@ -54,15 +54,15 @@ class HeadServer {
   HeadServer& operator=(const HeadServer&) = delete;
 
   std::string address() const { return server_->address(); }  ///< with the real port
-  /// A head that is not there yet; or is, with these settings. Errors: invalid_argument (the name;
-  /// settings; one of this name has others), out_of_range (too many heads), those of Head::open()
-  /// and read_model(). `expires`: ServerOptions::expire is for it.
+  /// Creates a head, or returns an existing one with these settings. Errors: invalid_argument (the
+  /// name; settings; the name exists with other settings), out_of_range (too many heads), those of
+  /// Head::open() and read_model(). `expires`: whether ServerOptions::expire applies.
   Result<std::shared_ptr<Head>> make(const std::string& name, const HeadSettings& settings,
                                      bool expires = true);
-  std::shared_ptr<Head> find(const std::string& name) const;  ///< null: there is none
-  bool remove(const std::string& name);                       ///< false: there is none
-  void look();    ///< forgets heads that have slept too long; to be called once a second
-  void finish();  ///< all viewers are told, nothing is served any more; two seconds at most
+  std::shared_ptr<Head> find(const std::string& name) const;  ///< null: not found
+  bool remove(const std::string& name);                       ///< false: not found
+  void look();    ///< deletes heads that have slept too long; call once a second
+  void finish();  ///< informs all viewers and stops serving; takes at most two seconds
   tools::Json figures() const;  ///< GET /heads
   std::string metrics() const;  ///< GET /metrics, in the text format of Prometheus
 

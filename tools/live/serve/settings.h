@@ -1,6 +1,6 @@
 /// @file
-/// What a head is like, and how that is written in JSON: names and bounds are those of the options
-/// of `animeme stream`.
+/// Settings of a head and their JSON form; names and bounds are those of the options of
+/// `animeme stream`.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@
 
 namespace animeme::serve {
 
-/// The members of its JSON stand beside.
+/// The comments give the JSON members.
 struct HeadSettings {
-  std::string model;             ///< "model": a name that the server was started with; empty: ours
+  std::string model;             ///< "model": a name known to the server; empty: built-in
   voice::VoiceOptions voice;     ///< "lang", "speed" (words a minute), "pitch"
   dam::SynthesisOptions motion;  ///< "rate", "style", "sharpness", "articulate"
-  bool idle_motion = true;       ///< "idle_motion": blinks, and brows and head that move a little
+  bool idle_motion = true;       ///< "idle_motion": blinks and small motion of brows and head
   std::uint64_t seed = 1;        ///< "seed" of idle motion, 0..1e9
-  double intra_seconds = 1;      ///< "intra_seconds": between planes with which decoders can begin
+  double intra_seconds = 1;      ///< "intra_seconds": interval of intra planes
   int quant = 1;                 ///< "quant", 0..31
   bool sound = true;             ///< "sound"
   media::AudioSettings audio;    ///< "audio_codec", "audio_bitrate", "audio_effort" (Opus)
@@ -32,24 +32,25 @@ struct HeadSettings {
   HeadSettings();  ///< Opus with an effort of 5 at 48000 bits a second, articulation 1
 };
 
-/// `json`, an object, over `settings`. Errors: invalid_argument (a member that nobody knows, or
-/// with a value that it cannot have; the sentence names it).
+/// Applies `json`, an object, to `settings`. Errors: invalid_argument (an unknown member or an
+/// invalid value; the message names it).
 Result<HeadSettings> read_settings(const tools::Json& json, HeadSettings settings);
 
-/// All members, as read_settings() reads them.
+/// All members, in the format of read_settings().
 tools::Json settings_json(const HeadSettings& settings);
 
-/// A name that a head can have: 1..64 letters, digits, '-', '_' and '.', not in front.
+/// Whether a name is valid for a head: 1..64 letters, digits, '-', '_' and '.', not beginning with
+/// '.'.
 bool is_head_name(std::string_view name);
 
 /// Heads of a file, {"defaults": {...}, "heads": [{"name": "anna", ...}, ...]}.
 struct HeadList {
-  HeadSettings defaults;                                    ///< of heads that are made later
+  HeadSettings defaults;                                    ///< for heads created later
   std::vector<std::pair<std::string, HeadSettings>> heads;  ///< name, settings
 };
 
-/// Reads such a file. Errors: those of read_file() and read_settings(); syntax (no JSON, no such
-/// list), invalid_argument (a name twice, or none); all name the file.
+/// Reads such a file. Errors: those of read_file() and read_settings(); syntax (not JSON, no such
+/// list), invalid_argument (a duplicate or missing name); all have the file name.
 Result<HeadList> read_head_list(const std::string& path, const HeadSettings& defaults);
 
 }  // namespace animeme::serve

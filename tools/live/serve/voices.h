@@ -1,7 +1,7 @@
 /// @file
-/// The voice of all heads: a thread that makes speech of lines in the order in which they come.
+/// The voice thread of all heads, which synthesises lines in order of arrival.
 ///
-/// espeak-ng can speak one text at a time, 500 times faster than it is heard, so one thread is
+/// espeak-ng speaks one text at a time, but 500 times faster than real time, so one thread is
 /// enough for hundreds of heads.
 #pragma once
 
@@ -19,22 +19,22 @@
 
 namespace animeme::serve {
 
-/// Makes the maker of lines for a voice.
+/// Creates the LineMaker for a voice.
 using MakerOf = std::function<Result<speech::LineMaker>(const voice::VoiceOptions&)>;
 
-/// Thread safe, but for its end.
+/// Thread safe, except destruction.
 class Voices {
  public:
-  /// `maker_of` is called in the thread, once for each voice that is asked for; as a rule
+  /// `maker_of` is called in the thread, once for each requested voice; usually
   /// speech::voice_lines(). std::system_error if no thread can be started.
   explicit Voices(MakerOf maker_of);
-  ~Voices();  ///< the job that runs is waited for, others are dropped
+  ~Voices();  ///< waits for the running job and drops the others
   Voices(const Voices&) = delete;
   Voices& operator=(const Voices&) = delete;
 
-  /// Waits for the jobs before it. Errors: those of `maker_of`; io (it is over).
+  /// Waits for the jobs before it. Errors: those of `maker_of`; io (already ended).
   Result<speech::LineMaker> maker(const voice::VoiceOptions& options);
-  /// Runs `job` in the thread behind all that wait. It must throw nothing.
+  /// Queues `job` for the thread. It must not throw.
   void post(std::function<void()> job);
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// What is there as a whole before it is streamed: a face and its sound, coded.
+/// Complete clips for streaming: a coded face and its sound.
 #pragma once
 
 #include <optional>
@@ -15,48 +15,48 @@
 
 namespace animeme::live {
 
-/// How face and sound are coded where they are not yet.
+/// Options for encoding face and sound.
 struct Coding {
   int quant = 1;               ///< fap_quant, 1..31
-  double intra_seconds = 1;    ///< coded streams with longer distances are coded again
-  bool copy = false;           ///< coded streams stay as they are, whatever is asked for
-  bool sound = true;           ///< false: the face alone
-  media::AudioSettings audio;  ///< how sound is coded
-  bool codec_given = false;    ///< coded sound of another codec is coded again
+  double intra_seconds = 1;    ///< coded streams with longer intervals are re-encoded
+  bool copy = false;           ///< never re-encode coded streams
+  bool sound = true;           ///< false: face only
+  media::AudioSettings audio;  ///< audio encoder settings
+  bool codec_given = false;    ///< re-encode sound of another codec
 };
 
-/// Face and sound, coded.
+/// Coded face and sound.
 struct Clip {
   fba::AccessUnits face;      ///< planes
   media::EncodedAudio sound;  ///< no packets: silent
 };
 
-/// A clip as fba::live_options() code it: every intra plane tells all that a receiver needs.
+/// Encodes a clip with fba::live_options(): every intra plane is self-contained.
 /// Errors: those of fba::encode(); not_found (no frames).
 Result<fba::AccessUnits> live_units(const fap::Sequence& clip, const Coding& coding);
 
 /// Seconds of the longest stretch between two intra planes, or from the last one to the end.
 double longest_intra_interval(const fba::AccessUnits& units);
 
-/// Coded units of a stream, `decoded`, coded again so that joining points lie
-/// Coding::intra_seconds apart, with their quantisers and times; nothing: they do already.
+/// Re-encodes units of a stream, `decoded`, so that intra planes are Coding::intra_seconds apart,
+/// with the same quantisers and times; nullopt: not necessary.
 Result<std::optional<fba::AccessUnits>> with_joints(const fba::AccessUnits& units,
                                                     const fba::DecodedStream& decoded,
                                                     const Coding& coding);
 
-/// Coded units of a stream, `decoded`, as they are, or coded again where their intra planes lie
-/// farther apart than `coding` wants. Says so; warns of streams that can be joined at their begin
-/// only. `name` is that of the file in what is said and in errors.
+/// Units of a stream, `decoded`, unchanged, or re-encoded if their intra planes are farther apart
+/// than `coding` requires. Logs this; warns about streams that can be joined only at their
+/// beginning. `name` is the file name for messages and errors.
 Result<fba::AccessUnits> for_live_use(fba::AccessUnits units, const fba::DecodedStream& decoded,
                                       const std::string& name, const Coding& coding,
                                       const tools::Log& log = {});
 
-/// Sound from any file: its packets as they are where that is possible and `coding` allows it.
+/// Sound from any file: its packets unchanged if possible and allowed by `coding`.
 /// Errors: those of speech::read_coded_sound().
 Result<media::EncodedAudio> live_sound(const std::string& path, const Coding& coding,
                                        const tools::Log& log = {});
 
-/// A clip and its sound (may be null) coded.
+/// Encodes a clip and its sound (may be null).
 Result<Clip> code_live_clip(const fap::Sequence& clip, const media::Pcm* audio,
                             const Coding& coding);
 

@@ -1,6 +1,6 @@
 /// @file
-/// Where it is told what becomes of the lines that are spoken: a file, a control socket, and the
-/// receivers whose transport has a place for it.
+/// Writes events of spoken lines to a file, to a control socket, and to receivers whose transport
+/// supports events.
 #pragma once
 
 #include <cstdio>
@@ -15,14 +15,14 @@
 
 namespace animeme::live {
 
-/// JSON lines, each of them written out at once.
+/// JSON lines, each flushed immediately.
 class EventOutput {
  public:
-  /// `path`: a file, which is begun anew, a pipe, or "-" for standard output; empty: none. The
-  /// socket, which may be null, must outlive this. Errors: io (the file cannot be written).
+  /// `path`: a file (overwritten), a pipe, or "-" for standard output; empty: none. The socket,
+  /// which may be null, must outlive this. Errors: io (the file cannot be written).
   static Result<EventOutput> open(const std::string& path, speech::ControlSocket* control);
 
-  /// Errors: io (the file; from then on nothing goes there), those of Sinks::tell().
+  /// Errors: io (the file, which is not written any more), those of Sinks::tell().
   Result<void> tell(const std::vector<speech::LineEvent>& events, Sinks& sinks);
 
  private:

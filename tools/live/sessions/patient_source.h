@@ -1,8 +1,8 @@
 /// @file
-/// A source that waits for what is not there yet, and comes back when its connection broke.
+/// A source that waits until it is available and reconnects.
 ///
-///     auto source = open_patiently("talk.sdp", options);       // the file may come later
-///     auto steady = media::make_steady(std::move(*source));    // one clock for all that comes
+///     auto source = open_patiently("talk.sdp", options);       // the file may appear later
+///     auto steady = media::make_steady(std::move(*source));    // one continuous clock
 #pragma once
 
 #include <functional>
@@ -15,28 +15,28 @@
 
 namespace animeme::live {
 
-/// Tries to open again and again, after 0.1 s at first, then after half as long again each time, up
-/// to a second. How long that goes on is the caller's to say: next() has LiveIdle meanwhile. A
-/// connection that broke is opened again the same way; LiveRestart stands behind it.
+/// Retries opening after 0.1 s, then after 1.5 times as long each time, up to a second. The caller
+/// decides when to stop: meanwhile next() returns LiveIdle. A broken connection is reopened in the
+/// same way, followed by a LiveRestart.
 class PatientSource : public media::LiveSource {
  public:
   /// Opens the source.
   using Open = std::function<Result<std::unique_ptr<media::LiveSource>>()>;
-  /// Is this error one that goes away when the sender comes?
+  /// Is this error temporary, until the sender is available?
   using Passing = std::function<bool(const Error&)>;
 
-  /// Nothing is opened before the first next(). `clock` has to live longer.
+  /// Opens nothing before the first next(). `clock` must outlive this.
   PatientSource(Open open, Passing passing, media::Clock& clock = media::steady_clock())
       : open_(std::move(open)), passing_(std::move(passing)), clock_(clock) {}
 
-  /// Errors: those of opening and of the source that do not pass.
+  /// Errors: those of opening and of the source that are not temporary.
   Result<media::LiveEvent> next(double seconds) override;
   media::ReceiveStats stats() const override;
 
-  /// Opens now, once. Errors: those that do not pass; with others waiting_for() says what is
-  /// missing.
+  /// Tries to open once now. Errors: those that are not temporary; otherwise waiting_for() has the
+  /// reason.
   Result<void> try_now();
-  /// Why there is nothing: what is not there yet, or why a connection broke. Nothing: it is there.
+  /// The reason for waiting: what is missing, or why a connection broke; nullopt: connected.
   const std::optional<Error>& waiting_for() const { return problem_; }
 
  private:
@@ -50,8 +50,8 @@ class PatientSource : public media::LiveSource {
   bool heard_ = false, restart_ = false;
 };
 
-/// A source for `where`, as open_source(). A session description that is not there yet (or empty)
-/// and a web server that does not answer are waited for. Errors: all others of open_source().
+/// A source for `where`, as open_source(), that waits for a missing (or empty) session description
+/// and for a web server that does not answer. Errors: all others of open_source().
 Result<std::unique_ptr<PatientSource>> open_patiently(const std::string& where,
                                                       const SourceOptions& options);
 

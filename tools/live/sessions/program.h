@@ -1,5 +1,5 @@
 /// @file
-/// What is sent: a clip that is there as a whole, or a head that speaks line by line.
+/// What is sent: a complete clip, or a head that speaks line by line.
 #pragma once
 
 #include <cstdint>
@@ -19,33 +19,33 @@
 
 namespace animeme::live {
 
-/// What is said, how it looks and how it is coded.
+/// Options for the content and its encoding.
 struct ProgramOptions {
-  std::string say;        ///< file of lines to speak as they come, "-": standard input
-  std::string say_json;   ///< likewise, of pieces (tools/speech/talking/pieces.h); one of the two
+  std::string say;        ///< file of lines to speak as they arrive, "-": standard input
+  std::string say_json;   ///< the same for pieces (tools/speech/talking/pieces.h); one of the two
   std::string control;    ///< path of a control socket for lines and commands; empty: none
-  std::string say_audio;  ///< sound of a voice as it comes, "-": standard input
-  std::optional<speech::BareSound> bare;            ///< how its samples lie; nothing: WAV
-  double delay = speech::LiveVoiceOptions().delay;  ///< seconds, of a voice as it comes
+  std::string say_audio;  ///< sound of a live voice, "-": standard input
+  std::optional<speech::BareSound> bare;            ///< format of raw samples; nullopt: WAV
+  double delay = speech::LiveVoiceOptions().delay;  ///< seconds, for a live voice
   speech::SpokenOptions spoken;                     ///< text, script or voice
   Coding coding;                                    ///< of face and sound
-  std::string model;                                ///< as speech::read_model() takes it
+  std::string model;                                ///< argument of speech::read_model()
   dam::SynthesisOptions motion;                     ///< its rate, frames and tail are not used
-  bool idle_motion = false;  ///< blinks, and brows and head that move a little
-  std::uint64_t seed = 1;    ///< of the idle motion
-  bool loop = false;         ///< clips begin again at their end
+  bool idle_motion = false;                         ///< blinks and small motion of brows and head
+  std::uint64_t seed = 1;                           ///< of the idle motion
+  bool loop = false;                                ///< repeat clips
   double duration = std::numeric_limits<double>::infinity();  ///< seconds
 };
 
-/// What is sent, and all that has to live as long.
+/// The content and everything that must outlive it.
 struct Program {
   dam::Model model;                                ///< of the speaker
-  int descriptor = -1;                             ///< of the lines, if it is ours to close
-  std::unique_ptr<speech::ControlSocket> control;  ///< null: there is none
+  int descriptor = -1;                             ///< of the lines, if owned
+  std::unique_ptr<speech::ControlSocket> control;  ///< may be null
   std::unique_ptr<speech::VoiceLines> lines;       ///< null: a clip plays
   std::unique_ptr<speech::LiveSpeaker> speaker;    ///< null: a clip plays
-  std::unique_ptr<speech::LiveVoice> voice;        ///< null: no voice is listened to
-  std::unique_ptr<media::ClipInput> clip;          ///< null: lines are spoken, or a voice speaks
+  std::unique_ptr<speech::LiveVoice> voice;        ///< null: no live voice
+  std::unique_ptr<media::ClipInput> clip;          ///< null: lines or a live voice
 
   Program() = default;
   Program(const Program&) = delete;
@@ -54,7 +54,7 @@ struct Program {
   media::LiveInput& input() const;  ///< the clip, the speaker or the voice
 };
 
-/// Text, script or recorded voice as a clip of `rate`, as `animeme speak` makes it. Errors: those
+/// Makes a clip at `rate` from text, script or recorded voice, like `animeme speak`. Errors: those
 /// of speech::read_model(), speech::get_spoken(), dam::synthesise() and code_live_clip().
 Result<Clip> spoken_clip(const ProgramOptions& options, fap::Rate rate, const tools::Log& log = {});
 
@@ -62,13 +62,13 @@ Result<Clip> spoken_clip(const ProgramOptions& options, fap::Rate rate, const to
 void play_clip(Clip clip, const ProgramOptions& options, Program& program);
 
 /// Makes `program` a head that speaks the lines of options.say or say_json, and of options.control.
-/// `program` must stay where it is. Errors: those of speech::read_model(), speech::ControlSocket,
+/// `program` must not be moved. Errors: those of speech::read_model(), speech::ControlSocket,
 /// VoiceLines and LiveSpeaker; not_found (no such file).
 Result<void> open_speaker(const ProgramOptions& options, fap::Rate rate, Program& program);
 
 /// Makes `program` a head that follows the voice of options.say_audio; waits for its first bytes.
-/// `program` must stay where it is. Errors: those of speech::read_model() and LiveVoice; not_found
-/// (no such file).
+/// `program` must not be moved. Errors: those of speech::read_model() and LiveVoice; not_found (no
+/// such file).
 Result<void> open_voice(const ProgramOptions& options, fap::Rate rate, Program& program);
 
 }  // namespace animeme::live

@@ -1,6 +1,5 @@
 /// @file
-/// What is kept of a reception as text. Containers and streams:
-/// tools/formats/media/live/recording_file.h.
+/// Writes a reception as text. Containers and streams: tools/formats/media/live/recording_file.h.
 #pragma once
 
 #include <cstdint>
@@ -14,40 +13,40 @@
 
 namespace animeme::live {
 
-/// ".mp4", ".mkv", ".ts".
+/// Whether the extension is .mp4, .mkv or .ts.
 bool is_container_output(const std::string& output);
-/// ".fap", or "-": text on standard output.
+/// Whether the extension is .fap, or "-" for text on standard output.
 bool is_fap_output(const std::string& output);
 
-/// Can a file of this name be made? A sentence before anything is received. Error: io.
+/// Checks before reception that a file of this name can be created. Errors: io.
 Result<void> check_place(const std::string& output);
 
-/// What is in the text of a reception.
+/// Options for text output.
 struct FapOutputOptions {
-  media::GapRule gap = media::GapRule::hold;  ///< what is shown while planes are missing
-  bool coded = false;                         ///< frames as they are coded; implies `exact`
+  media::GapRule gap = media::GapRule::hold;  ///< frames while planes are missing
+  bool coded = false;                         ///< frames as coded; implies `exact`
   bool fill = false;                          ///< every FAP, at rest if it was never sent
   bool expand = false;                        ///< FAP 1 and 2 as low-level FAPs
-  bool exact = false;  ///< the exact rate in the header, where players want a whole one
+  bool exact = false;  ///< write the exact rate in the header, although players need an integer
 };
 
-/// Frames as text as they come: for standard output, or at the end of a file, where each is on the
-/// disk at once. A text that is still coming has no frame count and a mask that grows; players show
-/// files, which get both at their end. Memory does not grow with the text.
+/// Writes frames as text as they arrive, to standard output or to a file, flushed after each frame.
+/// Text being written has no frame count and a growing mask; files get both at the end. Uses
+/// constant memory.
 class FapOutput {
  public:
   /// `output`: path, or "-". Nothing is opened yet.
   FapOutput(const std::string& output, const FapOutputOptions& options);
 
-  /// False: `output` is no text, nothing is done with units.
+  /// False: `output` is not text; units are ignored.
   bool wanted() const { return is_fap_output(output_); }
-  /// Text of the frames of a unit for standard output; empty where a file is written. With the
-  /// first frame the file takes its name, and one of that name is replaced. Error: io.
+  /// Returns the text of a unit's frames for standard output; empty if a file is written. The file
+  /// appears with the first frame and replaces an existing one. Errors: io.
   Result<std::string> push(const media::LiveUnit& unit, std::uint32_t timescale, bool after_gap);
-  /// Frames a second, of those so far.
+  /// Frames a second, so far.
   fap::Rate rate() const { return frames_.rate(); }
   /// Completes the file, if it is one and there were frames. Errors: io; those of fap::read_text(),
-  /// if somebody else has changed it.
+  /// if another program changed it.
   Result<void> finish();
 
  private:

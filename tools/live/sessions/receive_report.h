@@ -1,5 +1,5 @@
 /// @file
-/// What a reception tells of what came and what did not.
+/// Report on a reception: received and lost data.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace animeme::live {
 struct IntervalShares {
   double mean = 1,         ///< over all intervals
       least = 1;           ///< of the worst
-  std::size_t spoilt = 0;  ///< intervals with a plane that is missing
+  std::size_t spoilt = 0;  ///< intervals with a missing plane
 };
 /// 1 and 1 for no intervals.
 IntervalShares shares_of(const std::vector<media::IntraInterval>& intervals);
@@ -22,11 +22,11 @@ IntervalShares shares_of(const std::vector<media::IntraInterval>& intervals);
 std::string receive_line(double seconds, const media::Recorder& recorder,
                          const media::ReceiveStats& stats);
 
-/// What is unusual, a sentence a line: senders that began again, datagrams of others, packets so
-/// late that an option helps. Empty as a rule.
+/// Anomalies, one sentence per line: restarted senders, foreign datagrams, packets so late that an
+/// option helps. Usually empty.
 std::string receive_advice(const media::ReceiveStats& stats);
 
-/// Sentences at the end, one a line.
+/// The summary, one sentence per line.
 std::string receive_summary(const media::Recorder& recorder, const media::ReceiveStats& stats,
                             const std::vector<media::IntraInterval>& intervals);
 /// The same as JSON text, with a row for every interval.

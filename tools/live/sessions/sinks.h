@@ -12,34 +12,34 @@
 
 namespace animeme::live {
 
-/// What is sent to one address, and how that goes.
+/// A destination and its state.
 struct Address {
   std::string url;                        ///< as given
   std::unique_ptr<media::LiveSink> sink;  ///< never null
-  bool broken = false;                    ///< nothing is sent there any more
+  bool broken = false;                    ///< not used any more
 };
 
-/// All addresses of a stream. One that breaks while it runs is left behind with a warning (to
-/// talk.warn of open()) as long as another one works.
+/// All addresses of a stream. If one breaks while another still works, it is dropped with a warning
+/// (log.warn of open()).
 class Sinks {
  public:
-  /// `sdp` names the session descriptions of the rtp addresses, in their order; fewer will do.
+  /// `sdp`: file names for the session descriptions of the rtp addresses, in order; may be fewer.
   /// Errors: those of open_sink(), with the address.
   static Result<Sinks> open(const std::vector<std::string>& urls,
                             const std::vector<std::string>& sdp, const SinkOptions& options,
                             const tools::Log& log = {});
 
-  /// A web server that is open to other machines is warned of. Errors: of any address.
+  /// Warns if a web server is open to other machines. Errors: of any address.
   Result<void> start(const media::LiveInfo& info);
   /// Errors: when the last address breaks.
   Result<void> send(const media::LiveUnit& unit);
-  Result<void> tell(const std::string& json);  ///< as LiveSink::tell(), everywhere
-  Result<void> poll();                         ///< as LiveSink::poll(), everywhere
-  /// Says goodbye everywhere; the first error.
+  Result<void> tell(const std::string& json);  ///< LiveSink::tell() for all
+  Result<void> poll();                         ///< LiveSink::poll() for all
+  /// Finishes all; returns the first error.
   Result<void> finish();
 
   const std::vector<Address>& addresses() const { return addresses_; }  ///< in the order of open()
-  /// Of all addresses: receivers are added up, the largest loss counts.
+  /// Of all addresses: the sum of receivers, the largest loss.
   media::SendStats stats() const;
 
  private:

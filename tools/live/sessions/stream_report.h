@@ -1,5 +1,5 @@
 /// @file
-/// What a stream tells while it runs and when it is over.
+/// Progress and summary of a stream.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,17 @@
 
 namespace animeme::live {
 
-/// Counts what was sent, for lines on the way and a summary.
+/// Counts what was sent, for progress lines and a summary.
 class StreamReport {
  public:
   explicit StreamReport(const media::LiveInfo& info) : info_(info) {}  ///< `info` is kept
 
-  void add(const media::LiveUnit& unit);  ///< one more unit was sent
+  void add(const media::LiveUnit& unit);  ///< counts a sent unit
   /// "12.0 s: face 25 planes 6.2 kbit/s, ..." of the time since the last call. `now`: seconds
   /// since the begin.
   std::string line(double now, const Sinks& sinks, const media::Pacer& pacer);
 
-  /// Sentences at the end, one a line. `traces` may be empty.
+  /// The summary, one sentence per line. `traces` may be empty.
   std::string summary(double seconds, const Sinks& sinks, const media::Pacer& pacer,
                       const std::deque<speech::LineTrace>& traces) const;
   /// The same as JSON text.
@@ -43,22 +43,22 @@ class StreamReport {
   double last_ = 0;
 };
 
-/// Where the milliseconds from a line of text to a sent packet went.
+/// Breakdown of the latency from a line of text to a sent packet.
 struct Latency {
-  std::size_t lines = 0;  ///< that count here
-  double voice = 0,       ///< until the voice was done
-      synthesis = 0,      ///< frames
+  std::size_t lines = 0;  ///< number of lines
+  double voice = 0,       ///< voice synthesis
+      synthesis = 0,      ///< motion synthesis
       coding = 0,         ///< planes and packets
       sending = 0,        ///< until they were due
-      waiting = 0;        ///< all the rest
+      waiting = 0;        ///< everything else
   double mean = 0,        ///< from the line's arrival to its first packet
       worst = 0;          ///< likewise
 };
-/// What of a line counts: its first moving plane, or its first packet with sound.
+/// End point of the latency: the first moving plane, or the first packet with sound.
 enum class Sign : std::uint8_t { face, sound };
-/// Whose turn it was when they came, or those that waited for another line.
+/// Lines that could start at once, or that waited for another line.
 enum class Turn : std::uint8_t { at_once, waited };
-/// Zeros if no such line was spoken. Lines that were cancelled before their sign do not count.
+/// Zeros if no such line was spoken. Lines that were cancelled earlier do not count.
 Latency latency_of(const std::deque<speech::LineTrace>& traces, Sign sign,
                    Turn turn = Turn::at_once);
 

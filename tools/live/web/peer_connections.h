@@ -1,6 +1,6 @@
 /// @file
-/// WebRTC of the web server: who answers the offers that browsers post to `/whep`, and sends to
-/// them. tools/live/webrtc has one; the server knows of WebRTC no more than this.
+/// The web server's interface to WebRTC: answers the offers that browsers post to `/whep`, and
+/// sends to them. Implemented by tools/live/webrtc.
 #pragma once
 
 #include <functional>
@@ -12,33 +12,33 @@
 
 namespace animeme::web {
 
-/// What becomes of an offer.
+/// Answer to an offer.
 struct PeerAnswer {
   unsigned status = 201;  ///< of HTTP
-  std::string id;         ///< by which the connection is ended; 201 alone
+  std::string id;         ///< identifies the connection for end(); only for 201
   std::string text;       ///< the answer as a session description (201), else a sentence
 };
 
-/// Connections to browsers by WebRTC. Functions may be called from any thread; none waits for a
+/// WebRTC connections to browsers. Functions may be called from any thread; none blocks on a
 /// browser.
 class PeerConnections {
  public:
   virtual ~PeerConnections() = default;
-  /// Before all others, once. `most` connections at the same time, `per_address` of one address
-  /// (0: any number). Errors: unsupported (not with this sound, or not on this machine).
+  /// Call first, once. At most `most` connections at a time, `per_address` of one address (0: any
+  /// number). Errors: unsupported (with this sound, or on this machine).
   virtual Result<void> start(const media::LiveInfo& info, int most, int per_address) = 0;
-  /// Offers may come soon: somebody looks at the page.
+  /// A page was opened, so that offers may come soon.
   virtual void expect() = 0;
-  /// Somebody at `address` (bytes, as of the socket) wants to watch. `answer` is called once,
-  /// sooner or later, from any thread, but not after finish().
+  /// An offer from `address` (bytes of the socket address). `answer` is called once, possibly
+  /// later, from any thread, but not after finish().
   virtual void offer(std::string sdp, std::string address,
                      std::function<void(PeerAnswer)> answer) = 0;
-  /// The viewer has gone. False: there is none with this id.
+  /// Ends a connection. False: unknown id.
   virtual bool end(const std::string& id) = 0;
   /// A unit with the times given to LiveSink::send(). `values`: the message of `/faps`, empty for
   /// sound and for planes that could not be decoded.
   virtual void send(const media::LiveUnit& unit, std::string_view values) = 0;
-  /// A message of LiveSink::tell(), with the times that `/faps` has; it may be lost on the way.
+  /// A message of LiveSink::tell(), with the times of `/faps`; it may get lost.
   virtual void tell(std::string_view json) { (void)json; }
   /// Says goodbye to all and closes.
   virtual void finish() = 0;

@@ -1,13 +1,13 @@
 /// @file
-/// Many presentations on one port, and what a program answers to other requests there.
+/// A web server with many presentations on one port, and a handler for other requests.
 ///
 ///     auto server = WebServer::open("http://127.0.0.1:8080/", {}, answer_requests);
-///     auto sink = (*server)->make_sink("/heads/anna", [] { ... });   // a viewer has come
+///     auto sink = (*server)->make_sink("/heads/anna", [] { ... });   // a viewer has joined
 ///     (*sink)->start(info);            // http://127.0.0.1:8080/heads/anna/ shows the page
-///     (*sink)->finish();               // and is gone; the others stay
+///     (*sink)->finish();               // ends it; the others stay
 ///
-/// Each has below its path what make_web_sink() offers at `/`. What lies below no such path, and
-/// all methods but GET and HEAD, go to the function that the server was opened with.
+/// Each presentation has under its path what make_web_sink() serves at `/`. Other paths, and all
+/// methods except GET and HEAD, go to the handler.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@
 
 namespace animeme::web {
 
-/// A request that is no viewer's.
+/// A request for the handler.
 struct ServerRequest {
   std::string method;         ///< "GET" (also for HEAD), "POST", "PUT", "DELETE"
   std::string path;           ///< as in the request line, without the query
@@ -27,24 +27,23 @@ struct ServerRequest {
   std::string body;           ///< ServerOptions::most_body at most
 };
 
-/// What is answered.
+/// A response.
 struct ServerReply {
   unsigned status = 200;                  ///< of HTTP
-  std::string body;                       ///< never empty, but see HEAD
+  std::string body;                       ///< not empty; not sent for HEAD
   std::string type = "application/json";  ///< its media type
 };
 
-/// Gives the answer, from any thread, once. If nobody waits for it any more, it is dropped; after
-/// the end of the server, too.
+/// Sends the response; call once, from any thread. Ignored if the client or the server is gone.
 using ServerAnswer = std::function<void(ServerReply)>;
 
-/// Called in the thread that serves all viewers: it must not wait, but may answer later.
+/// Called in the server thread: it must not block, but may answer later.
 using ServerHandler = std::function<void(ServerRequest, ServerAnswer)>;
 
 /// All settings of WebServer.
 struct ServerOptions {
-  /// Of all presentations together, but for `packets_per_segment`, which each has. Up to 10000
-  /// viewers. `per_address` 0 also lifts the limit of requests that an address may make.
+  /// For all presentations together, except `packets_per_segment`. Up to 10000 viewers.
+  /// `per_address` 0 also disables the limit of requests per address.
   WebOptions web;
   std::size_t most_body = 65536;  ///< bytes of a request; longer ones get 413
 };
@@ -52,23 +51,22 @@ struct ServerOptions {
 /// A web server with any number of presentations. Thread safe.
 class WebServer {
  public:
-  /// Listens and serves from now on, in a thread of its own. Errors: as make_web_sink() and
+  /// Starts listening and serving in a separate thread. Errors: as make_web_sink() and
   /// WebSink::start().
   static Result<std::unique_ptr<WebServer>> open(const std::string& url,
                                                  const ServerOptions& options,
                                                  ServerHandler handler);
-  /// As finish(), without its patience. Sinks must be gone before.
+  /// As finish(), without waiting. Sinks must be destroyed before.
   virtual ~WebServer() = default;
 
   virtual std::string address() const = 0;  ///< "http://127.0.0.1:8080/" with the real port
-  /// A presentation below `path` ("/heads/anna"), from its start() to its finish(). `joined` is
-  /// called, in the thread of the server, when it has one more viewer; it must not wait. Errors of
-  /// start(): also invalid_argument (the path is taken).
+  /// A presentation under `path` ("/heads/anna"), from its start() to its finish(). `joined` is
+  /// called in the server thread for each new viewer; it must not block. Errors of start(): also
+  /// invalid_argument (the path is taken).
   virtual std::unique_ptr<WebSink> make_sink(const std::string& path,
                                              std::function<void()> joined) = 0;
   virtual int viewers() const = 0;  ///< of all presentations
-  /// All viewers get what waits for them and are told that it is over, for two seconds at most.
-  /// Nobody is served after it.
+  /// Sends all viewers their queue and the end, within two seconds, and stops serving.
   virtual void finish() = 0;
 };
 
