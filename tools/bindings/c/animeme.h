@@ -14,25 +14,33 @@
 ///       else puts(error.message);                          // continues at the next good plane
 ///     }
 ///     animeme_decoder_free(decoder);
+///
 /// Rules for all functions:
+///
 /// **Errors.** Functions that can fail return an animeme_status and take an animeme_error as the
 /// last argument, which may be NULL and is written only on failure (status below 0). On failure
 /// outputs are unchanged, except that output pointers are NULL. An invalid NULL gives
 /// ANIMEME_INVALID_ARGUMENT, never a crash. C++ exceptions do not escape.
+///
 /// **Ownership.** Free a handle with the `_free` function of its type, in any order (a speech keeps
 /// what it needs of its model); NULL may be freed. Memory returned through `uint8_t**` or `char**`
 /// belongs to the caller; free it with animeme_free(). Memory returned as const belongs to the
 /// handle and is valid until the next call with it. Arguments need not outlive the call.
+///
 /// **Structs** begin with `size`. The `_init` functions set it and the defaults; callers then
 /// change members. Later versions append members: the library reads and writes no more than `size`
 /// bytes, so programs and libraries of different versions are compatible. A size that is too small
 /// is an error, and so is a non-zero member that this library does not know. animeme_error has no
 /// size and will never change.
+///
 /// **Strings** are UTF-8. Arguments with a length need no terminating 0; returned strings have one.
+///
 /// **Threads.** Use a handle from one thread at a time; different handles may be used concurrently.
 /// Models are immutable and may be shared by threads. Functions without a handle may be called from
 /// any thread. There is no global state.
+///
 /// **Input** may be untrusted: streams, texts, scripts and models.
+///
 /// **Memory** comes from malloc and the C++ library. Decoder, encoder (with or without start codes
 /// before all planes), receiver and ARKit handles do not allocate per plane once they have run for
 /// a second, except for wider ranges and new FAPs.

@@ -17,10 +17,10 @@ struct Stretch {
   std::size_t last = 0;   ///< one past the last
 };
 
-/// The sentences of a recording of `frames` frames at `rate`. What is longer than `most` seconds is
-/// cut in the middle of the longest pause (0.12 s at least) that leaves 2 s of sound on both sides,
-/// again and again; what has no such pause stays as long as it is. Of pauses at the ends of a
-/// sentence at most half a second is kept. One stretch, of all frames, if nothing is to be cut.
+/// The sentences of a recording of `frames` frames at `rate`. Stretches longer than `most` seconds
+/// are split recursively in the middle of the longest pause (at least 0.12 s) that leaves 2 s of
+/// sound on both sides, if there is one. At most half a second of pause is kept at the ends of a
+/// sentence. Returns one stretch of all frames if nothing is split.
 std::vector<Stretch> cut_at_pauses(const dam::Script& script, fap::Rate rate, std::size_t frames,
                                    double most);
 

@@ -7,6 +7,7 @@
 ///
 ///     const auto curves = animeme::exchange::fit_arkit(*animeme::fap::fill(clip, filling));
 ///     save("talk.csv", animeme::exchange::write_live_link(curves));
+///
 /// fap/arkit.h has the mapping from shapes to FAPs and the inverse fit.
 #pragma once
 

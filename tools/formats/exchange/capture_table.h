@@ -4,7 +4,9 @@
 ///     auto capture = animeme::exchange::capture_table(text);
 ///     if (!capture) return capture.error();      // says what the file is, and what to do
 ///     switch (capture->kind) ...                 // import_landmarks(capture->table, ...)
+///
 /// Besides tables with one row per frame, these are accepted:
+///
 /// - One row per point: columns x, y, optionally z, and one that names the point (point, landmark,
 /// index, id,
 ///   keypoint, marker, name ...); frames end where time, frame or face_id change.

@@ -3,6 +3,7 @@
 ///
 ///     auto rule = animeme::exchange::parse_column_rule("jaw=jawOpen*0.01");
 ///     auto table = animeme::exchange::rename_columns(text, {*rule});
+///
 /// A meaning is a name that the readers of this folder recognise: a time (time_s, timecode), frame,
 /// face_id, confidence, success, a shape of ARKit (jawOpen), a coordinate of a landmark (x_61,
 /// 8.3_y), or a FAP (fap3, open_jaw, fap3_open_jaw).

@@ -3,6 +3,7 @@
 ///
 ///     auto take = animeme::exchange::import_landmarks(text);
 ///     if (take) use(take->face.clip, take->warnings);
+///
 /// fap/landmarks.h documents the conversion of points to FAPs and the neutral face. Messages
 /// suggest options of `animeme import` (--rate, --size ...), which are given with the members
 /// below.
@@ -63,6 +64,7 @@ bool is_landmark_table(std::string_view text);
 ///     8.1_x, fp8.1_x, nasion_x         feature points of MPEG-4
 ///     timecode, time_s, time, timestamp, frame, face_id, confidence, success, pose_Rx ... Rz,
 ///     gaze_0_x ... gaze_1_z, gaze_angle_x, gaze_angle_y
+///
 /// Numbers count from 0, or from 1 if there is no 0. Other columns are ignored. A part of a layout
 /// is enough if it has at least four feature points; numbers beyond 67 are those of MediaPipe.
 ///
@@ -103,6 +105,7 @@ struct Repairs {
 };
 
 /// Repairs tracking errors that are impossible as facial motion:
+///
 /// - The whole face jumps by 0.4 of the distance of the outer corners of its eyes (3.6 cm), or
 /// changes its size by a quarter, eyes included, for at most 0.2 s, and back: these frames are
 /// dropped.
@@ -110,8 +113,9 @@ struct Repairs {
 /// head or jaw moves that far between two frames. For a track without eyes, the limit is twice the
 /// distance within which nine of ten points lie (2 cm for lips).
 /// - Gaps of frames and points of at most 0.2 s are interpolated linearly between their neighbours,
-/// and so are head rotation and gaze. Longer gaps remain. A recording with fewer than 15 frames a
-/// second is not changed.
+/// and so are head rotation and gaze.
+///
+/// Longer gaps remain. A recording with fewer than 15 frames a second is not changed.
 Repairs repair_track(fap::LandmarkTrack& track);
 
 /// Options for converting points to a clip.

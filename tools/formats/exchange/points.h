@@ -39,6 +39,7 @@ inline constexpr std::size_t kMostCoordinates = 200'000'000;
 ///     UL_x, UL_y, UL_z; UL.X; UL:y; lip upper x   a name, a separator, x, y or z in any case
 ///     x61, y61; x_61, X_61                         a number after it
 ///     time_s, time, timestamp, timecode; frame; success (0: all points of this row are missing)
+///
 /// Other columns are ignored. If numbered points exist both as x and as X (OpenFace), X, Y and Z
 /// are used. Points have three dimensions if all have a z. An empty field, nan or inf: the point is
 /// missing. Times and rate are those of read_arkit_table(); without times `rate` is required and

@@ -1,10 +1,11 @@
 /// @file
-/// Atomic file output: a file is written completely or not at all. Data is written to a temporary
-/// file in the same folder with an unpredictable name (".animeme-" with twelve random letters and
-/// ".part", created with O_EXCL), flushed to disk (fsync) and renamed at the end. It has the mode
-/// of the file that it replaces. Symbolic links are followed: the target is replaced, the link
-/// stays. Unpublished files are removed by the destructor, when the program exits, and by
-/// clean_up_on_signals().
+/// Atomic file output: a file is written completely or not at all.
+///
+/// Data is written to a temporary file in the same folder with an unpredictable name (".animeme-"
+/// with twelve random letters and ".part", created with O_EXCL), flushed to disk (fsync) and
+/// renamed at the end. It has the mode of the file that it replaces. Symbolic links are followed:
+/// the target is replaced, the link stays. Unpublished files are removed by the destructor, when
+/// the program exits, and by clean_up_on_signals().
 #pragma once
 
 #include <cstdint>

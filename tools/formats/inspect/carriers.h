@@ -1,7 +1,9 @@
 /// @file
 /// Compares protocols for a face: bits and errors of FBA, ARKit weights, Live Link, VMC, ARF and
-/// JSON for a clip. Sizes are those of real messages (carrier_messages.h). Errors are millimetres
-/// on one head; carriers with adjustable precision are compared at the same error.
+/// JSON for a clip.
+///
+/// Sizes are those of real messages (carrier_messages.h). Errors are millimetres on one head;
+/// carriers with adjustable precision are compared at the same error.
 #pragma once
 
 #include <cstdint>
@@ -50,10 +52,12 @@ struct ClipCarriers {
 };
 
 /// Encodes `clip`, which is complete (fap::fill()), with all carriers. `weights` are ARKit's, one
-/// per frame; empty: fitted to the clip (fap::ArkitFitter). Errors are RMS over those skin vertices
-/// of a built-in head that the clip moves by at least 0.1 mm, without head rotation, on at most 200
-/// evenly spaced frames. FBA is compared with the FAPs of the clip, the others with their input
-/// weights; the difference between the two is shapes_error. Deterministic, for one version of zlib.
+/// per frame; empty: fitted to the clip (fap::ArkitFitter).
+///
+/// Errors are RMS over those skin vertices of a built-in head that the clip moves by at least 0.1
+/// mm, without head rotation, on at most 200 evenly spaced frames. FBA is compared with the FAPs of
+/// the clip, the others with their input weights; the difference between the two is shapes_error.
+/// Deterministic, for one version of zlib.
 ///
 /// Errors: truncated (no frame), invalid_argument (not as many weights as frames), those of
 /// fba::LiveEncoder and fba::encode().

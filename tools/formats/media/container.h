@@ -4,6 +4,7 @@
 ///     Result<Container> talk = read_container("talk.mp4");
 ///     if (!talk) return talk.error();
 ///     fba::join_access_units(talk->face);       // the raw stream
+///
 /// The format is detected by content. mp4 (also fragmented, mov), Matroska, MPEG-TS (stream type
 /// 0x10, and 0x06 that begins with an FBA code) and NUT can carry a face. A name that ends in .m3u8
 /// or .mpd is a playlist of segments (HLS, DASH), which are read as well: only regular files in its

@@ -3,6 +3,7 @@
 ///
 ///     MuxInput input{.face = &units, .audio = &voice};
 ///     Result<MuxResult> written = write_container("talk.mp4", input);
+///
 /// The caller keeps access units and sound; they are not modified. Samples are encoded as mono;
 /// coded sound is copied unchanged. Time 0 of the face is sample 0 of the sound. Files are written
 /// whole or not at all, and the same input gives the same bytes (with the same FFmpeg on the same

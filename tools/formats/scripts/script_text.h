@@ -5,6 +5,7 @@
 ///     auto timings = animeme::scripts::read_labels(text);
 ///     if (timings && !animeme::dam::has_words(*timings)) script =
 ///     animeme::dam::make_script(*timings);
+///
 /// JSON formats are distinguished by their members: Montreal aligner, Gentle, WhisperX and other
 /// lists of words with times, Rhubarb Lip Sync, events of Azure Speech, speech marks of Amazon
 /// Polly (a JSON a line), characters of ElevenLabs, words and phones of Inworld, tokens of Kokoro,

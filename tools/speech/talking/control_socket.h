@@ -2,6 +2,7 @@
 /// A Unix domain socket that receives lines and commands and sends their events.
 ///
 ///     $ printf '{"do": "say", "text": "Hello", "when": "now"}\n' | nc -U head.sock
+///
 /// Only its owner may use the socket file (mode 0600). A client that reads events too slowly is
 /// disconnected.
 #pragma once

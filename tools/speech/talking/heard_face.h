@@ -7,6 +7,7 @@
 ///       auto frames = (*face)->pull();               // those that are due
 ///     }
 ///     auto rest = (*face)->finish();
+///
 /// A frame is made when `delay` more seconds of sound have arrived, since recognition needs the
 /// following sound. It is the mean over several hypotheses (dam/speaking/readings.h), so the face
 /// moves less while the sound is ambiguous.

@@ -1,7 +1,8 @@
 /// @file
-/// The queue of lines to speak, between the reader, the voice and the head. Three threads may use
-/// it: one pushes lines and commands, one synthesises them, one takes the results. A command takes
-/// effect when it is pushed, even during synthesis.
+/// The queue of lines to speak, between the reader, the voice and the head.
+///
+/// Three threads may use it: one pushes lines and commands, one synthesises them, one takes the
+/// results. A command takes effect when it is pushed, even during synthesis.
 #pragma once
 
 #include <condition_variable>

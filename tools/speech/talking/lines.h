@@ -4,6 +4,7 @@
 ///     auto maker = voice_lines({});
 ///     auto lines = VoiceLines::open(STDIN_FILENO, *maker, media::steady_clock());
 ///     for (;;) while (auto line = (*lines)->take(false)) ...      // never waits
+///
 /// Reader and voice run in separate threads, so that they never block the presentation clock, and a
 /// command (line_command.h) never waits for the voice.
 #pragma once

@@ -5,9 +5,11 @@
 /// the sound is silence; a line begins with the next frame that has not been made, and its sound at
 /// the sample of that frame, so they are in sync to the sample. Lines that arrive while another is
 /// spoken follow it. Nothing is generated ahead of time except what the audio encoder needs, so a
-/// line starts as early as possible. Speech can be interrupted (line_command.h): the mouth begins
-/// to close with the next frame and is at rest within 0.1 s; the sound fades out in 20 ms, from the
-/// first sample not yet passed to its encoder.
+/// line starts as early as possible.
+///
+/// Speech can be interrupted (line_command.h): the mouth begins to close with the next frame and is
+/// at rest within 0.1 s; the sound fades out in 20 ms, from the first sample not yet passed to its
+/// encoder.
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,11 @@
 /// @file
 /// A live voice with a face that follows it by its sound alone: what `animeme stream --say-audio -`
-/// sends. Sound and face are presented together, LiveVoiceOptions::delay seconds after the sound
-/// arrives. If sound is late, the voice fades out and the mouth rests, and both continue when 60 ms
-/// have arrived; sound that arrives early waits in the pipe. Nothing is dropped, so each pause of
-/// the sender that is longer than 60 ms delays what follows.
+/// sends.
+///
+/// Sound and face are presented together, LiveVoiceOptions::delay seconds after the sound arrives.
+/// If sound is late, the voice fades out and the mouth rests, and both continue when 60 ms have
+/// arrived; sound that arrives early waits in the pipe. Nothing is dropped, so each pause of the
+/// sender that is longer than 60 ms delays what follows.
 #pragma once
 
 #include <cstdint>

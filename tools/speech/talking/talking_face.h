@@ -6,6 +6,7 @@
 ///       if (have_line && !face->speaking()) face->say(script);
 ///       auto frame = face->next();                   // one every 1/rate seconds, for ever
 ///     }
+///
 /// Speech begins with the next frame. Transitions between pieces (a line, idling, another line) are
 /// smooth: the difference at the joint is faded over 0.25 s. Speech can be cut off: the mouth
 /// closes in 0.1 s.

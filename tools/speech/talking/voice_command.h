@@ -3,6 +3,7 @@
 ///
 ///     VoiceCommand voice{.command = "piper --model en.onnx --output_file {wav}"};
 ///     auto speech = run_voice_command("Hello world", voice);
+///
 /// The program gets the text on standard input, and in the arguments where its command refers to
 /// it.
 #pragma once

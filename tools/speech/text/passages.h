@@ -56,7 +56,10 @@ struct Passage {
 /// are added by script: the language whose alphabet has all letters of the text, by its words
 /// (guess.h) if there are several, else the most common one. If several voices of the list read
 /// Latin letters, sentences go to the voice of their language; with `automatic`, voices are added
-/// for them as well. The current voice reads the name of a single Greek letter (µ, π).
+/// for them as well.
+///
+/// The current voice reads the name of a single Greek letter (µ, π).
+///
 /// Errors: invalid_argument (no voice reads a script; the message has text, script, and a suitable
 /// voice).
 Result<std::vector<Passage>> part_passages(const Said& said, Speakers& speakers);

@@ -25,7 +25,9 @@ struct Writing {
 /// - +1 555 123-4567: digit by digit, with pauses.
 /// - 3:45pm: "3:45 p m" in English; https://x.y/z: "x.y", a pause, "z".
 /// - "!!!", "...", "?!" become one sign after the word; *, _, ~, |, \, #, <, > etc. are removed, as
-/// are emoji. Everything else is unchanged; without ICU, all of the text is.
+/// are emoji.
+///
+/// Everything else is unchanged; without ICU, all of the text is.
 Said read_written(const Said& said, const Writing& writing);
 
 /// Whether there is a letter or digit to speak: "!!! 😀" has none.

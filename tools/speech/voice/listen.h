@@ -4,6 +4,7 @@
 ///     auto heard = animeme::voice::listen(*pcm);
 ///     for (std::size_t i = 0; i < heard->script.phones.size(); ++i)
 ///       std::cout << heard->script.phones[i].label << ' ' << heard->confidences[i] << '\n';
+///
 /// A phone recogniser gets every second phone wrong, and a face that follows its best hypothesis
 /// shows that. So there are also `readings`: hypotheses sampled by their probability. The mean of
 /// their motions has the smallest error (tools/speech/talking/heard_face.h).

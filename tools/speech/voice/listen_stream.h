@@ -6,6 +6,7 @@
 ///       (*listener)->push(block);
 ///       const voice::Heard tail = (*listener)->hear(from);      // from `from` seconds to the end
 ///     }
+///
 /// Each result covers everything so far; what is more than 0.2 s old hardly changes. Memory and CPU
 /// time per second are constant. Source: tools/speech/voice/engines.md, section 3.
 #pragma once

@@ -73,10 +73,13 @@ struct Speech {
 
 /// Speaks UTF-8 text, plain or SSML (detected by content, tools/speech/text/ssml.h). Dates,
 /// amounts, and Chinese and Japanese characters are normalised (tools/speech/text). Words of the
-/// script are as written. Letters of a script that no selected voice reads are an error, which
-/// suggests a voice. Words that a voice reads in another language, or spells, are reported in
-/// `languages` and `warnings`. A stop begins at its closure, not at its burst: the silence before
-/// it is taken from the previous phone. A phone with an unknown IPA letter becomes AX.
+/// script are as written.
+///
+/// Letters of a script that no selected voice reads are an error, which suggests a voice. Words
+/// that a voice reads in another language, or spells, are reported in `languages` and `warnings`.
+///
+/// A stop begins at its closure, not at its burst: the silence before it is taken from the previous
+/// phone. A phone with an unknown IPA letter becomes AX.
 /// Errors: invalid_argument (text without anything to say, or an option out of range), out_of_range
 /// (more than 100000 characters or an hour of sound: speak it in parts), not_found (no such voice,
 /// with suggestions; no voices at data_path; no Japanese dictionary), syntax with line and column

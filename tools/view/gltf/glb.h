@@ -3,13 +3,16 @@
 ///
 ///     GlbOptions options{.morphs = MorphNames::arkit, .audio = "voice.wav"};
 ///     Result<std::vector<std::uint8_t>> file = make_glb(head, rig, filled_clip, options);
+///
 /// Contents: a mesh for each part of the head with vertex colours; named morph targets
 /// (mesh.extras.targetNames); bones for neck, jaw and eyes; one animation of weights and bones with
-/// a key at each frame. Metres, +Y up, the face looks along +Z. An imported head (read_head.h)
-/// keeps its own shapes as morph targets regardless of GlbOptions::morphs; their weights are those
-/// of head::control_values(). Morph targets are linear, but the rig is not quite: players do not
-/// resolve lip contact, and lids are exact only at 0 and 1. The jaw bone carries lower teeth and
-/// tongue.
+/// a key at each frame. Metres, +Y up, the face looks along +Z.
+///
+/// An imported head (read_head.h) keeps its own shapes as morph targets regardless of
+/// GlbOptions::morphs; their weights are those of head::control_values().
+///
+/// Morph targets are linear, but the rig is not quite: players do not resolve lip contact, and lids
+/// are exact only at 0 and 1. The jaw bone carries lower teeth and tongue.
 #pragma once
 
 #include <cstdint>

@@ -5,14 +5,18 @@
 ///     Result<head::Source> source = gltf::read_head_file("anna.glb");
 ///     if (!source) return source.error();
 ///     head::Head head = *head::assemble(std::move(*source));
+///
 /// Reads all triangles of all scenes in the rest pose (skins in their bind pose); vertex colours
 /// from COLOR_0 or the base colour and its texture, or all materials (ReadOptions::vertices); morph
 /// targets with known names (shape_names.h); bones of head, neck, eyes and jaw. Lights, cameras and
-/// animations are ignored. Duplicate vertices at texture seams are welded if position, shapes and
-/// bones agree; so the lips are not joined. Triangles in which the texture changes are subdivided
-/// until vertex colours represent it (brows, lips and irises are often painted), up to
-/// ReadOptions::vertices. Feature points are estimated from the shapes, for the camera, the units
-/// and the point overlay; see detail/point_guess.h for the rules and the README for their accuracy.
+/// animations are ignored.
+///
+/// Duplicate vertices at texture seams are welded if position, shapes and bones agree; so the lips
+/// are not joined. Triangles in which the texture changes are subdivided until vertex colours
+/// represent it (brows, lips and irises are often painted), up to ReadOptions::vertices.
+///
+/// Feature points are estimated from the shapes, for the camera, the units and the point overlay;
+/// see detail/point_guess.h for the rules and the README for their accuracy.
 #pragma once
 
 #include <cstdint>

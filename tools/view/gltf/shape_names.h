@@ -39,13 +39,15 @@ struct ShapeMeaning {
   fap::Frame faps;
 };
 
-/// Meaning of a name; nullopt if unknown. Ignores case, spaces, dots and underscores, a prefix such
-/// as "blendShape1." or "A14_", and the spelling of the side ("_L", "Left"). A shape of ARKit with
-/// two sides may be split ("browInnerUp_L"); one with sides may be joined ("mouthSmile"). Other
-/// names: blink and eyesClosed, winks, mouthOpen, smile, gaze up, down, left, right, brows up and
-/// down, the brows of VRoid (BRW_Angry ...) and MMD; the vowels A I U E O of VRM, VRoid and MMD are
-/// visemes; joy, angry, sorrow, fun, surprised of VRM 0.x and VRoid (ALL_Joy ...), happy, sad and
-/// relaxed of VRM 1.0 are moods.
+/// Meaning of a name; nullopt if unknown.
+///
+/// Ignores case, spaces, dots and underscores, a prefix such as "blendShape1." or "A14_", and the
+/// spelling of the side ("_L", "Left"). A shape of ARKit with two sides may be split
+/// ("browInnerUp_L"); one with sides may be joined ("mouthSmile"). Other names: blink and
+/// eyesClosed, winks, mouthOpen, smile, gaze up, down, left, right, brows up and down, the brows of
+/// VRoid (BRW_Angry ...) and MMD; the vowels A I U E O of VRM, VRoid and MMD are visemes; joy,
+/// angry, sorrow, fun, surprised of VRM 0.x and VRoid (ALL_Joy ...), happy, sad and relaxed of VRM
+/// 1.0 are moods.
 std::optional<ShapeMeaning> meaning_of(std::string_view name);
 
 /// A shape that a head uses.

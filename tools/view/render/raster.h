@@ -3,6 +3,7 @@
 ///
 ///     animeme::render::Renderer renderer({.width = 640, .height = 640});
 ///     const animeme::render::Image& image = renderer.render(scene, camera);
+///
 /// Four coverage samples and one colour sample per pixel; lighting is per vertex, but per pixel for
 /// eye highlights and for surfaces with materials (coats). These blend as in browsers: in sRGB,
 /// back to front. The lights are fixed to the camera: a warm key from the upper right with a red

@@ -4,6 +4,7 @@
 ///     auto animation = Animation::open(640, 640);
 ///     for (...) animation->push(image.rgba, milliseconds);
 ///     auto file = animation->finish(end);
+///
 /// Uses libjpeg-turbo and libwebp.
 #pragma once
 

@@ -6,6 +6,7 @@
 ///     viewer::Page page{.head = &head, .rig = &rig};
 ///     page.clips.push_back({.motion = filled, .name = "talk.fba"});
 ///     std::string html = viewer::make_page(page);
+///
 /// The file only needs a browser with WebGL2 and WebAssembly: it opens from disk and loads nothing.
 /// README.md of this folder documents its features and how other pages can use its parts.
 #pragma once

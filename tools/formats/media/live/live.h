@@ -8,6 +8,7 @@
 ///
 ///     auto source = open_source("talk.sdp", {});
 ///     while (auto event = (*source)->next(1.0)) { ... }
+///
 /// Sinks send units immediately; the caller paces them (see pacer.h). Sources return what was
 /// received and report losses; recovery.h decides what can be used.
 /// Source: tools/formats/media/containers.md, section 4.

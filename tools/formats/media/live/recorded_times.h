@@ -1,8 +1,10 @@
 /// @file
-/// Maps the times of received units to the clock of a file. Time 0 of a file is where the earlier
-/// of the tracks begins: the first plane, or the first audible sample (after the priming of the
-/// first packet). A presentation received from its beginning keeps the times of its sender. If time
-/// 0 lies between two ticks of the other track, all of its times are shifted to the nearest tick.
+/// Maps the times of received units to the clock of a file.
+///
+/// Time 0 of a file is where the earlier of the tracks begins: the first plane, or the first
+/// audible sample (after the priming of the first packet). A presentation received from its
+/// beginning keeps the times of its sender. If time 0 lies between two ticks of the other track,
+/// all of its times are shifted to the nearest tick.
 #pragma once
 
 #include <cstdint>

@@ -10,15 +10,19 @@
 /// ignores options that it does not know. (For a UDP source only sources, block, localport,
 /// connect, reuse and timeout go there; FFmpeg then does not report the sender, so all senders are
 /// accepted.) A UDP source binds to HOST if that is an address of this machine or a multicast
-/// group; udp://0.0.0.0:PORT and udp://:PORT bind to all addresses. On the wire: stream type 0x10
-/// with the configuration before each intra plane, AAC as ADTS (0x0F) or Opus (0x06). Each unit is
-/// one PES packet, sent immediately and with its length, so that a receiver need not wait for the
-/// next one. PAT and PMT are repeated for receivers that join late. Time 0 has the timestamp
-/// kTsTimeZero. finish() sends a PAT without programs, which our source treats as the end. Received
-/// units are byte for byte those sent. Face times are 90 kHz timestamps; sound times are samples,
-/// rounded from these. LiveInfo::timescale is 90000. AudioFormat comes from the stream: `config` is
-/// equivalent to the sender's, except that AAC may lose the extension of its 5-byte form and Opus
-/// its gain; `priming` is that of the sender if the first packet was received, else 0.
+/// group; udp://0.0.0.0:PORT and udp://:PORT bind to all addresses.
+///
+/// On the wire: stream type 0x10 with the configuration before each intra plane, AAC as ADTS (0x0F)
+/// or Opus (0x06). Each unit is one PES packet, sent immediately and with its length, so that a
+/// receiver need not wait for the next one. PAT and PMT are repeated for receivers that join late.
+/// Time 0 has the timestamp kTsTimeZero. finish() sends a PAT without programs, which our source
+/// treats as the end.
+///
+/// Received units are byte for byte those sent. Face times are 90 kHz timestamps; sound times are
+/// samples, rounded from these. LiveInfo::timescale is 90000. AudioFormat comes from the stream:
+/// `config` is equivalent to the sender's, except that AAC may lose the extension of its 5-byte
+/// form and Opus its gain; `priming` is that of the sender if the first packet was received, else
+/// 0.
 /// Source: tools/formats/media/containers.md, sections 3.2, 4.2 and 5.2.
 #pragma once
 

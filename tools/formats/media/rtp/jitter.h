@@ -36,9 +36,11 @@ struct ReorderLimits {
 /// Orders one sender's packets by sequence number. The first packet waits, too, since an earlier
 /// one or its copy may still arrive, and a face that begins with a loss cannot be shown before the
 /// next intra plane. The wait is 1.25 times the largest lateness, including copies, of the last 15
-/// to 30 seconds (tools/formats/media/live/receiving.md, section 3). A jump of more than 3000
-/// numbers, or back to numbers received more than five seconds ago, counts as a restart of the
-/// sender if the following packet continues from there; otherwise the packet is dropped.
+/// to 30 seconds (tools/formats/media/live/receiving.md, section 3).
+///
+/// A jump of more than 3000 numbers, or back to numbers received more than five seconds ago, counts
+/// as a restart of the sender if the following packet continues from there; otherwise the packet is
+/// dropped.
 class ReorderBuffer {
  public:
   /// Packets are missing here; 0: unknown number.

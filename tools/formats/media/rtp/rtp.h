@@ -73,10 +73,11 @@ Result<std::unique_ptr<LiveSink>> make_rtp_sink(const std::string& url,
 
 /// Receives the session of a description file, or of "rtp://address:port", which binds the port
 /// (host empty, 0.0.0.0 or [::]: all addresses; a multicast group is joined) and accepts a face
-/// only, with the configuration before its intra planes. Accepts one sender, from one address and
-/// port (see rtp_input.h): the described one if it sends, else the first valid one. When it has
-/// been silent for a second, another active sender takes over (LiveRestart). The description is
-/// reread when its file changes.
+/// only, with the configuration before its intra planes.
+///
+/// Accepts one sender, from one address and port (see rtp_input.h): the described one if it sends,
+/// else the first valid one. When it has been silent for a second, another active sender takes over
+/// (LiveRestart). The description is reread when its file changes.
 ///
 /// Times: face times are in the timescale of the sender's LiveInfo if the description has it (ours
 /// do) and are exactly those sent if that is at most 90000; other face times are ticks of 1/90000

@@ -5,6 +5,7 @@
 ///     RtpReceiver receiver(*read_sdp(text), {}, 1);
 ///     receiver.rtp(LiveTrack::face, datagram, from, seconds);
 ///     while (auto event = receiver.next(seconds)) { ... }
+///
 /// Safe for untrusted input. Queues at most 8 MB, besides what RtpInput keeps for a track (2 MB at
 /// most); if the caller does not take events, further units are dropped and reported as a gap.
 /// rtp_input.h documents which sender is accepted. When one track has a new sender, both restart: a
