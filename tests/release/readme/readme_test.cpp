@@ -25,7 +25,7 @@ constexpr const char* kFolders[] = {"codec", "conformance", "dam", "fap", "tests
 
 std::vector<Example> all_examples() {
   const fs::path top = test::kSourceFolder;
-  std::vector<std::string> files{"README.md"};
+  std::vector<std::string> files{"README.md", "tools/cookbook.md"};
   for (const char* folder : kFolders) {
     for (const auto& entry : fs::recursive_directory_iterator(top / folder)) {
       const std::string path = entry.path().lexically_relative(top).string();
@@ -180,10 +180,10 @@ animeme seven
   EXPECT_THAT(examples[4].lines, testing::ElementsAre("animeme eight"));
 }
 
-TEST(Extraction, AllOfTheMainReadme) {
+TEST(Extraction, AllOfTheReadmeAndTheCookbook) {
   std::size_t lines = 0, left_out = 0;
   for (const Example& one : all_examples()) {
-    if (one.readme != "README.md") continue;
+    if (one.readme != "README.md" && one.readme != "tools/cookbook.md") continue;
     for (const std::string& line : one.lines) lines += test::runs_animeme(line) ? 1 : 0;
     left_out += one.left_out.size();
   }

@@ -20,7 +20,7 @@ from api import Api  # noqa: E402
 TOPS = ("fap", "codec", "dam", "conformance", "tools")
 PICTURES = (".png", ".jpg", ".svg", ".webp")
 # What of the pages is where; all others are rooms.
-TUTORIALS = ("dam/tutorial.md", "tools/bindings/blender/README.md", "tools/bindings/c/README.md", "tools/bindings/python/README.md",
+TUTORIALS = ("tools/cookbook.md", "dam/tutorial.md", "tools/bindings/blender/README.md", "tools/bindings/c/README.md", "tools/bindings/python/README.md",
              "tools/bindings/npm/README.md", "tools/bindings/agents/README.md", "tools/release/samples/README.md", "tools/bindings/examples/README.md", "tools/characters/trackers/README.md",
              "tools/app/cluster/README.md")
 FORMATS = ("codec/bitstream.md", "codec/standards.md", "fap/semantics.md", "fap/text_format.md", "tools/formats/exchange/README.md",
