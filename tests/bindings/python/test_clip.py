@@ -30,6 +30,30 @@ def test_names_are_those_of_the_standard(sample_clip):
         sample_clip["open_door"]
 
 
+def test_columns_are_assigned_and_changed_in_place():
+    clip = random_clip(1)
+    before = clip.values.copy()
+    absent = ~clip.mask[:, 2]
+    clip["open_jaw"] *= 2
+    assert (clip["open_jaw"] == before[:, 2] * 2).all() and (clip.mask[:, 2] == ~absent).all()
+    column = clip["open_jaw"]
+    clip["open_jaw"] = column[::-1]  # reads what it writes
+    assert (clip["open_jaw"] == before[::-1, 2] * 2).all()
+    clip["open_jaw"] = 1.6  # rounded, and there in every frame
+    assert (clip["open_jaw"] == 2).all() and clip.mask[:, 2].all()
+    clip["lower_t_midlip"] = np.arange(len(clip))
+    assert (clip.values[:, 3] == np.arange(len(clip))).all()
+    others = [i for i in range(68) if i not in (2, 3)]
+    assert (clip.values[:, others] == before[:, others]).all()
+    for name, value, error in (("open_door", 1, KeyError), ("viseme", 1, KeyError),
+                               ("open_jaw", np.zeros(len(clip) + 1), ValueError), ("open_jaw", np.nan, ValueError)):
+        with pytest.raises(error):
+            clip[name] = value
+    with pytest.raises(TypeError):
+        clip[1:2] = 0
+    assert (clip["open_jaw"] == 2).all()
+
+
 def test_content_changes_in_place_and_shapes_do_not():
     clip = random_clip(1)
     clip["open_jaw"][:] = 7

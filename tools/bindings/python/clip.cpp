@@ -96,11 +96,16 @@ void fill_mask(Clip& clip, const py::object& given) {
   mask[py::ellipsis()] = given;
 }
 
+// The index of a FAP's column in `values` and `mask`.
+py::ssize_t column_of(const std::string& name) {
+  const auto fap = fap::find_fap(name);
+  if (!fap) throw py::key_error("no FAP is called " + name);
+  return *fap - 1;
+}
+
 py::object item_of(const Clip& clip, const py::object& key) {
   if (py::isinstance<py::str>(key)) {
-    const auto fap = fap::find_fap(key.cast<std::string>());
-    if (!fap) throw py::key_error("no FAP is called " + key.cast<std::string>());
-    return clip.values[py::make_tuple(py::ellipsis(), *fap - 1)];
+    return clip.values[py::make_tuple(py::ellipsis(), column_of(key.cast<std::string>()))];
   }
   if (!py::isinstance<py::slice>(key)) {
     throw py::type_error("a clip is indexed by a slice of frames or by the name of a FAP");
@@ -119,6 +124,30 @@ py::object item_of(const Clip& clip, const py::object& key) {
                       clip.rules.begin() + std::ptrdiff_t(start + count));
   }
   return py::cast(std::move(part));
+}
+
+// What `clip["open_jaw"] = x` does. In-place arithmetic (`clip["open_jaw"] *= 2`) hands the column
+// itself back: it has its values already, and what was absent stays absent.
+void set_item(Clip& clip, const std::string& name, const py::object& given) {
+  const py::ssize_t column = column_of(name);
+  if (column < 2) throw py::key_error("FAP 1 and 2 are set by clip.viseme and clip.expression");
+  const auto numpy = py::module_::import("numpy");
+  const py::object place = clip.values[py::make_tuple(py::ellipsis(), column)];
+  if (py::isinstance<py::array>(given)) {
+    const auto array = given.cast<py::array>();
+    const bool own = array.ndim() == 1 && array.data() == place.cast<py::array>().data() &&
+                     array.dtype().is(place.cast<py::array>().dtype()) &&
+                     array.strides(0) == place.cast<py::array>().strides(0);
+    if (own) return;
+  }
+  const py::object all = numpy.attr("broadcast_to")(given, py::make_tuple(clip.values.shape(0)));
+  const auto rows = whole_rows(all.attr("reshape")(-1, 1), 1, name.c_str());
+  auto values = clip.values.mutable_unchecked<2>();
+  auto mask = clip.mask.mutable_unchecked<2>();
+  for (py::ssize_t i = 0; i < values.shape(0); ++i) {
+    values(i, column) = rows[std::size_t(i)];
+    mask(i, column) = true;
+  }
 }
 
 py::array_t<double> clip_times(const Clip& clip) {
@@ -160,7 +189,8 @@ Rows of the arrays are frames. Their content may be changed; their shapes stay. 
 n - 1. A FAP whose mask is False is absent: it keeps the value that a receiver shows, which is
 not the same as 0. len(clip) is the number of frames, clip[10:20] a part of it that begins at
 time 0 (of clip.fill() if FAPs are absent that were there before), clip["open_jaw"] the column of
-a FAP.)")
+a FAP, a view: clip["open_jaw"] *= 2 changes the clip. clip["open_jaw"] = x (a number or one for each
+frame, rounded as values are) also sets the mask of that FAP in every frame.)")
       .def(py::init(&make_clip), py::arg("values"), py::arg("mask") = py::none(),
            py::arg("rate") = 25, py::kw_only(), py::arg("numbers") = py::none(),
            py::arg("viseme") = py::none(), py::arg("expression") = py::none(), py::arg("name") = "",
@@ -206,6 +236,7 @@ name: free text.)")
       .def_readwrite("name", &Clip::name, "Free text for people.")
       .def("__len__", [](const Clip& c) { return c.numbers.size(); })
       .def("__getitem__", &item_of, py::arg("key"))
+      .def("__setitem__", &set_item, py::arg("name"), py::arg("values"))
       .def("__eq__", &equal, py::arg("other"))
       .def("__repr__", &repr_of);
   bind_clip_tools(module);
