@@ -5,8 +5,8 @@
 
 const fs = require('fs');
 const path = require('path');
-const {launch} = require('../readers/js/browser');
-const {serve} = require('../readers/js/server');
+const {launch} = require('../../readers/js/browser');
+const {serve} = require('../../readers/js/server');
 
 // In the page: where it leads and what it has.
 function look() {
@@ -39,7 +39,7 @@ async function main() {
   const folder = path.resolve(process.argv[2]), part = process.argv[3] || '';
   let source;
   try {
-    source = fs.readFileSync(require.resolve('../readers/js/node_modules/axe-core/axe.min.js'), 'utf8');
+    source = fs.readFileSync(require.resolve('../../readers/js/node_modules/axe-core/axe.min.js'), 'utf8');
   } catch (error) {
     console.log('site: Skipped\naxe-core is missing (npm ci in tests/readers/js; tools/setup.sh full does it)');
     return 77;

@@ -2,7 +2,7 @@
 'use strict';
 const fs = require('fs');
 const path = require('path');
-const packages = path.join(__dirname, '..', '..', 'readers', 'js', 'node_modules');
+const packages = path.join(__dirname, '..', '..', '..', 'readers', 'js', 'node_modules');
 const validator = require(path.join(packages, 'gltf-validator'));
 
 validator.validateBytes(new Uint8Array(fs.readFileSync(process.argv[2])))
