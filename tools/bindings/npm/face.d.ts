@@ -22,7 +22,7 @@ export class AnimemeFace extends HTMLElement {
   /** Resolves when the face was read to its end, rejects if it cannot be. */
   readonly loaded: Promise<void>;
   /** Resolves when the head is there, rejects if it cannot be. */
-  readonly dressed: Promise<void>;
+  readonly headLoaded: Promise<void>;
   /** What is shown: the frame, and its weights in the order of arkitNames() and visemeNames(). */
   readonly frame: Frame | null;
   readonly arkit: Float32Array;
