@@ -23,7 +23,7 @@ using test::run;
 using test::TempDir;
 namespace fs = std::filesystem;
 
-const fs::path kHere = fs::path(test::kSourceFolder) / "tests" / "gltf" / "scripts";
+const fs::path kHere = fs::path(test::kSourceFolder) / "tests" / "view" / "gltf" / "scripts";
 
 // Five frames of a mouth that opens while the head turns.
 std::string write_talk(const TempDir& dir, const GlbOptions& options) {

@@ -164,7 +164,7 @@ TEST(ThreeJs, DrawsTheSame) {
   test::spill(dir / "camera.json", wanted.dump());
   int status = 0;
   const json report = json::parse(
-      test::run("node " + test::quoted((root / "gltf/scripts/three.js").string()) + " " +
+      test::run("node " + test::quoted((root / "view/gltf/scripts/three.js").string()) + " " +
                     test::quoted(dir / "scene.glb") + " " + test::quoted(dir / "camera.json") +
                     " " + test::quoted(dir / "three.rgb"),
                 &status),

@@ -202,8 +202,8 @@ def main():
     commands = command_pages(stage, program)
     cpp = api_pages(stage, os.path.join(build, "xml"))
     named = lambda chosen: [{title_of(source, page): page} for page in chosen if page in stage.pages]  # noqa: E731
-    rooms = [page for page in pages if page not in TUTORIALS + FORMATS and os.path.dirname(page)]
-    by_top = [{top: named([page for page in rooms if page.split("/")[0] == top])} for top in TOPS]
+    modules = [page for page in pages if page not in TUTORIALS + FORMATS and os.path.dirname(page)]
+    by_top = [{top: named([page for page in modules if page.split("/")[0] == top])} for top in TOPS]
     nav = [
         {"Start": [{"Animeme": "README.md"}, {"Working on it": "HACKING.md"}, {"Changes": "CHANGELOG.md"}]},
         {"Tutorials": named(TUTORIALS)}, {"Formats": named(FORMATS)}, {"Commands": commands},
@@ -211,7 +211,7 @@ def main():
         {"API": [{"C": "api/c/animeme.md"}, {"C++": cpp},
                  *listing(stage, "Python", ".pyi", "python", "tools/bindings/python/README.md", "api/python.md"),
                  *listing(stage, "JavaScript", ".d.ts", "typescript", "tools/bindings/npm/README.md", "api/javascript.md")]},
-        {"Rooms": by_top},
+        {"Modules": by_top},
     ]
     with open(os.path.join(here, "mkdocs.yml"), encoding="utf-8") as file:
         settings = yaml.safe_load(file)
