@@ -4,8 +4,8 @@ import type {Frame, Track} from './index.js';
 /**
  * Attributes: `src` (.mp4, .m3u8, .fba, or the address of `animeme stream`), `head` (.glb), `autoplay`, `controls`,
  * `loop`, `muted`, `label`, `live` (src is a server). Events: `frame` (detail: Frame), `head`, `load`, `error`
- * (ErrorEvent), `lost` (a live connection, which is opened again), `blocked` (the browser wants a gesture first),
- * `speech` (detail: what `animeme stream` tells of lines, words and phones, when it is heard), and play, pause, ended,
+ * (ErrorEvent), `lost` (a live connection was lost and is reopened), `blocked` (the browser requires a gesture first),
+ * `speech` (detail: an event of a line, word or phone of `animeme stream`, when it is heard), and play, pause, ended,
  * seeked, timeupdate, volumechange, ratechange, durationchange. Parts for styles: `canvas` and `audio`.
  */
 export class AnimemeFace extends HTMLElement {
@@ -19,11 +19,11 @@ export class AnimemeFace extends HTMLElement {
   playbackRate: number;
   play(): Promise<void>;
   pause(): void;
-  /** Resolves when the face was read to its end, rejects if it cannot be. */
+  /** Resolves when the face has been read completely, rejects if that fails. */
   readonly loaded: Promise<void>;
-  /** Resolves when the head is there, rejects if it cannot be. */
+  /** Resolves when the head is loaded, rejects if that fails. */
   readonly headLoaded: Promise<void>;
-  /** What is shown: the frame, and its weights in the order of arkitNames() and visemeNames(). */
+  /** The current frame, and its weights in the order of arkitNames() and visemeNames(). */
   readonly frame: Frame | null;
   readonly arkit: Float32Array;
   readonly visemes: Float32Array;

@@ -1,8 +1,8 @@
 // MPEG-4 facial animation in browsers and node.
 
-/** Loads the decoder: once, before anything else is called. `source` where `wasm/decoder.wasm` cannot be fetched. */
+/** Loads the decoder; call once before anything else. Pass `source` if `wasm/decoder.wasm` cannot be fetched. */
 export function ready(source?: WasmSource | Promise<WasmSource>): Promise<void>;
-/** "0.1.0": of the library that runs. */
+/** Version of the library at run time: "0.1.0". */
 export function version(): string;
 
 export type WasmSource = BufferSource | Response | WebAssembly.Module;
@@ -10,13 +10,13 @@ export type WasmSource = BufferSource | Response | WebAssembly.Module;
 export type ErrorCode = 'invalid_argument' | 'syntax' | 'out_of_range' | 'truncated' | 'unsupported' | 'not_found'
   | 'io' | 'internal' | 'no_memory';
 
-/** What failed, as a sentence, and where. */
+/** An error: a sentence, and its position. */
 export class AnimemeError extends Error {
   constructor(code: ErrorCode, message: string, place?: {bit?: number; line?: number; column?: number});
   readonly code: ErrorCode;
-  /** Of a stream; -1: no place in a stream. */
+  /** Of a stream; -1: no stream position. */
   readonly bit: number;
-  /** Of a text, from 1; 0: no place in a text. */
+  /** Of a text, from 1; 0: no text position. */
   readonly line: number;
   readonly column: number;
 }
@@ -28,48 +28,48 @@ export interface Expression {
   select1: number; intensity1: number; select2: number; intensity2: number; initFace: boolean; def: boolean;
 }
 
-/** One instant of a face. */
+/** A frame of a face. */
 export interface Frame {
-  /** Seconds at which it is shown. */
+  /** Presentation time in seconds. */
   time: number;
   /** At the rate, from 0; gaps are skipped frames. */
   number: number;
-  /** Frames, in so many seconds. */
+  /** [frames, seconds]: frames per number of seconds. */
   rate: [number, number];
   /** Decoders can begin here. */
   intra: boolean;
   /** The plane codes a face. */
   face: boolean;
-  /** FAP n at index n - 1, in FAP units (angles: 1e-5 rad); 0 where the mask is 0. */
+  /** FAP n at index n - 1, in FAP units (angles: 1e-5 rad); 0 if the mask is 0. */
   values: Int32Array;
   /** 1: the frame has this FAP. */
   mask: Uint8Array;
   viseme: Viseme | null;
   expression: Expression | null;
-  /** Of the ten groups: what absent FAPs do: 0 unknown, 1 hold, 2 follow others. */
+  /** For each of the ten groups, the rule for absent FAPs: 0 unknown, 1 hold, 2 follow another FAP. */
   rules: Uint8Array;
   /** With {bodies: true}: BAP n at index n - 1. */
   body?: {values: Int32Array; mask: Uint8Array} | null;
 }
 
-/** What is read of a frame that is given: `values` alone will do. */
+/** A frame as an argument: only `values` is required. */
 export type FrameLike = Pick<Frame, 'values'> & Partial<Frame>;
 
 export interface ReceiverOptions {
-  /** FAP 1 and 2 become low-level FAPs (true). */
+  /** Convert FAP 1 and 2 to low-level FAPs (true). */
   expand?: boolean;
-  /** FAPs that were never sent are there, at 0 (true). */
+  /** FAPs that were never sent are present, at 0 (true). */
   complete?: boolean;
 }
 
 export interface DecoderOptions {
-  /** Frames as a receiver shows them, not as they are coded (false). */
+  /** Return frames as a receiver shows them, not as coded (false). */
   shown?: boolean | ReceiverOptions;
-  /** Also bodies (false). */
+  /** Also return bodies (false). */
   bodies?: boolean;
 }
 
-/** Holds memory outside of JavaScript's, until free() or until it is forgotten. */
+/** Owns WebAssembly memory until free() or garbage collection. */
 declare class Handle {
   free(): void;
 }
@@ -80,21 +80,21 @@ export class Decoder extends Handle implements Iterable<Frame> {
   push(bytes: Uint8Array): void;
   /** No more bytes will come. */
   finish(): void;
-  /** The next frame; null: push more, or `ended`. Throws AnimemeError at damage; called again, it goes on behind it. */
+  /** The next frame; null: push more, or `ended`. Throws AnimemeError at damage; call again to continue after it. */
   next(): Frame | null;
   readonly ended: boolean;
-  /** Forgets all: the next byte begins another stream. */
+  /** Resets the decoder: the next byte begins another stream. */
   reset(): void;
-  /** How often something was not as it should be and could be read all the same. */
+  /** Number of anomalies that did not prevent decoding. */
   readonly warnings: number;
-  /** Frames up to where bytes are missing. */
+  /** The frames that are complete so far. */
   [Symbol.iterator](): Iterator<Frame>;
 }
 
 /** All frames of a stream; fails at its first error. */
 export function decode(bytes: Uint8Array, options?: DecoderOptions): Frame[];
 
-/** From coded frames to what is shown: FAPs that are not sent are held, mirrored, or follow the other lip. */
+/** Converts coded frames to shown ones: absent FAPs are held, mirrored, or follow the other lip. */
 export class Receiver extends Handle {
   constructor(options?: ReceiverOptions);
   /** null: no frame arrived, the last one is held. */
@@ -108,19 +108,19 @@ export function arkitNames(): readonly string[];
 /** "viseme_sil", "viseme_PP" ...: 15. */
 export function visemeNames(): readonly string[];
 
-/** ARKit's 52 weights of a single frame, which should be complete (shown), by name. */
+/** ARKit's 52 weights for a single frame, which should be complete (shown), by name. */
 export function arkit(frame: FrameLike): Record<string, number>;
-/** The 15 visemes of Oculus of a single frame, by name; 1 together. */
+/** The 15 Oculus visemes for a single frame, by name; their sum is 1. */
 export function visemes(frame: FrameLike): Record<string, number>;
-/** The frame that weights of ARKit show. */
+/** Converts ARKit weights to a frame. */
 export function fromArkit(weights: ArrayLike<number> | Record<string, number>): Frame;
 
-/** Frames that follow each other: weights (0..1) and angles (radians) in the order of arkitNames(). */
+/** For consecutive frames: weights (0..1) and angles (radians) in the order of arkitNames(). */
 export class ArkitFitter extends Handle {
   constructor();
   fit(frame: FrameLike, out?: Float32Array): Float32Array;
 }
-/** Likewise, in the order of visemeNames(). */
+/** For consecutive frames: weights in the order of visemeNames(). */
 export class VisemeFitter extends Handle {
   constructor();
   fit(frame: FrameLike, out?: Float32Array): Float32Array;
@@ -130,38 +130,38 @@ export class VisemeFitter extends Handle {
 export interface Phone { phone: string; start: number; end: number; }
 
 export interface SpeakOptions {
-  /** Frames a second (25), or [frames, in so many seconds]. */
+  /** Frames a second (25), or [frames, seconds]. */
   rate?: number | [number, number];
-  /** How much of the motion is shown: 0..1.5 (1). */
+  /** Amount of motion: 0..1.5 (1). */
   style?: number;
-  /** How quick it is: 0..3 (1). */
+  /** Quickness: 0..3 (1). */
   sharpness?: number;
-  /** How clearly vowels show: 0..2 (1). */
+  /** Clarity of vowels: 0..2 (1). */
   articulation?: number;
-  /** Seconds behind the script: 0..60 (0). */
+  /** Seconds after the script: 0..60 (0). */
   tail?: number;
   /** Brows and head: 0..2 (1); below 0: no blinks either. Not of begin(). */
   idleMotion?: number;
-  /** Another one, other blinks (1). */
+  /** Seed of the idle motion (1). */
   seed?: number | bigint;
-  /** Of begin(): seconds; below 0: as far as it takes (-1). */
+  /** For begin(): seconds; below 0: unlimited (-1). */
   lookAhead?: number;
 }
 
-/** Phones to frames, by a model of how somebody talks. */
+/** Converts phones to frames with a model of a speaker. */
 export class Speaker extends Handle {
   private constructor();
-  /** A model (.dam) as bytes or address; without one that of the package. Loads speaker.wasm (or `source`). */
+  /** A model (.dam) as bytes or URL; default: the model of the package. Loads speaker.wasm (or `source`). */
   static load(model?: BufferSource | string | URL, source?: WasmSource | Promise<WasmSource>): Promise<Speaker>;
-  /** Who has to be named when the model is passed on. */
+  /** The attribution required when the model is redistributed. */
   readonly attribution: string;
   /** Phones, or a script as text: TextGrid, TSV, label files ... */
   speak(phones: Phone[] | string, options?: SpeakOptions): Frame[];
-  /** Phones that are still coming. */
+  /** Starts incremental speech. */
   begin(options?: SpeakOptions): Speech;
 }
 
-/** Phones go in, frames come out as soon as they are final. */
+/** Incremental speech: push phones and get frames as soon as they are final. */
 export class Speech extends Handle implements Iterable<Frame> {
   private constructor();
   push(phone: Phone): void;
@@ -175,17 +175,17 @@ export class Speech extends Handle implements Iterable<Frame> {
 /** A plane as containers carry it. */
 export interface AccessUnit { time: number; duration: number; intra: boolean; bytes: Uint8Array; }
 
-/** The face of an mp4 while it arrives: files, fragments, segments behind their initialisation. */
+/** Reads the face of an mp4 incrementally: files, fragments, segments after their initialisation. */
 export class Mp4Reader {
   constructor();
   push(bytes: Uint8Array): AccessUnit[];
   /** Throws if the file has no face or ends before it. */
   finish(): void;
-  /** Once the contents were read. */
+  /** Available after the moov box. */
   readonly track: {config: Uint8Array; timescale: number} | null;
 }
 
-/** Access units to frames. After a gap (skip) it goes on at the next intra plane. */
+/** Decodes access units to frames. After a gap (skip) it continues at the next intra plane. */
 export class UnitDecoder {
   constructor(config: Uint8Array, options?: DecoderOptions);
   decode(unit: AccessUnit): Frame[];
@@ -193,25 +193,25 @@ export class UnitDecoder {
   free(): void;
 }
 
-/** Frames in the order of their times. */
+/** Frames ordered by time. */
 export class Track {
   constructor();
   readonly frames: Frame[];
   /** Seconds. */
   readonly end: number;
   add(frames: Frame[]): void;
-  /** The frame that is shown at a time. */
+  /** The frame shown at a time. */
   at(time: number): Frame | null;
   indexAt(time: number): number;
   clear(): void;
-  /** Drops what is before a time. */
+  /** Drops frames before a time. */
   forget(time: number): void;
 }
 
 /** The face of an mp4 in memory, as a receiver shows it. */
 export function decodeMp4(bytes: Uint8Array | ArrayBuffer, options?: DecoderOptions): Track;
 
-/** What speakAudio() of TalkingHead takes; times in milliseconds. */
+/** The argument of TalkingHead's speakAudio(); times in milliseconds. */
 export interface TalkingHeadAudio<Audio> {
   audio: Audio;
   words: string[]; wtimes: number[]; wdurations: number[];
