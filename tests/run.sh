@@ -8,7 +8,7 @@
 #   tests/run.sh bindings    the codec for other languages and machines: C, Python, npm, Blender, ARM; their speeds and weights
 #   tests/run.sh site        makes the site, and looks at all its pages in Chromium: dead links, what axe finds
 #   tests/run.sh elsewhere   the libraries as WebAssembly under node, and for ARM under QEMU
-#   tests/run.sh packages    the Debian packages, into build/packages, and what they do in a clean root
+#   tests/run.sh packages    the Debian packages, into build/packages, and what they do in a clean root; the README's steps in another
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 mode=${1:-core}
@@ -170,5 +170,6 @@ if [ "$mode" = packages ]; then
   rm -rf build/packages
   part "packages: build, lintian" tools/release/packaging/deb.sh -o build/packages -w build/packages-tree || finish
   part "packages: clean root" tools/release/packaging/clean_root.sh build/packages/*.deb || true
+  part "README's steps in a clean root" tests/release/readme/clean_root.sh all || true
 fi
 finish

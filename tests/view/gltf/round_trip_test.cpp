@@ -27,16 +27,32 @@ fap::Sequence still() {
   return clip;
 }
 
-Actor read_back(const std::vector<std::uint8_t>& file, ReadOptions options = {}) {
-  Result<head::Source> source = read_head(file, options);
-  EXPECT_TRUE(source) << source.error().describe();
-  if (!source) return {};
-  Result<head::Head> head = head::assemble(std::move(*source));
+Actor assembled(head::Source source) {
+  Result<head::Head> head = head::assemble(std::move(source));
   EXPECT_TRUE(head) << head.error().describe();
   if (!head) return {};
   Actor out{std::move(*head), {}};
   out.rig = head::make_rig(out.head);
   return out;
+}
+
+Actor read_back(const std::vector<std::uint8_t>& file) {
+  Result<head::Source> source = read_head(file);
+  EXPECT_TRUE(source) << source.error().describe();
+  if (!source) return {};
+  return assembled(std::move(*source));
+}
+
+// The actor as a file, and what is read from it, for all tests.
+const std::vector<std::uint8_t>& exported() {
+  static const auto file = make_glb(actor().head, actor().rig, still());
+  EXPECT_TRUE(file);
+  return *file;
+}
+
+const Actor& read_actor() {
+  static const Actor copy = read_back(exported());
+  return copy;
 }
 
 // Both heads are in centimetres, moved by the result. Vertices have the numbers that they had.
@@ -117,9 +133,7 @@ void tell(const char* what, const Distance& d) {
 }
 
 TEST(RoundTrip, ShapesComeBackAsTheyWere) {
-  const auto file = make_glb(actor().head, actor().rig, still());
-  ASSERT_TRUE(file);
-  const Actor copy = read_back(*file);
+  const Actor& copy = read_actor();
   const Distance arkit = compare(copy, shapes_of_arkit(), Part::skin);
   tell("ARKit's shapes", arkit);
   EXPECT_LT(arkit.root_mean_square, 0.25);
@@ -131,9 +145,7 @@ TEST(RoundTrip, ShapesComeBackAsTheyWere) {
 }
 
 TEST(RoundTrip, TeethBrowsAndEyesGoAlong) {
-  const auto file = make_glb(actor().head, actor().rig, still());
-  ASSERT_TRUE(file);
-  const Actor copy = read_back(*file);
+  const Actor& copy = read_actor();
   fap::Frame frame;
   for (const auto& [fap, value] :
        {std::pair(3, 600), {23, 20000}, {24, 20000}, {31, 100}, {32, 100}, {49, 20000}}) {
@@ -148,9 +160,7 @@ TEST(RoundTrip, TeethBrowsAndEyesGoAlong) {
 }
 
 TEST(RoundTrip, JointsComeBack) {
-  const auto file = make_glb(actor().head, actor().rig, still());
-  ASSERT_TRUE(file);
-  const Actor copy = read_back(*file);
+  const Actor& copy = read_actor();
   const Vec3 shift = shift_of(copy, Part::skin);
   EXPECT_LT(head::length(copy.head.neck_pivot - shift - actor().head.neck_pivot), 0.01f);
   EXPECT_LT(head::length(copy.head.jaw_axis - shift - actor().head.jaw_axis), 0.01f);
@@ -161,9 +171,7 @@ TEST(RoundTrip, JointsComeBack) {
 }
 
 TEST(RoundTrip, OwnShapesAreExportedByTheirNames) {
-  const auto first = make_glb(actor().head, actor().rig, still());
-  ASSERT_TRUE(first);
-  const Actor copy = read_back(*first);
+  const Actor& copy = read_actor();
   fap::Sequence clip = still();
   fap::ArkitFrame weights{};
   weights[std::size_t(*fap::find_arkit("jawOpen"))] = 0.5;
@@ -267,17 +275,15 @@ std::vector<std::uint8_t> turned(const std::vector<std::uint8_t>& file,
 }
 
 TEST(RoundTrip, HeadsThatLookElsewhereAreTurned) {
-  const auto file = make_glb(actor().head, actor().rig, still());
-  ASSERT_TRUE(file);
   const double half = std::sqrt(0.5);
   for (const std::vector<double>& turn :
        {std::vector<double>{0, 1, 0, 0}, {half, 0, 0, half}, {0, half, 0, -half}}) {
-    const auto other = turned(*file, turn);
-    const auto source = read_head(other);
+    const auto other = turned(exported(), turn);
+    auto source = read_head(other);
     ASSERT_TRUE(source);
     ASSERT_EQ(source->notes.size(), 1u);
     EXPECT_NE(source->notes[0].find("does not look along +Z"), std::string::npos);
-    const Actor copy = read_back(other);
+    const Actor copy = assembled(std::move(*source));
     EXPECT_LT(compare(copy, shapes_of_arkit(), Part::skin).root_mean_square, 0.25);
     EXPECT_LT(
         head::length(copy.head.neck_pivot - shift_of(copy, Part::skin) - actor().head.neck_pivot),
@@ -286,9 +292,7 @@ TEST(RoundTrip, HeadsThatLookElsewhereAreTurned) {
 }
 
 TEST(RoundTrip, SameSourceEachTime) {
-  const auto file = make_glb(actor().head, actor().rig, still());
-  ASSERT_TRUE(file);
-  const auto a = read_head(*file), b = read_head(*file);
+  const auto a = read_head(exported()), b = read_head(exported());
   ASSERT_TRUE(a && b);
   ASSERT_EQ(a->pieces.size(), b->pieces.size());
   for (std::size_t i = 0; i < a->pieces.size(); ++i) {
