@@ -10,7 +10,7 @@
 #include <span>
 #include <string_view>
 
-#include "tools/formats/media/rtp/recovery.h"
+#include "tools/formats/media/live/recovery.h"
 #include "tools/formats/media/rtp/rtp_receiver.h"
 #include "tools/formats/media/rtp/session_clock.h"
 

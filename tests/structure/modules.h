@@ -55,7 +55,7 @@ inline constexpr Module kModules[] = {
     {"tools/view/render", "fap/head"},
     {"tools/formats/scripts", "dam/script"},
     {"tools/view/gltf", "fap/head tools/formats/files"},
-    {"tools/formats/media tools/formats/media/sound tools/formats/media/live "
+    {"tools/formats/media tools/formats/media/live "
      "tools/formats/media/rtp tools/formats/media/detail/*",
      "codec/decode fap/xml tools/formats/files"},
     {"tools/formats/media/late", "tools/formats/media tools/formats/common", false},

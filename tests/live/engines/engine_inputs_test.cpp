@@ -9,7 +9,7 @@
 #include "fap/tables.h"
 #include "tests/live/engines/engines_support.h"
 #include "tools/formats/media/live/live_frames.h"
-#include "tools/formats/media/rtp/recovery.h"
+#include "tools/formats/media/live/recovery.h"
 #include "tools/live/engines/detail/engine_input.h"
 #include "tools/live/engines/detail/live_link.h"
 #include "tools/live/engines/detail/osc.h"

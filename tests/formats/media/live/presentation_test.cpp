@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/formats/media/media_support.h"
-#include "tools/formats/media/rtp/loopback.h"
+#include "tools/formats/media/live/loopback.h"
 
 namespace animeme::media {
 namespace presentation_test {

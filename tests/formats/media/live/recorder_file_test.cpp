@@ -10,10 +10,10 @@
 #include "tests/formats/media/media_support.h"
 #include "tools/formats/media/audio.h"
 #include "tools/formats/media/container.h"
+#include "tools/formats/media/live/loopback.h"
 #include "tools/formats/media/live/presentation.h"
 #include "tools/formats/media/live/recorder.h"
 #include "tools/formats/media/live/recording_file.h"
-#include "tools/formats/media/rtp/loopback.h"
 
 namespace animeme::media {
 namespace recorder_file_test {

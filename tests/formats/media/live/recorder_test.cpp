@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/formats/media/media_support.h"
+#include "tools/formats/media/live/loopback.h"
 #include "tools/formats/media/live/presentation.h"
-#include "tools/formats/media/rtp/loopback.h"
 
 namespace animeme::media {
 namespace recorder_test {

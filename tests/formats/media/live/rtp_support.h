@@ -15,7 +15,7 @@
 #include "tests/support/audio_formats.h"
 #include "tests/support/files.h"
 #include "tests/support/random_clip.h"
-#include "tools/formats/media/rtp/recovery.h"
+#include "tools/formats/media/live/recovery.h"
 #include "tools/formats/media/rtp/rtp_receiver.h"
 #include "tools/formats/media/rtp/rtp_sender.h"
 

@@ -4,8 +4,8 @@
 #include "tests/formats/media/live/ports.h"
 #include "tests/support/live_loop.h"
 #include "tools/formats/media/detail/ts/ts_input.h"
+#include "tools/formats/media/live/recovery.h"
 #include "tools/formats/media/live/ts_live.h"
-#include "tools/formats/media/rtp/recovery.h"
 #include "tools/formats/media/rtp/session_clock.h"
 
 namespace animeme::test {

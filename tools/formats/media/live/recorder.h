@@ -22,7 +22,7 @@
 
 #include "tools/formats/media/live/live.h"
 #include "tools/formats/media/live/recorded_times.h"
-#include "tools/formats/media/rtp/recovery.h"
+#include "tools/formats/media/live/recovery.h"
 
 namespace animeme::media {
 

@@ -1,4 +1,4 @@
-#include "tools/formats/media/rtp/loopback.h"
+#include "tools/formats/media/live/loopback.h"
 
 #include <random>
 

@@ -1,4 +1,4 @@
-#include "tools/formats/media/rtp/recovery.h"
+#include "tools/formats/media/live/recovery.h"
 
 #include <algorithm>
 #include <utility>
