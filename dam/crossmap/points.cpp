@@ -1,8 +1,11 @@
 #include "dam/crossmap/points.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <optional>
+
+#include "fap/detail/similarity.h"
 
 namespace animeme::dam {
 namespace {
@@ -22,18 +25,40 @@ double step_of(const PointTrack& track, std::size_t frame) {
   return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
 }
 
-using Place = Eigen::Matrix<double, Eigen::Dynamic, 1>;
-using Places = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic>;  // a column a point
+// A point of a shape; z is 0 in a picture.
+fap::Point place_of(std::span<const double> shape, std::size_t point, std::size_t dimensions) {
+  fap::Point place{};
+  for (std::size_t k = 0; k < dimensions; ++k) place[k] = shape[point * dimensions + k];
+  return place;
+}
 
-Places places_of(std::span<const double> shape, std::span<const std::size_t> points,
-                 std::size_t dimensions) {
-  Places out{Eigen::Index(dimensions), Eigen::Index(points.size())};
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::size_t k = 0; k < dimensions; ++k) {
-      out(Eigen::Index(k), Eigen::Index(i)) = shape[points[i] * dimensions + k];
+// How to move a shape so that `points` lie where they lie in `neutral`; nothing if they leave it
+// open.
+std::optional<fap::internal::Similarity> move_to(std::span<const double> neutral,
+                                                 std::span<const double> shape,
+                                                 std::span<const std::size_t> points,
+                                                 std::size_t dimensions) {
+  std::vector<fap::Point> from, to;
+  for (const std::size_t point : points) {
+    from.push_back(place_of(shape, point, dimensions));
+    to.push_back(place_of(neutral, point, dimensions));
+  }
+  const std::vector<double> weights(points.size(), 1.0);
+  auto move = fap::internal::fit_similarity(from, to, weights, dimensions == 3);
+  if (!move || dimensions == 2) return move;
+  // In space a head keeps its size: the same rotation about the centre of the points.
+  fap::Point from_sum{}, to_sum{};
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      from_sum[k] += from[i][k];
+      to_sum[k] += to[i][k];
     }
   }
-  return out;
+  const fap::Point turned = fap::internal::rotated(move->rotation, from_sum);
+  move->scale = 1;
+  for (std::size_t k = 0; k < 3; ++k)
+    move->shift[k] = (to_sum[k] - turned[k]) / double(from.size());
+  return move;
 }
 
 }  // namespace
@@ -150,18 +175,15 @@ Result<std::size_t> hold_head_still(PointTrack& track, std::span<const std::size
       if (track.seen(i, point)) seen.push_back(point);
     }
     const auto shape = track.frame(i);
-    if (seen.size() < needed) {
+    const auto move = move_to(neutral, shape, seen, dimensions);
+    if (!move) {
       std::fill(shape.begin(), shape.end(), kNotSeen);
       ++lost;
       continue;
     }
-    const Eigen::MatrixXd move = Eigen::umeyama(places_of(shape, seen, dimensions),
-                                                places_of(neutral, seen, dimensions), needed == 2);
-    const auto size = Eigen::Index(dimensions);
     for (std::size_t point = 0; point < track.names.size(); ++point) {
-      const Eigen::Map<Place> place(&shape[point * dimensions], size);
-      Eigen::Map<Place>(&shape[point * dimensions], size) =
-          (move.topLeftCorner(size, size) * place + move.topRightCorner(size, 1)).eval();
+      const fap::Point place = fap::internal::applied(*move, place_of(shape, point, dimensions));
+      std::copy_n(place.begin(), dimensions, &shape[point * dimensions]);
     }
   }
   return lost;

@@ -60,8 +60,8 @@ Result<std::vector<double>> resting_shape(std::span<const PointTrack> tracks, do
 
 /// Turns and shifts every frame so that `head`, points that do not move with the face, lie where
 /// they lie in `neutral` (least squares; no change of size in space, one in a picture, where a head
-/// that comes nearer grows). A frame with fewer than three of them (two in a picture) has no head,
-/// and its points are not seen. Returns how many frames that were.
+/// that comes nearer grows). A frame with fewer than three of them (two in a picture), or with all
+/// of them in one line (one place), has no head, and its points are not seen. Returns how many frames that were.
 /// Errors: invalid_argument (fewer than three points, two in a picture; an index that is none; a
 /// point that is not seen in the neutral shape).
 Result<std::size_t> hold_head_still(PointTrack& track, std::span<const std::size_t> head,

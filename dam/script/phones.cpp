@@ -99,9 +99,12 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 std::span<const PhoneInfo, kPhoneCount> phones() { return kPhones; }
 
 const PhoneInfo* find_phone(std::string_view label) {
-  const auto found = std::find_if(kPhones.begin(), kPhones.end(),
-                                  [&](const PhoneInfo& phone) { return phone.label == label; });
-  return found == kPhones.end() ? nullptr : &*found;
+  // By alphabet behind silence.
+  const auto found =
+      std::partition_point(kPhones.begin() + 1, kPhones.end(),
+                           [&](const PhoneInfo& phone) { return phone.label < label; });
+  if (found != kPhones.end() && found->label == label) return &*found;
+  return label == kPhones[0].label ? &kPhones[0] : nullptr;
 }
 
 std::string_view phone_class_name(PhoneClass phone_class) {

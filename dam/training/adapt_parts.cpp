@@ -4,7 +4,7 @@
 
 #include "dam/corpus/statistics_internal.h"
 #include "dam/kinds/refined/terms.h"
-#include "dam/maths/cholesky.h"
+#include "dam/maths/linear_algebra.h"
 #include "dam/training/adapt_internal.h"
 
 namespace animeme::dam {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dam/maths/cholesky.h"
+#include "dam/maths/linear_algebra.h"
 
 namespace animeme::dam {
 namespace {

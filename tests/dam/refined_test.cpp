@@ -11,7 +11,7 @@
 #include "dam/kinds/refined/dominance.h"
 #include "dam/kinds/refined/fit.h"
 #include "dam/kinds/refined/terms.h"
-#include "dam/maths/cholesky.h"
+#include "dam/maths/linear_algebra.h"
 #include "dam/speaking/synthesise.h"
 #include "dam/training/train.h"
 #include "tests/dam/dam_support.h"

@@ -1,9 +1,11 @@
 // The M-step: Gauss-Newton for the widths of the dominance (Eq. 8 and 9).
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "dam/kinds/animeme/fit.h"
 #include "dam/kinds/animeme/fit_normal.h"
+#include "dam/maths/linear_algebra.h"
 #include "dam/maths/parallel.h"
 #include "dam/maths/projection.h"
 
@@ -15,12 +17,12 @@ namespace {
 constexpr std::size_t kBlock = 8;
 constexpr double kMinLogSigma = -3, kMaxLogSigma = 1.6;
 
-using Block = Eigen::Array<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, int(kBlock)>;
+using Block = std::array<double, kBlock>;  // zeros behind the controls of the block
 
 struct BlockSums {
-  Eigen::VectorXd gradient;
-  Eigen::MatrixXd hessian;
-  RowMatrix cross;  // (unknowns x modes) by controls of the block: X^T J
+  std::vector<double> gradient;
+  std::vector<double> hessian;
+  std::vector<double> cross;  // (unknowns x modes) by controls of the block: X^T J
 };
 
 class BlockWorker {
@@ -28,12 +30,10 @@ class BlockWorker {
   BlockWorker(const FitData& data, const FitState& state, std::size_t first, std::size_t width,
               bool project)
       : data_(data), state_(state), first_(first), width_(width), project_(project) {
-    const auto modes = Eigen::Index(state.sigma.size());
-    sums_.gradient = Eigen::VectorXd::Zero(modes);
-    sums_.hessian = Eigen::MatrixXd::Zero(modes, modes);
-    if (project)
-      sums_.cross =
-          RowMatrix::Zero(modes * Eigen::Index(data.terms()) * modes, Eigen::Index(width));
+    const std::size_t modes = state.sigma.size();
+    sums_.gradient.assign(modes, 0.0);
+    sums_.hessian.assign(modes * modes, 0.0);
+    if (project) sums_.cross.assign(modes * data.terms() * modes * width, 0.0);
   }
 
   BlockSums run() {
@@ -48,36 +48,56 @@ class BlockWorker {
 
  private:
   void add_frame(std::span<const Part> parts, std::size_t frame) {
-    const std::size_t k = data_.controls;
-    const auto n = Eigen::Index(width_);
-    Block residual = Eigen::Map<const Block>(&data_.target[frame * k + first_], n);
+    const std::size_t k = data_.controls, modes = state_.sigma.size();
+    const Block target = load(&data_.target[frame * k + first_]);
+    Block residual = target;
     slopes_.resize(parts.size());
     for (std::size_t p = 0; p < parts.size(); ++p) {
-      Block value = Block::Zero(n);
-      for (std::size_t m = 0; m < data_.terms(); ++m)
-        value += parts[p].basis[m] *
-                 Eigen::Map<const Block>(
-                     &state_.coefficients[(parts[p].mode * data_.terms() + m) * k + first_], n);
-      residual -= parts[p].dominance * value;
+      Block value{};
+      for (std::size_t m = 0; m < data_.terms(); ++m) {
+        const Block a =
+            load(&state_.coefficients[(parts[p].mode * data_.terms() + m) * k + first_]);
+        const double basis = parts[p].basis[m];
+        for (std::size_t c = 0; c < kBlock; ++c) value[c] += basis * a[c];
+      }
+      const double dominance = parts[p].dominance;
+      for (std::size_t c = 0; c < kBlock; ++c) residual[c] -= dominance * value[c];
       slopes_[p] = value;
     }
     // dC/d log(sigma_j) = D_j' A_j, or D_j' (A_j - C) / sum D if normalised.
-    Block blend = Block::Zero(n);
+    Block blend{};
     if (data_.normalised) {
-      blend = Eigen::Map<const Block>(&data_.target[frame * k + first_], n) - residual;
+      for (std::size_t c = 0; c < kBlock; ++c) blend[c] = target[c] - residual[c];
     }
     for (std::size_t p = 0; p < parts.size(); ++p) {
-      slopes_[p] = parts[p].slope * (slopes_[p] - blend);
+      const double slope = parts[p].slope;
+      Block& block = slopes_[p];
+      for (std::size_t c = 0; c < kBlock; ++c) block[c] = slope * (block[c] - blend[c]);
     }
     for (std::size_t p = 0; p < parts.size(); ++p) {
       if (parts[p].slope == 0) continue;
-      const auto g = Eigen::Index(parts[p].mode);
-      sums_.gradient[g] += (slopes_[p] * residual).sum();
+      const std::size_t g = parts[p].mode;
+      sums_.gradient[g] += product(slopes_[p], residual);
       for (std::size_t q = 0; q < parts.size(); ++q)
         if (parts[q].slope != 0)
-          sums_.hessian(g, Eigen::Index(parts[q].mode)) += (slopes_[p] * slopes_[q]).sum();
+          sums_.hessian[parts[q].mode * modes + g] += product(slopes_[p], slopes_[q]);
       if (project_) add_cross(parts, p);
     }
+  }
+
+  /// The controls of the block of a row. A full block has a size that the compiler knows.
+  Block load(const double* row) const {
+    Block block{};
+    if (width_ == kBlock) {
+      for (std::size_t c = 0; c < kBlock; ++c) block[c] = row[c];
+    } else {
+      for (std::size_t c = 0; c < width_; ++c) block[c] = row[c];
+    }
+    return block;
+  }
+
+  double product(const Block& a, const Block& b) const {
+    return width_ == kBlock ? dot(a.data(), b.data(), kBlock) : dot(a.data(), b.data(), width_);
   }
 
   void add_cross(std::span<const Part> parts, std::size_t p) {
@@ -86,7 +106,12 @@ class BlockWorker {
       for (std::size_t m = 0; m < data_.terms(); ++m) {
         const double w = x.dominance * x.basis[m];
         const std::size_t unknown = x.mode * data_.terms() + m;
-        sums_.cross.row(Eigen::Index(unknown * modes + parts[p].mode)).array() += w * slopes_[p];
+        double* out = &sums_.cross[(unknown * modes + parts[p].mode) * width_];
+        if (width_ == kBlock) {
+          for (std::size_t c = 0; c < kBlock; ++c) out[c] += w * slopes_[p][c];
+        } else {
+          for (std::size_t c = 0; c < width_; ++c) out[c] += w * slopes_[p][c];
+        }
       }
   }
 
@@ -98,12 +123,12 @@ class BlockWorker {
   std::vector<Block> slopes_;
 };
 
-FitState moved(const FitState& from, const Eigen::VectorXd& delta) {
+FitState moved(const FitState& from, std::span<const double> delta) {
   FitState to;
   to.sigma = from.sigma;
   for (std::size_t g = 0; g < to.sigma.size(); ++g)
-    to.sigma[g] = std::exp(
-        std::clamp(std::log(to.sigma[g]) + delta[Eigen::Index(g)], kMinLogSigma, kMaxLogSigma));
+    to.sigma[g] =
+        std::exp(std::clamp(std::log(to.sigma[g]) + delta[g], kMinLogSigma, kMaxLogSigma));
   return to;
 }
 
@@ -117,10 +142,12 @@ WidthStep width_step(const FitData& data, const FitWeights& weights, const FitSt
   if (project) normal = make_normal(data, weights, state.sigma);
   parallel_for(blocks.size(), weights.threads, [&](std::size_t b) {
     const std::size_t first = b * kBlock;
-    BlockWorker worker(data, state, first, std::min(kBlock, data.controls - first), project);
-    blocks[b] = worker.run();
-    if (project) project_out(normal.factor, blocks[b].cross, blocks[b].hessian);
-    blocks[b].cross.resize(0, 0);
+    const std::size_t width = std::min(kBlock, data.controls - first);
+    blocks[b] = BlockWorker(data, state, first, width, project).run();
+    if (project)
+      project_out(normal.factor, modes * data.terms(), blocks[b].cross, width, blocks[b].hessian,
+                  modes);
+    blocks[b].cross = {};
   });
   const double prior = weights.width_prior * double(data.controls);
   WidthStep step;
@@ -131,9 +158,8 @@ WidthStep width_step(const FitData& data, const FitWeights& weights, const FitSt
     step.hessian[g * modes + g] = prior;
   }
   for (const BlockSums& block : blocks) {
-    Eigen::Map<Eigen::VectorXd>(step.gradient.data(), Eigen::Index(modes)) += block.gradient;
-    Eigen::Map<Eigen::MatrixXd>(step.hessian.data(), Eigen::Index(modes), Eigen::Index(modes)) +=
-        block.hessian;
+    for (std::size_t g = 0; g < modes; ++g) step.gradient[g] += block.gradient[g];
+    for (std::size_t i = 0; i < modes * modes; ++i) step.hessian[i] += block.hessian[i];
   }
   return step;
 }

@@ -2,8 +2,6 @@
 // for a dominance. Internal.
 #pragma once
 
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
 #include <algorithm>
 #include <span>
 #include <vector>
@@ -12,9 +10,6 @@
 #include "dam/maths/parallel.h"
 
 namespace animeme::dam {
-
-using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using Row = Eigen::Array<double, 1, Eigen::Dynamic>;
 
 /// Unknowns of the phones' own curves.
 inline std::size_t unknowns_of(const RefinedData& data) {
@@ -35,9 +30,9 @@ class SentenceView {
   /// Divisor of the products of sums.
   double offset() const { return double(used_.size()) + data_.offset_frames; }
 
-  Eigen::Map<const Row> target(std::size_t i) const {
-    return {&data_.target[(sentence_.first_frame + i) * data_.controls],
-            Eigen::Index(data_.controls)};
+  /// The controls of a frame.
+  const double* target(std::size_t i) const {
+    return &data_.target[(sentence_.first_frame + i) * data_.controls];
   }
 
  private:
@@ -46,6 +41,11 @@ class SentenceView {
   RefinedDesign design_;
   std::vector<std::size_t> used_;
 };
+
+/// Adds the numbers up, place by place.
+inline void add_all(std::vector<double>& sums, const std::vector<double>& others) {
+  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += others[i];
+}
 
 /// Sums are split into so many parts, whatever the threads.
 inline constexpr std::size_t kSumParts = 8;
@@ -65,9 +65,9 @@ Sums sum_over(const RefinedData& data, const Sums& zero, const Add& add) {
 
 /// Best own curves for a dominance.
 struct Base {
-  Eigen::LLT<Eigen::MatrixXd> factor;  ///< of the normal equations, ridge included
-  RowMatrix curves;                    ///< unknowns x controls
-  double objective = 0;                ///< squared error + ridge
+  std::vector<double> factor;  ///< Cholesky factor of the normal equations, ridge included
+  std::vector<double> curves;  ///< unknowns x controls
+  double objective = 0;        ///< squared error + ridge
 };
 
 Base solve_base(const RefinedData& data, const DominanceOptions& options,

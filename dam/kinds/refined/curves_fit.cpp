@@ -1,19 +1,17 @@
 #include "dam/kinds/refined/curves_fit.h"
 
-#include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <map>
 
-#include "dam/maths/cholesky.h"
+#include "dam/maths/linear_algebra.h"
 #include "dam/maths/parallel.h"
 
 namespace animeme::dam {
 namespace {
 
-using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-constexpr std::size_t kCurveParts = 2;   // each needs a matrix of all unknowns
-constexpr Eigen::Index kSentences = 64;  // whose sums are taken off together
+constexpr std::size_t kCurveParts = 2;  // each needs a matrix of all unknowns
+constexpr std::size_t kSentences = 64;  // whose sums are taken off together
 
 /// A term of an occurrence with its place among the unknowns.
 struct PlacedTerm {
@@ -40,10 +38,10 @@ class Summer {
         space_(space),
         dominance_(dominance),
         weight_(weight),
-        n_(Eigen::Index(space.size)),
-        k_(Eigen::Index(data.controls)),
-        column_sums_(RowMatrix::Zero(kSentences, n_)),
-        target_sums_(RowMatrix::Zero(kSentences, k_)) {
+        n_(space.size),
+        k_(data.controls),
+        column_sums_(kSentences * n_),
+        target_sums_(kSentences * k_) {
     sums.gram = SquareMatrix(space.size);
     sums.right.assign(space.size * data.controls, 0.0);
     sums.energy.assign(data.controls, 0.0);
@@ -56,31 +54,39 @@ class Summer {
     collect(sentence, design);
     expand(sentence);
     const double share = 1 / (frames_ + data_.offset_frames);
-    for (Eigen::Index c = 0; c < k_; ++c)
-      sums.energy[std::size_t(c)] -= share * target_sums_(waiting_, c) * target_sums_(waiting_, c);
+    const std::span<double> targets = row_of(target_sums_, waiting_, k_);
+    for (std::size_t c = 0; c < k_; ++c) sums.energy[c] -= share * targets[c] * targets[c];
     sums.frames += used_;
-    column_sums_.row(waiting_) *= std::sqrt(share);
-    target_sums_.row(waiting_) *= std::sqrt(share);
+    const double root = std::sqrt(share);
+    for (double& x : row_of(column_sums_, waiting_, n_)) x *= root;
+    for (double& x : targets) x *= root;
     if (++waiting_ == kSentences) flush();
   }
 
   /// Takes off the products of sums of the sentences since the last time.
   void flush() {
     if (waiting_ == 0) return;
-    Eigen::Map<Eigen::MatrixXd> gram(sums.gram.data(), n_, n_);
-    Eigen::Map<RowMatrix> right(sums.right.data(), n_, k_);
-    const auto columns = column_sums_.topRows(waiting_);
-    gram.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose(), -1);
-    right.noalias() -= columns.transpose() * target_sums_.topRows(waiting_);
-    column_sums_.setZero();
-    target_sums_.setZero();
+    const std::span<const double> columns(column_sums_.data(), waiting_ * n_);
+    const std::span<const double> targets(target_sums_.data(), waiting_ * k_);
+    subtract_gram_of_rows(columns, waiting_, n_, sums.gram.values());
+    subtract_product_of_rows(columns, targets, waiting_, sums.right);
+    std::fill(column_sums_.begin(), column_sums_.end(), 0.0);
+    std::fill(target_sums_.begin(), target_sums_.end(), 0.0);
     waiting_ = 0;
   }
 
   CurveSums sums;
 
  private:
-  using Square = Eigen::Matrix<double, kRefinedOrders, kRefinedOrders>;
+  using Square = std::array<double, kRefinedOrders * kRefinedOrders>;  // column by column
+
+  static std::span<double> row_of(std::vector<double>& rows, std::size_t i, std::size_t width) {
+    return {&rows[i * width], width};
+  }
+  static void add_to(std::span<double> out, double scale, const double* __restrict from) {
+    double* __restrict to = out.data();
+    for (std::size_t c = 0; c < out.size(); ++c) to[c] += scale * from[c];
+  }
 
   /// Products of the weighted polynomials of every two occurrences that meet, their sums, and their
   /// products with the target: small numbers, from which all terms follow.
@@ -90,7 +96,7 @@ class Summer {
     products_.clear();
     pairs_.clear();
     own_sum_.assign(count * kRefinedOrders, 0.0);
-    own_target_ = RowMatrix::Zero(Eigen::Index(count * kRefinedOrders), k_);
+    own_target_.assign(count * kRefinedOrders * k_, 0.0);
     frames_ = 0;
     used_ = 0;
     for (std::size_t i = 0; i < sentence.frames; ++i) {
@@ -99,21 +105,21 @@ class Summer {
       if (weight == 0) continue;
       ++used_;
       frames_ += weight;
-      const Eigen::Map<const Eigen::RowVectorXd> y(&data_.target[frame * data_.controls], k_);
-      for (Eigen::Index c = 0; c < k_; ++c) sums.energy[std::size_t(c)] += weight * y[c] * y[c];
-      target_sums_.row(waiting_) += weight * y;
+      const double* y = &data_.target[frame * k_];
+      for (std::size_t c = 0; c < k_; ++c) sums.energy[c] += weight * y[c] * y[c];
+      add_to(row_of(target_sums_, waiting_, k_), weight, y);
       add_frame(sentence, design.frame(i), y, weight);
     }
   }
 
-  void add_frame(const FitSentence& sentence, std::span<const RefinedPart> parts,
-                 const Eigen::Map<const Eigen::RowVectorXd>& y, double weight) {
+  void add_frame(const FitSentence& sentence, std::span<const RefinedPart> parts, const double* y,
+                 double weight) {
     for (const RefinedPart& a : parts) {
       const std::size_t ja = a.occurrence - sentence.first_occurrence;
       for (std::size_t m = 0; m < kRefinedOrders; ++m) {
         const double x = weight * a.weight * a.basis[m];
         own_sum_[ja * kRefinedOrders + m] += x;
-        own_target_.row(Eigen::Index(ja * kRefinedOrders + m)) += x * y;
+        add_to(row_of(own_target_, ja * kRefinedOrders + m, k_), x, y);
       }
       for (const RefinedPart& b : parts) {
         const std::size_t jb = b.occurrence - sentence.first_occurrence;
@@ -122,7 +128,7 @@ class Summer {
         Square& square = products_[slot_of(ja, jb)];
         for (std::size_t n = 0; n < kRefinedOrders; ++n)
           for (std::size_t m = 0; m < kRefinedOrders; ++m)
-            square(Eigen::Index(m), Eigen::Index(n)) += w * a.basis[m] * b.basis[n];
+            square[n * kRefinedOrders + m] += w * a.basis[m] * b.basis[n];
       }
     }
   }
@@ -132,7 +138,7 @@ class Summer {
     for (const auto& [other, slot] : meet_[a])
       if (other == b) return slot;
     meet_[a].emplace_back(b, products_.size());
-    products_.push_back(Square::Zero());
+    products_.push_back({});
     pairs_.emplace_back(a, b);
     return products_.size() - 1;
   }
@@ -144,10 +150,9 @@ class Summer {
     for (std::size_t j = 0; j < sentence.occurrences; ++j)
       for (const PlacedTerm& t : terms[j])
         for (std::size_t m = 0; m < t.orders; ++m) {
-          column_sums_(waiting_, Eigen::Index(t.first + m)) +=
-              t.scale * own_sum_[j * kRefinedOrders + m];
-          Eigen::Map<Eigen::RowVectorXd>(&sums.right[(t.first + m) * data_.controls], k_) +=
-              t.scale * own_target_.row(Eigen::Index(j * kRefinedOrders + m));
+          column_sums_[waiting_ * n_ + t.first + m] += t.scale * own_sum_[j * kRefinedOrders + m];
+          add_to(row_of(sums.right, t.first + m, k_), t.scale,
+                 &own_target_[(j * kRefinedOrders + m) * k_]);
         }
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
       const auto [a, b] = pairs_[p];
@@ -167,8 +172,8 @@ class Summer {
     for (std::size_t n = 0; n < column.orders; ++n) {
       double* out = &sums.gram[(column.first + n) * space_.size + row.first];
       for (std::size_t m = 0; m < row.orders; ++m)
-        out[m] += scale * (transposed ? products(Eigen::Index(n), Eigen::Index(m))
-                                      : products(Eigen::Index(m), Eigen::Index(n)));
+        out[m] += scale * (transposed ? products[m * kRefinedOrders + n]
+                                      : products[n * kRefinedOrders + m]);
     }
   }
 
@@ -176,16 +181,15 @@ class Summer {
   const TermSpace& space_;
   std::span<const PhoneDominance> dominance_;
   std::span<const float> weight_;
-  Eigen::Index n_, k_;
-  RowMatrix column_sums_, target_sums_;  // of the sentences that wait, scaled
-  Eigen::Index waiting_ = 0;
+  std::size_t n_, k_;
+  std::vector<double> column_sums_, target_sums_;  // rows of the sentences that wait, scaled
+  std::size_t waiting_ = 0;
   double frames_ = 0;     // weights of the sentence
   std::size_t used_ = 0;  // its frames that have one
   std::vector<std::vector<std::pair<std::size_t, std::size_t>>> meet_;
   std::vector<Square> products_;
   std::vector<std::pair<std::size_t, std::size_t>> pairs_;
-  std::vector<double> own_sum_;
-  RowMatrix own_target_;
+  std::vector<double> own_sum_, own_target_;
 };
 
 }  // namespace
@@ -303,15 +307,15 @@ std::vector<double> solve_curves(const CurveSums& sums, const TermSpace& space,
 
 std::vector<double> errors_of(const CurveSums& sums, const std::vector<double>& curves,
                               std::size_t controls) {
-  const auto n = Eigen::Index(sums.right.size() / controls);
-  const auto k = Eigen::Index(controls);
-  const Eigen::Map<const Eigen::MatrixXd> gram(sums.gram.data(), n, n);
-  const Eigen::Map<const RowMatrix> a(curves.data(), n, k);
-  const Eigen::Map<const RowMatrix> right(sums.right.data(), n, k);
-  const RowMatrix product = gram.selfadjointView<Eigen::Lower>() * a;
+  const std::size_t n = sums.right.size() / controls;
+  const std::vector<double> product = multiply_symmetric({sums.gram.data(), n * n}, n, curves);
+  std::vector<double> squares(controls), along(controls);
+  for (std::size_t i = 0; i < n * controls; ++i) {
+    squares[i % controls] += curves[i] * product[i];
+    along[i % controls] += curves[i] * sums.right[i];
+  }
   std::vector<double> errors = sums.energy;
-  for (Eigen::Index c = 0; c < k; ++c)
-    errors[std::size_t(c)] += a.col(c).dot(product.col(c)) - 2 * a.col(c).dot(right.col(c));
+  for (std::size_t c = 0; c < controls; ++c) errors[c] += squares[c] - 2 * along[c];
   return errors;
 }
 

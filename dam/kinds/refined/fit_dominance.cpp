@@ -1,12 +1,11 @@
 // Gauss-Newton for the dominance, the base curves being re-fitted to first order at every step
 // (variable projection, Kaufman's form).
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "dam/kinds/refined/base_curves.h"
 #include "dam/kinds/refined/dominance.h"
+#include "dam/maths/linear_algebra.h"
 #include "dam/maths/projection.h"
 
 namespace animeme::dam {
@@ -27,14 +26,14 @@ double prior_of(const RefinedData& data, const DominanceOptions& options,
 
 /// Sums of the Gauss-Newton step.
 struct StepSums {
-  Eigen::VectorXd gradient;
-  Eigen::MatrixXd hessian;
-  RowMatrix cross;  // (unknowns x parameters) by controls: X^T J
+  std::vector<double> gradient;
+  std::vector<double> hessian;
+  std::vector<double> cross;  // (unknowns x parameters) by controls: X^T J
 
   StepSums& operator+=(const StepSums& o) {
-    gradient += o.gradient;
-    hessian += o.hessian;
-    cross += o.cross;
+    add_all(gradient, o.gradient);
+    add_all(hessian, o.hessian);
+    add_all(cross, o.cross);
     return *this;
   }
 };
@@ -42,82 +41,89 @@ struct StepSums {
 class StepWorker {
  public:
   StepWorker(const RefinedData& data, const DominanceFit& fit, bool project)
-      : data_(data), fit_(fit), project_(project), k_(Eigen::Index(data.controls)) {}
+      : data_(data), fit_(fit), project_(project), k_(data.controls) {}
 
   void add(const SentenceView& view, StepSums& sums) {
-    const auto parameters = sums.gradient.size();
-    const auto unknowns = Eigen::Index(unknowns_of(data_));
-    RowMatrix slope_sum = RowMatrix::Zero(parameters, k_);
-    Eigen::RowVectorXd residual_sum = Eigen::RowVectorXd::Zero(k_);
-    Eigen::VectorXd column_sum = Eigen::VectorXd::Zero(unknowns);
+    const std::size_t parameters = sums.gradient.size(), unknowns = unknowns_of(data_);
+    std::vector<double> slope_sum(parameters * k_), residual_sum(k_), column_sum(unknowns);
     for (const std::size_t i : view.used()) {
       const std::span<const RefinedPart> parts = view.parts(i);
-      const Row residual = linearise(view, i);
-      residual_sum += residual.matrix();
+      linearise(view, i);
+      for (std::size_t c = 0; c < k_; ++c) residual_sum[c] += residual_[c];
       for (std::size_t p = 0; p < parts.size(); ++p) {
-        add_slope_products(parts, p, residual, slope_sum, sums);
+        add_slope_products(parts, p, slope_sum, sums);
         for (std::size_t m = 0; m < kRefinedOrders; ++m)
-          column_sum[Eigen::Index(parts[p].phone * kRefinedOrders + m)] +=
-              parts[p].weight * parts[p].basis[m];
+          column_sum[parts[p].phone * kRefinedOrders + m] += parts[p].weight * parts[p].basis[m];
       }
     }
     const double share = 1 / view.offset();
-    sums.gradient.noalias() -= share * slope_sum * residual_sum.transpose();
-    sums.hessian.noalias() -= share * slope_sum * slope_sum.transpose();
+    subtract_product(slope_sum, residual_sum, share, sums.gradient);
+    subtract_gram(slope_sum, k_, parameters, share, sums.hessian);
     if (!project_) return;
-    for (Eigen::Index u = 0; u < unknowns; ++u)
-      if (column_sum[u] != 0)
-        sums.cross.middleRows(u * parameters, parameters) -= share * column_sum[u] * slope_sum;
+    for (std::size_t u = 0; u < unknowns; ++u) {
+      if (column_sum[u] == 0) continue;
+      const double scale = share * column_sum[u];
+      double* out = &sums.cross[u * parameters * k_];
+      for (std::size_t i = 0; i < parameters * k_; ++i) out[i] -= scale * slope_sum[i];
+    }
   }
 
  private:
-  /// Residual of a frame; slopes_ become w (A - C) of its parts.
-  Row linearise(const SentenceView& view, std::size_t i) {
+  /// residual_ becomes that of a frame, slopes_ w (A - C) of its parts.
+  void linearise(const SentenceView& view, std::size_t i) {
     const std::span<const RefinedPart> parts = view.parts(i);
-    if (slopes_.size() < parts.size()) slopes_.resize(parts.size(), Row(k_));
-    Row blend = Row::Zero(k_);
+    slopes_.assign(parts.size() * k_, 0.0);
+    blend_.assign(k_, 0.0);
     for (std::size_t p = 0; p < parts.size(); ++p) {
-      Row& value = slopes_[p];
-      value = Row::Zero(k_);
-      for (std::size_t m = 0; m < kRefinedOrders; ++m)
-        value += parts[p].basis[m] *
-                 Eigen::Map<const Row>(
-                     &fit_.base[(parts[p].phone * kRefinedOrders + m) * data_.controls], k_);
-      blend += parts[p].weight * value;
+      double* value = &slopes_[p * k_];
+      for (std::size_t m = 0; m < kRefinedOrders; ++m) {
+        const double* a = &fit_.base[(parts[p].phone * kRefinedOrders + m) * k_];
+        add_row(value, parts[p].basis[m], a);
+      }
+      add_row(blend_.data(), parts[p].weight, value);
     }
-    for (std::size_t p = 0; p < parts.size(); ++p)
-      slopes_[p] = parts[p].weight * (slopes_[p] - blend);
-    return view.target(i) - blend;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      const double weight = parts[p].weight;
+      double* __restrict slope = &slopes_[p * k_];
+      const double* __restrict blend = blend_.data();
+      for (std::size_t c = 0; c < k_; ++c) slope[c] = weight * (slope[c] - blend[c]);
+    }
+    residual_.resize(k_);
+    for (std::size_t c = 0; c < k_; ++c) residual_[c] = view.target(i)[c] - blend_[c];
   }
 
-  void add_slope_products(std::span<const RefinedPart> parts, std::size_t p, const Row& residual,
-                          RowMatrix& slope_sum, StepSums& sums) const {
+  void add_slope_products(std::span<const RefinedPart> parts, std::size_t p,
+                          std::vector<double>& slope_sum, StepSums& sums) const {
     double fp[kPerPhone], fq[kPerPhone];
     factors(parts[p], fp);
-    const auto at = [&](std::size_t part) { return Eigen::Index(parts[part].phone * kPerPhone); };
-    const double along = (slopes_[p] * residual).sum();
+    const std::size_t parameters = sums.gradient.size();
+    const auto at = [&](std::size_t part) { return parts[part].phone * kPerPhone; };
+    const double* slope = &slopes_[p * k_];
+    const double along = dot(slope, residual_.data(), k_);
     for (std::size_t a = 0; a < kPerPhone; ++a) {
-      sums.gradient[at(p) + Eigen::Index(a)] += fp[a] * along;
-      if (fp[a] != 0) slope_sum.row(at(p) + Eigen::Index(a)).array() += fp[a] * slopes_[p];
+      sums.gradient[at(p) + a] += fp[a] * along;
+      if (fp[a] != 0) add_row(&slope_sum[(at(p) + a) * k_], fp[a], slope);
     }
     for (std::size_t q = 0; q < parts.size(); ++q) {
-      const double both = (slopes_[p] * slopes_[q]).sum();
+      const double both = dot(slope, &slopes_[q * k_], k_);
       factors(parts[q], fq);
       for (std::size_t a = 0; a < kPerPhone; ++a)
         for (std::size_t b = 0; b < kPerPhone; ++b)
-          sums.hessian(at(p) + Eigen::Index(a), at(q) + Eigen::Index(b)) += fp[a] * fq[b] * both;
+          sums.hessian[(at(q) + b) * parameters + at(p) + a] += fp[a] * fq[b] * both;
     }
     if (!project_) return;
-    const auto parameters = sums.gradient.size();
     for (const RefinedPart& x : parts)
       for (std::size_t m = 0; m < kRefinedOrders; ++m) {
         const double w = x.weight * x.basis[m];
-        const auto unknown = Eigen::Index(x.phone * kRefinedOrders + m);
+        const std::size_t unknown = x.phone * kRefinedOrders + m;
         for (std::size_t a = 0; a < kPerPhone; ++a)
           if (fp[a] != 0)
-            sums.cross.row(unknown * parameters + at(p) + Eigen::Index(a)).array() +=
-                w * fp[a] * slopes_[p];
+            add_row(&sums.cross[(unknown * parameters + at(p) + a) * k_], w * fp[a], slope);
       }
+  }
+
+  void add_row(double* __restrict out, double scale, const double* __restrict row) const {
+    for (std::size_t c = 0; c < k_; ++c) out[c] += scale * row[c];
   }
 
   /// d log D / d parameter.
@@ -130,16 +136,16 @@ class StepWorker {
   const RefinedData& data_;
   const DominanceFit& fit_;
   bool project_;
-  Eigen::Index k_;
-  std::vector<Row> slopes_;
+  std::size_t k_;
+  std::vector<double> slopes_, blend_, residual_;  // slopes_: parts x controls
 };
 
 std::vector<PhoneDominance> moved(std::span<const PhoneDominance> from, const DominanceStep& step,
                                   double damping) {
-  const Eigen::VectorXd delta = damped_step(step.gradient, step.hessian, damping);
+  const std::vector<double> delta = damped_step(step.gradient, step.hessian, damping);
   std::vector<PhoneDominance> to(from.begin(), from.end());
   for (std::size_t p = 0; p < to.size(); ++p) {
-    const auto by = [&](std::size_t a) { return delta[Eigen::Index(p * kPerPhone + a)]; };
+    const auto by = [&](std::size_t a) { return delta[p * kPerPhone + a]; };
     const auto width = [&](double w, double d) {
       return std::clamp(w * std::exp(d), kLeastWidth, kMostWidth);
     };
@@ -159,36 +165,34 @@ DominanceFit start_dominance(const RefinedData& data, const DominanceOptions& op
   fit.dominance.assign(dominance.begin(), dominance.end());
   if (dominance.empty()) fit.dominance.assign(data.phones.size(), {kStartWidth, kStartWidth, 1});
   const Base base = solve_base(data, options, fit.dominance);
-  fit.base.assign(base.curves.data(), base.curves.data() + base.curves.size());
+  fit.base = base.curves;
   fit.objective = base.objective + prior_of(data, options, fit.dominance);
   return fit;
 }
 
 DominanceStep dominance_step(const RefinedData& data, const DominanceOptions& options,
                              const DominanceFit& fit, bool project) {
-  const std::size_t parameters = data.phones.size() * kPerPhone;
-  const auto n = Eigen::Index(parameters);
-  StepSums zero{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n), {}};
-  if (project)
-    zero.cross = RowMatrix::Zero(Eigen::Index(unknowns_of(data)) * n, Eigen::Index(data.controls));
+  const std::size_t n = data.phones.size() * kPerPhone;
+  StepSums zero{std::vector<double>(n), std::vector<double>(n * n), {}};
+  if (project) zero.cross.assign(unknowns_of(data) * n * data.controls, 0.0);
   StepSums sums = sum_over(data, zero, [&](const FitSentence& sentence, StepSums& part) {
     StepWorker(data, fit, project).add(SentenceView(data, sentence, fit.dominance), part);
   });
   if (project)
-    project_out(solve_base(data, options, fit.dominance).factor, sums.cross, sums.hessian);
+    project_out(solve_base(data, options, fit.dominance).factor, unknowns_of(data), sums.cross,
+                data.controls, sums.hessian, n);
   const double prior = options.prior * double(data.prior_controls);
   for (std::size_t p = 0; p < fit.dominance.size(); ++p) {
     const PhoneDominance& d = fit.dominance[p];
     const double off[kPerPhone] = {std::log(d.left / kStartWidth), std::log(d.right / kStartWidth),
                                    std::log(d.strength)};
     for (std::size_t a = 0; a < kPerPhone; ++a) {
-      const auto at = Eigen::Index(p * kPerPhone + a);
+      const std::size_t at = p * kPerPhone + a;
       sums.gradient[at] -= prior * off[a];
-      sums.hessian(at, at) += prior;
+      sums.hessian[at * n + at] += prior;
     }
   }
-  return {{sums.gradient.data(), sums.gradient.data() + n},
-          {sums.hessian.data(), sums.hessian.data() + n * n}};
+  return {std::move(sums.gradient), std::move(sums.hessian)};
 }
 
 bool fit_dominance(const RefinedData& data, const DominanceOptions& options, DominanceFit& fit,

@@ -1,6 +1,4 @@
 // Training of the refined model: dominance, then all curves. Source: dam/kinds/refined/README.md.
-#include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -11,40 +9,49 @@
 #include "dam/kinds/refined/fit.h"
 #include "dam/kinds/refined/refined.h"
 #include "dam/kinds/refined/solve.h"
+#include "dam/maths/linear_algebra.h"
 #include "dam/maths/parallel.h"
 
 namespace animeme::dam {
 namespace {
 
-using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-constexpr Eigen::Index kMostComponents = 16;
+constexpr std::size_t kMostComponents = 16;
 constexpr double kVariance = 0.99;
 
-/// Directions (controls x components) in which the controls move together, the strongest first.
-/// The dominance is sought for these: all controls share it, so nothing but noise is lost.
-Eigen::MatrixXd principal_components(const RefinedData& data) {
-  const auto k = Eigen::Index(data.controls);
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(k, k);
+/// Directions (a row of `controls` numbers each) in which the controls move together, the strongest
+/// first. The dominance is sought for these: all controls share it, so nothing but noise is lost.
+std::vector<double> principal_components(const RefinedData& data) {
+  const std::size_t k = data.controls;
+  std::vector<double> covariance(k * k);
   for (std::size_t i = 0; i < data.speech->use.size(); ++i) {
     if (data.speech->use[i] == 0) continue;
-    const Eigen::Map<const Eigen::VectorXd> y(&data.target[i * data.controls], k);
-    covariance.selfadjointView<Eigen::Lower>().rankUpdate(y);
+    const double* y = &data.target[i * k];
+    for (std::size_t a = 0; a < k; ++a)
+      for (std::size_t b = a; b < k; ++b) covariance[a * k + b] += y[a] * y[b];
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
-  const double total = std::max(solver.eigenvalues().sum(), 1e-300);
-  Eigen::Index count = 0;
+  const Eigenvectors found = symmetric_eigenvectors(covariance, k);
+  const double total = std::max(dot(found.values, std::vector<double>(k, 1.0)), 1e-300);
+  std::size_t count = 0;
   double sum = 0;
   while (count < std::min(k, kMostComponents) && (count == 0 || sum < kVariance * total))
-    sum += solver.eigenvalues()[k - 1 - count++];
-  return solver.eigenvectors().rightCols(count).rowwise().reverse();
+    sum += found.values[k - 1 - count++];
+  std::vector<double> directions;
+  for (std::size_t c = 0; c < count; ++c) {
+    const auto first = found.vectors.begin() + std::ptrdiff_t((k - 1 - c) * k);
+    directions.insert(directions.end(), first, first + std::ptrdiff_t(k));
+  }
+  return directions;
 }
 
-std::vector<double> rotated(const std::vector<double>& rows, const Eigen::MatrixXd& directions) {
-  const Eigen::Index k = directions.rows(), count = Eigen::Index(rows.size()) / k;
-  const RowMatrix result =
-      Eigen::Map<const RowMatrix>(rows.data(), count, k).lazyProduct(directions);
-  return {result.data(), result.data() + result.size()};
+/// Rows of `k` numbers as multiples of the directions.
+std::vector<double> rotated(const std::vector<double>& rows, std::size_t k,
+                            const std::vector<double>& directions) {
+  std::vector<double> result;
+  result.reserve(rows.size() / k * (directions.size() / k));
+  for (std::size_t i = 0; i < rows.size(); i += k)
+    for (std::size_t d = 0; d < directions.size(); d += k)
+      result.push_back(dot(&rows[i], &directions[d], k));
+  return result;
 }
 
 /// How much a frame counts: 1 / (frames of its word) ^ exponent, 1 in the mean of the frames whose
@@ -96,10 +103,10 @@ class RefinedTrainer {
 
   Result<Parameters> fit() {
     if (!run_.report("dominance", 0)) return TrainRun::cancelled();
-    const Eigen::MatrixXd directions = principal_components(data_);
+    const std::vector<double> directions = principal_components(data_);
     RefinedData main = data_;
-    main.controls = std::size_t(directions.cols());
-    main.target = rotated(data_.target, directions);
+    main.controls = directions.size() / data_.controls;
+    main.target = rotated(data_.target, data_.controls, directions);
     const TermSpace space = term_space(data_);
     DominanceFit fit = start_dominance(main, search_);
     run_.summary.objective.push_back(fit.objective);

@@ -1,15 +1,13 @@
 // One pose a phone: those that, interpolated, are nearest to the recording.
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
+#include <algorithm>
 
 #include "dam/corpus/training_set_internal.h"
 #include "dam/kinds/table/table.h"
 #include "dam/kinds/table/viseme_weights.h"
+#include "dam/maths/linear_algebra.h"
 
 namespace animeme::dam {
 namespace {
-
-using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Calls use(frame, phone, weight, phone, weight) for the frames that count, in order.
 template <class Use>
@@ -30,52 +28,66 @@ void for_frames(const SpeechData& data, double place, double plateau, const Use&
   }
 }
 
-Eigen::Map<const Eigen::RowVectorXd> target(const SpeechData& data, std::size_t frame) {
-  return {&data.target[frame * data.controls], Eigen::Index(data.controls)};
+using Poses = std::vector<double>;  // phones x controls, row by row
+
+/// Adds a share of a frame to the row of a phone.
+void add_frame(const SpeechData& data, std::size_t frame, double share, std::int32_t phone,
+               Poses& sums) {
+  const std::size_t k = data.controls;
+  for (std::size_t c = 0; c < k; ++c)
+    sums[std::size_t(phone) * k + c] += share * data.target[frame * k + c];
 }
 
 /// Mean of the frames nearest to each phone, drawn to the mean of all by one frame.
-RowMatrix mean_poses(const SpeechData& data, std::size_t phones) {
-  RowMatrix sum = RowMatrix::Zero(Eigen::Index(phones), Eigen::Index(data.controls));
-  Eigen::VectorXd count = Eigen::VectorXd::Zero(Eigen::Index(phones));
+Poses mean_poses(const SpeechData& data, std::size_t phones) {
+  const std::size_t k = data.controls;
+  Poses sum(phones * k);
+  std::vector<double> count(phones);
+  double frames = 0;
   // A hold of the whole phone gives every frame to the phone it lies in.
   for_frames(data, 0.5, 1,
              [&](std::size_t frame, std::int32_t a, double wa, std::int32_t b, double wb) {
                const std::int32_t phone = wa >= wb ? a : b;
-               sum.row(phone) += target(data, frame);
-               count[phone] += 1;
+               add_frame(data, frame, 1, phone, sum);
+               count[std::size_t(phone)] += 1;
+               frames += 1;
              });
-  const Eigen::RowVectorXd all = sum.colwise().sum() / std::max(1.0, count.sum());
-  for (Eigen::Index p = 0; p < sum.rows(); ++p) sum.row(p) = (sum.row(p) + all) / (count[p] + 1);
+  std::vector<double> all = column_sums(sum, k);
+  for (double& x : all) x /= std::max(1.0, frames);
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = (sum[i] + all[i % k]) / (count[i / k] + 1);
   return sum;
 }
 
 struct Fit {
-  RowMatrix poses;
+  Poses poses;
   double objective = 0;  ///< squared error and prior
 };
 
-Fit fit_poses(const SpeechData& data, const RowMatrix& centre, double prior, double place,
+Fit fit_poses(const SpeechData& data, const Poses& centre, double prior, double place,
               double plateau) {
-  const Eigen::Index phones = centre.rows();
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(phones, phones);
-  RowMatrix right = prior * centre;
-  double energy = prior * centre.squaredNorm();
-  gram.diagonal().setConstant(prior);
+  const std::size_t k = data.controls, phones = centre.size() / k;
+  std::vector<double> gram(phones * phones);
+  const auto at = [&](std::int32_t a, std::int32_t b) -> double& {
+    return gram[std::size_t(b) * phones + std::size_t(a)];
+  };
+  Poses right = centre;
+  for (double& x : right) x *= prior;
+  double energy = prior * dot(centre, centre);
+  for (std::size_t p = 0; p < phones; ++p) gram[p * phones + p] = prior;
   for_frames(data, place, plateau,
              [&](std::size_t frame, std::int32_t a, double wa, std::int32_t b, double wb) {
-               const auto y = target(data, frame);
-               energy += y.squaredNorm();
-               gram(a, a) += wa * wa;
-               gram(b, b) += wb * wb;
-               gram(a, b) += wa * wb;
-               gram(b, a) += wa * wb;
-               right.row(a) += wa * y;
-               right.row(b) += wb * y;
+               const double* y = &data.target[frame * k];
+               energy += dot(y, y, k);
+               at(a, a) += wa * wa;
+               at(b, b) += wb * wb;
+               at(a, b) += wa * wb;
+               at(b, a) += wa * wb;
+               add_frame(data, frame, wa, a, right);
+               add_frame(data, frame, wb, b, right);
              });
   Fit fit;
-  fit.poses = gram.ldlt().solve(right);
-  fit.objective = energy - fit.poses.cwiseProduct(right).sum();
+  fit.poses = solve_symmetric(gram, phones, right, k);
+  fit.objective = energy - dot(fit.poses, right);
   return fit;
 }
 
@@ -84,7 +96,7 @@ Fit fit_poses(const SpeechData& data, const RowMatrix& centre, double prior, dou
 Result<Parameters> fit_visemes(const TrainingSet& set, const Model& model,
                                const TrainOptions& options, TrainRun& run) {
   const double prior = options.table.pose_prior;
-  const RowMatrix centre = mean_poses(set.data, model.phones.size());
+  const Poses centre = mean_poses(set.data, model.phones.size());
   VisemeParameters best;
   Fit fit;
   constexpr int kSteps = 10;
@@ -103,7 +115,7 @@ Result<Parameters> fit_visemes(const TrainingSet& set, const Model& model,
   }
   run.summary.objective.push_back(fit.objective);
   run.summary.converged = true;
-  best.poses.assign(fit.poses.data(), fit.poses.data() + fit.poses.size());
+  best.poses = std::move(fit.poses);
   return Parameters(std::move(best));
 }
 
