@@ -51,10 +51,10 @@ inline constexpr Module kModules[] = {
     {"tools/bindings/c", "codec/encode dam/speaking", false},  // installs one header, of C
     {"tools/bindings/npm", "tools/bindings/c", false},         // the npm package
     {"tools/bindings/examples", "", false},                    // what users of libanimeme write
-    {"tools/formats/exchange", "codec/text dam/corpus dam/crossmap"},
+    {"tools/formats/exchange", "codec/text dam/corpus dam/crossmap tools/formats/common"},
     {"tools/view/render", "fap/head"},
-    {"tools/formats/scripts", "dam/script"},
-    {"tools/view/gltf", "fap/head tools/formats/files"},
+    {"tools/formats/scripts", "dam/script tools/formats/common"},
+    {"tools/view/gltf", "fap/head tools/formats/files tools/formats/common"},
     {"tools/formats/media tools/formats/media/live "
      "tools/formats/media/rtp tools/formats/media/detail/*",
      "codec/decode fap/xml tools/formats/files"},
@@ -67,7 +67,7 @@ inline constexpr Module kModules[] = {
     {"tools/view/viewer/rig", "fap/head", false},  // also the page's WebAssembly
     {"tools/view/viewer",
      "dam/script tools/view/render tools/view/viewer/rig tools/formats/common"},
-    {"tools/live/web", "tools/formats/media"},
+    {"tools/live/web", "tools/formats/media tools/formats/common"},
     {"tools/live/webrtc", "tools/live/web tools/formats/common"},
     {"tools/live/engines", "codec/encode tools/formats/media"},
     {"tools/view/plot",
@@ -130,7 +130,7 @@ inline constexpr Library kLibraries[] = {
     {"libcurl", "curl/", "tools/live/webrtc/detail", true},
     {"pybind11", "pybind11/", "tools/bindings/python"},
     {"toml++", "toml++/", "tools/characters/crossmap", true},
-    {"nlohmann_json", "nlohmann/", "tools conformance tests"},
+    {"nlohmann_json", "nlohmann/", "tools/formats/common/json.cpp conformance tests"},
     {"CLI11", "CLI/", "tools/app/commands tools/app/main.cpp tests/bench"},
     {"GoogleTest", "gtest/ gmock/ benchmark/", "tests"},
     {"the system", "", "tools tests dam/maths/square_matrix.cpp"},  // pages of memory

@@ -13,7 +13,7 @@ using serve::HeadSettings;
 using testing::HasSubstr;
 using tools::Json;
 
-Result<HeadSettings> read(const char* text) { return serve::read_settings(Json::parse(text), {}); }
+Result<HeadSettings> read(const char* text) { return serve::read_settings(*Json::parse(text), {}); }
 
 TEST(HeadSettings, EveryMemberIsReadAndWritten) {
   const char* text =
@@ -22,7 +22,7 @@ TEST(HeadSettings, EveryMemberIsReadAndWritten) {
       R"("sound":false,"audio_codec":"aac","audio_bitrate":64000,"audio_effort":10})";
   const Result<HeadSettings> settings = read(text);
   ASSERT_TRUE(settings) << settings.error().message;
-  EXPECT_EQ(serve::settings_json(*settings), Json::parse(text));
+  EXPECT_EQ(serve::settings_json(*settings), *Json::parse(text));
   EXPECT_EQ(settings->voice.language, "de+f2");
   EXPECT_EQ(settings->motion.rate, (fap::Rate{30000, 1001}));
   EXPECT_EQ(settings->audio.codec, media::AudioCodec::aac);

@@ -72,7 +72,7 @@ Affine turned(const Parts& file, const json& animation, std::size_t frame, std::
         std::vector<float>(keys.begin() + long(4 * frame), keys.begin() + long(4 * frame) + 4);
   }
   File copy;
-  copy.root = {{"nodes", nodes}};
+  copy.root = to_read({{"nodes", nodes}});
   return (*read_nodes(copy))[node].world;
 }
 
@@ -86,7 +86,7 @@ TEST(AnimateFile, TurnsBonesWhoseParentsStandAskew) {
   EXPECT_FALSE(file.root["nodes"][3].contains("matrix"));
   const json& animation = file.root["animations"][0];
   File old;
-  old.root = Parts(before).root;
+  old.root = to_read(Parts(before).root);
   const std::vector<Node> nodes = *read_nodes(old);
   for (std::size_t f = 0; f < 5; ++f) {
     const fap::Frame& frame = clips[0].clip.frames[f];

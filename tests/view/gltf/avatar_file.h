@@ -7,6 +7,7 @@
 #include "fap/arkit.h"
 #include "tests/view/gltf/actor.h"
 #include "tests/view/gltf/square.h"
+#include "tools/formats/common/json.h"
 #include "tools/view/gltf/animate_file.h"
 #include "tools/view/gltf/glb.h"
 
@@ -47,6 +48,11 @@ inline std::uint32_t word(const Bytes& file, std::size_t at) {
   std::uint32_t value = 0;
   std::memcpy(&value, file.data() + at, 4);
   return value;
+}
+
+// The same for what reads it.
+inline tools::Json to_read(const nlohmann::json& json) {
+  return *tools::Json::parse(json.dump(), {.sorted = true});
 }
 
 struct Parts {

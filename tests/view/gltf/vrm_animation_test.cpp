@@ -48,8 +48,8 @@ TEST(VrmAnimation, HasTheSkeletonExpressionsAndGaze) {
   EXPECT_FALSE(bones.contains("leftEye"));  // the gaze turns it
   // Places are those of the avatar, upright.
   File old, now;
-  old.root = Parts(avatar).root;
-  now.root = file.root;
+  old.root = to_read(Parts(avatar).root);
+  now.root = to_read(file.root);
   const auto before = read_nodes(old), after = read_nodes(now);
   for (const auto& [name, node] : std::map<std::string, std::size_t>{{"hips", 1}, {"head", 3}}) {
     const Node& bone = (*after)[bones[name]["node"].get<std::size_t>()];

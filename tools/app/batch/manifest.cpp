@@ -192,14 +192,10 @@ Result<Row> Manifest::table_row(std::string_view text) const {
 
 Result<Row> Manifest::json_row(std::string_view text) const {
   Row row;
-  Json json;
-  try {
-    json = Json::parse(text);
-  } catch (const Json::parse_error& error) {
-    return bad("this is no JSON object", line_, std::int64_t(std::max<std::size_t>(error.byte, 1)));
-  }
-  if (!json.is_object()) return bad("this is no JSON object", line_, 1);
-  for (const auto& [key, value] : json.items()) {
+  const Result<Json> json = Json::parse(text);
+  if (!json) return bad("this is no JSON object", line_, json.error().where.column);
+  if (!json->is_object()) return bad("this is no JSON object", line_, 1);
+  for (const auto& [key, value] : json->items()) {
     const std::string name = column_named(key);
     if (!is_column(name)) {
       return unknown_column(key, line_, std::int64_t(text.find("\"" + key + "\"")) + 1);

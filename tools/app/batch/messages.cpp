@@ -15,16 +15,16 @@ std::string task_message(const Task& task) {
               {"values", values},
               {"known", task.known},
               {"bytes", task.known_bytes}}
-      .dump(-1, ' ', false, Json::error_handler_t::replace);
+      .dump();
 }
 
 Task read_task(std::string_view message) {
-  const Json json = Json::parse(message);
+  const Json json = *Json::parse(message);
   Task task;
-  task.row.line = json["line"];
-  for (const Json& one : json["values"]) task.row.values.emplace_back(one[0], one[1]);
-  task.known = json["known"];
-  task.known_bytes = json["bytes"];
+  task.row.line = json["line"].get<std::int64_t>();
+  for (const Json& one : json["values"]) task.row.values.emplace_back(one[0].text(), one[1].text());
+  task.known = json["known"].get<bool>();
+  task.known_bytes = json["bytes"].get<std::uint64_t>();
   return task;
 }
 
@@ -38,26 +38,27 @@ std::string outcome_message(const Outcome& outcome) {
     json["costs"].push_back({one.cpu_seconds, one.bytes});
   if (entry.seconds) json["seconds"] = *entry.seconds;
   if (entry.confidence) json["confidence"] = *entry.confidence;
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json.dump();
 }
 
 Outcome read_outcome(std::string_view message) {
-  const Json json = Json::parse(message);
+  const Json json = *Json::parse(message);
   Outcome outcome;
   Entry& entry = outcome.entry;
-  entry.id = json["id"];
-  entry.good = json["good"];
+  entry.id = json["id"].text();
+  entry.good = json["good"].get<bool>();
   entry.outputs = json["outputs"].get<std::vector<std::string>>();
-  entry.bytes = json["bytes"];
-  entry.error = json["error"];
+  entry.bytes = json["bytes"].get<std::uint64_t>();
+  entry.error = json["error"].text();
   entry.warnings = json["warnings"].get<std::vector<std::string>>();
-  entry.hash = json["hash"];
-  entry.version = json["version"];
+  entry.hash = json["hash"].text();
+  entry.version = json["version"].text();
   if (json.contains("seconds")) entry.seconds = json["seconds"].get<double>();
   if (json.contains("confidence")) entry.confidence = json["confidence"].get<double>();
-  outcome.same = json["same"];
+  outcome.same = json["same"].get<bool>();
   for (std::size_t i = 0; i < outcome.costs.size(); ++i) {
-    outcome.costs[i] = {json["costs"][i][0], json["costs"][i][1]};
+    const Json& cost = json["costs"][i];
+    outcome.costs[i] = {cost[0].get<double>(), cost[1].get<std::uint64_t>()};
   }
   return outcome;
 }

@@ -76,8 +76,9 @@ bool all_there(const Plan& plan, const Task& task, const Shared& shared) {
 
 // What a line printed: facts of --json, warnings, and what it said last.
 void take_json(const std::string& text, Entry& entry) {
-  const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object()) return;
+  const Result<Json> read = Json::parse(text);
+  if (!read || !read->is_object()) return;
+  const Json& json = *read;
   const auto number = [&](const char* name, std::optional<double>& value) {
     if (json.contains(name) && json[name].is_number()) value = json[name].get<double>();
   };

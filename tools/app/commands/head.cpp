@@ -105,7 +105,7 @@ void print_text(const Json& info) {
     std::printf(" %s %.2f", name.c_str(), cm.get<double>());
   }
   std::printf("\nfeature points: %zu of 84\n", info["feature_points_cm"].size());
-  const std::string by = info["moved_by"];
+  const std::string by = info["moved_by"].text();
   if (by == "shapes") {
     std::printf("moved by %zu shapes: %s\n", info["shapes"].size(), list(info["shapes"]).c_str());
   } else {

@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "dam/training/accumulate.h"
 #include "tools/app/mpi/ranks.h"
@@ -70,16 +69,15 @@ class Accumulator {
     line_.clear();
     for (const std::string& text : inspect::glitches_text(glitches_)) warn(text);
     if (json) {
-      const nlohmann::ordered_json out = {
-          {"sums", parts_.accumulate},
-          {"added", added_},
-          {"already_there", there_},
-          {"skipped", left_out.skipped},
-          {"blanks", nlohmann::ordered_json::parse(inspect::blanks_json(left_out))},
-          {"glitches", nlohmann::ordered_json::parse(inspect::glitches_json(glitches_))},
-          {"utterances", sums_.sentences()},
-          {"frames", sums_.frames()},
-          {"controls", sums_.controls().size()}};
+      const Json out = {{"sums", parts_.accumulate},
+                        {"added", added_},
+                        {"already_there", there_},
+                        {"skipped", left_out.skipped},
+                        {"blanks", *Json::parse(inspect::blanks_json(left_out))},
+                        {"glitches", *Json::parse(inspect::glitches_json(glitches_))},
+                        {"utterances", sums_.sentences()},
+                        {"frames", sums_.frames()},
+                        {"controls", sums_.controls().size()}};
       std::printf("%s\n", pretty(out).c_str());
       return;
     }

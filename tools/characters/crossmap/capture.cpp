@@ -4,10 +4,10 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "fap/rate_text.h"
+#include "tools/formats/common/json.h"
 #include "tools/formats/common/text.h"
 #include "tools/formats/exchange/c3d.h"
 #include "tools/formats/exchange/points.h"
@@ -17,6 +17,7 @@ namespace animeme::crossmap {
 namespace {
 
 using exchange::PointRecording;
+using tools::Json;
 using Names = std::vector<std::string>;
 using Indices = std::vector<std::size_t>;
 
@@ -106,30 +107,30 @@ struct NeutralFace {
 
 Result<NeutralFace> read_neutral_json(const std::string& path, const std::string& text,
                                       const Names& names, std::size_t dimensions) {
-  const auto json = nlohmann::json::parse(text, nullptr, false);
-  const auto member = [&](std::string_view start) -> const nlohmann::json* {
-    if (!json.is_object()) return nullptr;
-    for (const auto& [key, value] : json.items()) {
+  const Result<Json> json = Json::parse(text, {.sorted = true});
+  const auto member = [&](std::string_view start) -> const Json* {
+    if (!json) return nullptr;
+    for (const auto& [key, value] : json->items()) {
       if (std::string_view(key).starts_with(start) && value.is_object()) return &value;
     }
     return nullptr;
   };
-  const nlohmann::json* places = member("neutral");
+  const Json* places = member("neutral");
   if (places == nullptr) {
     return make_error(Code::syntax, "a neutral face in JSON has \"neutral\": {\"POINT\": [x, y]}")
         .in_file(path);
   }
   NeutralFace out;
   for (const std::string& name : names) {
-    const auto point = places->find(name);
+    const Json* point = places->find(name);
     for (std::size_t k = 0; k < dimensions; ++k) {
-      const bool there = point != places->end() && point->is_array() && point->size() > k &&
-                         (*point)[k].is_number();
+      const bool there =
+          point != nullptr && point->is_array() && point->size() > k && (*point)[k].is_number();
       out.shape.push_back(there ? (*point)[k].get<double>()
                                 : std::numeric_limits<double>::quiet_NaN());
     }
   }
-  if (const nlohmann::json* fapu = member("fapu")) {
+  if (const Json* fapu = member("fapu")) {
     for (const auto& [unit, value] : fapu->items()) {
       if (value.is_number()) out.fapu[unit] = value.get<double>();
     }

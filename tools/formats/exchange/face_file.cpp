@@ -5,16 +5,16 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "fap/tables.h"
+#include "tools/formats/common/json.h"
 #include "tools/formats/exchange/detail/json_landmarks.h"
 
 namespace animeme::exchange {
 
 namespace {
 
-using Json = nlohmann::json;
+using tools::Json;
 
 constexpr const char* kFormat = "animeme-face";
 constexpr std::pair<const char*, double fap::Fapu::*> kUnits[] = {{"IRISD", &fap::Fapu::irisd},
@@ -26,8 +26,8 @@ constexpr std::pair<const char*, double fap::Fapu::*> kUnits[] = {{"IRISD", &fap
 Result<fap::Fapu> read_units(const Json& json) {
   fap::Fapu fapu;
   for (const auto& [name, member] : kUnits) {
-    const auto found = json.is_object() ? json.find(name) : json.end();
-    if (!json.is_object() || found == json.end()) {
+    const Json* found = json.find(name);
+    if (found == nullptr) {
       return make_error(Code::not_found, std::string("the unit ") + name + " is missing");
     }
     if (!found->is_number()) {
@@ -61,23 +61,24 @@ bool is_id(const std::string& id) {
 }
 
 Result<fap::RestingFace> read_ours(const Json& json) {
-  if (json.value("version", 0) != 1) {
+  const Json* version = json.find("version");
+  if (version == nullptr || version->get<int>() != 1) {
     return make_error(Code::unsupported, "a face file of another version; 1 is known");
   }
   fap::RestingFace face;
-  const auto depth = json.find("depth");
-  if (depth != json.end() && !depth->is_boolean()) {
+  const Json* depth = json.find("depth");
+  if (depth != nullptr && !depth->is_boolean()) {
     return make_error(Code::syntax, "depth is true or false");
   }
-  face.depth = depth != json.end() && depth->get<bool>();
-  const auto fapu = read_units(json.contains("fapu") ? json["fapu"] : Json());
+  face.depth = depth != nullptr && depth->get<bool>();
+  const auto fapu = read_units(json["fapu"]);
   if (!fapu) return fapu.error();
   face.fapu = *fapu;
-  const auto points = json.find("points");
-  if (points == json.end() || !points->is_object() || points->empty()) {
+  const Json& points = json["points"];
+  if (!points.is_object() || points.empty()) {
     return make_error(Code::not_found, "the face file has no points");
   }
-  for (const auto& [id, value] : points->items()) {
+  for (const auto& [id, value] : points.items()) {
     const auto place = numbers<3>(value);
     if (!is_id(id) || !place) {
       return make_error(Code::invalid_argument,
@@ -85,10 +86,10 @@ Result<fap::RestingFace> read_ours(const Json& json) {
     }
     face.points[id] = *place;
   }
-  if (const auto turn = numbers<3>(json.value("turn", Json()))) {
+  if (const auto turn = numbers<3>(json["turn"])) {
     face.turn = {(*turn)[0], (*turn)[1], (*turn)[2]};
   }
-  if (const Json gaze = json.value("gaze", Json()); gaze.is_array() && gaze.size() == 2) {
+  if (const Json& gaze = json["gaze"]; gaze.is_array() && gaze.size() == 2) {
     for (std::size_t eye = 0; eye < 2; ++eye) {
       if (const auto at = numbers<2>(gaze[eye])) face.gaze[eye] = fap::EyeTurn{(*at)[0], (*at)[1]};
     }
@@ -104,8 +105,8 @@ Result<fap::RestingFace> read_pixels(const Json& json) {
   face.fapu = *fapu;
   face.depth = true;
   for (const fap::LandmarkSource& source : fap::landmark_sources(fap::LandmarkLayout::mediapipe)) {
-    const auto found = json["neutral_px"].find(std::to_string(source.landmark));
-    if (found == json["neutral_px"].end()) continue;
+    const Json* found = json["neutral_px"].find(std::to_string(source.landmark));
+    if (found == nullptr) continue;
     const auto place = numbers<3>(*found);
     if (!place) {
       return make_error(Code::invalid_argument,
@@ -124,26 +125,26 @@ std::string number(double value) {
 }
 
 bool is_pixels(const Json& json) {
-  const auto points = json.find("neutral_px");
-  return json.contains("fapu_px") && points != json.end() && points->is_object();
+  return json.contains("fapu_px") && json["neutral_px"].is_object();
 }
 
 }  // namespace
 
 bool is_face_file(std::string_view text) {
   if (!is_json(text)) return false;
-  const Json json = Json::parse(text, nullptr, false);
-  return json.is_object() && (json.value("format", Json()) == kFormat || is_pixels(json));
+  const Result<Json> json = Json::parse(text);
+  return json && ((*json)["format"] == kFormat || is_pixels(*json));
 }
 
 Result<fap::RestingFace> read_face_file(std::string_view text) {
-  const Json json = Json::parse(text, nullptr, false);
-  if (json.is_discarded() || !json.is_object()) {
+  const Result<Json> read = Json::parse(text, {.sorted = true});
+  if (!read || !read->is_object()) {
     return make_error(Code::syntax,
                       "this is no face file; import --save-face writes one, of any recording");
   }
+  const Json& json = *read;
   if (is_pixels(json)) return read_pixels(json);
-  if (json.value("format", Json()) != kFormat) {
+  if (json["format"] != kFormat) {
     return make_error(Code::unsupported,
                       "this JSON is no face file; import --save-face writes one, of any recording");
   }

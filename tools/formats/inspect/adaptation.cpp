@@ -39,9 +39,9 @@ std::string adaptation_json(const std::string& output, const std::string& base,
     json["held_out_error_of_base"] = report.base_error;
     json["held_out_error_of_own_alone"] = report.own_error;
   }
-  json["blanks"] = Json::parse(blanks_json(left_out));
-  json["glitches"] = Json::parse(glitches_json(report.glitches));
-  json["alignment"] = Json::parse(alignment_json(report.alignment));
+  json["blanks"] = *Json::parse(blanks_json(left_out));
+  json["glitches"] = *Json::parse(glitches_json(report.glitches));
+  json["alignment"] = *Json::parse(alignment_json(report.alignment));
   json["warnings"] = report.warnings;
   return tools::pretty(json);
 }

@@ -163,8 +163,8 @@ Json difference_json(const dam::ErrorDifference& one) {
 
 std::string evaluation_json(const EvaluationReport& report) {
   Json json = {{"system", report.system}, {"closed_gap", report.closed_gap}};
-  json["blanks"] = Json::parse(blanks_json(report.left_out));
-  json["glitches"] = Json::parse(glitches_json(report.glitches));
+  json["blanks"] = *Json::parse(blanks_json(report.left_out));
+  json["glitches"] = *Json::parse(glitches_json(report.glitches));
   json.update(scores_json(report.evaluation));
   if (report.difference) {
     json["against"] = {{"system", report.against},

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,12 +11,13 @@
 #include "codec/decode/decoder.h"
 #include "codec/text/bap_text.h"
 #include "fap/frame.h"
+#include "tools/formats/common/json.h"
 
 namespace animeme::inspect {
 
 /// Frames, rate, and the range of values of each parameter.
-nlohmann::ordered_json describe_clip(const fap::Sequence& clip);
-nlohmann::ordered_json describe_body(const fba::BodySequence& body);  ///< the same of a body
+tools::Json describe_clip(const fap::Sequence& clip);
+tools::Json describe_body(const fba::BodySequence& body);  ///< the same of a body
 
 /// How many frames there are, and what parameters they have from where to where. Frame: that of a
 /// face or of a body.
@@ -48,12 +48,12 @@ struct StreamExtent {
 };
 
 /// One plane at least was added. `bytes`: the size of the stream.
-nlohmann::ordered_json describe_stream(const StreamExtent& stream, const fba::StreamInfo& info,
-                                       const std::vector<std::string>& warnings, std::size_t bytes);
+tools::Json describe_stream(const StreamExtent& stream, const fba::StreamInfo& info,
+                            const std::vector<std::string>& warnings, std::size_t bytes);
 
 /// All that a plane says but its values. Ranges are in levels at quantiser 1, in the order of the
 /// parameters named.
-nlohmann::ordered_json describe_plane(const fba::Plane& plane);
+tools::Json describe_plane(const fba::Plane& plane);
 
 /// The same as a line of a table, with its heading. Ranges are the widest of all parameters.
 std::string planes_heading();

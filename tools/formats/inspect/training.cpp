@@ -117,14 +117,14 @@ std::string training_json(const std::string& output, const dam::Model& model,
   json["standing_out"] = json_list(summary.standing, [](const dam::SentenceNote& one) {
     return Json{{"id", one.id}, {"offset", one.offset}, {"error", one.error}};
   });
-  json["glitches"] = Json::parse(glitches_json(summary.glitches));
-  json["alignment"] = Json::parse(alignment_json(summary.alignment));
+  json["glitches"] = *Json::parse(glitches_json(summary.glitches));
+  json["alignment"] = *Json::parse(alignment_json(summary.alignment));
   json["speech_seconds"] = summary.speech_seconds;
   json["training_seconds"] = summary.seconds;
   json["warnings"] = summary.warnings;
   if (data.parts.empty()) {
     json["corpus_seconds"] = data.seconds;
-    json["blanks"] = Json::parse(blanks_json(data.left_out));
+    json["blanks"] = *Json::parse(blanks_json(data.left_out));
   } else {
     json["parts"] = data.parts;
   }

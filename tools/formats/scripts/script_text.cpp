@@ -50,9 +50,9 @@ struct Documents {
 // One value, or one a line.
 Result<Documents> parse_documents(std::string_view text) {
   Documents documents;
-  Json whole = Json::parse(text, nullptr, false);
-  if (!whole.is_discarded()) {
-    documents.values.push_back(std::move(whole));
+  Result<Json> whole = Json::parse(text, {.sorted = true});
+  if (whole) {
+    documents.values.push_back(std::move(*whole));
     documents.offsets.push_back(0);
     return documents;
   }
@@ -60,15 +60,15 @@ Result<Documents> parse_documents(std::string_view text) {
   dam::Line line;
   while (reader.next(line)) {
     if (dam::trimmed(line.text).empty()) continue;
-    Json one = Json::parse(line.text, nullptr, false);
-    if (one.is_discarded()) {
+    Result<Json> one = Json::parse(line.text, {.sorted = true});
+    if (!one) {
       return error_at_line(Code::syntax,
                            documents.values.empty()
                                ? "this begins like JSON and is none; is the file complete?"
                                : "this line is no JSON, as those before it are",
                            line.number);
     }
-    documents.values.push_back(std::move(one));
+    documents.values.push_back(std::move(*one));
     documents.offsets.push_back(std::size_t(line.text.data() - text.data()));
   }
   return documents;

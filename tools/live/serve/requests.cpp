@@ -14,9 +14,7 @@ using web::ServerReply;
 
 constexpr std::string_view kHeads = "/heads/", kSay = "/say";
 
-ServerReply reply(unsigned status, const Json& json) {
-  return {status, json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"};
-}
+ServerReply reply(unsigned status, const Json& json) { return {status, json.dump() + "\n"}; }
 
 ServerReply refusal(unsigned status, const std::string& sentence) {
   return reply(status, {{"error", sentence}});
@@ -95,9 +93,9 @@ ServerReply HeadServer::answer_head(const web::ServerRequest& request, const std
 
 ServerReply HeadServer::put(const std::string& name, const std::string& body) {
   const bool blank = body.find_first_not_of(" \t\r\n") == std::string::npos;
-  const Json json = blank ? Json::object() : Json::parse(body, nullptr, false);
-  if (json.is_discarded()) return refusal(400, "The body is no JSON.");
-  const Result<HeadSettings> settings = read_settings(json, options_.defaults);
+  const Result<Json> json = blank ? Json::object() : Json::parse(body);
+  if (!json) return refusal(400, "The body is no JSON.");
+  const Result<HeadSettings> settings = read_settings(*json, options_.defaults);
   if (!settings) return refusal(settings.error());
   const bool known = find(name) != nullptr;
   const auto made = make(name, *settings);

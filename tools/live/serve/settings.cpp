@@ -45,7 +45,7 @@ class Members {
   bool text(const char* name, std::string& value) {
     const Json* found = find(name);
     if (found == nullptr) return false;
-    if (!found->is_string() || found->get_ref<const std::string&>().size() > 200) {
+    if (!found->is_string() || found->text().size() > 200) {
       fault(tools::format("\"%s\" is a text of up to 200 bytes", name));
       return false;
     }
@@ -70,8 +70,7 @@ class Members {
  private:
   const Json* find(const char* name) {
     known_.insert(name);
-    const auto found = json_.find(name);
-    return found == json_.end() ? nullptr : &*found;
+    return json_.find(name);
   }
   const Json& json_;
   std::set<std::string, std::less<>> known_;
@@ -162,9 +161,10 @@ bool is_head_name(std::string_view name) {
 Result<HeadList> read_head_list(const std::string& path, const HeadSettings& defaults) {
   Result<std::vector<std::uint8_t>> bytes = tools::read_file(path);
   if (!bytes) return bytes.error();
-  const Json json = Json::parse(bytes->begin(), bytes->end(), nullptr, false);
-  const bool listed = json.is_object() && json.contains("heads") && json["heads"].is_array();
-  if (!listed) {
+  Result<Json> read_json =
+      Json::parse({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+  const Json json = read_json ? std::move(*read_json) : Json();
+  if (!json["heads"].is_array()) {
     return make_error(Code::syntax,
                       "no list of heads; write {\"heads\": [{\"name\": \"anna\"}, ...]}")
         .in_file(path);

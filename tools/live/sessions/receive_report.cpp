@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "tools/formats/common/json.h"
 #include "tools/formats/common/text.h"
@@ -83,38 +82,38 @@ std::string receive_summary(const media::Recorder& recorder, const media::Receiv
 
 std::string receive_json(const media::Recorder& recorder, const media::ReceiveStats& stats,
                          const std::vector<media::IntraInterval>& intervals) {
-  using nlohmann::ordered_json;
+  using tools::Json;
   const media::RecoveryStats& recovery = recorder.recovery();
   const IntervalShares shares = shares_of(intervals);
   const double scale = recorder.info() ? recorder.info()->timescale : 1;
-  ordered_json rows = ordered_json::array();
+  Json rows = Json::array();
   for (const media::IntraInterval& interval : intervals) {
     rows.push_back({{"begin_s", double(interval.begin) / scale},
                     {"planes", interval.planes},
                     {"usable", interval.usable}});
   }
-  const ordered_json json = {{"packets", stats.packets},
-                             {"bytes", stats.bytes},
-                             {"lost", stats.lost},
-                             {"late", stats.late},
-                             {"duplicates", stats.duplicates},
-                             {"reordered", stats.reordered},
-                             {"jitter_ms", 1e3 * stats.jitter},
-                             {"latest_seconds", stats.latest},
-                             {"wait_seconds", stats.wait},
-                             {"sessions", stats.sessions},
-                             {"ignored", stats.foreign},
-                             {"planes_usable", recovery.usable},
-                             {"planes_dropped", recovery.dropped},
-                             {"usable_share", recovery.share()},
-                             {"freezes", recovery.freezes},
-                             {"frozen_seconds", recovery.frozen_seconds},
-                             {"longest_freeze_seconds", recovery.longest_seconds},
-                             {"interval_share_mean", shares.mean},
-                             {"interval_share_least", shares.least},
-                             {"intervals", rows},
-                             {"face_seconds", recorder.face_seconds()},
-                             {"sound_seconds", recorder.sound_seconds()}};
+  const Json json = {{"packets", stats.packets},
+                     {"bytes", stats.bytes},
+                     {"lost", stats.lost},
+                     {"late", stats.late},
+                     {"duplicates", stats.duplicates},
+                     {"reordered", stats.reordered},
+                     {"jitter_ms", 1e3 * stats.jitter},
+                     {"latest_seconds", stats.latest},
+                     {"wait_seconds", stats.wait},
+                     {"sessions", stats.sessions},
+                     {"ignored", stats.foreign},
+                     {"planes_usable", recovery.usable},
+                     {"planes_dropped", recovery.dropped},
+                     {"usable_share", recovery.share()},
+                     {"freezes", recovery.freezes},
+                     {"frozen_seconds", recovery.frozen_seconds},
+                     {"longest_freeze_seconds", recovery.longest_seconds},
+                     {"interval_share_mean", shares.mean},
+                     {"interval_share_least", shares.least},
+                     {"intervals", rows},
+                     {"face_seconds", recorder.face_seconds()},
+                     {"sound_seconds", recorder.sound_seconds()}};
   return tools::pretty(json);
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "tools/formats/common/json.h"
 #include "tools/formats/common/text.h"
@@ -11,8 +10,8 @@ namespace animeme::live {
 
 namespace {
 
-using nlohmann::ordered_json;
 using tools::format;
+using tools::Json;
 
 double rounded(double value, double step = 0.001) { return std::round(value / step) * step; }
 
@@ -27,7 +26,7 @@ std::string sentence(Sign sign, Turn turn, const Latency& latency) {
       turn == Turn::waited ? " and other lines" : "", latency.waiting);
 }
 
-ordered_json to_json(const Latency& latency) {
+Json to_json(const Latency& latency) {
   return {{"lines", latency.lines},
           {"mean_ms", rounded(latency.mean)},
           {"worst_ms", rounded(latency.worst)},
@@ -38,7 +37,7 @@ ordered_json to_json(const Latency& latency) {
           {"waiting_ms", rounded(latency.waiting)}};
 }
 
-ordered_json to_json(const Address& address) {
+Json to_json(const Address& address) {
   const media::SendStats stats = address.sink->stats();
   return {{"url", address.url},         {"broken", address.broken},
           {"packets", stats.packets},   {"bytes", stats.bytes},
@@ -114,19 +113,19 @@ std::string StreamReport::summary(double seconds, const Sinks& sinks, const medi
 std::string StreamReport::json(double seconds, const Sinks& sinks, const media::Pacer& pacer,
                                const std::deque<speech::LineTrace>& traces) const {
   const auto track = [this](const Track& of) {
-    return ordered_json{
+    return Json{
         {"units", of.units}, {"intra", of.intra}, {"bytes", of.bytes}, {"kbps", rounded(kbps(of))}};
   };
-  ordered_json addresses = ordered_json::array();
+  Json addresses = Json::array();
   for (const Address& address : sinks.addresses()) addresses.push_back(to_json(address));
   const media::LatenessMeter& late = pacer.lateness();
-  ordered_json json = {{"seconds", rounded(seconds)},
-                       {"face", track(face_)},
-                       {"sound", track(sound_)},
-                       {"addresses", addresses},
-                       {"late_mean_ms", rounded(1e3 * late.mean())},
-                       {"late_99_ms", rounded(1e3 * late.percentile(0.99))},
-                       {"late_worst_ms", rounded(1e3 * late.worst())}};
+  Json json = {{"seconds", rounded(seconds)},
+               {"face", track(face_)},
+               {"sound", track(sound_)},
+               {"addresses", addresses},
+               {"late_mean_ms", rounded(1e3 * late.mean())},
+               {"late_99_ms", rounded(1e3 * late.percentile(0.99))},
+               {"late_worst_ms", rounded(1e3 * late.worst())}};
   if (!traces.empty()) {
     json["lines"] = traces.size();
     json["text_to_face"] = to_json(latency_of(traces, Sign::face));

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <exception>
-#include <nlohmann/json.hpp>
 
 #include "tools/formats/media/detail/tracks/words_internal.h"
 #include "tools/formats/media/live/audio_segments.h"
@@ -182,7 +181,7 @@ Result<void> Sink::begin(const media::LiveInfo& info) {
 
 /// /info.json
 void Sink::describe() {
-  nlohmann::ordered_json json{{"version", kVersion}, {"time_zero", kWebTimeZero}, {"now", now_}};
+  tools::Json json{{"version", kVersion}, {"time_zero", kWebTimeZero}, {"now", now_}};
   if (!info_.face_config.empty()) {
     json["face"] = {{"timescale", info_.timescale},
                     {"profile", info_.visual_profile},
@@ -201,7 +200,7 @@ void Sink::describe() {
   if (peer_connections_) json["webrtc"] = true;  // at /whep
   json["clients"] = stats().receivers;
   // Names of heads may be any text.
-  stage_->set_info(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  stage_->set_info(json.dump());
 }
 
 Result<void> Sink::send_face(const LiveUnit& unit) {
@@ -279,12 +278,12 @@ Result<void> Sink::send_sound(const LiveUnit& unit) {
 
 /// All sockets of the face have it, between the frames.
 Result<void> Sink::publish_note(const std::string& json) {
-  auto note = nlohmann::ordered_json::parse(json);
-  if (!note.is_object()) return invalid("what is told has to be a JSON object");
-  if (const auto time = note.find("time"); time != note.end() && time->is_number()) {
-    *time = time->get<double>() + kWebTimeZero;
+  Result<tools::Json> note = tools::Json::parse(json);
+  if (!note || !note->is_object()) return invalid("what is told has to be a JSON object");
+  if (const tools::Json* time = note->find("time"); time != nullptr && time->is_number()) {
+    (*note)["time"] = time->get<double>() + kWebTimeZero;
   }
-  const std::string text = note.dump();
+  const std::string text = note->dump();
   for (const Channel channel : {Channel::face, Channel::faps, Channel::planes}) {
     stage_->publish(channel, {.bytes = {text.begin(), text.end()}, .text = true, .time = now_});
   }

@@ -31,7 +31,7 @@ endif()" COMPONENT ${component})
 endfunction()
 
 # animeme_library(NAME folder FILES...): a library with alias animeme::NAME, exported as component
-# NAME of the package.
+# NAME of the package, with the public headers of the folder ("": it has none).
 function(animeme_library name folder)
   add_library(animeme_${name} ${ARGN})
   add_library(animeme::${name} ALIAS animeme_${name})
@@ -49,7 +49,10 @@ function(animeme_library name folder)
     DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/animeme)
   set_property(GLOBAL APPEND PROPERTY ANIMEME_COMPONENTS ${name})
 
-  animeme_public_headers(${folder} headers)
+  set(headers "")
+  if(folder)
+    animeme_public_headers(${folder} headers)
+  endif()
   set_property(GLOBAL PROPERTY ANIMEME_HEADERS_${name} "${headers}")
   install(CODE "include(\"${PROJECT_BINARY_DIR}/install_headers.cmake\")
 animeme_install_headers(${name} \"${CMAKE_INSTALL_INCLUDEDIR}\" \"${PROJECT_BINARY_DIR}/public\")" COMPONENT ${name})

@@ -136,7 +136,7 @@ bool ControlSocket::read_from(Client& client,
     if (taken) return;
     const tools::Json json = {{"event", "error"}, {"why", taken.error().describe()}};
     const std::lock_guard lock(mutex_);
-    send(client, json.dump(-1, ' ', false, tools::Json::error_handler_t::replace));
+    send(client, json.dump());
   };
   std::array<char, 65536> buffer;
   const ssize_t count = ::recv(client.handle, buffer.data(), buffer.size(), 0);

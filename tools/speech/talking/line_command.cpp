@@ -30,8 +30,8 @@ bool has_a_do(std::string_view line) {
 }
 
 Result<std::string> text_of(const Json& object, const char* name) {
-  const auto found = object.find(name);
-  if (found == object.end() || found->is_null()) return std::string();
+  const Json* found = object.find(name);
+  if (found == nullptr || found->is_null()) return std::string();
   if (found->is_string()) return found->get<std::string>();
   if (found->is_number()) return found->dump();  // an id may be a number
   return make_error(Code::syntax, "\"" + std::string(name) + "\" has to be a text");

@@ -49,7 +49,7 @@ std::string to_json(const LineEvent& event) {
     default:
       break;
   }
-  return json.dump(-1, ' ', false, tools::Json::error_handler_t::replace);
+  return json.dump();
 }
 
 void LineEvents::add(LineEvent event) {

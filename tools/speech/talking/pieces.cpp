@@ -1,5 +1,6 @@
 #include "tools/speech/talking/pieces.h"
 
+#include <algorithm>
 #include <bit>
 #include <cctype>
 #include <cstring>
@@ -33,13 +34,10 @@ Error bad(std::string message) { return make_error(Code::syntax, std::move(messa
 
 // Takes the first member of one of these names out of `piece`; null: there is none.
 Json take(Json& piece, std::initializer_list<std::string_view> names) {
-  for (auto member = piece.begin(); member != piece.end(); ++member) {
-    for (const std::string_view name : names) {
-      if (plain(member.key()) != name) continue;
-      Json value = std::move(member.value());
-      piece.erase(member);
-      return value;
-    }
+  for (const Json::Member& member : piece.items()) {
+    const std::string key = plain(member.key);
+    if (std::find(names.begin(), names.end(), key) == names.end()) continue;
+    return piece.erase(member.key);
   }
   return nullptr;
 }
@@ -48,7 +46,7 @@ Result<std::string> take_text(Json& piece, std::initializer_list<std::string_vie
   Json value = take(piece, names);
   if (value.is_null()) return std::string();
   if (!value.is_string()) return bad("\"" + std::string(*names.begin()) + "\" has to be a text");
-  return std::move(value.get_ref<std::string&>());
+  return std::move(value.text());
 }
 
 enum class Encoding : std::uint8_t { file, s16, f32 };
@@ -121,8 +119,8 @@ Result<media::Pcm> sound_of(Json& piece) {
 
 // Whether what is left of a piece may hold times: a list or an object, but not its own small talk.
 bool may_hold_times(const Json& piece) {
-  for (const auto& member : piece) {
-    if (member.is_structured() && !member.empty()) return true;
+  for (const auto& [key, value] : piece.items()) {
+    if (value.is_structured() && !value.empty()) return true;
   }
   return false;
 }
@@ -130,20 +128,10 @@ bool may_hold_times(const Json& piece) {
 }  // namespace
 
 Result<Json> parse_object(std::string_view text) {
-  constexpr int kMostDeep = 64;
-  bool deep = false;
-  const auto look = [&deep](int depth, Json::parse_event_t, Json&) {
-    deep = deep || depth > kMostDeep;
-    return depth <= kMostDeep;
-  };
-  try {
-    Json json = Json::parse(text, look);
-    if (deep) return make_error(Code::out_of_range, "the JSON is nested too deep");
-    if (!json.is_object()) return bad("a piece is a JSON object, {...}");
-    return json;
-  } catch (const Json::parse_error& error) {
-    return bad("it is no JSON from its byte " + std::to_string(error.byte) + " on");
-  }
+  constexpr std::size_t kMostDeep = 64;
+  Result<Json> json = Json::parse(text, {.deepest = kMostDeep});
+  if (json && !json->is_object()) return bad("a piece is a JSON object, {...}");
+  return json;
 }
 
 Result<SpokenLine> read_piece(std::string_view json, const voice::VoiceOptions& voice,
@@ -161,16 +149,13 @@ Result<SpokenLine> read_piece(std::string_view json, const voice::VoiceOptions& 
 
   TimedSound sound;
   sound.from = "the piece";
-  const auto dump = [](const Json& value) {
-    return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  };
   const bool found = script.is_null() && may_hold_times(*piece);
   if (script.is_string()) {
-    sound.labels = std::move(script.get_ref<std::string&>());
+    sound.labels = std::move(script.text());
   } else if (!script.is_null()) {
-    sound.labels = dump(script);
+    sound.labels = script.dump();
   } else if (found) {
-    sound.labels = dump(*piece);
+    sound.labels = piece->dump();
   }
   Result<std::string> text = take_text(*piece, {"text", "transcript"});
   if (!text) return text.error();

@@ -1,7 +1,6 @@
 #include "tools/view/gltf/glb.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "tools/view/gltf/detail/bones.h"
@@ -13,7 +12,6 @@ namespace {
 
 using head::Part;
 using head::Vec3;
-using nlohmann::json;
 
 constexpr int kNeckNode = 1;  // node 0 is the foot of the skeleton
 
@@ -40,7 +38,7 @@ std::optional<Bone> carrier_of(const head::Rig& rig, Part part) {
 constexpr std::pair<const char*, double> kMaterials[] = {
     {"skin", 0.6}, {"eye", 0.1}, {"teeth", 0.3}, {"wet", 0.25}, {"hair", 0.5}, {"cloth", 0.9}};
 
-json material_of(head::Material material) {
+Json material_of(head::Material material) {
   const auto& [name, roughness] = kMaterials[std::size_t(material)];
   return {{"name", name},
           {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", roughness}}}};
@@ -83,7 +81,7 @@ class Writer {
     scene_.push_back(0);
   }
 
-  json skin_attributes(std::size_t count) {
+  Json skin_attributes(std::size_t count) {
     std::vector<std::uint8_t> joints;
     std::vector<float> weights;
     for (std::size_t v = 0; v < count; ++v) {
@@ -101,7 +99,7 @@ class Writer {
   // joints alone, and loses what hangs on other nodes below them when it exports.
   int skeleton() {
     std::vector<float> inverse;
-    json joints = json::array();
+    Json joints = Json::array();
     const auto add = [&](int node, Vec3 pivot) {
       joints.push_back(node);
       inverse.insert(inverse.end(), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0});
@@ -125,7 +123,7 @@ class Writer {
     const Vec3 origin = carrier ? pivot_of(rig_, *carrier) : Vec3{};
     std::vector<Vec3> places;
     for (const Vec3& v : rig_.parts[number].positions) places.push_back((v - origin) * kMetres);
-    json attributes = part == Part::skin ? skin_attributes(places.size()) : json::object();
+    Json attributes = part == Part::skin ? skin_attributes(places.size()) : Json::object();
     attributes["POSITION"] = buffer_.vectors(places, BufferUse::vertices, true);
     attributes["NORMAL"] =
         buffer_.vectors(unit_normals(rig_.parts[number].normals), BufferUse::vertices, false);
@@ -134,14 +132,14 @@ class Writer {
     for (const head::Triangle& triangle : mesh.triangles) {
       indices.insert(indices.end(), triangle.begin(), triangle.end());
     }
-    json primitive = {{"attributes", attributes},
+    Json primitive = {{"attributes", attributes},
                       {"indices", buffer_.triangles(indices)},
                       {"material", material(mesh.material)}};
-    json out = {{"name", head::kPartNames[number]}};
+    Json out = {{"name", head::kPartNames[number]}};
     add_morphs(number, places.size(), primitive, out);
-    out["primitives"] = json::array({primitive});
+    out["primitives"] = Json::array({primitive});
     meshes_.push_back(std::move(out));
-    json node = {{"name", head::kPartNames[number]}, {"mesh", meshes_.size() - 1}};
+    Json node = {{"name", head::kPartNames[number]}, {"mesh", meshes_.size() - 1}};
     if (part == Part::skin) node["skin"] = skeleton();
     nodes_.push_back(std::move(node));
     const int index = int(nodes_.size()) - 1;
@@ -171,7 +169,7 @@ class Writer {
   }
 
   int material(head::Material wanted) {
-    const json entry = material_of(wanted);
+    const Json entry = material_of(wanted);
     for (std::size_t i = 0; i < materials_.size(); ++i) {
       if (materials_[i] == entry) return int(i);
     }
@@ -179,15 +177,15 @@ class Writer {
     return int(materials_.size()) - 1;
   }
 
-  void add_morphs(std::size_t part, std::size_t vertices, json& primitive, json& mesh) {
-    json targets = json::array();
-    json names = json::array();
+  void add_morphs(std::size_t part, std::size_t vertices, Json& primitive, Json& mesh) {
+    Json targets = Json::array();
+    Json names = Json::array();
     for (std::size_t m = 0; m < morphs_.size(); ++m) {
       const PartMove& move = morphs_[m].parts[part];
       if (move.vertices.empty()) continue;
       std::vector<Vec3> steps = move.moves;
       for (Vec3& step : steps) step *= kMetres;
-      json target = {{"POSITION", buffer_.sparse(vertices, move.vertices, steps)}};
+      Json target = {{"POSITION", buffer_.sparse(vertices, move.vertices, steps)}};
       if (!move.turns.empty()) {
         target["NORMAL"] = buffer_.sparse(vertices, move.vertices, move.turns);
       }
@@ -237,11 +235,11 @@ class Writer {
   }
 
   Result<std::vector<std::uint8_t>> pack() {
-    json scene = {{"nodes", scene_}};
+    Json scene = {{"nodes", scene_}};
     if (!options_.audio.empty()) scene["extras"] = {{"audio", options_.audio}};
-    json root = {{"asset", {{"version", "2.0"}, {"generator", "animeme"}}},
+    Json root = {{"asset", {{"version", "2.0"}, {"generator", "animeme"}}},
                  {"scene", 0},
-                 {"scenes", json::array({scene})},
+                 {"scenes", Json::array({scene})},
                  {"nodes", nodes_},
                  {"meshes", meshes_},
                  {"skins", skins_},
@@ -265,13 +263,13 @@ class Writer {
   std::vector<std::vector<float>> weights_;                      // frame by frame
   std::array<std::vector<std::size_t>, head::kPartCount> used_;  // morphs of a part
   std::vector<std::pair<std::size_t, int>> morphed_;             // part, node
-  json nodes_ = json::array();
-  json scene_ = json::array();
-  json meshes_ = json::array();
-  json skins_ = json::array();
-  json materials_ = json::array();
-  json samplers_ = json::array();
-  json channels_ = json::array();
+  Json nodes_ = Json::array();
+  Json scene_ = Json::array();
+  Json meshes_ = Json::array();
+  Json skins_ = Json::array();
+  Json materials_ = Json::array();
+  Json samplers_ = Json::array();
+  Json channels_ = Json::array();
 };
 
 }  // namespace

@@ -84,9 +84,8 @@ Json facts_of(const Page& page) {
              {"phones", json_list(page.script.phones, phone_of)}};
   if (page.sound) facts["sound"] = page.sound->type;
   if (!page.others.empty()) {
-    Json names = json_list(page.others, &OtherHead::name);
-    names.insert(names.begin(), page.head_name);
-    facts["heads"] = std::move(names);
+    facts["heads"] = {page.head_name};
+    for (const OtherHead& other : page.others) facts["heads"].push_back(other.name);
   }
   return facts;
 }
@@ -169,7 +168,7 @@ Result<std::string> make_page(const Page& page) {
     }
   }
   // Through JSON and back: what is no UTF-8 becomes a replacement mark.
-  const std::string name = Json::parse(detail::text_of(page.clips[0].name)).get<std::string>();
+  const std::string name = Json::parse(detail::text_of(page.clips[0].name))->text();
   const std::string script = head_modules() + std::string(detail::kPageModules);
   return filled(detail::kTemplate, {{"<!--title-->", tools::escape_xml(name)},
                                     {"/*style*/", std::string(detail::kStyle)},

@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "fap/arkit.h"
+#include "tools/formats/common/json.h"
 #include "tools/formats/exchange/detail/table.h"
 
 namespace animeme::exchange {
 
 namespace {
 
-using Json = nlohmann::json;
+using tools::Json;
 
 // Names, in lower case and without "_", of what holds frames, points, shapes and times.
 constexpr std::string_view kFrames[] = {"frames", "results", "data", "detections"};
@@ -58,8 +58,8 @@ std::optional<Place> place_of(const Json& json) {
   if (!json.is_object() || !json.contains("x") || !json.contains("y")) return std::nullopt;
   constexpr const char* kAxes[] = {"x", "y", "z"};
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto value = json.find(kAxes[i]);
-    if (value == json.end() || value->is_null()) continue;
+    const Json* value = json.find(kAxes[i]);
+    if (value == nullptr || value->is_null()) continue;
     if (!value->is_number()) return std::nullopt;
     place[i] = value->get<double>();
   }
@@ -95,15 +95,15 @@ void add_shapes(const Json& json, std::map<std::string, double>& out, int depth 
     return;
   }
   if (!json.is_object()) return;
-  if (const auto inside = json.find("categories"); inside != json.end()) {
+  if (const Json* inside = json.find("categories")) {
     add_shapes(*inside, out, depth + 1);
     return;
   }
-  const auto score = json.find("score");
+  const Json* score = json.find("score");
   for (const char* key : {"categoryName", "category_name", "name"}) {
-    const auto name = json.find(key);
-    if (name == json.end() || !name->is_string() || score == json.end()) continue;
-    if (score->is_number()) out[name->get<std::string>()] = score->get<double>();
+    const Json* name = json.find(key);
+    if (name == nullptr || !name->is_string() || score == nullptr) continue;
+    if (score->is_number()) out[name->text()] = score->get<double>();
     return;
   }
   for (const auto& [name, value] : json.items()) {
@@ -245,19 +245,19 @@ void write_shapes(const std::vector<Frame>& frames, JsonTable& out) {
 
 // The frames of a value, or of one value a line.
 Result<Json> parse(std::string_view text) {
-  Json json = Json::parse(text, nullptr, false);
-  if (!json.is_discarded()) return json;
+  Result<Json> json = Json::parse(text, {.sorted = true});
+  if (json) return json;
   Json lines = Json::array();
   for (const dam::TableLine& line : dam::table_lines(text)) {
-    Json one = Json::parse(line.text, nullptr, false);
-    if (one.is_discarded()) {
+    Result<Json> one = Json::parse(line.text, {.sorted = true});
+    if (!one) {
       const bool first = lines.empty();
       return error_at_line(Code::syntax,
                            first ? "this begins like JSON and is none; is it complete?"
                                  : "this line is no JSON; was the file cut off?",
                            std::int64_t(line.number));
     }
-    lines.push_back(std::move(one));
+    lines.push_back(std::move(*one));
   }
   return lines;
 }
@@ -294,9 +294,13 @@ Result<JsonTable> json_to_table(std::string_view text, bool shapes) {
                                   [](const Frame& frame) { return frame.points != nullptr; });
   const bool curves = std::any_of(frames.begin(), frames.end(),
                                   [](const Frame& frame) { return !frame.shapes.empty(); });
-  const bool asked = std::any_of(list->begin(), list->end(), [](const Json& one) {
+  const auto asks = [](const Json& one) {
     return member(one, kPoints) != nullptr || member(one, kShapes) != nullptr;
-  });
+  };
+  const auto members = list->items();
+  const bool asked =
+      std::any_of(list->begin(), list->end(), asks) ||
+      std::any_of(members.begin(), members.end(), [&](const auto& one) { return asks(one.value); });
   if (!points && !curves && asked) {
     return make_error(Code::truncated, "the tracker found no face in any of " +
                                            std::to_string(frames.size()) + " frames");

@@ -1,7 +1,8 @@
 #include "tools/formats/exchange/detail/json_text.h"
 
 #include <cstdio>
-#include <nlohmann/json.hpp>
+
+#include "tools/formats/common/json.h"
 
 namespace animeme::exchange {
 
@@ -11,9 +12,7 @@ std::string decimals(double value, int digits) {
   return text;
 }
 
-std::string json_text(std::string_view text) {
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
+std::string json_text(std::string_view text) { return tools::Json(text).dump(); }
 
 std::string track_head(std::string_view format, const fap::Rate& rate, std::string_view audio) {
   char fps[40];

@@ -64,13 +64,13 @@ std::optional<double> Node::number() const {
   if (!exists()) return std::nullopt;
   std::optional<double> number;
   if (value->is_number()) number = value->get<double>();
-  if (value->is_string()) number = dam::parse_number(value->get_ref<const std::string&>());
+  if (value->is_string()) number = dam::parse_number(value->text());
   return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
 std::optional<std::string> Node::text() const {
   if (!exists() || !value->is_string()) return std::nullopt;
-  return std::string(dam::trimmed(value->get_ref<const std::string&>()));
+  return std::string(dam::trimmed(value->text()));
 }
 
 dam::TimedLabel& JsonLabels::add(const Node& node, double start, double end, std::string label,

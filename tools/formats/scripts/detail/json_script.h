@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,10 +11,11 @@
 #include "dam/script/timings.h"
 #include "dam/script/viseme_phones.h"
 #include "fap/result.h"
+#include "tools/formats/common/json.h"
 
 namespace animeme::scripts {
 
-using Json = nlohmann::json;
+using tools::Json;
 
 /// A value and its way there: the number of its document and JSON pointers, "0/words/3".
 struct Node {

@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
 #include "codec/decode/fill.h"
 #include "codec/syntax/plane.h"
 #include "fap/fill.h"
 #include "fap/tables.h"
+#include "tools/formats/common/json.h"
 
 namespace animeme::web {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using tools::Json;
 
 /// What a receiver shows after `coded`, if it showed `before`: all low-level FAPs, and of FAP 1 and
 /// 2 those that were ever sent.

@@ -30,7 +30,7 @@ class BufferReader {
     if (!size) return make_error(Code::syntax, label + " has no byteLength");
     std::span<const std::uint8_t> bytes;
     if (member(entry, "uri").is_string()) {
-      auto loaded = load(entry["uri"].get_ref<std::string&>());
+      auto loaded = load(entry["uri"].text());
       if (!loaded) return loaded.error();
       bytes = *loaded;
     } else if (index == 0 && chunks_.binary) {
@@ -78,18 +78,17 @@ class BufferReader {
 
 bool File::uses(std::string_view extension) const {
   for (const Json& entry : gltf::list(root, "extensionsUsed")) {
-    if (entry.is_string() && entry.get_ref<const std::string&>() == extension) return true;
+    if (entry.is_string() && entry.text() == extension) return true;
   }
   return false;
 }
 
 Result<File> open_json(std::span<const std::uint8_t> json, const ReadLimits& limits) {
-  if (auto fine = check_values({reinterpret_cast<const char*>(json.data()), json.size()}); !fine) {
-    return fine.error();
-  }
+  const std::string_view text(reinterpret_cast<const char*>(json.data()), json.size());
+  if (auto fine = check_values(text); !fine) return fine.error();
   File file;
   file.budget = std::make_unique<Budget>(limits);
-  file.root = Json::parse(json.begin(), json.end(), nullptr, false);
+  if (Result<Json> root = Json::parse(text, {.sorted = true})) file.root = std::move(*root);
   if (!file.root.is_object()) {
     return make_error(Code::syntax, "the JSON of the glTF file cannot be read: export it again");
   }

@@ -2,7 +2,7 @@
 //
 // tinygltf is not used: version 2.7 of Debian 12 reads up to eight bytes past a truncated .glb,
 // takes images from offsets it does not check, and its recursive reader of `extras` overflows the
-// stack for deeply nested ones. The JSON is read by nlohmann_json.
+// stack for deeply nested ones. The JSON is read by tools/formats/common.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ struct File {
 
   /// Entry `index` of a list of the root ("meshes"); null if there is none.
   const Json& entry(const char* key, std::size_t index) const {
-    const std::vector<Json>& all = gltf::list(root, key);
+    const std::span<const Json> all = gltf::list(root, key);
     return index < all.size() ? all[index] : member(root, "");
   }
   bool uses(std::string_view extension) const;

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMostTargets = 4096;
 
 const Json& first_primitive(const File& file, std::size_t mesh) {
-  const std::vector<Json>& primitives = list(file.entry("meshes", mesh), "primitives");
+  const std::span<const Json> primitives = list(file.entry("meshes", mesh), "primitives");
   static const Json none;
   return primitives.empty() ? none : primitives.front();
 }

@@ -10,10 +10,6 @@ namespace {
 
 constexpr int kFloats = 5126;  // as OpenGL calls them
 
-std::string json_dump(const Json& value) {
-  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 std::size_t add_entry(const Json& there, Json& more, const Json& entry) {
   if (!more.is_array()) more = Json::array();
   more.push_back(entry);
@@ -37,7 +33,7 @@ Result<FileEdit> FileEdit::open(std::span<const std::uint8_t> bytes, const ReadL
 
 // The binary part of a .glb is its first buffer, if that has no address of its own.
 bool FileEdit::extends_binary() const {
-  const std::vector<Json>& buffers = list(file_.root, "buffers");
+  const std::span<const Json> buffers = list(file_.root, "buffers");
   if (!binary_) return false;
   if (buffers.empty()) return !chunk_;
   return chunk_ && member(buffers[0], "uri").is_null();
@@ -133,15 +129,17 @@ void FileEdit::add_buffer() {
 bool FileEdit::merge(JsonText::Span into, const Json& more) {
   if (text_.at(into) != (more.is_array() ? '[' : '{')) return false;
   if (more.is_array()) {
-    for (const Json& entry : more) text_.append(into, json_dump(entry));
+    for (const Json& entry : more) text_.append(into, sorted_text(entry));
     return true;
   }
-  for (const auto& [key, value] : more.items()) {
+  Json by_name = more;
+  by_name.sort();
+  for (const auto& [key, value] : by_name.items()) {
     if (value.is_null()) continue;
     if (const auto there = text_.member(into, key)) {
       if (!value.is_structured() || !merge(*there, value)) return false;
     } else {
-      text_.append(into, quoted_json(key) + ":" + json_dump(value));
+      text_.append(into, quoted_json(key) + ":" + sorted_text(value));
     }
   }
   return true;

@@ -16,10 +16,9 @@ Json number_list(std::span<const double> values) {
 
 // Without its braces.
 std::string members_of(const LocalPlace& place) {
-  const Json object = {{"translation", number_list(place.translation)},
-                       {"rotation", number_list(place.rotation)},
-                       {"scale", number_list(place.scale)}};
-  const std::string text = object.dump();
+  const std::string text = sorted_text({{"translation", number_list(place.translation)},
+                                        {"rotation", number_list(place.rotation)},
+                                        {"scale", number_list(place.scale)}});
   return text.substr(1, text.size() - 2);
 }
 

@@ -38,7 +38,7 @@ struct Bounds {
 
 int GlbBuffer::view(const void* data, std::size_t size, BufferUse use, int stride) {
   while (bytes_.size() % 4 != 0) bytes_.push_back(0);
-  nlohmann::json entry = {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", size}};
+  Json entry = {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", size}};
   if (use == BufferUse::vertices) entry["target"] = kVertexTarget;
   if (use == BufferUse::indices) entry["target"] = kIndexTarget;
   if (stride > 0) entry["byteStride"] = stride;
@@ -116,7 +116,7 @@ int GlbBuffer::sparse(std::size_t count, std::span<const std::uint32_t> vertices
   Bounds box;
   for (const head::Vec3& v : values) box.add(v);
   if (values.size() < count) box.add({0, 0, 0});
-  nlohmann::json indices = {{"componentType", kUnsignedInt}};
+  Json indices = {{"componentType", kUnsignedInt}};
   if (vertices.back() < 65535) {
     const std::vector<std::uint16_t> shorts(vertices.begin(), vertices.end());
     indices["componentType"] = kUnsignedShort;
@@ -137,10 +137,10 @@ int GlbBuffer::sparse(std::size_t count, std::span<const std::uint32_t> vertices
   return int(accessors.size()) - 1;
 }
 
-Result<std::vector<std::uint8_t>> GlbBuffer::file(nlohmann::json root) {
+Result<std::vector<std::uint8_t>> GlbBuffer::file(Json root) {
   while (bytes_.size() % 4 != 0) bytes_.push_back(0);
   root["buffers"] = {{{"byteLength", bytes_.size()}}};
-  const std::string text = root.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  const std::string text = sorted_text(std::move(root));
   Result<std::vector<std::uint8_t>> file = glb_front(text, bytes_.size());
   if (file) file->insert(file->end(), bytes_.begin(), bytes_.end());
   return file;

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <vector>
 
 #include "fap/head/vector.h"
 #include "fap/result.h"
+#include "tools/view/gltf/detail/json_access.h"
 
 namespace animeme::gltf {
 
@@ -32,10 +32,10 @@ class GlbBuffer {
 
   /// The binary form of glTF, a header, the JSON and the data; `root` gets its buffer. Error:
   /// out_of_range (larger than 4 GB).
-  Result<std::vector<std::uint8_t>> file(nlohmann::json root);
+  Result<std::vector<std::uint8_t>> file(Json root);
 
-  nlohmann::json accessors = nlohmann::json::array();
-  nlohmann::json views = nlohmann::json::array();
+  Json accessors = Json::array();
+  Json views = Json::array();
 
  private:
   int view(const void* data, std::size_t size, BufferUse use, int stride = 0);

@@ -3,22 +3,19 @@
 
 #include <cmath>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "tools/formats/common/json.h"
+
 namespace animeme::gltf {
 
-using Json = nlohmann::json;
+using tools::Json;
 
 /// The member of an object; null if there is none.
-inline const Json& member(const Json& object, const char* key) {
-  static const Json nothing;
-  if (!object.is_object()) return nothing;
-  const auto found = object.find(key);
-  return found == object.end() ? nothing : *found;
-}
+inline const Json& member(const Json& object, const char* key) { return object[key]; }
 
 /// A member of a member.
 template <class... Keys>
@@ -27,10 +24,9 @@ const Json& member(const Json& object, const char* key, Keys... keys) {
 }
 
 /// The entries of a member that is an array; else none.
-inline const std::vector<Json>& list(const Json& object, const char* key) {
-  static const std::vector<Json> none;
+inline std::span<const Json> list(const Json& object, const char* key) {
   const Json& found = member(object, key);
-  return found.is_array() ? found.get_ref<const Json::array_t&>() : none;
+  return {found.begin(), found.end()};
 }
 
 /// A whole number from 0 on.
@@ -69,6 +65,12 @@ inline std::optional<std::vector<double>> numbers(const Json& value, std::size_t
     out.push_back(entry.get<double>());
   }
   return out;
+}
+
+/// Members in the order of their names: the same value is the same text.
+inline std::string sorted_text(Json value) {
+  value.sort();
+  return value.dump();
 }
 
 }  // namespace animeme::gltf

@@ -1,7 +1,8 @@
 #include "tools/view/gltf/detail/json_text.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+
+#include "tools/formats/common/json.h"
 
 namespace animeme::gltf {
 namespace {
@@ -12,8 +13,8 @@ bool is_json_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '
 bool is_key(std::string_view token, std::string_view key) {
   const std::string_view inner = token.substr(1, token.size() - 2);
   if (inner.find('\\') == std::string_view::npos) return inner == key;
-  const auto plain = nlohmann::json::parse(token, nullptr, false);
-  return plain.is_string() && plain.get_ref<const std::string&>() == key;
+  const auto plain = tools::Json::parse(token);
+  return plain && *plain == key;
 }
 
 }  // namespace
@@ -132,8 +133,6 @@ std::string JsonText::changed() const {
   return out;
 }
 
-std::string quoted_json(std::string_view text) {
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
+std::string quoted_json(std::string_view text) { return tools::Json(text).dump(); }
 
 }  // namespace animeme::gltf

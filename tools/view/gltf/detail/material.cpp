@@ -108,7 +108,7 @@ Coat read_coat(const File& file, std::size_t material, const Paint& paint,
   if (const Json& toon = member(more, "VRMC_materials_mtoon"); !toon.is_null()) {
     add_mtoon(toon, texture, coat);
   }
-  const auto& old = list(member(file.root, "extensions", "VRM"), "materialProperties");
+  const auto old = list(member(file.root, "extensions", "VRM"), "materialProperties");
   if (material < old.size() && text_or(member(old[material], "shader")) == "VRM/MToon") {
     add_old_mtoon(old[material], texture, coat);
   }

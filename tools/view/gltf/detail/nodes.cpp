@@ -42,7 +42,7 @@ Affine local_of(const Json& entry) {
 }
 
 Result<void> set_parents(const File& file, std::vector<Node>& nodes) {
-  const std::vector<Json>& entries = list(file.root, "nodes");
+  const std::span<const Json> entries = list(file.root, "nodes");
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     for (const Json& child : list(entries[i], "children")) {
       const std::size_t index = whole_or(child, kNoNode);
@@ -56,7 +56,7 @@ Result<void> set_parents(const File& file, std::vector<Node>& nodes) {
 
 // Parents before their children. Nodes in a circle are in no order: they are missing.
 std::vector<std::size_t> order_of(const File& file, const std::vector<Node>& nodes) {
-  const std::vector<Json>& entries = list(file.root, "nodes");
+  const std::span<const Json> entries = list(file.root, "nodes");
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].parent == kNoNode) order.push_back(i);
@@ -113,7 +113,7 @@ void add_scaled(Affine& sum, const Affine& map, double weight) {
 }
 
 Result<std::vector<Node>> read_nodes(const File& file) {
-  const std::vector<Json>& entries = list(file.root, "nodes");
+  const std::span<const Json> entries = list(file.root, "nodes");
   if (entries.size() > kMostNodes) {
     return make_error(Code::out_of_range,
                       "the file has more than " + std::to_string(kMostNodes) +
@@ -157,7 +157,7 @@ std::vector<bool> nodes_below(const std::vector<Node>& nodes, std::size_t ancest
 
 Result<Skin> read_skin(const File& file, const std::vector<Node>& nodes, std::size_t skin) {
   const Json& entry = file.entry("skins", skin);
-  const std::vector<Json>& joints = list(entry, "joints");
+  const std::span<const Json> joints = list(entry, "joints");
   // Several nodes may have the same skin.
   if (auto fine = file.budget->take_elements(joints.size()); !fine) return fine.error();
   Skin out;

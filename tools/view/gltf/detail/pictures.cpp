@@ -16,7 +16,7 @@ constexpr std::int64_t kMostKeptInAll = 6 * kMostKept;
 std::string source_of(std::size_t number, const Json& image) {
   if (const auto view = whole(member(image, "bufferView"))) return "view " + std::to_string(*view);
   const Json& uri = member(image, "uri");
-  const bool elsewhere = uri.is_string() && !is_data_uri(uri.get_ref<const std::string&>());
+  const bool elsewhere = uri.is_string() && !is_data_uri(uri.text());
   return elsewhere ? "uri " + text_or(uri) : "image " + std::to_string(number);
 }
 

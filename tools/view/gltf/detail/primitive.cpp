@@ -275,7 +275,7 @@ Result<std::vector<Affine>> MeshReader::skin_maps(const Json& attributes, const 
 
 Result<void> MeshReader::add_morphs(const Json& entry, const std::vector<Affine>& maps,
                                     RawPiece& piece, ShapeNames& names) {
-  const std::vector<Json>& targets = list(entry, "targets");
+  const std::span<const Json> targets = list(entry, "targets");
   for (std::size_t t = 0; t < targets.size(); ++t) {
     const auto accessor = whole(member(targets[t], "POSITION"));
     if (!accessor) continue;

@@ -8,10 +8,10 @@ namespace {
 std::string own_name(const File& file, const Json& mesh, const Json& primitive,
                      std::size_t target) {
   for (const Json* from : {&member(mesh, "extras"), &member(primitive, "extras")}) {
-    const std::vector<Json>& names = list(*from, "targetNames");
+    const std::span<const Json> names = list(*from, "targetNames");
     if (target < names.size() && names[target].is_string()) return text_or(names[target]);
   }
-  const std::vector<Json>& targets = list(primitive, "targets");
+  const std::span<const Json> targets = list(primitive, "targets");
   const auto accessor =
       target < targets.size() ? whole(member(targets[target], "POSITION")) : std::nullopt;
   const std::string name =

@@ -6,9 +6,7 @@
 
 namespace animeme::viewer::detail {
 
-std::string text_of(const tools::Json& json) {
-  return json.dump(-1, ' ', true, tools::Json::error_handler_t::replace);
-}
+std::string text_of(const tools::Json& json) { return json.dump(-1, true); }
 
 std::vector<std::uint8_t> with_header(const tools::Json& header, const Bytes& rest) {
   const std::string json = text_of(header);
