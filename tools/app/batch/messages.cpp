@@ -19,7 +19,7 @@ std::string task_message(const Task& task) {
 }
 
 Task read_task(std::string_view message) {
-  const Json json = *Json::parse(message);
+  const Json json = Json::parse(message).value();
   Task task;
   task.row.line = json["line"].get<std::int64_t>();
   for (const Json& one : json["values"]) task.row.values.emplace_back(one[0].text(), one[1].text());
@@ -42,7 +42,7 @@ std::string outcome_message(const Outcome& outcome) {
 }
 
 Outcome read_outcome(std::string_view message) {
-  const Json json = *Json::parse(message);
+  const Json json = Json::parse(message).value();
   Outcome outcome;
   Entry& entry = outcome.entry;
   entry.id = json["id"].text();
