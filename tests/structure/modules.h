@@ -108,7 +108,7 @@ struct Library {
 /// The first row that fits counts. What has neither '.' nor '/' is the C++ library and no row.
 inline constexpr Library kLibraries[] = {
     {"libxml2", "libxml/", "fap/xml", true},
-    {"Eigen", "Eigen/ unsupported/Eigen/", "dam tests/dam tests/bench"},
+    {"Eigen", "Eigen/ unsupported/Eigen/", "dam/maths tests/dam tests/bench"},
     {"FFmpeg", "libav libsw libpost", "tools/formats/media tests/formats/media"},
     {"espeak-ng", "espeak speak_lib", "tools/speech/voice tests/speech/voice"},
     {"pocketsphinx", "pocketsphinx sphinxbase", "tools/speech/voice tests/speech/voice"},
