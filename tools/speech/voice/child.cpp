@@ -177,6 +177,26 @@ Error not_started(std::string_view what, int error) {
   return refused(what, std::string("cannot be started: ") + std::strerror(error));
 }
 
+struct Forked {
+  pid_t pid = -1;
+  int socket = -1;  // to the child
+};
+
+// A child that runs `in_child` with its end of a socket and never returns from it.
+Result<Forked> fork_with_socket(std::string_view what, const std::function<void(int)>& in_child) {
+  std::array<int, 2> ends{};
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    return not_started(what, errno);
+  }
+  const pid_t pid = ::fork();
+  if (pid == 0) in_child(ends[1]);
+  const int fork_error = errno;
+  ::close(ends[1]);
+  if (pid > 0) return Forked{pid, ends[0]};
+  ::close(ends[0]);
+  return not_started(what, fork_error);
+}
+
 }  // namespace
 
 bool Sender::send(std::uint32_t tag, std::string_view bytes) {
@@ -211,19 +231,10 @@ Result<void> run_child(std::string_view what, unsigned seconds,
 
 Result<std::unique_ptr<KeptChild>> KeptChild::start(const std::function<void()>& prepare,
                                                     const Work& work, unsigned seconds) {
-  std::array<int, 2> ends{};
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-    return not_started("a child", errno);
-  }
-  const pid_t child = ::fork();
-  if (child == 0) stay(ends[1], prepare, work, seconds);
-  ::close(ends[1]);
-  if (child < 0) {
-    const int fork_error = errno;
-    ::close(ends[0]);
-    return not_started("a child", fork_error);
-  }
-  return std::unique_ptr<KeptChild>(new KeptChild(child, ends[0]));
+  const auto forked =
+      fork_with_socket("a child", [&](int socket) { stay(socket, prepare, work, seconds); });
+  if (!forked) return forked.error();
+  return std::unique_ptr<KeptChild>(new KeptChild(forked->pid, forked->socket));
 }
 
 KeptChild::~KeptChild() {
@@ -234,30 +245,20 @@ KeptChild::~KeptChild() {
 Result<std::unique_ptr<Nursery>> Nursery::start(
     const std::function<void(std::string_view name)>& prepare, const KeptChild::Work& work,
     unsigned seconds) {
-  std::array<int, 2> ends{};
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-    return not_started("a process for voices", errno);
-  }
-  const pid_t nursery = ::fork();
-  if (nursery == 0) {
-    isolate(ends[1]);
+  const auto forked = fork_with_socket("a process for voices", [&](int requests) {
+    isolate(requests);
     ::signal(SIGCHLD, SIG_IGN);  // nobody asks how a child ended
     std::string name;
-    for (int socket = -1; receive_request(ends[1], name, socket); ::close(socket)) {
+    for (int socket = -1; receive_request(requests, name, socket); ::close(socket)) {
       if (::fork() != 0) continue;
       ::signal(SIGCHLD, SIG_DFL);
       stay(
           socket, [&] { prepare(name); }, work, seconds);
     }
     ::_exit(0);
-  }
-  ::close(ends[1]);
-  if (nursery < 0) {
-    const int fork_error = errno;
-    ::close(ends[0]);
-    return not_started("a process for voices", fork_error);
-  }
-  return std::unique_ptr<Nursery>(new Nursery(nursery, ends[0]));
+  });
+  if (!forked) return forked.error();
+  return std::unique_ptr<Nursery>(new Nursery(forked->pid, forked->socket));
 }
 
 Nursery::~Nursery() {

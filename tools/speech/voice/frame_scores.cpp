@@ -1,7 +1,6 @@
 #include "tools/speech/voice/frame_scores.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "tools/speech/voice/hearing.h"
@@ -10,25 +9,12 @@ namespace animeme::voice {
 
 namespace {
 
-constexpr double kRoomShare = 0.3;        // of the frames tell the room, not the voice
-constexpr std::size_t kSoundBlock = 160;  // samples
 constexpr std::size_t kMeanReach = 1500;  // frames to either side that the mean is taken of
 constexpr std::size_t kFrameHop = 160, kHalfWindow = 205;  // samples
 constexpr std::size_t kLevelReach = 800;                   // samples to either side
 constexpr double kFloor = 0.1;
 constexpr double kLoud = 0.9;      // of the frames are less loud
 constexpr float kNewPhone = 4.6f;  // a phone of the free path costs so much
-
-float loudness_of_voice(const std::vector<float>& samples) {
-  std::vector<float> peaks;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (i % kSoundBlock == 0) peaks.push_back(0);
-    peaks.back() = std::max(peaks.back(), std::abs(samples[i]));
-  }
-  const auto high = peaks.begin() + std::ptrdiff_t(0.9 * double(peaks.size() - 1));
-  std::nth_element(peaks.begin(), high, peaks.end());
-  return *high;
-}
 
 // dB over 0.1 s around the middle of each frame.
 std::vector<float> smooth_levels(const std::vector<std::int16_t>& samples, std::size_t frames) {
@@ -43,23 +29,6 @@ std::vector<float> smooth_levels(const std::vector<std::int16_t>& samples, std::
     levels.push_back(float(10 * std::log10(mean + 1)));
   }
   return levels;
-}
-
-Cepstrum mean_of_loud(std::span<const Cepstrum> frames) {
-  std::vector<float> levels;
-  for (const Cepstrum& frame : frames) levels.push_back(frame[0]);
-  const auto quiet = levels.begin() + std::ptrdiff_t(kRoomShare * double(levels.size() - 1));
-  std::nth_element(levels.begin(), quiet, levels.end());
-  std::array<double, kCepstra> sums{};
-  double count = 0;
-  for (const Cepstrum& frame : frames) {
-    if (frame[0] < *quiet) continue;
-    ++count;
-    for (std::size_t i = 0; i < kCepstra; ++i) sums[i] += double(frame[i]);
-  }
-  Cepstrum mean{};
-  for (std::size_t i = 0; i < kCepstra; ++i) mean[i] = float(sums[i] / std::max(count, 1.0));
-  return mean;
 }
 
 // The best path of any phones, taken off the scores.
@@ -110,7 +79,7 @@ MeasuredSound measure_sound(CepstraReader& reader, const std::vector<float>& sam
   MeasuredSound sound;
   if (samples.empty()) return sound;
   std::vector<std::int16_t> whole;
-  Trace trace{loudness_of_voice(samples), 0};
+  Trace trace{loudness_of(samples), 0};
   to_whole(samples, trace, whole);
   reader.push(whole, sound.cepstra);
   reader.finish(sound.cepstra);

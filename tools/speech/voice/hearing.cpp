@@ -1,6 +1,7 @@
 #include "tools/speech/voice/hearing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace animeme::voice {
@@ -18,6 +19,9 @@ constexpr std::size_t kShortest = 3;  // frames
 // The trace of noise lies about 47 dB below speech of such peaks, and above what 16 bit cannot
 // tell.
 constexpr float kTraceOfLoud = 0.002f, kLeastTrace = 0.00025f;
+
+constexpr double kQuietShare = 0.3;
+constexpr std::size_t kPeakBlock = 160;  // samples
 
 }  // namespace
 
@@ -59,6 +63,34 @@ void to_whole(std::span<const float> samples, Trace& trace, std::vector<std::int
     whole.push_back(
         std::int16_t(std::clamp(std::lround((sample + level * noise) * 32768), -32768l, 32767l)));
   }
+}
+
+float loudness_of(const std::vector<float>& samples) {
+  std::vector<float> peaks;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (i % kPeakBlock == 0) peaks.push_back(0);
+    peaks.back() = std::max(peaks.back(), std::abs(samples[i]));
+  }
+  const auto high = peaks.begin() + std::ptrdiff_t(0.9 * double(peaks.size() - 1));
+  std::nth_element(peaks.begin(), high, peaks.end());
+  return *high;
+}
+
+Cepstrum mean_of_loud(std::span<const Cepstrum> frames) {
+  std::vector<float> levels;
+  for (const Cepstrum& frame : frames) levels.push_back(frame[0]);
+  const auto quiet = levels.begin() + std::ptrdiff_t(kQuietShare * double(levels.size() - 1));
+  std::nth_element(levels.begin(), quiet, levels.end());
+  std::array<double, kCepstra> sums{};
+  double count = 0;
+  for (const Cepstrum& frame : frames) {
+    if (frame[0] < *quiet) continue;
+    ++count;
+    for (std::size_t i = 0; i < kCepstra; ++i) sums[i] += double(frame[i]);
+  }
+  Cepstrum mean{};
+  for (std::size_t i = 0; i < kCepstra; ++i) mean[i] = float(sums[i] / std::max(count, 1.0));
+  return mean;
 }
 
 Features features_of(std::span<const Cepstrum> frames, std::size_t at, const Cepstrum& mean) {

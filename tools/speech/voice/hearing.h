@@ -49,6 +49,13 @@ struct Trace {
 /// Samples as the model wants them.
 void to_whole(std::span<const float> samples, Trace& trace, std::vector<std::int16_t>& whole);
 
+/// The peak that a tenth of the blocks of 10 ms exceeds: speech, not a click. At least one sample.
+float loudness_of(const std::vector<float>& samples);
+
+/// The mean of the louder seven tenths of at least one frame: quiet frames are the room, not the
+/// voice.
+Cepstrum mean_of_loud(std::span<const Cepstrum> frames);
+
 /// Features of frame `at`, which has kFeatureReach neighbours on either side or the ends of
 /// `frames`.
 Features features_of(std::span<const Cepstrum> frames, std::size_t at, const Cepstrum& mean);

@@ -25,21 +25,6 @@ constexpr double kMostFull = 0.01;          // of all samples
 constexpr double kBelieved = 0.25;          // words that are named
 constexpr std::size_t kBlockFrames = 2000;  // drawn at once
 constexpr std::size_t kLookAhead = 100;     // frames beyond, which settle how a block ends
-// Quiet frames tell the room, not the voice: the mean is that of the louder seven of ten.
-constexpr double kQuiet = 0.3;
-constexpr std::size_t kPeakBlock = 160;  // samples
-
-// The peak that one block of ten is above: speech, not a click.
-float loudness_of(const std::vector<float>& samples) {
-  std::vector<float> peaks;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (i % kPeakBlock == 0) peaks.push_back(0);
-    peaks.back() = std::max(peaks.back(), std::abs(samples[i]));
-  }
-  const auto high = peaks.begin() + std::ptrdiff_t(0.9 * double(peaks.size() - 1));
-  std::nth_element(peaks.begin(), high, peaks.end());
-  return *high;
-}
 
 std::vector<Cepstrum> cepstra_of(CepstraReader& reader, const std::vector<float>& samples) {
   std::vector<std::int16_t> whole;
@@ -49,23 +34,6 @@ std::vector<Cepstrum> cepstra_of(CepstraReader& reader, const std::vector<float>
   reader.push(whole, frames);
   reader.finish(frames);
   return frames;
-}
-
-Cepstrum mean_of(std::span<const Cepstrum> frames) {
-  std::vector<float> levels;
-  for (const Cepstrum& frame : frames) levels.push_back(frame[0]);
-  const auto quiet = levels.begin() + std::ptrdiff_t(kQuiet * double(levels.size() - 1));
-  std::nth_element(levels.begin(), quiet, levels.end());
-  std::array<double, kCepstra> sums{};
-  double count = 0;
-  for (const Cepstrum& frame : frames) {
-    if (frame[0] < *quiet) continue;
-    ++count;
-    for (std::size_t i = 0; i < kCepstra; ++i) sums[i] += double(frame[i]);
-  }
-  Cepstrum mean{};
-  for (std::size_t i = 0; i < kCepstra; ++i) mean[i] = float(sums[i] / std::max(count, 1.0));
-  return mean;
 }
 
 // All paths of the sound, block by block.
@@ -83,7 +51,7 @@ class Drawing {
       : model_(&model),
         search_(words),
         frames_(frames),
-        mean_(mean_of(frames)),
+        mean_(mean_of_loud(frames)),
         options_(&options),
         free_(model.sound, model.pairs, model.weights),
         guided_(free_) {
