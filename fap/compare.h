@@ -1,5 +1,5 @@
 /// @file
-/// How far apart two clips are, FAP by FAP.
+/// The difference of two clips, FAP by FAP.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ struct FapDifference {
   std::int64_t differing = 0;  ///< of these, how many have different values
   std::int64_t only_a = 0;     ///< frames of both clips in which only a has the FAP
   std::int64_t only_b = 0;     ///< ... only b
-  // The rest is 0 for FAP 1 and 2, whose values are choices and not amounts.
+  // The rest is 0 for FAP 1 and 2, whose values are indices and not amounts.
   double rms = 0;              ///< root of the mean square of a - b, FAP units
   std::int64_t max = 0;        ///< largest |a - b|, FAP units
   std::int64_t max_frame = 0;  ///< number of the first frame with it
@@ -30,7 +30,7 @@ struct Difference {
   std::int64_t frames_a = 0;           ///< frames of a
   std::int64_t frames_b = 0;           ///< frames of b
   std::int64_t frames_both = 0;        ///< numbers that both clips have
-  bool same_rate = true;               ///< frames a second are equal
+  bool same_rate = true;               ///< frames per second are equal
   std::int64_t mask_differences = 0;   ///< sum of only_a and only_b over all FAPs
   std::int64_t value_differences = 0;  ///< sum of differing over all FAPs
   double rms_steps =
@@ -47,14 +47,14 @@ struct Difference {
   friend bool operator==(const Difference&, const Difference&) = default;
 };
 
-/// Compares frame by frame what is not in memory as a whole.
+/// Compares frame by frame, for clips that do not fit into memory.
 class Comparer {
  public:
-  /// The next frame that only one clip has, or that both have under one number; numbers ascend.
+  /// The next frame, of one clip only or of both under one number; numbers ascend.
   void only_a(const Frame& frame);
   void only_b(const Frame& frame);                      ///< likewise
   void both(const Frame& a, const Frame& b);            ///< likewise
-  Difference compared(Rate rate_a, Rate rate_b) const;  ///< so far
+  Difference compared(Rate rate_a, Rate rate_b) const;  ///< result so far
 
  private:
   void note_difference(std::int64_t number);
@@ -64,9 +64,9 @@ class Comparer {
   std::array<double, kFapCount + 1> squares_{};
 };
 
-/// Compares coded content as it is: a FAP that is absent is not the same as a FAP of value 0. To
-/// compare what is seen, fill() both clips first. Frame numbers must ascend in both. Linear in
-/// the number of frames, never fails.
+/// Compares coded content: an absent FAP is not the same as a FAP of value 0. To compare what a
+/// player shows, fill() both clips first. Frame numbers must ascend in both. Linear in the number
+/// of frames, never fails.
 Difference compare(const Sequence& a, const Sequence& b);
 
 }  // namespace animeme::fap

@@ -14,7 +14,7 @@
 namespace animeme::fap {
 
 inline constexpr int kFapCount = 68;       ///< FAPs are numbered 1..68
-inline constexpr int kFirstLowLevel = 3;   ///< FAP 1 and 2 are the high-level ones
+inline constexpr int kFirstLowLevel = 3;   ///< FAP 1 and 2 are high-level
 inline constexpr int kLowLevelCount = 66;  ///< FAP 3..68
 
 /// A set of FAPs. The index is the FAP number, bit 0 is never used.
@@ -46,11 +46,11 @@ struct Expression {
 
 /// One coded instant. A plain value: 300-odd bytes, no heap.
 ///
-/// `mask` says what is present. A FAP without its bit keeps its last value at the receiver
-/// (or is interpolated by it), so an absent FAP is not the same as a FAP of value 0.
+/// `mask` says which FAPs are present. A receiver keeps the last value of an absent FAP (or
+/// interpolates it), so an absent FAP is not the same as a FAP of value 0.
 struct Frame {
   std::int64_t number = 0;  ///< running number at the sequence's rate; gaps are skipped frames
-  Mask mask;                ///< the FAPs that it has
+  Mask mask;                ///< the FAPs that are present
   /// value[n] is FAP n in FAP units: 1/1024 of its FAPU, or 1e-5 rad for angles.
   /// Index 0..2 are not used. Values of absent FAPs are 0 in frames made by Animeme.
   std::array<std::int32_t, kFapCount + 1> value{};
@@ -68,7 +68,7 @@ struct Frame {
 
 /// A clip. Frame numbers ascend strictly; frame k is shown at frames[k].number / rate seconds.
 struct Sequence {
-  Rate rate;                  ///< frames a second
+  Rate rate;                  ///< frames per second
   std::vector<Frame> frames;  ///< by ascending number
   std::string name;           ///< free text for people; written as one word
 

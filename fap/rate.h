@@ -1,5 +1,5 @@
 /// @file
-/// Frame rates as exact fractions. 29.97 frames a second is 30000/1001, never a float.
+/// Frame rates as exact fractions. 29.97 frames per second is 30000/1001, never a float.
 #pragma once
 
 #include <cstdint>

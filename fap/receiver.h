@@ -1,12 +1,12 @@
 /// @file
-/// What a receiver shows, frame after frame: fill() of fap/fill.h for clips that nobody wants to
-/// have in memory, and for those that are still coming.
+/// fill() (fap/fill.h) frame by frame, as a receiver does: for clips that do not fit into memory
+/// and for those that are still arriving.
 ///
 ///     Receiver receiver({.keep_high_level = true});
 ///     for (each coded frame) use(with_mask(receiver.receive(frame, rules), receiver.mask()));
 ///
-/// The mask grows with what is sent. fill() gives all frames the last one; a writer that wants the
-/// same reads its source twice.
+/// The mask grows with the FAPs received. fill() gives all frames the final mask; a writer that
+/// needs the same reads its source twice.
 #pragma once
 
 #include <cstddef>
@@ -24,12 +24,12 @@ class Receiver {
   /// `interpolate` and `max_frames` have no effect: nothing is skipped here.
   explicit Receiver(const FillOptions& options = {});
 
-  /// A frame arrives; the result is what is shown from then on, numbered like it, valid up to the
-  /// next call. `rules` are those of its groups (fap/fill.h). Its mask has what was ever shown.
+  /// A frame arrives; returns the frame shown from then on, with the same number, valid until the
+  /// next call. `rules` are those of its groups (fap/fill.h). The mask has all FAPs shown so far.
   const Frame& receive(const Frame& frame, const GroupRules& rules = {});
-  /// A frame in which nothing arrives: the same values under the next number, events are over.
+  /// The next frame if nothing arrives: the same values under the next number, without events.
   const Frame& hold();
-  /// The FAPs that fill() would have in its result if the clip ended here.
+  /// The FAPs that the result of fill() would have if the clip ended here.
   Mask mask() const;
 
  private:
@@ -48,8 +48,8 @@ class Receiver {
   Mask ever_;       // of all that was expanded
 };
 
-/// The frame with another mask: FAPs that it did not have are at rest, 0; viseme and expression are
-/// forgotten where the mask has none.
+/// The frame with another mask: FAPs that it lacks are at rest, 0; viseme and expression are
+/// dropped if the mask does not have them.
 Frame with_mask(Frame frame, const Mask& mask);
 
 }  // namespace animeme::fap

@@ -1,5 +1,5 @@
 /// @file
-/// Clips at another rate: frames between frames.
+/// Clips at another frame rate, by interpolation.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace animeme::fap {
 
-/// From complete frames at one rate (fap/fill.h) to frames at another, one by one.
+/// Converts complete frames (fap/fill.h) from one rate to another, one by one.
 ///
 ///     Resampler resampler({30000, 1001}, {25, 1});
 ///     for (const Frame& frame : filled.frames) resampler.push(frame, emit);
 ///     resampler.finish(emit);
 ///
-/// Low-level FAPs are the straight line between two frames, rounded; FAP 1 and 2 those of the
-/// nearer one. Duration is kept: frames() of them come out for so many that went in.
+/// Low-level FAPs are interpolated linearly and rounded; FAP 1 and 2 are those of the nearer frame.
+/// The duration is kept: see frames().
 class Resampler {
  public:
   using Emit = std::function<void(const Frame&)>;  ///< gets each frame, numbered from 0
@@ -26,11 +26,11 @@ class Resampler {
 
   /// The next frame, whatever its number.
   void push(const Frame& frame, const Emit& emit);
-  /// No more will come: what the last frame lasts.
+  /// No more frames follow: emits the rest of the last frame's duration.
   void finish(const Emit& emit);
 
-  /// How many come out in all for `frames` in all: the nearest to the same duration, 1 at least
-  /// (0 for 0).
+  /// Number of output frames for `frames` input frames: the nearest to the same duration, at least
+  /// 1 (0 for 0).
   std::int64_t frames(std::int64_t frames) const;
 
  private:

@@ -2,8 +2,8 @@
 /// Result<T>: the one way in which Animeme reports failure.
 ///
 /// Every function that can fail returns a Result. It holds either a value or an Error: a code for
-/// programs, a sentence for people, and the place in the input where things went wrong. No
-/// exception crosses a public border of the libraries and no input makes them abort.
+/// programs, a message for people, and the position in the input. No exception leaves the libraries
+/// and no input makes them abort.
 ///
 ///     animeme::Result<animeme::fap::Sequence> clip = animeme::fap::read_text(text);
 ///     if (!clip) return clip.error();          // an Error converts to any Result
@@ -20,13 +20,13 @@
 /// Animeme: MPEG-4 facial animation.
 namespace animeme {
 
-/// What kind of failure, for programs that have to react to it.
+/// Kind of failure, for programs that have to react to it.
 enum class Code : std::uint8_t {
   invalid_argument,  ///< a setting or parameter is outside its documented range
   syntax,            ///< the input breaks the grammar of its format
   out_of_range,      ///< the input is well formed but a value cannot be represented
   truncated,         ///< the input ends before it is complete
-  need_data,         ///< not a failure: a push decoder has used up what it was given
+  need_data,         ///< not a failure: a push decoder has consumed all its input
   end_of_stream,     ///< not a failure: nothing comes after this
   unsupported,       ///< legal input that this build or version does not handle
   not_found,         ///< a file, a track, a phone or a column does not exist
@@ -34,7 +34,7 @@ enum class Code : std::uint8_t {
   internal,          ///< a bug in Animeme; please report it
 };
 
-/// Where in the input an error was found. Fields that do not apply keep their default.
+/// Position of an error in the input. Fields that do not apply keep their default.
 struct Position {
   std::string file;         ///< path as the caller gave it; empty: unknown or memory
   std::int64_t line = 0;    ///< 1 is the first line; 0: not a text position
@@ -42,14 +42,13 @@ struct Position {
   std::int64_t bit = -1;    ///< bits from the start of the stream; -1: not a bit position
 };
 
-/// A failure. `message` is one sentence without a full stop that names the remedy where
-/// there is one.
+/// A failure. `message` is one sentence without a full stop that names the remedy if there is one.
 struct Error {
-  Code code = Code::internal;  ///< what kind of failure
+  Code code = Code::internal;  ///< kind of failure
   std::string message;         ///< one sentence without a full stop
   Position where;              ///< file, line or bit, as far as known
 
-  /// "file:line:column: message" or "file: bit N: message", whatever is known.
+  /// "file:line:column: message" or "file: bit N: message", as far as known.
   std::string describe() const {
     std::string text;
     if (!where.file.empty()) text += where.file + ":";
@@ -63,12 +62,12 @@ struct Error {
     return text + message;
   }
 
-  /// The same error with the file name filled in, if none was known before.
+  /// The same error with the file name filled in, if there was none.
   Error in_file(std::string file) && {
     if (where.file.empty()) where.file = std::move(file);
     return std::move(*this);
   }
-  /// The same from an error that is still needed.
+  /// The same, leaving this error unchanged.
   Error in_file(std::string file) const& { return Error(*this).in_file(std::move(file)); }
 };
 
@@ -86,8 +85,8 @@ inline Error error_at_bit(Code code, std::string message, std::int64_t bit) {
   return {code, std::move(message), {{}, 0, 0, bit}};
 }
 
-/// A value of type T or an Error. Using value() without one is a programming error and
-/// ends in std::bad_variant_access (undefined for operator*), so test first.
+/// A value of type T or an Error. Calling value() without one is a programming error and throws
+/// std::bad_variant_access (undefined for operator*), so test first.
 template <class T>
 class [[nodiscard]] Result {
  public:
@@ -126,7 +125,7 @@ class [[nodiscard]] Result<void> {
   /// A failure.
   Result(Error error) : error_(std::in_place_index<1>, std::move(error)) {}  // NOLINT: implicit
 
-  bool has_value() const { return error_.index() == 0; }  ///< true: it went well
+  bool has_value() const { return error_.index() == 0; }  ///< true: success
   explicit operator bool() const { return has_value(); }  ///< has_value()
   /// The error; throws std::bad_variant_access if there is none.
   Error& error() & { return std::get<1>(error_); }

@@ -1,10 +1,10 @@
 /// @file
-/// A face as weights of shapes, whatever shapes a head has: ARKit's, visemes, an artist's own.
+/// A face as weights of any set of shapes: ARKit's, visemes, an artist's own.
 ///
 ///     animeme::fap::ShapeFitter fitter({jaw_open, smile_left, blink_left});  // their FAPs
 ///     std::vector<double> weights = fitter.fit(frame);
 ///
-/// fap::ArkitFitter and fap::VisemeFitter do the same for complete, well-known sets.
+/// fap::ArkitFitter and fap::VisemeFitter do the same for these two complete sets.
 #pragma once
 
 #include <array>
@@ -17,40 +17,39 @@
 
 namespace animeme::fap {
 
-/// Distances between the lips at their middle (2.2 to 2.3), left (2.6 to 2.8) and right of it (2.7
-/// to 2.9), in units of FAP 4 (MNS/1024).
+/// Distances between the lips in the middle (2.2 to 2.3), on the left (2.6 to 2.8) and on the right
+/// (2.7 to 2.9), in units of FAP 4 (MNS/1024).
 using LipDistances = std::array<float, 3>;
 
-/// Stands for a channel of ARKit's: the shape is a whole face, such as joy.
+/// In place of an ARKit channel: the shape is a whole face, such as joy.
 inline constexpr int kWholeFace = -1;
 
-/// How a face closes its lips, as measured on it.
+/// Lip distances measured on a head.
 struct LipMeasures {
-  LipDistances at_rest = {};          ///< of lips that do not quite meet in the neutral face
-  std::vector<LipDistances> closing;  ///< by how much less each shape makes them at weight 1
+  LipDistances at_rest = {};          ///< of the neutral face, if its lips do not quite meet
+  std::vector<LipDistances> closing;  ///< by which each shape reduces them at weight 1
 };
 
 /// Movable, not copyable.
 class ShapeFitter {
  public:
-  /// The low-level FAPs of each shape at weight 1; FAPs outside the mask are 0. `lips`: with
-  /// distances for all shapes, or for none. What FAPs say of them is rough, and a mouth that should
-  /// be shut shows it; lips that should be apart are left to the FAPs. `ridge`: what it costs to
-  /// use a shape, as a share of what it does to the face, 0..1; it keeps shapes from working
-  /// against each other.
-  /// `arkit`: the channel (find_arkit()) of each shape that is one of ARKit's, kWholeFace for
-  /// moods, nothing for others. If given, few shapes are used, none against each other, as
-  /// ArkitFitOptions::thrift says.
+  /// `shapes`: the low-level FAPs of each shape at weight 1; FAPs outside the mask are 0. `lips`:
+  /// with distances for all shapes, or for none; FAPs approximate lip distances only roughly, which
+  /// shows in a mouth that should be closed (open lips are left to the FAPs). `ridge`: penalty on
+  /// the use of a shape, relative to its effect on the face, 0..1; it keeps shapes from cancelling
+  /// each other. `arkit`: the channel (find_arkit()) of each ARKit shape, kWholeFace for moods,
+  /// nullopt for others; if given, few shapes are used, and none against each other (see
+  /// ArkitFitOptions::thrift).
   explicit ShapeFitter(std::span<const Frame> shapes, const LipMeasures& lips = {},
                        double ridge = 0.001, std::span<const std::optional<int>> arkit = {});
   ShapeFitter(ShapeFitter&&) noexcept;  ///< movable
   ShapeFitter& operator=(ShapeFitter&&) noexcept;
   ~ShapeFitter();
 
-  /// Weights from 0 to 1 whose FAPs come nearest to those of `frame`: least squares over the FAPs
-  /// of its mask, in lengths on a face of usual proportions; lids count three times, so
-  /// does the distance of the lips, the width of the mouth one and a half times; angles are lengths
-  /// on the eyeball. Frames do not depend on each other. Good until the next call.
+  /// Weights from 0 to 1 whose FAPs best approximate those of `frame`: least squares over the FAPs
+  /// of its mask, in lengths on a face of usual proportions; lids and the distance of the lips
+  /// count three times, the width of the mouth one and a half times; angles are lengths on the
+  /// eyeball. Frames are independent. Valid until the next call.
   const std::vector<double>& fit(const Frame& frame);
 
  private:

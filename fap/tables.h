@@ -1,6 +1,6 @@
 /// @file
-/// The tables of the standard: what each FAP is, its unit, group, feature point and
-/// quantiser step. Data only; where a table comes from stands beside it.
+/// The tables of the standard: each FAP with its unit, group, feature point and quantiser step.
+/// Data only; the source of each table is noted beside it.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ enum class Unit : std::uint8_t { none, irisd, es, ens, mns, mw, angle };
 /// "IRISD", "ES", "ENS", "MNS", "MW", "AU" (angle unit), "" for none.
 std::string_view unit_name(Unit unit);
 
-/// Direction of positive values, seen by the person ("left" is the person's left).
+/// Direction of positive values, from the person's view ("left" is the person's left).
 enum class Motion : std::uint8_t { none, down, up, left, right, forward, growing, concave_upward };
 
 /// One row of the FAP table. Source: fap/semantics.md, section 3; ranges: codec/bitstream.md,
@@ -35,8 +35,8 @@ struct FapInfo {
   int partner;                     ///< inner lip <-> outer lip FAP, 0: none
   std::string_view feature_point;  ///< e.g. "2.1", empty: none or rotation
   int quant_step;                  ///< FAP units per level at fap_quant 1 (QP)
-  int default_i_range;             ///< intra levels lie in +-this if no range was sent
-  int default_p_range;             ///< predictive levels lie in +-this if no range was sent
+  int default_i_range;             ///< intra levels are within +-this if no range was sent
+  int default_p_range;             ///< predictive levels are within +-this if no range was sent
 };
 
 /// One FAP group: FAPs first .. first + size - 1.
@@ -53,7 +53,7 @@ extern const std::array<FapInfo, kFapCount> kFaps;        ///< index = FAP numbe
 /// Row of FAP `number` (1..68; anything else is a programming error).
 inline const FapInfo& info(int number) { return kFaps[std::size_t(number - 1)]; }
 
-/// FAP number of a name ("open_jaw"; case as in the standard), nothing if unknown.
+/// FAP number of a name ("open_jaw"; case as in the standard), nullopt if unknown.
 std::optional<int> find_fap(std::string_view name);
 
 /// The 15 visemes of FAP 1 by number. `morph` is the Oculus / Ready Player Me target name.
@@ -70,7 +70,7 @@ extern const std::array<std::string_view, 7> kExpressions;
 /// One of the 84 feature points, e.g. {"2.1", "bottom of the chin"}.
 struct FeaturePointInfo {
   std::string_view id;    ///< "2.1"
-  std::string_view name;  ///< what is there on a face
+  std::string_view name;  ///< its position on the face
 };
 extern const std::array<FeaturePointInfo, 84> kFeaturePoints;  ///< by group, then by number
 

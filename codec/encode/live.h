@@ -1,5 +1,5 @@
 /// @file
-/// The encoder for streams that are made while they are sent: one frame in, one access unit out.
+/// The encoder for live streams: one frame in, one access unit out.
 ///
 ///     animeme::fba::LiveEncoder encoder({.fap_quant = 2});
 ///     for (;;) {
@@ -25,35 +25,36 @@ namespace animeme::fba {
 /// Predictive ranges by FAP number: the 5-bit number m of the stream, m * 60 / fap_quant levels.
 using PredictiveRanges = std::array<std::uint8_t, fap::kFapCount + 1>;
 
-/// The ranges that hold the changes from frame to frame of a clip at a quantiser: of one that is
-/// known, or of an example of what a source can do.
+/// The ranges that cover the differences between frames of a clip at a quantiser: of a known clip,
+/// or of an example of the source.
 PredictiveRanges ranges_of(const fap::Sequence& clip, int fap_quant);
 
 /// All settings of LiveEncoder.
 struct LiveOptions {
-  fap::Rate rate{25, 1};  ///< planes a second, in every intra plane
+  fap::Rate rate{25, 1};  ///< planes per second, in every intra plane
   int fap_quant = 1;      ///< 0..31
   int bap_quant = 1;      ///< 0..31, index into kBapScale
-  /// An intra plane, where a receiver can join in, every so many seconds (frames that are skipped
-  /// count); 0: only where needed.
+  /// Distance of intra planes, where a receiver can join, in seconds (skipped frames count); 0:
+  /// only where needed.
   double intra_seconds = 2;
-  /// FAPs to be coded; others are ignored. Nothing: those that have occurred so far, so that a
-  /// new one brings an intra plane.
+  /// FAPs to be coded; others are ignored. nullopt: those that have occurred so far, so that a new
+  /// one triggers an intra plane.
   std::optional<fap::Mask> faps;
-  /// Ranges of changes from plane to plane to begin with; larger changes than these widen them for
-  /// good. Nothing: adapted at each intra plane to the largest changes of the last two periods and
-  /// half as much again, at first those of the standard.
+  /// Initial ranges of differences between planes; larger differences widen them permanently.
+  /// nullopt: adapted at each intra plane to 1.5 times the largest differences of the last two
+  /// periods, initially those of the standard.
   std::optional<PredictiveRanges> ranges;
-  /// All: every unit is byte aligned and can be cut out, as packets and containers want it. Else
-  /// for files and byte streams that are read in one piece: planes follow each other bit by bit,
-  /// which saves some 36 bits a plane; with `intra` those who join find the next start code.
+  /// All: every unit is byte aligned and can be cut out, as packets and containers require. Other
+  /// values are for files and byte streams that are read contiguously: planes follow each other bit
+  /// by bit, which saves some 36 bits per plane; with `intra`, receivers join at the next start
+  /// code.
   PlaneStartCodes plane_start_codes = PlaneStartCodes::all;
   bool old_codes = false;  ///< plane start codes of the 1999 edition
   bool verify = true;      ///< decode every unit again and compare
 };
 
 /// Encoder of one live stream. Movable, not copyable, not thread safe. No look-ahead: a unit
-/// depends on the frames given so far. Memory does not grow with the stream.
+/// depends only on the frames given so far. Memory does not grow with the stream.
 class LiveEncoder {
  public:
   explicit LiveEncoder(const LiveOptions& options = {});  ///< checked with the first frame
@@ -61,19 +62,19 @@ class LiveEncoder {
   LiveEncoder& operator=(LiveEncoder&&) noexcept;
   ~LiveEncoder();
 
-  /// Codes one frame; FAPs that it leaves out keep their last value. The number of the frame is
-  /// not used: frames follow each other at the rate, and `skip` says how many will be missing
-  /// after this one. `body` may be null; once it was given it is held when it is missing.
+  /// Encodes one frame; absent FAPs keep their last value. The number of the frame is not used:
+  /// frames follow each other at the rate, and `skip` is the number of frames that will be missing
+  /// after this one. `body` may be null; once given, it is held when it is missing.
   ///
   /// Returns the access unit: plane start code, plane, stuffing. The first one begins with the
-  /// object start code. Without start codes at all planes: the bytes that are complete, perhaps
-  /// none; the bits of the last one come with the next plane or finish(). An intra plane is written
-  /// when the period is over, when a FAP or the body is new, and when a change does not fit its
-  /// range; it carries rate, masks and all ranges, so receivers can join there. A value beyond
-  /// +-1860 quantiser steps that no predictive plane reaches becomes the nearest that an intra
-  /// plane holds.
+  /// object start code. Unless all planes have start codes: the complete bytes, possibly none; the
+  /// remaining bits come with the next plane or finish(). An intra plane is written when the period
+  /// is over, when a FAP or the body is new, and when a difference does not fit its range; it
+  /// carries rate, masks and all ranges, so receivers can join there. A value beyond +-1860
+  /// quantiser steps that no predictive plane reaches becomes the nearest that an intra plane can
+  /// code.
   ///
-  /// Errors, after which the next frame can be written as if this one had not been:
+  /// Errors, after which the next frame can be written as if this one had not been given:
   ///   invalid_argument  options out of bounds, a rate that the format cannot express
   ///   out_of_range      without quantisation, a value beyond +-1860; a viseme outside 0..14, an
   ///                     expression outside 0..6, a blend or an intensity outside 0..63, or values
@@ -81,14 +82,14 @@ class LiveEncoder {
   ///   internal          verify failed
   Result<std::vector<std::uint8_t>> write(const fap::Frame& frame, std::uint32_t skip = 0,
                                           const BodyFrame* body = nullptr);
-  /// The same into a vector that is used again and again: nothing is allocated once the stream has
-  /// run for a while. On errors it is as it was, but for `internal`.
+  /// The same into a reused vector: nothing is allocated once the stream has run for a while. On
+  /// errors other than `internal` the vector is unchanged.
   Result<void> write(const fap::Frame& frame, std::vector<std::uint8_t>& unit,
                      std::uint32_t skip = 0, const BodyFrame* body = nullptr);
-  /// The end code, if the stream is to have one, and what is left of the last plane.
+  /// The rest of the last plane and the end code, to end the stream.
   std::vector<std::uint8_t> finish();
 
-  /// What receivers have after the last unit: quantised values, mask = what was coded.
+  /// The values of receivers after the last unit: quantised, mask = what was coded.
   const fap::Frame& reconstruction() const;
   /// True if the last unit is an intra plane.
   bool intra() const;

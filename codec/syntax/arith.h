@@ -2,9 +2,9 @@
 /// The arithmetic coder of the FBA stream: 16-bit registers, binary renormalisation, a stuffed 1
 /// after 22 zeros. Source: codec/bitstream.md, section 4.
 ///
-/// The description renormalises bit by bit. Here all shifts of a symbol are done at once: the
-/// leading bits that the registers share (n of them) leave, then the m bits behind the first in
-/// which low is 01.. and high is 10... The bits written and read are the same.
+/// The description renormalises bit by bit. This implementation does all shifts of a symbol at
+/// once: the n leading bits that the registers share are shifted out, then the m bits after the
+/// first in which low is 01.. and high is 10... The bits written and read are the same.
 #pragma once
 
 #include <array>
@@ -40,21 +40,21 @@ class SegmentEncoder {
 
 /// Reads one segment. The 16-bit window looks 14 bits past the end of the segment; those bits
 /// belong to other fields, so neither their zero runs nor their absence may count as an error.
-/// Therefore the places of the latest stuffed bits are kept, and a missing one is held against
-/// the segment only if it lies inside it.
+/// Therefore the positions of the latest stuffed bits are kept, and a missing one is an error only
+/// if it is inside the segment.
 ///
-/// Bytes may come in pieces: while more may follow, no bit is made up, and consume() says when
-/// the bits do not suffice. Nothing has changed then; go on with resume() when there are more.
+/// Input may arrive in pieces: while more may follow, missing bits are not replaced, and consume()
+/// reports that there are too few. The state is then unchanged; call resume() when there are more.
 class SegmentDecoder {
  public:
-  /// Starts at the position of `in`, which is not moved. `last`: nothing follows the bytes of
-  /// `in`, bits past the end are zeros.
+  /// Starts at the position of `in`, which is not moved. `last`: nothing follows the bytes of `in`,
+  /// bits past the end are zeros.
   explicit SegmentDecoder(const BitReader& in, bool last = true)
       : in_(in), begin_(in.position()), last_(last) {
     fill();
     open_window();
   }
-  /// The same bytes from the same bit on, with more behind them.
+  /// Continues at the same bit with the same bytes and more after them.
   void resume(std::span<const std::uint8_t> bytes, bool last) {
     in_ = BitReader(bytes, in_.position());
     last_ = last;
@@ -62,18 +62,18 @@ class SegmentDecoder {
     if (!ready()) open_window();
   }
 
-  /// False: the bits do not suffice for a first symbol.
+  /// False: there are too few bits for a first symbol.
   bool ready() const { return taken_ != 0; }
   /// Position in 0..total-1 for a model of that total.
   std::uint32_t target(std::uint32_t total) const {
     return ((value_ - low_ + 1) * total - 1) / (high_ - low_ + 1);
   }
-  /// Removes a symbol whose interval was found with target(); false if the bits do not suffice.
+  /// Removes a symbol whose interval was found with target(); false if there are too few bits.
   [[nodiscard]] bool consume(const SymbolInterval& symbol);
 
-  /// Bit position just behind the segment, if it ended now.
+  /// Bit position just past the segment if it ended now.
   std::size_t end() const { return position_behind(taken_ - 14); }
-  /// Bit position of the first missing stuffed bit inside the segment: the data are damaged;
+  /// Bit position of the first missing stuffed bit inside the segment, which means damaged data;
   /// SIZE_MAX if there is none.
   std::size_t bad_stuffing() const { return bad_stuffing_ < end() ? bad_stuffing_ : SIZE_MAX; }
 

@@ -1,7 +1,7 @@
 /// @file
-/// Reading and writing bits, most significant bit first. The reader never touches memory outside
-/// its span: past the end it returns zeros and remembers that it did (sticky), so that a whole
-/// header can be read and checked once.
+/// Bit reader and writer, most significant bit first. The reader never accesses memory outside its
+/// span: past the end it returns zeros and sets a sticky flag, so that a whole header can be read
+/// and checked once.
 #pragma once
 
 #include <array>
@@ -13,10 +13,10 @@
 
 namespace animeme::fba {
 
-/// Reads bits of a byte span. Copyable; positions are bits from the start of the span.
+/// Reads bits of a byte span. Copyable; positions count bits from the start of the span.
 class BitReader {
  public:
-  /// Begins at bit `bit`; the bytes are borrowed.
+  /// Starts at bit `bit`; the bytes are borrowed.
   explicit BitReader(std::span<const std::uint8_t> bytes, std::size_t bit = 0)
       : bytes_(bytes), bit_(bit) {}
 
@@ -25,7 +25,7 @@ class BitReader {
   std::span<const std::uint8_t> bytes() const { return bytes_; }  ///< all of them, read or not
   /// True once a read went past the end; stays true.
   bool overrun() const { return bit_ > size(); }
-  void seek(std::size_t bit) { bit_ = bit; }  ///< any place, also beyond the end
+  void seek(std::size_t bit) { bit_ = bit; }  ///< any position, also past the end
 
   /// One bit; 0 past the end.
   std::uint32_t bit() {
@@ -43,7 +43,7 @@ class BitReader {
     return std::uint32_t(value);
   }
 
-  /// The next 32 bits without moving; zeros past the end.
+  /// The next 32 bits without advancing; zeros past the end.
   std::uint32_t peek32() const { return peek32(bit_); }
   /// 32 bits at an absolute position; zeros past the end.
   std::uint32_t peek32(std::size_t bit) const {
@@ -75,23 +75,23 @@ class BitWriter {
     pending_ += count;
     if (pending_ >= 32) write_bytes();
   }
-  /// Takes the last `count` bits back; they have to belong to the unfinished byte.
+  /// Removes the last `count` bits; they must belong to the unfinished byte.
   std::uint32_t take_back(int count) {
     const std::uint32_t value = std::uint32_t(accumulator_) & ((1U << count) - 1);
     accumulator_ >>= count;
     pending_ -= count;
     return value;
   }
-  /// next_start_code() of the standard: a 0 and then 1s up to the byte border, a whole byte 7F if
+  /// next_start_code() of the standard: a 0 and then 1s up to the byte boundary, a whole byte 7F if
   /// already aligned.
   void stuff() {
     const int count = 8 - pending_ % 8;
     bits((1U << (count - 1)) - 1, count);
   }
-  /// A 32-bit start code; call at a byte border.
+  /// A 32-bit start code; call at a byte boundary.
   void start_code(std::uint32_t code) { bits(code, 32); }
 
-  bool aligned() const { return pending_ % 8 == 0; }  ///< at a byte border
+  bool aligned() const { return pending_ % 8 == 0; }  ///< at a byte boundary
   /// Bits written so far.
   std::size_t position() const { return bytes_.size() * 8 + std::size_t(pending_); }
   /// The complete bytes so far.
@@ -99,14 +99,14 @@ class BitWriter {
     write_bytes();
     return bytes_;
   }
-  /// Hands the complete bytes over and keeps the bits of the unfinished one.
+  /// Moves the complete bytes out and keeps the bits of the unfinished one.
   std::vector<std::uint8_t> take() {
     write_bytes();
     std::vector<std::uint8_t> out;
     out.swap(bytes_);
     return out;
   }
-  /// The same as a copy: both keep their memory, so that piece after piece needs no more.
+  /// The same as a copy: both vectors keep their memory for reuse.
   void take(std::vector<std::uint8_t>& out) {
     write_bytes();
     out.assign(bytes_.begin(), bytes_.end());

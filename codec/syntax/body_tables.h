@@ -15,10 +15,10 @@ extern const std::array<std::uint8_t, kBodyGroupCount> kBodyGroupSizes;
 /// BAP numbers (1..296) in coding order.
 extern const std::array<std::uint16_t, kBapCount> kBapOrder;
 /// Quantiser steps in coding order: 1e-5 rad, millimetres for BAP 181..183. These are the steps of
-/// the public codec, which the reference streams mean; the document's table has others (64, 128,
-/// 256, 512). They scale decoded values only, never the parsing.
+/// the public codec, which the reference streams use; the document's table differs (64, 128, 256,
+/// 512). They scale decoded values only, never the parsing.
 extern const std::array<std::uint16_t, kBapCount> kBapSteps;
-/// Factor on the step and divisor of the ranges, by the 5-bit index of the plane; entry 0 (no
+/// Factor of the step and divisor of the ranges, by the 5-bit index of the plane; entry 0 (no
 /// quantisation) counts as 1.
 extern const std::array<std::uint8_t, 32> kBapScale;
 

@@ -17,14 +17,14 @@ namespace animeme::fba {
 // Start codes (codec/bitstream.md, section 1).
 inline constexpr std::uint32_t kSequenceStart = 0x000001B0;   ///< followed by the profile byte
 inline constexpr std::uint32_t kSequenceEnd = 0x000001B1;     ///< ends a raw stream
-inline constexpr std::uint32_t kUserData = 0x000001B2;        ///< to be passed over
+inline constexpr std::uint32_t kUserData = 0x000001B2;        ///< to be skipped
 inline constexpr std::uint32_t kVisualObject = 0x000001B5;    ///< visual object header
 inline constexpr std::uint32_t kObjectStart = 0x000001BA;     ///< fba_object_start_code
-inline constexpr std::uint32_t kPlaneStart = 0x000001BB;      ///< in front of any plane, optional
-inline constexpr std::uint32_t kOldObjectStart = 0x00000101;  ///< of drafts, still read
-inline constexpr std::uint32_t kOldPlaneStart = 0x00000103;   ///< of drafts, still read
+inline constexpr std::uint32_t kPlaneStart = 0x000001BB;      ///< before any plane, optional
+inline constexpr std::uint32_t kOldObjectStart = 0x00000101;  ///< of drafts, still accepted
+inline constexpr std::uint32_t kOldPlaneStart = 0x00000103;   ///< of drafts, still accepted
 
-/// fba_object_mask: what a plane codes.
+/// fba_object_mask: content of a plane.
 enum class ObjectMask : std::uint8_t { nothing = 0, face = 1, body = 2, face_and_body = 3 };
 
 /// Face or face_and_body.
@@ -32,8 +32,8 @@ inline bool has_face(ObjectMask mask) { return (std::uint8_t(mask) & 1) != 0; }
 /// Body or face_and_body.
 inline bool has_body(ObjectMask mask) { return (std::uint8_t(mask) & 2) != 0; }
 
-/// Mask type of a group (codec/bitstream.md, section 3.1): what happens to the parameters that are
-/// not coded.
+/// Mask type of a group (codec/bitstream.md, section 3.1): the value of parameters that are not
+/// coded.
 enum class MaskType : std::uint8_t {
   none = 0,         ///< nothing of the group is coded, all keep their value
   hold = 1,         ///< coded by mask, the others keep their value
@@ -58,15 +58,15 @@ struct CodedRate {
   friend bool operator==(const CodedRate&, const CodedRate&) = default;
 };
 
-/// The rate in its coded form, nothing if the stream cannot express it exactly. Rates of
+/// The rate in its coded form, nullopt if the stream cannot express it exactly. Expressible are
 /// k/16 frames per second up to 255 15/16, and those times 1000/1001.
 std::optional<CodedRate> code_rate(fap::Rate rate);
 
 /// Time code of an intra plane.
 struct TimeCode {
-  std::uint8_t hours = 0;    ///< 0..31, meant 0..23
-  std::uint8_t minutes = 0;  ///< 0..63, meant 0..59
-  std::uint8_t seconds = 0;  ///< 0..63, meant 0..59
+  std::uint8_t hours = 0;    ///< 0..31, valid 0..23
+  std::uint8_t minutes = 0;  ///< 0..63, valid 0..59
+  std::uint8_t seconds = 0;  ///< 0..63, valid 0..59
   friend bool operator==(const TimeCode&, const TimeCode&) = default;
 };
 
@@ -79,7 +79,7 @@ struct TemporalHeader {
   friend bool operator==(const TemporalHeader&, const TemporalHeader&) = default;
 };
 
-/// Everything that an intra plane sets for the face until the next one.
+/// The settings of the face from an intra plane to the next one.
 struct FaceSettings {
   int fap_quant = 1;  ///< 0..31; 0: no quantisation, 1: the standard's steps
   std::array<MaskType, fap::kGroupCount> mask_type{};  ///< index = group number - 1

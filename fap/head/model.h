@@ -1,14 +1,14 @@
 /// @file
-/// A head by code: no file, no foreign licence, the same bytes on each call.
+/// Procedural heads: no input file, no third-party licence, the same bytes on each call.
 ///
 ///     animeme::head::Head head = *animeme::head::make_head();
 ///     animeme::head::Rig rig = animeme::head::make_rig(head);  // rig.h
 ///     animeme::head::Pose pose = animeme::head::pose(rig, frame);
 ///
-/// Heads of others: see own_head.h.
+/// Heads from files: see own_head.h.
 ///
 /// Lengths are centimetres. Axes as everywhere in Animeme: +X to the person's left, +Y up, +Z
-/// forward. The origin lies between the centres of the eyes, at the depth of the ears.
+/// forward. The origin is between the centres of the eyes, at the depth of the ears.
 #pragma once
 
 #include <array>
@@ -25,24 +25,24 @@
 #include "fap/head/vector.h"
 #include "fap/result.h"
 
-/// Heads, and the rig that lets FAPs move them.
+/// Heads, and the rig by which FAPs move them.
 namespace animeme::head {
 
 using Triangle = std::array<std::uint32_t, 3>;  ///< counterclockwise seen from outside
 
-/// How a surface takes light. Colours are those of the vertices.
+/// Built-in shading of a surface. Colours are those of the vertices.
 enum class Material : std::uint8_t { skin, eye, teeth, wet, hair, cloth };
 
-/// Triangles with a colour for each vertex. The vectors of vertices have the same length.
+/// Triangles with a colour per vertex. The vectors of vertices have the same length.
 struct Mesh {
   std::vector<Vec3> positions;         ///< cm
-  std::vector<Triangle> triangles;     ///< corners counter-clockwise, seen from outside
+  std::vector<Triangle> triangles;     ///< counterclockwise, seen from outside
   std::vector<Vec3> colours;           ///< linear RGB, 0..1
-  std::vector<float> occlusion;        ///< 1: open sky, 0: no light gets here
-  Material material = Material::skin;  ///< how light falls on it
+  std::vector<float> occlusion;        ///< ambient occlusion; 1: unoccluded
+  Material material = Material::skin;  ///< see Material
   /// How it is drawn if the head has coats, else empty. Facets are triangles of corners, in the
-  /// order of `triangles`; behind these the veils: triangles that are mostly transparent, which
-  /// are drawn, but neither move nor shade anything.
+  /// order of `triangles`, followed by the veils: mostly transparent triangles, which are drawn,
+  /// but neither move nor shade anything.
   std::vector<Corner> corners;
   std::vector<Triangle> facets;      ///< indices of `corners`
   std::vector<std::uint16_t> coats;  ///< of each facet, index of Head::coats
@@ -50,7 +50,7 @@ struct Mesh {
 
 /// The meshes of a head.
 enum class Part : std::uint8_t {
-  skin,  ///< face, ears, neck, sockets of the eyes, lips and the bag of the mouth: closed surfaces
+  skin,  ///< face, ears, neck, eye sockets, lips and the inside of the mouth: closed surfaces
   left_eye,
   right_eye,
   upper_teeth,  ///< with their gums, fixed in the head
@@ -58,14 +58,14 @@ enum class Part : std::uint8_t {
   tongue,
   hair,
   brows,   ///< left, then right, the same number of vertices
-  lashes,  ///< the same
+  lashes,  ///< likewise
   body,    ///< shoulders in clothes; do not move
 };
 inline constexpr int kPartCount = 10;  ///< values of Part
 /// "skin", "left_eye" ...
 extern const std::array<std::string_view, kPartCount> kPartNames;
 
-/// A ball that looks along +Z.
+/// An eyeball that looks along +Z.
 struct Eye {
   Vec3 centre;             ///< cm
   float radius = 0;        ///< cm
@@ -80,41 +80,41 @@ struct FeaturePoint {
   Part part = Part::skin;           ///< which mesh
   std::uint32_t vertex = kMissing;  ///< index of its vertex
 
-  bool exists() const { return vertex != kMissing; }  ///< false: the head does not have this point
+  bool exists() const { return vertex != kMissing; }  ///< false: the head lacks this point
 };
 
-/// Vertices of the skin that meet: the contact line of the lips, or the rims of two lids.
+/// Skin vertices that touch: on the contact line of the lips, or the rims of two lids.
 struct ContactPair {
   std::uint32_t upper = 0;  ///< vertex of the upper rim
   std::uint32_t lower = 0;  ///< vertex of the lower rim
 };
 
-/// What a rig can use if the maker of a head knows it; see rig.h.
+/// Optional information for a rig; see rig.h.
 struct Seams {
   std::vector<ContactPair> lips;                 ///< from the right corner to the left one
   std::array<std::vector<ContactPair>, 2> lids;  ///< left eye, right eye
-  /// For each skin vertex: how far it goes along with a lid, 0..1: upper and lower lids of the left
-  /// and right eye. Empty: from the feature points alone.
+  /// For each skin vertex: how far it follows a lid, 0..1: upper and lower lids of the left and
+  /// right eye. Empty: derived from the feature points.
   std::array<std::vector<float>, 4> lid_weights;
   /// For each skin vertex: how far it turns with the jaw, inside the mouth. Empty: nowhere.
   std::vector<float> jaw_weights;
-  /// For each skin vertex: 1 is free to move, 0 slides along itself, as below hair. Empty:
-  /// all are free.
+  /// For each skin vertex: 1 moves freely, 0 slides along the surface, as below hair. Empty: all
+  /// move freely.
   std::vector<float> freedom;
   /// For each skin vertex: 1 turns with the head, 0 stays with the body. Empty: by its height.
   std::vector<float> neck_weights;
 };
 
-/// A shape that somebody modelled, such as ARKit's "jawOpen", and the FAPs that show the same at
-/// weight 1. A head with shapes is moved by the weights whose FAPs come nearest to those wanted.
+/// A modelled shape, such as ARKit's "jawOpen", and the FAPs that show the same at weight 1. A head
+/// with shapes is moved by the weights whose FAPs best approximate the wanted ones.
 struct ShapeControl {
-  std::string name;  ///< as its maker calls it
-  fap::Frame faps;   ///< what it shows at weight 1
-  /// Its channel (fap::find_arkit()) if it is one of ARKit's, fap::kWholeFace of a mood such as
-  /// joy, which is used where it does much, not for a little of a smile; nothing: another.
+  std::string name;  ///< as in the file
+  fap::Frame faps;   ///< the same face as FAPs, at weight 1
+  /// Its channel (fap::find_arkit()) if it is an ARKit shape; fap::kWholeFace for a mood such as
+  /// joy, which is used for strong expressions, not for a slight smile; nullopt: another shape.
   std::optional<int> arkit = {};
-  /// 1..14: the viseme of FAP 1 that its maker says it is. A frame whose mouth is that of FAP 1
-  /// alone shows it as it is.
+  /// 1..14: the viseme of FAP 1 that its maker assigned. A frame whose mouth is given by FAP 1 only
+  /// shows the shape unchanged.
   std::optional<int> viseme = {};
 };
 
@@ -123,14 +123,14 @@ inline constexpr int kFirstShape = fap::kFapCount + 1;
 /// Value of a control at which a shape is fully shown.
 inline constexpr float kFullShape = 1024;
 
-/// What one unit of a control does to the vertices of a part.
+/// Displacement of the vertices of a part by one unit of a control.
 struct Target {
   int control = 0;         ///< number of a FAP (3..68), or kFirstShape + index of a shape
-  Part part = Part::skin;  ///< which mesh is moved
+  Part part = Part::skin;  ///< the mesh
   std::vector<std::uint32_t> vertices;  ///< ascending
   std::vector<Vec3> deltas;             ///< cm for one unit; as many as vertices
-  /// Values between which it moves: it counts clamp(value, low, high) - clamp(0, low, high) units.
-  /// Several targets make a curve of straight pieces.
+  /// Active range: the control counts as clamp(value, low, high) - clamp(0, low, high) units.
+  /// Several targets form a piecewise linear curve.
   float low = -std::numeric_limits<float>::infinity();
   float high = std::numeric_limits<float>::infinity();  ///< see `low`
 
@@ -140,50 +140,50 @@ struct Target {
   }
 };
 
-/// A head at rest: meshes in cm, feature points, and what is known of how it moves.
+/// A head at rest: meshes in cm, feature points, and how it moves.
 struct Head {
   std::string name;                    ///< for people
-  double centimetres = 1;              ///< of one unit of the file that it comes from
+  double centimetres = 1;              ///< per unit of the file that it comes from
   std::array<Mesh, kPartCount> parts;  ///< by Part; absent ones are empty
-  std::vector<Coat> coats;             ///< materials of heads of others; empty: see Mesh::colours
+  std::vector<Coat> coats;             ///< materials of heads from files; empty: Mesh::colours
   std::array<Eye, 2> eyes;             ///< left, right
   /// All 84 points of the standard, in the order of fap::kFeaturePoints. 7.1, the top of the spine,
-  /// is no vertex: it is neck_pivot.
+  /// is not a vertex but neck_pivot.
   std::array<FeaturePoint, 84> feature_points;
-  fap::Fapu fapu;   ///< measured on them
+  fap::Fapu fapu;   ///< measured on the feature points
   Vec3 jaw_axis;    ///< the jaw turns about the X direction through this point
   Vec3 neck_pivot;  ///< the head turns about this point: 7.1, top of the spine
   Seams seams;      ///< may be empty
   std::vector<std::uint32_t> lash_anchors;  ///< skin vertex at the root of each vertex of lashes
-  /// Empty: FAPs move it.
+  /// Shapes by which it moves. Empty: FAPs move it directly.
   std::vector<ShapeControl> shapes;
-  /// How much wider lips open than a clip says: see fap/wider.h.
+  /// Scale of the mouth opening: see fap/wider.h.
   double mouth_gain = 1;
-  /// How it moves, as its maker says. Empty: make_rig() finds it from the feature points.
+  /// Motion defined by the file. Empty: make_rig() derives it from the feature points.
   std::vector<Target> targets;
-  /// The targets are those that make_rig() found before: values beyond what people do are eased
-  /// (Rig::reaches) as if it found them again.
+  /// The targets were made by make_rig() before: values beyond what people do are compressed
+  /// (Rig::reaches) as for new ones.
   bool eased = false;
 
   Mesh& part(Part p) { return parts[std::size_t(p)]; }              ///< one of the meshes
   const Mesh& part(Part p) const { return parts[std::size_t(p)]; }  ///< one of the meshes
   /// A feature point by its id ("2.1"); missing for ids that do not exist.
   FeaturePoint point(std::string_view id) const;
-  /// Its place; neck_pivot for 7.1, the origin if it is missing.
+  /// Its position; neck_pivot for 7.1, the origin if it is missing.
   Vec3 at(std::string_view id) const;
 };
 
-/// The chin: 2.1, or about where it is if the head does not have the point.
+/// The chin: 2.1, or an estimate if the head does not have the point.
 Vec3 chin_of(const Head& head);
 
-/// Hair that make_head() knows.
+/// Hair styles of make_head().
 enum class HairStyle : std::uint8_t { bob, short_cut, fringe };
 
-/// Sizes in cm and colours (sRGB, 0xRRGGBB) of a head. Sizes may be changed within about a
-/// quarter; beyond that parts get into each other's way.
+/// Sizes in cm and colours (sRGB, 0xRRGGBB) of a head. Sizes may be changed by about a quarter;
+/// beyond that, parts intersect.
 struct HeadParameters {
   std::string name = "woman";             ///< becomes Head::name
-  double density = 1;                     ///< 0.5..2; vertices of the skin grow with its square
+  double density = 1;                     ///< 0.5..2; the vertex count of the skin is quadratic
   double scale = 1;                       ///< of the whole head
   double skull_width = 7.5;               ///< half width
   double skull_height = 7.6;              ///< above skull centre
@@ -220,7 +220,7 @@ struct HeadParameters {
   std::uint32_t cloth_colour = 0x3F6F86;  ///< sRGB
 };
 
-/// "woman", "man", "child"; nothing for other names.
+/// "woman", "man", "child"; nullopt for other names.
 std::optional<HeadParameters> head_parameters(std::string_view name);
 /// The names that head_parameters() knows.
 extern const std::array<std::string_view, 3> kHeadNames;

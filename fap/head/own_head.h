@@ -1,5 +1,5 @@
 /// @file
-/// A head that somebody else made: meshes, feature points and shapes of a file become a Head.
+/// Heads from files: meshes, feature points and shapes become a Head.
 ///
 ///     animeme::head::Source source;
 ///     source.pieces.push_back({.name = "face", .mesh = mesh});
@@ -9,10 +9,10 @@
 ///     animeme::head::Head head = *animeme::head::assemble(std::move(source), &notes);
 ///     animeme::head::Rig rig = animeme::head::make_rig(head);
 ///
-/// Readers of files (fap/xml, tools/view/gltf, obj.h) fill a Source; assemble() does what they have
-/// in common: it sorts the pieces into parts by their names, turns the head upright, brings it to
-/// centimetres and to the origin, finds eyes, jaw, neck and FAPU, and turns triangles that show
-/// their inside because they are wound clockwise.
+/// Readers of files (fap/xml, tools/view/gltf, obj.h) fill a Source; assemble() does the common
+/// steps: it sorts the pieces into parts by their names, turns the head upright, scales it to
+/// centimetres and moves it to the origin, finds eyes, jaw, neck and FAPU, and flips inside-out
+/// (clockwise) triangles.
 #pragma once
 
 #include <optional>
@@ -24,7 +24,7 @@
 
 namespace animeme::head {
 
-/// Stands for a colour that is not known; assemble() chooses one.
+/// An unknown colour; assemble() chooses one.
 inline constexpr Vec3 kNoColour = {-1, -1, -1};
 
 /// A mesh of a file. Any axes and any unit, the same for all pieces of a head.
@@ -36,7 +36,7 @@ struct Piece {
   std::vector<float> neck_weights;
 };
 
-/// Where a feature point is: a vertex of a piece.
+/// The vertex of a feature point.
 struct PiecePoint {
   std::string id;            ///< "2.1"
   std::size_t piece = 0;     ///< index of Source::pieces
@@ -53,48 +53,48 @@ struct PieceTarget {
   float high = std::numeric_limits<float>::infinity();  ///< see Target
 };
 
-/// What a file tells of a head. All but the pieces may be empty.
+/// Content of a file. Everything except the pieces may be empty.
 struct Source {
   std::string name;                         ///< becomes Head::name
   std::vector<Piece> pieces;                ///< at least one
   std::vector<Coat> coats;                  ///< if there are any, each piece has facets
-  std::vector<PiecePoint> points;           ///< feature points that the file names
+  std::vector<PiecePoint> points;           ///< feature points named in the file
   std::optional<fap::Fapu> fapu;            ///< in units of the file; else measured on the points
   std::vector<ShapeControl> shapes;         ///< see Head::shapes
   std::vector<PieceTarget> targets;         ///< see Head::targets
   std::array<std::optional<Vec3>, 2> eyes;  ///< centres, left and right
   std::optional<Vec3> jaw_axis;             ///< a point on it, units of the file
   std::optional<Vec3> neck_pivot;           ///< units of the file
-  /// Centimetres of one unit of the file. 0: found from the distance of the eyes, which is taken
-  /// for metres, centimetres, millimetres or inches if it is that of a head then; if it is not, the
-  /// head becomes as large as usual.
+  /// Centimetres per unit of the file. 0: derived from the eye distance, which is interpreted as
+  /// metres, centimetres, millimetres or inches if that gives a plausible head; otherwise the head
+  /// is scaled to the usual size.
   double centimetres = 0;
-  /// The axes of the file are those of Head; else they are found from the feature points.
+  /// The axes of the file are those of Head; otherwise they are found from the feature points.
   bool upright = false;
-  /// What the reader wants the user to know; assemble() passes it on.
+  /// Messages of the reader to the user; assemble() passes them on.
   std::vector<std::string> notes;
 };
 
-/// The part that a piece is, by the words in its names ("Wolf3D_Teeth", "M_ScleraLeft",
-/// "eyelashes"): eyes, teeth and gums, tongue, hair (also hats and glasses), brows, lashes, body
-/// (clothes); anything else is skin. Nothing: it should not be shown, such as the wet layer of an
-/// eye (cornea, occlusion, tear line), which hides what is behind it unless it is transparent.
-/// Left and right eye, upper and lower teeth that the name does not tell apart are the left_eye
-/// and the lower_teeth here; assemble() looks where their vertices are.
+/// The part of a piece, by the words in its names ("Wolf3D_Teeth", "M_ScleraLeft", "eyelashes"):
+/// eyes, teeth and gums, tongue, hair (also hats and glasses), brows, lashes, body (clothes);
+/// anything else is skin. nullopt: it should not be shown, such as the wet layer of an eye (cornea,
+/// occlusion, tear line), which would hide what is behind it unless it is transparent. If the name
+/// does not distinguish left and right eye, or upper and lower teeth, the result is left_eye or
+/// lower_teeth; assemble() then uses the positions of the vertices.
 std::optional<Part> part_by_name(std::string_view name, std::string_view material);
 
-/// The colour that a mesh of this name has if nothing is known but its part; kNoColour for parts
-/// of one colour. Linear RGB.
+/// The colour of a mesh with this name if nothing else is known; kNoColour for parts of one colour.
+/// Linear RGB.
 Vec3 colour_by_name(std::string_view name, std::string_view material);
 
-/// Makes a head. `notes`, if given, gets those of the source, then a sentence for each thing that
-/// was guessed or is missing and that a user may want to know, in a fixed order.
+/// Makes a head. `notes`, if given, gets those of the source, then a sentence for everything that
+/// was guessed or is missing and that concerns the user, in a fixed order.
 ///
-/// Errors: invalid_argument if there is no triangle of skin, a triangle or point names a vertex
-/// that does not exist, a length is not finite, two points have one id, or measure_fapu() refuses
-/// the points (with its sentence); not_found for ids that are no feature point, or if neither
-/// `fapu` nor enough points to measure it nor the eyes are given (which are missing is named).
-/// With shapes, FAPU may be missing: they are taken from usual proportions then.
+/// Errors: invalid_argument if there is no skin triangle, a triangle or point refers to a vertex
+/// that does not exist, a length is not finite, two points have the same id, or measure_fapu()
+/// refuses the points (with its message); not_found for ids that are not feature points, or if
+/// neither `fapu` nor enough points to measure it nor the eyes are given (the message names the
+/// missing ones). With shapes, FAPU may be missing: usual proportions are used then.
 Result<Head> assemble(Source source, std::vector<std::string>* notes = nullptr);
 
 }  // namespace animeme::head

@@ -1,5 +1,5 @@
 /// @file
-/// A picture that a surface wears: decoded once, with its halves, quarters and so on.
+/// A decoded image for textures, with its mipmaps.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace animeme::head {
 
-/// A place on a picture: 0..1 from the upper left corner.
+/// Texture coordinates: 0..1 from the upper left corner.
 struct Uv {
   float u = 0;  ///< to the right
   float v = 0;  ///< down
@@ -18,38 +18,38 @@ struct Uv {
 
 /// Linear RGB and opacity.
 struct Colour {
-  Vec3 rgb = {1, 1, 1};  ///< light, 0..1
-  float alpha = 1;       ///< 0: nothing is there
+  Vec3 rgb = {1, 1, 1};  ///< 0..1
+  float alpha = 1;       ///< 0: transparent
 };
 
-/// What lies beyond the border of a picture.
+/// Continuation beyond the border of an image.
 enum class Wrap : std::uint8_t { repeat, clamp, mirror };
 
-/// Rows from the top, 4 bytes each: R, G, B, A.
+/// Rows from the top, 4 bytes per texel: R, G, B, A.
 struct Texels {
   int width = 0;                   ///< texels
   int height = 0;                  ///< texels
   std::vector<std::uint8_t> rgba;  ///< width * height * 4
 };
 
-/// What the numbers of a picture are: colours (sRGB), or values (normals, roughness).
+/// Content of an image: colours (sRGB), or values (normals, roughness).
 enum class TexelKind : std::uint8_t { colour, value };
 
-/// A picture with smaller ones of itself. Immutable.
+/// An image with its mipmaps. Immutable.
 class Picture {
  public:
-  /// `texels` has at least one. `file` and `type` ("image/png"): what it was decoded from, for
-  /// programs that decode it themselves; may be empty.
+  /// `texels` has at least one. `file` and `type` ("image/png"): the encoded file, for programs
+  /// that decode it themselves; may be empty.
   explicit Picture(Texels texels, TexelKind kind = TexelKind::colour,
                    std::vector<std::uint8_t> file = {}, std::string type = {});
 
-  /// At a place; bilinear within the level whose texels are as wide as `footprint` texels of the
-  /// picture. Colours are linear, values 0..1.
+  /// Bilinear sample of the mipmap level whose texels are as wide as `footprint` texels of the
+  /// image. Colours are linear, values 0..1.
   Colour at(Uv place, Wrap wrap_u, Wrap wrap_v, double footprint) const;
-  /// Between two levels: 0 is the picture, 1 its half and so on. As GPUs do it.
+  /// Trilinear sample between two levels: 0 is the image, 1 its half and so on. As on GPUs.
   Colour between(Uv place, Wrap wrap_u, Wrap wrap_v, float level) const;
 
-  /// The largest level whose sides have at most `side` texels, which is 1 or more.
+  /// The largest level whose sides have at most `side` texels; `side` is at least 1.
   const Texels& within(int side) const;
 
   int width() const { return levels_[0].width; }                   ///< texels

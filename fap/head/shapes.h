@@ -1,5 +1,5 @@
 /// @file
-/// FAP 1 and 2 as the heads of this folder show them: fap/expand.h under the names of this library.
+/// FAP 1 and 2 as shown by the heads of this folder: fap/expand.h under the names of this library.
 #pragma once
 
 #include "fap/expand.h"

@@ -25,7 +25,7 @@ struct Vector {
   Vector& operator*=(T s) { return *this = *this * s; }
   friend bool operator==(const Vector&, const Vector&) = default;
 
-  /// To another precision.
+  /// Converts to another precision.
   template <class U>
   explicit operator Vector<U>() const {
     return {U(x), U(y), U(z)};
@@ -33,7 +33,7 @@ struct Vector {
 };
 
 using Vec3 = Vector<float>;    ///< in meshes and colours (linear RGB, 0..1)
-using Vec3d = Vector<double>;  ///< while a head is made
+using Vec3d = Vector<double>;  ///< during the construction of a head
 
 /// Inner product.
 template <class T>
@@ -73,23 +73,23 @@ T smooth_step(T a, T b, T x) {
   return t * t * (T(3) - T(2) * t);
 }
 
-/// Rotation and shift: p becomes rows * p + shift.
+/// Rotation and translation: p becomes rows * p + shift.
 struct Transform {
   Vec3 row_x = {1, 0, 0};  ///< gives x
   Vec3 row_y = {0, 1, 0};  ///< gives y
   Vec3 row_z = {0, 0, 1};  ///< gives z
   Vec3 shift = {0, 0, 0};  ///< added last
 
-  /// Without the shift: for directions.
+  /// Without the translation: for directions.
   Vec3 turn(Vec3 p) const { return {dot(row_x, p), dot(row_y, p), dot(row_z, p)}; }
-  Vec3 operator()(Vec3 p) const { return turn(p) + shift; }  ///< rotates and shifts a point
+  Vec3 operator()(Vec3 p) const { return turn(p) + shift; }  ///< transforms a point
   friend bool operator==(const Transform&, const Transform&) = default;
 };
 
 /// First `inner`, then `outer`.
 Transform compose(const Transform& outer, const Transform& inner);
 
-/// Of a rotation and shift.
+/// Inverse of a rotation and translation.
 Transform inverse(const Transform& t);
 
 /// Right-handed rotation by angles in rad about the axes through `pivot`: roll about Z first, then

@@ -1,5 +1,5 @@
 /// @file
-/// Xface's .fdp files: a face that MPEG-4 FAPs move, as XML beside its meshes.
+/// Xface's .fdp files: a face that FAPs move, as XML beside its meshes.
 ///
 ///     auto load = [&](const std::string& name) { return read_whole_file(folder / name); };
 ///     animeme::Result<animeme::head::Source> source = animeme::head::read_fdp(text, load);
@@ -10,8 +10,8 @@
 ///     // folder: ready for XfacePlayer
 ///
 /// The file names meshes, FAPU, and for each feature point a vertex, a region around it and the
-/// FAPs that move the region by raised cosines. Its README says what Xface makes of it, and how
-/// near write_fdp() comes to our own rig.
+/// FAPs that move the region by raised cosines. fap/xml/README.md describes how Xface interprets
+/// it, and how closely write_fdp() approximates the rig.
 #pragma once
 
 #include <functional>
@@ -21,46 +21,46 @@
 
 namespace animeme::head {
 
-/// Gives the content of a file beside the .fdp that it or its meshes name ("alice.wrl",
-/// "alice.tga"), or says why it cannot.
+/// Returns the content of a file that the .fdp or its meshes name ("alice.wrl", "alice.tga"), or an
+/// error.
 using LoadMeshFile = std::function<Result<std::string>(const std::string& name)>;
 
 /// Reads a head as Xface would show it. Meshes are those of the entity "Rest", VRML97 or OBJ.
 ///
-/// Source::targets are the influences of the file: raised cosines, several on one vertex add up,
-/// the first eight on a vertex count. FAPU are those of the file, points the `fdp` elements whose
-/// names are feature points (the first of each), eyes the pivots of the bindings LeftEye and
-/// RightEye (Xface notes them with opposite signs; either way is understood). Lower teeth, tongue
-/// and eyes that are bound or named as such are left to our rig, which turns them. A texture (TGA)
-/// gives the vertices the colours at their places on it, in place of those of the mesh; one that
-/// is missing, damaged or of another format, that lies outside of the folder or lacks coordinates
-/// is left out, and Source::notes says why, also of textures that Xface itself would not show.
+/// Source::targets are the influences of the file: raised cosines, which add up on a vertex; the
+/// first eight on a vertex count. FAPU are those of the file, points the `fdp` elements whose names
+/// are feature points (the first of each), eyes the pivots of the bindings LeftEye and RightEye
+/// (Xface writes them with opposite signs; both forms are understood). Lower teeth, tongue and eyes
+/// that are bound or named as such are left to the rig, which turns them. A texture (TGA) replaces
+/// the vertex colours by its colours at their texture coordinates; a texture that is missing,
+/// damaged, of another format, outside the folder or without coordinates is ignored with a note,
+/// and so are textures that Xface itself would not show.
 ///
 /// Not used: other entities (visemes and expressions as whole meshes: FAP 1 and 2 are shown by the
 /// shapes of shapes.h), textures of .obj, translation and rotation (those of the camera of Xface),
-/// and influences of FAPs that move no vertex (turns of the head, pupils, FAP 1 and 2).
-/// Source::notes says so.
+/// and influences of FAPs that move no vertex (head rotation, pupils, FAP 1 and 2). Source::notes
+/// lists them.
 ///
-/// Errors, with the line: syntax (no XML, or no `xfdp`; a number that is none), out_of_range (a
-/// vertex that the mesh does not have, a FAP beyond 68, limits of size), not_found (no entity Rest;
-/// no `fdp` that fits a mesh), invalid_argument (a mesh outside the folder), unsupported (entities
-/// of XML, a mesh of another format), and those of the mesh readers, with the file. Meshes that
-/// `load` does not give are not_found with the names of all of them, or its other errors.
+/// Errors, with the line: syntax (not XML, or no `xfdp`; an invalid number), out_of_range (a vertex
+/// that the mesh does not have, a FAP beyond 68, size limits), not_found (no entity Rest; no `fdp`
+/// that matches a mesh), invalid_argument (a mesh outside the folder), unsupported (XML entities, a
+/// mesh of another format), and those of the mesh readers, with the file. Meshes that `load` does
+/// not find are not_found with the names of all of them; its other errors are passed on.
 Result<Source> read_fdp(std::string_view text, const LoadMeshFile& load);
 
-/// How write_fdp() writes.
+/// Options of write_fdp().
 struct FdpOptions {
   std::string name = "head";  ///< of the files; letters, digits, '-' and '_'
-  /// Units of the file for one centimetre; Xface's own heads count millimetres.
+  /// Units of the file per centimetre; Xface's own heads are in millimetres.
   double scale = 10;
-  /// Most regions that one FAP gets on a mesh, 1..100. With 1 each FAP has one region, easily
-  /// edited in XfaceEd; more come nearer to our rig and leave fewer creases.
+  /// Largest number of regions per FAP and mesh, 1..100. With 1 each FAP has one region, easily
+  /// edited in XfaceEd; more approximate the rig better and leave fewer creases.
   int regions = 64;
 };
 
 /// A texture of a face.
 struct FdpTexture {
-  std::string name;     ///< of the file, as NAME_skin.tga
+  std::string name;     ///< file name, such as NAME_skin.tga
   std::string content;  ///< its bytes
 };
 
@@ -71,13 +71,13 @@ struct FdpFiles {
   std::vector<FdpTexture> textures;  ///< named in the .wrl; one for each part that has colours
 };
 
-/// Writes a head for Xface. One VRML97 file, a submesh for each part that is not empty; an entity
-/// "Rest"; its colours at the vertices and, as Xface shows no others, by textures (uncompressed TGA
-/// of 128 x 128: not a picture of the face, but of its colours, on which each vertex has the place
-/// of its own one); bindings of hair, eyes, teeth and tongue; all feature points, and regions for
-/// each FAP, fitted to what the rig does with it. A feature point moves exactly as its FAPs say
-/// (twice a weight of 0.5); no vertex has more than eight influences, the weakest are left out.
-/// What Xface cannot show is left out: pupils, the rolled tongue, moves across the direction of a
+/// Writes a head for Xface. One VRML97 file with a submesh for each part that is not empty; an
+/// entity "Rest"; vertex colours, and textures, since Xface shows no vertex colours (uncompressed
+/// TGA of 128 x 128: not an image of the face but a palette, on which each vertex has the
+/// coordinate of its own colour); bindings of hair, eyes, teeth and tongue; all feature points, and
+/// regions for each FAP, fitted to its effect in the rig. A feature point moves exactly as its FAPs
+/// say (twice a weight of 0.5); no vertex has more than eight influences, the weakest are dropped.
+/// What Xface cannot show is omitted: pupils, the rolled tongue, motion across the direction of a
 /// FAP.
 ///
 /// Errors: invalid_argument (options out of range; a head whose skin has no feature point, or no
