@@ -1,6 +1,6 @@
 /// @file
-/// Is one system better than another, or were the sentences kind to it? Paired bootstrap over
-/// sentences. Source: dam/lipsync.md, section 8, item 7.
+/// Confidence interval of the difference of two systems: paired bootstrap over sentences. Source:
+/// dam/lipsync.md, section 8, item 7.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,10 @@
 
 namespace animeme::dam {
 
-/// How the draws are made.
+/// Options of paired_difference().
 struct BootstrapOptions {
   int draws = 1000;        ///< 1..1000000
-  std::uint64_t seed = 1;  ///< of a generator of our own: the same on every machine
+  std::uint64_t seed = 1;  ///< of a built-in generator: the same on every machine
   double coverage = 0.95;  ///< of the interval: 0.5..0.999
 };
 
@@ -31,14 +31,14 @@ struct ErrorDifference {
 /// Two systems on the same sentences.
 struct PairedDifference {
   std::size_t sentences = 0;  ///< with frames in both
-  int draws = 0;              ///< as asked for
+  int draws = 0;              ///< as requested
   ErrorDifference nrmse,      ///< mean over scored controls
       l2;                     ///< norm over controls, see RegionScore
   ErrorDifference gap_rmse;   ///< FAP units; zeros without an inner gap
 };
 
-/// Draws as many sentences as there are, with replacement and the same for both, computes both
-/// errors over the frames drawn, and so on. Both must be scores of the same recordings on the same
+/// Draws as many sentences as there are, with replacement and the same for both, and computes both
+/// errors over their frames, repeatedly. Both must be scores of the same recordings on the same
 /// scale. Error: invalid_argument (options; sentences, frames or controls that differ).
 Result<PairedDifference> paired_difference(const Evaluation& a, const Evaluation& b,
                                            const BootstrapOptions& options = {});

@@ -13,7 +13,7 @@ namespace animeme::dam {
 
 /// The small constant of Eq. 1 that keeps the division defined for sigma = 0.
 inline constexpr double kDominanceEpsilon = 1e-6;
-/// A dominance below this counts as 0: such a phone has no part in a frame.
+/// Dominances below this count as 0: such a phone does not contribute to a frame.
 inline constexpr double kDominanceCut = 1e-5;
 
 /// Distance from the phone in local time: 0 inside [0, 1].
@@ -32,7 +32,7 @@ inline double dominance_slope(double u, double sigma) {
   return x == 0 ? 0.0 : 2.0 * x * x * s2 / (w * w) * std::exp(-x * x / w);
 }
 
-/// Sums of dominances below this are not divided by: the frame is out of everybody's reach.
+/// Sums of dominances below this are not used as divisors: no phone reaches the frame.
 inline constexpr double kLeastDominanceSum = 1e-12;
 
 /// Local time beyond which D < kDominanceCut, as a distance from the phone.
@@ -40,8 +40,8 @@ inline double dominance_reach(double sigma) {
   return std::sqrt((sigma * sigma + kDominanceEpsilon) * -std::log(kDominanceCut));
 }
 
-/// Where the local time of the polynomial stops outside the phone: u is clamped to
-/// [-margin, 1 + margin]. An infinite margin is the form of the paper, which extrapolates freely.
+/// Clamps the local time of the polynomial outside the phone to [-margin, 1 + margin]. An infinite
+/// margin gives the form of the paper, which extrapolates freely.
 inline double clamp_local_time(double u, double margin) {
   return std::clamp(u, -margin, 1 + margin);
 }

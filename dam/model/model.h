@@ -1,18 +1,18 @@
 /// @file
-/// A trained model: everything that synthesis and evaluation need, as plain data.
+/// A trained model: all data for synthesis and evaluation.
 ///
 ///     C*(t) = rest + sd * S(t)
 ///
-/// `rest` and `sd` are per control; S(t), in units of the training standard deviation and measured
-/// from the pose of silence, is what the kinds of models differ in:
+/// `rest` and `sd` are per control; S(t), in units of the training standard deviation and relative
+/// to the pose of silence, depends on the method:
 ///
 ///     method         parameters            S(t)
 ///     dam            RefinedParameters     blend of curves with corrections by context
-///     dam-paper      AnimemeParameters     blend of D_j(u_j) A_j(u_j), u_j = (t - s_j) / d_j (Eq.
-///     2) cohen-massaro  AnimemeParameters     the same with constants for A: one target a phone
+///     dam-paper      AnimemeParameters     blend of D_j(u_j) A_j(u_j), u_j = (t - s_j) / d_j
+///     cohen-massaro  AnimemeParameters     the same with constants for A: one target per phone
 ///     mmm            TrajectoryParameters  smooth curve near the means of the phones' states
 ///     mean           MeanParameters        the mean pose of the training speech
-///     viseme         VisemeParameters      straight lines between the poses of the phones
+///     viseme         VisemeParameters      linear interpolation between the poses of the phones
 ///     triphone       TriphoneParameters    mean curves of phones in context, overlapped and added
 #pragma once
 
@@ -34,14 +34,14 @@
 /// Dominated animeme models: scripts, training, speaking, evaluation.
 namespace animeme::dam {
 
-/// How a model was made and has to be evaluated. Numbers are part of the file format.
+/// The kind of a model. Numbers are part of the file format.
 enum class Method : std::uint8_t {
   dam_paper = 1,      ///< dominated animeme models as in the paper
   dam = 2,            ///< refined dominated animeme models
-  cohen_massaro = 3,  ///< one target a phone, blended by dominance (M = 0)
+  cohen_massaro = 3,  ///< one target per phone, blended by dominance (M = 0)
   mmm = 4,            ///< smooth trajectories through Gaussians, after Ezzat
-  mean = 5,           ///< the mean pose, whatever is said
-  viseme = 6,         ///< linear interpolation of one pose a phone
+  mean = 5,           ///< the mean pose, for any script
+  viseme = 6,         ///< linear interpolation of one pose per phone
   triphone = 7,       ///< mean curves of phones in their context
 };
 
@@ -50,7 +50,7 @@ enum class Method : std::uint8_t {
 std::string_view method_name(Method method);
 /// The method of that name.
 std::optional<Method> find_method(std::string_view name);
-/// All methods, in the order in which they are listed for people.
+/// All methods, in the order of listings.
 std::span<const Method> methods();
 
 /// One animation control, in its own units (FAP units for FAPs).
@@ -67,14 +67,14 @@ struct Control {
 struct PhoneModel {
   std::string label;                ///< upper-case ARPAbet or "SIL"
   std::uint32_t examples = 0;       ///< occurrences in the training rows
-  std::uint32_t context_class = 0;  ///< phones of one class stand in for each other as context
+  std::uint32_t context_class = 0;  ///< phones of one class are interchangeable as context
   double duration = 0.08;           ///< seconds, geometric mean of the training rows, > 0
-  double longest = 0.3;             ///< seconds: what lasts longer (singing) holds its middle
+  double longest = 0.3;             ///< seconds: longer phones (singing) hold their middle
 
   friend bool operator==(const PhoneModel&, const PhoneModel&) = default;
 };
 
-/// One way of saying a phone (section V-A of the paper).
+/// One realisation of a phone (section V-A of the paper).
 struct Mode {
   double sigma = 1;                  ///< width of the dominance in local time, > 0
   std::vector<double> coefficients;  ///< a^m of control c is at [m * controls + c]
@@ -82,13 +82,13 @@ struct Mode {
   friend bool operator==(const Mode&, const Mode&) = default;
 };
 
-/// How often a mode was seen between two phones; left and right index Model::phones,
-/// kRestContext stands for the resting mouth and for the end of the clip.
+/// Number of occurrences of a mode between two phones; left and right index Model::phones,
+/// kRestContext is the resting mouth or the end of the clip.
 struct ContextCount {
-  std::int32_t left = 0;    ///< phone before
-  std::int32_t right = 0;   ///< phone behind
+  std::int32_t left = 0;    ///< previous phone
+  std::int32_t right = 0;   ///< next phone
   std::uint32_t mode = 0;   ///< index of AnimemePhone's modes
-  std::uint32_t count = 0;  ///< times, at least 1
+  std::uint32_t count = 0;  ///< at least 1
 
   friend bool operator==(const ContextCount&, const ContextCount&) = default;
 };
@@ -105,7 +105,7 @@ struct AnimemePhone {
 /// Largest degree of the polynomials of AnimemeParameters.
 inline constexpr int kMaxOrder = 8;
 
-/// Dominated animemes as the paper has them.
+/// Dominated animemes as in the paper.
 struct AnimemeParameters {
   std::uint32_t order = 4;           ///< M, degree of the polynomials
   bool normalised = true;            ///< blend by D / sum of D; false: plain sum
@@ -115,7 +115,7 @@ struct AnimemeParameters {
   friend bool operator==(const AnimemeParameters&, const AnimemeParameters&) = default;
 };
 
-// ---- method dam: dam/lipsync.md, section 2; dam/README.md has what was added ----
+// ---- method dam: dam/lipsync.md, section 2; dam/kinds/refined/README.md has the additions ----
 //
 //     S(t) = sum_j w_j(t) A_j(u_j),   w_j = D_j / sum_i D_i,
 //     D_j = strength_p (d_j / usual_p)^e exp(-(before / left_p)^2 - (after / right_p)^2),
@@ -123,7 +123,7 @@ struct AnimemeParameters {
 //
 // u clamped to [-time_margin, 1 + time_margin], e the duration exponent.
 
-/// Seconds in which the dominance of a phone falls off, and how strong it is beside others.
+/// Fall-off times of the dominance of a phone, and its strength relative to others.
 struct PhoneDominance {
   double left = 0.08;   ///< seconds, > 0
   double right = 0.08;  ///< seconds, > 0
@@ -132,33 +132,33 @@ struct PhoneDominance {
   friend bool operator==(const PhoneDominance&, const PhoneDominance&) = default;
 };
 
-/// What the curve of a phone is a sum of. The numbers are part of the file format.
+/// The terms whose sum is the curve of a phone. The numbers are part of the file format.
 enum class RefinedTerm : std::uint8_t {
   phone = 0,          ///< by phone
-  class_left = 1,     ///< by class and class of the phone before
-  class_right = 2,    ///< by class and class of the phone behind
-  phone_left = 3,     ///< by phone and class of the phone before
-  phone_right = 4,    ///< by phone and class of the phone behind
+  class_left = 1,     ///< by class and class of the previous phone
+  class_right = 2,    ///< by class and class of the next phone
+  phone_left = 3,     ///< by phone and class of the previous phone
+  phone_right = 4,    ///< by phone and class of the next phone
   duration = 5,       ///< by phone, times ln(duration / usual duration), limited to +-1
   class_left_2 = 6,   ///< by class and class of the phone but one before
-  class_right_2 = 7,  ///< by class and class of the phone but one behind
-  phone_class = 8,    ///< by class: what a rare phone leans on
-  left = 9,           ///< by the phone before, whatever is between: what it does to all
-  right = 10,         ///< by the phone behind, likewise
-  triphone = 11,      ///< by the phone and both beside it: what the corpus has of its own
-  kind_left = 12,     ///< by vowel, consonant or silence, and the phone before
-  kind_right = 13,    ///< by vowel, consonant or silence, and the phone behind
-  between = 14,       ///< by class of the phone before and class of the phone behind
+  class_right_2 = 7,  ///< by class and class of the phone but one after
+  phone_class = 8,    ///< by class: shared by its rare phones
+  left = 9,           ///< by previous phone: its effect on all phones
+  right = 10,         ///< by next phone, likewise
+  triphone = 11,      ///< by phone and both neighbours: particulars of the corpus
+  kind_left = 12,     ///< by vowel, consonant or silence, and the previous phone
+  kind_right = 13,    ///< by vowel, consonant or silence, and the next phone
+  between = 14,       ///< by class of the previous phone and class of the next phone
   /// By class, times ln(duration / usual duration of the phone), limited to +-1.
   class_duration = 15,
-  /// By the phone before, times the same.
+  /// By previous phone, times the same.
   left_duration = 16,
-  /// By phone, times ln(duration / usual duration) of the phone behind, limited to +-1.
+  /// By phone, times ln(duration / usual duration) of the next phone, limited to +-1.
   next_duration = 17,
-  since = 18,  ///< of all phones, times the seconds since the speech began, 0 to kLongestSince
-  onset = 19,  ///< of all phones, times exp(-seconds since the speech began / 0.3)
+  since = 18,  ///< all phones, times the seconds since the start of speech, 0 to kLongestSince
+  onset = 19,  ///< all phones, times exp(-seconds since the start of speech / 0.3)
 };
-/// Seconds of speech that a phone remembers, for RefinedTerm::since.
+/// Upper limit of RefinedTerm::since, seconds.
 inline constexpr double kLongestSince = 1.5;
 /// Largest number of Legendre coefficients of a term.
 inline constexpr std::size_t kRefinedOrders = 5;
@@ -168,7 +168,7 @@ struct TermTable {
   RefinedTerm term = RefinedTerm::phone;  ///< which kind
   std::uint32_t orders = 0;               ///< 1..kRefinedOrders
   /// Ascending: phone, class, own (phone, class, kind) * 256 + neighbour (phone or class), or (left
-  /// * 256 + own) * 256 + right; 0 where all phones share one. Kinds: 0 silence, 1 vowel, 2 other.
+  /// * 256 + own) * 256 + right; 0 if shared by all phones. Kinds: 0 silence, 1 vowel, 2 other.
   std::vector<std::uint32_t> keys;
   std::vector<float> values;  ///< a_m of control c of row r at [(r * orders + m) * controls + c]
 
@@ -186,10 +186,10 @@ struct RefinedParameters {
 };
 
 /// Trajectories through Gaussians. A phone has `states` equal parts in time. S(t) of a control
-/// minimises the integral of (S - mean)^2 / variance, of the state at t, plus
-/// smoothness^(2 * order) times that of the squared derivative of that order.
+/// minimises the integral of (S - mean)^2 / variance, of the state at t, plus smoothness^(2 *
+/// order) times that of the squared derivative of that order.
 struct TrajectoryParameters {
-  std::uint32_t states = 3;        ///< a phone: 1..8
+  std::uint32_t states = 3;        ///< per phone: 1..8
   std::uint32_t order = 2;         ///< of the derivative: 1..4
   std::vector<double> smoothness;  ///< seconds, per control: 0.001..0.5
   std::vector<double> mean;        ///< [(phone * states + state) * controls + control]
@@ -198,12 +198,12 @@ struct TrajectoryParameters {
   friend bool operator==(const TrajectoryParameters&, const TrajectoryParameters&) = default;
 };
 
-/// Nothing: S(t) is the mean of Control, measured from rest.
+/// Empty: S(t) is the mean of Control, relative to rest.
 struct MeanParameters {
   friend bool operator==(const MeanParameters&, const MeanParameters&) = default;
 };
 
-/// One pose a phone, held for a part of it, with straight lines between.
+/// One pose per phone, held for a part of it, with linear interpolation in between.
 struct VisemeParameters {
   double place = 0.5;         ///< middle of the hold, in local time: 0..1
   double plateau = 0;         ///< length of the hold, in local time, cut to the phone: 0..1
@@ -212,7 +212,7 @@ struct VisemeParameters {
   friend bool operator==(const VisemeParameters&, const VisemeParameters&) = default;
 };
 
-/// What a curve is the mean of, coarse to fine. Numbers are part of the file format.
+/// The occurrences averaged in a curve, coarse to fine. Numbers are part of the file format.
 enum class CurveLevel : std::uint8_t {
   phone = 0,        ///< all occurrences of a phone
   left_class = 1,   ///< those after a phone of one class (PhoneModel::context_class)
@@ -223,12 +223,12 @@ enum class CurveLevel : std::uint8_t {
   triphone = 6,     ///< those between two phones
 };
 inline constexpr std::size_t kCurveLevels = 7;   ///< values of CurveLevel
-inline constexpr std::int32_t kAnyContext = -2;  ///< stands for every neighbour
+inline constexpr std::int32_t kAnyContext = -2;  ///< any neighbour
 
-/// A mean curve, less those of the coarser levels that fit the same context.
+/// A mean curve, minus those of the coarser levels for the same context.
 struct ContextCurve {
   std::int32_t phone = 0;                ///< index of Model::phones
-  CurveLevel level = CurveLevel::phone;  ///< how narrow its context is
+  CurveLevel level = CurveLevel::phone;  ///< how specific its context is
   std::int32_t left = kAnyContext;   ///< phone, class, kRestContext or kAnyContext, as of `level`
   std::int32_t right = kAnyContext;  ///< likewise
   std::uint32_t count = 0;           ///< occurrences, at least 1
@@ -238,7 +238,7 @@ struct ContextCurve {
 };
 
 /// Mean curves of phones in context. The curve of an occurrence is the sum of those of all levels
-/// that the table has; S(t) is their overlap-add.
+/// in the table; S(t) is their overlap-add.
 struct TriphoneParameters {
   std::uint32_t points = 9;          ///< of a curve, equally spaced: 2..64
   double reach = 0.5;                ///< a curve is over local time -reach..1 + reach: 0.01..0.5
@@ -251,22 +251,23 @@ struct TriphoneParameters {
 using Parameters = std::variant<AnimemeParameters, RefinedParameters, TrajectoryParameters,
                                 MeanParameters, VisemeParameters, TriphoneParameters>;
 
-/// A model and what its training knew; plain data that may be changed.
+/// A model with its training statistics; plain data that may be changed.
 struct Model {
-  Method method = Method::dam_paper;  ///< how the parameters are to be read
-  double pause_edge = 0.3;  ///< seconds: the part of a pause that belongs to the speech beside it
+  Method method = Method::dam_paper;  ///< the kind of its parameters
+  double pause_edge = 0.3;  ///< seconds: the part of a pause that belongs to the adjacent speech
   double closure_gap = 25;  ///< FAP units: inner lip gap to which P, B, M close
-  /// FAP units: how far F and V raise the inner lower lip (FAP 5) towards the teeth; none: unknown.
+  /// FAP units: how far F and V raise the inner lower lip (FAP 5) towards the teeth; nullopt:
+  /// unknown.
   std::optional<double> lip_tooth_raise;
-  std::optional<ShutTime> shut;   ///< how long P, B and M keep the lips shut; none: unknown
+  std::optional<ShutTime> shut;   ///< how long P, B and M stay closed; nullopt: unknown
   fap::Rate rate;                 ///< of the training signal
   std::vector<Control> controls;  ///< what it animates; all parameters are in this order
-  /// What each control can be, in the order of `controls`, or nothing: all are free. (A list in
-  /// which all are free comes back from a file as nothing.)
+  /// Limits of the controls, in the order of `controls`; empty: all are unlimited. (A list in which
+  /// all are unlimited is empty after reading it from a file.)
   std::vector<ControlLimit> limits;
   std::vector<PhoneModel> phones;  ///< sorted by label
-  Parameters parameters;           ///< the alternative that the method needs
-  std::string attribution;         ///< who has to be named when the model is passed on
+  Parameters parameters;           ///< the alternative of the method
+  std::string attribution;         ///< credits required when the model is passed on
   std::string provenance;          ///< how the model was made, free text
 
   /// Index of a phone by label, -1 if the model does not know it.
@@ -278,20 +279,20 @@ struct Model {
 };
 
 /// Checks every statement above (sizes, ranges, finite numbers, indices). Code::invalid_argument
-/// with a sentence that names the first fault. read_model() returns only models that pass.
+/// with a sentence that names the first violation. read_model() returns only models that pass.
 Result<void> validate(const Model& model);
 
 /// The model file: magic "ANIMEDAM", version 2.2, little endian, CRC-32 of everything.
 /// dam/model/README.md has the layout. The same model gives the same bytes.
 std::vector<std::uint8_t> write_model(const Model& model);
 
-/// Safe on any input: sizes are checked against the bytes that are there before anything is
+/// Safe for untrusted input: sizes are checked against the available bytes before anything is
 /// allocated. Errors: syntax (not a model file, damaged), truncated, unsupported (made by a newer
-/// major version, or a method this build does not know).
+/// major version, or an unknown method).
 Result<Model> read_model(std::span<const std::uint8_t> bytes);
 
-/// The same from a path; a file whose beginning is none of a model is not read further. Errors
-/// also: not_found, io.
+/// The same from a path; a file that does not begin like a model is not read further. Additional
+/// errors: not_found, io.
 Result<Model> load_model(const std::filesystem::path& path);
 
 }  // namespace animeme::dam

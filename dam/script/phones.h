@@ -1,6 +1,6 @@
 /// @file
-/// The sounds that models know: ARPAbet, their MPEG-4 visemes, their place on the lips, and who
-/// stands in for whom.
+/// The phones of the models: ARPAbet labels, their MPEG-4 visemes, their effect on the lips, and
+/// their replacements.
 ///
 /// The set is the 39 phones of the CMU pronouncing dictionary, AX (the unstressed vowel of
 /// "sofa") and SIL (silence): 41 labels. Labels of other alphabets are mapped to it by
@@ -16,8 +16,8 @@
 
 namespace animeme::dam {
 
-/// Phones that push the lips of their neighbours in the same way. The numbers are part of the
-/// model file format: never reorder, only append.
+/// Phones with the same effect on the lips of their neighbours. The numbers are part of the model
+/// file format: never reorder, only append.
 enum class PhoneClass : std::uint8_t {
   silence = 0,         ///< SIL
   bilabial = 1,        ///< P B M
@@ -36,13 +36,13 @@ enum class PhoneClass : std::uint8_t {
 inline constexpr std::size_t kPhoneClassCount = 12;  ///< values of PhoneClass
 inline constexpr std::size_t kPhoneCount = 41;       ///< labels, SIL included
 
-/// What is fixed about one phone. All views point to static storage.
+/// Properties of one phone. All views point to static storage.
 struct PhoneInfo {
   std::string_view label;     ///< upper-case ARPAbet, "SIL" for silence
   std::string_view ipa;       ///< UTF-8; empty for SIL
   std::uint8_t viseme_start;  ///< MPEG-4 viseme 0..14 at the start of the phone
   std::uint8_t viseme_end;    ///< and at its end; differs for diphthongs only
-  PhoneClass phone_class;     ///< what its neighbours see of it
+  PhoneClass phone_class;     ///< its effect on neighbours
   bool vowel;                 ///< can carry a syllable, ER and diphthongs included
   bool bilabial;              ///< both lips must touch: P B M
   bool labiodental;           ///< the lower lip must touch the upper teeth: F V
@@ -58,39 +58,39 @@ const PhoneInfo* find_phone(std::string_view label);
 /// "bilabial" etc.: one word for people and files. Empty for values outside the enumeration.
 std::string_view phone_class_name(PhoneClass phone_class);
 
-/// The ARPAbet label that an aligner's spelling stands for, empty if it is none.
+/// The ARPAbet label of an aligner's spelling, empty if it is none.
 ///
-/// Upper or lower case; a stress digit 0..3 at the end of a vowel is dropped; AXR IX UX DX NX EL
-/// EM EN ENG HV Q and the closures BCL ... (TIMIT) become the nearest of the 41, and Kaldi's
-/// endings _B _I _E _S are dropped. Every usual way to write a pause gives
-/// SIL: nothing, `sil silence sp spn nsn pau h# # _ __ epi brth <sil> <eps> <p:>` and the like.
-/// IPA and X-SAMPA are not looked at; see dam/script/ipa.h.
+/// Upper or lower case; a stress digit 0..3 at the end of a vowel is dropped; AXR IX UX DX NX EL EM
+/// EN ENG HV Q and the closures BCL ... (TIMIT) become the nearest of the 41, and Kaldi's suffixes
+/// _B _I _E _S are dropped. Every usual spelling of a pause gives SIL: nothing, `sil silence sp spn
+/// nsn pau h# # _ __ epi brth <sil> <eps> <p:>` and the like. IPA and X-SAMPA are not considered;
+/// see dam/script/ipa.h.
 std::string_view arpabet_label(std::string_view spelling);
 
 /// True for the pauses listed at arpabet_label().
 bool is_silence_spelling(std::string_view spelling);
 
-/// The known label that looks most like `spelling`, for error messages; never empty.
+/// The known label with the most similar spelling, for error messages; never empty.
 std::string_view nearest_label(std::string_view spelling);
 
 // ---------------------------------------------------------------------------------------------
-// Relatives: what to say instead of a phone that a model has never seen. Small corpora lack
-// phones (the GRID sentences have no ER HH NG OY SH UH ZH), so this is the normal case.
+// Relatives: replacements of phones that a model has never seen. Small corpora lack phones (the
+// GRID sentences have no ER HH NG OY SH UH ZH), so this is the normal case.
 //
-// Each label has an ordered list of alternatives, nearest first; take the first one all of whose
-// parts the model knows. All other phones are in it, so that a model of few sounds speaks
-// everything. An alternative is one phone for the whole duration, or two phones one after the
-// other with their shares of it: for diphthongs, affricates and ER, which is a schwa and an r. The
-// order is that of lip_distance() (dam/script/features.h): SH and ZH are rounded as CH and JH are.
-// HH and NG come first to the vowels beside them.
+// Each label has an ordered list of alternatives, nearest first; use the first one all of whose
+// parts the model knows. It contains all other phones, so that a model of few sounds speaks
+// everything. An alternative is one phone for the whole duration, or two phones in sequence with
+// their shares of it: for diphthongs, affricates and ER, which is a schwa and an r. The order is
+// that of lip_distance() (dam/script/features.h): SH and ZH are rounded like CH and JH. The first
+// alternative of HH and NG is an adjacent vowel.
 // ---------------------------------------------------------------------------------------------
 
-/// Instead of a label in RelativePart: the phone has no mouth shape of its own and takes that in
-/// which the next vowel of the script begins (none before the next silence: skip this
+/// In place of a label in RelativePart: the phone has no mouth shape of its own and takes that in
+/// which the next vowel of the script begins (if there is none before the next silence, skip this
 /// alternative).
 inline constexpr std::string_view kNextVowel = "<next vowel>";
 
-/// The same of the vowel before, as it ends.
+/// The same for the previous vowel, as it ends.
 inline constexpr std::string_view kVowelBefore = "<vowel before>";
 
 /// One piece of an alternative.
@@ -101,10 +101,10 @@ struct RelativePart {
 
 /// An alternative: `count` parts in time order, whose shares add up to 1.
 struct Relative {
-  std::array<RelativePart, 2> part;  ///< the first `count` count
+  std::array<RelativePart, 2> part;  ///< the first `count` are used
   std::size_t count = 1;             ///< 1 or 2
 
-  /// Those that count.
+  /// The parts that are used.
   std::span<const RelativePart> parts() const { return {part.data(), count}; }
 };
 

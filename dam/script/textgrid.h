@@ -1,9 +1,9 @@
 /// @file
 /// Praat TextGrid files: tiers of labelled intervals and points, text form only.
 ///
-/// Praat writes a long form with names ("xmin = 0.5") and a short one without ("0.5"). Both
-/// follow one rule, which is the reader's too: only free-standing numbers, "strings" and `<flags>`
-/// count, all other words and everything behind an exclamation mark are for people.
+/// Praat writes a long form with names ("xmin = 0.5") and a short one without ("0.5"). One rule
+/// covers both: only free-standing numbers, "strings" and `<flags>` count; all other words and
+/// everything after an exclamation mark are comments.
 #pragma once
 
 #include <cstdint>
@@ -20,9 +20,9 @@ namespace animeme::dam {
 struct TextGridItem {
   double start = 0;         ///< seconds
   double end = 0;           ///< seconds
-  std::string text;         ///< UTF-8, doubled quotes undone
+  std::string text;         ///< UTF-8, with doubled quotes resolved
   std::int64_t line = 0;    ///< of the text in the file, from 1; 0: not from a file
-  std::int64_t column = 0;  ///< in the line, from 1; 0: not known
+  std::int64_t column = 0;  ///< in the line, from 1; 0: unknown
 };
 
 /// One tier: intervals without gaps, or points.
@@ -39,19 +39,17 @@ struct TextGrid {
   std::vector<TextGridTier> tiers;  ///< in the order of the file
 };
 
-/// Reads the text form from UTF-8 (see to_utf8() for other encodings). Times are taken as they
-/// stand: order and overlaps are the caller's business.
-/// Errors with line: syntax, out_of_range (a number that is not finite), truncated (the text
-/// ends early), unsupported (a binary file).
+/// Reads the text form from UTF-8 (see to_utf8() for other encodings). Order and overlaps of times
+/// are not checked. Errors with line: syntax, out_of_range (a number that is not finite), truncated
+/// (the text ends early), unsupported (a binary file).
 Result<TextGrid> parse_textgrid(std::string_view utf8);
 
 /// The labels of one tier: options.tier, or the phones with their words, or the words alone, by the
-/// names of script.h. Points, where a tier has them, are no labels.
-/// Errors: not_found (no such tier, none of these names, several; the message has all names),
-/// unsupported (a tier of points).
+/// names in script.h. Points are not labels. Errors: not_found (no such tier, none of these names,
+/// several; the message has all names), unsupported (a tier of points).
 Result<Timings> labels_of_tier(const TextGrid& grid, const ScriptOptions& options = {});
 
-/// A script as a file of it has it: the tiers "words" and "phones", silence without a text.
+/// The tiers "words" and "phones" of a script; silence has an empty text.
 TextGrid textgrid_of(const Script& script);
 
 /// The long form, in UTF-8.

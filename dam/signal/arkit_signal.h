@@ -13,21 +13,21 @@
 
 namespace animeme::dam {
 
-/// Which channel of a signal is which of ARKit's.
+/// Maps the channels of a signal to those of ARKit.
 struct ArkitLayout {
-  std::vector<int> channel;  ///< one a name: channel of fap/arkit.h, -1: none of them
-  fap::ArkitChannels has;    ///< those that are there
+  std::vector<int> channel;  ///< per name: channel of fap/arkit.h, -1: none of them
+  fap::ArkitChannels has;    ///< those that are present
 
-  /// The values of a row of the signal, by ARKit's channel; those that are not there are 0.
+  /// The values of a row of the signal, by ARKit channel; absent ones are 0.
   fap::ArkitFrame frame(std::span<const double> row) const;
 };
 
-/// Nothing if no name is a shape or an angle of ARKit. Of names for one channel ("jawOpen",
+/// nullopt if no name is an ARKit shape or angle. Of several names for one channel ("jawOpen",
 /// "JawOpen") the first counts.
 std::optional<ArkitLayout> find_arkit_layout(std::span<const std::string> names);
 
-/// A channel of ARKit spelled as `names` spell theirs: "EyeBlinkLeft" beside "JawOpen",
-/// "eyeBlink_L" beside "mouthSmile_L", else ARKit's own.
+/// The name of an ARKit channel in the spelling of `names`: "EyeBlinkLeft" with "JawOpen",
+/// "eyeBlink_L" with "mouthSmile_L", else ARKit's own.
 std::string arkit_spelling(int channel, std::span<const std::string> names);
 
 }  // namespace animeme::dam

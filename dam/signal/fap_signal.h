@@ -1,5 +1,5 @@
 /// @file
-/// Between control signals and FAP clips.
+/// Conversion between control signals and FAP clips.
 #pragma once
 
 #include <string>
@@ -17,18 +17,18 @@ std::string fap_channel(int fap);
 /// FAP number (1..68) of a channel called "fapN" or "fapN_anything", 0 for any other name.
 int fap_of_channel(std::string_view name);
 
-/// The FAP channels of a signal (3..68; other names are left out) as a clip, frame i numbered i. A
-/// signal without any, but with shapes of ARKit, becomes what fap::arkit_to_fap() makes of them.
-/// Values are rounded, halves away from zero, and clipped to the range that the standard's default
-/// tables can code: default_i_range * quant_step of fap/tables.h.
-/// Error: not_found if no channel is a low-level FAP, nor a shape of ARKit; invalid_argument for a
-/// value that is not finite or two channels for one FAP.
+/// The FAP channels of a signal (3..68; other names are omitted) as a clip, frame i numbered i. A
+/// signal without any, but with ARKit shapes, is converted by fap::arkit_to_fap(). Values are
+/// rounded, halves away from zero, and clipped to the range that the standard's default tables can
+/// code: default_i_range * quant_step of fap/tables.h. Error: not_found if no channel is a
+/// low-level FAP or an ARKit shape; invalid_argument for a value that is not finite or two channels
+/// for one FAP.
 Result<fap::Sequence> to_sequence(const Signal& signal);
 
-/// All low-level FAPs that some frame of the clip has, by number. A FAP that a frame lacks keeps
-/// its last value (0 before the first); numbers left out repeat the frame before and are marked as
-/// not measured. Frames before the first number are filled likewise.
-/// Error: out_of_range if the numbers span more than 10 million frames or go below 0.
+/// All low-level FAPs of the clip, by number. A FAP absent from a frame keeps its last value (0
+/// before the first); skipped numbers repeat the previous frame and are marked as not measured.
+/// Frames before the first number are filled likewise. Error: out_of_range if the numbers span more
+/// than 10 million frames or are negative.
 Result<Signal> to_signal(const fap::Sequence& sequence);
 
 }  // namespace animeme::dam

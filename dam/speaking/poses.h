@@ -1,6 +1,6 @@
 /// @file
-/// The poses that a model shows for single sounds: what retargeting compares with those of another
-/// face (dam/signal/gain_offset.h).
+/// The poses of a model for single sounds, which retargeting compares with those of another face
+/// (dam/signal/gain_offset.h).
 #pragma once
 
 #include <span>
@@ -12,11 +12,11 @@
 
 namespace animeme::dam {
 
-/// A row of all controls for each label: "rest" (and what is_rest_pose() takes for it) is
-/// Control::rest, a phone (dam/script/phones.h, in any case) is what the model shows in the middle
-/// of it where it is said alone, for 0.3 s between pauses, with closed lips for P, B and M.
-/// Errors: invalid_argument (a label that is no phone), not_found (a phone that the model neither
-/// knows nor has a relative of).
+/// A row of all controls for each label: "rest" (and its synonyms, see is_rest_pose()) is
+/// Control::rest; a phone (dam/script/phones.h, in any case) is the pose in its middle when spoken
+/// alone, for 0.3 s between pauses, with closed lips for P, B and M. Errors: invalid_argument (a
+/// label that is not a phone), not_found (a phone that the model neither knows nor has a relative
+/// of).
 Result<Poses> poses_of(const Model& model, std::span<const std::string> labels);
 
 }  // namespace animeme::dam

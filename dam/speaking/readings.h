@@ -1,7 +1,7 @@
 /// @file
-/// Motion for speech that is not known for sure: the mean over what may have been said. A phone
-/// that only some readings have moves the face by their share, so doubt makes small motions, not
-/// wrong ones. Source: tools/speech/voice/engines.md, section 3.
+/// Motion for uncertain speech: the mean over possible readings. A phone that only some readings
+/// have moves the face by their share, so doubt causes small motions, not wrong ones. Source:
+/// tools/speech/voice/engines.md, section 3.
 #pragma once
 
 #include <cstddef>
@@ -15,21 +15,22 @@
 
 namespace animeme::dam {
 
-/// Some frames of scripts that may go on.
+/// A range of frames of scripts that may continue.
 struct ReadingFrames {
   std::size_t first = 0;  ///< number of the first frame
-  std::size_t count = 0;  ///< how many
+  std::size_t count = 0;  ///< number of frames
 };
 
 /// The mean of synthesise() over `readings`, all equally likely, with the lips closed where
-/// `agreed` has P, B or M and at the teeth where it has F or V. All scripts last equally long. The
-/// report is that of `agreed`. Errors: invalid_argument (no reading), those of synthesise().
+/// `agreed` has P, B or M and at the teeth where it has F or V. All scripts must have the same
+/// duration. The report is that of `agreed`. Errors: invalid_argument (no reading), those of
+/// synthesise().
 Result<Signal> synthesise_readings(const Model& model, std::span<const Script> readings,
                                    const Script& agreed, const SynthesisOptions& options = {},
                                    SynthesisReport* report = nullptr);
 
-/// The same for some frames while the speech goes on: what is behind the scripts is silence, and
-/// the face need not rest at either end. `options.frames` and `tail` are not used.
+/// The same for some frames while the speech continues: silence follows the scripts, and the face
+/// need not rest at either end. `options.frames` and `tail` are not used.
 Result<Signal> synthesise_readings(const Model& model, std::span<const Script> readings,
                                    const Script& agreed, const SynthesisOptions& options,
                                    const ReadingFrames& frames);

@@ -1,6 +1,6 @@
 /// @file
-/// Speaking while the script is still being made: phones go in one by one, frames come out as soon
-/// as no later phone can change them.
+/// Streaming synthesis, while the script is still being made: phones go in one by one, frames come
+/// out as soon as no later phone can change them.
 ///
 ///     SpeechStream stream(model, {});
 ///     for (const Phone& phone : phones_as_they_come) {
@@ -9,11 +9,10 @@
 ///     }
 ///     auto rest = stream.finish();
 ///
-/// With the look-ahead that the model asks for (exact_look_ahead()) the frames are those of
-/// synthesise(), bit by bit, for the methods whose phones reach a bounded time (dam,
-/// cohen-massaro). With less, what is not known yet counts as silence; when it becomes known, the
-/// motion is led over to the better one, without a jump, within `cross_fade` seconds.
-/// Source: dam/lipsync.md, section 6.
+/// With the look-ahead of exact_look_ahead() the frames are those of synthesise(), bit for bit, for
+/// the methods whose phones have a bounded reach (dam, cohen-massaro). With less, the unknown
+/// future counts as silence; when it becomes known, the motion blends to the better one, without a
+/// jump, within `cross_fade` seconds. Source: dam/lipsync.md, section 6.
 #pragma once
 
 #include <cstddef>
@@ -32,31 +31,32 @@ namespace animeme::dam {
 struct StreamOptions {
   /// `frames` is not used; `tail` and the rest at the end come with finish().
   SynthesisOptions synthesis;
-  /// Seconds of script that have to be known beyond a frame, 0..60; none: exact_look_ahead().
+  /// Seconds of script that must be known beyond a frame, 0..60; nullopt: exact_look_ahead().
   std::optional<double> look_ahead;
   double cross_fade = 0.08;  ///< seconds, 0..1
 };
 
-/// Seconds of script beyond a frame that can still change it: as far as the widest phone of the
-/// model reaches, and what closures and their search need (for sounds up to 0.15 s). Besides, the
-/// two phones behind have to be known.
+/// Seconds of script beyond a frame that can still change it: the reach of the widest phone of the
+/// model, plus what closures and their search need (for sounds up to 0.15 s). In addition, the next
+/// two phones must be known.
 double exact_look_ahead(const Model& model);
 
-/// Memory and the cost of a frame do not grow with the length of the stream.
+/// A streaming synthesiser. Memory and the cost of a frame do not grow with the length of the
+/// stream.
 class SpeechStream {
  public:
   /// `model` must pass validate() and outlive the stream.
   SpeechStream(const Model& model, const StreamOptions& options);
 
   /// The next phone. Gaps are silence. Errors: invalid_argument (options out of range; a phone that
-  /// begins before the last one ends, lasts no time, or has an unknown label; after finish()).
+  /// begins before the last one ends, has no duration or an unknown label; after finish()).
   Result<void> push(const Phone& phone);
 
   /// The frames that became final since the last call, in order; often none. Signal::first_frame is
   /// the number of the first. Errors: those of synthesise().
   Result<Signal> pull();
 
-  /// Ends the script: all frames that are left, `tail` included.
+  /// Ends the script: returns all remaining frames, including `tail`.
   Result<Signal> finish();
 
  private:
@@ -70,7 +70,7 @@ class SpeechStream {
   double reach_;
   std::vector<Phone> phones_;  ///< recent ones
   std::size_t next_ = 0;       ///< number of the next frame
-  std::vector<double> last_;   ///< the frame before it, as it was given out
+  std::vector<double> last_;   ///< the previous frame, as it was returned
   bool finished_ = false;
 };
 

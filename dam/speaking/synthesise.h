@@ -1,5 +1,5 @@
 /// @file
-/// From a phoneme script to a control signal: section VI of the paper.
+/// Synthesis, from a phoneme script to a control signal: section VI of the paper.
 #pragma once
 
 #include <cstddef>
@@ -16,22 +16,21 @@ namespace animeme::dam {
 
 /// All settings of synthesise().
 struct SynthesisOptions {
-  fap::Rate rate = {25, 1};  ///< of the signal to make; at most 1000 frames a second
+  fap::Rate rate = {25, 1};  ///< of the output signal; at most 1000 frames per second
   std::size_t frames = 0;    ///< 0: as many as cover the script (and `tail`)
   double tail = 0;           ///< seconds added after the script: 0..60
   bool closure = true;       ///< P, B and M close the lips, F and V reach the teeth and lips never
                              ///< overlap (closure.h), if the FAPs are there
-  /// Intensity: how much of the deviation from rest is shown. 0 keeps the mouth at rest, 1 is as
-  /// learned, 1.5 speaks with exaggeration; P, B and M close at any. 0..kMostStyle.
+  /// Scale of the deviation from rest. 0 keeps the mouth at rest, 1 is as learned, 1.5 is
+  /// exaggerated; P, B and M close at any value. 0..kMostStyle.
   double style = 1;
-  /// Method dam: how far motion is made as quick as people's, where a mean of many sentences is
-  /// slower. 0: the mean as learned, with the least error; 1: quicker by a tenth;
-  /// 0..kMostSharpness.
+  /// Method dam: sharpening, which restores the speed of motion that a mean over many sentences
+  /// loses. 0: the mean as learned, with the least error; 1: quicker by a tenth; 0..kMostSharpness.
   double sharpness = 1;
-  /// How clearly vowels show, beyond what is learned, for models of FAPs: O, U, W, SH and the like
-  /// are rounder (dam/signal/rounding.h), open vowels wider, close ones and sibilants narrower
-  /// (dam/signal/mouth_opening.h). 0: as learned; 1: on heads of everybody O and U are round and A
-  /// is wider than I. 0..kMostArticulation.
+  /// Clearer vowels than learned, for models of FAPs: O, U, W, SH and the like are rounder
+  /// (dam/signal/rounding.h), open vowels wider, close ones and sibilants narrower
+  /// (dam/signal/mouth_opening.h). 0: as learned; 1: on any head O and U are round and A is wider
+  /// than I. 0..kMostArticulation.
   double articulation = 0;
   bool rest_at_ends = true;      ///< first and last frame are the resting mouth
   double context_weight = 1000;  ///< w_c of Eq. 10, >= 0
@@ -45,31 +44,31 @@ inline constexpr double kMostArticulation = 2;  ///< largest SynthesisOptions::a
 /// Code::invalid_argument with the name and the range of the first bad option.
 Result<void> validate(const SynthesisOptions& options);
 
-/// What was done with phones that the model does not know, and which modes were chosen.
+/// Replacements of unknown phones, and chosen modes.
 struct SynthesisReport {
   /// "OY" -> "AO IY": every kind of replacement once, in order of appearance.
   std::vector<std::pair<std::string, std::string>> replaced;
-  std::size_t replaced_phones = 0;     ///< how many phones of the script that were
+  std::size_t replaced_phones = 0;     ///< number of replaced phones of the script
   std::size_t phones = 0;              ///< occurrences spoken, pauses included
-  std::size_t closures = 0;            ///< P, B, M that the constraint had to close
-  std::size_t lip_tooth_contacts = 0;  ///< F, V that it had to bring to the teeth
+  std::size_t closures = 0;            ///< P, B, M that had to be closed
+  std::size_t lip_tooth_contacts = 0;  ///< F, V that had to be moved to the teeth
   std::vector<std::size_t> modes;  ///< dam-paper: chosen mode of every occurrence, pauses included
 };
 
 /// Makes the signal of all controls of the model for a script. The model must pass validate(), as
-/// those of train() and read_model() do. Deterministic. A frame costs as much as there are phones
-/// near it, whatever the length of the script.
+/// those of train() and read_model() do. Deterministic. The cost of a frame depends on the number
+/// of phones near it, not on the length of the script.
 ///
-/// Sounds longer than `PhoneModel::longest` (singing) hold their middle. Long pauses come to rest
-/// `Model::pause_edge` seconds from the speech, and so do, with rest_at_ends, the first and the
-/// last frame. A script of silence alone gives the resting mouth. Phones that the model does not
-/// know are replaced by their relatives (dam/script/phones.h). Errors: invalid_argument (options, a
-/// script that check_script() refuses), out_of_range (more than 10 million frames), not_found (a
-/// phone that has no relative in the model; the sentence names it and its time).
+/// Sounds longer than `PhoneModel::longest` (singing) hold their middle. In long pauses the mouth
+/// rests `Model::pause_edge` seconds from the speech, and with rest_at_ends in the first and the
+/// last frame. A script of silence gives the resting mouth. Unknown phones are replaced by their
+/// relatives (dam/script/phones.h). Errors: invalid_argument (options, a script that check_script()
+/// refuses), out_of_range (more than 10 million frames), not_found (a phone that has no relative in
+/// the model; the message names it and its time).
 Result<Signal> synthesise(const Model& model, const Script& script,
                           const SynthesisOptions& options = {}, SynthesisReport* report = nullptr);
 
-/// The script with all unknown phones replaced, as synthesise() does it.
+/// The script with all unknown phones replaced, as in synthesise().
 Result<Script> replace_unknown_phones(const Model& model, const Script& script,
                                       SynthesisReport* report = nullptr);
 

@@ -1,20 +1,19 @@
 /// @file
-/// A model for a character of whom there is little: a model of somebody else, bent to the own
-/// sentences.
+/// Training with little data: adapts the model of another speaker to a few sentences of a
+/// character.
 ///
 ///     auto model = adapt(*builtin_model(), sentences, options, &report);
 ///
-/// Half a minute of a stranger does not tell how all phones of a language look beside each other;
-/// another speaker's model does, but with other lips. So the base is told in the controls of the
-/// own recordings, and what it leaves over is learned like everything else, held by the ridges:
+/// Half a minute of speech does not show all phones in all contexts; another speaker's model does,
+/// but with other lips. So the output of the base model is mapped to the controls of the new
+/// recordings, and the residual is learned like everything else, regularised by the ridges:
 ///
 ///     C_own(t) = offset + sum over controls b of the base: gain_b C_b(t)      least squares
-///              + curves on the base's dominance                             train_from_sums() of
-///              the rest
+///              + curves on the base's dominance              train_from_sums() of the residual
 ///
 /// Both parts are sums of curves under the same dominance, so the result is one model of method
-/// dam, as fast as any. It knows the phones of the base; others are spoken, and trained, by their
-/// relatives.
+/// dam, as fast as any. It knows the phones of the base; others are replaced by their relatives, in
+/// synthesis and in training.
 #pragma once
 
 #include <span>
@@ -28,38 +27,38 @@
 
 namespace animeme::dam {
 
-/// How a control was made of the base.
+/// How a control was derived from the base.
 struct AdaptedControl {
-  std::string name;  ///< of the own recordings
+  std::string name;  ///< of the new recordings
   bool same_name =
       false;        ///< the base has it: one gain; else it is a mixture of all controls of the base
   double gain = 0;  ///< of the control of that name
   double base =
-      0;  ///< share of the variance that the base explains, with gains and offsets, at most 1
+      0;  ///< share of the variance explained by the base with gains and offsets, at most 1
 };
 
-/// What adapt() found.
+/// Result of adapt().
 struct AdaptReport {
   std::vector<AdaptedControl> controls;  ///< in the order of the recordings
-  std::size_t sentences = 0;             ///< own ones
+  std::size_t sentences = 0;             ///< of the new speaker
   double seconds = 0;                    ///< of speech in them
-  /// Factor of the ridges on the curves of one's own; 0: there are none, the base with gains did
-  /// best.
+  /// Factor of the ridges of the residual curves; 0: there are none, the base with gains was best.
   double ridge = 0;
-  /// Error on own sentences that were held out, as a share of their variance, 0 with one sentence:
+  /// Error on held-out sentences of the new speaker, as a share of their variance, 0 with one
+  /// sentence:
   double base_error = 0;              ///< of the base with gains alone
-  double error = 0;                   ///< with the curves that were chosen
-  double own_error = 0;               ///< of models trained on the own sentences alone
+  double error = 0;                   ///< with the chosen curves
+  double own_error = 0;               ///< of models trained on the new sentences alone
   Alignment alignment;                ///< of scripts and motion, by check_alignment()
-  std::vector<Glitch> glitches;       ///< what was taken out, by mend_glitches()
-  std::vector<std::string> warnings;  ///< what of the two wants attention, in sentences
+  std::vector<Glitch> glitches;       ///< removed by mend_glitches()
+  std::vector<std::string> warnings;  ///< sentences about both that need attention
 };
 
 /// `base` must be of method dam. Controls are those of the sentences. The ridge is chosen by
-/// sentences that are left out in turn, unless options.refined.ridge says it; other options that
-/// count: attribution, provenance, threads. The base's attribution stays, in front of the own.
-/// Deterministic. Errors: invalid_argument (a base of another method, no sentence, different
-/// controls, NaN), and those of synthesise() and train_from_sums().
+/// cross-validation, unless options.refined.ridge is set; other options that are used: attribution,
+/// provenance, threads. The base's attribution is kept, in front of the new one. Deterministic.
+/// Errors: invalid_argument (a base of another method, no sentence, different controls, NaN), and
+/// those of synthesise() and train_from_sums().
 Result<Model> adapt(const Model& base, std::span<const Utterance> sentences,
                     const TrainOptions& options = {}, AdaptReport* report = nullptr,
                     const ProgressFunction& progress = {});

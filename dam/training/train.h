@@ -1,6 +1,6 @@
 /// @file
-/// Learning a model from recorded sentences. Source: the paper, section V; dam/lipsync.md, sections
-/// 1 to 7.
+/// Training of a model from recorded sentences. Source: the paper, section V; dam/lipsync.md,
+/// sections 1 to 7.
 #pragma once
 
 #include <span>
@@ -12,11 +12,10 @@
 
 namespace animeme::dam {
 
-/// Trains on all given sentences. They must have the same controls and rate.
-/// The result is the same bit by bit for any number of threads and any order of the sentences.
-/// Memory: about 30 MB + 8 bytes * (modes * (order + 1))^2 * 8; mmm and triphone: about 1 kB a
-/// second of speech and control.
-/// Errors: invalid_argument (options, no sentence, no speech, cancelled, NaN in a signal,
+/// Trains on all given sentences. They must have the same controls and rate. The result is
+/// bit-identical for any number of threads and any order of the sentences. Memory: about 30 MB + 8
+/// bytes * (modes * (order + 1))^2 * 8; mmm and triphone: about 1 kB per second of speech and
+/// control. Errors: invalid_argument (options, no sentence, no speech, cancelled, NaN in a signal,
 /// different controls).
 Result<Model> train(std::span<const Utterance> utterances, const TrainOptions& options = {},
                     TrainSummary* summary = nullptr, const ProgressFunction& progress = {});
