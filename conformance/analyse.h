@@ -1,5 +1,5 @@
 /// @file
-/// What a stream exercises, told by decoding it and by writing it again.
+/// The features that a stream exercises, found by decoding and re-encoding it.
 #pragma once
 
 #include <cstdint>

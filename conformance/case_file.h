@@ -22,20 +22,20 @@ struct CaseFile {
 
 /// One case. The README of this folder describes the file.
 struct Case {
-  std::string name;                     ///< name of its folder
-  std::string title;                    ///< one line for people
-  std::string note;                     ///< what to watch out for; may be empty
-  std::string origin;                   ///< where the stream comes from
-  std::string object;                   ///< face, body or both
-  bool damaged = false;                 ///< expected: "error"; else "decode"
-  std::vector<std::string> errors;      ///< kinds of error that are right, if damaged
-  std::string certainty;                ///< mark of the description: C, S, M, T or ?
-  std::vector<std::string> features,    ///< ids of features.h
-      sections;                         ///< of codec/bitstream.md
-  std::string rate;                     ///< frames a second as in fap/rate_text.h; empty: no plane
-  int planes = 0,                       ///< all of them
-      intra_planes = 0;                 ///< of them
-  int largest_alphabet = 0;             ///< see StreamFacts
+  std::string name;                   ///< name of its folder
+  std::string title;                  ///< one line for people
+  std::string note;                   ///< what to watch out for; may be empty
+  std::string origin;                 ///< where the stream comes from
+  std::string object;                 ///< face, body or both
+  bool damaged = false;               ///< expected: "error"; else "decode"
+  std::vector<std::string> errors;    ///< kinds of error that are right, if damaged
+  std::string certainty;              ///< mark of the description: C, S, M, T or ?
+  std::vector<std::string> features,  ///< ids of features.h
+      sections;                       ///< of codec/bitstream.md
+  std::string rate;                   ///< frames per second as in fap/rate_text.h; empty: no plane
+  int planes = 0,                     ///< all of them
+      intra_planes = 0;               ///< of them
+  int largest_alphabet = 0;           ///< see StreamFacts
   std::int64_t largest_plane_bits = 0;  ///< see StreamFacts
   /// Switches for writing the stream again from `parameters`: none, intra or all.
   std::string plane_start_codes = "none";

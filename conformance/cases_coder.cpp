@@ -1,4 +1,4 @@
-// Generated cases: traps of the arithmetic coder.
+// Generated cases: corner cases of the arithmetic coder.
 #include <algorithm>
 #include <functional>
 

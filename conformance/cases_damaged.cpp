@@ -1,4 +1,4 @@
-// Generated cases: streams that break a rule. What a decoder can still give is said for each.
+// Generated cases: streams that break a rule, each with the output that a decoder can still give.
 #include "conformance/case_builder.h"
 
 namespace animeme::conformance {

@@ -23,7 +23,7 @@ Result<void> check_face(const MadeCase& made, const fba::DecodedStream& got) {
   const auto found = made.content.find("face");
   if (found == made.content.end()) {
     if (clip.frames.empty()) return {};
-    return wrong("the decoder gives faces, none were expected");
+    return wrong("the decoder returns faces; none were expected");
   }
   Result<fap::Sequence> expected = fap::read_text(found->second, {.keep_numbers = true});
   if (!expected) return expected.error();
@@ -44,7 +44,7 @@ Result<void> check_body(const MadeCase& made, const fba::DecodedStream& got) {
   const auto found = made.content.find("body");
   if (found == made.content.end()) {
     if (bodies.frames.empty()) return {};
-    return wrong("the decoder gives bodies, none were expected");
+    return wrong("the decoder returns bodies; none were expected");
   }
   Result<fba::BodySequence> expected = fba::read_bap_text(found->second);
   if (!expected) return expected.error();
@@ -57,7 +57,7 @@ Result<void> check_errors(const Case& info, const std::vector<Error>& errors) {
     if (errors.empty()) return {};
     return wrong("the decoder says: " + errors.front().describe());
   }
-  if (errors.empty()) return wrong("the decoder finds no error");
+  if (errors.empty()) return wrong("the decoder reports no error");
   for (const Error& error : errors) {
     const std::string kind = kind_of_error(error.code);
     if (std::find(info.errors.begin(), info.errors.end(), kind) == info.errors.end()) {
@@ -78,7 +78,7 @@ Result<void> check_encoder(const MadeCase& made) {
   if (!again) return again.error();
   const auto stream = bytes_of(made.content.at("stream"));
   if (std::equal(again->begin(), again->end(), stream.begin(), stream.end())) return {};
-  return wrong("the encoder gives other bytes from the parameters");
+  return wrong("the encoder writes other bytes from the parameters");
 }
 
 void describe_stream(const std::string& stream, const fba::DecodedStream& decoded, Case& info,
@@ -107,7 +107,7 @@ Result<void> describe(MadeCase& made) {
   if (!trial.stream.planes.empty()) {
     const std::string rate = fap::format_rate(trial.stream.rate);
     if (!info.rate.empty() && info.rate != rate) {
-      return wrong("the decoder says " + rate + " frames a second, expected are " + info.rate);
+      return wrong("the decoder says " + rate + " frames per second, expected are " + info.rate);
     }
     info.rate = rate;
   }
@@ -121,7 +121,7 @@ Result<void> describe(MadeCase& made) {
     }
     if (facts.ambiguous_bit >= 0) {
       return wrong("the plane at bit " + std::to_string(facts.ambiguous_bit) +
-                   " can be taken for the end of the object");
+                   " can be mistaken for the end of the object");
     }
     set_switches(bytes_of(found->second), trial.stream, info);
     if (auto ok = check_encoder(made); !ok) return ok;

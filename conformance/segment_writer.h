@@ -40,7 +40,7 @@ struct Frequencies {
   void update(std::size_t symbol);  ///< counts a symbol, see codec/bitstream.md, section 4
 };
 
-/// What happened while a stream was written: traps that a decoder may fall into.
+/// Events while a stream was written that can mislead a decoder.
 struct CoderTrace {
   int stuffed = 0;                       ///< 1s put after 22 zeros
   int symbols = 0;                       ///< coded with at least two to choose from

@@ -48,7 +48,7 @@ enum class Damage : std::uint8_t {
 struct PlaneSpec {
   bool intra = false;                                   ///< is_intra
   fba::ObjectMask object_mask = fba::ObjectMask::face;  ///< fba_object_mask
-  StartCode start_code = StartCode::none;               ///< what stands in front
+  StartCode start_code = StartCode::none;               ///< start code before the plane
   fba::TemporalHeader temporal;                         ///< rate, time code, skipped frames
   fba::FaceSettings face;                               ///< intra planes with a face
   fba::BodySettings body;                               ///< intra planes with a body

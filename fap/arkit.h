@@ -86,7 +86,7 @@ struct ArkitFitOptions {
   /// in speech (mouthFrown, cheekPuff). 1: a shape has to improve the fit by 0.2 mm, one of the
   /// latter by 1.6 mm, unless ARKit's shapes can make the face (within 3 %), which is then
   /// reproduced exactly.
-  double thrift = 1;
+  double sparsity = 1;
 };
 
 /// FAPs to ARKit weights, frame by frame. Movable, not copyable. About 0.1 ms per frame.

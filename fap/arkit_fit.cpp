@@ -1,4 +1,4 @@
-// FAPs to ARKit: a least squares fit with bounds, and what is found without one.
+// FAPs to ARKit: a bounded least squares fit, and closed-form channels.
 #include <algorithm>
 #include <array>
 #include <iterator>
@@ -102,14 +102,14 @@ internal::BoundedFit fit_of(const ArkitFitOptions& options) {
   internal::BoundedFit fit(weights, options.ridge, options.steadiness,
                            std::numeric_limits<double>::infinity(), 0, lips_of(weights));
   fit.set_thrift(internal::thrift_of(std::vector<std::optional<int>>(shapes.begin(), shapes.end()),
-                                     options.thrift));
+                                     options.sparsity));
   return fit;
 }
 
 }  // namespace
 
 ArkitFitter::ArkitFitter(const ArkitFitOptions& options)
-    : impl_(new Impl{fitted_shapes(), fit_of(options), options.thrift > 0}) {}
+    : impl_(new Impl{fitted_shapes(), fit_of(options), options.sparsity > 0}) {}
 ArkitFitter::ArkitFitter(ArkitFitter&&) noexcept = default;
 ArkitFitter& ArkitFitter::operator=(ArkitFitter&&) noexcept = default;
 ArkitFitter::~ArkitFitter() = default;

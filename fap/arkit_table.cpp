@@ -1,4 +1,4 @@
-// What each ARKit shape does to FAPs, at weight 1.
+// The effect of each ARKit shape on FAPs, at weight 1.
 //
 // Measured on ICT-FaceKit (light; University of Southern California, MIT licence): displacement of
 // the FAP's feature point along its axis, divided by the FAPU of that head; entries below 10 units
@@ -8,7 +8,7 @@
 //
 // Not as measured:
 // - The model's PupilDilate and cheekRaiser are not shapes of ARKit and are left out (the rows of
-//   the former give eyeball angles of 2.1 rad, which is the pupil's rim taken for a gaze).
+//   the former give eyeball angles of 2.1 rad, which is the pupil's rim mistaken for a gaze).
 // - eyeBlink was 849 + 25 units; the lids of a closed eye have come 1024 units closer (IRISD), so
 //   both are scaled by 1024 / 874.
 // - mouthShrugUpper differs between the sides by up to 11 units, noise of the mesh: averaged.

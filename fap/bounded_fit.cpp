@@ -12,16 +12,16 @@ namespace {
 
 constexpr int kMostSweeps = 5000;
 constexpr int kPriceSteps = 30;
-constexpr double kStill = 1e-6;      // a weight that changes less has arrived
+constexpr double kStill = 1e-6;      // a weight that changes less has converged
 constexpr double kAngleUnit = 1e-5;  // rad
-constexpr double kLidsCount = 3;     // the opening of the eye is short and everybody looks at it
-// How wide a mouth is tells O and U from A and E, and height has twelve FAPs where width has four:
-// on foreign heads U is 25 % narrower than I with it, 21 % at 1, where its FAPs say 28 %.
+constexpr double kLidsCount = 3;     // the opening of the eye is small but conspicuous
+// The width of a mouth distinguishes O and U from A and E, but height has twelve FAPs and width
+// four: on heads from files U is 25 % narrower than I with it, 21 % at 1; its FAPs say 28 %.
 constexpr double kWidthCounts = 1.5;
 
 static_assert(kLipPairs <= std::size_t(kFirstLowLevel));
-constexpr double kOpen = 100;         // so far apart, FAP units of MNS, lips need not meet
-constexpr double kMeetingCounts = 5;  // measured lips against what FAPs say of them
+constexpr double kOpen = 100;         // FAP units of MNS: lips at this distance need not meet
+constexpr double kMeetingCounts = 5;  // weight of measured lip distances against FAPs
 constexpr int kMeetingRounds = 8;
 
 double product(const FapValues& a, const FapValues& b) {
@@ -109,8 +109,8 @@ void BoundedFit::set_mask(const Mask& wanted) {
   }
 }
 
-// Lengths that count, 0 for FAPs that the mask does not have; the lips' distances stand in front of
-// the low-level FAPs.
+// Weighted lengths, 0 for FAPs that the mask does not have; the lip distances precede the low-level
+// FAPs.
 FapValues BoundedFit::weighed(const FapValues& values) const {
   FapValues out{};
   for (std::size_t fap = kFirstLowLevel; fap <= kFapCount; ++fap) {

@@ -1,4 +1,4 @@
-// What a recording of landmarks has to be before it is measured.
+// Validates a recording of landmarks.
 #include <algorithm>
 #include <cmath>
 
@@ -18,7 +18,7 @@ Result<void> check_points(const std::vector<std::string>& points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!is_point(points[i])) {
       return make_error(Code::invalid_argument,
-                        "'" + points[i] + "' is no feature point; 2.1 to 11.6 are");
+                        "'" + points[i] + "' is not a feature point (2.1 to 11.6)");
     }
     if (std::find(points.begin(), points.begin() + std::ptrdiff_t(i), points[i]) !=
         points.begin() + std::ptrdiff_t(i)) {
@@ -49,7 +49,7 @@ Result<void> check_rest(const RestingFace& rest, const LandmarkTrack& track) {
 Result<void> check_landmarks(const LandmarkTrack& track, const LandmarkOptions& options) {
   if (auto ok = check_points(track.points); !ok) return ok;
   if (track.frames.empty()) {
-    return make_error(Code::invalid_argument, "a recording without frames has no face");
+    return make_error(Code::invalid_argument, "the recording has no frames");
   }
   if (!track.rate.valid()) return make_error(Code::invalid_argument, "the frame rate is not valid");
   if (!(options.smooth >= 0 && options.smooth <= 1)) {
@@ -70,7 +70,7 @@ Result<void> check_landmarks(const LandmarkTrack& track, const LandmarkOptions& 
   for (const std::size_t frame : options.neutral) {
     if (frame >= track.frames.size()) {
       return make_error(Code::invalid_argument, "the neutral frame " + std::to_string(frame) +
-                                                    " is not there; the recording has " +
+                                                    " does not exist; the recording has " +
                                                     std::to_string(track.frames.size()));
     }
   }

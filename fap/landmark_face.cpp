@@ -1,4 +1,4 @@
-// What a recording of landmarks shows: axes, the head, the neutral face.
+// Axes, head pose and neutral face of a recording of landmarks.
 #include <algorithm>
 #include <cmath>
 #include <limits>

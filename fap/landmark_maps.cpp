@@ -1,7 +1,7 @@
-// Which landmarks of a tracker are which feature points of MPEG-4.
+// Maps the landmarks of trackers to MPEG-4 feature points.
 //
-// iBUG 68, numbers from 0, those of the right half of the face (left in the picture) first. Where a
-// landmark is by its definition what the feature point is by its name, it is taken as it is: chin
+// iBUG 68, numbers from 0, those of the right half of the face (left in the picture) first. If a
+// landmark has the same definition as the feature point, it is used directly: chin
 // (8), ends and tops of the brows (17 to 26), tip, base and wings of the nose (30, 31, 33, 35),
 // corners of the eyes (36, 39, 42, 45), middles and corners of the lips (48, 51, 54, 57, 60, 62,
 // 64, 66), cupid's bow (50, 52) and the inner lip halfway (61, 63, 65, 67). These are the landmarks

@@ -1,4 +1,4 @@
-// Which frames of a recording show the neutral face. The rule stands in landmarks.h.
+// Finds the frames of a recording that show the neutral face. landmarks.h describes the rule.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Jitter of trackers: a bell over time that looks both ways.
+// Removes jitter of trackers: Gaussian smoothing over time.
 #include <cmath>
 
 #include "fap/detail/landmark_values.h"

@@ -25,7 +25,7 @@ using internal::ValueFrame;
 constexpr int kFirstOfEyes = 23, kLastOfEyes = 30;
 constexpr int kPitch = 48, kYaw = 49, kRoll = 50;
 
-// What points alone tell: FAPs that shift a point.
+// FAPs that follow from points alone: those that shift a point.
 std::vector<PointFap> point_faps(const LandmarkTrack& track) {
   std::vector<PointFap> faps;
   for (const FapInfo& fap : kFaps) {
@@ -182,7 +182,7 @@ FeaturePoints named(const std::vector<std::string>& ids, const std::vector<Point
 struct Neutral {
   NeutralFace shape;
   Fapu fapu;
-  std::vector<std::size_t> frames;  // none: told by LandmarkOptions::rest
+  std::vector<std::size_t> frames;  // none: LandmarkOptions::rest is used
 };
 
 Result<Neutral> neutral_of(const LandmarkTrack& track, const TrackedFace& tracked,
@@ -205,8 +205,8 @@ Result<Neutral> neutral_of(const LandmarkTrack& track, const TrackedFace& tracke
   if (neutral.frames.empty()) neutral.frames = find_neutral_frames(tracked);
   if (neutral.frames.empty()) {
     return make_error(Code::not_found,
-                      "no frame shows open eyes and closed lips (3.1, 3.3, 2.2, 2.3, 8.3, 8.4 and "
-                      "the corners of the eyes tell); say which one is neutral");
+                      "no frame has open eyes and closed lips (by 3.1, 3.3, 2.2, 2.3, 8.3, 8.4 and "
+                      "the corners of the eyes); specify a neutral frame");
   }
   Result<NeutralFace> shape = measure_neutral(tracked, neutral.frames);
   if (!shape) return std::move(shape).error();

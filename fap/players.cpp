@@ -114,7 +114,7 @@ class PlayerCheck {
     }
     if (words_.size() != 4 || !words_[0].starts_with("2.")) {
       tell(Trouble::header, at_,
-           "this is no header '2.1 name rate frames' of four words, without which Greta refuses "
+           "this is not a header '2.1 name rate frames' of four words, without which Greta refuses "
            "the text and Xface crashes");
       return false;
     }
@@ -122,7 +122,7 @@ class PlayerCheck {
     if (!rate || *rate < 1) {
       tell(Trouble::rate, at_,
            "the rate " + detail::in_quotes(words_[2]) +
-               " is not whole: Greta refuses it, Xface cuts it");
+               " is not whole: Greta refuses it, Xface truncates it");
     }
     if (words_[1].size() > kRoomForName) {
       tell(Trouble::name, at_, "the name is longer than 254 bytes, for which Xface has no room");
@@ -161,11 +161,11 @@ class PlayerCheck {
       }
     }
     if (lonely.any()) {
-      tell(Trouble::side, at_, "the other side is there but not " + names_of(lonely));
+      tell(Trouble::side, at_, "the other side is present but not " + names_of(lonely));
     }
     if (const Mask gone = ever_ & ~mask; gone.any()) {
       tell(Trouble::missing, at_,
-           names_of(gone) + " was there before and is missing: Xface shows 0");
+           names_of(gone) + " was present before and is missing: Xface shows 0");
     }
     ever_ |= mask;
     Mask low = mask;
@@ -174,11 +174,11 @@ class PlayerCheck {
     if (low == mask) return;
     if (low.any()) {
       tell(Trouble::beside, at_,
-           "FAP 1 or 2 beside low-level FAPs: Greta drops the one, Xface the others");
+           "FAP 1 or 2 with low-level FAPs: Greta drops the former, Xface the latter");
     } else if (!options_.high_level) {
       tell(Trouble::high_level, at_,
-           "FAP 1 and 2 are unknown to Greta; animeme decode --expand makes low-level FAPs of "
-           "them");
+           "Greta ignores FAP 1 and 2; animeme decode --expand converts them to low-level "
+           "FAPs");
     }
   }
 
@@ -193,7 +193,7 @@ class PlayerCheck {
     for (const std::string_view word : words_) {
       if (whole_number(word)) continue;
       tell(Trouble::values, at_,
-           detail::in_quotes(word) + " is no whole number: Greta misreads it");
+           detail::in_quotes(word) + " is not a whole number: Greta misreads it");
       break;
     }
     const std::optional<std::int64_t> number = whole_number(words_.front());

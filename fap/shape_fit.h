@@ -39,7 +39,7 @@ class ShapeFitter {
   /// the use of a shape, relative to its effect on the face, 0..1; it keeps shapes from cancelling
   /// each other. `arkit`: the channel (find_arkit()) of each ARKit shape, kWholeFace for moods,
   /// nullopt for others; if given, few shapes are used, and none against each other (see
-  /// ArkitFitOptions::thrift).
+  /// ArkitFitOptions::sparsity).
   explicit ShapeFitter(std::span<const Frame> shapes, const LipMeasures& lips = {},
                        double ridge = 0.001, std::span<const std::optional<int>> arkit = {});
   ShapeFitter(ShapeFitter&&) noexcept;  ///< movable

@@ -34,8 +34,7 @@ std::string with_point(std::string_view token) {
   return text;
 }
 
-// "29,97", "1e9", "-25", and "nan" and "inf" where a name stands in front: somebody's rate, but
-// none.
+// "29,97", "1e9", "-25", and "nan" and "inf" after a name: meant as a rate, but invalid.
 bool is_wrong_rate(std::string_view token, bool named) {
   if (looks_like_rate(token) || parse_rate(token)) return false;
   const std::string text = with_point(token);

@@ -61,7 +61,7 @@ bool ParameterReader::continue_mask(int flags, std::int64_t line) {
   if (flags + scan_.count_rest(kLookAhead) > dialect_.flags + 1) {
     return fail(Code::syntax, message, line, column);
   }
-  notes_.add(Quirk::wrapped_mask, line, [] { return "a mask goes on in the next line"; });
+  notes_.add(Quirk::wrapped_mask, line, [] { return "a mask continues on the next line"; });
   return true;
 }
 
@@ -74,14 +74,14 @@ bool ParameterReader::find_values(const Needs& needs) {
     if (extra != "0" && extra != "1") {
       return fail_at_token(Code::syntax, "a mask has " + std::to_string(dialect_.flags) +
                                              " values, but " + in_quotes(extra) +
-                                             " follows in the same line");
+                                             " follows on the same line");
     }
     notes_.add(Quirk::extra_flag, line, [&] {
       return "a mask has " + std::to_string(dialect_.flags + 1) +
              " values, the last one is ignored";
     });
   } else if (rest > 0) {
-    notes_.add(Quirk::one_line, line, [] { return "the values follow in the line of the mask"; });
+    notes_.add(Quirk::one_line, line, [] { return "the values are on the line of the mask"; });
   }
   if (scan_.to_content()) return check_values(needs);
   return fail(Code::truncated,
@@ -107,14 +107,14 @@ bool ParameterReader::check_values(const Needs& needs) {
   if (tokens > needs.full) {
     for (int i = 0; i <= needs.full; ++i) scan_.token();
     return fail_at_token(Code::syntax, "the line has " + plural(tokens - 1, "value") +
-                                           " behind the frame number, the mask asks for " +
+                                           " after the frame number, the mask requires " +
                                            std::to_string(needs.full - 1));
   }
   if (tokens == needs.single) {
     const int next = tokens_of_next_line();
     if (next == 0 || next >= dialect_.flags) {
       notes_.add(Quirk::single_high_level, line, [] {
-        return "FAP 1 or 2 has a single value instead of 4 or 6, it is taken as the selection";
+        return "FAP 1 or 2 has a single value instead of 4 or 6, which is used as the selection";
       });
       return single_ = true;
     }
@@ -128,8 +128,8 @@ bool ParameterReader::check_wrapped_values(const Needs& needs, int tokens) {
   const auto refuse = [&](Code code, const TextScanner& line_end, std::string_view more) {
     return fail(code,
                 "the line has " + plural(tokens - 1, "value") +
-                    " behind the frame number, the mask asks for " +
-                    std::to_string(needs.full - 1) + std::string(more),
+                    " after the frame number, the mask requires " + std::to_string(needs.full - 1) +
+                    std::string(more),
                 line, line_end.column());
   };
   TextScanner ahead = scan_;
@@ -146,7 +146,7 @@ bool ParameterReader::check_wrapped_values(const Needs& needs, int tokens) {
     }
   }
   notes_.add(Quirk::wrapped_values, line,
-             [] { return "the values of a frame go on in the next line"; });
+             [] { return "the values of a frame continue on the next line"; });
   return true;
 }
 

@@ -23,7 +23,7 @@ constexpr std::uint32_t kFallbackTimescale = 90000;
 
 struct TimeBase {
   std::uint32_t timescale = kFallbackTimescale;
-  std::int64_t frame = 0;  // ticks a frame; 0: rates change, round absolute times
+  std::int64_t frame = 0;  // ticks per frame; 0: rates change, round absolute times
 };
 
 // Exact for every rate that the stream can express. Source: tools/formats/media/containers.md,

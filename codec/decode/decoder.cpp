@@ -104,7 +104,7 @@ Result<bool> Decoder::Impl::read_plane() {
   if (!after_start_code && !parsed.begun()) {
     Result<bool> moved = plane_border();
     if (!moved) return moved;
-    // A warning is told before the plane that it stands in front of.
+    // A warning is returned before the plane that follows it.
     if (*moved || !waiting.empty()) return false;
   }
   BitReader in(buffer, position);

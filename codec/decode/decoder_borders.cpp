@@ -128,7 +128,7 @@ Result<bool> Decoder::Impl::plane_border() {
       return true;
     }
     if (stuffed || position >= size_bits()) {
-      return at(Code::truncated, "the stream ends without an end code, it may have been cut off",
+      return at(Code::truncated, "the stream ends without an end code; it may be truncated",
                 size_bits());
     }
     // Fewer bits than a start code are left: an end code without stuffing, or a last plane.
@@ -152,8 +152,8 @@ Result<bool> Decoder::Impl::plane_border() {
       // An object is over behind a plane only: its first one comes whatever follows.
       if (first_plane && !is_plane_start(code)) return false;
       warn(
-          "the bits in front of a start code are taken for stuffing, as the standard says, though "
-          "they are not 0 and 1s; if the encoder meant a plane, it is lost",
+          "the bits before a start code are taken for stuffing, as the standard requires, although "
+          "they are not 0 and 1s; if they were meant as a plane, it is lost",
           position);
     }
     if (is_plane_start(code)) {

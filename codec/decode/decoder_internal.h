@@ -1,4 +1,4 @@
-// What a decoder remembers and does, shared by its sources. Not installed API.
+// State and functions of the decoder, shared by its sources. Not installed API.
 #pragma once
 
 #include <cstddef>
@@ -47,7 +47,7 @@ struct Decoder::Impl {
   std::shared_ptr<FaceSettings> face_settings;
   std::shared_ptr<BodySettings> body_settings;
   std::shared_ptr<BodyFrame> body;  // of the last plane that had one
-  std::vector<Event> waiting;       // told before anything else
+  std::vector<Event> waiting;       // returned before anything else
   StreamInfo info;                  // of the headers read so far
   bool info_told = false;
 
@@ -70,7 +70,7 @@ struct Decoder::Impl {
 
   static Error need_data() { return internal::need_more_data(); }
 
-  // From here on only an intra plane can be understood.
+  // From here on only an intra plane can be decoded.
   void lose();
 
   Error at_end(Code code, std::string message);

@@ -97,7 +97,7 @@ Result<void> apply_plane(const ParsedPlane& plane, StreamState& state, fap::Fram
   bool in_bounds = true;
   if (has_face(plane.object_mask)) in_bounds &= apply_face(plane, state, face);
   if (has_body(plane.object_mask)) in_bounds &= apply_body(plane, state, *body);
-  if (!in_bounds) return make_error(Code::out_of_range, "a decoded value leaves 32 bits");
+  if (!in_bounds) return make_error(Code::out_of_range, "a decoded value exceeds 32 bits");
   return {};
 }
 

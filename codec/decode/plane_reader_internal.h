@@ -15,10 +15,10 @@
 
 namespace animeme::fba::internal {
 
-/// No failure but every other answer of a live stream: short enough to need no memory of its own.
+/// Not a failure, and frequent in live streams: short enough to need no allocation.
 inline Error need_more_data() { return make_error(Code::need_data, "needs more data"); }
 
-/// The memory of a stream.
+/// The state of a stream.
 struct StreamState {
   SlotState face{face_slots()};
   SlotState body{body_slots()};

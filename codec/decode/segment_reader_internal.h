@@ -1,4 +1,4 @@
-// Reads the segments of the arithmetic coder in a plane, and says what is wrong with its bits. Not
+// Reads the segments of the arithmetic coder in a plane, and reports invalid bits. Not
 // installed API.
 #pragma once
 
@@ -19,9 +19,9 @@ class PlaneBits {
   BitReader& in() const { return in_; }
   bool last() const { return last_; }
 
-  /// What to say when the bits have run out: ask for more, or that there are none.
+  /// The error when the bits have run out: need_data, or truncated.
   Error out_of_bits() const;
-  /// That, if a read went past the end.
+  /// The same, if a read went past the end.
   Result<void> check_end() const {
     if (!in_.overrun()) return {};
     return out_of_bits();

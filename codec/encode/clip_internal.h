@@ -1,4 +1,4 @@
-// A clip as an encoder sees it: one row of values for each parameter. Not installed API.
+// The clip data of an encoder: one row of values for each parameter. Not installed API.
 #pragma once
 
 #include <algorithm>
@@ -49,7 +49,7 @@ void add_periods(std::span<const std::int64_t> number, std::size_t first, std::s
 
 /// Merges face and body by frame numbers and holds what a frame leaves out. `leave_out`: a face
 /// gets channels, at 0, of the low-level FAPs that it does not have, too, and what rests throughout
-/// is left out as far as that can be told before levels are chosen. Errors as encode().
+/// is left out as far as that is known before levels are chosen. Errors as encode().
 Result<ClipData> gather(const fap::Sequence& face, std::span<const BodyFrame> body, bool leave_out);
 
 /// Quantiser step of a channel at fap_quant or the body quantiser index.
@@ -57,11 +57,11 @@ inline std::int32_t step_at(const Channel& channel, int quant) {
   return step_at(channel.body, channel.step, quant);
 }
 
-/// Does it stay where it begins?
+/// Whether it stays at its first value.
 inline bool is_still(std::span<const std::int32_t> row) {
   return std::all_of(row.begin(), row.end(), [&](std::int32_t v) { return v == row.front(); });
 }
-/// Does it rest at 0?
+/// Whether it rests at 0.
 inline bool is_zero(std::span<const std::int32_t> row) { return row.front() == 0 && is_still(row); }
 
 /// What the plain quantiser makes of a row: levels of the reconstruction, that is values divided

@@ -45,10 +45,10 @@ class FaceRows {
 };
 
 // A parameter that is not coded because it stays at 0 must not be given another value by a decoder
-// that fills in: the known one copies sides whatever the mask type says, others interpolate sides
+// that interpolates: the known one copies sides whatever the mask type says, others derive sides
 // and lips in groups of type 2. Where that could happen the zeros are coded after all, which costs
 // nothing but 20 bits of ranges an intra plane. A FAP that the clip does not have is not worth that
-// but in a group that became one of type 2 for the sake of others.
+// except in a group that became type 2 because of other FAPs.
 void guard_zeros(const ClipData& clip, Decision& decision) {
   const FaceRows rows(clip, decision);
   std::bitset<fap::kGroupCount + 1> interpolated;

@@ -1,4 +1,4 @@
-// Which parameters of a clip are coded, at which quantiser, with which levels. Not installed API.
+// Decides which parameters of a clip are coded, with which quantiser and levels. Not installed API.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ enum class Role : std::uint8_t {
   left_out,  // stays at 0
 };
 
-/// What becomes of one channel.
+/// The coding decision for one channel.
 struct Row {
   Role role = Role::coded;
   bool stilled = false;              // moves in the clip and not here
@@ -36,7 +36,7 @@ struct Decision {
   int fap_quant = 1;
   int bap_quant = 1;
   std::vector<Row> rows;  // one for each channel of the clip
-  // The first plane, if it tells the ranges of all the others in finer steps than theirs
+  // The first plane, if it defines the ranges of all others in finer steps than theirs
   // (EncodeOptions::kept_ranges).
   std::optional<CoarsePlane> first;
 

@@ -28,7 +28,8 @@ Result<void> check(const EncodeOptions& options) {
   if (!ok) return ok;
   if (options.kept_ranges && options.intra_seconds > 0) {
     return internal::invalid(
-        "with kept ranges receivers can join at the begin only: an intra period has no use");
+        "with kept ranges receivers can join at the beginning only, so an intra period has no "
+        "effect");
   }
   if (options.max_rms >= 0 && options.max_bits_per_second >= 0 && options.still_below >= 0) {
     return {};

@@ -55,7 +55,7 @@ struct Encoder::Impl : Encoder::Place {
 
   Result<void> check(const PlaneInput& plane) const {
     if (unit_ended && !has_start_code(plane)) {
-      return internal::invalid("behind end_unit() a plane needs a start code, see StreamOptions");
+      return internal::invalid("after end_unit() a plane needs a start code; see StreamOptions");
     }
     if (!plane.intra && ((has_face(plane.object_mask) && !state.face.coding.valid) ||
                          (has_body(plane.object_mask) && !state.body.coding.valid))) {
@@ -162,8 +162,8 @@ struct Encoder::Impl : Encoder::Place {
 
   void stuff() {
     if (!unit_ended) {
-      // A decoder that stands in front of a plane looks past the bits up to the byte border; if a
-      // start code follows it takes them for stuffing, whatever they say. codec/bitstream.md,
+      // Before a plane, a decoder looks past the bits up to the byte boundary; if a start code
+      // follows it takes them for stuffing, whatever they are. codec/bitstream.md,
       // section 1.
       if (follows && plane_begin / 8 == out.position() / 8) lengthen_last_plane();
       out.stuff();
@@ -299,7 +299,7 @@ std::optional<std::string> Encoder::trap() const {
   const auto traps = impl_->traps();
   if (traps.empty()) return std::nullopt;
   constexpr const char* kSentences[] = {"the bits of a plane look like a start code at bit ",
-                                        "22 zeros reach past a segment at bit ",
+                                        "22 zeros extend past a segment at bit ",
                                         "a start code turns a plane into stuffing at bit "};
   return kSentences[std::size_t(traps.front().kind)] +
          std::to_string(impl_->taken_bits + std::int64_t(traps.front().bit));

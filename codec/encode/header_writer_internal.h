@@ -1,5 +1,5 @@
-// Writing what a plane says before its segments. Not installed API. Source: codec/bitstream.md,
-// sections 2, 3 and 7.
+// Writes the headers of a plane, before its segments. Not installed API. Source:
+// codec/bitstream.md, sections 2, 3 and 7.
 #pragma once
 
 #include "codec/syntax/bits.h"

@@ -13,7 +13,8 @@ namespace {
 constexpr int kCoarsest = 31;  // both quantisers are 5-bit numbers
 constexpr Bits kTooWide = std::numeric_limits<Bits>::max();
 
-// The changes of one parameter that predictive planes have to tell; larger ones make intra planes.
+// The differences of one parameter that predictive planes have to code; larger ones make intra
+// planes.
 struct Changes {
   Histogram histogram;
   std::int32_t low = 0;

@@ -49,7 +49,7 @@ struct LiveEncoder::Impl : internal::LiveMemory {
 
   Result<void> check() const {
     if (!rate)
-      return internal::invalid("the stream cannot express this frame rate, see code_rate()");
+      return internal::invalid("the format cannot express this frame rate; see code_rate()");
     const auto ok =
         internal::check_numbers(options.fap_quant, options.bap_quant, options.intra_seconds);
     if (!ok) return ok;

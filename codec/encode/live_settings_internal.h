@@ -1,4 +1,4 @@
-// What a live encoder remembers of its frames, and what its intra planes settle. Not installed API.
+// State of a live encoder, and the settings of its intra planes. Not installed API.
 #pragma once
 
 #include <algorithm>

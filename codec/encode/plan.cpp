@@ -53,7 +53,7 @@ class Planner {
     run.count = count;
     set_up(run);
     if (decision_.first) {
-      // The first plane has told these.
+      // The first plane has defined these.
       for (const RangeKind kind : {kPredictiveMax, kPredictiveMin}) {
         run.face.send_range[kind] = run.body.send_range[kind] = false;
       }

@@ -1,4 +1,4 @@
-// Where the intra planes are and what they settle. Not installed API.
+// Positions and settings of the intra planes. Not installed API.
 #pragma once
 
 #include <vector>

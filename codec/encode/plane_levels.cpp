@@ -78,14 +78,14 @@ void apply(const SlotCoding& before, const Settings& settings, int quant, int sc
 Result<void> check_input(const PlaneInput& plane) {
   if ((has_face(plane.object_mask) && plane.face == nullptr) ||
       (has_body(plane.object_mask) && plane.body == nullptr)) {
-    return invalid("a plane needs the values of what its object mask names");
+    return invalid("a plane needs values for everything in its object mask");
   }
   if (plane.temporal.skip.value_or(0) > kMaxSkip) {
     return invalid("more than a million frames in a row cannot be skipped");
   }
   if (plane.intra) return check_intra(plane);
   if (plane.temporal.rate || plane.temporal.time_code) {
-    return invalid("frame rate and time code belong into intra planes");
+    return invalid("frame rate and time code belong in intra planes");
   }
   return {};
 }

@@ -20,7 +20,7 @@ struct SlotLevels {
 
 using HighLevels = std::array<std::int32_t, kHighLevelCount>;
 
-/// What a plane asks for that no state has to be known for. Error invalid_argument as
+/// Checks a plane as far as possible without the state. Error invalid_argument as
 /// Encoder::write().
 Result<void> check_input(const PlaneInput& plane);
 

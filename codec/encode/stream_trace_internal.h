@@ -1,4 +1,4 @@
-// Where an encoder wrote what, and the traps that its bits may hold for other decoders. Not
+// Bit positions of the written syntax elements, and patterns that can mislead other decoders. Not
 // installed API. Source: codec/bitstream.md, sections 4 and 17.
 #pragma once
 
@@ -26,7 +26,7 @@ struct StreamTrace {
   }
 };
 
-/// What can lead another decoder astray although the stream is legal.
+/// A legal pattern that can mislead another decoder.
 struct Trap {
   enum class Kind : std::uint8_t {
     start_code,  // 23 zeros and a 1 that are no start code

@@ -1,4 +1,4 @@
-// What the encoders of this folder have in common when they settle masks, ranges and quantisers.
+// Choice of masks, ranges and quantisers, shared by the encoders of this folder.
 // Not installed API.
 #pragma once
 

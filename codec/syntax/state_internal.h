@@ -1,4 +1,4 @@
-// What encoder and decoder both remember between planes. Not installed API.
+// State that encoder and decoder carry between planes. Not installed API.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct SlotTable {
 const SlotTable& face_slots();
 const SlotTable& body_slots();
 
-/// What an intra plane settles for one family until the next.
+/// The settings of one family from an intra plane to the next.
 struct SlotCoding {
   explicit SlotCoding(const SlotTable& slot_table);
 

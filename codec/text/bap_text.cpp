@@ -27,7 +27,7 @@ using fap::detail::TextScanner;
 constexpr int kStandardBaps = 186;
 constexpr std::size_t kFrameBytes = 2 * kStandardBaps + 2;  // shortest text of a frame
 
-// With the shorter mask, which is enough to tell a text without a header.
+// With the shorter mask, which is enough to detect a text without a header.
 constexpr TextDialect kBapDialect = {
     "BAP text",   "BAP", "3.2", fap::detail::kBapVersions, "FAP text", fap::detail::kFapVersions,
     kStandardBaps};

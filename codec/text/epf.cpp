@@ -133,7 +133,7 @@ class EpfReader {
       if (!mode) return mode.error();
       if (*mode == 0) return {};
       return in.fail(Code::unsupported,
-                     "CDM 1 asks for DCT mode, which is not supported; only CDM 0 (arithmetic "
+                     "CDM 1 selects DCT mode, which is not supported; only CDM 0 (arithmetic "
                      "coding) can be written");
     }
     constexpr std::string_view kSuffix[4] = {"IX", "IN", "PX", "PN"};
@@ -160,7 +160,7 @@ class EpfReader {
   static Result<void> quantiser(Numbers& in, std::string_view tag, int& quant,
                                 const std::array<bool, 4>& ranges_seen) {
     for (const bool seen : ranges_seen) {
-      if (seen) return in.fail(Code::syntax, std::string(tag) + " has to stand before the ranges");
+      if (seen) return in.fail(Code::syntax, std::string(tag) + " must precede the ranges");
     }
     return number(in, quant, 31);
   }
@@ -268,7 +268,7 @@ class EpfReader {
     } else if (planes_.empty()) {
       return error_at_line(Code::syntax, "the first plane must be intra (ISI 1)", line_);
     } else if (!intra_tag_.empty()) {
-      return error_at_line(Code::syntax, intra_tag_ + " belongs into a plane with ISI 1",
+      return error_at_line(Code::syntax, intra_tag_ + " belongs in a plane with ISI 1",
                            intra_tag_line_);
     }
     planes_.push_back(plane_);

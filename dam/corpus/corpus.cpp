@@ -23,7 +23,7 @@ Error error_in(const fs::path& file, Code code, std::string message, std::size_t
 }
 
 constexpr const char* kWantedByRow =
-    "cannot open this file, which its row in utterances.tsv asks for";
+    "cannot open this file, which a row of utterances.tsv requires";
 
 /// `missing`: the sentence for a file that cannot be opened.
 Result<std::string> read_file(const fs::path& path, const char* missing = kWantedByRow) {
@@ -46,7 +46,8 @@ bool safe_id(std::string_view id) {
 }
 
 Result<std::vector<Utterance>> read_rows(const fs::path& path, const CorpusOptions& options) {
-  const auto text = read_file(path, "cannot open this table; a corpus is a folder that holds it");
+  const auto text =
+      read_file(path, "cannot open this table; a corpus is a folder that contains it");
   if (!text) return text.error();
   auto rows = parse_rows(*text, options);
   if (!rows) return std::move(rows).error().in_file(path.string());

@@ -1,4 +1,4 @@
-// fap/ID.csv: time_s, one column a control, optional `measured`.
+// fap/ID.csv: time_s, one column per control, optional `measured`.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -48,7 +48,7 @@ struct CurveColumns {
   std::vector<std::size_t> controls;
 };
 
-/// Not a number that could not be told; see read_curves().
+/// A blank, not an invalid number; see read_curves().
 bool is_blank(std::string_view field) {
   field = trimmed(field);
   if (field.empty() || field == "\"\"" || field.starts_with('#')) return true;
@@ -85,13 +85,13 @@ Result<CurveColumns> read_header(const TableLine& line, Signal& signal) {
       return error_at_line(Code::syntax,
                            "column " + std::to_string(i + 1) +
                                " of the header has "
-                               "no name of its own; name every column differently",
+                               "no unique name; name every column differently",
                            std::int64_t(line.number));
     signal.names.push_back(name);
     columns.controls.push_back(i);
   }
   if (signal.names.empty())
-    return error_at_line(Code::not_found, "there is no control beside time_s",
+    return error_at_line(Code::not_found, "there is no control besides time_s",
                          std::int64_t(line.number));
   return columns;
 }
@@ -144,7 +144,8 @@ class CurveReader {
       return error_at_line(Code::syntax, "time_s is not a number", at);
     tolerance_ = std::max(tolerance_, times_.size() < 2 ? kTimeError : rounding_of(field));
     if (!times_.empty() && *time <= times_.back())
-      return error_at_line(Code::out_of_range, "time_s does not rise; sort the frames by time", at);
+      return error_at_line(Code::out_of_range, "time_s does not ascend; sort the frames by time",
+                           at);
     times_.push_back(*time);
     return {};
   }
@@ -201,7 +202,8 @@ Result<Signal> read_curves(std::string_view text, std::vector<BlankNote>* blanks
       return ok.error();
   const std::vector<double>& times = reader.times();
   if (times.size() < 2)
-    return make_error(Code::truncated, "a table needs two frames at least, to tell the frame rate");
+    return make_error(Code::truncated,
+                      "a table needs at least two frames to define the frame rate");
   if (std::abs(times[0]) > reader.tolerance())
     return error_at_line(Code::out_of_range, "the first frame is not at 0 s; shift the times",
                          std::int64_t(lines[1].number));

@@ -209,17 +209,18 @@ const char* glitch_name(GlitchKind kind) {
 
 std::string describe(const Glitch& glitch) {
   const char* what = "is stuck from";
-  if (glitch.kind == GlitchKind::jump) what = "jumps out of its range at";
+  if (glitch.kind == GlitchKind::jump) what = "jumps out of range at";
   if (glitch.kind == GlitchKind::spike) what = "has a spike at";
   char text[80];
   std::snprintf(text, sizeof text, " %s %.2f s, %zu frame%s; ", what, glitch.time, glitch.frames,
                 glitch.frames == 1 ? "" : "s");
   return "sentence '" + glitch.id + "': " + glitch.control + text +
-         (glitch.bridged ? "a straight line is in its place" : "left out");
+         (glitch.bridged ? "interpolated" : "left out");
 }
 
-Mended mend_glitches(std::span<const Utterance* const> sentences, Bridges bridges) {
-  Mended out;
+CleanedSentences remove_glitches(std::span<const Utterance* const> sentences,
+                                 ShortGlitches short_glitches) {
+  CleanedSentences out;
   out.sentences.assign(sentences.begin(), sentences.end());
   if (sentences.empty() || !sound(sentences)) return out;
   const std::vector<std::string>& names = sentences[0]->signal.names;
@@ -243,7 +244,7 @@ Mended mend_glitches(std::span<const Utterance* const> sentences, Bridges bridge
       for (const Run& run : runs[s])
         found[s].push_back({sentences[s]->id, names[c], run.kind, run.first, run.last - run.first,
                             signal.time(run.first),
-                            bridges == Bridges::build &&
+                            short_glitches == ShortGlitches::interpolate &&
                                 signal.rate.seconds(double(run.last - run.first)) <= kBridge});
     }
   }

@@ -31,8 +31,8 @@ struct Glitch {
   std::size_t first = 0;               ///< first frame
   std::size_t frames = 0;              ///< number of frames
   double time = 0;                     ///< of the first frame, seconds
-  /// True for glitches of up to 0.12 s with Bridges::build: they are interpolated linearly. False:
-  /// their frames do not count as measured.
+  /// True for glitches of up to 0.12 s with ShortGlitches::interpolate: they are interpolated
+  /// linearly. False: their frames do not count as measured.
   bool bridged = false;
 };
 
@@ -40,16 +40,16 @@ struct Glitch {
 std::string describe(const Glitch& glitch);
 
 /// Sentences with their glitches removed. Those without glitches are borrowed.
-struct Mended {
+struct CleanedSentences {
   std::vector<const Utterance*> sentences;         ///< as given
   std::vector<std::unique_ptr<Utterance>> copies;  ///< of those with glitches
   std::vector<Glitch> glitches;                    ///< by sentence, control and time
 };
 
 /// Treatment of short glitches.
-enum class Bridges : std::uint8_t {
-  build,  ///< interpolated linearly and counted as measured: for training
-  none,   ///< like long ones, their frames do not count: for scoring
+enum class ShortGlitches : std::uint8_t {
+  interpolate,  ///< interpolated linearly and counted as measured: for training
+  omit,         ///< like long ones, their frames do not count: for scoring
 };
 
 /// Detects glitches, relative to the usual motion of each control in all the sentences, and removes
@@ -68,6 +68,7 @@ enum class Bridges : std::uint8_t {
 ///
 /// Nothing is removed from a control with glitches in more than 5 % of its frames, and 0.6 s: that
 /// is its normal behaviour.
-Mended mend_glitches(std::span<const Utterance* const> sentences, Bridges bridges = Bridges::build);
+CleanedSentences remove_glitches(std::span<const Utterance* const> sentences,
+                                 ShortGlitches short_glitches = ShortGlitches::interpolate);
 
 }  // namespace animeme::dam

@@ -185,7 +185,7 @@ void ShutSums::add(const Utterance& u) {
     const bool behind_silence =
         phones[i - 1].label == kSilence || phones[i].start - phones[i - 1].end > kTimeTolerance;
     if (behind_silence || !is_bilabial(phones[i].label)) continue;
-    const auto span = shut_span(u.signal, phones[i], *lips, kShutReach);
+    const auto span = closed_span(u.signal, phones[i], *lips, kShutReach);
     if (!span) continue;
     const double d = phones[i].duration(), s = u.signal.rate.seconds(span->frames());
     add({1, d, s, d * d, d * s});
@@ -200,17 +200,18 @@ void ShutSums::add(const ShutSums& o) {
   both += o.both;
 }
 
-std::optional<ShutTime> ShutSums::line() const {
+std::optional<ClosureDuration> ShutSums::line() const {
   if (count < double(kFewContacts)) return std::nullopt;
-  // Few phones, or all of one length, tell little of the slope: as many seconds squared as ten of
+  // Few phones, or all of one length, hardly determine the slope: as many seconds squared as ten of
   // them spread by 50 ms hold it at 0.
   constexpr double kPrior = 10 * 0.05 * 0.05;
   const double spread = phone_squared - phone * phone / count;
   const double slope = (both - phone * shut / count) / (spread + kPrior);
-  return ShutTime{(shut - slope * phone) / count, slope};
+  return ClosureDuration{(shut - slope * phone) / count, slope};
 }
 
-std::optional<ShutTime> measured_shut_time(std::span<const Utterance* const> sentences) {
+std::optional<ClosureDuration> measured_closure_duration(
+    std::span<const Utterance* const> sentences) {
   ShutSums sums;
   for (const Utterance* u : sentences) sums.add(*u);
   return sums.line();

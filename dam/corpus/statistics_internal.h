@@ -25,17 +25,16 @@ inline bool is_measured(const Signal& signal, std::size_t frame) {
 /// Per frame: within kSpeechMargin of speech and measured.
 std::vector<bool> speech_frames(const Utterance& utterance);
 
-/// What a frame tells of: the speaking mouth, the resting mouth (further than `pause_edge` from the
+/// What a frame shows: the speaking mouth, the resting mouth (further than `pause_edge` from the
 /// speech), or neither (also where nothing was measured).
 enum class FramePlace : std::uint8_t { neither, speech, rest };
 std::vector<FramePlace> frame_places(const Utterance& utterance, double pause_edge);
 
-/// Sets what moments over the speech do not tell by themselves: a deviation that is no motion
-/// becomes 0, rest gets closed lips (some silences are breaths and smiles; the mean of all would
-/// rest with the lips a little apart).
+/// Corrects moments over the speech: a deviation without motion becomes 0, rest gets closed lips
+/// (some silences are breaths and smiles, so the mean of all would have the lips a little apart).
 void settle_controls(std::vector<Control>& controls);
 
-/// What a control that has no natural limits seems to be limited to: 0..1 if none of its values in
+/// Estimated limits of a control without natural limits: 0..1 if none of its values in
 /// the data, which are from `low` to `high`, is out of that, it is no FAP and it moves; else
 /// `limit` as it is.
 ControlLimit limit_of_data(const ControlLimit& limit, const Control& control, double low,
@@ -56,7 +55,7 @@ std::vector<Control> control_statistics(std::span<const Utterance* const> senten
 /// F and V. Nothing without lip FAPs.
 void add_closures(const Utterance& utterance, std::vector<double>& gaps);
 void add_lip_tooth_contacts(const Utterance& utterance, std::vector<double>& lows);
-/// Fewer contacts tell nothing.
+/// Fewer contacts are not used.
 inline constexpr std::size_t kFewContacts = 5;
 /// Model::closure_gap for the median gap, none: not known.
 double closure_gap_of(std::optional<double> median);
@@ -66,17 +65,18 @@ double closure_gap_of(std::optional<double> median);
 /// section 6.
 double measured_closure_gap(std::span<const Utterance* const> sentences);
 
-/// Sums for ShutTime over P, B and M that do not follow a silence and shut the lips: seconds of the
-/// phone and of the closure.
+/// Sums for ClosureDuration over P, B and M that do not follow a silence and shut the lips: seconds
+/// of the phone and of the closure.
 struct ShutSums {
   double count = 0, phone = 0, shut = 0, phone_squared = 0, both = 0;
 
   void add(const Utterance& utterance);
   void add(const ShutSums& other);
   /// The straight line through them; none with fewer than kFewContacts.
-  std::optional<ShutTime> line() const;
+  std::optional<ClosureDuration> line() const;
 };
-std::optional<ShutTime> measured_shut_time(std::span<const Utterance* const> sentences);
+std::optional<ClosureDuration> measured_closure_duration(
+    std::span<const Utterance* const> sentences);
 
 /// Median over all F and V of the highest measured place of the inner lower lip (FAP 5) near the
 /// phone; none with fewer than five such phones or without lip FAPs.

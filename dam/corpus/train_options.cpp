@@ -59,7 +59,7 @@ Result<void> validate(const TrainOptions& o) {
                                                     " and " + std::to_string(x.high));
   if ((r.terms & 1) == 0)
     return make_error(Code::invalid_argument,
-                      "training option refined.terms must hold that of the phone");
+                      "training option refined.terms must include the term of the phone");
   if (method_name(o.method).empty())
     return make_error(Code::invalid_argument, "training option method is unknown");
   return {};

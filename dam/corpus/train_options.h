@@ -183,19 +183,19 @@ struct TrainSummary {
   bool held_out = false;               ///< `explained` is that of held-out sentences
   std::vector<RarePhone> rare;         ///< under 12 examples
   std::vector<UnknownPhone> unknown;   ///< of the 41 of phones.h
-  std::vector<SentenceNote> standing;  ///< the three strongest outliers; see kStandsOut
+  std::vector<SentenceNote> outliers;  ///< the three strongest outliers; see kOutlierOffset
   Alignment alignment;                 ///< of scripts and motion
-  std::vector<Glitch> glitches;        ///< removed by mend_glitches()
+  std::vector<Glitch> glitches;        ///< removed by remove_glitches()
   std::vector<std::string> warnings;   ///< sentences about everything above that needs attention
 };
 
-/// A sentence is in TrainSummary::standing if its offset is above three usual ones or its error
+/// A sentence is in TrainSummary::outliers if its offset is above three usual ones or its error
 /// above twice the median: often it has the labels of another one, or a tracking error. The usual
 /// offset is 1.48 times the median over sentences, per control and at least a tenth of its
 /// deviation; for a sentence the root mean square over controls counts. With fewer than 8 sentences
 /// there is no usual offset.
-inline constexpr double kStandsOut = 3,  ///< threshold of the offset, in usual offsets
-    kErrorStandsOut = 2;                 ///< threshold of the rest of its error, in medians
+inline constexpr double kOutlierOffset = 3,  ///< threshold of the offset, in usual offsets
+    kOutlierError = 2;                       ///< threshold of the rest of its error, in medians
 /// A control with a smaller explained share is reported as noise.
 inline constexpr double kNoise = 0.02;
 

@@ -125,7 +125,7 @@ Result<TrainingSet> make_training_set(std::span<const Utterance* const> sentence
   set.controls = control_statistics(sentences, options.pause_edge);
   set.closure_gap = measured_closure_gap(sentences);
   set.lip_tooth_raise = measured_lip_tooth_raise(sentences);
-  set.shut = measured_shut_time(sentences);
+  set.closure_duration = measured_closure_duration(sentences);
   set.phones = phone_table(timelines);
   set.rate = sentences[0]->signal.rate;
   set.data.controls = set.controls.size();

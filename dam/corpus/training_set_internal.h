@@ -26,7 +26,7 @@ struct TrainingSet {
   fap::Rate rate;
   double closure_gap = 0;  ///< see Model
   std::optional<double> lip_tooth_raise;
-  std::optional<ShutTime> shut;
+  std::optional<ClosureDuration> closure_duration;
 };
 
 /// A training run as a kind sees it: what it may report to.

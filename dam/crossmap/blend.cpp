@@ -39,15 +39,15 @@ Result<void> check_blend(const PointTrack& track, const KeyShapes& keys,
     return bad_blend("the weight of contacts is 0 to a million");
   }
   if (!(options.ridge >= 0 && options.ridge <= 1)) return bad_blend("the ridge is 0 to 1");
-  if (!(options.smooth >= 0 && options.smooth <= 1)) return bad_blend("smoothing is 0 to 1 second");
+  if (!(options.smooth >= 0 && options.smooth <= 1))
+    return bad_blend("smoothing must be 0 to 1 second");
   for (const Contact& contact : options.contacts) {
     if (contact.first >= points || contact.second >= points)
       return bad_blend("no such point meets");
   }
   for (const Region& region : regions) {
     for (const std::size_t point : region.points) {
-      if (point >= points)
-        return bad_blend("the region " + region.name + " has a point that is none");
+      if (point >= points) return bad_blend("the region " + region.name + " has an invalid point");
     }
   }
   return {};
@@ -62,7 +62,7 @@ class BlendSystem {
     if (largest_ == 0) largest_ = 1;
   }
 
-  /// Coefficients of a frame; `seen`: one a point, one of them true.
+  /// Coefficients of a frame; `seen`: one per point, one of them true.
   std::span<const double> fit(std::span<const double> shape, const std::vector<bool>& seen) {
     if (!solver_ || seen != seen_) make(seen);
     target_.clear();
@@ -214,7 +214,7 @@ Result<Blend> fit_blend(const PointTrack& track, const KeyShapes& keys,
       wanted += counts ? 1 : 0;
       count += seen[p] ? 1 : 0;
     }
-    if (wanted == 0) return bad_blend("a point at least has to count");
+    if (wanted == 0) return bad_blend("at least one point needs a weight above 0");
     if (count == 0) {
       ++blend.unseen;
       continue;

@@ -1,4 +1,4 @@
-// Which way captured points look, how large their face is, and what its FAPs are.
+// Direction, size and FAPs of a face of captured points.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -76,8 +76,9 @@ Result<Axes> told_axes(const fap::FeaturePoints& places) {
     }
   }
   return make_error(Code::not_found,
-                    "the points do not tell which way the face looks; say where their x, y and z "
-                    "point to, seen by the person, such as --axes \"left down back\" (a camera)");
+                    "the direction of the face cannot be inferred from the points; specify the "
+                    "directions of x, y and z, "
+                    "from the person's view, such as --axes \"left down back\" (a camera)");
 }
 
 // In axes of the face.
@@ -139,9 +140,10 @@ Result<fap::Fapu> told_units(const fap::FeaturePoints& places, const FaceOptions
   double scale = count > 0 ? std::exp(sum / count) : 0;
   if (scale == 0 && options.centimetres > 0) scale = 1 / options.centimetres;
   if (scale == 0) {
-    return make_error(Code::not_found,
-                      "how large the face is cannot be told from the points; give one FAP unit at "
-                      "least, such as --fapu MW=50, or the unit of the points, such as --unit mm");
+    return make_error(
+        Code::not_found,
+        "the size of the face cannot be inferred from the points; give at least one FAP "
+        "unit, such as --fapu MW=50, or the unit of the points, such as --unit mm");
   }
   std::string guessed;
   for (const NamedUnit& unit : kUnits) {
@@ -151,7 +153,7 @@ Result<fap::Fapu> told_units(const fap::FeaturePoints& places, const FaceOptions
     guessed += (guessed.empty() ? "" : ", ") + std::string(unit.name);
   }
   if (!guessed.empty()) {
-    notes.push_back("FAP units of a usual face are taken for " + guessed + "; --fapu says them");
+    notes.push_back("FAP units of an average face are used for " + guessed + "; --fapu sets them");
   }
   return fapu;
 }
@@ -191,7 +193,7 @@ Result<Face> make_face(std::span<const std::string> names, std::size_t dimension
                        const FaceOptions& options) {
   if (points.empty()) {
     return make_error(Code::not_found,
-                      "which points of the face were captured is not known; name them in the "
+                      "the captured points are not assigned to the face; assign them in the "
                       "project, such as [face] \"8.3\" = \"left corner marker\"");
   }
   Face face;

@@ -18,24 +18,24 @@ Result<void> check_key_options(std::span<const PointTrack> tracks, std::span<con
                                const KeyShapeOptions& options) {
   if (auto ok = check_tracks(tracks); !ok) return ok;
   const auto refuse = [](const char* text) { return make_error(Code::invalid_argument, text); };
-  if (options.count > 200) return refuse("more than 200 key shapes are more than anybody adjusts");
+  if (options.count > 200) return refuse("more than 200 key shapes are too many to adjust");
   if (!(options.damping >= 0.5 && options.damping <= 0.99)) {
-    return refuse("the damping of affinity propagation is 0.5 to 0.99");
+    return refuse("the damping of affinity propagation must be 0.5 to 0.99");
   }
   if (options.most_frames < 2 || options.most_frames > 4000) {
     return refuse("2 to 4000 frames can be compared");
   }
   if (options.preference && !std::isfinite(*options.preference)) {
-    return refuse("the preference of affinity propagation is a number, as a rule below 0");
+    return refuse("the preference of affinity propagation must be a number, usually below 0");
   }
   if (weights.empty()) return {};
   if (weights.size() != tracks.front().names.size()) return refuse("each point has one weight");
   double sum = 0;
   for (const double weight : weights) {
-    if (!(weight >= 0)) return refuse("weights of points are 0 or more");
+    if (!(weight >= 0)) return refuse("weights of points must be 0 or more");
     sum += weight;
   }
-  if (!(sum > 0 && std::isfinite(sum))) return refuse("a point at least has to count");
+  if (!(sum > 0 && std::isfinite(sum))) return refuse("at least one point needs a weight above 0");
   return {};
 }
 

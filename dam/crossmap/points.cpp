@@ -158,7 +158,7 @@ Result<std::size_t> hold_head_still(PointTrack& track, std::span<const std::size
   }
   for (const std::size_t point : head) {
     if (point >= track.names.size()) {
-      return make_error(Code::invalid_argument, "there is no such point of the head");
+      return make_error(Code::invalid_argument, "the head has an invalid point");
     }
     for (std::size_t k = 0; k < dimensions; ++k) {
       if (std::isfinite(neutral[point * dimensions + k])) continue;

@@ -32,7 +32,8 @@ Result<void> check_controls(const Character& character) {
 Result<std::size_t> shapes_of(const Blend& blend, std::size_t wanted) {
   const std::size_t frames = blend.measured.size();
   if (frames == 0 || wanted == 0 || blend.weights.size() != frames * wanted) {
-    return bad_character("the target has not as many key shapes as the recording was fitted to");
+    return bad_character(
+        "the target's number of key shapes differs from that of the recording's fit");
   }
   return wanted;
 }
@@ -98,7 +99,7 @@ Result<Retarget> fit_controls(const Blend& blend, fap::Rate rate, const Characte
     return bad_character("the shapes of the target are not of one size");
   }
   if (!are_numbers(character.moves) || !are_numbers(character.keys)) {
-    return bad_character("the shapes of the target have values that are no numbers");
+    return bad_character("the shapes of the target have values that are not finite");
   }
   if (!(options.ridge >= 0 && options.ridge <= 1)) return bad_character("the ridge is 0 to 1");
   const Result<std::size_t> shapes = shapes_of(blend, character.keys.size() / rows);
@@ -142,7 +143,7 @@ Result<Retarget> mix_controls(const Blend& blend, fap::Rate rate, const Characte
   if (auto ok = check_controls(character); !ok) return ok.error();
   const std::size_t controls = character.controls.size();
   if (values.size() % controls != 0 || !are_numbers(values)) {
-    return bad_character("the table of controls is not one number a key shape and control");
+    return bad_character("the table of controls must have one number per key shape and control");
   }
   const Result<std::size_t> shapes = shapes_of(blend, values.size() / controls);
   if (!shapes) return shapes.error();

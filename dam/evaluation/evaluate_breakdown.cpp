@@ -1,4 +1,4 @@
-// Where the errors are: by phoneme, viseme, context and word.
+// Errors by phoneme, viseme, context and word.
 #include <algorithm>
 #include <array>
 

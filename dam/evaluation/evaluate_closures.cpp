@@ -1,4 +1,4 @@
-// P, B and M, and closures where there should be none.
+// Closures of P, B and M, and false closures.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -71,10 +71,12 @@ void add_phone(const PairSeries& pair, const Phone& phone, const Gap& made, cons
   sums.counts.measured += by_recorded ? 1 : 0;
   const double rate = pair.signal().rate.frames_per_second();
   if (!behind_silence) {
-    const auto length = std::find_if(
-        sums.counts.shut.begin(), sums.counts.shut.end(),
-        [&](const ShutScore& one) { return phone.duration() < one.to - kLengthTolerance; });
-    ShutScore& shut = length == sums.counts.shut.end() ? sums.counts.shut.back() : *length;
+    const auto length = std::find_if(sums.counts.durations.begin(), sums.counts.durations.end(),
+                                     [&](const ClosureDurationScore& one) {
+                                       return phone.duration() < one.to - kLengthTolerance;
+                                     });
+    ClosureDurationScore& shut =
+        length == sums.counts.durations.end() ? sums.counts.durations.back() : *length;
     const double reach = kEdgeReach * rate;
     ++shut.phones;
     shut.measured += pair.seconds(shut_frames(recorded, by_recorded, reach)) * 1000;
@@ -139,7 +141,7 @@ void score_closures(const Layout& layout, const AllSeries& all, const ScoreOptio
   ClosureSums sums;
   ClosureScore& counts = sums.counts;
   for (std::size_t i = 0; i + 1 < std::size(kLengths); ++i)
-    counts.shut.push_back({kLengths[i], kLengths[i + 1], 0, 0, 0});
+    counts.durations.push_back({kLengths[i], kLengths[i + 1], 0, 0, 0});
   for (const PairSeries& pair : all) {
     const Gap made{pair.made[gap], options.closed_gap};
     const Gap recorded{pair.recorded[gap], options.closed_gap};
@@ -160,7 +162,7 @@ void score_closures(const Layout& layout, const AllSeries& all, const ScoreOptio
   counts.false_per_minute = double(counts.false_closures) / minutes;
   counts.stray_measured_per_minute = double(counts.stray_measured) / minutes;
   counts.stray_predicted_per_minute = double(counts.stray_predicted) / minutes;
-  for (ShutScore& shut : counts.shut) {
+  for (ClosureDurationScore& shut : counts.durations) {
     shut.measured /= std::max(1.0, double(shut.phones));
     shut.predicted /= std::max(1.0, double(shut.phones));
   }

@@ -1,4 +1,4 @@
-// Is the motion as lively as the recorded one? Over-smoothing shows as ratios below 1.
+// Ratios of synthesised to recorded dynamics; over-smoothing gives ratios below 1.
 #include <algorithm>
 #include <optional>
 

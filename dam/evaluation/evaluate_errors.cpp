@@ -1,4 +1,4 @@
-// RMSE and its like, over speech and silence.
+// RMSE and similar errors, over speech and silence.
 #include <cmath>
 
 #include "dam/evaluation/evaluate_series_internal.h"

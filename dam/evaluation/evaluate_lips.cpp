@@ -1,4 +1,4 @@
-// Lip against teeth at F and V, and rounded sounds.
+// Lip-tooth contact of F and V, and rounded sounds.
 #include <algorithm>
 
 #include "dam/evaluation/evaluate_series_internal.h"

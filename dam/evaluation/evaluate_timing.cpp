@@ -1,4 +1,4 @@
-// Does the mouth move at the right time? Lag by cross-correlation of velocities.
+// Lag of the synthesis by cross-correlation of velocities.
 #include <cmath>
 
 #include "dam/evaluation/evaluate_series_internal.h"

@@ -1,5 +1,5 @@
-// How far apart in time the extremes of velocity are: dynamic time warping of every control's
-// velocity, run of speech by run of speech, and where the path puts each recorded extreme.
+// Timing error of velocity peaks: dynamic time warping of every control's velocity, for each run of
+// speech, and the distance of each recorded extreme from its position on the path.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -52,7 +52,7 @@ struct TimeSpread {
 };
 
 /// How long P, B and M of some length keep the lips closed.
-struct ShutScore {
+struct ClosureDurationScore {
   double from = 0,         ///< seconds: phones at least so long
       to = 0;              ///< and shorter than this; infinity for the longest
   std::size_t phones = 0;  ///< that count
@@ -79,7 +79,7 @@ struct ClosureScore {
       release;       ///< when it opens
   /// Below 60 ms, 60 to 100 ms, and longer. From onset to release, both within the 0.2 s, and 0 for
   /// a phone that does not close. Phones after a silence do not count: lips may rest closed.
-  std::vector<ShutScore> shut;
+  std::vector<ClosureDurationScore> durations;
 };
 
 /// F and V: the lower lip has to reach the upper teeth, measured by FAP 5 (inner lower lip,

@@ -1,5 +1,5 @@
-// What our binary files have in common: magic, version, size, a body, a checksum; and how they get
-// onto a disk. Internal.
+// The common frame of Animeme's binary files: magic, version, size, a body, a checksum; and how
+// they are loaded. Internal.
 //
 //   8 bytes magic, u16 major and u16 minor version, u64 size of the body, body, u32 CRC-32 of
 //   everything before; little endian
@@ -37,9 +37,9 @@ Result<FileBody> open_frame(const FileFormat& format, std::span<const std::uint8
 /// Code::syntax: the file is damaged, how, and what to do.
 Error damaged_file(const FileFormat& format, const std::string& how);
 
-/// All of a file, after a look at its header: another kind of file, or one whose size is not what
-/// its header says, is not read. Errors, with the path: those of open_frame() as far as the header
-/// tells; not_found, io.
+/// Reads a file after checking its header: another kind of file, or one whose size differs from the
+/// header, is not read. Errors, with the path: those of open_frame() about the header; not_found,
+/// io.
 Result<std::vector<std::uint8_t>> load_file(const FileFormat& format,
                                             const std::filesystem::path& path);
 

@@ -1,6 +1,6 @@
-// What tells one kind of model from another. synthesise(), train() and the model file do what all
-// kinds share and leave the rest to the entry of this table. A new kind is a folder in dam/kinds,
-// an entry in kinds.cpp and an alternative of Parameters.
+// The interface of a kind of model. synthesise(), train() and the model file do what all kinds
+// share and leave the rest to the entry of this table. A new kind is a folder in dam/kinds, an
+// entry in kinds.cpp and an alternative of Parameters.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ struct TrainingSet;
 struct TrainOptions;
 struct TrainRun;
 
-/// What a kind makes curves from.
+/// Input of a kind's synthesis.
 struct Speech {
   const Model& model;
   /// Every label is a phone of the model.
@@ -62,13 +62,13 @@ struct Kind {
   /// S(t) of model.h into `rows`: frames x controls zeros, row by row. A frame costs as much as
   /// there are phones near it.
   void (*speak)(const Speech& speech, std::span<double> rows, SynthesisReport& report);
-  /// Seconds beside a phone beyond which it is not felt.
+  /// Seconds beside a phone beyond which it has no influence.
   double (*reach)(const Model& model);
 };
 
 /// The entry of a method; the method must be one of methods().
 const Kind& kind_of(Method method);
-/// All entries, in the order in which people see them.
+/// All entries, in the order of listings.
 std::span<const Kind> kinds();
 
 /// "the model is not valid: ..."

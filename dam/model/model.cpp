@@ -28,8 +28,9 @@ Result<void> validate(const Model& model) {
   if (!std::isfinite(model.closure_gap)) return invalid_model("its closure gap is not a number");
   if (model.lip_tooth_raise && !std::isfinite(*model.lip_tooth_raise))
     return invalid_model("its lip-tooth contact is not a number");
-  if (model.shut && !(std::abs(model.shut->base) <= 10 && std::abs(model.shut->slope) <= 100))
-    return invalid_model("the time that its lips are shut is out of range");
+  if (model.closure_duration && !(std::abs(model.closure_duration->base) <= 10 &&
+                                  std::abs(model.closure_duration->slope) <= 100))
+    return invalid_model("the duration of its closures is out of range");
   if (!model.rate.valid()) return invalid_model("its frame rate is zero");
   if (model.controls.empty()) return invalid_model("it has no control");
   for (const Control& c : model.controls)
@@ -37,7 +38,7 @@ Result<void> validate(const Model& model) {
         !std::isfinite(c.sd) || c.sd < 0)
       return invalid_model("control '" + c.name + "' has no name or no finite statistics");
   if (!model.limits.empty() && model.limits.size() != model.controls.size())
-    return invalid_model("its limits are not those of its controls");
+    return invalid_model("its limits do not match its controls");
   for (std::size_t c = 0; c < model.limits.size(); ++c) {
     const ControlLimit& limit = model.limits[c];
     const auto other = std::size_t(std::max(0, limit.opposite));

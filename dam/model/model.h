@@ -259,7 +259,8 @@ struct Model {
   /// FAP units: how far F and V raise the inner lower lip (FAP 5) towards the teeth; nullopt:
   /// unknown.
   std::optional<double> lip_tooth_raise;
-  std::optional<ShutTime> shut;   ///< how long P, B and M stay closed; nullopt: unknown
+  std::optional<ClosureDuration>
+      closure_duration;           ///< how long P, B and M stay closed; nullopt: unknown
   fap::Rate rate;                 ///< of the training signal
   std::vector<Control> controls;  ///< what it animates; all parameters are in this order
   /// Limits of the controls, in the order of `controls`; empty: all are unlimited. (A list in which

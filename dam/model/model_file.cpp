@@ -60,15 +60,15 @@ Result<Model> read_payload(ByteReader& in, bool newer_minor) {
     return damaged_model(ok.error().message);
   if (!in.at_end()) {  // since 2.1
     const auto has_shut = in.next<std::uint8_t>();
-    ShutTime shut;
+    ClosureDuration shut;
     in.get(shut.base, shut.slope);
     if (has_shut > 1) return damaged_model("unknown flag");
-    if (has_shut == 1) model.shut = shut;
+    if (has_shut == 1) model.closure_duration = shut;
     if (!in.failed() && !read_limits(in, model))
-      return damaged_model("limits of a control that it has not");
+      return damaged_model("limits of a control that does not exist");
   }
   if (in.failed()) return damaged_model("its parts are larger than the file");
-  if (!in.at_end() && !newer_minor) return damaged_model("something follows the model");
+  if (!in.at_end() && !newer_minor) return damaged_model("there is data after the model");
   if (auto ok = validate(model); !ok) return make_error(Code::syntax, ok.error().message);
   return model;
 }
@@ -86,8 +86,8 @@ std::vector<std::uint8_t> write_model(const Model& model) {
   for (const PhoneModel& p : model.phones)
     body.put(p.label, p.examples, p.context_class, p.duration, p.longest);
   kind_of(model.method).write(model, body);
-  const ShutTime shut = model.shut.value_or(ShutTime{});
-  body.put(std::uint8_t(model.shut ? 1 : 0), shut.base, shut.slope);
+  const ClosureDuration shut = model.closure_duration.value_or(ClosureDuration{});
+  body.put(std::uint8_t(model.closure_duration ? 1 : 0), shut.base, shut.slope);
   write_limits(model, body);
   return frame_file(kModelFormat, body.bytes);
 }

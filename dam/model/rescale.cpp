@@ -75,7 +75,8 @@ void rescale_limits(Model& model, std::span<const GainOffset> gains) {
 
 Result<void> rescale(Model& model, std::span<const GainOffset> gains) {
   if (gains.size() != model.controls.size())
-    return make_error(Code::invalid_argument, "there is not one gain for each control");
+    return make_error(Code::invalid_argument,
+                      "the number of gains differs from the number of controls");
   for (const GainOffset& one : gains)
     if (!std::isfinite(one.gain) || !std::isfinite(one.offset))
       return make_error(Code::invalid_argument, "a gain or an offset is not a finite number");

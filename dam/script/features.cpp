@@ -134,7 +134,7 @@ std::string_view nearest_phone(const Features& sound) {
   double least = 0;
   for (const PhoneSounds& phone : phone_sounds()) {
     if (!may_stand_still(phone) || phone.count == 0) continue;
-    // A consonant is no vowel, nor the other way round: who stands in for it is another question.
+    // A consonant is never nearest to a vowel, nor vice versa; replacements are another question.
     if (is_vowel(phone.sounds[0]) != is_vowel(sound)) continue;
     const double distance =
         lip_distance(sound, phone.sounds[0]) + (phone.count > 1 ? kOfMoving : 0);

@@ -229,7 +229,7 @@ std::string_view affricate_of(const Features& stop, const Features& end) {
 }
 
 // Two vowels that are one movement of ARPAbet, seen from the front: where the first is, and that
-// the second is a close one. Lips tell u from i, and hardly how far back a vowel is.
+// the second is a close one. Lips distinguish u from i, but hardly show backness.
 std::string_view diphthong_of(const HeardLetter& first, const HeardLetter& second) {
   constexpr double kNear = 0.52, kNearEnd = 0.4, kOfSide = 0.3, kOpen = 0.2;
   const auto gap = [](const Features& a, const Features& b) {
@@ -300,7 +300,7 @@ Result<std::vector<IpaSound>> parse_ipa_sounds(std::string_view text, std::size_
   if (text.size() > most_bytes) {
     return make_error(Code::out_of_range,
                       "more than " + std::to_string(most_bytes) +
-                          " bytes of IPA for one sound; give one label a sound");
+                          " bytes of IPA for one sound; use one label per sound");
   }
   const auto heard = hear(prepare(text));
   if (!heard) return heard.error();

@@ -1,4 +1,5 @@
-// The tables of ipa_letters_internal.h: one row a letter of the chart, the rest refers to letters.
+// The tables of ipa_letters_internal.h: one row per letter of the chart, the rest refers to
+// letters.
 #include "dam/script/ipa_letters_internal.h"
 
 #include <algorithm>

@@ -20,7 +20,7 @@ const IpaLetter* find_ipa_letter(char32_t letter);
 /// What a mark does to the letter before it.
 enum class IpaMark : unsigned char {
   none,        ///< nothing that lips show: stress, tone, nasality, releases
-  lengthened,  ///< nothing, but some vowels of English are told by it
+  lengthened,  ///< no feature, but it distinguishes some vowels of English
   labialised,  ///< the lips are rounded as the sound ends
   more_rounded,
   less_rounded,

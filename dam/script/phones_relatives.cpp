@@ -1,5 +1,5 @@
-// Who stands in for whom (dam/script/phones.h): every other phone by the distance of the lips, and
-// pairs for the phones that are two sounds in turn.
+// Replacements of phones (dam/script/phones.h): every other phone by the distance of the lips, and
+// pairs for the phones that are two sounds in sequence.
 #include <algorithm>
 #include <map>
 #include <vector>
@@ -44,7 +44,7 @@ double distance(const PhoneInfo& a, const PhoneInfo& b) {
          (from.size() != to.size() ? kOfMovement : 0);
 }
 
-// A diphthong closes; what stands for it does, too.
+// A diphthong closes, and so must its replacement.
 bool moves_alike(const InTurn& parts, const Features& first, const Features& second) {
   const bool closes = parts.sounds[0].height < parts.sounds[1].height;
   return !closes || first.height < second.height;

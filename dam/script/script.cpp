@@ -30,7 +30,7 @@ constexpr Format kFormats[] = {
      looks_like_tsv,
      read_tsv},
     {{"rhubarb", {}}, looks_like_rhubarb_tsv, read_rhubarb_tsv},
-    {{"flite", "phones and their ends, as flite -psdur says them"}, looks_like_flite, read_flite},
+    {{"flite", "phones and their ends, as flite -psdur prints them"}, looks_like_flite, read_flite},
     {{"ctm", "CTM of NIST and Kaldi"}, looks_like_ctm, read_ctm},
     {{"htk", "HTK labels and master label files"}, looks_like_htk, read_htk},
     {{"timit", "TIMIT, in samples"}, looks_like_timit, read_timit},
@@ -54,7 +54,7 @@ Error unknown_format() {
     names += (names.empty() ? "" : ", ") + std::string(format.name);
   }
   return error_at_line(Code::syntax,
-                       "not a phoneme script of a known format; of text, these are: " + names, 1);
+                       "not a phoneme script of a known format; known text formats: " + names, 1);
 }
 
 // The one that is named and recognises the text, else the one that is named.
@@ -67,8 +67,8 @@ Result<const Format*> choose_format(std::string_view utf8, std::string_view name
   }
   if (!name.empty() && named != nullptr) return named;
   if (name.empty()) return unknown_format();
-  return make_error(Code::invalid_argument, "there is no format of scripts named " +
-                                                in_quotes(name) + "; " + unknown_format().message);
+  return make_error(Code::invalid_argument, "there is no script format named " + in_quotes(name) +
+                                                "; " + unknown_format().message);
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ bool looks_like_script(std::string_view utf8) {
 
 Result<Timings> read_timings(std::string_view text, const ScriptOptions& options) {
   if (!(options.rate >= 0) || !std::isfinite(options.rate)) {
-    return make_error(Code::invalid_argument, "the rate of a script is a number above 0");
+    return make_error(Code::invalid_argument, "the rate of a script must be a number above 0");
   }
   const std::string utf8 = to_utf8(text);
   if (utf8.find_first_not_of(" \t\r\n") == std::string::npos) {
@@ -120,7 +120,7 @@ Result<void> check_script(const Script& script) {
       return refuse("has a time outside 0 s to one day");
     }
     if (!(phone.end > phone.start)) return refuse("does not end after its start");
-    if (phone.start < reached - kTimeTolerance) return refuse("overlaps the phone before it");
+    if (phone.start < reached - kTimeTolerance) return refuse("overlaps the previous phone");
     reached = phone.end;
   }
   return {};
@@ -128,7 +128,7 @@ Result<void> check_script(const Script& script) {
 
 Result<void> check_against_audio(const Script& script, double audio_seconds) {
   constexpr double kAllowed = 0.05;
-  // Some voices tell of more silence at the end than they make.
+  // Some TTS engines report more silence at the end than they produce.
   const auto last = std::find_if(script.phones.rbegin(), script.phones.rend(),
                                  [](const Phone& phone) { return phone.label != kSilence; });
   const double seconds = last == script.phones.rend() ? 0 : last->end;

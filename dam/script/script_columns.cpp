@@ -1,4 +1,4 @@
-// Tables of recognisers and voices: MBROLA, CTM, PocketSphinx.
+// Tables of recognisers and TTS engines: MBROLA, CTM, PocketSphinx.
 #include <algorithm>
 #include <set>
 
@@ -58,8 +58,8 @@ Result<Timings> read_pho(std::string_view text, const ScriptOptions& options) {
   const bool told = !options.format.empty() || options.rate > 0;
   if (!told && reached < kLeastPhone * double(timings.labels.size())) {
     return make_error(Code::syntax,
-                      "these phones last less than 3 ms each; MBROLA counts milliseconds, for "
-                      "durations in seconds say --script-format pho@1");
+                      "these phones last less than 3 ms each; MBROLA uses milliseconds; for "
+                      "durations in seconds use --script-format pho@1");
   }
   return timings;
 }

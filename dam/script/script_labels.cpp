@@ -1,4 +1,4 @@
-// Label files: a line a label, its times in front. HTK, TIMIT, Audacity and others differ in the
+// Label files: a line per label, its times in front. HTK, TIMIT, Audacity and others differ in the
 // unit of their times; Festival has the end alone.
 #include <algorithm>
 
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kHtkRate = 1e7;      // units of 100 ns
 constexpr double kTimitRate = 16000;  // samples
-constexpr std::size_t kLooked = 20;   // lines that tell a format
+constexpr std::size_t kLooked = 20;   // lines that identify a format
 
 bool has_times(const LabelRow& row) {
   return row.fields.size() >= 3 && row.is_number(0) && row.is_number(1);
@@ -210,7 +210,7 @@ Result<Timings> read_esps(std::string_view text, const ScriptOptions& options) {
       return row.error(Code::syntax, "a line holds the end of a label, a colour and the label", 2);
     }
     TimedLabel label = row.label_at(2, reached, *end);
-    // Further fields of the label stand behind a semicolon.
+    // Further fields of the label follow a semicolon.
     label.label = label.label.substr(0, label.label.find(';'));
     timings.labels.push_back(std::move(label));
     reached = *end;

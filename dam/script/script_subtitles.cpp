@@ -1,4 +1,4 @@
-// SubRip and WebVTT: cues of words, with the time of each word (WebVTT), a cue a word, the word
+// SubRip and WebVTT: cues of words, with the time of each word (WebVTT), a cue per word, the word
 // that is underlined (WhisperX), or a phrase whose words share its time.
 #include <algorithm>
 #include <optional>
@@ -43,7 +43,7 @@ Result<double> clock_at(std::string_view text, const Line& line, std::string_vie
   if (time) return *time;
   return error_at_line(Code::syntax,
                        "the " + std::string(what) + " time " + in_quotes(trimmed(text)) +
-                           " is no time of a cue; write hh:mm:ss.mmm",
+                           " is not a cue time; write hh:mm:ss.mmm",
                        line.number, text.data() - line.text.data() + 1);
 }
 
@@ -59,7 +59,7 @@ Result<std::vector<Cue>> read_cues(std::string_view text) {
       cue.line = line.number;
       const auto start = clock_at(line.text.substr(0, arrow), line, "start");
       if (!start) return start.error();
-      // Settings of WebVTT stand behind the end.
+      // WebVTT settings follow the end.
       std::string_view rest = line.text.substr(arrow + kArrow.size());
       rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
       const auto end = clock_at(rest.substr(0, rest.find_first_of(" \t")), line, "end");
@@ -136,7 +136,7 @@ struct Kinds {
   bool timed = false, underlined = false;
 };
 
-// Which of the ways of telling words apart a file uses.
+// How a file marks words.
 Kinds kinds_of(const std::vector<Cue>& cues) {
   Kinds kinds;
   for (const Cue& cue : cues) {

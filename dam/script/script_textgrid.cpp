@@ -1,4 +1,4 @@
-// Which tiers of a TextGrid are the phones and the words, and the way back.
+// The phone and word tiers of a TextGrid, read and written.
 #include <algorithm>
 #include <map>
 #include <span>

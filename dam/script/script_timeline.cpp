@@ -49,7 +49,7 @@ Error unknown_label(const TimedLabel& timed, Alphabet alphabet) {
     message += "; the nearest ARPAbet label is " + std::string(nearest_label(label));
   } else {
     const auto parsed = parse_ipa(label);
-    message += parsed ? "; a label is one sound, these letters are several"
+    message += parsed ? "; a label must be one sound, these letters are several"
                       : ": " + parsed.error().message;
   }
   return error_at_line(Code::not_found, message, timed.line, timed.column);
@@ -161,8 +161,8 @@ void drop_empty_pauses(std::vector<TimedLabel>& labels) {
   });
 }
 
-// TIMIT tells the closure of a stop from its burst; one stop that begins at the closure is what the
-// lips do.
+// TIMIT separates the closure of a stop from its burst; one stop that begins at the closure is what
+// the lips do.
 bool closes_for(std::string_view closure, std::string_view stop) {
   if (closure.size() != 3 || !closure.ends_with("cl")) return false;
   return stop.substr(0, 1) == closure.substr(0, 1)
@@ -204,7 +204,7 @@ void move_end(std::vector<Phone>& phones, double end) {
   phones.back().end = end;
 }
 
-// One interval with the phones that its label stands for.
+// One interval with the phones of its label.
 void append(std::vector<Phone>& phones, const TimedLabel& raw, double start, const Labels& labels) {
   if (labels.empty()) {  // a lone length mark: the sound before it goes on
     if (phones.empty()) {
@@ -275,7 +275,7 @@ Result<Script> make_script(const Timings& timings) {
   }
   if (has_words(timings)) {
     return make_error(Code::unsupported,
-                      "these are words with times and no phones; their pronunciation is found by "
+                      "these are words with times but without phones; for pronunciation use "
                       "`animeme speak --script`");
   }
   join_closures(raw);

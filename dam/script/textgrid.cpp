@@ -221,7 +221,7 @@ Result<TextGrid> parse_textgrid(std::string_view utf8) {
   const Token flag = parser.take(TokenKind::flag, "<exists>");
   if (!parser.failed() && flag.text == "<absent>") return grid;
   const double count = parser.number("the number of tiers");
-  if (!is_count(count)) parser.fail(make_error(Code::syntax, "the number of tiers is no count"));
+  if (!is_count(count)) parser.fail(make_error(Code::syntax, "the number of tiers is invalid"));
   for (double i = 0; i < count && !parser.failed(); ++i) grid.tiers.push_back(read_tier(parser));
   if (parser.failed()) return parser.error();
   return grid;

@@ -72,7 +72,7 @@ std::size_t least_gap_at(const Signal& signal, const FrameSpan& search, const Li
   return least;
 }
 
-/// Frames from `from` to where the gap passes kShutGap going by `step`, `reach` at most. Counted
+/// Frames from `from` to where the gap passes kClosedGap going by `step`, `reach` at most. Counted
 /// from there, so that a piece of a clip gives the same numbers.
 double shut_frames_from(const Signal& signal, std::size_t from, int step, const LipChannels& lips,
                         double reach) {
@@ -83,7 +83,7 @@ double shut_frames_from(const Signal& signal, std::size_t from, int step, const 
   int away = 0;
   for (; away < room && away < reach; ++away) {
     const double a = at(away), b = at(away + 1);
-    if (b >= kShutGap) return std::min(reach, away + (kShutGap - a) / (b - a));
+    if (b >= kClosedGap) return std::min(reach, away + (kClosedGap - a) / (b - a));
   }
   return std::min(reach, double(away));
 }
@@ -91,8 +91,8 @@ double shut_frames_from(const Signal& signal, std::size_t from, int step, const 
 /// Holds lips that are shut around a phone together for the time that it takes.
 void hold_shut(Signal& signal, const Phone& phone, const std::vector<LipPair>& pairs,
                const ClosureOptions& options) {
-  const double wanted = options.shut->of(phone.duration());
-  const auto now = shut_span(signal, phone, pairs[0].inner, wanted);
+  const double wanted = options.duration->of(phone.duration());
+  const auto now = closed_span(signal, phone, pairs[0].inner, wanted);
   if (!now) return;
   const double rate = signal.rate.frames_per_second(), half = wanted * rate / 2;
   if (now->frames() >= 2 * half) return;
@@ -105,7 +105,7 @@ void hold_shut(Signal& signal, const Phone& phone, const std::vector<LipPair>& p
     const double away = std::abs(double(n) - centre);
     // Shut in the middle, just open at the edge.
     const double x = half > 0 ? away / half : 0;
-    const double level = options.target + (kShutGap - options.target) * x * x;
+    const double level = options.target + (kClosedGap - options.target) * x * x;
     const double share = 1 - raised_step((away - half) / let_go);
     for (const LipPair& pair : pairs) {
       const double gap = inner_gap(signal, i, pair.inner) - level;
@@ -181,19 +181,19 @@ std::optional<LipChannels> inner_lip_channels(std::span<const std::string> names
   return channels_of(names, 4, 5);
 }
 
-double ShutTime::of(double duration) const {
-  return std::clamp(base + slope * duration, 0.0, kMostShut);
+double ClosureDuration::of(double duration) const {
+  return std::clamp(base + slope * duration, 0.0, kLongestClosure);
 }
 
-std::optional<ShutSpan> shut_span(const Signal& signal, const Phone& phone, const LipChannels& lips,
-                                  double reach) {
+std::optional<ClosedSpan> closed_span(const Signal& signal, const Phone& phone,
+                                      const LipChannels& lips, double reach) {
   const FrameSpan search = frames_near(signal, phone, kClosureSearch);
   if (search.first == search.last) return std::nullopt;
   const std::size_t least = least_gap_at(signal, search, lips);
-  if (!(inner_gap(signal, least, lips) < kShutGap)) return std::nullopt;
+  if (!(inner_gap(signal, least, lips) < kClosedGap)) return std::nullopt;
   const double frames = reach * signal.rate.frames_per_second();
-  return ShutSpan{least, shut_frames_from(signal, least, -1, lips, frames),
-                  shut_frames_from(signal, least, 1, lips, frames)};
+  return ClosedSpan{least, shut_frames_from(signal, least, -1, lips, frames),
+                    shut_frames_from(signal, least, 1, lips, frames)};
 }
 
 FrameSpan frames_near(const Signal& signal, const Phone& phone, double margin) {
@@ -253,7 +253,7 @@ std::size_t apply_closure(Signal& signal, const Script& script, const ClosureOpt
   for (const Phone& phone : script.phones) {
     if (!is_bilabial(phone.label)) continue;
     if (close_phone(signal, phone, pairs, options)) ++closed;
-    if (options.shut) hold_shut(signal, phone, pairs, options);
+    if (options.duration) hold_shut(signal, phone, pairs, options);
   }
   return closed;
 }

@@ -18,19 +18,19 @@ namespace animeme::dam {
 inline constexpr double kClosureSearch = 0.040;
 
 /// FAP units: lips with a smaller inner gap count as closed when times are measured.
-inline constexpr double kShutGap = 45;
+inline constexpr double kClosedGap = 45;
 /// Seconds: longest time for which lips are held closed.
-inline constexpr double kMostShut = 0.3;
+inline constexpr double kLongestClosure = 0.3;
 
 /// How long a P, B or M keeps the lips closed, in seconds: `base` + `slope` * its duration.
-struct ShutTime {
+struct ClosureDuration {
   double base = 0;   ///< seconds
   double slope = 0;  ///< seconds per second
 
-  /// Seconds for a phone, 0..kMostShut.
+  /// Seconds for a phone, 0..kLongestClosure.
   double of(double duration) const;
 
-  friend bool operator==(const ShutTime&, const ShutTime&) = default;
+  friend bool operator==(const ClosureDuration&, const ClosureDuration&) = default;
 };
 
 /// Options of closures.
@@ -41,15 +41,15 @@ struct ClosureOptions {
       0.6;  ///< motion of the upper lip's outer contour, as a share of its inner contour's
   double lower_follow = 0.9;  ///< the same for the lower lip
   /// How long P, B and M stay closed; nullopt: as long as in the signal.
-  std::optional<ShutTime> shut;
+  std::optional<ClosureDuration> duration;
 };
 
 /// Makes every P, B and M of the script close the lips in at least one frame. If the least inner
 /// gap -(FAP 4 + FAP 5) from 40 ms before to 40 ms after the phone is above the target, the lips
 /// are moved together around that frame by a raised cosine of half-width duration / 2 + 50 ms: 30 %
 /// by the upper lip, 70 % by the lower, middle (FAP 4, 5) and sides (8, 10 and 9, 11: each by its
-/// own gap) alike. The outer contour (51, 55, 56; 52, 57, 58) follows. With `shut`, lips that are
-/// closed for a shorter time are held closed for that time around the same moment, and released
+/// own gap) alike. The outer contour (51, 55, 56; 52, 57, 58) follows. With `duration`, lips that
+/// are closed for a shorter time are held closed for that time around the same moment, and released
 /// over 50 ms on either side. Returns the number of phones closed. Does nothing if FAP 4 or 5 is
 /// missing.
 std::size_t apply_closure(Signal& signal, const Script& script, const ClosureOptions& options = {});
@@ -72,9 +72,9 @@ std::size_t apply_contact(Signal& signal, const ClosureOptions& options = {});
 void close_pose(std::span<const std::string> names, std::span<double> pose,
                 const ClosureOptions& options = {});
 
-/// The time around a moment in which lips are closed: the gap is below kShutGap, interpolated
+/// The time around a moment in which lips are closed: the gap is below kClosedGap, interpolated
 /// linearly between frames.
-struct ShutSpan {
+struct ClosedSpan {
   std::size_t least = 0;                            ///< frame of the least gap
   double before = 0,                                ///< frames closed before it
       after = 0;                                    ///< frames closed after it
@@ -83,8 +83,8 @@ struct ShutSpan {
 struct LipChannels;
 /// Around the least gap within kClosureSearch of the phone, at most `reach` seconds from it;
 /// nullopt: never closed.
-std::optional<ShutSpan> shut_span(const Signal& signal, const Phone& phone, const LipChannels& lips,
-                                  double reach);
+std::optional<ClosedSpan> closed_span(const Signal& signal, const Phone& phone,
+                                      const LipChannels& lips, double reach);
 
 /// Channel indices of FAP 4 and 5.
 struct LipChannels {

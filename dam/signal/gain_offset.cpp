@@ -26,7 +26,7 @@ Result<void> check(const Poses& poses, const char* whose) {
     return make_error(Code::invalid_argument, std::string(whose) + what);
   };
   if (poses.values.size() != poses.names.size() * poses.labels.size())
-    return fault(" poses have another number of values than poses times controls");
+    return fault(" poses: the number of values is not poses times controls");
   for (const double value : poses.values)
     if (std::abs(value) > kMost) return fault(" poses have a value beyond 1e100");
   std::set<std::string> seen;
@@ -121,7 +121,7 @@ Result<std::vector<GainOffset>> fit_gain_offset(const Poses& from, const Poses& 
   if (auto good = check(from, "the first face's"); !good) return good.error();
   if (auto good = check(to, "the second face's"); !good) return good.error();
   if (!typical.empty() && typical.size() != from.names.size())
-    return make_error(Code::invalid_argument, "typical motion is not given for each control");
+    return make_error(Code::invalid_argument, "typical motion must have one value per control");
   const std::size_t count = from.names.size();
   std::vector<GainOffset> out(count);
   std::vector<std::vector<Pair>> pairs(count);
@@ -144,7 +144,7 @@ Result<std::vector<GainOffset>> fit_gain_offset(const Poses& from, const Poses& 
   if (!common) return make_error(Code::not_found, "the two faces have no control in common");
   if (gains.empty())
     return make_error(Code::not_found,
-                      "no pose that both faces have moves a control: nothing tells the gain");
+                      "no common pose moves a control, so the gains cannot be determined");
   const double usual = median(gains);
   for (std::size_t c = 0; c < count; ++c) {
     GainOffset& one = out[c];

@@ -57,7 +57,7 @@ class Columns {
     if (!columns.at_[0] || (!columns.at_[1] && !columns.at_[2] && !columns.at_[3]))
       return error_at_line(
           Code::syntax,
-          "a table of limits begins with the columns control, low, high and, if wanted, opposite",
+          "a table of limits begins with the columns control, low, high and optionally opposite",
           std::int64_t(line.number));
     return columns;
   }

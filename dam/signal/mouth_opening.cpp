@@ -17,23 +17,23 @@ bool has_teeth_together(const Features& sound) {
          sound.place >= Place::alveolar && sound.place < Place::palatal;
 }
 
-std::optional<MouthOpening::Wish> wish_of(const Features& sound, const OpeningOptions& options) {
+std::optional<MouthOpening::Target> wish_of(const Features& sound, const OpeningOptions& options) {
   const bool glide = sound.manner == Manner::approximant && sound.height > 0;
   if (sound.manner == Manner::vowel || glide) {
     const double height = std::clamp(sound.height, 0.0, 1.0);
     // From mid vowels upwards nothing is wider than learned; that limits are those of close vowels
     // comes later.
     const double closeness = height * std::sqrt(height);
-    return MouthOpening::Wish{1 + options.wider * std::max(0.0, 1 - 2 * height),
-                              (1 - closeness) / options.open + closeness / options.close};
+    return MouthOpening::Target{1 + options.wider * std::max(0.0, 1 - 2 * height),
+                                (1 - closeness) / options.open + closeness / options.close};
   }
-  if (has_teeth_together(sound)) return MouthOpening::Wish{1, 1 / options.teeth};
-  if (sound.closure > 0) return MouthOpening::Wish{};  // P, F: lips have their own to do
+  if (has_teeth_together(sound)) return MouthOpening::Target{1, 1 / options.teeth};
+  if (sound.closure > 0) return MouthOpening::Target{};  // P, F: lips have their own to do
   return std::nullopt;
 }
 
 // What a gap is multiplied by.
-double share_of(const MouthOpening::Wish& wish, double amount, double style, double gap) {
+double share_of(const MouthOpening::Target& wish, double amount, double style, double gap) {
   const double wider = 1 + amount * (wish.wider - 1);
   const double x = wider * std::max(gap, 0.0) * wish.narrow / style;
   // Nearly 1 far below the limit, limit / gap far above, without a corner.
@@ -85,7 +85,7 @@ MouthOpening::MouthOpening(const Script& script, const OpeningOptions& options)
 
 // What has no wish takes the next sound's shape, or keeps the last one's; between two wishes the
 // way is shared.
-void MouthOpening::then(double start, double end, const Wish& wish) {
+void MouthOpening::then(double start, double end, const Target& wish) {
   const bool from = !turns_.empty() && turns_.back().after.any();
   const double kept = end_ + options_.held, early = start - options_.held;
   if (from && wish.any()) {
@@ -97,12 +97,12 @@ void MouthOpening::then(double start, double end, const Wish& wish) {
   end_ = end;
 }
 
-MouthOpening::Wish MouthOpening::operator()(double time) const {
+MouthOpening::Target MouthOpening::operator()(double time) const {
   const double half = options_.turn / 2;
   auto turn = std::upper_bound(turns_.begin(), turns_.end(), time - half,
                                [](double seconds, const Turn& t) { return seconds < t.centre; });
-  Wish before = turn == turns_.begin() ? Wish{} : std::prev(turn)->after;
-  Wish wish = before;
+  Target before = turn == turns_.begin() ? Target{} : std::prev(turn)->after;
+  Target wish = before;
   for (; turn != turns_.end() && turn->centre < time + half; ++turn) {
     const double done = raised_step((time - turn->centre) / options_.turn + 0.5);
     wish.wider += done * (turn->after.wider - before.wider);
@@ -112,8 +112,8 @@ MouthOpening::Wish MouthOpening::operator()(double time) const {
   return wish;
 }
 
-std::size_t open_as_wanted(const MouthOpening& opening, double amount, double style, Signal& signal,
-                           const ClosureOptions& follow) {
+std::size_t open_mouth(const MouthOpening& opening, double amount, double style, Signal& signal,
+                       const ClosureOptions& follow) {
   const auto lips = inner_lip_channels(signal.names);
   if (!lips || !(amount > 0) || !(style > 0)) return 0;
   constexpr int kFaps[][4] = {{4, 5, 51, 52}, {8, 10, 55, 57}, {9, 11, 56, 58}};
@@ -126,7 +126,7 @@ std::size_t open_as_wanted(const MouthOpening& opening, double amount, double st
   const auto jaw = find_channel(signal, 3);
   std::size_t changed = 0;
   for (std::size_t i = 0; i < signal.frames(); ++i) {
-    const MouthOpening::Wish wish = opening(signal.time(i));
+    const MouthOpening::Target wish = opening(signal.time(i));
     if (!wish.any()) continue;
     const double share = share_of(wish, amount, style, inner_gap(signal, i, *lips));
     bool moved = false;

@@ -37,7 +37,7 @@ inline constexpr double kOpeningReach = 0.21;
 class MouthOpening {
  public:
   /// A target: first multiplied by `wider`, then limited.
-  struct Wish {
+  struct Target {
     double wider = 1;   ///< at least 1
     double narrow = 0;  ///< 1 / the limit of the gap; 0: no limit
     bool any() const { return wider != 1 || narrow != 0; }  ///< there is a target
@@ -48,14 +48,14 @@ class MouthOpening {
   /// those of their neighbours.
   explicit MouthOpening(const Script& script, const OpeningOptions& options = {});
   /// The target at a time, with smooth transitions between sounds. Times may come in any order.
-  Wish operator()(double time) const;
+  Target operator()(double time) const;
 
  private:
   struct Turn {
     double centre;  // seconds
-    Wish after;
+    Target after;
   };
-  void then(double start, double end, const Wish& wish);
+  void then(double start, double end, const Target& wish);
 
   std::vector<Turn> turns_;  // in order
   OpeningOptions options_;
@@ -66,7 +66,7 @@ class MouthOpening {
 /// `amount` 1 as given, 0 not at all, beyond 1 open vowels are wider still. Lips that are pressed
 /// together or closed stay as they are. `style` is the scale that has been applied to the signal;
 /// it also scales the limits. Returns the number of frames that changed; 0 without FAP 4 and 5.
-std::size_t open_as_wanted(const MouthOpening& opening, double amount, double style, Signal& signal,
-                           const ClosureOptions& follow = {});
+std::size_t open_mouth(const MouthOpening& opening, double amount, double style, Signal& signal,
+                       const ClosureOptions& follow = {});
 
 }  // namespace animeme::dam

@@ -281,9 +281,9 @@ void live_arkit(Signal& signal, const ArkitLayout& layout, const Rules& rules, d
 Result<IdleMotionReport> add_idle_motion(Signal& signal, const Script& script,
                                          const IdleMotionOptions& options) {
   if (!(options.amount >= 0 && options.amount <= 2))
-    return make_error(Code::invalid_argument, "the amount of life must lie between 0 and 2");
+    return make_error(Code::invalid_argument, "the amount of idle motion must be between 0 and 2");
   if (signal.first_frame != 0)
-    return make_error(Code::invalid_argument, "life can be added to whole clips only");
+    return make_error(Code::invalid_argument, "idle motion can be added to whole clips only");
   std::vector<int> known;
   for (const std::string& name : signal.names) known.push_back(fap_of_channel(name));
   const bool faps = std::any_of(known.begin(), known.end(), [](int fap) { return fap != 0; });
@@ -291,8 +291,8 @@ Result<IdleMotionReport> add_idle_motion(Signal& signal, const Script& script,
   if (!faps && !arkit)
     return make_error(
         Code::unsupported,
-        "the controls are neither FAPs nor shapes of ARKit, so blinks and nods have nothing to "
-        "move; rename those that blink, like eyeBlinkLeft");
+        "the controls are neither FAPs nor ARKit shapes, so blinks and nods cannot be "
+        "added; use ARKit names such as eyeBlinkLeft");
   const Rules rules(script, signal.rate.seconds(double(signal.frames())), options);
   if (faps)
     live_faps(signal, known, rules, options.amount);

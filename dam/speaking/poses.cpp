@@ -13,8 +13,9 @@ Result<void> add_phone(const Model& model, const std::string& label, Poses& pose
   for (char& c : name)
     if (c >= 'a' && c <= 'z') c = char(c - 'a' + 'A');
   if (find_phone(name) == nullptr)
-    return make_error(Code::invalid_argument,
-                      "'" + label + "' is no phone; poses are \"rest\" or phones as AA, IY, UW, M");
+    return make_error(
+        Code::invalid_argument,
+        "'" + label + "' is not a phone; poses are \"rest\" or phones as AA, IY, UW, M");
   Script script;
   script.phones = {{0, kAround, std::string(kSilence), ""},
                    {kAround, kAround + kHeldFor, name, ""},

@@ -12,7 +12,7 @@ namespace {
 using MakeReading = std::function<Result<Signal>(const Script&)>;
 
 Result<Signal> mean_motion(std::span<const Script> readings, const MakeReading& make) {
-  if (readings.empty()) return make_error(Code::invalid_argument, "there is no reading to speak");
+  if (readings.empty()) return make_error(Code::invalid_argument, "there are no readings");
   Signal mean;
   for (const Script& reading : readings) {
     Result<Signal> one = make(reading);
@@ -22,7 +22,7 @@ Result<Signal> mean_motion(std::span<const Script> readings, const MakeReading& 
       continue;
     }
     if (one->values.size() != mean.values.size()) {
-      return make_error(Code::invalid_argument, "the readings do not last equally long");
+      return make_error(Code::invalid_argument, "the readings have different durations");
     }
     for (std::size_t i = 0; i < mean.values.size(); ++i) mean.values[i] += one->values[i];
   }

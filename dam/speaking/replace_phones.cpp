@@ -31,7 +31,7 @@ std::string_view vowel_beside(const Model& model, const Script& script, std::siz
   return {};
 }
 
-/// Labels that stand for phone `at` under one alternative; empty if the model lacks one.
+/// The labels that replace phone `at` in one alternative; empty if the model lacks one.
 std::vector<std::string_view> labels_of(const Model& model, const Script& script, std::size_t at,
                                         const Relative& relative) {
   std::vector<std::string_view> labels;
@@ -96,7 +96,7 @@ Result<Script> replace_unknown_phones(const Model& model, const Script& script,
     if (phone.label == kSilence || model.find_phone(phone.label) >= 0)
       out.phones.push_back(phone);
     else if (!replace(model, script, i, out, report))
-      return make_error(Code::not_found, "the model has no sound that could stand for the phone " +
+      return make_error(Code::not_found, "the model has no replacement for the phone " +
                                              phone.label + " at " + std::to_string(phone.start) +
                                              " s; train with sentences in which somebody speaks");
   }

@@ -40,8 +40,9 @@ Error bad_phone(const Phone& phone, const std::string& what) {
 Result<void> check_next(const Phone& phone, double known) {
   if (!std::isfinite(phone.start) || !std::isfinite(phone.end) || !(phone.end > phone.start) ||
       phone.end > kMaxScriptSeconds)
-    return bad_phone(phone, "lasts no time or ends out of range");
-  if (phone.start < known - kTimeTolerance) return bad_phone(phone, "begins before the last ends");
+    return bad_phone(phone, "has no duration or ends out of range");
+  if (phone.start < known - kTimeTolerance)
+    return bad_phone(phone, "begins before the previous one ends");
   if (find_phone(phone.label) == nullptr)
     return bad_phone(phone, "is not known; see dam/script/phones.h");
   return {};

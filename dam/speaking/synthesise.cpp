@@ -67,7 +67,7 @@ ClosureOptions closure_options(const Model& model) {
   };
   ClosureOptions options;
   options.target = model.closure_gap;
-  options.shut = model.shut;
+  options.duration = model.closure_duration;
   options.upper_follow =
       share("fap51_lower_t_midlip_o", "fap4_lower_t_midlip", options.upper_follow);
   options.lower_follow =
@@ -81,7 +81,7 @@ std::vector<Occurrence> timeline_of(const Model& model, const Script& spoken) {
   // A model may lack silence only if it was made by hand; the mouth then rests in pauses.
   const auto unknown = [&](const std::string& label) { return model.find_phone(label) < 0; };
   std::erase_if(timeline, [&](const Occurrence& o) { return unknown(o.label); });
-  // Who stood beside such a pause now stands beside the resting mouth: there is nobody to look at.
+  // The neighbours of such a pause are now next to the resting mouth, which is no phone.
   for (Occurrence& o : timeline) {
     if (unknown(o.left)) o.left.clear();
     if (unknown(o.right)) o.right.clear();
@@ -110,7 +110,7 @@ Result<void> validate(const SynthesisOptions& options) {
     return make_error(Code::invalid_argument, std::string("synthesis option ") + what);
   };
   if (!options.rate.valid() || !(options.rate.frames_per_second() <= 1000))
-    return range("rate must be above 0 and at most 1000 frames a second");
+    return range("rate must be above 0 and at most 1000 frames per second");
   if (!(options.tail >= 0 && options.tail <= 60)) return range("tail must lie between 0 and 60 s");
   if (!(options.style >= 0 && options.style <= kMostStyle))
     return range("style must lie between 0 and 1.5");
@@ -145,8 +145,8 @@ Result<Signal> synthesise_frames(const Model& model, const Script& script,
   const RestGate gate(*spoken, model.pause_edge, options.rest_at_ends, plan.last_frame);
   to_control_units(model, gate, options.style, signal);
   if (options.articulation > 0) {
-    open_as_wanted(MouthOpening(script), options.articulation, options.style, signal,
-                   closure_options(model));
+    open_mouth(MouthOpening(script), options.articulation, options.style, signal,
+               closure_options(model));
   }
   touch_lips(model, script, options, signal, report);
   apply_limits(signal, model.limits);

@@ -12,7 +12,7 @@
 namespace animeme::dam {
 namespace {
 
-/// FNV-1a, 64 bits, its bits well mixed at the end: tells contents apart, but is not a protection
+/// FNV-1a, 64 bits, its bits well mixed at the end: distinguishes contents, but is not a protection
 /// against people who mean harm.
 std::uint64_t digest_of(std::span<const std::uint8_t> bytes) {
   std::uint64_t h = 0xCBF29CE484222325u;
@@ -187,16 +187,17 @@ Result<bool> add_to_sums(SumsState& state, const Utterance& u, std::uint64_t dig
   if (!first && !same_controls(state, u.signal.names))
     return refused(sentence + "its controls are not those of the sums (" +
                    std::to_string(state.controls.size()) +
-                   " controls); choose the same controls or begin other sums");
+                   " controls); choose the same controls or start other sums");
   if (!first && !(u.signal.rate == state.rate))
     return refused(sentence + "its frame rate is not that of the sums; resample it");
   if (auto ok = check_sentence(u, u.signal.names, u.signal.rate); !ok) return ok.error();
   const auto same_id = state.sentences.lower_bound({u.id, 0});
   if (same_id != state.sentences.end() && same_id->first == u.id) {
     if (state.sentences.contains({u.id, digest})) return false;
-    return refused(sentence +
-                   "it has changed since it was added; sums cannot forget, so begin them anew, or "
-                   "give the sentence another id if it is another one");
+    return refused(
+        sentence +
+        "it has changed since it was added; sums cannot be reduced, so start new ones, or "
+        "give the sentence another id if it is another one");
   }
   const auto timeline = make_timeline(u.script, state.base.pause_edge);
   FitSums& set = digest % kHeldOut == 0 ? state.held : state.kept;
@@ -222,7 +223,7 @@ Result<bool> add_to_sums(SumsState& state, const Utterance& u, std::uint64_t dig
 
 Result<bool> TrainingSums::add(const Utterance& sentence, std::vector<Glitch>* glitches) {
   const Utterance* const one[] = {&sentence};
-  const Mended mended = mend_glitches(one);
+  const CleanedSentences mended = remove_glitches(one);
   const auto added = add_to_sums(*state_, *mended.sentences[0], sentence_digest(sentence));
   if (added && *added && glitches != nullptr)
     glitches->insert(glitches->end(), mended.glitches.begin(), mended.glitches.end());

@@ -68,7 +68,7 @@ class TrainingSums {
   static Result<TrainingSums> start(const TrainOptions& options = {}, const Model* base = nullptr);
 
   /// Adds a sentence. The first sets controls and rate. Returns false if it was already added with
-  /// the same content; it is not added again. Glitches are removed by mend_glitches() on this
+  /// the same content; it is not added again. Glitches are removed by remove_glitches() on this
   /// sentence alone: that finds less than on the whole corpus, but the result does not depend on
   /// the part. They are appended to `glitches`. After an error the sums are unchanged. Errors, with
   /// the id of the sentence: invalid_argument (different content under a known id; other controls

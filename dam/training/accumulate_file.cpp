@@ -13,7 +13,8 @@
 namespace animeme::dam {
 namespace {
 
-constexpr FileFormat kSumsFormat{"ANIMESUM", 4, 0, "file of sums", "accumulate its sentences anew"};
+constexpr FileFormat kSumsFormat{"ANIMESUM", 4, 0, "file of sums",
+                                 "accumulate its sentences again"};
 
 constexpr std::uint64_t kMostCount = std::uint64_t(1) << 48;
 
@@ -149,7 +150,7 @@ Problem read_statistics(ByteReader& in, SumsState& state) {
   }
   const bool begun = !state.controls.empty();
   if (begun != !state.sentences.empty() || (begun && !state.rate.valid()))
-    return "its controls, rate and sentences do not belong together";
+    return "its controls, rate and sentences do not match";
   return {};
 }
 
@@ -177,7 +178,7 @@ Problem read_space(ByteReader& in, const std::vector<std::uint32_t>& number, Sum
   for (std::size_t p = 0; p < state.phones.size(); ++p)
     if (state.phones[p].examples > 0) heard.push_back(std::uint32_t(p));
   if (heard != state.space.tables[std::size_t(RefinedTerm::phone)].keys)
-    return "its phones and their terms do not belong together";
+    return "its phones and their terms do not match";
   state.space.number();
   state.rows.resize(state.space.size);
   std::iota(state.rows.begin(), state.rows.end(), std::size_t(0));
@@ -218,7 +219,7 @@ Problem read_payload(ByteReader& in, bool newer_minor, SumsState& state) {
       if (Problem p = read_fit(in, state.space.size, state.controls.size(), *fit); !p.empty())
         return p;
   if (in.failed()) return "its parts are larger than the file";
-  if (!in.at_end() && !newer_minor) return "something follows the sums";
+  if (!in.at_end() && !newer_minor) return "there is data after the sums";
   return {};
 }
 

@@ -55,8 +55,8 @@ void add_statistics(const SumsState& from, SumsState& to) {
 Result<void> TrainingSums::check_same_base(const TrainingSums& other) const {
   const std::string what = difference(state_->base, other.state_->base);
   if (what.empty()) return {};
-  return refused("the sums were taken for other " + what +
-                 "; take all parts with the same model for the dominance and the same options");
+  return refused("the sums were made for other " + what +
+                 "; make all parts with the same model for the dominance and the same options");
 }
 
 Result<void> TrainingSums::merge(const TrainingSums& other) {
@@ -65,7 +65,7 @@ Result<void> TrainingSums::merge(const TrainingSums& other) {
   if (auto ok = check_same_base(other); !ok) return ok;
   if (from.controls.empty()) return {};
   if (!to.controls.empty() && other.controls() != controls())
-    return refused("the sums have other controls; take all parts with the same --controls");
+    return refused("the sums have other controls; make all parts with the same --controls");
   if (!to.controls.empty() && !(to.rate == from.rate))
     return refused("the sums have another frame rate; resample one of the corpora");
   if (const std::string id = common_sentence(to, from); !id.empty())

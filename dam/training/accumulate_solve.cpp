@@ -36,7 +36,7 @@ std::vector<ControlLimit> limits_of(const SumsState& state, std::span<const Cont
   std::vector<std::string> names;
   for (const Control& control : controls) names.push_back(control.name);
   std::vector<ControlLimit> limits = natural_limits(names);
-  // The sums do not tell whether the two of a pair were ever above 0 together.
+  // The sums do not contain whether the two of a pair were ever above 0 together.
   untie(limits, [](std::size_t, std::size_t) { return false; });
   for (std::size_t c = 0; c < limits.size(); ++c) {
     const ControlSums& sums = state.controls[c];
@@ -103,15 +103,15 @@ void warn_of_pace(const SumsState& state, TrainSummary& summary) {
   }
   if (!labels.empty())
     summary.warnings.push_back(
-        "phones that last 1.5 times as long as the base of the sums has them, or as short:" +
-        labels + "; a base that was trained on a part of these sentences suits better");
+        "phones that are 1.5 times longer or shorter than in the base of the sums:" + labels +
+        "; a base that was trained on a part of these sentences fits better");
 }
 
 void warn_of_versions(const SumsState& state, TrainSummary& summary) {
   for (auto a = state.sentences.begin(); a != state.sentences.end(); ++a)
     if (const auto b = std::next(a); b != state.sentences.end() && a->first == b->first)
       summary.warnings.push_back("sentence '" + a->first +
-                                 "' is there with different contents; both count");
+                                 "' occurs with different contents; both count");
 }
 
 void summarise(const SumsState& state, const Model& model, TrainSummary& summary) {
@@ -131,7 +131,7 @@ Model start_model(const SumsState& state, const TrainOptions& options) {
   model.pause_edge = state.base.pause_edge;
   model.closure_gap = closure_gap_of(state.closures.median());
   if (const auto low = state.lip_tooth.median()) model.lip_tooth_raise = -*low;
-  model.shut = state.shut.values().line();
+  model.closure_duration = state.shut.values().line();
   model.rate = state.rate;
   model.attribution = options.attribution;
   model.provenance = options.provenance;

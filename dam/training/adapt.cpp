@@ -17,7 +17,7 @@
 namespace animeme::dam {
 namespace {
 
-/// With so many sentences the first fold alone tells enough.
+/// With so many sentences the first fold alone is enough.
 constexpr std::size_t kManySentences = 100;
 /// Factors of the ridges that are tried: what is left of a stranger is held more firmly than what
 /// is all.
@@ -59,7 +59,7 @@ Result<void> check(const Utterance& u, const Utterance& first) {
   if (u.signal.names.empty() || u.signal.names != first.signal.names)
     return bad("has other controls than the first");
   for (const double value : u.signal.values)
-    if (!std::isfinite(value)) return bad("has a value that is no number");
+    if (!std::isfinite(value)) return bad("has a value that is not finite");
   if (auto ok = check_script(u.script); !ok) return bad("has a broken script");
   return {};
 }
@@ -198,7 +198,7 @@ Result<Model> adapt(const Model& wanted_base, std::span<const Utterance> sentenc
   out = {};
   Model base = wanted_base;
   base.limits.clear();  // they are of its own face
-  const Mended mended = mend_glitches(sorted_sentences(sentences));
+  const CleanedSentences mended = remove_glitches(sorted_sentences(sentences));
   const auto material = material_of(base, mended.sentences);
   if (!material) return material.error();
   out.glitches = mended.glitches;
@@ -232,7 +232,7 @@ Result<Model> adapt(const Model& wanted_base, std::span<const Utterance> sentenc
   model.limits = control_limits(all, model.controls);
   model.closure_gap = measured_closure_gap(all);
   if (const auto raise = measured_lip_tooth_raise(all)) model.lip_tooth_raise = raise;
-  if (const auto shut = measured_shut_time(all)) model.shut = shut;
+  if (const auto shut = measured_closure_duration(all)) model.closure_duration = shut;
   model.attribution = joined(base.attribution, options.attribution);
   model.provenance = joined(options.provenance, "base: " + base.provenance);
   if (auto ok = validate(model); !ok)

@@ -50,7 +50,7 @@ struct AdaptReport {
   double error = 0;                   ///< with the chosen curves
   double own_error = 0;               ///< of models trained on the new sentences alone
   Alignment alignment;                ///< of scripts and motion, by check_alignment()
-  std::vector<Glitch> glitches;       ///< removed by mend_glitches()
+  std::vector<Glitch> glitches;       ///< removed by remove_glitches()
   std::vector<std::string> warnings;  ///< sentences about both that need attention
 };
 

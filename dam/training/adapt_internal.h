@@ -1,4 +1,4 @@
-// The two halves of adapt(): the base told in other controls, and models added up. Internal.
+// The two halves of adapt(): the base mapped to other controls, and models added up. Internal.
 #pragma once
 
 #include <span>
@@ -18,14 +18,14 @@ struct Telling {
   std::vector<double> gain;
 };
 
-/// Least squares over the frames of speech of sentences and what the base makes of them. A control
-/// that the base has by name has one gain, held near 1; others are mixtures of all controls of the
-/// base, held near 0.
+/// Least squares over the frames of speech of sentences and the base's output for them. A control
+/// that the base has by name has one gain, regularised towards 1; others are mixtures of all
+/// controls of the base, regularised towards 0.
 Telling tell_base(const Model& base, std::span<const Utterance* const> sentences,
                   std::span<const Signal* const> made,
                   std::vector<AdaptedControl>* found = nullptr);
 
-/// The signal of a sentence less what the base tells, under names that mean nothing.
+/// The residual of a sentence without the mapped base, under placeholder names.
 Signal rest_of(const Signal& own, const Signal& made, const Telling& telling);
 
 /// One model for both parts. `controls`: those of the own recordings, with their statistics; their

@@ -10,15 +10,15 @@
 namespace animeme::dam {
 namespace {
 
-constexpr std::size_t kMostForMap = 400;  // sentences; more tell nothing new
+constexpr std::size_t kMostForMap = 400;  // sentences; more do not improve the map
 constexpr std::size_t kOtherScripts = 12;
-constexpr double kOtherLags[] = {-0.16, 0, 0.16};          // seconds, around the best
-constexpr std::size_t kFewestToCompare = 5;                // sentences
-constexpr double kSureOfScripts = 6;                       // deviations of the fits of others
-constexpr double kBetterThanOthers = 2;                    // times their mean
-constexpr double kSomeFit = 0.15;                          // where there are too few others
-constexpr double kLagNotable = 0.040, kLagSurely = 0.020;  // seconds
-constexpr std::size_t kLagPieces = 8;                      // that tell of a lag
+constexpr double kOtherLags[] = {-0.16, 0, 0.16};  // seconds, around the best
+constexpr std::size_t kFewestToCompare = 5;        // sentences
+constexpr double kSureOfScripts = 6;               // deviations of the fits with other scripts
+constexpr double kBetterThanOthers = 2;            // times their mean
+constexpr double kSomeFit = 0.15;                  // where there are too few others
+constexpr double kLagNotable = 0.040, kLagSurely = 0.020;          // seconds
+constexpr std::size_t kLagPieces = 8;                              // required for a lag
 constexpr double kWidestInterval = 0.15, kSpeakersDiffer = 0.010;  // seconds
 constexpr std::size_t kLagDraws = 400;
 constexpr std::size_t kFewestForDoubt = 5;            // sentences
@@ -26,7 +26,7 @@ constexpr double kPoorMatch = 0.6, kGoodMatch = 0.9;  // of the usual correlatio
 constexpr double kOwnShift = 0.1;                     // seconds
 constexpr double kOthersAsGood = 0.25;                // of other scripts
 
-/// Sentences as they were given, with the scripts of others `apart` places further.
+/// The given sentences, each with the script of the sentence `apart` places further.
 std::vector<Match> matches_of(const std::vector<SentenceTrack>& tracks, std::size_t apart) {
   std::vector<Match> matches;
   const std::size_t n = tracks.size();
@@ -72,7 +72,7 @@ class Aligner {
     out_.fit = map_.fit;
   }
 
-  /// What maps for scripts of others come to.
+  /// Fit of maps for the scripts of other sentences.
   void compare() {
     if (tracks_.size() < kFewestToCompare) return;
     const std::size_t lags = std::size(kOtherLags);

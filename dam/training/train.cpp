@@ -43,7 +43,7 @@ Result<Fitted> fit(std::span<const Utterance* const> sentences, const TrainOptio
   model.pause_edge = options.pause_edge;
   model.closure_gap = set->closure_gap;
   model.lip_tooth_raise = set->lip_tooth_raise;
-  model.shut = set->shut;
+  model.closure_duration = set->closure_duration;
   model.rate = set->rate;
   model.attribution = options.attribution;
   model.provenance = options.provenance;
@@ -85,7 +85,7 @@ Result<Model> train(std::span<const Utterance> utterances, const TrainOptions& o
                     TrainSummary* summary, const ProgressFunction& progress) {
   const auto begin = std::chrono::steady_clock::now();
   if (auto ok = validate(options); !ok) return ok.error();
-  const auto mended = mend_glitches(sorted_sentences(utterances));
+  const auto mended = remove_glitches(sorted_sentences(utterances));
   const auto& sentences = mended.sentences;
   TrainSummary own;
   TrainSummary& out = summary != nullptr ? *summary : own;

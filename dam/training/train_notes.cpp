@@ -70,29 +70,29 @@ void warn_of_phones(TrainSummary& summary) {
   warn_of("phones with few examples, whose shapes are uncertain: ", few, ", ", summary);
   for (const UnknownPhone& phone : summary.unknown)
     if (phone.spoken_as.empty()) silent.push_back(phone.label);
-  warn_of("phones that nothing in the data can stand in for, so scripts with them are refused: ",
-          silent, " ", summary);
+  warn_of("phones without a replacement in the data, so scripts with them are refused: ", silent,
+          " ", summary);
 }
 
 void warn_of_sentences(TrainSummary& summary) {
   std::vector<std::string> standing;
-  for (const SentenceNote& s : summary.standing) {
+  for (const SentenceNote& s : summary.outliers) {
     char text[120];
-    if (s.offset > kStandsOut)
+    if (s.offset > kOutlierOffset)
       std::snprintf(text, sizeof text, " (off as a whole, %.1f times the usual)", s.offset);
     else
       std::snprintf(text, sizeof text, " (its error is %.1f times the median)", s.error);
     standing.push_back(s.id + text);
   }
-  warn_of("sentences that stand out; look at their labels and curves: ", standing, ", ", summary);
+  warn_of("outlier sentences; check their labels and curves: ", standing, ", ", summary);
 }
 
 void warn_of_amount(TrainSummary& summary) {
   if (summary.speech_seconds == 0 || summary.speech_seconds >= kLittleSpeech) return;
   char text[200];
   std::snprintf(text, sizeof text,
-                "%.0f s of speech are little to learn all sounds from: bend a model that is there "
-                "to them (--base builtin), or record more; two minutes are a start",
+                "%.0f s of speech are too little to learn all sounds: adapt an existing model "
+                "(--base builtin), or record more; two minutes are a start",
                 summary.speech_seconds);
   summary.warnings.emplace_back(text);
 }
@@ -106,7 +106,7 @@ std::string lag_warning(const LagEstimate& lag) {
   std::snprintf(
       text, sizeof text,
       "the motion comes %s %s the sound (95 %%: %+.0f to %+.0f ms); --lag auto shifts the "
-      "scripts, or --lag and a number of ms",
+      "scripts, or --lag with a number of ms",
       milliseconds(lag.seconds).c_str(), lag.seconds > 0 ? "after" : "before", 1000 * lag.low,
       1000 * lag.high);
   return text;
@@ -142,10 +142,10 @@ std::vector<std::string> warnings_of(const Alignment& alignment, std::span<const
     warnings.push_back(describe(glitch));
   if (glitches.size() > kNamedGlitches)
     warnings.push_back("... and " + std::to_string(glitches.size() - kNamedGlitches) +
-                       " more glitches of the tracker (--json names them all)");
+                       " more tracking glitches (--json lists them all)");
   if (alignment.unrelated)
     warnings.emplace_back(
-        "the scripts do not seem to belong to the motion: those of other sentences fit it as well; "
+        "the scripts do not seem to match the motion: those of other sentences fit equally well; "
         "check ids, texts and where each recording begins");
   if (alignment.lag && alignment.lag->notable()) warnings.push_back(lag_warning(*alignment.lag));
   if (!alignment.doubts.empty()) warnings.push_back(doubts_warning(alignment));

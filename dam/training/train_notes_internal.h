@@ -1,4 +1,4 @@
-// What training tells its user about the data: for TrainSummary. Internal.
+// Warnings of training about the data, for TrainSummary. Internal.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// The training sentences as the model says them, beside the recordings.
+// Compares the training sentences, synthesised by the model, with the recordings.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -102,7 +102,7 @@ std::vector<double> relative_errors(const std::vector<Review>& all) {
 }
 
 double strangeness(const SentenceNote& s) {
-  return std::max(s.offset / kStandsOut, s.error / kErrorStandsOut);
+  return std::max(s.offset / kOutlierOffset, s.error / kOutlierError);
 }
 
 /// A sentence that was not in the training, in the deviations of the model.
@@ -150,11 +150,11 @@ void review_sentences(const TrainingSet& set, const Model& model,
   const auto error = relative_errors(all);
   for (std::size_t s = 0; s < all.size(); ++s)
     if (const SentenceNote note{sentences[s]->id, offset[s], error[s]}; strangeness(note) > 1)
-      summary.standing.push_back(note);
+      summary.outliers.push_back(note);
   std::stable_sort(
-      summary.standing.begin(), summary.standing.end(),
+      summary.outliers.begin(), summary.outliers.end(),
       [](const SentenceNote& a, const SentenceNote& b) { return strangeness(a) > strangeness(b); });
-  if (summary.standing.size() > kNamed) summary.standing.resize(kNamed);
+  if (summary.outliers.size() > kNamed) summary.outliers.resize(kNamed);
 }
 
 }  // namespace animeme::dam

@@ -9,7 +9,7 @@
 namespace animeme::fap::internal {
 
 /// For shapes by their channels, as ShapeFitter has them: those of ARKit count if they have a jaw,
-/// else moods alone. `share`: of the usual thrift; 0: none.
+/// else moods alone. `share`: of the usual sparsity; 0: none.
 Thrift thrift_of(std::span<const std::optional<int>> channels, double share);
 
 /// The FAPs of a frame that count. A chin that nobody measured is 0 and would keep the jaw from

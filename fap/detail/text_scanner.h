@@ -104,7 +104,7 @@ inline std::string in_quotes(std::string_view token) {
 /// Whether bytes are UTF-16 without a byte order mark, and then whether the high byte is the first.
 /// Digits, blanks and line ends, of which every file of numbers has many, have a zero byte there,
 /// always on the same side; other encodings of text have no zero bytes, and a single one is damage.
-/// The first 4 kB are looked at.
+/// Checks the first 4 kB.
 inline std::optional<bool> unmarked_utf16(std::string_view bytes) {
   bytes = bytes.substr(0, 4096);
   std::size_t zeros[2] = {0, 0};

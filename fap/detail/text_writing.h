@@ -25,7 +25,7 @@ inline std::string one_word(const std::string& name) {
   return word;
 }
 
-/// What stands behind the name for a rate that the header has as a whole number only.
+/// The suffix of the name for a rate that the header has as a whole number only.
 std::string exact_rate_tag(Rate rate);
 /// Where the tag begins if `name` ends with one and the header has the rate `whole`; else npos.
 std::size_t exact_rate_at(std::string_view name, Rate whole);

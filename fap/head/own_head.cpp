@@ -15,7 +15,7 @@ constexpr fap::Fapu kUsual{.irisd = 0.168, .es = 1, .ens = 0.817, .mns = 0.359, 
 
 Error bad(std::string sentence) { return make_error(Code::invalid_argument, std::move(sentence)); }
 
-// The box of the vertices on one side, which tells what an eyeball is.
+// The bounding box of the vertices on one side, from which eyeballs are recognised.
 struct Ball {
   Vec3 low, high;
   bool any = false;
@@ -41,13 +41,13 @@ class Assembler {
     for (std::string& note : source_.notes) say(std::move(note));
     if (auto error = detail::check(source_)) return std::move(*error);
     if (!source_.upright && detail::turn_upright(source_)) {
-      say("the head does not look along +Z with +Y up: it was turned");
+      say("the head did not face +Z with +Y up: rotated");
     }
     sort_into_parts();
     if (auto error = bring_to_size()) return std::move(*error);
     fill_parts();
     if (head_.part(Part::skin).triangles.empty()) {
-      return bad("there is no mesh of skin: name it head or face");
+      return bad("there is no skin mesh: name it head or face");
     }
     head_.name = source_.name;
     head_.shapes = std::move(source_.shapes);
@@ -58,7 +58,7 @@ class Assembler {
     detail::see_sky(head_);
     detail::colour_parts(head_);
     add_targets();
-    tell_what_is_missing();
+    note_what_is_missing();
     return std::move(head_);
   }
 
@@ -88,7 +88,7 @@ class Assembler {
     std::optional<Vec3> lips = place_of(source_, "2.2");
     if (!lips) lips = between(source_, "8.3", "8.4");
     for (const Piece& piece : source_.pieces) {
-      // Without a mouth teeth are told apart by their own middle.
+      // Without a mouth, upper and lower teeth are separated by their own middle.
       Ball own;
       for (const Vec3& p : piece.mesh.positions) own.add(p);
       const float mouth = lips ? lips->y : 0.5f * (own.low.y + own.high.y);
@@ -109,20 +109,21 @@ class Assembler {
       std::optional<Vec3> p = eye_point(side);
       if (!p && balls_[side].any) p = balls_[side].centre();
       if (!p) {
-        return make_error(Code::not_found,
-                          "the eyes are not known: give feature points 3.5 and 3.6 (pupils) or 3.1 "
-                          "and 3.2 (upper lids), or name the meshes of the eyes");
+        return make_error(
+            Code::not_found,
+            "the eyes were not found: give feature points 3.5 and 3.6 (pupils) or 3.1 "
+            "and 3.2 (upper lids), or name the meshes of the eyes");
       }
       eyes[side] = *p;
     }
     const double distance = double(length(eyes[0] - eyes[1]));
-    if (!(distance > 0)) return bad("the two eyes are in one place");
+    if (!(distance > 0)) return bad("both eyes have the same position");
     double scale = source_.centimetres;
     if (scale == 0) {
       const detail::LengthUnit unit = detail::unit_of(distance);
       scale = unit.centimetres;
       if (unit.name.empty()) {
-        say("the unit of length is not known: the pupils are set 6.3 cm apart");
+        say("unknown unit of length: scaled to a pupil distance of 6.3 cm");
       } else if (unit.name != "centimetres") {
         say("lengths are taken for " + std::string(unit.name));
       }
@@ -283,12 +284,9 @@ class Assembler {
       const Piece& piece = source_.pieces[found.piece];
       const std::string name = !piece.name.empty() ? piece.name : piece.material;
       const std::string mesh =
-          name.empty() ? "mesh " + std::to_string(found.piece + 1) : "the mesh \"" + name + "\"";
-      say(mesh + " showed its inside: " +
-          (found.turned == found.triangles
-               ? "all"
-               : std::to_string(found.turned) + " of its " + std::to_string(found.triangles)) +
-          " triangles were wound clockwise; they are turned now");
+          name.empty() ? "mesh " + std::to_string(found.piece + 1) : "mesh \"" + name + "\"";
+      say(mesh + ": flipped " + (found.turned == found.triangles ? "all " : "") +
+          std::to_string(found.turned) + " inside-out triangles");
     }
   }
 
@@ -315,12 +313,12 @@ class Assembler {
                      [](const Target& a, const Target& b) { return a.control < b.control; });
   }
 
-  void tell_what_is_missing() {
+  void note_what_is_missing() {
     for (std::size_t side = 0; side < 2; ++side) {
       const Part part = side == 0 ? Part::left_eye : Part::right_eye;
       if (head_.part(part).positions.empty() && head_.shapes.empty()) {
         say(std::string("there is no mesh of the ") + (side == 0 ? "left" : "right") +
-            " eye: its gaze is not seen (name one eyeLeft, eyeRight)");
+            " eye, so gaze is not visible (name one eyeLeft, eyeRight)");
       }
     }
     if (!head_.targets.empty()) return;
@@ -332,7 +330,8 @@ class Assembler {
       still += (still.empty() ? "" : ", ") + std::string(fap::info(fap).name) + " (" +
                std::string(id) + ")";
     }
-    if (!still.empty()) say("without their feature points these FAPs move nothing: " + still);
+    if (!still.empty())
+      say("these FAPs have no effect, since the head lacks their feature points: " + still);
   }
 
   Source source_;

@@ -1,4 +1,4 @@
-// The heads that are ready.
+// The predefined heads.
 #include "fap/head/model.h"
 
 namespace animeme::head {

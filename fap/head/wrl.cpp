@@ -96,7 +96,7 @@ void append_shape(std::string& text, const Piece& piece, const PieceTexture& tex
   }
   if (!texture.file.empty()) append_places(text, texture.places);
   append_triangles(text, "coordIndex", mesh.triangles);
-  // The same once more: Xface wants to be told which texture place each corner has.
+  // The same again: Xface requires a texture index for each corner.
   if (!texture.file.empty()) append_triangles(text, "texCoordIndex", mesh.triangles);
   text += "    creaseAngle 3.14\n  }\n}\n";
 }

@@ -81,9 +81,8 @@ class Converter {
       if (item.mesh == m) moves.add(item);
     }
     if (moves.lost() > 0) {
-      source_.notes.push_back(
-          mesh.names.front() + ": " + std::to_string(moves.lost()) +
-          " influences beyond the eighth of a vertex do not count, as in Xface");
+      source_.notes.push_back(mesh.names.front() + ": " + std::to_string(moves.lost()) +
+                              " influences beyond the eighth of a vertex are ignored, as in Xface");
     }
     for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
       const float step = float(detail::xface_step(fap, *source_.fapu));
@@ -121,7 +120,7 @@ class Converter {
       }
     }
     if (unused.empty()) return;
-    std::string text = "influences of FAPs that move no vertex are left out:";
+    std::string text = "influences of FAPs that move no vertex are ignored:";
     for (const int fap : unused) text += " " + std::to_string(fap);
     source_.notes.push_back(text);
   }

@@ -32,7 +32,7 @@ class Reader {
     if (auto done = read_tables(*fdp_, scene_, face_); !done) return done.error();
     detail::set_points(places_, face_);
     for (const std::string& name : scene_.missing()) {
-      face_.source.notes.push_back("USE of " + name + ", which no DEF names; left out");
+      face_.source.notes.push_back("USE of " + name + ", which no DEF defines; ignored");
     }
     face_.source.upright = true;  // FAPU are measured along the axes
     return std::move(face_.source);
@@ -71,9 +71,10 @@ class Reader {
     const std::vector<Vec3>& values = (*node)->values;
     const std::size_t count = std::min(values.size(), fap::kFeaturePoints.size());
     if (values.size() != fap::kFeaturePoints.size()) {
-      face_.source.notes.push_back("featurePointsCoord has " + std::to_string(values.size()) +
-                                   " places, not 84; the first ones are taken in the order of the "
-                                   "standard");
+      face_.source.notes.push_back(
+          "featurePointsCoord has " + std::to_string(values.size()) +
+          " positions, not 84; the first ones are used in the order of the "
+          "standard");
     }
     for (std::size_t i = 0; i < count; ++i) {
       const Vec3 p = values[i];

@@ -89,7 +89,7 @@ void count(const dam::Utterance& sentence, const Made& made, Closures& out) {
     for (std::size_t i = 0; lips && i < made.motion.frames(); ++i) {
       const double time = made.motion.time(i);
       if (time < phone.start - kNear || time > phone.end + kNear) continue;
-      met = met || dam::inner_gap(made.motion, i, *lips) < dam::kShutGap;
+      met = met || dam::inner_gap(made.motion, i, *lips) < dam::kClosedGap;
     }
     out.met += met ? 1 : 0;
   }

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 const fs::path kSample = fs::path(test::kSourceFolder) / "tests/data/grid_s1_sample";
 constexpr const char* kSentences[] = {"bbbmzn", "lwbf2n", "pbwdzp", "pwbq5s"};  // with P, B, M, F
-constexpr double kClosed = dam::kShutGap;
+constexpr double kClosed = dam::kClosedGap;
 
 template <class T>
 T need(Result<T> result) {

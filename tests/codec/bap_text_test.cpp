@@ -153,7 +153,7 @@ TEST(BapText, WhatIsNoBapText) {
        "line 3:3: a mask value has to be 0 or 1, but BAP 5 has '5'");
   says("3.1 x 25 1\n" + mask({1}) + "\n", Code::truncated, "1 value are missing");
   says("3.1 x 25 1\n" + mask({1, 2}) + "\n0 5\n" + mask({}), Code::syntax,
-       "line 3:4: the line has 1 value behind the frame number, the mask asks for 2");
+       "line 3:4: the line has 1 value after the frame number, the mask requires 2");
   says("3.1 x 25 1\n" + mask({1}) + "\n0 word\n", Code::syntax, "line 3:3: 'word' is not a number");
   says("3.1 x 25 1\n" + mask({1}) + "\n0 3e9\n", Code::out_of_range, "line 3:3: the value '3e9'");
   says("3.1 x 25 1\n" + mask({1}) + "\n1e16 3\n", Code::out_of_range, "line 3:1: the frame number");

@@ -85,13 +85,13 @@ TEST(Epf, WhatTheReaderRefuses) {
   const std::string first = "FBM 1\nFFR 0\nISI 1\n";
   says(first + "CDM 1\n", Code::unsupported, "line 4:6: CDM 1 asks for DCT mode");
   says(first + "FIX" + numbers(66, "60") + "\nFQU 2\n", Code::syntax,
-       "line 5:4: FQU has to stand before the ranges");
+       "line 5:4: FQU must precede the ranges");
   says("FBM 2\nISI 1\nBPN" + numbers(296, "-60") + "\nBQU 2\n", Code::syntax,
-       "line 4:4: BQU has to stand before the ranges");
+       "line 4:4: BQU must precede the ranges");
   says(first + "FBM 1\nFFR 1\nISI 0\nFQU 2\n", Code::syntax,
-       "line 7: FQU belongs into a plane with ISI 1");
+       "line 7: FQU belongs in a plane with ISI 1");
   says(first + "FBM 1\nBTC 0 0 1 0\nISI 0\n", Code::syntax,
-       "line 5: BTC belongs into a plane with ISI 1");
+       "line 5: BTC belongs in a plane with ISI 1");
   says("FBM 2\nISI 1\nBMT 2\n", Code::out_of_range, "body mask type 2 is not allowed");
   says("FBM 2\nISI 1\nBIX 1 2 3\n", Code::syntax, "a number is missing");
   says("FBM 2\nISI 1\nBIN" + numbers(296, "5") + "\n", Code::out_of_range, "-1860..0");

@@ -41,7 +41,7 @@ TEST(CodeLength, IsWhatTheCoderTakes) {
     const fba::internal::RunCost cost = fba::internal::run_cost(levels, 1);
     ASSERT_TRUE(cost.fits);
     const double bits = double(cost.bits) / double(kOneBit);
-    // Start and end codes, the intra header, and 5 bits a plane: 4 of its header, and 1 that the
+    // Start and end codes, the intra header, and 5 bits per plane: 4 of its header, and 1 that the
     // end of a segment takes more than the symbols are worth.
     const double others = 32 + 120 + 40 + 400 * 5.0;
     const double got = double(fba::encode(clip)->size()) * 8;

@@ -79,9 +79,9 @@ TEST(Accumulate, GivesTheModelOfTrainForItsDominance) {
   EXPECT_EQ(whole_summary.occurrences, summary.occurrences);
   EXPECT_NEAR(whole->closure_gap, model->closure_gap, 0.25);
   EXPECT_NEAR(*whole->lip_tooth_raise, *model->lip_tooth_raise, 0.25);
-  ASSERT_TRUE(whole->shut && model->shut);
-  EXPECT_NEAR(whole->shut->base, model->shut->base, 1e-9);
-  EXPECT_NEAR(whole->shut->slope, model->shut->slope, 1e-9);
+  ASSERT_TRUE(whole->closure_duration && model->closure_duration);
+  EXPECT_NEAR(whole->closure_duration->base, model->closure_duration->base, 1e-9);
+  EXPECT_NEAR(whole->closure_duration->slope, model->closure_duration->slope, 1e-9);
 }
 
 TEST(Accumulate, WithoutBaseItStartsFromTheStartValues) {
@@ -275,7 +275,7 @@ TEST(Accumulate, TheSameIdWithOtherContentCountsAndIsNamed) {
   EXPECT_EQ(sums.sentences(), 6u);
   TrainSummary summary;
   ASSERT_TRUE(train_from_sums(std::move(sums), {}, &summary));
-  EXPECT_THAT(summary.warnings, Contains(HasSubstr("'s100' is there with different contents")));
+  EXPECT_THAT(summary.warnings, Contains(HasSubstr("'s100' occurs with different contents")));
 }
 
 TEST(Accumulate, TheBaseMustHaveTheMethod) {

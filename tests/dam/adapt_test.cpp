@@ -159,7 +159,7 @@ TEST(Adapt, RefusesWhatDoesNotFit) {
   auto bad = sentences(own, 2, 5);
   bad[1].signal.values[3] = std::nan("");
   EXPECT_THAT(adapt(base(), bad).error().message,
-              testing::HasSubstr("'s1' has a value that is no number"));
+              testing::HasSubstr("'s1' has a value that is not finite"));
   bad = sentences(own, 2, 5);
   bad[1].signal.names[0] = "b";
   EXPECT_THAT(adapt(base(), bad).error().message, testing::HasSubstr("other controls"));

@@ -116,7 +116,7 @@ TEST_F(CorpusFolder, MissingFilesAreNamedOrSkipped) {
   EXPECT_EQ(error(options).code, Code::not_found);
   fs::remove(dir_ / "utterances.tsv");
   EXPECT_THAT(error().describe(), HasSubstr("utterances.tsv"));
-  EXPECT_THAT(error().describe(), HasSubstr("a corpus is a folder that holds it"));
+  EXPECT_THAT(error().describe(), HasSubstr("a corpus is a folder that contains it"));
 }
 
 TEST_F(CorpusFolder, BadTablesNameFileAndLine) {

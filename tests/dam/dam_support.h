@@ -64,7 +64,7 @@ inline Planted plant(Uniform& random, std::vector<std::string> labels, std::size
   return planted;
 }
 
-/// Eq. 2 for a script, as a plain sum or normalised, sampled at 50 frames a second.
+/// Eq. 2 for a script, as a plain sum or normalised, sampled at 50 frames per second.
 inline dam::Signal planted_signal(const Planted& planted, const dam::Script& script,
                                   double pause_edge, double time_margin, bool normalised) {
   dam::Signal signal;

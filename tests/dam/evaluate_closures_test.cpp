@@ -54,7 +54,7 @@ TEST(Closures, MissedOnesCountOnTheirSideOnly) {
 }
 
 TEST(Closures, TimingIsThatOfTheThresholdBetweenFrames) {
-  // A V-shaped gap, 100 units a frame; its middle is moved by half a frame: 20 ms.
+  // A V-shaped gap, 100 units per frame; its middle is moved by half a frame: 20 ms.
   const auto at = [](double middle) {
     return
         [middle](int fap, int i) { return lips(fap, std::min(400.0, std::abs(i - middle) * 100)); };
@@ -100,20 +100,20 @@ TEST(Closures, HowLongLipsAreShutByTheLengthOfThePhone) {
   };
   const Evaluation e = score_one(pair_of({4, 5}, script, valleys(50), valleys(90)), {4, 5});
   EXPECT_EQ(e.closure.phones, 4u);
-  ASSERT_EQ(e.closure.shut.size(), 3u);
-  for (const ShutScore& shut : e.closure.shut) {
+  ASSERT_EQ(e.closure.durations.size(), 3u);
+  for (const ClosureDurationScore& shut : e.closure.durations) {
     EXPECT_EQ(shut.phones, 1u) << shut.from;
     EXPECT_NEAR(shut.measured, 72, 1e-9) << shut.from;
     EXPECT_NEAR(shut.predicted, 40, 1e-9) << shut.from;
   }
-  EXPECT_EQ(e.closure.shut[1].from, 0.060);
-  EXPECT_EQ(e.closure.shut[1].to, 0.100);
+  EXPECT_EQ(e.closure.durations[1].from, 0.060);
+  EXPECT_EQ(e.closure.durations[1].to, 0.100);
   // What never closes is shut for no time; what never opens counts up to 0.2 s on each side.
   const auto open = [](int fap, int) { return lips(fap, 200); };
   const auto shut = [](int fap, int) { return lips(fap, 0); };
   const Evaluation never = score_one(pair_of({4, 5}, script, open, shut), {4, 5});
-  EXPECT_EQ(never.closure.shut[2].measured, 0);
-  EXPECT_NEAR(never.closure.shut[2].predicted, 400, 1e-9);
+  EXPECT_EQ(never.closure.durations[2].measured, 0);
+  EXPECT_NEAR(never.closure.durations[2].predicted, 400, 1e-9);
 }
 
 TEST(Lips, ContactOfFAndV) {

@@ -16,7 +16,7 @@ namespace fit_test {
 using test::Planted;
 using test::Uniform;
 
-/// A small problem: one mode a phone, random target.
+/// A small problem: one mode per phone, random target.
 FitData random_problem(Uniform& random, std::size_t controls, int order, bool normalised) {
   FitData data;
   data.normalised = normalised;
@@ -171,7 +171,7 @@ TEST_P(Blend, ObjectiveNeverRises) {
   EXPECT_GT(steps, 1);
 }
 
-/// The planted signal as a problem of the fit, one mode a phone.
+/// The planted signal as a problem of the fit, one mode per phone.
 FitData planted_problem(Uniform& random, const Planted& planted, std::size_t count,
                         bool normalised) {
   FitData data;

@@ -77,17 +77,17 @@ double nrmse(const Model& model, const std::vector<Utterance>& sentences,
 TEST(Glitches, CleanMaterialIsLeftAlone) {
   const auto all = read_corpus(test::data_dir() / "grid_s1_sample");
   ASSERT_TRUE(all);
-  EXPECT_THAT(mend_glitches(pointers(all->utterances)).glitches, testing::IsEmpty());
-  EXPECT_THAT(mend_glitches(pointers(little().own)).glitches, testing::IsEmpty());
+  EXPECT_THAT(remove_glitches(pointers(all->utterances)).glitches, testing::IsEmpty());
+  EXPECT_THAT(remove_glitches(pointers(little().own)).glitches, testing::IsEmpty());
   for (const Utterance& u : all->utterances) {
     const Utterance* const one[] = {&u};
-    EXPECT_THAT(mend_glitches(one).glitches, testing::IsEmpty()) << u.id;
+    EXPECT_THAT(remove_glitches(one).glitches, testing::IsEmpty()) << u.id;
   }
 }
 
 TEST(Glitches, AreFoundWithTheirPlaceAndTakenOut) {
   const auto bad = spoilt(little().own);
-  const Mended mended = mend_glitches(pointers(bad));
+  const CleanedSentences mended = remove_glitches(pointers(bad));
   const auto found = [&](const std::string& id, const std::string& control) {
     return std::find_if(mended.glitches.begin(), mended.glitches.end(),
                         [&](const Glitch& g) { return g.id == id && g.control == control; });
@@ -112,7 +112,7 @@ TEST(Glitches, AreFoundWithTheirPlaceAndTakenOut) {
   EXPECT_THAT(describe(*stuck),
               testing::AllOf(HasSubstr("is stuck from 1.0"), HasSubstr("; left out")));
   EXPECT_EQ(mended.sentences[0], &bad[0]);  // borrowed
-  const Mended scored = mend_glitches(pointers(bad), Bridges::none);
+  const CleanedSentences scored = remove_glitches(pointers(bad), ShortGlitches::omit);
   EXPECT_FALSE(scored.sentences[4]->signal.measured[28]);
 }
 
@@ -130,8 +130,7 @@ TEST(Glitches, TheModelIsNearThatOfCleanMaterial) {
     EXPECT_NEAR(model->controls[c].sd, clean->controls[c].sd, 0.15 * clean->controls[c].sd);
   }
   EXPECT_GE(summary.glitches.size(), 3u);
-  EXPECT_THAT(summary.warnings,
-              testing::Contains(HasSubstr("fap3_open_jaw jumps out of its range")));
+  EXPECT_THAT(summary.warnings, testing::Contains(HasSubstr("fap3_open_jaw jumps out of range")));
   auto turned = bad;
   std::reverse(turned.begin(), turned.end());
   TrainOptions one_thread;
@@ -165,7 +164,7 @@ TEST(Glitches, AControlThatAlwaysJumpsIsLikeThat) {
   for (Utterance& u : sentences)
     for (std::size_t i = 0; i < u.signal.frames(); ++i)
       if (random(0, 1) < 0.08) u.signal.at(i, 0) = random(-1, 1) * 30000;
-  EXPECT_THAT(mend_glitches(pointers(sentences)).glitches,
+  EXPECT_THAT(remove_glitches(pointers(sentences)).glitches,
               testing::Not(testing::Contains(testing::Field(&Glitch::control, "fap3_open_jaw"))));
 }
 
@@ -177,17 +176,17 @@ TEST(Glitches, ShapesOfARKitWithinTheirLimitsAreNone) {
   }
   sentences[1].signal.at(40, 0) = 0.9;
   sentences[1].signal.at(41, 0) = 1;
-  EXPECT_THAT(mend_glitches(pointers(sentences)).glitches, testing::IsEmpty());
+  EXPECT_THAT(remove_glitches(pointers(sentences)).glitches, testing::IsEmpty());
 }
 
 TEST(Glitches, WhatIsNoSignalIsHandedOn) {
-  EXPECT_TRUE(mend_glitches({}).sentences.empty());
+  EXPECT_TRUE(remove_glitches({}).sentences.empty());
   auto sentences = little().own;
   sentences[1].signal.at(3, 0) = std::nan("");
-  EXPECT_EQ(mend_glitches(pointers(sentences)).sentences[1], &sentences[1]);
+  EXPECT_EQ(remove_glitches(pointers(sentences)).sentences[1], &sentences[1]);
   sentences = little().own;
   sentences[1].signal.names.pop_back();
-  EXPECT_EQ(mend_glitches(pointers(sentences)).sentences[1], &sentences[1]);
+  EXPECT_EQ(remove_glitches(pointers(sentences)).sentences[1], &sentences[1]);
 }
 
 }  // namespace glitches_test

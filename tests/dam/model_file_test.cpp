@@ -144,7 +144,7 @@ TEST(ModelFile, NewerVersions) {
 
 TEST(ModelFile, OlderVersionsAreRead) {
   Model model = small_model();
-  model.shut = ShutTime{0.07, 0.25};
+  model.closure_duration = ClosureDuration{0.07, 0.25};
   auto bytes = write_model(model);
   const auto same = read_model(bytes);
   ASSERT_TRUE(same);
@@ -161,8 +161,8 @@ TEST(ModelFile, OlderVersionsAreRead) {
   test::seal(bytes);
   const auto old = read_model(bytes);
   ASSERT_TRUE(old) << old.error().describe();
-  EXPECT_FALSE(old->shut);
-  model.shut.reset();
+  EXPECT_FALSE(old->closure_duration);
+  model.closure_duration.reset();
   EXPECT_EQ(*old, model);
 }
 
@@ -174,8 +174,8 @@ TEST(ModelFile, InvalidModels) {
   };
   EXPECT_TRUE(broken([](Model& m) { m.controls.clear(); }));
   EXPECT_TRUE(broken([](Model& m) { m.phones.clear(); }));
-  EXPECT_TRUE(broken([](Model& m) { m.shut = ShutTime{std::nan(""), 0}; }));
-  EXPECT_TRUE(broken([](Model& m) { m.shut = ShutTime{0, 101}; }));
+  EXPECT_TRUE(broken([](Model& m) { m.closure_duration = ClosureDuration{std::nan(""), 0}; }));
+  EXPECT_TRUE(broken([](Model& m) { m.closure_duration = ClosureDuration{0, 101}; }));
   EXPECT_TRUE(broken([](Model& m) { animemes(m).phones[0].modes.clear(); }));
   EXPECT_TRUE(broken([](Model& m) { animemes(m).phones[0].modes[0].sigma = 0; }));
   EXPECT_TRUE(broken([](Model& m) { animemes(m).phones[0].modes[0].coefficients.pop_back(); }));

@@ -33,7 +33,7 @@ Script script_of(const std::vector<std::string>& labels, double vowel = 0.15) {
 
 double middle(const Phone& phone) { return (phone.start + phone.end) / 2; }
 
-MouthOpening::Wish wish_in_middle(const std::vector<std::string>& labels, std::size_t phone) {
+MouthOpening::Target wish_in_middle(const std::vector<std::string>& labels, std::size_t phone) {
   const Script script = script_of(labels);
   return MouthOpening(script)(middle(script.phones[phone + 1]));
 }
@@ -169,8 +169,8 @@ TEST(MouthOpening, ClosuresStay) {
       for (std::size_t i = span.first; i < span.last; ++i) {
         least = std::min(least, gap_at(now, i));
         was = std::min(was, gap_at(learned, i));
-        shut += gap_at(now, i) < kShutGap ? 1 : 0;
-        was_shut += gap_at(learned, i) < kShutGap ? 1 : 0;
+        shut += gap_at(now, i) < kClosedGap ? 1 : 0;
+        was_shut += gap_at(learned, i) < kClosedGap ? 1 : 0;
       }
       EXPECT_LE(least, std::max(was, ClosureOptions().target) + 1e-9) << vowel << phone.label;
       EXPECT_NEAR(shut, was_shut, 2) << vowel << phone.label << ", frames of 10 ms";
@@ -204,7 +204,7 @@ TEST(MouthOpening, MovesAsSmoothlyAsWhatIsLearned) {
     double most = 0;
     for (std::size_t i = 1; i < signal.frames(); ++i)
       most = std::max(most, std::abs(signal.at(i, c) - signal.at(i - 1, c)));
-    return 100 * most;  // units a second
+    return 100 * most;  // units per second
   };
   for (const int fap : {3, 5, 52}) {
     std::cout << "FAP " << fap << " at most " << fastest(learned, fap) << ", now "
@@ -242,23 +242,23 @@ TEST(MouthOpening, OtherRigsAndStillFaces) {
   Signal rig;
   rig.names = {"jawOpen", "mouthClose"};
   rig.values = {0.5, 0.1};
-  EXPECT_EQ(open_as_wanted(mouth, 1, 1, rig), 0u);
+  EXPECT_EQ(open_mouth(mouth, 1, 1, rig), 0u);
   EXPECT_EQ(rig.values[0], 0.5);
   // Lips alone, without a jaw: at 0.45 s IY is wanted, at 2 s nothing.
   Signal lips;
   lips.rate = {100, 1};
   lips.names = {"fap4_lower_t_midlip", "fap5_raise_b_midlip"};
   lips.values.assign(2 * 201, -300);
-  EXPECT_GT(open_as_wanted(mouth, 1, 1, lips), 0u);
+  EXPECT_GT(open_mouth(mouth, 1, 1, lips), 0u);
   EXPECT_NEAR(gap_at(lips, 47), OpeningOptions().close, 10);
   EXPECT_EQ(gap_at(lips, 200), 600);
   lips.values.assign(2 * 201, -300);
-  EXPECT_EQ(open_as_wanted(mouth, 0, 1, lips), 0u);
-  EXPECT_EQ(open_as_wanted(mouth, 1, 0, lips), 0u) << "a mouth at rest";
+  EXPECT_EQ(open_mouth(mouth, 0, 1, lips), 0u);
+  EXPECT_EQ(open_mouth(mouth, 1, 0, lips), 0u) << "a mouth at rest";
   EXPECT_EQ(gap_at(lips, 47), 600);
   // A lower lip over the upper one is let be.
   lips.values.assign(2 * 201, 40);
-  open_as_wanted(mouth, 1, 1, lips);
+  open_mouth(mouth, 1, 1, lips);
   EXPECT_EQ(gap_at(lips, 47), -80);
 }
 

@@ -69,7 +69,7 @@ TEST(Readings, LipsCloseWhereMostAgree) {
     for (std::size_t i = 4; i <= 8; ++i) gap = std::min(gap, inner_gap(signal, i, *lips));
     return gap;
   };
-  EXPECT_LT(least(*closed), kShutGap);
+  EXPECT_LT(least(*closed), kClosedGap);
   EXPECT_GT(least(*ajar), least(*closed));
   EXPECT_EQ(report.phones, 5u);
 }

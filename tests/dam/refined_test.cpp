@@ -91,7 +91,7 @@ std::vector<PhoneDominance> random_dominance(test::Uniform& random, std::size_t 
   return list;
 }
 
-/// The whole design, one row a used frame, and one more column a sentence for its offset.
+/// The whole design, one row a used frame, and one more column per sentence for its offset.
 struct Dense {
   Eigen::MatrixXd x;
   RowMatrix y;

@@ -292,7 +292,7 @@ TEST(Closure, LastsAsLongAsItShouldAtAnyRate) {
     }
     const auto lips = inner_lip_channels(signal.names);
     const auto shut_ms = [&] {
-      const auto span = shut_span(signal, script.phones[1], *lips, 0.2);
+      const auto span = closed_span(signal, script.phones[1], *lips, 0.2);
       return span ? 1000 * span->frames() / fps : 0.0;
     };
     EXPECT_LT(shut_ms(), 32) << fps;
@@ -300,17 +300,17 @@ TEST(Closure, LastsAsLongAsItShouldAtAnyRate) {
     options.target = 10;
     apply_closure(signal, script, options);
     EXPECT_LT(shut_ms(), 45) << fps << ": no time was asked for";
-    options.shut = ShutTime{0.05, 0.4};  // 90 ms
+    options.duration = ClosureDuration{0.05, 0.4};  // 90 ms
     apply_closure(signal, script, options);
     EXPECT_NEAR(shut_ms(), 90, fps == 25 ? 15 : 5) << fps;
     EXPECT_LT(inner_gap(signal, std::size_t(0.44 * fps), *lips), 45);
     EXPECT_NEAR(inner_gap(signal, 0, *lips), 5 + 3000 * 0.44, 1e-9);  // far away nothing happens
     const auto once = signal.values;
-    apply_closure(signal, script, {.target = 10, .shut = ShutTime{0.03, 0.1}});
+    apply_closure(signal, script, {.target = 10, .duration = ClosureDuration{0.03, 0.1}});
     EXPECT_EQ(signal.values, once) << "what is shut for longer stays";
   }
-  EXPECT_EQ((ShutTime{-1, 0}.of(0.1)), 0);
-  EXPECT_EQ((ShutTime{0, 10}.of(5)), kMostShut);
+  EXPECT_EQ((ClosureDuration{-1, 0}.of(0.1)), 0);
+  EXPECT_EQ((ClosureDuration{0, 10}.of(5)), kLongestClosure);
 }
 
 TEST(Closure, MovesUpperAndLowerLipTowardsEachOther) {

@@ -23,7 +23,7 @@ Model model_of(Method method, Parameters parameters) {
   return model;
 }
 
-/// One value a frame, at 100 frames a second.
+/// One value a frame, at 100 frames per second.
 std::vector<double> spoken(const Model& model, const std::vector<Occurrence>& timeline,
                            std::size_t frames) {
   std::vector<std::int32_t> phone;

@@ -36,7 +36,7 @@ TrainOptions quick() {
 TEST(Train, TheSampleGivesAValidModel) {
   TrainSummary summary;
   TrainOptions options = quick();
-  options.animeme.preference = 1;  // so few sentences have one mode a phone otherwise
+  options.animeme.preference = 1;  // so few sentences have one mode per phone otherwise
   const auto model = train(sample(), options, &summary);
   ASSERT_TRUE(model) << model.error().describe();
   EXPECT_TRUE(validate(*model));
@@ -143,20 +143,20 @@ TEST(TrainNotes, SentencesThatStandOutAreNamed) {
     auto sentences = clean(32);
     TrainSummary summary;
     ASSERT_TRUE(train(sentences, options, &summary));
-    const std::size_t before = summary.standing.size();
+    const std::size_t before = summary.outliers.size();
     for (double& v : sentences[5].signal.values) v += 2;    // off as a whole
     std::swap(sentences[11].script, sentences[20].script);  // the labels of another one
     ASSERT_TRUE(train(sentences, options, &summary)) << method_name(method);
     std::vector<std::string> named;
-    for (const SentenceNote& s : summary.standing) named.push_back(s.id);
+    for (const SentenceNote& s : summary.outliers) named.push_back(s.id);
     EXPECT_LE(named.size(), 3u);
     EXPECT_THAT(named, testing::Contains("s105")) << method_name(method);
     if (method == Method::dam) {  // the others have more errors of their own
       EXPECT_THAT(named, testing::Contains(testing::AnyOf("s111", "s120")));
     }
     EXPECT_LT(before, 3u);
-    EXPECT_GT(summary.standing[0].offset, kStandsOut);
-    EXPECT_EQ(summary.standing[0].id, "s105");
+    EXPECT_GT(summary.outliers[0].offset, kOutlierOffset);
+    EXPECT_EQ(summary.outliers[0].id, "s105");
     EXPECT_THAT(summary.warnings, testing::Contains(HasSubstr("stand out")));
   }
 }

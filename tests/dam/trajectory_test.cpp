@@ -101,7 +101,7 @@ TEST(Grid, PausesPartTheRuns) {
   EXPECT_TRUE(grid.runs.empty());
 }
 
-/// Sentences of four phones at random, read at 40 frames a second.
+/// Sentences of four phones at random, read at 40 frames per second.
 TrajectoryData random_data(Uniform& random, std::size_t states) {
   TrajectoryData data;
   data.frames.assign(4 * states, 100.0);

@@ -212,7 +212,7 @@ TEST(ArkitFit, FacesOfOthersComeBack) {
     ASSERT_TRUE(clip) << name;
     const auto filled = fill(*clip, {.complete = true});
     ASSERT_TRUE(filled);
-    ArkitFitter fitter({.thrift = 0});
+    ArkitFitter fitter({.sparsity = 0});
     double error = 0;
     double power = 0;
     for (const Frame& frame : filled->frames)

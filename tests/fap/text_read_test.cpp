@@ -181,7 +181,7 @@ TEST(ReadText, SixtyNineFlags) {
 TEST(ReadText, AllOnOneLine) {
   const Read lines = read("2.1 clip 25 2\n" + kMask + " 0 100 -20\n" + kMask + " 1 120 -25\n");
   EXPECT_EQ(lines.clip, two_frames());
-  EXPECT_THAT(lines.warnings, ElementsAre(HasSubstr("line 2: the values follow in the line")));
+  EXPECT_THAT(lines.warnings, ElementsAre(HasSubstr("line 2: the values are on the line")));
   const Read line = read("2.1 clip 25 2\n" + kMask + " 0 100 -20 " + kMask + " 1 120 -25\n");
   EXPECT_EQ(line.clip, two_frames());
 }
@@ -336,7 +336,7 @@ TEST(ReadText, ErrorsTellWhere) {
       {header + "0 0 2 " + kMask.substr(6), Code::syntax, 2, 5, "FAP 3 has '2'"},
       {header + kMask + " 2\n0 1 2\n", Code::syntax, 2, mask_end + 1, "but '2' follows"},
       {header + kMask + "\n0 1\n" + kMask + "\n1 1 2\n", Code::syntax, 3, 4,
-       "the line has 1 value behind the frame number, the mask asks for 2"},
+       "the line has 1 value after the frame number, the mask requires 2"},
       {header + kMask + "\n0 1\n", Code::truncated, 3, 4, "and the text ends here"},
       {header + kMask + "\n0 1 2 3\n", Code::syntax, 3, 7, "the line has 3 values"},
       {header + kMask + "\n0 1 2x\n", Code::syntax, 3, 5, "'2x' is not a number"},

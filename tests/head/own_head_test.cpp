@@ -224,7 +224,7 @@ TEST(OwnHead, SaysWhatIsMissingAndWhatCannotBe) {
   for (std::size_t at; (at = wrong.obj.find("_eye\n")) != std::string::npos;) {
     wrong.obj.replace(at, 4, "_hat");
   }
-  expect_error(wrong, "the eyes are not known");
+  expect_error(wrong, "the eyes were not found");
   wrong = few;
   const std::size_t at = wrong.points.find("8.3");
   wrong.points[at + 2] = '9';  // the corner of the mouth is called 8.9

@@ -76,9 +76,9 @@ TEST(FdpRead, PointsEyesUnitsAndNotes) {
   expect_near(*source.eyes[1], {-32, 0, -5});
   EXPECT_THAT(source.notes, Contains(HasSubstr("2 visemes, expressions and modifiers")));
   EXPECT_THAT(source.notes, Contains(HasSubstr("'Wobble' is unknown")));
-  EXPECT_THAT(source.notes, Contains(HasSubstr("1 <fdp> elements name meshes")));
-  EXPECT_THAT(source.notes, Contains(HasSubstr("line 12: <bind> names no mesh")));
-  EXPECT_THAT(source.notes, Contains(HasSubstr("move no vertex are left out: 49")));
+  EXPECT_THAT(source.notes, Contains(HasSubstr("1 <fdp> elements refer to meshes")));
+  EXPECT_THAT(source.notes, Contains(HasSubstr("line 12: <bind> refers to no mesh")));
+  EXPECT_THAT(source.notes, Contains(HasSubstr("move no vertex are ignored: 49")));
   auto head = head::assemble(source);
   ASSERT_TRUE(head) << head.error().describe();
   EXPECT_NEAR(head->fapu.es, 6.4, 1e-5);  // taken for millimetres
@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(
     All, FdpErrors,
     ::testing::Values(
         Damage{"</xfdp>", "", Code::syntax, 36, ""},
-        Damage{"xfdp", "svg", Code::syntax, 4, "no file of Xface"},
+        Damage{"xfdp", "svg", Code::syntax, 4, "not an Xface file"},
         Damage{"ES0=\"64\"", "ES0=\"6 4\"", Code::syntax, 6, "ES0 of <fapu> needs one number"},
         Damage{"ES0=\"64\"", "ES0=\"x\"", Code::syntax, 6, "'x', which is no number"},
         Damage{"alias=\"Rest\"", "alias=\"Peace\"", Code::not_found, 7, "\"Rest\""},

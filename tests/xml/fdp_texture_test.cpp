@@ -149,7 +149,8 @@ TEST_P(FdpTexture, NothingElseIsSeenBetweenTheVertices) {
   std::printf("%s: within triangles by %.2f, at most %.1f\n", GetParam().c_str(), rms, largest);
 }
 
-// The player takes sides of 2 to 512, powers of two, three bytes a texel after 18 bytes of header.
+// The player takes sides of 2 to 512, powers of two, three bytes per texel after 18 bytes of
+// header.
 TEST_P(FdpTexture, EachIsATgaThatXfaceTakes) {
   EXPECT_THAT(files_of(GetParam()).textures, SizeIs(head::kPartCount));
   for (const head::FdpTexture& texture : files_of(GetParam()).textures) {

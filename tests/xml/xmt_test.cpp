@@ -62,7 +62,7 @@ TEST(XmtRead, TransformsTurnAndTellWhere) {
   EXPECT_THAT(source.notes, Contains(HasSubstr("with a scale")));
   EXPECT_THAT(source.notes, Contains(HasSubstr("tables of visemes")));
   EXPECT_THAT(source.notes, Contains(HasSubstr("USE of nobody")));
-  EXPECT_THAT(source.notes, Contains(HasSubstr("1 tables name no mesh")));
+  EXPECT_THAT(source.notes, Contains(HasSubstr("1 tables refer to no mesh")));
 }
 
 TEST(XmtRead, PointsAreTheNearestVertices) {

@@ -68,7 +68,7 @@ Result<void> validate_animemes(const Model& model) {
   if (p == nullptr) return invalid_model("its parameters are not those of its method");
   if (p->order > kMaxOrder) return invalid_model("the degree of its polynomials is above 8");
   if (model.method == Method::cohen_massaro && p->order != 0)
-    return invalid_model("a target of cohen-massaro is no polynomial");
+    return invalid_model("a target of cohen-massaro has more than one coefficient");
   if (!(p->time_margin >= 0)) return invalid_model("its time margin is negative");
   if (p->phones.size() != model.phones.size())
     return invalid_model("its phones and their modes differ in number");

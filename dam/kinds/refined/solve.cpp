@@ -7,8 +7,8 @@ namespace animeme::dam {
 namespace {
 
 constexpr double kRidgeFactors[] = {2, 1, 0.5};
-/// What a firmer ridge may cost. Held-out sentences are made of words that were heard; where words
-/// are new, firmer is better than they tell (dam/measured.md).
+/// Error that a larger ridge may cost. Held-out sentences consist of seen words; unseen words need
+/// more regularisation than these suggest (dam/measured.md).
 constexpr double kFirmer = 1.005;
 
 }  // namespace

@@ -33,7 +33,7 @@ Neighbourhood neighbourhood(const Speech& speech, std::size_t j) {
 /// of the surroundings on each side, weighted by a raised cosine. `dam/measured.md` has the choice.
 constexpr double kSharpening = 0.35, kSharpeningReach = 0.12;
 
-/// Curves of single precision: their error is far below what a FAP can tell, and twice as many fit
+/// Curves of single precision: their error is far below one FAP unit, and twice as many fit
 /// into a vector unit.
 class Voice {
  public:

@@ -54,8 +54,8 @@ struct Neighbourhood {
   double since = -1;         ///< seconds since the speech began; below 0: this is silence
 };
 
-/// Walks through the occurrences of a script in their order and tells how long the speech is going
-/// on: Neighbourhood::since. It begins anew behind kSpeechBreak seconds without.
+/// Walks through the occurrences of a script in their order and computes the time since the start
+/// of speech: Neighbourhood::since. It restarts after kSpeechBreak seconds of silence.
 class SpeechClock {
  public:
   double since(double start, double end, bool silence);
@@ -88,8 +88,8 @@ std::optional<std::uint32_t> phone_of_key(RefinedTerm term, std::uint32_t key);
 /// The same key, which must name a phone, for a phone that has another number.
 std::uint32_t key_with_phone(RefinedTerm term, std::uint32_t key, std::uint32_t phone);
 
-/// Of the triphones of a corpus, those that say something of their own: the most frequent of those
-/// with a few examples. Each costs unknowns, and rich text has more of them than memory.
+/// Limits of the triphones with their own terms: the most frequent of those with a few examples.
+/// Each costs unknowns, and a large corpus has more of them than fit into memory.
 inline constexpr std::size_t kMostTriphones = 512, kLeastTriphones = 3;
 
 }  // namespace animeme::dam

@@ -1,4 +1,4 @@
-// Mean curves, coarse to fine: each level has the mean of what the coarser ones leave over.
+// Mean curves, coarse to fine: each level has the mean residual of the coarser ones.
 #include <algorithm>
 #include <cmath>
 #include <map>

@@ -1,4 +1,4 @@
-// One pose a phone: those that, interpolated, are nearest to the recording.
+// One pose per phone: those that, interpolated, are nearest to the recording.
 #include <algorithm>
 
 #include "dam/corpus/training_set_internal.h"

@@ -1,4 +1,4 @@
-// The kind mean: the mean pose of the training speech, whatever is said. It has no parameters.
+// The kind mean: the mean pose of the training speech, for any script. It has no parameters.
 #include "dam/corpus/training_set_internal.h"
 #include "dam/kinds/table/table.h"
 #include "dam/speaking/synthesise.h"

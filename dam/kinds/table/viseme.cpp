@@ -15,7 +15,7 @@ Result<void> validate_visemes(const Model& model) {
   if (!(p->plateau >= 0 && p->plateau <= 1))
     return invalid_model("the plateau of its poses is out of range");
   if (p->poses.size() != model.phones.size() * model.controls.size())
-    return invalid_model("its poses are not as many as its phones and controls need");
+    return invalid_model("its number of poses does not match its phones and controls");
   for (const double v : p->poses)
     if (!std::isfinite(v)) return invalid_model("a pose has no value");
   return {};

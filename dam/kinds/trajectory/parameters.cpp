@@ -21,13 +21,13 @@ Result<void> validate_trajectory(const Model& model) {
   const auto* p = std::get_if<TrajectoryParameters>(&model.parameters);
   if (p == nullptr) return invalid_model("its parameters are not those of its method");
   if (p->states < 1 || p->states > kMaxStates)
-    return invalid_model("its states a phone are out of range");
+    return invalid_model("its number of states per phone is out of range");
   if (p->order < 1 || p->order > kMaxDifference)
     return invalid_model("the order of its smoothness is out of range");
   const std::size_t controls = model.controls.size();
   const std::size_t values = model.phones.size() * p->states * controls;
   if (p->smoothness.size() != controls || p->mean.size() != values || p->variance.size() != values)
-    return invalid_model("its Gaussians are not as many as its phones and controls need");
+    return invalid_model("its number of Gaussians does not match its phones and controls");
   if (!all_within(p->smoothness, kLeastSmoothness, kLargestSmoothness))
     return invalid_model("a smoothness is out of range");
   if (!all_within(p->mean, -1e6, 1e6)) return invalid_model("a mean is out of range");

@@ -46,7 +46,7 @@ class Form {
  private:
   void add(const Primitive& body);
 
-  // Of a body: what tells cheaply that a place is far from it.
+  // Cheap lower bound of the distance to a body.
   struct Reach {
     Vec3d inverse;         // ellipsoid: of its radii
     double inverse_least;  // ellipsoid: of the least of them

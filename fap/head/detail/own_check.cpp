@@ -20,7 +20,7 @@ std::optional<Error> check_piece(const Source& source, std::size_t i) {
   const Mesh& mesh = source.pieces[i].mesh;
   const std::size_t count = mesh.positions.size();
   for (const Vec3& p : mesh.positions) {
-    if (!finite(p)) return bad(title(source, i) + " has a vertex that is no number");
+    if (!finite(p)) return bad(title(source, i) + " has a vertex that is not finite");
   }
   for (const Triangle& t : mesh.triangles) {
     for (const std::uint32_t v : t) {
@@ -38,7 +38,7 @@ std::optional<Error> check_piece(const Source& source, std::size_t i) {
     for (const std::uint32_t c : t) fine = fine && c < mesh.corners.size();
   }
   for (const std::uint16_t coat : mesh.coats) fine = fine && coat < source.coats.size();
-  if (!fine) return bad(title(source, i) + " has facets of what does not exist");
+  if (!fine) return bad(title(source, i) + " has facets with invalid indices");
   return std::nullopt;
 }
 
@@ -77,7 +77,7 @@ std::optional<Error> check_targets(const Source& source) {
         !std::is_sorted(target.vertices.begin(), target.vertices.end()) ||
         (!target.vertices.empty() && target.vertices.back() >= vertices) ||
         !std::all_of(target.deltas.begin(), target.deltas.end(), finite)) {
-      return bad("a target moves vertices that its mesh does not have, or by no number");
+      return bad("a target has invalid vertex indices or displacements that are not finite");
     }
   }
   return std::nullopt;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kLooks = 32;
 constexpr int kPixels = 320;      // of a picture
-constexpr float kAround = 4.5f;   // eye distances around the middle of the head that are looked at
+constexpr float kAround = 4.5f;   // considered radius around the middle of the head, eye distances
 constexpr float kThin = 0.003f;   // eye distances: a front that is so little behind a back is seen
 constexpr float kBefore = 0.2f;   // directions whose z is larger look at the face
 constexpr float kInMouth = 0.5f;  // and into the mouth

@@ -65,7 +65,7 @@ Result<void> set_indices(const SceneNode& node, std::string_view field, const Sc
   where = value.where;
   for (const double n : value.numbers) {
     if (!(n >= -1e9 && n <= 1e9) || n != std::floor(n)) {
-      return at(value, Code::syntax, of(node, field) + " has a number that is no index");
+      return at(value, Code::syntax, of(node, field) + " has an invalid index");
     }
     out.push_back(std::int32_t(n));
   }

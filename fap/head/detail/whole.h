@@ -15,7 +15,7 @@ void watch_outside(const Head& head, Rig& rig);
 
 /// Shows values by control by `show`, which places the skin: those that are wanted; where triangles
 /// of the outside turn over, as large a share of all that bend skin as leaves it whole. So faces
-/// stay as they are until the first triangle stands on its edge, and go on smoothly from there.
+/// stay as they are until the first triangle is edge-on, and continue smoothly from there.
 void show_whole(const Rig& rig, const ControlValues& wanted, const std::vector<Vec3>& skin,
                 const std::function<void(const ControlValues&)>& show);
 

@@ -28,12 +28,12 @@ class Loader {
     if (items_ > 0 && file_.items.empty()) {
       return root_.error(
           Code::not_found,
-          "no <fdp> names a mesh of the entity Rest; its meshes are " + mesh_names());
+          "no <fdp> refers to a mesh of the entity Rest; its meshes are " + mesh_names());
     }
     if (homeless_ > 0) {
       file_.notes.push_back(
           std::to_string(homeless_) +
-          " <fdp> elements name meshes that are not in the entity Rest; left out");
+          " <fdp> elements refer to meshes that are not in the entity Rest; ignored");
     }
     return std::move(file_);
   }
@@ -97,7 +97,7 @@ class Loader {
       file_.notes.push_back(
           std::to_string(others) +
           " visemes, expressions and modifiers given as whole meshes are not used; FAP "
-          "1 and 2 are shown by shapes of our own");
+          "1 and 2 are shown by the built-in shapes");
     }
     return {};
   }
@@ -120,7 +120,7 @@ class Loader {
     FdpMesh* mesh = find_mesh(bind.attribute("submesh"));
     if (item == nullptr || mesh == nullptr) {
       file_.notes.push_back("line " + std::to_string(bind.line) +
-                            ": <bind> names no mesh of the entity Rest; left out");
+                            ": <bind> refers to no mesh of the entity Rest; ignored");
       return {};
     }
     // A binding is the better name: "alice.wrl_1" says nothing. Parts of an .obj have their own.
@@ -205,7 +205,7 @@ class Loader {
     const std::size_t count = mesh.positions.size();
     for (const double n : *numbers) {
       if (n != std::floor(n)) {
-        return element.error(Code::syntax, "<indices> has a number that is no vertex");
+        return element.error(Code::syntax, "<indices> has an invalid vertex index");
       }
       if (n < 0 || n >= double(count)) {
         return wrong_mesh(element.error(Code::out_of_range,
@@ -262,7 +262,7 @@ Result<FdpFile> load_fdp(std::string_view text, const LoadMeshFile& load) {
   if (!root) return root.error();
   if (root->name != "xfdp") {
     return root->error(Code::syntax, "the root element is <" + root->name +
-                                         ">, not <xfdp>: this is no file of Xface");
+                                         ">, not <xfdp>: this is not an Xface file");
   }
   return Loader(*root, load).run();
 }

@@ -106,11 +106,11 @@ Result<void> add_mesh(const XmlElement& mesh, const LoadMeshFile& load, FdpFile&
 Error missing_meshes(const XmlElement& entity, const std::vector<std::string>& places) {
   std::string list;
   for (const std::string& place : places) list += (list.empty() ? "\"" : ", \"") + place + "\"";
-  return entity.error(Code::not_found, "the .fdp is only half of a head: there is no mesh file " +
-                                           list +
-                                           "; put the .wrl or .obj files that belong to it there "
-                                           "(a .dat beside an .fdp is a pack of "
-                                           "meshes that only Xface reads)");
+  return entity.error(Code::not_found,
+                      "the meshes of the .fdp are missing: there is no mesh file " + list +
+                          "; put the .wrl or .obj files that belong to it there "
+                          "(a .dat file is a memory dump of "
+                          "meshes that only Xface reads)");
 }
 
 }  // namespace

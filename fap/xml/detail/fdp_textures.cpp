@@ -31,10 +31,11 @@ const TgaPicture* FdpTextures::picture(const std::string& url) {
     if (told_.insert(note).second) notes_.push_back(std::move(note));
     return nullptr;
   };
-  if (texels_ > kAllTexels) return leave_out("those before it have 64 million texels already");
+  if (texels_ > kAllTexels) return leave_out("earlier textures already have 64 million texels");
   const std::string name = folder_ + url;
   if (!stays_in_folder(name)) {
-    return leave_out("it is not in the folder of the .fdp file; put it there and name it so");
+    return leave_out(
+        "it is not in the folder of the .fdp file; put it there and name it without a path");
   }
   const Result<std::string> bytes = load_(name);
   if (!bytes) return leave_out("it cannot be read (" + bytes.error().describe() + ")");

@@ -39,7 +39,7 @@ Result<void> check_writable(const Head& head, const Rig& rig) {
   }
   if (!any) {
     return refuse(
-        "the head has no feature points, which face definition files are about; name some, or "
+        "the head has no feature points, which face definition files require; name some, or "
         "write another format");
   }
   const fap::Fapu& f = head.fapu;

@@ -18,7 +18,7 @@ int short_at(std::string_view bytes, std::size_t i) {
 }
 
 Error cut_off() {
-  return make_error(Code::truncated, "the picture ends before its last row; save it again");
+  return make_error(Code::truncated, "the image ends before its last row; save it again");
 }
 
 // The texels of a file one after the other as its bytes, runs unpacked.
@@ -43,7 +43,7 @@ bool power_of_two(int n) { return n >= 2 && (n & (n - 1)) == 0; }
 
 Result<TgaPicture> read_tga(std::string_view bytes) {
   if (bytes.size() < kHeader) {
-    return make_error(Code::truncated, "the picture ends within its header; save it again");
+    return make_error(Code::truncated, "the image ends within its header; save it again");
   }
   const int type = byte_at(bytes, 2) & ~kRuns;
   const std::size_t depth = byte_at(bytes, 16) / 8;
@@ -52,7 +52,7 @@ Result<TgaPicture> read_tga(std::string_view bytes) {
   if (!good_type || byte_at(bytes, 16) % 8 != 0 ||
       !(grey || (type == kColour && (depth == 3 || depth == 4)))) {
     return make_error(Code::unsupported,
-                      "the picture is no TGA of 24 or 32 bits; save it as uncompressed TGA");
+                      "the image is not a TGA of 24 or 32 bits; save it as uncompressed TGA");
   }
   TgaPicture picture;
   picture.width = short_at(bytes, 12);
@@ -96,7 +96,7 @@ Result<TgaPicture> read_tga(std::string_view bytes) {
   } else if (begin != kHeader) {
     picture.trouble = "it has a comment in its header";
   } else if (from_top || from_right) {
-    picture.trouble = "its first texel is not the lower left one, and Xface turns it over";
+    picture.trouble = "its first texel is not the lower left one, so Xface shows it upside down";
   }
   return picture;
 }

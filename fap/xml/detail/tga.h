@@ -10,7 +10,7 @@
 
 namespace animeme::head::detail {
 
-/// Texels in rows from the bottom to the top, sRGB, 8 bits a channel.
+/// Texels in rows from the bottom to the top, sRGB, 8 bits per channel.
 struct TgaPicture {
   int width = 0;
   int height = 0;

@@ -137,7 +137,7 @@ void set_points(const fap::FeaturePoints& places, XmtFace& face) {
       }
     }
     if (best.distance > kFarthest * face.fapu.es) {
-      // Without a mesh of the eye the pupil still tells where the eye is.
+      // Without a mesh of the eye, the pupil still gives its position.
       if (info.id == "3.5" || info.id == "3.6")
         set_eye(info.id == "3.5" ? 0 : 1, place->second, face);
       left_out +=

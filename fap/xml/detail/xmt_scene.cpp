@@ -54,7 +54,7 @@ Result<SceneNodePtr> XmtScene::node(const XmlElement& element) {
     return element.error(Code::out_of_range, "nodes are nested too deep");
   }
   if (!open_.insert(source).second) {
-    return element.error(Code::syntax, "the node <" + source->name + "> is within itself by USE");
+    return element.error(Code::syntax, "the node <" + source->name + "> contains itself by USE");
   }
   auto node = std::make_shared<SceneNode>();
   node->type = source->name;

@@ -33,8 +33,7 @@ Result<MeshTable> read_mesh_table(const XmlElement& element) {
   if (!vertices) return vertices.error();
   for (const double v : *vertices) {
     if (v < 0 || v > 1e9 || v != std::floor(v)) {
-      return element.error(Code::syntax,
-                           "coordIndex of <FaceDefMesh> has a number that is no vertex");
+      return element.error(Code::syntax, "coordIndex of <FaceDefMesh> has an invalid vertex index");
     }
     table.vertices.push_back(std::uint32_t(v));
   }
@@ -105,7 +104,7 @@ class TableReader {
     }
     if (homeless_ > 0) {
       notes.push_back(std::to_string(homeless_) +
-                      " tables name no mesh of the faceSceneGraph; left out");
+                      " tables refer to no mesh of the faceSceneGraph; ignored");
     }
     if (scales_ > 0) notes.push_back("FaceDefTransform with a scale is not used");
   }
@@ -145,7 +144,7 @@ class TableReader {
     moves_ += more + 1;
     if (moves_ <= kMostMoves) return {};
     return element.error(Code::out_of_range,
-                         "the tables have more than 4 million moves; reduce the meshes");
+                         "the tables have more than 4 million displacements; reduce the meshes");
   }
 
   Result<void> add_mesh(const XmlElement& element, const MeshTable& table, const ScenePiece& piece,

@@ -289,7 +289,7 @@ TEST_F(CrossmapCommand, SaysWhatIsWrong) {
   spill(dir / "markers.csv",
         "time_s,A_x,A_y,B_x,B_y\n0,0,0,5,5\n0.04,0,1,5,5\n0.08,0,0,5,6\n"
         "0.12,0,0,5,5\n0.16,0,0,5,5\n0.20,0,0,5,5\n0.24,0,0,5,5\n0.28,0,0,5,5\n");
-  says({"crossmap", dir / "markers.csv", "--json"}, 3, "which points of the face were captured");
+  says({"crossmap", dir / "markers.csv", "--json"}, 3, "the captured points are not assigned");
   succeeds({"crossmap", dir / "markers.csv", "--to", "keys", "-o", dir / "keys.csv"});
 }
 

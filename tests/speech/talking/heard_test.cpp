@@ -189,7 +189,7 @@ TEST(HeardFace, ClosesItsLipsInTime) {
       bool shut = false;
       for (std::size_t i = 0; i < motion.frames(); ++i) {
         const bool near = motion.time(i) > phone.start - 0.06 && motion.time(i) < phone.end + 0.06;
-        shut = shut || (near && dam::inner_gap(motion, i, *lips) < dam::kShutGap);
+        shut = shut || (near && dam::inner_gap(motion, i, *lips) < dam::kClosedGap);
       }
       closed += shut;
     }

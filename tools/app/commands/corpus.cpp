@@ -44,7 +44,7 @@ Result<double> find_lag(const std::vector<dam::Utterance>& sentences) {
   std::vector<const dam::Utterance*> given;
   for (const dam::Utterance& u : sentences) given.push_back(&u);
   const Result<dam::Alignment> alignment =
-      dam::check_alignment(dam::mend_glitches(given).sentences);
+      dam::check_alignment(dam::remove_glitches(given).sentences);
   if (!alignment) return alignment.error();
   if (!alignment->lag || alignment->unrelated) {
     warn("these sentences do not tell how far sound and motion are apart; nothing is shifted");

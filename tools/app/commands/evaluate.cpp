@@ -73,7 +73,7 @@ Result<std::vector<dam::SentencePair>> pairs_of_folds(const System& system,
 std::vector<dam::Glitch> leave_out_glitches(std::vector<dam::SentencePair>& pairs) {
   std::vector<const dam::Utterance*> recorded;
   for (const dam::SentencePair& pair : pairs) recorded.push_back(&pair.recorded);
-  const dam::Mended mended = dam::mend_glitches(recorded, dam::Bridges::none);
+  const dam::CleanedSentences mended = dam::remove_glitches(recorded, dam::ShortGlitches::omit);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (mended.sentences[i] != &pairs[i].recorded) pairs[i].recorded = *mended.sentences[i];
   }

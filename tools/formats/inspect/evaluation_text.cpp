@@ -42,7 +42,7 @@ void add_mouth(std::string& out, const dam::Evaluation& e) {
         format("  inner_gap within sentences: correlation %.3f in the mean\n", e.gap_correlation);
 }
 
-std::string length_text(const dam::ShutScore& one) {
+std::string length_text(const dam::ClosureDurationScore& one) {
   if (!std::isfinite(one.to)) return format("%.0f ms and more", 1000 * one.from);
   if (one.from == 0) return format("under %.0f ms", 1000 * one.to);
   return format("%.0f to %.0f ms", 1000 * one.from, 1000 * one.to);
@@ -50,7 +50,7 @@ std::string length_text(const dam::ShutScore& one) {
 
 void add_shut(std::string& out, const dam::ClosureScore& closure) {
   const char* what = "shut for";
-  for (const dam::ShutScore& one : closure.shut) {
+  for (const dam::ClosureDurationScore& one : closure.durations) {
     if (one.phones == 0) continue;
     out += format("  %-15s %.0f ms (measured %.0f), phones of %s: %zu\n", what, one.predicted,
                   one.measured, length_text(one).c_str(), one.phones);

@@ -130,7 +130,7 @@ Result<dam::Timings> read_labels(std::string_view text, const dam::ScriptOptions
     if (!known) {
       std::string names;
       for (const auto& format : formats) names += " " + std::string(format.name);
-      return make_error(Code::invalid_argument, "there is no format of scripts named " +
+      return make_error(Code::invalid_argument, "there is no script format named " +
                                                     dam::in_quotes(options.format) +
                                                     "; these are:" + names);
     }

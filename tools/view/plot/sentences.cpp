@@ -75,7 +75,7 @@ Stretches closures(const dam::Signal& signal, const dam::Script& script) {
   if (!lips) return stretches;
   for (const dam::Phone& phone : script.phones) {
     if (!dam::is_bilabial(phone.label)) continue;
-    const auto shut = dam::shut_span(signal, phone, *lips, kReach);
+    const auto shut = dam::closed_span(signal, phone, *lips, kReach);
     if (!shut) continue;
     const double at = double(signal.first_frame + shut->least);
     stretches.emplace_back(signal.rate.seconds(at - shut->before),

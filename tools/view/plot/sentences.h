@@ -23,7 +23,7 @@ std::vector<ChosenSentence> chosen_sentences(const dam::Evaluation& evaluation);
 /// one): recorded and synthesised curves of jaw (FAP 3), inner gap (-(FAP 4 + FAP 5)) and width
 /// (FAP 6 + FAP 7), as far as both sides have these FAPs; without these, of the first three
 /// controls. Bars below the gap show when the lips are closed for P, B and M (less than
-/// dam::kShutGap), recorded above synthesised. `pairs` is not empty, and `evaluation` is that of
+/// dam::kClosedGap), recorded above synthesised. `pairs` is not empty, and `evaluation` is that of
 /// these pairs, in their order. Error: out_of_range (a sentence over ten minutes).
 Result<std::string> sentences_svg(const std::vector<dam::SentencePair>& pairs,
                                   const dam::Evaluation& evaluation);
