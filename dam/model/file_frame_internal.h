@@ -22,7 +22,7 @@ struct FileFormat {
   std::string_view magic;  ///< 8 characters
   std::uint16_t major = 1, minor = 0;
   std::string_view what;    ///< "model file", for messages
-  std::string_view remedy;  ///< "train the model anew": how to get another one
+  std::string_view remedy;  ///< "train the model again": how to get another one
 };
 
 std::vector<std::uint8_t> frame_file(const FileFormat& format, std::span<const std::uint8_t> body);

@@ -9,7 +9,7 @@
 namespace animeme::dam {
 namespace {
 
-constexpr FileFormat kModelFormat{"ANIMEDAM", 2, 2, "model file", "train the model anew"};
+constexpr FileFormat kModelFormat{"ANIMEDAM", 2, 2, "model file", "train the model again"};
 
 Error damaged_model(const std::string& how) { return damaged_file(kModelFormat, how); }
 

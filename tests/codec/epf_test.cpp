@@ -83,7 +83,7 @@ TEST(Epf, WhatTheReaderRefuses) {
     EXPECT_THAT(planes.error().describe(), HasSubstr(message));
   };
   const std::string first = "FBM 1\nFFR 0\nISI 1\n";
-  says(first + "CDM 1\n", Code::unsupported, "line 4:6: CDM 1 asks for DCT mode");
+  says(first + "CDM 1\n", Code::unsupported, "line 4:6: CDM 1 selects DCT mode");
   says(first + "FIX" + numbers(66, "60") + "\nFQU 2\n", Code::syntax,
        "line 5:4: FQU must precede the ranges");
   says("FBM 2\nISI 1\nBPN" + numbers(296, "-60") + "\nBQU 2\n", Code::syntax,

@@ -184,7 +184,7 @@ TEST(PosesOfModel, AreWhatItShows) {
   EXPECT_LE(-(poses->at(2, lips->upper) + poses->at(2, lips->lower)), 30) << "M is closed";
   const auto wrong = poses_of(*model, std::vector<std::string>{"smile"});
   ASSERT_FALSE(wrong);
-  EXPECT_THAT(wrong.error().message, HasSubstr("'smile' is no phone"));
+  EXPECT_THAT(wrong.error().message, HasSubstr("'smile' is not a phone"));
 }
 
 }  // namespace gain_offset_test

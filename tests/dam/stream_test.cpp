@@ -142,7 +142,8 @@ TEST(Stream, LowLatencyIsEarlyAndSmooth) {
 TEST(Stream, RefusesPhonesOutOfOrder) {
   SpeechStream stream(bounded_model(), {});
   ASSERT_TRUE(stream.push({0.2, 0.3, "AY", ""}));
-  EXPECT_THAT(stream.push({0.25, 0.4, "T", ""}).error().message, HasSubstr("before the last"));
+  EXPECT_THAT(stream.push({0.25, 0.4, "T", ""}).error().message,
+              HasSubstr("before the previous one"));
   EXPECT_FALSE(stream.push({0.4, 0.4, "T", ""}));
   EXPECT_FALSE(stream.push({0.4, std::nan(""), "T", ""}));
   EXPECT_THAT(stream.push({0.4, 0.5, "XX", ""}).error().message, HasSubstr("not known"));

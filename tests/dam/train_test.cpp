@@ -157,7 +157,7 @@ TEST(TrainNotes, SentencesThatStandOutAreNamed) {
     EXPECT_LT(before, 3u);
     EXPECT_GT(summary.outliers[0].offset, kOutlierOffset);
     EXPECT_EQ(summary.outliers[0].id, "s105");
-    EXPECT_THAT(summary.warnings, testing::Contains(HasSubstr("stand out")));
+    EXPECT_THAT(summary.warnings, testing::Contains(HasSubstr("outlier sentences")));
   }
 }
 

@@ -268,7 +268,7 @@ TEST(Landmarks, Errors) {
   EXPECT_THAT(message(track, {{0}, -1, false}), HasSubstr("smooth"));
   LandmarkTrack bad = track;
   bad.frames.clear();
-  EXPECT_THAT(message(bad), HasSubstr("without frames"));
+  EXPECT_THAT(message(bad), HasSubstr("has no frames"));
   bad = track;
   bad.points[0] = "2.15";
   EXPECT_THAT(message(bad), HasSubstr("2.15"));
@@ -289,7 +289,7 @@ TEST(Landmarks, Errors) {
   }
   EXPECT_THAT(message(bad), HasSubstr("9.15"));
   for (Point& point : bad.frames[0].at) point = {kNotSeen, kNotSeen, kNotSeen};
-  EXPECT_THAT(message(bad), HasSubstr("no frame shows"));
+  EXPECT_THAT(message(bad), HasSubstr("no frame has open eyes"));
   EXPECT_THAT(message(bad, {{0}, 0, false}), HasSubstr("head cannot be found"));
 }
 

@@ -36,9 +36,9 @@ TEST(Players, StumbleOverEachOfThese) {
                 ElementsAre(testing::AllOf(StartsWith("line " + line + ": "), HasSubstr(what))))
         << text;
   };
-  one("", "1", "no header");
-  one(kTwo, "1", "no header");
-  one("2.1 a b 25 2\n" + kTwo, "1", "no header");
+  one("", "1", "not a header");
+  one(kTwo, "1", "not a header");
+  one("2.1 a b 25 2\n" + kTwo, "1", "not a header");
   one("2.1 x 29.97 2\n" + kTwo, "1", "'29.97' is not whole");
   one("2.1 x 0 2\n" + kTwo, "1", "not whole");
   one("2.1 x 25 3\n" + kTwo, "1", "says 3 frames, there are 2");
@@ -51,20 +51,21 @@ TEST(Players, StumbleOverEachOfThese) {
   one("2.1 x 25 1\n0 " + kMask + "0 1 2\n", "2", "69 words");
   one("2.1 x 25 1\n2" + kMask.substr(1) + "0 1 2\n", "2", "'2' for 0 or 1");
   one("2.1 x 25 1\n" + kMask + "0 1\n", "3", "2 words for a number and 2 values");
-  one("2.1 x 25 1\n" + kMask + "0 1 2.5\n", "3", "'2.5' is no whole number");
+  one("2.1 x 25 1\n" + kMask + "0 1 2.5\n", "3", "'2.5' is not a whole number");
   one("2.1 x 25 1\n" + kMask, "2", "no values");
   one("2.1 x 25 2\n" + kMask + "0 1 2\n" + kMask + "3 1 2\n", "5", "of frame 1 is 3");
   one("2.1 x 25 1\n" + mask_line({19}) + "\n0 7\n", "2", "not FAP 20");
-  one("2.1 x 25 2\n" + kMask + "0 1 2\n" + mask_line({3}) + "\n1 2\n", "4", "FAP 4 was there");
+  one("2.1 x 25 2\n" + kMask + "0 1 2\n" + mask_line({3}) + "\n1 2\n", "4", "FAP 4 was present");
   one("2.1 x 25 1\n" + mask_line({1}) + "\n0 1 0 63 0\n", "2", "--expand");
-  one("2.1 x 25 1\n" + mask_line({2, 3}) + "\n0 1 63 0 0 0 0 9\n", "2", "beside");
+  one("2.1 x 25 1\n" + mask_line({2, 3}) + "\n0 1 63 0 0 0 0 9\n", "2", "with low-level FAPs");
 }
 
 TEST(Players, HighLevelOnesTakeFap1And2Alone) {
   const std::string alone = "2.1 x 25 1\n" + mask_line({1}) + "\n0 1 0 63 0\n";
   EXPECT_THAT(player_problems(alone, {.high_level = true}), IsEmpty());
   const std::string both = "2.1 x 25 1\n" + mask_line({1, 3}) + "\n0 1 0 63 0 5\n";
-  EXPECT_THAT(player_problems(both, {.high_level = true}), ElementsAre(HasSubstr("beside")));
+  EXPECT_THAT(player_problems(both, {.high_level = true}),
+              ElementsAre(HasSubstr("with low-level FAPs")));
 }
 
 TEST(Players, EachKindIsOneLineWithItsCount) {

@@ -44,7 +44,7 @@ TEST(TextData, Quirks) {
                                     StartsWith("line 4: a mask has 69 values"),
                                     StartsWith("line 5: the value '1.5' is rounded"),
                                     StartsWith("line 5: the frame numbers start at 7"),
-                                    StartsWith("line 8: the values of a frame go on"),
+                                    StartsWith("line 8: the values of a frame continue"),
                                     StartsWith("line 11: frame number 8 comes again"),
                                     StartsWith("line 13: frame number 2 comes after 8"),
                                     StartsWith("line 14: the values are on the line of the mask")));

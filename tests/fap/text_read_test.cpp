@@ -192,8 +192,8 @@ TEST(ReadText, WrappedLines) {
   ASSERT_EQ(kMask[kMask.size() / 2], ' ') << "the mask has to be cut between two flags";
   const Read r = read("2.1 clip 25 2\n" + mask + "\n0\n100\n-20\n" + frame_text("1 120 -25"));
   EXPECT_EQ(r.clip, two_frames());
-  EXPECT_THAT(r.warnings, ElementsAre(HasSubstr("line 2: a mask goes on"),
-                                      HasSubstr("line 4: the values of a frame go on")));
+  EXPECT_THAT(r.warnings, ElementsAre(HasSubstr("line 2: a mask continues"),
+                                      HasSubstr("line 4: the values of a frame continue")));
 }
 
 TEST(ReadText, RoundsFractions) {

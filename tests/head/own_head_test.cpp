@@ -62,8 +62,8 @@ TEST(OwnHead, MovesAsTheTableSaysInAnyUnitAndWithAnyAxes) {
       {[](Vec3 p) {
          return Vec3{p.x, -p.z, p.y} * 10.0f + Vec3{50, 60, 70};
        },
-       "turned"},
-      {[](Vec3 p) { return p * 1000.0f; }, "6.3 cm apart"},
+       "rotated"},
+      {[](Vec3 p) { return p * 1000.0f; }, "pupil distance of 6.3 cm"},
   };
   for (const auto& test : cases) {
     std::vector<std::string> notes;
@@ -73,7 +73,7 @@ TEST(OwnHead, MovesAsTheTableSaysInAnyUnitAndWithAnyAxes) {
       EXPECT_THAT(notes, Contains(HasSubstr(test.note)));
     }
     const double scale = head->fapu.es / man.fapu.es;
-    if (std::string(test.note) == "6.3 cm apart") {
+    if (std::string(test.note) == "pupil distance of 6.3 cm") {
       EXPECT_NEAR(head->fapu.es, 6.3, 0.01);
     } else {
       EXPECT_NEAR(scale, 1, 1e-3);

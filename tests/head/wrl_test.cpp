@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "not finite"},
         Refused{FACES("coord Coordinate { point [ 0 0 0 ] }\ncoordIndex [ 0 0 7 ]"),
                 Code::out_of_range, 4, 12, "vertex 7 is named, but there are 1"},
-        Refused{FACES("coordIndex [ 0 0.5 ]"), Code::syntax, 3, 12, "no index"},
+        Refused{FACES("coordIndex [ 0 0.5 ]"), Code::syntax, 3, 12, "invalid index"},
         Refused{FACES("coord Coordinate { point [ 0 0 0 ] } color Color { color [ ] }\n"
                       "coordIndex [ 0 0 0 ]"),
                 Code::not_found, 0, 0, "no Shape"},

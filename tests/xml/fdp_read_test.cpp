@@ -158,7 +158,7 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"index=\"3\"", "index=\"-1\"", Code::out_of_range, 24, "0..8"},
         Damage{"index=\"3\"", "", Code::syntax, 24, "index of <fdp> is missing"},
         Damage{"<indices>1 2 3<", "<indices>1 2 9<", Code::out_of_range, 24, "has 9 vertices"},
-        Damage{"<indices>1 2 3<", "<indices>1 2.5 3<", Code::syntax, 24, "no vertex"},
+        Damage{"<indices>1 2 3<", "<indices>1 2.5 3<", Code::syntax, 24, "invalid vertex index"},
         Damage{"fap=\"13\"", "fap=\"68\"", Code::out_of_range, 21, "FAP 1 is number 0"},
         Damage{"affects=\"", "affects=\"other_", Code::not_found, 4, "mask.wrl_0, eye"},
         Damage{"<!-- By hand", "<!DOCTYPE xfdp [<!ENTITY a \"b\">]><!-- By hand", Code::unsupported,

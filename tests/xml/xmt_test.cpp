@@ -135,7 +135,7 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"<Transform DEF=\"eye\"", "<Transform DEF=\"eye\" rotation=\"1 0 0\"", Code::syntax,
                122, "four numbers"},
         Damage{"<Shape DEF=\"eyeLeft\">", "<Transform USE=\"eye\"/><Shape DEF=\"eyeLeft\">",
-               Code::syntax, 123, "within itself"},
+               Code::syntax, 123, "contains itself"},
         Damage{"<!DOCTYPE XMT-A>", "<!DOCTYPE XMT-A [<!ENTITY a \"b\">]>", Code::unsupported, 2,
                "DOCTYPE"}));
 

@@ -97,7 +97,7 @@ TEST(Retarget, SaysWhatIsWrongAndWritesNothing) {
   };
   const std::string out = dir / "out.dam";
   EXPECT_THAT(message({"builtin", dir / "smile.csv", "-o", out}, 3),
-              HasSubstr("smile.csv: 'smile' is no phone"));
+              HasSubstr("smile.csv: 'smile' is not a phone"));
   EXPECT_THAT(message({"builtin", dir / "text.csv", "-o", out}, 3), HasSubstr("text.csv:3:4"));
   EXPECT_THAT(message({"builtin", dir / "jaw.csv", "-o", out}, 3),
               HasSubstr("no control in common"));
