@@ -59,10 +59,10 @@ Result<std::vector<double>> resting_shape(std::span<const PointTrack> tracks, do
 
 /// Rotates and translates every frame so that `head`, points that do not move with the face, match
 /// their position in `neutral` (least squares; no scaling in 3D, but in an image, where a head that
-/// comes nearer grows). A frame with fewer than three of them (two in an image), or with all of them
-/// on one line (in one place), has no head pose, and its points become unseen. Returns the number of
-/// such frames. Errors: invalid_argument (fewer than three points, two in an image; an invalid
-/// index; a point that is not seen in the neutral shape).
+/// comes nearer grows). A frame with fewer than three of them (two in an image), or with all of
+/// them on one line (in one place), has no head pose, and its points become unseen. Returns the
+/// number of such frames. Errors: invalid_argument (fewer than three points, two in an image; an
+/// invalid index; a point that is not seen in the neutral shape).
 Result<std::size_t> hold_head_still(PointTrack& track, std::span<const std::size_t> head,
                                     std::span<const double> neutral);
 
